@@ -14,7 +14,7 @@ use super::{Cli, Done};
 use crate::tui;
 use rubscope_solver::scene::DEFAULT;
 
-/// What the explorer opens with.
+/// Options of the explorer.
 #[derive(Args, Debug)]
 pub struct ExploreCommand {
     #[command(flatten)]

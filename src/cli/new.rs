@@ -18,7 +18,7 @@ use rubscope_solver::study::survey::{Survey, speed_range};
 
 /// Largest table of modes \[bytes\].
 const LARGEST_TABLE: u64 = 1 << 20;
-/// How much more than the smallest pulse that touches the new scene has.
+/// Pulse of the new scene over the smallest pulse that makes contact.
 const PULSE: f64 = 2.0;
 /// Digits of that pulse.
 const DIGITS: usize = 2;
@@ -194,7 +194,7 @@ impl NewCommand {
     }
 }
 
-/// The damping ratio where none is said.
+/// Damping ratio where none is given.
 const USUAL_DAMPING: &str = "0.01";
 
 /// Returns the modes of a table.

@@ -90,7 +90,7 @@ impl SceneOptions {
         self.scene.as_deref()
     }
 
-    /// Returns whether speeds are to be told in turns a minute.
+    /// Returns whether speeds are shown in rpm.
     #[must_use]
     pub fn in_rpm(&self) -> bool {
         self.rpm

@@ -78,13 +78,13 @@ fn parse_one(text: &str) -> Result<(f64, RequestedChange), Refusal> {
 /// A checked change, and the scene after it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RequestedStep {
-    /// When \[s\].
+    /// Instant \[s\].
     pub t_s: f64,
     /// The requested change.
     pub change: RequestedChange,
     /// The scene after it.
     pub scene: CheckedScene,
-    /// What happens to the motion.
+    /// Changes of the motion.
     acts: Vec<motion::Change>,
 }
 

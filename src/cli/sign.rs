@@ -17,10 +17,10 @@ use rubscope_solver::tolerances::{MOST_EVENTS, MOST_LOOKS};
 /// A command that ends sooner shows nothing.
 const SOON: Duration = Duration::from_millis(300);
 
-/// How often it moves.
+/// Time between two steps of its animation.
 const TICK: Duration = Duration::from_millis(100);
 
-/// What is shown until a command says more.
+/// Template of the line until a command shows more.
 const PLAIN: &str = "{spinner} {msg} {elapsed}";
 
 /// The line, once a command has begun on a terminal.
@@ -93,9 +93,9 @@ impl Write for Out {
     }
 }
 
-/// How often the bar is moved.
+/// Time between two moves of the bar.
 const LOOK: Duration = Duration::from_millis(100);
-/// How long a run may take in silence.
+/// Time that a run may take before its bound is printed.
 const SILENCE: Duration = Duration::from_secs(2);
 /// Length of the bar.
 const PARTS: u64 = 1000;
@@ -105,7 +105,7 @@ pub(super) struct LongRun {
     bar: ProgressBar,
     end_s: f64,
     started: Instant,
-    /// When to look next, after the start.
+    /// Wall time of the next look, from the start.
     next: Duration,
     bound: Option<String>,
 }

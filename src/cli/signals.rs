@@ -60,7 +60,7 @@ pub(super) fn watch() -> std::io::Result<()> {
     std::thread::Builder::new().name("rubscope-signals".into()).spawn(wait).map(|_| ())
 }
 
-/// How long an end waits for the change of a file: a disk may not answer.
+/// Longest wait for the change of a file at the end: a disk may not answer.
 #[cfg(unix)]
 const LONGEST_CHANGE: std::time::Duration = std::time::Duration::from_secs(2);
 

@@ -12,14 +12,14 @@ use super::{gone, sign};
 use crate::report::line::clean;
 use rubscope_solver::scene::SceneError;
 
-/// How a command ended.
+/// Outcome of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
     /// Success.
     Done,
-    /// It ran, but the computation failed; the output gives the reason.
+    /// Failure of the computation; the output gives the reason.
     Failed,
-    /// It was ended by this signal.
+    /// End by this signal.
     Signal(u8),
 }
 
@@ -77,7 +77,7 @@ pub fn exit(done: super::Done) -> u8 {
     1
 }
 
-/// Lines to be said once the command goes on.
+/// Lines that are printed once nothing in the input can be refused any more.
 static NOTED: Mutex<Vec<String>> = Mutex::new(Vec::new());
 
 fn noted() -> std::sync::MutexGuard<'static, Vec<String>> {

@@ -18,7 +18,7 @@ pub use rubscope_solver::scene::read_text;
 pub use temporary::settle;
 use temporary::{PRIVATE, Temporary, USUAL};
 
-/// What writing a file did.
+/// Outcome of writing a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Written {
     /// There was no file, or it is a device or a pipe.

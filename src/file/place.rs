@@ -9,7 +9,7 @@ use super::temporary::{Temporary, USUAL};
 /// Most links from one to the next that are followed, as in the system.
 const MOST_LINKS: usize = 40;
 
-/// What a path names, with links followed.
+/// File that a path names, with links followed.
 pub(super) enum Place {
     /// A device, a pipe or an open file of this program: written to directly.
     Stream(PathBuf),

@@ -90,7 +90,7 @@ fn quoted(word: &str) -> String {
     }
 }
 
-/// Where a result comes from.
+/// Origin of a result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Provenance {
     /// The command that gives it again.

@@ -71,13 +71,13 @@ pub fn tell_in_rpm(rpm: bool) {
     IN_RPM.set(rpm);
 }
 
-/// Returns the unit in which speeds are told.
+/// Returns the unit in which speeds are shown.
 #[must_use]
 pub fn speed_unit() -> &'static str {
     if IN_RPM.get() { "rpm" } else { RAD_S }
 }
 
-/// Returns a speed \[rad/s\] in the unit in which speeds are told.
+/// Returns a speed \[rad/s\] in the unit in which speeds are shown.
 #[must_use]
 pub fn per_speed(omega: f64) -> f64 {
     if IN_RPM.get() { omega * 60.0 / TAU } else { omega }
@@ -89,7 +89,7 @@ pub fn speed(omega: f64) -> String {
     format!("{} {}", short(per_speed(omega)), speed_unit())
 }
 
-/// Returns the unit in which angular frequencies are told: hertz where speeds are told in turns.
+/// Returns the unit in which angular frequencies are shown: hertz where speeds are in rpm.
 #[must_use]
 pub fn frequency_unit() -> &'static str {
     if IN_RPM.get() { "Hz" } else { RAD_S }
@@ -101,7 +101,7 @@ pub fn per_frequency(omega: f64) -> f64 {
     if IN_RPM.get() { omega / TAU } else { omega }
 }
 
-/// Returns a number and its unit as they are told.
+/// Returns a number and its unit as they are shown.
 #[must_use]
 pub fn told(x: f64, unit: &str) -> (f64, &str) {
     if unit == RAD_S { (per_speed(x), speed_unit()) } else { (x, unit) }
@@ -208,7 +208,7 @@ const WITH_PREFIX: [&str; 9] = ["m", "s", "N", "N/m", "m/s", "N m/rad", "N m", "
 /// Digits that are shown where all of them hold.
 const MOST: u32 = 6;
 
-/// How the numbers of one run are told.
+/// Number format of one run, with the digits that its sensitivity leaves.
 #[derive(Debug, Default)]
 pub struct Digits {
     /// Whether it is known how far changes move them.

@@ -14,14 +14,14 @@ const APART: [&str; 2] = ["  ", " "];
 /// Most blades that are named one by one.
 const NAMED: usize = 4;
 
-/// What a sentence is made of.
+/// Facts of a run from which its sentence is made.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Facts {
-    /// How the motion lasts.
+    /// Verdict of the run.
     pub verdict: Verdict,
     /// The blades in contact at the end.
     pub blades: Vec<u32>,
-    /// Those of them that pull.
+    /// Blades of these whose contact force pulls.
     pub pulling: Vec<u32>,
     /// Impacts in all.
     pub touches: u64,
@@ -31,15 +31,15 @@ pub struct Facts {
     pub pressed: bool,
     /// Whether the casing is damped: left alone, it comes to rest.
     pub damped: bool,
-    /// The rotor speed at which a lock let go on the way \[rad/s\].
+    /// Rotor speed at which a lock separated during the run \[rad/s\].
     pub broken: Option<f64>,
     /// Why the run stopped early.
     pub failure: Option<Failure>,
-    /// What makes the verdict doubtful, the worst first.
+    /// Reasons to doubt the verdict, the most serious first.
     pub doubts: Vec<Doubt>,
 }
 
-/// What makes a verdict doubtful.
+/// Reason to doubt a verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Doubt {
     /// The contact pulled in so many steps, which no real one can; and what a contact that
@@ -47,11 +47,11 @@ pub enum Doubt {
     Pulls(u64, Option<Verdict>),
     /// A change that no measurement could see changes the outcome.
     Sensitive,
-    /// The event solver says otherwise, for this reason.
+    /// Another verdict of the event solver, for this reason.
     Differs(Verdict, Cause),
 }
 
-/// Why two solvers differ.
+/// Cause of a difference between two solvers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cause {
     /// The step is too long.
@@ -65,9 +65,9 @@ pub enum Cause {
 pub struct Sentence {
     /// One word in capitals.
     pub word: String,
-    /// What happens.
+    /// Sentence on what happens.
     pub what: String,
-    /// What makes it doubtful, if it is and there is room.
+    /// Sentence on what makes it doubtful, if there is one and it has room.
     pub doubt: Option<String>,
 }
 

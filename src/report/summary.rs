@@ -10,13 +10,13 @@ use rubscope_solver::model::Machine;
 use rubscope_solver::motion::{Contact, RunReport, Verdict};
 use rubscope_solver::scene::{ContactLaw, SolverKind};
 
-/// What the tiny changes are of that a sensitive run does not outlast.
+/// Quantities of which tiny changes change the outcome of a sensitive run.
 pub(super) const OF_WHAT: &str = "of the pulse, the speed or the motion";
 
 /// Most impacts that are listed one by one.
 const IMPACTS_TOLD: usize = 4;
 
-/// Contacts told one by one.
+/// Most contacts that are listed one by one.
 const CONTACTS_TOLD: usize = 4;
 /// Penetration, as a part of the clearance, that closing a gap in double
 /// precision may leave: a few hundred units in the last place.

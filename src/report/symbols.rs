@@ -4,7 +4,7 @@
 use rubscope_solver::scene::keys;
 use rubscope_solver::study::margins::CLEARANCE;
 
-/// What a key says at its end where it is a value of the start.
+/// End of the name of a key that is an initial value.
 const AT_START: &str = " at t = 0";
 
 /// Returns the symbol of a parameter, in letters of ASCII: `zeta_c`, `Omega`, `u_c(0)`. The path

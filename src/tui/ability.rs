@@ -2,12 +2,12 @@
 
 use crate::tui::raster::Marker;
 
-/// What the terminal can show.
+/// Capabilities of the terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ability {
-    /// Nothing but ASCII.
+    /// Whether it shows only ASCII.
     pub ascii_only: bool,
-    /// Octants, too: drawn by the terminal itself, in any font.
+    /// Whether it draws octants itself, in any font.
     pub octants: bool,
 }
 

@@ -15,13 +15,13 @@ pub struct Appearance {
     pub theme: Theme,
     /// Whether the theme follows the background of the terminal: none was chosen by a key.
     pub follows_ground: bool,
-    /// How points are drawn.
+    /// Marker of points.
     pub marker: Marker,
     /// Whether the screen is for a projector: lines are two sub-pixels thick.
     pub wide: bool,
     /// Whether `m` comes to octants.
     pub octants: bool,
-    /// Whether speeds are told in turns a minute.
+    /// Whether speeds are shown in rpm.
     pub rpm: bool,
 }
 

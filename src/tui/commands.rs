@@ -18,7 +18,7 @@ use rubscope_solver::scene::keys;
 /// Something that can be asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
-    /// What a key does, too.
+    /// An action that also has a key.
     Act(Action),
     /// Open a built-in scene.
     Scene(&'static str),
@@ -45,7 +45,7 @@ pub enum Command {
 pub struct Found {
     /// The kind of thing that it is.
     pub kind: &'static str,
-    /// What it does.
+    /// Description of what it does.
     pub what: String,
     /// The key that does the same, or the present value of a knob.
     pub beside: String,

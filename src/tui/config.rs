@@ -23,7 +23,7 @@ const MOST_BYTES: u64 = 64 * 1024;
 /// Most charts next to the large one.
 const MOST_CHARTS: usize = 3;
 
-/// What is remembered. A field that is missing in the file has its default;
+/// Contents of the config file. A field that is missing in the file has its default;
 /// fields that are not known here are kept.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -42,22 +42,22 @@ pub struct Config {
     pub mouse: Option<bool>,
     /// Whether a key was pressed below the line for new users.
     pub introduced: bool,
-    /// The units in which numbers are told.
+    /// Units in which numbers are shown.
     #[serde(skip_serializing_if = "Units::are_usual")]
     pub units: Units,
     /// The steps of the lessons that were done.
     #[serde(skip_serializing_if = "LessonsDone::is_empty")]
     pub steps_done: LessonsDone,
-    /// What other versions remember.
+    /// Fields of other versions.
     #[serde(flatten)]
     pub others: toml::Table,
 }
 
-/// The units in which numbers are told.
+/// Units in which numbers are shown.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Units {
-    /// That of speeds.
+    /// Unit of speeds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed: Option<SpeedUnit>,
 }
@@ -65,10 +65,10 @@ pub struct Units {
 /// A unit of speeds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SpeedUnit {
-    /// Turns a minute.
+    /// Revolutions per minute.
     #[serde(rename = "rpm")]
     Rpm,
-    /// Radians a second.
+    /// Radians per second.
     #[serde(rename = "rad/s")]
     Radians,
 }
@@ -123,7 +123,7 @@ fn is_at_home(folder: &Path, home: &Path) -> bool {
     home.is_dir() || !folder.starts_with(home)
 }
 
-/// What can be changed by keys.
+/// Choices that keys change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Choices {
     /// `None` while it follows the background of the terminal.
@@ -146,11 +146,11 @@ impl Choices {
 /// The config file of this start.
 #[derive(Debug)]
 pub struct Memory {
-    /// Where it is; none where nothing is remembered.
+    /// Its path; `None` where nothing is remembered.
     path: Option<PathBuf>,
-    /// What it held at the start.
+    /// Contents at the start.
     pub config: Config,
-    /// Why it was not used.
+    /// Reason why it was not used.
     pub complaint: Option<String>,
     /// The choices at the start.
     began: Option<Choices>,

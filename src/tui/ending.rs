@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicU8, Ordering::SeqCst};
 use std::time::Duration;
 
-/// How long the end of the program waits for its last file: a busy disk takes a second, one
+/// Longest wait for the last file at the end of the program: a busy disk takes a second, one
 /// that never answers must not keep the user.
 pub const PATIENCE: Duration = Duration::from_secs(5);
 

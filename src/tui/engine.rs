@@ -32,7 +32,7 @@ pub struct Order {
     pub steps: u64,
     /// Number of requests to go to `go_to_s`.
     pub goes: u64,
-    /// Where the motion goes at once, after a restart too \[s\].
+    /// Instant to which the motion goes at once, also after a restart \[s\].
     pub go_to_s: f64,
     /// Number of requests to jump to the next change of contact.
     pub jumps: u64,
@@ -56,7 +56,7 @@ pub struct Order {
     pub cursor_s: Option<f64>,
     /// The views on the screen: their studies are computed.
     pub open: Vec<ViewId>,
-    /// What the map sweeps, and under which law.
+    /// Axes and contact law of the map.
     pub map: MapChoice,
     /// Column and row of the map's cell whose run is wanted.
     pub cell: Option<[u32; 2]>,
@@ -84,7 +84,7 @@ pub fn generation(restarts: u64, changes: u64, pulses: u64) -> u64 {
     restarts + changes + pulses
 }
 
-/// How fast the solver is.
+/// Speed of the solver.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pace {
     /// Wall-clock time over the number of steps taken, if the solver has steps
@@ -96,11 +96,11 @@ pub struct Pace {
     pub run_s: Option<f64>,
     /// Motion over wall-clock time, as reached.
     pub reached: Option<f64>,
-    /// Why the motion plays slower than requested.
+    /// Reason why the motion plays slower than requested.
     pub limit: Limit,
 }
 
-/// What keeps the motion from playing as fast as requested.
+/// Limit of the rate of play.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Limit {
     /// Nothing.
@@ -137,7 +137,7 @@ pub struct FullRun {
     /// The longest hold of a corner that ended on the way, if it was as long as a
     /// casing period, and the rotor speed when it ended \[rad/s\].
     pub broken: Option<(Hold, f64)>,
-    /// How the motion lasts.
+    /// Verdict of the run.
     pub verdict: Verdict,
     /// Start of the final contact \[s\].
     pub since: Option<f64>,
@@ -147,16 +147,16 @@ pub struct FullRun {
     pub impacts: u64,
     /// Penetration, pulls and other checks.
     pub checks: Checks,
-    /// Why the run failed, in the words of the solver.
+    /// Reason of a failure of the run, in the words of the solver.
     pub stopped: Option<String>,
-    /// Why the run failed.
+    /// Reason of a failure of the run.
     pub failure: Option<Failure>,
 }
 
 /// A page of time, recorded at its own zoom as far as the run goes.
 #[derive(Clone, Debug)]
 pub struct PageRecord {
-    /// From and to \[s\].
+    /// Start and end \[s\].
     pub page: (f64, f64),
     /// Its bins.
     pub record: BinHistory,
@@ -179,11 +179,11 @@ pub struct Moment {
     pub gaps: Vec<f64>,
     /// Sides and their mean multipliers; negative is a push \[N\].
     pub multipliers: Vec<(u32, f64)>,
-    /// Why the motion stopped.
+    /// Reason why the motion stopped.
     pub failure: Option<String>,
     /// The latest jump to a change of contact: its number, and what it found.
     pub met: (u64, Option<Mark>),
-    /// How often the motion has come to the end of its forecast, where it waits.
+    /// Number of times that the motion has come to the end of its forecast, where it waits.
     pub ends: u64,
 }
 
@@ -219,7 +219,7 @@ pub struct Answer {
 pub struct Working {
     /// The view that shows it.
     pub view: ViewId,
-    /// How far it is, 0 to 1, where that is known.
+    /// Completed part, 0 to 1, where that is known.
     pub part: Option<f64>,
     /// Seconds since it began.
     pub seconds: u64,
@@ -228,25 +228,25 @@ pub struct Working {
 /// Whether a tiny change changes the outcome.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Sensitive {
-    /// Not known yet, or not asked.
+    /// Not known yet, or not requested.
     #[default]
     Unknown,
-    /// It does not.
+    /// The outcome stays the same.
     No,
-    /// It does.
+    /// The outcome changes.
     Yes,
     /// Given up: it takes too long.
     GivenUp,
 }
 
-/// What the studies of the views have found.
+/// Results of the studies of the views.
 #[derive(Clone, Debug, Default)]
 pub struct Found {
     /// The locked motion against speed.
     pub locked: Option<Arc<LockedCurves>>,
     /// The spectrum of the run.
     pub spectrum: Option<Arc<Spectrum>>,
-    /// What a coincidence does; `None` within where there is no coincidence.
+    /// Waves at the coincidence; an inner `None` where there is none.
     pub coincidence: Option<Arc<Option<CoincidenceCurves>>>,
     /// The margins; what is searched arrives later.
     pub margins: Option<Arc<LiveMargins>>,
@@ -273,7 +273,7 @@ pub struct Results {
     pub reference: Option<FullRun>,
     /// The same scene under the other contact law.
     pub comparison: Option<FullRun>,
-    /// What the studies of the views have found.
+    /// Results of the studies of the views.
     pub found: Found,
     /// The studies that take long.
     pub working: Vec<Working>,
@@ -289,7 +289,7 @@ pub struct Results {
     pub reading: Option<Arc<Moment>>,
 }
 
-/// What the engine answers.
+/// State of the engine at one instant of wall time.
 #[derive(Clone, Debug, Default)]
 pub struct Snapshot {
     /// Generation of the knobs this belongs to.
@@ -298,7 +298,7 @@ pub struct Snapshot {
     pub restarts: u64,
     /// The latest state of the motion that is played.
     pub moment: Option<Moment>,
-    /// What was recorded since the last snapshot.
+    /// Bins recorded since the last snapshot.
     pub bins: Vec<Bin>,
     /// The same for the motion under the other contact law.
     pub comparison_bins: Vec<Bin>,

@@ -37,7 +37,7 @@ pub enum ScreenEvent {
     Written(FileResult),
     /// The scenes of the directory were read.
     Scenes(FoundScenes),
-    /// No more keys: the terminal is closed.
+    /// The terminal is closed: no more keys come.
     InputClosed,
 }
 
@@ -154,6 +154,6 @@ pub fn watch_signals(_: Sender<ScreenEvent>) -> std::io::Result<()> {
     Ok(())
 }
 
-/// How long the drawing thread may take to end after a signal: it has a file to keep.
+/// Time that the drawing thread may take to end after a signal: it has a file to keep.
 #[cfg(unix)]
 const GRACE: Duration = super::ending::PATIENCE;

@@ -132,7 +132,7 @@ fn block(x: u32, y: u32, width: u32, height: u32, fill: &str) -> String {
     format!("<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" fill=\"{fill}\"/>\n")
 }
 
-/// What a cell shows.
+/// Content of a cell.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Shape {
     Blank,
@@ -143,7 +143,7 @@ enum Shape {
     Letters,
 }
 
-/// How a cell is drawn.
+/// Appearance of a cell.
 #[derive(Clone, Copy, PartialEq, Eq)]
 struct Look {
     shape: Shape,

@@ -17,21 +17,21 @@ use rubscope_solver::scene::{BUILTIN, CheckedScene, Scene};
 /// Name of the thread: the panic hook leaves the screen alone for it.
 pub const FILES_NAME: &str = "rubscope-files";
 
-/// How long the end of the program waits for files.
+/// Longest wait for files at the end of the program.
 const MOMENT: Duration = Duration::from_millis(500);
 
 /// A file to write.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FileJob {
-    /// Where.
+    /// Path of the file.
     pub path: PathBuf,
-    /// What.
+    /// Content of the file.
     pub content: String,
     /// Whether a file that exists may be replaced.
     pub replace: bool,
 }
 
-/// How it went.
+/// Outcome of writing a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FileResult {
     /// The file is complete.
@@ -129,7 +129,7 @@ pub fn builtin_scenes() -> &'static [FoundScene] {
 pub struct FoundScenes {
     /// In the order of their names.
     pub files: Vec<FoundScene>,
-    /// What is missing in the list, and why.
+    /// Note on what is missing in the list.
     pub missing: Option<String>,
     /// Whether they are still being read.
     pub reading: bool,

@@ -16,7 +16,7 @@ use rubscope_solver::harmonic::Joint;
 /// The text of the glossary.
 const TEXT: &str = include_str!("../../assets/glossary.toml");
 
-/// What follows from the scene, by the name of its term, with its unit.
+/// Value that follows from the scene: the name of its term, its unit, and how it is computed.
 type Value = (&'static str, &'static str, fn(&App) -> Option<f64>);
 
 /// Stands for the unit of frequencies.
@@ -57,7 +57,7 @@ struct Glossary {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Section {
-    /// What its terms have in common.
+    /// Heading of its terms.
     pub heading: String,
     /// Its terms.
     #[serde(rename = "term")]
@@ -68,11 +68,11 @@ pub struct Section {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Term {
-    /// As it is written.
+    /// Symbol as it is written.
     pub symbol: String,
     /// The same in letters that every keyboard has, if it is not written so.
     name: Option<String>,
-    /// What it means.
+    /// Meaning.
     pub meaning: String,
     /// Its equation or condition; may be empty.
     #[serde(default)]
@@ -86,9 +86,9 @@ pub struct Term {
 #[serde(deny_unknown_fields)]
 pub struct ViewWords {
     name: String,
-    /// What is drawn.
+    /// Description of what is drawn.
     pub drawn: String,
-    /// What to look for.
+    /// Hint on what to look for.
     pub look: String,
     /// Its keys.
     pub keys: String,

@@ -30,7 +30,7 @@ pub enum Channel {
     RimY,
 }
 
-/// How many channels there are.
+/// Number of channels.
 pub const CHANNELS: usize = 11;
 
 /// Least and greatest values over a stretch of time.
@@ -44,7 +44,7 @@ pub struct Bin {
     pub low: [f64; CHANNELS],
     /// Greatest value of every channel.
     pub high: [f64; CHANNELS],
-    /// From when to when a blade touched: the first instant and the last \[s\].
+    /// First and last instant of contact \[s\].
     pub contact: Option<(f64, f64)>,
     /// The sides that touched.
     pub touched: ActiveSet,

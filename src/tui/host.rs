@@ -10,7 +10,7 @@ use super::job;
 use super::line::Line;
 use super::terminal;
 
-/// What the run loop needs besides a backend.
+/// Environment of the run loop besides its backend.
 pub trait Host {
     /// Gives the terminal to the shell until the job is continued; false where
     /// there is none. A key asks for it now; a signal has asked before.
@@ -75,11 +75,11 @@ impl Host for NoHost {
 /// The real terminal, its shell, and a thread for files.
 #[derive(Debug)]
 pub struct Shell {
-    /// Where results of files go.
+    /// Channel for the results of files.
     pub events: Sender<ScreenEvent>,
-    /// Why a file was not written, as long as no screen has shown it.
+    /// Reason why a file was not written, until a screen has shown it.
     pub unseen: Option<String>,
-    /// How much the terminal is sent.
+    /// Limit on the bytes that are sent to the terminal.
     pub line: Line,
 }
 

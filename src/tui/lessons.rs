@@ -17,9 +17,9 @@ pub struct Lesson {
     /// Its name in files: the name of its own file.
     #[serde(skip)]
     pub name: &'static str,
-    /// What it is about.
+    /// Its subject.
     pub title: String,
-    /// What one should know before.
+    /// Knowledge that it needs.
     pub needs: String,
     /// The built-in scene at its start.
     pub scene: String,
@@ -35,19 +35,19 @@ pub type Settings = Vec<(String, String)>;
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct LessonStep {
-    /// What can be seen, and what one must know.
+    /// Text on what can be seen and must be known.
     pub text: String,
     /// Keys that are set when the step begins, before the question.
     #[serde(default)]
     pub begin: Settings,
-    /// What will happen?
+    /// Question what will happen.
     pub question: Option<String>,
     /// The answers to choose from, a, b, c.
     #[serde(default)]
     pub answers: Vec<String>,
     /// The letter of the right one.
     pub right: Option<char>,
-    /// Why, shown with the run.
+    /// Reason of the answer, shown with the run.
     pub reason: Option<String>,
     /// The equation behind it.
     pub equation: Option<String>,
@@ -57,7 +57,7 @@ pub struct LessonStep {
     pub set: Settings,
     /// The task of the reader.
     pub task: Option<String>,
-    /// When the task is done.
+    /// Condition under which the task is done.
     pub until: Option<Condition>,
     /// Keys that a reader may set to do the task; the next step begins so.
     #[serde(default)]
@@ -76,7 +76,7 @@ pub struct LessonStep {
     /// Whether the other contact law is compared, from the answer on.
     #[serde(default)]
     pub compare: bool,
-    /// What must be true when the step is done. A test asks the solvers.
+    /// Statements that must be true when the step is done. A test asks the solvers.
     #[serde(default)]
     pub check: Vec<Check>,
 }
@@ -102,13 +102,13 @@ pub struct Check {
     /// Keys in which the scene differs from that of the step.
     #[serde(default)]
     pub with: Settings,
-    /// What it is.
+    /// Expected value.
     pub is: Expected,
     /// Largest difference; half of the last digit if not given.
     pub within: Option<f64>,
 }
 
-/// What a check expects.
+/// Expectation of a check.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(untagged)]
 pub enum Expected {
@@ -118,7 +118,7 @@ pub enum Expected {
     Word(String),
 }
 
-/// When a task is done.
+/// Condition under which a task is done.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(rename_all = "lowercase", deny_unknown_fields)]
 pub enum Condition {

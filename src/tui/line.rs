@@ -6,11 +6,11 @@ use std::time::{Duration, Instant};
 
 use strum::{EnumString, VariantNames};
 
-/// How much the terminal is sent.
+/// Limit on the bytes that are sent to the terminal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, EnumString, VariantNames)]
 #[strum(serialize_all = "lowercase")]
 pub enum Line {
-    /// As a thin line over SSH, or once a write had to wait.
+    /// Thin over SSH, or once a write had to wait.
     #[default]
     Auto,
     /// At most five kilobytes a second while the motion plays, in a window of any size.
@@ -23,7 +23,7 @@ pub enum Line {
 const THIN: f64 = 4500.0;
 /// Bytes a second of answers to keys, unless writes have to wait.
 const KEYS: f64 = 20_000.0;
-/// How long answers to keys may run ahead of that.
+/// Time that answers to keys may run ahead of that.
 const AHEAD: Duration = Duration::from_secs(1);
 /// Longest wait of an answer to a key.
 const SOON: Duration = Duration::from_millis(200);
@@ -37,7 +37,7 @@ const LONGEST: Duration = Duration::from_secs(10);
 #[derive(Debug)]
 pub struct Throttle {
     line: Line,
-    /// When the line is free again.
+    /// Instant at which the line is free again.
     free: Instant,
     sent: u64,
     /// Whether writes have to wait.

@@ -33,7 +33,7 @@ const ROWS: u16 = 1000;
 /// Columns and rows of the screen as a picture.
 const PICTURE: (u16, u16) = (120, 40);
 
-/// What can be asked for, in short.
+/// Summary of the commands.
 const USAGE: &str = "\
 speed 450, pulse 20k, law unilateral: give a knob a value; its name alone says the value
 t 0.3 ms, end, n, blade 7: go to an instant, the end, the next change of contact, a gap

@@ -12,11 +12,11 @@ use super::line::Line;
 use super::raster::Marker;
 use super::theme::ThemeChoice;
 
-/// When to use colour.
+/// Use of colour.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, EnumString, VariantNames)]
 #[strum(serialize_all = "lowercase")]
 pub enum Color {
-    /// If the terminal supports it and `NO_COLOR` does not forbid it.
+    /// Colours if the terminal supports them and `NO_COLOR` does not forbid them.
     #[default]
     Auto,
     /// Always.
@@ -25,27 +25,27 @@ pub enum Color {
     Never,
 }
 
-/// How the explorer looks and behaves.
+/// Options of the explorer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExploreOptions {
     /// Most frames a second while the motion plays.
     pub fps: f64,
-    /// When to use colour.
+    /// Use of colour.
     pub color: Color,
     /// The colours; by the config file, or the terminal, if not given.
     pub theme: Option<ThemeChoice>,
-    /// How points are drawn; by the config file, or the terminal and the locale,
+    /// Marker of points; by the config file, or the terminal and the locale,
     /// if not given.
     pub marker: Option<Marker>,
     /// Whether the mouse is used.
     pub mouse: bool,
-    /// How much the line carries.
+    /// Limit on the bytes that are sent to the terminal.
     pub line: Line,
     /// Whether the config file is read and written.
     pub config: bool,
-    /// Whether speeds are told in turns a minute.
+    /// Whether speeds are shown in rpm.
     pub rpm: bool,
-    /// Where the scene is from, for the command line that repeats the run.
+    /// Origin of the scene, for the command line that repeats the run.
     pub source: Option<Source>,
 }
 

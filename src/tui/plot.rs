@@ -17,7 +17,7 @@ use super::theme::Role;
 pub struct Plot<'a> {
     buffer: &'a mut Buffer,
     raster: Raster,
-    /// Where data goes.
+    /// Area of the data.
     pub inner: Rect,
     x: ChartAxis,
     y: ChartAxis,

@@ -11,7 +11,7 @@ use ratatui::{
 use serde::{Deserialize, Serialize};
 use strum::{Display, EnumString, VariantNames};
 
-/// How points are drawn.
+/// Marker of points.
 #[derive(
     Clone,
     Copy,
@@ -62,7 +62,7 @@ impl Marker {
     }
 }
 
-/// How one series is drawn.
+/// Style of one series.
 #[derive(Clone, Copy, Debug)]
 pub struct Pen {
     /// Colour and weight.

@@ -20,14 +20,14 @@ const HEARTBEAT: Duration = Duration::from_secs(1);
 /// Least time between two answers to keys.
 const KEY_FRAME: Duration = Duration::from_millis(16);
 
-/// How long a frame waits for the forecast of a knob that was turned: most are
+/// Longest wait of a frame for the forecast of a knob that was turned: most are
 /// there sooner, and then one frame shows both.
 const ANSWER: Duration = Duration::from_millis(15);
 
-/// How long quitting waits for a file that is being written.
+/// Longest wait of quitting for a file that is being written.
 const LAST_FILE: Duration = Duration::from_secs(1);
 
-/// When the screen must be drawn.
+/// Urgency of the next frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Due {
     /// Nothing has changed.
@@ -162,7 +162,7 @@ fn show<B: Backend>(
     Ok(())
 }
 
-/// What the loop must do for an event.
+/// Reaction of the loop to an event.
 enum Reaction {
     Exit(Exit),
     /// Exit, as soon as the file that is being written is complete.

@@ -51,11 +51,11 @@ static SLOW: AtomicBool = AtomicBool::new(false);
 /// A write that takes longer has waited for the terminal.
 const AT_ONCE: Duration = Duration::from_millis(60);
 
-/// How long restoring waits for room on the terminal, before and after the
+/// Longest wait of restoring for room on the terminal, before and after the
 /// frames that it has not taken are dropped.
 const ROOM: Duration = Duration::from_millis(200);
 
-/// How long a process that was continued in the background waits for a signal.
+/// Time that a process that was continued in the background waits for a signal.
 const BACKGROUND: Duration = Duration::from_secs(1);
 
 /// Ends a sequence of which the terminal has only the beginning.
@@ -249,7 +249,7 @@ fn bounded((columns, rows): (u16, u16)) -> Size {
     Size::new(columns.min(MOST.0), rows.min(MOST.1))
 }
 
-/// Where frames go: each is written in one piece, when it is flushed.
+/// Buffer of frames: each is written in one piece when it is flushed.
 #[derive(Debug, Default)]
 pub struct Frames(Vec<u8>);
 

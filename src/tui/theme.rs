@@ -7,14 +7,14 @@ use strum::{EnumString, VariantNames};
 
 use super::ground::Ground;
 
-/// What a colour is for.
+/// Purpose of a colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// Ordinary text.
     Text,
     /// Axes, frames, units.
     Quiet,
-    /// What the keyboard acts on.
+    /// Target of the keyboard: the main screen or an open dialogue.
     Focus,
     /// The first series of a chart.
     First,
@@ -24,7 +24,7 @@ pub enum Role {
     Contact,
     /// Good news.
     Good,
-    /// What is wrong or doubtful, and nothing else: pulls, failures, refused values.
+    /// Errors and doubts, and nothing else: tension, failures, refused values.
     Trouble,
 }
 
@@ -35,7 +35,7 @@ pub enum Role {
 #[strum(serialize_all = "lowercase")]
 #[serde(rename_all = "lowercase")]
 pub enum ThemeChoice {
-    /// By the background of the terminal.
+    /// Light or dark by the background of the terminal.
     #[default]
     Auto,
     /// For a dark background.

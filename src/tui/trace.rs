@@ -35,30 +35,30 @@ impl Trace {
     }
 }
 
-/// What a contact became.
+/// Change of a contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Happening {
     /// A blade group met the casing and left it at once.
     Impact(u32),
     /// Other sides touch: those before, and now.
     Contact(ActiveSet, ActiveSet),
-    /// These sides let go, and nothing touches.
+    /// Separation of these sides, after which nothing touches.
     Release(ActiveSet),
 }
 
 /// A change of contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mark {
-    /// When \[s\].
+    /// Instant \[s\].
     pub t_s: f64,
-    /// What.
+    /// Content of the file.
     pub what: Happening,
 }
 
 /// Collects the changes of contact of a motion that is looked at now and then.
 #[derive(Clone, Debug, Default)]
 pub struct Marks {
-    /// Those seen.
+    /// Changes seen so far.
     pub seen: Vec<Mark>,
     active_set: ActiveSet,
     impacts: u64,

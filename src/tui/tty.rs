@@ -17,7 +17,7 @@ use rustix::fs::OFlags;
 use rustix::io::Errno;
 use rustix::termios::{self, LocalModes, OptionalActions, QueueSelector, Termios};
 
-/// How often a writer that waits for room looks whether it should go on.
+/// Time between two looks of a writer that waits for room whether it should go on.
 const LOOK: Duration = Duration::from_millis(20);
 
 /// Most bytes of one write where the kernel could make it wait: below the

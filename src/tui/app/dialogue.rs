@@ -3,7 +3,7 @@
 use crate::tui::bindings::Action;
 use crate::tui::lessons;
 
-/// What the keyboard acts on.
+/// Target of the keyboard: the main screen or an open dialogue.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum InputMode {
     /// Knobs and charts.
@@ -38,7 +38,7 @@ pub enum Purpose {
 /// The open dialogue, if one is.
 #[derive(Clone, Debug)]
 pub struct Dialogue {
-    /// What the keyboard acts on.
+    /// Target of the keyboard: the main screen or an open dialogue.
     pub mode: InputMode,
     /// Page of the note of the selected scene, where it is long.
     pub note_page: usize,
@@ -127,7 +127,7 @@ pub struct HelpState {
 /// The open list.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PaletteState {
-    /// What is looked for.
+    /// Text that is searched for.
     pub typed: String,
     /// The chosen line of what was found.
     pub place: usize,

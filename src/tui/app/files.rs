@@ -22,11 +22,11 @@ pub struct Writing {
 /// The files, and the open scene.
 #[derive(Clone, Debug)]
 pub struct Files {
-    /// Where files are written; the working directory unless set.
+    /// Directory in which files are written; the working directory unless set.
     pub directory: PathBuf,
     /// The scene as it was opened; `Backspace` restores its values.
     pub opened: CheckedScene,
-    /// Where the scene is from, for the command line that repeats the run.
+    /// Origin of the scene, for the command line that repeats the run.
     pub source: Option<Source>,
     /// The file that is being written.
     pub writing: Option<Writing>,

@@ -24,10 +24,10 @@ pub struct Knobs {
     redo: Vec<Past>,
 }
 
-/// Number of changes that can be undone.
+/// Most changes that can be undone.
 const KEPT: usize = 1000;
 
-/// A state to come back to.
+/// State that undo restores.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Past {
     pub scene: CheckedScene,

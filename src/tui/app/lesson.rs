@@ -23,7 +23,7 @@ pub struct LessonProgress {
     pub read: bool,
     /// The place of the answer that Enter gives.
     pub choice: usize,
-    /// What the user had before, and gets back.
+    /// State of the user before the lesson, which comes back at its end.
     pub own: Arc<Past>,
 }
 

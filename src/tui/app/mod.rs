@@ -42,7 +42,7 @@ use super::views::map::plan::MapChoice;
 use rubscope_solver::model::Machine;
 use rubscope_solver::scene::{CheckedScene, Scene};
 
-/// Where a scene is from.
+/// Origin of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Source {
     /// Its name or path.
@@ -51,7 +51,7 @@ pub struct Source {
     pub scene: Scene,
 }
 
-/// How the explorer ends.
+/// End of the explorer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
     /// The user quit, or the input ended.
@@ -78,9 +78,9 @@ pub struct App {
     pub run: Run,
     /// The charts on the screen.
     pub layout: Layout,
-    /// What is read in the large chart.
+    /// Place and instant that are read in the large chart.
     pub reading: Reading,
-    /// What the map sweeps, and under which law.
+    /// Axes and contact law of the map.
     pub map: MapChoice,
     /// The open dialogue, if one is.
     pub dialogue: Dialogue,

@@ -18,7 +18,7 @@ pub struct Grip {
     pub turned: bool,
 }
 
-/// Where data of the large chart is drawn, and which part of it: from where to where
+/// Area in which data of the large chart is drawn, and the part of it: from where to where
 /// across, and up.
 #[derive(Clone, Copy, Debug)]
 struct NotedChart {
@@ -29,17 +29,17 @@ struct NotedChart {
 /// The mouse.
 #[derive(Clone, Debug)]
 pub struct Mouse {
-    /// Whether it acts.
+    /// Whether the mouse is used.
     pub on: bool,
     /// The knob whose bar it holds.
     pub grip: Option<Grip>,
-    /// Where it clicked last, if it is still there.
+    /// Cell of the last click, if the pointer is still there.
     pub clicked: Option<(u16, u16)>,
-    /// Where its wheel turned a knob last, and which.
+    /// Cell at which the wheel turned a knob last, and that knob.
     pub wheeled: Option<((u16, u16), usize)>,
-    /// Where the data of the large chart was drawn last, and which part of it.
+    /// Areas of the data of the large chart in the last frame.
     charts: RefCell<Vec<NotedChart>>,
-    /// Where the keys of the last line were drawn last.
+    /// Areas of the keys of the last line in the last frame.
     keys: RefCell<Vec<(Rect, Action)>>,
 }
 

@@ -18,7 +18,7 @@ const FIRST_RATE: usize = 8;
 /// Wall-clock seconds a page takes to fill.
 const PAGE_SECONDS: f64 = 4.0;
 
-/// From this rate on it is real time, to two digits.
+/// Least rate that is called real time.
 const REAL: f64 = 0.95;
 
 /// Zoom steps in either direction.
@@ -58,7 +58,7 @@ pub struct Play {
     pub slow_at_events: bool,
     /// Pages back from the current one.
     pub pages_back: i64,
-    /// Where the motion goes at once \[s\].
+    /// Instant to which the motion goes at once \[s\].
     pub go_to_s: f64,
     pub goes: u64,
     pub steps: u64,
@@ -68,13 +68,13 @@ pub struct Play {
     stopped_by_end: bool,
     /// The page of the last snapshot.
     page: i64,
-    /// The latest jump whose result was told.
+    /// Latest jump whose result was reported.
     met: u64,
-    /// How often the end of the run was told.
+    /// Number of times that the end of the run was reported.
     ends: u64,
 }
 
-/// How fast time passes on the screen, to come back to.
+/// Rate of play on the screen, to be restored.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tempo {
     rate: usize,

@@ -8,16 +8,16 @@ use crate::tui::views::id::ViewId;
 /// height from below, 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cursor {
-    /// From the left.
+    /// Distance from the left.
     pub across: f64,
-    /// From below.
+    /// Distance from below.
     pub up: f64,
 }
 
 /// One step of the cursor where the chart has no cells.
 pub const STEP: f64 = 0.01;
 
-/// What is read in the large chart.
+/// Place and instant that are read in the large chart.
 #[derive(Clone, Debug, Default)]
 pub struct Reading {
     /// The reading cursor.

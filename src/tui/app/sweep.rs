@@ -11,10 +11,10 @@ const VALUES: u32 = 200;
 /// Most values of a whole number.
 const MOST_WHOLE: u64 = 1000;
 
-/// Most stretches of one verdict in the summary.
+/// Most ranges of one verdict in the summary.
 const STRETCHES: usize = 4;
 
-/// Neighbouring values with one verdict.
+/// Range of neighbouring values with one verdict.
 #[derive(Clone, Debug)]
 struct Stretch {
     word: String,
@@ -29,9 +29,9 @@ pub struct Sweep {
     knob: &'static Knob,
     /// The values to come, the next one last.
     rest: Vec<Value>,
-    /// How many values there are.
+    /// Number of values.
     all: usize,
-    /// Stretches of one verdict so far.
+    /// Ranges of one verdict so far.
     found: Vec<Stretch>,
 }
 

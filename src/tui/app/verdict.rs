@@ -209,7 +209,7 @@ impl App {
 /// known.
 const CLOSED: f64 = 1e-9;
 
-/// How far the chart of the polygon reaches, in amplitudes of a corner.
+/// Reach of the chart of the polygon, in amplitudes of a corner.
 const MARGIN: f64 = 1.15;
 
 impl App {

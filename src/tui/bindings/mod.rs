@@ -10,7 +10,7 @@ use crate::tui::views::id::ViewId;
 
 pub use table::BINDINGS;
 
-/// What a key does.
+/// Action of a key.
 #[expect(missing_docs, reason = "the table says what each action does")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
@@ -75,7 +75,7 @@ pub enum Action {
     DeleteLast,
 }
 
-/// Where a binding holds.
+/// Context in which a binding holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Context {
     /// Charts and knobs.
@@ -105,9 +105,9 @@ pub enum Context {
 pub struct Chord {
     /// The key.
     pub code: KeyCode,
-    /// With Control.
+    /// Whether Control is held.
     pub ctrl: bool,
-    /// With Shift, for keys that are no characters.
+    /// Whether Shift is held, for keys that are no characters.
     pub shift: bool,
 }
 
@@ -167,13 +167,13 @@ impl std::fmt::Display for Chord {
 /// One line of the table.
 #[derive(Clone, Debug)]
 pub struct Binding {
-    /// Where it holds.
+    /// Context in which it holds.
     pub context: Context,
     /// The keys.
     pub keys: &'static [Chord],
-    /// What they do.
+    /// Action of the keys.
     pub action: Action,
-    /// Their action, in a few words.
+    /// Description of the action in a few words.
     pub what: &'static str,
     /// Keys and word of the footer, if it is shown there.
     pub footer: Option<(&'static str, &'static str)>,
@@ -205,22 +205,22 @@ pub fn keys_text(binding: &Binding) -> String {
     binding.keys.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }
 
-/// What an action is about, in the order of the help.
+/// Group of actions, in the order of the help.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, EnumIter, IntoStaticStr)]
 pub enum Group {
     /// Selecting and turning knobs.
     Knobs,
-    /// How the motion is played, and which part of it is shown.
+    /// Playing the motion, and choosing the part that is shown.
     Time,
-    /// Which charts there are, and reading them.
+    /// Choosing charts and reading them.
     #[strum(serialize = "Views and charts")]
     Views,
-    /// What to open and to learn.
+    /// Opening scenes and lessons.
     #[strum(serialize = "Scenes and lessons")]
     Scenes,
-    /// What leaves the program.
+    /// Writing and copying.
     Files,
-    /// How it looks.
+    /// Colours, marker and units.
     Look,
     /// The program itself.
     Program,

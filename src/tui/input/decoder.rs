@@ -19,7 +19,7 @@ const REPORT: &[u8] = b"\x1b]1";
 /// rest of what comes over a slow line acts as keys.
 const LOST: Duration = Duration::from_secs(2);
 
-/// What has come of an event that is not complete.
+/// Bytes of an event that is not complete.
 #[derive(Debug, Default)]
 pub struct Decoder {
     /// The beginning of a sequence, or of a letter of several bytes.

@@ -7,7 +7,7 @@ use crossterm::event::{
 
 use crate::tui::ground::{Ground, begins_report};
 
-/// How the bytes since the last event are interpreted.
+/// Interpretation of the bytes since the last event.
 #[derive(Debug)]
 pub enum Piece {
     /// The beginning of a sequence.

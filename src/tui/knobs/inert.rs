@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use crate::tui::knobs::{Group, Knob};
 use rubscope_solver::scene::{ContactLaw, ModelSize, Scene, SolverKind};
 
-/// Why a knob changes nothing in a scene.
+/// Function that gives the reason why a knob changes nothing in a scene.
 pub type Inert = fn(&Scene) -> Option<&'static str>;
 
 const STILL: &str = "the blades of the rigid model do not move";

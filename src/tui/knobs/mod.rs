@@ -26,31 +26,31 @@ use rubscope_solver::scene::{
 /// the law of contact that only pushes.
 const LAWS: [&str; 3] = ["bilateral", "unilateral", "smooth"];
 
-/// How a knob turns.
+/// Steps by which a knob turns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Turn {
-    /// By equal steps, fine and coarse.
+    /// Equal steps, fine and coarse.
     Linear(f64, f64),
-    /// By mantissas over decades; below this magnitude only zero.
+    /// Round mantissas over decades; below this magnitude only zero.
     Decades(f64),
-    /// By whole steps, fine and coarse.
+    /// Whole steps, fine and coarse.
     Whole(u64, u64),
-    /// Through a list of words.
+    /// A list of words.
     Words,
 }
 
-/// What a knob belongs to, in the order of the panel.
+/// Group of knobs, in the order of the panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Group {
-    /// What a first look needs: speed, pulse, dampings, contact and solver.
+    /// Speed, pulse, dampings, contact and solver.
     Operation,
-    /// How pulse and speed go on in time.
+    /// Pulse and speed over time.
     Time,
-    /// How the motion is computed.
+    /// Model and accuracy of the computation.
     Model,
     /// Casing and bladed disk.
     Machine,
-    /// What the paper's model leaves out: coupled tips, friction, linings.
+    /// Extensions of the model of the paper: coupled tips, friction, linings.
     Beyond,
     /// State at t = 0, and the excitation.
     Start,
@@ -85,21 +85,21 @@ pub fn knob_of(path: &str) -> Option<&'static Knob> {
 /// One knob.
 #[derive(Debug)]
 pub struct Knob {
-    /// What it belongs to.
+    /// Its group.
     pub group: Group,
     /// Short name.
     pub label: &'static str,
     /// The key that it sets.
     pub path: &'static str,
-    /// How it turns.
+    /// Steps by which it turns.
     pub turn: Turn,
-    /// What turning it does, in one sentence.
+    /// Effect of turning it, in one sentence.
     pub does: &'static str,
     /// The range of its bar.
     bar: Bar,
     /// The magnitude that is usual, where it is 0 in the opened scene.
     usual: f64,
-    /// Why it changes nothing, where it does not.
+    /// Reason why it changes nothing, where it does not.
     inert: Inert,
 }
 

@@ -6,7 +6,7 @@ use crate::tui::raster::Marker;
 use crate::tui::theme::Theme;
 use rubscope_solver::scene::keys;
 
-/// How well words name a knob, the best first.
+/// Quality of a match between words and a knob, the best first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Fit {
     /// They are its label, also without its symbol, or its key.

@@ -46,7 +46,7 @@ pub(super) fn decades(x: f64, up: bool, mantissas: &[f64], least: f64) -> f64 {
 /// Its name in the place of a path.
 pub(super) use rubscope_solver::scene::keys::CLEARANCE;
 
-/// What it may hold; a rigid casing refuses what is not above 0.
+/// Allowed values; a rigid casing refuses what is not above 0.
 pub(super) const ALLOWED: Allowed = Allowed::Real { min: -1e3, max: 1e3, above: false };
 
 /// The least clearance of a turn \[m\],

@@ -86,9 +86,9 @@ const AROUND: f64 = 10.0;
 pub enum Bar {
     /// A decade below and above the value of the opened scene, by factors.
     Around,
-    /// From one value to another.
+    /// Range from one value to another.
     From(f64, f64),
-    /// What follows from the scene.
+    /// Range that follows from the scene.
     Of(fn(&Case) -> KnobRange),
 }
 
@@ -111,7 +111,7 @@ pub fn meaning(letter: char) -> &'static str {
     LETTERS.iter().find(|(known, _)| *known == letter).map_or("", |(_, meaning)| meaning)
 }
 
-/// What the range of a bar follows from.
+/// Data from which the range of a bar follows.
 #[derive(Debug)]
 pub struct Case<'a> {
     knob: &'a Knob,
@@ -150,7 +150,7 @@ impl Case<'_> {
 pub mod bars {
     use super::{AROUND, Case, KnobRange, touching_pulse};
 
-    /// How far beyond the greatest threshold the bar of the speed goes.
+    /// End of the bar of the speed over the greatest threshold.
     const BEYOND: f64 = 1.5;
 
     pub fn speed(case: &Case) -> KnobRange {

@@ -15,7 +15,7 @@ const GAP: &str = "  ";
 /// From this width on there is room for the key of the palette.
 const PALETTE_FROM: u16 = 60;
 
-/// What somebody who is new can try.
+/// Hint for new users.
 const TRY: &str = "new here? → turns Ω, g: lessons";
 
 /// Draws the line.

@@ -13,13 +13,13 @@ pub const LEAST_WIDTH: u16 = 40;
 /// Lowest screen.
 pub const LEAST_HEIGHT: u16 = 12;
 
-/// From this width on, the knobs have a separate column.
+/// Least width at which the knobs have a separate column.
 const KNOBS_FROM: u16 = 66;
 /// Width of that column.
 const KNOBS_WIDTH: u16 = 27;
-/// From this width on, they stay beside two contact laws that are compared.
+/// Least width at which they stay beside two contact laws that are compared.
 const KNOBS_BESIDE_LAWS: u16 = 110;
-/// From this width on, two charts are side by side.
+/// Least width at which two charts are side by side.
 const PAIR_FROM: u16 = 76;
 
 /// The places of one frame.

@@ -9,7 +9,7 @@ use crate::tui::lessons::{self, LETTERS, Lesson, LessonStep};
 use crate::tui::text::{columns, print, shorten, wrap};
 use crate::tui::theme::Role;
 
-/// From this width on, the question stays beside its answer.
+/// Least width at which the question stays beside its answer.
 const WIDE: usize = 110;
 
 /// Draws the list of lessons, one of them selected, with what was done of each.

@@ -66,7 +66,7 @@ pub fn look_of(look: &Appearance, is_chosen: bool, role: Role) -> (&'static str,
     }
 }
 
-/// From this width on, the note is beside the list.
+/// Least width at which the note is beside the list.
 const BESIDE_FROM: u16 = 100;
 /// Widest list beside a note.
 const LIST_WIDTH: u16 = 64;

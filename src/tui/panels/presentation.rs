@@ -14,7 +14,7 @@ use crate::tui::theme::Role;
 
 /// Smaller screens have the usual panels.
 const LEAST: (u16, u16) = (60, 18);
-/// From this height on, letters and bar are twice as high.
+/// Least height at which letters and bar are twice as high.
 const TALL: u16 = 32;
 
 /// Returns whether the screen is drawn so.

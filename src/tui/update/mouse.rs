@@ -8,14 +8,14 @@ use crate::tui::bindings::Action;
 use crate::tui::knobs::KNOBS;
 use crate::tui::panels::{self, Target};
 
-/// What a mouse event has changed.
+/// Effect of a mouse event.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Heard {
     /// Nothing on the screen.
     Nothing,
     /// The reading cursor follows the pointer: the next frame is soon enough.
     Pointed,
-    /// As much as a key, with its effect.
+    /// An action like that of a key, with its effect.
     Acted(Effect),
 }
 

@@ -20,9 +20,9 @@ pub enum ViewId {
     Spectrum,
     /// Speed against error of every solver.
     Precision,
-    /// How far the scene is from every limit, and what moves it.
+    /// Margins of the scene to every limit, and the parameters that move them.
     Margins,
-    /// What the coincidence of blades and casing does while they touch.
+    /// Effect of the coincidence of blades and casing while they touch.
     Coincidence,
 }
 

@@ -49,7 +49,7 @@ pub trait ViewPanel: Sync {
     }
 }
 
-/// What Enter does at a place of a chart.
+/// Action of Enter at a place of a chart.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Opening {
     /// Opens the run of a scene.
@@ -86,7 +86,7 @@ pub const LEAST_ROWS: u16 = 11;
 /// Columns of one that has another at its side.
 const LEAST_COLUMNS: u16 = 38;
 
-/// Where a view is drawn, and how its title begins.
+/// Area in which a view is drawn, and the beginning of its title.
 #[derive(Clone, Copy, Debug)]
 pub struct ViewArea {
     /// The part of the screen.

@@ -23,7 +23,7 @@ use rubscope_solver::scene::ModelSize;
 const PINNED: usize = 8;
 /// Most changes of contact on a page that are looked at for their names.
 const MOST_NAMES: usize = 500;
-/// From this width on, two contact laws are side by side.
+/// Least width at which two contact laws are side by side.
 const SIDE_BY_SIDE_FROM: u16 = 90;
 
 /// The view.
@@ -96,7 +96,7 @@ fn bends(app: &App) -> bool {
     app.scene.solver.model != ModelSize::Rigid
 }
 
-/// What one chart shows.
+/// Content of one chart.
 struct Page<'a> {
     name: String,
     names: [&'static str; 2],

@@ -57,7 +57,7 @@ impl Turned {
 
 /// Wall time over which the rate that is reached is taken \[s\].
 const OVER: f64 = 0.5;
-/// A figure that is as near as this stays, so that it does not tremble.
+/// A displayed value that changes by less than this is not redrawn, to avoid flicker.
 const NEAR: f64 = 0.1;
 
 /// The rate that is reached.

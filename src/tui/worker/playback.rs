@@ -37,7 +37,7 @@ pub struct Playback {
     limit: Limit,
     turned: Turned,
     reached: Reached,
-    /// Where the motion goes at once \[s\].
+    /// Instant to which the motion goes at once \[s\].
     going: Option<f64>,
     copies: Copies,
     reading: Reading,

@@ -12,7 +12,7 @@ use rubscope_solver::motion::Motion;
 #[derive(Debug, Default)]
 pub struct Reading {
     done: Option<Arc<Moment>>,
-    /// Until when, and how far it is.
+    /// Instant to reach, and the motion on its way.
     under_way: Option<(f64, Motion)>,
 }
 

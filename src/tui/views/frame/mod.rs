@@ -19,7 +19,7 @@ use crate::tui::views::response::ResponseView;
 use crate::tui::worker::{in_blade_frame, rim_point};
 use rubscope_solver::motion::ActiveSet;
 
-/// From this width on, the polygon is beside the wheel where nothing else is shown.
+/// Least width at which the polygon is beside the wheel where nothing else is shown.
 const BOTH_FROM: u16 = 76;
 
 /// The view.
@@ -150,7 +150,7 @@ const MOST: f64 = 1.2;
 const HUB: f64 = 0.5;
 /// Points of the casing outline.
 const OUTLINE: u32 = 240;
-/// Where the numbers of touching blades can stand: in the hub, which has no data.
+/// Radii at which the numbers of touching blades can stand: in the hub, which has no data.
 const NUMBERS: [f64; 3] = [0.76 * HUB, 0.5 * HUB, 0.3 * HUB];
 /// Most numbers.
 const MOST_NUMBERS: usize = 8;

@@ -20,13 +20,13 @@ use plan::LiveMap;
 use rubscope_solver::study::{Axis, MapPlan};
 use words::Line;
 
-/// From this width on, what the map means stands beside it.
+/// Least width at which what the map means stands beside it.
 const BESIDE_FROM: u16 = 92;
 /// Width of that column.
 const BESIDE: u16 = 34;
-/// From this height on, there are two rows of words above the map.
+/// Least height at which there are two rows of words above the map.
 const TWO_ROWS_FROM: u16 = 14;
-/// From this height on, there is one.
+/// Least height at which there is one.
 const ONE_ROW_FROM: u16 = 7;
 
 /// The view.

@@ -13,7 +13,7 @@ use rubscope_solver::study::{Axis, Cell, Map, MapPlan};
 /// Most cells across and up. Usual ranges give round values: 7.5 rad/s for 600,
 /// a tenth of a decade for four.
 const CELLS: [u32; 2] = [81, 41];
-/// What a key may hold that has no knob.
+/// Allowed values of a key without a knob.
 const ANY: Allowed = Allowed::Real { min: f64::MIN, max: f64::MAX, above: false };
 /// The key of the torque on the blades.
 const TORQUE: &str = keys::EXCITATION;
@@ -26,7 +26,7 @@ const PULSES: [f64; 2] = [1e3, 1e7];
 /// The greatest damping of a map, unless the present one is greater.
 const DAMPING: f64 = 0.2;
 
-/// What is chosen for the map.
+/// Choices for the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapChoice {
     /// The contact law, where it is not the scene's own.
@@ -312,7 +312,7 @@ pub struct CellRun {
     pub plan: MapPlan,
     /// Its column and row.
     pub cell: [u32; 2],
-    /// How the motion lasts.
+    /// Verdict of the run.
     pub verdict: Verdict,
     /// Start of the final contact \[s\].
     pub since: Option<f64>,

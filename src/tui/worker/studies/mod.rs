@@ -18,23 +18,23 @@ use crate::tui::engine::{Found, Order, Working};
 use crate::tui::views::id::ViewId;
 use rubscope_solver::study::MapPlan;
 
-/// A study that takes longer says how far it is.
+/// Wall time after which a study shows its progress.
 const LONG: Duration = Duration::from_millis(500);
 
-/// What studies depend on.
+/// Inputs of the studies.
 #[derive(Debug)]
 pub struct Given<'a> {
-    /// What is wanted.
+    /// Order that is carried out.
     pub order: &'a Order,
     /// The map that is wanted, if there is one.
     pub plan: Option<MapPlan>,
     /// The run to its end.
     pub run: &'a FullRunJob,
-    /// How far it goes.
+    /// Bounds of the computation.
     pub bounds: Bounds,
 }
 
-/// How far studies go: all the way, but in tests.
+/// Bounds of the studies, which only tests have.
 #[derive(Clone, Copy, Debug)]
 pub struct Bounds {
     /// Most cells of a map.
@@ -102,7 +102,7 @@ pub trait Study: fmt::Debug + Sized {
 struct Kept<S: Study> {
     study: Option<(S::Key, S)>,
     before: Option<Arc<S::Found>>,
-    /// Since when it is wanted.
+    /// Start of the computation.
     since: Option<Instant>,
 }
 

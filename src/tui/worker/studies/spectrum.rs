@@ -11,7 +11,7 @@ use crate::tui::views::spectrum::lines::Spectrum;
 pub struct SpectrumStudy(Arc<Spectrum>);
 
 impl Study for SpectrumStudy {
-    /// What tells a run from others: the knobs, and its end.
+    /// Identification of the run: the knobs, and its end.
     type Key = (u64, f64);
     type Found = Spectrum;
     const VIEW: ViewId = ViewId::Spectrum;
