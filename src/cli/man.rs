@@ -136,13 +136,13 @@ fn added() -> Roff {
         names.join(", ")
     ))]);
     list(&mut page, "KEYS", bindings::of(Context::Main).map(|b| (keys_text(b), b.what)));
-    let told = |entries: &'static [(&str, &'static str)]| {
+    let owned = |entries: &'static [(&str, &'static str)]| {
         entries.iter().map(|(term, text)| (term.to_string(), *text))
     };
-    list(&mut page, "EXIT STATUS", told(EXIT_STATUS));
-    list(&mut page, "ENVIRONMENT", told(ENVIRONMENT));
-    list(&mut page, "FILES", told(FILES));
-    list(&mut page, "EXAMPLES", told(EXAMPLES));
+    list(&mut page, "EXIT STATUS", owned(EXIT_STATUS));
+    list(&mut page, "ENVIRONMENT", owned(ENVIRONMENT));
+    list(&mut page, "FILES", owned(FILES));
+    list(&mut page, "EXAMPLES", owned(EXAMPLES));
     page
 }
 

@@ -187,12 +187,12 @@ impl std::fmt::Display for RequestedScript {
 
 impl Serialize for RequestedScript {
     fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
-        out.collect_seq(self.0.iter().map(told))
+        out.collect_seq(self.0.iter().map(as_json))
     }
 }
 
 /// Returns a step as JSON reports tell it.
-fn told(step: &RequestedStep) -> serde_json::Value {
+fn as_json(step: &RequestedStep) -> serde_json::Value {
     let t_s = step.t_s;
     match &step.change {
         RequestedChange::Pulse => serde_json::json!({ "t_s": t_s, "pulse": true }),

@@ -152,13 +152,13 @@ impl Watch for LongRun {
 /// Returns how much of a run to `end_s` is done, by its time or by its bound, and in words.
 fn progress(motion: &Motion, end_s: f64) -> (f64, String) {
     let now = motion.t_s();
-    let (part, told) = (now / end_s, format!("{} of {}", time(now), time(end_s)));
+    let (part, text) = (now / end_s, format!("{} of {}", time(now), time(end_s)));
     match motion.events() {
         Some(events) => {
             let bound = events as f64 / MOST_EVENTS as f64;
-            (part.max(bound), format!("{told}, changes of contact: {}", grouped(events)))
+            (part.max(bound), format!("{text}, changes of contact: {}", grouped(events)))
         }
-        None => (part, told),
+        None => (part, text),
     }
 }
 
@@ -212,9 +212,9 @@ mod long_run_tests {
         assert!(run.bound.is_some(), "not before it is long");
         run.look_after(SILENCE, &motion);
         assert_eq!(run.bound, None);
-        let told = bound(&scene, 3);
+        let text = bound(&scene, 3);
         for words in ["ends at 1e6 s, or after 10,000,000 changes of contact", "3 changed runs"] {
-            assert!(told.contains(words), "{told}");
+            assert!(text.contains(words), "{text}");
         }
     }
 
@@ -224,8 +224,8 @@ mod long_run_tests {
         let mut motion = Motion::new(&scene);
         motion.advance(0.1).unwrap();
         let events = motion.events().unwrap();
-        let told = format!("100 ms of 200 ms, changes of contact: {events}");
-        assert_eq!(progress(&motion, 0.2), (0.5, told));
+        let text = format!("100 ms of 200 ms, changes of contact: {events}");
+        assert_eq!(progress(&motion, 0.2), (0.5, text));
         assert_eq!(progress(&motion, 1e9).0, events as f64 / 1e7);
     }
 
@@ -244,7 +244,7 @@ mod long_run_tests {
     fn a_run_by_steps_is_bounded_by_their_number() {
         let mut scene = Scene::base();
         (scene.solver.step_s, scene.solver.end_s) = (0.5_f64.powi(20), 0.5);
-        let told = "rubscope: a long run: it ends at 500 ms, after 524,288 steps";
-        assert_eq!(bound(&scene.checked().unwrap(), 0), told);
+        let text = "rubscope: a long run: it ends at 500 ms, after 524,288 steps";
+        assert_eq!(bound(&scene.checked().unwrap(), 0), text);
     }
 }

@@ -117,13 +117,13 @@ pub fn usage(error: &clap::Error, arguments: &[OsString]) -> u8 {
 
 /// Returns the message of clap without its usage block, as one line.
 fn in_one_line(message: &str) -> String {
-    let told: Vec<&str> = message
+    let kept: Vec<&str> = message
         .lines()
         .map(str::trim)
         .take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more"))
         .filter(|line| !line.is_empty() && !line.starts_with("tip: to pass"))
         .collect();
-    let line = told.join(" ");
+    let line = kept.join(" ");
     let line = line.strip_prefix("error: ").unwrap_or(&line);
     format!("{line} (see rubscope --help)")
 }

@@ -55,7 +55,7 @@ pub fn time(seconds: f64) -> String {
 /// it; in letters of ASCII.
 #[must_use]
 pub fn with_unit(x: f64, digits: usize, unit: &str) -> String {
-    let (x, unit) = told(x, unit);
+    let (x, unit) = in_shown_unit(x, unit);
     let scale = SiScale::before(unit, x);
     let shown = short(rounded(x / scale.factor, digits));
     format!("{shown} {}{unit}", scale.in_ascii()).trim_end().to_string()
@@ -103,7 +103,7 @@ pub fn per_frequency(omega: f64) -> f64 {
 
 /// Returns a number and its unit as they are shown.
 #[must_use]
-pub fn told(x: f64, unit: &str) -> (f64, &str) {
+pub fn in_shown_unit(x: f64, unit: &str) -> (f64, &str) {
     if unit == RAD_S { (per_speed(x), speed_unit()) } else { (x, unit) }
 }
 
@@ -226,7 +226,7 @@ impl Digits {
 
     /// `x` as `show` writes it, in the digits that hold where changes move it by
     /// `spread`, or make that there is no such number.
-    pub fn told(&self, x: f64, spread: Option<f64>, show: impl Fn(f64) -> String) -> String {
+    pub fn shown(&self, x: f64, spread: Option<f64>, show: impl Fn(f64) -> String) -> String {
         let spread = if self.known { spread.unwrap_or(f64::INFINITY) } else { 0.0 };
         match held(x, spread) {
             MOST.. => show(x),
@@ -329,19 +329,19 @@ mod digits_tests {
             (2.68635e-6, f64::INFINITY, "about 3e-6"),
             (0.0, 1e-9, "0"),
         ] {
-            assert_eq!(Digits::of(true).told(x, Some(spread), short), text, "{x} {spread}");
+            assert_eq!(Digits::of(true).shown(x, Some(spread), short), text, "{x} {spread}");
         }
     }
 
     #[test]
     fn what_was_not_told_is_said() {
         let digits = Digits::of(true);
-        assert_eq!((digits.told(1.25, Some(0.0), short), digits.note()), ("1.25".into(), None));
-        let _ = digits.told(1.25, Some(0.04), short);
+        assert_eq!((digits.shown(1.25, Some(0.0), short), digits.note()), ("1.25".into(), None));
+        let _ = digits.shown(1.25, Some(0.04), short);
         assert!(digits.note().unwrap().contains("left out"));
         // A run that changes have none of has no number that holds.
-        let _ = digits.told(1.25, None, short);
+        let _ = digits.shown(1.25, None, short);
         assert!(digits.note().unwrap().contains("No digit holds"));
-        assert_eq!(Digits::of(false).told(1.25, None, short), "1.25");
+        assert_eq!(Digits::of(false).shown(1.25, None, short), "1.25");
     }
 }

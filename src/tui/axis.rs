@@ -2,7 +2,7 @@
 //! that follow the data with hysteresis, so that the scale does not jump.
 
 pub use crate::report::number::SiScale;
-use crate::report::number::{per_speed, told, trimmed};
+use crate::report::number::{in_shown_unit, per_speed, trimmed};
 pub use crate::report::ticks::{nice_step, ticks};
 
 /// The axis of a chart: its range and the prefix of its labels.
@@ -33,7 +33,7 @@ impl ChartAxis {
         Self { low, high, scale: SiScale::plain(), powers: false, unit: None, speeds: false }
     }
 
-    /// Creates an axis of speeds \[rad/s\], in the unit in which they are told.
+    /// Creates an axis of speeds \[rad/s\], in the unit in which they are in_shown_unit.
     pub fn speeds(low: f64, high: f64) -> Self {
         let scale = SiScale { factor: 1.0 / per_speed(1.0), prefix: "" };
         Self { scale, speeds: true, ..Self::plain(low, high) }
@@ -86,7 +86,7 @@ impl ChartAxis {
 /// Returns a number in readable form: up to seven digits, a prefix for units that take one,
 /// no trailing zeros.
 pub fn number(x: f64, unit: &str) -> String {
-    let (x, unit) = told(x, unit);
+    let (x, unit) = in_shown_unit(x, unit);
     let scale = SiScale::before(unit, x);
     let shown = x / scale.factor;
     let text = if shown != 0.0 && !(1e-4..1e7).contains(&shown.abs()) {
@@ -113,7 +113,7 @@ fn prefixed(value: f64, digits: usize, unit: &str) -> String {
     if !value.is_finite() {
         return format!("- {unit}").trim_end().to_string();
     }
-    let (value, unit) = told(value, unit);
+    let (value, unit) = in_shown_unit(value, unit);
     let scale = if unit == "rpm" { SiScale::plain() } else { SiScale::of(value) };
     let shown = value / scale.factor;
     let before = 1 + [10.0, 100.0, 1000.0].iter().filter(|limit| shown.abs() >= **limit).count();
@@ -213,11 +213,11 @@ mod tests {
         let axis = ChartAxis::speeds(0.0, 600.0);
         let (values, step) = axis.ticks(5);
         let labels: Vec<String> = values.iter().map(|value| axis.label(*value, step)).collect();
-        let told = (readable(50.0 * std::f64::consts::PI, "rad/s"), number(-100.0, "rad/s"));
+        let shown = (readable(50.0 * std::f64::consts::PI, "rad/s"), number(-100.0, "rad/s"));
         crate::report::number::tell_in_rpm(false);
         assert!(labels.len() > 2, "{labels:?}");
         assert!(labels.iter().all(|label| label.parse::<u32>().unwrap() % 1000 == 0), "{labels:?}");
-        assert_eq!(told, ("1500 rpm".into(), "-954.9297 rpm".into()));
+        assert_eq!(shown, ("1500 rpm".into(), "-954.9297 rpm".into()));
         assert_eq!(ChartAxis::speeds(0.0, 600.0).ticks(6).0[1], 100.0);
     }
 

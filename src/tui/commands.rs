@@ -105,7 +105,7 @@ pub fn only(app: &App, typed: &str) -> Result<Found, String> {
     let lower = typed.to_lowercase();
     let words: Vec<&str> = lower.split_whitespace().collect();
     // Nobody looks at what was found: letters between others are not enough, where it is
-    // not told by its own word.
+    // not named by its own word.
     let is_like =
         |item: &Found| !is_named(item) || rank(item, &words).is_none_or(|(is_like, _)| !is_like);
     let refusal = refused(app, typed);
@@ -131,7 +131,7 @@ pub fn only(app: &App, typed: &str) -> Result<Found, String> {
     }
 }
 
-/// Returns whether something is found by its words, not told by a word of its own.
+/// Returns whether something is found by its words, not found by a word of its own.
 fn is_named(item: &Found) -> bool {
     match item.command {
         Command::Act(_) | Command::Scene(_) | Command::Lesson(_) | Command::Select(_) => true,
@@ -421,8 +421,8 @@ mod tests {
             for name in [label.to_string(), label.to_lowercase(), plain(label), knob.path.into()] {
                 let typed = format!("{name} {}", knob.text(&app.scene));
                 assert_eq!(sets(&typed), Ok(place), "{typed}");
-                let told = only(&app, &name).unwrap();
-                assert_eq!(told.command, Command::Select(place), "{name}");
+                let found = only(&app, &name).unwrap();
+                assert_eq!(found.command, Command::Select(place), "{name}");
             }
         }
         for (typed, symbol) in [("F", "F"), ("n_d", "n_d"), ("K_BB", "k_bb"), ("om", "Ω")] {

@@ -10,7 +10,7 @@ use super::app::App;
 use super::axis::number;
 use super::knobs::knob_of;
 use super::views::id::ViewId;
-use crate::report::number::{frequency_unit, per_frequency, told};
+use crate::report::number::{frequency_unit, in_shown_unit, per_frequency};
 use rubscope_solver::harmonic::Joint;
 
 /// The text of the glossary.
@@ -135,7 +135,7 @@ impl Term {
         let value = value(app).filter(|value| value.is_finite())?;
         let (value, unit) = match *unit {
             FREQUENCY => (per_frequency(value), frequency_unit()),
-            unit => told(value, unit),
+            unit => in_shown_unit(value, unit),
         };
         // Four digits are enough to know where one stands.
         let rounded: f64 = format!("{value:.3e}").parse().ok()?;

@@ -267,8 +267,8 @@ impl Lines {
             .collect();
         let changed = (!parts.is_empty()).then(|| format!("changed: {}", parts.join("; ")));
         let said = shown.or(self.app.status.clone()).map(|said| format!("done: {said}"));
-        let told: Vec<String> = changed.into_iter().chain(said).collect();
-        if told.is_empty() { vec!["changed: nothing".into()] } else { told }
+        let lines: Vec<String> = changed.into_iter().chain(said).collect();
+        if lines.is_empty() { vec!["changed: nothing".into()] } else { lines }
     }
 
     fn help(&self, words: &str, out: &mut dyn Write) -> Result<(), Error> {
@@ -297,11 +297,11 @@ fn shown(found: &Found) -> Option<String> {
         commands::Command::Axes(_) | commands::Command::Theme(_) => Action::Theme,
         _ => return None,
     };
-    let told = [Action::Step, Action::Restart, Action::Fire, Action::Jump, Action::GoToEnd];
+    let moves = [Action::Step, Action::Restart, Action::Fire, Action::Jump, Action::GoToEnd];
     match action.group() {
         Group::Look | Group::Views => {}
         // The motion waits: nothing plays.
-        Group::Time if !told.contains(&action) => {}
+        Group::Time if !moves.contains(&action) => {}
         _ => return None,
     }
     Some(format!("{}; only a screen shows it", found.what))

@@ -62,7 +62,7 @@ pub use options::{Color, ExploreOptions};
 pub use raster::Marker;
 pub use run::run;
 pub use theme::{Theme, ThemeChoice};
-pub use update::{Effect, Heard};
+pub use update::{Effect, MouseOutcome};
 
 use rubscope_solver::scene::CheckedScene;
 

@@ -273,8 +273,8 @@ mod tests {
                 let same = |other: Role| theme.style(role) == theme.style(other);
                 assert_eq!(same(Role::Trouble), role == Role::Trouble, "{theme:?} {role:?}");
                 // Without colours contact has its sign.
-                let told = theme != Theme::Mono || role != Role::Focus;
-                assert!(!told || same(Role::Contact) == (role == Role::Contact), "{theme:?}");
+                let distinct = theme != Theme::Mono || role != Role::Focus;
+                assert!(!distinct || same(Role::Contact) == (role == Role::Contact), "{theme:?}");
             }
         }
     }

@@ -141,7 +141,7 @@ impl Tty {
     /// The terminal is closed.
     pub fn read(&self, bytes: &mut [u8], wait: Option<Duration>) -> Result<Option<usize>> {
         let wait = wait.and_then(|wait| Timespec::try_from(wait).ok());
-        // Each look is told anew of bytes that are still there.
+        // Each poll reports bytes that are still there.
         match poll(&mut [PollFd::new(&self.keys, PollFlags::IN)], wait.as_ref()) {
             Ok(0) | Err(Errno::INTR) => return Ok(None),
             Ok(_) => {}

@@ -217,7 +217,7 @@ impl App {
             self.run.latest.trouble = snapshot.trouble;
             return true;
         }
-        // An answer is told with its value, however old.
+        // A verdict is shown with its value, however old.
         self.run.answer = snapshot.results.answer.take().or(self.run.answer.take());
         if snapshot.restarts != self.run.restarts {
             return false;
@@ -236,7 +236,7 @@ impl App {
         self.run.latest = Snapshot { results, trouble: known.trouble, ..snapshot };
         self.turn_page();
         self.fit_to_forecast(!had_forecast);
-        self.tell_moment();
+        self.report_moment();
         self.check_lesson();
         true
     }
@@ -277,7 +277,7 @@ impl App {
     }
 
     /// Says what a jump has met, and that the run has come to its end.
-    fn tell_moment(&mut self) {
+    fn report_moment(&mut self) {
         let Some(moment) = self.moment() else { return };
         let ((jumps, met), ends) = (moment.met, moment.ends);
         if self.play.is_met(jumps) {

@@ -136,7 +136,7 @@ fn mouse(bits: u8, column: u16, row: u16, up: bool) -> Option<Event> {
         (0 | 1, true, _) => MouseEventKind::Moved,
         (0, _, Some(button)) if up => MouseEventKind::Up(button),
         (0, _, Some(button)) => MouseEventKind::Down(button),
-        // Which one is not told.
+        // The button is not reported.
         (0, _, None) => MouseEventKind::Up(MouseButton::Left),
         (1, ..) => match bits & 3 {
             0 => MouseEventKind::ScrollUp,

@@ -19,15 +19,15 @@ use rubscope_solver::scene::ContactLaw;
 type Parts = Vec<(String, Style)>;
 
 /// Columns of the lines where there is no screen: room for all of them.
-const TOLD: u16 = 240;
+const WIDE: u16 = 240;
 
 /// Returns both lines as text, for where there is no screen.
 pub fn head_text(app: &App) -> [String; 2] {
-    let area = Rect::new(0, 0, TOLD, 2);
+    let area = Rect::new(0, 0, WIDE, 2);
     let mut buffer = Buffer::empty(area);
     draw(app, &mut buffer, area);
     let row = |y: u16| {
-        let cells = (0..TOLD).filter_map(|x| buffer.cell((x, y)));
+        let cells = (0..WIDE).filter_map(|x| buffer.cell((x, y)));
         let text: String = cells.map(|cell| cell.symbol()).collect();
         // What stands apart on a screen is parted by three spaces.
         let parts = text.split("   ").map(str::trim).filter(|part| !part.is_empty());
@@ -51,17 +51,17 @@ fn sentence(app: &App, buffer: &mut Buffer, area: Rect) -> u16 {
     let look = &app.appearance;
     // A space on each side of the word.
     let width = usize::from(area.width).saturating_sub(1);
-    let (told, style) = told(app, width);
-    let mut parts = vec![(format!(" {} ", told.word), style.add_modifier(Modifier::REVERSED))];
-    parts.push((format!(" {}", told.what), look.style(Role::Text)));
-    parts.extend(told.doubt.map(|doubt| (format!(" {doubt}"), look.style(Role::Trouble))));
+    let (headline, style) = headline(app, width);
+    let mut parts = vec![(format!(" {} ", headline.word), style.add_modifier(Modifier::REVERSED))];
+    parts.push((format!(" {}", headline.what), look.style(Role::Text)));
+    parts.extend(headline.doubt.map(|doubt| (format!(" {doubt}"), look.style(Role::Trouble))));
     let parts: Parts = parts.into_iter().map(|(text, style)| (look.spell(&text), style)).collect();
     pieces(buffer, area, 0, &parts);
     u16::try_from(parts.iter().map(|(text, _)| columns(text)).sum::<usize>()).unwrap_or(u16::MAX)
 }
 
-/// Returns what is told of the run in so many columns, and the style of its word.
-pub fn told(app: &App, width: usize) -> (Sentence, Style) {
+/// Returns what is listed of the run in so many columns, and the style of its word.
+pub fn headline(app: &App, width: usize) -> (Sentence, Style) {
     let look = &app.appearance;
     // The end would answer the question of a lesson.
     if app.is_asked() {
@@ -253,7 +253,7 @@ fn limits(app: &App) -> Option<Part> {
     let quiet = app.appearance.style(Role::Quiet);
     let to = app.lock_window().and_then(|window| window.to);
     let known = named_limits(app).into_iter().filter_map(|(name, limit)| Some((name, limit?)));
-    let mut told: Vec<String> = known
+    let mut listed: Vec<String> = known
         .map(|(name, limit)| {
             let to = to.filter(|_| name == "Ω_lock").map(|to| format!(" to {}", short(to)));
             format!("{name} {}{}", short(limit), to.unwrap_or_default())
@@ -262,9 +262,9 @@ fn limits(app: &App) -> Option<Part> {
     if !app.is_coupled()
         && let Some(coincidence) = app.machine.dangerous_speed_toward(app.speed())
     {
-        told.push(format!("coincidence {}", short(coincidence)));
+        listed.push(format!("coincidence {}", short(coincidence)));
     }
-    (!told.is_empty()).then(|| Part::plain(10, told.join(", "), quiet))
+    (!listed.is_empty()).then(|| Part::plain(10, listed.join(", "), quiet))
 }
 
 /// Writes a limit with four or five digits.
@@ -376,7 +376,7 @@ mod tests {
     fn a_run_that_was_given_up_is_told_as_text_and_not_as_work() {
         let scene = Scene::base().checked().unwrap();
         let mut app = App::new(scene, Theme::Dark, Marker::Braille);
-        let style = |app: &App| told(app, 80).1;
+        let style = |app: &App| headline(app, 80).1;
         assert_eq!(style(&app), app.appearance.style(Role::Quiet));
         app.run.latest.results.full_run = Some(FullRunState::GivenUp(0.3));
         assert_eq!(app.verdict_word(), "NO FORECAST");

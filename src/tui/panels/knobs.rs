@@ -232,7 +232,7 @@ pub fn lines(app: &App, height: u16) -> Vec<ColumnLine> {
 }
 
 /// Returns all lines with these groups open; of what goes beyond the paper, the knobs by which the
-/// scene leaves it are told where there is room.
+/// scene leaves it are legend_of where there is room.
 fn all(app: &App, open: &[Group], telling: bool) -> Vec<ColumnLine> {
     let mut lines = Vec::new();
     for group in Group::ALL {
@@ -349,13 +349,13 @@ mod tests {
     fn the_letters_that_are_drawn_on_a_bar_are_told_and_no_others() {
         let scene = rubscope_solver::scene::Scene::base().checked().unwrap();
         let app = App::new(scene, crate::tui::Theme::Mono, crate::tui::Marker::Braille);
-        let told = |width| legend(&app, Rect::new(0, 0, width, 1), &KNOBS[0]).unwrap();
-        let wide = told(200);
+        let legend_of = |width| legend(&app, Rect::new(0, 0, width, 1), &KNOBS[0]).unwrap();
+        let wide = legend_of(200);
         for meaning in ["a adhesive limit", "x coincidence", "c Ω_c", "L Ω_lock"] {
             assert!(wide.contains(meaning), "{wide}");
         }
         // In one cell only the last can be seen.
-        assert_eq!(told(1), "On its bar: L Ω_lock.");
+        assert_eq!(legend_of(1), "On its bar: L Ω_lock.");
     }
 
     #[test]

@@ -44,9 +44,9 @@ pub fn split(app: &App, area: Rect) -> [Rect; 4] {
 /// Draws the verdict and its reason.
 pub fn letters(app: &App, buffer: &mut Buffer, area: Rect) {
     let look = &app.appearance;
-    let (told, style) = header::told(app, usize::from(area.width));
+    let (headline, style) = header::headline(app, usize::from(area.width));
     let rows = area.height.saturating_sub(1);
-    let wide = u16::try_from(columns(&told.word)).unwrap_or(u16::MAX);
+    let wide = u16::try_from(columns(&headline.word)).unwrap_or(u16::MAX);
     let sizes = [
         (PixelSize::Full, 8, 8, true),
         (PixelSize::HalfHeight, 8, 4, false),
@@ -60,7 +60,7 @@ pub fn letters(app: &App, buffer: &mut Buffer, area: Rect) {
             let text = BigText::builder()
                 .pixel_size(size)
                 .style(style)
-                .lines(vec![told.word.as_str().into()])
+                .lines(vec![headline.word.as_str().into()])
                 .centered()
                 .build();
             let area = Rect { height: rows, ..area };
@@ -70,9 +70,10 @@ pub fn letters(app: &App, buffer: &mut Buffer, area: Rect) {
                 solid(buffer, area);
             }
         }
-        None => centred(app, buffer, area, rows / 2, &told.word, style),
+        None => centred(app, buffer, area, rows / 2, &headline.word, style),
     }
-    let parts = told.doubt.map_or(told.what.clone(), |doubt| format!("{} {doubt}", told.what));
+    let parts =
+        headline.doubt.map_or(headline.what.clone(), |doubt| format!("{} {doubt}", headline.what));
     centred(app, buffer, area, rows, &parts, look.style(Role::Text));
 }
 

@@ -10,7 +10,7 @@ mod mouse;
 mod reading;
 mod sweep;
 
-pub use mouse::Heard;
+pub use mouse::MouseOutcome;
 
 use rubscope_solver::scene::keys::PULSE;
 use std::path::PathBuf;

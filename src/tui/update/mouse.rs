@@ -10,7 +10,7 @@ use crate::tui::panels::{self, Target};
 
 /// Effect of a mouse event.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Heard {
+pub enum MouseOutcome {
     /// Nothing on the screen.
     Nothing,
     /// The reading cursor follows the pointer: the next frame is soon enough.
@@ -21,43 +21,48 @@ pub enum Heard {
 
 impl App {
     /// Handles a mouse event.
-    pub fn mouse(&mut self, event: &MouseEvent) -> Heard {
+    pub fn mouse(&mut self, event: &MouseEvent) -> MouseOutcome {
         let at = (event.column, event.row);
         if !self.mouse.on {
-            return Heard::Nothing;
+            return MouseOutcome::Nothing;
         }
         let heard = match (&self.dialogue.mode, event.kind) {
             // A typed name is finished or left by a key.
-            (InputMode::Naming(..) | InputMode::Replacing(..), _) => Heard::Nothing,
+            (InputMode::Naming(..) | InputMode::Replacing(..), _) => MouseOutcome::Nothing,
             (_, MouseEventKind::Down(MouseButton::Left)) if self.key_at(at).is_some() => {
-                self.key_at(at).map_or(Heard::Nothing, |action| self.acted(action))
+                self.key_at(at).map_or(MouseOutcome::Nothing, |action| self.acted(action))
             }
             (InputMode::Main | InputMode::Typing(_), kind) => self.mouse_main(kind, event, at),
             (_, MouseEventKind::ScrollUp) => self.acted(Action::KnobAbove),
             (_, MouseEventKind::ScrollDown) => self.acted(Action::KnobBelow),
             (_, MouseEventKind::Down(MouseButton::Right)) => self.acted(Action::Close),
             (_, MouseEventKind::Down(MouseButton::Left)) => self.choose(at),
-            _ => Heard::Nothing,
+            _ => MouseOutcome::Nothing,
         };
-        if matches!(heard, Heard::Acted(_)) {
+        if matches!(heard, MouseOutcome::Acted(_)) {
             self.files.disturb();
             self.check_lesson();
         }
         heard
     }
 
-    fn acted(&mut self, action: Action) -> Heard {
-        Heard::Acted(self.act(action))
+    fn acted(&mut self, action: Action) -> MouseOutcome {
+        MouseOutcome::Acted(self.act(action))
     }
 
-    fn mouse_main(&mut self, kind: MouseEventKind, event: &MouseEvent, at: (u16, u16)) -> Heard {
+    fn mouse_main(
+        &mut self,
+        kind: MouseEventKind,
+        event: &MouseEvent,
+        at: (u16, u16),
+    ) -> MouseOutcome {
         match kind {
             MouseEventKind::Down(MouseButton::Left) => self.click(at),
             MouseEventKind::Down(MouseButton::Right) => self.acted(Action::Close),
             MouseEventKind::Drag(MouseButton::Left) => self.drag(at),
             MouseEventKind::Up(_) => {
                 self.mouse.grip = None;
-                Heard::Nothing
+                MouseOutcome::Nothing
             }
             MouseEventKind::Moved => self.hover(at),
             MouseEventKind::ScrollUp | MouseEventKind::ScrollDown => {
@@ -65,12 +70,12 @@ impl App {
                 let up = kind == MouseEventKind::ScrollUp;
                 self.wheel(at, up, event.modifiers.intersects(coarse))
             }
-            _ => Heard::Nothing,
+            _ => MouseOutcome::Nothing,
         }
     }
 
-    fn click(&mut self, at: (u16, u16)) -> Heard {
-        let Some(target) = panels::target(self, at) else { return Heard::Nothing };
+    fn click(&mut self, at: (u16, u16)) -> MouseOutcome {
+        let Some(target) = panels::target(self, at) else { return MouseOutcome::Nothing };
         if matches!(&self.dialogue.mode, InputMode::Typing(_)) {
             self.act(Action::Close);
         }
@@ -91,38 +96,38 @@ impl App {
             Target::Chart(_) if again && self.reading.cursor.is_some() => self.open_cursor(),
             Target::Chart(cursor) => self.point(cursor),
         }
-        Heard::Acted(Effect::None)
+        MouseOutcome::Acted(Effect::None)
     }
 
-    fn drag(&mut self, at: (u16, u16)) -> Heard {
+    fn drag(&mut self, at: (u16, u16)) -> MouseOutcome {
         let Some(grip) = self.mouse.grip else { return self.hover(at) };
         if at.0 == grip.x && !grip.turned {
-            return Heard::Nothing;
+            return MouseOutcome::Nothing;
         }
-        let Some(part) = panels::part_of_bar(self, at.0) else { return Heard::Nothing };
+        let Some(part) = panels::part_of_bar(self, at.0) else { return MouseOutcome::Nothing };
         let known = self.knobs.remembered();
         self.set_part(grip.knob, part);
         if grip.turned {
             self.knobs.merge(known);
         }
         self.mouse.grip = Some(Grip { turned: true, ..grip });
-        Heard::Acted(Effect::None)
+        MouseOutcome::Acted(Effect::None)
     }
 
-    fn hover(&mut self, at: (u16, u16)) -> Heard {
+    fn hover(&mut self, at: (u16, u16)) -> MouseOutcome {
         if self.mouse.clicked.is_some_and(|clicked| clicked != at) {
             self.mouse.clicked = None;
         }
         let Some(Target::Chart(cursor)) = panels::target(self, at).filter(|_| self.reading.on)
         else {
-            return Heard::Nothing;
+            return MouseOutcome::Nothing;
         };
         let moved = self.reading.cursor != Some(cursor);
         self.put_cursor(cursor);
-        if moved { Heard::Pointed } else { Heard::Nothing }
+        if moved { MouseOutcome::Pointed } else { MouseOutcome::Nothing }
     }
 
-    fn wheel(&mut self, at: (u16, u16), up: bool, coarse: bool) -> Heard {
+    fn wheel(&mut self, at: (u16, u16), up: bool, coarse: bool) -> MouseOutcome {
         let target = panels::target(self, at);
         // A row with or without a bar moves those below under a pointer that stays.
         let same = |(place, knob): &((u16, u16), usize)| {
@@ -140,18 +145,18 @@ impl App {
             Some(Target::Chart(_)) if self.panel().is_over_time(self) => {
                 self.acted(if up { Action::ZoomIn } else { Action::ZoomOut })
             }
-            _ => Heard::Nothing,
+            _ => MouseOutcome::Nothing,
         }
     }
 
     /// Chooses an entry of the list that is open.
-    fn choose(&mut self, at: (u16, u16)) -> Heard {
+    fn choose(&mut self, at: (u16, u16)) -> MouseOutcome {
         match (&self.dialogue.mode, panels::lesson_at(self, at)) {
             (InputMode::Lessons(_), Some(place)) => {
                 self.dialogue.open(InputMode::Lessons(place));
                 self.acted(Action::Accept)
             }
-            _ => Heard::Nothing,
+            _ => MouseOutcome::Nothing,
         }
     }
 
@@ -194,14 +199,14 @@ mod tests {
         let mut app = on_screen();
         app.note_key(Rect::new(0, 39, 4, 1), Action::Help);
         app.note_key(Rect::new(6, 39, 4, 1), Action::Quit);
-        assert_eq!(app.mouse(&event(LEFT, (3, 39))), Heard::Acted(Effect::None));
+        assert_eq!(app.mouse(&event(LEFT, (3, 39))), MouseOutcome::Acted(Effect::None));
         assert!(matches!(app.dialogue.mode, InputMode::Help(_)));
-        assert_eq!(app.mouse(&event(LEFT, (5, 39))), Heard::Nothing);
-        assert_eq!(app.mouse(&event(LEFT, (9, 39))), Heard::Acted(Effect::Quit));
-        assert_eq!(app.mouse(&event(MouseEventKind::Moved, (9, 39))), Heard::Nothing);
+        assert_eq!(app.mouse(&event(LEFT, (5, 39))), MouseOutcome::Nothing);
+        assert_eq!(app.mouse(&event(LEFT, (9, 39))), MouseOutcome::Acted(Effect::Quit));
+        assert_eq!(app.mouse(&event(MouseEventKind::Moved, (9, 39))), MouseOutcome::Nothing);
         // A name that is typed is finished by a key.
         app.dialogue.mode = InputMode::Naming(super::super::Purpose::Save, "a".into());
-        assert_eq!(app.mouse(&event(LEFT, (9, 39))), Heard::Nothing);
+        assert_eq!(app.mouse(&event(LEFT, (9, 39))), MouseOutcome::Nothing);
     }
 
     #[test]
@@ -209,7 +214,7 @@ mod tests {
         let mut app = on_screen();
         app.note_key(Rect::new(0, 39, 4, 1), Action::Help);
         assert!(app.mouse.toggle().contains("off") && !app.mouse.on);
-        assert_eq!(app.mouse(&event(LEFT, (0, 39))), Heard::Nothing);
+        assert_eq!(app.mouse(&event(LEFT, (0, 39))), MouseOutcome::Nothing);
         assert!(app.mouse.toggle().contains("on") && app.dialogue.is_closed());
     }
 }

@@ -279,7 +279,7 @@ mod tests {
     fn a_held_key_gets_the_answer_of_a_run_that_was_begun() {
         let mut answers = Answers::default();
         // Each run has a slice before the next turn of the knob, and takes many.
-        let mut told = Vec::new();
+        let mut reported = Vec::new();
         for turn in 0..100_000 {
             let (scene, mut run) = run(400.0 + 1e-3 * f64::from(turn));
             if !answers.compute() {
@@ -287,15 +287,15 @@ mod tests {
             }
             answers.turned_on(&scene, run);
             let speed = answers.latest().map(|answer| answer.scene.operation.speed_rad_s);
-            if told.last().copied() != speed {
-                told.extend(speed);
+            if reported.last().copied() != speed {
+                reported.extend(speed);
             }
-            if told.len() > 2 {
+            if reported.len() > 2 {
                 break;
             }
         }
         // Not those of all values, but the next one begins when one is done.
-        assert!(told.len() > 2 && told.is_sorted(), "{told:?}");
+        assert!(reported.len() > 2 && reported.is_sorted(), "{reported:?}");
     }
 
     #[test]

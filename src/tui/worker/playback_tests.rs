@@ -90,8 +90,8 @@ fn a_jump_stops_at_the_change_of_contact_at_any_zoom() {
             playback.apply(&order);
             let now = playback.motion.t_s();
             assert!((now - impact).abs() <= 1e-12 * impact.max(1e-6), "{now} {impact}");
-            let (told, met) = playback.snapshot().moment.unwrap().met;
-            assert_eq!((told, met.unwrap().t_s), (number, *impact));
+            let (number_met, met) = playback.snapshot().moment.unwrap().met;
+            assert_eq!((number_met, met.unwrap().t_s), (number, *impact));
         }
     }
 }

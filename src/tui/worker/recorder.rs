@@ -95,7 +95,7 @@ impl Recorder {
         let new = log.impact_count.saturating_sub(self.impacts);
         let impacts = || log.impacts.iter().skip(known).map(|impact| impact.t_s);
         // Of impacts whose instants are not kept, only the sample is known.
-        let untold = usize::try_from(new).is_ok_and(|new| impacts().count() < new);
+        let unknown = usize::try_from(new).is_ok_and(|new| impacts().count() < new);
         let [was, is] = [self.active_set, log.active_set].map(|set| set != ActiveSet::Nothing);
         let ended = log.last_contact.filter(|t| *t > from && *t <= to);
         let last = if is { Some(to) } else { ended };
@@ -104,7 +104,7 @@ impl Recorder {
             (false, true) => Some(log.since.clamp(from, to)),
             (false, false) => last,
         };
-        let all = [first.zip(last), untold.then_some((from, to))].into_iter().flatten();
+        let all = [first.zip(last), unknown.then_some((from, to))].into_iter().flatten();
         let all = all.chain(impacts().map(|t| (t, t)));
         all.reduce(|(a, b), (c, d)| (a.min(c), b.max(d)))
     }

@@ -6,7 +6,7 @@ use ratatui::style::Style;
 use super::picture::{is_inside, sign};
 use super::plan::{CellRun, LiveMap};
 use crate::report::map::means;
-use crate::report::number::{count, grouped, rounded, told};
+use crate::report::number::{count, grouped, in_shown_unit, rounded};
 use crate::tui::app::App;
 use crate::tui::axis::{number, readable};
 use crate::tui::knobs::{Knob, knob_of};
@@ -60,7 +60,7 @@ fn axis_name(axis: &Axis) -> String {
         unit => {
             // The same prefix as the ticks.
             let scale = crate::tui::axis::SiScale::of(axis.from.abs().max(axis.to.abs()));
-            let (_, unit) = told(0.0, unit);
+            let (_, unit) = in_shown_unit(0.0, unit);
             if axis.path == SPEED {
                 return format!("{name} [{unit}]");
             }

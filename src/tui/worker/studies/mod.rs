@@ -99,20 +99,20 @@ pub trait Study: fmt::Debug + Sized {
 
 /// A study, and what it found for the inputs before.
 #[derive(Debug)]
-struct Kept<S: Study> {
+struct StudySlot<S: Study> {
     study: Option<(S::Key, S)>,
     before: Option<Arc<S::Found>>,
     /// Start of the computation.
     since: Option<Instant>,
 }
 
-impl<S: Study> Default for Kept<S> {
+impl<S: Study> Default for StudySlot<S> {
     fn default() -> Self {
         Self { study: None, before: None, since: None }
     }
 }
 
-impl<S: Study> Kept<S> {
+impl<S: Study> StudySlot<S> {
     fn replace(&mut self, study: Option<(S::Key, S)>) {
         let old = std::mem::replace(&mut self.study, study);
         let found = old.as_ref().and_then(|(_, old)| old.found()).filter(|_| S::STAYS).cloned();
@@ -143,7 +143,7 @@ trait Work {
     fn working(&self, given: &Given) -> Option<Working>;
 }
 
-impl<S: Study> Work for Kept<S> {
+impl<S: Study> Work for StudySlot<S> {
     fn is_beside(&self) -> bool {
         S::BESIDE
     }
@@ -184,7 +184,7 @@ macro_rules! studies {
         #[derive(Debug, Default)]
         pub struct Studies {
             bounds: Bounds,
-            $($name: Kept<$study>,)*
+            $($name: StudySlot<$study>,)*
         }
 
         impl Studies {
