@@ -301,7 +301,8 @@ fn blades_turned_past_their_neighbours() {
 /// The scheme without round-off, at the longest step that figure 4 names.
 #[test]
 fn round_off_moves_the_lock_at_the_longest_step_of_figure_4() {
-    let scene = Scene::builtin("paper-figs-4-6").unwrap().with(&[("solver.step_s", "1e-6")]).unwrap();
+    let scene =
+        Scene::builtin("paper-figs-4-6").unwrap().with(&[("solver.step_s", "1e-6")]).unwrap();
     let mut plain = Plain::new(&scene);
     plain.advance(0.082).unwrap();
     let since = plain.kept_since().unwrap();
