@@ -6,7 +6,7 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Modifier, Style};
 
 use crate::report::table::{TableCell, write_csv};
-use crate::tui::app::{App, Cursor};
+use crate::tui::app::{App, Cursor, Target};
 use crate::tui::appearance::Appearance;
 use crate::tui::axis::ChartAxis;
 use crate::tui::plot::Plot;
@@ -101,7 +101,7 @@ impl ViewArea {
     /// Notes where data is drawn, so that the mouse can point at it.
     pub fn note(self, app: &App, inner: Rect) {
         if self.large {
-            app.note_chart(inner, [(0.0, 1.0); 2]);
+            app.note(inner, Target::Chart([(0.0, 1.0); 2]));
         }
     }
 
@@ -109,7 +109,7 @@ impl ViewArea {
     /// across, and up.
     pub fn note_part(self, app: &App, inner: Rect, parts: [(f64, f64); 2]) {
         if self.large && inner.area() > 0 {
-            app.note_chart(inner, parts);
+            app.note(inner, Target::Chart(parts));
         }
     }
 
