@@ -140,7 +140,8 @@ fn kept(app: &App, width: u16, message: Option<usize>) -> Vec<Entry> {
         let mut entries: Vec<Entry> = Vec::new();
         for binding in current(app).filter(|binding| is_kept(binding)) {
             let Some((keys, word)) = binding.footer else { continue };
-            if binding.action == Action::Palette && !palette {
+            let known = entries.iter().any(|entry| entry.binding.action == binding.action);
+            if known || (binding.action == Action::Palette && !palette) {
                 continue;
             }
             let gap = match (entries.is_empty(), words) {

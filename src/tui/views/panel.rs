@@ -212,6 +212,22 @@ pub fn name_level(plot: &mut Plot, x: ChartAxis, level: f64, name: &str, style: 
 /// Places along a level that are tried for its name.
 const LEVEL_PLACES: u32 = 40;
 
+/// Prints lines above a chart; returns the rest of the area.
+pub fn lines_above(
+    app: &App,
+    buffer: &mut Buffer,
+    inside: Rect,
+    lines: &[String],
+    role: Role,
+) -> Rect {
+    let rows = u16::try_from(lines.len()).unwrap_or(u16::MAX).min(inside.height);
+    let area = Rect { x: inside.x + 1, width: inside.width.saturating_sub(1), ..inside };
+    for (row, line) in (0..rows).zip(lines) {
+        print(buffer, area, row, line, app.appearance.style(role));
+    }
+    Rect { y: inside.y + rows, height: inside.height - rows, ..inside }
+}
+
 /// Shows that the study of a view is not computed yet: those of the run come first.
 pub fn not_yet(app: &App, buffer: &mut Buffer, inside: Rect) {
     let quiet = app.appearance.style(Role::Quiet);
