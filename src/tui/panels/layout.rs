@@ -151,7 +151,7 @@ fn body_rows(app: &App) -> u16 {
     app.layout.size.1.saturating_sub(3)
 }
 
-/// Returns most rows of a lesson beside the charts.
+/// Returns the greatest number of rows of a lesson beside the charts.
 fn most_rows(body: u16) -> u16 {
     body / 2
 }
