@@ -107,7 +107,7 @@ impl ExploreCommand {
         }
     }
 
-    /// Returns a command after options is read as a scene: explain the right order.
+    /// Refuses the name of a command after options, which is read as a scene.
     fn refuse_command(&self) -> Result<(), Refusal> {
         let name = self.options.name().unwrap_or_default();
         if Cli::command().get_subcommands().any(|command| command.get_name() == name) {

@@ -18,7 +18,7 @@ pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 pub struct CommandLine(String);
 
 impl CommandLine {
-    /// `rubscope COMMAND NAME`, with `--set` for every key in which the scene
+    /// Creates `rubscope COMMAND NAME`, with `--set` for every key in which the scene
     /// differs from the one of that name; charts are not counted.
     #[must_use]
     pub fn from_base(command: &str, name: &str, base: &Scene, scene: &Scene) -> Self {
@@ -33,7 +33,7 @@ impl CommandLine {
         Self(format!("{PROGRAM} {command}"))
     }
 
-    /// As `from_base` with the built-in scene of the same title, or else the one
+    /// Same as [`Self::from_base`] with the built-in scene of the same title, or else the one
     /// that differs in the fewest keys, so that the command needs no scene file.
     /// Charts are set too: the scene is the same in every key.
     #[must_use]

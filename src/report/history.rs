@@ -48,7 +48,7 @@ impl History {
         Self { columns: names.map(|name| HistoryColumn { name, values: Vec::new() }).collect() }
     }
 
-    /// Returns most samples with the gaps of this many blades; none of them for 0.
+    /// Returns the greatest number of samples with the gaps of this many blades.
     #[must_use]
     pub fn most_samples(blades: u32) -> u32 {
         let columns = COLUMNS.len() + blades as usize;

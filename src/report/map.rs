@@ -100,7 +100,7 @@ pub(super) fn names(plan: &MapPlan) -> [&str; 2] {
     if leaf(x) == leaf(y) { [&x.path, &y.path] } else { [leaf(x), leaf(y)] }
 }
 
-/// Returns the map as CSV, a line a cell.
+/// Writes the map as CSV, a line a cell.
 ///
 /// # Errors
 /// An error of the writer.
@@ -191,7 +191,7 @@ pub fn mark(cell: Option<Cell>) -> char {
     }
 }
 
-/// Returns the map as text, highest row first, no line of cells wider than `width`, with a legend
+/// Writes the map as text, highest row first, no line of cells wider than `width`, with a legend
 /// of what is in it.
 ///
 /// # Errors

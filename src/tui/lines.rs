@@ -243,7 +243,7 @@ impl Lines {
         writeln!(out, "refused: {}", self.spelled(&clean(why)))
     }
 
-    /// Returns everything of a kind that can be opened.
+    /// Writes everything of a kind that can be opened.
     fn list(&self, kind: &str, out: &mut dyn Write) -> Result<(), Error> {
         for found in commands::found(&self.app, &format!("{kind} ")) {
             writeln!(out, "{}", self.spelled(&format!("{kind} {}", found.what)))?;
@@ -251,7 +251,7 @@ impl Lines {
         Ok(())
     }
 
-    /// Returns the two lines at the top of the screen.
+    /// Writes the two lines at the top of the screen.
     fn tell(&self, out: &mut dyn Write) -> Result<(), Error> {
         panels::head_text(&self.app).iter().try_for_each(|line| writeln!(out, "{line}"))
     }

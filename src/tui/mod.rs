@@ -72,7 +72,7 @@ pub fn is_dumb_terminal() -> bool {
     dumb && std::io::stdout().is_terminal()
 }
 
-/// Returns whether there are a screen and a keyboard.
+/// Checks that there are a screen and a keyboard.
 ///
 /// # Errors
 /// What is missing.

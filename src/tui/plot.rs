@@ -359,7 +359,7 @@ fn rows(area: Rect) -> u16 {
     area.height.saturating_sub(if has_rule(area) { 2 } else { 1 })
 }
 
-/// Returns most ticks upward in so many rows.
+/// Returns the greatest number of ticks upward in so many rows.
 fn most_levels(rows: u16) -> usize {
     usize::from(rows.div_ceil(2)).clamp(1, 7)
 }

@@ -58,7 +58,7 @@ impl Tty {
         Ok(Self { out, keys, returns, before: RwLock::new(None) })
     }
 
-    /// Returns every key as it is pressed. The settings before are kept, unless this screen made
+    /// Makes the terminal send every key as it is pressed. The settings before are kept, unless this screen made
     /// them.
     ///
     /// # Errors

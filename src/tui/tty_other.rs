@@ -16,7 +16,7 @@ impl Tty {
         Ok(Self)
     }
 
-    /// Returns every key as it is pressed.
+    /// Makes the terminal send every key as it is pressed.
     ///
     /// # Errors
     /// The terminal refuses.

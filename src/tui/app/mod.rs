@@ -18,7 +18,7 @@ pub use dialogue::{HelpState, InputMode, PaletteState, Purpose};
 pub use files::{SceneEntry, Writing};
 pub use knobs::Past;
 pub use lesson::{LessonProgress, StepProgress};
-pub use mouse::Grip;
+pub use mouse::{Grip, Target};
 pub use reading::{Cursor, STEP, cell_of};
 pub use sweep::Sweep;
 

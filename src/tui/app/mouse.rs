@@ -6,6 +6,7 @@ use ratatui::layout::Rect;
 
 use super::{App, Cursor};
 use crate::tui::bindings::Action;
+use crate::tui::views::id::ViewId;
 
 /// A knob whose bar is held.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,12 +19,23 @@ pub struct Grip {
     pub turned: bool,
 }
 
-/// Area in which data of the large chart is drawn, and the part of it: from where to where
-/// across, and up.
-#[derive(Clone, Copy, Debug)]
-struct NotedChart {
-    area: Rect,
-    parts: [(f64, f64); 2],
+/// Something that is drawn and can be clicked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Target {
+    /// A key of the last line.
+    Key(Action),
+    /// The heading of a group of knobs, with its first knob.
+    Group(usize),
+    /// The line of a knob.
+    Knob(usize),
+    /// The bar of a knob.
+    Bar(usize),
+    /// A chart that is not the large one.
+    View(ViewId),
+    /// The data of the large chart, or a part of it: from where to where across, and up.
+    Chart([(f64, f64); 2]),
+    /// A lesson of the list.
+    Lesson(usize),
 }
 
 /// The mouse.
@@ -37,22 +49,13 @@ pub struct Mouse {
     pub clicked: Option<(u16, u16)>,
     /// Cell at which the wheel turned a knob last, and that knob.
     pub wheeled: Option<((u16, u16), usize)>,
-    /// Areas of the data of the large chart in the last frame.
-    charts: RefCell<Vec<NotedChart>>,
-    /// Areas of the keys of the last line in the last frame.
-    keys: RefCell<Vec<(Rect, Action)>>,
+    /// Areas of the last frame; of those that overlap, the last one is on top.
+    drawn: RefCell<Vec<(Rect, Target)>>,
 }
 
 impl Default for Mouse {
     fn default() -> Self {
-        Self {
-            on: true,
-            grip: None,
-            clicked: None,
-            wheeled: None,
-            charts: RefCell::default(),
-            keys: RefCell::default(),
-        }
+        Self { on: true, grip: None, clicked: None, wheeled: None, drawn: RefCell::default() }
     }
 }
 
@@ -69,48 +72,44 @@ impl Mouse {
 }
 
 impl App {
-    /// Forgets where the large chart and the keys were drawn, before the next picture.
-    pub fn forget_places(&self) {
-        if let Ok(mut places) = self.mouse.charts.try_borrow_mut() {
-            places.clear();
-        }
-        if let Ok(mut places) = self.mouse.keys.try_borrow_mut() {
-            places.clear();
-        }
+    /// Forgets what was drawn, before the next frame.
+    pub fn forget_drawn(&self) {
+        self.mouse.drawn.take();
     }
 
-    /// Notes where a key of the last line is drawn, and what it does.
-    pub fn note_key(&self, area: Rect, action: Action) {
-        if let Ok(mut places) = self.mouse.keys.try_borrow_mut() {
-            places.push((area, action));
+    /// Records what is drawn in an area.
+    pub fn note(&self, area: Rect, target: Target) {
+        if let Ok(mut drawn) = self.mouse.drawn.try_borrow_mut() {
+            drawn.push((area, target));
         }
     }
 
-    /// Returns what the key does that is drawn in a cell of the screen.
-    pub fn key_at(&self, at: (u16, u16)) -> Option<Action> {
-        let places = self.mouse.keys.try_borrow().ok()?;
-        places.iter().find(|(area, _)| area.contains(at.into())).map(|(_, action)| *action)
+    /// Returns what is drawn in a cell of the screen, and its area.
+    pub fn target(&self, at: (u16, u16)) -> Option<(Rect, Target)> {
+        self.last_drawn(|(area, _)| area.contains(at.into()))
     }
 
-    /// Notes where the data of the large chart is drawn, for the mouse, and which
-    /// part of it: from where to where across, and up.
-    pub fn note_chart(&self, inner: Rect, parts: [(f64, f64); 2]) {
-        if let Ok(mut places) = self.mouse.charts.try_borrow_mut() {
-            places.push(NotedChart { area: inner, parts });
-        }
+    /// Returns the area of the bar that is drawn.
+    pub fn bar_area(&self) -> Option<Rect> {
+        self.last_drawn(|(_, target)| matches!(target, Target::Bar(_))).map(|(area, _)| area)
     }
 
-    /// Returns the place in the large chart that is drawn in a cell of the screen.
-    pub fn cursor_at(&self, (x, y): (u16, u16)) -> Option<Cursor> {
-        let places = self.mouse.charts.try_borrow().ok()?;
-        let noted = places.iter().find(|noted| noted.area.contains((x, y).into()))?;
-        let (inner, parts) = (noted.area, noted.parts);
+    fn last_drawn(&self, is_wanted: impl Fn(&(Rect, Target)) -> bool) -> Option<(Rect, Target)> {
+        let drawn = self.mouse.drawn.try_borrow().ok()?;
+        drawn.iter().rev().copied().find(|noted| is_wanted(noted))
+    }
+}
+
+impl Cursor {
+    /// Returns the place in the large chart that is drawn in a cell of an area with these parts
+    /// of it.
+    pub fn at((x, y): (u16, u16), area: Rect, parts: [(f64, f64); 2]) -> Self {
         let middle = |(low, high): (f64, f64), cells: u16, width: u16| {
             low + (high - low) * (f64::from(cells) + 0.5) / f64::from(width)
         };
-        Some(Cursor {
-            across: middle(parts[0], x - inner.x, inner.width),
-            up: middle(parts[1], inner.bottom() - 1 - y, inner.height),
-        })
+        Self {
+            across: middle(parts[0], x - area.x, area.width),
+            up: middle(parts[1], area.bottom() - 1 - y, area.height),
+        }
     }
 }

@@ -98,6 +98,8 @@ pub enum Context {
     Question,
     /// A scene is being chosen.
     Scenes,
+    /// Any dialogue is open: the keys that all of them have.
+    Dialogue,
 }
 
 /// A key with its modifiers. Shift is part of a letter, not a modifier of it.
@@ -182,7 +184,11 @@ pub struct Binding {
 impl Context {
     /// Returns the context that has the keys which this one has not.
     pub fn behind(self) -> Option<Self> {
-        matches!(self, Self::Reading | Self::Question).then_some(Self::Main)
+        match self {
+            Self::Main | Self::Dialogue => None,
+            Self::Reading | Self::Question => Some(Self::Main),
+            _ => Some(Self::Dialogue),
+        }
     }
 }
 

@@ -4,7 +4,7 @@
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-use crate::tui::app::{App, InputMode, Purpose};
+use crate::tui::app::{App, InputMode, Purpose, Target};
 use crate::tui::bindings::{self, Action, Binding, Chord, Context};
 use crate::tui::text::{columns, pieces, print, shorten};
 use crate::tui::theme::Role;
@@ -96,19 +96,19 @@ impl Entry {
     /// Records what a click does: on a sign what its key does, on the name of a key and the word
     /// what the binding does.
     fn note(&self, app: &App, own: Rect) {
+        app.note(own, Target::Key(self.binding.action));
         let mut at = own.x;
         for token in self.keys.split(' ') {
             let is_name = token.chars().nth(1).is_some_and(char::is_lowercase);
             for sign in token.chars() {
                 let action = bindings::lookup(app.context(), Chord::from(sign));
                 if let Some(action) = action.filter(|_| !is_name && at < own.right()) {
-                    app.note_key(Rect { x: at, width: 1, ..own }, action);
+                    app.note(Rect { x: at, width: 1, ..own }, Target::Key(action));
                 }
                 at = at.saturating_add(1);
             }
             at = at.saturating_add(1);
         }
-        app.note_key(own, self.binding.action);
     }
 }
 
@@ -140,7 +140,8 @@ fn kept(app: &App, width: u16, message: Option<usize>) -> Vec<Entry> {
         let mut entries: Vec<Entry> = Vec::new();
         for binding in current(app).filter(|binding| is_kept(binding)) {
             let Some((keys, word)) = binding.footer else { continue };
-            if binding.action == Action::Palette && !palette {
+            let known = entries.iter().any(|entry| entry.binding.action == binding.action);
+            if known || (binding.action == Action::Palette && !palette) {
                 continue;
             }
             let gap = match (entries.is_empty(), words) {

@@ -8,7 +8,7 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::Modifier;
 
 use crate::report::line::capital;
-use crate::tui::app::{App, InputMode};
+use crate::tui::app::{App, InputMode, Target};
 use crate::tui::knobs::{Group, KNOBS, Knob, KnobRange, meaning};
 use crate::tui::text::{columns, first_lines, pieces, print, shorten, wrap};
 use crate::tui::theme::Role;
@@ -22,14 +22,23 @@ pub fn panel(app: &App, buffer: &mut Buffer, area: Rect) {
     for (y, line) in (area.y..area.bottom()).zip(&lines) {
         let row = Rect { y, height: 1, ..area };
         match *line {
-            ColumnLine::Heading(group) => heading(app, buffer, row, group),
-            ColumnLine::Folded(group) => folded(app, buffer, row, group),
+            ColumnLine::Heading(group) | ColumnLine::Folded(group) => {
+                if let Some(first) = group.places().next() {
+                    app.note(row, Target::Group(first));
+                }
+                match line {
+                    ColumnLine::Heading(_) => heading(app, buffer, row, group),
+                    _ => folded(app, buffer, row, group),
+                }
+            }
             ColumnLine::Knob(place) => {
+                app.note(row, Target::Knob(place));
                 if let Some(knob) = KNOBS.get(place) {
                     self::knob(app, buffer, row, knob, place == app.knobs.selected);
                 }
             }
             ColumnLine::Bar(place) => {
+                app.note(row, Target::Knob(place));
                 if let Some(knob) = KNOBS.get(place) {
                     draw(app, buffer, bar_cells(row), knob);
                 }
@@ -157,6 +166,7 @@ fn sentence(knob: &Knob) -> String {
 
 /// Draws the selected knob alone, with its bar where there is room.
 pub fn strip(app: &App, buffer: &mut Buffer, area: Rect) {
+    app.note(area, Target::Knob(app.knobs.selected));
     let look = &app.appearance;
     let width = usize::from(area.width);
     if let Some(refusal) = &app.knobs.refusal {
@@ -273,13 +283,14 @@ pub fn inside(area: Rect) -> Rect {
     Rect { width: area.width.saturating_sub(1), ..area }
 }
 
-/// Draws the bar of a knob over an area, its two ends outside of it; nothing for
+/// Draws the bar of the selected knob over an area, its two ends outside of it; nothing for
 /// knobs of words.
 pub fn draw(app: &App, buffer: &mut Buffer, cells: Rect, knob: &Knob) {
     let Some(range) = knob.range(&app.scene, &app.files.opened, &app.machine) else { return };
     if cells.width == 0 {
         return;
     }
+    app.note(cells, Target::Bar(app.knobs.selected));
     let look = &app.appearance;
     let value = knob.number(&app.scene).and_then(|value| range.place(value));
     let here = value.map(|part| cell(cells, part));
@@ -333,12 +344,6 @@ pub fn legend(app: &App, cells: Rect, knob: &Knob) -> Option<String> {
 /// Returns the column of a part, 0 to 1, of a bar.
 fn cell(cells: Rect, part: f64) -> u16 {
     cells.x + (part * f64::from(cells.width - 1)).round() as u16
-}
-
-/// Returns the part of a bar at a column.
-pub fn part(cells: Rect, x: u16) -> f64 {
-    let along = f64::from(x.saturating_sub(cells.x)) / f64::from(cells.width.max(2) - 1);
-    along.clamp(0.0, 1.0)
 }
 
 #[cfg(test)]

@@ -1,11 +1,9 @@
-//! The places of all panels at each screen size, and what the mouse finds at a place of the
-//! screen.
+//! The places of all panels at each screen size.
 
-use ratatui::layout::{Constraint, Layout, Position, Rect};
+use ratatui::layout::{Constraint, Layout, Rect};
 
-use crate::tui::app::{App, Cursor};
-use crate::tui::panels::knobs::{self, ColumnLine};
-use crate::tui::panels::{lesson, presentation};
+use crate::tui::app::App;
+use crate::tui::panels::presentation;
 use crate::tui::views::{LEAST_ROWS, ViewId};
 
 /// Narrowest screen.
@@ -153,7 +151,7 @@ fn body_rows(app: &App) -> u16 {
     app.layout.size.1.saturating_sub(3)
 }
 
-/// Returns most rows of a lesson beside the charts.
+/// Returns the greatest number of rows of a lesson beside the charts.
 fn most_rows(body: u16) -> u16 {
     body / 2
 }
@@ -178,85 +176,6 @@ pub fn lesson_pages(app: &App) -> usize {
 pub fn body(app: &App) -> Rect {
     let area = Rect::new(0, 0, app.layout.size.0, app.layout.size.1);
     places(area, app).body
-}
-
-/// Something that can be clicked.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Target {
-    /// The heading of a group; its first knob.
-    Group(usize),
-    /// The line of a knob.
-    Knob(usize),
-    /// The bar of a knob, and a place on it, 0 to 1.
-    Bar(usize, f64),
-    /// A chart that is not the large one.
-    View(ViewId),
-    /// A place in the large chart.
-    Chart(Cursor),
-}
-
-fn places_of(app: &App) -> Option<Places> {
-    let (width, height) = app.layout.size;
-    let drawn = width >= LEAST_WIDTH && height >= LEAST_HEIGHT;
-    drawn.then(|| places(Rect::new(0, 0, width, height), app))
-}
-
-/// Returns what is at a place of the screen while nothing is open over the charts.
-pub fn target(app: &App, (x, y): (u16, u16)) -> Option<Target> {
-    let places = places_of(app)?;
-    let at = Position::new(x, y);
-    if places.knobs.contains(at) {
-        return knob_target(app, &places, (x, y));
-    }
-    let (view, _) = places.charts.iter().find(|(_, area)| area.contains(at))?;
-    match *view == app.view() {
-        true => app.cursor_at((x, y)).map(Target::Chart),
-        false => Some(Target::View(*view)),
-    }
-}
-
-fn knob_target(app: &App, places: &Places, (x, y): (u16, u16)) -> Option<Target> {
-    if !places.column {
-        let cells = alone(app, places).filter(|cells| cells.contains((x, y).into()));
-        return Some(match cells {
-            Some(cells) => Target::Bar(app.knobs.selected, knobs::part(cells, x)),
-            None => Target::Knob(app.knobs.selected),
-        });
-    }
-    let area = knobs::inside(places.knobs);
-    let line = *knobs::lines(app, area.height).get(usize::from(y - area.y))?;
-    Some(match line {
-        ColumnLine::Heading(group) | ColumnLine::Folded(group) => {
-            Target::Group(group.places().next()?)
-        }
-        ColumnLine::Knob(place) => Target::Knob(place),
-        ColumnLine::Bar(place) => Target::Bar(place, knobs::part(knobs::bar_cells(area), x)),
-    })
-}
-
-/// Returns the cells of the bar of the selected knob where it is the only one.
-fn alone(app: &App, places: &Places) -> Option<Rect> {
-    match places.letters {
-        Some(_) => Some(presentation::bar_cells(places.knobs)),
-        None => knobs::strip_bar(app, places.knobs),
-    }
-}
-
-/// Returns the place on the bar of the selected knob at a column of the screen, 0 to 1.
-pub fn part_of_bar(app: &App, x: u16) -> Option<f64> {
-    let places = places_of(app)?;
-    let cells = match places.column {
-        true => knobs::bar_cells(knobs::inside(places.knobs)),
-        false => alone(app, &places)?,
-    };
-    Some(knobs::part(cells, x))
-}
-
-/// Returns the lesson at a place of the screen while their list is open.
-pub fn lesson_at(app: &App, (x, y): (u16, u16)) -> Option<usize> {
-    let body = places_of(app)?.body;
-    let inside = body.contains((x, y).into());
-    if inside { lesson::place_at(app, body, y) } else { None }
 }
 
 #[cfg(test)]

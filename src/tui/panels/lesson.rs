@@ -4,7 +4,7 @@
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 
 use super::lists::{first_in_sight, look_of};
-use crate::tui::app::{App, InputMode};
+use crate::tui::app::{App, Target};
 use crate::tui::lessons::{self, LETTERS, Lesson, LessonStep};
 use crate::tui::text::{columns, print, shorten, wrap};
 use crate::tui::theme::Role;
@@ -20,10 +20,11 @@ pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
     let bold = look.style(Role::Text).add_modifier(Modifier::BOLD);
     let head = "Lessons: Enter begins one, g goes on, B back, G leaves";
     print(buffer, area, 0, &shorten(head, width, mark), bold);
-    let first = first_listed(area, place);
+    let first = first_in_sight(place, usize::from(area.height.saturating_sub(2)));
     for (row, (index, lesson)) in
         (2..area.height).zip(lessons::all().iter().enumerate().skip(first))
     {
+        app.note(Rect { y: area.y + row, height: 1, ..area }, Target::Lesson(index));
         let (sign, style) = look_of(look, index == place, Role::Text);
         let (done, steps) = (app.lessons.done.count(lesson), lesson.steps.len());
         let done = if done == steps { "done".to_string() } else { format!("{done}/{steps}") };
@@ -36,19 +37,6 @@ pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
         let text = shorten(&look.spell(&name), room, mark) + &beside;
         print(buffer, area, row, &text, style);
     }
-}
-
-/// Returns the first lesson in sight, so that the selected one is.
-fn first_listed(area: Rect, place: usize) -> usize {
-    first_in_sight(place, usize::from(area.height.saturating_sub(2)))
-}
-
-/// Returns the lesson in a row of the screen while the list is open in `area`.
-pub fn place_at(app: &App, area: Rect, y: u16) -> Option<usize> {
-    let InputMode::Lessons(place) = app.dialogue.mode else { return None };
-    let row = y.checked_sub(area.y + 2)?;
-    let place = first_listed(area, place) + usize::from(row);
-    (place < lessons::all().len()).then_some(place)
 }
 
 /// Lines of the end of a step that are in sight beside a chart, at least.

@@ -8,7 +8,7 @@ use ratatui::widgets::Widget;
 use tui_big_text::{BigText, PixelSize};
 
 use super::{header, knobs};
-use crate::tui::app::{App, InputMode};
+use crate::tui::app::{App, InputMode, Target};
 use crate::tui::text::{columns, print, shorten};
 use crate::tui::theme::Role;
 
@@ -98,6 +98,7 @@ fn centred(app: &App, buffer: &mut Buffer, area: Rect, row: u16, text: &str, sty
 /// Draws the selected knob: its value, and a bar over the whole width.
 pub fn knob(app: &App, buffer: &mut Buffer, area: Rect) {
     let Some(knob) = app.selected() else { return };
+    app.note(area, Target::Knob(app.knobs.selected));
     let focus = app.appearance.style(Role::Focus).add_modifier(Modifier::BOLD);
     match (&app.knobs.refusal, &app.dialogue.mode) {
         (Some(refusal), _) => {
@@ -115,7 +116,7 @@ pub fn knob(app: &App, buffer: &mut Buffer, area: Rect) {
 }
 
 /// Returns the cells of the bar of the selected knob.
-pub fn bar_cells(area: Rect) -> Rect {
+fn bar_cells(area: Rect) -> Rect {
     let height = area.height.saturating_sub(1);
     Rect { x: area.x + 2, y: area.y + 1, width: area.width.saturating_sub(4), height }
 }

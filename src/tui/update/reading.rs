@@ -139,7 +139,7 @@ impl App {
         }
     }
 
-    /// Returns whether the run has this instant.
+    /// Checks that the run has this instant.
     ///
     /// # Errors
     /// It has not, in words.

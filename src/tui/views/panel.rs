@@ -6,7 +6,7 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Modifier, Style};
 
 use crate::report::table::{TableCell, write_csv};
-use crate::tui::app::{App, Cursor};
+use crate::tui::app::{App, Cursor, Target};
 use crate::tui::appearance::Appearance;
 use crate::tui::axis::ChartAxis;
 use crate::tui::plot::Plot;
@@ -101,7 +101,7 @@ impl ViewArea {
     /// Notes where data is drawn, so that the mouse can point at it.
     pub fn note(self, app: &App, inner: Rect) {
         if self.large {
-            app.note_chart(inner, [(0.0, 1.0); 2]);
+            app.note(inner, Target::Chart([(0.0, 1.0); 2]));
         }
     }
 
@@ -109,7 +109,7 @@ impl ViewArea {
     /// across, and up.
     pub fn note_part(self, app: &App, inner: Rect, parts: [(f64, f64); 2]) {
         if self.large && inner.area() > 0 {
-            app.note_chart(inner, parts);
+            app.note(inner, Target::Chart(parts));
         }
     }
 
@@ -211,6 +211,22 @@ pub fn name_level(plot: &mut Plot, x: ChartAxis, level: f64, name: &str, style: 
 
 /// Places along a level that are tried for its name.
 const LEVEL_PLACES: u32 = 40;
+
+/// Prints lines above a chart; returns the rest of the area.
+pub fn lines_above(
+    app: &App,
+    buffer: &mut Buffer,
+    inside: Rect,
+    lines: &[String],
+    role: Role,
+) -> Rect {
+    let rows = u16::try_from(lines.len()).unwrap_or(u16::MAX).min(inside.height);
+    let area = Rect { x: inside.x + 1, width: inside.width.saturating_sub(1), ..inside };
+    for (row, line) in (0..rows).zip(lines) {
+        print(buffer, area, row, line, app.appearance.style(role));
+    }
+    Rect { y: inside.y + rows, height: inside.height - rows, ..inside }
+}
 
 /// Shows that the study of a view is not computed yet: those of the run come first.
 pub fn not_yet(app: &App, buffer: &mut Buffer, inside: Rect) {

@@ -4,7 +4,7 @@
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-use super::panel::{ViewArea, ViewPanel, csv, dots, entry, name_level, names, title};
+use super::panel::{ViewArea, ViewPanel, csv, dots, entry, lines_above, name_level, names, title};
 use crate::report::line::clean;
 use crate::tui::app::{App, Cursor};
 use crate::tui::axis::{AutoRange, ChartAxis, instant, readable};
@@ -228,13 +228,9 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
 /// the area.
 fn failed(app: &App, buffer: &mut Buffer, inside: Rect) -> Rect {
     let (look, width) = (&app.appearance, usize::from(inside.width).saturating_sub(2));
-    let lines = app.failure().map_or(Vec::new(), |failure| wrap(&look.spell(failure), width));
-    let rows = u16::try_from(lines.len()).unwrap_or(u16::MAX).min(inside.height / 3);
-    let area = Rect { x: inside.x + 1, width: inside.width.saturating_sub(1), ..inside };
-    for (row, line) in (0..rows).zip(lines) {
-        print(buffer, area, row, &line, look.style(Role::Trouble));
-    }
-    Rect { y: inside.y + rows, height: inside.height - rows, ..inside }
+    let mut lines = app.failure().map_or(Vec::new(), |failure| wrap(&look.spell(failure), width));
+    lines.truncate(usize::from(inside.height / 3));
+    lines_above(app, buffer, inside, &lines, Role::Trouble)
 }
 
 /// Returns the clearance, which the casing may pass where the tips move with it, and its name.

@@ -1,4 +1,4 @@
-//! The margins as they are computed: those of one scene first, then the survey.
+//! The margins as they are computed: the closed forms first, then the survey.
 
 use std::sync::Arc;
 
@@ -8,8 +8,8 @@ use rubscope_solver::study::survey::Survey;
 /// The margins, and the survey once it is computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LiveMargins {
-    /// What is known.
+    /// Margins of the scene.
     pub margins: Margins,
-    /// The survey of all diameters, once it is computed.
+    /// Survey of all diameters, once it is computed.
     pub survey: Option<Arc<Survey>>,
 }
