@@ -20,11 +20,25 @@ struct Gone {
 const POSITIONAL: &str = "SCENE";
 
 /// Every input of an earlier version that is refused with a hint.
-const GONE: &[Gone] = &[Gone {
-    command: "map",
-    name: "--resume",
-    instead: "make a long map in shares, map --shard K/COUNT; one that was interrupted runs again",
-}];
+const GONE: &[Gone] = &[
+    Gone {
+        command: "map",
+        name: "--resume",
+        instead: "make a long map in shares, map --shard K/COUNT; one that was interrupted runs \
+                  again",
+    },
+    Gone {
+        command: "",
+        name: "half-n",
+        instead: "half as many diameters as blades are paper-nd3 --nd 11 --speed 100 --pulse \
+                  20000 --solver event --model rigid",
+    },
+    Gone {
+        command: "",
+        name: "near-critical",
+        instead: "this speed is undamped --speed 293, and its numbers are in docs/theory.md",
+    },
+];
 
 /// Returns the refusal of a command line with an option or an argument of an earlier version.
 pub fn argument(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
