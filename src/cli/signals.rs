@@ -15,7 +15,7 @@ pub(super) fn watch() -> std::io::Result<()> {
         .filter(|signal| ignored >> (signal - 1) & 1 == 0);
     let mut signals = signal_hook::iterator::Signals::new(heard)?;
     let wait = move || {
-        for signal in signals.forever() {
+        if let Some(signal) = signals.forever().next() {
             crate::file::settle(LONGEST_CHANGE);
             // The shell sees that it was ended by the signal, and ends its loop.
             let _ = signal_hook::low_level::emulate_default_handler(signal);

@@ -119,7 +119,7 @@ mod tests {
             assert_eq!(&header[..10], b"\x93NUMPY\x01\x00v\x00");
             let words = format!(
                 "{{'descr': '<f8', 'fortran_order': False, 'shape': ({count},), }}{}\n",
-                " ".repeat(58 - count.to_string().len())
+                " ".repeat(61 - count.to_string().len())
             );
             assert_eq!(std::str::from_utf8(&header[10..]).unwrap(), words);
             let read: Vec<f64> =

@@ -344,7 +344,7 @@ fn inclined_tips_have_a_lock_and_no_view_that_is_of_the_paper_alone() {
         assert!(said.contains("bladed_disk.radial_coupling = 0.3: allowed is 0 "), "{said}");
         assert_eq!(said.lines().count(), 1, "{said}");
     }
-    let other = ["--set", "bladed_disk.nodal_diameters=4"];
+    let other = ["--contact", "smooth", "--set", "bladed_disk.nodal_diameters=4"];
     hbm(&[&other[..], &["--campbell"]].concat()).assert().success();
     let refused = hbm(&[&other[..], &["--whirl"]].concat()).assert().code(2).get_output().clone();
     let said = String::from_utf8(refused.stderr).unwrap();

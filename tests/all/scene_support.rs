@@ -5,7 +5,7 @@ use rubscope_solver::scene::Scene;
 /// Half as many diameters as blades, which gives two parallel sides and no corner: the
 /// options of a command on `paper-nd3`.
 pub const HALF_N: &str = "--nd 11 --speed 100 --pulse 20000 --solver event --contact unilateral \
-                          --model rigid --end 0.012";
+                          --model rigid";
 
 /// The scene of [`HALF_N`].
 pub fn half_n() -> Scene {

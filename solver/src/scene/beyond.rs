@@ -97,12 +97,38 @@ impl Scene {
 /// # Errors
 /// The first combination that is not allowed, named by its key.
 pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
+    diameters(scene)?;
+    slope(scene)?;
     friction(scene)?;
     restitution(scene)?;
     mistuning(scene)?;
     digging_in(scene)?;
     opening(scene)?;
     by_events(scene)
+}
+
+/// Refuses rigid contact of blades in other diameters than those of the casing.
+fn diameters(scene: &Scene) -> Result<(), SceneError> {
+    if scene.solver.contact == ContactLaw::Smooth || !scene.has_other_diameters() {
+        return Ok(());
+    }
+    let casing = scene.operation.nodal_diameters;
+    let allowed = format!(
+        "0 or that of the casing, {casing}, with rigid contact; solver.contact = \"smooth\" takes \
+         others"
+    );
+    Err(SceneError::refused(keys::DISK_DIAMETERS, scene.bladed_disk.nodal_diameters, allowed))
+}
+
+/// Refuses inclined tips under the paper's law, whose gaps the blade angles do not close.
+fn slope(scene: &Scene) -> Result<(), SceneError> {
+    let kappa = scene.bladed_disk.radial_coupling;
+    if kappa == 0.0 || scene.solver.contact != ContactLaw::Bilateral {
+        return Ok(());
+    }
+    let allowed = "0 with solver.contact = \"bilateral\", the paper's law; \"unilateral\" and \
+                   \"smooth\" take inclined tips";
+    Err(SceneError::refused(keys::RADIAL_COUPLING, kappa, allowed))
 }
 
 /// Friction has one direction: that in which the blades slide.

@@ -93,6 +93,8 @@ pub struct Adjustment {
     pub from: &'static str,
     /// The word it has.
     pub to: &'static str,
+    /// The end of the sentence that begins with the word it had.
+    pub why: &'static str,
 }
 
 impl Scene {
@@ -110,15 +112,25 @@ impl Scene {
         Ok(CheckedScene(self.clone()))
     }
 
-    /// Where one of solver, contact law and model was asked for, and the others
-    /// are not possible with it, takes the nearest that are. What was asked for
-    /// itself stays. Returns what was changed.
+    /// Takes the nearest solver, contact law and model that are possible with what was asked
+    /// for: one of these three, or the slope of the tips. What was asked for itself stays.
+    /// Returns what was changed.
     pub fn make_compatible(&mut self, asked: impl Fn(&str) -> bool) -> Vec<Adjustment> {
         const KIND: &str = keys::SOLVER;
         const CONTACT: &str = keys::LAW;
         const MODEL: &str = keys::MODEL;
         let mut made = Vec::new();
+        let inclined = self.bladed_disk.radial_coupling != 0.0;
         let solver = &mut self.solver;
+        if inclined
+            && solver.contact == ContactLaw::Bilateral
+            && asked(keys::RADIAL_COUPLING)
+            && !asked(CONTACT)
+        {
+            let why = "takes no inclined tips";
+            made.push(Adjustment { key: CONTACT, from: "bilateral", to: "unilateral", why });
+            solver.contact = ContactLaw::Unilateral;
+        }
         if solver.kind != SolverKind::Event {
             return made;
         }
@@ -127,20 +139,22 @@ impl Scene {
             ContactLaw::Bilateral => Some("bilateral"),
             ContactLaw::Smooth => Some("smooth"),
         };
+        let why = "the event solver does not know";
         let full = solver.model == ModelSize::Full;
         if asked(KIND) {
             if let Some(from) = law
                 && !asked(CONTACT)
             {
-                made.push(Adjustment { key: CONTACT, from, to: "unilateral" });
+                made.push(Adjustment { key: CONTACT, from, to: "unilateral", why });
                 solver.contact = ContactLaw::Unilateral;
             }
             if full && !asked(MODEL) {
-                made.push(Adjustment { key: MODEL, from: "full", to: "modal" });
+                made.push(Adjustment { key: MODEL, from: "full", to: "modal", why });
                 solver.model = ModelSize::Modal;
             }
         } else if (asked(CONTACT) && law.is_some()) || (asked(MODEL) && full) {
-            made.push(Adjustment { key: KIND, from: "event", to: "explicit" });
+            let why = "cannot do what the options ask";
+            made.push(Adjustment { key: KIND, from: "event", to: "explicit", why });
             solver.kind = SolverKind::Explicit;
         }
         made

@@ -2,7 +2,7 @@
 //! form or as a series to round-off, and the next change is found, not stepped over.
 //!
 //! Two ways to move between events: `exact` in the blade angles (the paper's model), and
-//! `linear` in them (inclined and rubbing tips, restitution, other diameters). Below both
+//! `linear` in them (inclined and rubbing tips, restitution). Below both
 //! are the clock (here), the looks ahead that pass nothing and the series they go by (`series`).
 
 mod exact;

@@ -1,6 +1,5 @@
 //! The event-driven solver of what goes beyond the paper's model: tips whose path has
-//! a slope, friction, restitution, and disks with other diameters than the casing
-//! (docs/theory.md, section 10).
+//! a slope, friction and restitution (docs/theory.md, section 10).
 //!
 //! In the frame of the blades casing and blades together obey linear equations with
 //! constant coefficients, if the angles of the blades are left out of the phases of
@@ -202,15 +201,6 @@ impl Solver for LinearEvents {
         }
     }
 
-    fn blade_angles(&self) -> Vec<f64> {
-        let (tips, a) = (&self.parameters.tips, self.point_now().a);
-        let angle = |blade| {
-            let (cos, sin) = tips.direction(tips.side_of_blade(blade));
-            cos * a.re + sin * a.im
-        };
-        (1..=tips.blades).map(angle).collect()
-    }
-
     fn blade_gaps(&self) -> Vec<f64> {
         let (parameters, point) = (&self.parameters, self.point_now());
         let polygon = &parameters.machine.polygon;
@@ -225,14 +215,8 @@ impl Solver for LinearEvents {
     fn multipliers(&self) -> Vec<(u32, f64)> {
         let mass = self.parameters.machine.casing_mass;
         let pushes = self.held.with(self.stretch.pushes_at(self.elapsed(self.clock.now)));
-        let mut sides: Vec<(u32, f64)> = Vec::new();
-        for (row, push) in pushes {
-            let Some(row) = self.parameters.rows.get(row) else { continue };
-            match sides.iter_mut().find(|(side, _)| *side == row.side) {
-                Some((_, sum)) => *sum -= push * mass,
-                None => sides.push((row.side, -push * mass)),
-            }
-        }
+        let mut sides: Vec<(u32, f64)> =
+            pushes.map(|(row, push)| (row as u32, -push * mass)).collect();
         in_phase_order(&self.parameters.machine.polygon, &mut sides);
         sides
     }
@@ -348,7 +332,7 @@ impl Solver for LinearEvents {
             let free = match side {
                 None => motion.parameters.carried(point),
                 Some(side) => {
-                    let along = Plane::i() * side.direction.casing;
+                    let along = Plane::i() * side;
                     along * (along.conj() * point.dz).re
                 }
             };

@@ -350,12 +350,11 @@ impl LinearEvents {
         let t = self.clock.start();
         let mut touched = ActiveSet::Nothing;
         for (&(row, rate), &impulse) in met.iter().zip(impulses) {
-            let Some(row) = self.parameters.rows.get(row).filter(|_| impulse > 0.0) else {
-                continue;
-            };
-            touched = touched.with(row.side);
-            if rate < -soft {
-                self.log.impact(t, row.side);
+            if impulse > 0.0 {
+                touched = touched.with(row as u32);
+                if rate < -soft {
+                    self.log.impact(t, row as u32);
+                }
             }
         }
         if touched != ActiveSet::Nothing {
@@ -408,8 +407,8 @@ impl LinearEvents {
             self.rest = std::sync::OnceLock::new();
         }
         let t = self.clock.start();
-        let sides = held.rows.iter().filter_map(|&row| self.parameters.rows.get(row));
-        let active_set = sides.fold(ActiveSet::Nothing, |set, row| set.with(row.side));
+        let sides = held.rows.iter().map(|&row| row as u32);
+        let active_set = sides.fold(ActiveSet::Nothing, ActiveSet::with);
         let before = self.log.active_set;
         if before != ActiveSet::Nothing && before != active_set {
             // The old contact lasted until now.
