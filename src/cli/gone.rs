@@ -21,24 +21,28 @@ const POSITIONAL: &str = "SCENE";
 
 /// Every input of an earlier version that is refused with a hint.
 const GONE: &[Gone] = &[
-    Gone {
-        command: "map",
-        name: "--resume",
-        instead: "make a long map in shares, map --shard K/COUNT; one that was interrupted runs \
-                  again",
-    },
-    Gone {
-        command: "",
-        name: "half-n",
-        instead: "half as many diameters as blades are paper-nd3 --nd 11 --speed 100 --pulse \
-                  20000 --solver event --model rigid",
-    },
-    Gone {
-        command: "",
-        name: "near-critical",
-        instead: "this speed is undamped --speed 293, and its numbers are in docs/theory.md",
-    },
+    gone("hbm", "--fold", "hbm --branches says from which speed soft blades have no corner"),
+    gone("hbm", "--follow", STATES),
+    gone("hbm", "--over", STATES),
+    gone("hbm", "--harmonics", "hbm --slip gives the exact orbit of slip, without a series"),
+    gone("margins", "--tolerance", "margins --json has the sensitivity of every limit"),
+    gone("margins", "lasting_pulse", PULSES),
+    gone("margins", "lasting_pulse_unilateral", PULSES),
+    gone("margins", "lasting_pulse_bilateral", PULSES),
+    gone("", "half-n", "half as many diameters as blades are paper-nd3 --nd 11 --speed 100"),
+    gone("", "near-critical", "its numbers are in docs/theory.md; see undamped --speed 293"),
+    gone("map", "--resume", "map --shard K/COUNT computes a share; an interrupted one runs again"),
 ];
+
+/// What answers `hbm --follow`.
+const STATES: &str = "hbm --smooth gives the steady states on a lining at each speed";
+
+/// What answers which pulses last.
+const PULSES: &str = "map --pulse FROM:TO:COUNT shows which pulses last";
+
+const fn gone(command: &'static str, name: &'static str, instead: &'static str) -> Gone {
+    Gone { command, name, instead }
+}
 
 /// Returns the refusal of a command line with an option or an argument of an earlier version.
 pub fn argument(error: &clap::Error, arguments: &[OsString]) -> Option<String> {

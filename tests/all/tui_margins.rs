@@ -10,7 +10,7 @@ use rubscope_solver::study::margins::{LimitName, Margins};
 
 use crate::tui_support::{Session, scene};
 
-/// A short run: the search for lasting pulses has hundreds of them.
+/// A short run.
 fn short() -> Scene {
     let mut scene = scene();
     scene.solver.end_s = 5e-3;
@@ -19,14 +19,6 @@ fn short() -> Scene {
 
 fn open(size: (u16, u16), scene: Scene) -> Session {
     let mut session = Session::open(size.0, size.1, scene, Theme::Dark, Marker::Braille);
-    session.press("8");
-    session
-}
-
-/// As `open`, with the lasting pulses.
-fn search(size: (u16, u16), scene: Scene) -> Session {
-    let mut session = Session::open(size.0, size.1, scene, Theme::Dark, Marker::Braille);
-    session.engine.searches = true;
     session.press("8");
     session
 }
@@ -60,12 +52,10 @@ fn selected(session: &Session) -> &'static str {
 
 #[test]
 fn the_rows_are_the_margins_of_the_scene_with_their_knobs() {
-    let session = search((120, 40), short());
+    let session = open((120, 40), short());
     let (live, old) = session.app.margins().unwrap();
-    assert!(!old && live.awaited.is_empty());
-    let mut margins = Margins::of(&session.app.scene);
-    assert!(margins.laws().into_iter().all(|law| margins.search(law, &|| true)));
-    assert_eq!(live.margins.limits, margins.limits);
+    assert!(!old);
+    assert_eq!(live.margins.limits, Margins::of(&session.app.scene).limits);
     for (symbol, parts) in [
         ("Ω_c", ["292.88", "+70.7 % beyond", "k_c", "+0.500"]),
         ("Ω_lock", ["411.93", "+21.4 % beyond", "ζ_c", "+0.328"]),
@@ -76,9 +66,6 @@ fn the_rows_are_the_margins_of_the_scene_with_their_knobs() {
         let line = line(&session, symbol);
         assert!(parts.iter().all(|part| line.contains(part)), "{parts:?} in {line}");
     }
-    let lasting = margins.limit(LimitName::LastingPulse).unwrap();
-    let factor = format!("{:.1} x beyond", 1.0 + lasting.margin.unwrap());
-    assert!(line(&session, "F lasts bil").contains(&factor), "{factor}: {}", session.text());
     // A load has no place on a bar, and no side.
     assert!(!line(&session, "torque").contains('%'), "{}", session.text());
     assert!(line(&session, "Ω_c").contains('┃') && line(&session, "Ω_c").contains('█'));
@@ -189,7 +176,7 @@ fn a_click_reads_a_row_and_a_second_one_jumps() {
 
 #[test]
 fn the_columns_and_rows_that_have_no_room_are_said_or_left_out() {
-    let mut session = search((80, 24), short());
+    let mut session = open((80, 24), short());
     session.press("ij ");
     session.press("kj");
     for (width, height) in [(80, 24), (120, 40), (40, 12), (200, 50)] {
@@ -202,7 +189,7 @@ fn the_columns_and_rows_that_have_no_room_are_said_or_left_out() {
     assert!(session.text().contains(" more"), "{}", session.text());
     session.press("i");
     session.press(&"j".repeat(20));
-    assert_eq!(cell(&session), [0, 13]);
+    assert_eq!(cell(&session), [0, 11]);
     assert!(session.text().contains("before"), "{}", session.text());
     assert!(line(&session, "wave energy").contains("mJ"), "{}", session.text());
 }
@@ -263,7 +250,7 @@ fn no_scene_is_too_odd() {
             }
         }
         // Every row and every knob, from the first to the last.
-        let rows = session.app.margins().unwrap().0.rows().len();
+        let rows = session.app.margins().unwrap().0.margins.limits.len();
         let step = |right, up| Action::Cursor { right, up, coarse: false };
         for _ in 0..rows {
             for _ in 0..4 {

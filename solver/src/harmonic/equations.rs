@@ -26,7 +26,7 @@ use serde::Serialize;
 use strum::{AsRefStr, Display, EnumString, VariantNames};
 
 use super::Corner;
-use super::fold::CornerAngle;
+use super::corner_angle::CornerAngle;
 use crate::model::{Machine, Number};
 use crate::tolerances::{
     NEWTON_ALIKE, NEWTON_LARGEST, NEWTON_SHRINK, NEWTON_STEPS, NEWTON_STRIDE, NEWTON_STRIDES,

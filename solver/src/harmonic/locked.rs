@@ -7,8 +7,8 @@
 use serde::Serialize;
 
 use super::corner::Configuration;
+use super::corner_angle::CornerAngle;
 use super::equations::{Equations, Scales, Wave};
-use super::fold::CornerAngle;
 use super::stability::Linearised;
 use super::{Character, Corner, Form, HarmonicError, error, lining, tip_lock};
 use crate::model::{Machine, Number};
@@ -445,7 +445,7 @@ pub fn lock_fold_speed<T: Number>(machine: &Machine<T>) -> Option<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::harmonic::{Form, Kind, corner_branch, equilibria, locked_motion};
+    use crate::harmonic::{Form, Kind, equilibria, locked_motion};
     use crate::scene::Scene;
 
     fn machine(set: &[(&str, &str)]) -> Machine {
@@ -495,19 +495,6 @@ mod tests {
                 close(loads.largest_alpha_rad, polygon.largest_component(modes[0], modes[1]), 1e-7);
             }
         }
-    }
-
-    #[test]
-    fn the_branch_ends_at_the_fold() {
-        let machine = machine(&[
-            ("bladed_disk.stiffness_nm_per_rad", "0.02"),
-            ("bladed_disk.coupling_nm_per_rad", "0"),
-        ]);
-        let fold = lock_fold_speed(&machine).unwrap();
-        let branch = corner_branch(&machine, 0, true, [0.0, 2.0 * fold], 0.02).unwrap();
-        close(fold, branch.fold.unwrap().speed_rad_s, 1e-12);
-        assert!(lock_loads(&machine, 0.999 * fold).is_some());
-        assert_eq!(lock_loads(&machine, 1.001 * fold), None);
     }
 
     #[test]

@@ -28,21 +28,6 @@ pub(crate) const CONVERGED: f64 = 1e-7;
 /// number resolves, at any speed whose square a number holds.
 pub(crate) const AS_GOOD_AS_RIGID: f64 = 1e-290;
 
-/// Most points of one branch.
-pub(crate) const BRANCH_POINTS: usize = 20_000;
-
-/// What the widest corner leaves of a right angle, where the amplitude would be
-/// infinite \[rad\].
-pub(crate) const LEFT_OPEN: f64 = 1e-3;
-
-/// Neighbours on a branch are an arc from the first to the second of these
-/// steps apart, and the last two of a leg at most the third.
-pub(crate) const APART: [f64; 3] = [0.9, 1.1, 1.5];
-
-/// The largest speed over `Omega_c`: squares of it leave room for what they are
-/// multiplied with.
-pub(crate) const FASTEST: f64 = 1e100;
-
 /// Most changes of character looked for between two neighbouring speeds.
 pub(crate) const BRANCH_CHANGES: usize = 16;
 
@@ -56,15 +41,6 @@ pub(crate) const CLEAR_SIGN: f64 = 1e-9;
 
 /// As `CLEAR_SIGN`, for the coefficients of odd order.
 pub(crate) const CLEAR_DAMPING: f64 = 1e-6;
-
-/// Samples of one period on which the largest truncation errors are looked for.
-pub(crate) const SPECTRUM_SAMPLES: usize = 2048;
-
-/// Most harmonics of a spectrum.
-pub(crate) const HARMONICS: u32 = 512;
-
-/// Exponent below which the mean of an exponential is a power series.
-pub(crate) const SMALL_RATE: f64 = 1e-6;
 
 /// Imaginary part of the joint compliance at a root, as a part of the real part, up to
 /// which it is round-off. Larger: an undamped resonance is taken for a whirl.

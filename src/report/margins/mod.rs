@@ -1,11 +1,8 @@
 //! The margins of a scene as a table of every number (CSV), and as aligned text for
 //! people: a row for each limit, then what more was asked for (`rows`).
 
-mod row;
 mod rows;
 pub mod words;
-
-pub use row::{LimitRow, TOLD};
 
 use std::io::{Result, Write};
 
@@ -13,24 +10,24 @@ use serde_json::json;
 
 use super::line::wrapped;
 use super::table::{Table, TableCell};
-use rubscope_solver::study::margins::{Limit, Margins, acting};
+use rubscope_solver::study::margins::{Margins, acting};
 
 /// Widest line of the text; a command to copy stays in one line.
 pub const WIDTH: usize = 100;
+/// Number of parameters that are listed with each limit.
+pub const STRONGEST: usize = 3;
 
 /// Every limit with its sensitivities, one row a limit.
 #[must_use]
 pub fn table(margins: &Margins) -> Table {
-    let own = ["name", "quantity", "contact", "value", "present", "margin"];
+    let own = ["name", "quantity", "value", "present", "margin"];
     let parameters = acting(&margins.scene).map(|parameter| parameter.path);
     let mut table = Table::new(own.into_iter().chain(parameters));
     for limit in &margins.limits {
-        let contact = limit.contact.map(|law| law.to_string());
         let own = [
             limit.name.to_string().into(),
             // The same word as in JSON.
             json!(limit.quantity).as_str().map_or(TableCell::Empty, TableCell::from),
-            contact.map_or(TableCell::Empty, TableCell::from),
             limit.value.into(),
             limit.present.into(),
             limit.margin.into(),
@@ -51,20 +48,10 @@ pub fn write(margins: &Margins, out: &mut dyn Write) -> Result<()> {
     tell(&words::conditions(margins), out)?;
     words::note(margins).iter().try_for_each(|note| tell(note, out))?;
     rows::write(margins, out)?;
-    for limit in margins.limits.iter().filter(|limit| has_bands(limit)) {
-        writeln!(out)?;
-        rows::bands(limit, out)?;
-    }
     rows::notes(margins, out)?;
-    rows::spread(margins, out)?;
     rows::target(margins, out)?;
     writeln!(out)?;
     tell(&words::cost(margins), out)
-}
-
-/// Whether something is known of where pulses last.
-fn has_bands(limit: &Limit) -> bool {
-    limit.value.is_some() && limit.contact.is_some()
 }
 
 /// Writes a text in lines that are not too wide.

@@ -56,7 +56,6 @@ fn draw(margins: &Margins, origin: &Provenance, height: u32, text: &mut String) 
     page.y += 6;
     row::draw_all(margins, &mut page)?;
     tables::loads(margins, &mut page)?;
-    tables::spread(margins, &mut page)?;
     tables::target(margins, &mut page)?;
     foot(margins, origin, &mut page)?;
     let height = u32::try_from(page.y + 8)?;

@@ -1,19 +1,19 @@
 //! The row of one limit: its symbol, value and words, where the scene stands, what moves it
 //! most, and its bar: from zero to the limit, with the value of the scene on it; decades where
-//! pulses are factors apart, with the bands of those that last.
+//! the pulse of the scene is factors apart from it.
 
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 
 use super::{LINE, Page, SMALL, TEXT, WIDTH};
 use crate::report::line::wrapped;
-use crate::report::margins::{LimitRow, words};
+use crate::report::margins::{STRONGEST, words};
 use crate::report::number::{rounded, short};
 use crate::report::svg::LEFT;
 use crate::report::svg::paper::{Area, Drawn, FINE, letters_in, px, write_at, write_from};
 use crate::report::symbols::{in_print, symbol};
 use crate::report::ticks::{log_ticks, power_of_ten};
-use rubscope_solver::study::margins::{Limit, LimitName, Margins, Quantity};
+use rubscope_solver::study::margins::{Limit, Margins, Quantity};
 
 /// Left of what is said of the margin.
 const MARGIN: i32 = 582;
@@ -27,9 +27,6 @@ const CHANGES: [f64; 2] = [1.0, 4.0];
 /// Bars of what moves a limit more, and less.
 const MORE: RGBColor = RGBColor(60, 60, 60);
 const LESS: RGBColor = RGBColor(170, 170, 170);
-
-/// Said of a limit that is searched, where its search has no derivative.
-const NOT_SMOOTH: &str = "not smooth here";
 
 /// A number with its unit as print has it: `−4·10⁻⁸ rad`, `50 µs`, `kg m²`.
 pub(super) fn printed(text: &str) -> String {
@@ -46,28 +43,28 @@ pub(super) fn printed(text: &str) -> String {
 
 /// Draws a row for each speed and each pulse.
 pub(super) fn draw_all(margins: &Margins, page: &mut Page<'_, '_>) -> Drawn<()> {
-    let all = LimitRow::all(margins, &[]);
-    let rows: Vec<&LimitRow> = all.iter().filter(|row| !row.is_load()).collect();
-    let changes = rows.iter().flat_map(|row| row.strongest()).map(|(_, by)| by.abs());
+    let rows: Vec<&Limit> = margins.limits.iter().filter(|limit| !limit.is_load()).collect();
+    let changes = rows
+        .iter()
+        .flat_map(|limit| limit.sensitivities.strongest(STRONGEST))
+        .map(|(_, by)| by.abs());
     let longest = changes.fold(CHANGES[0], f64::max).min(CHANGES[1]);
-    let pulses = Range::of_pulses(&margins.limits);
     write_at(page.area, "limit", (LEFT, page.y), SMALL)?;
-    let bands = margins.limits.iter().any(|limit| !limit.bands.is_empty());
-    legend(page.area, page.y, bands)?;
+    legend(page.area, page.y)?;
     let last = WIDTH as i32 - LEFT;
     let told = "+1 % of each of these moves it by";
     write_from(page.area, told, (last, page.y), SMALL, HPos::Right)?;
     page.y += LINE;
     for row in rows {
         page.rule()?;
-        draw(row, pulses.filter(|_| row.quantity() == Quantity::Pulse), longest, page)?;
+        draw(row, longest, page)?;
     }
     Ok(())
 }
 
-fn draw(row: &LimitRow, shared: Option<Range>, longest: f64, page: &mut Page<'_, '_>) -> Drawn<()> {
+fn draw(row: &Limit, longest: f64, page: &mut Page<'_, '_>) -> Drawn<()> {
     let (area, top) = (page.area, page.y);
-    let value = row.value().map(|value| printed(&words::value(value, 6, row.quantity())));
+    let value = row.value.map(|value| printed(&words::value(value, 6, row.quantity)));
     let value = value.as_deref().unwrap_or("none");
     write_at(area, &format!("{} = {value}", row.name.symbol()), (LEFT, top), TEXT)?;
     let room = letters_in((ENDS[0] - LEFT - 18) as u32, SMALL);
@@ -76,9 +73,9 @@ fn draw(row: &LimitRow, shared: Option<Range>, longest: f64, page: &mut Page<'_,
         write_at(area, &line, (LEFT, y), SMALL)?;
         y += LINE;
     }
-    if let Some((limit, value)) = row.limit().zip(row.value()) {
-        draw_bar(area, limit, value, shared.unwrap_or_else(|| Range::of(limit)), top)?;
-        let margin = row.margin().map(words::margin).unwrap_or_default();
+    if let Some(value) = row.value {
+        draw_bar(area, row, value, top)?;
+        let margin = row.margin.map(words::margin).unwrap_or_default();
         write_at(area, &printed(&margin), (MARGIN, top + 11), SMALL)?;
         write_at(area, &row.way(), (MARGIN, top + 11 + LINE), SMALL)?;
         moves(row, longest, top, page)?;
@@ -87,20 +84,15 @@ fn draw(row: &LimitRow, shared: Option<Range>, longest: f64, page: &mut Page<'_,
     Ok(())
 }
 
-/// What a limit is, under which law, and what else is to be said.
-fn what(row: &LimitRow) -> String {
-    let own = row.name == LimitName::LastingPulse;
-    let law = row.law.filter(|_| own).map(|law| format!(", {law} law"));
-    let note = row.note().map(|note| format!("; {note}"));
-    format!("{}{}{}", row.name.what(), law.unwrap_or_default(), note.unwrap_or_default())
+/// Returns what a limit is, and its note.
+fn what(row: &Limit) -> String {
+    let note = row.note.as_ref().map(|note| format!("; {note}"));
+    format!("{}{}", row.name.what(), note.unwrap_or_default())
 }
 
 /// What moves a limit most, as bars on both sides of zero.
-fn moves(row: &LimitRow, longest: f64, top: i32, page: &Page<'_, '_>) -> Drawn<()> {
-    let strongest = row.strongest();
-    if strongest.is_empty() && row.law.is_some() {
-        return write_from(page.area, NOT_SMOOTH, (ZERO, top + 11), SMALL, HPos::Center);
-    }
+fn moves(row: &Limit, longest: f64, top: i32, page: &Page<'_, '_>) -> Drawn<()> {
+    let strongest = row.sensitivities.strongest(STRONGEST);
     for ((path, by), y) in strongest.iter().zip((top + 3..).step_by(LINE as usize)) {
         let name = in_print(&symbol(path));
         write_from(page.area, &name, (ZERO - REACH - 4, y), SMALL, HPos::Right)?;
@@ -133,12 +125,10 @@ const LABELS: usize = 7;
 const BELOW: RGBColor = RGBColor(224, 224, 224);
 /// Beyond it.
 const BEYOND: RGBColor = RGBColor(150, 150, 150);
-/// Pulses that last.
-const LASTS: RGBColor = RGBColor(40, 70, 140);
 
 /// The range of a bar.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Range {
+enum Range {
     /// From zero to this.
     Plain(f64),
     /// From one power of ten to another.
@@ -146,27 +136,16 @@ pub(super) enum Range {
 }
 
 impl Range {
-    /// That of one limit alone.
-    pub(super) fn of(limit: &Limit) -> Self {
+    /// Creates the range of one limit.
+    fn of(limit: &Limit) -> Self {
         let sizes = [limit.value, limit.present].into_iter().flatten().map(f64::abs);
-        let most = sizes.fold(0.0, f64::max);
+        let most = sizes.clone().fold(0.0, f64::max);
+        let least = sizes.filter(|size| *size > 0.0).fold(f64::INFINITY, f64::min);
+        if limit.quantity == Quantity::Pulse && most > APART * least {
+            let low = least.log10().floor();
+            return Self::Decades([low, most.log10().ceil().max(low + 1.0)]);
+        }
         Self::Plain(if most > 0.0 { most } else { 1.0 })
-    }
-
-    /// That of all pulses, if they are factors apart.
-    pub(super) fn of_pulses(limits: &[Limit]) -> Option<Self> {
-        let pulses = limits.iter().filter(|limit| limit.quantity == Quantity::Pulse);
-        let sizes: Vec<f64> = pulses
-            .flat_map(|limit| {
-                let bands = limit.bands.iter().flat_map(|band| [Some(band.from_n), band.to_n]);
-                bands.chain([limit.value, limit.present]).flatten().map(f64::abs)
-            })
-            .filter(|size| *size > 0.0)
-            .collect();
-        let least = sizes.iter().copied().fold(f64::INFINITY, f64::min);
-        let most = sizes.iter().copied().fold(0.0, f64::max);
-        let low = least.log10().floor();
-        (most > APART * least).then(|| Self::Decades([low, most.log10().ceil().max(low + 1.0)]))
     }
 
     /// Where a value is on the bar \[px\].
@@ -190,19 +169,13 @@ pub(super) fn fill(area: &Area, x: [i32; 2], y: [i32; 2], colour: RGBColor) -> D
 }
 
 /// What is on the bars, in a line at `y`.
-pub(super) fn legend(area: &Area, y: i32, bands: bool) -> Drawn<()> {
+fn legend(area: &Area, y: i32) -> Drawn<()> {
     let left = ENDS[0];
     let bar = [y, y + 11];
     marker(area, left + 5, y + 9)?;
     write_at(area, "scene", (left + 14, y), SMALL)?;
     fill(area, [left + 60, left + 63], bar, BLACK)?;
     write_at(area, "limit", (left + 69, y), SMALL)?;
-    if bands {
-        band(area, [left + 112, left + 124], bar, false)?;
-        write_at(area, "lasts", (left + 129, y), SMALL)?;
-        band(area, [left + 172, left + 184], bar, true)?;
-        write_at(area, "lasts, sensitive", (left + 189, y), SMALL)?;
-    }
     Ok(())
 }
 
@@ -212,30 +185,17 @@ fn marker(area: &Area, at: i32, tip: i32) -> Drawn<()> {
     Ok(area.draw(&Polygon::new(corners.map(|(x, y)| (px(x), px(y))).to_vec(), BLACK.filled()))?)
 }
 
-/// Pulses that last, from one place to another; sensitive ones in stripes.
-fn band(area: &Area, [from, to]: [i32; 2], y: [i32; 2], sensitive: bool) -> Drawn<()> {
-    fill(area, [from, to], y, LASTS)?;
-    for stripe in (from + 1..to).step_by(3).filter(|_| sensitive) {
-        fill(area, [stripe, stripe + 1], y, WHITE)?;
-    }
-    Ok(())
-}
-
 /// Draws the bar of a limit with a value, in the row that begins at `top`.
-fn draw_bar(area: &Area, limit: &Limit, value: f64, range: Range, top: i32) -> Drawn<()> {
+fn draw_bar(area: &Area, limit: &Limit, value: f64, top: i32) -> Drawn<()> {
+    let range = Range::of(limit);
     let [left, right] = ENDS;
     let y = BAR.map(|y| top + y);
     let at = range.place(value);
     fill(area, [left, at], y, BELOW)?;
-    if let Some(present) = limit.present.filter(|_| limit.bands.is_empty())
+    if let Some(present) = limit.present
         && limit.margin.is_some_and(|margin| margin > 0.0)
     {
         fill(area, [at, range.place(present)], y, BEYOND)?;
-    }
-    for pulses in &limit.bands {
-        let from = range.place(pulses.from_n);
-        let to = pulses.to_n.map_or(right, |to| range.place(to)).max(from + 1);
-        band(area, [from, to], y, pulses.sensitive)?;
     }
     let corners = [(px(left), px(y[0])), (px(right), px(y[1]))];
     area.draw(&Rectangle::new(corners, BLACK.stroke_width(FINE)))?;

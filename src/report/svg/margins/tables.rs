@@ -1,75 +1,47 @@
-//! The small tables of the page: the loads of the lock, the spread by tolerances, the
-//! target, and the parameters of the scene.
+//! The small tables of the page: the loads of the lock, the target, and the parameters of the scene.
 
 use plotters::style::text_anchor::HPos;
 
 use super::row::printed;
 use super::{LINE, Page, SMALL, TEXT};
-use crate::report::margins::{LimitRow, words};
+use crate::report::margins::{STRONGEST, words};
 use crate::report::number::{speed as speed_text, time, with_unit};
 use crate::report::svg::LEFT;
 use crate::report::svg::paper::{Drawn, typed, write_at, write_from};
 use crate::report::symbols::{in_print, symbol};
 use rubscope_solver::scene::keys::{Allowed, KEYS};
 use rubscope_solver::scene::{Scene, SolverKind, Value};
-use rubscope_solver::study::margins::Margins;
+use rubscope_solver::study::margins::{Limit, Margins};
 
 /// Columns of the loads: words, right end of the value, way it acts, what moves it.
 const LOADS: [i32; 4] = [76, 440, 450, 520];
-/// Right ends of the columns of the spread.
-const SPREAD: [i32; 5] = [300, 430, 560, 690, 815];
-
 /// The loads of the locked motion.
 pub(super) fn loads(margins: &Margins, page: &mut Page<'_, '_>) -> Drawn<()> {
-    let loads = LimitRow::all(margins, &[]).into_iter().filter(LimitRow::is_load);
-    let (with, without): (Vec<_>, Vec<_>) = loads.partition(|row| row.value().is_some());
+    let loads = margins.limits.iter().filter(|limit| limit.is_load());
+    let (with, without): (Vec<&Limit>, Vec<&Limit>) = loads.partition(|row| row.value.is_some());
     page.rule()?;
     let speed = printed(&speed_text(margins.scene.operation.speed_rad_s));
-    let none = match without.first().and_then(LimitRow::note) {
+    let none = match without.first().and_then(|row| row.note.as_ref()) {
         Some(note) if with.is_empty() => format!(" none: {note}"),
         _ => String::new(),
     };
     let [what, value, side, moves] = LOADS;
     page.lines(&format!("The locked motion at {speed}:{none}"), TEXT, 20)?;
     for row in with {
-        let Some(load) = row.value() else { continue };
+        let Some(load) = row.value else { continue };
         let (area, y) = (page.area, page.y);
         write_at(area, row.name.symbol(), (LEFT, y), SMALL)?;
         write_at(area, row.name.what(), (what, y), SMALL)?;
-        let load = printed(&words::value(load, 6, row.quantity()));
+        let load = printed(&words::value(load, 6, row.quantity));
         write_from(area, &load, (value, y), SMALL, HPos::Right)?;
         write_at(area, &row.way(), (side, y), SMALL)?;
-        for ((path, by), x) in row.strongest().iter().zip((moves..).step_by(102)) {
+        for ((path, by), x) in
+            row.sensitivities.strongest(STRONGEST).iter().zip((moves..).step_by(102))
+        {
             let told = format!("{} {}", symbol(path), words::change(*by));
             write_at(area, &in_print(&told), (x, y), SMALL)?;
         }
         page.y += LINE + 2;
-    }
-    Ok(())
-}
-
-/// How far limits spread.
-pub(super) fn spread(margins: &Margins, page: &mut Page<'_, '_>) -> Drawn<()> {
-    if margins.tolerances.is_empty() {
-        return Ok(());
-    }
-    page.rule()?;
-    page.lines(&typed(&words::tolerances(margins)), TEXT, 20)?;
-    for (head, x) in words::SPREAD.iter().zip(SPREAD) {
-        write_from(page.area, head, (x, page.y), SMALL, HPos::Right)?;
-    }
-    page.y += LINE + 2;
-    for limit in &margins.limits {
-        let Some((unit, told)) = words::spread(limit) else { continue };
-        let name = format!("{} [{}]", limit.name.symbol(), unit.replace('u', "µ"));
-        write_at(page.area, &name, (LEFT, page.y), SMALL)?;
-        for (text, x) in told.iter().zip(SPREAD) {
-            write_from(page.area, &printed(text), (x, page.y), SMALL, HPos::Right)?;
-        }
-        page.y += LINE;
-    }
-    for line in words::sampling(margins) {
-        page.lines(&typed(&line), SMALL, LINE)?;
     }
     Ok(())
 }

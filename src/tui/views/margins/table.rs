@@ -10,7 +10,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::{Modifier, Style};
 
-use crate::report::margins::{LimitRow, TOLD};
+use crate::report::margins::STRONGEST;
 use crate::report::number::speed_unit;
 use crate::tui::app::App;
 use crate::tui::appearance::Appearance;
@@ -21,7 +21,7 @@ use crate::tui::views::ViewArea;
 use crate::tui::views::margins::rows::{change_text, knob_symbol, percent_text, value_text};
 use crate::tui::views::margins::{COLUMNS, rows};
 use Column::{Bar, Knob, Percent, Symbol, Value, Word};
-use rubscope_solver::study::margins::{Band, Limit, Quantity};
+use rubscope_solver::study::margins::{Limit, Quantity};
 
 /// From this height on, columns have headings.
 const HEADING_FROM: u16 = 8;
@@ -29,7 +29,7 @@ const HEADING_FROM: u16 = 8;
 /// The rows, and how they are drawn.
 pub struct Table<'a> {
     app: &'a App,
-    rows: &'a [LimitRow<'a>],
+    rows: &'a [Limit],
     old: bool,
     at: ViewArea,
     columns: Columns,
@@ -41,7 +41,7 @@ impl<'a> Table<'a> {
     /// The table for an area; `old` where it is of other knobs.
     pub fn new(
         app: &'a App,
-        rows: &'a [LimitRow<'a>],
+        rows: &'a [Limit],
         old: bool,
         at: ViewArea,
         area: Rect,
@@ -65,7 +65,7 @@ impl<'a> Table<'a> {
         let (room, count) = (usize::from(area.height), self.rows.len());
         // A rule before the loads, where everything fits; pages otherwise, on which
         // rows stay where they are while a pointer goes over them.
-        let loads = self.rows.iter().position(LimitRow::is_load).filter(|_| count < room);
+        let loads = self.rows.iter().position(Limit::is_load).filter(|_| count < room);
         let page = if count <= room { count } else { room.saturating_sub(1) }.max(1);
         let row = cell.map_or(0, |[_, row]| row);
         let first = row / page * page;
@@ -143,7 +143,7 @@ impl<'a> Table<'a> {
         &self,
         buffer: &mut Buffer,
         line: Rect,
-        row: &LimitRow,
+        row: &Limit,
         (cursor, nearest): (Option<usize>, bool),
     ) {
         let columns = &self.columns;
@@ -155,14 +155,17 @@ impl<'a> Table<'a> {
         } else if nearest {
             print(buffer, line, 0, rows::nearest_sign(look), style(Role::Focus));
         }
-        let quiet = row.value().is_none();
+        let quiet = row.value.is_none();
         for (column, place) in columns.places(line) {
             let width = usize::from(place.width);
             let mut put = |text: &str, style: Style| print(buffer, place, 0, text, style);
             match column {
                 Column::Symbol => {
-                    let text =
-                        shorten(&look.spell(&row.title(columns.short)), width, look.ellipsis());
+                    let text = shorten(
+                        &look.spell(row.name.titles()[usize::from(columns.short)]),
+                        width,
+                        look.ellipsis(),
+                    );
                     put(&text, if cursor == Some(0) { here } else { style(Role::Text) });
                 }
                 Column::Bar if !quiet => {
@@ -202,9 +205,9 @@ impl<'a> Table<'a> {
     }
 
     /// One knob: its symbol, the change by one per cent, and a signed bar.
-    fn knob(&self, buffer: &mut Buffer, line: Rect, place: usize, row: &LimitRow, under: bool) {
+    fn knob(&self, buffer: &mut Buffer, line: Rect, place: usize, row: &Limit, under: bool) {
         let look = &self.app.appearance;
-        let strongest = row.strongest();
+        let strongest = row.sensitivities.strongest(STRONGEST);
         let Some((path, by)) = strongest.get(place + self.first_knob) else { return };
         let most = strongest.first().map_or(1.0, |first| first.1.abs());
         let style = |role: Role| look.style(if self.old { Role::Quiet } else { role });
@@ -293,13 +296,13 @@ pub struct Columns {
 
 impl Columns {
     /// The columns for these rows.
-    pub fn of(rows: &[LimitRow], area: Rect, large: bool, look: &Appearance) -> Self {
-        let widest = |of: &dyn Fn(&LimitRow) -> String| {
+    pub fn of(rows: &[Limit], area: Rect, large: bool, look: &Appearance) -> Self {
+        let widest = |of: &dyn Fn(&Limit) -> String| {
             let most = rows.iter().map(|row| cells(&look.spell(&of(row)))).max();
             most.and_then(|most| u16::try_from(most).ok()).unwrap_or(0)
         };
         let widest_knob = |of: &dyn Fn(&(&'static str, f64)) -> String| {
-            let strongest = rows.iter().flat_map(LimitRow::strongest);
+            let strongest = rows.iter().flat_map(|row| row.sensitivities.strongest(STRONGEST));
             let most = strongest.map(|knob| cells(&look.spell(&of(&knob)))).max();
             most.and_then(|most| u16::try_from(most).ok()).unwrap_or(1)
         };
@@ -309,7 +312,7 @@ impl Columns {
         let number = widest_knob(&|(_, by)| change_text(*by));
         let mut knob_bar = KNOB_BAR[0];
         let width = |column: Column, knob_bar: u16| match column {
-            Symbol => widest(&|row| row.title(short)),
+            Symbol => widest(&|row| row.name.titles()[usize::from(short)].to_string()),
             Bar => LEAST_BAR,
             Value => widest(&value_text),
             Percent => widest(&percent_text),
@@ -348,7 +351,7 @@ impl Columns {
 
     /// How many knobs are shown.
     pub fn knobs(&self) -> usize {
-        (0..TOLD).filter(|place| self.has(Knob(*place))).count()
+        (0..STRONGEST).filter(|place| self.has(Knob(*place))).count()
     }
 
     /// The columns in a line, from left to right; none beyond its end.
@@ -391,38 +394,34 @@ impl Columns {
 const AROUND: f64 = 2.0;
 
 /// Signs of a bar: below the present value, that value, above it, the limit, both in
-/// one cell, and pulses that last.
-pub fn signs(look: &Appearance) -> [&'static str; 6] {
-    look.either(["▒", "█", "▁", "┃", "╋", "▄"], ["=", "#", ".", "|", "+", "o"])
+/// one cell.
+pub fn signs(look: &Appearance) -> [&'static str; 5] {
+    look.either(["▒", "█", "▁", "┃", "╋"], ["=", "#", ".", "|", "+"])
 }
 
 /// A limit on its scale.
 #[derive(Debug)]
-pub struct LimitBar<'a> {
-    limit: &'a Limit,
+pub struct LimitBar {
     value: f64,
     present: f64,
     range: KnobRange,
 }
 
-impl<'a> LimitBar<'a> {
+impl LimitBar {
     /// The bar of a row; none of a load, and none where there is no such limit.
-    pub fn of(row: &LimitRow<'a>) -> Option<Self> {
-        let limit = row.limit()?;
+    pub fn of(limit: &Limit) -> Option<Self> {
         let (value, present) = limit.value.zip(limit.present)?;
         // Magnitudes: a negative pulse has negative limits.
         let sign = if value < 0.0 { -1.0 } else { 1.0 };
         let (value, present) = (sign * value, sign * present);
         let log = limit.quantity == Quantity::Pulse;
-        let ends = limit.bands.iter().flat_map(|band| [Some(band.from_n), band.to_n]);
-        let ends = ends.flatten().map(|end| sign * end);
-        let all = || ends.clone().chain([value, present]).filter(|x| *x > 0.0);
+        let all = || [value, present].into_iter().filter(|x| *x > 0.0);
         let most = all().fold(0.0, f64::max);
         let range = match log {
             true => KnobRange::log(all().fold(most, f64::min) / AROUND, most * AROUND),
             false => KnobRange::linear(0.0, most),
         };
-        (range.is_sound() && value > 0.0).then_some(Self { limit, value, present, range })
+        (range.is_sound() && value > 0.0).then_some(Self { value, present, range })
     }
 
     /// Draws it over the cells of one row.
@@ -430,18 +429,15 @@ impl<'a> LimitBar<'a> {
         if cells.width == 0 {
             return;
         }
-        let [full, now, empty, limit, both, lasting] = signs(look);
+        let [full, now, empty, limit, both] = signs(look);
         let width = f64::from(cells.width);
         let cell = |x: f64| ((self.range.part(x) * width) as u16).min(cells.width - 1);
         let (here, there) = (cell(self.present), cell(self.value));
         for k in 0..cells.width {
-            let ends = [k, k + 1].map(|k| self.range.at(f64::from(k) / width));
-            let lasts = self.limit.bands.iter().any(|band| reaches(band, ends));
             let (sign, role) = match () {
                 () if k == here && k == there => (both, Role::Focus),
                 () if k == here => (now, Role::Focus),
                 () if k == there => (limit, Role::Text),
-                () if lasts => (lasting, Role::Contact),
                 () if k < here => (full, Role::Quiet),
                 () => (empty, Role::Quiet),
             };
@@ -455,11 +451,6 @@ impl<'a> LimitBar<'a> {
             }
         }
     }
-}
-
-/// Whether a band has something between two pulses.
-fn reaches(band: &Band, [from, to]: [f64; 2]) -> bool {
-    band.from_n.abs() < to && band.to_n.is_none_or(|end| end.abs() >= from)
 }
 
 /// A part of the greatest change, -1 to 1, to the left or the right of the middle of

@@ -232,22 +232,6 @@ fn the_whirl_turns_as_the_fixed_point_of_its_passing_says() {
 }
 
 #[test]
-fn reports_say_that_angles_are_left_out_of_the_phases() {
-    let told = |model: &str, changes: &[(&str, f64)]| {
-        let report = crate::run_once(&scene(model, changes));
-        let mut text = Vec::new();
-        rubscope::report::summary::write(&report, Default::default(), &mut text).unwrap();
-        let told = String::from_utf8(text).unwrap().contains("(linearised)");
-        assert_eq!(told, report.solver.linearised);
-        told
-    };
-    assert!(told("modal", &[(SLOPE, 0.1)]));
-    assert!(told("modal", &[(REBOUND, 0.5)]));
-    assert!(!told("rigid", &[(REBOUND, 0.5)]));
-    assert!(!told("modal", &[]));
-}
-
-#[test]
 fn a_divergent_run_ends_in_one_state_with_its_energy() {
     let keys = [(SLOPE, 0.58), (FRICTION, 0.27), (SPEED, 517.0), (PULSE, 15699.0)];
     let mut scene = scene("modal", &keys).into_scene();
