@@ -70,8 +70,8 @@ pub struct HbmCommand {
     excitation: bool,
     #[command(flatten)]
     lining: LiningOptions,
-    /// View: whirl of inclined tips on the polygon and on a rim, where it begins, and
-    /// where a lock flutters
+    /// View: whirl of inclined tips in the limit of many blades, where it begins, and where a
+    /// lock flutters
     #[arg(long, group = "view")]
     whirl: bool,
     /// View: the joint compliance B(omega) in the complex plane; a whirl is where it

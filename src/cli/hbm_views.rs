@@ -11,8 +11,8 @@ use crate::report::number::{self, short};
 use crate::report::table::{MadeTable, Table};
 use rubscope_solver::harmonic::{
     Branches, Campbell, Corner, ExcitedLocks, Form, HarmonicError, Joint, SlipPoint, SlipRegion,
-    Sweep, WhirlPoint, drives, flutter_speed, locked_motion, round_whirls, slip_limits, slip_over,
-    undamped_flutter_speed, whirl_onset, whirl_over,
+    Sweep, drives, flutter_speed, locked_motion, round_whirls, slip_limits, slip_over,
+    undamped_flutter_speed, whirl_onset,
 };
 use rubscope_solver::model::Machine;
 use rubscope_solver::scene::{Scene, keys};
@@ -117,7 +117,7 @@ pub(super) fn answer(asked: &Asked, view: &HbmView) -> Result<Answer, Refusal> {
         (HbmView::Branches, _) => all_branches(json, &machine, speeds, damped),
         (HbmView::Campbell, _) => campbell(json, asked, &machine),
         (HbmView::Slip(zetas), _) => slipping(json, scene, speeds, zetas),
-        (HbmView::Whirl, _) => whirling(json, &machine, speeds, asked.fastest()),
+        (HbmView::Whirl, _) => Ok(whirling(json, &machine, speeds, asked.fastest())),
         (HbmView::Compliance(omegas), _) => {
             compliance(json, &machine, asked.fastest(), omegas.as_deref())
         }
@@ -273,15 +273,8 @@ const FREQUENCIES: usize = 201;
 const BEYOND: f64 = 1.5;
 
 /// Whirl against speed, and where it begins and ends.
-pub(super) fn whirling(
-    json: HbmReport,
-    machine: &Machine,
-    speeds: &[f64],
-    fastest: f64,
-) -> Result<Answer, HarmonicError> {
-    let row = |point: WhirlPoint| WhirlRow::of(machine, point);
-    let rows: Rc<Vec<WhirlRow>> =
-        Rc::new(whirl_over(machine, speeds)?.into_iter().map(row).collect());
+pub(super) fn whirling(json: HbmReport, machine: &Machine, speeds: &[f64], fastest: f64) -> Answer {
+    let rows = Rc::new(speeds.iter().map(|&speed| WhirlRow::at(machine, speed)).collect());
     let onset = whirl_onset(machine, fastest);
     let [flutter, undamped] =
         [flutter_speed(machine, fastest), undamped_flutter_speed(machine, fastest)];
@@ -307,7 +300,7 @@ pub(super) fn whirling(
         .with("flutter_undamped_rad_s", undamped)
         .with("lock_window_rad_s", window.map(|window| [Some(window.from), window.to]))
         .with_rows("whirl", &rows, report::whirl);
-    Ok(Answer::of(json, vec![(title, report::whirl_table(&rows))]))
+    Answer::of(json, vec![(title, report::whirl_table(&rows))])
 }
 
 /// The joint compliance at one speed, over frequencies of the casing \[rad/s\].

@@ -33,20 +33,8 @@ impl<T: Number> CornerAngle<T> {
     }
 
     /// With the (dimensionless) softness of the blades times their share.
-    fn new(delta: f64, bend: T) -> Self {
+    pub fn new(delta: f64, bend: T) -> Self {
         Self { delta, compliance: bend * delta.sin().powi(2) }
-    }
-
-    /// As `CornerAngle::at`, with its derivative by the implicit function theorem:
-    /// one more step of Newton's method, whose slope needs none.
-    pub fn derived(&self, stiffness: T) -> Option<T> {
-        let plain = CornerAngle { delta: self.delta, compliance: self.compliance.re() };
-        let angle_change = plain.at(stiffness.re())?;
-        let (sin, cos) = (self.delta + angle_change).sin_cos();
-        let pull = self.compliance * stiffness / (cos * cos);
-        let value = pull * sin / cos + angle_change;
-        let slope = pull.re() * (1.0 + 2.0 * sin * sin) / (cos * cos) + 1.0;
-        Some(-value / slope + angle_change)
     }
 
     /// `stiffness` at the fold, where the branch turns back: `at_fold` depends on `delta`

@@ -11,8 +11,8 @@
 //! - slip as a map: `slip`
 //! - coincidences and excitation: `coincidence`, `excitation`
 //! - blades and casing as one (section 10), and the speed from which their lock flutters:
-//!   `joint`; that lock: `tip_lock`; the whirl on so many blades that
-//!   they are round: `round_whirl`, on the polygon: `whirl`; on a lining: `lining`
+//!   `joint`; the whirl in the limit of many
+//!   blades: `round_whirl`; on a lining: `lining`
 
 mod coincidence;
 mod corner;
@@ -27,8 +27,6 @@ mod locked;
 mod round_whirl;
 mod slip;
 mod stability;
-mod tip_lock;
-mod whirl;
 
 pub use coincidence::{
     Campbell, Coincidence, CoincidencePoint, Line, coincidence, shifted_coincidence,
@@ -55,4 +53,3 @@ pub use round_whirl::{
 pub use slip::{
     Crossing, NoSlip, SlipLimit, SlipOrbit, SlipPoint, SlipRegion, slip_limits, slip_map, slip_over,
 };
-pub use whirl::{NoWhirl, WhirlOrbit, WhirlPoint, whirl_over};

@@ -66,20 +66,6 @@ pub(crate) const POLISHED: f64 = 1e-11;
 /// limit close by is taken for it. Smaller: growth is round-off.
 pub(crate) const BESIDE_A_LIMIT: f64 = 1e-6;
 
-/// Rates between which a whirl is looked for, how fast its contact passes over the
-/// blades, as parts of the frequency of these: where it is born they are equal.
-pub(crate) const WHIRL_RATES: [f64; 2] = [0.1, 30.0];
-
-/// Looks at passing times between these. Fewer: of two whirls that are born together
-/// none is found further from the fold.
-pub(crate) const WHIRL_LOOKS: usize = 400;
-
-/// Part of half a side by which a whirl may miss its end by round-off.
-pub(crate) const WHIRL_ENDS: f64 = 1e-9;
-
-/// Samples of an arc of whirl, for its extremes.
-pub(crate) const WHIRL_SAMPLES: usize = 128;
-
 /// Flutter of a machine that changes with the speed is looked for up to so many critical
 /// speeds, from as small a part of one. Beyond, no rotor turns.
 pub(crate) const FLUTTER_FURTHEST: f64 = 100.0;

@@ -2,7 +2,6 @@
 
 mod rows;
 mod survey;
-mod table;
 
 use std::sync::Arc;
 
@@ -12,13 +11,16 @@ use super::panel::{Opening, ViewArea, ViewPanel, not_yet, title};
 use crate::report::margins;
 use crate::tui::app::{App, Cursor};
 use crate::tui::text::{first_lines, print, wrap};
+use crate::tui::theme::Role;
+use crate::tui::views::table::Rows;
 pub use rows::DIGITS;
 use rubscope_solver::study::margins::Margins;
 use rubscope_solver::study::survey::Survey;
-use table::Table;
 
 /// Columns of the reading cursor: the limit, and the knobs that matter most.
 pub const COLUMNS: u32 = margins::STRONGEST as u32 + 1;
+/// Columns of the table before the first knob: limit, value and margin.
+pub const LEADING: usize = 3;
 /// From this height on, a sentence says what the row under the cursor is,
 const TOLD_FROM: u16 = 6;
 /// and from this one on it has two lines.
@@ -55,12 +57,24 @@ impl ViewPanel for MarginsView {
             _ => 0,
         };
         let above = Rect { height: inside.height - told, ..inside };
-        let rows = &live.margins.limits;
-        let left = Table::new(app, rows, old, at, above, cell).draw(buffer, above, cell);
+        let limits = &live.margins.limits;
+        let table = margins::titled(&live.margins, |name| name.titles()[1].to_string());
+        let drawn = Rows {
+            table: &table,
+            cursor: [LEADING, COLUMNS as usize],
+            cell,
+            home: 0,
+            marked: rows::nearest(limits),
+        };
+        let style = |row: usize, column: usize| {
+            let role = limits.get(row).map_or(Role::Text, |limit| rows::role(limit, column));
+            look.style(if old { Role::Quiet } else { role })
+        };
+        let height = drawn.draw(app, buffer, (at, above), style);
         // One row below the table, where there is room.
-        let y = left.y + left.height.min(1);
+        let y = above.y + (height + 1).min(above.height);
         let below = Rect { y, height: told, ..inside };
-        let (text, role) = rows::told(app, rows, cell);
+        let (text, role) = rows::told(app, limits, cell);
         let width = usize::from(below.width.saturating_sub(1));
         let lines = wrap(&look.spell(&text), width);
         let lines = first_lines(lines, width, usize::from(told), look.ellipsis());
@@ -159,13 +173,5 @@ mod tests {
         assert_eq!(MarginsView.csv(&app).unwrap().into_bytes(), bytes);
         app.run.latest.results.found.margins = None;
         assert_eq!(MarginsView.csv(&app), Err("there are no margins yet".into()));
-    }
-
-    #[test]
-    fn a_change_has_its_sign_on_its_side() {
-        let look = crate::tui::appearance::Appearance::new(Theme::Mono, Marker::Ascii);
-        for (part, bar) in [(1.0, "  |=="), (-1.0, "==|  "), (0.3, "  |- "), (-0.01, " -|  ")] {
-            assert_eq!(table::signed(part, 5, &look), bar);
-        }
     }
 }
