@@ -41,7 +41,7 @@ pub const BUILTIN: &[Builtin] = builtin![
 ];
 
 impl Scene {
-    /// The built-in scene of this name.
+    /// Returns the built-in scene of this name.
     ///
     /// # Errors
     /// No such scene; the message lists the existing ones.

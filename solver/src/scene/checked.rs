@@ -48,7 +48,7 @@ impl Deref for CheckedScene {
 }
 
 impl CheckedScene {
-    /// Whether the event solver supports the contact law, the model size and the
+    /// Checks that the event solver supports the contact law, the model size and the
     /// excitation.
     ///
     /// # Errors
@@ -57,7 +57,7 @@ impl CheckedScene {
         check::event(&self.0)
     }
 
-    /// Whether nothing in it goes beyond the paper's model.
+    /// Checks that nothing goes beyond the paper's model.
     ///
     /// # Errors
     /// It does, in one line.
@@ -69,14 +69,14 @@ impl CheckedScene {
         Err(SceneError::refused("scene", &self.title, allowed))
     }
 
-    /// The scene, to be changed.
+    /// Returns the scene, to be changed.
     #[must_use]
     pub fn into_scene(self) -> Scene {
         self.0
     }
 
-    /// This scene after a change that cannot break a bound: by round-off, or
-    /// away from all bounds.
+    /// Returns this scene after a change that cannot break a bound: by round-off, or away from
+    /// all bounds.
     pub(crate) fn perturbed(&self, change: impl FnOnce(&mut Scene)) -> Self {
         let mut scene = self.0.clone();
         change(&mut scene);
@@ -98,7 +98,7 @@ pub struct Adjustment {
 }
 
 impl Scene {
-    /// This scene as one that can be solved.
+    /// Returns this scene as one that can be solved.
     ///
     /// # Errors
     /// The first key out of bounds, or the first combination that is not allowed
@@ -160,7 +160,7 @@ impl Scene {
         made
     }
 
-    /// This scene for the event solver, which knows one contact law.
+    /// Returns this scene for the event solver, which knows one contact law.
     #[must_use]
     pub fn as_reference(&self) -> Self {
         let mut scene = self.clone();

@@ -26,30 +26,30 @@ pub(super) struct Clock {
 }
 
 impl Clock {
-    /// The start of the stretch \[s\].
+    /// Returns the start of the stretch \[s\].
     pub fn start(&self) -> f64 {
         self.start.0
     }
 
-    /// Seconds from the start of the stretch to `t`.
+    /// Returns the seconds from the start of the stretch to `t`.
     pub fn elapsed(&self, t: f64) -> f64 {
         ((t - self.start.0) - self.start.1).max(0.0)
     }
 
-    /// A stretch begins `s` seconds after the start of the one before.
+    /// Begins a stretch `s` seconds after the start of the one before.
     pub fn pass(&mut self, s: f64) {
         let (t, low) = self.start;
         self.start = two_sum(t, s + low);
         self.arrive(self.start.0);
     }
 
-    /// A stretch begins at `t`.
+    /// Begins a stretch at `t`.
     pub fn begin_at(&mut self, t: f64) {
         self.start = (t, 0.0);
         self.arrive(t);
     }
 
-    /// It is `t` now, or later.
+    /// Advances the present instant to `t`, never back.
     pub fn arrive(&mut self, t: f64) {
         self.now = self.now.max(t);
     }

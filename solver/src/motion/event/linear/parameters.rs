@@ -107,7 +107,7 @@ impl Parameters {
         parameters
     }
 
-    /// Blades as stiff as those of the machine.
+    /// Gives the blades the stiffness of the machine.
     pub(super) fn stiffen(&mut self) {
         let machine = &self.machine;
         if let Some(blades) = &mut self.blades {
@@ -116,7 +116,7 @@ impl Parameters {
         }
     }
 
-    /// Turns with another speed \[rad/s\].
+    /// Takes another rotor speed \[rad/s\].
     pub(super) fn turn_at(&mut self, speed: f64) {
         let machine = &self.machine;
         let (nu, damping) = (machine.nu(speed), 2.0 * self.casing.damping);
@@ -132,17 +132,17 @@ impl Parameters {
         (self.speed, self.nu) = (speed, nu);
     }
 
-    /// Clearance at rest `g0` \[m\].
+    /// Returns the clearance `g0` \[m\].
     pub(super) fn clearance(&self) -> f64 {
         self.machine.clearance()
     }
 
-    /// `kappa l_b` \[m\]; 0 where the blades do not move.
+    /// Returns `kappa l_b`, or 0 where the blades do not move \[m\].
     pub(super) fn arm(&self) -> f64 {
         self.blades.map_or(0.0, |blades| blades.arm)
     }
 
-    /// The sum of all rates of the free motion, seen from the blades \[rad/s\].
+    /// Returns the sum of all rates of the free motion, seen from the blades \[rad/s\].
     pub(super) fn rates(&self) -> f64 {
         let omega = self.machine.omega_c + 2.0 * self.casing.damping + self.nu.abs();
         let own = self
@@ -151,17 +151,17 @@ impl Parameters {
         omega.max(own)
     }
 
-    /// The row's share of a displacement of casing and blades.
+    /// Returns the share of a displacement of casing and blades along a row.
     pub(super) fn along(&self, row: usize, z: Plane, a: Plane) -> f64 {
         self.rows.get(row).map_or(0.0, |direction| along(*direction, self.arm(), z, a))
     }
 
-    /// Gap of a row \[m\].
+    /// Returns the gap of a row \[m\].
     pub(super) fn gap(&self, row: usize, point: &Point) -> f64 {
         self.clearance() + self.along(row, point.z, point.a)
     }
 
-    /// Accelerations of casing and blades without pushes.
+    /// Returns the accelerations of casing and blades without contact forces.
     pub(super) fn free(&self, point: &Point, force: Plane) -> (Plane, Plane) {
         let z = force - self.spring * point.z - self.drag * point.dz;
         let a = self.blades.map_or_else(Plane::default, |blades| {
@@ -171,7 +171,7 @@ impl Parameters {
         (z, a)
     }
 
-    /// The sum of the sizes of the terms of such accelerations, as a gap feels them.
+    /// Returns the sum of the magnitudes of the terms of such accelerations along a gap.
     pub(super) fn size_of_free(&self, point: &Point, force: Plane) -> f64 {
         let casing = size(force)
             + (self.casing.stiffness + self.nu * self.nu) * size(point.z)
@@ -183,29 +183,31 @@ impl Parameters {
         casing + self.arm().abs() * blades
     }
 
-    /// What these pushes, each with its row, add to the accelerations of casing and blades.
+    /// Returns what these contact forces, each with its row, add to the accelerations of casing
+    /// and blades.
     pub(super) fn pushed(&self, pushes: impl Iterator<Item = (usize, f64)>) -> (Plane, Plane) {
         self.moved(pushes.filter_map(|(row, push)| Some((*self.rows.get(row)?, push))))
     }
 
-    /// The same of pushes along these directions.
+    /// Returns the same for contact forces along these directions.
     pub(super) fn moved(&self, pushes: impl Iterator<Item = (Plane, f64)>) -> (Plane, Plane) {
         let sum = pushes.fold(Plane::default(), |sum, (direction, push)| sum + direction * push);
         (self.turn * sum, sum * -self.blades.map_or(0.0, |blades| blades.lever))
     }
 
-    /// How much a unit push on row `by` opens `row`: `W`, not symmetric under friction.
+    /// Returns how much a unit contact force on row `by` opens `row`: `W`, not symmetric under
+    /// friction.
     pub(super) fn joint(&self, row: usize, by: usize) -> f64 {
         let (z, a) = self.pushed(std::iter::once((by, 1.0)));
         self.along(row, z, a)
     }
 
-    /// Rate of the casing as the standing frame sees it, along the axes of the blades.
+    /// Returns the velocity of the casing in the fixed frame, along the axes of the blades.
     pub(super) fn carried(&self, point: &Point) -> Plane {
         point.dz + Plane::i() * point.z * self.nu
     }
 
-    /// Energy per unit casing mass \[m^2/s^2\].
+    /// Returns the energy per unit casing mass \[m^2/s^2\].
     pub(super) fn energy(&self, point: &Point) -> f64 {
         let casing = self.carried(point).norm_sqr() + self.casing.stiffness * point.z.norm_sqr();
         let blades = self.blades.map_or(0.0, |blades| {
@@ -215,8 +217,8 @@ impl Parameters {
         0.5 * (casing + blades)
     }
 
-    /// How near to the blades the casing can ever come without pulse or push: both
-    /// energies only fall \[m\].
+    /// Returns a bound of the displacement at a gap without pulse and contact, as both energies
+    /// only fall \[m\].
     pub(super) fn swing(&self, point: &Point) -> f64 {
         let reach = |place: Plane, rate: Plane, stiffness: f64| {
             (place.norm_sqr() + rate.norm_sqr() / stiffness).sqrt()
@@ -228,13 +230,13 @@ impl Parameters {
             })
     }
 
-    /// The largest angle of any blade \[rad\].
+    /// Returns the largest angle of any blade \[rad\].
     pub(super) fn largest_angle(&self, a: Plane) -> f64 {
         self.machine.polygon.largest_component(a.re, a.im)
     }
 }
 
-/// The length of a vector whose square is no round-off.
+/// Returns the length of a vector.
 pub(super) fn size(vector: Plane) -> f64 {
     vector.norm_sqr().sqrt()
 }
