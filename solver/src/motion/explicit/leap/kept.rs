@@ -80,18 +80,17 @@ fn steps_of(resting: &Resting, blades: &ModalBlades) -> (Leap<4>, usize) {
 mod tests {
     use crate::motion::explicit::Explicit;
     use crate::motion::explicit::disk::ModalBlades;
-    use crate::motion::{Solver, Verdict};
+    use crate::motion::Solver;
     use crate::scene::Scene;
 
     #[test]
     fn a_lock_that_is_decided_before_it_is_leapt_over_is_kept_to_the_end() {
         let mut random = fastrand::Rng::with_seed(3);
         let mut between = |low: f64, high: f64| low + (high - low) * random.f64();
-        let (mut decided, mut pulled) = (0, 0);
+        let mut decided = 0;
         for n in 0..120 {
             let mut scene = Scene::base();
-            let law = if n % 3 == 0 { "unilateral" } else { "bilateral" };
-            scene.set("solver.contact", law).unwrap();
+            scene.set("solver.contact", "unilateral").unwrap();
             for (key, value) in [
                 ("bladed_disk.radial_coupling", between(0.02, 0.5)),
                 ("contact.friction", if n % 6 == 0 { between(0.0, 0.2) } else { 0.0 }),
@@ -120,40 +119,11 @@ mod tests {
             }
             if let Some((Some(verdict), since, _)) = told {
                 decided += 1;
-                pulled += usize::from(verdict == Verdict::Adhesive);
                 if since < 0.1 {
                     assert_eq!(motion.lasting(0.02), verdict, "{scene:?}");
                 }
             }
         }
-        assert!(decided > 10 && pulled > 2, "{decided} {pulled}");
-    }
-
-    #[test]
-    fn a_lock_whose_pushes_change_their_signs_is_known_to_last_long_before_its_end() {
-        let scene = |end: &str| {
-            let keys = [
-                ("bladed_disk.radial_coupling", "0.3"),
-                ("operation.speed_rad_s", "450"),
-                ("operation.pulse_n", "100e3"),
-                ("solver.contact", "bilateral"),
-                ("solver.step_s", "1e-6"),
-                ("solver.end_s", end),
-            ];
-            Scene::base().with(&keys).unwrap()
-        };
-        let mut motion = Explicit::<ModalBlades>::new(&scene("0.5"));
-        motion.advance(0.04).unwrap();
-        assert_eq!(motion.final_verdict(), Some(Verdict::Adhesive));
-        let (since, before) = (motion.contacts().since, motion.contacts().tensile_steps);
-        motion.advance(0.45).unwrap();
-        let pulled = motion.contacts().tensile_steps - before;
-        assert!(0 < pulled && pulled < 410_000, "{pulled}");
-        motion.advance(0.5).unwrap();
-        assert_eq!((motion.lasting(0.05), motion.contacts().since), (Verdict::Adhesive, since));
-        // However far the end is.
-        let mut motion = Explicit::<ModalBlades>::new(&scene("50"));
-        motion.advance(0.04).unwrap();
-        assert_eq!(motion.final_verdict(), Some(Verdict::Adhesive));
+        assert!(decided > 10, "{decided}");
     }
 }
