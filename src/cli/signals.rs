@@ -25,12 +25,12 @@ pub(super) fn watch() -> std::io::Result<()> {
     std::thread::Builder::new().name("rubscope-signals".into()).spawn(wait).map(|_| ())
 }
 
-/// How long an end waits for the change of a file: a disk may not answer.
+/// Longest wait for the change of a file at the end: a disk may not answer.
 #[cfg(unix)]
 const LONGEST_CHANGE: std::time::Duration = std::time::Duration::from_secs(2);
 
-/// The signals that were ignored when the program started, a bit each from signal
-/// 1 on; none where the system does not tell.
+/// Returns the signals that were ignored when the program started, a bit each from signal 1 on;
+/// none where the system does not tell.
 #[cfg(unix)]
 fn ignored() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
