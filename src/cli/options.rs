@@ -221,11 +221,7 @@ pub(super) fn read_scene(name: &str) -> Result<Scene, SceneError> {
 
 /// Returns what to say about a key that follows the options.
 fn followed(made: &Adjustment) -> String {
-    let Adjustment { key, from, to } = made;
-    let why = match *key {
-        keys::SOLVER => "cannot do what the options ask",
-        _ => "the event solver does not know",
-    };
+    let Adjustment { key, from, to, why } = made;
     format!("rubscope: took {key} = {to:?} instead of the scene's {from:?}, which {why}")
 }
 
@@ -243,6 +239,16 @@ mod tests {
             assert!(scene.make_compatible(|key| given.contains(&key)).is_empty());
             assert_eq!(scene, before);
         }
+    }
+
+    #[test]
+    fn inclined_tips_take_the_law_that_only_pushes_unless_another_was_asked_for() {
+        let slope = "bladed_disk.radial_coupling=0.1";
+        let scene = options(&[slope]).scene().unwrap();
+        assert_eq!(scene.solver.contact, ContactLaw::Unilateral);
+        let refused = options(&["solver.contact=bilateral", slope]).scene().unwrap_err();
+        let start = "bladed_disk.radial_coupling = 0.1: allowed is 0 with solver.contact";
+        assert!(refused.to_string().starts_with(start), "{refused}");
     }
 
     fn options(set: &[&str]) -> SceneOptions {

@@ -15,11 +15,12 @@ pub(super) fn watch() -> std::io::Result<()> {
         .filter(|signal| ignored >> (signal - 1) & 1 == 0);
     let mut signals = signal_hook::iterator::Signals::new(heard)?;
     let wait = move || {
-        let Some(signal) = signals.forever().next() else { return };
-        crate::file::settle(LONGEST_CHANGE);
-        // The shell sees that it was ended by the signal, and ends its loop.
-        let _ = signal_hook::low_level::emulate_default_handler(signal);
-        signal_hook::low_level::exit(128 + signal);
+        if let Some(signal) = signals.forever().next() {
+            crate::file::settle(LONGEST_CHANGE);
+            // The shell sees that it was ended by the signal, and ends its loop.
+            let _ = signal_hook::low_level::emulate_default_handler(signal);
+            signal_hook::low_level::exit(128 + signal);
+        }
     };
     std::thread::Builder::new().name("rubscope-signals".into()).spawn(wait).map(|_| ())
 }

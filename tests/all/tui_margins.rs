@@ -212,7 +212,7 @@ fn no_scene_is_too_odd() {
         set.iter().for_each(|(path, value)| scene.set(path, value).unwrap());
         scene
     };
-    let half = Scene { solver: short().solver, ..Scene::builtin("half-n").unwrap() };
+    let half = Scene { solver: short().solver, ..crate::scene_support::half_n() };
     let scenes = [
         half,
         with(&[("operation.nodal_diameters", "0")]),

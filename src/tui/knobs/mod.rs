@@ -120,9 +120,9 @@ impl Knob {
         )
     }
 
-    /// Sets it and checks the whole scene, which is unchanged on error. If the
-    /// solver does not support the contact law or the model, the nearest
-    /// supported choice is taken; the second value is a message about it.
+    /// Sets it and checks the whole scene, which is unchanged on error. If solver, contact law
+    /// and model do not go with it, the nearest that do are taken; the second value is a
+    /// message about it.
     ///
     /// # Errors
     /// The refusal, in one line.
@@ -163,6 +163,9 @@ impl Knob {
             }
             (keys::SOLVER, keys::LAW) => {
                 "solver is now explicit: bilateral is a law of the time step".into()
+            }
+            (_, keys::RADIAL_COUPLING) => {
+                "contact is now unilateral: the bilateral law takes no inclined tips".into()
             }
             (keys::SOLVER, _) => {
                 "solver is now explicit: the event solver has no full model".into()
