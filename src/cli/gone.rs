@@ -21,39 +21,33 @@ const POSITIONAL: &str = "SCENE";
 
 /// Every input of an earlier version that is refused with a hint.
 const GONE: &[Gone] = &[
-    Gone {
-        command: "margins",
-        name: "--tolerance",
-        instead: "a tolerance moves a limit by its sensitivity times that many per cent; rubscope \
-                  margins --json has every sensitivity",
-    },
-    Gone {
-        command: "margins",
-        name: "--no-search",
-        instead: "nothing is searched any more, so leave it out",
-    },
-    Gone { command: "margins", name: "lasting_pulse", instead: PULSES },
-    Gone { command: "margins", name: "lasting_pulse_unilateral", instead: PULSES },
-    Gone { command: "margins", name: "lasting_pulse_bilateral", instead: PULSES },
-    Gone {
-        command: "margins",
-        name: "blade_angle",
-        instead: "rubscope hbm --speed SPEED shows the angles of the blades",
-    },
-    Gone {
-        command: "margins",
-        name: "lock_energy",
-        instead: "torque and power are what the rotor gives to hold the wave",
-    },
-    Gone { command: "figures", name: "SCENE", instead: OWN },
-    Gone { command: "figures", name: "--set", instead: OWN },
+    gone("hbm", "--fold", "hbm --branches says from which speed soft blades have no corner"),
+    gone("hbm", "--follow", STATES),
+    gone("hbm", "--over", STATES),
+    gone("hbm", "--harmonics", "hbm --slip gives the exact orbit of slip, without a series"),
+    gone("margins", "--tolerance", "margins --json has the sensitivity of every limit"),
+    gone("margins", "lasting_pulse", PULSES),
+    gone("margins", "lasting_pulse_unilateral", PULSES),
+    gone("margins", "lasting_pulse_bilateral", PULSES),
+    gone("margins", "blade_angle", "hbm --speed SPEED shows the angles of the blades"),
+    gone("margins", "lock_energy", "torque and power are what the rotor gives to hold the wave"),
+    gone("figures", POSITIONAL, OWN),
+    gone("figures", "--set", OWN),
+    gone("map", "--resume", "map --shard K/COUNT computes a share; an interrupted one runs again"),
 ];
 
 /// What draws a scene of one's own.
 const OWN: &str = "each figure has its own scene; rubscope run, hbm and map --out draw any other";
 
+/// What answers `hbm --follow`.
+const STATES: &str = "hbm --smooth gives the steady states on a lining at each speed";
+
 /// What answers which pulses last.
-const PULSES: &str = "rubscope map --pulse FROM:TO:COUNT shows which pulses last";
+const PULSES: &str = "map --pulse FROM:TO:COUNT shows which pulses last";
+
+const fn gone(command: &'static str, name: &'static str, instead: &'static str) -> Gone {
+    Gone { command, name, instead }
+}
 
 /// Returns the refusal of a command line with an option or an argument of an earlier version.
 pub fn argument(error: &clap::Error, arguments: &[OsString]) -> Option<String> {

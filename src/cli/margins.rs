@@ -33,6 +33,9 @@ pub struct MarginsCommand {
     /// The parameter for --target, such as casing.damping_ratio
     #[arg(long, value_name = "PATH", requires = "target")]
     by: Option<String>,
+    /// Leave out what is found by many runs: nothing now, so it changes nothing
+    #[arg(long = "no-search", hide = true)]
+    _no_search: bool,
 }
 
 impl MarginsCommand {

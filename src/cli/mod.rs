@@ -16,7 +16,6 @@ mod margins;
 mod new;
 pub mod options;
 mod output;
-mod part_file;
 mod precision;
 pub mod range;
 mod run;

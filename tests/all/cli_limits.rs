@@ -199,11 +199,6 @@ fn titles_are_of_characters_that_are_seen() {
 fn a_refusal_says_what_would_be_taken() {
     for (command, expected) in [
         (
-            "hbm soft-lining --follow bladed_disk.blades --over 22:30",
-            "rubscope: followed key = bladed_disk.blades: allowed is a key whose values are numbers \
-             that need not be whole",
-        ),
-        (
             "map --x operation.pulse_n=log:1e-300:1e6:4",
             "rubscope: axis operation.pulse_n = log:1e-300:1e6:4: allowed is log: with ends that \
              differ by a factor of at most 1e30",

@@ -129,7 +129,9 @@ pub fn check(found: &Found, scene: &Scene) -> Option<CommandLine> {
         LimitName::WhirlOnset | LimitName::FlutterSpeed => {
             hbm.option("--speed", speed).flag("--whirl", true)
         }
-        LimitName::LockFold => hbm.option("--speed", format!("0:{reached}:2")).flag("--fold", true),
+        LimitName::LockFold => {
+            hbm.option("--speed", format!("0:{}:2", 2.0 * reached)).flag("--branches", true)
+        }
         _ => hbm.option("--speed", speed),
     })
 }
