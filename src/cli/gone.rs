@@ -29,18 +29,18 @@ const GONE: &[Gone] = &[
     gone("margins", "lasting_pulse", PULSES),
     gone("margins", "lasting_pulse_unilateral", PULSES),
     gone("margins", "lasting_pulse_bilateral", PULSES),
-    gone("margins", "blade_angle", "hbm --speed SPEED shows the angles of the blades"),
-    gone("margins", "lock_energy", "torque and power are what the rotor gives to hold the wave"),
+    gone("margins", "blade_angle", "hbm --speed SPEED has the angles of the blades"),
+    gone("margins", "lock_energy", "margins has torque and power that the rotor gives to the wave"),
     gone("figures", POSITIONAL, OWN),
     gone("figures", "--set", OWN),
     gone("map", "--resume", "map --shard K/COUNT computes a share; an interrupted one runs again"),
 ];
 
-/// What draws a scene of one's own.
-const OWN: &str = "each figure has its own scene; rubscope run, hbm and map --out draw any other";
-
 /// What answers `hbm --follow`.
 const STATES: &str = "hbm --smooth gives the steady states on a lining at each speed";
+
+/// What draws a scene of one's own.
+const OWN: &str = "each figure has its own scene; run, hbm and map --out draw any other";
 
 /// What answers which pulses last.
 const PULSES: &str = "map --pulse FROM:TO:COUNT shows which pulses last";

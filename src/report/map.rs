@@ -53,7 +53,7 @@ impl Serialize for MapJson<'_> {
     }
 }
 
-/// The command that gives this map, whoever computed its cells.
+/// Returns the command that gives this map, whoever computed its cells.
 #[must_use]
 pub fn command(map: &Map) -> CommandLine {
     let plan = &map.plan;
@@ -88,19 +88,19 @@ impl<T: Serialize> Serialize for Row<'_, T> {
     }
 }
 
-/// The last part of an axis's key, such as `speed_rad_s`.
+/// Returns the last part of an axis's key, such as `speed_rad_s`.
 #[must_use]
 pub fn leaf(axis: &Axis) -> &str {
     axis.path.rsplit('.').next().unwrap_or(&axis.path)
 }
 
-/// The names of the two axes in a file: never the same one twice.
+/// Returns the names of the two axes in a file: never the same one twice.
 pub(super) fn names(plan: &MapPlan) -> [&str; 2] {
     let MapPlan { x, y, .. } = plan;
     if leaf(x) == leaf(y) { [&x.path, &y.path] } else { [leaf(x), leaf(y)] }
 }
 
-/// The map as CSV, a line a cell.
+/// Returns the map as CSV, a line a cell.
 ///
 /// # Errors
 /// An error of the writer.
@@ -121,7 +121,7 @@ pub fn write_csv(map: &Map, out: &mut dyn Write) -> Result<()> {
     table::write_csv([first, second, "verdict", "sensitive"], rows, out)
 }
 
-/// The map as a figure, with these curves.
+/// Returns the map as a figure, with these curves.
 #[must_use]
 pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
     let (scene, x, y) = (&map.plan.scene, &map.plan.x, &map.plan.y);
@@ -167,8 +167,7 @@ pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
     Figure::new(title, note, vec![Panel::new("", quantity(x), quantity(y), series)])
 }
 
-/// The character of a cell: a mark for the verdict, its first letter if it is
-/// sensitive.
+/// Returns the character of a cell: a mark for the verdict, its first letter if it is sensitive.
 #[must_use]
 pub fn mark(cell: Option<Cell>) -> char {
     let Some(cell) = cell else { return ' ' };
@@ -192,8 +191,8 @@ pub fn mark(cell: Option<Cell>) -> char {
     }
 }
 
-/// The map as text, highest row first, no line of cells wider than `width`,
-/// with a legend of what is in it.
+/// Returns the map as text, highest row first, no line of cells wider than `width`, with a legend
+/// of what is in it.
 ///
 /// # Errors
 /// An error of the writer.
@@ -245,7 +244,7 @@ fn write_speeds(map: &Map, across: usize, columns: usize, out: &mut dyn Write) -
     Ok(())
 }
 
-/// What a verdict means, in a few words.
+/// Returns what a verdict means, in a few words.
 #[must_use]
 pub fn means(verdict: Verdict) -> &'static str {
     match verdict {

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use crossterm::event::KeyCode;
 
 use super::{Action, Binding, Chord, Context};
-use crate::tui::views::ViewId;
+use crate::tui::views::id::ViewId;
 
 pub(super) const fn letter(letter: char) -> Chord {
     Chord { code: KeyCode::Char(letter), ctrl: false, shift: false }
@@ -59,7 +59,7 @@ pub static BINDINGS: LazyLock<Vec<Binding>> = LazyLock::new(|| {
         keys,
         action: Action::View(view),
         // Leaked once, because the other texts are static too.
-        what: format!("view {}: {}", view.digit(), view.panel().what()).leak(),
+        what: format!("view {}: {}", view.digit(), view.what()).leak(),
         footer: None,
     });
     BEFORE_VIEWS.iter().cloned().chain(views).chain(AFTER_VIEWS.iter().cloned()).collect()

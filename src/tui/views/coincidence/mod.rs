@@ -36,10 +36,6 @@ const BESIDE_FROM: u16 = 76;
 pub struct CoincidenceView;
 
 impl ViewPanel for CoincidenceView {
-    fn what(&self) -> &'static str {
-        "coincidence: how large a wave becomes, and why"
-    }
-
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
         let beside = at.area.width >= BESIDE_FROM;
         let (curves, compliance) = match at.columns() {

@@ -36,10 +36,6 @@ const READ_ROWS: usize = 3;
 pub struct LockedView;
 
 impl ViewPanel for LockedView {
-    fn what(&self) -> &'static str {
-        "locked motion"
-    }
-
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
         let curves = app.results().found.locked.as_deref();
         let locks = curves.filter(|curves| curves.damped.is_some());

@@ -1,0 +1,220 @@
+//! What a click, a wheel or a drag at a place of the screen does. A key does the same.
+
+use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
+
+use super::Effect;
+use crate::tui::app::{App, Grip, InputMode};
+use crate::tui::bindings::Action;
+use crate::tui::knobs::KNOBS;
+use crate::tui::panels::{self, Target};
+
+/// Effect of a mouse event.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum MouseOutcome {
+    /// Nothing on the screen.
+    Nothing,
+    /// The reading cursor follows the pointer: the next frame is soon enough.
+    Pointed,
+    /// An action like that of a key, with its effect.
+    Acted(Effect),
+}
+
+impl App {
+    /// Handles a mouse event.
+    pub fn mouse(&mut self, event: &MouseEvent) -> MouseOutcome {
+        let at = (event.column, event.row);
+        if !self.mouse.on {
+            return MouseOutcome::Nothing;
+        }
+        let heard = match (&self.dialogue.mode, event.kind) {
+            // A typed name is finished or left by a key.
+            (InputMode::Naming(..) | InputMode::Replacing(..), _) => MouseOutcome::Nothing,
+            (_, MouseEventKind::Down(MouseButton::Left)) if self.key_at(at).is_some() => {
+                self.key_at(at).map_or(MouseOutcome::Nothing, |action| self.acted(action))
+            }
+            (InputMode::Main | InputMode::Typing(_), kind) => self.mouse_main(kind, event, at),
+            (_, MouseEventKind::ScrollUp) => self.acted(Action::KnobAbove),
+            (_, MouseEventKind::ScrollDown) => self.acted(Action::KnobBelow),
+            (_, MouseEventKind::Down(MouseButton::Right)) => self.acted(Action::Close),
+            (_, MouseEventKind::Down(MouseButton::Left)) => self.choose(at),
+            _ => MouseOutcome::Nothing,
+        };
+        if matches!(heard, MouseOutcome::Acted(_)) {
+            self.files.disturb();
+            self.check_lesson();
+        }
+        heard
+    }
+
+    fn acted(&mut self, action: Action) -> MouseOutcome {
+        MouseOutcome::Acted(self.act(action))
+    }
+
+    fn mouse_main(
+        &mut self,
+        kind: MouseEventKind,
+        event: &MouseEvent,
+        at: (u16, u16),
+    ) -> MouseOutcome {
+        match kind {
+            MouseEventKind::Down(MouseButton::Left) => self.click(at),
+            MouseEventKind::Down(MouseButton::Right) => self.acted(Action::Close),
+            MouseEventKind::Drag(MouseButton::Left) => self.drag(at),
+            MouseEventKind::Up(_) => {
+                self.mouse.grip = None;
+                MouseOutcome::Nothing
+            }
+            MouseEventKind::Moved => self.hover(at),
+            MouseEventKind::ScrollUp | MouseEventKind::ScrollDown => {
+                let coarse = KeyModifiers::SHIFT | KeyModifiers::CONTROL;
+                let up = kind == MouseEventKind::ScrollUp;
+                self.wheel(at, up, event.modifiers.intersects(coarse))
+            }
+            _ => MouseOutcome::Nothing,
+        }
+    }
+
+    fn click(&mut self, at: (u16, u16)) -> MouseOutcome {
+        let Some(target) = panels::target(self, at) else { return MouseOutcome::Nothing };
+        if matches!(&self.dialogue.mode, InputMode::Typing(_)) {
+            self.act(Action::Close);
+        }
+        self.status = None;
+        let again = self.mouse.clicked.replace(at) == Some(at);
+        match target {
+            Target::Group(knob) => self.knobs.select(knob),
+            Target::Knob(knob) => {
+                self.knobs.select(knob);
+                self.mouse.grip = Some(Grip { knob, x: at.0, turned: false });
+            }
+            Target::Bar(knob, part) => {
+                self.knobs.select(knob);
+                self.mouse.grip = Some(Grip { knob, x: at.0, turned: true });
+                self.set_part(knob, part);
+            }
+            Target::View(view) => self.show(view),
+            Target::Chart(_) if again && self.reading.cursor.is_some() => self.open_cursor(),
+            Target::Chart(cursor) => self.point(cursor),
+        }
+        MouseOutcome::Acted(Effect::None)
+    }
+
+    fn drag(&mut self, at: (u16, u16)) -> MouseOutcome {
+        let Some(grip) = self.mouse.grip else { return self.hover(at) };
+        if at.0 == grip.x && !grip.turned {
+            return MouseOutcome::Nothing;
+        }
+        let Some(part) = panels::part_of_bar(self, at.0) else { return MouseOutcome::Nothing };
+        let known = self.knobs.remembered();
+        self.set_part(grip.knob, part);
+        if grip.turned {
+            self.knobs.merge(known);
+        }
+        self.mouse.grip = Some(Grip { turned: true, ..grip });
+        MouseOutcome::Acted(Effect::None)
+    }
+
+    fn hover(&mut self, at: (u16, u16)) -> MouseOutcome {
+        if self.mouse.clicked.is_some_and(|clicked| clicked != at) {
+            self.mouse.clicked = None;
+        }
+        let Some(Target::Chart(cursor)) = panels::target(self, at).filter(|_| self.reading.on)
+        else {
+            return MouseOutcome::Nothing;
+        };
+        let moved = self.reading.cursor != Some(cursor);
+        self.put_cursor(cursor);
+        if moved { MouseOutcome::Pointed } else { MouseOutcome::Nothing }
+    }
+
+    fn wheel(&mut self, at: (u16, u16), up: bool, coarse: bool) -> MouseOutcome {
+        let target = panels::target(self, at);
+        // A row with or without a bar moves those below under a pointer that stays.
+        let same = |(place, knob): &((u16, u16), usize)| {
+            let is_chart = matches!(target, Some(Target::Chart(_) | Target::View(_)));
+            let path = KNOBS.get(*knob).map(|knob| knob.path);
+            *place == at && path == self.selected().map(|knob| knob.path) && !is_chart
+        };
+        let kept = self.mouse.wheeled.filter(same).map(|(_, knob)| Target::Knob(knob));
+        match kept.or(target) {
+            Some(Target::Knob(knob) | Target::Bar(knob, _)) => {
+                self.mouse.wheeled = Some((at, knob));
+                self.knobs.select(knob);
+                self.acted(Action::Turn { up, coarse })
+            }
+            Some(Target::Chart(_)) if self.panel().is_over_time(self) => {
+                self.acted(if up { Action::ZoomIn } else { Action::ZoomOut })
+            }
+            _ => MouseOutcome::Nothing,
+        }
+    }
+
+    /// Chooses an entry of the list that is open.
+    fn choose(&mut self, at: (u16, u16)) -> MouseOutcome {
+        match (&self.dialogue.mode, panels::lesson_at(self, at)) {
+            (InputMode::Lessons(_), Some(place)) => {
+                self.dialogue.open(InputMode::Lessons(place));
+                self.acted(Action::Accept)
+            }
+            _ => MouseOutcome::Nothing,
+        }
+    }
+
+    /// Turns a knob to a place of its bar.
+    fn set_part(&mut self, place: usize, part: f64) {
+        let Some(knob) = KNOBS.get(place) else { return };
+        let range = knob.range(&self.scene, &self.files.opened, &self.machine);
+        if let Some(value) = range.and_then(|range| knob.near(range.at(part))) {
+            self.set(knob, value);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tui::app::on_screen;
+    use ratatui::layout::Rect;
+
+    fn event(kind: MouseEventKind, (column, row): (u16, u16)) -> MouseEvent {
+        MouseEvent { kind, column, row, modifiers: KeyModifiers::NONE }
+    }
+
+    const LEFT: MouseEventKind = MouseEventKind::Down(MouseButton::Left);
+
+    #[test]
+    fn a_place_of_the_chart_is_the_middle_of_its_cell() {
+        let app = on_screen();
+        app.note_chart(Rect::new(10, 5, 20, 10), [(0.0, 1.0), (0.5, 1.0)]);
+        let at = |place| app.cursor_at(place).map(|cursor| (cursor.across, cursor.up));
+        assert_eq!(at((10, 14)), Some((0.025, 0.525)));
+        assert_eq!(at((29, 5)), Some((0.975, 0.975)));
+        assert_eq!((at((9, 14)), at((30, 14)), at((10, 15))), (None, None, None));
+        app.forget_places();
+        assert_eq!(at((10, 14)), None);
+    }
+
+    #[test]
+    fn a_key_of_the_last_line_acts_in_every_dialogue_and_nowhere_else() {
+        let mut app = on_screen();
+        app.note_key(Rect::new(0, 39, 4, 1), Action::Help);
+        app.note_key(Rect::new(6, 39, 4, 1), Action::Quit);
+        assert_eq!(app.mouse(&event(LEFT, (3, 39))), MouseOutcome::Acted(Effect::None));
+        assert!(matches!(app.dialogue.mode, InputMode::Help(_)));
+        assert_eq!(app.mouse(&event(LEFT, (5, 39))), MouseOutcome::Nothing);
+        assert_eq!(app.mouse(&event(LEFT, (9, 39))), MouseOutcome::Acted(Effect::Quit));
+        assert_eq!(app.mouse(&event(MouseEventKind::Moved, (9, 39))), MouseOutcome::Nothing);
+        // A name that is typed is finished by a key.
+        app.dialogue.mode = InputMode::Naming(super::super::Purpose::Save, "a".into());
+        assert_eq!(app.mouse(&event(LEFT, (9, 39))), MouseOutcome::Nothing);
+    }
+
+    #[test]
+    fn a_mouse_that_is_off_does_nothing() {
+        let mut app = on_screen();
+        app.note_key(Rect::new(0, 39, 4, 1), Action::Help);
+        assert!(app.mouse.toggle().contains("off") && !app.mouse.on);
+        assert_eq!(app.mouse(&event(LEFT, (0, 39))), MouseOutcome::Nothing);
+        assert!(app.mouse.toggle().contains("on") && app.dialogue.is_closed());
+    }
+}
