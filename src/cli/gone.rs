@@ -29,11 +29,20 @@ const GONE: &[Gone] = &[
     gone("margins", "lasting_pulse", PULSES),
     gone("margins", "lasting_pulse_unilateral", PULSES),
     gone("margins", "lasting_pulse_bilateral", PULSES),
+    gone("", "half-n", "half as many diameters as blades are paper-nd3 --nd 11 --speed 100"),
+    gone("", "near-critical", "its numbers are in docs/theory.md; see undamped --speed 293"),
+    gone("margins", "blade_angle", "hbm --speed SPEED has the angles of the blades"),
+    gone("margins", "lock_energy", "margins has torque and power that the rotor gives to the wave"),
+    gone("figures", POSITIONAL, OWN),
+    gone("figures", "--set", OWN),
     gone("map", "--resume", "map --shard K/COUNT computes a share; an interrupted one runs again"),
 ];
 
 /// What answers `hbm --follow`.
 const STATES: &str = "hbm --smooth gives the steady states on a lining at each speed";
+
+/// What draws a scene of one's own.
+const OWN: &str = "each figure has its own scene; run, hbm and map --out draw any other";
 
 /// What answers which pulses last.
 const PULSES: &str = "map --pulse FROM:TO:COUNT shows which pulses last";

@@ -5,8 +5,9 @@ use std::f64::consts::TAU;
 use std::io::{Result, Write};
 
 use super::line::{capital, wrapped};
-use super::margins::{WIDTH, words};
+use super::margins::words;
 use super::number::{count, rounded, short, speed, with_unit};
+use super::table::WIDTH;
 use rubscope_solver::scene::{CheckedScene, ModelSize};
 use rubscope_solver::study::margins::{LimitName, Margins, Quantity};
 
@@ -86,7 +87,7 @@ fn frequencies(scene: &CheckedScene) -> String {
     )
 }
 
-/// Where the scene stands.
+/// Returns where the scene stands.
 fn limits(scene: &CheckedScene) -> String {
     let margins = Margins::of(scene);
     let now = speed(scene.operation.speed_rad_s);
@@ -109,7 +110,7 @@ fn limits(scene: &CheckedScene) -> String {
     told.join(" ")
 }
 
-/// What the scene does not say.
+/// Returns what the scene does not say.
 fn unknown(scene: &CheckedScene) -> Option<String> {
     let half = scene.bladed_disk.blades / 2;
     let known = |modes: &[rubscope_solver::model::Mode]| {

@@ -3,8 +3,8 @@
 use super::table::{Table, TableCell};
 use rubscope_solver::study::figures::Panel;
 
-/// If all series share x, a column for x and one for each series; otherwise one
-/// row per point, with the name of its series.
+/// Returns the data as a table: if all series share x, a column for x and one for each
+/// series; otherwise one row per point, with the name of its series.
 #[must_use]
 pub fn table(panel: &Panel) -> Table {
     if panel.shares_x() { wide(panel) } else { long(panel) }
@@ -28,7 +28,7 @@ fn wide(panel: &Panel) -> Table {
 }
 
 fn long(panel: &Panel) -> Table {
-    let mut table = Table::new(["series", &panel.x.column, &panel.y.column]);
+    let mut table = Table::new(["series".into(), panel.x.column.clone(), panel.y.column.clone()]);
     for series in &panel.series {
         for &(x, y) in &series.points {
             table.push(vec![series.name.as_str().into(), x.into(), y.into()]);

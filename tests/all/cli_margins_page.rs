@@ -2,9 +2,10 @@
 //! none, and lines that do not fit.
 
 use rubscope::report::line::wrapped;
+use rubscope::report::table::WIDTH;
 use rubscope::report::{CommandLine, Provenance, margins as report, svg};
 use rubscope_solver::scene::CheckedScene;
-use rubscope_solver::study::margins::{LimitName, Margins};
+use rubscope_solver::study::margins::Margins;
 
 use crate::cli_margins::{full, scene, text};
 use crate::cli_support::rubscope;
@@ -62,16 +63,12 @@ fn the_page_says_and_draws_the_same() {
     let words = told(&page);
     let says = |what: &str| words.iter().any(|words| words.says == what);
     for what in [
-        "Ω_lock = 411.934 rad/s".replace('_', ""),
+        "411.934 rad/s".into(),
+        "Ω_lock".replace('_', ""),
         "+4.4 %".into(),
-        "beyond".into(),
-        "263.6 times".into(),
-        "−0.50 %".into(),
-        "ζc".into(),
-        "430 rad/s".into(),
+        "263.6 x".into(),
+        "ζc +0.33 %".into(),
         "−6.94122 mN m".into(),
-        "10⁴".into(),
-        "The locked motion at −430 rad/s:".into(),
     ] {
         assert!(says(&what), "{what}");
     }
@@ -88,18 +85,6 @@ fn the_page_says_and_draws_the_same() {
     }
     let described = page.split_once("<desc>").unwrap().1.split_once("</desc>").unwrap().0;
     assert!(described.contains(command) && described.contains("speed_rad_s = -430.0"));
-    // A thick line is where the limit is, of a bar from 0 to 430 rad/s.
-    let lines = |at: f64| {
-        let left = format!("<rect x=\"{}\"", 4 * (at.round() as i32 - 1));
-        page.lines().filter(|line| line.starts_with(&left) && line.contains("width=\"12\"")).count()
-    };
-    for name in [LimitName::OmegaC, LimitName::OmegaLock, LimitName::CoincidenceDifference] {
-        let value = margins.limit(name).unwrap().value.unwrap();
-        assert_eq!(lines(318.0 + 250.0 * value / 430.0), 1, "{name}");
-    }
-    // Three decades of pulses, from 1 kN to 1 MN.
-    let touch = margins.limit(LimitName::TouchingPulse).unwrap().value.unwrap();
-    assert_eq!(lines(318.0 + 250.0 * (touch / 1e3).log10() / 3.0), 1);
 }
 
 /// Scenes at the edge of what there is.
@@ -107,7 +92,7 @@ fn odd() -> Vec<CheckedScene> {
     let long = "x".repeat(200);
     let changes: [(&str, &[(&str, &str)]); 18] = [
         ("paper-nd3", &[("operation.nodal_diameters", "0")]),
-        ("half-n", &[]),
+        ("paper-nd3", &[("operation.nodal_diameters", "11")]),
         ("paper-nd3", &[("casing.damping_ratio", "0"), ("bladed_disk.damping_ratio", "0")]),
         ("paper-nd3", &[("operation.pulse_n", "0"), ("title", "")]),
         ("paper-nd3", &[("operation.pulse_n", "-3e5")]),
@@ -134,7 +119,7 @@ fn odd() -> Vec<CheckedScene> {
         ),
         // It touches without a pulse.
         ("paper-nd3", &[("initial.v_c_m_s", "-1"), ("operation.pulse_n", "0")]),
-        ("near-critical", &[("operation.speed_rad_s", "411.9335172932687")]),
+        ("undamped", &[("operation.speed_rad_s", "411.9335172932687"), ("operation.pulse_n", "0")]),
     ];
     let known = |(name, changes)| scene(name, changes);
     changes.into_iter().map(known).chain([scene("rocking", &[]), scene("run-down", &[])]).collect()
@@ -154,7 +139,7 @@ fn odd_scenes_have_no_number_that_is_none_and_fit() {
             assert!(!file.contains("not a number"), "{file}");
         }
         for line in text.lines().filter(|line| !line.starts_with("Check it: ")) {
-            assert!(line.chars().count() <= report::WIDTH, "{line}");
+            assert!(line.chars().count() <= WIDTH, "{line}");
         }
         let height: f64 = attribute(&page, "height").parse().unwrap();
         assert!(height / 840.0 < 1.6, "{height} high");

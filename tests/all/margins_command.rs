@@ -60,8 +60,6 @@ fn the_json_has_every_limit_with_every_parameter() {
             "push_b",
             "torque",
             "power",
-            "blade_angle",
-            "lock_energy",
         ]
     );
     let lock = &limits[2];
@@ -98,7 +96,6 @@ fn what_has_no_meaning_is_refused_in_one_line() {
         (&["--target", "omega_c=1"], "rubscope: "),
         (&["--out", "a.txt"], "rubscope: --out = a.txt"),
         (&["--tolerance", "clearance=5"], "rubscope: margins --tolerance is gone: "),
-        (&["--no-search"], "rubscope: margins --no-search is gone: "),
         (&["--target", "lasting_pulse=1e5", "--by", DAMPING], "rubscope: lasting_pulse is gone: "),
     ] {
         let told = refusal(&[&["margins"], arguments].concat());

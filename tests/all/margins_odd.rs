@@ -1,14 +1,14 @@
 //! Margins of scenes that others leave out: soft blades, a ramp, pulses that pull, and
 //! a rotor that turns backward.
 
-use rubscope_solver::harmonic::{lock_fold_speed, lock_loads};
+use rubscope_solver::harmonic::lock_fold_speed;
 use rubscope_solver::motion::{Motion, run_to_verdict, to_the_end};
 use rubscope_solver::scene::CheckedScene;
 use rubscope_solver::study::margins::{
     CLEARANCE, LimitName, Margins, Side, Target, first_touch, grazing_pulse,
 };
 
-use crate::cli_margins::{full, scene, text};
+use crate::cli_margins::{scene, text};
 use crate::cli_support::rubscope;
 use crate::margins::{close, differenced, of};
 
@@ -56,16 +56,6 @@ fn the_end_of_the_branch_is_told_where_a_rotor_may_come_near_it() {
     // It is at 8,200 rad/s; the threshold of the lock at 412 rad/s.
     let has = |speed: &str| Margins::of(&soft("0.4", speed)).limit(LimitName::LockFold).is_some();
     assert!(!has("500") && has("-1000") && has("1000"));
-}
-
-#[test]
-fn the_blade_angle_is_the_larger_of_both() {
-    for speed in ["300", "500", "-500"] {
-        let scene = scene("paper-nd3", &[("operation.speed_rad_s", speed)]);
-        let loads = lock_loads(&scene.machine(), scene.operation.speed_rad_s).unwrap();
-        let [a, b] = loads.alpha_rad.map(f64::abs);
-        assert_eq!(of(&scene, LimitName::BladeAngle).value, Some(a.max(b)));
-    }
 }
 
 #[test]
@@ -247,15 +237,10 @@ fn the_command_of_the_end_of_the_branch_goes_up_to_it() {
 }
 
 #[test]
-fn rows_and_titles_of_scenes_without_a_lock_or_that_turn_backward() {
-    let told = text(&full(&scene("paper-nd3", &[("operation.speed_rad_s", "-430")])));
-    assert!(told.contains("\nSpeeds; the scene has 430 rad/s:\nlimit "), "{told}");
-    assert!(told.contains("\nThe locked motion at -430 rad/s:\nload "), "{told}");
-    // Speeds keep their rows; loads of no lock are one line.
+fn what_a_scene_without_a_lock_lacks_has_one_reason() {
     let told = text(&Margins::of(&scene("paper-nd3", &[("operation.nodal_diameters", "0")])));
-    let reason = "no wave turns without nodal diameters";
-    assert!(told.contains("\nSpeeds; the scene has 500 rad/s:\n"), "{told}");
-    let rows = told.lines().filter(|line| line.starts_with("omega_") && line.ends_with(reason));
-    assert_eq!(rows.count(), 3, "{told}");
-    assert!(told.contains(&format!("\nThe locked motion at 500 rad/s: none: {reason}.\n")));
+    let reason = "none, as no wave turns without nodal diameters.";
+    assert_eq!(told.replace('\n', " ").matches(reason).count(), 1, "{told}");
+    let rows = told.lines().filter(|line| line.starts_with("omega_") && line.ends_with(" -"));
+    assert!(rows.count() >= 3, "{told}");
 }

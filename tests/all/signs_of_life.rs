@@ -10,13 +10,12 @@ use rubscope_solver::scene::BUILTIN;
 use crate::pty_support::{Start, Terminal};
 
 /// Every command that computes; SCENE is its scene.
-const COMMANDS: [&str; 8] = [
+const COMMANDS: [&str; 7] = [
     "run SCENE --out h.csv",
     "hbm SCENE --speed 0:1000:2000",
     "margins SCENE",
     "margins SCENE --target touching_pulse=1e4 --by casing.damping_ratio",
     "precision SCENE --repeat 1",
-    "figures SCENE --out .",
     "map SCENE --speed 300:500:30 --pulse 1e4:1e6:30 --out m.csv",
     "map SCENE --speed 300:500:30 --pulse 1e4:1e6:30 --adaptive",
 ];
@@ -25,7 +24,7 @@ const COMMANDS: [&str; 8] = [
 const LONG: [&str; 4] = [
     "run undamped --solver event --model rigid --end 1e6",
     "precision undamped --repeat 1000 --set solver.end_s=20",
-    "figures paper-nd3 --out .",
+    "figures --out .",
     "map --speed 300:500:3000 --pulse 1e4:1e6:3000 --out m.csv",
 ];
 

@@ -4,7 +4,6 @@ use crate::plain::Plain;
 use crate::plain::compare::Pair;
 use crate::plain::scenes::{LAWS, MODELS, in_corner, scene};
 use rubscope_solver::scene::{ContactLaw, Scene};
-use rubscope_solver::study::figures::name_of;
 
 /// Compares states every half millisecond until `end` or the motion's failure.
 fn compare(name: &str, scene: &Scene, end: f64) -> Pair {
@@ -302,7 +301,8 @@ fn blades_turned_past_their_neighbours() {
 /// The scheme without round-off, at the longest step that figure 4 names.
 #[test]
 fn round_off_moves_the_lock_at_the_longest_step_of_figure_4() {
-    let scene = Scene::builtin(name_of(4)).unwrap().with(&[("solver.step_s", "1e-6")]).unwrap();
+    let scene =
+        Scene::builtin("paper-figs-4-6").unwrap().with(&[("solver.step_s", "1e-6")]).unwrap();
     let mut plain = Plain::new(&scene);
     plain.advance(0.082).unwrap();
     let since = plain.kept_since().unwrap();

@@ -20,7 +20,7 @@ pub fn value(x: f64, digits: usize, quantity: Quantity) -> String {
 #[must_use]
 pub fn margin(part: f64) -> String {
     if part >= FACTORS {
-        return format!("{} times", short(rounded(1.0 + part, 4)));
+        return format!("{} x", short(rounded(1.0 + part, 4)));
     }
     let percent = 100.0 * part;
     if percent.abs() < 99.95 { format!("{percent:+.1} %") } else { format!("{percent:+.0} %") }
@@ -132,7 +132,6 @@ pub fn check(found: &Found, scene: &Scene) -> Option<CommandLine> {
         LimitName::LockFold => {
             hbm.option("--speed", format!("0:{}:2", 2.0 * reached)).flag("--branches", true)
         }
-        LimitName::LockEnergy => CommandLine::new("margins", &changed),
         _ => hbm.option("--speed", speed),
     })
 }
@@ -159,8 +158,8 @@ mod tests {
             (0.9994, "+99.9 %"),
             (-0.9996, "-100 %"),
             (8.99, "+899 %"),
-            (9.0, "10 times"),
-            (262.5, "263.5 times"),
+            (9.0, "10 x"),
+            (262.5, "263.5 x"),
         ] {
             assert_eq!(margin(part), told);
         }

@@ -27,10 +27,10 @@ const FORCE: Quantity = Quantity::log("pulse_n", "force of the pulse [N]");
 
 /// Fig. 8 for one machine with both contact laws; for the paper's also with four
 /// nodal diameters.
-pub fn zone(scene: &CheckedScene, as_paper: bool) -> Figure {
+pub fn zone(scene: &CheckedScene) -> Figure {
     let mut panels = both_laws(scene, ["(a)", "(b)"]);
     let mut caption = Vec::new();
-    if as_paper && let Ok(four) = Scene::builtin("paper-nd4") {
+    if let Ok(four) = Scene::builtin("paper-nd4") {
         panels.extend(both_laws(&four, ["(c)", "(d)"]));
         let told = panels.first().map(thresholds).unwrap_or_default();
         caption.push(format!(

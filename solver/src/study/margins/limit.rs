@@ -52,10 +52,6 @@ pub enum LimitName {
     Torque,
     /// Its power.
     Power,
-    /// Largest angle of a blade in the lock.
-    BladeAngle,
-    /// Energy of the casing wave in the lock.
-    LockEnergy,
 }
 
 /// What a limit is a value of.
@@ -76,12 +72,6 @@ pub enum Quantity {
     /// Power.
     #[serde(rename = "power_w")]
     Power,
-    /// Angle.
-    #[serde(rename = "angle_rad")]
-    Angle,
-    /// Energy.
-    #[serde(rename = "energy_j")]
-    Energy,
 }
 
 /// On which side of a limit the scene stands.
@@ -255,9 +245,9 @@ const fn entry(
 
 /// Every limit, in the order of the names.
 #[rustfmt::skip]
-const LIMITS: [Entry; 16] = {
+const LIMITS: [Entry; 14] = {
     use LimitName::*;
-    use Quantity::{Angle, Energy, Pulse, Push, Speed};
+    use Quantity::{Pulse, Push, Speed};
     [
         entry(OmegaC, Speed, "Ω_c", ["Ω_c"; 2], "critical speed: above it the wave is pushed outward"),
         entry(OmegaLock, Speed, "Ω_lock", ["Ω_lock"; 2], "from it on both blades of a lock push"),
@@ -273,8 +263,6 @@ const LIMITS: [Entry; 16] = {
         entry(PushB, Push, "−λ_b", ["push of group b", "push b"], "push of group b in the lock"),
         entry(Torque, Quantity::Torque, "T", ["torque"; 2], "torque that holds the lock"),
         entry(Power, Quantity::Power, "P", ["power"; 2], "power that the lock takes"),
-        entry(BladeAngle, Angle, "α_max", ["blade angle"; 2], "largest angle of a blade in the lock"),
-        entry(LockEnergy, Energy, "E", ["wave energy"; 2], "energy of the locked wave"),
     ]
 };
 
@@ -296,8 +284,6 @@ impl Quantity {
             Self::Pulse | Self::Push => "N",
             Self::Torque => "N m",
             Self::Power => "W",
-            Self::Angle => "rad",
-            Self::Energy => "J",
         }
     }
 

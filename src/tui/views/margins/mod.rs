@@ -1,10 +1,8 @@
 //! View 8: how far the scene is from every limit, and what moves each of them most.
 
+pub mod live;
 mod rows;
 mod survey;
-mod table;
-
-use std::sync::Arc;
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
@@ -12,35 +10,23 @@ use super::panel::{Opening, ViewArea, ViewPanel, not_yet, title};
 use crate::report::margins;
 use crate::tui::app::{App, Cursor};
 use crate::tui::text::{first_lines, print, wrap};
+use crate::tui::theme::Role;
+use crate::tui::views::table::Rows;
 pub use rows::DIGITS;
-use rubscope_solver::study::margins::Margins;
-use rubscope_solver::study::survey::Survey;
-use table::Table;
 
 /// Columns of the reading cursor: the limit, and the knobs that matter most.
 pub const COLUMNS: u32 = margins::STRONGEST as u32 + 1;
+/// Columns of the table before the first knob: limit, value and margin.
+pub const LEADING: usize = 3;
 /// From this height on, a sentence says what the row under the cursor is,
 const TOLD_FROM: u16 = 6;
 /// and from this one on it has two lines.
 const TOLD_TWICE_FROM: u16 = 16;
 
-/// The margins, and the survey once it is computed.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LiveMargins {
-    /// What is known.
-    pub margins: Margins,
-    /// The survey of all diameters, once it is computed.
-    pub survey: Option<Arc<Survey>>,
-}
-
 /// The view.
 pub struct MarginsView;
 
 impl ViewPanel for MarginsView {
-    fn what(&self) -> &'static str {
-        "margins: how far from every limit, and what moves it"
-    }
-
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
         if app.layout.is_surveyed() {
             return survey::draw(app, buffer, at, survey::cell(app).filter(|_| at.large));
@@ -55,12 +41,24 @@ impl ViewPanel for MarginsView {
             _ => 0,
         };
         let above = Rect { height: inside.height - told, ..inside };
-        let rows = &live.margins.limits;
-        let left = Table::new(app, rows, old, at, above, cell).draw(buffer, above, cell);
+        let limits = &live.margins.limits;
+        let table = margins::titled(&live.margins, |name| name.titles()[1].to_string());
+        let drawn = Rows {
+            table: &table,
+            cursor: [LEADING, COLUMNS as usize],
+            cell,
+            home: 0,
+            marked: rows::nearest(limits),
+        };
+        let style = |row: usize, column: usize| {
+            let role = limits.get(row).map_or(Role::Text, |limit| rows::role(limit, column));
+            look.style(if old { Role::Quiet } else { role })
+        };
+        let height = drawn.draw(app, buffer, (at, above), style);
         // One row below the table, where there is room.
-        let y = left.y + left.height.min(1);
+        let y = above.y + (height + 1).min(above.height);
         let below = Rect { y, height: told, ..inside };
-        let (text, role) = rows::told(app, rows, cell);
+        let (text, role) = rows::told(app, limits, cell);
         let width = usize::from(below.width.saturating_sub(1));
         let lines = wrap(&look.spell(&text), width);
         let lines = first_lines(lines, width, usize::from(told), look.ellipsis());
@@ -112,11 +110,15 @@ impl ViewPanel for MarginsView {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
+    use super::live::LiveMargins;
     use super::*;
     use crate::tui::bindings::Action;
     use crate::tui::views::ViewId;
     use crate::tui::{Marker, Theme};
     use rubscope_solver::scene::Scene;
+    use rubscope_solver::study::margins::Margins;
 
     fn app() -> App {
         let scene = Scene::base().checked().unwrap();
@@ -159,13 +161,5 @@ mod tests {
         assert_eq!(MarginsView.csv(&app).unwrap().into_bytes(), bytes);
         app.run.latest.results.found.margins = None;
         assert_eq!(MarginsView.csv(&app), Err("there are no margins yet".into()));
-    }
-
-    #[test]
-    fn a_change_has_its_sign_on_its_side() {
-        let look = crate::tui::appearance::Appearance::new(Theme::Mono, Marker::Ascii);
-        for (part, bar) in [(1.0, "  |=="), (-1.0, "==|  "), (0.3, "  |- "), (-0.01, " -|  ")] {
-            assert_eq!(table::signed(part, 5, &look), bar);
-        }
     }
 }

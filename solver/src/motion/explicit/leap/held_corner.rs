@@ -183,8 +183,7 @@ impl<B: Disk> Explicit<B> {
     // Out of the steps: its stack is large.
     #[inline(never)]
     fn make_map(&self, sides: [u32; 2]) -> Option<Box<HeldCorner>> {
-        let Standing { step, resting, start, swing, growth } =
-            self.stand_in(sides, self.goes_beyond)?;
+        let Standing { step, resting, start, swing, growth } = self.stand_in(sides, true)?;
         let phase = self.machine.nodal_diameters * swing.0;
         if phase > SMALL_TURNS[2] || !self.is_kept(&step, &resting, swing, true) {
             return None;
