@@ -3,8 +3,8 @@
 
 use proptest::prelude::*;
 use rubscope_solver::harmonic::{
-    Form, HarmonicError, Joint, equilibria, flutter_speed, lock_loads, lock_roots, locked_motion,
-    slip_over, undamped_flutter_speed,
+    Character, Form, HarmonicError, Joint, equilibria, flutter_speed, lock_loads, lock_roots,
+    locked_motion, slip_over, undamped_flutter_speed,
 };
 use rubscope_solver::model::Machine;
 use rubscope_solver::scene::Scene;
@@ -67,6 +67,58 @@ fn the_exact_pair_of_the_theory() {
         }
         close(loads.torque_nm, point.torque_nm, 1e-12);
     }
+}
+
+/// The torque is the sum of the moments of both groups, whichever way it is computed.
+#[test]
+fn the_torque_is_that_of_the_moment_arms() {
+    for tips in [[0.0; 3], [0.1, 0.0, 0.0], [0.1, 0.15, 0.02], [0.0, 0.15, 0.05]] {
+        let machine = machine(tips);
+        let sweep = locked_motion(&machine, Form::Modal, true, None, &[480.0]).unwrap();
+        let point = sweep.points[0];
+        let mut torque = 0.0;
+        for (i, side) in sweep.corner.sides().into_iter().enumerate() {
+            let (c, s) = machine.polygon.direction(side);
+            let (sin, cos) = (machine.nodal_diameters * point.alpha_rad[i]).sin_cos();
+            let across = point.u_sc_m * (c * cos - s * sin) - point.u_cc_m * (s * cos + c * sin);
+            torque += machine.nodal_diameters * point.multipliers_n[i] * across;
+        }
+        close(point.torque_nm, torque, 1e-10);
+        close(lock_loads(&machine, 480.0).unwrap().torque_nm, torque, 1e-10);
+    }
+}
+
+/// A pull has no friction, so that nothing holds such a lock.
+#[test]
+fn tips_that_rub_cannot_pull() {
+    for (tips, expected) in [([0.0; 3], Character::Adhesive), ([0.0, 0.15, 0.0], Character::Pulls)]
+    {
+        let sweep = locked_motion(&machine(tips), Form::Modal, true, None, &[350.0]).unwrap();
+        assert_eq!(sweep.points[0].character, expected, "{tips:?}");
+    }
+}
+
+/// Without damping friction alone makes motions grow: the signs of the polynomial that hold
+/// without it say nothing.
+#[test]
+fn an_undamped_lock_grows_where_its_roots_do() {
+    let mut seen = [0, 0];
+    for tips in [[0.3, 0.0, 0.0], [0.2, 0.1, 0.02], [0.05, 0.1, 0.05], [-0.05, 0.2, 0.05]] {
+        let machine = machine(tips).undamped();
+        for speed in [430.0, 500.0, 560.0, 720.0, 800.0] {
+            let point = locked_motion(&machine, Form::Modal, false, None, &[speed]).unwrap();
+            let point = point.points[0];
+            if !point.admissible {
+                continue;
+            }
+            let roots = lock_roots(&Joint::at(&machine, speed));
+            let growth = roots.iter().map(|root| root.re).fold(0.0, f64::max);
+            // Round-off of a pair that neither grows nor decays is far smaller.
+            assert_eq!(point.stable, growth < 1e-3, "{tips:?} {speed} {growth}");
+            seen[usize::from(point.stable)] += 1;
+        }
+    }
+    assert!(seen.iter().all(|count| *count > 1), "{seen:?}");
 }
 
 #[test]

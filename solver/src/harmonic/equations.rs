@@ -195,17 +195,15 @@ impl<T: Number> Equations<T> {
         [gaps[0], gaps[1], casing[0], casing[1], blades[0], blades[1]]
     }
 
-    /// Adds the derivatives to a solution of the plain equations: each step of Newton's
-    /// method with the plain slope adds an order.
+    /// Adds the derivatives to a solution of the plain equations: one step of Newton's method
+    /// with the plain slope.
     fn derived(&self, plain: &Equations, unknowns: &Unknowns) -> Option<Unknowns<T>> {
         let inverse = plain.jacobian(unknowns).try_inverse()?;
         let mut derived = unknowns.map(T::from);
-        for _ in 0..2 {
-            let residual = self.residual(&derived);
-            for (row, value) in derived.iter_mut().enumerate() {
-                for (column, left) in residual.iter().enumerate() {
-                    *value -= *left * inverse[(row, column)];
-                }
+        let residual = self.residual(&derived);
+        for (row, value) in derived.iter_mut().enumerate() {
+            for (column, left) in residual.iter().enumerate() {
+                *value -= *left * inverse[(row, column)];
             }
         }
         Some(derived)
