@@ -116,7 +116,11 @@ fn every_dependency_has_an_allowed_licence_and_source_and_needs_no_newer_compile
         let name = word(package, "name");
         assert!(licensed(word(package, "license"), &allowed), "{name}: {}", package["license"]);
         let registry = word(package, "source").starts_with("registry+");
-        assert!(registry || ["rubscope", "rubscope-solver"].contains(&name), "{name} is from {}", package["source"]);
+        assert!(
+            registry || ["rubscope", "rubscope-solver"].contains(&name),
+            "{name} is from {}",
+            package["source"]
+        );
         if let Some(version) = package["rust_version"].as_str() {
             assert!(number(version)[..2] <= ours[..2], "{name} needs Rust {version}");
         }

@@ -7,12 +7,11 @@
 //! many steps as cannot reach the clearance are one block.
 
 use super::held_corner::HeldCorner;
-use super::held_side::HeldSide;
 use crate::motion::explicit::disk::Disk;
 use crate::motion::explicit::{Coordinate, Explicit};
 use crate::motion::{ActiveSet, EnergyAccount, Verdict};
 use crate::tolerances::{
-    BREAK_STEPS, HELD_AFTER, LARGEST_BLADE_ANGLE, LIGHT_BLADES, ROOM_TO_CHANGE, SHORTEST_BLOCK,
+    BREAK_STEPS, HELD_AFTER, LARGEST_BLADE_ANGLE, LIGHT_BLADES, ROOM_TO_CHANGE,
 };
 
 /// A block without end: no contact can ever come again.
@@ -44,7 +43,8 @@ impl Block {
 impl<B: Disk> Explicit<B> {
     /// Whether a block is open, deciding on one if it can be long enough to be worth it.
     pub(in crate::motion::explicit) fn open_block(&mut self) -> bool {
-        let held = self.leaps.block.is_open() || (self.record.last_touch == self.n && self.hold());
+        let held =
+            self.leaps.block.is_open() || (self.record.last_touch == self.n && self.hold_lock());
         if !held {
             self.leaps.block = Block::new(self.flight());
         }
@@ -84,7 +84,7 @@ impl<B: Disk> Explicit<B> {
             self.u = self.u.map(|coordinate| self.casing.skip(coordinate, used));
         } else if used > 0 {
             let largest = self.largest_angle();
-            if let Some(Held::Corner(corner)) = &self.leaps.held {
+            if let Some(corner) = &self.leaps.held {
                 self.beyond.before = self.held_before(corner, used);
             }
             (self.u, self.blades) = self.materialized();
@@ -96,7 +96,7 @@ impl<B: Disk> Explicit<B> {
             && self.leaps.block.used > 0
         {
             self.record.last_touch = self.n;
-            for (side, lambda) in held.multipliers(self.leaps.block.used) {
+            for (side, lambda) in held.pushes_by_side(self.leaps.block.used) {
                 self.record.keep_touching(self.n, side);
                 for row in self.rows.iter_mut().filter(|row| row.side == side) {
                     row.lambda = lambda;
@@ -112,7 +112,7 @@ impl<B: Disk> Explicit<B> {
         let (used, least) = (self.leaps.block.used, self.watch.largest());
         match &self.leaps.held {
             _ if used == 0 => least,
-            Some(Held::Corner(held)) => held.largest_angle(used, least),
+            Some(held) => held.largest_angle(used, least),
             _ => self.blades.peak(used, least),
         }
     }
@@ -126,8 +126,7 @@ impl<B: Disk> Explicit<B> {
         let used = self.leaps.block.used;
         match &self.leaps.held {
             _ if used == 0 => (self.u, blades),
-            Some(Held::Corner(corner)) => self.held_at(corner, used),
-            Some(Held::Side(side)) => (self.along_side(side, used), blades),
+            Some(corner) => self.held_at(corner, used),
             None => {
                 blades.skip(used);
                 (self.u.map(|coordinate| self.casing.skip(coordinate, used)), blades)
@@ -179,57 +178,11 @@ impl<B: Disk> Explicit<B> {
     }
 }
 
-/// Sides that close in every step of the open block.
-#[derive(Clone, Debug)]
-pub(in crate::motion::explicit) enum Held {
-    /// A lock.
-    Corner(Box<HeldCorner>),
-    /// A wave that slides along one side of rigid blades.
-    Side(HeldSide),
-}
-
-impl Held {
-    /// Multipliers of the step that led to `steps` steps from the start \[N\].
-    pub fn multipliers(&self, steps: u64) -> impl Iterator<Item = (u32, f64)> {
-        let pair = match self {
-            Self::Corner(corner) => corner.by_side(corner.multipliers(steps)),
-            Self::Side(side) => [Some((side.side, side.multiplier(steps))), None],
-        };
-        pair.into_iter().flatten()
-    }
-
-    /// Sums of the multipliers of the steps after `before`, up to `steps` \[N\].
-    fn sums(&self, before: u64, steps: u64) -> impl Iterator<Item = (u32, f64)> {
-        let pair = match self {
-            Self::Corner(corner) => corner.by_side(corner.sums(before, steps)),
-            Self::Side(side) => [Some((side.side, side.sum(before, steps))), None],
-        };
-        pair.into_iter().flatten()
-    }
-}
-
 impl<B: Disk> Explicit<B> {
-    /// Begins a block of steps in which the same sides close, if there are enough.
-    pub(in crate::motion::explicit) fn hold(&mut self) -> bool {
-        if self.hold_lock() {
-            return true;
-        }
-        if let Some(side) = self.hold_side() {
-            let length = side.length;
-            if length < SHORTEST_BLOCK {
-                self.leaps.slide_tried = self.n + length;
-                return false;
-            }
-            self.leaps.held = Some(Held::Side(side));
-            self.leaps.block = Block::new(length);
-        }
-        self.leaps.held.is_some()
-    }
-
     /// Begins a block without end of a lock, if it can.
     fn hold_lock(&mut self) -> bool {
         let Some(corner) = self.hold_corner() else { return false };
-        self.leaps.held = Some(Held::Corner(corner));
+        self.leaps.held = Some(corner);
         self.leaps.block = Block::new(ENDLESS);
         true
     }
@@ -253,29 +206,20 @@ impl<B: Disk> Explicit<B> {
         }
     }
 
-    /// Keeps what the steps of held sides did since `before`.
-    pub(in crate::motion::explicit) fn log_held(&mut self, held: &Held, before: u64) {
+    /// Records what the steps of a held lock did since `before`.
+    fn log_held(&mut self, corner: &HeldCorner, before: u64) {
         let (used, t) = (self.leaps.block.used(), self.time_of(self.latest_step()));
-        for (side, sum) in held.sums(before, used) {
+        for (side, sum) in corner.by_side(corner.sums(before, used)) {
             self.record.impulse(side, sum);
         }
         self.record.log.touch(t, self.record.log.active_set);
-        if let Held::Corner(corner) = held {
-            self.record.deepest = self.record.deepest.max(corner.deepest());
-            if self.goes_beyond {
-                self.log_lock(corner, before);
-            }
+        self.record.deepest = self.record.deepest.max(corner.deepest());
+        if corner.pulls {
+            self.record.log.tensile_steps += used - before;
+            self.record.log.last_tensile = Some(t);
         }
-        match held {
-            Held::Corner(corner) if corner.pulls => {
-                self.record.log.tensile_steps += used - before;
-                self.record.log.last_tensile = Some(t);
-            }
-            Held::Corner(_) => {}
-            Held::Side(side) => {
-                let deepest = side.deepest(before, used);
-                self.record.deepest_predicted = self.record.deepest_predicted.max(deepest);
-            }
+        if self.goes_beyond {
+            self.log_lock(corner, before);
         }
     }
 }
@@ -289,11 +233,10 @@ impl<B: Disk> Explicit<B> {
             Some(if self.goes_beyond { beyond } else { Verdict::Failed })
         } else if self.no_contact_to_come() {
             Some(Verdict::Decay)
-        } else if let Some(Held::Corner(held)) = &self.leaps.held {
+        } else if let Some(held) = &self.leaps.held {
             Some(locked(held.pulls))
         } else if self.goes_beyond || self.blades.held_modes().is_some() {
-            let dies = self.dies().then_some(Verdict::Decay);
-            dies.or_else(|| self.lock_for_good().map(locked))
+            self.dies().then_some(Verdict::Decay)
         } else {
             self.corner_for_good()
         }

@@ -1,23 +1,19 @@
 //! Steps taken many at once, with the result of taking each: free flight (`block`), a held
-//! lock (`corner_step`, `unfolded`, `held_corner`), a wave that slides along one side
-//! of rigid blades (`held_side`). Along a side of blades that move a short step is enough
-//! (`sliding`). A lock of a larger swing is known to last (`kept`). Each says itself where it applies (docs/theory.md, section 6); beyond the
-//! paper these are locks and sides of blades that move. Read them in this order.
+//! lock (`corner_step`, `unfolded`, `held_corner`). Along a side of blades that move a short
+//! step is enough (`sliding`, `along_side`). Each says itself where it applies
+//! (docs/theory.md, section 6). Read them in this order.
 
+mod along_side;
 mod block;
 mod corner_step;
 mod held_corner;
-mod held_side;
-mod kept;
 mod sliding;
 mod unfolded;
 
-use std::sync::Arc;
-
 use super::Explicit;
 use super::disk::Disk;
-use block::{Block, Held};
-use held_side::SideMap;
+use block::Block;
+use held_corner::HeldCorner;
 use sliding::Sliding;
 
 /// What was decided on ahead, and when to try again.
@@ -27,14 +23,12 @@ pub(super) struct Leaps {
     block: Block,
     /// Steps of the blocks closed so far.
     skipped: u64,
-    /// The sides that the open block holds, if it is in contact.
-    held: Option<Held>,
+    /// The lock that the open block holds, if it is in contact.
+    held: Option<Box<HeldCorner>>,
     /// Step before which a corner is not tried to be held.
     hold_tried: u64,
     /// The same for a side.
     slide_tried: u64,
-    /// The map of a side at this speed, once asked for.
-    side_map: Option<Arc<SideMap>>,
     /// The wave on a side of blades that move; `u` and `blades` are then those before.
     sliding: Option<Sliding>,
     /// Steps in a row until the latest contact with the same sides.
@@ -44,17 +38,12 @@ pub(super) struct Leaps {
 impl Leaps {
     /// Whether a lock is held.
     pub fn holds_corner(&self) -> bool {
-        matches!(self.held, Some(Held::Corner(_)))
+        self.held.is_some()
     }
 
     /// Whether the coordinates are those of an earlier step.
     pub fn are_ahead(&self) -> bool {
         self.holds_corner() || self.sliding.is_some()
-    }
-
-    /// The speed or the machine is another.
-    pub fn forget_map(&mut self) {
-        self.side_map = None;
     }
 
     /// Steps of all blocks.
@@ -67,7 +56,7 @@ impl Leaps {
         let of_slide = |sliding: &Sliding| vec![(sliding.side, sliding.multiplier)];
         let of_block = || {
             let held = self.held.as_ref().filter(|_| self.block.used() > 0)?;
-            Some(held.multipliers(self.block.used()).collect())
+            Some(held.pushes_by_side(self.block.used()).to_vec())
         };
         self.sliding.as_ref().map(of_slide).or_else(of_block)
     }
