@@ -32,9 +32,6 @@ pub(crate) const SHORTEST_BLOCK_OF_BLADES: u64 = 128;
 /// rings keep one turn of them. Speed only.
 pub(crate) const SHAPES_KEPT: u32 = 128;
 
-/// Blades that are looked at before the bound on all others, at most. Speed only.
-pub(crate) const BLADES_FIRST: usize = 8;
-
 /// Blades that cost as much one by one as all of them at once, for each doubling of their
 /// number; so many rows of shapes are kept of a larger ring. Speed only.
 pub(crate) const FEW_BLADES: usize = 6;

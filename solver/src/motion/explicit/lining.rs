@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 
 use super::Explicit;
 use super::dies::Rest;
-use super::disk::{Columns, Disk};
+use super::disk::{Columns, Disk, dot, total};
 use super::lasting::mark;
 use super::record::Record;
 use super::rows::TipLaw;
@@ -82,7 +82,7 @@ impl Lining {
 
     /// The rows that press: index, side and push \[N\].
     fn pressed(&self) -> impl Iterator<Item = (u32, u32, f64)> {
-        self.near.pushes().filter(|(_, _, push)| *push > 0.0)
+        self.near.each(&self.near.push).filter(|(_, _, push)| *push > 0.0)
     }
 
     /// The multipliers of the rows that press, with their sides \[N\].
@@ -92,22 +92,22 @@ impl Lining {
 
     /// Gives the sums of the pushes until now to the record.
     pub fn give_impulses(&mut self, record: &mut Record) {
-        for (_, side, impulse) in self.near.each(|four| four.impulse) {
+        for (_, side, impulse) in self.near.each(&self.near.impulse) {
             if impulse != 0.0 {
                 record.impulse(side, -impulse);
             }
         }
-        self.near.fours.iter_mut().for_each(|four| four.impulse = [0.0; 4]);
+        self.near.impulse.fill(0.0);
     }
 
     /// Stored between the last two steps \[J\].
     pub fn stored(&self) -> f64 {
-        let before = self.held_before.unwrap_or_else(|| self.energy(self.near.before()));
-        0.5 * (before + self.energy(self.near.pushes()))
+        let before = self.held_before.unwrap_or_else(|| self.energy(&self.near.before));
+        0.5 * (before + self.energy(&self.near.push))
     }
 
     /// Stored under these pushes of all rows \[J\].
-    fn energy(&self, pushes: impl Iterator<Item = (u32, u32, f64)>) -> f64 {
+    fn energy(&self, pushes: &[f64]) -> f64 {
         let LiningLaw { stiffness_n_per_m: k, smoothing_m } = self.law;
         let of_row = |push: f64, stiffness: f64| {
             // As deep as such a push says of one blade.
@@ -117,9 +117,9 @@ impl Lining {
                 if on_line { deep + 0.5 * smoothing_m } else { (2.0 * smoothing_m * deep).sqrt() };
             stiffness / k * self.law.energy(-depth)
         };
-        let rows = pushes.zip(self.near.each(|four| four.stiffness));
-        let pressed = rows.filter(|((.., push), _)| *push > 0.0);
-        pressed.map(|((.., push), (.., stiffness))| of_row(push, stiffness)).sum()
+        let rows = pushes.iter().zip(&self.near.stiffness);
+        let pressed = rows.filter(|(push, _)| **push > 0.0);
+        pressed.map(|(push, stiffness)| of_row(*push, *stiffness)).sum()
     }
 
     /// Nothing presses at step `n`.
@@ -131,9 +131,10 @@ impl Lining {
         for (_, side, _) in self.pressed() {
             record.keep_touching(n.saturating_sub(1), side);
         }
-        self.held_before = Some(self.energy(self.near.pushes()));
-        for four in &mut self.near.fours {
-            (four.pushes, four.torque) = ([[0.0; 4]; 2], [0.0; 4]);
+        self.held_before = Some(self.energy(&self.near.push));
+        let Columns { push, before, torque, .. } = &mut self.near;
+        for column in [push, before, torque] {
+            column.fill(0.0);
         }
         (self.sums, self.touching) = (Sums::default(), Touching::default());
     }
@@ -142,13 +143,13 @@ impl Lining {
     /// in the step before.
     fn take_rows(&mut self, mut near: Columns, record: &mut Record, n: u64) {
         self.give_impulses(record);
-        self.held_before = Some(self.energy(self.near.pushes()));
+        self.held_before = Some(self.energy(&self.near.push));
         let mut places: Vec<(u32, usize)> = near.index.iter().copied().zip(0..).collect();
         places.sort_unstable();
         for (index, side, push) in self.pressed() {
             record.keep_touching(n.saturating_sub(1), side);
             if let Ok(found) = places.binary_search_by_key(&index, |(known, _)| *known) {
-                near.put_push(places[found].1, push);
+                near.push[places[found].1] = push;
             }
         }
         self.near = near;
@@ -187,68 +188,66 @@ impl Lining {
         modes: Option<[f64; 2]>,
         sin_cos: impl Fn(f64) -> (f64, f64),
     ) -> Sums {
-        let LiningLaw { smoothing_m, .. } = self.law;
-        let by_depth = if smoothing_m > 0.0 { 0.5 / smoothing_m } else { 0.0 };
+        let eps = self.law.smoothing_m;
+        let by_depth = if eps > 0.0 { 0.5 / eps } else { 0.0 };
         let TipLaw { clearance, diameters, pushed, .. } = *tips;
         // Angles stand for phases where there are no diameters.
         let (scale, turns) = if diameters == 0.0 { (1.0, 0.0) } else { (diameters, 1.0) };
         let rise = tips.rise / scale;
-        let [c, s] = modes.unwrap_or_default().map(|mode| mode * scale);
-        let by_mode = modes.is_some();
-        let [mut x, mut y, mut pushes, mut torques, mut deepest] = [[0.0_f64; 4]; 5];
-        let (mut felt, mut changed) = ([[0.0; 4]; 2], [false; 4]);
         let rows = &mut self.near;
-        rows.latest ^= 1;
-        let now = rows.latest & 1;
-        for four in &mut rows.fours {
-            for k in 0..4 {
-                let shape = [four.shape[0][k], four.shape[1][k]];
-                let phase =
-                    if by_mode { shape[0] * c + shape[1] * s } else { four.angle[k] * scale };
-                let (sin, cos) = sin_cos(phase * turns);
-                let across = four.cosine[k] * cos - four.sine[k] * sin;
-                let along = four.sine[k] * cos + four.cosine[k] * sin;
-                let inward = across * z.re + along * z.im;
-                let arm = across * z.im - along * z.re;
-                let deep = phase * rise - (inward + clearance);
-                let deep = if deep > 0.0 { deep } else { 0.0 };
-                let parabola = if deep < smoothing_m { deep } else { smoothing_m };
-                let push = (parabola * parabola * by_depth + (deep - parabola)) * four.stiffness[k];
-                let torque = push * (arm * diameters - pushed);
-                changed[k] |= (push > 0.0) != (four.pushes[now ^ 1][k] > 0.0);
-                four.pushes[now][k] = push;
-                four.impulse[k] += push;
-                four.torque[k] = torque;
-                felt[0][k] += shape[0] * torque;
-                felt[1][k] += shape[1] * torque;
-                x[k] += push * across;
-                y[k] += push * along;
-                pushes[k] += push;
-                torques[k] += torque;
-                deepest[k] = if deep > deepest[k] { deep } else { deepest[k] };
+        std::mem::swap(&mut rows.push, &mut rows.before);
+        let count = rows.index.len();
+        let [shape_c, shape_s] = &rows.shape;
+        match modes.map(|modes| modes.map(|mode| mode * scale)) {
+            Some([c, s]) => {
+                let shapes = shape_c.iter().zip(shape_s);
+                rows.angle.iter_mut().zip(shapes).for_each(|(x, (pc, ps))| *x = pc * c + ps * s);
             }
+            None => rows.angle.iter_mut().for_each(|angle| *angle *= scale),
         }
-        let sum = |[a, b, c, d]: [f64; 4]| (a + b) + (c + d);
+        // Slices of one length, so that the loop has no checks.
+        let [phase, cosine, sine] =
+            [&rows.angle, &rows.cosine, &rows.sine].map(|column| &column[..count]);
+        let stiffness = &rows.stiffness[..count];
+        let [normal_c, normal_s] = &mut rows.normal;
+        let [normal_c, normal_s, depth, push, torque] =
+            [normal_c, normal_s, &mut rows.depth, &mut rows.push, &mut rows.torque]
+                .map(|column| &mut column[..count]);
+        for k in 0..count {
+            let (sin, cos) = sin_cos(phase[k] * turns);
+            let across = cosine[k] * cos - sine[k] * sin;
+            let along = sine[k] * cos + cosine[k] * sin;
+            let inward = across * z.re + along * z.im;
+            let arm = across * z.im - along * z.re;
+            let deep = phase[k] * rise - (inward + clearance);
+            let deep = if deep > 0.0 { deep } else { 0.0 };
+            let parabola = if deep < eps { deep } else { eps };
+            let pressed = (parabola * parabola * by_depth + (deep - parabola)) * stiffness[k];
+            (normal_c[k], normal_s[k], depth[k]) = (across, along, deep);
+            (push[k], torque[k]) = (pressed, pressed * (arm * diameters - pushed));
+        }
+        rows.impulse.iter_mut().zip(&*push).for_each(|(impulse, push)| *impulse += push);
+        let both = push.iter().zip(&rows.before);
         Sums {
-            force: Plane::new(sum(x), sum(y)),
-            push: sum(pushes),
-            torque: sum(torques),
-            felt: felt.map(sum),
-            deepest: deepest.into_iter().fold(0.0, f64::max),
-            changed: changed.contains(&true),
+            force: Plane::new(dot(push, normal_c), dot(push, normal_s)),
+            push: total(push),
+            torque: total(torque),
+            felt: [dot(shape_c, torque), dot(shape_s, torque)],
+            deepest: depth.iter().copied().fold(0.0, f64::max),
+            changed: both.into_iter().any(|(now, before)| (*now > 0.0) != (*before > 0.0)),
         }
     }
 
     /// Keeps which rows press at step `n`, where these are others than before.
     fn keep_change(&mut self, record: &mut Record, n: u64, rows: usize) {
-        let both = self.near.pushes().zip(self.near.before());
-        for ((_, side, _), (.., before)) in both.clone() {
+        let both = self.near.each(&self.near.push).zip(&self.near.before);
+        for ((_, side, _), &before) in both.clone() {
             if before > 0.0 {
                 record.keep_touching(n.saturating_sub(1), side);
             }
         }
         let (mut touching, mut count) = (Touching::default(), 0);
-        for ((index, side, now), (.., before)) in both {
+        for ((index, side, now), &before) in both {
             if now > 0.0 {
                 touching.sides = touching.sides.with(side);
                 touching.set = touching.set.wrapping_add(mark(index));
@@ -420,7 +419,7 @@ impl<B: Disk> Explicit<B> {
         self.lining = self.scene.lining().map(Lining::new);
         let part = old.map_or(1.0, |mut old| {
             old.give_impulses(&mut self.record);
-            let held = old.energy(old.near.pushes());
+            let held = old.energy(&old.near.push);
             let before = 2.0 * old.stored() - held;
             old.release(&mut self.record, n + 1);
             if held > 0.0 { before / held } else { 1.0 }
@@ -429,8 +428,8 @@ impl<B: Disk> Explicit<B> {
         let (z, turn) = self.in_blade_frame();
         self.find_pressed(z, turn, &tips, bound);
         let Some(lining) = &mut self.lining else { return };
-        lining.held_before = Some(part * lining.energy(lining.near.pushes()));
+        lining.held_before = Some(part * lining.energy(&lining.near.push));
         // The record has the pushes of this step.
-        lining.near.fours.iter_mut().for_each(|four| four.impulse = [0.0; 4]);
+        lining.near.impulse.fill(0.0);
     }
 }

@@ -10,9 +10,7 @@ use super::held_corner::HeldCorner;
 use crate::motion::explicit::disk::Disk;
 use crate::motion::explicit::{Coordinate, Explicit};
 use crate::motion::{ActiveSet, EnergyAccount, Verdict};
-use crate::tolerances::{
-    BREAK_STEPS, HELD_AFTER, LARGEST_BLADE_ANGLE, LIGHT_BLADES, ROOM_TO_CHANGE,
-};
+use crate::tolerances::{BREAK_STEPS, HELD_AFTER, LIGHT_BLADES, ROOM_TO_CHANGE};
 
 /// A block without end: no contact can ever come again.
 pub(in crate::motion::explicit) const ENDLESS: u64 = u64::MAX;
@@ -149,8 +147,7 @@ impl<B: Disk> Explicit<B> {
         let (farthest, longest) = self.casing.reach_of(self.u);
         let length =
             if farthest < clearance { ENDLESS } else { ((clearance - distance) / longest) as u64 };
-        // Blades that may swing too far are followed step by step.
-        if length < self.blades.shortest_block() || self.blades.reach() > LARGEST_BLADE_ANGLE {
+        if !self.blades.can_fly(length, self.watch.largest()) {
             return 0;
         }
         // Such a block is longer than the pause that ends a contact.
