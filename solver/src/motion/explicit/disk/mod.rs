@@ -112,13 +112,6 @@ pub(in crate::motion) trait Disk: Clone + Debug + Send + Sync + 'static {
     fn peak(&self, steps: u64, least: f64) -> f64;
     /// `steps` free steps at once.
     fn skip(&mut self, steps: u64);
-    /// Takes that many free steps at once: their `peak`, and a bound on every
-    /// blade angle at their end \[rad\].
-    fn fly(&mut self, steps: u64, least: f64) -> (f64, f64) {
-        let most = self.peak(steps, least);
-        self.skip(steps);
-        (most, self.look(most).1)
-    }
     /// Returns whether so many free steps at once are worth it, where no angle was above
     /// `largest` so far.
     fn can_fly(&self, steps: u64, _largest: f64) -> bool {

@@ -55,6 +55,7 @@ impl<B: Disk> Explicit<B> {
     /// Whether the wave slides along a side of blades that move; it begins to, if it can.
     pub(in crate::motion::explicit) fn is_sliding(&mut self) -> bool {
         if self.leaps.sliding.is_none()
+            && self.scene.solver.shortcuts.slide
             && let Some(side) = self.steady_side()
         {
             self.leaps.sliding = self.begin_sliding(side);

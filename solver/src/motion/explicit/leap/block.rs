@@ -2,15 +2,12 @@
 //! along. It is looked at wherever asked, and taken at its end; looking never changes the
 //! trajectory. Then the verdicts that nothing to come can change (docs/theory.md, section
 //! 9).
-//!
-//! Flight: the discrete energy bounds how far `|u|` can travel in one step (section 6). So
-//! many steps as cannot reach the clearance are one block.
 
 use super::held_corner::HeldCorner;
 use crate::motion::explicit::disk::Disk;
 use crate::motion::explicit::{Coordinate, Explicit};
-use crate::motion::{ActiveSet, EnergyAccount, Verdict};
-use crate::tolerances::{BREAK_STEPS, HELD_AFTER, LIGHT_BLADES, ROOM_TO_CHANGE};
+use crate::motion::{EnergyAccount, Verdict};
+use crate::tolerances::{HELD_AFTER, LIGHT_BLADES, ROOM_TO_CHANGE};
 
 /// A block without end: no contact can ever come again.
 pub(in crate::motion::explicit) const ENDLESS: u64 = u64::MAX;
@@ -39,21 +36,13 @@ impl Block {
 }
 
 impl<B: Disk> Explicit<B> {
-    /// Whether a block is open, deciding on one if it can be long enough to be worth it.
+    /// Whether a block is open; begins one if it can be long enough to be worth it.
     pub(in crate::motion::explicit) fn open_block(&mut self) -> bool {
-        let held =
-            self.leaps.block.is_open() || (self.record.last_touch == self.n && self.hold_lock());
-        if !held {
-            self.leaps.block = Block::new(self.flight());
-        }
-        self.leaps.block.is_open()
-    }
-
-    /// Whether a lock beyond the paper is held.
-    pub(in crate::motion::explicit) fn open_lock(&mut self) -> bool {
-        let lasts = self.leaps.same_sides >= HELD_AFTER && self.record.last_touch == self.n;
-        if lasts && !self.leaps.block.is_open() {
-            self.hold_lock();
+        if !self.leaps.block.is_open() {
+            let lasts = !self.goes_beyond || self.leaps.same_sides >= HELD_AFTER;
+            if !(lasts && self.record.last_touch == self.n && self.hold_lock()) {
+                self.begin_flight();
+            }
         }
         self.leaps.block.is_open()
     }
@@ -66,6 +55,8 @@ impl<B: Disk> Explicit<B> {
         if let Some(held) = self.leaps.held.take() {
             self.log_held(&held, before);
             self.leaps.held = Some(held);
+        } else {
+            self.log_flight(before);
         }
         if self.leaps.block.used == self.leaps.block.length {
             self.close_block();
@@ -77,9 +68,7 @@ impl<B: Disk> Explicit<B> {
         self.end_sliding();
         let used = self.leaps.block.used;
         if used > 0 && self.leaps.held.is_none() {
-            let (largest, bound) = self.blades.fly(used, self.watch.largest());
-            self.watch.skipped(largest, bound);
-            self.u = self.u.map(|coordinate| self.casing.skip(coordinate, used));
+            self.take_flight(used);
         } else if used > 0 {
             let largest = self.largest_angle();
             if let Some(corner) = &self.leaps.held {
@@ -120,47 +109,21 @@ impl<B: Disk> Explicit<B> {
         if let Some(sliding) = &self.leaps.sliding {
             return self.slid(sliding);
         }
-        let mut blades = self.blades.clone();
         let used = self.leaps.block.used;
         match &self.leaps.held {
-            _ if used == 0 => (self.u, blades),
+            _ if used == 0 => (self.u, self.blades.clone()),
             Some(corner) => self.held_at(corner, used),
-            None => {
-                blades.skip(used);
-                (self.u.map(|coordinate| self.casing.skip(coordinate, used)), blades)
-            }
+            None => self.flown(used),
         }
     }
 }
 
 impl<B: Disk> Explicit<B> {
-    /// Steps that cannot touch; none where they are too few to be worth a block.
-    pub(in crate::motion::explicit) fn flight(&mut self) -> u64 {
-        let clearance = self.machine.polygon.clearance;
-        let distance2 = self.u[0].x * self.u[0].x + self.u[1].x * self.u[1].x;
-        // Blades that are driven do not follow the free recurrence.
-        let outside = distance2 >= clearance * clearance;
-        if outside || self.drive.pulse_to_come(self.n) || self.drive.excitation.is_some() {
-            return 0;
-        }
-        let distance = distance2.sqrt();
-        let (farthest, longest) = self.casing.reach_of(self.u);
-        let length =
-            if farthest < clearance { ENDLESS } else { ((clearance - distance) / longest) as u64 };
-        if !self.blades.can_fly(length, self.watch.largest()) {
-            return 0;
-        }
-        // Such a block is longer than the pause that ends a contact.
-        if self.record.log.active_set != ActiveSet::Nothing {
-            self.end_contact(self.n.max(self.record.last_touch + BREAK_STEPS + 1));
-        }
-        length
-    }
-
     /// Whether no contact can ever come again: the casing, whatever the blades
     /// do, never reaches one.
     pub(in crate::motion::explicit) fn no_contact_to_come(&self) -> bool {
-        if self.leaps.held.is_some()
+        if !self.scene.solver.shortcuts.proofs
+            || self.leaps.held.is_some()
             || self.leaps.sliding.is_some()
             || self.drive.pulse_to_come(self.n)
         {
@@ -228,6 +191,8 @@ impl<B: Disk> Explicit<B> {
         if let Some(failure) = &self.failure {
             let beyond = failure.verdict_beyond(&self.drive.pulse);
             Some(if self.goes_beyond { beyond } else { Verdict::Failed })
+        } else if !self.scene.solver.shortcuts.proofs {
+            None
         } else if self.no_contact_to_come() {
             Some(Verdict::Decay)
         } else if let Some(held) = &self.leaps.held {

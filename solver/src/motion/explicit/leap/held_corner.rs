@@ -161,6 +161,9 @@ impl<B: Disk> Explicit<B> {
     /// trusted for all later steps.
     #[inline]
     pub(in crate::motion::explicit) fn hold_corner(&mut self) -> Option<Box<HeldCorner>> {
+        if !self.scene.solver.shortcuts.lock {
+            return None;
+        }
         let sides = self.steady_corner_since(self.leaps.hold_tried)?;
         self.leaps.hold_tried = self.n + HELD_AGAIN;
         self.make_map(sides)

@@ -1,4 +1,4 @@
-//! Steps taken many at once, with the result of taking each: free flight (`block`), a held
+//! Steps taken many at once, with the result of taking each: free flight (`flight`), a held
 //! lock (`corner_step`, `unfolded`, `held_corner`). Along a side of blades that move a short
 //! step is enough (`sliding`, `along_side`). Each says itself where it applies
 //! (docs/theory.md, section 6). Read them in this order.
@@ -6,6 +6,7 @@
 mod along_side;
 mod block;
 mod corner_step;
+mod flight;
 mod held_corner;
 mod sliding;
 mod unfolded;
@@ -27,8 +28,9 @@ pub(super) struct Leaps {
     held: Option<Box<HeldCorner>>,
     /// Step before which a corner is not tried to be held.
     hold_tried: u64,
-    /// The same for a side.
+    /// The same for a side, and for a flight beyond the paper.
     slide_tried: u64,
+    flight_tried: u64,
     /// The wave on a side of blades that move; `u` and `blades` are then those before.
     sliding: Option<Sliding>,
     /// Steps in a row until the latest contact with the same sides.
@@ -43,7 +45,7 @@ impl Leaps {
 
     /// Whether the coordinates are those of an earlier step.
     pub fn are_ahead(&self) -> bool {
-        self.holds_corner() || self.sliding.is_some()
+        self.block.used() > 0 || self.sliding.is_some()
     }
 
     /// Steps of all blocks.
@@ -66,14 +68,11 @@ impl<B: Disk> Explicit<B> {
     /// Takes steps at once, up to step `target` and about `most` of them, if there are
     /// any to take; how many are worth a look at the clock.
     pub(super) fn leap(&mut self, target: u64, most: usize) -> Option<usize> {
-        if self.goes_beyond && self.open_lock() {
-            self.use_block(target);
-            Some(0)
-        } else if self.is_sliding() {
+        if self.is_sliding() {
             let unseen = if self.goes_beyond { self.beyond.unseen(self.n) } else { u64::MAX };
             self.slide((target - self.n).min(most as u64).min(unseen));
             Some(most.min(unseen as usize))
-        } else if !self.goes_beyond && self.open_block() {
+        } else if self.open_block() {
             self.use_block(target);
             Some(0)
         } else {
@@ -90,7 +89,7 @@ impl<B: Disk> Explicit<B> {
     pub(super) fn interrupt(&mut self) {
         self.close_block();
         self.leaps.hold_tried = self.n;
-        self.leaps.slide_tried = self.n;
+        (self.leaps.slide_tried, self.leaps.flight_tried) = (self.n, self.n);
         self.leaps.same_sides = 0;
         if let Some(lining) = &mut self.lining {
             lining.rest = std::sync::OnceLock::new();
