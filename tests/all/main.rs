@@ -116,6 +116,7 @@ mod scene_notes;
 mod scene_numbers;
 mod scenes;
 mod security;
+mod shortcuts;
 mod signs_of_life;
 mod sliding;
 mod soak;
