@@ -122,18 +122,21 @@ impl Run {
         let length = machine.clearance().abs();
         let angle = length / machine.blade_length.max(machine.radial_coupling.abs());
         let (state, checks) = (self.motion.state(), self.motion.checks());
-        let mut numbers =
-            vec![checks.max_penetration_m / length, checks.max_blade_angle_rad / angle];
+        let mut numbers = vec![checks.max_penetration_m / length];
         numbers.extend(state.u.map(|u| u / length));
         numbers.extend(state.v.map(|v| v / (length * machine.omega_c)));
         numbers.extend(state.alpha.map(|alpha| alpha / angle));
-        let energy = machine.casing_stiffness * length * length;
-        if let Some(account) = self.motion.energy_account() {
-            let sums = [account.rotor_work_j, account.casing_loss_j, account.blade_loss_j];
-            let heat = [account.friction_heat_j, account.impact_loss_j, account.stored_j];
-            numbers.extend(sums.into_iter().chain(heat).map(|sum| sum / energy));
-        }
         numbers
+    }
+
+    /// The ledger of energy, in parts of what the casing stores at the clearance.
+    fn ledger(&self) -> Vec<f64> {
+        let Some(account) = self.motion.energy_account() else { return Vec::new() };
+        let machine = self.scene.machine();
+        let energy = machine.casing_stiffness * machine.clearance().powi(2);
+        let sums = [account.rotor_work_j, account.casing_loss_j, account.blade_loss_j];
+        let heat = [account.friction_heat_j, account.impact_loss_j, account.stored_j];
+        sums.into_iter().chain(heat).map(|sum| sum / energy).collect()
     }
 }
 
@@ -143,12 +146,14 @@ fn apart(a: &[f64], b: &[f64]) -> f64 {
     parts.fold(0.0, f64::max)
 }
 
-/// A change of the pulse by this part shows how the motion amplifies what is different.
+/// A change of the pulse, and of the rate at each look, by this part shows how the motion amplifies what is different.
 const NUDGE: f64 = 1e-9;
 /// What a leap leaves out, as a part of that: the map of a lock leaves out up to 1e-10.
 const LEFT_OUT: f64 = 0.1;
 /// Round-off of the steps between two looks, where nothing is amplified.
 const ROUND_OFF: f64 = 1e-11;
+/// What the sums over the steps of a held lock leave out of its ledger.
+const LEDGER: f64 = 1e-8;
 /// Beyond it, the motion is chaotic and nothing is compared.
 const CHAOS: f64 = 1e-4;
 
@@ -174,6 +179,7 @@ fn compare(seed: u64, steps: u32) -> (u32, u64) {
         let until = end * f64::from(look) / f64::from(looks);
         plain.advance(until);
         beside.advance(until);
+        beside.motion.scale_rate(1.0 + NUDGE);
         let expected = plain.numbers();
         amplified = amplified.max(apart(&expected, &beside.numbers()));
         let counts = [&plain, &beside].map(|run| run.motion.contacts().impact_count);
@@ -190,14 +196,21 @@ fn compare(seed: u64, steps: u32) -> (u32, u64) {
                 run.motion.failure(),
                 plain.motion.failure()
             );
-            let error = apart(&run.numbers(), &expected);
             let allowed = ROUND_OFF + LEFT_OUT * amplified;
-            assert!(
-                error < allowed,
-                "{error:e} of {allowed:e}: {:?} {expected:?} {what}",
-                run.numbers()
-            );
-            let logs = [run, &plain].map(|run| {
+            for (found, expected, allowed) in [
+                (run.numbers(), &expected, allowed),
+                (run.ledger(), &plain.ledger(), allowed + LEDGER),
+            ] {
+                let error = apart(&found, expected);
+                assert!(error < allowed, "{error:e} of {allowed:e}: {found:?} {expected:?} {what}");
+            }
+            // The top of a swing falls between two steps.
+            let turn = run.scene.machine().omega_bd_max * run.scene.solver.step_s;
+            let [most, expected_most] =
+                [&run.motion, &plain.motion].map(|motion| motion.checks().max_blade_angle_rad);
+            let error = (most - expected_most).abs() / expected_most.max(1e-300);
+            assert!(error < allowed + turn * turn, "{most:e} {expected_most:e} {what}");
+            let logs = [&*run, &plain].map(|run| {
                 let log = run.motion.contacts();
                 (log.impact_count, log.tensile_steps, log.active_set)
             });
@@ -219,7 +232,9 @@ fn compare(seed: u64, steps: u32) -> (u32, u64) {
     for run in &runs {
         let found = run.motion.lasting(window);
         assert_eq!(found, expected, "seed {seed} {:?}: {scene:?}{told}", run.shortcuts);
-        if let Some(proved) = run.motion.final_verdict() {
+        // That a wave on a lining will die is known before it is seen.
+        let proved = run.motion.final_verdict();
+        if let Some(proved) = proved.filter(|_| scene.solver.contact != ContactLaw::Smooth) {
             assert_eq!(proved, expected, "seed {seed} {:?}: {scene:?}{told}", run.shortcuts);
         }
     }

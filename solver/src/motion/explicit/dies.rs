@@ -156,9 +156,7 @@ impl<B: Disk> Explicit<B> {
     /// grows.
     pub(super) fn no_wave_dies(&self) -> bool {
         let pressed = self.lining.as_ref().filter(|lining| lining.all_press());
-        let steady = self.scene.solver.shortcuts.proofs
-            && self.drive.is_steady(self.n)
-            && self.blades.held_modes().is_some();
+        let steady = self.drive.is_steady(self.n) && self.blades.held_modes().is_some();
         pressed.is_some_and(|lining| steady && !lining.rest.get_or_init(|| self.rest()).attracts)
     }
 
