@@ -102,9 +102,9 @@ mkdir bin
 ln -s "$program" bin/rubscope
 PATH=$work/job/bin:$PATH
 sbatch --wait map.sbatch || { cat slurm-*.out; fail "the job array"; }
-ls map-*.part > /dev/null 2>&1 || { cat slurm-*.out; fail "the job array left no parts"; }
-rubscope map merge map-*.part --out merged.csv || fail "merge"
+ls map-*.csv > /dev/null 2>&1 || { cat slurm-*.out; fail "the job array left no parts"; }
+rubscope map merge map-*.csv --out merged.csv || fail "merge"
 # shellcheck disable=SC2086
 rubscope map $options --out single.csv || fail "single run: $options"
 cmp merged.csv single.csv || fail "the merged map is not that of one run"
-echo "passed: $(ls map-*.part | wc -l) tasks of $(slurmctld -V) gave the map of one run, $(wc -l < single.csv) lines"
+echo "passed: $(ls map-*.csv | wc -l) tasks of $(slurmctld -V) gave the map of one run, $(wc -l < single.csv) lines"

@@ -81,6 +81,11 @@ pub(crate) const WAVE_FALLS_SOON: f64 = 1.0 - 1e-6;
 /// found.
 pub(crate) const PERTURBATION: f64 = 1e-9;
 
+/// Part of the elastic force of the casing by which a contact that only pushes may pull at
+/// the end of a run. Smaller: round-off of forces in balance fails a run. Larger: a
+/// run whose result is wrong goes unnoticed.
+pub(crate) const PULL_ROUND_OFF: f64 = 1e-9;
+
 /// Part of a casing period by which a lock may come earlier or later. Larger: a
 /// lock time with no correct digit is trusted.
 pub(crate) const LOCK_MOMENT: f64 = 0.1;

@@ -7,31 +7,21 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use clap::Args;
 
-use super::options::{SceneOptions, read_scene};
 use super::status::{self, Refusal, Status, say};
 use super::{Done, output, sign};
 use crate::file::Written;
 use crate::report::{CommandLine, Provenance, figure::table, svg};
-use rubscope_solver::scene::{CheckedScene, Scene};
+use rubscope_solver::scene::Scene;
 use rubscope_solver::study::figures::{Figure, Which};
-
-const SCENE: &str =
-    "Built-in scene or path of a .toml file [default: paper-nd3; each figure has its own]";
 
 /// Reproduce the paper's Figs. 4 to 10 as SVG, with their data as CSV.
 ///
-/// Without a SCENE, every figure has the built-in scene that gives what the
-/// paper says of it (paper-figs-4-6, paper-fig-7, paper-fig-8, paper-nd3), and a
-/// caption that says what agrees and what differs. With a SCENE, every figure
-/// uses it. Other options change every figure. Fig. 4 has its own time steps,
-/// Fig. 8 its own contact laws, pulses and speeds up to that of the scene, and
-/// Figs. 9 and 10 range from standstill to the speed of the scene. The figure
-/// "coincidence" is not of the paper, and drawn where --only names it.
+/// Every figure has the built-in scene that gives what the paper says of it
+/// (paper-figs-4-6, paper-fig-7, paper-fig-8, paper-nd3), and a caption that says what
+/// agrees and what differs. The figure "coincidence" is not of the paper, and drawn
+/// where --only names it.
 #[derive(Args, Debug)]
-#[command(mut_arg("scene", |arg| arg.help(SCENE)))]
 pub struct FiguresCommand {
-    #[command(flatten)]
-    options: SceneOptions,
     /// Directory of the files; created if missing
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
@@ -45,19 +35,10 @@ pub struct FiguresCommand {
 
 impl FiguresCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
-        let scenes: Vec<(Which, CheckedScene)> = self
-            .asked()?
-            .into_iter()
-            .map(|which| Ok((which, self.scene(which)?)))
-            .collect::<anyhow::Result<_>>()?;
-        // A machine that cannot lock has no Figs. 9 and 10: refused before anything
-        // is written. They cost next to nothing.
-        for (which, scene) in scenes.iter().filter(|(which, _)| which.is_quick()) {
-            drawn(*which, scene)?;
-        }
+        let asked = self.asked()?;
         let shown = self.out.display();
         std::fs::create_dir_all(&self.out).with_context(|| format!("cannot make {shown}"))?;
-        for (which, _) in &scenes {
+        for which in &asked {
             let stem = which.stem();
             // One letter for each of several panels.
             let data = ["", "a", "b", "c", "d"].map(|letter| format!("{stem}{letter}.csv"));
@@ -66,12 +47,11 @@ impl FiguresCommand {
                 output::try_place(&self.out.join(name))?;
             }
         }
-        let bar = sign::bar(scenes.len() as u64, "{spinner} {bar:30} {msg} {elapsed}");
-        for (which, scene) in scenes {
+        let bar = sign::bar(asked.len() as u64, "{spinner} {bar:30} {msg} {elapsed}");
+        for which in asked {
             bar.set_message(format!("figure {which}"));
-            if let Some(drawn) = drawn(which, &scene)? {
-                self.save(which, &drawn, scene.into_scene(), out)?;
-            }
+            let scene = which.scene()?;
+            self.save(which, &which.draw(&scene)?, scene.into_scene(), out)?;
             bar.inc(1);
         }
         Ok(Status::Done)
@@ -91,14 +71,6 @@ impl FiguresCommand {
         Ok(every.filter(|which| asked.contains(which)).collect())
     }
 
-    fn scene(&self, which: Which) -> anyhow::Result<CheckedScene> {
-        let scene = match self.options.name() {
-            Some(name) => read_scene(name)?,
-            None => which.scene()?,
-        };
-        self.options.change(scene)
-    }
-
     fn save(
         &self,
         which: Which,
@@ -107,8 +79,9 @@ impl FiguresCommand {
         out: &mut dyn Write,
     ) -> anyhow::Result<()> {
         // The folder is the user's; the same figure is the same file in each.
-        let command =
-            CommandLine::new("figures", &scene).option("--only", which).option("--out", "figures");
+        let command = CommandLine::without_scene("figures")
+            .option("--only", which)
+            .option("--out", "figures");
         let command = command.flag("--no-caption", self.no_caption);
         let origin = Provenance { command, scene };
         let stem = which.stem();
@@ -145,11 +118,6 @@ impl FiguresCommand {
         }
         Ok(())
     }
-}
-
-/// A figure of a scene.
-fn drawn(which: Which, scene: &CheckedScene) -> Result<Option<Figure>, Refusal> {
-    which.of(scene).map_err(|error| Refusal::because(format!("figure {which}: {error}")))
 }
 
 /// Writes a file; its content goes to standard output if that fails.

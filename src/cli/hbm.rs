@@ -25,8 +25,8 @@ const SWEPT_SPEED: &str =
     "Rotor speed, or speeds as FROM:TO:COUNT; negative turns the other way [rad/s]";
 
 /// The options of views that have the damping of the scene in any case.
-const ALWAYS_DAMPED: [&str; 8] =
-    ["slip", "harmonics", "excitation", "whirl", "compliance", "smooth", "follow", "coincidence"];
+const ALWAYS_DAMPED: [&str; 6] =
+    ["slip", "excitation", "whirl", "compliance", "smooth", "coincidence"];
 
 /// Locked motion against speed, by harmonic balance.
 ///
@@ -55,9 +55,6 @@ pub struct HbmCommand {
     /// View: every equilibrium, its stability, and the thresholds of each branch
     #[arg(long, group = "view")]
     branches: bool,
-    /// View: the corner branch followed through its fold (very soft blades)
-    #[arg(long, group = "view")]
-    fold: bool,
     /// View: lasting slip, the fixed point of the map from corner to corner
     #[arg(long, group = "view")]
     slip: bool,
@@ -65,9 +62,6 @@ pub struct HbmCommand {
     /// the casing
     #[arg(long, value_name = "FROM:TO:COUNT", requires = "slip", allow_hyphen_values = true)]
     zetas: Option<String>,
-    /// View: Fourier series of slip and what is left out with up to COUNT harmonics
-    #[arg(long, group = "view", value_name = "COUNT", num_args = 0..=1, default_missing_value = "16")]
-    harmonics: Option<u32>,
     /// View: frequencies against speed, engine orders, and the coincidences (30)
     #[arg(long, group = "view")]
     campbell: bool,
@@ -76,8 +70,8 @@ pub struct HbmCommand {
     excitation: bool,
     #[command(flatten)]
     lining: LiningOptions,
-    /// View: whirl of inclined tips on the polygon and on a rim, where it begins, and
-    /// where a lock flutters
+    /// View: whirl of inclined tips in the limit of many blades, where it begins, and where a
+    /// lock flutters
     #[arg(long, group = "view")]
     whirl: bool,
     /// View: the joint compliance B(omega) in the complex plane; a whirl is where it
@@ -104,7 +98,7 @@ impl HbmCommand {
         let resolved = self.options.resolve(Swept { speed: true, pulse: false })?;
         let speeds = match resolved.speeds {
             Some(range) => range.values(),
-            None if self.harmonics.is_some() || self.compliance => {
+            None if self.compliance => {
                 vec![resolved.scene.operation.speed_rad_s]
             }
             None => linspace(0.0, resolved.scene.operation.speed_rad_s, SPEEDS),
@@ -155,10 +149,8 @@ impl HbmCommand {
             .flag("--damped", self.damped && self.form == Form::Printed.to_string())
             .optional("--blades", self.blades.as_ref())
             .flag("--branches", self.branches)
-            .flag("--fold", self.fold)
             .flag("--slip", self.slip)
             .optional("--zetas", self.zetas.as_ref())
-            .optional("--harmonics", self.harmonics)
             .flag("--campbell", self.campbell)
             .flag("--excitation", self.excitation)
             .flag("--whirl", self.whirl)
@@ -172,16 +164,14 @@ impl HbmCommand {
             Some(text) => Range::parse(option, text, of).map(|range| Some(range.values())),
             None => Ok(None),
         };
-        if let Some(view) = self.lining.view()? {
+        if let Some(view) = self.lining.view() {
             return Ok(HbmView::Lining(view));
         }
         let zetas = values("--zetas", &self.zetas, Quantity::Plain)?;
         let omegas = values("--omegas", &self.omegas, Quantity::Speed)?;
         Ok(match self {
             Self { branches: true, .. } => HbmView::Branches,
-            Self { fold: true, .. } => HbmView::Fold,
             Self { slip: true, .. } => HbmView::Slip(zetas.unwrap_or_default()),
-            Self { harmonics: Some(most), .. } => HbmView::Harmonics(*most),
             Self { campbell: true, .. } => HbmView::Campbell,
             Self { excitation: true, .. } => HbmView::Excitation,
             Self { whirl: true, .. } => HbmView::Whirl,

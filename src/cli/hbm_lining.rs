@@ -1,5 +1,5 @@
-//! The views of `rubscope hbm` for blades on a lining, `--smooth` and `--follow`, and of
-//! a coincidence against speed, `--coincidence`.
+//! The views of `rubscope hbm` for blades on a lining, `--smooth`, and of a
+//! coincidence against speed, `--coincidence`.
 
 use std::rc::Rc;
 
@@ -12,12 +12,11 @@ use crate::report::hbm::{self as report, HbmReport, LiningReport};
 use crate::report::number::{per_speed, short, speed, speed_unit};
 use crate::report::table::Table;
 use rubscope_solver::harmonic::{
-    FollowedBranch, HarmonicError, HopfPoint, Lining, coincidence, follow, growth_threshold,
-    least_lock_stiffness, shifted_coincidence,
+    HarmonicError, HopfPoint, Lining, coincidence, growth_threshold, least_lock_stiffness,
+    shifted_coincidence,
 };
 use rubscope_solver::scene::keys;
-use rubscope_solver::scene::units::{RangeError, read_ends};
-use rubscope_solver::scene::{ContactLaw, Key, Quantity, Scene};
+use rubscope_solver::scene::{ContactLaw, Scene};
 
 /// What is asked of a lining.
 #[derive(Args, Debug)]
@@ -26,12 +25,6 @@ pub struct LiningOptions {
     /// waves it grows into, locks and which linings hold them
     #[arg(long, group = "view")]
     smooth: bool,
-    /// View: such a steady state followed over the key PATH of the scene, through folds
-    #[arg(long, group = "view", value_name = "PATH", requires = "over")]
-    follow: Option<String>,
-    /// With --follow: from which value of the key to which
-    #[arg(long, value_name = "FROM:TO", requires = "follow", allow_hyphen_values = true)]
-    over: Option<String>,
     /// View: what the coincidences do: growth of rest and the wave that lasts, against speed
     #[arg(long, group = "view")]
     coincidence: bool,
@@ -41,45 +34,27 @@ pub struct LiningOptions {
 pub(super) enum LiningView {
     /// Steady states.
     Smooth,
-    /// One followed over a key.
-    Follow(String, [f64; 2]),
     /// Growth and amplitude.
     Coincidence,
 }
 
 impl LiningOptions {
     /// The view that these options ask for, if any.
-    pub fn view(&self) -> Result<Option<LiningView>, Refusal> {
-        if let (Some(path), Some(over)) = (&self.follow, &self.over) {
-            let of = keys::find(path).map_or(Quantity::Length, Key::quantity);
-            return Ok(Some(LiningView::Follow(path.clone(), ends(over, of)?)));
-        }
-        Ok(match self {
+    pub fn view(&self) -> Option<LiningView> {
+        match self {
             Self { smooth: true, .. } => Some(LiningView::Smooth),
             Self { coincidence: true, .. } => Some(LiningView::Coincidence),
             _ => None,
-        })
+        }
     }
 
     /// These options, added to a command.
     pub fn add_to(&self, command: CommandLine) -> CommandLine {
-        command
-            .flag("--smooth", self.smooth)
-            .optional("--follow", self.follow.as_ref())
-            .optional("--over", self.over.as_ref())
-            .flag("--coincidence", self.coincidence)
+        command.flag("--smooth", self.smooth).flag("--coincidence", self.coincidence)
     }
 }
 
-fn ends(text: &str, of: Quantity) -> Result<[f64; 2], Refusal> {
-    match read_ends(text, of) {
-        Ok((ends, None)) if ends.iter().all(|end| end.is_finite()) => Ok(ends),
-        Err(RangeError::End(why)) => Err(Refusal::because(format!("--over = {text}: {why}"))),
-        _ => Err(Refusal::of("--over", text, "FROM:TO, two numbers")),
-    }
-}
-
-/// A lock, a slip and a fold need a clearance.
+/// A lock and a slip need a clearance.
 pub(super) fn clear(scene: &Scene) -> Result<(), Refusal> {
     if scene.clearance() > 0.0 {
         return Ok(());
@@ -103,7 +78,6 @@ pub(super) fn answer(asked: &Asked, view: &LiningView) -> Result<Answer, Refusal
     let rigid = scene.solver.contact != ContactLaw::Smooth;
     let option = match view {
         LiningView::Smooth => Some("--smooth"),
-        LiningView::Follow(..) => Some("--follow"),
         LiningView::Coincidence => None,
     };
     if let Some(option) = option.filter(|_| rigid) {
@@ -112,7 +86,6 @@ pub(super) fn answer(asked: &Asked, view: &LiningView) -> Result<Answer, Refusal
     }
     let answer = match view {
         LiningView::Smooth => smooth(json, asked),
-        LiningView::Follow(path, over) => followed(json, scene, path, *over),
         LiningView::Coincidence => curve(json, asked),
     };
     answer.map_err(|error| Refusal::because(error.to_string()))
@@ -196,32 +169,6 @@ fn over_clearance(found: &LiningReport, lining: &Lining) -> Vec<(String, Table)>
     }
     let title = "Whirl, waves that turn against the blades:".to_string();
     vec![(title, report::cycle_table(&found.cycles)), states]
-}
-
-fn followed(
-    json: HbmReport,
-    scene: &Scene,
-    path: &str,
-    over: [f64; 2],
-) -> Result<Answer, HarmonicError> {
-    let branch = follow(scene, path, over)?;
-    let title = told(&branch);
-    let tables = vec![(title, report::follow_table(&branch))];
-    Ok(Answer::of(json.with("follow", &branch), tables))
-}
-
-fn told(branch: &FollowedBranch) -> String {
-    let marks: Vec<String> = branch
-        .points
-        .iter()
-        .filter_map(|point| {
-            let special = point.special?;
-            Some(format!("{} at {}", special.as_ref(), short(point.parameter)))
-        })
-        .collect();
-    let marks = if marks.is_empty() { "nothing happens".to_string() } else { marks.join(", ") };
-    let end = branch.end.as_ref().replace('_', " ");
-    format!("A steady state followed over {}: {marks}; end: {end}.", branch.path)
 }
 
 fn curve(json: HbmReport, asked: &Asked) -> Result<Answer, HarmonicError> {

@@ -10,16 +10,13 @@ use crate::report::hbm::{self as report, CompliancePoint, HbmReport, WhirlRow};
 use crate::report::number::{self, short};
 use crate::report::table::{MadeTable, Table};
 use rubscope_solver::harmonic::{
-    Branches, Campbell, Corner, ExcitedLocks, Form, HarmonicError, Joint, NoSlip, SlipPoint,
-    SlipRegion, SlipSpectrum, Sweep, WhirlPoint, corner_branch, drives, flutter_speed,
-    locked_motion, round_whirls, slip_limits, slip_over, slip_spectrum, undamped_flutter_speed,
-    whirl_onset, whirl_over,
+    Branches, Campbell, Corner, ExcitedLocks, Form, HarmonicError, Joint, SlipPoint, SlipRegion,
+    Sweep, drives, flutter_speed, locked_motion, round_whirls, slip_limits, slip_over,
+    undamped_flutter_speed, whirl_onset,
 };
 use rubscope_solver::model::Machine;
 use rubscope_solver::scene::{Scene, keys};
 
-/// Arc length between points of a branch followed through its fold.
-const ARC: f64 = 0.05;
 /// Engine-order lines drawn in addition to those of the scene.
 const ORDERS: [u32; 4] = [1, 2, 3, 4];
 
@@ -29,12 +26,8 @@ pub(super) enum HbmView {
     Locked,
     /// Every equilibrium.
     Branches,
-    /// The corner branch through its fold.
-    Fold,
     /// Slip, and the speeds where it exists over these damping ratios.
     Slip(Vec<f64>),
-    /// The Fourier series of slip with this many harmonics.
-    Harmonics(u32),
     /// Campbell data.
     Campbell,
     /// The response to the scene's engine order.
@@ -50,7 +43,7 @@ pub(super) enum HbmView {
 impl HbmView {
     /// Whether its numbers have the damping of the scene whatever is asked for.
     pub fn is_always_damped(&self) -> bool {
-        !matches!(self, Self::Locked | Self::Branches | Self::Fold | Self::Campbell)
+        !matches!(self, Self::Locked | Self::Branches | Self::Campbell)
     }
 }
 
@@ -124,12 +117,10 @@ pub(super) fn answer(asked: &Asked, view: &HbmView) -> Result<Answer, Refusal> {
         (HbmView::Branches, _) => all_branches(json, &machine, speeds, damped),
         (HbmView::Campbell, _) => campbell(json, asked, &machine),
         (HbmView::Slip(zetas), _) => slipping(json, scene, speeds, zetas),
-        (HbmView::Harmonics(most), _) => series(json, &machine, speeds, *most),
-        (HbmView::Whirl, _) => whirling(json, &machine, speeds, asked.fastest()),
+        (HbmView::Whirl, _) => Ok(whirling(json, &machine, speeds, asked.fastest())),
         (HbmView::Compliance(omegas), _) => {
             compliance(json, &machine, asked.fastest(), omegas.as_deref())
         }
-        (HbmView::Fold, _) => folding(json, &machine, corner(asked, &machine)?.a, speeds, damped),
         (HbmView::Excitation, _) => excited(json, scene, corner(asked, &machine)?.a, speeds),
         (HbmView::Locked | HbmView::Lining(_), Err(error)) => Err(error),
         (HbmView::Locked | HbmView::Lining(_), Ok(sweep)) => Ok(locked(json, sweep)),
@@ -245,67 +236,6 @@ fn slipping(
     Ok(Answer::of(json, tables))
 }
 
-fn series(
-    json: HbmReport,
-    machine: &Machine,
-    speeds: &[f64],
-    most: u32,
-) -> Result<Answer, HarmonicError> {
-    let mut series: Vec<(f64, Result<SlipSpectrum, NoSlip>)> = Vec::new();
-    for &speed in speeds {
-        series.push((speed, slip_spectrum(machine, speed, most)?));
-    }
-    let mut tables = Vec::new();
-    for (speed, found) in &series {
-        let speed = number::speed(*speed);
-        match found {
-            Ok(found) => {
-                let title = format!(
-                    "A lock needs one harmonic, exactly. Slip at {speed}, truncated at -H to H:"
-                );
-                tables.push((title, report::truncation_table(found)));
-                let title = "Its harmonics in the standing frame:".to_string();
-                tables.push((title, report::term_table(found)));
-            }
-            Err(reason) => {
-                let title = format!("No slip at {speed} ({}).", reason);
-                tables.push((title, Table::default()));
-            }
-        }
-    }
-    let file = series.iter().find_map(|(_, found)| found.as_ref().ok());
-    let file = file.map_or_else(|| Table::new(["number"]), report::term_table).into();
-    let json = json.with("harmonics", series.iter().map(report::harmonics).collect::<Vec<_>>());
-    Ok(Answer { file, ..Answer::of(json, tables) })
-}
-
-fn folding(
-    json: HbmReport,
-    machine: &Machine,
-    side: u32,
-    speeds: &[f64],
-    damped: bool,
-) -> Result<Answer, HarmonicError> {
-    let from = speeds.iter().copied().fold(f64::INFINITY, f64::min);
-    let to = speeds.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let branch = corner_branch(machine, side, damped, [from, to], ARC)?;
-    let title = match branch.fold {
-        Some(fold) if branch.points.is_empty() => format!(
-            "The corner branch folds back at {}, below all of these speeds.",
-            number::speed(fold.speed_rad_s)
-        ),
-        Some(fold) => format!(
-            "The corner branch folds back at {}, opened to {} rad from {} rad.",
-            number::speed(fold.speed_rad_s),
-            short(fold.opening_rad),
-            short(machine.polygon.delta)
-        ),
-        None => "The corner branch does not fold: the blades are practically rigid.".to_string(),
-    };
-    let tables = vec![(title, report::corner_table(&branch))];
-    Ok(Answer::of(json.with("fold", report::fold(&branch)), tables))
-}
-
 fn excited(
     json: HbmReport,
     scene: &Scene,
@@ -343,15 +273,8 @@ const FREQUENCIES: usize = 201;
 const BEYOND: f64 = 1.5;
 
 /// Whirl against speed, and where it begins and ends.
-pub(super) fn whirling(
-    json: HbmReport,
-    machine: &Machine,
-    speeds: &[f64],
-    fastest: f64,
-) -> Result<Answer, HarmonicError> {
-    let row = |point: WhirlPoint| WhirlRow::of(machine, point);
-    let rows: Rc<Vec<WhirlRow>> =
-        Rc::new(whirl_over(machine, speeds)?.into_iter().map(row).collect());
+pub(super) fn whirling(json: HbmReport, machine: &Machine, speeds: &[f64], fastest: f64) -> Answer {
+    let rows = Rc::new(speeds.iter().map(|&speed| WhirlRow::at(machine, speed)).collect());
     let onset = whirl_onset(machine, fastest);
     let [flutter, undamped] =
         [flutter_speed(machine, fastest), undamped_flutter_speed(machine, fastest)];
@@ -377,7 +300,7 @@ pub(super) fn whirling(
         .with("flutter_undamped_rad_s", undamped)
         .with("lock_window_rad_s", window.map(|window| [Some(window.from), window.to]))
         .with_rows("whirl", &rows, report::whirl);
-    Ok(Answer::of(json, vec![(title, report::whirl_table(&rows))]))
+    Answer::of(json, vec![(title, report::whirl_table(&rows))])
 }
 
 /// The joint compliance at one speed, over frequencies of the casing \[rad/s\].

@@ -1,33 +1,30 @@
-//! `rubscope map`: how the motion lasts over two quantities of a scene.
+//! `rubscope map`: the verdicts over two quantities of a scene.
 //!
-//! Computed cells are never lost: with `--out` or `--resume` they are saved in
-//! a part file at once, Ctrl-C keeps them and prints how to continue, and a
-//! result that cannot be written goes to standard output instead.
+//! A result that cannot be written goes to standard output instead.
 
 use std::fs::File;
 use std::io::{BufReader, IsTerminal, Write};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
 
 use clap::{Args, Subcommand};
 use rayon::prelude::*;
 
 use super::options::{SceneOptions, Swept};
-use super::part_file::{self, PartFile, save_new};
 use super::range::Range;
-use super::signals::StopRequest;
 use super::status::{self, Refusal, Status, say};
 use super::{Done, output, sign};
 use crate::file::{self, Written};
+use crate::report::part::{self, Shard};
 use crate::report::{Provenance, json, map as report, svg};
 use rubscope_solver::scene::keys;
-use rubscope_solver::study::{Axis, AxisError, Cell, Map, MapPlan, Progress, Shard, overlay, part};
+use rubscope_solver::study::{Axis, AxisError, Map, MapPlan, overlay};
 
 /// Most threads: more than any machine has cores for.
 const MOST_THREADS: usize = 1024;
 /// Most cells of a picture, which takes some hundred bytes a cell.
 const MOST_DRAWN: usize = 1_000_000;
+/// Endings of the files of a whole map.
+const WHOLE: [&str; 3] = ["csv", "json", "svg"];
 /// Columns and rows of a map by default: steps of 10 rad/s and 50 kN.
 const COLUMNS: u32 = 51;
 const ROWS: u32 = 21;
@@ -63,12 +60,9 @@ pub struct MapCommand {
     /// Number of threads [default: every core]
     #[arg(long, value_name = "COUNT", value_parser = threads)]
     threads: Option<usize>,
-    /// Compute only share K of COUNT, counted from 1, into --out FILE.part
+    /// Compute only share K of COUNT, counted from 1, for map merge; into --out FILE.csv
     #[arg(long, value_name = "K/COUNT", requires = "out")]
     shard: Option<String>,
-    /// Continue from the cells in FILE, and save new ones there
-    #[arg(long, value_name = "FILE")]
-    resume: Option<PathBuf>,
     #[command(flatten)]
     result: ResultOptions,
 }
@@ -79,7 +73,7 @@ struct ResultOptions {
     /// Print the map as JSON (rubscope.map/1)
     #[arg(long)]
     json: bool,
-    /// Write the map to FILE: .csv, .json, .svg, or .part to be merged later
+    /// Write the map to FILE: .csv, .json or .svg
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
 }
@@ -109,36 +103,23 @@ impl MapCommand {
         if let Some(MapSubcommand::Merge(merge)) = &self.merge {
             return merge.run(out);
         }
-        let format = self.result.format()?;
         let shard = self.shard()?;
-        if self.shard.is_some() && format != Some("part") {
-            return Err(Refusal::because("--shard: allowed with --out FILE.part only").into());
-        }
-        if self.adaptive && format == Some("part") {
-            let reason = "--adaptive: allowed with --out FILE.csv, .json or .svg, since a part \
-                          holds cells that were run";
-            return Err(Refusal::because(reason).into());
-        }
+        let format = match shard {
+            Some(_) => self.result.format(&["csv", "part"])?,
+            None => self.result.format(&WHOLE)?,
+        };
         let plan = self.plan()?;
         check_picture(&plan, format)?;
         self.result.try_place()?;
-        let mut map = Map::empty(plan);
-        let part = match self.part_file() {
-            Some(path) => Some(PartFile::open(&path, &mut map)?),
-            None => None,
-        };
-        self.result.refuse_locked(part.as_ref())?;
         status::say_noted();
-        let kept = Kept { adaptive: self.adaptive, threads: self.threads, part };
-        if let Some(signal) = compute(&mut map, shard, &kept, out)? {
-            return Ok(Status::Signal(signal));
-        }
-        self.result.refuse_locked(kept.part.as_ref())?;
-        self.result.deliver(&map, out)?;
-        // The result now has the cells of the part that this command made for it; one
-        // that the user named stays.
-        if let Some(part) = kept.part.filter(|_| self.resume.is_none()) {
-            part.remove();
+        let mut map = Map::empty(plan);
+        self.compute(&mut map, shard)?;
+        match (shard, &self.result.out) {
+            (Some(shard), Some(path)) => {
+                let what = format!("{} cells", map.runs);
+                output::save(path, &what, out, |out| part::write(&map, shard, out))?;
+            }
+            _ => self.result.deliver(&map, format, out)?,
         }
         Ok(Status::Done)
     }
@@ -168,33 +149,42 @@ impl MapCommand {
         Ok(plan)
     }
 
-    fn shard(&self) -> Result<Shard, Refusal> {
-        let Some(text) = &self.shard else { return Ok(Shard::WHOLE) };
+    fn shard(&self) -> Result<Option<Shard>, Refusal> {
+        let Some(text) = &self.shard else { return Ok(None) };
         Shard::parse(text)
+            .map(Some)
             .ok_or_else(|| Refusal::of("--shard", text, "K/COUNT with K from 1 to COUNT"))
     }
 
-    /// Where cells are saved as soon as they are known.
-    fn part_file(&self) -> Option<PathBuf> {
-        self.resume.clone().or_else(|| self.own_part())
-    }
-
-    /// The part file next to the result.
-    fn own_part(&self) -> Option<PathBuf> {
-        let mut name = self.result.out.clone()?.into_os_string();
-        name.push(".partial");
-        Some(PathBuf::from(name))
+    fn compute(&self, map: &mut Map, shard: Option<Shard>) -> anyhow::Result<()> {
+        let mut builder = rayon::ThreadPoolBuilder::new();
+        if let Some(threads) = self.threads {
+            builder = builder.num_threads(threads);
+        }
+        let cells = map.cells.len();
+        let whole = Shard { number: 1, count: 1 };
+        let indices = shard.unwrap_or(whole).indices(cells);
+        let form = "{spinner} {bar:30} {pos}/{len} cells, {per_sec}, {eta} left";
+        let bar = sign::bar(indices.len() as u64, form);
+        let count = |_, _| bar.inc(1);
+        builder.build()?.install(|| match self.adaptive {
+            true => map.fill_adaptively(&|| true, &count),
+            false => map.fill(indices, &|| true, &count),
+        });
+        if self.adaptive {
+            say_what_was_saved(map);
+        }
+        Ok(())
     }
 }
 
 impl Merge {
     fn run(&self, out: &mut dyn Write) -> Done {
-        let format = self.result.format()?;
+        let format = self.result.format(&WHOLE)?;
         let map = read_parts(&self.files)?;
         check_picture(&map.plan, format)?;
-        part::require_complete(&map).map_err(|error| Refusal::because(error.to_string()))?;
         self.result.try_place()?;
-        self.result.deliver(&map, out)?;
+        self.result.deliver(&map, format, out)?;
         Ok(Status::Done)
     }
 }
@@ -221,9 +211,8 @@ fn read_parts(files: &[PathBuf]) -> anyhow::Result<Map> {
 }
 
 impl ResultOptions {
-    fn format(&self) -> Result<Option<&'static str>, Refusal> {
-        let Some(path) = &self.out else { return Ok(None) };
-        output::ending(path, &["csv", "json", "svg", "part"]).map(Some)
+    fn format(&self, endings: &[&'static str]) -> Result<Option<&'static str>, Refusal> {
+        self.out.as_deref().map(|path| output::ending(path, endings)).transpose()
     }
 
     /// Tries the place of the result, before anything is computed.
@@ -231,40 +220,30 @@ impl ResultOptions {
         self.out.as_deref().map_or(Ok(()), output::try_place)
     }
 
-    /// Refuses a result in the place of a part that another map writes.
-    fn refuse_locked(&self, own: Option<&PartFile>) -> Result<(), Refusal> {
-        self.out.as_deref().map_or(Ok(()), |path| part_file::refuse_locked(path, own))
-    }
-
     /// Prints and writes the finished map. If it cannot be written, it goes
     /// to standard output as JSON, so that nothing computed is lost.
-    fn deliver(&self, map: &Map, out: &mut dyn Write) -> anyhow::Result<()> {
+    fn deliver(&self, map: &Map, format: Option<&str>, out: &mut dyn Write) -> anyhow::Result<()> {
         if self.json {
             json::write(&report::MapJson { map, with_time: true }, out)?;
         } else if self.out.is_none() {
             report::write_text(map, width(), out)?;
         }
-        let (Some(path), Some(format)) = (&self.out, self.format()?) else { return Ok(()) };
-        let shown = path.display();
+        let (Some(path), Some(format)) = (&self.out, format) else { return Ok(()) };
         // The file may be standard output itself, and comes after what is there.
         out.flush()?;
         let error = match write_file(map, format, path) {
             Ok(written) => {
-                let cells = format!("{} cells", map.cells.iter().flatten().count());
-                output::say_written(written, &cells, &shown);
+                let cells = format!("{} cells", map.cells.len());
+                output::say_written(written, &cells, &path.display());
                 return Ok(());
             }
             Err(error) => error,
         };
-        let kept = match format {
-            "part" => "its cells are on standard output, to be saved as a part",
-            _ => "the whole map is on standard output as JSON",
-        };
-        Err(output::print_instead(path, error, kept, out, |out| match format {
-            "part" => part::write(map, out).map(drop),
+        let kept = "the whole map is on standard output as JSON";
+        Err(output::print_instead(path, error, kept, out, |out| match self.json {
             // It is there already.
-            _ if self.json => Ok(()),
-            _ => json::write(&report::MapJson { map, with_time: false }, out),
+            true => Ok(()),
+            false => json::write(&report::MapJson { map, with_time: false }, out),
         }))
     }
 }
@@ -279,78 +258,12 @@ fn write_file(map: &Map, format: &str, path: &Path) -> std::io::Result<Written> 
     file::replace(path, |out| match format {
         "csv" => report::write_csv(map, out),
         "json" => json::write(&report::MapJson { map, with_time: false }, out),
-        "svg" => {
+        _ => {
             let command = report::command(map).option("--out", "map.svg");
             let origin = Provenance { command, scene: map.plan.scene.clone() };
             svg::write(&report::figure(map, &overlay::curves(&map.plan)), &origin, out)
         }
-        _ => part::write(map, out).map(drop),
     })
-}
-
-/// How often the bar and the signals are checked.
-const LOOK: Duration = Duration::from_millis(100);
-
-/// How a map is computed and saved.
-pub(super) struct Kept {
-    /// Refine only next to changes.
-    pub adaptive: bool,
-    /// Number of threads.
-    pub threads: Option<usize>,
-    /// Where cells are saved as soon as they are known.
-    pub part: Option<PartFile>,
-}
-
-/// Computes the cells of a map; the number of the signal that stopped it.
-pub(super) fn compute(
-    map: &mut Map,
-    shard: Shard,
-    kept: &Kept,
-    out: &mut dyn Write,
-) -> anyhow::Result<Option<u8>> {
-    let progress = Progress::default();
-    let request = StopRequest::expect();
-    let notes = kept.part.as_ref();
-    let mut builder = rayon::ThreadPoolBuilder::new();
-    if let Some(threads) = kept.threads {
-        builder = builder.num_threads(threads);
-    }
-    let pool = builder.build()?;
-    let indices = shard.indices(map.cells.len());
-    let is_missing = |&index: &usize| map.cells[index].is_none();
-    let missing = pool.install(|| indices.clone().filter(is_missing).count());
-    let finished = AtomicBool::new(false);
-    std::thread::scope(|scope| {
-        scope.spawn(|| watch(&progress, &request, &finished, missing as u64));
-        let keep = |index: usize, cell: Cell| {
-            if let Some(notes) = notes {
-                notes.keep(index, cell);
-            }
-        };
-        pool.install(|| {
-            if kept.adaptive {
-                map.fill_adaptively(&progress, &keep);
-            } else {
-                map.fill(indices, &progress, &keep);
-            }
-        });
-        finished.store(true, Ordering::Relaxed);
-    });
-    let trouble = notes.and_then(|notes| Some((notes.name(), notes.trouble()?)));
-    if let Some((path, error)) = &trouble {
-        say(&format!("rubscope: could not save cells in {}: {error}", path.display()));
-    }
-    let received = request.received();
-    drop(request);
-    if let Some(number) = received {
-        let complete = notes.filter(|_| trouble.is_none()).and_then(PartFile::path);
-        stopped(map, complete, out)?;
-        return Ok(Some(number));
-    }
-    if kept.adaptive {
-        say_what_was_saved(map);
-    }
-    Ok(None)
 }
 
 /// The cost of an adaptive map, compared with all its cells.
@@ -362,39 +275,4 @@ fn say_what_was_saved(map: &Map) {
         "rubscope: {runs} runs for {cells} cells, {saved} ({percent} %) saved; started with 1 of \
          {stride} columns and rows, every border between verdicts run to the cell"
     ));
-}
-
-/// Saves what is done and prints how to continue. If no part file has all
-/// cells, one is written; if that fails, the cells go to standard output.
-fn stopped(map: &Map, complete: Option<&Path>, out: &mut dyn Write) -> anyhow::Result<()> {
-    let (done, cells) = (map.cells.iter().flatten().count(), map.cells.len());
-    let stopped = format!("rubscope: stopped; {done} of {cells} cells are kept");
-    if let Some(path) = complete {
-        say(&format!("{stopped} in {}: go on with the same command", path.display()));
-        return Ok(());
-    }
-    match save_new(map) {
-        Ok(path) => {
-            let path = path.display();
-            say(&format!("{stopped}: go on with the same command and --resume {path}"));
-            Ok(())
-        }
-        Err((path, error)) => {
-            let kept = "its cells are on standard output, to be saved as a part for --resume";
-            let print = |out: &mut dyn Write| part::write(map, out).map(drop);
-            Err(output::print_instead(&path, error, kept, out, print))
-        }
-    }
-}
-
-/// Updates the bar and handles signals until the cells are done.
-fn watch(progress: &Progress, request: &StopRequest, finished: &AtomicBool, cells: u64) {
-    let bar = sign::bar(cells, "{spinner} {bar:30} {pos}/{len} cells, {per_sec}, {eta} left");
-    while !finished.load(Ordering::Relaxed) {
-        if request.received().is_some() {
-            progress.stop.store(true, Ordering::Relaxed);
-        }
-        bar.set_position(progress.done.load(Ordering::Relaxed));
-        std::thread::sleep(LOOK.min(Duration::from_millis(1 + cells / 100)));
-    }
 }

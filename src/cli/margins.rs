@@ -7,11 +7,11 @@ use clap::Args;
 
 use super::options::SceneOptions;
 use super::status::{self, Refusal, Status};
-use super::{Done, output, sign};
+use super::{Done, gone, output};
 use crate::report::{CommandLine, Provenance, json, margins as report, svg};
 use rubscope_solver::motion::to_the_end;
 use rubscope_solver::scene::CheckedScene;
-use rubscope_solver::study::margins::{Margins, SAMPLES, Target, TargetError, Tolerance};
+use rubscope_solver::study::margins::{Margins, Target, TargetError};
 
 /// Find how far a scene is from every limit, and what moves each limit most.
 ///
@@ -33,12 +33,9 @@ pub struct MarginsCommand {
     /// The parameter for --target, such as casing.damping_ratio
     #[arg(long, value_name = "PATH", requires = "target")]
     by: Option<String>,
-    /// A parameter is known only to so many per cent: how far limits spread; repeatable
-    #[arg(long, value_name = "PATH=PERCENT", allow_hyphen_values = true)]
-    tolerance: Vec<String>,
-    /// Leave out the smallest lasting pulses, which take many runs
-    #[arg(long)]
-    no_search: bool,
+    /// Leave out what is found by many runs: nothing now, so it changes nothing
+    #[arg(long = "no-search", hide = true)]
+    _no_search: bool,
 }
 
 impl MarginsCommand {
@@ -50,26 +47,16 @@ impl MarginsCommand {
         let scene = self.options.scene()?;
         let target = match (&self.target, &self.by) {
             (Some(target), Some(by)) => {
-                let refused = |error: TargetError| Refusal::because(error.to_string());
+                let name = target.split('=').next().unwrap_or_default().trim();
+                let refused = |error: TargetError| {
+                    Refusal::because(gone::name("margins", name).unwrap_or(error.to_string()))
+                };
                 Some(Target::parse(target, by).map_err(refused)?)
             }
             _ => None,
         };
-        let tolerances = Tolerance::parse_all(&self.tolerance, &scene)
-            .map_err(|error| Refusal::because(error.to_string()))?;
         status::say_noted();
         let mut margins = Margins::of(&scene);
-        if !self.no_search {
-            for law in margins.laws() {
-                sign::doing(format!("smallest lasting pulse, {law} law"));
-                margins.search(law, &to_the_end);
-            }
-        }
-        if !tolerances.is_empty() {
-            let form = "{spinner} {bar:30} {pos}/{len} samples of the tolerances {elapsed}";
-            let bar = sign::bar(SAMPLES as u64, form);
-            margins.spread(tolerances, &|| bar.inc(1));
-        }
         margins.target = target.and_then(|target| target.solve(&scene, &to_the_end));
         self.deliver(&margins, &scene, format, out)?;
         Ok(Status::Done)
@@ -104,10 +91,8 @@ impl MarginsCommand {
 
     /// The command that gives the same answer again.
     fn command(&self, scene: &CheckedScene) -> CommandLine {
-        let command = CommandLine::new("margins", scene)
+        CommandLine::new("margins", scene)
             .optional("--target", self.target.as_ref())
-            .optional("--by", self.by.as_ref());
-        let tolerance = |command: CommandLine, text| command.option("--tolerance", text);
-        self.tolerance.iter().fold(command, tolerance).flag("--no-search", self.no_search)
+            .optional("--by", self.by.as_ref())
     }
 }

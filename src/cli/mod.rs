@@ -6,6 +6,7 @@
 mod check;
 mod explore;
 mod figures;
+mod gone;
 mod hbm;
 mod hbm_lining;
 mod hbm_views;
@@ -15,7 +16,6 @@ mod margins;
 mod new;
 pub mod options;
 mod output;
-mod part_file;
 mod precision;
 pub mod range;
 mod run;
@@ -75,9 +75,10 @@ enum Command {
 /// Runs the program on these arguments and returns its exit status.
 pub fn main(args: impl IntoIterator<Item = OsString>) -> u8 {
     output::outlive_size_limit();
-    let cli = match Cli::try_parse_from(args) {
+    let arguments: Vec<OsString> = args.into_iter().collect();
+    let cli = match Cli::try_parse_from(&arguments) {
         Ok(cli) => cli,
-        Err(error) => return status::usage(&error),
+        Err(error) => return status::usage(&error, &arguments),
     };
     // No lock for the whole program: it would stop every other thread that
     // writes, for as long as the output is blocked.

@@ -1,36 +1,5 @@
 //! Signals that end a command. What it is changing on the disk is finished first,
-//! and nothing unfinished stays. A command that can keep what it has computed
-//! asks for the first signal to be noted only; the second ends it at once.
-
-use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
-
-/// Whether the next signal is only noted.
-static NOTING: AtomicBool = AtomicBool::new(false);
-/// The signal that was noted; 0 for none.
-static NOTED: AtomicU8 = AtomicU8::new(0);
-
-/// Signals are noted while this value lives.
-pub(super) struct StopRequest(());
-
-impl StopRequest {
-    /// Notes the next signal to stop.
-    pub(super) fn expect() -> Self {
-        NOTED.store(0, Ordering::SeqCst);
-        NOTING.store(true, Ordering::SeqCst);
-        Self(())
-    }
-
-    /// The number of the signal that asked to stop, if one did.
-    pub(super) fn received(&self) -> Option<u8> {
-        Some(NOTED.load(Ordering::SeqCst)).filter(|&number| number != 0)
-    }
-}
-
-impl Drop for StopRequest {
-    fn drop(&mut self) {
-        NOTING.store(false, Ordering::SeqCst);
-    }
-}
+//! and nothing unfinished stays.
 
 /// Starts the thread that waits for signals; a signal that is ignored, as under
 /// `nohup`, stays so.
@@ -47,10 +16,6 @@ pub(super) fn watch() -> std::io::Result<()> {
     let mut signals = signal_hook::iterator::Signals::new(heard)?;
     let wait = move || {
         for signal in signals.forever() {
-            if signal != SIGQUIT && NOTING.swap(false, Ordering::SeqCst) {
-                NOTED.store(u8::try_from(signal).unwrap_or(0), Ordering::SeqCst);
-                continue;
-            }
             crate::file::settle(LONGEST_CHANGE);
             // The shell sees that it was ended by the signal, and ends its loop.
             let _ = signal_hook::low_level::emulate_default_handler(signal);

@@ -1,13 +1,14 @@
 //! Exit status and messages: 0 done, 1 failed, 2 wrong usage or refused
 //! input, 128 + n on signal n. Every message is one line on standard error.
 
+use std::ffi::OsString;
 use std::io::{ErrorKind, Write};
 use std::sync::{Mutex, PoisonError};
 
 use clap::error::ErrorKind as Usage;
 use thiserror::Error;
 
-use super::sign;
+use super::{gone, sign};
 use crate::report::line::clean;
 use rubscope_solver::scene::SceneError;
 
@@ -61,7 +62,8 @@ pub fn exit(done: super::Done) -> u8 {
     if error.is::<SceneError>() || error.is::<Refusal>() {
         // What would have been done is of no interest: the refusal stands alone.
         noted().clear();
-        say(&format!("rubscope: {error:#}"));
+        let gone = error.downcast_ref::<SceneError>().and_then(gone::scene);
+        say(&format!("rubscope: {}", gone.unwrap_or_else(|| format!("{error:#}"))));
         return 2;
     }
     say_noted();
@@ -98,14 +100,16 @@ pub fn say_noted() {
 
 /// The exit status of a command line that clap did not turn into a command:
 /// help and version on standard output, anything else refused in one line.
-pub fn usage(error: &clap::Error) -> u8 {
+pub fn usage(error: &clap::Error, arguments: &[OsString]) -> u8 {
     match error.kind() {
         Usage::DisplayHelp | Usage::DisplayVersion => match error.print() {
             Ok(()) => 0,
             Err(failure) => exit(Err(failure.into())),
         },
         _ => {
-            say(&format!("rubscope: {}", in_one_line(&error.to_string())));
+            let gone = gone::argument(error, arguments);
+            let line = gone.unwrap_or_else(|| in_one_line(&error.to_string()));
+            say(&format!("rubscope: {line}"));
             2
         }
     }

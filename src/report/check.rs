@@ -5,8 +5,9 @@ use std::f64::consts::TAU;
 use std::io::{Result, Write};
 
 use super::line::{capital, wrapped};
-use super::margins::{WIDTH, words};
+use super::margins::words;
 use super::number::{count, rounded, short, speed, with_unit};
+use super::table::WIDTH;
 use rubscope_solver::scene::{CheckedScene, ModelSize};
 use rubscope_solver::study::margins::{LimitName, Margins, Quantity};
 

@@ -27,6 +27,12 @@ impl CommandLine {
         differences(base, scene).map(set).fold(start, |line, set| line.option("--set", set))
     }
 
+    /// Creates the line of a command that takes no scene.
+    #[must_use]
+    pub fn without_scene(command: &str) -> Self {
+        Self(format!("{PROGRAM} {command}"))
+    }
+
     /// As `from_base` with the built-in scene of the same title, or else the one
     /// that differs in the fewest keys, so that the command needs no scene file.
     /// Charts are set too: the scene is the same in every key.

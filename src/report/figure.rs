@@ -28,7 +28,7 @@ fn wide(panel: &Panel) -> Table {
 }
 
 fn long(panel: &Panel) -> Table {
-    let mut table = Table::new(["series", &panel.x.column, &panel.y.column]);
+    let mut table = Table::new(["series".into(), panel.x.column.clone(), panel.y.column.clone()]);
     for series in &panel.series {
         for &(x, y) in &series.points {
             table.push(vec![series.name.as_str().into(), x.into(), y.into()]);

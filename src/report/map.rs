@@ -13,7 +13,7 @@ use super::{CommandLine, table};
 use rubscope_solver::motion::Verdict;
 use rubscope_solver::scene::{Key, keys};
 use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
-use rubscope_solver::study::{Axis, Cell, Map, overlay};
+use rubscope_solver::study::{Axis, Cell, Map, MapPlan, overlay};
 
 /// Most rows of the text map.
 const TEXT_ROWS: usize = 40;
@@ -39,7 +39,7 @@ impl Serialize for MapJson<'_> {
         object.serialize_entry("schema", "rubscope.map/1")?;
         object.serialize_entry("program", &command(map).flag("--json", true).program())?;
         object.serialize_entry("scene", &map.plan.scene.reported())?;
-        let names = names(map);
+        let names = names(&map.plan);
         for (short, name, axis) in [("x", names[0], &map.plan.x), ("y", names[1], &map.plan.y)] {
             object.serialize_entry(short, &json!({ "path": axis.path, "log": axis.log }))?;
             object.serialize_entry(name, &axis.values())?;
@@ -95,8 +95,8 @@ pub fn leaf(axis: &Axis) -> &str {
 }
 
 /// The names of the two axes in a file: never the same one twice.
-fn names(map: &Map) -> [&str; 2] {
-    let (x, y) = (&map.plan.x, &map.plan.y);
+pub(super) fn names(plan: &MapPlan) -> [&str; 2] {
+    let MapPlan { x, y, .. } = plan;
     if leaf(x) == leaf(y) { [&x.path, &y.path] } else { [leaf(x), leaf(y)] }
 }
 
@@ -106,7 +106,7 @@ fn names(map: &Map) -> [&str; 2] {
 /// An error of the writer.
 pub fn write_csv(map: &Map, out: &mut dyn Write) -> Result<()> {
     let (x, y) = (&map.plan.x, &map.plan.y);
-    let [first, second] = names(map);
+    let [first, second] = names(&map.plan);
     let places = (0..y.count).flat_map(|row| (0..x.count).map(move |column| (row, column)));
     let rows = places.map(|(row, column)| {
         let cell = map.at(column, row);
@@ -286,7 +286,6 @@ fn write_legend(map: &Map, out: &mut dyn Write) -> Result<()> {
 mod tests {
     use super::*;
     use rubscope_solver::scene::Scene;
-    use rubscope_solver::study::MapPlan;
 
     #[test]
     fn the_ends_of_a_narrow_map_stay_apart() {

@@ -12,6 +12,7 @@ pub mod map;
 pub mod margins;
 pub mod npz;
 pub mod number;
+pub mod part;
 pub mod precision;
 pub mod sentence;
 pub mod summary;

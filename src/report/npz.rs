@@ -4,7 +4,6 @@
 
 use std::io::{Error, Result, Write};
 
-use npyz::WriterBuilder;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
@@ -45,42 +44,36 @@ pub fn write(history: &History, origin: &Provenance, out: &mut dyn Write) -> Res
         archive.start_file(format!("{name}.npy"), options).map_err(Error::other)?;
         archive.write_all(&array)
     };
-    for column in history.columns() {
-        add(&column.name, array(&column.values)?)?;
+    for values in history.columns() {
+        add(&values.name, column(&values.values))?;
     }
-    add("version", text(VERSION)?)?;
-    add("command", text(&origin.command.to_string())?)?;
-    add("scene", text(&origin.scene.to_toml())?)?;
+    add("version", text(VERSION))?;
+    add("command", text(&origin.command.to_string()))?;
+    add("scene", text(&origin.scene.to_toml()))?;
     archive.finish().map_err(Error::other)?;
     quiet.trouble
 }
 
-/// One array in numpy's format.
-fn array(values: &[f64]) -> Result<Vec<u8>> {
-    let mut bytes = Vec::with_capacity(8 * values.len() + 128);
-    let mut writer = npyz::WriteOptions::<f64>::new()
-        .default_dtype()
-        .shape(&[values.len() as u64])
-        .writer(&mut bytes)
-        .begin_nd()?;
-    writer.extend(values.iter().copied())?;
-    writer.finish()?;
-    Ok(bytes)
+/// Signature and version (1.0) of a `.npy` array, and the length of the rest of its header: the
+/// values begin after 128 bytes.
+const START: &[u8; 10] = b"\x93NUMPY\x01\x00\x76\x00";
+
+/// Returns an array of numpy whose type and shape are written as in Python.
+fn array(kind: &str, shape: &str, values: impl Iterator<Item = u8>) -> Vec<u8> {
+    let header = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}");
+    START.iter().copied().chain(format!("{header:117}\n").into_bytes()).chain(values).collect()
 }
 
-/// A text as numpy's Unicode scalar: an array without dimensions.
-fn text(text: &str) -> Result<Vec<u8>> {
-    let length = text.chars().count();
-    let kind = format!("<U{length}").parse().map_err(Error::other)?;
-    let mut bytes = Vec::with_capacity(4 * length + 128);
-    let mut writer = npyz::WriteOptions::<str>::new()
-        .dtype(npyz::DType::Plain(kind))
-        .shape(&[])
-        .writer(&mut bytes)
-        .begin_nd()?;
-    writer.push(text)?;
-    writer.finish()?;
-    Ok(bytes)
+/// Returns an array of one dimension.
+fn column(values: &[f64]) -> Vec<u8> {
+    let bytes = values.iter().flat_map(|value| value.to_le_bytes());
+    array("<f8", &format!("({},)", values.len()), bytes)
+}
+
+/// Returns a text as numpy's Unicode scalar: an array without dimensions.
+fn text(text: &str) -> Vec<u8> {
+    let bytes = text.chars().flat_map(|letter| u32::from(letter).to_le_bytes());
+    array(&format!("<U{}", text.chars().count()), "()", bytes)
 }
 
 #[cfg(test)]
@@ -118,23 +111,28 @@ mod tests {
     }
 
     #[test]
-    fn arrays_read_back_as_the_numbers() {
-        for count in [0_u32, 1, 9, 10, 12_345] {
+    fn the_values_follow_a_header_of_128_bytes() {
+        for count in [0_u32, 1, 12_345] {
             let values: Vec<f64> = (0..count).map(|n| f64::from(n) / 3.0).collect();
-            let bytes = array(&values).unwrap();
-            let file = npyz::NpyFile::new(bytes.as_slice()).unwrap();
-            assert_eq!(file.shape(), [u64::from(count)]);
-            assert_eq!(file.into_vec::<f64>().unwrap(), values);
+            let bytes = column(&values);
+            let (header, data) = bytes.split_at(128);
+            assert_eq!(&header[..10], b"\x93NUMPY\x01\x00v\x00");
+            let words = format!(
+                "{{'descr': '<f8', 'fortran_order': False, 'shape': ({count},), }}{}\n",
+                " ".repeat(58 - count.to_string().len())
+            );
+            assert_eq!(std::str::from_utf8(&header[10..]).unwrap(), words);
+            let read: Vec<f64> =
+                data.chunks(8).map(|bytes| f64::from_le_bytes(bytes.try_into().unwrap())).collect();
+            assert_eq!(read, values);
         }
     }
 
     #[test]
-    fn a_text_reads_back_as_it_is() {
-        for words in ["", "rubscope run", "schema = 1\ntitle = \"Ω\"\n"] {
-            let bytes = text(words).unwrap();
-            let file = npyz::NpyFile::new(bytes.as_slice()).unwrap();
-            assert_eq!(file.shape(), [0_u64; 0]);
-            assert_eq!(file.into_vec::<String>().unwrap(), [words]);
-        }
+    fn a_text_has_four_bytes_a_character() {
+        let bytes = text("0 Ω\n");
+        assert_eq!(&bytes[10..65], b"{'descr': '<U4', 'fortran_order': False, 'shape': (), }");
+        assert_eq!(&bytes[127..], b"\n0\0\0\0 \0\0\0\xa9\x03\0\0\n\0\0\0");
+        assert_eq!(text("").len(), 128);
     }
 }

@@ -5,7 +5,7 @@ use std::io::{Result, Write};
 
 use super::number::{count, rounded, short, time};
 use super::summary::OF_WHAT;
-use super::table::Table;
+use super::table::{Column, Heading, Table, TableCell};
 use rubscope_solver::scene::{ContactLaw, ModelSize, SolverKind};
 use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
 use rubscope_solver::study::precision::{Lack, Method, Precision, Reference, Row, Way};
@@ -121,53 +121,50 @@ pub fn reference_words(reference: &Reference) -> String {
     }
 }
 
-/// The rows with units, to read.
-#[must_use]
-pub fn summary_table(report: &Precision) -> Table {
-    Table::of(
-        &report.rows,
-        &[
-            ("", |row| letter(&row.way).to_string().into()),
-            ("solver", |row| row.way.solver.as_ref().into()),
-            ("contact", |row| row.way.contact.as_ref().into()),
-            ("model", |row| row.way.model.as_ref().into()),
-            ("step or tol.", |row| row.way.step_s.or(row.way.tolerance).into()),
-            ("error [g0]", |row| row.error_final.map(|x| rounded(x, 2)).into()),
-            ("impact error [s]", |row| row.error_impact_time_s.map(|x| rounded(x, 2)).into()),
-            ("time [us]", |row| rounded(1e6 * row.wall_s, 3).into()),
-            ("taken", |row| row.steps.map(|n| n as f64).into()),
-            ("skipped", |row| row.steps_skipped.map(|n| n as f64).into()),
-            ("ns/step", |row| row.ns_per_step.map(|x| rounded(x, 3)).into()),
-            ("verdict", |row| row.verdict.as_ref().into()),
-            ("", |row| remark(row).into()),
-        ],
-    )
-}
-
-/// Every figure, for files.
+/// Returns the rows: every figure for files, and most of them for people.
 #[must_use]
 pub fn table(report: &Precision) -> Table {
-    Table::of(
-        &report.rows,
-        &[
-            ("solver", |row| row.way.solver.as_ref().into()),
-            ("contact", |row| row.way.contact.as_ref().into()),
-            ("model", |row| row.way.model.as_ref().into()),
-            ("step_s", |row| row.way.step_s.into()),
-            ("tolerance", |row| row.way.tolerance.into()),
-            ("error_final", |row| row.error_final.into()),
-            ("error_impact_time_s", |row| row.error_impact_time_s.into()),
-            ("max_penetration_m", |row| row.max_penetration_m.into()),
-            ("wall_s", |row| row.wall_s.into()),
-            ("ns_per_step", |row| row.ns_per_step.into()),
-            ("steps", |row| row.steps.map(|n| n as f64).into()),
-            ("steps_skipped", |row| row.steps_skipped.map(|n| n as f64).into()),
-            ("events", |row| row.events.map(|n| n as f64).into()),
-            ("verdict", |row| row.verdict.as_ref().into()),
-            ("verdict_right", |row| row.verdict_right.into()),
-            ("other_law", |row| row.other_law.into()),
-        ],
-    )
+    let head = |name, words, digits| Heading::from(name).words(words).digits(digits);
+    let columns: &[Column<'_, Row, Heading>] = &[
+        (Heading::shown(""), |row| letter(&row.way).to_string().into()),
+        ("solver".into(), |row| row.way.solver.as_ref().into()),
+        ("contact".into(), |row| row.way.contact.as_ref().into()),
+        ("model".into(), |row| row.way.model.as_ref().into()),
+        (Heading::filed("step_s"), |row| row.way.step_s.into()),
+        (Heading::filed("tolerance"), |row| row.way.tolerance.into()),
+        (Heading::shown("step or tol."), |row| row.way.step_s.or(row.way.tolerance).into()),
+        (head("error_final", "error [g0]", 2), |row| row.error_final.into()),
+        (head("error_impact_time_s", "impact error [s]", 2), |row| row.error_impact_time_s.into()),
+        (Heading::filed("max_penetration_m"), |row| row.max_penetration_m.into()),
+        (head("wall_s", "time [us]", 3), |row| {
+            TableCell::Told(row.wall_s, short(rounded(1e6 * row.wall_s, 3)))
+        }),
+        (head("ns_per_step", "ns/step", 3), |row| row.ns_per_step.into()),
+        (head("steps", "taken", 6), |row| count_of(row.steps)),
+        (head("steps_skipped", "skipped", 6), |row| count_of(row.steps_skipped)),
+        (Heading::filed("events"), |row| count_of(row.events)),
+        ("verdict".into(), |row| row.verdict.as_ref().into()),
+        (Heading::filed("verdict_right"), |row| row.verdict_right.into()),
+        (Heading::filed("other_law"), |row| row.other_law.into()),
+        (Heading::shown(""), |row| remark(row).into()),
+    ];
+    let mut table = Table::of(&report.rows, columns);
+    if report.rows.iter().any(|row| row.steps.is_some()) {
+        table.note(
+            "taken, skipped: steps computed one by one, and steps done many at once; ns/step: time \
+             over those taken",
+        );
+    }
+    if report.rows.iter().any(|row| row.other_law) {
+        table.note(
+            "other law: a different problem than the reference; a different answer is not an error",
+        );
+    }
+    table
+}
+
+fn count_of(steps: Option<u64>) -> TableCell {
+    steps.map(|n| n as f64).into()
 }
 
 /// Table, chart and reference, to read.
@@ -205,19 +202,7 @@ pub fn write(report: &Precision, out: &mut dyn Write) -> Result<()> {
         )?;
     }
     writeln!(out)?;
-    summary_table(report).write_text(out)?;
-    if report.rows.iter().any(|row| row.steps.is_some()) {
-        writeln!(
-            out,
-            "taken, skipped: steps computed one by one, and steps done many at once; ns/step: time over those taken"
-        )?;
-    }
-    if report.rows.iter().any(|row| row.other_law) {
-        writeln!(
-            out,
-            "other law: a different problem than the reference; a different answer is not an error"
-        )?;
-    }
+    table(report).write_text(out)?;
     if report.rows.iter().any(|row| row.error_final.is_some()) {
         writeln!(out)?;
         write_chart(report, out)?;

@@ -434,6 +434,7 @@ fn why(reason: &FailureReason) -> &'static str {
         FailureReason::Events | FailureReason::EventsAtOnce | FailureReason::Looks => {
             "there are too many touches"
         }
+        FailureReason::Pull { .. } => "a contact that only pushes pulls",
         FailureReason::Singular { .. } => "the contact forces have no solution",
     }
 }

@@ -6,10 +6,10 @@ use std::f64::consts::TAU;
 use std::io::{Result, Write};
 
 use super::line::{capital, wrapped};
-use super::margins::{WIDTH, words};
+use super::margins::words;
 use super::number::{count, per_speed, rounded, short, speed, speed_unit, time};
 use super::symbols::symbol;
-use super::table::{Table, TableCell};
+use super::table::{Heading, Table, TableCell, WIDTH};
 use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
 use rubscope_solver::study::margins::{LimitName, Quantity as Kind};
 use rubscope_solver::study::survey::{Survey, SurveyLimit, SurveyRow};
@@ -18,8 +18,25 @@ use rubscope_solver::study::survey::{Survey, SurveyLimit, SurveyRow};
 const ROWS: usize = 64;
 /// Most of the nearest limits that are listed.
 const NEAREST: usize = 16;
-/// Width of a number in the text.
-const NUMBER: usize = 8;
+
+/// The limits with their letter on a chart and their heading, the most important first.
+pub const LIMITS: [(LimitName, char, &str); 9] = [
+    (LimitName::OmegaC, 'c', "Omega_c"),
+    (LimitName::OmegaLock, 'L', "Omega_lock"),
+    (LimitName::Coincidence, 'x', "sum (31)"),
+    (LimitName::LockEnds, 'e', "ends"),
+    (LimitName::WhirlOnset, 'w', "whirl"),
+    (LimitName::FlutterSpeed, 'f', "flutter"),
+    (LimitName::OmegaAdhesive, 'a', "adhesive"),
+    (LimitName::CoincidenceDifference, 'd', "diff (30)"),
+    (LimitName::LockFold, 'g', "gives way"),
+];
+
+/// Returns the limits that any number of diameters has.
+pub fn present(survey: &Survey) -> impl Iterator<Item = &'static (LimitName, char, &'static str)> {
+    let names = survey.names();
+    LIMITS.iter().filter(move |(name, ..)| names.contains(name))
+}
 
 /// Every limit, one row each; a number of diameters without any has one row, too.
 #[must_use]
@@ -75,7 +92,7 @@ pub fn write(survey: &Survey, out: &mut dyn Write) -> Result<()> {
     }
     survey.note.iter().try_for_each(|note| tell(&format!("The limits are {note}.")))?;
     writeln!(out)?;
-    rows(survey).write_text(out)?;
+    shown(survey).write_text(out)?;
     writeln!(out)?;
     nearest(survey, out)?;
     writeln!(out)?;
@@ -137,61 +154,46 @@ fn in_rpm([from, to]: [f64; 2]) -> String {
     format!(" ({} to {} rpm)", turns(from), turns(to))
 }
 
-/// One line for each number of diameters, where they are few, or else for those with
-/// something in the range.
-fn rows(survey: &Survey) -> Table {
-    let names = survey.names();
-    let forward = survey.is_forward();
-    let titles = ["casing", "disk"].into_iter().map(String::from);
-    let titles = titles.chain(names.iter().map(|name| title(*name).to_string()));
-    let heads =
-        std::iter::once(" n_d".to_string()).chain(titles.map(|name| format!("{name:>NUMBER$}")));
-    let mut table = Table::new(heads);
+/// Returns the rows of the text: every number of diameters where they are few, or else those
+/// with something in the range.
+fn shown(survey: &Survey) -> Table {
     let inside = |row: &&SurveyRow| row.limits.iter().any(|limit| limit.in_range == Some(true));
     let few = survey.rows.len() <= ROWS;
-    let shown: Vec<&SurveyRow> = survey.rows.iter().filter(|row| few || inside(row)).collect();
-    let shown = if shown.is_empty() { survey.rows.iter().collect() } else { shown };
-    for row in shown.iter().take(ROWS) {
-        let here = row.nodal_diameters == survey.scene.operation.nodal_diameters;
-        let sign = if here { ">" } else { " " };
-        let known = if row.modes_known { "" } else { "?" };
-        let hertz = |omega: f64| format!("{:>NUMBER$}", short(rounded(omega / TAU, 5)));
-        let mut cells = vec![
-            format!("{sign}{}{known}", row.nodal_diameters),
-            hertz(row.omega_c_rad_s),
-            hertz(row.omega_bd_rad_s),
-        ];
-        cells.extend(names.iter().map(|name| cell(row.limit(*name, forward))));
-        table.push(cells.into_iter().map(TableCell::from).collect());
+    let mut found: Vec<&SurveyRow> = survey.rows.iter().filter(|row| few || inside(row)).collect();
+    if found.is_empty() {
+        found = survey.rows.iter().collect();
     }
-    let left = survey.rows.len() - shown.len().min(ROWS);
+    found.truncate(ROWS);
+    let mut table = rows(survey, &found);
+    let left = survey.rows.len() - found.len();
     if left > 0 {
-        table.push(vec![format!("and {left} more: --json or --out").into()]);
+        table.note(format!("and {left} more: --json or --out"));
     }
     table
 }
 
-/// A limit in a narrow column, in letters of ASCII.
-fn title(name: LimitName) -> &'static str {
-    match name {
-        LimitName::OmegaC => "Omega_c",
-        LimitName::OmegaLock => "Om_lock",
-        LimitName::LockEnds => "ends",
-        LimitName::OmegaAdhesive => "adhesive",
-        LimitName::Coincidence => "sum (31)",
-        LimitName::CoincidenceDifference => "diff (30)",
-        LimitName::LockFold => "gives way",
-        LimitName::WhirlOnset => "whirl",
-        LimitName::FlutterSpeed => "flutter",
-        _ => "",
+/// Returns a row for each of these numbers of diameters: modes \[Hz\], and the limits of the
+/// sense of rotation that is looked at.
+#[must_use]
+pub fn rows(survey: &Survey, shown: &[&SurveyRow]) -> Table {
+    let limits: Vec<_> = present(survey).collect();
+    let heads = ["n_d", "casing", "disk"].into_iter().chain(limits.iter().map(|limit| limit.2));
+    let mut table = Table::new(heads.map(Heading::shown));
+    let told = |x: f64, sign: &str| TableCell::Told(x, short(rounded(x, 5)) + sign);
+    for row in shown {
+        let here = row.nodal_diameters == survey.scene.operation.nodal_diameters;
+        let (sign, known) = (if here { ">" } else { " " }, if row.modes_known { "" } else { "?" });
+        let own = TableCell::Word(format!("{sign}{}{known}", row.nodal_diameters));
+        let modes = [row.omega_c_rad_s, row.omega_bd_rad_s].map(|omega| told(omega / TAU, ""));
+        let limits = limits.iter().map(|(name, ..)| {
+            row.limit(*name, survey.is_forward()).map_or(TableCell::Empty, |limit| {
+                let sign = if limit.in_range == Some(true) { "*" } else { "" };
+                told(per_speed(limit.value.abs()), sign)
+            })
+        });
+        table.push(std::iter::once(own).chain(modes).chain(limits).collect());
     }
-}
-
-fn cell(limit: Option<&SurveyLimit>) -> String {
-    let Some(limit) = limit else { return format!("{:>NUMBER$}", "-") };
-    let value = short(rounded(per_speed(limit.value.abs()), 5));
-    let sign = if limit.in_range == Some(true) { "*" } else { "" };
-    format!("{value:>NUMBER$}{sign}")
+    table
 }
 
 /// What lies in the range, the nearest to the scene first.

@@ -1,40 +1,109 @@
-//! A table of named columns: written as aligned text or as CSV; of rows that are there
-//! (`Table`), or that are made as they are written (`MadeTable`): all cells at once take a
-//! hundred times the memory of the numbers that they show.
+//! A table: headings with names for files and words for people, rows of cells, and notes.
+//! Text, CSV, the page and the screen are written from it. Its rows are there (`Table`), or
+//! are made as they are written (`MadeTable`): all cells at once take a hundred times the
+//! memory of the numbers that they show.
 
+use std::borrow::Cow;
 use std::io::{Result, Write};
 use std::rc::Rc;
 
-use super::number::{exact, per_speed, short, speed_unit};
+use super::line::wrapped;
+use super::number::{exact, per_speed, rounded, short, speed_unit};
+
+/// Letters between two columns of text.
+const APART: usize = 2;
+
+/// Widest line of the notes below a table.
+pub const WIDTH: usize = 100;
 
 /// One cell of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TableCell {
     /// A number; what is no finite number is left empty.
     Number(f64),
+    /// A number for files, and how people read it.
+    Told(f64, String),
     /// A word or two.
     Word(String),
     /// No such figure.
     Empty,
 }
 
-/// Columns of speeds, which text tells in the unit of speeds. CSV has them as they are.
+/// Columns of speeds, which text has in the unit of speeds. CSV has them as they are.
 const SPEEDS: [&str; 5] =
     ["speed_rad_s", "wave_speed_rad_s", "appears_rad_s", "vanishes_rad_s", "speed [rad/s]"];
 
-impl TableCell {
-    fn in_text(&self, is_speed: bool) -> String {
-        match self {
-            Self::Number(x) if is_speed => short(per_speed(*x)),
-            Self::Number(x) => short(*x),
-            Self::Word(word) => word.clone(),
-            Self::Empty => "-".to_string(),
-        }
+/// The heading of a column.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Heading {
+    /// Name in files, with the SI unit, such as `speed_rad_s`; `None` for a column that only
+    /// people see.
+    name: Option<Cow<'static, str>>,
+    /// Words for people; `None` for a column of files alone.
+    words: Option<Cow<'static, str>>,
+    /// Whether its numbers are speeds, which people see in the unit of speeds.
+    speeds: bool,
+    /// Most significant digits for people.
+    digits: usize,
+}
+
+impl<S: Into<Cow<'static, str>>> From<S> for Heading {
+    /// Creates the heading of a column that has the same name in files and for people.
+    fn from(name: S) -> Self {
+        let name = name.into();
+        let speeds = SPEEDS.contains(&name.as_ref());
+        let words = if speeds && speed_unit() == "rpm" {
+            name.replace("rad_s", "rpm").replace("rad/s", "rpm").into()
+        } else {
+            name.clone()
+        };
+        Self { name: Some(name), words: Some(words), speeds, digits: DIGITS }
+    }
+}
+
+/// Significant digits for people where a heading asks for no other number of them.
+const DIGITS: usize = 6;
+
+impl Heading {
+    /// Creates the heading of a column that only people see.
+    pub fn shown(words: impl Into<Cow<'static, str>>) -> Self {
+        Self { name: None, ..Self::from(words) }
     }
 
+    /// Creates the heading of a column of files alone.
+    pub fn filed(name: impl Into<Cow<'static, str>>) -> Self {
+        Self { words: None, ..Self::from(name) }
+    }
+
+    /// Sets the words for people.
+    #[must_use]
+    pub fn words(self, words: impl Into<Cow<'static, str>>) -> Self {
+        Self { words: Some(words.into()), ..self }
+    }
+
+    /// Sets the most significant digits for people.
+    #[must_use]
+    pub fn digits(self, digits: usize) -> Self {
+        Self { digits, ..self }
+    }
+
+    /// Returns what people read of a cell.
+    fn text(&self, cell: &TableCell) -> String {
+        match cell {
+            TableCell::Number(x) => {
+                let x = if self.speeds { per_speed(*x) } else { *x };
+                short(if self.digits < DIGITS { rounded(x, self.digits) } else { x })
+            }
+            TableCell::Told(_, text) | TableCell::Word(text) => text.clone(),
+            TableCell::Empty => "-".to_string(),
+        }
+    }
+}
+
+impl TableCell {
     fn in_csv(self) -> String {
         match self {
-            Self::Number(x) => exact(x),
+            Self::Number(x) | Self::Told(x, _) => exact(x),
             Self::Word(word) => word,
             Self::Empty => String::new(),
         }
@@ -84,43 +153,53 @@ pub(crate) fn write_csv<R: IntoIterator<Item = TableCell>>(
     rows: impl IntoIterator<Item = R>,
     out: &mut dyn Write,
 ) -> Result<()> {
-    let mut rows = rows.into_iter();
-    write_csv_of(names, |row| rows.try_for_each(row), out)
-}
-
-/// As `write_csv`, of rows that `each` hands over one by one.
-pub(super) fn write_csv_of<R: IntoIterator<Item = TableCell>>(
-    names: impl IntoIterator<Item = impl AsRef<[u8]>>,
-    each: impl FnOnce(&mut dyn FnMut(R) -> Result<()>) -> Result<()>,
-    out: &mut dyn Write,
-) -> Result<()> {
     let mut csv = csv::Writer::from_writer(out);
     csv.write_record(names)?;
-    each(&mut |row| Ok(csv.write_record(row.into_iter().map(TableCell::in_csv))?))?;
+    rows.into_iter()
+        .try_for_each(|row| csv.write_record(row.into_iter().map(TableCell::in_csv)))?;
     csv.flush()
 }
 
-/// A column of a table: its name, and what it shows of an item.
-pub type Column<'a, T> = (&'a str, fn(&T) -> TableCell);
+/// Writes CSV of the columns that have a name in files, of rows that `each` hands over one
+/// by one.
+fn write_csv_of(
+    headings: &[Heading],
+    each: impl FnOnce(&mut dyn FnMut(Vec<TableCell>) -> Result<()>) -> Result<()>,
+    out: &mut dyn Write,
+) -> Result<()> {
+    let mut csv = csv::Writer::from_writer(out);
+    csv.write_record(headings.iter().filter_map(|heading| heading.name.as_deref()))?;
+    each(&mut |row| {
+        let cells = row.into_iter().zip(headings);
+        let filed = cells.filter(|(_, heading)| heading.name.is_some());
+        Ok(csv.write_record(filed.map(|(cell, _)| cell.in_csv()))?)
+    })?;
+    csv.flush()
+}
 
-/// Rows under named columns; names carry the unit, as in `speed_rad_s`.
+/// A column of a table: its heading, and what it shows of an item.
+pub type Column<'a, T, H = &'a str> = (H, fn(&T) -> TableCell);
+
+/// Rows under headings, with notes below.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
-    names: Vec<String>,
+    headings: Vec<Heading>,
     rows: Vec<Vec<TableCell>>,
+    notes: Vec<String>,
 }
 
 impl Table {
-    /// An empty table with these columns.
+    /// Creates an empty table with these columns.
     #[must_use]
-    pub fn new<S: Into<String>>(names: impl IntoIterator<Item = S>) -> Self {
-        Self { names: names.into_iter().map(Into::into).collect(), rows: Vec::new() }
+    pub fn new<H: Into<Heading>>(headings: impl IntoIterator<Item = H>) -> Self {
+        let headings = headings.into_iter().map(Into::into).collect();
+        Self { headings, rows: Vec::new(), notes: Vec::new() }
     }
 
-    /// A row for each item, with these columns: a name, and what it shows.
+    /// Creates a table with a row for each item.
     #[must_use]
-    pub fn of<T>(items: &[T], columns: &[Column<'_, T>]) -> Self {
-        let mut table = Self::new(columns.iter().map(|column| column.0));
+    pub fn of<T, H: Clone + Into<Heading>>(items: &[T], columns: &[Column<'_, T, H>]) -> Self {
+        let mut table = Self::new(columns.iter().map(|column| column.0.clone()));
         for item in items {
             table.push(columns.iter().map(|column| (column.1)(item)).collect());
         }
@@ -129,25 +208,47 @@ impl Table {
 
     /// Adds a row, one cell for each column.
     pub fn push(&mut self, mut row: Vec<TableCell>) {
-        row.resize(self.names.len(), TableCell::Empty);
+        row.resize(self.headings.len(), TableCell::Empty);
         self.rows.push(row);
     }
 
-    /// Its names and rows.
-    pub(super) fn into_parts(self) -> (Vec<String>, Vec<Vec<TableCell>>) {
-        (self.names, self.rows)
+    /// Adds a note below the rows.
+    pub fn note(&mut self, note: impl Into<String>) {
+        self.notes.push(note.into());
     }
 
-    /// How many rows there are.
+    /// Returns the notes.
+    #[must_use]
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+
+    /// Returns the number of rows.
     #[must_use]
     pub fn len(&self) -> usize {
         self.rows.len()
     }
 
-    /// Whether there is no row.
+    /// Returns whether there is no row.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
+    }
+
+    /// Returns the rows as people see them, in padded cells, headings first; columns that do
+    /// not fit into `room` letters with `apart` of them between columns are left out from the
+    /// right.
+    #[must_use]
+    pub fn lines(&self, room: usize, apart: usize) -> Vec<Vec<String>> {
+        let mut layout = Layout::of(&self.headings);
+        self.rows.iter().for_each(|row| layout.meet(row));
+        let mut used = 0;
+        layout.columns.retain(|(_, _, width, _)| {
+            used += width + apart;
+            used <= room.saturating_add(apart)
+        });
+        let rows = self.rows.iter().map(|row| layout.line(row));
+        std::iter::once(layout.headings()).chain(rows).collect()
     }
 
     /// Writes CSV: a header line, then numbers that read back as themselves.
@@ -155,74 +256,79 @@ impl Table {
     /// # Errors
     /// An error of the writer.
     pub fn write_csv(&self, out: &mut dyn Write) -> Result<()> {
-        write_csv(&self.names, self.rows.iter().map(|row| row.iter().cloned()), out)
+        write_csv_of(&self.headings, |row| self.rows.iter().cloned().try_for_each(row), out)
     }
 
-    /// Writes aligned text: numbers of six digits to the right, words to the
-    /// left, `-` if there is no number.
+    /// Writes aligned text: numbers to the right, words to the left, `-` for a missing
+    /// number; below it the notes.
     ///
     /// # Errors
     /// An error of the writer.
     pub fn write_text(&self, out: &mut dyn Write) -> Result<()> {
-        let mut layout = Layout::of(&self.names);
-        self.rows.iter().for_each(|row| layout.meet(row));
-        layout.write_names(&self.names, out)?;
-        self.rows.iter().try_for_each(|row| layout.write(row, out))
+        self.write_text_in(usize::MAX, out)
+    }
+
+    /// Writes text as [`Table::write_text`] does, of the columns that fit into `room` letters.
+    ///
+    /// # Errors
+    /// An error of the writer.
+    pub fn write_text_in(&self, room: usize, out: &mut dyn Write) -> Result<()> {
+        if !self.headings.is_empty() {
+            self.lines(room, APART).iter().try_for_each(|line| write_line(line, out))?;
+        }
+        let notes = self.notes.iter().flat_map(|note| wrapped(note, WIDTH));
+        notes.into_iter().try_for_each(|line| writeln!(out, "{line}"))
     }
 }
 
-/// The columns of aligned text, from the cells that they will have.
-pub(super) struct Layout {
-    widths: Vec<usize>,
-    words: Vec<bool>,
-    speeds: Vec<bool>,
+fn write_line(cells: &[String], out: &mut dyn Write) -> Result<()> {
+    writeln!(out, "{}", cells.join(&" ".repeat(APART)).trim_end())
 }
 
-/// The name of a column in text.
-fn shown(name: &str) -> String {
-    if !SPEEDS.contains(&name) || speed_unit() != "rpm" {
-        return name.to_string();
-    }
-    name.replace("rad_s", "rpm").replace("rad/s", "rpm")
+/// How people see the columns of a table: their widths are those of the cells met.
+#[derive(Clone, Debug)]
+struct Layout {
+    /// The columns for people: their place in the table, heading and width, and whether they
+    /// have words, which stand to the left.
+    columns: Vec<(usize, Heading, usize, bool)>,
 }
 
 impl Layout {
-    /// Of columns with these names.
-    pub fn of(names: &[String]) -> Self {
-        let widths = names.iter().map(|name| shown(name).chars().count()).collect();
-        let speeds = names.iter().map(|name| SPEEDS.contains(&name.as_str())).collect();
-        Self { widths, words: vec![false; names.len()], speeds }
+    fn of(headings: &[Heading]) -> Self {
+        let shown = headings.iter().enumerate().filter_map(|(place, heading)| {
+            let width = heading.words.as_ref()?.chars().count();
+            Some((place, heading.clone(), width, false))
+        });
+        Self { columns: shown.collect() }
     }
 
     /// Makes room for a row.
-    pub fn meet(&mut self, row: &[TableCell]) {
-        let columns = self.widths.iter_mut().zip(&mut self.words).zip(&self.speeds);
-        for (cell, ((width, word), speed)) in row.iter().zip(columns) {
-            *width = (*width).max(cell.in_text(*speed).chars().count());
+    fn meet(&mut self, row: &[TableCell]) {
+        for (place, heading, width, word) in &mut self.columns {
+            let Some(cell) = row.get(*place) else { continue };
+            *width = (*width).max(heading.text(cell).chars().count());
             *word |= matches!(cell, TableCell::Word(_));
         }
     }
 
-    /// Writes the names, if there are any.
-    pub fn write_names(&self, names: &[String], out: &mut dyn Write) -> Result<()> {
-        if names.is_empty() { Ok(()) } else { self.line(names.iter().map(|name| shown(name)), out) }
+    fn headings(&self) -> Vec<String> {
+        let words = |heading: &Heading| heading.words.as_deref().unwrap_or_default().to_string();
+        self.columns
+            .iter()
+            .map(|(_, heading, width, left)| pad(words(heading), *width, *left))
+            .collect()
     }
 
-    /// Writes a row.
-    pub fn write(&self, row: &[TableCell], out: &mut dyn Write) -> Result<()> {
-        let cells = row.iter().zip(&self.speeds).map(|(cell, speed)| cell.in_text(*speed));
-        self.line(cells, out)
+    fn line(&self, row: &[TableCell]) -> Vec<String> {
+        let cell = |(place, heading, width, left): &(usize, Heading, usize, bool)| {
+            pad(row.get(*place).map_or_else(String::new, |cell| heading.text(cell)), *width, *left)
+        };
+        self.columns.iter().map(cell).collect()
     }
+}
 
-    fn line(&self, row: impl Iterator<Item = String>, out: &mut dyn Write) -> Result<()> {
-        let mut text = String::new();
-        for ((entry, &width), &word) in row.zip(&self.widths).zip(&self.words) {
-            let padded = if word { format!("{entry:<width$}") } else { format!("{entry:>width$}") };
-            text.push_str(&padded);
-            text.push_str("  ");
-        }
-        writeln!(out, "{}", text.trim_end())
-    }
+fn pad(text: String, width: usize, left: bool) -> String {
+    if left { format!("{text:<width$}") } else { format!("{text:>width$}") }
 }
 
 /// The rows of one place of a list.
@@ -231,7 +337,7 @@ type RowsAt = Rc<dyn Fn(usize) -> Result<Vec<Vec<TableCell>>>>;
 /// Rows under named columns, made place by place of a list.
 #[derive(Clone)]
 pub struct MadeTable {
-    names: Vec<String>,
+    headings: Vec<Heading>,
     places: usize,
     rows: usize,
     at: RowsAt,
@@ -239,14 +345,15 @@ pub struct MadeTable {
 
 impl std::fmt::Debug for MadeTable {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(out, "MadeTable({} rows of {:?})", self.rows, self.names)
+        write!(out, "MadeTable({} rows of {:?})", self.rows, self.headings)
     }
 }
 
 impl From<Table> for MadeTable {
-    fn from(table: Table) -> Self {
-        let (names, rows) = table.into_parts();
-        Self::named(names, rows.len(), move |place| rows.get(place).cloned().unwrap_or_default())
+    fn from(Table { headings, rows, .. }: Table) -> Self {
+        let count = rows.len();
+        let at: RowsAt = Rc::new(move |place| Ok(rows.get(place).cloned().into_iter().collect()));
+        Self { headings, places: count, rows: count, at }
     }
 }
 
@@ -258,10 +365,10 @@ impl MadeTable {
         [places, rows]: [usize; 2],
         items: impl Fn(usize) -> Result<Vec<T>> + 'static,
     ) -> Self {
-        let names = columns.iter().map(|column| column.0.to_string()).collect();
+        let headings = columns.iter().map(|column| column.0.into()).collect();
         let cells = |item: &T| columns.iter().map(|column| (column.1)(item)).collect();
         let at: RowsAt = Rc::new(move |place| Ok(items(place)?.iter().map(cells).collect()));
-        Self { names, places, rows, at }
+        Self { headings, places, rows, at }
     }
 
     /// With these columns, and a row for each item.
@@ -281,7 +388,8 @@ impl MadeTable {
         rows: usize,
         cells: impl Fn(usize) -> Vec<TableCell> + 'static,
     ) -> Self {
-        Self { names, places: rows, rows, at: Rc::new(move |place| Ok(vec![cells(place)])) }
+        let headings = names.into_iter().map(Heading::from).collect();
+        Self { headings, places: rows, rows, at: Rc::new(move |place| Ok(vec![cells(place)])) }
     }
 
     /// How many rows there are.
@@ -305,7 +413,7 @@ impl MadeTable {
     /// # Errors
     /// An error of the writer, or of what makes a row.
     pub fn write_csv(&self, out: &mut dyn Write) -> Result<()> {
-        write_csv_of(&self.names, |row| self.each(row), out)
+        write_csv_of(&self.headings, |row| self.each(row), out)
     }
 
     /// As [`Table::write_text`]; every row is made twice.
@@ -313,13 +421,15 @@ impl MadeTable {
     /// # Errors
     /// As `write_csv`.
     pub fn write_text(&self, out: &mut dyn Write) -> Result<()> {
-        let mut layout = Layout::of(&self.names);
+        let mut layout = Layout::of(&self.headings);
         self.each(|row| {
             layout.meet(&row);
             Ok(())
         })?;
-        layout.write_names(&self.names, out)?;
-        self.each(|row| layout.write(&row, out))
+        if !self.headings.is_empty() {
+            write_line(&layout.headings(), out)?;
+        }
+        self.each(|row| write_line(&layout.line(&row), out))
     }
 }
 
@@ -340,6 +450,28 @@ mod tests {
         table().write_csv(&mut out).unwrap();
         let text = String::from_utf8(out).unwrap();
         assert_eq!(text, "speed_rad_s,state\n0.3333333333333333,\"locked, a\"\n,\n");
+    }
+
+    #[test]
+    fn people_and_files_have_columns_of_their_own() {
+        let headings = [
+            Heading::from("value_n").words("value").digits(2),
+            Heading::filed("exact"),
+            Heading::shown(""),
+        ];
+        let mut table = Table::new(headings);
+        table.push(vec![1.234.into(), 5.0.into(), "wrong".into()]);
+        table.push(vec![TableCell::Told(2000.0, "2 kN".into()), 6.0.into()]);
+        table.note("one note");
+        let written = |write: fn(&Table, &mut dyn Write) -> Result<()>| {
+            let mut out = Vec::new();
+            write(&table, &mut out).unwrap();
+            String::from_utf8(out).unwrap()
+        };
+        assert_eq!(written(Table::write_csv), "value_n,exact\n1.234,5\n2000,6\n");
+        let text = "value\n  1.2  wrong\n 2 kN  -\none note\n";
+        assert_eq!(written(Table::write_text), text);
+        assert_eq!(table.lines(7, 2)[1], ["  1.2"]);
     }
 
     #[test]

@@ -199,11 +199,6 @@ fn titles_are_of_characters_that_are_seen() {
 fn a_refusal_says_what_would_be_taken() {
     for (command, expected) in [
         (
-            "hbm soft-lining --follow bladed_disk.blades --over 22:30",
-            "rubscope: followed key = bladed_disk.blades: allowed is a key whose values are numbers \
-             that need not be whole",
-        ),
-        (
             "map --x operation.pulse_n=log:1e-300:1e6:4",
             "rubscope: axis operation.pulse_n = log:1e-300:1e6:4: allowed is log: with ends that \
              differ by a factor of at most 1e30",
@@ -229,7 +224,7 @@ fn an_end_below_one_step_is_refused_and_one_step_is_not() {
         "run --end 1e-8 --step 1e-7",
         "run rub --end 1e-8 --step 1e-7",
         "map --speed 400:500:2 --pulse 1e4:2e4:2 --end 1e-8 --step 1e-7",
-        "margins --no-search --end 1e-8 --step 1e-7",
+        "margins --end 1e-8 --step 1e-7",
     ];
     for line in lines {
         let said = refusal(&line.split_whitespace().collect::<Vec<_>>());

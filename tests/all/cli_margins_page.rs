@@ -2,11 +2,12 @@
 //! none, and lines that do not fit.
 
 use rubscope::report::line::wrapped;
+use rubscope::report::table::WIDTH;
 use rubscope::report::{CommandLine, Provenance, margins as report, svg};
 use rubscope_solver::scene::CheckedScene;
-use rubscope_solver::study::margins::{LimitName, Margins};
+use rubscope_solver::study::margins::Margins;
 
-use crate::cli_margins::{full, scene, text, unsampled};
+use crate::cli_margins::{full, scene, text};
 use crate::cli_support::rubscope;
 
 fn page(margins: &Margins) -> String {
@@ -62,17 +63,12 @@ fn the_page_says_and_draws_the_same() {
     let words = told(&page);
     let says = |what: &str| words.iter().any(|words| words.says == what);
     for what in [
-        "Ω_lock = 411.934 rad/s".replace('_', ""),
+        "411.934 rad/s".into(),
+        "Ω_lock".replace('_', ""),
         "+4.4 %".into(),
-        "beyond".into(),
-        "263.6 times".into(),
-        "−0.50 %".into(),
-        "ζc".into(),
-        "430 rad/s".into(),
+        "263.6 x".into(),
+        "ζc +0.33 %".into(),
         "−6.94122 mN m".into(),
-        "Funilateral = none".into(),
-        "10⁴".into(),
-        "The locked motion at −430 rad/s:".into(),
     ] {
         assert!(says(&what), "{what}");
     }
@@ -83,31 +79,13 @@ fn the_page_says_and_draws_the_same() {
         "pulse of 1 MN for 50 µs",
         "N = 22, lb = 499.9 mm, mb = 0.20825 kg m², kb = 15 kN m/rad",
         "casing.damping_ratio = 0.0636674 puts omega_lock at 450 rad/s",
-        "seed 2010",
         command,
     ] {
         assert!(all.contains(what), "{what} is not in {all}");
     }
     let described = page.split_once("<desc>").unwrap().1.split_once("</desc>").unwrap().0;
     assert!(described.contains(command) && described.contains("speed_rad_s = -430.0"));
-    // A thick line is where the limit is, of a bar from 0 to 430 rad/s.
-    let lines = |at: f64| {
-        let left = format!("<rect x=\"{}\"", 4 * (at.round() as i32 - 1));
-        page.lines().filter(|line| line.starts_with(&left) && line.contains("width=\"12\"")).count()
-    };
-    for name in [LimitName::OmegaC, LimitName::OmegaLock, LimitName::CoincidenceDifference] {
-        let value = margins.limit(name).unwrap().value.unwrap();
-        assert_eq!(lines(318.0 + 250.0 * value / 430.0), 1, "{name}");
-    }
-    // Three decades of pulses, from 1 kN to 1 MN.
-    for name in [LimitName::TouchingPulse, LimitName::LastingPulse] {
-        let value = margins.limit(name).unwrap().value.unwrap();
-        assert_eq!(lines(318.0 + 250.0 * (value / 1e3).log10() / 3.0), 1, "{name}");
-    }
 }
-
-/// The place of that with blades so soft that they nearly give way.
-const SOFT: usize = 15;
 
 /// Scenes at the edge of what there is.
 fn odd() -> Vec<CheckedScene> {
@@ -149,13 +127,8 @@ fn odd() -> Vec<CheckedScene> {
 
 #[test]
 fn odd_scenes_have_no_number_that_is_none_and_fit() {
-    for (place, scene) in odd().into_iter().enumerate() {
-        // Without a lock, and with one of samples of which some have none.
-        let sampled = [1, SOFT].contains(&place);
-        let margins = if sampled { full(&scene) } else { unsampled(&scene) };
-        if place == SOFT {
-            assert!(text(&margins).contains("of 10,000 samples have none."), "{}", text(&margins));
-        }
+    for scene in odd() {
+        let margins = full(&scene);
         let (text, page) = (text(&margins), page(&margins));
         let mut csv = Vec::new();
         report::table(&margins).write_csv(&mut csv).unwrap();
@@ -166,7 +139,7 @@ fn odd_scenes_have_no_number_that_is_none_and_fit() {
             assert!(!file.contains("not a number"), "{file}");
         }
         for line in text.lines().filter(|line| !line.starts_with("Check it: ")) {
-            assert!(line.chars().count() <= report::WIDTH, "{line}");
+            assert!(line.chars().count() <= WIDTH, "{line}");
         }
         let height: f64 = attribute(&page, "height").parse().unwrap();
         assert!(height / 840.0 < 1.6, "{height} high");
@@ -190,10 +163,10 @@ fn files_are_what_is_printed() {
     let margins = Margins::of(&scene("paper-nd3", &[("operation.speed_rad_s", "450")]));
     for file in [&csv, &picture] {
         let out = file.to_str().unwrap();
-        let output = rubscope(&["margins", "--speed", "450", "--no-search", "--out", out]);
+        let output = rubscope(&["margins", "--speed", "450", "--out", out]);
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         let printed = String::from_utf8(output.stdout).unwrap();
-        let without_cost = |text: &str| text.split_once("Cost: ").unwrap().0.to_string();
+        let without_cost = |text: &str| text.split_once("Computed in ").unwrap().0.to_string();
         assert_eq!(without_cost(&printed), without_cost(&text(&margins)));
     }
     let mut table = Vec::new();
@@ -201,7 +174,7 @@ fn files_are_what_is_printed() {
     assert_eq!(std::fs::read(csv).unwrap(), table);
     let picture = std::fs::read_to_string(picture).unwrap();
     let words: Vec<String> = told(&picture).into_iter().map(|words| words.says).collect();
-    let command = "rubscope margins paper-nd3 --set operation.speed_rad_s=450.0 --no-search";
+    let command = "rubscope margins paper-nd3 --set operation.speed_rad_s=450.0";
     assert!(words.join(" ").contains(command), "{words:?}");
     assert_eq!(wrapped(&words[0], 100)[0], margins.scene.title);
 }

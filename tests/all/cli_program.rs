@@ -91,13 +91,12 @@ fn completions_and_manual_know_the_commands() {
 
 #[test]
 fn helps_name_every_contact_law_and_defaults_of_their_own_command() {
-    for command in ["run", "hbm", "map", "margins", "precision", "figures"] {
+    for command in ["run", "hbm", "map", "margins", "precision"] {
         let help = printed(&[command, "--help"]);
         for law in ["unilateral: ", "bilateral: ", "smooth: "] {
             assert!(help.contains(law), "{command}: no {law}");
         }
         assert!(help.contains("default: paper-nd3"), "{command}");
-        assert_eq!(help.contains("each figure has its own"), command == "figures", "{command}");
     }
 }
 

@@ -1,5 +1,7 @@
 //! `rubscope run`: verdicts, JSON, history files, exit status.
 
+use std::io::Read;
+
 use crate::cli_support::{refusal, rubscope};
 use rubscope::report::summary;
 use rubscope_solver::motion::simulate;
@@ -150,8 +152,11 @@ fn numpy_files_hold_one_array_a_column() {
     assert_eq!(entries, 11 + 3);
     let mut archive = zip::ZipArchive::new(std::io::Cursor::new(bytes)).unwrap();
     let mut text = |name: &str| {
-        let array = npyz::NpyFile::new(archive.by_name(name).unwrap()).unwrap();
-        array.into_vec::<String>().unwrap().remove(0)
+        let mut bytes = Vec::new();
+        archive.by_name(name).unwrap().read_to_end(&mut bytes).unwrap();
+        let letters =
+            bytes[128..].chunks(4).map(|four| u32::from_le_bytes(four.try_into().unwrap()));
+        letters.map(|letter| char::from_u32(letter).unwrap()).collect::<String>()
     };
     assert_eq!(text("version.npy"), env!("CARGO_PKG_VERSION"));
     // The scene is a scene file, and the command gives the same file again.
@@ -178,19 +183,7 @@ fn reports_say_where_they_come_from() {
         &["map", "--set", "title=mine", "--set", "view.charts=map,gaps", "--end", "1e-3", "--json"],
         &["precision", "--end", "1e-3", "--repeat", "1", "--finest", "1e-6", "--json"],
         &["margins", "slip", "--end", "1e-2", "--json"],
-        &[
-            "margins",
-            "--no-search",
-            "--tolerance",
-            "clearance=5",
-            "--tolerance",
-            "casing.damping_ratio=1",
-            "--target",
-            "omega_lock=350",
-            "--by",
-            "casing.damping_ratio",
-            "--json",
-        ],
+        &["margins", "--target", "omega_lock=350", "--by", "casing.damping_ratio", "--json"],
     ] {
         let report = json(arguments);
         let program = &report["program"];

@@ -82,11 +82,8 @@ fn limited(folder: &Path, blocks: u32, command: &str) -> Output {
 fn is_kept(output: &Output, folder: &Path, name: &str, start: &str) {
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{said}");
-    // A map says too that the file of its cells is not complete.
-    let lines: Vec<&str> =
-        said.lines().filter(|line| !line.starts_with("rubscope: could not save cells")).collect();
-    assert_eq!(lines.len(), 1, "{said}");
-    assert!(lines[0].starts_with(&format!("rubscope: cannot write {name}")), "{said}");
+    assert_eq!(said.lines().count(), 1, "{said}");
+    assert!(said.starts_with(&format!("rubscope: cannot write {name}")), "{said}");
     assert!(said.contains("standard output"), "{said}");
     let text = String::from_utf8_lossy(&output.stdout);
     assert!(text.trim_start().starts_with(start), "{}", &text[..text.len().min(200)]);
@@ -114,11 +111,6 @@ fn fails_in(folder: &Path, run: impl Fn(&str) -> Output) {
         };
         is_kept(&run(&command), folder, name, start);
         fs::remove_file(&path).unwrap();
-        // The cells of a map stay for the next run.
-        let cells = folder.join(format!("{name}.partial"));
-        if command.starts_with("map") {
-            fs::remove_file(cells).unwrap();
-        }
         assert!(names(folder).iter().all(|name| name == "full"), "{:?}", names(folder));
     }
 }
@@ -128,17 +120,6 @@ fn the_limit_of_file_sizes_is_a_full_disk_and_not_the_end() {
     let folder = tempfile::tempdir().unwrap();
     // Some 16 kB; the least that shells count is 512 or 1024 bytes.
     fails_in(folder.path(), |command| limited(folder.path(), 16, command));
-}
-
-/// Here not even the first line of the cells can be written.
-#[test]
-fn a_map_without_room_for_its_cells_leaves_no_file() {
-    let folder = tempfile::tempdir().unwrap();
-    let output = limited(folder.path(), 0, &format!("{MAP} --out m.csv"));
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(said.starts_with("rubscope: cannot write m.csv.partial: "), "{said}");
-    assert_eq!((output.status.code(), said.lines().count()), (Some(1), 1), "{said}");
-    assert!(names(folder.path()).is_empty(), "{:?}", names(folder.path()));
 }
 
 #[cfg(target_os = "linux")]

@@ -6,8 +6,8 @@ use std::fmt::Debug;
 
 use rubscope::cli::range::Range;
 use rubscope::cli::script::{RequestedScript, parse};
+use rubscope::report::part::{Shard, read_all, write};
 use rubscope_solver::scene::{Allowed, BUILTIN, CheckedScene, KEYS, Quantity, Scene, Value, keys};
-use rubscope_solver::study::part::{read_all, write};
 use rubscope_solver::study::{Axis, Cell, Map, MapPlan};
 
 /// A kind of input.
@@ -193,9 +193,8 @@ fn range_seeds() -> Vec<Vec<u8>> {
     texts.map(Into::into).to_vec()
 }
 
-/// A part of a map that is accepted, written again, gives the same map. Bytes
-/// that are no part are tried once more with the right checksums, which chance
-/// does not find.
+/// A part of a map that is accepted, written again, gives the same map. Bytes that are no
+/// part are tried once more with the version of this program, which chance does not find.
 pub fn part(data: &[u8]) {
     part_reads_back(data);
     if let Some(mended) = mended(data) {
@@ -206,33 +205,25 @@ pub fn part(data: &[u8]) {
 fn part_reads_back(data: &[u8]) {
     let read = |bytes: &[u8]| read_all([("part".to_string(), bytes)]);
     let Ok(Some(map)) = read(data) else { return };
+    assert!(map.is_complete() && !map.cells.is_empty());
     assert_eq!(map.cells.len(), map.plan.len());
-    assert!(!map.cells.is_empty());
     let mut written = Vec::new();
-    write(&map, &mut written).unwrap();
+    write(&map, Shard { number: 1, count: 1 }, &mut written).unwrap();
     assert!(read(&written).unwrap().unwrap() == map, "written, it reads otherwise");
-    // With itself it joins to itself.
     let twice = read_all([("one".to_string(), data), ("two".to_string(), &written[..])]);
-    assert!(twice.unwrap().unwrap() == map, "joined with itself, it is another map");
+    assert!(twice.is_err(), "every cell is there twice");
     for index in [0, map.plan.len() / 2, map.plan.len() - 1] {
         // A scene may be refused there, but its values are numbers.
         let _ = map.plan.scene_of(index);
     }
 }
 
-/// A part with the checksums that belong to its lines.
+/// A part with the version of this program.
 fn mended(data: &[u8]) -> Option<Vec<u8>> {
-    let text = std::str::from_utf8(data).ok()?;
-    let mut lines = text.lines();
-    let (header, _) = lines.next()?.rsplit_once(",\"crc32\":")?;
-    let sum = crc32fast::hash(header.as_bytes());
-    let mut out = format!("{header},\"crc32\":\"{sum:08x}\"}}\n");
-    for (cell, _) in lines.filter_map(|line| line.rsplit_once(' ')) {
-        let mut hasher = crc32fast::Hasher::new_with_initial(sum);
-        hasher.update(cell.as_bytes());
-        out.push_str(&format!("{cell} {:08x}\n", hasher.finalize()));
-    }
-    Some(out.into_bytes())
+    let seed = part_seeds().swap_remove(0);
+    let (program, _) = std::str::from_utf8(&seed).ok()?.split_once(" map ")?;
+    let (_, origin) = std::str::from_utf8(data).ok()?.split_once(" map ")?;
+    Some(format!("{program} map {origin}").into_bytes())
 }
 
 fn part_seeds() -> Vec<Vec<u8>> {
@@ -254,7 +245,8 @@ fn part_seeds() -> Vec<Vec<u8>> {
             map.cells.set(index, Some(cell));
         }
         let mut bytes = Vec::new();
-        write(&map, &mut bytes).unwrap();
+        let count = u32::try_from(step).unwrap();
+        write(&map, Shard { number: 1, count }, &mut bytes).unwrap();
         seeds.push(bytes);
     }
     seeds

@@ -1,10 +1,10 @@
 //! Steady states of blades on a lining over a clearance: which linings hold a lock and
 //! at which speeds, and branches followed over a parameter.
 
-use rubscope_solver::harmonic::{BranchEnd, Lining, Special, follow, least_lock_stiffness};
+use rubscope_solver::harmonic::least_lock_stiffness;
 use rubscope_solver::scene::Scene;
 
-use crate::hbm_lining::{close, preloaded, with};
+use crate::hbm_lining::{close, with};
 
 /// The paper's machine with a lining over its clearance.
 fn lined(stiffness: &str, more: &[(&str, &str)]) -> Scene {
@@ -125,103 +125,5 @@ fn the_least_stiffness_is_where_a_window_opens() {
     }
     for (path, value) in [("casing.radius_m", "0.49988"), ("bladed_disk.radial_coupling", "0.35")] {
         assert_eq!(least_lock_stiffness(&lined("1e9", &[(path, value)]).machine()), None);
-    }
-}
-
-fn marked(scene: &Scene, path: &str, over: [f64; 2]) -> (Vec<(Special, f64)>, BranchEnd) {
-    let branch = follow(scene, path, over).unwrap();
-    let marks = branch.points.iter().filter_map(|at| Some((at.special?, at.parameter))).collect();
-    (marks, branch.end)
-}
-
-#[test]
-fn a_followed_lock_turns_back_where_its_window_ends() {
-    let scene = lined("1e9", &[]);
-    let from = scene.machine().lock_window(1.0).unwrap().from;
-    let (marks, end) = marked(&scene, "operation.speed_rad_s", [500.0, 400.0]);
-    assert_eq!((marks.len(), marks[0].0, end), (1, Special::Border, BranchEnd::Returned));
-    assert!((marks[0].1 - from).abs() < 1e-6, "{marks:?} {from}");
-    // Over the stiffness at one speed.
-    let (marks, _) = marked(&scene, "contact.stiffness_n_per_m", [1e9, 1e8]);
-    let machine = scene.machine();
-    let nu = machine.nu(500.0);
-    let (k, d) =
-        (machine.casing_mass * nu * nu - machine.casing_stiffness, machine.casing_damping * nu);
-    let delta = machine.polygon.delta;
-    let needed = (k * k + d * d) / ((2.0 * delta).sin() * (k * delta.tan() - d));
-    close(marks[0].1, needed, 1e-6);
-    // Smoothed, the corner is a fold.
-    let mut smooth = scene.clone();
-    smooth.set("contact.smoothing_m", "1e-7").unwrap();
-    let (marks, end) = marked(&smooth, "operation.speed_rad_s", [500.0, 400.0]);
-    assert_eq!(
-        (marks.len(), marks[0].0, end),
-        (1, Special::Fold, BranchEnd::Returned),
-        "{marks:?}"
-    );
-    // On one side of it there are the lock and the saddle, on the other neither.
-    with(&smooth, |lining| {
-        for (aside, count) in [(1e-4, 3), (-1e-4, 1)] {
-            let states = lining.states(marks[0].1 + aside).unwrap();
-            assert_eq!(states.len(), count, "{aside}: {states:?}");
-        }
-    });
-}
-
-#[test]
-fn every_followed_point_is_a_steady_state_and_work_is_bounded() {
-    let scene = lined("3e8", &[("contact.smoothing_m", "1e-8")]);
-    for (path, over) in [
-        ("operation.speed_rad_s", [500.0, 900.0]),
-        ("casing.damping_ratio", [0.05, 0.2]),
-        ("bladed_disk.radial_coupling", [0.0, 0.3]),
-    ] {
-        let branch = follow(&scene, path, over).unwrap();
-        assert!(branch.points.len() > 10 && branch.points.len() < 4000, "{path}");
-        assert!(
-            branch.end != BranchEnd::Lost && branch.end != BranchEnd::Most,
-            "{path} {:?}",
-            branch.end
-        );
-        for point in branch.points.iter().step_by(7) {
-            let mut here = scene.clone();
-            here.set(path, &format!("{:?}", point.parameter)).unwrap();
-            let machine = here.machine();
-            let lining = Lining::of(&machine, &here.contact).unwrap();
-            let states = lining.states(here.operation.speed_rad_s).unwrap();
-            let size = point.state.gap_m[0].hypot(point.state.gap_m[1]);
-            let same = states.iter().any(|state| {
-                let other = state.gap_m[0].hypot(state.gap_m[1]);
-                (other - size).abs() < 1e-7 * size && state.pushing == point.state.pushing
-            });
-            assert!(same, "{path} {}: {:?} is none of {states:?}", point.parameter, point.state);
-        }
-    }
-}
-
-#[test]
-fn rest_under_preload_is_followed_through_its_hopf_points() {
-    let scene = preloaded("27e3", &[]);
-    let (marks, end) = marked(&scene, "operation.speed_rad_s", [380.0, 450.0]);
-    assert_eq!(end, BranchEnd::Reached);
-    assert_eq!(marks.iter().map(|mark| mark.0).collect::<Vec<_>>(), [Special::Hopf; 2]);
-    assert!((marks[0].1 - 399.4641).abs() < 1e-4 && (marks[1].1 - 437.8875).abs() < 1e-4);
-    let (marks, _) = marked(&scene, "casing.damping_ratio", [0.05, 0.3]);
-    assert_eq!(marks.len(), usize::from(with(&scene, |l| l.rest(500.0).grows)));
-}
-
-#[test]
-fn what_cannot_be_followed_is_refused() {
-    let scene = lined("1e9", &[]);
-    for (path, over, said) in [
-        ("solver.model", [0.0, 1.0], "solver.model"),
-        ("nothing.here", [0.0, 1.0], "nothing.here"),
-        ("operation.speed_rad_s", [300.0, 400.0], "a steady state whose blades push"),
-        ("operation.speed_rad_s", [500.0, f64::NAN], "operation.speed_rad_s"),
-        ("operation.speed_rad_s", [500.0, 500.0], "two different values"),
-        ("casing.radius_m", [0.5, 0.4999], "casing.radius_m"),
-    ] {
-        let error = follow(&scene, path, over).unwrap_err().to_string();
-        assert!(error.contains(said), "{path}: {error}");
     }
 }

@@ -2,7 +2,9 @@
 //! numbers, and the eight equations (27) written out as they are printed.
 
 use nalgebra::{SMatrix, SVector};
-use rubscope_solver::harmonic::{Corner, Form, Locked, LockedPoint, locked_motion};
+use rubscope_solver::harmonic::{
+    Corner, Form, Locked, LockedPoint, lock_fold_speed, locked_motion,
+};
 use rubscope_solver::model::{BladedDisk, Casing, Machine};
 
 fn machine(nodal_diameters: u32, zeta_c: f64) -> Machine {
@@ -279,4 +281,47 @@ fn soft_blades_of_the_printed_form_are_followed_and_not_met_by_chance() {
     let down = locked_motion(&machine, Form::Printed, true, None, &down).unwrap();
     assert!(up.points.iter().eq(down.points.iter().rev()));
     assert!((20..301).contains(&up.points.len()), "{}", up.points.len());
+}
+
+/// Soft enough to fold within the speeds of the paper.
+fn soft() -> Machine {
+    let disk = BladedDisk {
+        stiffness_nm_per_rad: 2e-3,
+        coupling_nm_per_rad: 0.0,
+        ..BladedDisk::default()
+    };
+    Machine::new(&disk, &Casing::default(), 3)
+}
+
+/// The closed form `kappa = -(Delta - delta) cos^3 Delta/(c sin Delta)` turns back at its
+/// largest speed, seen here on a fine grid of openings.
+#[test]
+fn the_fold_is_the_largest_speed_of_the_branch() {
+    let machine = soft();
+    let fold = lock_fold_speed(&machine).unwrap();
+    let nd = machine.nodal_diameters;
+    let softness = nd * nd * machine.casing_stiffness * machine.clearance().powi(2)
+        / (machine.blade_inertia * machine.omega_bd * machine.omega_bd);
+    let delta = machine.polygon.delta;
+    let c = softness * 2.0 / 22.0 * delta.sin().powi(2);
+    let speed = |opening: f64| {
+        let (sin, cos) = opening.sin_cos();
+        let kappa = -(opening - delta) * cos.powi(3) / (c * sin);
+        machine.critical_speed().unwrap() * (1.0 - kappa).sqrt()
+    };
+    let largest = (1..1_000_000).map(|k| speed(delta + 1.3e-6 * f64::from(k))).fold(0.0, f64::max);
+    assert!((fold / largest - 1.0).abs() < 1e-11, "{fold} {largest}");
+}
+
+#[test]
+fn beyond_its_fold_a_speed_has_no_locked_motion() {
+    let machine = soft();
+    let fold = lock_fold_speed(&machine).unwrap();
+    let speeds = [0.5 * fold, 0.999 * fold, 1.001 * fold, 3.0 * fold];
+    let sweep = locked_motion(&machine, Form::Modal, false, None, &speeds).unwrap();
+    assert_eq!((sweep.points.len(), sweep.missing.as_slice()), (2, &speeds[2..]));
+    assert!(sweep.points.iter().all(|point| point.residual < 1e-12));
+    // The paper's blades fold far beyond any rotor.
+    let paper = Machine::new(&BladedDisk::default(), &Casing::default(), 3);
+    assert!(lock_fold_speed(&paper).unwrap() > 1e6);
 }

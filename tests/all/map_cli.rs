@@ -59,9 +59,9 @@ fn axes_are_refused_in_one_line_that_says_what_is_allowed() {
             "map = 100000 x 100000 cells: allowed is from 1 to 16000000 cells",
         ),
         (&["--speed", "0:500:0"], "--speed = 0:500:0: allowed is FROM:TO:COUNT"),
-        (&["--shard", "3/2", "--out", "a.part"], "--shard = 3/2: allowed is K/COUNT with K from 1"),
-        (&["--shard", "1/2", "--out", "a.csv"], "--shard: allowed with --out FILE.part only"),
-        (&["--adaptive", "--out", "a.part"], "--adaptive: allowed with --out FILE.csv"),
+        (&["--shard", "3/2", "--out", "a.csv"], "--shard = 3/2: allowed is K/COUNT with K from 1"),
+        (&["--shard", "1/2", "--out", "a.svg"], "--out = a.svg: allowed is a file name ending in"),
+        (&["--out", "a.part"], "--out = a.part: allowed is a file name ending in .csv, .json or"),
         (&["--out", "a.png"], "--out = a.png: allowed is a file name ending in .csv"),
     ] {
         let refused = refusal(&[&["map"], arguments].concat());
@@ -77,7 +77,7 @@ fn a_place_that_takes_no_file_is_said_before_anything_is_computed() {
     let none = directory.path().join("none/map.csv");
     // So many cells that a debug build would need hours.
     let large = "map --solver event --speed 0:500:3900 --pulse 1e5:1e6:3900";
-    for path in [none, file.join("map.csv"), file.join("map.part")] {
+    for path in [none, file.join("map.csv"), file.join("map.svg")] {
         let output = rubscope(&words(large, &["--out", path.to_str().unwrap()]));
         assert_eq!(output.status.code(), Some(1));
         let said = message(&output);
@@ -110,21 +110,14 @@ fn a_full_disk_loses_nothing() {
         let map: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
         assert_eq!(map["verdict"], json["verdict"]);
         assert_eq!(map["sensitive"], json["sensitive"]);
-        // The cells are also saved next to it, and the next run uses them.
-        let noted = directory.path().join(format!("map.{format}.partial"));
-        assert_eq!(std::fs::read_to_string(noted).unwrap().lines().count(), 1 + 99);
-        std::fs::remove_file(&path).unwrap();
-        let again = rubscope(&words(MAP, &["--out", path.to_str().unwrap()]));
-        assert_eq!(again.status.code(), Some(0));
-        assert!(message(&again).starts_with("rubscope: going on from 99 cells"));
     }
-    // A shard's cells come out as a part.
+    // Those of a shard come out as its part.
     let directory = tempfile::tempdir().unwrap();
-    let path = directory.path().join("map.part");
+    let path = directory.path().join("part.csv");
     std::os::unix::fs::symlink("/dev/full", &path).unwrap();
     let output = rubscope(&words(MAP, &["--shard", "1/3", "--out", path.to_str().unwrap()]));
     assert_eq!(output.status.code(), Some(1));
-    assert_eq!(String::from_utf8(output.stdout).unwrap().lines().count(), 1 + 33);
+    assert_eq!(String::from_utf8(output.stdout).unwrap().lines().count(), 2 + 33);
 }
 
 #[test]
@@ -193,33 +186,6 @@ fn the_parallel_line_of_the_document_gives_the_map_of_one_run() {
     run(&format!("rubscope map {options} --out single.csv"));
     let bytes = |name: &str| std::fs::read(directory.path().join(name)).unwrap();
     assert_eq!(bytes("map.csv"), bytes("single.csv"));
-}
-
-/// A part that the user named stays, also where it is the result itself.
-#[test]
-fn a_file_that_the_user_named_is_never_removed() {
-    let folder = tempfile::tempdir().unwrap();
-    let [part, other] = ["m.part", "other.csv"].map(|name| folder.path().join(name));
-    let [part, other] = [&part, &other].map(|path| path.to_str().unwrap());
-    let small = "map --solver event --model rigid --contact unilateral --speed 250:500:3 \
-                 --pulse 1e5:4e5:2";
-    for (resume, out) in [(part, part), (part, part), (part, other)] {
-        let output = rubscope(&words(small, &["--resume", resume, "--out", out]));
-        assert_eq!(output.status.code(), Some(0), "{}", message(&output));
-        for file in [resume, out] {
-            assert!(std::fs::metadata(file).unwrap().len() > 0, "{file} is gone");
-        }
-    }
-    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2);
-    // Also where it has the name of the part that the command would make.
-    let out = folder.path().join("m.csv");
-    let (out, part) = (out.to_str().unwrap(), format!("{}.partial", out.to_str().unwrap()));
-    let output = rubscope(&words(small, &["--resume", &part, "--out", out]));
-    assert_eq!(output.status.code(), Some(0), "{}", message(&output));
-    assert!(std::fs::metadata(&part).is_ok(), "{part} is gone");
-    // Made by the command, it is removed once the result has its cells.
-    assert_eq!(rubscope(&words(small, &["--out", out])).status.code(), Some(0));
-    assert!(std::fs::metadata(&part).is_err(), "{part} stays");
 }
 
 #[test]

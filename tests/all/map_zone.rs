@@ -3,11 +3,13 @@
 //! map on any number of threads, and what an adaptive map may miss.
 
 use std::f64::consts::TAU;
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
+use rayon::prelude::*;
 use rubscope_solver::motion::{Verdict, run_to_verdict, to_the_end};
 use rubscope_solver::scene::{ContactLaw, ModelSize, Scene, SolverKind};
 use rubscope_solver::study::margins::grazing_pulse;
-use rubscope_solver::study::{Axis, Map, MapPlan, Progress, Shard};
+use rubscope_solver::study::{Axis, Map, MapPlan};
 
 /// The paper's machine with rigid blades, cell by cell, without sensitivity.
 fn plan(speed: &str, pulse: &str) -> MapPlan {
@@ -23,8 +25,7 @@ fn plan(speed: &str, pulse: &str) -> MapPlan {
 
 fn filled(plan: MapPlan) -> Map {
     let mut map = Map::empty(plan);
-    let all = Shard::WHOLE.indices(map.cells.len());
-    map.fill(all, &Progress::default(), &|_, _| {});
+    map.fill((0..map.cells.len()).into_par_iter(), &|| true, &|_, _| {});
     assert!(map.is_complete());
     map
 }
@@ -140,7 +141,7 @@ fn an_adaptive_map_runs_every_cell_beside_another_verdict() {
     let full = filled(zones());
     let mut adaptive = Map::empty(zones());
     let ran = std::sync::Mutex::new(vec![false; adaptive.cells.len()]);
-    adaptive.fill_adaptively(&Progress::default(), &|index, cell| {
+    adaptive.fill_adaptively(&|| true, &|index, cell| {
         assert_eq!(Some(cell), full.cells[index]);
         ran.lock().unwrap()[index] = true;
     });
@@ -163,16 +164,13 @@ fn an_adaptive_map_runs_every_cell_beside_another_verdict() {
 #[test]
 fn a_stopped_adaptive_map_holds_runs_only_and_ends_as_one_that_was_not() {
     let mut whole = Map::empty(zones());
-    whole.fill_adaptively(&Progress::default(), &|_, _| {});
-    let progress = Progress::default();
+    whole.fill_adaptively(&|| true, &|_, _| {});
     let mut stopped = Map::empty(zones());
-    stopped.fill_adaptively(&progress, &|_, _| {
-        let enough = progress.done.load(std::sync::atomic::Ordering::Relaxed) >= 200;
-        progress.stop.store(enough, std::sync::atomic::Ordering::Relaxed);
-    });
+    let done = AtomicU64::new(0);
+    stopped.fill_adaptively(&|| done.load(Relaxed) < 200, &|_, _| _ = done.fetch_add(1, Relaxed));
     assert!(!stopped.is_complete());
     assert_eq!(stopped.cells.iter().flatten().count() as u64, stopped.runs);
-    stopped.fill_adaptively(&Progress::default(), &|_, _| {});
+    stopped.fill_adaptively(&|| true, &|_, _| {});
     assert_eq!((stopped.cells, stopped.runs), (whole.cells, whole.runs));
 }
 

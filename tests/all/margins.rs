@@ -1,12 +1,11 @@
 //! Margins: sensitivities against closed forms and differences, the smallest pulses
-//! against runs, targets and tolerances.
+//! against runs, and targets.
 
 use rubscope_solver::model::Machine;
 use rubscope_solver::motion::{run_to_verdict, to_the_end};
 use rubscope_solver::scene::{CheckedScene, ContactLaw, Scene};
 use rubscope_solver::study::margins::{
-    CLEARANCE, Limit, LimitName, Margins, Quantity, Target, Tolerance, first_touch, grazing_pulse,
-    parameter,
+    CLEARANCE, Limit, LimitName, Margins, Quantity, Target, first_touch, grazing_pulse, parameter,
 };
 const STIFFNESS: &str = "casing.modal_stiffness_n_per_m";
 const MASS: &str = "casing.modal_mass_kg";
@@ -163,70 +162,6 @@ fn a_touch_after_many_swings_is_found_where_nothing_is_damped() {
     assert!(early.pulse_n > first.pulse_n * 1.001, "{early:?} {first:?}");
 }
 
-/// The scene with the bilateral law at a speed.
-fn paper(speed: f64) -> CheckedScene {
-    let mut scene = Scene::builtin("paper-nd3").unwrap();
-    scene.operation.speed_rad_s = speed;
-    scene.checked().unwrap()
-}
-
-#[test]
-fn the_lasting_pulses_are_the_edges_of_the_papers_zone() {
-    let lasts = |speed: f64, pulse: f64| {
-        let scene = paper(speed).into_scene();
-        let operation = rubscope_solver::model::Operation { pulse_n: pulse, ..scene.operation };
-        let scene = Scene { operation, ..scene }.checked().unwrap();
-        run_to_verdict(&scene, &to_the_end).unwrap().verdict.keeps_contact()
-    };
-    for (speed, threshold, paper_has) in
-        [(300.0, 847_676.0, 1.0e6), (400.0, 537_576.0, 0.63e6), (500.0, 376_620.0, 0.40e6)]
-    {
-        let sides = [1.0 - 1e-5, 1.0 + 1e-5].map(|part| lasts(speed, part * threshold));
-        assert_eq!(sides, [false, true], "{speed}");
-        // The rows of the paper's coarser map are up to a fifth apart.
-        assert!((threshold / paper_has - 1.0_f64).abs() < 0.2, "{speed}");
-    }
-    let mut margins = Margins::of(&paper(500.0));
-    assert!(margins.search(ContactLaw::Bilateral, &to_the_end));
-    let limit = margins.limit(LimitName::LastingPulse).unwrap();
-    let value = limit.value.unwrap();
-    assert!((value / 376_620.0 - 1.0).abs() < 1e-5, "{value}");
-    assert!(lasts(500.0, value) && !lasts(500.0, value * (1.0 - 1e-6)));
-    let zone = limit.bands.last().unwrap();
-    assert_eq!((zone.from_n, zone.to_n), (value, None));
-    assert_eq!(limit.bands.len(), 2, "an island below the zone: {:?}", limit.bands);
-    let by = |path| limit.sensitivities.by(path);
-    // The problem has no scale of force and length, and one of time: 2 k_c + speed
-    // - pulse length = 2. The scheme keeps this up to its step.
-    close(by(CLEARANCE), 1.0, 1e-3, "clearance");
-    let [stiffness, mass] = [STIFFNESS, MASS].map(|path| by(path).unwrap());
-    close(Some(stiffness + mass), 1.0, 2e-3, "force");
-    let [speed, length] = [SPEED, LENGTH].map(|path| by(path).unwrap());
-    close(Some(2.0 * stiffness + speed - length), 2.0, 2e-2, "time");
-}
-
-#[test]
-fn islands_by_the_event_solver_keep_the_laws_of_scale() {
-    let mut scene = Scene::builtin("slip").unwrap();
-    scene.solver.end_s = 0.05;
-    let scene = scene.checked().unwrap();
-    let mut margins = Margins::of(&scene);
-    assert!(margins.search(ContactLaw::Unilateral, &to_the_end));
-    let limit = margins.limit(LimitName::LastingPulse).unwrap();
-    let by = |path| limit.sensitivities.by(path).unwrap();
-    close(Some(by(CLEARANCE)), 1.0, 1e-6, "clearance");
-    close(Some(by(STIFFNESS) + by(MASS)), 1.0, 1e-6, "force");
-    // A length is many clearances.
-    for (path, sign) in [("casing.radius_m", 1.0), ("bladed_disk.blade_length_m", -1.0)] {
-        let many = parameter(path).unwrap().of(&scene) / scene.machine().clearance();
-        close(Some(by(path) / many), sign, 1e-5, path);
-    }
-    assert_eq!((by("operation.pulse_n"), by("operation.speed_ramp_rad_s2")), (0.0, 0.0));
-    assert!(limit.bands.len() > 1 && limit.bands.iter().all(|band| band.to_n.is_some()));
-    let inside = 0.5 * (limit.bands[0].from_n + limit.bands[0].to_n.unwrap());
-    assert!(limit.bands[0].holds(inside) && !limit.bands[0].holds(-inside));
-}
-
 #[test]
 fn targets_of_every_kind() {
     let scene = Scene::base().checked().unwrap();
@@ -258,36 +193,4 @@ fn targets_of_every_kind() {
     let target = Target::parse("omega_lock=300", DAMPING).unwrap();
     let found = target.solve(&undamped, &to_the_end).unwrap();
     close(found.reached, 300.0, 1e-12, "from zero");
-}
-
-#[test]
-fn a_lasting_pulse_is_put_where_it_is_wanted_along_its_edge() {
-    let target = Target::parse("lasting_pulse=5e5", CLEARANCE).unwrap();
-    let found = target.solve(&paper(500.0), &to_the_end).unwrap();
-    // The pulse goes with the clearance.
-    close(found.to, 1e-4 * 5e5 / 376_620.0, 1e-4, "clearance");
-    close(found.reached, 5e5, 2e-6, "pulse");
-}
-
-#[test]
-fn spreads_of_samples_are_those_of_the_derivatives_for_small_tolerances() {
-    let scene = Scene::base().checked().unwrap();
-    let texts = ["casing.damping_ratio=1", "clearance=0.5", "operation.speed_rad_s=0.2"];
-    let texts = texts.map(String::from);
-    let tolerances = Tolerance::parse_all(&texts, &scene).unwrap();
-    let mut margins = Margins::of(&scene);
-    let counted = std::sync::atomic::AtomicUsize::new(0);
-    margins.spread(tolerances, &|| _ = counted.fetch_add(1, std::sync::atomic::Ordering::Relaxed));
-    assert_eq!(counted.into_inner(), 10_000);
-    for limit in &margins.limits {
-        let spread = limit.spread.unwrap();
-        let (linear, sampled) = (spread.linear_sd.unwrap(), spread.sampled.unwrap());
-        assert_eq!((sampled.samples, sampled.missing), (10_000, 0));
-        let error = (sampled.sd - linear).abs();
-        assert!(error <= 0.02 * linear, "{}: {linear} {}", limit.name, sampled.sd);
-        let worst = spread.linear_worst.unwrap() * 1.01;
-        let value = limit.value.unwrap();
-        assert!(sampled.low >= value - worst && sampled.high <= value + worst);
-        assert!(sampled.low <= sampled.mean && sampled.mean <= sampled.high);
-    }
 }

@@ -22,8 +22,6 @@ fn sensitivities_of_inclined_tips_are_those_of_their_neighbours() {
         LimitName::PushA,
         LimitName::PushB,
         LimitName::Torque,
-        LimitName::BladeAngle,
-        LimitName::LockEnergy,
     ];
     let base = Margins::of(&scene(&[]).checked().unwrap());
     for (path, value) in [

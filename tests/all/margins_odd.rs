@@ -1,15 +1,14 @@
-//! Margins of scenes that others leave out: soft blades, a ramp, pulses that pull, a
-//! rotor that turns backward, and tolerances that depend on each other.
+//! Margins of scenes that others leave out: soft blades, a ramp, pulses that pull, and
+//! a rotor that turns backward.
 
-use rubscope_solver::harmonic::{lock_fold_speed, lock_loads};
+use rubscope_solver::harmonic::lock_fold_speed;
 use rubscope_solver::motion::{Motion, run_to_verdict, to_the_end};
-use rubscope_solver::scene::{CheckedScene, ContactLaw};
+use rubscope_solver::scene::CheckedScene;
 use rubscope_solver::study::margins::{
-    CLEARANCE, LimitName, Margins, SAMPLES, Side, Target, Tolerance, first_touch, grazing_pulse,
-    lasting_pulse,
+    CLEARANCE, LimitName, Margins, Side, Target, first_touch, grazing_pulse,
 };
 
-use crate::cli_margins::{scene, text, unsampled};
+use crate::cli_margins::{scene, text};
 use crate::cli_support::rubscope;
 use crate::margins::{close, differenced, of};
 
@@ -26,13 +25,6 @@ fn soft(stiffness: &str, speed: &str) -> CheckedScene {
             ("operation.speed_rad_s", speed),
         ],
     )
-}
-
-fn spread(scene: &CheckedScene, texts: &[&str]) -> Margins {
-    let texts: Vec<String> = texts.iter().map(ToString::to_string).collect();
-    let mut margins = Margins::of(scene);
-    margins.spread(Tolerance::parse_all(&texts, scene).unwrap(), &|| {});
-    margins
 }
 
 #[test]
@@ -67,16 +59,6 @@ fn the_end_of_the_branch_is_told_where_a_rotor_may_come_near_it() {
 }
 
 #[test]
-fn the_blade_angle_is_the_larger_of_both() {
-    for speed in ["300", "500", "-500"] {
-        let scene = scene("paper-nd3", &[("operation.speed_rad_s", speed)]);
-        let loads = lock_loads(&scene.machine(), scene.operation.speed_rad_s).unwrap();
-        let [a, b] = loads.alpha_rad.map(f64::abs);
-        assert_eq!(of(&scene, LimitName::BladeAngle).value, Some(a.max(b)));
-    }
-}
-
-#[test]
 fn a_ramp_moves_the_touching_pulse() {
     for ramp in ["3e5", "-2e5"] {
         let scene = scene("slip", &[("operation.speed_ramp_rad_s2", ramp)]);
@@ -105,7 +87,7 @@ fn the_touching_pulse_keeps_the_law_of_time() {
 }
 
 #[test]
-fn a_pulse_that_pulls_touches_and_lasts_below_zero() {
+fn a_pulse_that_pulls_touches_below_zero() {
     let scene = scene("slip", &[("operation.pulse_n", "-51742"), ("solver.end_s", "0.02")]);
     let limit = of(&scene, LimitName::TouchingPulse);
     let value = limit.value.unwrap();
@@ -119,11 +101,6 @@ fn a_pulse_that_pulls_touches_and_lasts_below_zero() {
     let found = |scene: &CheckedScene| grazing_pulse(scene, 3.0 * value).unwrap();
     for path in ["operation.pulse_s", "operation.speed_rad_s"] {
         close(limit.sensitivities.by(path), differenced(&scene, path, &found), 1e-6, path);
-    }
-    let (lasting, _) = lasting_pulse(&scene, ContactLaw::Unilateral, &to_the_end).unwrap();
-    assert!(lasting.value.unwrap() < value && !lasting.bands.is_empty());
-    for band in &lasting.bands {
-        assert!(band.from_n < 0.0 && band.holds(band.from_n) && !band.holds(-band.from_n));
     }
 }
 
@@ -197,34 +174,8 @@ fn a_later_swing_is_waited_for_where_little_is_damped() {
 
 #[test]
 fn a_search_stops_where_it_is_told_to() {
-    let scene = scene("slip", &[("solver.end_s", "0.01")]);
-    let mut margins = Margins::of(&scene);
-    let before = margins.clone();
-    assert!(!margins.search(ContactLaw::Unilateral, &|| false));
-    assert_eq!(margins, before);
-    for text in ["omega_lock=450", "lasting_pulse=1e5"] {
-        let target = Target::parse(text, "casing.damping_ratio").unwrap();
-        assert_eq!(target.solve(&scene, &|| false), None, "{text}");
-    }
-}
-
-#[test]
-fn two_searches_cost_what_both_cost() {
-    let scene = scene("slip", &[("solver.end_s", "0.01"), ("solver.step_s", "5e-6")]);
-    let mut margins = Margins::of(&scene);
-    assert_eq!(margins.laws(), [ContactLaw::Unilateral, ContactLaw::Bilateral]);
-    let (mut runs, mut before) = (0, 0.0);
-    for law in margins.laws() {
-        assert!(margins.search(law, &to_the_end));
-        runs += lasting_pulse(&scene, law, &to_the_end).unwrap().1;
-        let wall_s = margins.cost.search_wall_s.unwrap();
-        assert!(wall_s > before);
-        before = wall_s;
-    }
-    assert_eq!(margins.cost.search_runs, runs);
-    let pulses: Vec<LimitName> = margins.limits[5..8].iter().map(|limit| limit.name).collect();
-    let [touching, own] = [LimitName::TouchingPulse, LimitName::LastingPulse];
-    assert_eq!(pulses, [touching, own, LimitName::LastingPulseBilateral]);
+    let target = Target::parse("omega_lock=450", "casing.damping_ratio").unwrap();
+    assert_eq!(target.solve(&scene("slip", &[]), &|| false), None);
 }
 
 #[test]
@@ -242,60 +193,6 @@ fn targets_far_away_and_at_zero() {
     let found = solve(&format!("omega_lock={}", critical * (1.0 + 1e-9)), "casing.damping_ratio");
     let to = found.to.unwrap();
     assert!(to > 0.0 && to < 1e-8, "{to}");
-}
-
-#[test]
-fn tolerances_have_a_largest() {
-    let scene = scene("paper-nd3", &[]);
-    let read = |text: &str| Tolerance::parse_all(&[text.to_string()], &scene);
-    assert_eq!(read("clearance=50").unwrap()[0].percent, 50.0);
-    assert!(read("clearance=50.1").is_err() && read("clearance=-1").is_err());
-}
-
-#[test]
-fn spreads_hold_the_middle_of_the_samples_and_are_never_below_zero() {
-    // The limits of a rotor that turns backward: torque and push are below zero.
-    let scene = scene("paper-nd3", &[("operation.speed_rad_s", "-500")]);
-    let mass = "casing.modal_mass_kg=1";
-    let stiffness = "casing.modal_stiffness_n_per_m=1";
-    let margins = spread(&scene, &[mass, stiffness]);
-    for limit in &margins.limits {
-        let (Some(value), Some(spread)) = (limit.value, limit.spread) else { continue };
-        let (sd, worst) = (spread.linear_sd.unwrap(), spread.linear_worst.unwrap());
-        assert!(sd >= 0.0 && worst >= sd, "{}: {sd} {worst}", limit.name);
-        assert!(limit.name != LimitName::Torque || value < 0.0);
-    }
-    // Equal and opposite: the worst is where both are against it.
-    let critical = margins.limit(LimitName::OmegaC).unwrap();
-    let worst = critical.spread.unwrap().linear_worst;
-    close(worst, 0.01 * critical.value.unwrap(), 1e-12, "worst");
-    // Of one parameter the samples are even, and 95 % of them are in 95 % of the range.
-    let margins = spread(&scene, &[stiffness]);
-    let critical = margins.limit(LimitName::OmegaC).unwrap();
-    let (value, sampled) = (critical.value.unwrap(), critical.spread.unwrap().sampled.unwrap());
-    for (end, part) in [(sampled.low, -0.95), (sampled.high, 0.95)] {
-        close(Some((end / value - 1.0) / 0.005), part, 0.015, "end of the range");
-    }
-}
-
-#[test]
-fn the_clearance_and_its_lengths_vary_together_in_any_order() {
-    let scene = scene("paper-nd3", &[]);
-    // Each length within a tenth of the clearance, and the clearance by itself.
-    let each = ["clearance=10", "bladed_disk.blade_length_m=0.002", "casing.radius_m=0.002"];
-    for turn in 0..3 {
-        let texts = [each[turn], each[(turn + 1) % 3], each[(turn + 2) % 3]];
-        let margins = spread(&scene, &texts);
-        let limit = margins.limit(LimitName::LockEnergy).unwrap();
-        let spread = limit.spread.unwrap();
-        let sampled = spread.sampled.unwrap();
-        assert_eq!((sampled.samples, sampled.missing), (SAMPLES, 0));
-        // The energy goes with the square of the clearance.
-        let part = (0.1_f64.powi(2) + 2.0 * (0.002e-2 * 0.5 / 1e-4_f64).powi(2)) / 3.0;
-        close(spread.linear_sd.map(|sd| sd / limit.value.unwrap()), 2.0 * part.sqrt(), 1e-3, "sd");
-        let error = sampled.sd / spread.linear_sd.unwrap() - 1.0;
-        assert!(error.abs() < 0.03, "{texts:?}: {error}");
-    }
 }
 
 #[test]
@@ -317,11 +214,6 @@ fn the_command_has_every_option_again() {
         "omega_c=300",
         "--by",
         "casing.modal_mass_kg",
-        "--tolerance",
-        "clearance=1",
-        "--tolerance",
-        "casing.damping_ratio=2",
-        "--no-search",
         "--json",
     ];
     let answer: serde_json::Value = serde_json::from_slice(&rubscope(&arguments).stdout).unwrap();
@@ -338,37 +230,17 @@ fn the_command_of_the_end_of_the_branch_goes_up_to_it() {
     let told = text(&margins);
     let command = told.lines().find_map(|line| line.strip_prefix("Check it: rubscope ")).unwrap();
     let range = command.split_once("--speed 0:").unwrap().1.split(':').next().unwrap();
-    close(range.parse().ok(), 2000.0, 1e-9, command);
+    close(range.parse().ok(), 4000.0, 1e-9, command);
     let output = rubscope(&command.split(' ').collect::<Vec<_>>());
     let said = String::from_utf8(output.stdout).unwrap();
-    assert!(said.contains("The corner branch folds back at 2000 rad/s"), "{command}: {said}");
+    assert!(said.contains("2000  corner  stable      absent"), "{command}: {said}");
 }
 
 #[test]
-fn many_bands_are_cut_and_counted() {
-    let mut margins = unsampled(&scene("paper-nd3", &[]));
-    let limit = margins.limits.iter_mut().find(|limit| !limit.bands.is_empty()).unwrap();
-    let first = limit.bands[0].clone();
-    limit.bands = (0..13).map(|_| first.clone()).collect();
-    let told = text(&margins);
-    let rows = told.lines().filter(|line| line.ends_with("bounce, locked")).count();
-    assert_eq!((rows, told.contains("... and 3 more, see --json")), (10, true), "{told}");
-}
-
-#[test]
-fn rows_and_titles_of_scenes_without_a_lock_or_that_turn_backward() {
-    let told = text(&unsampled(&scene("paper-nd3", &[("operation.speed_rad_s", "-430")])));
-    assert!(told.contains("\nSpeeds; the scene has 430 rad/s:\nlimit "), "{told}");
-    assert!(told.contains("\nThe locked motion at -430 rad/s:\nload "), "{told}");
-    // What was not found has no list of bands, but its reason in its row.
-    assert!(told.contains("\nlasting_pulse (bilateral law): "), "{told}");
-    assert!(!told.contains("\nlasting_pulse_unilateral (unilateral law)"), "{told}");
-    assert!(told.contains("\nlasting_pulse_unilateral  nothing lasts among"), "{told}");
-    // Speeds keep their rows; loads of no lock are one line.
+fn what_a_scene_without_a_lock_lacks_has_one_reason() {
     let told = text(&Margins::of(&scene("paper-nd3", &[("operation.nodal_diameters", "0")])));
-    let reason = "no wave turns without nodal diameters";
-    assert!(told.contains("\nSpeeds; the scene has 500 rad/s:\n"), "{told}");
-    let rows = told.lines().filter(|line| line.starts_with("omega_") && line.ends_with(reason));
-    assert_eq!(rows.count(), 3, "{told}");
-    assert!(told.contains(&format!("\nThe locked motion at 500 rad/s: none: {reason}.\n")));
+    let reason = "none, as no wave turns without nodal diameters.";
+    assert_eq!(told.replace('\n', " ").matches(reason).count(), 1, "{told}");
+    let rows = told.lines().filter(|line| line.starts_with("omega_") && line.ends_with(" -"));
+    assert!(rows.count() >= 3, "{told}");
 }

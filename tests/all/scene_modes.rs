@@ -38,7 +38,7 @@ fn the_papers_scene_knows_its_modes_of_three_and_four_diameters() {
 fn a_missing_mode_is_said_in_text_and_json() {
     let note = "o mode of the casing with 5 nodal diameters is known (known: 3, 4): the casing's \
                 own values are taken";
-    for command in ["run --nd 5 --end 0.001", "margins --nd 5 --no-search", "hbm --nd 5"] {
+    for command in ["run --nd 5 --end 0.001", "margins --nd 5", "hbm --nd 5"] {
         let words: Vec<&str> = command.split(' ').collect();
         let text = String::from_utf8(rubscope(&words).stdout).unwrap();
         let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -208,7 +208,7 @@ fn options_take_units_and_mean_the_same_as_bare_numbers() {
             "run --end 1ms --at 0.2ms:operation.pulse_n=2kN",
             "run --end 1e-3 --at 2e-4:operation.pulse_n=2000",
         ),
-        ("margins --no-search --speed 75Hz", "margins --no-search --speed 471.23889803846896"),
+        ("margins --speed 75Hz", "margins --speed 471.23889803846896"),
     ] {
         assert_eq!(json(&format!("{with} --json")), json(&format!("{bare} --json")), "{with}");
     }

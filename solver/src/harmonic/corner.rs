@@ -96,23 +96,13 @@ impl Corner {
 pub(super) struct Configuration {
     pub z: (f64, f64),
     pub turn: (f64, f64),
+    /// `kappa l_b/(n_d g0)`, by which a turn opens a gap.
+    pub slope: f64,
+    /// `(kappa + mu) l_b/(n_d g0)`, by which a contact force bends its blade.
+    pub lever: f64,
 }
 
 impl Configuration {
-    /// From the turns `n_d alpha` of two neighbouring sides, by Eq. (20).
-    pub fn of_pair(
-        polygon: &ContactPolygon,
-        z: (f64, f64),
-        sides: [u32; 2],
-        turns: [f64; 2],
-    ) -> Self {
-        let [(c_a, s_a), (c_b, s_b)] = sides.map(|side| polygon.direction(side));
-        let sine = c_a * s_b - s_a * c_b;
-        let turn_c = (turns[0] * s_b - turns[1] * s_a) / sine;
-        let turn_s = (turns[1] * c_a - turns[0] * c_b) / sine;
-        Self { z, turn: (turn_c, turn_s) }
-    }
-
     /// With the blade modes bent by these contacts, given as side, scaled
     /// multiplier and moment arm; `compliance` is softness times share.
     pub fn bent(
@@ -127,20 +117,26 @@ impl Configuration {
             turn.0 -= compliance * multiplier * arm * c;
             turn.1 -= compliance * multiplier * arm * s;
         }
-        Self { z, turn }
+        Self { z, turn, ..Self::default() }
     }
 
-    /// `exp(i (psi + n_d alpha))` of a side.
+    /// Returns `n_d alpha` of a side.
+    fn turn_of(&self, (c, s): (f64, f64)) -> f64 {
+        c * self.turn.0 + s * self.turn.1
+    }
+
+    /// Returns `exp(i (psi + n_d alpha))` of a side.
     pub fn direction(&self, polygon: &ContactPolygon, side: u32) -> (f64, f64) {
         let (c, s) = polygon.direction(side);
-        let (sin, cos) = (c * self.turn.0 + s * self.turn.1).sin_cos();
+        let (sin, cos) = self.turn_of((c, s)).sin_cos();
         (c * cos - s * sin, s * cos + c * sin)
     }
 
     /// Gap of a side over `g0`.
     pub fn gap(&self, polygon: &ContactPolygon, side: u32) -> f64 {
         let (c, s) = self.direction(polygon, side);
-        1.0 + self.z.0 * c + self.z.1 * s
+        let rise = self.slope * self.turn_of(polygon.direction(side));
+        1.0 + self.z.0 * c + self.z.1 * s - rise
     }
 
     /// Smallest gap over `g0` of the sides not in `contacts`; infinite if there
@@ -155,13 +151,14 @@ impl Configuration {
     /// A side in contact with this (scaled) multiplier.
     pub fn held(&self, polygon: &ContactPolygon, side: u32, multiplier: f64) -> ClosedSide {
         let direction = self.direction(polygon, side);
-        let arm = self.z.1 * direction.0 - self.z.0 * direction.1;
+        let across = self.z.1 * direction.0 - self.z.0 * direction.1;
         ClosedSide {
             phase: polygon.direction(side),
             direction,
-            along: -1.0,
-            arm,
-            moment: arm,
+            // The gap is closed.
+            along: self.slope * self.turn_of(polygon.direction(side)) - 1.0,
+            arm: across - self.slope,
+            moment: across - self.lever,
             multiplier,
         }
     }

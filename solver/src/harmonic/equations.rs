@@ -1,41 +1,40 @@
-//! The harmonic balance equations of a corner, Eq. (27), in three forms, their Jacobian and
-//! their solution by Newton's method, in numbers of order one (docs/theory.md, section 8).
+//! The equations of the lock (docs/theory.md, section 8): two neighbouring phase groups hold
+//! the casing wave in a corner of the blade frame.
 //!
-//! Lengths are counted in `g0`, multipliers in `k_c g0` and blade angles in
-//! `n_d k_c g0^2/(m_b omega_bd^2)`, so that `n_d alpha = softness * alpha~`.
-//! With `x = (u_cc + u_ss)/2`, `y = (u_sc - u_cs)/2`, that is `z = x + i y`, and
-//! `(C, S)` the direction of a contact, Eq. (27) reads
+//! Lengths are counted in `g0`, contact forces in `k_c g0`. With `z = x + i y`, the direction
+//! `b_i = psi_i + n_d alpha_i` of a group and `A_i = n_d Im[z exp(-i b_i)]`:
 //!
-//! - rows 1-2: `alpha_i + sum_j share_ij Lambda_j (y C_j - x S_j) = 0`
-//! - rows 3-4: `1 + x C_i + y S_i = 0`
-//! - rows 5, 8: `stiffness u_cc + drag u_cs + sum Lambda C = 0`, the same for `u_ss, -u_sc`
-//! - rows 6, 7: `stiffness u_cs - drag u_cc - sum Lambda S = 0`, the same for `-u_sc, u_ss`
+//! - rows 1-2, closed gaps: `1 + Re[z exp(-i b_i)] - kappa l_b alpha_i = 0`
+//! - rows 3-4, casing: `(stiffness + i drag) z = (1 + i mu_c) sum P_i exp(i b_i)`
+//! - rows 5-6, blades: `alpha_i = sum_j share_ij P_j (A_j - (kappa + mu) l_b)`
 //!
-//! Half the differences of rows 5-8 give a zero backward wave, `u_cc - u_ss`
-//! and `u_cs + u_sc`; half their sums are one complex equation for `z`. So the
-//! eight equations reduce to six, which Newton's method solves; the reported
-//! residual is that of all eight.
+//! These are the eight equations (27) for `u_cc = u_ss = x`, `u_sc = -u_cs = y`: half the
+//! differences of their rows 5-8 give a zero backward wave, half their sums are rows 3-4.
+//! The forms `printed` and `blade` expand `exp(i b_i)` to first order, Eq. (26), and differ
+//! in `share`. Inclined or rubbing tips (section 10) have the form `modal` alone.
 //!
 //! Far from the solution Newton's method is unreliable: it may miss the solution or
 //! find another branch, at one speed and not at the next. So a start is accepted
 //! only if its steps are small and shrink. If not, because blades are soft, the
-//! solution is followed from rigid to soft blades; it ends where that branch folds.
+//! solution is continued from rigid to soft blades; it ends where that branch folds. The
+//! form `modal` of the paper's tips starts at its closed form.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{Complex, SMatrix, SVector};
+use num_dual::Dual64;
 use serde::Serialize;
 use strum::{AsRefStr, Display, EnumString, VariantNames};
 
 use super::Corner;
-use super::fold::CornerAngle;
+use super::corner::Configuration;
+use super::corner_angle::CornerAngle;
 use crate::model::{Machine, Number};
 use crate::tolerances::{
     NEWTON_ALIKE, NEWTON_LARGEST, NEWTON_SHRINK, NEWTON_STEPS, NEWTON_STRIDE, NEWTON_STRIDES,
     POLISHED,
 };
 
-/// `[x, y, Lambda_a, Lambda_b, alpha_a, alpha_b]`, scaled.
-pub(super) type Unknowns = SVector<f64, 6>;
-type Jacobian = SMatrix<f64, 6, 6>;
+/// `[x, y, P_a, P_b, alpha_a, alpha_b]`, scaled.
+pub(super) type Unknowns<T = f64> = [T; 6];
 
 /// The casing at one speed: `stiffness = 1 - (nu/omega_c)^2` and
 /// `drag = 2 zeta_c nu/omega_c`.
@@ -46,7 +45,7 @@ pub(super) struct Wave<T = f64> {
 }
 
 impl<T: Number> Wave<T> {
-    /// At rotor speed `speed` \[rad/s\], with or without the casing's damping.
+    /// Creates the casing at rotor speed `speed` \[rad/s\], with or without its damping.
     pub fn at(machine: &Machine<T>, speed: T, damped: bool) -> Self {
         let ratio = machine.nu(speed) / machine.omega_c;
         let damping = if damped { machine.casing_damping_ratio } else { T::zero() };
@@ -72,6 +71,7 @@ pub(super) struct Scales<T = f64> {
 }
 
 impl<T: Number> Scales<T> {
+    /// Creates the units of a machine.
     pub fn of(machine: &Machine<T>) -> Self {
         let length = machine.clearance();
         let force = machine.casing_stiffness * length;
@@ -83,207 +83,206 @@ impl<T: Number> Scales<T> {
     }
 }
 
-/// Eq. (27) for one corner and one form.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Equations {
+/// The six equations of one corner at one speed, in one form.
+#[derive(Clone, Debug)]
+pub(super) struct Equations<T = f64> {
+    /// Half the phase between both groups \[rad\].
+    delta: f64,
     /// `(cos psi, sin psi)` of both sides.
     phases: [(f64, f64); 2],
-    softness: f64,
-    share: [[f64; 2]; 2],
-    /// Whether the direction of a contact is exact in the blade angle, or
-    /// expanded to first order, Eq. (26).
-    corner_angle: Option<CornerAngle>,
+    form: Form,
+    wave: Wave<T>,
+    /// `mu_c`.
+    friction: T,
+    /// `kappa l_b/(n_d g0)`.
+    slope: T,
+    /// `(kappa + mu) l_b/(n_d g0)`.
+    lever: T,
+    /// Unit of blade angles \[rad\].
+    pub angle: T,
+    /// `n_d alpha` for one unit of `alpha`.
+    pub softness: T,
+    /// Response of both blade angles to the torques `P (A - lever)/n_d` of both groups.
+    share: [[T; 2]; 2],
 }
 
-/// A contact at these blade angles: direction, its derivative by the scaled
-/// angle, and the moment arm `y C - x S`.
-struct Lever {
-    cos: f64,
-    sin: f64,
-    cos_slope: f64,
-    sin_slope: f64,
-    arm: f64,
-    arm_slope: f64,
+/// A group in contact: its direction `(cos b, sin b)`, and `Re` and `Im` of `z exp(-i b)`.
+struct Touch<T> {
+    direction: (T, T),
+    along: T,
+    across: T,
 }
 
-impl Equations {
-    pub fn new(machine: &Machine, corner: Corner, form: Form) -> Self {
+impl<T: Number> Equations<T> {
+    /// Creates the equations of a machine at a rotor speed \[rad/s\], which has this casing.
+    pub fn new(machine: &Machine<T>, corner: Corner, form: Form, wave: Wave<T>, speed: T) -> Self {
         let polygon = &machine.polygon;
+        let scales = Scales::of(machine);
+        let reach = machine.blade_length / (machine.clearance() * machine.nodal_diameters);
+        let lever = (machine.radial_coupling + machine.friction_at(speed)) * reach;
         let each = 1.0 / f64::from(polygon.blades_per_side);
-        let share = match form {
-            // Rows 1-2 as printed carry -2 times the torque that (19) has.
-            Form::Printed => [[-2.0 * each, 0.0], [0.0, -2.0 * each]],
-            Form::Blade => [[each, 0.0], [0.0, each]],
-            Form::Modal => {
-                let own = Scales::of(machine).share;
-                let other = own * (2.0 * polygon.delta).cos();
-                [[own, other], [other, own]]
-            }
+        let [own, other] = match form {
+            // Rows 1-2 of (27) as printed have -2 times the torque of (19).
+            Form::Printed => [-2.0 * each, 0.0],
+            Form::Blade => [each, 0.0],
+            Form::Modal => [scales.share, scales.share * (2.0 * polygon.delta).cos()],
         };
+        // Angles stay of order one where the torque of tips is the larger part.
+        let unit = lever.abs() + 1.0;
+        let [own, other] = [own, other].map(|share| unit.recip() * share);
         Self {
+            delta: polygon.delta,
             phases: corner.sides().map(|side| polygon.direction(side)),
-            softness: Scales::of(machine).softness,
-            share,
-            corner_angle: (form == Form::Modal).then(|| CornerAngle::of(machine)),
+            form,
+            wave,
+            friction: machine.casing_friction_at(speed),
+            slope: machine.radial_coupling * reach,
+            lever,
+            angle: scales.angle * unit,
+            softness: scales.softness * unit,
+            share: [[own, other], [other, own]],
         }
     }
 
-    pub fn softness(&self) -> f64 {
-        self.softness
-    }
-
-    /// The same corner with this part of the softness of the blades.
-    pub fn stiffened(&self, part: f64) -> Self {
-        Self { softness: part * self.softness, ..self.clone() }
-    }
-
-    /// Whether the predicted start is the solution itself.
-    pub fn is_exact(&self) -> bool {
-        self.corner_angle.is_some()
-    }
-
-    /// The start of Newton's method: for the exact form the closed form of the
-    /// corner with its bent blades, for the others that of rigid blades. `None`
-    /// if the exact branch has folded back.
-    pub fn predict(&self, wave: Wave) -> Option<Unknowns> {
-        match self.corner_angle {
-            None => Some(self.opened(wave, 0.0)),
-            Some(corner_angle) => Some(self.opened(wave, corner_angle.at(wave.stiffness)?)),
+    /// Converts every number.
+    fn map<S>(&self, number: impl Fn(T) -> S) -> Equations<S> {
+        Equations {
+            delta: self.delta,
+            phases: self.phases,
+            form: self.form,
+            wave: Wave { stiffness: number(self.wave.stiffness), drag: number(self.wave.drag) },
+            friction: number(self.friction),
+            slope: number(self.slope),
+            lever: number(self.lever),
+            angle: number(self.angle),
+            softness: number(self.softness),
+            share: [0, 1].map(|i| [number(self.share[i][0]), number(self.share[i][1])]),
         }
     }
 
-    /// The closed form with each side turned by `-+change of the corner angle`
-    /// \[rad\]: moment arms, multipliers, blade angles, and `z`.
-    pub fn opened(&self, wave: Wave, angle_change: f64) -> Unknowns {
-        let [(c_a, s_a), (c_b, s_b)] = self.phases;
-        // c_a + c_b = 2 cos(delta) cos(middle phase), and so for the sines.
-        let (c, s) = (c_a + c_b, s_a + s_b);
-        let twice_cos = c.hypot(s);
-        let half = (0.5 * (c_a * s_b - s_a * c_b) / (0.5 * twice_cos)).atan2(0.5 * twice_cos);
-        let (sin, cos) = (half + angle_change).sin_cos();
-        let tangent = sin / cos;
-        let (stiff, drag) = (wave.stiffness / cos, wave.drag / sin);
-        let multipliers = [(stiff - drag) / (2.0 * cos), (stiff + drag) / (2.0 * cos)];
-        let torque = [-multipliers[0] * tangent, multipliers[1] * tangent];
-        let alpha = self.share.map(|[to_a, to_b]| -(to_a * torque[0] + to_b * torque[1]));
-        // The expansion (26) is of first order, which is enough for such small turns.
-        let middle = 0.5 * self.softness * (alpha[0] + alpha[1]);
-        let (sin_middle, cos_middle) = middle.sin_cos();
-        let size = -1.0 / (twice_cos * cos);
-        let x = size * (c * cos_middle - s * sin_middle);
-        let y = size * (s * cos_middle + c * sin_middle);
-        Unknowns::from([x, y, multipliers[0], multipliers[1], alpha[0], alpha[1]])
-    }
-
-    fn moment_arm(&self, side: usize, unknowns: &Unknowns) -> Lever {
-        let (c, s) = self.phases[side];
-        let turn = self.softness * unknowns[4 + side];
-        let (x, y) = (unknowns[0], unknowns[1]);
-        let (cos, sin, (cos_slope, sin_slope)) = if self.corner_angle.is_some() {
-            let (sin_turn, cos_turn) = turn.sin_cos();
-            let (cos, sin) = (c * cos_turn - s * sin_turn, s * cos_turn + c * sin_turn);
-            (cos, sin, (-sin, cos))
-        } else {
-            (c - s * turn, s + c * turn, (-s, c))
+    /// Returns group `i` of the corner in contact.
+    fn touch(&self, i: usize, unknowns: &Unknowns<T>) -> Touch<T> {
+        let [x, y, ..] = *unknowns;
+        let (c, s) = self.phases[i];
+        let turn = self.softness * unknowns[4 + i];
+        let (sin, cos) = match self.form {
+            Form::Modal => turn.sin_cos(),
+            Form::Printed | Form::Blade => (turn, T::one()),
         };
-        let (cos_slope, sin_slope) = (self.softness * cos_slope, self.softness * sin_slope);
-        Lever {
-            cos,
-            sin,
-            cos_slope,
-            sin_slope,
-            arm: y * cos - x * sin,
-            arm_slope: y * cos_slope - x * sin_slope,
-        }
+        let direction = (cos * c - sin * s, cos * s + sin * c);
+        let along = x * direction.0 + y * direction.1;
+        Touch { direction, along, across: y * direction.0 - x * direction.1 }
     }
 
-    /// The six equations (rows 1-2, 3-4, and the half sums of rows 5-8).
-    pub fn residual(&self, wave: Wave, unknowns: &Unknowns) -> Unknowns {
-        let moment_arms = [self.moment_arm(0, unknowns), self.moment_arm(1, unknowns)];
-        self.rows(wave, unknowns, &moment_arms)
-    }
-
-    fn rows(&self, wave: Wave, u: &Unknowns, moment_arms: &[Lever; 2]) -> Unknowns {
-        let [a, b] = moment_arms;
-        let torque = [u[2] * a.arm, u[3] * b.arm];
-        Unknowns::from([
-            u[4] + self.share[0][0] * torque[0] + self.share[0][1] * torque[1],
-            u[5] + self.share[1][0] * torque[0] + self.share[1][1] * torque[1],
-            1.0 + u[0] * a.cos + u[1] * a.sin,
-            1.0 + u[0] * b.cos + u[1] * b.sin,
-            wave.stiffness * u[0] - wave.drag * u[1] + u[2] * a.cos + u[3] * b.cos,
-            wave.stiffness * u[1] + wave.drag * u[0] + u[2] * a.sin + u[3] * b.sin,
-        ])
-    }
-
-    /// Residual and Jacobian together.
-    pub fn linearised(&self, wave: Wave, u: &Unknowns) -> (Unknowns, Jacobian) {
-        let moment_arms = [self.moment_arm(0, u), self.moment_arm(1, u)];
-        let residual = self.rows(wave, u, &moment_arms);
-        let mut jacobian = Jacobian::zeros();
-        jacobian[(4, 0)] = wave.stiffness;
-        jacobian[(4, 1)] = -wave.drag;
-        jacobian[(5, 0)] = wave.drag;
-        jacobian[(5, 1)] = wave.stiffness;
-        for (j, moment_arm) in moment_arms.iter().enumerate() {
-            let multiplier = u[2 + j];
-            for i in 0..2 {
-                let share = self.share[i][j];
-                jacobian[(i, 0)] -= share * multiplier * moment_arm.sin;
-                jacobian[(i, 1)] += share * multiplier * moment_arm.cos;
-                jacobian[(i, 2 + j)] = share * moment_arm.arm;
-                jacobian[(i, 4 + j)] =
-                    share * multiplier * moment_arm.arm_slope + f64::from(u8::from(i == j));
+    /// Returns the six rows.
+    pub fn residual(&self, unknowns: &Unknowns<T>) -> Unknowns<T> {
+        let [x, y, push_a, push_b, alpha_a, alpha_b] = *unknowns;
+        let Wave { stiffness, drag } = self.wave;
+        let mut casing = [stiffness * x - drag * y, stiffness * y + drag * x];
+        let mut gaps = [T::zero(); 2];
+        let mut blades = [alpha_a, alpha_b];
+        for (i, (push, alpha)) in [(push_a, alpha_a), (push_b, alpha_b)].into_iter().enumerate() {
+            let touch = self.touch(i, unknowns);
+            let (c, s) = touch.direction;
+            gaps[i] = touch.along + 1.0 - self.slope * self.softness * alpha;
+            casing[0] -= push * (c - self.friction * s);
+            casing[1] -= push * (s + self.friction * c);
+            let torque = push * (touch.across - self.lever);
+            for (row, share) in blades.iter_mut().zip(self.share) {
+                *row -= share[i] * torque;
             }
-            jacobian[(2 + j, 0)] = moment_arm.cos;
-            jacobian[(2 + j, 1)] = moment_arm.sin;
-            jacobian[(2 + j, 4 + j)] = u[0] * moment_arm.cos_slope + u[1] * moment_arm.sin_slope;
-            jacobian[(4, 2 + j)] = moment_arm.cos;
-            jacobian[(5, 2 + j)] = moment_arm.sin;
-            jacobian[(4, 4 + j)] = multiplier * moment_arm.cos_slope;
-            jacobian[(5, 4 + j)] = multiplier * moment_arm.sin_slope;
         }
-        (residual, jacobian)
+        [gaps[0], gaps[1], casing[0], casing[1], blades[0], blades[1]]
     }
 
-    /// Largest of the eight rows of Eq. (27) as they are printed, for the eight
-    /// unknowns `u_cc = u_ss = x`, `u_sc = -u_cs = y`.
-    pub fn printed_residual(&self, wave: Wave, u: &Unknowns) -> f64 {
-        let [a, b] = [self.moment_arm(0, u), self.moment_arm(1, u)];
-        let six = self.rows(wave, u, &[a, b]);
-        let (u_cc, u_cs, u_sc, u_ss) = (u[0], -u[1], u[1], u[0]);
-        let push_cos = six[4] - (wave.stiffness * u[0] - wave.drag * u[1]);
-        let push_sin = six[5] - (wave.stiffness * u[1] + wave.drag * u[0]);
-        let rows = [
-            six[0],
-            six[1],
-            six[2],
-            six[3],
-            wave.stiffness * u_cc + wave.drag * u_cs + push_cos,
-            wave.stiffness * u_cs - wave.drag * u_cc - push_sin,
-            wave.stiffness * u_sc + wave.drag * u_ss + push_sin,
-            wave.stiffness * u_ss - wave.drag * u_sc + push_cos,
-        ];
-        rows.iter().fold(0.0, |largest, row| row.abs().max(largest))
+    /// Adds the derivatives to a solution of the plain equations: each step of Newton's
+    /// method with the plain slope adds an order.
+    fn derived(&self, plain: &Equations, unknowns: &Unknowns) -> Option<Unknowns<T>> {
+        let inverse = plain.jacobian(unknowns).try_inverse()?;
+        let mut derived = unknowns.map(T::from);
+        for _ in 0..2 {
+            let residual = self.residual(&derived);
+            for (row, value) in derived.iter_mut().enumerate() {
+                for (column, left) in residual.iter().enumerate() {
+                    *value -= *left * inverse[(row, column)];
+                }
+            }
+        }
+        Some(derived)
+    }
+
+    /// Returns the lock with its derivatives; `None` where there is none.
+    pub fn locked_with_derivatives(&self) -> Option<Unknowns<T>> {
+        let plain = self.map(|value| value.re());
+        self.derived(&plain, &plain.locked()?)
+    }
+
+    /// Returns the coordinates `(alpha_c, alpha_s)` of the blade modes, scaled, by Eq. (20).
+    pub fn blade_modes(&self, [.., a, b]: &Unknowns<T>) -> [T; 2] {
+        let [(c_a, s_a), (c_b, s_b)] = self.phases;
+        let sine = c_a * s_b - s_a * c_b;
+        [(*a * s_b - *b * s_a) / sine, (*b * c_a - *a * c_b) / sine]
+    }
+
+    /// Returns the torque of the rotor over `n_d k_c g0^2`: `drag |z|^2`, less what the
+    /// tangential forces on the casing take.
+    pub fn torque(&self, unknowns: &Unknowns<T>) -> T {
+        let [x, y, push_a, push_b, ..] = *unknowns;
+        let along = push_a * self.touch(0, unknowns).along + push_b * self.touch(1, unknowns).along;
+        self.wave.drag * (x * x + y * y) - self.friction * along
     }
 }
 
 impl Equations {
-    /// The corner that rigid blades grow into as they soften; `None` if it
-    /// folds before they are this soft.
-    pub fn locked(&self, wave: Wave) -> Option<Unknowns> {
-        let start = self.predict(wave)?;
-        if self.is_exact() {
-            return self.solve(wave, start);
+    /// Returns where casing and blades are.
+    pub fn configuration(&self, unknowns: &Unknowns) -> Configuration {
+        let [x, y, ..] = *unknowns;
+        let [turn_c, turn_s] = self.blade_modes(unknowns).map(|alpha| self.softness * alpha);
+        Configuration { z: (x, y), turn: (turn_c, turn_s), slope: self.slope, lever: self.lever }
+    }
+
+    fn jacobian(&self, unknowns: &Unknowns) -> SMatrix<f64, 6, 6> {
+        let lifted = self.map(Dual64::from);
+        let mut jacobian = SMatrix::zeros();
+        for column in 0..6 {
+            let mut seeded = unknowns.map(Dual64::from);
+            seeded[column].eps = 1.0;
+            for (row, value) in lifted.residual(&seeded).iter().enumerate() {
+                jacobian[(row, column)] = value.eps;
+            }
         }
-        let slope =
-            |equations: &Self, at: &Unknowns| equations.linearised(wave, at).1.determinant();
+        jacobian
+    }
+
+    /// Whether neither the slope nor the friction of the tips has a part.
+    fn has_paper_tips(&self) -> bool {
+        self.slope == 0.0 && self.lever == 0.0 && self.friction == 0.0
+    }
+
+    /// Returns the lock that rigid blades grow into as they soften; `None` if its branch folds
+    /// before they are this soft, or where nothing resists.
+    pub fn locked(&self) -> Option<Unknowns> {
+        let paper = self.has_paper_tips();
+        let start = match self.form {
+            _ if !paper => self.linearised()?,
+            Form::Modal => {
+                let angle = CornerAngle::new(self.delta, self.softness * self.share[0][0]);
+                self.opened(angle.at(self.wave.stiffness)?)
+            }
+            Form::Printed | Form::Blade => self.opened(0.0),
+        };
+        if self.form == Form::Modal {
+            return self.newton(start, if paper { NEWTON_LARGEST } else { f64::INFINITY });
+        }
+        let slope = |softer: &Self, at: &Unknowns| softer.jacobian(at).determinant();
+        let softened = |part: f64| Self { softness: part * self.softness, ..self.clone() };
         let (mut part, mut stride, mut here) = (0.0, 1.0, start);
-        let mut last = slope(&self.stiffened(part), &here);
+        let mut last = slope(&softened(part), &here);
         for _ in 0..NEWTON_STRIDES {
             let next = f64::min(part + stride, 1.0);
-            let softer = self.stiffened(next);
-            let found = softer.solve(wave, here).map(|found| (found, slope(&softer, &found)));
+            let softer = softened(next);
+            let found = softer.newton(here, NEWTON_LARGEST);
+            let found = found.map(|found| (found, slope(&softer, &found)));
             match found.filter(|(_, slope)| NEWTON_ALIKE.contains(&(slope / last))) {
                 Some((found, _)) if next == 1.0 => return Some(found),
                 Some((found, slope)) => {
@@ -296,37 +295,77 @@ impl Equations {
         None
     }
 
-    /// Newton's method from `start`; `None` where its steps are large or do not
-    /// shrink.
-    fn solve(&self, wave: Wave, start: Unknowns) -> Option<Unknowns> {
+    /// Returns the closed form of the paper's tips with each side turned by `-+angle_change`
+    /// \[rad\].
+    fn opened(&self, angle_change: f64) -> Unknowns {
+        let [(c_a, s_a), (c_b, s_b)] = self.phases;
+        let (c, s) = (c_a + c_b, s_a + s_b);
+        let (sin, cos) = (self.delta + angle_change).sin_cos();
+        let (stiff, drag) = (self.wave.stiffness / cos, self.wave.drag / sin);
+        let pushes = [(drag - stiff) / (2.0 * cos), -(stiff + drag) / (2.0 * cos)];
+        let torques = [-pushes[0] * sin / cos, pushes[1] * sin / cos];
+        let alpha = self.share.map(|share| share[0] * torques[0] + share[1] * torques[1]);
+        // The expansion (26) is of first order, which is enough for such small turns.
+        let (sin_middle, cos_middle) = (0.5 * self.softness * (alpha[0] + alpha[1])).sin_cos();
+        let size = -1.0 / (c.hypot(s) * cos);
+        let x = size * (c * cos_middle - s * sin_middle);
+        let y = size * (s * cos_middle + c * sin_middle);
+        [x, y, pushes[0], pushes[1], alpha[0], alpha[1]]
+    }
+
+    /// Returns the closed form of the linearised gap with blades that only the slope and the
+    /// friction of the tips bend; `None` where nothing resists.
+    fn linearised(&self) -> Option<Unknowns> {
+        let [(c_a, s_a), (c_b, s_b)] = self.phases;
+        let middle = Complex::new(c_a + c_b, s_a + s_b);
+        // `w`, the corner of the polygon; |middle| = 2 cos(delta).
+        let w = middle * (-2.0 / middle.norm_sqr());
+        let turned = Complex::new(1.0, self.friction);
+        let casing = Complex::new(self.wave.stiffness, self.wave.drag);
+        // a = -bent p in the unit of angles.
+        let bent = self.lever * self.share[0][0];
+        let joined = turned + casing * (self.slope * self.softness * bent);
+        let (z, p) = (w * turned / joined, w * casing / joined);
+        // p = P_a exp(i psi_a) + P_b exp(i psi_b).
+        let sine = c_a * s_b - s_a * c_b;
+        let push_a = (p.re * s_b - p.im * c_b) / sine;
+        let push_b = (p.im * c_a - p.re * s_a) / sine;
+        let alpha = self.phases.map(|(c, s)| -bent * (p.re * c + p.im * s));
+        let start = [z.re, z.im, push_a, push_b, alpha[0], alpha[1]];
+        start.iter().all(|value| value.is_finite()).then_some(start)
+    }
+
+    /// Solves the equations by Newton's method; `None` where the first step is larger than the
+    /// part `largest` of the unknowns, or steps do not shrink.
+    fn newton(&self, start: Unknowns, largest: f64) -> Option<Unknowns> {
         // Rows are of order one, so rounding leaves a residual of a few units
         // in the last place of the largest term.
-        let size = 1.0 + wave.stiffness.abs() + wave.drag.abs();
-        let mut unknowns = start;
-        let mut last = NEWTON_LARGEST * unknowns.amax() / NEWTON_SHRINK;
+        let size = 1.0 + self.wave.stiffness.abs() + self.wave.drag.abs();
+        let residual = |at: &SVector<f64, 6>| SVector::from(self.residual(&(*at).into()));
+        let mut unknowns = SVector::from(start);
+        let mut last = largest * unknowns.amax() / NEWTON_SHRINK;
         for _ in 0..NEWTON_STEPS {
-            let (residual, jacobian) = self.linearised(wave, &unknowns);
-            let norm = residual.amax();
-            if !norm.is_finite() {
+            let left = residual(&unknowns);
+            if !left.amax().is_finite() {
                 return None;
             }
-            if norm <= 4.0 * f64::EPSILON * size {
-                return Some(unknowns);
+            if left.amax() <= 4.0 * f64::EPSILON * size {
+                return Some(unknowns.into());
             }
-            let step = jacobian.lu().solve(&residual)?;
+            let step = self.jacobian(&unknowns.into()).lu().solve(&left)?;
             let length = step.amax();
-            let turn = self.softness() * step[4].abs().max(step[5].abs());
-            if length > NEWTON_SHRINK * last || turn > NEWTON_LARGEST {
+            let turn = self.softness * step[4].abs().max(step[5].abs());
+            if length > NEWTON_SHRINK * last || turn > largest {
                 break;
             }
             unknowns -= step;
             if length <= 4.0 * f64::EPSILON * unknowns.amax() {
-                return Some(unknowns);
+                return Some(unknowns.into());
             }
             last = length;
         }
         // Ill-conditioned, close to a fold: accept what is accurate enough.
-        (self.residual(wave, &unknowns).amax() <= POLISHED * size).then_some(unknowns)
+        (residual(&unknowns).amax() <= POLISHED * size).then(|| unknowns.into())
     }
 }
 

@@ -194,7 +194,7 @@ pub fn equilibrium(
     let loads = match kind {
         Kind::Rest => Some(((0.0, 0.0), Vec::new())),
         Kind::Side => on_side(machine, &scales, wave, side),
-        Kind::Corner => in_corner(machine, wave, side),
+        Kind::Corner => in_corner(machine, wave, speed, side),
     };
     let Some((z, loads)) = loads else { return Ok(None) };
     let compliance = scales.softness * scales.share;
@@ -226,25 +226,26 @@ fn on_side(machine: &Machine, scales: &Scales, wave: Wave, side: u32) -> Option<
     Some(((-c - arm * s, -s + arm * c), loads))
 }
 
-fn in_corner(machine: &Machine, wave: Wave, side: u32) -> Option<Loaded> {
+fn in_corner(machine: &Machine, wave: Wave, speed: f64, side: u32) -> Option<Loaded> {
     let corner = Corner::after(&machine.polygon, side).ok()?;
-    let equations = Equations::new(machine, corner, Form::Modal);
-    let unknowns = equations.locked(wave)?;
-    Some(loads_of(machine, corner, &unknowns))
+    let equations = Equations::new(machine, corner, Form::Modal, wave, speed);
+    let unknowns = equations.locked()?;
+    let configuration = equations.configuration(&unknowns);
+    Some((configuration.z, loads_of(machine, corner, &configuration, &unknowns)))
 }
 
-/// The loads of a solution of the corner's equations.
-pub(super) fn loads_of(machine: &Machine, corner: Corner, unknowns: &Unknowns) -> Loaded {
-    let [x, y, lambda_a, lambda_b, alpha_a, alpha_b]: [f64; 6] = (*unknowns).into();
-    let softness = Scales::of(machine).softness;
-    let turns = [softness * alpha_a, softness * alpha_b];
-    let configuration = Configuration::of_pair(&machine.polygon, (x, y), corner.sides(), turns);
-    let arm = |side, multiplier| configuration.held(&machine.polygon, side, multiplier).arm;
-    let loads = vec![
-        (corner.a, lambda_a, arm(corner.a, lambda_a)),
-        (corner.b, lambda_b, arm(corner.b, lambda_b)),
-    ];
-    ((x, y), loads)
+/// Returns the loads of a solution of the corner's equations.
+pub(super) fn loads_of(
+    machine: &Machine,
+    corner: Corner,
+    configuration: &Configuration,
+    &[.., push_a, push_b, _, _]: &Unknowns,
+) -> Vec<(u32, f64, f64)> {
+    let load = |side: u32, push: f64| {
+        let arm = configuration.held(&machine.polygon, side, -push).arm;
+        (side, -push, arm)
+    };
+    vec![load(corner.a, push_a), load(corner.b, push_b)]
 }
 
 /// Gaps, stability, torque and character of a configuration under its loads.
@@ -273,11 +274,9 @@ pub(super) fn judged(
     let held_by_pulls = kind == Kind::Corner && motion.closes();
     let character =
         Character::of(pushes, held_by_pulls, open, || grows(&eigenvalues, machine.omega_c));
-    let moment_arm: f64 = match Wave::at(machine, speed, damped).drag {
-        // Without drag the moment arms cancel, and their sum is rounding only.
-        0.0 => 0.0,
-        _ => held.iter().map(|side| side.multiplier * side.arm).sum(),
-    };
+    let (x, y) = configuration.z;
+    // `sum Lambda A`; rest has none.
+    let moment_arm = Wave::at(machine, speed, damped).drag * (x * x + y * y);
     let torque = machine.nodal_diameters * scales.force * scales.length * moment_arm;
     let angle = if scales.softness > 0.0 { scales.angle / scales.softness } else { 0.0 };
     let contact = |&(side, multiplier, _): &(u32, f64, f64)| GroupContact {

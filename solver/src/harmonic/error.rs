@@ -51,9 +51,6 @@ pub enum HarmonicError {
         /// What would be accepted.
         allowed: String,
     },
-    /// A value of a key that its table or another key does not allow.
-    #[error("{0}")]
-    Scene(String),
     /// Newton's method found no equilibrium: blades so soft that the branch
     /// has folded back before this speed.
     #[error(
@@ -125,19 +122,6 @@ pub(super) fn refuse_preload(machine: &Machine) -> Result<(), HarmonicError> {
     } else {
         Err(HarmonicError::refused("clearance", clearance, allowed))
     }
-}
-
-/// Refuses a machine that changes with the speed, where its branch is followed in both.
-pub(super) fn refuse_change(machine: &Machine) -> Result<(), HarmonicError> {
-    if !machine.changes_with_speed() {
-        return Ok(());
-    }
-    let (key, value) = match machine.stiffening() {
-        0.0 => (keys::CLEARANCE_LOSS, machine.clearance_loss()),
-        stiffening => (keys::STIFFENING, stiffening),
-    };
-    let allowed = "0 where the corner branch is followed; the lock takes it";
-    Err(HarmonicError::refused(key, value, allowed))
 }
 
 /// Refuses modes of the disk of other diameters than those of the casing: no single

@@ -9,7 +9,6 @@
 
 use nalgebra::{Complex, Matrix2, Vector2, Vector4};
 
-use super::corner::Configuration;
 use super::equations::{Equations, Scales, Wave};
 use super::equilibria::{judged, loads_of};
 use super::stability::{ClosedSide, Linearised, blade_scale};
@@ -125,11 +124,10 @@ fn at(
         return Ok(None);
     }
     let wave = Wave::at(machine, speed, true);
-    let equations = Equations::new(machine, corner, Form::Modal);
-    let Some(unknowns) = equations.locked(wave) else { return Ok(None) };
-    let (z, loads) = loads_of(machine, corner, &unknowns);
-    let turns = [4, 5].map(|i| equations.softness() * unknowns[i]);
-    let configuration = Configuration::of_pair(&machine.polygon, z, corner.sides(), turns);
+    let equations = Equations::new(machine, corner, Form::Modal, wave, speed);
+    let Some(unknowns) = equations.locked() else { return Ok(None) };
+    let configuration = equations.configuration(&unknowns);
+    let loads = loads_of(machine, corner, &configuration, &unknowns);
     let held: Vec<ClosedSide> =
         loads.iter().map(|load| configuration.held(&machine.polygon, load.0, load.1)).collect();
     let state = judged(machine, Kind::Corner, speed, true, &configuration, &loads)?;

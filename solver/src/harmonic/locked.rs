@@ -6,11 +6,10 @@
 
 use serde::Serialize;
 
-use super::corner::Configuration;
-use super::equations::{Equations, Scales, Wave};
-use super::fold::CornerAngle;
+use super::corner_angle::CornerAngle;
+use super::equations::{Equations, Scales, Unknowns, Wave};
 use super::stability::Linearised;
-use super::{Character, Corner, Form, HarmonicError, error, lining, tip_lock};
+use super::{Character, Corner, Form, HarmonicError, error, lining};
 use crate::model::{Machine, Number};
 use crate::numeric::bisection::bisected;
 use crate::numeric::maximum::highest;
@@ -62,8 +61,6 @@ pub struct Locked {
     corner: Corner,
     form: Form,
     damped: bool,
-    scales: Scales,
-    equations: Equations,
 }
 
 /// The locked motion over a list of speeds.
@@ -108,8 +105,6 @@ impl Locked {
             corner,
             form,
             damped,
-            scales: Scales::of(machine),
-            equations: Equations::new(machine, corner, form),
         })
     }
 
@@ -119,35 +114,20 @@ impl Locked {
         self.corner
     }
 
-    /// The locked motion at one speed \[rad/s\].
+    /// Returns the locked motion at one speed \[rad/s\].
     ///
     /// # Errors
     /// A speed that is not finite, or one with no locked motion.
     pub fn at(&self, speed: f64) -> Result<LockedPoint, HarmonicError> {
         error::refuse_endless(&[speed])?;
-        let turned = self.machine.changes_with_speed().then(|| self.turned(speed));
-        let here = turned.as_ref().unwrap_or(self);
-        let solution = if here.machine.clearance() <= 0.0 {
-            None
-        } else if here.machine.tips_incline_or_rub() {
-            here.of_tips(speed)
-        } else {
-            here.of_the_paper(speed)
-        };
-        let softness = here.equations.softness();
-        let solution = solution.ok_or(HarmonicError::NotFound { speed, softness })?;
-        Ok(here.point(speed, &solution))
-    }
-
-    /// The same with the machine at a speed.
-    fn turned(&self, speed: f64) -> Self {
-        let machine = self.machine.at(speed).into_owned();
-        Self {
-            scales: Scales::of(&machine),
-            equations: Equations::new(&machine, self.corner, self.form),
-            machine,
-            ..*self
-        }
+        let machine = self.machine.at(speed);
+        let wave = Wave::at(&machine, speed, self.damped);
+        let equations = Equations::new(&machine, self.corner, self.form, wave, speed);
+        let found = Some(&equations).filter(|_| machine.clearance() > 0.0);
+        let unknowns = found.and_then(Equations::locked).ok_or_else(|| {
+            HarmonicError::NotFound { speed, softness: Scales::of(&machine).softness }
+        })?;
+        Ok(self.point(&machine, speed, &equations, &unknowns))
     }
 
     /// The locked motion at each speed \[rad/s\].
@@ -167,100 +147,47 @@ impl Locked {
         Ok(Sweep { corner: self.corner, form: self.form, damped: self.damped, points, missing })
     }
 
-    /// The solution of the paper's equations.
-    fn of_the_paper(&self, speed: f64) -> Option<Solution> {
-        let wave = Wave::at(&self.machine, speed, self.damped);
-        let unknowns = self.equations.locked(wave)?;
-        let [x, y, lambda_a, lambda_b, alpha_a, alpha_b]: [f64; 6] = unknowns.into();
-        let (multipliers, alpha) = ([lambda_a, lambda_b], [alpha_a, alpha_b]);
-        let (polygon, sides) = (&self.machine.polygon, self.corner.sides());
-        let turns = alpha.map(|angle| self.scales.softness * angle);
-        let configuration = Configuration::of_pair(polygon, (x, y), sides, turns);
-        let held = [0, 1].map(|i| configuration.held(polygon, sides[i], multipliers[i]));
+    /// Reports a solution of the equations at a speed \[rad/s\].
+    fn point(
+        &self,
+        machine: &Machine,
+        speed: f64,
+        equations: &Equations,
+        unknowns: &Unknowns,
+    ) -> LockedPoint {
+        let (polygon, sides) = (&machine.polygon, self.corner.sides());
+        let [x, y, push_a, push_b, alpha_a, alpha_b] = *unknowns;
+        let configuration = equations.configuration(unknowns);
         let smallest_gap = configuration.smallest_gap(polygon, &sides);
-        let motion = Linearised::about(&self.machine, speed, self.damped, &held);
-        let pushes = multipliers.iter().all(|&l| l <= 0.0);
-        Some(Solution {
-            z: [x, y],
-            multipliers,
-            alpha_rad: alpha.map(|angle| angle * self.scales.angle),
-            smallest_gap,
-            // Without drag the two moment arms cancel, and their sum is rounding only.
-            moment_arm: match wave.drag {
-                0.0 => 0.0,
-                _ => held.iter().map(|side| side.multiplier * side.arm).sum(),
-            },
-            character: Character::of(pushes, motion.closes(), smallest_gap, || !motion.is_stable()),
-            residual: self.equations.printed_residual(wave, &unknowns),
-        })
-    }
-
-    /// The solution with tips that are inclined or rub.
-    fn of_tips(&self, speed: f64) -> Option<Solution> {
-        let machine = &self.machine;
-        let (equations, held) = tip_lock::held(machine, self.corner, speed)?;
-        let [x, y, .., push_a, push_b] = held;
-        let touches = equations.phases.map(|phase| equations.touch(phase, &held));
-        let polygon = &machine.polygon;
-        let smallest_gap = (0..polygon.sides)
-            .filter(|side| !self.corner.sides().contains(side))
-            .map(|side| equations.gap(polygon.direction(side), &held))
-            .fold(f64::INFINITY, f64::min);
+        let held = [(0, push_a), (1, push_b)]
+            .map(|(i, push)| configuration.held(polygon, sides[i], -push));
+        let motion = Linearised::about(machine, speed, self.damped, &held);
         let pushes = push_a >= 0.0 && push_b >= 0.0;
-        // A pull has no friction. Without the contact forces both gaps close.
-        let across = (2.0 * polygon.delta).cos();
-        let closes = push_a + push_b * across > 0.0 && push_b + push_a * across > 0.0;
-        let held_by_pulls = closes && machine.friction == 0.0;
-        let residual = equations.residual(&held);
-        Some(Solution {
-            z: [x, y],
-            multipliers: [-push_a, -push_b],
-            alpha_rad: touches.map(|touch| touch.alpha),
-            smallest_gap,
-            moment_arm: -(push_a * touches[0].across + push_b * touches[1].across),
-            character: Character::of(pushes, held_by_pulls, smallest_gap, || {
-                let closed = equations.closed(&held);
-                Linearised::about(machine, speed, self.damped, &closed).grows_in_corner()
-            }),
-            residual: residual.iter().fold(0.0, |most: f64, row| most.max(row.abs())),
-        })
-    }
-
-    fn point(&self, speed: f64, solution: &Solution) -> LockedPoint {
-        let Scales { length, force, .. } = self.scales;
-        let [x, y] = solution.z.map(|part| part * length);
-        let torque = self.machine.nodal_diameters * force * length * solution.moment_arm;
-        let character = solution.character;
+        // A pull has no friction.
+        let held_by_pulls = machine.friction == 0.0 && motion.closes();
+        let character = Character::of(pushes, held_by_pulls, smallest_gap, || !motion.is_stable());
+        let Scales { length, force, .. } = Scales::of(machine);
+        let residual = equations.residual(unknowns).map(f64::abs);
+        let torque = machine.nodal_diameters * force * length * equations.torque(unknowns);
+        let [x, y] = [x * length, y * length];
         LockedPoint {
             speed_rad_s: speed,
-            multipliers_n: solution.multipliers.map(|l| l * force),
-            alpha_rad: solution.alpha_rad,
+            multipliers_n: [-push_a * force, -push_b * force],
+            alpha_rad: [alpha_a * equations.angle, alpha_b * equations.angle],
             u_cc_m: x,
             u_cs_m: -y,
             u_sc_m: y,
             u_ss_m: x,
             amplitude_m: x.hypot(y),
-            smallest_gap_m: length * solution.smallest_gap,
+            smallest_gap_m: length * smallest_gap,
             torque_nm: torque,
             power_w: torque * speed,
             character,
             admissible: character.is_admissible(),
             stable: character == Character::Stable,
-            residual: solution.residual,
+            residual: residual.into_iter().fold(0.0, f64::max),
         }
     }
-}
-
-/// The lock at one speed, scaled, whichever equations it solves.
-struct Solution {
-    z: [f64; 2],
-    multipliers: [f64; 2],
-    alpha_rad: [f64; 2],
-    smallest_gap: f64,
-    /// `sum Lambda A` over `n_d`.
-    moment_arm: f64,
-    character: Character,
-    residual: f64,
 }
 
 /// The locked motion of a machine over speeds \[rad/s\], held between the
@@ -330,26 +257,21 @@ pub fn lock_loads<T: Number>(machine: &Machine<T>, speed: T) -> Option<LockLoads
     if machine.lining.is_some() {
         return lining::lock_loads(machine, speed);
     }
-    if machine.tips_incline_or_rub() {
-        return joined(machine, speed);
-    }
-    let (wave, scales) = (Wave::at(machine, speed, true), Scales::of(machine));
-    let delta = machine.polygon.delta;
-    let (sin, cos) = (CornerAngle::of(machine).derived(wave.stiffness)? + delta).sin_cos();
-    let (stiff, drag) = (wave.stiffness / cos, wave.drag / sin);
-    let pushes = [(drag - stiff) / (cos * 2.0), -(stiff + drag) / (cos * 2.0)];
-    let arms = [pushes[0] * sin / cos, -pushes[1] * sin / cos];
-    // Of a blade at a phase from the middle of the corner; side `k` after group a.
+    let corner = Corner::paper(&machine.polygon).ok()?;
+    let wave = Wave::at(machine, speed, true);
+    let equations = Equations::new(machine, corner, Form::Modal, wave, speed);
+    let unknowns = equations.locked_with_derivatives()?;
+    let [x, y, push_a, push_b, alpha_a, alpha_b] = unknowns;
+    let [alpha_c, alpha_s] = equations.blade_modes(&unknowns);
     let bent = |side: u32| {
-        let phase = delta * (2.0 * f64::from(side) - 1.0);
-        let torque = arms[0] * (phase + delta).cos() + arms[1] * (phase - delta).cos();
-        -torque * scales.share * scales.angle
+        let (c, s) = machine.polygon.direction(side);
+        (alpha_c * c + alpha_s * s) * equations.angle
     };
-    let amplitude = scales.length / cos;
-    let nu = machine.nu(speed);
-    let torque = machine.casing_damping * nu * amplitude * amplitude * machine.nodal_diameters;
-    let pushes = pushes.map(|push| push * scales.force);
-    let groups = (pushes, [bent(0), bent(1)]);
+    let Scales { length, force, .. } = Scales::of(machine);
+    let torque = equations.torque(&unknowns) * force * length * machine.nodal_diameters;
+    let amplitude = (x * x + y * y).sqrt() * length;
+    let angles = [alpha_a * equations.angle, alpha_b * equations.angle];
+    let groups = ([push_a * force, push_b * force], angles);
     let all = (0..machine.polygon.sides).map(bent);
     Some(LockLoads::of((machine, speed), (amplitude, torque), groups, all))
 }
@@ -376,25 +298,6 @@ impl<T: Number> LockLoads<T> {
             energy_j: stored * amplitude * amplitude * 0.5,
         }
     }
-}
-
-/// With tips that are inclined or rub.
-fn joined<T: Number>(machine: &Machine<T>, speed: T) -> Option<LockLoads<T>> {
-    let corner = Corner::paper(&machine.polygon).ok()?;
-    let (equations, held) = tip_lock::held(machine, corner, speed)?;
-    let [x, y, alpha_c, alpha_s, push_a, push_b] = held;
-    let touches = equations.phases.map(|phase| equations.touch(phase, &held));
-    let bent = |side: u32| {
-        let (c, s) = machine.polygon.direction(side);
-        (alpha_c * c + alpha_s * s) * equations.angle
-    };
-    let Scales { length, force, .. } = Scales::of(machine);
-    let arms = push_a * touches[0].across + push_b * touches[1].across;
-    let torque = -arms * force * length * machine.nodal_diameters;
-    let amplitude = (x * x + y * y).sqrt() * length;
-    let groups = ([push_a * force, push_b * force], touches.map(|touch| touch.alpha));
-    let all = (0..machine.polygon.sides).map(bent);
-    Some(LockLoads::of((machine, speed), (amplitude, torque), groups, all))
 }
 
 /// The largest speed with a lock \[rad/s\]: blades that are soft give way above it.
@@ -445,7 +348,7 @@ pub fn lock_fold_speed<T: Number>(machine: &Machine<T>) -> Option<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::harmonic::{Form, Kind, corner_branch, equilibria, locked_motion};
+    use crate::harmonic::{Form, Kind, equilibria, locked_motion};
     use crate::scene::Scene;
 
     fn machine(set: &[(&str, &str)]) -> Machine {
@@ -495,19 +398,6 @@ mod tests {
                 close(loads.largest_alpha_rad, polygon.largest_component(modes[0], modes[1]), 1e-7);
             }
         }
-    }
-
-    #[test]
-    fn the_branch_ends_at_the_fold() {
-        let machine = machine(&[
-            ("bladed_disk.stiffness_nm_per_rad", "0.02"),
-            ("bladed_disk.coupling_nm_per_rad", "0"),
-        ]);
-        let fold = lock_fold_speed(&machine).unwrap();
-        let branch = corner_branch(&machine, 0, true, [0.0, 2.0 * fold], 0.02).unwrap();
-        close(fold, branch.fold.unwrap().speed_rad_s, 1e-12);
-        assert!(lock_loads(&machine, 0.999 * fold).is_some());
-        assert_eq!(lock_loads(&machine, 1.001 * fold), None);
     }
 
     #[test]

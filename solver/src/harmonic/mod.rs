@@ -6,30 +6,27 @@
 //! needs only eigenvalues. There is no time step and no initial condition.
 //!
 //! - the lock, Eq. (27) in three forms: `corner`, `equations`, `locked`
-//!   ([`locked_motion`], [`lock_loads`]); very soft blades: `fold`
+//!   ([`locked_motion`], [`lock_loads`]); very soft blades: `corner_angle`
 //! - every equilibrium, its stability and thresholds: `equilibria`, `stability`
-//! - slip as a map and its Fourier series: `slip`, `spectrum`
+//! - slip as a map: `slip`
 //! - coincidences and excitation: `coincidence`, `excitation`
 //! - blades and casing as one (section 10), and the speed from which their lock flutters:
-//!   `joint`; that lock: `tip_lock`; the whirl on so many blades that
-//!   they are round: `round_whirl`, on the polygon: `whirl`; on a lining: `lining`
+//!   `joint`; the whirl in the limit of many
+//!   blades: `round_whirl`; on a lining: `lining`
 
 mod coincidence;
 mod corner;
+mod corner_angle;
 mod equations;
 mod equilibria;
 mod error;
 mod excitation;
-mod fold;
 mod joint;
 mod lining;
 mod locked;
 mod round_whirl;
 mod slip;
-mod spectrum;
 mod stability;
-mod tip_lock;
-mod whirl;
 
 pub use coincidence::{
     Campbell, Coincidence, CoincidencePoint, Line, coincidence, shifted_coincidence,
@@ -41,12 +38,10 @@ pub use equilibria::{
 };
 pub use error::HarmonicError;
 pub use excitation::{ExcitedLock, ExcitedLocks, drives};
-pub use fold::{CornerBranch, Fold, corner_branch};
 pub use joint::{Flutter, Joint, flutter_speed, flutters, lock_roots, undamped_flutter_speed};
 pub use lining::{
-    BranchEnd, BranchPoint, Cycle, FollowedBranch, GroupPush, GrowthThreshold, HopfPoint,
-    LeastStiffness, Lining, LiningState, Rest, RestRoot, ShiftedCoincidence, Special, Whirl,
-    follow, growth_threshold, least_lock_stiffness,
+    Cycle, GroupPush, GrowthThreshold, HopfPoint, LeastStiffness, Lining, LiningState, Rest,
+    RestRoot, ShiftedCoincidence, Whirl, growth_threshold, least_lock_stiffness,
 };
 pub use locked::{
     LockLoads, Locked, LockedPoint, Sweep, lock_fold_speed, lock_loads, locked_motion,
@@ -58,5 +53,3 @@ pub use round_whirl::{
 pub use slip::{
     Crossing, NoSlip, SlipLimit, SlipOrbit, SlipPoint, SlipRegion, slip_limits, slip_map, slip_over,
 };
-pub use spectrum::{Harmonic, SlipSpectrum, Truncation, slip_spectrum};
-pub use whirl::{NoWhirl, WhirlOrbit, WhirlPoint, whirl_over};

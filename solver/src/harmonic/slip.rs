@@ -193,7 +193,7 @@ pub fn slip_limits(machine: &Machine, speeds: &[f64]) -> Result<Vec<SlipLimit>, 
 }
 
 /// The repeating arc at a speed, held by contact all along.
-pub(super) fn repeating(machine: &Machine, speed: f64) -> Result<(SaddleFlow, Arc), NoSlip> {
+fn repeating(machine: &Machine, speed: f64) -> Result<(SaddleFlow, Arc), NoSlip> {
     if machine.at(speed).clearance() <= 0.0 {
         return Err(NoSlip::Closed);
     }
@@ -300,34 +300,34 @@ fn mean_exponential(rate: f64, time: f64) -> f64 {
 
 /// One side above the critical speed, in numbers of order one.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct SaddleFlow {
-    pub zeta: f64,
+struct SaddleFlow {
+    zeta: f64,
     /// `nu/omega_c`, above one.
-    pub ratio: f64,
+    ratio: f64,
     /// Half the side, `tan delta`.
-    pub end: f64,
+    end: f64,
     /// The saddle `y*`.
-    pub saddle: f64,
+    saddle: f64,
     /// The two roots, growing and decaying.
-    pub roots: [f64; 2],
+    roots: [f64; 2],
     /// `cos 2 delta`, none if not positive.
-    pub kept: f64,
+    kept: f64,
     /// `sin 2 delta`.
-    pub struck: f64,
+    struck: f64,
 }
 
 /// `y = y* + grow e^(s+ t) + decay e^(s- t)`, until `time`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Arc {
-    pub grow: f64,
-    pub decay: f64,
-    pub time: f64,
+struct Arc {
+    grow: f64,
+    decay: f64,
+    time: f64,
 }
 
 impl SaddleFlow {
     /// At a rotor speed `speed` \[rad/s\], taken without its sign; `None` without
     /// corners or not above the critical speed.
-    pub fn at(machine: &Machine, speed: f64) -> Option<Self> {
+    fn at(machine: &Machine, speed: f64) -> Option<Self> {
         let zeta = machine.casing_damping_ratio;
         let ratio = machine.nu(speed).abs() / machine.omega_c;
         let excess = (ratio - 1.0) * (ratio + 1.0);
@@ -356,25 +356,25 @@ impl SaddleFlow {
 
     /// Speed just after a corner below which the wave turns back before the
     /// next: the stable manifold of the saddle.
-    pub fn least_speed(&self) -> f64 {
+    fn least_speed(&self) -> f64 {
         (self.roots[1] * (-self.end - self.saddle)).max(0.0)
     }
 
     /// Position and speed along an arc.
-    pub fn state(&self, arc: &Arc, time: f64) -> (f64, f64) {
+    fn state(&self, arc: &Arc, time: f64) -> (f64, f64) {
         let [up, down] = self.roots;
         let (grow, decay) = (arc.grow * (up * time).exp(), arc.decay * (down * time).exp());
         (self.saddle + grow + decay, grow * up + decay * down)
     }
 
     /// Push at a position and speed; negative would be a pull.
-    pub fn push(&self, y: f64, speed: f64) -> f64 {
+    fn push(&self, y: f64, speed: f64) -> f64 {
         let f = self.ratio;
         (f - 1.0) * (f + 1.0) - 2.0 * f * speed - 2.0 * self.zeta * f * y
     }
 
     /// Smallest push along an arc.
-    pub fn least_push(&self, arc: &Arc) -> f64 {
+    fn least_push(&self, arc: &Arc) -> f64 {
         let at = |time| {
             let (y, speed) = self.state(arc, time);
             self.push(y, speed)
@@ -389,7 +389,7 @@ impl SaddleFlow {
 
     /// The arc from a speed just after one corner to the next corner; `None`
     /// where the wave turns back. Contact is not checked.
-    pub fn cross(&self, speed: f64) -> Option<Arc> {
+    fn cross(&self, speed: f64) -> Option<Arc> {
         if speed <= self.least_speed() {
             return None;
         }
@@ -412,14 +412,14 @@ impl SaddleFlow {
     }
 
     /// Speeds just after the corner an arc starts at, and just before the next.
-    pub fn end_speeds(&self, arc: &Arc) -> [f64; 2] {
+    fn end_speeds(&self, arc: &Arc) -> [f64; 2] {
         [self.state(arc, 0.0).1, self.state(arc, arc.time).1]
     }
 
     /// The arc that repeats itself: the drag restores on a side the speed lost
     /// at a corner. At most one exists, because the slope of the map from
     /// corner to corner is below one there; `None` if there is none.
-    pub fn repeating(&self) -> Option<Arc> {
+    fn repeating(&self) -> Option<Arc> {
         let [up, _] = self.roots;
         // The slowest crossing is along the manifolds of the saddle.
         let slowest_gains = self.kept * up * (self.end - self.saddle) > self.least_speed();

@@ -200,7 +200,7 @@ impl Linearised {
 
     /// Whether a motion grows in a corner whose forces are not along the gradients of its
     /// gaps, or the eigenvalues of the two cannot be computed.
-    pub fn grows_in_corner(&self) -> bool {
+    fn grows_in_corner(&self) -> bool {
         let values = self.corner_motion().and_then(|[mass, damping, stiffness]| {
             let inverse = mass.try_inverse()?;
             let mut first_order = DMatrix::zeros(4, 4);
@@ -216,6 +216,9 @@ impl Linearised {
     /// its characteristic polynomial, which needs no eigenvalues unless the result
     /// is close; otherwise by the eigenvalues. False if these cannot be computed.
     pub fn is_stable(&self) -> bool {
+        if self.forces != self.gradients {
+            return !self.grows_in_corner();
+        }
         let by_signs = self.corner_motion().and_then(|motion| {
             let polynomial = characteristic(&motion);
             if self.damped { hurwitz(polynomial) } else { Some(all_oscillate(polynomial)) }

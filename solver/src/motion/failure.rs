@@ -173,6 +173,15 @@ pub enum FailureReason {
         /// Clearance \[m\].
         clearance_m: f64,
     },
+    /// Contact that only pushes, or a lock that only pushes, ended with a pull.
+    #[error(
+        "a contact that only pushes ended with a pull of {force_n:.6} N, so the result is wrong; \
+         run --plain takes every step"
+    )]
+    Pull {
+        /// The largest contact force at the end \[N\].
+        force_n: f64,
+    },
     /// A step whose equations are singular.
     #[error("the multipliers of {rows} penetrating rows cannot be told apart (singular equations)")]
     Singular {

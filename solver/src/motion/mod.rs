@@ -30,7 +30,7 @@ pub use failure::{Failure, FailureReason};
 pub use propagator::FreeFlight;
 pub use run::{
     FinalState, ImpactReport, Looker, RunReport, Sample, Sampling, SolverReport, VerdictReached,
-    Watch, lock_that_broke, run_to_end, run_to_end_watched, run_to_verdict, simulate,
+    Watch, judge_end, lock_that_broke, run_to_end, run_to_end_watched, run_to_verdict, simulate,
     simulate_with, verdict_of,
 };
 pub use script::{Change, Script};

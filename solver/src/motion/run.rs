@@ -9,11 +9,13 @@ use super::script::{Script, Scripted};
 use super::sensitivity::sign;
 use super::wave::WaveTracker;
 use super::{
-    Checks, Contact, EnergyAccount, Failure, GoOn, Hold, Motion, Outcome, State, Verdict,
-    to_the_end,
+    Checks, Contact, EnergyAccount, Failure, FailureReason, GoOn, Hold, Motion, Outcome, State,
+    Verdict, to_the_end,
 };
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, SolverKind};
-use crate::tolerances::{LAST_PART, LOOKS_A_PERIOD, RUN_LOOKS};
+use crate::tolerances::{
+    LARGEST_BLADE_ANGLE, LAST_PART, LOOKS_A_PERIOD, PULL_ROUND_OFF, RUN_LOOKS,
+};
 
 /// What a recorder sees at one instant.
 #[derive(Clone, Debug)]
@@ -239,11 +241,48 @@ fn advance_looking(
     }
 }
 
-/// The verdict on a motion now: the proven one, or that over the last
-/// `window` seconds.
+/// Returns the verdict on a motion now: the proven one, or that over the last
+/// `window` seconds; [`Verdict::Failed`] where the contact forces contradict it.
 #[must_use]
 pub fn verdict_of(motion: &Motion, window: f64) -> Verdict {
-    motion.final_verdict().unwrap_or_else(|| motion.lasting(window))
+    let verdict = motion.final_verdict().unwrap_or_else(|| motion.lasting(window));
+    if wrong_pull(motion, verdict).is_some() { Verdict::Failed } else { verdict }
+}
+
+/// Returns the pull that contradicts the verdict on a motion: under a law that only
+/// pushes any, in a lock also under the law that pulls.
+fn wrong_pull(motion: &Motion, verdict: Verdict) -> Option<FailureReason> {
+    if motion.failure().is_some() || (motion.pulls() && verdict != Verdict::Locked) {
+        return None;
+    }
+    let machine = motion.machine();
+    let reach = motion.state().amplitude().max(machine.clearance().abs());
+    let forces = motion.multipliers().into_iter().map(|(_, force)| force);
+    pull_beyond(PULL_ROUND_OFF * machine.casing_stiffness * reach, forces)
+}
+
+/// Returns the largest of these contact forces, if it pulls by more than `most` \[N\].
+fn pull_beyond(most: f64, forces: impl Iterator<Item = f64>) -> Option<FailureReason> {
+    let force_n = forces.fold(f64::NEG_INFINITY, f64::max);
+    (force_n > most).then_some(FailureReason::Pull { force_n })
+}
+
+/// Returns the verdict at the end of a run, over its last `window` seconds, and why it
+/// failed: also where a wrong pull, or a blade angle of `checks` that the model does not
+/// describe, contradicts the verdict.
+#[must_use]
+pub fn judge_end(motion: &Motion, checks: &Checks, window: f64) -> (Verdict, Option<Failure>) {
+    let verdict = motion.final_verdict().unwrap_or_else(|| motion.lasting(window));
+    if let Some(failure) = motion.failure() {
+        return (verdict, Some(failure.clone()));
+    }
+    let angle_rad = checks.max_blade_angle_rad;
+    let turned =
+        || (angle_rad > LARGEST_BLADE_ANGLE).then_some(FailureReason::BladeAngle { angle_rad });
+    match wrong_pull(motion, verdict).or_else(turned) {
+        Some(reason) => (Verdict::Failed, Some(Failure { t_s: motion.t_s(), reason })),
+        None => (verdict, None),
+    }
 }
 
 /// Runs a scene to its end.
@@ -358,7 +397,8 @@ pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) 
     let polygon = &machine.polygon;
     let (log, state) = (motion.contacts(), motion.state());
     let window = LAST_PART * scene.solver.end_s;
-    let verdict = verdict_of(motion, window);
+    let checks = motion.checks();
+    let (verdict, failure) = judge_end(motion, &checks, window);
     let locked = verdict.is_held();
     let wave_speed_rad_s = match verdict {
         Verdict::Failed | Verdict::Divergent | Verdict::Decay => None,
@@ -370,7 +410,7 @@ pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) 
         verdict,
         sensitive: None,
         spread: None,
-        message: motion.stopped(),
+        message: motion.stopped().or_else(|| failure.as_ref().map(ToString::to_string)),
         lock_time_s: locked.then_some(log.since),
         contacts: motion
             .multipliers()
@@ -409,11 +449,11 @@ pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) 
             alpha_c_rad: state.alpha[0],
             alpha_s_rad: state.alpha[1],
         },
-        checks: motion.checks(),
+        checks,
         energy: motion.energy_account(),
         end_speed_rad_s: motion.rotor().speed(state.t_s),
         broken: lock_that_broke(motion),
-        failure: motion.failure().cloned(),
+        failure,
         reached: VerdictReached::of(motion, verdict),
     }
 }
@@ -425,4 +465,44 @@ pub fn lock_that_broke(motion: &Motion) -> Option<(Hold, f64)> {
     let period = TAU / motion.machine().omega_c;
     let hold = motion.contacts().longest_hold.filter(|hold| hold.length() >= period)?;
     Some((hold, motion.rotor().speed(hold.ended)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    #[test]
+    fn a_pull_beyond_round_off_contradicts_a_lock() {
+        let reason = |forces: &[f64]| pull_beyond(1e-7, forces.iter().copied());
+        assert_eq!(reason(&[-244.6, -57.1]), None);
+        assert_eq!(reason(&[-244.6, 5e-8]), None);
+        assert_eq!(reason(&[]), None);
+        assert_eq!(reason(&[-244.6, 57.1]), Some(FailureReason::Pull { force_n: 57.1 }));
+    }
+
+    #[test]
+    fn an_end_outside_the_model_is_a_failure() {
+        let mut motion = Motion::new(&Scene::base().checked().unwrap());
+        motion.advance(1e-3).unwrap();
+        let judged = |angle_rad| {
+            let checks = Checks { max_blade_angle_rad: angle_rad, ..motion.checks() };
+            judge_end(&motion, &checks, 1e-4)
+        };
+        assert_eq!(judged(0.1), (verdict_of(&motion, 1e-4), None));
+        let (verdict, failure) = judged(0.797);
+        assert_eq!(verdict, Verdict::Failed);
+        assert_eq!(failure.unwrap().reason, FailureReason::BladeAngle { angle_rad: 0.797 });
+    }
+
+    /// Pulls are what the bilateral law is for, as long as no lock is said to push.
+    #[test]
+    fn an_adhesive_contact_of_the_law_that_pulls_is_no_failure() {
+        let changes = [("solver.contact", "bilateral"), ("operation.speed_rad_s", "400")];
+        let scene = Scene::builtin("paper-nd3").unwrap().with(&changes).unwrap();
+        let report = run_to_end(&scene, &Script::default(), Sampling::default(), &mut |_| {});
+        assert_eq!(report.outcome.verdict, Verdict::Adhesive);
+        assert!(report.outcome.contacts.iter().any(|contact| contact.multiplier_n > 1.0));
+        assert_eq!(report.failure, None);
+    }
 }

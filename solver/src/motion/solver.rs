@@ -155,6 +155,11 @@ pub trait Solver: Debug + Send + Sync {
         false
     }
 
+    /// Whether contact can pull: under the bilateral law.
+    fn pulls(&self) -> bool {
+        false
+    }
+
     /// Why the run failed, if it did.
     fn failure(&self) -> Option<&Failure>;
 

@@ -15,26 +15,12 @@ pub(crate) const MOST_HALVINGS: usize = 200;
 /// # Errors
 /// That of the first answer that fails.
 pub(crate) fn try_bisected<E>(
-    ends: [f64; 2],
-    part: f64,
-    is_far: impl FnMut(f64) -> Result<bool, E>,
-) -> Result<[f64; 2], E> {
-    try_cut(ends, part, 0.5, is_far)
-}
-
-/// As `try_bisected`, cutting off this share at the near end each time: where the answer of
-/// the far end costs more than the other, a small one is asked for it less often.
-///
-/// # Errors
-/// That of the first answer that fails.
-pub(crate) fn try_cut<E>(
     [mut near, mut far]: [f64; 2],
     part: f64,
-    share: f64,
     mut is_far: impl FnMut(f64) -> Result<bool, E>,
 ) -> Result<[f64; 2], E> {
     for _ in 0..MOST_HALVINGS {
-        let middle = (1.0 - share) * near + share * far;
+        let middle = 0.5 * near + 0.5 * far;
         let close = (far - near).abs() <= part * far.abs();
         if close || middle == near || middle == far {
             break;
@@ -71,23 +57,6 @@ mod tests {
             assert_eq!((far, near.next_up()), (edge, edge));
             let [near, far] = bisected([5.0, 0.0], |x| x < edge);
             assert_eq!((near, far.next_up()), (edge, edge));
-        }
-    }
-
-    #[test]
-    fn a_small_cut_asks_less_often_beyond_the_edge() {
-        for edge in [0.01, 0.3, 0.99] {
-            let asked = |share: f64| {
-                let mut beyond = 0;
-                let found = try_cut([0.0, 1.0], 1e-10, share, |x| {
-                    beyond += u32::from(x >= edge);
-                    Ok::<_, ()>(x >= edge)
-                });
-                let [near, far] = found.unwrap();
-                assert!(near < edge && far >= edge && far - near <= 1e-10 * far, "{edge} {share}");
-                beyond
-            };
-            assert!(asked(0.15) < asked(0.5), "{edge}");
         }
     }
 

@@ -10,7 +10,7 @@
 //! them would run every cell.
 
 use std::ops::Index;
-use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU8, Ordering};
 use std::time::Instant;
 
 use rayon::prelude::*;
@@ -50,15 +50,6 @@ pub struct Map {
     pub wall_s: f64,
 }
 
-/// Progress and stop flag of a map while it is computed.
-#[derive(Debug, Default)]
-pub struct Progress {
-    /// Cells done so far.
-    pub done: AtomicU64,
-    /// Set to stop early; finished cells are kept.
-    pub stop: AtomicBool,
-}
-
 impl MapPlan {
     /// Number of cells.
     #[must_use]
@@ -90,36 +81,7 @@ impl MapPlan {
         scene.checked()
     }
 
-    /// The first difference of two plans that can change their cells.
-    #[must_use]
-    pub fn difference(&self, other: &Self) -> Option<&'static str> {
-        [
-            ("the x axis", self.x != other.x),
-            ("the y axis", self.y != other.y),
-            ("the scene", self.deciding() != other.deciding()),
-            ("whether sensitivity was asked for", self.sensitivity != other.sensitivity),
-        ]
-        .into_iter()
-        .find_map(|(what, differs)| differs.then_some(what))
-    }
-
-    /// The scene without what no cell depends on: title, note and view, and the
-    /// keys on the axes, which each cell sets.
-    fn deciding(&self) -> Scene {
-        let Scene { title, note, view, .. } = Scene::base();
-        let mut scene = Scene { title, note, view, ..self.scene.clone() };
-        for axis in [&self.x, &self.y] {
-            // An axis with a key that does not exist changes neither scene.
-            let _ = axis.apply(&mut scene, 0);
-        }
-        scene
-    }
-
-    /// Refuses a plan of more cells than fit.
-    ///
-    /// # Errors
-    /// The number of cells, and how many are allowed.
-    pub fn check_size(&self) -> Result<(), SceneError> {
+    fn check_size(&self) -> Result<(), SceneError> {
         if (1..=MOST_CELLS).contains(&self.len()) {
             return Ok(());
         }
@@ -171,25 +133,23 @@ impl Map {
         Self { plan, cells, adaptive: false, runs: 0, wall_s: 0.0 }
     }
 
-    /// Computes the given cells that are still missing, in parallel, and passes
-    /// each to `keep` as soon as it is ready. Stops early on request.
+    /// Computes the given cells that are still missing, in parallel, as long as `go_on`
+    /// allows, and passes each to `keep` as soon as it is ready.
     pub fn fill(
         &mut self,
         indices: impl IndexedParallelIterator<Item = usize>,
-        progress: &Progress,
-        keep: &(dyn Fn(usize, Cell) + Sync),
+        go_on: GoOn<'_>,
+        keep: Keep<'_>,
     ) {
         let started = Instant::now();
         let (plan, cells) = (&self.plan, &self.cells);
-        let go_on = || !progress.stop.load(Ordering::Relaxed);
         let computed = indices
             .with_max_len(16)
             .filter(|&index| cells[index].is_none() && go_on())
             .filter_map(|index| {
-                let cell = plan.compute(index, &go_on)?;
+                let cell = plan.compute(index, go_on)?;
                 cells.set(index, Some(cell));
                 keep(index, cell);
-                progress.done.fetch_add(1, Ordering::Relaxed);
                 Some(())
             })
             .count();
@@ -317,26 +277,26 @@ type Keep<'a> = &'a (dyn Fn(usize, Cell) + Sync);
 impl Map {
     /// Fills the map adaptively; cells inferred without a run are not counted
     /// in `runs`. If stopped early, only cells that were run remain.
-    pub fn fill_adaptively(&mut self, progress: &Progress, keep: Keep<'_>) {
+    pub fn fill_adaptively(&mut self, go_on: GoOn<'_>, keep: Keep<'_>) {
         self.adaptive = true;
         let mut stride = self.coarsest_stride();
         let mut inferred = vec![false; self.cells.len()];
         let coarse: Vec<usize> = self.grid(stride).collect();
-        self.fill(coarse.into_par_iter(), progress, keep);
-        while stride > 1 && !progress.stop.load(Ordering::Relaxed) {
+        self.fill(coarse.into_par_iter(), go_on, keep);
+        while stride > 1 && go_on() {
             let half = stride / 2;
             let wanted: Vec<usize> = self
                 .grid(half)
                 .filter(|&index| self.cells[index].is_none() && self.is_mixed(index, stride))
                 .collect();
-            self.fill(wanted.into_par_iter(), progress, keep);
-            if !progress.stop.load(Ordering::Relaxed) {
+            self.fill(wanted.into_par_iter(), go_on, keep);
+            if go_on() {
                 self.infer(half, stride, &mut inferred);
             }
             stride = half;
         }
-        self.follow_borders(&mut inferred, progress, keep);
-        if progress.stop.load(Ordering::Relaxed) {
+        self.follow_borders(&mut inferred, go_on, keep);
+        if !go_on() {
             for (index, _) in inferred.iter().enumerate().filter(|(_, guess)| **guess) {
                 self.cells.set(index, None);
             }
@@ -356,8 +316,8 @@ impl Map {
     }
 
     /// Runs inferred cells next to another verdict until there are none.
-    fn follow_borders(&mut self, inferred: &mut [bool], progress: &Progress, keep: Keep<'_>) {
-        while !progress.stop.load(Ordering::Relaxed) {
+    fn follow_borders(&mut self, inferred: &mut [bool], go_on: GoOn<'_>, keep: Keep<'_>) {
+        while go_on() {
             let doubtful: Vec<usize> = (0..inferred.len())
                 .filter(|&index| inferred[index] && self.is_beside_another(index))
                 .collect();
@@ -368,7 +328,7 @@ impl Map {
                 inferred[index] = false;
                 self.cells.set(index, None);
             }
-            self.fill(doubtful.into_par_iter(), progress, keep);
+            self.fill(doubtful.into_par_iter(), go_on, keep);
         }
     }
 

@@ -6,11 +6,8 @@ pub mod figures;
 pub mod map;
 pub mod margins;
 pub mod overlay;
-pub mod part;
 pub mod precision;
 pub mod survey;
 
 pub use axis::{Axis, AxisError, parse_range};
-pub use map::{Cell, Cells};
-pub use map::{Map, MapPlan, Progress};
-pub use part::{PartError, Shard};
+pub use map::{Cell, Cells, Map, MapPlan};

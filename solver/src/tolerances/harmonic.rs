@@ -28,21 +28,6 @@ pub(crate) const CONVERGED: f64 = 1e-7;
 /// number resolves, at any speed whose square a number holds.
 pub(crate) const AS_GOOD_AS_RIGID: f64 = 1e-290;
 
-/// Most points of one branch.
-pub(crate) const BRANCH_POINTS: usize = 20_000;
-
-/// What the widest corner leaves of a right angle, where the amplitude would be
-/// infinite \[rad\].
-pub(crate) const LEFT_OPEN: f64 = 1e-3;
-
-/// Neighbours on a branch are an arc from the first to the second of these
-/// steps apart, and the last two of a leg at most the third.
-pub(crate) const APART: [f64; 3] = [0.9, 1.1, 1.5];
-
-/// The largest speed over `Omega_c`: squares of it leave room for what they are
-/// multiplied with.
-pub(crate) const FASTEST: f64 = 1e100;
-
 /// Most changes of character looked for between two neighbouring speeds.
 pub(crate) const BRANCH_CHANGES: usize = 16;
 
@@ -56,15 +41,6 @@ pub(crate) const CLEAR_SIGN: f64 = 1e-9;
 
 /// As `CLEAR_SIGN`, for the coefficients of odd order.
 pub(crate) const CLEAR_DAMPING: f64 = 1e-6;
-
-/// Samples of one period on which the largest truncation errors are looked for.
-pub(crate) const SPECTRUM_SAMPLES: usize = 2048;
-
-/// Most harmonics of a spectrum.
-pub(crate) const HARMONICS: u32 = 512;
-
-/// Exponent below which the mean of an exponential is a power series.
-pub(crate) const SMALL_RATE: f64 = 1e-6;
 
 /// Imaginary part of the joint compliance at a root, as a part of the real part, up to
 /// which it is round-off. Larger: an undamped resonance is taken for a whirl.
@@ -89,20 +65,6 @@ pub(crate) const POLISHED: f64 = 1e-11;
 /// Part of the speed beside a limit of stability at which growth is asked. Larger: a
 /// limit close by is taken for it. Smaller: growth is round-off.
 pub(crate) const BESIDE_A_LIMIT: f64 = 1e-6;
-
-/// Rates between which a whirl is looked for, how fast its contact passes over the
-/// blades, as parts of the frequency of these: where it is born they are equal.
-pub(crate) const WHIRL_RATES: [f64; 2] = [0.1, 30.0];
-
-/// Looks at passing times between these. Fewer: of two whirls that are born together
-/// none is found further from the fold.
-pub(crate) const WHIRL_LOOKS: usize = 400;
-
-/// Part of half a side by which a whirl may miss its end by round-off.
-pub(crate) const WHIRL_ENDS: f64 = 1e-9;
-
-/// Samples of an arc of whirl, for its extremes.
-pub(crate) const WHIRL_SAMPLES: usize = 128;
 
 /// Flutter of a machine that changes with the speed is looked for up to so many critical
 /// speeds, from as small a part of one. Beyond, no rotor turns.

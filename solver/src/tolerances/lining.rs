@@ -49,21 +49,3 @@ pub(crate) const LINING_ALIKE: f64 = 1e-7;
 
 /// Real part of an eigenvalue over the fastest that is round-off.
 pub(crate) const LINING_NEUTRAL: f64 = 1e-10;
-
-/// Shortest and longest arc between two points of a branch that is followed, in lengths
-/// of the contact and parts of the way. Longer: a corner of the branch is cut.
-pub(crate) const FOLLOW_STRIDE: [f64; 2] = [1e-9, 0.01];
-
-/// Most points of such a branch.
-pub(crate) const FOLLOW_POINTS: usize = 4000;
-
-/// Newton steps to one point of it.
-pub(crate) const FOLLOW_STEPS: usize = 12;
-
-/// Part of the way over which the parameter's own derivative is taken. It only steers
-/// Newton's method.
-pub(crate) const FOLLOW_DIFFERENCE: f64 = 1e-6;
-
-/// Arcs over which a corner of the branch is stepped over. Longer: what is between them is
-/// passed.
-pub(crate) const FOLLOW_OVER_A_CORNER: [f64; 3] = [4e-9, 64e-9, 1024e-9];

@@ -1,4 +1,4 @@
-//! Reports of blades and casing as one: whirl on the polygon beside that on a rim, and
+//! Reports of blades and casing as one: whirl in the limit of many blades, and
 //! the joint compliance, as JSON, tables and a chart of text.
 
 use std::f64::consts::PI;
@@ -10,9 +10,7 @@ use serde_json::{Value, json};
 use super::parts::Parts;
 use crate::report::table::MadeTable;
 use crate::report::table::{Column, Table, TableCell};
-use rubscope_solver::harmonic::{
-    Joint, RoundWhirl, RoundWhirlLoads, WhirlOrbit, WhirlPoint, round_whirls,
-};
+use rubscope_solver::harmonic::{Joint, RoundWhirl, RoundWhirlLoads, round_whirls};
 use rubscope_solver::model::Machine;
 
 /// Columns and rows of the chart of the compliance.
@@ -22,22 +20,23 @@ const CHART_POINTS: usize = 4000;
 /// How far the chart goes beyond the crossing that is furthest left.
 const CHART_REACH: f64 = 2.5;
 
-/// Whirl at one speed on the polygon, and the lasting one on a rim.
+/// The lasting whirl at one speed, if there is one, with its loads.
 #[derive(Clone, Copy, Debug)]
 pub struct WhirlRow {
-    /// On the polygon.
-    pub point: WhirlPoint,
-    /// On the rim.
-    pub rim: Option<(RoundWhirl, RoundWhirlLoads)>,
+    speed_rad_s: f64,
+    wave: Option<(RoundWhirl, RoundWhirlLoads)>,
 }
 
 impl WhirlRow {
-    /// With the rim of the same machine.
+    /// Finds the lasting whirl of a machine at a speed \[rad/s\].
     #[must_use]
-    pub fn of(machine: &Machine, point: WhirlPoint) -> Self {
-        let joint = Joint::at(machine, point.speed_rad_s);
+    pub fn at(machine: &Machine, speed: f64) -> Self {
+        let joint = Joint::at(machine, speed);
         let lasting = RoundWhirl::lasting(&round_whirls(&joint));
-        Self { point, rim: lasting.map(|wave| (wave, wave.loads(&joint))) }
+        // Without a coupling every undamped resonance would do.
+        let rubs = joint.machine.clearance() > 0.0 && joint.coupling_product != 0.0;
+        let open = lasting.filter(|_| rubs);
+        Self { speed_rad_s: speed, wave: open.map(|wave| (wave, wave.loads(&joint))) }
     }
 }
 
@@ -57,24 +56,23 @@ impl CompliancePoint {
     }
 }
 
-/// Whirl at one speed in JSON, with `null` for each figure where there is none.
+/// Returns the whirl at one speed as JSON, with `null` for each figure where there is none.
 #[must_use]
 pub fn whirl(row: &WhirlRow) -> Value {
-    let orbit = row.point.outcome.ok();
+    let figure = |of: fn(&(RoundWhirl, RoundWhirlLoads)) -> f64| row.wave.as_ref().map(of);
     json!({
-        "speed_rad_s": row.point.speed_rad_s,
-        "exists": orbit.is_some(),
-        "reason": row.point.outcome.err(),
-        "passing_time_s": orbit.map(|orbit| orbit.passing_time_s),
-        "omega_rad_s": orbit.map(|orbit| orbit.omega_rad_s),
-        "s_rad_s": orbit.map(|orbit| orbit.s_rad_s),
-        "mean_push_n": orbit.map(|orbit| orbit.mean_push_n),
-        "least_push_n": orbit.map(|orbit| orbit.least_push_n),
-        "corner_impulse_n_s": orbit.map(|orbit| orbit.corner_impulse_n_s),
-        "casing_m": orbit.map(|orbit| orbit.casing_m),
-        "blade_rad": orbit.map(|orbit| orbit.blade_rad),
-        "multiplier": orbit.map(|orbit| orbit.multiplier),
-        "rim": row.rim.as_ref().map(wave),
+        "speed_rad_s": row.speed_rad_s,
+        "exists": row.wave.is_some(),
+        "omega_rad_s": figure(|(wave, _)| wave.omega_rad_s),
+        "s_rad_s": figure(|(wave, _)| wave.s_rad_s),
+        "growth_per_s": figure(|(wave, _)| wave.growth_per_s),
+        "stiffness_n_per_m": figure(|(wave, _)| wave.stiffness_n_per_m),
+        "push_n": figure(|(_, loads)| loads.push_n),
+        "casing_m": figure(|(_, loads)| loads.casing_m),
+        "blade_rad": figure(|(_, loads)| loads.blade_rad),
+        "casing_w": figure(|(_, loads)| loads.casing_w),
+        "blades_w": figure(|(_, loads)| loads.blades_w),
+        "friction_w": figure(|(_, loads)| loads.friction_w),
     })
 }
 
@@ -99,27 +97,15 @@ fn wave((wave, loads): &(RoundWhirl, RoundWhirlLoads)) -> Value {
 
 /// Columns of whirl against speed.
 const WHIRL: &[Column<'_, WhirlRow>] = &[
-    ("speed_rad_s", |row| row.point.speed_rad_s.into()),
-    ("whirl", |row| match row.point.outcome {
-        Ok(_) => "stable".into(),
-        Err(reason) => <&'static str>::from(reason).into(),
-    }),
-    ("omega_rad_s", |row| of_orbit(row, |orbit| orbit.omega_rad_s)),
-    ("s_rad_s", |row| of_orbit(row, |orbit| orbit.s_rad_s)),
-    ("mean_push_n", |row| of_orbit(row, |orbit| orbit.mean_push_n)),
-    ("corner_impulse_n_s", |row| of_orbit(row, |orbit| orbit.corner_impulse_n_s)),
-    ("casing_m", |row| of_orbit(row, |orbit| orbit.casing_m)),
-    ("blade_rad", |row| of_orbit(row, |orbit| orbit.blade_rad)),
-    ("multiplier", |row| of_orbit(row, |orbit| orbit.multiplier)),
-    ("rim_omega_rad_s", |row| row.rim.map(|(wave, _)| wave.omega_rad_s).into()),
-    ("rim_push_n", |row| row.rim.map(|(_, loads)| loads.push_n).into()),
-    ("rim_casing_m", |row| row.rim.map(|(_, loads)| loads.casing_m).into()),
-    ("rim_blade_rad", |row| row.rim.map(|(_, loads)| loads.blade_rad).into()),
+    ("speed_rad_s", |row| row.speed_rad_s.into()),
+    ("whirl", |row| if row.wave.is_some() { "attracts" } else { "none" }.into()),
+    ("omega_rad_s", |row| row.wave.map(|(wave, _)| wave.omega_rad_s).into()),
+    ("s_rad_s", |row| row.wave.map(|(wave, _)| wave.s_rad_s).into()),
+    ("growth_per_s", |row| row.wave.map(|(wave, _)| wave.growth_per_s).into()),
+    ("push_n", |row| row.wave.map(|(_, loads)| loads.push_n).into()),
+    ("casing_m", |row| row.wave.map(|(_, loads)| loads.casing_m).into()),
+    ("blade_rad", |row| row.wave.map(|(_, loads)| loads.blade_rad).into()),
 ];
-
-fn of_orbit(row: &WhirlRow, figure: fn(WhirlOrbit) -> f64) -> TableCell {
-    row.point.outcome.ok().map(figure).into()
-}
 
 /// Whirl against speed, a row for each.
 #[must_use]

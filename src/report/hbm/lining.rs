@@ -8,8 +8,7 @@ use super::parts::Parts;
 use crate::report::table::MadeTable;
 use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{
-    CoincidencePoint, Cycle, FollowedBranch, GrowthThreshold, HopfPoint, LeastStiffness,
-    LiningState, Rest, Special,
+    CoincidencePoint, Cycle, GrowthThreshold, HopfPoint, LeastStiffness, LiningState, Rest,
 };
 use rubscope_solver::model::LockWindow;
 
@@ -147,25 +146,6 @@ pub fn state_table(states: &[LiningState]) -> Table {
             ("blade_rad", |state| state.blade_rad.into()),
             ("growth_1_s", |state| state.growth_1_s.into()),
             ("character", |state| word(state.stable).into()),
-        ],
-    )
-}
-
-/// A branch, point by point.
-#[must_use]
-pub fn follow_table(branch: &FollowedBranch) -> Table {
-    Table::of(
-        &branch.points,
-        &[
-            ("parameter", |point| point.parameter.into()),
-            ("pushing", |point| (point.state.pushing as f64).into()),
-            ("push_a_n", |point| push(&point.state, 0)),
-            ("push_b_n", |point| push(&point.state, 1)),
-            ("casing_m", |point| point.state.casing_m.into()),
-            ("blade_rad", |point| point.state.blade_rad.into()),
-            ("growth_1_s", |point| point.state.growth_1_s.into()),
-            ("character", |point| word(point.state.stable).into()),
-            ("special", |point| point.special.as_ref().map_or("", Special::as_ref).into()),
         ],
     )
 }

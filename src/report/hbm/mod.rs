@@ -25,8 +25,7 @@ use parts::{Part, Parts};
 
 use crate::report::number::{per_speed, short};
 use rubscope_solver::harmonic::{
-    Branches, Campbell, CornerBranch, ExcitedLock, ExcitedLocks, Form, Line, LockedPoint, NoSlip,
-    SlipPoint, SlipSpectrum, Sweep,
+    Branches, Campbell, ExcitedLock, ExcitedLocks, Form, Line, LockedPoint, SlipPoint, Sweep,
 };
 use rubscope_solver::model::{ContactPolygon, Excitation, LockWindow, Machine};
 use rubscope_solver::scene::Scene;
@@ -124,27 +123,6 @@ fn with_groups(point: &LockedPoint, blades: &[Vec<u32>; 2]) -> Value {
     value
 }
 
-/// The corner branch in JSON.
-#[must_use]
-pub fn fold(branch: &CornerBranch) -> Value {
-    let points = branch.points.iter().map(|(opening, state)| {
-        let multipliers: Vec<f64> = state.contacts.iter().map(|at| at.multiplier_n).collect();
-        json!({
-            "speed_rad_s": state.speed_rad_s,
-            "opening_rad": opening,
-            "amplitude_m": state.amplitude_m,
-            "multipliers_n": multipliers,
-            "character": state.character,
-            "growth_per_s": state.growth_per_s,
-        })
-    });
-    json!({
-        "fold_rad_s": branch.fold.map(|fold| fold.speed_rad_s),
-        "fold_opening_rad": branch.fold.map(|fold| fold.opening_rad),
-        "points": points.collect::<Value>(),
-    })
-}
-
 /// Slip at one speed in JSON, with `null` for each figure where there is none.
 #[must_use]
 pub fn slip(point: &SlipPoint) -> Value {
@@ -160,21 +138,6 @@ pub fn slip(point: &SlipPoint) -> Value {
         map.extend(orbit.into_iter().map(null));
     }
     value
-}
-
-/// The Fourier series of slip at one speed in JSON.
-#[must_use]
-pub fn harmonics((speed, series): &(f64, Result<SlipSpectrum, NoSlip>)) -> Value {
-    let found = series.as_ref().ok();
-    json!({
-        "speed_rad_s": speed,
-        "exists": found.is_some(),
-        "reason": series.as_ref().err(),
-        "period_s": found.map(|series| series.period_s),
-        "amplitude_m": found.map(|series| series.amplitude_m),
-        "terms": found.map_or(&[][..], |series| &series.terms),
-        "truncation": found.map_or(&[][..], |series| &series.truncations),
-    })
 }
 
 /// Campbell data at these speeds \[rad/s\] in JSON.

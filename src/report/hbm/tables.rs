@@ -7,8 +7,8 @@ use std::rc::Rc;
 use crate::report::table::MadeTable;
 use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{
-    Branches, Campbell, CornerBranch, Equilibrium, ExcitedLock, ExcitedLocks, Kind, LockedPoint,
-    SlipOrbit, SlipPoint, SlipRegion, SlipSpectrum, Sweep,
+    Branches, Campbell, Equilibrium, ExcitedLock, ExcitedLocks, Kind, LockedPoint, SlipOrbit,
+    SlipPoint, SlipRegion, Sweep,
 };
 
 /// One word for a point: that of its character, or locked.
@@ -105,23 +105,6 @@ fn growth(state: &Equilibrium) -> f64 {
     if state.growth_per_s.abs() > 1e-13 * fastest { state.growth_per_s } else { 0.0 }
 }
 
-/// The corner branch, point by point along it.
-#[must_use]
-pub fn corner_table(branch: &CornerBranch) -> Table {
-    Table::of(
-        &branch.points,
-        &[
-            ("speed_rad_s", |(_, state)| state.speed_rad_s.into()),
-            ("opening_rad", |(opening, _)| (*opening).into()),
-            ("amplitude_m", |(_, state)| state.amplitude_m.into()),
-            ("multiplier_a_n", |(_, state)| multiplier(state, 0)),
-            ("multiplier_b_n", |(_, state)| multiplier(state, 1)),
-            ("growth_per_s", |(_, state)| state.growth_per_s.into()),
-            ("character", |(_, state)| state.character.as_ref().into()),
-        ],
-    )
-}
-
 /// Columns of slip.
 const SLIP: &[Column<'_, SlipPoint>] = &[
     ("speed_rad_s", |point| point.speed_rad_s.into()),
@@ -166,37 +149,6 @@ pub fn region_table(regions: &[SlipRegion]) -> Table {
             }),
             ("appears_rad_s", |region| first(region, true)),
             ("vanishes_rad_s", |region| first(region, false)),
-        ],
-    )
-}
-
-/// The error with `H` harmonics.
-#[must_use]
-pub fn truncation_table(series: &SlipSpectrum) -> Table {
-    let rows: Vec<_> = series.truncations.iter().map(|cut| (cut, series.amplitude_m)).collect();
-    Table::of(
-        &rows,
-        &[
-            ("harmonics", |(cut, _)| f64::from(cut.harmonics).into()),
-            ("rms_error_m", |(cut, _)| cut.rms_error_m.into()),
-            ("max_error_m", |(cut, _)| cut.max_error_m.into()),
-            ("part_of_amplitude", |(cut, whole)| (cut.max_error_m / whole).into()),
-            ("penetration_m", |(cut, _)| cut.penetration_m.into()),
-        ],
-    )
-}
-
-/// The amplitudes of the harmonics.
-#[must_use]
-pub fn term_table(series: &SlipSpectrum) -> Table {
-    let rows: Vec<_> = series.terms.iter().map(|term| (term, series.amplitude_m)).collect();
-    Table::of(
-        &rows,
-        &[
-            ("number", |(term, _)| f64::from(term.number).into()),
-            ("frequency_rad_s", |(term, _)| term.frequency_rad_s.into()),
-            ("amplitude_m", |(term, _)| term.amplitude_m.into()),
-            ("part_of_amplitude", |(term, whole)| (term.amplitude_m / whole).into()),
         ],
     )
 }

@@ -1,45 +1,78 @@
-//! The margins of a scene as a table of every number (CSV), and as aligned text for
-//! people: a row for each limit, then what more was asked for (`rows`).
+//! The margins of a scene as a table: a row for each limit, with every number for files, and
+//! for people what moves it most.
 
-mod row;
-mod rows;
 pub mod words;
-
-pub use row::{LimitRow, TOLD};
 
 use std::io::{Result, Write};
 
 use serde_json::json;
 
 use super::line::wrapped;
-use super::table::{Table, TableCell};
-use rubscope_solver::study::margins::{Limit, Margins, acting};
+use super::symbols::symbol;
+use super::table::{Heading, Table, TableCell, WIDTH};
+use rubscope_solver::study::margins::{LimitName, Margins, acting};
 
-/// Widest line of the text; a command to copy stays in one line.
-pub const WIDTH: usize = 100;
+/// Number of parameters that are listed with each limit.
+pub const STRONGEST: usize = 3;
 
-/// Every limit with its sensitivities, one row a limit.
+/// Returns a row for each limit, under the name that it has in files.
 #[must_use]
 pub fn table(margins: &Margins) -> Table {
-    let own = ["name", "quantity", "contact", "value", "present", "margin"];
-    let parameters = acting(&margins.scene).map(|parameter| parameter.path);
-    let mut table = Table::new(own.into_iter().chain(parameters));
+    titled(margins, |name| name.to_string())
+}
+
+/// Returns the rows of [`table`] under the names that `title` gives.
+#[must_use]
+pub fn titled(margins: &Margins, title: fn(LimitName) -> String) -> Table {
+    let parameters: Vec<&str> = acting(&margins.scene).map(|parameter| parameter.path).collect();
+    let people = ["+1 % of", "each", "moves it by"].map(Heading::shown);
+    let files = [Heading::filed("quantity"), "value".into(), Heading::filed("present")];
+    let headings = std::iter::once(Heading::from("name").words("limit")).chain(files);
+    let headings = headings.chain([Heading::from("margin")]).chain(people);
+    let mut table = Table::new(headings.chain(parameters.iter().map(|path| Heading::filed(*path))));
     for limit in &margins.limits {
-        let contact = limit.contact.map(|law| law.to_string());
+        // The same word as in JSON.
+        let quantity = json!(limit.quantity).as_str().map_or(TableCell::Empty, TableCell::from);
+        let told = |x: Option<f64>, text: fn(f64) -> String| {
+            x.map_or(TableCell::Empty, |x| TableCell::Told(x, text(x)))
+        };
+        let value = limit.value.map_or(TableCell::Empty, |value| {
+            TableCell::Told(value, words::value(value, 6, limit.quantity))
+        });
         let own = [
-            limit.name.to_string().into(),
-            // The same word as in JSON.
-            json!(limit.quantity).as_str().map_or(TableCell::Empty, TableCell::from),
-            contact.map_or(TableCell::Empty, TableCell::from),
-            limit.value.into(),
+            TableCell::Word(title(limit.name)),
+            quantity,
+            value,
             limit.present.into(),
-            limit.margin.into(),
+            told(limit.margin, words::margin),
         ];
-        let by = |path| TableCell::from(limit.sensitivities.by(path));
-        let all = own.into_iter().chain(acting(&margins.scene).map(|parameter| by(parameter.path)));
-        table.push(all.collect());
+        let strongest = limit.sensitivities.strongest(STRONGEST);
+        let moved = (0..STRONGEST).map(|place| {
+            let found = strongest.get(place);
+            let text = found.map(|(path, by)| format!("{} {}", symbol(path), words::change(*by)));
+            TableCell::Word(text.unwrap_or_default())
+        });
+        let by = parameters.iter().map(|path| limit.sensitivities.by(path).into());
+        table.push(own.into_iter().chain(moved).chain(by).collect());
+    }
+    for (note, names) in notes(margins) {
+        table.note(format!("{names}: {note}."));
     }
     table
+}
+
+/// Returns every note with the names of the limits that have it.
+fn notes(margins: &Margins) -> Vec<(String, String)> {
+    let mut found: Vec<(String, String)> = Vec::new();
+    for limit in &margins.limits {
+        let Some(note) = &limit.note else { continue };
+        let note = if limit.value.is_none() { format!("none, as {note}") } else { note.clone() };
+        match found.iter_mut().find(|(known, _)| *known == note) {
+            Some((_, names)) => names.push_str(&format!(", {}", limit.name)),
+            None => found.push((note, limit.name.to_string())),
+        }
+    }
+    found
 }
 
 /// Writes the limits for people.
@@ -50,21 +83,18 @@ pub fn write(margins: &Margins, out: &mut dyn Write) -> Result<()> {
     tell(&margins.scene.title, out)?;
     tell(&words::conditions(margins), out)?;
     words::note(margins).iter().try_for_each(|note| tell(note, out))?;
-    rows::write(margins, out)?;
-    for limit in margins.limits.iter().filter(|limit| has_bands(limit)) {
+    writeln!(out)?;
+    table(margins).write_text_in(WIDTH, out)?;
+    if let Some(found) = &margins.target {
         writeln!(out)?;
-        rows::bands(limit, out)?;
+        tell(&words::target(found, margins), out)?;
+        // A command to copy stays in one line.
+        if let Some(command) = words::check(found, &margins.scene) {
+            writeln!(out, "Check it: {command}")?;
+        }
     }
-    rows::notes(margins, out)?;
-    rows::spread(margins, out)?;
-    rows::target(margins, out)?;
     writeln!(out)?;
     tell(&words::cost(margins), out)
-}
-
-/// Whether something is known of where pulses last.
-fn has_bands(limit: &Limit) -> bool {
-    limit.value.is_some() && limit.contact.is_some()
 }
 
 /// Writes a text in lines that are not too wide.

@@ -1,6 +1,7 @@
 //! One panel of a figure: its axes, ranges and ticks (exponents of ten where an axis is
 //! logarithmic), the names of its series, and the series themselves.
 
+use plotters::coord::CoordTranslate;
 use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
@@ -47,6 +48,7 @@ pub fn draw(panel: &Panel, area: &Area) -> Drawn<()> {
     let half =
         |pixels: u32, count: usize| 1 + (f64::from(pixels) * half_tile(count + 1)).ceil() as i32;
     let half = (half(width, columns), half(height, rows));
+    let tile = f64::from(width) / (columns + 1) as f64;
     chart
         .configure_mesh()
         .bold_line_style(BLACK.mix(0.15).stroke_width(FINE))
@@ -85,10 +87,22 @@ pub fn draw(panel: &Panel, area: &Area) -> Drawn<()> {
                 chart.draw_series(DashedLineSeries::new(points, px(2), px(3), ink))?;
             }
             Style::Cells(_) => {
-                let corners = [(-half.0, -half.1), half];
                 let fill = colour(series.style).filled();
-                let tile = |at| EmptyElement::at(at) + Rectangle::new(corners, fill);
-                chart.draw_series(points.map(tile))?;
+                let pixels = |at: &(f64, f64)| chart.as_coord_spec().translate(at).0;
+                let places: Vec<(f64, f64)> = points.collect();
+                // Neighbours in a row are one rectangle.
+                let are_beside = |a: &(f64, f64), b: &(f64, f64)| {
+                    let apart = f64::from(pixels(b) - pixels(a));
+                    a.1 == b.1 && apart > 0.0 && apart < 1.5 * tile
+                };
+                let rows = places.chunk_by(are_beside).filter_map(|cells| {
+                    let (first, last) = (cells.first()?, cells.last()?);
+                    let corners =
+                        [(-half.0, -half.1), (pixels(last) - pixels(first) + half.0, half.1)];
+                    Some(EmptyElement::at(*first) + Rectangle::new(corners, fill))
+                });
+                let rows: Vec<_> = rows.collect();
+                chart.draw_series(rows)?;
             }
             Style::Discs(number, radius) => {
                 let strokes = strokes(number, radius);

@@ -126,7 +126,8 @@ impl App {
     /// Column and row of the margins under the cursor; the first row is the upper one.
     pub fn margins_cell(&self) -> Option<[usize; 2]> {
         let cursor = self.cursor_in(ViewId::Margins)?;
-        let rows = u32::try_from(self.margins()?.0.rows().len()).ok().filter(|rows| *rows > 0)?;
+        let rows =
+            u32::try_from(self.margins()?.0.margins.limits.len()).ok().filter(|rows| *rows > 0)?;
         let row = rows - 1 - cell_of(cursor.up, rows);
         Some([cell_of(cursor.across, COLUMNS), row].map(|cell| cell as usize))
     }

@@ -12,6 +12,7 @@ mod panel;
 mod precision;
 mod response;
 pub mod spectrum;
+mod table;
 
 pub use panel::{LEAST_ROWS, Opening, ViewArea, ViewPanel};
 

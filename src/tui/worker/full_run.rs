@@ -7,9 +7,7 @@ use std::time::{Duration, Instant};
 use super::reading::Copies;
 use crate::tui::engine::{FORECAST_LIMIT, FullRun, FullRunState};
 use crate::tui::trace::{Mark, Marks, Trace};
-use rubscope_solver::motion::{
-    Course, Looker, Motion, VerdictReached, lock_that_broke, verdict_of,
-};
+use rubscope_solver::motion::{Course, Looker, Motion, VerdictReached, judge_end, lock_that_broke};
 use rubscope_solver::tolerances::LAST_PART;
 
 /// A full run that is being computed.
@@ -134,7 +132,8 @@ impl FullRunJob {
     fn finished(&self) -> FullRun {
         let motion = &self.motion;
         let log = motion.contacts();
-        let verdict = verdict_of(motion, self.window);
+        let checks = motion.checks();
+        let (verdict, failure) = judge_end(motion, &checks, self.window);
         let step = (self.end - self.start) / f64::from(SAMPLES);
         FullRun {
             trace: Arc::new(Trace { from: self.start, step, points: self.points.clone() }),
@@ -144,9 +143,9 @@ impl FullRunJob {
             since: verdict.keeps_contact().then_some(log.since),
             multipliers: motion.multipliers(),
             impacts: log.impact_count,
-            checks: motion.checks(),
-            stopped: motion.stopped(),
-            failure: motion.failure().cloned(),
+            checks,
+            stopped: motion.stopped().or_else(|| failure.as_ref().map(ToString::to_string)),
+            failure,
         }
     }
 

@@ -195,8 +195,6 @@ pub struct Stepwise {
     pub stride: f64,
     /// Most cells of a map, the coarsest ones.
     pub map_cells: usize,
-    /// Whether lasting pulses are searched, which takes seconds.
-    pub searches: bool,
     order: Option<Order>,
     playback: Option<Playback>,
     fresh: bool,
@@ -205,14 +203,7 @@ pub struct Stepwise {
 impl Stepwise {
     /// An engine that plays `stride` seconds of motion between two snapshots.
     pub fn new(stride: f64) -> Self {
-        Self {
-            stride,
-            map_cells: MAP_CELLS,
-            searches: false,
-            order: None,
-            playback: None,
-            fresh: false,
-        }
+        Self { stride, map_cells: MAP_CELLS, order: None, playback: None, fresh: false }
     }
 }
 
@@ -226,7 +217,7 @@ impl Engine for Stepwise {
         let order = self.order.as_ref()?;
         let start = || Playback::with_time_limit(order.clone(), Duration::MAX);
         let playback = self.playback.get_or_insert_with(start);
-        playback.bound_studies(Bounds { cells: self.map_cells, searches: self.searches });
+        playback.bound_studies(Bounds { cells: self.map_cells });
         playback.apply(order);
         while playback.is_computing() {
             playback.compute();

@@ -88,8 +88,8 @@ fn every_field_of_the_reports_is_in_the_documents() {
         (
             "| field of `rubscope.margins/1` | what it is |",
             vec![
-                "margins --no-search --nd 11 --model full --json",
-                "margins --end 0.02 --json --tolerance clearance=5 --target omega_c=300 --by casing.modal_mass_kg",
+                "margins --nd 11 --model full --json",
+                "margins --end 0.02 --json --target omega_c=300 --by casing.modal_mass_kg",
             ],
         ),
         (
@@ -105,12 +105,9 @@ fn every_field_of_the_reports_is_in_the_documents() {
     for (view, command) in [
         ("branches", "--branches".to_string()),
         ("slip", "slip --slip --zetas 0.01:0.03:3 --speed 300:500:3".to_string()),
-        ("harmonics", "slip --harmonics 2".to_string()),
         ("campbell", "--campbell --speed 0:500:2".to_string()),
         ("excitation", "--excitation --set excitation.amplitude_nm=10 --speed 500".to_string()),
-        ("fold", format!("--fold {soft} 400:500:2")),
         ("smooth", format!("--smooth {pressed} --speed 390:440:6")),
-        ("follow", format!("--follow casing.damping_ratio --over 0.05:0.1 {pressed}")),
         ("coincidence", format!("--coincidence {pressed} --speed 390:440:6")),
         ("whirl", format!("--whirl {inclined} 300:450:2")),
         ("compliance", format!("--compliance {inclined} 450")),
@@ -154,7 +151,7 @@ fn every_column_of_the_files_is_in_the_documents() {
     let header = "| column of a map | what it is |";
     let told_map = told(&document, header);
     assert_eq!(told_map, &(&map - &axes) | &names(&["the keys of the two axes"]), "{header}");
-    let margins = columns_of("margins --no-search", "a.csv");
+    let margins = columns_of("margins", "a.csv");
     let paths: BTreeSet<String> =
         margins.iter().filter(|name| name.contains('.') || *name == CLEARANCE).cloned().collect();
     let header = "| column of the margins | what it is |";
@@ -165,17 +162,11 @@ fn every_column_of_the_files_is_in_the_documents() {
     for (what, command) in [
         ("`hbm`", "hbm"),
         ("`hbm --branches`", "hbm --branches"),
-        ("`hbm --fold`", "hbm --fold"),
         ("`hbm --slip`", "hbm slip --slip"),
         ("`hbm --slip --zetas`", "hbm slip --slip --zetas 0.01:0.02:2"),
-        ("`hbm --harmonics`", "hbm slip --harmonics 2"),
         ("`hbm --excitation`", "hbm --excitation --set excitation.amplitude_nm=10"),
         ("`hbm --smooth`, blades pressed in", pressed),
         ("`hbm --smooth`, a clearance", "hbm --smooth --contact smooth"),
-        (
-            "`hbm --follow`",
-            "hbm --follow casing.damping_ratio --over 0.05:0.06 --contact smooth --set contact.stiffness_n_per_m=1e9",
-        ),
         ("`hbm --coincidence`", "hbm --coincidence --speed 300:500:3"),
         ("`hbm --whirl`", "hbm --whirl --speed 400:500:2"),
         ("`hbm --compliance`", "hbm --compliance --set bladed_disk.radial_coupling=0.3"),

@@ -6,16 +6,13 @@
 //! - rest under preload, its Hopf points in speed and the coincidence that the lining
 //!   shifts: `rest`; where its growth ends, and small motions about any wave: `cycle`
 //! - waves that stand in the frame of the blades, what a lock takes and which linings hold
-//!   one: `states`; followed over a parameter: `continuation`
+//!   one: `states`
 
-mod continuation;
 mod cycle;
 mod law;
 mod rest;
 mod states;
 
-pub use continuation::follow;
-pub use continuation::{BranchEnd, BranchPoint, FollowedBranch, Special};
 pub use cycle::{Cycle, Whirl};
 pub use law::Lining;
 pub use rest::{GrowthThreshold, HopfPoint, ShiftedCoincidence, growth_threshold};

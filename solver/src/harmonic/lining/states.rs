@@ -68,15 +68,15 @@ pub struct GroupPush {
 
 /// The two equations at one speed.
 #[derive(Clone, Debug)]
-pub(super) struct Balance<'a> {
-    pub lining: Lining<'a>,
-    pub joint: Joint<'a>,
+struct Balance<'a> {
+    lining: Lining<'a>,
+    joint: Joint<'a>,
     speed: f64,
     /// `L_c` at `nu`, and what multiplies the pushes.
     casing: Complex<f64>,
     pushed: Complex<f64>,
     /// Size of both terms for one unit of `w` \[N/m\].
-    pub scale: f64,
+    scale: f64,
 }
 
 /// A product of two complex numbers as a matrix that acts on the second.
@@ -85,7 +85,7 @@ fn as_matrix(number: Complex<f64>) -> Matrix2<f64> {
 }
 
 impl<'a> Balance<'a> {
-    pub fn at(lining: &Lining<'a>, speed: f64) -> Self {
+    fn at(lining: &Lining<'a>, speed: f64) -> Self {
         let lining = lining.at(speed);
         let machine = &*lining.machine;
         let joint = Joint::of(lining.machine.clone(), speed);
@@ -97,13 +97,8 @@ impl<'a> Balance<'a> {
         Self { lining, joint, speed, casing, pushed, scale }
     }
 
-    /// Rotor speed \[rad/s\].
-    pub fn speed(&self) -> f64 {
-        self.speed
-    }
-
     /// Of all sides: phase, and gap at a place.
-    pub fn gaps(&self, w: Vector2<f64>) -> impl Iterator<Item = (u32, Vector2<f64>, f64)> {
+    fn gaps(&self, w: Vector2<f64>) -> impl Iterator<Item = (u32, Vector2<f64>, f64)> {
         let machine = &*self.lining.machine;
         let clearance = machine.clearance();
         (0..machine.polygon.sides).map(move |side| {
@@ -126,14 +121,14 @@ impl<'a> Balance<'a> {
 
     /// Residual of the two equations and its derivative by `w`, both dimensionless but
     /// for the length of `w`.
-    pub fn residual(&self, w: Vector2<f64>) -> (Vector2<f64>, Matrix2<f64>) {
+    fn residual(&self, w: Vector2<f64>) -> (Vector2<f64>, Matrix2<f64>) {
         let (push, slope) = self.pushes(w);
         let (casing, pushed) = (as_matrix(self.casing), as_matrix(self.pushed));
         ((casing * w - pushed * push) / self.scale, (casing + pushed * slope) / self.scale)
     }
 
     /// Newton's method; `None` where it does not settle.
-    pub fn solve(&self, start: Vector2<f64>) -> Option<Vector2<f64>> {
+    fn solve(&self, start: Vector2<f64>) -> Option<Vector2<f64>> {
         let length = self.length();
         let mut w = start;
         let (mut residual, mut jacobian) = self.residual(w);
@@ -160,13 +155,13 @@ impl<'a> Balance<'a> {
     }
 
     /// Clearance and smoothing, as the length of this contact \[m\].
-    pub fn length(&self) -> f64 {
+    fn length(&self) -> f64 {
         self.lining.machine.clearance().abs() + self.lining.smoothing_m
     }
 
     /// The place that neighbouring sides from the first on would hold if they were
     /// springs, `eps = 0`.
-    pub fn sprung(&self, sides: u32) -> Option<Vector2<f64>> {
+    fn sprung(&self, sides: u32) -> Option<Vector2<f64>> {
         let machine = &*self.lining.machine;
         let each = self.lining.stiffness_n_per_m * f64::from(machine.polygon.blades_per_side);
         let clearance = machine.clearance() + 0.5 * self.lining.smoothing_m;
@@ -207,7 +202,7 @@ impl<'a> Balance<'a> {
     }
 
     /// The state at a place.
-    pub fn state(&self, w: Vector2<f64>) -> Result<LiningState, HarmonicError> {
+    fn state(&self, w: Vector2<f64>) -> Result<LiningState, HarmonicError> {
         let machine = &*self.lining.machine;
         let unsettled = HarmonicError::Unsettled { speed: self.speed };
         let (push, slope) = self.pushes(w);

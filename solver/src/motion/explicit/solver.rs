@@ -139,6 +139,10 @@ impl<B: Disk> Solver for Explicit<B> {
         Some(self.leaps.skipped())
     }
 
+    fn pulls(&self) -> bool {
+        self.law.pulls()
+    }
+
     fn failure(&self) -> Option<&Failure> {
         self.failure.as_ref()
     }

@@ -8,7 +8,7 @@ use super::{Figure, Mark, Panel, Quantity, Series, Style};
 use crate::harmonic::{CoincidencePoint, HarmonicError, Lining, coincidence, shifted_coincidence};
 use crate::motion::{Sampling, Script, run_to_end};
 use crate::scene::keys;
-use crate::scene::{CheckedScene, ContactLaw, Scene, SceneError};
+use crate::scene::{CheckedScene, Scene, SceneError};
 
 /// Speeds of a curve, and of a part of it that one thread computes.
 const SPEEDS: u32 = 401;
@@ -104,17 +104,8 @@ fn runs(scene: &CheckedScene, [from, to]: [f64; 2]) -> Series {
 /// The figure.
 ///
 /// # Errors
-/// A scene whose blades do not all rub a lining at rest.
+/// None, for the scene of this figure.
 pub fn peaks(scene: &CheckedScene) -> Result<Figure, HarmonicError> {
-    if scene.clearance() >= 0.0 || scene.solver.contact != ContactLaw::Smooth {
-        return Err(HarmonicError::Refused {
-            key: keys::CASING_RADIUS,
-            value: scene.casing.radius_m.to_string(),
-            allowed: "below bladed_disk.blade_length_m, with solver.contact = \"smooth\": the \
-                      figure is of blades that all rub a lining at rest"
-                .to_string(),
-        });
-    }
     let machine = scene.machine();
     let damped: &Scene = scene;
     let light = light(damped);
@@ -136,13 +127,10 @@ pub fn peaks(scene: &CheckedScene) -> Result<Figure, HarmonicError> {
     let speeds: Vec<f64> = (0..SPEEDS).map(|k| from + (to - from) * part(k)).collect();
     let mut series =
         vec![curve(damped, &speeds, "damped", 0)?, curve(&light, &speeds, "light", 1)?];
-    let own = own_scene().and_then(|own| own.checked()).is_ok_and(|own| own == *scene);
-    if own {
-        let lining = Lining::of(&machine, &scene.contact)?;
-        let hopf = lining.hopf_points([from, to])?;
-        if let [first, .., last] = hopf.as_slice() {
-            series.push(runs(scene, [first.speed_rad_s, last.speed_rad_s]));
-        }
+    let lining = Lining::of(&machine, &scene.contact)?;
+    let hopf = lining.hopf_points([from, to])?;
+    if let [first, .., last] = hopf.as_slice() {
+        series.push(runs(scene, [first.speed_rad_s, last.speed_rad_s]));
     }
     let panel = Panel { marks, ..Panel::new("", Quantity::SPEED, BLADES, series) };
     let stiffness = |scene: &Scene| scene.contact.stiffness_n_per_m / 1e3;
@@ -158,18 +146,17 @@ pub fn peaks(scene: &CheckedScene) -> Result<Figure, HarmonicError> {
     );
     let mut figure =
         Figure::new("Blade amplitude against rotor speed about the coincidence", note, vec![panel]);
-    if own {
-        figure.caption = [
-            "Not a figure of the paper. Its last page expects a dangerous coincidence at \
+    figure.caption = [
+        "Not a figure of the paper. Its last page expects a dangerous coincidence at \
              (ω_c + ω_bd)/n_d, Eq. (31), and leaves it to later work. Its own blades do not feel \
              the casing move; tips that move outward as blades bend do.",
-            "All blades rub at rest. The lining stiffens casing and blades, so the peak stands \
+        "All blades rub at rest. The lining stiffens casing and blades, so the peak stands \
              above Eq. (31); with less damping a softer lining is enough, and the peak comes \
              down to it. Where blades lift off for a part of each turn, the growth ends: that \
              gives the height.",
-        ]
-        .map(String::from)
-        .to_vec();
-    }
+    ]
+    .map(String::from)
+    .to_vec();
+
     Ok(figure)
 }

@@ -15,23 +15,11 @@ const AMPLITUDE: Quantity =
 const MICRO: Quantity = Quantity::new("alpha_rad", "blade angle [µrad]", 1e6);
 const NANO: Quantity = Quantity::new("alpha_rad", "blade angle [nrad]", 1e9);
 
-/// The machine of these figures: with rigid contact.
-fn machine_of(scene: &Scene) -> Machine {
-    scene.machine().with_lining(None)
-}
-
-/// What the curves and marks are of, where the scene asks for more.
-fn notes(scene: &Scene) -> String {
-    let lining = scene.lining().map(|_| "of rigid contact, without its lining".to_string());
-    let notes = lining.into_iter().chain(scene.tuned_note());
-    notes.map(|note| format!(" Curves and marks are {note}.")).collect()
-}
-
 fn sweep(scene: &Scene, form: Form, damped: bool) -> Result<Sweep, HarmonicError> {
     let top = scene.operation.speed_rad_s;
     let speeds: Vec<f64> =
         (0..SPEEDS).map(|n| top * f64::from(n) / f64::from(SPEEDS - 1)).collect();
-    locked_motion(&machine_of(scene), form, damped, None, &speeds)
+    locked_motion(&scene.machine(), form, damped, None, &speeds)
 }
 
 fn series(label: &str, style: Style, sweep: &Sweep, of: impl Fn(&LockedPoint) -> f64) -> Series {
@@ -49,8 +37,8 @@ fn plain(group: &str) -> String {
 }
 
 /// Fig. 9: the multipliers, as the paper has them and with damping.
-pub fn multipliers(scene: &Scene, as_paper: bool) -> Result<Figure, HarmonicError> {
-    let machine = machine_of(scene);
+pub fn multipliers(scene: &Scene) -> Result<Figure, HarmonicError> {
+    let machine = scene.machine();
     let undamped = sweep(scene, Form::Printed, false)?;
     let damped = sweep(scene, Form::Modal, true)?;
     let names = names(&machine, &undamped);
@@ -70,32 +58,29 @@ pub fn multipliers(scene: &Scene, as_paper: bool) -> Result<Figure, HarmonicErro
     let panel = Panel { marks, ..Panel::new("", Quantity::SPEED, LAMBDA, lines) };
     let note = format!(
         "n_d = {}, locked between {a} and {b}. Undamped: the paper's equations as printed (27); \
-         damped: the form of the time-domain model, with ζ_c = {}.{}",
-        machine.nodal_diameters,
-        machine.casing_damping_ratio,
-        notes(scene)
+         damped: the form of the time-domain model, with ζ_c = {}.",
+        machine.nodal_diameters, machine.casing_damping_ratio
     );
     let title = "Contact multipliers of the locked motion against rotor speed";
     let mut figure = Figure::new(title, note, vec![panel]);
-    if as_paper {
-        figure.caption = [
-            "Agrees with the paper: without damping both multipliers are equal and change their \
+    figure.caption = [
+        "Agrees with the paper: without damping both multipliers are equal and change their \
              sign at Ω_c. Here a negative multiplier is a push of the blade on the casing; below \
              Ω_c they pull, and the solution is no contact. At 500 rad/s each is −150.9 N.",
-            "Differs: with the damping of the paper's own Table 1 the two are not equal \
+        "Differs: with the damping of the paper's own Table 1 the two are not equal \
              (−244.4 N on #6 and −57.3 N on #21 at 500 rad/s), and one of them pulls up to \
              Ω_lock = 411.9 rad/s. The paper drops the damping here.",
-            "Cannot be compared: the sign and the scale of its axis.",
-        ]
-        .map(String::from)
-        .to_vec();
-    }
+        "Cannot be compared: the sign and the scale of its axis.",
+    ]
+    .map(String::from)
+    .to_vec();
+
     Ok(figure)
 }
 
 /// Fig. 10: the amplitudes of casing and blades, undamped as in the paper.
-pub fn amplitudes(scene: &Scene, as_paper: bool) -> Result<Figure, HarmonicError> {
-    let machine = machine_of(scene);
+pub fn amplitudes(scene: &Scene) -> Result<Figure, HarmonicError> {
+    let machine = scene.machine();
     let [printed, blade, modal] = [
         sweep(scene, Form::Printed, false)?,
         sweep(scene, Form::Blade, false)?,
@@ -136,15 +121,11 @@ pub fn amplitudes(scene: &Scene, as_paper: bool) -> Result<Figure, HarmonicError
             angles(Form::Modal, &modal, 2).to_vec(),
         ),
     ];
-    let note = format!(
-        "n_d = {}, locked between {a} and {b}, no damping.{}",
-        machine.nodal_diameters,
-        notes(scene)
-    );
+    let note =
+        format!("n_d = {}, locked between {a} and {b}, no damping.", machine.nodal_diameters);
     let mut figure =
         Figure::new("Amplitudes of the locked motion against rotor speed", note, panels);
-    if as_paper {
-        figure.caption = [
+    figure.caption = [
             "Agrees with the paper: the amplitudes of the casing do not depend on the speed and \
              belong to one forward wave (u_cc = u_ss = 28.46 µm, u_sc = −u_cs = 96.94 µm); the \
              angles of the blades go through zero at Ω_c.",
@@ -156,35 +137,6 @@ pub fn amplitudes(scene: &Scene, as_paper: bool) -> Result<Figure, HarmonicError
         ]
         .map(String::from)
         .to_vec();
-    }
+
     Ok(figure)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::Scene;
-
-    #[test]
-    fn curves_and_marks_are_of_one_machine_and_the_note_says_which() {
-        let drawn = |changes: &[(&str, &str)]| {
-            let scene = Scene::builtin("paper-nd3").unwrap().with(changes).unwrap();
-            let figure = multipliers(&scene, false).unwrap();
-            (figure.panels[0].marks.clone(), figure.note)
-        };
-        let (rigid, note) = drawn(&[]);
-        assert!(rigid.len() == 2 && !note.contains("Curves and marks"), "{rigid:?} {note}");
-        let (lined, note) =
-            drawn(&[("solver.contact", "smooth"), ("contact.stiffness_n_per_m", "3e8")]);
-        assert_eq!(lined, rigid);
-        assert!(note.contains("Curves and marks are of rigid contact"), "{note}");
-        let (_, note) = drawn(&[("solver.model", "full")]);
-        assert!(note.contains("Curves and marks are of equal blades"), "{note}");
-        // Where tips move outward a lock has an end.
-        let mut joined = Scene::base();
-        joined.bladed_disk.radial_coupling = 0.3;
-        let marks = speed_marks(&joined.machine(), -500.0);
-        assert_eq!(marks[2].label, "lock ends");
-        assert!((marks[2].x + 566.259).abs() < 1e-3, "{marks:?}");
-    }
 }

@@ -162,7 +162,7 @@ fn by_events(scene: &CheckedScene) -> Option<String> {
 }
 
 /// Fig. 4: `u_c` at three time steps.
-pub fn steps(scene: &CheckedScene, as_paper: bool) -> Figure {
+pub fn steps(scene: &CheckedScene) -> Figure {
     let (mut lines, mut endings, mut told) = (Vec::new(), Vec::new(), String::new());
     for (index, (step, scene)) in at_steps(scene).enumerate() {
         let (report, samples) = sampled(&scene, false);
@@ -187,22 +187,21 @@ pub fn steps(scene: &CheckedScene, as_paper: bool) -> Figure {
     ];
     let mut figure = Figure::new("Casing displacement u_c at three time steps", told, panels);
     figure.caption.push(format!("{}.", endings.join("; ")));
-    if as_paper {
-        figure.caption.push(format!(
-            "Agrees with the paper: the motion is locked from about 0.08 s at each of its three \
+    figure.caption.push(format!(
+        "Agrees with the paper: the motion is locked from about 0.08 s at each of its three \
                  steps and looks the same from then on, but its phase depends on the step. So do \
                  the blades: at each of {} it locks from 75 to 81 ms, at some 30 of them on #6 and \
                  #21. Round-off moves the lock too: steps of 1 µs with twice the digits lock at \
                  79.6 ms.",
-            many_steps()
-        ));
-        figure.caption.extend([NOT_COMPARED, OTHER_DAMPING].map(String::from));
-    }
+        many_steps()
+    ));
+    figure.caption.extend([NOT_COMPARED, OTHER_DAMPING].map(String::from));
+
     figure
 }
 
 /// Fig. 5: the gaps of all blades, those in contact at the end marked.
-pub fn gaps(scene: &CheckedScene, as_paper: bool) -> Figure {
+pub fn gaps(scene: &CheckedScene) -> Figure {
     let (report, samples) = sampled(scene, true);
     let held: Vec<u32> =
         report.outcome.contacts.iter().flat_map(|contact| contact.blades.clone()).collect();
@@ -227,14 +226,13 @@ pub fn gaps(scene: &CheckedScene, as_paper: bool) -> Figure {
          whole run: {}.",
         if deepest > 1e-15 { format!("{:.2} µm", 1e6 * deepest) } else { "none".into() }
     ));
-    if as_paper {
-        figure.caption.push(
-            "Agrees with the paper: blades #6 and #21 are in permanent contact, which begins at \
+    figure.caption.push(
+        "Agrees with the paper: blades #6 and #21 are in permanent contact, which begins at \
              about 0.08 s; no gap is negative."
-                .into(),
-        );
-        figure.caption.extend([NOT_COMPARED, OTHER_DAMPING].map(String::from));
-    }
+            .into(),
+    );
+    figure.caption.extend([NOT_COMPARED, OTHER_DAMPING].map(String::from));
+
     figure
 }
 
@@ -272,15 +270,14 @@ fn coordinates(scene: &CheckedScene) -> Figure {
 
 /// Fig. 6: the coordinates of casing and bladed disk; the paper's also with its
 /// blade damping taken literally.
-pub fn response(scene: &CheckedScene, as_paper: bool) -> Figure {
+pub fn response(scene: &CheckedScene) -> Figure {
     let mut figure = coordinates(scene);
     // The paper prints d_bd = 2 omega_bd zeta_bd beside m_b: without the inertia,
     // the damping ratio is larger by 1/m_b.
     let disk = scene.disk_in_use();
     let literal = disk.damping_ratio / disk.inertia_kg_m2;
     let text = literal.to_string();
-    if as_paper && let Ok(damped) = scene.clone().into_scene().with(&[(keys::BLADE_DAMPING, &text)])
-    {
+    if let Ok(damped) = scene.clone().into_scene().with(&[(keys::BLADE_DAMPING, &text)]) {
         let (_, samples) = sampled(&damped, false);
         let title = blade_title("(c)", &damped);
         let panel = Panel::new(&title, Quantity::TIME, ALPHA, blade_lines(&samples));
@@ -303,7 +300,7 @@ pub fn response(scene: &CheckedScene, as_paper: bool) -> Figure {
 }
 
 /// Fig. 7: as Fig. 6 for four nodal diameters.
-pub fn four_diameters(scene: &CheckedScene, as_paper: bool) -> Figure {
+pub fn four_diameters(scene: &CheckedScene) -> Figure {
     let mut figure = coordinates(scene);
     let at = |(step, scene): (f64, CheckedScene)| {
         format!("{}: {}", step_words(step), ending(&plain(&scene)))
@@ -311,12 +308,11 @@ pub fn four_diameters(scene: &CheckedScene, as_paper: bool) -> Figure {
     let mut endings: Vec<String> = at_steps(scene).map(at).collect();
     endings.extend(by_events(scene));
     figure.caption.push(format!("{}.", endings.join("; ")));
-    if as_paper {
-        let weaker = scene.clone().into_scene().with(&[(keys::PULSE, "42e3")]).ok();
-        let many: Vec<String> =
-            [Some(scene.clone()), weaker].iter().flatten().map(at_many_steps).collect();
-        let swings = still_swings(figure.panels.get(1));
-        figure.caption.extend([
+    let weaker = scene.clone().into_scene().with(&[(keys::PULSE, "42e3")]).ok();
+    let many: Vec<String> =
+        [Some(scene.clone()), weaker].iter().flatten().map(at_many_steps).collect();
+    let swings = still_swings(figure.panels.get(1));
+    figure.caption.extend([
             "Agrees with the paper: the same kind of motion as with three nodal diameters, held \
              by two neighbouring groups of blades, which are two blades each."
                 .to_string(),
@@ -333,6 +329,6 @@ pub fn four_diameters(scene: &CheckedScene, as_paper: bool) -> Figure {
             ),
             "Cannot be compared: the force of the pulse and the scales of the picture.".to_string(),
         ]);
-    }
+
     figure
 }

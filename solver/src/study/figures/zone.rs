@@ -1,11 +1,13 @@
 //! Fig. 8: which pulses at which speeds lead to which lasting motion.
 
+use rayon::prelude::*;
+
 use super::{Figure, Panel, Quantity, Series, Style, speed_marks};
 use crate::motion::{Verdict, run_to_verdict, to_the_end};
 use crate::numeric::bisection::bisected_to;
 use crate::scene::keys::{PULSE, SPEED};
 use crate::scene::{CheckedScene, ContactLaw, Scene, SolverKind};
-use crate::study::{Axis, Map, MapPlan, Progress, Shard};
+use crate::study::{Axis, Map, MapPlan};
 
 /// Speeds, from a fifth of that of the scene up to it.
 const SPEEDS: u32 = 41;
@@ -25,10 +27,10 @@ const FORCE: Quantity = Quantity::log("pulse_n", "force of the pulse [N]");
 
 /// Fig. 8 for one machine with both contact laws; for the paper's also with four
 /// nodal diameters.
-pub fn zone(scene: &CheckedScene, as_paper: bool) -> Figure {
+pub fn zone(scene: &CheckedScene) -> Figure {
     let mut panels = both_laws(scene, ["(a)", "(b)"]);
     let mut caption = Vec::new();
-    if as_paper && let Ok(four) = Scene::builtin("paper-nd4") {
+    if let Ok(four) = Scene::builtin("paper-nd4") {
         panels.extend(both_laws(&four, ["(c)", "(d)"]));
         let told = panels.first().map(thresholds).unwrap_or_default();
         caption.push(format!(
@@ -111,8 +113,7 @@ fn series(scene: Scene) -> Vec<Series> {
     let x = axis(SPEED, (0.2 * fastest, fastest), SPEEDS, false);
     let y = axis(PULSE, PULSE_RANGE, PULSES, true);
     let mut map = Map::empty(MapPlan { scene, x, y, sensitivity: false });
-    let all = Shard::WHOLE.indices(map.plan.len());
-    map.fill(all, &Progress::default(), &|_, _| {});
+    map.fill((0..map.plan.len()).into_par_iter(), &|| true, &|_, _| {});
     let (speeds, pulses) = (map.plan.x.values(), map.plan.y.values());
     let mut series: Vec<Series> = Verdict::ALL
         .into_iter()

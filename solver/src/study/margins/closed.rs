@@ -18,7 +18,7 @@ const FAR: f64 = 10.0;
 const SPEEDS: usize = 9;
 
 /// The closed forms, in the order in which they are shown.
-pub(super) const CLOSED: [LimitName; 15] = [
+pub(super) const CLOSED: [LimitName; 13] = [
     LimitName::OmegaC,
     LimitName::OmegaAdhesive,
     LimitName::OmegaLock,
@@ -32,8 +32,6 @@ pub(super) const CLOSED: [LimitName; 15] = [
     LimitName::PushB,
     LimitName::Torque,
     LimitName::Power,
-    LimitName::BladeAngle,
-    LimitName::LockEnergy,
 ];
 
 /// Those that few machines have, shown where they are.
@@ -57,8 +55,6 @@ fn every<T: Number>(parameters: &Parameters<T>) -> [Vec<T>; CLOSED.len()] {
         of(|loads| loads.pushes_n[1]),
         of(|loads| loads.torque_nm),
         of(|loads| loads.power_w),
-        of(|loads| loads.largest_alpha_rad),
-        of(|loads| loads.energy_j),
     ];
     let mut all = speed_values(&machine, speed).into_iter().chain(of_lock);
     std::array::from_fn(|_| all.next().unwrap_or_default())

@@ -4,10 +4,7 @@ use crate::scene::keys::{PULSE, SPEED};
 use serde::{Deserialize, Serialize};
 use strum::{AsRefStr, Display, EnumIter, EnumString, VariantNames};
 
-use super::lasting::Band;
 use super::parameters::is_length;
-use super::tolerance::Spread;
-use crate::scene::ContactLaw;
 
 /// Which limit.
 #[derive(
@@ -47,13 +44,6 @@ pub enum LimitName {
     FlutterSpeed,
     /// The smallest pulse that touches.
     TouchingPulse,
-    /// The smallest pulse that lasts, under the law of the scene.
-    LastingPulse,
-    /// The smallest pulse that lasts under the unilateral law, where the scene has
-    /// the other.
-    LastingPulseUnilateral,
-    /// The same under the bilateral law.
-    LastingPulseBilateral,
     /// Push of the group a of the lock.
     PushA,
     /// Push of the group b.
@@ -62,10 +52,6 @@ pub enum LimitName {
     Torque,
     /// Its power.
     Power,
-    /// Largest angle of a blade in the lock.
-    BladeAngle,
-    /// Energy of the casing wave in the lock.
-    LockEnergy,
 }
 
 /// What a limit is a value of.
@@ -86,12 +72,6 @@ pub enum Quantity {
     /// Power.
     #[serde(rename = "power_w")]
     Power,
-    /// Angle.
-    #[serde(rename = "angle_rad")]
-    Angle,
-    /// Energy.
-    #[serde(rename = "energy_j")]
-    Energy,
 }
 
 /// On which side of a limit the scene stands.
@@ -104,8 +84,6 @@ pub enum Side {
     At,
     /// It has more.
     Beyond,
-    /// It has less, but stands in an island of lasting pulses.
-    Inside,
 }
 
 /// One limit of a scene.
@@ -115,9 +93,6 @@ pub struct Limit {
     pub name: LimitName,
     /// What it is a value of.
     pub quantity: Quantity,
-    /// The contact law that it is of, if it depends on one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub contact: Option<ContactLaw>,
     /// Its value in SI units; none where there is no such limit.
     pub value: Option<f64>,
     /// The value of the scene that it limits; none for loads of the lock. Speeds are
@@ -128,15 +103,9 @@ pub struct Limit {
     pub margin: Option<f64>,
     /// `d ln(value)/d ln(parameter)` of every parameter of the scene.
     pub sensitivities: Sensitivities,
-    /// Where lasting pulses are, of what was searched.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub bands: Vec<Band>,
     /// What else is to be said, such as why there is no value.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
-    /// How far it spreads with the tolerances given.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub spread: Option<Spread>,
 }
 
 /// The sensitivities of one limit, by the path of the parameter; none where there is
@@ -188,55 +157,43 @@ impl Limit {
         Self {
             name,
             quantity: name.quantity(),
-            contact: None,
             value,
             present,
             margin: margin.filter(|margin| margin.is_finite()),
             sensitivities: Sensitivities::default(),
-            bands: Vec::new(),
             note: None,
-            spread: None,
         }
     }
 
-    /// On which side of it the scene stands.
+    /// Whether it is a load of the lock, which limits nothing of the scene.
+    #[must_use]
+    pub fn is_load(&self) -> bool {
+        self.quantity.path().is_none()
+    }
+
+    /// Returns which way a load of the lock acts, or on which side of another limit the
+    /// scene stands.
+    #[must_use]
+    pub fn way(&self) -> String {
+        match (self.quantity, self.value) {
+            (Quantity::Push, Some(push)) if push < 0.0 => "pulls".to_string(),
+            (Quantity::Push, Some(_)) => "pushes".to_string(),
+            _ => self.side().map_or_else(String::new, |side| side.to_string()),
+        }
+    }
+
+    /// Returns the side on which the scene stands.
     #[must_use]
     pub fn side(&self) -> Option<Side> {
-        let (margin, present) = self.margin.zip(self.present)?;
-        if margin < -AT && self.bands.iter().any(|band| band.holds(present)) {
-            return Some(Side::Inside);
-        }
-        Some(match margin {
-            _ if margin.abs() < AT => Side::At,
-            _ if margin < 0.0 => Side::Below,
+        Some(match self.margin? {
+            margin if margin.abs() < AT => Side::At,
+            margin if margin < 0.0 => Side::Below,
             _ => Side::Beyond,
         })
     }
 }
 
 impl LimitName {
-    /// The law under which it is searched by runs, in a scene of some law; none for
-    /// the other limits.
-    #[must_use]
-    pub fn law(self, own: ContactLaw) -> Option<ContactLaw> {
-        match self {
-            Self::LastingPulse => Some(own),
-            Self::LastingPulseUnilateral => Some(ContactLaw::Unilateral),
-            Self::LastingPulseBilateral => Some(ContactLaw::Bilateral),
-            _ => None,
-        }
-    }
-
-    /// The smallest lasting pulse under a law, in a scene of some law.
-    #[must_use]
-    pub fn lasting(law: ContactLaw, own: ContactLaw) -> Self {
-        match law {
-            _ if law == own => Self::LastingPulse,
-            ContactLaw::Unilateral | ContactLaw::Smooth => Self::LastingPulseUnilateral,
-            ContactLaw::Bilateral => Self::LastingPulseBilateral,
-        }
-    }
-
     /// Its row in `LIMITS`.
     fn entry(self) -> &'static Entry {
         &LIMITS[self as usize]
@@ -286,12 +243,11 @@ const fn entry(
     Entry { name, quantity, symbol, titles, what }
 }
 
-/// Every limit, in the order of the names. The titles of lasting pulses go on with the
-/// contact law.
+/// Every limit, in the order of the names.
 #[rustfmt::skip]
-const LIMITS: [Entry; 19] = {
+const LIMITS: [Entry; 14] = {
     use LimitName::*;
-    use Quantity::{Angle, Energy, Pulse, Push, Speed};
+    use Quantity::{Pulse, Push, Speed};
     [
         entry(OmegaC, Speed, "Ω_c", ["Ω_c"; 2], "critical speed: above it the wave is pushed outward"),
         entry(OmegaLock, Speed, "Ω_lock", ["Ω_lock"; 2], "from it on both blades of a lock push"),
@@ -303,15 +259,10 @@ const LIMITS: [Entry; 19] = {
         entry(WhirlOnset, Speed, "Ω_whirl", ["whirl begins", "whirl"], "above it blades and casing whirl, on a rim of many blades"),
         entry(FlutterSpeed, Speed, "Ω_flutter", ["lock flutters", "flutter"], "above it a lock of inclined tips flutters"),
         entry(TouchingPulse, Pulse, "F_touches", ["F that touches", "F touches"], "smallest pulse that touches"),
-        entry(LastingPulse, Pulse, "F_lasts", ["F lasts"; 2], "smallest pulse that lasts"),
-        entry(LastingPulseUnilateral, Pulse, "F_unilateral", ["F lasts"; 2], "smallest that lasts, unilateral law"),
-        entry(LastingPulseBilateral, Pulse, "F_bilateral", ["F lasts"; 2], "smallest that lasts, bilateral law"),
         entry(PushA, Push, "−λ_a", ["push of group a", "push a"], "push of group a in the lock"),
         entry(PushB, Push, "−λ_b", ["push of group b", "push b"], "push of group b in the lock"),
         entry(Torque, Quantity::Torque, "T", ["torque"; 2], "torque that holds the lock"),
         entry(Power, Quantity::Power, "P", ["power"; 2], "power that the lock takes"),
-        entry(BladeAngle, Angle, "α_max", ["blade angle"; 2], "largest angle of a blade in the lock"),
-        entry(LockEnergy, Energy, "E", ["wave energy"; 2], "energy of the locked wave"),
     ]
 };
 
@@ -333,8 +284,6 @@ impl Quantity {
             Self::Pulse | Self::Push => "N",
             Self::Torque => "N m",
             Self::Power => "W",
-            Self::Angle => "rad",
-            Self::Energy => "J",
         }
     }
 
@@ -352,14 +301,9 @@ impl Quantity {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::Verdict;
 
     fn limit(value: f64, present: f64) -> Limit {
-        Limit::new(LimitName::LastingPulse, Some(value), Some(present))
-    }
-
-    fn band(from_n: f64, to_n: Option<f64>) -> Band {
-        Band { from_n, to_n, verdicts: vec![Verdict::Slip], sensitive: false }
+        Limit::new(LimitName::TouchingPulse, Some(value), Some(present))
     }
 
     #[test]
@@ -380,27 +324,17 @@ mod tests {
     }
 
     #[test]
-    fn a_scene_is_below_beyond_or_in_an_island() {
-        let mut all = limit(100.0, 50.0);
-        assert_eq!((all.margin, all.side()), (Some(-0.5), Some(Side::Below)));
-        all.bands = vec![band(20.0, Some(30.0)), band(100.0, None)];
+    fn a_scene_is_below_at_or_beyond() {
+        assert_eq!(limit(100.0, 50.0).margin, Some(-0.5));
         for (present, side) in [
-            (19.0, Side::Below),
-            (20.0, Side::Inside),
-            (30.0, Side::Inside),
-            (31.0, Side::Below),
-            (-25.0, Side::Below),
+            (50.0, Side::Below),
             (100.0, Side::At),
             (100.0 * (1.0 - 1e-8), Side::Below),
             (100.0 * (1.0 + 1e-8), Side::Beyond),
             (1e9, Side::Beyond),
         ] {
-            let Limit { margin, present, .. } = limit(100.0, present);
-            assert_eq!(Limit { margin, present, ..all.clone() }.side(), Some(side), "{present:?}");
+            assert_eq!(limit(100.0, present).side(), Some(side), "{present:?}");
         }
-        // Pulses that pull are the mirror image.
-        let pull = band(-20.0, Some(-30.0));
-        assert!(pull.holds(-25.0) && !pull.holds(25.0) && !pull.holds(-31.0));
     }
 
     #[test]

@@ -146,17 +146,6 @@ impl Parameter {
         }
     }
 
-    /// Of a length: `d ln(clearance)/d ln(length)`.
-    pub(super) fn lever(&self, scene: &Scene) -> f64 {
-        let sign = if self.path == LENGTH { -1.0 } else { 1.0 };
-        sign * self.of(scene) / (scene.casing.radius_m - scene.bladed_disk.blade_length_m)
-    }
-
-    /// Whether it is one of the blades, but not their length: rigid ones have none.
-    pub(super) fn is_of_blades(&self) -> bool {
-        self.path.starts_with("bladed_disk.") && self.path != LENGTH
-    }
-
     /// Whether it is one of the lining, which rigid contact has not.
     pub(super) fn is_of_lining(&self) -> bool {
         [STIFFNESS, SMOOTHING].contains(&self.path)

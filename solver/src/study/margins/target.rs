@@ -1,21 +1,19 @@
 //! The value of one parameter that puts a limit where it is wanted: outward from its
 //! value in the scene by equal factors until the limit passes the wanted value, then
-//! by halving to the last digit. A lasting pulse, which takes many runs, is followed
-//! along its edge instead.
+//! by halving to the last digit.
 
 use serde::Serialize;
 use strum::VariantNames;
 use thiserror::Error;
 
 use super::closed::{CLOSED, values};
-use super::lasting::Edges;
 use super::limit::LimitName;
 use super::parameters::{PARAMETERS, Parameter, Parameters, parameter};
-use super::{lasting_pulse, touching};
+use super::touching;
 use crate::motion::GoOn;
 use crate::scene::units::UnitError;
-use crate::scene::{CheckedScene, ContactLaw, Quantity};
-use crate::tolerances::{LASTING_REACH, TARGET_FACTOR, TARGET_REACHED, TARGET_SPAN};
+use crate::scene::{CheckedScene, Quantity};
+use crate::tolerances::{TARGET_FACTOR, TARGET_REACHED, TARGET_SPAN};
 
 /// Why a target was refused.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -43,7 +41,7 @@ pub enum TargetError {
 }
 
 /// The paths of all parameters.
-pub(super) fn paths() -> String {
+fn paths() -> String {
     PARAMETERS.iter().map(|parameter| parameter.path).collect::<Vec<_>>().join(", ")
 }
 
@@ -105,12 +103,9 @@ impl Target {
         let from = self.by.of(scene);
         let mut walk = Walk { target: *self, scene, go_on, met: None, tried: [from; 2] };
         let start = self.by.walked(scene).1;
-        let solved = match self.name.law(scene.solver.contact) {
-            Some(law) => walk.follow(law, start)?,
-            None => match walk.bracket(start)? {
-                Some(ends) => walk.halve(ends)?,
-                None => None,
-            },
+        let solved = match walk.bracket(start)? {
+            Some(ends) => walk.halve(ends)?,
+            None => None,
         };
         let (to, reached) = solved.unzip();
         let Self { name, wanted, by } = *self;
@@ -146,17 +141,12 @@ impl Walk<'_> {
             None => touching::smallest(&scene).map(|touch| touch.pulse_n),
         };
         if let Some(limit) = limit {
-            self.meet(value, limit);
+            let [low, high] = self.tried;
+            self.tried = [low.min(value), high.max(value)];
+            let [least, most] = self.met.unwrap_or([limit; 2]);
+            self.met = Some([least.min(limit), most.max(limit)]);
         }
         Some(limit.map(|limit| limit - self.target.wanted))
-    }
-
-    /// Notes that the limit is there at a value of the parameter.
-    fn meet(&mut self, value: f64, limit: f64) {
-        let [low, high] = self.tried;
-        self.tried = [low.min(value), high.max(value)];
-        let [least, most] = self.met.unwrap_or([limit; 2]);
-        self.met = Some([least.min(limit), most.max(limit)]);
     }
 
     /// Two neighbouring values between which the limit passes the wanted one, the
@@ -215,53 +205,4 @@ impl Walk<'_> {
         let value = self.target.by.value_at(self.scene, value);
         Some((excess.abs() <= TARGET_REACHED * size).then_some((value, limit)))
     }
-
-    /// The place on the edge of lasting, followed from that of the scene by steps over
-    /// which it moves little; none inside where the edge is lost, or moves too little.
-    fn follow(&mut self, law: ContactLaw, from: f64) -> Option<Option<(f64, f64)>> {
-        let (limit, _) = lasting_pulse(self.scene, law, self.go_on)?;
-        let by = self.target.by;
-        let slope = limit.sensitivities.by(by.walked(self.scene).0);
-        let Some((mut edge, mut slope)) = limit.value.zip(slope) else { return Some(None) };
-        let Ok(edges) = Edges::of(self.scene, law, self.go_on) else { return Some(None) };
-        self.meet(by.value_at(self.scene, from), edge);
-        let wanted = self.target.wanted;
-        let (mut value, mut step) = (from, FOLLOW_STEP);
-        for _ in 0..FOLLOW_STEPS {
-            let left = (wanted / edge).ln();
-            if left.is_nan() || left.abs() <= TARGET_REACHED {
-                let value = by.value_at(self.scene, value);
-                return Some((!left.is_nan()).then_some((value, edge)));
-            }
-            // A hundredth of an edge in a step is followed surely.
-            let most = step.min(0.5 * LASTING_REACH / slope.abs());
-            let change = (left / slope).clamp(-most, most);
-            let (next, guess) = (value * change.exp(), edge * (slope * change).exp());
-            let there = by.value_at(self.scene, next);
-            match edges.near(by, there, guess, LASTING_REACH)? {
-                Some(found) => {
-                    // A step so small that its slope is round-off keeps the slope before.
-                    if change.abs() > FOLLOW_SLOPE {
-                        slope = (found / edge).ln() / change;
-                    }
-                    (value, edge) = (next, found);
-                    self.meet(there, edge);
-                }
-                None => step = 0.25 * most,
-            }
-            let far = (value / from).ln().abs() > FOLLOW_SPAN.ln();
-            if far || step < FOLLOW_SLOPE || slope == 0.0 {
-                break;
-            }
-        }
-        Some(None)
-    }
 }
-
-/// Largest change of a parameter in one step along an edge, as a part of it.
-const FOLLOW_STEP: f64 = 0.1;
-/// Most steps, and how far they go, as a factor.
-const FOLLOW_STEPS: u32 = 400;
-const FOLLOW_SPAN: f64 = 100.0;
-/// Smallest step over which the slope is measured.
-const FOLLOW_SLOPE: f64 = 1e-5;

@@ -2,7 +2,6 @@
 
 mod rows;
 mod survey;
-mod table;
 
 use std::sync::Arc;
 
@@ -12,26 +11,26 @@ use super::panel::{Opening, ViewArea, ViewPanel, not_yet, title};
 use crate::report::margins;
 use crate::tui::app::{App, Cursor};
 use crate::tui::text::{first_lines, print, wrap};
+use crate::tui::theme::Role;
+use crate::tui::views::table::Rows;
 pub use rows::DIGITS;
-use rubscope_solver::scene::ContactLaw;
 use rubscope_solver::study::margins::Margins;
 use rubscope_solver::study::survey::Survey;
-use table::Table;
 
 /// Columns of the reading cursor: the limit, and the knobs that matter most.
-pub const COLUMNS: u32 = margins::TOLD as u32 + 1;
+pub const COLUMNS: u32 = margins::STRONGEST as u32 + 1;
+/// Columns of the table before the first knob: limit, value and margin.
+pub const LEADING: usize = 3;
 /// From this height on, a sentence says what the row under the cursor is,
 const TOLD_FROM: u16 = 6;
 /// and from this one on it has two lines.
 const TOLD_TWICE_FROM: u16 = 16;
 
-/// Margins of which something may still be searched.
+/// The margins, and the survey once it is computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LiveMargins {
     /// What is known.
     pub margins: Margins,
-    /// The laws whose smallest lasting pulse is still searched.
-    pub awaited: Vec<ContactLaw>,
     /// The survey of all diameters, once it is computed.
     pub survey: Option<Arc<Survey>>,
 }
@@ -58,12 +57,24 @@ impl ViewPanel for MarginsView {
             _ => 0,
         };
         let above = Rect { height: inside.height - told, ..inside };
-        let rows = live.rows();
-        let left = Table::new(app, &rows, old, at, above, cell).draw(buffer, above, cell);
+        let limits = &live.margins.limits;
+        let table = margins::titled(&live.margins, |name| name.titles()[1].to_string());
+        let drawn = Rows {
+            table: &table,
+            cursor: [LEADING, COLUMNS as usize],
+            cell,
+            home: 0,
+            marked: rows::nearest(limits),
+        };
+        let style = |row: usize, column: usize| {
+            let role = limits.get(row).map_or(Role::Text, |limit| rows::role(limit, column));
+            look.style(if old { Role::Quiet } else { role })
+        };
+        let height = drawn.draw(app, buffer, (at, above), style);
         // One row below the table, where there is room.
-        let y = left.y + left.height.min(1);
+        let y = above.y + (height + 1).min(above.height);
         let below = Rect { y, height: told, ..inside };
-        let (text, role) = rows::told(app, &rows, cell);
+        let (text, role) = rows::told(app, limits, cell);
         let width = usize::from(below.width.saturating_sub(1));
         let lines = wrap(&look.spell(&text), width);
         let lines = first_lines(lines, width, usize::from(told), look.ellipsis());
@@ -77,7 +88,7 @@ impl ViewPanel for MarginsView {
         if app.layout.is_surveyed() {
             return [1, survey::rows(app)].map(|count| count * survey::rows(app).min(1));
         }
-        let rows = app.margins().map_or(0, |(live, _)| live.rows().len());
+        let rows = app.margins().map_or(0, |(live, _)| live.margins.limits.len());
         u32::try_from(rows).ok().filter(|rows| *rows > 0).map_or([0, 0], |rows| [COLUMNS, rows])
     }
 
@@ -98,7 +109,7 @@ impl ViewPanel for MarginsView {
             let reason = "these margins are of the knobs before; new ones are under way";
             return Some(Opening::Nothing(reason.into()));
         }
-        Some(rows::opening(live.rows().get(row)?, column, app))
+        Some(rows::opening(live.margins.limits.get(row)?, column, app))
     }
 
     fn csv(&self, app: &App) -> Result<String, String> {
@@ -125,7 +136,8 @@ mod tests {
         let scene = Scene::base().checked().unwrap();
         let mut app = App::new(scene.clone(), Theme::Dark, Marker::Braille);
         app.act(Action::View(ViewId::Margins));
-        app.run.latest.results.found.margins = Some(Arc::new(LiveMargins::of(Margins::of(&scene))));
+        app.run.latest.results.found.margins =
+            Some(Arc::new(LiveMargins { margins: Margins::of(&scene), survey: None }));
         app
     }
 
@@ -137,18 +149,6 @@ mod tests {
             row.iter().map(|cell| cell.symbol()).collect::<String>() + "\n"
         };
         buffer.content.chunks(100).map(line).collect()
-    }
-
-    #[test]
-    fn what_is_searched_says_so_in_its_row() {
-        let app = app();
-        let text = text(&app);
-        for symbol in ["F lasts, bilateral  searching ...", "F lasts, unilateral searching ..."] {
-            assert!(text.contains(symbol), "{text}");
-        }
-        // As many rows as when both are found: a cursor stays on its row.
-        let (live, _) = app.margins().unwrap();
-        assert_eq!(live.rows().len(), live.margins.limits.len() + 2);
     }
 
     #[test]
@@ -173,13 +173,5 @@ mod tests {
         assert_eq!(MarginsView.csv(&app).unwrap().into_bytes(), bytes);
         app.run.latest.results.found.margins = None;
         assert_eq!(MarginsView.csv(&app), Err("there are no margins yet".into()));
-    }
-
-    #[test]
-    fn a_change_has_its_sign_on_its_side() {
-        let look = crate::tui::appearance::Appearance::new(Theme::Mono, Marker::Ascii);
-        for (part, bar) in [(1.0, "  |=="), (-1.0, "==|  "), (0.3, "  |- "), (-0.01, " -|  ")] {
-            assert_eq!(table::signed(part, 5, &look), bar);
-        }
     }
 }

@@ -39,13 +39,11 @@ pub struct Given<'a> {
 pub struct Bounds {
     /// Most cells of a map.
     pub cells: usize,
-    /// Whether lasting pulses are searched.
-    pub searches: bool,
 }
 
 impl Default for Bounds {
     fn default() -> Self {
-        Self { cells: usize::MAX, searches: true }
+        Self { cells: usize::MAX }
     }
 }
 

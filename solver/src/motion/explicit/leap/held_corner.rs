@@ -197,9 +197,7 @@ impl<B: Disk> Explicit<B> {
         let (mut swing, mut growth) = ((0.0, 0.0), 1.0);
         if let Some(blades) = step.blades() {
             let oscillator = blades.oscillator();
-            if self.goes_beyond {
-                growth = growth_of(&Leap::new(resting.change), oscillator.turn())?;
-            }
+            growth = growth_of(&Leap::new(resting.change), oscillator.turn())?;
             let (angle, increment) = oscillator.reach_of(as_coordinates(start));
             swing = (growth * angle, growth * increment);
         }

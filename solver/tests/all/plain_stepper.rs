@@ -1,5 +1,6 @@
 //! The explicit solver against the plain stepper, without live changes.
 
+use crate::plain::Plain;
 use crate::plain::compare::Pair;
 use crate::plain::scenes::{LAWS, MODELS, in_corner, scene};
 use rubscope_solver::scene::{ContactLaw, Scene};
@@ -295,4 +296,15 @@ fn blades_turned_past_their_neighbours() {
             assert!(9.0 * pair.plain.widest > 0.5, "{}", pair.plain.widest);
         });
     }
+}
+
+/// The scheme without round-off, at the longest step that figure 4 names.
+#[test]
+fn round_off_moves_the_lock_at_the_longest_step_of_figure_4() {
+    let scene =
+        Scene::builtin("paper-figs-4-6").unwrap().with(&[("solver.step_s", "1e-6")]).unwrap();
+    let mut plain = Plain::new(&scene);
+    plain.advance(0.082).unwrap();
+    let since = plain.kept_since().unwrap();
+    assert!((since - 0.0796).abs() < 5e-5, "{since}");
 }

@@ -357,18 +357,3 @@ fn halves_make_the_whole_and_no_gap_opens_inward() {
         assert!(residual.abs() < 1e-10, "{residual:e}");
     }
 }
-
-/// Blades that the casing cannot feel are solved as rigid, and the report says so.
-#[test]
-fn blades_that_follow_are_reported() {
-    for (stiffness, follow) in [(1e13, true), (15_000.0, false)] {
-        let mut scene = Scene::base().as_reference();
-        scene.bladed_disk.stiffness_nm_per_rad = stiffness;
-        let report = crate::run_once(&scene.checked().unwrap());
-        assert_eq!(report.solver.blades_follow, follow, "{stiffness:e}");
-        let mut text = Vec::new();
-        rubscope::report::summary::write(&report, Default::default(), &mut text).unwrap();
-        let text = String::from_utf8(text).unwrap();
-        assert_eq!(text.contains("modal model (blades too stiff to be felt"), follow, "{text}");
-    }
-}

@@ -3,12 +3,11 @@
 //! with its derivatives, and against runs in time on both sides of each.
 
 use nalgebra::Complex;
-use rubscope_solver::harmonic::{Lining, coincidence};
+use rubscope_solver::harmonic::{Lining, coincidence, lock_loads};
 use rubscope_solver::motion::{Change, Motion, Verdict};
 use rubscope_solver::scene::{ContactLaw, Scene};
 use rubscope_solver::study::margins::{LimitName, Margins, Target};
 
-use crate::cli_support::rubscope;
 use crate::tips_support::{KAPPA, MU, SPEED, STEP, TAU, ZETA_C, in_corner, scene};
 
 const STIFFNESS: &str = "contact.stiffness_n_per_m";
@@ -247,7 +246,7 @@ fn loads_beyond_the_end_of_two_groups_are_absent() {
         let stable = |pushing| states.iter().any(|it| it.pushing == pushing && it.stable);
         assert_eq!([stable(2), stable(3)], [held, !held], "{speed}");
         let margins = Margins::of(&scene.checked().unwrap());
-        for name in [LimitName::PushA, LimitName::Torque, LimitName::LockEnergy] {
+        for name in [LimitName::PushA, LimitName::Torque] {
             let limit = margins.limit(name).unwrap();
             assert_eq!(limit.value.is_some(), held, "{name} at {speed}");
             let why = "two groups alone hold no stable lock on the lining at this speed";
@@ -283,7 +282,8 @@ fn loads_on_a_lining_are_those_of_its_steady_state() {
         let nu = machine.nu(speed);
         let square = pair.casing_m.powi(2);
         let energy = 0.5 * (machine.casing_stiffness + machine.casing_mass * nu * nu) * square;
-        assert!((value(&base, LimitName::LockEnergy).unwrap() / energy - 1.0).abs() < 1e-9);
+        let loads = lock_loads(&machine, speed).unwrap();
+        assert!((loads.energy_j / energy - 1.0).abs() < 1e-9);
         if scene.contact.friction == 0.0 {
             let torque = machine.nodal_diameters * machine.casing_damping * nu * square;
             assert!((value(&base, LimitName::Torque).unwrap() / torque - 1.0).abs() < 1e-9);
@@ -297,9 +297,7 @@ fn loads_on_a_lining_are_those_of_its_steady_state() {
                 scene.set(path, &format!("{:?}", value_of * part)).unwrap();
                 Margins::of(&scene.checked().unwrap())
             });
-            for name in
-                [LimitName::PushA, LimitName::PushB, LimitName::Power, LimitName::BladeAngle]
-            {
+            for name in [LimitName::PushA, LimitName::PushB, LimitName::Power] {
                 let [low, high] = [value(&beside[0], name), value(&beside[1], name)];
                 let measured = (high.unwrap() / low.unwrap()).ln() / (2.0 * step);
                 let told = base.limit(name).unwrap().sensitivities.by(path).unwrap();
@@ -319,60 +317,6 @@ fn a_lining_is_found_that_holds_a_lock_from_a_speed() {
     let stiffness = found.to.unwrap();
     let plain = between(&lined(stiffness, &[]), [400.0, 500.0]);
     assert!((plain - 430.0).abs() < 1e-3, "{stiffness}: {plain}");
-}
-
-/// On a lining the closed form is of two groups alone, wherever it is told.
-#[test]
-fn a_lock_on_a_lining_is_said_to_be_of_two_groups() {
-    let told = |arguments: &[&str]| String::from_utf8(rubscope(arguments).stdout).unwrap();
-    let stiff = ["--set", "contact.stiffness_n_per_m=1e9"];
-    let run = told(&[&["run", "soft-lining", "--end", "1e-4"][..], &stiff].concat());
-    assert!(run.contains(", where locks of two groups begin"), "{run}");
-    let hbm = told(&[&["hbm", "soft-lining", "--smooth", "--speed", "450"][..], &stiff].concat());
-    assert!(hbm.contains(", lock-in of two groups from "), "{hbm}");
-    let margins = told(&[&["margins", "soft-lining", "--no-search"][..], &stiff].concat());
-    assert!(margins.contains(": of two groups on the lining"), "{margins}");
-    // Rigid contact has no others.
-    assert!(!told(&["run", "rub", "--end", "1e-4", "--step", "1e-6"]).contains("two groups"));
-}
-
-/// Where a lock begins and ends stands on a map over the speed, and in a run.
-#[test]
-fn maps_and_runs_name_the_end_of_a_lock() {
-    let told = |arguments: &[&str]| String::from_utf8(rubscope(arguments).stdout).unwrap();
-    let speeds = ["--speed", "400:700:31", "--pulse", "1e4:1e5:2", "--end", "1e-4"];
-    let map = told(&[&["map", "rub"][..], &speeds].concat());
-    assert!(map.contains("lock ends = 566.259"), "{map}");
-    let run = told(&["run", "rub", "--speed", "600", "--end", "1e-4", "--step", "1e-6"]);
-    assert!(run.contains("Omega_lock (472.117 rad/s, where locks begin; they end at 566.259)"));
-    let paper = told(&["run", "--end", "1e-4", "--step", "1e-6"]);
-    assert!(paper.contains("of Omega_lock (411.934 rad/s)."), "{paper}");
-}
-
-/// What a result is of stands with it, in text and in JSON.
-#[test]
-fn results_of_equal_blades_say_so() {
-    let full = ["--model", "full", "--set", "bladed_disk.mistuning=0.02", "--step", "1e-6"];
-    for command in [
-        &["hbm", "coincidence", "--smooth", "--speed", "406"][..],
-        &["hbm", "coincidence", "--coincidence", "--speed", "406"],
-        &["hbm", "rub", "--whirl", "--speed", "450"],
-        &["hbm", "rub"],
-        &["margins", "rub", "--no-search"],
-    ] {
-        for (more, count) in [(&[][..], 0), (&full, 1)] {
-            let asked = [command, more].concat();
-            let text = String::from_utf8(rubscope(&asked).stdout).unwrap().replace('\n', " ");
-            let words = "equal blades in the modes of 3 nodal diameters";
-            assert_eq!(text.matches(words).count(), count, "{asked:?}: {text}");
-            assert_eq!(text.contains("differ by 0.02"), count == 1, "{asked:?}: {text}");
-            let json = rubscope(&[&asked[..], &["--json"]].concat()).stdout;
-            let json: serde_json::Value = serde_json::from_slice(&json).unwrap();
-            let notes = [&json["note"], &json["notes"][0]];
-            let noted = notes.iter().filter(|note| note.is_string()).count();
-            assert_eq!(noted, count, "{asked:?}");
-        }
-    }
 }
 
 /// A whirl on a lining begins at the fold of rigid contact, if the lining is stiff enough

@@ -4,7 +4,6 @@
 use rubscope_solver::motion::{Motion, Verdict, simulate};
 use rubscope_solver::scene::Scene;
 
-use crate::cli_support::refusal;
 use crate::plain::scenes::scene;
 
 fn outcome(scene: &Scene) -> (Verdict, String) {
@@ -64,16 +63,6 @@ fn a_side_that_lets_go_and_closes_by_round_off_does_not_hang() {
     assert_eq!(outcome.verdict, Verdict::Decay, "{outcome:?}");
     // None of those runs fails.
     assert!(outcome.sensitive == Some(false));
-}
-
-#[test]
-fn steps_of_the_full_disk_are_fewer_because_each_costs_more() {
-    let blades = ["--set", "bladed_disk.blades=4092", "--model", "full", "--step", "1e-7"];
-    let message = refusal(&[&["run", "--end", "1.5"], &blades[..]].concat());
-    assert!(message.contains("for at most 9.77e6 steps to solver.end_s"), "{message}");
-    // The paper's coordinates may take ten billion.
-    let message = refusal(&["run", "--end", "1500", "--step", "1e-7"]);
-    assert!(message.contains("for at most 1e10 steps to solver.end_s"), "{message}");
 }
 
 /// Full angles may leave a step without an answer where the linearised model has one.

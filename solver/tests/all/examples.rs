@@ -3,16 +3,16 @@
 use std::error::Error;
 use std::io::Write;
 
-#[path = "../../solver/examples/live_knobs.rs"]
+#[path = "../../examples/live_knobs.rs"]
 #[expect(dead_code, reason = "its main is for cargo")]
 mod live_knobs;
-#[path = "../../solver/examples/locked_sweep.rs"]
+#[path = "../../examples/locked_sweep.rs"]
 #[expect(dead_code, reason = "its main is for cargo")]
 mod locked_sweep;
-#[path = "../../solver/examples/run.rs"]
+#[path = "../../examples/run.rs"]
 #[expect(dead_code, reason = "its main is for cargo")]
 mod run;
-#[path = "../../solver/examples/study.rs"]
+#[path = "../../examples/study.rs"]
 #[expect(dead_code, reason = "its main is for cargo")]
 mod study;
 

@@ -258,22 +258,6 @@ fn six_diameters_meet_the_second_harmonic_of_three_and_five_meet_none() {
 }
 
 #[test]
-fn reports_say_that_angles_are_left_out_of_the_phases() {
-    let told = |model: &str, changes: &[(&str, f64)]| {
-        let report = crate::run_once(&scene(model, changes));
-        let mut text = Vec::new();
-        rubscope::report::summary::write(&report, Default::default(), &mut text).unwrap();
-        let told = String::from_utf8(text).unwrap().contains("(linearised)");
-        assert_eq!(told, report.solver.linearised);
-        told
-    };
-    assert!(told("modal", &[(SLOPE, 0.1)]));
-    assert!(told("modal", &[(REBOUND, 0.5)]));
-    assert!(!told("rigid", &[(REBOUND, 0.5)]));
-    assert!(!told("modal", &[]));
-}
-
-#[test]
 fn other_corners_are_held_by_more_than_two_blades_of_another_disk() {
     let keys = [(DISK, 6.0), (SLOPE, 0.3), (SPEED, 400.0), (PULSE, 1e5), (ZETA, 0.02)];
     let mut motion = Motion::new(&scene("modal", &keys));

@@ -1,0 +1,70 @@
+//! Tests of the time solvers in one binary: it links once, and its tests share the cores.
+//! One module is run by its name, as in `cargo test event_laws`.
+//!
+//! Which module holds which solver to what; those of harmonic balance, of margins and of
+//! maps, which the program's commands print, are in `tests` of the program.
+//!
+//! | law | explicit | on a lining | events, exact | events, linear | harmonic balance |
+//! |---|---|---|---|---|---|
+//! | numbers of other codes | `cases` `explicit_tips` | `explicit_lining` | `event_cases` | `event_linear` | `hbm_locked` `hbm_slip` `hbm_joined` `hbm_lining` |
+//! | closed forms | `explicit` `explicit_tip_locks` | `lock_ends` | `event_cases` | `event_linear` | `theory` `hbm_laws` `hbm_whirl` |
+//! | plain stepping, or integration | `plain_stepper` `rebound` | `explicit_lining` | `event_modal` | `rebound` | `hbm_time` `hbm_excitation` |
+//! | its order | `order` `rebound` | `explicit_lining` | `order` | `explicit_tips` | |
+//! | leaps are steps | `sliding` `soft_locks` `plain_stepper` | | | | |
+//! | no pull, no energy made, mirrors | `motion_laws` | `motion_laws` | `event_laws` | `event_linear_laws` | `hbm_laws` |
+//! | sizes of the disk agree | `full_disk` | `explicit_lining` | | | |
+//! | live changes | `live_changes` `live_random` | `motion_laws` | `live_event` | `event_linear_laws` | |
+//! | hard cases, any input | `explicit_hard` `fuzz_cases` | `motion_laws` | `event_hard` | `event_linear_laws` | `hbm_lining_states` `hbm_branches` |
+//! | verdicts, digits, flags | `verdicts` `digits` `map_flags` | `explicit_lining` | `verdicts` `digits` | `event_linear` | |
+//! | the paper's bits | `scene_defaults` | | `scene_defaults` | | |
+
+#![expect(clippy::unwrap_used, clippy::panic, reason = "a test states what must hold")]
+
+use proptest::prelude::ProptestConfig;
+use rubscope_solver::motion::{RunReport, Sampling, Script, run_to_end};
+use rubscope_solver::scene::CheckedScene;
+
+mod bounds;
+mod cases;
+mod event_cases;
+mod event_hard;
+mod event_laws;
+mod event_linear;
+mod event_linear_laws;
+mod event_modal;
+mod examples;
+mod explicit;
+mod explicit_hard;
+mod explicit_lining;
+mod explicit_tip_locks;
+mod explicit_tips;
+mod full_disk;
+mod live_changes;
+mod live_event;
+mod live_random;
+mod lock_ends;
+mod machine_at_speed;
+mod machine_in_time;
+mod motion_laws;
+mod order;
+mod pauses;
+mod plain;
+mod plain_self;
+mod plain_stepper;
+mod rebound;
+mod sliding;
+mod soft_locks;
+mod tips_support;
+mod verdicts;
+
+/// The number of random cases of a law; `PROPTEST_CASES` overrides it.
+fn drawn(cases: u32) -> ProptestConfig {
+    let given = ProptestConfig::default();
+    let cases = if std::env::var_os("PROPTEST_CASES").is_some() { given.cases } else { cases };
+    ProptestConfig { cases, failure_persistence: None, max_shrink_iters: 200, ..given }
+}
+
+/// A scene run to its end once, without the changed runs that say how far to trust it.
+fn run_once(scene: &CheckedScene) -> RunReport {
+    run_to_end(scene, &Script::default(), Sampling::default(), &mut |_| {})
+}

@@ -1,0 +1,101 @@
+//! Options, limits and scenes of earlier versions, each with what answers its question now.
+
+use std::ffi::OsString;
+
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+
+use rubscope_solver::scene::SceneError;
+
+/// An input of an earlier version.
+struct Gone {
+    /// The command that had it; empty for a scene, which every command had.
+    command: &'static str,
+    /// The option or the name as typed; [`POSITIONAL`] stands for any argument that is no option.
+    name: &'static str,
+    /// The end of the sentence "NAME is gone: ...".
+    instead: &'static str,
+}
+
+/// The name of an argument that is no option.
+const POSITIONAL: &str = "SCENE";
+
+/// Every input of an earlier version that is refused with a hint.
+const GONE: &[Gone] = &[
+    gone("hbm", "--fold", "hbm --branches says from which speed soft blades have no corner"),
+    gone("hbm", "--follow", STATES),
+    gone("hbm", "--over", STATES),
+    gone("hbm", "--harmonics", "hbm --slip gives the exact orbit of slip, without a series"),
+    gone("margins", "--tolerance", "margins --json has the sensitivity of every limit"),
+    gone("margins", "lasting_pulse", PULSES),
+    gone("margins", "lasting_pulse_unilateral", PULSES),
+    gone("margins", "lasting_pulse_bilateral", PULSES),
+    gone("margins", "blade_angle", "hbm --speed SPEED has the angles of the blades"),
+    gone("margins", "lock_energy", "margins has torque and power that the rotor gives to the wave"),
+    gone("figures", POSITIONAL, OWN),
+    gone("figures", "--set", OWN),
+    gone("map", "--resume", "map --shard K/COUNT computes a share; an interrupted one runs again"),
+];
+
+/// What answers `hbm --follow`.
+const STATES: &str = "hbm --smooth gives the steady states on a lining at each speed";
+
+/// What draws a scene of one's own.
+const OWN: &str = "each figure has its own scene; run, hbm and map --out draw any other";
+
+/// What answers which pulses last.
+const PULSES: &str = "map --pulse FROM:TO:COUNT shows which pulses last";
+
+const fn gone(command: &'static str, name: &'static str, instead: &'static str) -> Gone {
+    Gone { command, name, instead }
+}
+
+/// Returns the refusal of a command line with an option or an argument of an earlier version.
+pub fn argument(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
+    if error.kind() != ErrorKind::UnknownArgument {
+        return None;
+    }
+    let Some(ContextValue::String(typed)) = error.get(ContextKind::InvalidArg) else { return None };
+    let command = arguments.get(1)?.to_str()?;
+    let name = if typed.starts_with('-') { typed } else { POSITIONAL };
+    find(GONE, command, name, &format!("{command} {typed}"))
+}
+
+/// Returns the refusal of a name, such as that of a limit, that `command` knew in an earlier
+/// version.
+pub fn name(command: &str, name: &str) -> Option<String> {
+    find(GONE, command, name, name)
+}
+
+/// Returns the refusal of a built-in scene of an earlier version.
+pub fn scene(error: &SceneError) -> Option<String> {
+    match error {
+        SceneError::UnknownScene { name, .. } => find(GONE, "", name, &format!("scene {name}")),
+        _ => None,
+    }
+}
+
+fn find(known: &[Gone], command: &str, name: &str, shown: &str) -> Option<String> {
+    let found = known.iter().find(|gone| gone.command == command && gone.name == name)?;
+    Some(format!("{shown} is gone: {}", found.instead))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_is_named_with_what_to_ask_instead() {
+        let known = [Gone { command: "hbm", name: "--old", instead: "ask hbm --new" }];
+        let found = find(&known, "hbm", "--old", "hbm --old");
+        assert_eq!(found.as_deref(), Some("hbm --old is gone: ask hbm --new"));
+        assert_eq!(find(&known, "run", "--old", "run --old"), None);
+        assert_eq!(find(&known, "hbm", "--new", "hbm --new"), None);
+    }
+
+    #[test]
+    fn what_is_gone_is_not_there() {
+        for gone in GONE.iter().filter(|gone| gone.command.is_empty()) {
+            assert!(rubscope_solver::scene::Scene::builtin(gone.name).is_err(), "{}", gone.name);
+        }
+    }
+}

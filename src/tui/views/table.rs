@@ -1,0 +1,126 @@
+//! Draws the rows of a table on the screen, on the page of the row that is read.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::{Modifier, Style};
+
+use crate::report::symbols::greek;
+use crate::report::table::Table;
+use crate::tui::app::App;
+use crate::tui::text::print;
+use crate::tui::theme::Role;
+use crate::tui::views::ViewArea;
+
+/// From this height on, columns have headings.
+const HEADING_FROM: u16 = 5;
+
+/// A table and what is read of it.
+pub struct Rows<'a> {
+    /// The table.
+    pub table: &'a Table,
+    /// The columns of the reading cursor: how many columns of the table the first one has, and
+    /// how many there are; each of the others has one.
+    pub cursor: [usize; 2],
+    /// Column and row under the cursor.
+    pub cell: Option<[usize; 2]>,
+    /// The row that is shown where nothing is read.
+    pub home: usize,
+    /// The row with the sign of a special one.
+    pub marked: Option<usize>,
+}
+
+impl Rows<'_> {
+    /// Draws the rows that have room, in the style that `style` gives for a row and a column;
+    /// returns the height that they take.
+    pub fn draw(
+        &self,
+        app: &App,
+        buffer: &mut Buffer,
+        (at, area): (ViewArea, Rect),
+        style: impl Fn(usize, usize) -> Style,
+    ) -> u16 {
+        let look = &app.appearance;
+        // The first letter is for the cursor.
+        let lines = self.table.lines(usize::from(area.width.saturating_sub(1)), 1);
+        let Some((headings, rows)) = lines.split_first() else { return 0 };
+        let head = u16::from(area.height >= HEADING_FROM);
+        let room = usize::from(area.height - head).max(1);
+        let row = self.cell.map_or(self.home, |[_, row]| row);
+        // Pages, on which rows stay where they are while a pointer goes over them.
+        let first = (row / room * room).min(rows.len().saturating_sub(room));
+        let last = (first + room).min(rows.len());
+        if head > 0 {
+            let quiet = look.style(Role::Quiet);
+            let line = Rect { height: 1, ..area };
+            for (cell, place) in headings.iter().zip(places(line, headings)) {
+                print(buffer, place, 0, &look.spell(&in_greek(cell)), quiet);
+            }
+        }
+        for (y, (place, cells)) in (head..).zip(rows.iter().enumerate().take(last).skip(first)) {
+            let line = Rect { y: area.y + y, height: 1, ..area };
+            let here = self.cell.filter(|cell| cell[1] == place).map(|[column, _]| column);
+            let sign = match () {
+                () if here.is_some() => look.either("▸", ">"),
+                () if self.marked == Some(place) => look.either("●", "*"),
+                () if place + 1 == last && last < rows.len() => look.either("↓", "v"),
+                () if place == first && first > 0 => look.either("↑", "^"),
+                () => " ",
+            };
+            print(buffer, line, 0, sign, look.style(Role::Focus));
+            for (column, (text, spot)) in cells.iter().zip(places(line, cells)).enumerate() {
+                let under = here.is_some_and(|here| self.leads(here) == column);
+                let style = match under {
+                    true => look.style(Role::Focus).add_modifier(Modifier::REVERSED),
+                    false => style(place, column),
+                };
+                print(buffer, spot, 0, &look.spell(&in_greek(text)), style);
+            }
+            self.note(app, at, line, (place, rows.len(), cells));
+        }
+        head + u16::try_from(last - first).unwrap_or(0)
+    }
+
+    /// Returns the column of the table that a column of the cursor begins with.
+    fn leads(&self, column: usize) -> usize {
+        if column == 0 { 0 } else { self.cursor[0] + column - 1 }
+    }
+
+    /// Notes where a row is, for the mouse.
+    fn note(&self, app: &App, at: ViewArea, line: Rect, row: (usize, usize, &[String])) {
+        let (place, count, cells) = row;
+        let up = [place + 1, place].map(|from_top| 1.0 - from_top as f64 / count as f64);
+        let spots = places(line, cells);
+        for column in 0..self.cursor[1] {
+            let from = spots.get(self.leads(column)).map(|spot| spot.x);
+            let to = spots.get(self.leads(column + 1)).map_or(line.right(), |spot| spot.x);
+            if let Some(from) = from {
+                let from = if column == 0 { line.x } else { from };
+                let across = [column, column + 1].map(|end| end as f64 / self.cursor[1] as f64);
+                let area = Rect { x: from, width: to.saturating_sub(from), ..line };
+                at.note_part(app, area, [(across[0], across[1]), (up[0], up[1])]);
+            }
+        }
+    }
+}
+
+/// Returns where the cells of a line are.
+fn places(line: Rect, cells: &[String]) -> Vec<Rect> {
+    let mut x = line.x.saturating_add(1);
+    let place = |cell: &String| {
+        let width = u16::try_from(cell.chars().count()).unwrap_or(u16::MAX);
+        let width = width.min(line.right().saturating_sub(x));
+        let place = Rect { x, width, ..line };
+        x = x.saturating_add(width + 1).min(line.right());
+        place
+    };
+    cells.iter().map(place).collect()
+}
+
+/// Returns a padded cell in Greek letters, which are shorter, on the same side.
+fn in_greek(cell: &str) -> String {
+    let (text, width) = (greek(cell).replace("g_0", "g0"), cell.chars().count());
+    match cell.starts_with(' ') && text != cell {
+        true => format!("{:>width$}", text.trim_start()),
+        false => text,
+    }
+}
