@@ -69,7 +69,6 @@ mod scene_notes;
 mod scene_numbers;
 mod scenes;
 mod security;
-mod shortcuts;
 mod signs_of_life;
 mod soak;
 mod survey;
