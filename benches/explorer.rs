@@ -11,7 +11,7 @@ use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use ratatui::{Terminal, backend::TestBackend};
-use rubscope::tui::terminal::NoHost;
+use rubscope::tui::host::NoHost;
 use rubscope::tui::worker::{Playback, Stepwise};
 use rubscope::tui::{App, Marker, Theme, run};
 use rubscope_solver::scene::Scene;

@@ -1,6 +1,6 @@
 //! The `rubscope` program as a library, so that tests and benchmarks can reach its
 //! parts: [`report`] writes what the solvers of [`rubscope_solver`] return, [`cli`] is the
-//! command line, [`tui`] the explorer, and [`file`] writes files completely or not at all.
+//! command line, [`tui`] the explorer, and [`mod@file`] writes files completely or not at all.
 //!
 //! A program that needs the model and the solvers alone depends on `rubscope-solver`.
 

@@ -14,7 +14,7 @@ use super::{Cli, Done};
 use crate::tui;
 use rubscope_solver::scene::DEFAULT;
 
-/// What the explorer opens with.
+/// Options of the explorer.
 #[derive(Args, Debug)]
 pub struct ExploreCommand {
     #[command(flatten)]
@@ -37,8 +37,9 @@ pub struct ExploreCommand {
     #[arg(long, value_name = "MARKER",
           value_parser = choice::<tui::Marker>(), hide_possible_values = true)]
     marker: Option<tui::Marker>,
-    /// How much the line to the terminal carries: thin (a few kilobytes a second),
-    /// full, or auto: thin over SSH or where the terminal is slow
+    /// How much the line to the terminal carries: thin (at most 5 kB a second while the
+    /// motion plays: a larger window has fewer frames, down to one in ten seconds), full,
+    /// or auto: thin over SSH or where the terminal is slow
     #[arg(long, value_name = "LINE", default_value = "auto",
           value_parser = choice::<tui::Line>(), hide_possible_values = true)]
     line: tui::Line,
@@ -59,7 +60,7 @@ fn frames(text: &str) -> Result<f64, String> {
     fps.ok_or_else(|| "allowed is a number from 0.1 to 60".to_string())
 }
 
-/// One of the words of a choice.
+/// Returns one of the words of a choice.
 fn choice<T>() -> impl TypedValueParser<Value = T>
 where
     T: FromStr + VariantNames + Clone + Send + Sync + 'static,
@@ -70,7 +71,7 @@ where
 }
 
 impl ExploreCommand {
-    /// Whether it is without a screen.
+    /// Returns whether it is without a screen.
     pub(super) fn is_in_lines(&self) -> bool {
         self.lines || tui::is_dumb_terminal()
     }
@@ -106,7 +107,7 @@ impl ExploreCommand {
         }
     }
 
-    /// A command after options is read as a scene: explain the right order.
+    /// Refuses the name of a command after options, which is read as a scene.
     fn refuse_command(&self) -> Result<(), Refusal> {
         let name = self.options.name().unwrap_or_default();
         if Cli::command().get_subcommands().any(|command| command.get_name() == name) {

@@ -29,6 +29,8 @@ const GONE: &[Gone] = &[
     gone("margins", "lasting_pulse", PULSES),
     gone("margins", "lasting_pulse_unilateral", PULSES),
     gone("margins", "lasting_pulse_bilateral", PULSES),
+    gone("", "half-n", "half as many diameters as blades are paper-nd3 --nd 11 --speed 100"),
+    gone("", "near-critical", "its numbers are in docs/theory.md; see undamped --speed 293"),
     gone("margins", "blade_angle", "hbm --speed SPEED has the angles of the blades"),
     gone("margins", "lock_energy", "margins has torque and power that the rotor gives to the wave"),
     gone("figures", POSITIONAL, OWN),

@@ -3,30 +3,25 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Arg, ArgAction, ArgGroup, ArgMatches, Args, Command, FromArgMatches};
 use strum::VariantNames;
 
-use super::hbm_lining::LiningOptions;
-use super::hbm_views::{self as views, Asked, HbmView};
 use super::options::{SceneOptions, Swept};
 use super::range::{Range, linspace};
 use super::status::{self, Refusal, Status, say};
 use super::words::Words;
 use super::{Done, output};
+use crate::report::hbm::{Heading, LOCKED, Request, VIEWS, View};
 use crate::report::number::speed;
-use crate::report::{CommandLine, hbm as report, json};
-use rubscope_solver::harmonic::{Form, Sweep};
-use rubscope_solver::scene::{Quantity, Scene};
+use crate::report::{CommandLine, json};
+use rubscope_solver::harmonic::{Form, HarmonicError, Sweep};
+use rubscope_solver::scene::Scene;
 
 /// Default number of speeds of a sweep.
 const SPEEDS: usize = 51;
 /// What `--speed` takes here.
 const SWEPT_SPEED: &str =
     "Rotor speed, or speeds as FROM:TO:COUNT; negative turns the other way [rad/s]";
-
-/// The options of views that have the damping of the scene in any case.
-const ALWAYS_DAMPED: [&str; 6] =
-    ["slip", "excitation", "whirl", "compliance", "smooth", "coincidence"];
 
 /// Locked motion against speed, by harmonic balance.
 ///
@@ -44,7 +39,7 @@ pub struct HbmCommand {
           value_parser = Words::of::<Form>(), hide_possible_values = true)]
     form: String,
     /// Drop the damping of casing and blades, as the paper's equations do
-    #[arg(long, conflicts_with_all = ALWAYS_DAMPED)]
+    #[arg(long)]
     undamped: bool,
     /// Keep the damping, as without this option; with --form printed too
     #[arg(long, hide = true, conflicts_with = "undamped")]
@@ -52,36 +47,8 @@ pub struct HbmCommand {
     /// The two blades that hold the wave, phase neighbours [default: 6,21 where they are]
     #[arg(long, value_name = "I,J", allow_hyphen_values = true)]
     blades: Option<String>,
-    /// View: every equilibrium, its stability, and the thresholds of each branch
-    #[arg(long, group = "view")]
-    branches: bool,
-    /// View: lasting slip, the fixed point of the map from corner to corner
-    #[arg(long, group = "view")]
-    slip: bool,
-    /// With --slip: also the speeds where slip exists over damping ratios of
-    /// the casing
-    #[arg(long, value_name = "FROM:TO:COUNT", requires = "slip", allow_hyphen_values = true)]
-    zetas: Option<String>,
-    /// View: frequencies against speed, engine orders, and the coincidences (30)
-    #[arg(long, group = "view")]
-    campbell: bool,
-    /// View: response of the damped lock to the scene's engine-order excitation
-    #[arg(long, group = "view")]
-    excitation: bool,
     #[command(flatten)]
-    lining: LiningOptions,
-    /// View: whirl of inclined tips in the limit of many blades, where it begins, and where a
-    /// lock flutters
-    #[arg(long, group = "view")]
-    whirl: bool,
-    /// View: the joint compliance B(omega) in the complex plane; a whirl is where it
-    /// crosses the negative real axis
-    #[arg(long, group = "view")]
-    compliance: bool,
-    /// With --compliance: casing frequencies of the table [default: beyond every
-    /// resonance]
-    #[arg(long, value_name = "FROM:TO:COUNT", requires = "compliance", allow_hyphen_values = true)]
-    omegas: Option<String>,
+    view: RequestedView,
     /// Print everything as JSON (rubscope.hbm/1)
     #[arg(long)]
     json: bool,
@@ -90,44 +57,109 @@ pub struct HbmCommand {
     out: Option<PathBuf>,
 }
 
+/// The view of the command line, with its second range as typed.
+#[derive(Clone, Debug)]
+struct RequestedView {
+    view: &'static View,
+    range: Option<String>,
+}
+
+impl Args for RequestedView {
+    fn augment_args(command: Command) -> Command {
+        let command = command.group(ArgGroup::new("view").args(VIEWS.map(|view| view.option)));
+        VIEWS.into_iter().fold(command, |command, view| {
+            let option = Arg::new(view.option).long(view.option).help(view.help);
+            let option = option.action(ArgAction::SetTrue);
+            let command = command.arg(match view.always_damped {
+                true => option.conflicts_with("undamped"),
+                false => option,
+            });
+            let range = view.range.as_ref().map(|range| {
+                let option = Arg::new(range.option).long(range.option).help(range.help);
+                option.value_name("FROM:TO:COUNT").requires(view.option).allow_hyphen_values(true)
+            });
+            command.args(range)
+        })
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl FromArgMatches for RequestedView {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let view = VIEWS.into_iter().find(|view| matches.get_flag(view.option));
+        let view = view.unwrap_or(&LOCKED);
+        let range = view.range.as_ref();
+        let range = range.and_then(|range| matches.get_one::<String>(range.option).cloned());
+        Ok(Self { view, range })
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+impl RequestedView {
+    /// Returns the values of the second range.
+    fn range(&self) -> Result<Option<Vec<f64>>, Refusal> {
+        let Some((range, text)) = self.view.range.as_ref().zip(self.range.as_ref()) else {
+            return Ok(None);
+        };
+        let name = format!("--{}", range.option);
+        Ok(Some(Range::parse(&name, text, range.quantity)?.values()))
+    }
+
+    /// Adds its options to a command.
+    fn add_to(&self, command: CommandLine) -> CommandLine {
+        let Self { view, range } = self;
+        let command = match view.option {
+            "" => command,
+            option => command.flag(&format!("--{option}"), true),
+        };
+        match &view.range {
+            Some(option) => command.optional(&format!("--{}", option.option), range.as_ref()),
+            None => command,
+        }
+    }
+}
+
 impl HbmCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
         if let Some(path) = &self.out {
             output::format(path, &["csv"])?;
         }
+        let view = self.view.view;
         let resolved = self.options.resolve(Swept { speed: true, pulse: false })?;
+        let scene: &Scene = &resolved.scene;
         let speeds = match resolved.speeds {
             Some(range) => range.values(),
-            None if self.compliance => {
-                vec![resolved.scene.operation.speed_rad_s]
-            }
-            None => linspace(0.0, resolved.scene.operation.speed_rad_s, SPEEDS),
+            None if view.one_speed => vec![scene.operation.speed_rad_s],
+            None => linspace(0.0, scene.operation.speed_rad_s, SPEEDS),
         };
-        let (form, pair) = (self.form()?, self.pair()?);
+        let (form, pair, range) = (self.form()?, self.pair()?, self.view.range()?);
         // The paper's own equations have no damping.
         let damped = self.damped || !(self.undamped || form == Form::Printed);
-        let asked = Asked { scene: &resolved.scene, speeds: &speeds, form, damped, pair };
-        let view = self.view()?;
-        let answer = views::answer(&asked, &view)?;
+        let (speeds, range, machine) = (&speeds[..], range.as_deref(), scene.machine());
+        let mut request =
+            Request { scene, speeds, form, damped, pair, range, machine, sweep: None };
+        let answer = request.answer(view).map_err(refused)?;
         status::say_noted();
         if self.json {
-            json::write_as("rubscope.hbm/1", &self.command(&resolved.scene), &answer.json, out)?;
+            json::write_as("rubscope.hbm/1", &self.command(scene), &answer.json, out)?;
         }
         if let Some(path) = &self.out {
             let rows = format!("{} rows", answer.file.len());
             output::save(path, &rows, out, |out| answer.file.write_csv(out))?;
         }
+        // The locked motion is the subject of the view without an option.
+        let sweep = request.sweep.as_deref().filter(|_| view.option.is_empty());
         if !self.json {
-            let machine = asked.machine(&view);
-            let sweep = answer.sweep.as_deref();
-            let heading = report::Heading {
-                scene: &resolved.scene,
-                machine: &machine,
-                speed: asked.fastest(),
-                damped: damped || view.is_always_damped(),
-                sweep,
-            };
-            heading.write(out)?;
+            let (machine, speed) = (&request.machine, request.fastest());
+            let damped = damped || view.always_damped;
+            Heading { scene, machine, speed, damped, sweep }.write(out)?;
             for (title, table) in &answer.tables {
                 writeln!(out)?;
                 if !title.is_empty() {
@@ -136,48 +168,19 @@ impl HbmCommand {
                 table.write_text(out)?;
             }
         }
-        answer.sweep.as_deref().into_iter().for_each(warn_missing);
+        sweep.into_iter().for_each(warn_missing);
         Ok(Status::Done)
     }
 
-    /// The command that gives the same table again.
+    /// Returns the command that gives the same table again.
     fn command(&self, scene: &Scene) -> CommandLine {
         let command = CommandLine::new("hbm", scene)
             .optional("--speed", self.options.speed())
             .option("--form", &self.form)
             .flag("--undamped", self.undamped)
             .flag("--damped", self.damped && self.form == Form::Printed.to_string())
-            .optional("--blades", self.blades.as_ref())
-            .flag("--branches", self.branches)
-            .flag("--slip", self.slip)
-            .optional("--zetas", self.zetas.as_ref())
-            .flag("--campbell", self.campbell)
-            .flag("--excitation", self.excitation)
-            .flag("--whirl", self.whirl)
-            .flag("--compliance", self.compliance)
-            .optional("--omegas", self.omegas.as_ref());
-        self.lining.add_to(command)
-    }
-
-    fn view(&self) -> Result<HbmView, Refusal> {
-        let values = |option: &str, text: &Option<String>, of: Quantity| match text {
-            Some(text) => Range::parse(option, text, of).map(|range| Some(range.values())),
-            None => Ok(None),
-        };
-        if let Some(view) = self.lining.view() {
-            return Ok(HbmView::Lining(view));
-        }
-        let zetas = values("--zetas", &self.zetas, Quantity::Plain)?;
-        let omegas = values("--omegas", &self.omegas, Quantity::Speed)?;
-        Ok(match self {
-            Self { branches: true, .. } => HbmView::Branches,
-            Self { slip: true, .. } => HbmView::Slip(zetas.unwrap_or_default()),
-            Self { campbell: true, .. } => HbmView::Campbell,
-            Self { excitation: true, .. } => HbmView::Excitation,
-            Self { whirl: true, .. } => HbmView::Whirl,
-            Self { compliance: true, .. } => HbmView::Compliance(omegas),
-            _ => HbmView::Locked,
-        })
+            .optional("--blades", self.blades.as_ref());
+        self.view.add_to(command)
     }
 
     fn form(&self) -> Result<Form, Refusal> {
@@ -193,6 +196,16 @@ impl HbmCommand {
             _ => Err(Refusal::of("--blades", text, "I,J, the numbers of two blades")),
         }
     }
+}
+
+/// Turns an input that has no meaning into refused input: it is not a failure.
+fn refused(error: HarmonicError) -> Refusal {
+    let message = error.to_string();
+    // The option as typed, where the library names the argument.
+    Refusal::because(match error {
+        HarmonicError::Blades { .. } => format!("--{message}"),
+        _ => message,
+    })
 }
 
 fn warn_missing(sweep: &Sweep) {

@@ -78,8 +78,8 @@ const ENVIRONMENT: &[(&str, &str)] = &[
     (
         "COLORFGBG",
         "Such as 0;15: the last number is the background, by which the explorer chooses its \
-         theme. Without it, the explorer asks the terminal, and waits a quarter of a second for \
-         its answer.",
+         theme. Without it, the explorer asks the terminal, and draws on a dark background until \
+         it answers.",
     ),
     (
         "XDG_CONFIG_HOME, HOME",
@@ -104,9 +104,8 @@ const ENVIRONMENT: &[(&str, &str)] = &[
 /// The files that the program knows by itself.
 const FILES: &[(&str, &str)] = &[(
     "~/.config/rubscope/config.toml",
-    "What the explorer remembers: theme, marker, number of charts, mouse, and terminals that do \
-     not say their background. Options win over it; --no-config does without it. It may be \
-     removed at any time.",
+    "What the explorer remembers: theme, marker, number of charts, mouse. Options win over it; \
+     --no-config does without it. It may be removed at any time.",
 )];
 
 const EXAMPLES: &[(&str, &str)] = &[
@@ -125,7 +124,7 @@ const EXAMPLES: &[(&str, &str)] = &[
     ),
 ];
 
-/// The sections that are not in the definition of the command line.
+/// Returns the sections that are not in the definition of the command line.
 fn added() -> Roff {
     let mut page = Roff::new();
     page.control("SH", ["SCENES"]);
@@ -137,13 +136,13 @@ fn added() -> Roff {
         names.join(", ")
     ))]);
     list(&mut page, "KEYS", bindings::of(Context::Main).map(|b| (keys_text(b), b.what)));
-    let told = |entries: &'static [(&str, &'static str)]| {
+    let owned = |entries: &'static [(&str, &'static str)]| {
         entries.iter().map(|(term, text)| (term.to_string(), *text))
     };
-    list(&mut page, "EXIT STATUS", told(EXIT_STATUS));
-    list(&mut page, "ENVIRONMENT", told(ENVIRONMENT));
-    list(&mut page, "FILES", told(FILES));
-    list(&mut page, "EXAMPLES", told(EXAMPLES));
+    list(&mut page, "EXIT STATUS", owned(EXIT_STATUS));
+    list(&mut page, "ENVIRONMENT", owned(ENVIRONMENT));
+    list(&mut page, "FILES", owned(FILES));
+    list(&mut page, "EXAMPLES", owned(EXAMPLES));
     page
 }
 

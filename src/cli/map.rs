@@ -19,9 +19,9 @@ use crate::report::{Provenance, json, map as report, svg};
 use rubscope_solver::scene::keys;
 use rubscope_solver::study::{Axis, AxisError, Map, MapPlan, overlay};
 
-/// Most threads: more than any machine has cores for.
+/// Largest number of threads, above the number of cores of any machine.
 const MOST_THREADS: usize = 1024;
-/// Most cells of a picture, which takes some hundred bytes a cell.
+/// Largest number of cells in a picture, which takes about a hundred bytes per cell.
 const MOST_DRAWN: usize = 1_000_000;
 /// Endings of the files of a whole map.
 const WHOLE: [&str; 3] = ["csv", "json", "svg"];
@@ -189,7 +189,7 @@ impl Merge {
     }
 }
 
-/// Refuses a picture in which no cell could be seen.
+/// Refuses a picture with more cells than can be seen.
 fn check_picture(plan: &MapPlan, format: Option<&str>) -> Result<(), Refusal> {
     if format != Some("svg") || plan.len() <= MOST_DRAWN {
         return Ok(());
@@ -215,7 +215,7 @@ impl ResultOptions {
         self.out.as_deref().map(|path| output::ending(path, endings)).transpose()
     }
 
-    /// Tries the place of the result, before anything is computed.
+    /// Checks that the result can be written, before anything is computed.
     fn try_place(&self) -> anyhow::Result<()> {
         self.out.as_deref().map_or(Ok(()), output::try_place)
     }
@@ -248,7 +248,7 @@ impl ResultOptions {
     }
 }
 
-/// Width that a map in text may have.
+/// Returns the width that a map in text may have.
 fn width() -> usize {
     let size = crossterm::terminal::size().ok().filter(|_| std::io::stdout().is_terminal());
     size.map_or(WIDTH, |(columns, _)| usize::from(columns))
@@ -266,7 +266,7 @@ fn write_file(map: &Map, format: &str, path: &Path) -> std::io::Result<Written> 
     })
 }
 
-/// The cost of an adaptive map, compared with all its cells.
+/// Reports the cost of an adaptive map, compared with all its cells.
 fn say_what_was_saved(map: &Map) {
     let (runs, cells, stride) = (map.runs, map.cells.len() as u64, map.coarsest_stride());
     let saved = cells.saturating_sub(runs);

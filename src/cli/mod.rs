@@ -8,8 +8,6 @@ mod explore;
 mod figures;
 mod gone;
 mod hbm;
-mod hbm_lining;
-mod hbm_views;
 mod man;
 mod map;
 mod margins;

@@ -18,7 +18,7 @@ use rubscope_solver::study::survey::{Survey, speed_range};
 
 /// Largest table of modes \[bytes\].
 const LARGEST_TABLE: u64 = 1 << 20;
-/// How much more than the smallest pulse that touches the new scene has.
+/// Pulse of the new scene over the smallest pulse that makes contact.
 const PULSE: f64 = 2.0;
 /// Digits of that pulse.
 const DIGITS: usize = 2;
@@ -101,7 +101,7 @@ impl NewCommand {
         Ok(Status::Done)
     }
 
-    /// Everything that was given, and what is asked for.
+    /// Returns everything that was given, and what is asked for.
     fn data(&self, asking: &Asking) -> anyhow::Result<ModalData> {
         let [mut casing, mut disk] = match &self.modes {
             Some(path) => table(path)?,
@@ -194,10 +194,10 @@ impl NewCommand {
     }
 }
 
-/// The damping ratio where none is said.
+/// Damping ratio where none is given.
 const USUAL_DAMPING: &str = "0.01";
 
-/// The modes of a table.
+/// Returns the modes of a table.
 fn table(path: &Path) -> anyhow::Result<[Vec<Family>; 2]> {
     let shown = path.display();
     let text = file::read_text(path, LARGEST_TABLE)
@@ -205,7 +205,7 @@ fn table(path: &Path) -> anyhow::Result<[Vec<Family>; 2]> {
     Ok(read_modes(&text).map_err(|error| Refusal::because(format!("{shown}: {error}")))?)
 }
 
-/// A mode from `DIAMETERS:FREQUENCY:MASS`.
+/// Returns a mode from `DIAMETERS:FREQUENCY:MASS`.
 fn family(option: &str, text: &str) -> Result<Family, SceneError> {
     let parts: Vec<&str> = text.split(':').collect();
     let [diameters, frequency, mass] = parts.as_slice() else {
@@ -238,7 +238,7 @@ impl Asking {
         Self { answers: stdin().is_terminal() }
     }
 
-    /// What was given, or the answer to a question; an empty answer is the usual one.
+    /// Returns what was given, or the answer to a question; an empty answer is the usual one.
     fn value(
         &self,
         option: &'static str,

@@ -84,26 +84,26 @@ pub struct Resolved {
 }
 
 impl SceneOptions {
-    /// The scene as given: a name or a path.
+    /// Returns the scene as given: a name or a path.
     #[must_use]
     pub fn name(&self) -> Option<&str> {
         self.scene.as_deref()
     }
 
-    /// Whether speeds are to be told in turns a minute.
+    /// Returns whether speeds are shown in rpm.
     #[must_use]
     pub fn in_rpm(&self) -> bool {
         self.rpm
     }
 
-    /// The speed or range given with `--speed`, as it was typed.
+    /// Returns the speed or range given with `--speed`, as it was typed.
     #[must_use]
     pub fn speed(&self) -> Option<&str> {
         self.speed.as_deref()
     }
 
-    /// The scene that these options describe. A key that had to be changed to
-    /// fit them is named on standard error.
+    /// Returns the scene that these options describe. A key that had to be changed to fit them is
+    /// named on standard error.
     ///
     /// # Errors
     /// No such scene, or the first key, value or combination that is refused.
@@ -111,7 +111,7 @@ impl SceneOptions {
         Ok(self.resolve(Swept::default())?.scene)
     }
 
-    /// The scene these options describe, and the ranges among them.
+    /// Returns the scene these options describe, and the ranges among them.
     ///
     /// # Errors
     /// As `scene`; the scene is checked at both ends of each range.
@@ -119,7 +119,7 @@ impl SceneOptions {
         self.apply(read_scene(self.scene.as_deref().unwrap_or(DEFAULT))?, swept)
     }
 
-    /// The given scene, instead of the named one, changed by these options.
+    /// Returns the given scene, instead of the named one, changed by these options.
     ///
     /// # Errors
     /// As `scene`.
@@ -178,13 +178,13 @@ impl SceneOptions {
         Ok(Resolved { scene, speeds, pulses })
     }
 
-    /// Every named option, and the key it sets.
+    /// Returns every named option, and the key it sets.
     #[must_use]
     pub fn keys() -> [(&'static str, &'static str); 10] {
         Self::default().named().map(|(option, key, _)| (option, key))
     }
 
-    /// Every named option, the key it sets, and its text.
+    /// Returns every named option, the key it sets, and its text.
     fn named(&self) -> [(&'static str, &'static str, Option<&String>); 10] {
         [
             ("--speed", keys::SPEED, self.speed.as_ref()),
@@ -201,7 +201,7 @@ impl SceneOptions {
     }
 }
 
-/// The scene of this name or file. A pipe in a folder is read as soon as somebody writes to
+/// Returns the scene of this name or file. A pipe in a folder is read as soon as somebody writes to
 /// it, which is said: it may be nobody. Other pipes have their writers.
 ///
 /// # Errors
@@ -219,13 +219,9 @@ pub(super) fn read_scene(name: &str) -> Result<Scene, SceneError> {
     Scene::load_unchecked(name)
 }
 
-/// What to say about a key that follows the options.
+/// Returns what to say about a key that follows the options.
 fn followed(made: &Adjustment) -> String {
-    let Adjustment { key, from, to } = made;
-    let why = match *key {
-        keys::SOLVER => "cannot do what the options ask",
-        _ => "the event solver does not know",
-    };
+    let Adjustment { key, from, to, why } = made;
     format!("rubscope: took {key} = {to:?} instead of the scene's {from:?}, which {why}")
 }
 
@@ -243,6 +239,16 @@ mod tests {
             assert!(scene.make_compatible(|key| given.contains(&key)).is_empty());
             assert_eq!(scene, before);
         }
+    }
+
+    #[test]
+    fn inclined_tips_take_the_law_that_only_pushes_unless_another_was_asked_for() {
+        let slope = "bladed_disk.radial_coupling=0.1";
+        let scene = options(&[slope]).scene().unwrap();
+        assert_eq!(scene.solver.contact, ContactLaw::Unilateral);
+        let refused = options(&["solver.contact=bilateral", slope]).scene().unwrap_err();
+        let start = "bladed_disk.radial_coupling = 0.1: allowed is 0 with solver.contact";
+        assert!(refused.to_string().starts_with(start), "{refused}");
     }
 
     fn options(set: &[&str]) -> SceneOptions {

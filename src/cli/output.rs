@@ -7,8 +7,7 @@ use super::status::{Refusal, say};
 use crate::file::{self, Written};
 use anyhow::Context;
 
-/// The ending of a file given with `--out`, which must be one of these; the place
-/// is tried.
+/// Returns the ending of a file given with `--out`, which must be one of these; the place is tried.
 ///
 /// # Errors
 /// Another ending, or a path where no file can be written.
@@ -26,7 +25,7 @@ pub fn try_place(path: &Path) -> anyhow::Result<()> {
     file::check_place(path).with_context(|| format!("cannot write {}", path.display()))
 }
 
-/// The ending of a file given with `--out`, which must be one of these.
+/// Returns the ending of a file given with `--out`, which must be one of these.
 ///
 /// # Errors
 /// Another ending.
@@ -60,7 +59,7 @@ pub fn save(
     save_or(path, what, out, &content, &content)
 }
 
-/// As `save`, with a text in place of a file that is none.
+/// Same as [`save`], with a text in place of a file that is none.
 ///
 /// # Errors
 /// As `save`.
@@ -92,8 +91,8 @@ pub fn replace_or_print(
         .map_err(|error| print_instead(path, error, "its text is on standard output", out, text))
 }
 
-/// The error of a file that could not be written, after what was meant for it
-/// was printed; if that fails too, the error says so.
+/// Returns the error of a file that could not be written, after what was meant for it was printed;
+/// if that fails too, the error says so.
 pub fn print_instead(
     path: &Path,
     error: std::io::Error,

@@ -20,7 +20,7 @@ pub struct Range {
 }
 
 impl Range {
-    /// Whether this text is meant as a range.
+    /// Returns whether this text is meant as a range.
     #[must_use]
     pub fn looks_like(text: &str) -> bool {
         text.contains(':')
@@ -46,14 +46,14 @@ impl Range {
         }
     }
 
-    /// The values.
+    /// Returns the values.
     #[must_use]
     pub fn values(&self) -> Vec<f64> {
         linspace(self.from, self.to, self.count)
     }
 }
 
-/// `count` evenly spaced values from `from` to `to`, both ends exactly.
+/// Returns `count` evenly spaced values from `from` to `to`, both ends exactly.
 #[must_use]
 pub fn linspace(from: f64, to: f64, count: usize) -> Vec<f64> {
     let last = count.saturating_sub(1);

@@ -120,7 +120,7 @@ impl RunCommand {
         })
     }
 
-    /// The command that gives the same result again.
+    /// Returns the command that gives the same result again.
     fn command(&self, scene: &Scene) -> CommandLine {
         let start = CommandLine::new("run", scene);
         let line = self.at.iter().fold(start, |line, change| line.option("--at", change));

@@ -78,13 +78,13 @@ fn parse_one(text: &str) -> Result<(f64, RequestedChange), Refusal> {
 /// A checked change, and the scene after it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RequestedStep {
-    /// When \[s\].
+    /// Instant \[s\].
     pub t_s: f64,
     /// The requested change.
     pub change: RequestedChange,
     /// The scene after it.
     pub scene: CheckedScene,
-    /// What happens to the motion.
+    /// Changes of the motion.
     acts: Vec<motion::Change>,
 }
 
@@ -122,13 +122,13 @@ impl RequestedStep {
     }
 }
 
-/// Whether a key can act on a running motion of this scene.
+/// Returns whether a key can act on a running motion of this scene.
 fn acts_live(key: &Key, scene: &CheckedScene) -> bool {
     let by_steps = scene.solver.kind == SolverKind::Explicit;
     key.live == Live::Always || (by_steps && key.live == Live::Steps)
 }
 
-/// What can act on a running motion of this scene, for error messages.
+/// Returns what can act on a running motion of this scene, for error messages.
 fn live_keys(scene: &CheckedScene) -> String {
     let keys: Vec<&str> =
         KEYS.iter().filter(|key| acts_live(key, scene)).map(|key| key.path).collect();
@@ -160,13 +160,13 @@ impl RequestedScript {
         Ok(Self(steps))
     }
 
-    /// Whether there are no changes.
+    /// Returns whether there are no changes.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// The changes of the motion.
+    /// Returns the changes of the motion.
     #[must_use]
     pub fn changes(&self) -> motion::Script {
         let acts =
@@ -187,12 +187,12 @@ impl std::fmt::Display for RequestedScript {
 
 impl Serialize for RequestedScript {
     fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
-        out.collect_seq(self.0.iter().map(told))
+        out.collect_seq(self.0.iter().map(as_json))
     }
 }
 
-/// A step as JSON reports tell it.
-fn told(step: &RequestedStep) -> serde_json::Value {
+/// Returns a step as JSON reports tell it.
+fn as_json(step: &RequestedStep) -> serde_json::Value {
     let t_s = step.t_s;
     match &step.change {
         RequestedChange::Pulse => serde_json::json!({ "t_s": t_s, "pulse": true }),

@@ -17,10 +17,10 @@ use rubscope_solver::tolerances::{MOST_EVENTS, MOST_LOOKS};
 /// A command that ends sooner shows nothing.
 const SOON: Duration = Duration::from_millis(300);
 
-/// How often it moves.
+/// Time between two steps of its animation.
 const TICK: Duration = Duration::from_millis(100);
 
-/// What is shown until a command says more.
+/// Template of the line until a command shows more.
 const PLAIN: &str = "{spinner} {msg} {elapsed}";
 
 /// The line, once a command has begun on a terminal.
@@ -32,7 +32,7 @@ fn style(sign: &ProgressBar, template: &str) {
     }
 }
 
-/// Shows it from now on, as long as the command is at work.
+/// Shows the sign of life from now on, as long as the command is at work.
 pub fn begin() {
     if !stderr().is_terminal() {
         return;
@@ -47,14 +47,14 @@ pub fn begin() {
     let _ = thread::Builder::new().name("rubscope-sign".into()).spawn(begun);
 }
 
-/// Says what is being done now.
+/// Shows what is being done now.
 pub fn doing(what: impl Into<String>) {
     if let Some(sign) = SIGN.get() {
         sign.set_message(what.into());
     }
 }
 
-/// Says how many parts the work has, in this form; each is counted by `inc`.
+/// Shows how many parts the work has, in this form; each is counted by `inc`.
 pub fn bar(parts: u64, template: &str) -> ProgressBar {
     let Some(sign) = SIGN.get() else { return ProgressBar::hidden() };
     style(sign, template);
@@ -71,7 +71,7 @@ pub fn aside<T>(print: impl FnOnce() -> T) -> T {
     }
 }
 
-/// The work is done.
+/// Ends the sign of life: the work is done.
 pub fn end() {
     if let Some(sign) = SIGN.get() {
         sign.finish_and_clear();
@@ -93,9 +93,9 @@ impl Write for Out {
     }
 }
 
-/// How often the bar is moved.
+/// Time between two moves of the bar.
 const LOOK: Duration = Duration::from_millis(100);
-/// How long a run may take in silence.
+/// Time that a run may take before its bound is printed.
 const SILENCE: Duration = Duration::from_secs(2);
 /// Length of the bar.
 const PARTS: u64 = 1000;
@@ -105,13 +105,13 @@ pub(super) struct LongRun {
     bar: ProgressBar,
     end_s: f64,
     started: Instant,
-    /// When to look next, after the start.
+    /// Wall time of the next look, from the start.
     next: Duration,
     bound: Option<String>,
 }
 
 impl LongRun {
-    /// Of a run that begins now, followed by `changed` more.
+    /// Creates the bar of a run that begins now, followed by `changed` more.
     pub(super) fn of(scene: &CheckedScene, changed: usize) -> Self {
         Self {
             bar: bar(PARTS, "{spinner} {bar:30} {msg} {elapsed}"),
@@ -122,7 +122,7 @@ impl LongRun {
         }
     }
 
-    /// Whether a look is due after this much wall time.
+    /// Returns whether a look is due after this much wall time.
     fn is_due(&self, elapsed: Duration) -> bool {
         elapsed >= self.next
     }
@@ -149,20 +149,20 @@ impl Watch for LongRun {
     }
 }
 
-/// How much of a run to `end_s` is done, by its time or by its bound, and in words.
+/// Returns how much of a run to `end_s` is done, by its time or by its bound, and in words.
 fn progress(motion: &Motion, end_s: f64) -> (f64, String) {
     let now = motion.t_s();
-    let (part, told) = (now / end_s, format!("{} of {}", time(now), time(end_s)));
+    let (part, text) = (now / end_s, format!("{} of {}", time(now), time(end_s)));
     match motion.events() {
         Some(events) => {
             let bound = events as f64 / MOST_EVENTS as f64;
-            (part.max(bound), format!("{told}, changes of contact: {}", grouped(events)))
+            (part.max(bound), format!("{text}, changes of contact: {}", grouped(events)))
         }
-        None => (part, told),
+        None => (part, text),
     }
 }
 
-/// What bounds a run, and what follows it.
+/// Returns what bounds a run, and what follows it.
 fn bound(scene: &CheckedScene, changed: usize) -> String {
     let end = time(scene.solver.end_s);
     let most = match scene.solver.kind {
@@ -212,9 +212,9 @@ mod long_run_tests {
         assert!(run.bound.is_some(), "not before it is long");
         run.look_after(SILENCE, &motion);
         assert_eq!(run.bound, None);
-        let told = bound(&scene, 3);
+        let text = bound(&scene, 3);
         for words in ["ends at 1e6 s, or after 10,000,000 changes of contact", "3 changed runs"] {
-            assert!(told.contains(words), "{told}");
+            assert!(text.contains(words), "{text}");
         }
     }
 
@@ -224,8 +224,8 @@ mod long_run_tests {
         let mut motion = Motion::new(&scene);
         motion.advance(0.1).unwrap();
         let events = motion.events().unwrap();
-        let told = format!("100 ms of 200 ms, changes of contact: {events}");
-        assert_eq!(progress(&motion, 0.2), (0.5, told));
+        let text = format!("100 ms of 200 ms, changes of contact: {events}");
+        assert_eq!(progress(&motion, 0.2), (0.5, text));
         assert_eq!(progress(&motion, 1e9).0, events as f64 / 1e7);
     }
 
@@ -244,7 +244,7 @@ mod long_run_tests {
     fn a_run_by_steps_is_bounded_by_their_number() {
         let mut scene = Scene::base();
         (scene.solver.step_s, scene.solver.end_s) = (0.5_f64.powi(20), 0.5);
-        let told = "rubscope: a long run: it ends at 500 ms, after 524,288 steps";
-        assert_eq!(bound(&scene.checked().unwrap(), 0), told);
+        let text = "rubscope: a long run: it ends at 500 ms, after 524,288 steps";
+        assert_eq!(bound(&scene.checked().unwrap(), 0), text);
     }
 }

@@ -15,7 +15,7 @@ pub(super) fn watch() -> std::io::Result<()> {
         .filter(|signal| ignored >> (signal - 1) & 1 == 0);
     let mut signals = signal_hook::iterator::Signals::new(heard)?;
     let wait = move || {
-        for signal in signals.forever() {
+        if let Some(signal) = signals.forever().next() {
             crate::file::settle(LONGEST_CHANGE);
             // The shell sees that it was ended by the signal, and ends its loop.
             let _ = signal_hook::low_level::emulate_default_handler(signal);
@@ -25,12 +25,12 @@ pub(super) fn watch() -> std::io::Result<()> {
     std::thread::Builder::new().name("rubscope-signals".into()).spawn(wait).map(|_| ())
 }
 
-/// How long an end waits for the change of a file: a disk may not answer.
+/// Longest wait for the change of a file at the end: a disk may not answer.
 #[cfg(unix)]
 const LONGEST_CHANGE: std::time::Duration = std::time::Duration::from_secs(2);
 
-/// The signals that were ignored when the program started, a bit each from signal
-/// 1 on; none where the system does not tell.
+/// Returns the signals that were ignored when the program started, a bit each from signal 1 on;
+/// none where the system does not tell.
 #[cfg(unix)]
 fn ignored() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

@@ -12,14 +12,14 @@ use super::{gone, sign};
 use crate::report::line::clean;
 use rubscope_solver::scene::SceneError;
 
-/// How a command ended.
+/// Outcome of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
     /// Success.
     Done,
-    /// It ran, but the computation failed; the output gives the reason.
+    /// Failure of the computation; the output gives the reason.
     Failed,
-    /// It was ended by this signal.
+    /// End by this signal.
     Signal(u8),
 }
 
@@ -29,12 +29,12 @@ pub enum Status {
 pub struct Refusal(String);
 
 impl Refusal {
-    /// A refusal of `value` for `name`, an option or argument as typed.
+    /// Creates a refusal of `value` for `name`, an option or argument as typed.
     pub fn of(name: &str, value: impl std::fmt::Display, allowed: impl std::fmt::Display) -> Self {
         Self(format!("{name} = {value}: allowed is {allowed}"))
     }
 
-    /// A refusal with this reason.
+    /// Creates a refusal with this reason.
     pub fn because(reason: impl Into<String>) -> Self {
         Self(reason.into())
     }
@@ -43,7 +43,7 @@ impl Refusal {
 /// SIGPIPE, which has this number on every Unix.
 const BROKEN_PIPE: u8 = 13;
 
-/// The exit status of a command, after its message if it has one.
+/// Returns the exit status of a command, after its message if it has one.
 pub fn exit(done: super::Done) -> u8 {
     if done.is_ok() {
         say_noted();
@@ -77,7 +77,7 @@ pub fn exit(done: super::Done) -> u8 {
     1
 }
 
-/// Lines to be said once the command goes on.
+/// Lines that are printed once nothing in the input can be refused any more.
 static NOTED: Mutex<Vec<String>> = Mutex::new(Vec::new());
 
 fn noted() -> std::sync::MutexGuard<'static, Vec<String>> {
@@ -98,8 +98,8 @@ pub fn say_noted() {
     lines.iter().for_each(|line| say(line));
 }
 
-/// The exit status of a command line that clap did not turn into a command:
-/// help and version on standard output, anything else refused in one line.
+/// Returns the exit status of a command line that clap did not turn into a command: help and
+/// version on standard output, anything else refused in one line.
 pub fn usage(error: &clap::Error, arguments: &[OsString]) -> u8 {
     match error.kind() {
         Usage::DisplayHelp | Usage::DisplayVersion => match error.print() {
@@ -115,15 +115,15 @@ pub fn usage(error: &clap::Error, arguments: &[OsString]) -> u8 {
     }
 }
 
-/// Clap's message without its usage block, as one line.
+/// Returns the message of clap without its usage block, as one line.
 fn in_one_line(message: &str) -> String {
-    let told: Vec<&str> = message
+    let kept: Vec<&str> = message
         .lines()
         .map(str::trim)
         .take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more"))
         .filter(|line| !line.is_empty() && !line.starts_with("tip: to pass"))
         .collect();
-    let line = told.join(" ");
+    let line = kept.join(" ");
     let line = line.strip_prefix("error: ").unwrap_or(&line);
     format!("{line} (see rubscope --help)")
 }

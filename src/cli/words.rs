@@ -14,12 +14,12 @@ use rubscope_solver::scene::BUILTIN;
 pub struct Words(Vec<&'static str>);
 
 impl Words {
-    /// The words of a choice.
+    /// Creates the words of a choice.
     pub fn of<T: VariantNames>() -> Self {
         Self(T::VARIANTS.to_vec())
     }
 
-    /// The names of the built-in scenes.
+    /// Creates the names of the built-in scenes.
     pub fn scenes() -> Self {
         Self(BUILTIN.iter().map(|scene| scene.name).collect())
     }

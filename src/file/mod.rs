@@ -18,7 +18,7 @@ pub use rubscope_solver::scene::read_text;
 pub use temporary::settle;
 use temporary::{PRIVATE, Temporary, USUAL};
 
-/// What writing a file did.
+/// Outcome of writing a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Written {
     /// There was no file, or it is a device or a pipe.
@@ -79,7 +79,7 @@ pub fn create(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> 
     create_with(path, USUAL, write)
 }
 
-/// As `create`, for the user alone: others can never read it.
+/// Same as [`create`], for the user alone: others can never read the file.
 ///
 /// # Errors
 /// As `create`.

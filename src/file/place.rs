@@ -9,7 +9,7 @@ use super::temporary::{Temporary, USUAL};
 /// Most links from one to the next that are followed, as in the system.
 const MOST_LINKS: usize = 40;
 
-/// What a path names, with links followed.
+/// File that a path names, with links followed.
 pub(super) enum Place {
     /// A device, a pipe or an open file of this program: written to directly.
     Stream(PathBuf),
@@ -69,12 +69,12 @@ pub fn check_place(path: &Path) -> Result<()> {
     }
 }
 
-/// The folder of a file.
+/// Returns the folder of a file.
 pub(super) fn folder(path: &Path) -> &Path {
     path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// Whether the file has more than one hard link.
+/// Returns whether the file has more than one hard link.
 #[cfg(unix)]
 pub(super) fn has_other_names(metadata: &Metadata) -> bool {
     std::os::unix::fs::MetadataExt::nlink(metadata) > 1
@@ -85,7 +85,7 @@ pub(super) fn has_other_names(_: &Metadata) -> bool {
     false
 }
 
-/// The file that links which lead nowhere would create.
+/// Returns the file that links which lead nowhere would create.
 fn follow(path: &Path) -> Result<PathBuf> {
     let mut path = path.to_path_buf();
     for _ in 0..MOST_LINKS {
@@ -97,7 +97,7 @@ fn follow(path: &Path) -> Result<PathBuf> {
     Err(Error::other("too many links"))
 }
 
-/// The last link of a path that stands for a file that this program has open, as
+/// Returns the last link of a path that stands for a file that this program has open, as
 /// `/dev/stdout` does: another file of that name would not reach its reader.
 fn open_here(path: &Path) -> Option<PathBuf> {
     let mut path = path.to_path_buf();

@@ -26,14 +26,14 @@ pub(super) const PRIVATE: u32 = 0o600;
 /// Held while a complete file takes its place.
 static PLACING: Mutex<()> = Mutex::new(());
 
-/// Until this is dropped, `settle` waits: a file takes its place.
+/// Locks the placing of files: until the guard is dropped, [`settle`] waits.
 pub(super) fn placing() -> MutexGuard<'static, ()> {
     PLACING.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Before a program ends while another thread writes: waits until a file that is
-/// taking its place is there, though no longer than `limit`, and removes what
-/// unfinished writing would leave behind. No file takes its place any more.
+/// Ends the writing of files before the program ends while another thread writes: waits, no longer
+/// than `limit`, until a file that is taking its place is there, and removes what unfinished
+/// writing would leave behind. No file takes its place afterwards.
 pub fn settle(limit: Duration) {
     let began = Instant::now();
     while let Err(TryLockError::WouldBlock) = PLACING.try_lock().map(std::mem::forget) {
@@ -75,8 +75,8 @@ pub(super) enum Temporary {
 }
 
 impl Temporary {
-    /// A file in the folder of `path`, from the start no more readable than the one that
-    /// it is to replace, or with this mode where there is none.
+    /// Returns a file in the folder of `path`, from the start no more readable than the one that it
+    /// is to replace, or with this mode where there is none.
     pub(super) fn beside(path: &Path, replaced: Option<&Metadata>, mode: u32) -> Result<Self> {
         let folder = place::folder(path);
         // A folder that is missing has the same word for every kind of file.
@@ -168,8 +168,8 @@ impl Temporary {
     }
 }
 
-/// Whether the place is a file that cannot be renamed over, though it can be
-/// written: it is mounted there, or in a folder where all rename only their own.
+/// Returns whether the place is a file that cannot be renamed over, though it can be written: it is
+/// mounted there, or in a folder where all rename only their own.
 fn must_stay(error: &Error) -> bool {
     matches!(
         error.kind(),
@@ -177,7 +177,7 @@ fn must_stay(error: &Error) -> bool {
     )
 }
 
-/// The owner stays as far as this is permitted.
+/// Keeps the owner as far as this is permitted.
 #[cfg(unix)]
 fn keep_owner(file: &File, replaced: &Metadata) {
     use std::os::unix::fs::{MetadataExt, fchown};
@@ -190,8 +190,8 @@ fn keep_owner(file: &File, replaced: &Metadata) {
 #[cfg(not(unix))]
 fn keep_owner(_: &File, _: &Metadata) {}
 
-/// The new name itself is on the disk after this. Not every file system can do
-/// it, and the file is already in its place.
+/// Writes the new name itself to the disk. Not every file system can do that, and the file is
+/// already in its place.
 fn sync_folder(path: &Path) {
     let _ = File::open(place::folder(path)).and_then(|folder| folder.sync_all());
 }
@@ -209,7 +209,7 @@ mod unnamed {
     /// Numbers the hidden names of this program.
     static NEXT: AtomicU64 = AtomicU64::new(0);
 
-    /// A file without a name, which can get one later.
+    /// Returns a file without a name, which can get one later.
     pub(super) fn open(folder: &Path, mode: u32) -> Result<File> {
         // The descriptor is named through it later.
         Path::new("/proc/self/fd").metadata()?;

@@ -87,7 +87,7 @@ fn frequencies(scene: &CheckedScene) -> String {
     )
 }
 
-/// Where the scene stands.
+/// Returns where the scene stands.
 fn limits(scene: &CheckedScene) -> String {
     let margins = Margins::of(scene);
     let now = speed(scene.operation.speed_rad_s);
@@ -110,7 +110,7 @@ fn limits(scene: &CheckedScene) -> String {
     told.join(" ")
 }
 
-/// What the scene does not say.
+/// Returns what the scene does not say.
 fn unknown(scene: &CheckedScene) -> Option<String> {
     let half = scene.bladed_disk.blades / 2;
     let known = |modes: &[rubscope_solver::model::Mode]| {

@@ -18,7 +18,7 @@ pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 pub struct CommandLine(String);
 
 impl CommandLine {
-    /// `rubscope COMMAND NAME`, with `--set` for every key in which the scene
+    /// Creates `rubscope COMMAND NAME`, with `--set` for every key in which the scene
     /// differs from the one of that name; charts are not counted.
     #[must_use]
     pub fn from_base(command: &str, name: &str, base: &Scene, scene: &Scene) -> Self {
@@ -33,7 +33,7 @@ impl CommandLine {
         Self(format!("{PROGRAM} {command}"))
     }
 
-    /// As `from_base` with the built-in scene of the same title, or else the one
+    /// Same as [`Self::from_base`] with the built-in scene of the same title, or else the one
     /// that differs in the fewest keys, so that the command needs no scene file.
     /// Charts are set too: the scene is the same in every key.
     #[must_use]
@@ -48,14 +48,14 @@ impl CommandLine {
         view_differences(&base, scene).fold(line, set)
     }
 
-    /// With an option and its value.
+    /// Adds an option and its value.
     #[must_use]
     pub fn option(mut self, name: &str, value: impl Display) -> Self {
         self.0.push_str(&format!(" {name} {}", quoted(&value.to_string())));
         self
     }
 
-    /// With an option and its value, if there is one.
+    /// Adds an option and its value, if there is one.
     #[must_use]
     pub fn optional(self, name: &str, value: Option<impl Display>) -> Self {
         match value {
@@ -64,7 +64,7 @@ impl CommandLine {
         }
     }
 
-    /// With an option that has no value, if it is given.
+    /// Adds an option that has no value, if it is given.
     #[must_use]
     pub fn flag(mut self, name: &str, given: bool) -> Self {
         if given {
@@ -73,7 +73,7 @@ impl CommandLine {
         self
     }
 
-    /// The program, its version and the command, as `program` in JSON.
+    /// Returns the program, its version and the command, as `program` in JSON.
     #[must_use]
     pub fn program(&self) -> Value {
         json!({ "name": PROGRAM, "version": VERSION, "command": self.0 })
@@ -86,7 +86,7 @@ impl Display for CommandLine {
     }
 }
 
-/// A word, quoted for the shell.
+/// Returns a word, quoted for the shell.
 fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=+:,".contains(c);
     if !word.is_empty() && word.chars().all(plain) {
@@ -96,7 +96,7 @@ fn quoted(word: &str) -> String {
     }
 }
 
-/// Where a result comes from.
+/// Origin of a result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Provenance {
     /// The command that gives it again.
@@ -106,8 +106,8 @@ pub struct Provenance {
 }
 
 impl Provenance {
-    /// All of it as text: a line with program and version, the command, and the
-    /// scene as a scene file.
+    /// Returns all of it as text: a line with program and version, the command, and the scene as a
+    /// scene file.
     #[must_use]
     pub fn text(&self) -> String {
         format!("{PROGRAM} {VERSION}\n{}\n\n{}", self.command, self.scene.to_toml())

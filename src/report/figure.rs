@@ -3,8 +3,8 @@
 use super::table::{Table, TableCell};
 use rubscope_solver::study::figures::Panel;
 
-/// If all series share x, a column for x and one for each series; otherwise one
-/// row per point, with the name of its series.
+/// Returns the data as a table: if all series share x, a column for x and one for each
+/// series; otherwise one row per point, with the name of its series.
 #[must_use]
 pub fn table(panel: &Panel) -> Table {
     if panel.shares_x() { wide(panel) } else { long(panel) }

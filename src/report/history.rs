@@ -40,7 +40,7 @@ pub struct History {
 }
 
 impl History {
-    /// An empty history; `blades` gap columns are added, none for 0.
+    /// Creates an empty history; `blades` gap columns are added, none for 0.
     #[must_use]
     pub fn new(blades: u32) -> Self {
         let gaps = (1..=blades).map(|blade| format!("gap_{blade}_m"));
@@ -48,7 +48,7 @@ impl History {
         Self { columns: names.map(|name| HistoryColumn { name, values: Vec::new() }).collect() }
     }
 
-    /// Most samples with the gaps of this many blades; none of them for 0.
+    /// Returns the greatest number of samples with the gaps of this many blades.
     #[must_use]
     pub fn most_samples(blades: u32) -> u32 {
         let columns = COLUMNS.len() + blades as usize;
@@ -83,19 +83,19 @@ impl History {
         }
     }
 
-    /// The columns, all of one length.
+    /// Returns the columns, all of one length.
     #[must_use]
     pub fn columns(&self) -> &[HistoryColumn] {
         &self.columns
     }
 
-    /// How many samples there are.
+    /// Returns how many samples there are.
     #[must_use]
     pub fn len(&self) -> usize {
         self.columns.first().map_or(0, |column| column.values.len())
     }
 
-    /// Whether there is no sample.
+    /// Returns whether there is no sample.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0

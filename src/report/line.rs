@@ -6,8 +6,8 @@ use rubscope_solver::scene::keys::is_plain;
 /// Characters of a message that are shown at each end of a very long one.
 const SHOWN: usize = 800;
 
-/// A message without what quoted input must not do to a terminal: no control
-/// characters, no breaks of lines or of their direction, no endless text.
+/// Returns a message without what quoted input must not do to a terminal: no control characters, no
+/// breaks of lines or of their direction, no endless text.
 #[must_use]
 pub fn clean(text: &str) -> String {
     let count = text.chars().count();
@@ -19,7 +19,7 @@ pub fn clean(text: &str) -> String {
     head.chain(" ... ".chars()).chain(tail).collect()
 }
 
-/// A text with its first letter in upper case.
+/// Returns a text with its first letter in upper case.
 #[must_use]
 pub fn capital(text: &str) -> String {
     let mut text = text.to_string();
@@ -29,14 +29,14 @@ pub fn capital(text: &str) -> String {
     text
 }
 
-/// A plain character; a space in place of any other.
+/// Returns a plain character; a space in place of any other.
 #[must_use]
 pub fn harmless(c: char) -> char {
     if is_plain(c) { c } else { ' ' }
 }
 
-/// A text in lines of at most so many columns, broken at spaces, and within words that
-/// are longer than a line.
+/// Returns a text in lines of at most so many columns, broken at spaces, and within words that are
+/// longer than a line.
 #[must_use]
 pub fn wrapped(text: &str, most: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
@@ -67,7 +67,7 @@ pub fn wrapped(text: &str, most: usize) -> Vec<String> {
     lines
 }
 
-/// Columns that a character takes: two in the scripts of East Asia, and of pictures.
+/// Returns the columns that a character takes: two in the scripts of East Asia, and of pictures.
 fn columns(c: char) -> usize {
     let wide = matches!(
         c,

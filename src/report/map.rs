@@ -1,5 +1,5 @@
-//! The interaction map as JSON (`rubscope.map/1`), as CSV, as a figure with
-//! the curves that bound its zones, and as text with one character a cell.
+//! The interaction map as JSON (`rubscope.map/1`), as CSV, as a figure with the curves that
+//! bound its zones, and as text with one character per cell.
 
 use std::io::{Result, Write};
 
@@ -17,7 +17,7 @@ use rubscope_solver::study::{Axis, Cell, Map, MapPlan, overlay};
 
 /// Most rows of the text map.
 const TEXT_ROWS: usize = 40;
-/// Number of characters left of the cells, and left and right together.
+/// Number of characters to the left of the cells, and of those on both sides.
 const INDENT: usize = 14;
 const FRAME: usize = INDENT + 1;
 
@@ -53,7 +53,7 @@ impl Serialize for MapJson<'_> {
     }
 }
 
-/// The command that gives this map, whoever computed its cells.
+/// Returns the command that gives this map in one run.
 #[must_use]
 pub fn command(map: &Map) -> CommandLine {
     let plan = &map.plan;
@@ -64,7 +64,7 @@ pub fn command(map: &Map) -> CommandLine {
         .flag("--adaptive", map.adaptive)
 }
 
-/// A value of every cell, in rows; none where nothing is computed.
+/// Values of the cells in rows; `null` for a cell that is not computed.
 struct Rows<'a, T> {
     map: &'a Map,
     value: fn(Cell) -> T,
@@ -88,19 +88,19 @@ impl<T: Serialize> Serialize for Row<'_, T> {
     }
 }
 
-/// The last part of an axis's key, such as `speed_rad_s`.
+/// Returns the last part of the key of an axis, such as `speed_rad_s`.
 #[must_use]
 pub fn leaf(axis: &Axis) -> &str {
     axis.path.rsplit('.').next().unwrap_or(&axis.path)
 }
 
-/// The names of the two axes in a file: never the same one twice.
+/// Returns the names of both axes in a file, which always differ.
 pub(super) fn names(plan: &MapPlan) -> [&str; 2] {
     let MapPlan { x, y, .. } = plan;
     if leaf(x) == leaf(y) { [&x.path, &y.path] } else { [leaf(x), leaf(y)] }
 }
 
-/// The map as CSV, a line a cell.
+/// Writes the map as CSV, one line per cell.
 ///
 /// # Errors
 /// An error of the writer.
@@ -121,7 +121,7 @@ pub fn write_csv(map: &Map, out: &mut dyn Write) -> Result<()> {
     table::write_csv([first, second, "verdict", "sensitive"], rows, out)
 }
 
-/// The map as a figure, with these curves.
+/// Returns the map as a figure, with these curves.
 #[must_use]
 pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
     let (scene, x, y) = (&map.plan.scene, &map.plan.x, &map.plan.y);
@@ -167,7 +167,7 @@ pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
     Figure::new(title, note, vec![Panel::new("", quantity(x), quantity(y), series)])
 }
 
-/// The character of a cell: a mark for the verdict, its first letter if it is
+/// Returns the character of a cell: a mark for the verdict, or a letter if the cell is
 /// sensitive.
 #[must_use]
 pub fn mark(cell: Option<Cell>) -> char {
@@ -192,8 +192,8 @@ pub fn mark(cell: Option<Cell>) -> char {
     }
 }
 
-/// The map as text, highest row first, no line of cells wider than `width`,
-/// with a legend of what is in it.
+/// Writes the map as text, highest row first and no line of cells wider than `width`, with a
+/// legend.
 ///
 /// # Errors
 /// An error of the writer.
@@ -225,8 +225,8 @@ pub fn write_text(map: &Map, width: usize, out: &mut dyn Write) -> Result<()> {
     write_legend(map, out)
 }
 
-/// Points at the columns of the critical and the lock-in speed, where they are
-/// the same for all rows.
+/// Marks the columns of the critical and the lock-in speed, if they are the same for all
+/// rows.
 fn write_speeds(map: &Map, across: usize, columns: usize, out: &mut dyn Write) -> Result<()> {
     for curve in overlay::speed_curves(&map.plan) {
         let Some(&(speed, _)) = curve.points.first() else { continue };
@@ -245,7 +245,7 @@ fn write_speeds(map: &Map, across: usize, columns: usize, out: &mut dyn Write) -
     Ok(())
 }
 
-/// What a verdict means, in a few words.
+/// Returns what a verdict means, in a few words.
 #[must_use]
 pub fn means(verdict: Verdict) -> &'static str {
     match verdict {

@@ -28,8 +28,8 @@ pub use history::History;
 /// Wall times of a run \[s\].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Wall {
-    /// Of the run.
+    /// Wall time of the run \[s\].
     pub run_s: f64,
-    /// Of the changed runs that find out whether it is sensitive, if there were any.
+    /// Wall time of the changed runs that test its sensitivity, if there were any \[s\].
     pub certainty_s: Option<f64>,
 }

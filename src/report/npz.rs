@@ -67,7 +67,7 @@ fn array(kind: &str, shape: &str, values: impl Iterator<Item = u8>) -> Vec<u8> {
 /// Returns an array of one dimension.
 fn column(values: &[f64]) -> Vec<u8> {
     let bytes = values.iter().flat_map(|value| value.to_le_bytes());
-    array("<f8", &format!("({},)", values.len()), bytes)
+    array("<f8", &format!("({}, )", values.len()), bytes)
 }
 
 /// Returns a text as numpy's Unicode scalar: an array without dimensions.
@@ -118,8 +118,8 @@ mod tests {
             let (header, data) = bytes.split_at(128);
             assert_eq!(&header[..10], b"\x93NUMPY\x01\x00v\x00");
             let words = format!(
-                "{{'descr': '<f8', 'fortran_order': False, 'shape': ({count},), }}{}\n",
-                " ".repeat(58 - count.to_string().len())
+                "{{'descr': '<f8', 'fortran_order': False, 'shape': ({count}, ), }}{}\n",
+                " ".repeat(60 - count.to_string().len())
             );
             assert_eq!(std::str::from_utf8(&header[10..]).unwrap(), words);
             let read: Vec<f64> =

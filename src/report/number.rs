@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 
 pub use rubscope_solver::numeric::rounding::rounded;
 
-/// A number in at most six significant digits.
+/// Returns a number in at most six significant digits.
 ///
 /// ```
 /// use rubscope::report::number::short;
@@ -33,13 +33,13 @@ pub fn short(x: f64) -> String {
     }
 }
 
-/// The shortest text that reads back as this number.
+/// Returns the shortest text that reads back as this number.
 #[must_use]
 pub fn exact(x: f64) -> String {
     if x != 0.0 && !(1e-4..1e15).contains(&x.abs()) { format!("{x:e}") } else { x.to_string() }
 }
 
-/// A time \[s\] in the unit that suits it.
+/// Returns a time \[s\] in the unit that suits it.
 #[must_use]
 pub fn time(seconds: f64) -> String {
     let (factor, unit) = match seconds.abs() {
@@ -51,11 +51,11 @@ pub fn time(seconds: f64) -> String {
     format!("{} {unit}", short(seconds * factor))
 }
 
-/// A number in at most so many significant digits, in its unit with the prefix that
-/// suits it; in letters of ASCII.
+/// Returns a number in at most so many significant digits, in its unit with the prefix that suits
+/// it; in letters of ASCII.
 #[must_use]
 pub fn with_unit(x: f64, digits: usize, unit: &str) -> String {
-    let (x, unit) = told(x, unit);
+    let (x, unit) = in_shown_unit(x, unit);
     let scale = SiScale::before(unit, x);
     let shown = short(rounded(x / scale.factor, digits));
     format!("{shown} {}{unit}", scale.in_ascii()).trim_end().to_string()
@@ -66,57 +66,56 @@ thread_local! {
     static IN_RPM: Cell<bool> = const { Cell::new(false) };
 }
 
-/// From now on this thread tells speeds in turns a minute, or in radians a second again.
-/// Files and JSON keep radians a second.
+/// Makes this thread show speeds in rpm, or in rad/s again.
 pub fn tell_in_rpm(rpm: bool) {
     IN_RPM.set(rpm);
 }
 
-/// The unit in which speeds are told.
+/// Returns the unit in which speeds are shown.
 #[must_use]
 pub fn speed_unit() -> &'static str {
     if IN_RPM.get() { "rpm" } else { RAD_S }
 }
 
-/// A speed \[rad/s\] in the unit in which speeds are told.
+/// Returns a speed \[rad/s\] in the unit in which speeds are shown.
 #[must_use]
 pub fn per_speed(omega: f64) -> f64 {
     if IN_RPM.get() { omega * 60.0 / TAU } else { omega }
 }
 
-/// A speed with its unit, in at most six significant digits.
+/// Returns a speed with its unit, in at most six significant digits.
 #[must_use]
 pub fn speed(omega: f64) -> String {
     format!("{} {}", short(per_speed(omega)), speed_unit())
 }
 
-/// The unit in which angular frequencies are told: hertz where speeds are told in turns.
+/// Returns the unit in which angular frequencies are shown: hertz where speeds are in rpm.
 #[must_use]
 pub fn frequency_unit() -> &'static str {
     if IN_RPM.get() { "Hz" } else { RAD_S }
 }
 
-/// An angular frequency \[rad/s\] in that unit.
+/// Returns an angular frequency \[rad/s\] in that unit.
 #[must_use]
 pub fn per_frequency(omega: f64) -> f64 {
     if IN_RPM.get() { omega / TAU } else { omega }
 }
 
-/// A number and its unit as they are told.
+/// Returns a number and its unit as they are shown.
 #[must_use]
-pub fn told(x: f64, unit: &str) -> (f64, &str) {
+pub fn in_shown_unit(x: f64, unit: &str) -> (f64, &str) {
     if unit == RAD_S { (per_speed(x), speed_unit()) } else { (x, unit) }
 }
 
 const RAD_S: &str = "rad/s";
 
-/// "1 step", "2 steps", "1,000,000 steps".
+/// Writes a count with its noun: "1 step", "2 steps", "1,000,000 steps".
 #[must_use]
 pub fn count(n: u64, noun: &str) -> String {
     format!("{} {noun}{}", grouped(n), if n == 1 { "" } else { "s" })
 }
 
-/// A whole number with a comma between thousands.
+/// Returns a whole number with a comma between thousands.
 #[must_use]
 pub fn grouped(n: u64) -> String {
     let digits = n.to_string();
@@ -130,7 +129,7 @@ pub fn grouped(n: u64) -> String {
     grouped
 }
 
-/// Decimal digits without zeros at the end.
+/// Removes zeros at the end of decimal digits.
 #[must_use]
 pub fn trimmed(digits: &str) -> &str {
     if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { digits }
@@ -159,7 +158,7 @@ const PREFIXES: &[(f64, &str)] = &[
 ];
 
 impl SiScale {
-    /// The prefix under which the largest magnitude reads as 1 to 999.
+    /// Creates the prefix under which the largest magnitude reads as 1 to 999.
     #[must_use]
     pub fn of(magnitude: f64) -> Self {
         let magnitude = magnitude.abs() * (1.0 + 1e-9);
@@ -172,25 +171,25 @@ impl SiScale {
         Self { factor, prefix }
     }
 
-    /// The prefix of a number of this unit, where one is usual in front of it.
+    /// Creates the prefix of a number of this unit, where one is usual in front of it.
     #[must_use]
     pub fn before(unit: &str, magnitude: f64) -> Self {
         if WITH_PREFIX.contains(&unit) { Self::of(magnitude) } else { Self::plain() }
     }
 
-    /// The prefix in letters of ASCII.
+    /// Returns the prefix in letters of ASCII.
     #[must_use]
     pub fn in_ascii(&self) -> &'static str {
         if self.prefix == "µ" { "u" } else { self.prefix }
     }
 
-    /// No prefix, for angles, speeds and counts.
+    /// Returns no prefix, for angles, speeds and counts.
     #[must_use]
     pub const fn plain() -> Self {
         Self { factor: 1.0, prefix: "" }
     }
 
-    /// The label of a tick, with the decimals that its spacing needs.
+    /// Returns the label of a tick, with the decimals that its spacing needs.
     #[must_use]
     pub fn label(&self, value: f64, step: f64) -> String {
         let shown = step / self.factor;
@@ -209,7 +208,7 @@ const WITH_PREFIX: [&str; 9] = ["m", "s", "N", "N/m", "m/s", "N m/rad", "N m", "
 /// Digits that are shown where all of them hold.
 const MOST: u32 = 6;
 
-/// How the numbers of one run are told.
+/// Number format of one run, with the digits that its sensitivity leaves.
 #[derive(Debug, Default)]
 pub struct Digits {
     /// Whether it is known how far changes move them.
@@ -219,7 +218,7 @@ pub struct Digits {
 }
 
 impl Digits {
-    /// Of a run of which it is `known` how far changes move its numbers.
+    /// Creates the number format of a run for which it is `known` how far changes move its numbers.
     #[must_use]
     pub fn of(known: bool) -> Self {
         Self { known, ..Self::default() }
@@ -227,7 +226,7 @@ impl Digits {
 
     /// `x` as `show` writes it, in the digits that hold where changes move it by
     /// `spread`, or make that there is no such number.
-    pub fn told(&self, x: f64, spread: Option<f64>, show: impl Fn(f64) -> String) -> String {
+    pub fn shown(&self, x: f64, spread: Option<f64>, show: impl Fn(f64) -> String) -> String {
         let spread = if self.known { spread.unwrap_or(f64::INFINITY) } else { 0.0 };
         match held(x, spread) {
             MOST.. => show(x),
@@ -242,7 +241,7 @@ impl Digits {
         }
     }
 
-    /// What was not told, if there is such.
+    /// Returns what was not told, if there is such.
     pub fn note(&self) -> Option<&'static str> {
         if self.none.get() {
             Some("No digit holds of what is \"about\": a change of 1e-9 moves it by as much.")
@@ -254,8 +253,8 @@ impl Digits {
     }
 }
 
-/// How many digits of `x` hold, up to all that are shown: changes move it by no more
-/// than half a unit of the last of them.
+/// Returns how many digits of `x` hold, up to all that are shown: changes move it by no more than
+/// half a unit of the last of them.
 fn held(x: f64, spread: f64) -> u32 {
     // Zero has no digits to lose.
     if spread == 0.0 || x == 0.0 {
@@ -330,19 +329,19 @@ mod digits_tests {
             (2.68635e-6, f64::INFINITY, "about 3e-6"),
             (0.0, 1e-9, "0"),
         ] {
-            assert_eq!(Digits::of(true).told(x, Some(spread), short), text, "{x} {spread}");
+            assert_eq!(Digits::of(true).shown(x, Some(spread), short), text, "{x} {spread}");
         }
     }
 
     #[test]
     fn what_was_not_told_is_said() {
         let digits = Digits::of(true);
-        assert_eq!((digits.told(1.25, Some(0.0), short), digits.note()), ("1.25".into(), None));
-        let _ = digits.told(1.25, Some(0.04), short);
+        assert_eq!((digits.shown(1.25, Some(0.0), short), digits.note()), ("1.25".into(), None));
+        let _ = digits.shown(1.25, Some(0.04), short);
         assert!(digits.note().unwrap().contains("left out"));
         // A run that changes have none of has no number that holds.
-        let _ = digits.told(1.25, None, short);
+        let _ = digits.shown(1.25, None, short);
         assert!(digits.note().unwrap().contains("No digit holds"));
-        assert_eq!(Digits::of(false).told(1.25, None, short), "1.25");
+        assert_eq!(Digits::of(false).shown(1.25, None, short), "1.25");
     }
 }

@@ -14,14 +14,14 @@ const APART: [&str; 2] = ["  ", " "];
 /// Most blades that are named one by one.
 const NAMED: usize = 4;
 
-/// What a sentence is made of.
+/// Facts of a run from which its sentence is made.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Facts {
-    /// How the motion lasts.
+    /// Verdict of the run.
     pub verdict: Verdict,
     /// The blades in contact at the end.
     pub blades: Vec<u32>,
-    /// Those of them that pull.
+    /// Blades of these whose contact force pulls.
     pub pulling: Vec<u32>,
     /// Impacts in all.
     pub touches: u64,
@@ -31,15 +31,15 @@ pub struct Facts {
     pub pressed: bool,
     /// Whether the casing is damped: left alone, it comes to rest.
     pub damped: bool,
-    /// The rotor speed at which a lock let go on the way \[rad/s\].
+    /// Rotor speed at which a lock separated during the run \[rad/s\].
     pub broken: Option<f64>,
     /// Why the run stopped early.
     pub failure: Option<Failure>,
-    /// What makes the verdict doubtful, the worst first.
+    /// Reasons to doubt the verdict, the most serious first.
     pub doubts: Vec<Doubt>,
 }
 
-/// What makes a verdict doubtful.
+/// Reason to doubt a verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Doubt {
     /// The contact pulled in so many steps, which no real one can; and what a contact that
@@ -47,11 +47,11 @@ pub enum Doubt {
     Pulls(u64, Option<Verdict>),
     /// A change that no measurement could see changes the outcome.
     Sensitive,
-    /// The event solver says otherwise, for this reason.
+    /// Another verdict of the event solver, for this reason.
     Differs(Verdict, Cause),
 }
 
-/// Why two solvers differ.
+/// Cause of a difference between two solvers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cause {
     /// The step is too long.
@@ -65,9 +65,9 @@ pub enum Cause {
 pub struct Sentence {
     /// One word in capitals.
     pub word: String,
-    /// What happens.
+    /// Sentence on what happens.
     pub what: String,
-    /// What makes it doubtful, if it is and there is room.
+    /// Sentence on what makes it doubtful, if there is one and it has room.
     pub doubt: Option<String>,
 }
 
@@ -83,7 +83,7 @@ impl fmt::Display for Sentence {
 }
 
 impl Sentence {
-    /// The word with the longest of these forms that fit in so many columns, each list from
+    /// Creates the word with the longest of these forms that fit in so many columns, each list from
     /// long to short. A doubt in few words goes before a longer sentence.
     #[must_use]
     pub fn of(word: &str, forms: &[String], doubts: &[String], width: usize) -> Self {
@@ -105,7 +105,7 @@ impl Sentence {
 }
 
 impl Facts {
-    /// Of a run. What a contact that only pushes would do is not known of it.
+    /// Collects the facts of a run. What unilateral contact would do is not known of it.
     #[must_use]
     pub fn of(report: &RunReport) -> Self {
         let (outcome, scene) = (&report.outcome, &report.scene);
@@ -131,7 +131,7 @@ impl Facts {
         }
     }
 
-    /// In at most so many columns; from 40 on there is always a sentence.
+    /// Returns the sentence in at most so many columns; from 40 on there is always one.
     #[must_use]
     pub fn sentence(&self, width: usize) -> Sentence {
         let (word, forms) = (self.verdict.as_ref().to_uppercase(), self.forms());
@@ -143,7 +143,7 @@ impl Facts {
         if all.doubt.is_some() { all } else { worst }
     }
 
-    /// What happens, from the longest form to the shortest.
+    /// Returns what happens, from the longest form to the shortest.
     fn forms(&self) -> Vec<String> {
         if let (Some(speed), Some(after)) = (self.broken, self.after_a_lock()) {
             let at = with_unit(speed, 4, "rad/s");
@@ -188,7 +188,7 @@ impl Facts {
         }
     }
 
-    /// What follows a lock that broke.
+    /// Returns what follows a lock that broke.
     fn after_a_lock(&self) -> Option<&'static str> {
         match self.verdict {
             Verdict::Decay => Some(self.rest()),
@@ -199,7 +199,7 @@ impl Facts {
         }
     }
 
-    /// How a casing ends that nothing touches.
+    /// Returns how a casing ends that nothing touches.
     fn rest(&self) -> &'static str {
         if self.damped { "the casing comes to rest" } else { "the casing swings on freely" }
     }
@@ -300,7 +300,7 @@ impl Facts {
         ]
     }
 
-    /// A doubt, from the longest form to the shortest.
+    /// Returns a doubt, from the longest form to the shortest.
     fn doubt(&self, doubt: Doubt) -> Vec<String> {
         match doubt {
             Doubt::Pulls(steps, otherwise) => {
@@ -355,7 +355,7 @@ impl Facts {
     }
 }
 
-/// Two doubts one after the other, from long to short: the second gets shorter first.
+/// Returns two doubts one after the other, from long to short: the second gets shorter first.
 fn joined(worse: &[String], next: &[String]) -> Vec<String> {
     let shorter = worse.iter().skip(1).zip(next.last().into_iter().cycle());
     let pairs = worse.iter().take(1).flat_map(|first| next.iter().map(move |next| (first, next)));
@@ -363,17 +363,17 @@ fn joined(worse: &[String], next: &[String]) -> Vec<String> {
     pairs.chain(shorter).map(|(first, next)| format!("{first}{between}{next}")).collect()
 }
 
-/// `1 touch`, `5 touches`.
+/// Counts touches: `1 touch`, `5 touches`.
 fn touches(count: u64) -> String {
     format!("{} touch{}", grouped(count), if count == 1 { "" } else { "es" })
 }
 
-/// Constant forms.
+/// Returns constant forms.
 fn plain(forms: &[&str]) -> Vec<String> {
     forms.iter().map(ToString::to_string).collect()
 }
 
-/// What a real contact would do.
+/// Returns what a real contact would do.
 fn would(verdict: Verdict) -> Option<&'static str> {
     match verdict {
         Verdict::Decay => Some("let go"),
@@ -386,7 +386,7 @@ fn would(verdict: Verdict) -> Option<&'static str> {
     }
 }
 
-/// `Blades 12 and 19`, or without the noun `12 and 19`; many are counted.
+/// Names blades: `Blades 12 and 19`, or without the noun `12 and 19`; many are counted.
 fn named(blades: &[u32], with_noun: bool) -> String {
     let mut blades = blades.to_vec();
     blades.sort_unstable();
@@ -405,7 +405,7 @@ fn named(blades: &[u32], with_noun: bool) -> String {
     }
 }
 
-/// `12 + 19`; more than two are counted.
+/// Names one or two blades, `12 + 19`, and counts more.
 fn counted(blades: &[u32]) -> String {
     match blades {
         [] => "Some blades".into(),
@@ -415,7 +415,7 @@ fn counted(blades: &[u32]) -> String {
     }
 }
 
-/// Why a run stopped, in plain words.
+/// Returns why a run stopped, in plain words.
 fn why(reason: &FailureReason) -> &'static str {
     match reason {
         FailureReason::BladeAngle { .. }

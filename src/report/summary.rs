@@ -10,13 +10,13 @@ use rubscope_solver::model::Machine;
 use rubscope_solver::motion::{Contact, RunReport, Verdict};
 use rubscope_solver::scene::{ContactLaw, SolverKind};
 
-/// What the tiny changes are of that a sensitive run does not outlast.
+/// Quantities of which tiny changes change the outcome of a sensitive run.
 pub(super) const OF_WHAT: &str = "of the pulse, the speed or the motion";
 
 /// Most impacts that are listed one by one.
 const IMPACTS_TOLD: usize = 4;
 
-/// Contacts told one by one.
+/// Most contacts that are listed one by one.
 const CONTACTS_TOLD: usize = 4;
 /// Penetration, as a part of the clearance, that closing a gap in double
 /// precision may leave: a few hundred units in the last place.
@@ -59,7 +59,7 @@ pub fn write(report: &RunReport, wall: Wall, out: &mut dyn Write) -> Result<()> 
     writeln!(out, "{}", cost(report, wall))
 }
 
-/// Solver, contact law, model, and the conditions of the run.
+/// Writes solver, contact law, model, and the conditions of the run.
 fn how(report: &RunReport) -> String {
     let scene = &report.scene;
     let step = match report.solver.kind {
@@ -92,7 +92,7 @@ fn how(report: &RunReport) -> String {
     )
 }
 
-/// What a verdict means, in one sentence.
+/// Returns what a verdict means, in one sentence.
 fn meaning(report: &RunReport) -> &'static str {
     match report.outcome.verdict {
         Verdict::Decay if report.scene.clearance() < 0.0 => {
@@ -117,7 +117,7 @@ fn meaning(report: &RunReport) -> &'static str {
     }
 }
 
-/// A warning if the bilateral law pulled.
+/// Returns a warning if the bilateral law pulled.
 fn warning(report: &RunReport) -> Option<String> {
     let pulls = report.checks.tensile_steps;
     (report.solver.contact == ContactLaw::Bilateral && pulls > 0).then(|| {
@@ -132,7 +132,7 @@ fn motion(report: &RunReport, machine: &Machine, out: &mut dyn Write) -> Result<
     let outcome = &report.outcome;
     let (spread, digits) = (outcome.spread.as_ref(), Digits::of(outcome.spread.is_some()));
     if let Some(since) = outcome.lock_time_s {
-        let since = digits.told(since, spread.and_then(|spread| spread.lock_time_s), time);
+        let since = digits.shown(since, spread.and_then(|spread| spread.lock_time_s), time);
         writeln!(out, "Held by the same blades since {since}.")?;
     }
     let moved = |group: usize| *spread?.multipliers_n.get(group)?;
@@ -145,15 +145,15 @@ fn motion(report: &RunReport, machine: &Machine, out: &mut dyn Write) -> Result<
     }
     let (length, moved) = (outcome.amplitude_m, spread.and_then(|spread| spread.amplitude_m));
     let g0 = machine.clearance().abs();
-    let part = digits.told(length / g0, moved.map(|moved| moved / g0), short);
+    let part = digits.shown(length / g0, moved.map(|moved| moved / g0), short);
     writeln!(
         out,
         "Amplitude of the casing wave at the end: {} m, {part} of the {}.",
-        digits.told(length, moved, short),
+        digits.shown(length, moved, short),
         room(machine)
     )?;
     if let Some(wave) = outcome.wave_speed_rad_s {
-        let wave = digits.told(wave, spread.and_then(|spread| spread.wave_speed_rad_s), speed);
+        let wave = digits.shown(wave, spread.and_then(|spread| spread.wave_speed_rad_s), speed);
         writeln!(out, "The wave turns at {wave}.")?;
     }
     if let Some(note) = digits.note() {
@@ -166,7 +166,7 @@ fn motion(report: &RunReport, machine: &Machine, out: &mut dyn Write) -> Result<
     writeln!(out, "{}", impacts(report))
 }
 
-/// What a length is a part of.
+/// Returns what a length is a part of.
 fn room(machine: &Machine) -> &'static str {
     if machine.clearance() < 0.0 { "interference" } else { "clearance" }
 }
@@ -183,11 +183,11 @@ fn many_touch(
     let most = contacts.iter().enumerate().max_by(|(_, a), (_, b)| force(a).total_cmp(&force(b)));
     let most = most.map_or(String::new(), |(group, most)| {
         let noun = if most.blades.len() == 1 { "blade" } else { "blades" };
-        let force = digits.told(force(most), moved(group), short);
+        let force = digits.shown(force(most), moved(group), short);
         format!(", {noun} {} most, with {force} N", listed(&most.blades))
     });
     let blades: usize = contacts.iter().map(|contact| contact.blades.len()).sum();
-    let sum = digits.told(sum, all, short);
+    let sum = digits.shown(sum, all, short);
     format!("{blades} blades push with {sum} N at the end{most}.")
 }
 
@@ -198,11 +198,11 @@ fn touch(contact: &Contact, moved: Option<f64>, digits: &Digits) -> String {
     };
     let [push, pull] = verb;
     let verb = if contact.multiplier_n > 0.0 { pull } else { push };
-    let force = digits.told(contact.multiplier_n.abs(), moved, short);
+    let force = digits.shown(contact.multiplier_n.abs(), moved, short);
     format!("{who} {verb} with {force} N at the end.")
 }
 
-/// The rotor speed, compared with the threshold speeds.
+/// Returns the rotor speed, compared with the threshold speeds.
 fn speeds(report: &RunReport, machine: &Machine) -> String {
     let now = report.end_speed_rad_s;
     let lock = machine.lock_window(now);
@@ -231,7 +231,7 @@ fn impacts(report: &RunReport) -> String {
     if report.impact_count == 0 {
         return "No impact.".to_string();
     }
-    let told: Vec<String> = report
+    let listed: Vec<String> = report
         .impacts
         .iter()
         .take(IMPACTS_TOLD)
@@ -240,9 +240,9 @@ fn impacts(report: &RunReport) -> String {
             format!("{noun} {} at {}", listed(&hit.blades), time(hit.t_s))
         })
         .collect();
-    let all = u64::try_from(told.len()).is_ok_and(|told| told == report.impact_count);
+    let all = u64::try_from(listed.len()).is_ok_and(|listed| listed == report.impact_count);
     let start = if all { "" } else { "the first ones " };
-    format!("{}: {start}{}.", count(report.impact_count, "impact"), told.join("; "))
+    format!("{}: {start}{}.", count(report.impact_count, "impact"), listed.join("; "))
 }
 
 fn checks(report: &RunReport, machine: &Machine, out: &mut dyn Write) -> Result<()> {
@@ -284,7 +284,7 @@ fn cost(report: &RunReport, wall: Wall) -> String {
     format!("Cost: {what}run {}{each}{certainty}.", time(wall.run_s))
 }
 
-/// "6", "6 and 17", "1, 2 and 3", "1, 3, 5 and 8 more".
+/// Lists numbers: "6", "6 and 17", "1, 2 and 3", "1, 3, 5 and 8 more".
 fn listed(blades: &[u32]) -> String {
     let names = |blades: &[u32]| -> String {
         blades.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
@@ -316,7 +316,7 @@ mod tests {
         simulate(&scene.checked().unwrap())
     }
 
-    fn told(report: &RunReport) -> String {
+    fn text_of(report: &RunReport) -> String {
         let mut text = Vec::new();
         let wall = Wall { run_s: 0.25, certainty_s: report.outcome.sensitive.map(|_| 0.67) };
         write(report, wall, &mut text).unwrap();
@@ -337,7 +337,7 @@ mod tests {
             (Verdict::Failed, "broke down"),
         ] {
             report.outcome.verdict = verdict;
-            let text = told(&report);
+            let text = text_of(&report);
             assert!(
                 text.contains(&format!("Verdict: {verdict}.")) && text.contains(words),
                 "{text}"
@@ -360,27 +360,27 @@ mod tests {
     #[test]
     fn sensitive_and_pulling_runs_say_so() {
         let mut report = report(&[]);
-        assert!(!told(&report).contains("Warning") && !told(&report).contains("Sensitive"));
+        assert!(!text_of(&report).contains("Warning") && !text_of(&report).contains("Sensitive"));
         report.outcome.sensitive = Some(true);
         report.solver.contact = ContactLaw::Bilateral;
         report.checks.tensile_steps = 2;
-        let text = told(&report);
+        let text = text_of(&report);
         assert!(text.contains("Sensitive: ") && text.contains("pulled in 2 steps"), "{text}");
     }
 
     #[test]
     fn run_and_certainty_have_a_time_each() {
         let mut report = report(&[]);
-        assert!(told(&report).contains("; run 250 ms ("), "{}", told(&report));
-        assert!(told(&report).ends_with("a step taken), certainty 670 ms.\n"));
+        assert!(text_of(&report).contains("; run 250 ms ("), "{}", text_of(&report));
+        assert!(text_of(&report).ends_with("a step taken), certainty 670 ms.\n"));
         report.outcome.sensitive = None;
-        assert!(told(&report).ends_with("a step taken).\n"));
+        assert!(text_of(&report).ends_with("a step taken).\n"));
     }
 
     #[test]
     fn a_run_without_touch_and_without_critical_speed_reads_well() {
         let report = report(&[("operation.pulse_n", "0"), ("operation.nodal_diameters", "0")]);
-        let text = told(&report);
+        let text = text_of(&report);
         assert!(text.contains("No blade hit") && text.contains("No impact."), "{text}");
         assert!(!text.contains("Omega_c") && !text.contains("not a number"), "{text}");
     }

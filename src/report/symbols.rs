@@ -4,11 +4,11 @@
 use rubscope_solver::scene::keys;
 use rubscope_solver::study::margins::CLEARANCE;
 
-/// What a key says at its end where it is a value of the start.
+/// End of the name of a key that is an initial value.
 const AT_START: &str = " at t = 0";
 
-/// The symbol of a parameter, in letters of ASCII: `zeta_c`, `Omega`, `u_c(0)`. The
-/// path itself of what is no key.
+/// Returns the symbol of a parameter, in letters of ASCII: `zeta_c`, `Omega`, `u_c(0)`. The path
+/// itself of what is no key.
 #[must_use]
 pub fn symbol(path: &str) -> String {
     match path {

@@ -1,8 +1,8 @@
 //! Round ticks: steps of 1, 2 or 5 times a power of ten, and powers of ten on
 //! logarithmic axes.
 
-/// A step of 1, 2 or 5 times a power of ten that puts at most `most` ticks in
-/// `span`; none for a span that is not a positive number.
+/// Returns a step of 1, 2 or 5 times a power of ten that puts at most `most` ticks in `span`; none
+/// for a span that is not a positive number.
 #[must_use]
 pub fn nice_step(span: f64, most: usize) -> Option<f64> {
     if !(span.is_finite() && span > 0.0) || most == 0 {
@@ -18,8 +18,8 @@ pub fn nice_step(span: f64, most: usize) -> Option<f64> {
     (step.is_finite() && step > 0.0).then_some(step)
 }
 
-/// Round values inside `[low, high]`, at most about `most` of them, with their
-/// spacing; empty where the range is empty, reversed or not finite.
+/// Returns the round values inside `[low, high]`, at most about `most` of them, with their spacing;
+/// empty where the range is empty, reversed or not finite.
 #[must_use]
 pub fn ticks(low: f64, high: f64, most: usize) -> (Vec<f64>, f64) {
     let Some(step) = nice_step(high - low, most.max(1)) else { return (Vec::new(), 1.0) };
@@ -56,8 +56,8 @@ pub fn log_ticks(low: f64, high: f64, most: usize) -> Vec<f64> {
     powers.flat_map(|power| parts.iter().map(move |m| power + m.log10())).filter(within).collect()
 }
 
-/// A value of a logarithmic axis, given by its exponent of ten: `10⁵`, and
-/// `2·10⁵` between whole powers.
+/// Returns a value of a logarithmic axis, given by its exponent of ten: `10⁵`, and `2·10⁵` between
+/// whole powers.
 #[must_use]
 pub fn power_of_ten(exponent: f64) -> String {
     let whole = (exponent + 1e-9).floor();
@@ -68,7 +68,7 @@ pub fn power_of_ten(exponent: f64) -> String {
     }
 }
 
-/// A number as a multiple of a power of ten: `2.5·10⁵`, `10⁶`.
+/// Returns a number as a multiple of a power of ten: `2.5·10⁵`, `10⁶`.
 #[must_use]
 pub fn scientific(x: f64) -> String {
     let text = format!("{x:.5e}");
@@ -81,7 +81,7 @@ pub fn scientific(x: f64) -> String {
     }
 }
 
-/// A digit or sign as an exponent.
+/// Returns a digit or sign as an exponent.
 fn raised(c: char) -> char {
     let digits = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     match c.to_digit(10).and_then(|digit| digits.get(digit as usize)) {

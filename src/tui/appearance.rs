@@ -3,6 +3,7 @@
 
 use ratatui::style::Style;
 
+use super::ground::Ground;
 use super::raster::{Marker, Pen};
 use super::theme::{Role, Theme};
 use crate::report::number::{speed_unit, tell_in_rpm};
@@ -12,72 +13,71 @@ use crate::report::number::{speed_unit, tell_in_rpm};
 pub struct Appearance {
     /// Colours by role.
     pub theme: Theme,
-    /// How points are drawn.
+    /// Whether the theme follows the background of the terminal: none was chosen by a key.
+    pub follows_ground: bool,
+    /// Marker of points.
     pub marker: Marker,
     /// Whether the screen is for a projector: lines are two sub-pixels thick.
     pub wide: bool,
     /// Whether `m` comes to octants.
     pub octants: bool,
-    /// Whether speeds are told in turns a minute.
+    /// Whether speeds are shown in rpm.
     pub rpm: bool,
 }
 
 impl Appearance {
-    /// For a screen in front of the user.
+    /// Creates the appearance for a screen in front of the user.
     pub fn new(theme: Theme, marker: Marker) -> Self {
-        Self { theme, marker, wide: false, octants: false, rpm: false }
+        Self { theme, follows_ground: false, marker, wide: false, octants: false, rpm: false }
     }
 
-    /// The next theme; what to say.
+    /// Changes to the next theme; returns the message.
     pub fn next_theme(&mut self) -> String {
         self.use_theme(self.theme.next())
     }
 
-    /// Another theme; what to say.
+    /// Changes to a theme; returns the message.
     pub fn use_theme(&mut self, theme: Theme) -> String {
-        self.theme = theme;
+        (self.theme, self.follows_ground) = (theme, false);
         format!("theme {}", self.theme.name())
     }
 
-    /// The next marker; what to say.
+    /// Uses the theme for the background that the terminal has reported.
+    pub fn use_ground(&mut self, ground: Ground) {
+        if self.follows_ground {
+            self.theme = self.theme.on(ground);
+        }
+    }
+
+    /// Changes to the next marker; returns the message.
     pub fn next_marker(&mut self) -> String {
         self.marker = self.marker.next(self.octants);
         format!("marker {}", self.marker)
     }
 
-    /// Speeds in turns a minute, or in radians a second; what to say.
+    /// Changes the unit of speeds, rpm or rad/s; returns the message.
     pub fn next_speeds(&mut self) -> String {
         self.rpm = !self.rpm;
         self.use_speeds();
         format!("speeds in {}", speed_unit())
     }
 
-    /// What is told from now on has speeds in the chosen unit.
+    /// Uses the chosen unit for all speeds that are shown from now on.
     pub fn use_speeds(&self) {
         tell_in_rpm(self.rpm);
     }
 
-    /// Whether the screen is for a projector.
-    pub fn is_wide(&self) -> bool {
-        self.wide
-    }
-
-    /// The screen is for a projector, or the usual one.
-    pub fn set_wide(&mut self, wide: bool) {
-        self.wide = wide;
-    }
-
-    /// Style of a role.
+    /// Returns the style of a role.
     pub fn style(&self, role: Role) -> Style {
         self.theme.style(role)
     }
 
-    /// Whether only ASCII may be written.
+    /// Returns whether only ASCII may be written.
     pub fn ascii(&self) -> bool {
         self.marker == Marker::Ascii
     }
 
-    /// The Unicode or the ASCII way to write something.
+    /// Returns the Unicode or the ASCII way to write something.
     pub fn either<T>(&self, unicode: T, ascii: T) -> T {
         if self.ascii() { ascii } else { unicode }
     }
@@ -87,7 +87,7 @@ impl Appearance {
         self.either("…", "..")
     }
 
-    /// Text with Greek letters and signs spelled out where only ASCII is drawn.
+    /// Returns the text with Greek letters and signs spelled out where only ASCII is drawn.
     pub fn spell(&self, text: &str) -> String {
         if !self.ascii() {
             return text.to_string();
@@ -134,22 +134,22 @@ impl Appearance {
         out
     }
 
-    /// Signs of the axis lines: upright, its tick, the corner, level, its tick.
+    /// Returns the signs of the axis lines: upright, its tick, the corner, level, its tick.
     pub fn axis_signs(&self) -> [char; 5] {
         self.either(['│', '┤', '└', '─', '┬'], ['|', '+', '+', '-', '+'])
     }
 
-    /// Solid pen of the first series.
+    /// Returns the solid pen of the first series.
     pub fn first(&self) -> Pen {
         Pen { style: self.style(Role::First), sign: '*', dashed: false }
     }
 
-    /// Dashed pen of the second series.
+    /// Returns the dashed pen of the second series.
     pub fn second(&self) -> Pen {
         Pen { style: self.style(Role::Second), sign: 'o', dashed: true }
     }
 
-    /// Pen for data to compare with.
+    /// Returns the pen for data to compare with.
     pub fn quiet(&self) -> Pen {
         Pen { style: self.style(Role::Quiet), sign: '.', dashed: true }
     }

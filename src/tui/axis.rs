@@ -1,9 +1,8 @@
 //! Axes: round ticks (1-2-5), labels under one SI prefix per axis, and ranges
 //! that follow the data with hysteresis, so that the scale does not jump.
 
-use super::knobs::number;
 pub use crate::report::number::SiScale;
-use crate::report::number::{per_speed, told};
+use crate::report::number::{in_shown_unit, per_speed, trimmed};
 pub use crate::report::ticks::{nice_step, ticks};
 
 /// The axis of a chart: its range and the prefix of its labels.
@@ -24,33 +23,33 @@ pub struct ChartAxis {
 }
 
 impl ChartAxis {
-    /// An axis whose labels carry the prefix of its greatest magnitude.
+    /// Creates an axis whose labels carry the prefix of its greatest magnitude.
     pub fn scaled(low: f64, high: f64) -> Self {
         Self { scale: SiScale::of(low.abs().max(high.abs())), ..Self::plain(low, high) }
     }
 
-    /// An axis without a prefix.
+    /// Creates an axis without a prefix.
     pub fn plain(low: f64, high: f64) -> Self {
         Self { low, high, scale: SiScale::plain(), powers: false, unit: None, speeds: false }
     }
 
-    /// An axis of speeds \[rad/s\], in the unit in which they are told.
+    /// Creates an axis of speeds \[rad/s\], in the unit in which they are in_shown_unit.
     pub fn speeds(low: f64, high: f64) -> Self {
         let scale = SiScale { factor: 1.0 / per_speed(1.0), prefix: "" };
         Self { scale, speeds: true, ..Self::plain(low, high) }
     }
 
-    /// An axis of powers of ten, from one exponent to another.
+    /// Creates an axis of powers of ten, from one exponent to another.
     pub fn powers(low: f64, high: f64) -> Self {
         Self { powers: true, ..Self::plain(low, high) }
     }
 
-    /// As `powers`, with a unit and its prefix: `100 kN` for `1e5`.
+    /// Same as [`Self::powers`], with a unit and its prefix: `100 kN` for `1e5`.
     pub fn powers_of(low: f64, high: f64, unit: &'static str) -> Self {
         Self { unit: Some(unit), ..Self::powers(low, high) }
     }
 
-    /// Round values and their spacing; for powers only whole exponents.
+    /// Returns the round values and their spacing; for powers only whole exponents.
     pub(super) fn ticks(&self, most: usize) -> (Vec<f64>, f64) {
         let unit = if self.speeds { self.scale.factor } else { 1.0 };
         if unit != 1.0 {
@@ -64,7 +63,7 @@ impl ChartAxis {
         (values.into_iter().filter(|v| (v - v.round()).abs() < 1e-9).collect(), 1.0)
     }
 
-    /// The label of a tick.
+    /// Returns the label of a tick.
     pub(super) fn label(&self, value: f64, step: f64) -> String {
         match (self.powers, self.unit) {
             (true, Some(unit)) => number(10f64.powi(value.round() as i32), unit),
@@ -73,33 +72,48 @@ impl ChartAxis {
         }
     }
 
-    /// The value at a part of the axis, 0 to 1.
+    /// Returns the value at a part of the axis, 0 to 1.
     pub fn at(&self, part: f64) -> f64 {
         self.low + part * (self.high - self.low)
     }
 
-    /// Whether it is a proper range.
+    /// Returns whether it is a proper range.
     pub(super) fn is_sound(&self) -> bool {
         self.low.is_finite() && self.high.is_finite() && self.high > self.low
     }
 }
 
-/// A number with four significant digits and its SI prefix, such as `228.2 µ`.
+/// Returns a number in readable form: up to seven digits, a prefix for units that take one,
+/// no trailing zeros.
+pub fn number(x: f64, unit: &str) -> String {
+    let (x, unit) = in_shown_unit(x, unit);
+    let scale = SiScale::before(unit, x);
+    let shown = x / scale.factor;
+    let text = if shown != 0.0 && !(1e-4..1e7).contains(&shown.abs()) {
+        format!("{shown:e}")
+    } else {
+        let digits = 6 - shown.abs().max(1e-4).log10().floor() as i32;
+        trimmed(&format!("{shown:.*}", digits.clamp(0, 9) as usize)).to_string()
+    };
+    format!("{text} {}{unit}", scale.prefix).trim_end().to_string()
+}
+
+/// Returns a number with four significant digits and its SI prefix, such as `228.2 µ`.
 pub fn readable(value: f64, unit: &str) -> String {
     prefixed(value, 4, unit)
 }
 
-/// An instant with six significant digits, enough to type it elsewhere.
+/// Returns an instant with six significant digits, enough to type it elsewhere.
 pub fn instant(t: f64) -> String {
     prefixed(t, 6, "s")
 }
 
-/// A number with so many significant digits and its SI prefix.
+/// Returns a number with so many significant digits and its SI prefix.
 fn prefixed(value: f64, digits: usize, unit: &str) -> String {
     if !value.is_finite() {
         return format!("- {unit}").trim_end().to_string();
     }
-    let (value, unit) = told(value, unit);
+    let (value, unit) = in_shown_unit(value, unit);
     let scale = if unit == "rpm" { SiScale::plain() } else { SiScale::of(value) };
     let shown = value / scale.factor;
     let before = 1 + [10.0, 100.0, 1000.0].iter().filter(|limit| shown.abs() >= **limit).count();
@@ -121,7 +135,7 @@ pub struct AutoRange {
 const SHRINK_BELOW: f64 = 0.35;
 
 impl AutoRange {
-    /// A range to begin with.
+    /// Creates a range to begin with.
     pub const fn new(low: f64, high: f64) -> Self {
         Self { low, high }
     }
@@ -143,7 +157,7 @@ impl AutoRange {
     }
 }
 
-/// The smallest range with round ends that holds `[low, high]`.
+/// Returns the smallest range with round ends that holds `[low, high]`.
 fn round_out(low: f64, high: f64) -> (f64, f64) {
     match nice_step(high - low, 8) {
         Some(step) => ((low / step).floor() * step, (high / step).ceil() * step),
@@ -155,6 +169,17 @@ fn round_out(low: f64, high: f64) -> (f64, f64) {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    #[test]
+    fn numbers_read_as_people_write_them() {
+        assert_eq!(number(1e-4, "m"), "100 µm");
+        assert_eq!(number(1e6, "N"), "1 MN");
+        assert_eq!(number(0.05, ""), "0.05");
+        assert_eq!(number(-430.0, "rad/s"), "-430 rad/s");
+        assert_eq!(number(1.544e6, "N/m"), "1.544 MN/m");
+        assert_eq!(number(0.0, "N"), "0 N");
+        assert_eq!(number(1e-7, "s"), "100 ns");
+    }
 
     #[test]
     fn ticks_are_round_and_inside() {
@@ -188,11 +213,11 @@ mod tests {
         let axis = ChartAxis::speeds(0.0, 600.0);
         let (values, step) = axis.ticks(5);
         let labels: Vec<String> = values.iter().map(|value| axis.label(*value, step)).collect();
-        let told = (readable(50.0 * std::f64::consts::PI, "rad/s"), number(-100.0, "rad/s"));
+        let shown = (readable(50.0 * std::f64::consts::PI, "rad/s"), number(-100.0, "rad/s"));
         crate::report::number::tell_in_rpm(false);
         assert!(labels.len() > 2, "{labels:?}");
         assert!(labels.iter().all(|label| label.parse::<u32>().unwrap() % 1000 == 0), "{labels:?}");
-        assert_eq!(told, ("1500 rpm".into(), "-954.9297 rpm".into()));
+        assert_eq!(shown, ("1500 rpm".into(), "-954.9297 rpm".into()));
         assert_eq!(ChartAxis::speeds(0.0, 600.0).ticks(6).0[1], 100.0);
     }
 

@@ -3,22 +3,22 @@
 //! word that goes somewhere (`t 0.3 ms`, `blade 7`, `scene rub`) or a knob with a value
 //! comes first, then whatever else has these words.
 
-use super::Theme;
 use super::app::{App, Purpose};
 use super::axis::readable;
 use super::bindings::{self, Action, Binding, Chord, Context};
 use super::files::builtin_scenes;
 use super::knobs::{Fit, KNOBS, Knob, best, called, fit, knob_of, plain};
 use super::lessons::{self, LETTERS};
-use super::views::ViewId;
-use super::views::map::numeric;
+use super::theme::Theme;
+use super::views::id::ViewId;
+use super::views::map::plan::numeric;
 use rubscope_solver::scene::Value;
 use rubscope_solver::scene::keys;
 
 /// Something that can be asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
-    /// What a key does, too.
+    /// An action that also has a key.
     Act(Action),
     /// Open a built-in scene.
     Scene(&'static str),
@@ -45,7 +45,7 @@ pub enum Command {
 pub struct Found {
     /// The kind of thing that it is.
     pub kind: &'static str,
-    /// What it does.
+    /// Description of what it does.
     pub what: String,
     /// The key that does the same, or the present value of a knob.
     pub beside: String,
@@ -69,7 +69,7 @@ impl Found {
     }
 }
 
-/// What fits the typed words, the best first.
+/// Returns what fits the typed words, the best first.
 pub fn found(app: &App, typed: &str) -> Vec<Found> {
     if let Some(found) = directed(app, typed) {
         return found;
@@ -86,7 +86,7 @@ pub fn found(app: &App, typed: &str) -> Vec<Found> {
     all
 }
 
-/// The one thing that a whole line asks for, or why there is none. A sign alone is its key.
+/// Returns the one thing that a whole line asks for, or why there is none. A sign alone is its key.
 ///
 /// # Errors
 /// One line that says what is wrong.
@@ -105,7 +105,7 @@ pub fn only(app: &App, typed: &str) -> Result<Found, String> {
     let lower = typed.to_lowercase();
     let words: Vec<&str> = lower.split_whitespace().collect();
     // Nobody looks at what was found: letters between others are not enough, where it is
-    // not told by its own word.
+    // not named by its own word.
     let is_like =
         |item: &Found| !is_named(item) || rank(item, &words).is_none_or(|(is_like, _)| !is_like);
     let refusal = refused(app, typed);
@@ -131,7 +131,7 @@ pub fn only(app: &App, typed: &str) -> Result<Found, String> {
     }
 }
 
-/// Whether something is found by its words, not told by a word of its own.
+/// Returns whether something is found by its words, not found by a word of its own.
 fn is_named(item: &Found) -> bool {
     match item.command {
         Command::Act(_) | Command::Scene(_) | Command::Lesson(_) | Command::Select(_) => true,
@@ -140,13 +140,13 @@ fn is_named(item: &Found) -> bool {
     }
 }
 
-/// Whether something has every one of these words in what it does.
+/// Returns whether something has every one of these words in what it does.
 fn is_own(item: &Found, words: &[&str]) -> bool {
     let what = item.what.to_lowercase();
     words.iter().all(|word| what.split_whitespace().any(|own| own == *word))
 }
 
-/// The one knob that is set, where no other is named as well.
+/// Returns the one knob that is set, where no other is named as well.
 fn alone(app: &App, typed: &str) -> Result<Found, String> {
     let fitting = assignments(app, typed);
     let best = fitting.first().map(|(fit, _)| *fit);
@@ -167,7 +167,7 @@ fn alone(app: &App, typed: &str) -> Result<Found, String> {
 /// Most knobs that are named where it is not clear which is meant.
 const CANDIDATES: usize = 4;
 
-/// Why a knob, or what else was named, does not take the value that follows its name, and
+/// Returns why a knob, or what else was named, does not take the value that follows its name, and
 /// how well it is named.
 fn refused(app: &App, typed: &str) -> Option<(Fit, String)> {
     let words: Vec<&str> = typed.split([' ', '=']).filter(|word| !word.is_empty()).collect();
@@ -190,12 +190,12 @@ fn refused(app: &App, typed: &str) -> Option<(Fit, String)> {
     named.min_by_key(|(fit, _)| *fit)
 }
 
-/// Whether a word is meant as a number.
+/// Returns whether a word is meant as a number.
 fn is_numeric(word: &str) -> bool {
     word.starts_with(|first: char| first.is_ascii_digit() || first == '-')
 }
 
-/// What a first word of its own leads to.
+/// Returns what a first word of its own leads to.
 fn directed(app: &App, typed: &str) -> Option<Vec<Found>> {
     let typed = typed.trim_start();
     let (first, rest) = typed.split_once(char::is_whitespace)?;
@@ -231,7 +231,7 @@ fn directed(app: &App, typed: &str) -> Option<Vec<Found>> {
                 view.digit().to_string() == lower || view.word().starts_with(&lower)
             };
             let act = |view: ViewId| {
-                Found::of("view", view.panel().what(), Command::Act(Action::View(view)))
+                Found::of("view", view.what(), Command::Act(Action::View(view)))
                     .beside(view.digit().to_string())
             };
             let found: Vec<Found> = ViewId::all().filter(named).map(act).collect();
@@ -256,7 +256,7 @@ fn directed(app: &App, typed: &str) -> Option<Vec<Found>> {
     })
 }
 
-/// Those that have these words, the best first.
+/// Returns those that have these words, the best first.
 fn those_with(all: impl Iterator<Item = Found>, words: &str) -> Vec<Found> {
     let words: Vec<&str> = words.split_whitespace().collect();
     let is_exact = |item: &Found| item.what.split(':').next() != words.first().copied();
@@ -267,7 +267,7 @@ fn those_with(all: impl Iterator<Item = Found>, words: &str) -> Vec<Found> {
     found.into_iter().map(|(.., item)| item).collect()
 }
 
-/// `axes clearance pulse`: the knob across, then the one up.
+/// Reads `axes clearance pulse`: the knob across, then the one up.
 fn both_axes(words: &str) -> Option<Found> {
     let words: Vec<&str> = words.split_whitespace().filter(|word| *word != "over").collect();
     let knob = |words: &[&str]| best(numeric(), words).map(|(_, knob)| knob);
@@ -278,7 +278,7 @@ fn both_axes(words: &str) -> Option<Found> {
     Some(Found::of("go", what, Command::Axes([Some(x.path), Some(y.path)])))
 }
 
-/// The knobs that can be on one axis.
+/// Returns the knobs that can be on one axis.
 fn one_axis(app: &App, first: &str, words: &str) -> Vec<Found> {
     let words: Vec<&str> = words.split_whitespace().collect();
     let across = first == "across";
@@ -296,7 +296,7 @@ fn one_axis(app: &App, first: &str, words: &str) -> Vec<Found> {
     fitting.into_iter().map(|(_, knob)| item(knob)).collect()
 }
 
-/// `t 0.3 ms`: an instant to go to.
+/// Reads `t 0.3 ms`: an instant to go to.
 fn going_to(app: &App, typed: &str) -> Option<Found> {
     let text = typed.trim_start().strip_prefix(['t', 'T'])?.trim_start_matches(['=', ' ']);
     let Value::Real(t) = knob_of(keys::END)?.parse(text).ok()? else { return None };
@@ -306,7 +306,7 @@ fn going_to(app: &App, typed: &str) -> Option<Found> {
     )
 }
 
-/// The knobs that the first words name, set to what follows them, the best named first; a
+/// Returns the knobs that the first words name, set to what follows them, the best named first; a
 /// speed has a unit of its own and needs no name.
 fn assignments(app: &App, typed: &str) -> Vec<(Fit, Found)> {
     let typed = typed.replacen('=', " ", 1);
@@ -348,7 +348,7 @@ fn lessons() -> impl Iterator<Item = Found> {
     })
 }
 
-/// What the keys of a binding do.
+/// Returns what the keys of a binding do.
 fn action(binding: &Binding) -> Found {
     let key = binding.keys.first().map(ToString::to_string).unwrap_or_default();
     let also = bindings::keys_text(binding);
@@ -368,7 +368,7 @@ fn everything(app: &App) -> impl Iterator<Item = Found> {
     actions.map(action).chain(knobs).chain(scenes()).chain(lessons())
 }
 
-/// How well a line fits all the words, the best first: whether of a word it only has the
+/// Returns how well a line fits all the words, the best first: whether of a word it only has the
 /// letters, with others between, and the sum over the words; none if it does not.
 fn rank(item: &Found, words: &[&str]) -> Option<(bool, usize)> {
     let what = item.what.to_lowercase();
@@ -388,7 +388,7 @@ fn rank(item: &Found, words: &[&str]) -> Option<(bool, usize)> {
     each.into_iter().try_fold((false, 0), sum)
 }
 
-/// Whether a text has the letters of a word in their order, with others between.
+/// Returns whether a text has the letters of a word in their order, with others between.
 fn has_in_order(text: &str, word: &str) -> bool {
     let mut rest = text.chars();
     word.len() > 2 && word.chars().all(|letter| rest.any(|other| other == letter))
@@ -421,8 +421,8 @@ mod tests {
             for name in [label.to_string(), label.to_lowercase(), plain(label), knob.path.into()] {
                 let typed = format!("{name} {}", knob.text(&app.scene));
                 assert_eq!(sets(&typed), Ok(place), "{typed}");
-                let told = only(&app, &name).unwrap();
-                assert_eq!(told.command, Command::Select(place), "{name}");
+                let found = only(&app, &name).unwrap();
+                assert_eq!(found.command, Command::Select(place), "{name}");
             }
         }
         for (typed, symbol) in [("F", "F"), ("n_d", "n_d"), ("K_BB", "k_bb"), ("om", "Ω")] {

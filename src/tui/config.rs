@@ -10,7 +10,6 @@ use std::time::Duration;
 use etcetera::{BaseStrategy, choose_base_strategy};
 use serde::{Deserialize, Serialize};
 
-use super::ability::is_remote;
 use super::app::App;
 use super::files::FILES_NAME;
 use super::lessons::LessonsDone;
@@ -21,17 +20,10 @@ use crate::report::line::clean;
 
 /// Largest file that is read.
 const MOST_BYTES: u64 = 64 * 1024;
-/// Most terminals that are remembered as silent.
-const MOST_TERMINALS: usize = 16;
-/// Longest name of one.
-const LONGEST_NAME: usize = 64;
 /// Most charts next to the large one.
 const MOST_CHARTS: usize = 3;
-/// How long the end of the program waits for the file: a busy disk takes a second, one
-/// that never answers must not keep the user.
-pub const PATIENCE: Duration = Duration::from_secs(5);
 
-/// What is remembered. A field that is missing in the file has its default;
+/// Contents of the config file. A field that is missing in the file has its default;
 /// fields that are not known here are kept.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -50,25 +42,22 @@ pub struct Config {
     pub mouse: Option<bool>,
     /// Whether a key was pressed below the line for new users.
     pub introduced: bool,
-    /// Terminals that did not say their background in time.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub silent_terminals: Vec<String>,
-    /// The units in which numbers are told.
+    /// Units in which numbers are shown.
     #[serde(skip_serializing_if = "Units::are_usual")]
     pub units: Units,
     /// The steps of the lessons that were done.
     #[serde(skip_serializing_if = "LessonsDone::is_empty")]
     pub steps_done: LessonsDone,
-    /// What other versions remember.
+    /// Fields of other versions.
     #[serde(flatten)]
     pub others: toml::Table,
 }
 
-/// The units in which numbers are told.
+/// Units in which numbers are shown.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Units {
-    /// That of speeds.
+    /// Unit of speeds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed: Option<SpeedUnit>,
 }
@@ -76,10 +65,10 @@ pub struct Units {
 /// A unit of speeds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SpeedUnit {
-    /// Turns a minute.
+    /// Revolutions per minute.
     #[serde(rename = "rpm")]
     Rpm,
-    /// Radians a second.
+    /// Radians per second.
     #[serde(rename = "rad/s")]
     Radians,
 }
@@ -91,11 +80,6 @@ impl Units {
 }
 
 impl Config {
-    /// Whether this terminal is known not to say its background.
-    pub fn is_silent(&self, terminal: &str) -> bool {
-        self.silent_terminals.iter().any(|known| known == terminal)
-    }
-
     fn read(path: &Path) -> Result<Self, String> {
         match path.metadata() {
             // A pipe would keep the program waiting.
@@ -134,23 +118,16 @@ fn private_folder(folder: &Path) -> std::io::Result<()> {
     std::fs::create_dir_all(folder)
 }
 
-/// Whether a folder may be made: not below a home that does not exist.
+/// Returns whether a folder may be made: not below a home that does not exist.
 fn is_at_home(folder: &Path, home: &Path) -> bool {
     home.is_dir() || !folder.starts_with(home)
 }
 
-/// The name by which a terminal is remembered. The same terminal may answer at
-/// once here, and too late over a network.
-pub fn terminal_name(variable: &dyn Fn(&str) -> String) -> String {
-    let name = [variable("TERM"), variable("TERM_PROGRAM")].join(" ");
-    let name: String = name.trim().chars().take(LONGEST_NAME).collect();
-    if is_remote(variable) { format!("{name} over ssh") } else { name }
-}
-
-/// What can be changed by keys.
+/// Choices that keys change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Choices {
-    theme: Theme,
+    /// `None` while it follows the background of the terminal.
+    theme: Option<Theme>,
     marker: Marker,
     charts: usize,
     mouse: bool,
@@ -161,23 +138,22 @@ impl Choices {
     fn of(app: &App) -> Self {
         let look = app.appearance;
         let (charts, mouse) = (app.layout.beside, app.mouse.on);
-        Self { theme: look.theme, marker: look.marker, charts, mouse, rpm: look.rpm }
+        let theme = (!look.follows_ground).then_some(look.theme);
+        Self { theme, marker: look.marker, charts, mouse, rpm: look.rpm }
     }
 }
 
 /// The config file of this start.
 #[derive(Debug)]
 pub struct Memory {
-    /// Where it is; none where nothing is remembered.
+    /// Its path; `None` where nothing is remembered.
     path: Option<PathBuf>,
-    /// What it held at the start.
+    /// Contents at the start.
     pub config: Config,
-    /// Why it was not used.
+    /// Reason why it was not used.
     pub complaint: Option<String>,
     /// The choices at the start.
     began: Option<Choices>,
-    /// This terminal, if it did not answer in time.
-    pub silent: Option<String>,
 }
 
 impl Memory {
@@ -202,7 +178,7 @@ impl Memory {
         };
         // A file with a mistake in it is the user's to mend.
         let path = path.filter(|_| complaint.is_none());
-        Self { path, config, complaint, began: None, silent: None }
+        Self { path, config, complaint, began: None }
     }
 
     /// Gives the state what is remembered, and notes where it began.
@@ -246,7 +222,7 @@ impl Memory {
     fn changed(&self, mut config: Config, ended: Choices, introduced: bool) -> Config {
         let Some(began) = self.began else { return config };
         if ended.theme != began.theme {
-            config.theme = Some(ThemeChoice::of(ended.theme));
+            config.theme = ended.theme.map(ThemeChoice::of);
         }
         if ended.marker != began.marker {
             config.marker = Some(ended.marker);
@@ -262,11 +238,6 @@ impl Memory {
             config.units.speed = Some(unit);
         }
         config.introduced |= introduced;
-        if let Some(terminal) = self.silent.clone().filter(|name| !config.is_silent(name)) {
-            config.silent_terminals.push(terminal);
-            let extra = config.silent_terminals.len().saturating_sub(MOST_TERMINALS);
-            config.silent_terminals.drain(..extra);
-        }
         config
     }
 }

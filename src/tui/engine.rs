@@ -7,12 +7,16 @@ use std::time::Duration;
 
 use super::history::{Bin, BinHistory};
 use super::trace::{Mark, Trace};
-use super::views::ViewId;
-use super::views::map::MapChoice;
-use super::worker::Found;
+use super::views::coincidence::curves::CoincidenceCurves;
+use super::views::id::ViewId;
+use super::views::locked::curves::LockedCurves;
+use super::views::map::plan::{CellRun, LiveMap, MapChoice};
+use super::views::margins::live::LiveMargins;
+use super::views::spectrum::lines::Spectrum;
 use rubscope_solver::motion::{ActiveSet, Checks, Failure, Hold, Motion, State, Verdict};
 use rubscope_solver::scene::CheckedScene;
 use rubscope_solver::study::MapPlan;
+use rubscope_solver::study::precision::Precision;
 
 /// The task of the engine. Counters only grow, so that no key press is lost
 /// when an order replaces an older one.
@@ -28,7 +32,7 @@ pub struct Order {
     pub steps: u64,
     /// Number of requests to go to `go_to_s`.
     pub goes: u64,
-    /// Where the motion goes at once, after a restart too \[s\].
+    /// Instant to which the motion goes at once, also after a restart \[s\].
     pub go_to_s: f64,
     /// Number of requests to jump to the next change of contact.
     pub jumps: u64,
@@ -52,35 +56,35 @@ pub struct Order {
     pub cursor_s: Option<f64>,
     /// The views on the screen: their studies are computed.
     pub open: Vec<ViewId>,
-    /// What the map sweeps, and under which law.
+    /// Axes and contact law of the map.
     pub map: MapChoice,
     /// Column and row of the map's cell whose run is wanted.
     pub cell: Option<[u32; 2]>,
 }
 
 impl Order {
-    /// Whether a view is on the screen.
+    /// Returns whether a view is on the screen.
     pub fn shows(&self, view: ViewId) -> bool {
         self.open.contains(&view)
     }
 
-    /// The map to compute, while its view is open and the scene has one.
+    /// Returns the map to compute, while its view is open and the scene has one.
     pub fn map_plan(&self) -> Option<MapPlan> {
         self.shows(ViewId::Map).then(|| self.map.plan(&self.scene).ok()).flatten()
     }
 
-    /// Number of the knobs' state: grows with every restart, live change and pulse.
+    /// Returns the number of the knobs' state: grows with every restart, live change and pulse.
     pub fn generation(&self) -> u64 {
         generation(self.restarts, self.changes, self.pulses)
     }
 }
 
-/// The generation of the knobs after so many restarts, live changes and pulses.
+/// Returns the generation of the knobs after so many restarts, live changes and pulses.
 pub fn generation(restarts: u64, changes: u64, pulses: u64) -> u64 {
     restarts + changes + pulses
 }
 
-/// How fast the solver is.
+/// Speed of the solver.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pace {
     /// Wall-clock time over the number of steps taken, if the solver has steps
@@ -92,11 +96,11 @@ pub struct Pace {
     pub run_s: Option<f64>,
     /// Motion over wall-clock time, as reached.
     pub reached: Option<f64>,
-    /// Why the motion plays slower than requested.
+    /// Reason why the motion plays slower than requested.
     pub limit: Limit,
 }
 
-/// What keeps the motion from playing as fast as requested.
+/// Limit of the rate of play.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Limit {
     /// Nothing.
@@ -133,7 +137,7 @@ pub struct FullRun {
     /// The longest hold of a corner that ended on the way, if it was as long as a
     /// casing period, and the rotor speed when it ended \[rad/s\].
     pub broken: Option<(Hold, f64)>,
-    /// How the motion lasts.
+    /// Verdict of the run.
     pub verdict: Verdict,
     /// Start of the final contact \[s\].
     pub since: Option<f64>,
@@ -143,16 +147,16 @@ pub struct FullRun {
     pub impacts: u64,
     /// Penetration, pulls and other checks.
     pub checks: Checks,
-    /// Why the run failed, in the words of the solver.
+    /// Reason of a failure of the run, in the words of the solver.
     pub stopped: Option<String>,
-    /// Why the run failed.
+    /// Reason of a failure of the run.
     pub failure: Option<Failure>,
 }
 
 /// A page of time, recorded at its own zoom as far as the run goes.
 #[derive(Clone, Debug)]
 pub struct PageRecord {
-    /// From and to \[s\].
+    /// Start and end \[s\].
     pub page: (f64, f64),
     /// Its bins.
     pub record: BinHistory,
@@ -175,16 +179,16 @@ pub struct Moment {
     pub gaps: Vec<f64>,
     /// Sides and their mean multipliers; negative is a push \[N\].
     pub multipliers: Vec<(u32, f64)>,
-    /// Why the motion stopped.
+    /// Reason why the motion stopped.
     pub failure: Option<String>,
     /// The latest jump to a change of contact: its number, and what it found.
     pub met: (u64, Option<Mark>),
-    /// How often the motion has come to the end of its forecast, where it waits.
+    /// Number of times that the motion has come to the end of its forecast, where it waits.
     pub ends: u64,
 }
 
 impl Moment {
-    /// The instant at which a motion is; forces are those of this instant.
+    /// Creates the instant at which a motion is; forces are those of this instant.
     pub fn of(motion: &Motion) -> Self {
         let (state, log) = (motion.state(), motion.contacts());
         Self {
@@ -215,7 +219,7 @@ pub struct Answer {
 pub struct Working {
     /// The view that shows it.
     pub view: ViewId,
-    /// How far it is, 0 to 1, where that is known.
+    /// Completed part, 0 to 1, where that is known.
     pub part: Option<f64>,
     /// Seconds since it began.
     pub seconds: u64,
@@ -224,15 +228,34 @@ pub struct Working {
 /// Whether a tiny change changes the outcome.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Sensitive {
-    /// Not known yet, or not asked.
+    /// Not known yet, or not requested.
     #[default]
     Unknown,
-    /// It does not.
+    /// The outcome stays the same.
     No,
-    /// It does.
+    /// The outcome changes.
     Yes,
     /// Given up: it takes too long.
     GivenUp,
+}
+
+/// Results of the studies of the views.
+#[derive(Clone, Debug, Default)]
+pub struct Found {
+    /// The locked motion against speed.
+    pub locked: Option<Arc<LockedCurves>>,
+    /// The spectrum of the run.
+    pub spectrum: Option<Arc<Spectrum>>,
+    /// Waves at the coincidence; an inner `None` where there is none.
+    pub coincidence: Option<Arc<Option<CoincidenceCurves>>>,
+    /// The margins; what is searched arrives later.
+    pub margins: Option<Arc<LiveMargins>>,
+    /// The run of the map's cell that was asked for.
+    pub cell: Option<Arc<CellRun>>,
+    /// The map; cells arrive one by one.
+    pub map: Option<Arc<LiveMap>>,
+    /// Speed against error; rows arrive one by one.
+    pub precision: Option<Arc<Precision>>,
 }
 
 /// Results for one generation of the knobs.
@@ -250,7 +273,7 @@ pub struct Results {
     pub reference: Option<FullRun>,
     /// The same scene under the other contact law.
     pub comparison: Option<FullRun>,
-    /// What the studies of the views have found.
+    /// Results of the studies of the views.
     pub found: Found,
     /// The studies that take long.
     pub working: Vec<Working>,
@@ -266,7 +289,7 @@ pub struct Results {
     pub reading: Option<Arc<Moment>>,
 }
 
-/// What the engine answers.
+/// State of the engine at one instant of wall time.
 #[derive(Clone, Debug, Default)]
 pub struct Snapshot {
     /// Generation of the knobs this belongs to.
@@ -275,7 +298,7 @@ pub struct Snapshot {
     pub restarts: u64,
     /// The latest state of the motion that is played.
     pub moment: Option<Moment>,
-    /// What was recorded since the last snapshot.
+    /// Bins recorded since the last snapshot.
     pub bins: Vec<Bin>,
     /// The same for the motion under the other contact law.
     pub comparison_bins: Vec<Bin>,
@@ -291,7 +314,7 @@ pub trait Engine {
     fn order(&mut self, order: &Order);
     /// Returns the new snapshot, if there is one.
     fn take(&mut self) -> Option<Snapshot>;
-    /// A frame has been drawn: a turning picture may turn on.
+    /// Tells the engine that a frame has been drawn: a turning picture may turn on.
     fn drawn(&mut self) {}
 }
 

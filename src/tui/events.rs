@@ -3,19 +3,14 @@
 
 use std::sync::mpsc::Sender;
 use std::thread;
-use std::time::{Duration, Instant};
+#[cfg(unix)]
+use std::time::Duration;
 
 use crossterm::event::{Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers, MouseEvent};
 
-use super::ability::{LATE, LateAnswer, is_part_of_answer};
-use super::files::FileResult;
-use super::files::FoundScenes;
+use super::files::{FileResult, FoundScenes};
+use super::ground::Ground;
 use super::input::Input;
-
-/// Keys that follow each other this closely are no typing.
-const BURST: Duration = Duration::from_millis(3);
-/// Most events that are taken together.
-const MOST_IN_BURST: usize = 64;
 
 /// Something that happened.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,44 +29,29 @@ pub enum ScreenEvent {
     Suspend,
     /// The job was continued.
     Continued,
+    /// The terminal has reported its background.
+    Ground(Ground),
     /// A text was pasted.
     Pasted(String),
     /// The file that was being written is done.
     Written(FileResult),
     /// The scenes of the directory were read.
     Scenes(FoundScenes),
-    /// No more keys: the terminal is closed.
+    /// The terminal is closed: no more keys come.
     InputClosed,
 }
 
-/// Starts the thread that reads keys; the answer to an unanswered question may be
-/// among the first.
+/// Starts the thread that reads keys, and the report of the background among them.
 ///
 /// # Errors
-/// The system gives no thread.
-pub fn read_keys(to: Sender<ScreenEvent>, unanswered: bool) -> std::io::Result<()> {
+/// The system cannot start a thread.
+pub fn read_keys(to: Sender<ScreenEvent>) -> std::io::Result<()> {
     let read = move || {
-        let began = Instant::now();
-        let mut late = LateAnswer::default();
         let mut input = Input::default();
         loop {
-            let mut burst = vec![input.next()];
-            while unanswered && began.elapsed() < LATE && may_follow(&burst, &mut input) {
-                burst.push(input.next());
-            }
-            let keys: Option<Vec<KeyEvent>> = burst.iter().map(key_of).collect();
-            if keys.is_some_and(|keys| is_part_of_answer(&keys)) {
-                continue;
-            }
-            for event in burst {
-                if let Ok(Event::Key(key)) = &event
-                    && unanswered
-                    && began.elapsed() < LATE
-                    && late.takes(key)
-                {
-                    continue;
-                }
-                let Some(event) = screen_event(event) else { continue };
+            let event = input.next().transpose().and_then(screen_event);
+            let ground = input.take_ground().map(ScreenEvent::Ground);
+            for event in [ground, event].into_iter().flatten() {
                 let last = event == ScreenEvent::InputClosed;
                 if to.send(event).is_err() || last {
                     return;
@@ -82,19 +62,7 @@ pub fn read_keys(to: Sender<ScreenEvent>, unanswered: bool) -> std::io::Result<(
     thread::Builder::new().name("rubscope-input".into()).spawn(read).map(|_| ())
 }
 
-/// Whether more of what came last is there already: nobody types that fast.
-fn may_follow(burst: &[std::io::Result<Event>], input: &mut Input) -> bool {
-    burst.last().and_then(key_of).is_some() && burst.len() < MOST_IN_BURST && input.has_more(BURST)
-}
-
-fn key_of(event: &std::io::Result<Event>) -> Option<KeyEvent> {
-    match event {
-        Ok(Event::Key(key)) => Some(*key),
-        _ => None,
-    }
-}
-
-/// What an event of the terminal is for the explorer, if it is anything.
+/// Returns what an event of the terminal is for the explorer, if it is anything.
 fn screen_event(event: std::io::Result<Event>) -> Option<ScreenEvent> {
     Some(match event {
         // Some terminals also report releases; repeats count as presses.
@@ -121,7 +89,7 @@ fn screen_event(event: std::io::Result<Event>) -> Option<ScreenEvent> {
 /// The system cannot start a thread or watch signals.
 #[cfg(unix)]
 pub fn watch_signals(to: Sender<ScreenEvent>) -> std::io::Result<()> {
-    use super::{files, job, terminal};
+    use super::{ending, files, job, terminal};
     use signal_hook::consts::{SIGCONT, SIGTSTP, SIGWINCH};
     let watched = deadly_signals().into_iter().chain([SIGTSTP, SIGCONT, SIGWINCH]);
     let mut signals = signal_hook::iterator::Signals::new(watched)?;
@@ -141,7 +109,7 @@ pub fn watch_signals(to: Sender<ScreenEvent>) -> std::io::Result<()> {
                 SIGWINCH => _ = to.send(ScreenEvent::Resize),
                 deadly => {
                     let number = u8::try_from(deadly).unwrap_or(0);
-                    terminal::end(number);
+                    ending::end(number);
                     if to.send(ScreenEvent::Signal(number)).is_ok() {
                         thread::sleep(GRACE);
                     }
@@ -155,8 +123,8 @@ pub fn watch_signals(to: Sender<ScreenEvent>) -> std::io::Result<()> {
     thread::Builder::new().name("rubscope-signals".into()).spawn(watch).map(|_| ())
 }
 
-/// Every signal that ends a program which does not catch it, and can be caught;
-/// not those of faults in the program itself.
+/// Returns every signal that ends a program which does not catch it, and can be caught; not those
+/// of faults in the program itself.
 #[cfg(unix)]
 fn deadly_signals() -> Vec<i32> {
     use signal_hook::consts::{
@@ -186,6 +154,6 @@ pub fn watch_signals(_: Sender<ScreenEvent>) -> std::io::Result<()> {
     Ok(())
 }
 
-/// How long the drawing thread may take to end after a signal: it has a file to keep.
+/// Time that the drawing thread may take to end after a signal: it has a file to keep.
 #[cfg(unix)]
-const GRACE: Duration = super::config::PATIENCE;
+const GRACE: Duration = super::ending::PATIENCE;

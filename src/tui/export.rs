@@ -18,7 +18,7 @@ const CELL: (u32, u32) = (8, 17);
 /// Diameter of a dot of a curve.
 const DOT: f64 = 2.8;
 
-/// The screen as a picture, without what is typed or said for a moment.
+/// Returns the screen as a picture, without what is typed or said for a moment.
 pub fn svg(app: &App) -> String {
     let mut plain = app.clone();
     plain.dialogue.mode = InputMode::Main;
@@ -30,8 +30,8 @@ pub fn svg(app: &App) -> String {
     out
 }
 
-/// The first lines of a picture: its size with so many more rows below the screen,
-/// what comes with it, and the background of its theme.
+/// Returns the first lines of a picture: its size with so many more rows below the screen, what
+/// comes with it, and the background of its theme.
 pub fn opening(app: &App, below: u32, with: &str) -> String {
     let (columns, rows) = (u32::from(app.layout.size.0), u32::from(app.layout.size.1) + below);
     let (width, height) = (columns * CELL.0, rows * CELL.1);
@@ -43,7 +43,7 @@ pub fn opening(app: &App, below: u32, with: &str) -> String {
     )
 }
 
-/// The rows of the screen as it stands, from the top, each as a part of a picture.
+/// Returns the rows of the screen as it stands, from the top, each as a part of a picture.
 pub fn rows(app: &App) -> Vec<String> {
     let area = Rect::new(0, 0, app.layout.size.0, app.layout.size.1);
     let ink = Ink::of(app.appearance.theme);
@@ -54,8 +54,8 @@ pub fn rows(app: &App) -> Vec<String> {
     cells.map(|(row, cells)| drawn_row(cells, row * CELL.1, &ink)).collect()
 }
 
-/// One row of cells: what has the same look in one element, words with the space
-/// between them. Browsers make one space of several, so an element has no more.
+/// Returns one row of cells: what has the same look in one element, words with the space between
+/// them. Browsers make one space of several, so an element has no more.
 fn drawn_row(cells: &[Cell], y: u32, ink: &Ink) -> String {
     let mut looks: Vec<(Look, &Cell)> = Vec::with_capacity(cells.len());
     for cell in cells {
@@ -102,7 +102,7 @@ fn drawn_row(cells: &[Cell], y: u32, ink: &Ink) -> String {
     out
 }
 
-/// The dots of a row of cells as one path of round points, each from the one before.
+/// Returns the dots of a row of cells as one path of round points, each from the one before.
 fn dots(run: &[(Look, &Cell)], left: u32, top: u32, fill: &str) -> String {
     let mut points = String::new();
     let mut from = (0, 0);
@@ -127,12 +127,12 @@ fn dots(run: &[(Look, &Cell)], left: u32, top: u32, fill: &str) -> String {
     )
 }
 
-/// A filled rectangle.
+/// Returns a filled rectangle.
 fn block(x: u32, y: u32, width: u32, height: u32, fill: &str) -> String {
     format!("<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" fill=\"{fill}\"/>\n")
 }
 
-/// What a cell shows.
+/// Content of a cell.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Shape {
     Blank,
@@ -143,7 +143,7 @@ enum Shape {
     Letters,
 }
 
-/// How a cell is drawn.
+/// Appearance of a cell.
 #[derive(Clone, Copy, PartialEq, Eq)]
 struct Look {
     shape: Shape,
@@ -193,8 +193,8 @@ impl Ink {
         }
     }
 
-    /// A named colour for its background: light on dark, dark on light. None for
-    /// the default colour of the text.
+    /// Returns a named colour for its background: light on dark, dark on light. None for the
+    /// default colour of the text.
     fn of_colour(&self, colour: Color) -> Option<&'static str> {
         let [on_dark, on_light] = match colour {
             Color::DarkGray => ["#7f8790", "#6b7280"],

@@ -1,41 +1,37 @@
-//! Files are opened in a thread of their own: a pipe without a reader or a
-//! network that does not answer blocks that thread, not the screen.
-//!
-//! The scene files of a directory, read in a thread of their own: a network that
-//! does not answer blocks that thread, not the screen. Only regular files are
-//! opened, and only so many.
+//! Reading and writing files in threads of their own: a pipe without a reader or a network that
+//! does not answer blocks such a thread, not the screen. Of a directory only regular files are
+//! opened, and a limited number of them.
 
 use std::io::{ErrorKind, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
-use std::sync::mpsc::{Sender, channel};
+use std::sync::mpsc::channel;
 use std::thread;
 use std::time::Duration;
 
 use crate::file;
 use crate::report::line::clean;
-use crate::tui::events::ScreenEvent;
 use rubscope_solver::scene::{BUILTIN, CheckedScene, Scene};
 
 /// Name of the thread: the panic hook leaves the screen alone for it.
 pub const FILES_NAME: &str = "rubscope-files";
 
-/// How long the end of the program waits for files.
+/// Longest wait for files at the end of the program.
 const MOMENT: Duration = Duration::from_millis(500);
 
 /// A file to write.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FileJob {
-    /// Where.
+    /// Path of the file.
     pub path: PathBuf,
-    /// What.
+    /// Content of the file.
     pub content: String,
     /// Whether a file that exists may be replaced.
     pub replace: bool,
 }
 
-/// How it went.
+/// Outcome of writing a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FileResult {
     /// The file is complete.
@@ -73,28 +69,16 @@ impl FileJob {
     }
 }
 
-/// Starts the thread that writes a file; its result comes as an event, unless
-/// there is no thread.
-pub fn write_aside(job: FileJob, events: Sender<ScreenEvent>) -> Option<FileResult> {
+/// Does `work` in a thread of its own and gives its result to `done`; without a thread, or
+/// after a panic, the result of `failed`, which in the first case is returned.
+pub fn aside<T: Send + 'static>(
+    work: impl FnOnce() -> T + Send + 'static,
+    failed: fn(String) -> T,
+    done: impl FnOnce(T) + Send + 'static,
+) -> Option<T> {
     let work = move || {
-        let result = catch_unwind(AssertUnwindSafe(|| job.run()))
-            .unwrap_or_else(|_| FileResult::Failed("the program has an error".into()));
-        // Without a receiver the program is about to end.
-        let _ = events.send(ScreenEvent::Written(result));
-    };
-    let started = thread::Builder::new().name(FILES_NAME.into()).spawn(work);
-    started.err().map(|error| FileResult::Failed(error.to_string()))
-}
-
-/// Starts the thread that reads the scenes of a directory; they come as an event,
-/// unless there is no thread.
-pub fn find_aside(directory: PathBuf, events: Sender<ScreenEvent>) -> Option<FoundScenes> {
-    let failed = |reason: String| FoundScenes { missing: Some(reason), ..FoundScenes::default() };
-    let work = move || {
-        let found = catch_unwind(AssertUnwindSafe(|| FoundScenes::of(&directory)))
-            .unwrap_or_else(|_| failed("the program has an error".into()));
-        // Without a receiver the program is about to end.
-        let _ = events.send(ScreenEvent::Scenes(found));
+        let result = catch_unwind(AssertUnwindSafe(work));
+        done(result.unwrap_or_else(|_| failed("the program has an error".into())));
     };
     let started = thread::Builder::new().name(FILES_NAME.into()).spawn(work);
     started.err().map(|error| failed(error.to_string()))
@@ -129,7 +113,7 @@ pub struct FoundScene {
     pub scene: Result<CheckedScene, String>,
 }
 
-/// The built-in scenes, read once.
+/// Returns the built-in scenes, read once.
 pub fn builtin_scenes() -> &'static [FoundScene] {
     static READ: OnceLock<Vec<FoundScene>> = OnceLock::new();
     READ.get_or_init(|| {
@@ -145,13 +129,18 @@ pub fn builtin_scenes() -> &'static [FoundScene] {
 pub struct FoundScenes {
     /// In the order of their names.
     pub files: Vec<FoundScene>,
-    /// What is missing in the list, and why.
+    /// Note on what is missing in the list.
     pub missing: Option<String>,
     /// Whether they are still being read.
     pub reading: bool,
 }
 
 impl FoundScenes {
+    /// Returns an empty list, for this reason.
+    pub fn failed(reason: String) -> Self {
+        Self { missing: Some(reason), ..Self::default() }
+    }
+
     /// Reads the `.toml` files of a directory; the empty path is the working
     /// directory.
     pub fn of(directory: &Path) -> Self {
@@ -159,8 +148,7 @@ impl FoundScenes {
         let entries = match std::fs::read_dir(here) {
             Ok(entries) => entries,
             Err(error) => {
-                let missing = Some(clean(&format!("this folder cannot be read: {error}")));
-                return Self { missing, ..Self::default() };
+                return Self::failed(clean(&format!("this folder cannot be read: {error}")));
             }
         };
         let names = entries.flatten().take(MOST_NAMES).map(|entry| entry.file_name());
@@ -177,7 +165,7 @@ impl FoundScenes {
     }
 }
 
-/// A file, if it is a regular one.
+/// Returns a file, if it is a regular one.
 fn found(directory: &Path, name: String) -> Option<FoundScene> {
     let path = directory.join(&name);
     if !std::fs::metadata(&path).is_ok_and(|kind| kind.is_file()) {

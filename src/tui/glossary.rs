@@ -7,15 +7,16 @@ use std::sync::LazyLock;
 use serde::Deserialize;
 
 use super::app::App;
-use super::knobs::{knob_of, number};
-use super::views::ViewId;
-use crate::report::number::{frequency_unit, per_frequency, told};
+use super::axis::number;
+use super::knobs::knob_of;
+use super::views::id::ViewId;
+use crate::report::number::{frequency_unit, in_shown_unit, per_frequency};
 use rubscope_solver::harmonic::Joint;
 
 /// The text of the glossary.
 const TEXT: &str = include_str!("../../assets/glossary.toml");
 
-/// What follows from the scene, by the name of its term, with its unit.
+/// Value that follows from the scene: the name of its term, its unit, and how it is computed.
 type Value = (&'static str, &'static str, fn(&App) -> Option<f64>);
 
 /// Stands for the unit of frequencies.
@@ -56,7 +57,7 @@ struct Glossary {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Section {
-    /// What its terms have in common.
+    /// Heading of its terms.
     pub heading: String,
     /// Its terms.
     #[serde(rename = "term")]
@@ -67,11 +68,11 @@ pub struct Section {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Term {
-    /// As it is written.
+    /// Symbol as it is written.
     pub symbol: String,
     /// The same in letters that every keyboard has, if it is not written so.
     name: Option<String>,
-    /// What it means.
+    /// Meaning.
     pub meaning: String,
     /// Its equation or condition; may be empty.
     #[serde(default)]
@@ -85,9 +86,9 @@ pub struct Term {
 #[serde(deny_unknown_fields)]
 pub struct ViewWords {
     name: String,
-    /// What is drawn.
+    /// Description of what is drawn.
     pub drawn: String,
-    /// What to look for.
+    /// Hint on what to look for.
     pub look: String,
     /// Its keys.
     pub keys: String,
@@ -96,18 +97,18 @@ pub struct ViewWords {
 /// The file is part of the program, and a test reads it.
 static GLOSSARY: LazyLock<Glossary> = LazyLock::new(|| toml::from_str(TEXT).unwrap_or_default());
 
-/// The sections of the glossary.
+/// Returns the sections of the glossary.
 pub fn sections() -> &'static [Section] {
     &GLOSSARY.section
 }
 
-/// A view in words.
+/// Returns a view in words.
 pub fn view(view: ViewId) -> Option<&'static ViewWords> {
     GLOSSARY.view.iter().find(|words| words.name == view.word())
 }
 
 impl Term {
-    /// Meaning, equation and value as one text.
+    /// Returns the meaning, equation and value as one text.
     pub fn text(&self, app: &App) -> String {
         let mut text = self.meaning.clone();
         if !self.equation.is_empty() {
@@ -121,7 +122,7 @@ impl Term {
         text
     }
 
-    /// The symbol in letters that every keyboard has.
+    /// Returns the symbol in letters that every keyboard has.
     pub fn name(&self) -> &str {
         self.name.as_deref().unwrap_or(&self.symbol)
     }
@@ -134,7 +135,7 @@ impl Term {
         let value = value(app).filter(|value| value.is_finite())?;
         let (value, unit) = match *unit {
             FREQUENCY => (per_frequency(value), frequency_unit()),
-            unit => told(value, unit),
+            unit => in_shown_unit(value, unit),
         };
         // Four digits are enough to know where one stands.
         let rounded: f64 = format!("{value:.3e}").parse().ok()?;

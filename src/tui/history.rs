@@ -30,7 +30,7 @@ pub enum Channel {
     RimY,
 }
 
-/// How many channels there are.
+/// Number of channels.
 pub const CHANNELS: usize = 11;
 
 /// Least and greatest values over a stretch of time.
@@ -44,25 +44,25 @@ pub struct Bin {
     pub low: [f64; CHANNELS],
     /// Greatest value of every channel.
     pub high: [f64; CHANNELS],
-    /// From when to when a blade touched: the first instant and the last \[s\].
+    /// First and last instant of contact \[s\].
     pub contact: Option<(f64, f64)>,
     /// The sides that touched.
     pub touched: ActiveSet,
 }
 
 impl Bin {
-    /// A bin of one sample.
+    /// Creates a bin of one sample.
     pub fn of(t: f64, values: [f64; CHANNELS]) -> Self {
         let touched = ActiveSet::Nothing;
         Self { from: t, to: t, low: values, high: values, contact: None, touched }
     }
 
-    /// Least and greatest value of a channel.
+    /// Returns the least and greatest value of a channel.
     pub fn span(&self, channel: Channel) -> (f64, f64) {
         (self.low[channel as usize], self.high[channel as usize])
     }
 
-    /// The middle of the span of a channel.
+    /// Returns the middle of the span of a channel.
     pub fn middle(&self, channel: Channel) -> f64 {
         let (low, high) = self.span(channel);
         0.5 * (low + high)
@@ -111,28 +111,29 @@ impl BinHistory {
         self.bins.clear();
     }
 
-    /// The bins that overlap `[from, to]`.
+    /// Returns the bins that overlap `[from, to]`.
     pub fn between(&self, from: f64, to: f64) -> &[Bin] {
         let start = self.bins.partition_point(|bin| bin.to < from);
         let end = self.bins.partition_point(|bin| bin.from <= to);
         self.bins.get(start..end.max(start)).unwrap_or(&[])
     }
 
-    /// As `between`, none where a bin is so long that it would be drawn as a block.
+    /// Same as [`Self::between`], but empty where a bin is so long that it would be drawn as a
+    /// block.
     pub fn fine_between(&self, from: f64, to: f64) -> &[Bin] {
         let (bins, longest) = (self.between(from, to), PART_OF_PAGE * (to - from));
         if bins.iter().all(|bin| bin.to - bin.from <= longest) { bins } else { &[] }
     }
 }
 
-/// The bin at an instant, for reading values under a cursor.
+/// Returns the bin at an instant, for reading values under a cursor.
 pub fn bin_at(bins: &[Bin], t: f64) -> Option<&Bin> {
     bins.get(bins.partition_point(|bin| bin.to < t)).filter(|bin| bin.from <= t)
 }
 
-/// One channel of some bins over `[from, to]` as `columns` columns; `None` where
-/// nothing was recorded. Values that are not finite are left out. A bin begins where the
-/// one before it ends, so that no curve is torn between columns.
+/// Returns one channel of some bins over `[from, to]` as `columns` columns; `None` where nothing
+/// was recorded. Values that are not finite are left out. A bin begins where the one before it
+/// ends, so that no curve is torn between columns.
 pub fn columns(
     bins: &[Bin],
     channel: Channel,
@@ -166,8 +167,8 @@ pub fn columns(
     out
 }
 
-/// Which of `columns` columns of `[from, to]` have a contact: those of its first and
-/// its last instant in each bin. A page has more bins than columns.
+/// Returns which of `columns` columns of `[from, to]` have a contact: those of its first and its
+/// last instant in each bin. A page has more bins than columns.
 pub fn contacts(bins: &[Bin], (from, to): (f64, f64), columns: usize) -> Vec<bool> {
     let mut out = vec![false; columns];
     let width = (to - from) / columns.max(1) as f64;
@@ -180,7 +181,7 @@ pub fn contacts(bins: &[Bin], (from, to): (f64, f64), columns: usize) -> Vec<boo
     out
 }
 
-/// The stretch that holds both.
+/// Returns the stretch that holds both.
 fn hull(first: Option<(f64, f64)>, second: Option<(f64, f64)>) -> Option<(f64, f64)> {
     match (first, second) {
         (Some((a, b)), Some((c, d))) => Some((a.min(c), b.max(d))),
@@ -188,8 +189,8 @@ fn hull(first: Option<(f64, f64)>, second: Option<(f64, f64)>) -> Option<(f64, f
     }
 }
 
-/// Bins of single samples that are farther apart than `length`, joined by straight lines:
-/// a solver that steps knows nothing between its steps. Only what is in `[from, to]`.
+/// Returns the bins of single samples that are farther apart than `length`, joined by straight
+/// lines: a solver that steps knows nothing between its steps. Only what is in `[from, to]`.
 pub fn interpolated(bins: &[Bin], length: f64, (from, to): (f64, f64)) -> Vec<Bin> {
     let mut out = Vec::with_capacity(bins.len());
     let mut last: Option<&Bin> = None;

@@ -5,13 +5,12 @@ use std::path::PathBuf;
 use std::sync::mpsc::Sender;
 
 use super::events::ScreenEvent;
-use super::files::FoundScenes;
-use super::files::{FileJob, FileResult, find_aside, write_aside};
+use super::files::{FileJob, FileResult, FoundScenes, aside};
 use super::job;
 use super::line::Line;
 use super::terminal;
 
-/// What the run loop needs besides a backend.
+/// Environment of the run loop besides its backend.
 pub trait Host {
     /// Gives the terminal to the shell until the job is continued; false where
     /// there is none. A key asks for it now; a signal has asked before.
@@ -29,7 +28,7 @@ pub trait Host {
     /// # Errors
     /// The terminal cannot be written to.
     fn copy(&mut self, text: &str) -> Result<()>;
-    /// How much the terminal is sent.
+    /// Returns how much the terminal is sent.
     fn line(&self) -> Line {
         Line::Auto
     }
@@ -37,7 +36,7 @@ pub trait Host {
     fn sent(&self) -> u64 {
         0
     }
-    /// Whether a write had to wait for the terminal.
+    /// Returns whether a write had to wait for the terminal.
     fn is_slow(&self) -> bool {
         false
     }
@@ -45,7 +44,7 @@ pub trait Host {
     fn mouse(&mut self, _on: bool) {}
     /// Writes a file. Without a result, that comes later as an event.
     fn write(&mut self, job: FileJob) -> Option<FileResult>;
-    /// Why a file was not written, as long as no screen has shown it.
+    /// Records why a file was not written, until a screen has shown it.
     fn unseen(&mut self, _reason: Option<String>) {}
     /// Reads the scenes of a directory. Without a result, that comes later as an
     /// event.
@@ -76,11 +75,11 @@ impl Host for NoHost {
 /// The real terminal, its shell, and a thread for files.
 #[derive(Debug)]
 pub struct Shell {
-    /// Where results of files go.
+    /// Channel for the results of files.
     pub events: Sender<ScreenEvent>,
-    /// Why a file was not written, as long as no screen has shown it.
+    /// Reason why a file was not written, until a screen has shown it.
     pub unseen: Option<String>,
-    /// How much the terminal is sent.
+    /// Limit on the bytes that are sent to the terminal.
     pub line: Line,
 }
 
@@ -126,7 +125,10 @@ impl Host for Shell {
     }
 
     fn write(&mut self, job: FileJob) -> Option<FileResult> {
-        write_aside(job, self.events.clone())
+        let events = self.events.clone();
+        // Without a receiver the program is about to end.
+        let done = move |result| _ = events.send(ScreenEvent::Written(result));
+        aside(move || job.run(), FileResult::Failed, done)
     }
 
     fn unseen(&mut self, reason: Option<String>) {
@@ -134,11 +136,13 @@ impl Host for Shell {
     }
 
     fn find_scenes(&mut self, directory: PathBuf) -> Option<FoundScenes> {
-        find_aside(directory, self.events.clone())
+        let events = self.events.clone();
+        let done = move |found| _ = events.send(ScreenEvent::Scenes(found));
+        aside(move || FoundScenes::of(&directory), FoundScenes::failed, done)
     }
 }
 
-/// Base 64 with padding, as OSC 52 wants it.
+/// Encodes bytes in base 64 with padding, as OSC 52 needs it.
 fn base64(bytes: &[u8]) -> String {
     const SIGNS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut out = String::new();

@@ -1,25 +1,26 @@
 //! What the terminal sends, where there are no Unix terminals: crossterm reads it.
 
 use std::io::Result;
-use std::time::Duration;
 
 use crossterm::event::{self, Event};
+
+use super::ground::Ground;
 
 /// The keys, the mouse and the pasted text of the terminal.
 #[derive(Debug, Default)]
 pub struct Input;
 
 impl Input {
-    /// The next event; waits for it.
+    /// Waits for the next event and returns it.
     ///
     /// # Errors
     /// The terminal is closed.
-    pub fn next(&mut self) -> Result<Event> {
-        event::read()
+    pub fn next(&mut self) -> Result<Option<Event>> {
+        event::read().map(Some)
     }
 
-    /// Whether there is another event within this time.
-    pub fn has_more(&mut self, within: Duration) -> bool {
-        event::poll(within).unwrap_or(false)
+    /// Returns `None`: such a terminal is not asked for its background.
+    pub fn take_ground(&mut self) -> Option<Ground> {
+        None
     }
 }

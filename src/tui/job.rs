@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering::SeqCst};
 
 use nix::unistd::{Pid, getpgid, getpgrp, getpid, getppid, getsid};
 
-use super::terminal;
+use super::ending::ended_by;
 
 /// Whether the job has been asked to stop, and not to continue since.
 static WANTED: AtomicBool = AtomicBool::new(false);
@@ -14,7 +14,7 @@ static WANTED: AtomicBool = AtomicBool::new(false);
 /// Most generations of parents that are asked for their job.
 const GENERATIONS: usize = 64;
 
-/// The job is to stop, until it is asked to continue.
+/// Records that the job is to stop, or to continue.
 pub fn want_stop(wanted: bool) {
     WANTED.store(wanted, SeqCst);
 }
@@ -25,14 +25,14 @@ pub fn want_stop(wanted: bool) {
 /// # Errors
 /// The system refuses.
 pub fn stop() -> Result<()> {
-    if !WANTED.swap(false, SeqCst) || terminal::ended_by().is_some() {
+    if !WANTED.swap(false, SeqCst) || ended_by().is_some() {
         return Ok(());
     }
     signal_hook::low_level::emulate_default_handler(signal_hook::consts::SIGTSTP)
 }
 
-/// Whether no shell could continue this job: no process of it has a parent in
-/// another job of the same session, as POSIX has it of orphaned groups.
+/// Returns whether no shell could continue this job: no process of it has a parent in another job
+/// of the same session, as POSIX has it of orphaned groups.
 pub fn is_orphaned() -> bool {
     let Ok(session) = getsid(None) else { return true };
     let mut process = getpid();
@@ -49,8 +49,8 @@ pub fn is_orphaned() -> bool {
     false
 }
 
-/// The parent of a process, if it is in this container: the system gives
-/// processes, groups and sessions outside it the number 0.
+/// Returns the parent of a process, if it is in this container: the system gives processes, groups
+/// and sessions outside it the number 0.
 fn parent(process: Pid) -> Option<Pid> {
     if process == getpid() {
         return seen(getppid());
@@ -60,7 +60,7 @@ fn parent(process: Pid) -> Option<Pid> {
     seen(Pid::from_raw(parent.trim().parse().ok()?))
 }
 
-/// None for a process outside this container.
+/// Returns `None` for a process outside this container.
 fn seen(process: Pid) -> Option<Pid> {
     Some(process).filter(|process| process.as_raw() != 0)
 }

@@ -2,10 +2,10 @@
 
 use std::io::Result;
 
-/// Nothing to note.
+/// Does nothing: there is nothing to stop.
 pub fn want_stop(_: bool) {}
 
-/// Nothing to stop.
+/// Does nothing: there is nothing to stop.
 ///
 /// # Errors
 /// None here.
@@ -13,7 +13,7 @@ pub fn stop() -> Result<()> {
     Ok(())
 }
 
-/// No shell continues a job.
+/// Returns true: no shell continues a job.
 pub fn is_orphaned() -> bool {
     true
 }

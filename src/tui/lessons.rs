@@ -17,9 +17,9 @@ pub struct Lesson {
     /// Its name in files: the name of its own file.
     #[serde(skip)]
     pub name: &'static str,
-    /// What it is about.
+    /// Its subject.
     pub title: String,
-    /// What one should know before.
+    /// Knowledge that it needs.
     pub needs: String,
     /// The built-in scene at its start.
     pub scene: String,
@@ -35,19 +35,19 @@ pub type Settings = Vec<(String, String)>;
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct LessonStep {
-    /// What can be seen, and what one must know.
+    /// Text on what can be seen and must be known.
     pub text: String,
     /// Keys that are set when the step begins, before the question.
     #[serde(default)]
     pub begin: Settings,
-    /// What will happen?
+    /// Question what will happen.
     pub question: Option<String>,
     /// The answers to choose from, a, b, c.
     #[serde(default)]
     pub answers: Vec<String>,
     /// The letter of the right one.
     pub right: Option<char>,
-    /// Why, shown with the run.
+    /// Reason of the answer, shown with the run.
     pub reason: Option<String>,
     /// The equation behind it.
     pub equation: Option<String>,
@@ -57,7 +57,7 @@ pub struct LessonStep {
     pub set: Settings,
     /// The task of the reader.
     pub task: Option<String>,
-    /// When the task is done.
+    /// Condition under which the task is done.
     pub until: Option<Condition>,
     /// Keys that a reader may set to do the task; the next step begins so.
     #[serde(default)]
@@ -76,7 +76,7 @@ pub struct LessonStep {
     /// Whether the other contact law is compared, from the answer on.
     #[serde(default)]
     pub compare: bool,
-    /// What must be true when the step is done. A test asks the solvers.
+    /// Statements that must be true when the step is done. A test asks the solvers.
     #[serde(default)]
     pub check: Vec<Check>,
 }
@@ -102,13 +102,13 @@ pub struct Check {
     /// Keys in which the scene differs from that of the step.
     #[serde(default)]
     pub with: Settings,
-    /// What it is.
+    /// Expected value.
     pub is: Expected,
     /// Largest difference; half of the last digit if not given.
     pub within: Option<f64>,
 }
 
-/// What a check expects.
+/// Expectation of a check.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(untagged)]
 pub enum Expected {
@@ -118,7 +118,7 @@ pub enum Expected {
     Word(String),
 }
 
-/// When a task is done.
+/// Condition under which a task is done.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(rename_all = "lowercase", deny_unknown_fields)]
 pub enum Condition {
@@ -139,7 +139,7 @@ pub enum Condition {
 }
 
 impl LessonStep {
-    /// The place of the right answer.
+    /// Returns the place of the right answer.
     pub fn right_place(&self) -> Option<usize> {
         let right = self.right?;
         LETTERS.iter().position(|letter| *letter == right)
@@ -154,7 +154,7 @@ const QUESTION: f64 = 0.5;
 const TASK: f64 = 2.0;
 
 impl Lesson {
-    /// How long it takes, by what there is to read, to answer and to do.
+    /// Returns how long it takes, by what there is to read, to answer and to do.
     pub fn minutes(&self) -> u32 {
         let of = |step: &LessonStep| {
             let texts = [&step.question, &step.reason, &step.task].into_iter().flatten();
@@ -170,8 +170,8 @@ impl Lesson {
         self.steps.iter().map(of).sum::<f64>().ceil() as u32
     }
 
-    /// The scene of a step, before or after its question is answered: that of the
-    /// lesson, with what its steps have set and their tasks have changed so far.
+    /// Returns the scene of a step, before or after its question is answered: that of the lesson,
+    /// with what its steps have set and their tasks have changed so far.
     ///
     /// # Errors
     /// A key or a value that is refused.
@@ -206,7 +206,7 @@ impl LessonsDone {
         }
     }
 
-    /// Whether none was done.
+    /// Returns whether none was done.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
@@ -216,17 +216,17 @@ impl LessonsDone {
         self.0.entry(lesson.name.to_string()).or_default().insert(step + 1);
     }
 
-    /// Whether a step, counted from 0, was done.
+    /// Returns whether a step, counted from 0, was done.
     pub fn has(&self, lesson: &Lesson, step: usize) -> bool {
         self.0.get(lesson.name).is_some_and(|steps| steps.contains(&(step + 1)))
     }
 
-    /// How many steps of a lesson were done.
+    /// Returns how many steps of a lesson were done.
     pub fn count(&self, lesson: &Lesson) -> usize {
         (0..lesson.steps.len()).filter(|step| self.has(lesson, *step)).count()
     }
 
-    /// The first step of a lesson that was not done.
+    /// Returns the first step of a lesson that was not done.
     pub fn next(&self, lesson: &Lesson) -> Option<usize> {
         (0..lesson.steps.len()).find(|step| !self.has(lesson, *step))
     }
@@ -255,7 +255,7 @@ const FILES: &[(&str, &str)] = lessons![
     "your-machine",
 ];
 
-/// Every lesson, in the order of the list.
+/// Returns every lesson, in the order of the list.
 pub fn all() -> &'static [Lesson] {
     static LESSONS: OnceLock<Vec<Lesson>> = OnceLock::new();
     // The files are part of the program, and a test reads each of them.

@@ -1,19 +1,19 @@
-//! How much the terminal is sent. On a thin line the frames of a playing motion
-//! come as often as five kilobytes a second allow; what a key asks for may take
-//! more for a moment.
+//! How much the terminal is sent. On a thin line the frames of a playing motion come as often
+//! as five kilobytes a second allow, more seldom in a larger window; what a key asks for may
+//! take more for a moment.
 
 use std::time::{Duration, Instant};
 
 use strum::{EnumString, VariantNames};
 
-/// How much the terminal is sent.
+/// Limit on the bytes that are sent to the terminal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, EnumString, VariantNames)]
 #[strum(serialize_all = "lowercase")]
 pub enum Line {
-    /// As a thin line over SSH, or once a write had to wait.
+    /// Thin over SSH, or once a write had to wait.
     #[default]
     Auto,
-    /// At most five kilobytes a second while the motion plays.
+    /// At most five kilobytes a second while the motion plays, in a window of any size.
     Thin,
     /// Every frame that was asked for.
     Full,
@@ -23,18 +23,21 @@ pub enum Line {
 const THIN: f64 = 4500.0;
 /// Bytes a second of answers to keys, unless writes have to wait.
 const KEYS: f64 = 20_000.0;
-/// How long answers to keys may run ahead of that.
+/// Time that answers to keys may run ahead of that.
 const AHEAD: Duration = Duration::from_secs(1);
 /// Longest wait of an answer to a key.
 const SOON: Duration = Duration::from_millis(200);
-/// Longest pause between two frames, whatever the last one took.
-const LONGEST: Duration = Duration::from_secs(2);
+/// Longest wait of an answer to a key on a line where writes have to wait.
+const LATEST: Duration = Duration::from_secs(2);
+/// Longest pause between two frames, whatever the last one took: 45 kB are most of a window of
+/// 400 columns and 100 rows.
+const LONGEST: Duration = Duration::from_secs(10);
 
 /// The account of what the line has taken.
 #[derive(Debug)]
 pub struct Throttle {
     line: Line,
-    /// When the line is free again.
+    /// Instant at which the line is free again.
     free: Instant,
     sent: u64,
     /// Whether writes have to wait.
@@ -42,12 +45,12 @@ pub struct Throttle {
 }
 
 impl Throttle {
-    /// An account that begins at `now`, with `sent` bytes sent already.
+    /// Creates an account that begins at `now`, with `sent` bytes sent already.
     pub fn new(line: Line, now: Instant, sent: u64) -> Self {
         Self { line, free: now, sent, slow: false }
     }
 
-    /// A frame has been sent; `sent` is the number of bytes in all.
+    /// Records that a frame has been sent; `sent` is the number of bytes in all.
     pub fn spend(&mut self, sent: u64, by_key: bool, slow: bool, now: Instant) {
         let bytes = sent.saturating_sub(self.sent) as f64;
         (self.sent, self.slow) = (sent, slow);
@@ -60,13 +63,13 @@ impl Throttle {
         self.free = self.free.max(now).min(now + LONGEST) + spent;
     }
 
-    /// How long the next frame must wait from `now`.
+    /// Returns how long the next frame must wait from `now`.
     pub fn wait(&self, by_key: bool, now: Instant) -> Duration {
         let wait = self.free.saturating_duration_since(now);
         // A key is answered soon, whatever was sent before.
         match (by_key, self.slow) {
             (true, false) => wait.saturating_sub(AHEAD).min(SOON),
-            (true, true) => wait.saturating_sub(AHEAD),
+            (true, true) => wait.saturating_sub(AHEAD).min(LATEST),
             (false, _) => wait,
         }
     }
@@ -91,9 +94,11 @@ mod tests {
 
     #[test]
     fn a_thin_line_takes_five_kilobytes_a_second_at_any_size_of_frame() {
-        for bytes in [200, 1000, 3000, 9000] {
+        for bytes in [200, 1000, 3000, 9000, 25_000, 45_000] {
             let thin = rate(Line::Thin, bytes, false, false);
             assert!(thin < 5000.0, "{bytes}: {thin}");
+        }
+        for bytes in [200, 1000, 3000, 9000] {
             let slow = rate(Line::Auto, bytes, true, true);
             assert!(slow < 5500.0, "{bytes}: {slow}");
         }

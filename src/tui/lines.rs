@@ -8,14 +8,17 @@ use std::io::{BufRead, Error, Read, Write};
 
 use anyhow::Context as _;
 
-use super::app::{App, Effect, InputMode};
+use super::app::{App, InputMode};
 use super::commands::{self, Found};
 use super::engine::{Order, Pace};
 use super::files::FileResult;
 use super::knobs::KNOBS;
 use super::options::ExploreOptions;
+use super::raster::Marker;
+use super::theme::Theme;
+use super::update::Effect;
 use super::worker::Playback;
-use super::{Marker, Theme, ability, config, panels};
+use super::{ability, config, panels};
 use crate::report::line::clean;
 use rubscope_solver::scene::{CheckedScene, Scene};
 
@@ -30,7 +33,7 @@ const ROWS: u16 = 1000;
 /// Columns and rows of the screen as a picture.
 const PICTURE: (u16, u16) = (120, 40);
 
-/// What can be asked for, in short.
+/// Summary of the commands.
 const USAGE: &str = "\
 speed 450, pulse 20k, law unilateral: give a knob a value; its name alone says the value
 t 0.3 ms, end, n, blade 7: go to an instant, the end, the next change of contact, a gap
@@ -88,7 +91,7 @@ pub fn lines(
     }
 }
 
-/// The next line; none at the end of the input.
+/// Returns the next line; none at the end of the input.
 fn read(input: &mut dyn BufRead) -> Result<Option<Result<String, &'static str>>, Error> {
     let mut bytes = Vec::new();
     // With its end.
@@ -117,7 +120,7 @@ impl Lines {
         Self { app, engine: None, ordered: None }
     }
 
-    /// Has everything computed that the state asks for.
+    /// Computes everything that the state needs.
     fn settle(&mut self) {
         for _ in 0..ORDERS {
             // Without charts there are no studies.
@@ -240,7 +243,7 @@ impl Lines {
         writeln!(out, "refused: {}", self.spelled(&clean(why)))
     }
 
-    /// Everything of a kind that can be opened.
+    /// Writes everything of a kind that can be opened.
     fn list(&self, kind: &str, out: &mut dyn Write) -> Result<(), Error> {
         for found in commands::found(&self.app, &format!("{kind} ")) {
             writeln!(out, "{}", self.spelled(&format!("{kind} {}", found.what)))?;
@@ -248,12 +251,12 @@ impl Lines {
         Ok(())
     }
 
-    /// The two lines at the top of the screen.
+    /// Writes the two lines at the top of the screen.
     fn tell(&self, out: &mut dyn Write) -> Result<(), Error> {
         panels::head_text(&self.app).iter().try_for_each(|line| writeln!(out, "{line}"))
     }
 
-    /// What is other than before: knobs with their values, and what the last line of the
+    /// Returns what is other than before: knobs with their values, and what the last line of the
     /// screen would say, or what only a screen can show.
     fn changed(&self, before: &Scene, shown: Option<String>) -> Vec<String> {
         let differ = KNOBS.iter().filter(|knob| knob.get(before) != knob.get(&self.app.scene));
@@ -264,8 +267,8 @@ impl Lines {
             .collect();
         let changed = (!parts.is_empty()).then(|| format!("changed: {}", parts.join("; ")));
         let said = shown.or(self.app.status.clone()).map(|said| format!("done: {said}"));
-        let told: Vec<String> = changed.into_iter().chain(said).collect();
-        if told.is_empty() { vec!["changed: nothing".into()] } else { told }
+        let lines: Vec<String> = changed.into_iter().chain(said).collect();
+        if lines.is_empty() { vec!["changed: nothing".into()] } else { lines }
     }
 
     fn help(&self, words: &str, out: &mut dyn Write) -> Result<(), Error> {
@@ -286,7 +289,7 @@ impl Lines {
     }
 }
 
-/// What only a screen shows of a command.
+/// Returns what only a screen shows of a command.
 fn shown(found: &Found) -> Option<String> {
     use super::bindings::{Action, Group};
     let action = match found.command {
@@ -294,11 +297,11 @@ fn shown(found: &Found) -> Option<String> {
         commands::Command::Axes(_) | commands::Command::Theme(_) => Action::Theme,
         _ => return None,
     };
-    let told = [Action::Step, Action::Restart, Action::Fire, Action::Jump, Action::GoToEnd];
+    let moves = [Action::Step, Action::Restart, Action::Fire, Action::Jump, Action::GoToEnd];
     match action.group() {
         Group::Look | Group::Views => {}
         // The motion waits: nothing plays.
-        Group::Time if !told.contains(&action) => {}
+        Group::Time if !moves.contains(&action) => {}
         _ => return None,
     }
     Some(format!("{}; only a screen shows it", found.what))

@@ -10,6 +10,7 @@ mod axis;
 pub mod bindings;
 mod commands;
 mod config;
+mod ending;
 #[doc(hidden)]
 pub mod engine;
 #[doc(hidden)]
@@ -18,9 +19,11 @@ pub mod export;
 #[doc(hidden)]
 pub mod files;
 mod glossary;
+mod ground;
 #[doc(hidden)]
 pub mod history;
-mod host;
+#[doc(hidden)]
+pub mod host;
 #[cfg_attr(not(unix), path = "input_other.rs")]
 mod input;
 #[cfg_attr(not(unix), path = "job_other.rs")]
@@ -43,6 +46,7 @@ mod theme;
 pub mod trace;
 #[cfg_attr(not(unix), path = "tty_other.rs")]
 mod tty;
+mod update;
 mod views;
 #[doc(hidden)]
 pub mod worker;
@@ -51,23 +55,24 @@ use std::fs::File;
 use std::io::IsTerminal;
 use std::sync::{Arc, mpsc};
 
-pub use app::{App, Effect, Exit, Heard, Source};
+pub use app::{App, Exit, Source};
 pub use line::Line;
 pub use lines::lines;
 pub use options::{Color, ExploreOptions};
 pub use raster::Marker;
 pub use run::run;
 pub use theme::{Theme, ThemeChoice};
+pub use update::{Effect, MouseOutcome};
 
 use rubscope_solver::scene::CheckedScene;
 
-/// Whether there is a terminal that only shows lines.
+/// Returns whether there is a terminal that only shows lines.
 pub fn is_dumb_terminal() -> bool {
     let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
     dumb && std::io::stdout().is_terminal()
 }
 
-/// Whether there are a screen and a keyboard.
+/// Checks that there are a screen and a keyboard.
 ///
 /// # Errors
 /// What is missing.
@@ -92,7 +97,7 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
     // With `NO_COLOR`, crossterm would drop bold and reverse too; the mono
     // theme has no colours anyway.
     crossterm::style::force_color_output(true);
-    terminal::install_panic_hook();
+    terminal::install_panic_hook(&[worker::WORKER_NAME, files::FILES_NAME]);
     let (sender, events) = mpsc::channel();
     events::watch_signals(sender.clone())?;
     let fresh = sender.clone();
@@ -101,39 +106,42 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
     let mut worker = worker::Worker::spawn(wake)?;
     let variable = |name: &str| std::env::var(name).unwrap_or_default();
     let mut memory = config::Memory::recall(options.config);
-    let name = config::terminal_name(&variable);
-    let mut found = ability::Found::default();
-    let ask = || {
-        found = ability::find(&variable, memory.config.is_silent(&name));
-        found.ground
-    };
-    let theme = options.theme(&memory.config, &variable, ask);
+    let choice = options.theme(&memory.config, &variable);
+    let ground = ground::Ground::named(&variable("COLORFGBG"));
+    let term = variable("TERM");
+    let is_plain = ability::is_plain(&term);
+    let is_asked = choice.follows_ground() && ground.is_none() && !is_plain && !term.is_empty();
     let ability = ability::Ability::of(&variable);
+    let theme = choice.theme(ground.unwrap_or_default());
     let mut app = App::new(scene, theme, options.marker(&memory.config, &ability));
+    app.appearance.follows_ground = choice.follows_ground();
     app.files.source.clone_from(&options.source);
     app.mouse.on = options.mouse;
     app.appearance.octants = ability.octants || options.marker == Some(Marker::Octant);
-    memory.silent = found.silent.then_some(name);
     app.appearance.rpm = options.rpm;
     memory.prepare(&mut app);
     terminal::set_mouse(app.mouse.on)?;
-    terminal::set_whole_frames(!ability::is_plain(&variable("TERM")));
+    terminal::set_whole_frames(!is_plain);
     let guard = terminal::Guard;
     let line = options.line(&variable);
-    let mut shell = terminal::Shell { events: sender, unseen: None, line };
+    let mut shell = host::Shell { events: sender, unseen: None, line };
     let ended = terminal::open().and_then(|mut screen| {
-        events::read_keys(shell.events.clone(), found.unanswered)?;
+        events::read_keys(shell.events.clone())?;
+        if is_asked {
+            // The report is not waited for: until it comes, the background is taken for dark.
+            terminal::ask_ground()?;
+        }
         let ended = run(&mut screen, &events, &mut app, &mut worker, &mut shell, options.frame());
         // Dropping the screen would write to standard error if the terminal is gone.
         std::mem::forget(screen);
         ended
     });
     drop(guard);
-    memory.keep(&app, config::PATIENCE);
+    memory.keep(&app, ending::PATIENCE);
     if app.files.writing.is_some() {
         files::tidy_up();
     }
-    match (terminal::ended_by(), ended) {
+    match (ending::ended_by(), ended) {
         (Some(signal), _) | (None, Ok(Exit::Signal(signal))) => Ok(128 + signal),
         (None, Ok(Exit::Done)) => match (app.files.writing, shell.unseen) {
             (Some(writing), _) => anyhow::bail!("gave up writing {}: no answer", writing.name),

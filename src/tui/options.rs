@@ -5,19 +5,18 @@ use std::time::Duration;
 
 use strum::{EnumString, VariantNames};
 
-use super::ability::Ground;
 use super::ability::{Ability, is_remote};
 use super::app::Source;
 use super::config::Config;
 use super::line::Line;
 use super::raster::Marker;
-use super::theme::{Theme, ThemeChoice};
+use super::theme::ThemeChoice;
 
-/// When to use colour.
+/// Use of colour.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, EnumString, VariantNames)]
 #[strum(serialize_all = "lowercase")]
 pub enum Color {
-    /// If the terminal supports it and `NO_COLOR` does not forbid it.
+    /// Colours if the terminal supports them and `NO_COLOR` does not forbid them.
     #[default]
     Auto,
     /// Always.
@@ -26,27 +25,27 @@ pub enum Color {
     Never,
 }
 
-/// How the explorer looks and behaves.
+/// Options of the explorer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExploreOptions {
     /// Most frames a second while the motion plays.
     pub fps: f64,
-    /// When to use colour.
+    /// Use of colour.
     pub color: Color,
     /// The colours; by the config file, or the terminal, if not given.
     pub theme: Option<ThemeChoice>,
-    /// How points are drawn; by the config file, or the terminal and the locale,
+    /// Marker of points; by the config file, or the terminal and the locale,
     /// if not given.
     pub marker: Option<Marker>,
     /// Whether the mouse is used.
     pub mouse: bool,
-    /// How much the line carries.
+    /// Limit on the bytes that are sent to the terminal.
     pub line: Line,
     /// Whether the config file is read and written.
     pub config: bool,
-    /// Whether speeds are told in turns a minute.
+    /// Whether speeds are shown in rpm.
     pub rpm: bool,
-    /// Where the scene is from, for the command line that repeats the run.
+    /// Origin of the scene, for the command line that repeats the run.
     pub source: Option<Source>,
 }
 
@@ -67,38 +66,32 @@ impl Default for ExploreOptions {
 }
 
 impl ExploreOptions {
-    /// The theme: an option wins over the environment, and that over the config
-    /// file. The ground is asked for only where it matters.
-    pub(super) fn theme(
-        &self,
-        config: &Config,
-        variable: &dyn Fn(&str) -> String,
-        ground: impl FnOnce() -> Ground,
-    ) -> Theme {
+    /// Returns the choice of a theme: an option wins over the environment, and that over the
+    /// config file.
+    pub(super) fn theme(&self, config: &Config, variable: &dyn Fn(&str) -> String) -> ThemeChoice {
         let plain = match self.color {
             Color::Always => false,
             Color::Never => true,
             Color::Auto => !variable("NO_COLOR").is_empty() || variable("TERM") == "dumb",
         };
         let given = self.theme.filter(|choice| *choice != ThemeChoice::Auto);
-        let choice = match given {
+        match given {
             Some(choice) => choice,
             None if plain => ThemeChoice::Mono,
             // `auto` given as an option wins over the config file too.
             None if self.theme.is_some() => ThemeChoice::Auto,
             None => config.theme.unwrap_or_default(),
-        };
-        choice.theme(ground)
+        }
     }
 
-    /// The marker: an option wins over what the terminal can show, and that over
-    /// the config file.
+    /// Returns the marker: an option wins over what the terminal can show, and that over the config
+    /// file.
     pub(super) fn marker(&self, config: &Config, ability: &Ability) -> Marker {
         let remembered = config.marker.filter(|marker| ability.shows(*marker));
         self.marker.or(remembered).unwrap_or_else(|| ability.marker())
     }
 
-    /// The line: over SSH it is thin.
+    /// Returns the line: over SSH it is thin.
     pub(super) fn line(&self, variable: &dyn Fn(&str) -> String) -> Line {
         if self.line == Line::Auto && is_remote(variable) { Line::Thin } else { self.line }
     }
@@ -112,12 +105,14 @@ impl ExploreOptions {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tui::Theme;
+    use crate::tui::ground::Ground;
 
     fn theme(options: ExploreOptions, config: Option<ThemeChoice>, no_color: &str) -> Theme {
         let config = Config { theme: config, ..Config::default() };
         let variable =
             |name: &str| if name == "NO_COLOR" { no_color.to_string() } else { String::new() };
-        options.theme(&config, &variable, || Ground::Light)
+        options.theme(&config, &variable).theme(Ground::Light)
     }
 
     #[test]

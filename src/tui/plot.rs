@@ -17,7 +17,7 @@ use super::theme::Role;
 pub struct Plot<'a> {
     buffer: &'a mut Buffer,
     raster: Raster,
-    /// Where data goes.
+    /// Area of the data.
     pub inner: Rect,
     x: ChartAxis,
     y: ChartAxis,
@@ -25,7 +25,7 @@ pub struct Plot<'a> {
 }
 
 impl<'a> Plot<'a> {
-    /// A chart without axes, for pictures.
+    /// Creates a chart without axes, for pictures.
     pub fn bare(
         buffer: &'a mut Buffer,
         area: Rect,
@@ -112,13 +112,13 @@ impl<'a> Plot<'a> {
         }
     }
 
-    /// The row of the level axis line, where there is room for one.
+    /// Returns the row of the level axis line, where there is room for one.
     pub fn axis_row(&self) -> Option<u16> {
         self.rule.then(|| self.inner.bottom())
     }
 
-    /// The column of an x value inside the chart: the one of its sub-pixel, so
-    /// that ticks, signs and curves agree.
+    /// Returns the column of an x value inside the chart: the one of its sub-pixel, so that ticks,
+    /// signs and curves agree.
     pub fn column(&self, value: f64) -> Option<u16> {
         let (across, _) = self.raster.grain();
         let pixel = self.pixel_x(value).filter(|_| is_inside(&self.x, value))?;
@@ -126,7 +126,7 @@ impl<'a> Plot<'a> {
         Some(self.inner.x + column.min(self.inner.width.saturating_sub(1)))
     }
 
-    /// The row of a y value inside the chart: the one of its sub-pixel.
+    /// Returns the row of a y value inside the chart: the one of its sub-pixel.
     pub fn row(&self, value: f64) -> Option<u16> {
         let (_, down) = self.raster.grain();
         let pixel = self.pixel_y(value).filter(|_| is_inside(&self.y, value))?;
@@ -134,31 +134,31 @@ impl<'a> Plot<'a> {
         Some(self.inner.y + row.min(self.inner.height.saturating_sub(1)))
     }
 
-    /// Sub-pixel columns across, for decimation by least and greatest value.
+    /// Returns the number of sub-pixel columns, for decimation by least and greatest value.
     pub fn columns(&self) -> usize {
         self.raster.size().0
     }
 
-    /// One x value per sub-pixel column, at its middle.
+    /// Returns one x value per sub-pixel column, at its middle.
     pub fn column_values(&self) -> Vec<f64> {
         let count = self.columns();
         let width = (self.x.high - self.x.low) / count.max(1) as f64;
         (0..count).map(|k| self.x.low + (k as f64 + 0.5) * width).collect()
     }
 
-    /// The sub-pixel column of an x value, limited so that it fits a whole number.
+    /// Returns the sub-pixel column of an x value, limited so that it fits a whole number.
     fn pixel_x(&self, value: f64) -> Option<i64> {
         let across = (value - self.x.low) / (self.x.high - self.x.low);
         whole(across * (self.raster.size().0.saturating_sub(1)) as f64)
     }
 
-    /// The sub-pixel row of a y value.
+    /// Returns the sub-pixel row of a y value.
     fn pixel_y(&self, value: f64) -> Option<i64> {
         let up = (value - self.y.low) / (self.y.high - self.y.low);
         whole((1.0 - up) * (self.raster.size().1.saturating_sub(1)) as f64)
     }
 
-    /// A polyline; a value that is not finite breaks it.
+    /// Draws a polyline; a value that is not finite interrupts it.
     pub fn curve(&mut self, points: impl IntoIterator<Item = (f64, f64)>, pen: &Pen) {
         let mut last = None;
         for (x, y) in points {
@@ -170,8 +170,8 @@ impl<'a> Plot<'a> {
         }
     }
 
-    /// Single dots along a polyline, evenly spaced, `sparse` times as far as usual; those before `from` are left
-    /// out, so that the others stay where they are while `from` goes on.
+    /// Draws single dots along a polyline, evenly spaced, `sparse` times as far apart as usual.
+    /// Those before `from` are left out, so that the others do not move while `from` grows.
     pub fn dotted(
         &mut self,
         points: impl IntoIterator<Item = (f64, f64)>,
@@ -216,7 +216,7 @@ impl<'a> Plot<'a> {
         }
     }
 
-    /// A decimated signal, one span per sub-pixel column, joined to the next.
+    /// Draws a decimated signal, one span for each sub-pixel column, joined to the next.
     pub fn spans(&mut self, spans: &[Span], pen: &Pen) {
         let mut last: Option<(i64, i64)> = None;
         for (x, span) in (0..).zip(spans) {
@@ -237,7 +237,7 @@ impl<'a> Plot<'a> {
         }
     }
 
-    /// A level across the chart, drawn before the data.
+    /// Draws a horizontal line across the chart, before the data.
     pub fn level(&mut self, y: f64, sign: char, style: Style) {
         if let Some(row) = self.row(y) {
             for column in self.inner.x..self.inner.right() {
@@ -246,7 +246,7 @@ impl<'a> Plot<'a> {
         }
     }
 
-    /// An upright line, drawn before the data.
+    /// Draws a vertical line, before the data.
     pub fn upright(&mut self, x: f64, sign: char, style: Style) {
         if let Some(column) = self.column(x) {
             for row in self.inner.y..self.inner.bottom() {
@@ -260,14 +260,14 @@ impl<'a> Plot<'a> {
         self.raster.draw(self.buffer);
     }
 
-    /// One sign at a data point; outside the chart it is left out.
+    /// Draws one sign at a data point; outside the chart it is left out.
     pub fn point(&mut self, x: f64, y: f64, sign: char, style: Style) {
         if let (Some(column), Some(row)) = (self.column(x), self.row(y)) {
             self.put(column, row, sign, style);
         }
     }
 
-    /// A short text beside a column of the chart in a row, where the chart is empty; whether
+    /// Prints a short text beside a column of the chart where the chart is empty; returns whether
     /// there was room.
     pub fn free_note(&mut self, x: f64, row: u16, text: &str, style: Style) -> bool {
         let Some(column) = self.column(x) else { return false };
@@ -276,14 +276,15 @@ impl<'a> Plot<'a> {
         starts.into_iter().flatten().any(|start| self.free_text(start, row, text, style))
     }
 
-    /// A short text centred at a place of the chart, if the chart is empty there.
+    /// Prints a short text centred at a place of the chart if the chart is empty there; returns
+    /// whether it was.
     pub fn free_label(&mut self, (x, y): (f64, f64), text: &str, style: Style) -> bool {
         let half = u16::try_from(text.chars().count() / 2).unwrap_or(0);
         let Some((column, row)) = self.column(x).zip(self.row(y)) else { return false };
         self.free_text(column.saturating_sub(half).max(self.inner.x), row, text, style)
     }
 
-    /// Text inside the chart that covers nothing; whether there was room.
+    /// Prints a text inside the chart where it covers nothing; returns whether there was room.
     fn free_text(&mut self, x: u16, row: u16, text: &str, style: Style) -> bool {
         let width = u16::try_from(text.chars().count()).unwrap_or(u16::MAX);
         let (inner, end) = (self.inner, x.saturating_add(width));
@@ -310,8 +311,8 @@ impl<'a> Plot<'a> {
         free
     }
 
-    /// A short text on the axis line, outside the chart, if no tick and no other text is there;
-    /// whether there was room.
+    /// Prints a short text on the axis line, outside the chart, if no tick and no other text is
+    /// there; returns whether there was room.
     pub fn axis_note(&mut self, x: f64, text: &str, style: Style, look: &Appearance) -> bool {
         let Some((column, row)) = self.column(x).zip(self.axis_row()) else { return false };
         let width = u16::try_from(text.chars().count()).unwrap_or(u16::MAX);
@@ -334,7 +335,7 @@ impl<'a> Plot<'a> {
         }
     }
 
-    /// Text at a place; what does not fit is cut.
+    /// Prints a text at a place; what does not fit is cut.
     pub fn text(&mut self, x: u16, y: u16, text: &str, style: Style) {
         let area = *self.buffer.area();
         if y < area.bottom() && x < area.right() {
@@ -343,22 +344,22 @@ impl<'a> Plot<'a> {
     }
 }
 
-/// The sign of contact on the axis of time.
+/// Returns the sign of contact on the axis of time.
 pub fn contact(look: &Appearance) -> char {
     look.either('━', '=')
 }
 
-/// Whether a chart has a line for its lower axis, above its labels.
+/// Returns whether a chart has a line for its lower axis, above its labels.
 fn has_rule(area: Rect) -> bool {
     area.height >= 7
 }
 
-/// The rows of a chart in this area that are for data.
+/// Returns the rows of a chart in this area that are for data.
 fn rows(area: Rect) -> u16 {
     area.height.saturating_sub(if has_rule(area) { 2 } else { 1 })
 }
 
-/// Most ticks upward in so many rows.
+/// Returns the greatest number of ticks upward in so many rows.
 fn most_levels(rows: u16) -> usize {
     usize::from(rows.div_ceil(2)).clamp(1, 7)
 }
@@ -367,8 +368,8 @@ fn most_levels(rows: u16) -> usize {
 const GROWS: f64 = 0.3;
 
 impl ChartAxis {
-    /// This axis upward with a range a little larger where that puts its round ticks whole
-    /// rows apart.
+    /// Returns this vertical axis with a slightly larger range where that puts its round ticks
+    /// whole rows apart.
     pub fn evened(self, area: Rect, look: &Appearance) -> Self {
         let (_, grain) = look.marker.grain();
         let (rows, grain) = (rows(area), grain as f64);
@@ -433,14 +434,14 @@ fn even(
 const DOTS: f64 = 1.5;
 /// Most dots of one such line.
 const MOST_DOTS: usize = 20_000;
-/// Whether a value is in the range of an axis, but for round-off.
+/// Returns whether a value is in the range of an axis, but for round-off.
 fn is_inside(axis: &ChartAxis, value: f64) -> bool {
     let part = (value - axis.low) / (axis.high - axis.low);
     (-1e-9..=1.0 + 1e-9).contains(&part)
 }
 
-/// The nearest sub-pixel. Values that differ by round-off, such as a clearance and
-/// the tick at it, are in the same one also half-way between two.
+/// Returns the nearest sub-pixel. Values that differ by round-off, such as a clearance and the tick
+/// at it, are in the same one also half-way between two.
 fn whole(pixel: f64) -> Option<i64> {
     pixel.is_finite().then(|| (pixel + 1e-6).round().clamp(-1e5, 1e5) as i64)
 }

@@ -11,7 +11,7 @@ use ratatui::{
 use serde::{Deserialize, Serialize};
 use strum::{Display, EnumString, VariantNames};
 
-/// How points are drawn.
+/// Marker of points.
 #[derive(
     Clone,
     Copy,
@@ -44,7 +44,7 @@ pub enum Marker {
 impl Marker {
     const ALL: [Self; 5] = [Self::Braille, Self::Octant, Self::HalfBlock, Self::Dot, Self::Ascii];
 
-    /// The next marker; octants only where they can be seen.
+    /// Returns the next marker; octants only where they can be seen.
     pub fn next(self, octants: bool) -> Self {
         match Self::ALL[(self as usize + 1) % Self::ALL.len()] {
             Self::Octant if !octants => Self::HalfBlock,
@@ -52,7 +52,7 @@ impl Marker {
         }
     }
 
-    /// Sub-pixels of one cell, across and down.
+    /// Returns the sub-pixels of one cell, across and down.
     pub fn grain(self) -> (usize, usize) {
         match self {
             Self::Braille | Self::Octant => (2, 4),
@@ -62,7 +62,7 @@ impl Marker {
     }
 }
 
-/// How one series is drawn.
+/// Style of one series.
 #[derive(Clone, Copy, Debug)]
 pub struct Pen {
     /// Colour and weight.
@@ -89,15 +89,15 @@ pub struct Raster {
 }
 
 impl Raster {
-    /// An empty raster over `area`; lines are two sub-pixels thick if `wide`, unless
-    /// those are whole cells.
+    /// Creates an empty raster over `area`; lines are two sub-pixels thick if `wide`, unless those
+    /// are whole cells.
     pub fn new(area: Rect, marker: Marker, wide: bool) -> Self {
         let wide = wide && marker.grain() != (1, 1);
         Self { area, marker, wide, dots: vec![Dots::default(); area.area() as usize] }
     }
 
-    /// Whether a dashed pen draws at this place along a line. In ASCII the sign of
-    /// a series tells it from others, and gaps would look like missing data.
+    /// Returns whether a dashed pen draws at this place along a line. In ASCII the sign of a series
+    /// tells it from others, and gaps would look like missing data.
     fn is_dash(&self, along: i64, pen: &Pen) -> bool {
         let [dash, period] = match (self.marker.grain(), self.wide) {
             ((1, _), _) => [1, 2],
@@ -107,20 +107,20 @@ impl Raster {
         !pen.dashed || self.marker == Marker::Ascii || along.rem_euclid(period) < dash
     }
 
-    /// Sub-pixels of one cell, across and down.
+    /// Returns the sub-pixels of one cell, across and down.
     pub fn grain(&self) -> (i64, i64) {
         let (across, down) = self.marker.grain();
         // Two and four at most.
         (across as i64, down as i64)
     }
 
-    /// Width and height in sub-pixels.
+    /// Returns the width and height in sub-pixels.
     pub fn size(&self) -> (usize, usize) {
         let (across, down) = self.marker.grain();
         (usize::from(self.area.width) * across, usize::from(self.area.height) * down)
     }
 
-    /// Whether something is drawn in a cell of the screen.
+    /// Returns whether something is drawn in a cell of the screen.
     pub fn is_drawn(&self, x: u16, y: u16) -> bool {
         let at = |x: u16, y: u16| usize::from(y) * usize::from(self.area.width) + usize::from(x);
         let place = x.checked_sub(self.area.x).zip(y.checked_sub(self.area.y));
@@ -144,7 +144,7 @@ impl Raster {
         }
     }
 
-    /// One sub-pixel of a line, or a block of four if lines are wide.
+    /// Draws one sub-pixel of a line, or a block of four if lines are wide.
     pub fn blot(&mut self, x: i64, y: i64, pen: &Pen) {
         self.set(x, y, pen);
         if self.wide {
@@ -154,8 +154,8 @@ impl Raster {
         }
     }
 
-    /// A straight line, dashed where the pen says so: by columns where it is flat,
-    /// by rows where it is steep, so that pieces of one curve have one spacing.
+    /// Draws a straight line, dashed where the pen says so: by columns where it is flat, by rows
+    /// where it is steep, so that pieces of one curve have one spacing.
     pub fn line(&mut self, from: (i64, i64), to: (i64, i64), pen: &Pen) {
         // Ends far outside are not visible, and would take many steps.
         let bound = |v: i64| v.clamp(-20_000, 20_000);
@@ -198,8 +198,8 @@ impl Raster {
     }
 }
 
-/// The sub-pixels of a sign of braille or octants, two across and four down, for
-/// viewers whose fonts have neither; none for any other sign.
+/// Returns the sub-pixels of a sign of braille or octants, two across and four down, for viewers
+/// whose fonts have neither; none for any other sign.
 pub fn sub_pixels(sign: &str) -> Option<impl Iterator<Item = (u32, u32)>> {
     let mut signs = sign.chars();
     let (Some(sign), None) = (signs.next(), signs.next()) else { return None };

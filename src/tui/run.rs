@@ -6,27 +6,28 @@ use std::time::{Duration, Instant};
 
 use ratatui::{Terminal, backend::Backend};
 
-use super::app::{App, Effect, Exit, Heard};
+use super::app::{App, Exit};
 use super::engine::{Engine, Order};
 use super::events::ScreenEvent;
 use super::files::FileResult;
 use super::host::Host;
 use super::line::Throttle;
 use super::panels::{self, LEAST_HEIGHT, LEAST_WIDTH};
+use super::update::{Effect, MouseOutcome};
 
 /// Draw at least this often, to detect a closed terminal by its error.
 const HEARTBEAT: Duration = Duration::from_secs(1);
 /// Least time between two answers to keys.
 const KEY_FRAME: Duration = Duration::from_millis(16);
 
-/// How long a frame waits for the forecast of a knob that was turned: most are
+/// Longest wait of a frame for the forecast of a knob that was turned: most are
 /// there sooner, and then one frame shows both.
 const ANSWER: Duration = Duration::from_millis(15);
 
-/// How long quitting waits for a file that is being written.
+/// Longest wait of quitting for a file that is being written.
 const LAST_FILE: Duration = Duration::from_secs(1);
 
-/// When the screen must be drawn.
+/// Urgency of the next frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Due {
     /// Nothing has changed.
@@ -38,7 +39,7 @@ enum Due {
 }
 
 impl Due {
-    /// Least time between two frames.
+    /// Returns the least time between two frames.
     fn pause(self, frame: Duration) -> Duration {
         match self {
             Self::Later => HEARTBEAT,
@@ -161,7 +162,7 @@ fn show<B: Backend>(
     Ok(())
 }
 
-/// What the loop must do for an event.
+/// Reaction of the loop to an event.
 enum Reaction {
     Exit(Exit),
     /// Exit, as soon as the file that is being written is complete.
@@ -179,11 +180,15 @@ fn handle(event: ScreenEvent, app: &mut App, host: &mut dyn Host) -> Reaction {
             take(effect, app, host)
         }
         ScreenEvent::Mouse(event) => match app.mouse(&event) {
-            Heard::Nothing => Reaction::Draw(Due::Later),
-            Heard::Pointed => Reaction::Draw(Due::Frame),
-            Heard::Acted(effect) => take(effect, app, host),
+            MouseOutcome::Nothing => Reaction::Draw(Due::Later),
+            MouseOutcome::Pointed => Reaction::Draw(Due::Frame),
+            MouseOutcome::Acted(effect) => take(effect, app, host),
         },
         ScreenEvent::Resize => Reaction::Draw(Due::Now),
+        ScreenEvent::Ground(ground) => {
+            app.appearance.use_ground(ground);
+            Reaction::Draw(Due::Now)
+        }
         ScreenEvent::Pasted(text) => {
             app.paste(&text);
             Reaction::Draw(Due::Now)
@@ -204,7 +209,7 @@ fn handle(event: ScreenEvent, app: &mut App, host: &mut dyn Host) -> Reaction {
     }
 }
 
-/// What follows from a key or a click.
+/// Returns what follows from a key or a click.
 fn take(effect: Effect, app: &mut App, host: &mut dyn Host) -> Reaction {
     match effect {
         Effect::None => Reaction::Draw(Due::Now),

@@ -1,14 +1,11 @@
-//! Sets up the terminal, and restores it however the program ends. Restoring
-//! takes no lock that is held during output, never waits for the terminal, and
-//! may be done by any thread, more than once.
-//!
-//! The backend of the screen: crossterm's, but with frames that can be given up
-//! and a size within bounds.
+//! The terminal of the explorer: setting it up, drawing on it with frames that can be given up,
+//! and restoring it however the program ends. Restoring takes no lock that is held during
+//! output, never waits for the terminal, and may be done by any thread, more than once.
 
 use std::io::{Error, Write};
 use std::sync::OnceLock;
 use std::sync::atomic::Ordering::SeqCst;
-use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU64};
+use std::sync::atomic::{AtomicBool, AtomicU64};
 use std::time::{Duration, Instant};
 
 use crossterm::cursor::{Hide, Show};
@@ -23,11 +20,9 @@ use ratatui::backend::{Backend, ClearType, CrosstermBackend, WindowSize};
 use ratatui::buffer::Cell;
 use ratatui::layout::{Position, Size};
 
-use crate::tui::files::FILES_NAME;
+use crate::tui::ending::ended_by;
+use crate::tui::ground::QUESTION;
 use crate::tui::tty::Tty;
-use crate::tui::worker::WORKER_NAME;
-
-pub use super::host::{Host, NoHost, Shell};
 
 /// The terminal, opened once.
 static TTY: OnceLock<Tty> = OnceLock::new();
@@ -39,8 +34,6 @@ static CUT: AtomicBool = AtomicBool::new(false);
 static TORN: AtomicBool = AtomicBool::new(false);
 /// Whether mouse events are asked for while the terminal is set up.
 static MOUSE: AtomicBool = AtomicBool::new(false);
-/// The first signal that ends the program; 0 if there was none.
-static ENDED_BY: AtomicU8 = AtomicU8::new(0);
 
 /// Whether frames are sent as synchronized updates.
 static WHOLE: AtomicBool = AtomicBool::new(false);
@@ -58,11 +51,11 @@ static SLOW: AtomicBool = AtomicBool::new(false);
 /// A write that takes longer has waited for the terminal.
 const AT_ONCE: Duration = Duration::from_millis(60);
 
-/// How long restoring waits for room on the terminal, before and after the
+/// Longest wait of restoring for room on the terminal, before and after the
 /// frames that it has not taken are dropped.
 const ROOM: Duration = Duration::from_millis(200);
 
-/// How long a process that was continued in the background waits for a signal.
+/// Time that a process that was continued in the background waits for a signal.
 const BACKGROUND: Duration = Duration::from_secs(1);
 
 /// Ends a sequence of which the terminal has only the beginning.
@@ -84,7 +77,7 @@ fn tty() -> Result<&'static Tty, Error> {
     TTY.get().ok_or_else(|| Error::other("no terminal"))
 }
 
-/// Raw keys, the alternate screen, no cursor, pasted text in one piece.
+/// Sets up raw keys, the alternate screen, no cursor, and pasted text in one piece.
 ///
 /// # Errors
 /// The terminal refuses.
@@ -191,9 +184,12 @@ pub fn regain() -> Result<(), Error> {
     Ok(())
 }
 
-/// Whether the terminal may be asked something before the screen is set up.
-pub fn may_be_asked() -> bool {
-    tty().is_ok_and(Tty::may_be_asked)
+/// Asks the terminal for its background where its report would come among the keys.
+///
+/// # Errors
+/// The terminal is closed.
+pub fn ask_ground() -> Result<(), Error> {
+    if tty()?.hears_itself() { write(QUESTION) } else { Ok(()) }
 }
 
 /// Gives up the frame that is being written and all that follow, until the
@@ -202,22 +198,12 @@ pub fn cut_frame() {
     CUT.store(true, SeqCst);
 }
 
-/// Notes a signal that ends the program: nothing is drawn any more.
-pub fn end(signal: u8) {
-    let _ = ENDED_BY.compare_exchange(0, signal, SeqCst, SeqCst);
-}
-
-/// The signal that ends the program, if there was one.
-pub fn ended_by() -> Option<u8> {
-    Some(ENDED_BY.load(SeqCst)).filter(|signal| *signal != 0)
-}
-
 /// Writes a frame, or a sequence beside frames, unless it is given up.
 ///
 /// # Errors
 /// The terminal is closed.
 pub fn write(bytes: &[u8]) -> Result<(), Error> {
-    let cut = || CUT.load(SeqCst) || ENDED_BY.load(SeqCst) != 0;
+    let cut = || CUT.load(SeqCst) || ended_by().is_some();
     let began = Instant::now();
     let sent = tty()?.send(bytes, cut)?;
     SENT.fetch_add(sent as u64, SeqCst);
@@ -245,12 +231,12 @@ pub fn sent() -> u64 {
     SENT.load(SeqCst)
 }
 
-/// Whether a write had to wait for the terminal.
+/// Returns whether a write had to wait for the terminal.
 pub fn is_slow() -> bool {
     SLOW.load(SeqCst)
 }
 
-/// The size of the screen: that of the terminal within bounds.
+/// Returns the size of the screen: that of the terminal within bounds.
 ///
 /// # Errors
 /// The terminal is closed.
@@ -263,7 +249,7 @@ fn bounded((columns, rows): (u16, u16)) -> Size {
     Size::new(columns.min(MOST.0), rows.min(MOST.1))
 }
 
-/// Where frames go: each is written in one piece, when it is flushed.
+/// Buffer of frames: each is written in one piece when it is flushed.
 #[derive(Debug, Default)]
 pub struct Frames(Vec<u8>);
 
@@ -299,14 +285,13 @@ pub fn open() -> Result<Screen, Error> {
     Terminal::new(ScreenBackend::default())
 }
 
-/// A panic restores the terminal before it is reported. Panics of the worker
-/// and of the thread for files are caught and shown on the screen, so the hook
-/// does not report them.
-pub fn install_panic_hook() {
+/// Restores the terminal before a panic is reported. Panics of threads with these names are
+/// caught and shown on the screen, so the hook does not report them.
+pub fn install_panic_hook(caught: &'static [&'static str]) {
     let report = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |info| {
         let thread = std::thread::current();
-        if thread.name().is_some_and(|name| [WORKER_NAME, FILES_NAME].contains(&name)) {
+        if thread.name().is_some_and(|name| caught.contains(&name)) {
             return;
         }
         leave();

@@ -12,8 +12,8 @@ const MOST_IN_CELL: usize = 4;
 /// Says that a text is cut, where nothing else was asked for.
 pub const CUT: char = '…';
 
-/// Text in one row of an area; what does not fit is cut, with a mark at the end.
-/// Characters that act on the terminal are spaces.
+/// Prints a text in one row of an area; what does not fit is cut, with a mark at the end. Control
+/// characters are replaced by spaces.
 pub fn print(buffer: &mut Buffer, area: Rect, row: u16, text: &str, style: Style) {
     if row < area.height && area.width > 0 {
         let width = usize::from(area.width);
@@ -26,12 +26,12 @@ pub fn print(buffer: &mut Buffer, area: Rect, row: u16, text: &str, style: Style
     }
 }
 
-/// Columns that a text takes.
+/// Returns the columns that a text takes.
 pub fn columns(text: &str) -> usize {
     ratatui::text::Span::raw(text).width()
 }
 
-/// Text of at most `width` columns, its end marked where it was cut.
+/// Returns the text of at most `width` columns, its end marked where it was cut.
 pub fn shorten(text: &str, width: usize, mark: &str) -> String {
     // Its columns are counted only as far as they matter.
     let text: String = text.chars().take(MOST_IN_CELL * (width + 1)).map(harmless).collect();
@@ -105,8 +105,8 @@ pub fn wrap(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
-/// As many of these lines as there is room for; where some are left out, the last ends in a
-/// mark.
+/// Returns as many of these lines as there is room for; where some are left out, the last one ends
+/// in a mark.
 pub fn first_lines(mut lines: Vec<String>, width: usize, rows: usize, mark: &str) -> Vec<String> {
     if lines.len() > rows && rows > 0 {
         let rest = lines.split_off(rows - 1).join(" ");
@@ -116,7 +116,7 @@ pub fn first_lines(mut lines: Vec<String>, width: usize, rows: usize, mark: &str
     lines
 }
 
-/// The numbers of a few blades: more than three are not told.
+/// Returns the numbers of a few blades: more than three are not told.
 pub fn few(blades: &[u32]) -> String {
     let names: Vec<String> = blades.iter().take(3).map(ToString::to_string).collect();
     format!("{}{}", names.join(","), if blades.len() > 3 { ",.." } else { "" })

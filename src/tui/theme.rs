@@ -5,16 +5,16 @@ use ratatui::style::{Color, Modifier, Style};
 use serde::{Deserialize, Serialize};
 use strum::{EnumString, VariantNames};
 
-use super::ability::Ground;
+use super::ground::Ground;
 
-/// What a colour is for.
+/// Purpose of a colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// Ordinary text.
     Text,
     /// Axes, frames, units.
     Quiet,
-    /// What the keyboard acts on.
+    /// Target of the keyboard: the main screen or an open dialogue.
     Focus,
     /// The first series of a chart.
     First,
@@ -24,7 +24,7 @@ pub enum Role {
     Contact,
     /// Good news.
     Good,
-    /// What is wrong or doubtful, and nothing else: pulls, failures, refused values.
+    /// Errors and doubts, and nothing else: tension, failures, refused values.
     Trouble,
 }
 
@@ -35,7 +35,7 @@ pub enum Role {
 #[strum(serialize_all = "lowercase")]
 #[serde(rename_all = "lowercase")]
 pub enum ThemeChoice {
-    /// By the background of the terminal.
+    /// Light or dark by the background of the terminal.
     #[default]
     Auto,
     /// For a dark background.
@@ -49,24 +49,23 @@ pub enum ThemeChoice {
 }
 
 impl ThemeChoice {
-    /// The theme; the ground is asked for only if it matters.
-    pub fn theme(self, ground: impl FnOnce() -> Ground) -> Theme {
+    /// Returns whether the theme follows the background of the terminal.
+    pub fn follows_ground(self) -> bool {
+        matches!(self, Self::Auto | Self::ColorBlind)
+    }
+
+    /// Returns the theme for this background.
+    pub fn theme(self, ground: Ground) -> Theme {
         match self {
             Self::Dark => Theme::Dark,
             Self::Light => Theme::Light,
             Self::Mono => Theme::Mono,
-            Self::Auto => match ground() {
-                Ground::Dark => Theme::Dark,
-                Ground::Light => Theme::Light,
-            },
-            Self::ColorBlind => match ground() {
-                Ground::Dark => Theme::ColourBlind,
-                Ground::Light => Theme::ColourBlindLight,
-            },
+            Self::Auto => Theme::Dark.on(ground),
+            Self::ColorBlind => Theme::ColourBlind.on(ground),
         }
     }
 
-    /// The choice that stands for a theme.
+    /// Creates the choice that stands for a theme.
     pub fn of(theme: Theme) -> Self {
         match theme {
             Theme::Dark => Self::Dark,
@@ -99,17 +98,28 @@ impl Theme {
     pub const ALL: [Self; 5] =
         [Self::Dark, Self::Light, Self::ColourBlind, Self::ColourBlindLight, Self::Mono];
 
-    /// The name on screen.
+    /// Returns the name on screen.
     pub fn name(self) -> &'static str {
         ["dark", "light", "colour-blind on dark", "colour-blind on light", "mono"][self as usize]
     }
 
-    /// The next theme.
+    /// Returns the theme of the same kind for another background.
+    pub fn on(self, ground: Ground) -> Self {
+        match (self, ground) {
+            (Self::Dark | Self::Light, Ground::Dark) => Self::Dark,
+            (Self::Dark | Self::Light, Ground::Light) => Self::Light,
+            (Self::ColourBlind | Self::ColourBlindLight, Ground::Dark) => Self::ColourBlind,
+            (Self::ColourBlind | Self::ColourBlindLight, Ground::Light) => Self::ColourBlindLight,
+            (Self::Mono, _) => Self::Mono,
+        }
+    }
+
+    /// Returns the next theme.
     pub fn next(self) -> Self {
         Self::ALL[(self as usize + 1) % Self::ALL.len()]
     }
 
-    /// The background that it is made for; none if it can be read on both.
+    /// Returns the background that it is made for; none if it can be read on both.
     #[cfg(test)]
     fn ground(self) -> Option<Ground> {
         match self {
@@ -119,7 +129,7 @@ impl Theme {
         }
     }
 
-    /// Style of a role. Only the sixteen named colours, which follow the user's
+    /// Returns the style of a role. Only the sixteen named colours, which follow the user's
     /// palette.
     pub fn style(self, role: Role) -> Style {
         let colour = match (self, role) {
@@ -249,11 +259,11 @@ mod tests {
     #[test]
     fn a_choice_stands_for_a_theme_and_asks_for_the_ground_only_if_it_matters() {
         for theme in Theme::ALL {
-            let ground = || theme.ground().unwrap();
+            let ground = theme.ground().unwrap_or_default();
             assert_eq!(ThemeChoice::of(theme).theme(ground), theme);
         }
-        assert_eq!(ThemeChoice::Auto.theme(|| Ground::Light), Theme::Light);
-        assert_eq!(ThemeChoice::Auto.theme(|| Ground::Dark), Theme::Dark);
+        assert_eq!(ThemeChoice::Auto.theme(Ground::Light), Theme::Light);
+        assert_eq!(ThemeChoice::Auto.theme(Ground::Dark), Theme::Dark);
     }
 
     #[test]
@@ -263,8 +273,8 @@ mod tests {
                 let same = |other: Role| theme.style(role) == theme.style(other);
                 assert_eq!(same(Role::Trouble), role == Role::Trouble, "{theme:?} {role:?}");
                 // Without colours contact has its sign.
-                let told = theme != Theme::Mono || role != Role::Focus;
-                assert!(!told || same(Role::Contact) == (role == Role::Contact), "{theme:?}");
+                let distinct = theme != Theme::Mono || role != Role::Focus;
+                assert!(!distinct || same(Role::Contact) == (role == Role::Contact), "{theme:?}");
             }
         }
     }

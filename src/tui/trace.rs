@@ -18,7 +18,7 @@ pub struct Trace {
 }
 
 impl Trace {
-    /// The part of one coordinate that overlaps `[from, to]`, as points over time.
+    /// Returns the part of one coordinate that overlaps `[from, to]`, as points over time.
     pub fn between(
         &self,
         place: usize,
@@ -35,37 +35,37 @@ impl Trace {
     }
 }
 
-/// What a contact became.
+/// Change of a contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Happening {
     /// A blade group met the casing and left it at once.
     Impact(u32),
     /// Other sides touch: those before, and now.
     Contact(ActiveSet, ActiveSet),
-    /// These sides let go, and nothing touches.
+    /// Separation of these sides, after which nothing touches.
     Release(ActiveSet),
 }
 
 /// A change of contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mark {
-    /// When \[s\].
+    /// Instant \[s\].
     pub t_s: f64,
-    /// What.
+    /// Content of the file.
     pub what: Happening,
 }
 
 /// Collects the changes of contact of a motion that is looked at now and then.
 #[derive(Clone, Debug, Default)]
 pub struct Marks {
-    /// Those seen.
+    /// Changes seen so far.
     pub seen: Vec<Mark>,
     active_set: ActiveSet,
     impacts: u64,
 }
 
 impl Marks {
-    /// From a motion whose record is this.
+    /// Creates a record of changes of contact from here on.
     pub fn from(log: &ContactLog) -> Self {
         Self { seen: Vec::new(), active_set: log.active_set, impacts: log.impact_count }
     }

@@ -17,7 +17,7 @@ use rustix::fs::OFlags;
 use rustix::io::Errno;
 use rustix::termios::{self, LocalModes, OptionalActions, QueueSelector, Termios};
 
-/// How often a writer that waits for room looks whether it should go on.
+/// Time between two looks of a writer that waits for room whether it should go on.
 const LOOK: Duration = Duration::from_millis(20);
 
 /// Most bytes of one write where the kernel could make it wait: below the
@@ -58,8 +58,8 @@ impl Tty {
         Ok(Self { out, keys, returns, before: RwLock::new(None) })
     }
 
-    /// Every key as it is pressed. The settings before are kept, unless this
-    /// screen made them.
+    /// Makes the terminal send every key as it is pressed. The settings before are kept, unless this screen made
+    /// them.
     ///
     /// # Errors
     /// The terminal refuses.
@@ -141,7 +141,7 @@ impl Tty {
     /// The terminal is closed.
     pub fn read(&self, bytes: &mut [u8], wait: Option<Duration>) -> Result<Option<usize>> {
         let wait = wait.and_then(|wait| Timespec::try_from(wait).ok());
-        // Each look is told anew of bytes that are still there.
+        // Each poll reports bytes that are still there.
         match poll(&mut [PollFd::new(&self.keys, PollFlags::IN)], wait.as_ref()) {
             Ok(0) | Err(Errno::INTR) => return Ok(None),
             Ok(_) => {}
@@ -165,7 +165,7 @@ impl Tty {
         let _ = termios::tcflush(&self.out, QueueSelector::OFlush);
     }
 
-    /// Columns and rows, as the terminal reports them.
+    /// Returns the columns and rows, as the terminal reports them.
     ///
     /// # Errors
     /// The terminal is closed.
@@ -174,36 +174,28 @@ impl Tty {
         Ok((size.ws_col, size.ws_row))
     }
 
-    /// Whether this process is in the foreground: in the background, a change of
-    /// the settings stops it.
+    /// Returns whether this process is in the foreground: in the background, a change of the
+    /// settings stops it.
     pub fn in_foreground(&self) -> bool {
         // Without job control on this terminal there is no background.
         nix::unistd::tcgetpgrp(&self.keys).map_or(true, |front| front == nix::unistd::getpgrp())
     }
 
-    /// Whether a question may be asked, and its answer read as a key would be: all
-    /// is one terminal, in the foreground, and takes a few bytes without waiting.
-    pub fn may_be_asked(&self) -> bool {
-        let device = |file: &dyn AsFd| {
-            let file = file.as_fd();
-            let state = rustix::fs::fstat(file).ok()?;
-            termios::isatty(file).then_some(state.st_rdev)
-        };
-        let (input, output) = (std::io::stdin(), std::io::stdout());
-        let same = device(&input).is_some() && device(&input) == device(&output);
-        let other = device(&std::io::stderr()).is_some_and(|error| Some(error) != device(&output));
-        same && !other && self.in_foreground() && self.has_room().unwrap_or(false)
+    /// Returns whether what the terminal reports comes among the keys: both are one terminal.
+    pub fn hears_itself(&self) -> bool {
+        let device = |file: &OwnedFd| rustix::fs::fstat(file).ok().map(|state| state.st_rdev);
+        device(&self.keys).is_some_and(|keys| Some(keys) == device(&self.out))
     }
 
-    /// Whether a process in the background may write.
+    /// Returns whether a process in the background may write.
     pub fn may_write_from_background(&self) -> bool {
         termios::tcgetattr(&self.keys)
             .is_ok_and(|settings| !settings.local_modes.contains(LocalModes::TOSTOP))
     }
 }
 
-/// The terminal of standard output, opened anew: writes that do not wait are a
-/// property of the open file, which the shell shares with standard output.
+/// Returns the terminal of standard output, opened anew: writes that do not wait are a property of
+/// the open file, which the shell shares with standard output.
 fn reopened() -> Option<File> {
     let out = std::io::stdout();
     let named = termios::ttyname(&out, Vec::new()).ok();

@@ -8,7 +8,7 @@ use std::time::Duration;
 pub struct Tty;
 
 impl Tty {
-    /// Nothing needs to be opened.
+    /// Creates the terminal; nothing needs to be opened.
     ///
     /// # Errors
     /// None here.
@@ -16,7 +16,7 @@ impl Tty {
         Ok(Self)
     }
 
-    /// Every key as it is pressed.
+    /// Makes the terminal send every key as it is pressed.
     ///
     /// # Errors
     /// The terminal refuses.
@@ -45,10 +45,10 @@ impl Tty {
         self.send(bytes, || false).is_ok()
     }
 
-    /// Nothing waits here.
+    /// Does nothing: no output waits here.
     pub fn drop_pending(&self) {}
 
-    /// Columns and rows.
+    /// Returns the columns and rows.
     ///
     /// # Errors
     /// The terminal is closed.
@@ -56,17 +56,17 @@ impl Tty {
         crossterm::terminal::size()
     }
 
-    /// There is no background.
+    /// Returns true: there is no background.
     pub fn in_foreground(&self) -> bool {
         true
     }
 
-    /// A console window is dark unless it is told otherwise.
-    pub fn may_be_asked(&self) -> bool {
+    /// Returns a console window does not report its background.
+    pub fn hears_itself(&self) -> bool {
         false
     }
 
-    /// There is no background.
+    /// Returns true: there is no background.
     pub fn may_write_from_background(&self) -> bool {
         true
     }

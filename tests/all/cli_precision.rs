@@ -2,6 +2,7 @@
 //! another contact law, and errors of zero.
 
 use crate::cli_support::{refusal, rubscope};
+use crate::scene_support::HALF_N;
 use serde_json::Value;
 
 /// The JSON of a comparison that must succeed, each row run once.
@@ -60,7 +61,9 @@ fn the_reference_is_taken_at_the_instant_a_run_really_reached() {
 #[test]
 fn a_run_that_stopped_early_has_no_error_at_the_end() {
     // The wave leaves the casing at 19.9 ms, by every solver.
-    let report = compare(&["half-n", "--end", "0.02"]);
+    let half_n = format!("{HALF_N} --end 0.02");
+    let half_n: Vec<&str> = half_n.split_whitespace().collect();
+    let report = compare(&half_n);
     assert_eq!(report["reference"]["verdict"], "failed");
     assert_eq!(report["reference"]["error_halved"], Value::Null);
     assert!(rows(&report).len() > 8);

@@ -9,7 +9,7 @@ use ratatui::{Terminal, backend::TestBackend};
 use rubscope::tui::bindings::BINDINGS;
 use rubscope::tui::engine::{Engine, Order, Snapshot};
 use rubscope::tui::events::ScreenEvent;
-use rubscope::tui::terminal::NoHost;
+use rubscope::tui::host::NoHost;
 use rubscope::tui::worker::Playback;
 use rubscope::tui::{App, Exit, Marker, Theme, run};
 use rubscope_solver::scene::Scene;

@@ -131,54 +131,110 @@ fn no_solver_knows_its_sibling() {
     }
 }
 
-/// The parts of the state of the explorer, by their fields.
-fn parts_of_the_state() -> Vec<String> {
-    let text = fs::read_to_string(root().join("src/tui/app/mod.rs")).unwrap();
-    let fields = text.split("pub struct App {").nth(1).unwrap().split('}').next().unwrap();
-    let name = |line: &str| Some(line.trim().strip_prefix("pub ")?.split_once(':')?.0.to_string());
-    fields.lines().filter_map(name).collect()
+/// The parts of the explorer from the top, a row each: a part uses itself and what is in a
+/// row below. A path stands for what no longer path stands for.
+const EXPLORER: [&[&str]; 23] = [
+    &[""],
+    &["run", "lines"],
+    &["host", "options"],
+    &["config"],
+    &["events"],
+    &["input", "input_other"],
+    &["terminal"],
+    &["update"],
+    &["export"],
+    &["panels"],
+    &["views"],
+    &["commands", "glossary"],
+    &["app"],
+    &["bindings", "files"],
+    &["worker"],
+    &["engine"],
+    &["views/map/plan"],
+    &["views/locked/curves", "views/coincidence/curves", "views/margins/live"],
+    &["views/id", "views/spectrum/lines", "lessons", "knobs", "plot"],
+    &["axis", "text"],
+    &["appearance", "ability"],
+    &["theme", "raster", "job", "job_other"],
+    &["ending", "ground", "history", "line", "trace", "tty", "tty_other"],
+];
+
+/// The row of a path in the explorer, and its part.
+fn part_of(path: &str) -> (usize, &'static str) {
+    let is_in =
+        |part: &str| part.is_empty() || path == part || path.starts_with(&format!("{part}/"));
+    let parts =
+        EXPLORER.iter().enumerate().flat_map(|(row, parts)| parts.iter().map(move |&p| (row, p)));
+    parts.filter(|(_, part)| is_in(part)).max_by_key(|(_, part)| part.len()).unwrap()
+}
+
+/// The paths that a use names, one for each name in its braces.
+fn expanded(path: &str) -> Vec<String> {
+    let Some((before, rest)) = path.split_once('{') else { return vec![path.to_string()] };
+    let inside = rest.rsplit_once('}').unwrap().0;
+    let (mut names, mut depth) = (vec![String::new()], 0);
+    for c in inside.chars() {
+        depth += i32::from(c == '{') - i32::from(c == '}');
+        match c {
+            ',' if depth == 0 => names.push(String::new()),
+            c => names.last_mut().unwrap().push(c),
+        }
+    }
+    names.retain(|name| !name.is_empty());
+    names.iter().flat_map(|name| expanded(&format!("{before}{name}"))).collect()
+}
+
+/// The paths in the explorer that a file names, as paths of modules.
+fn named_in_the_explorer(own: &str, text: &str) -> Vec<String> {
+    let code = text.split("#[cfg(test)]\nmod").next().unwrap();
+    let lines = code.lines().map(|line| line.split("//").next().unwrap());
+    let code: String = lines.flat_map(str::split_whitespace).flat_map(|word| [word, " "]).collect();
+    let mut found = Vec::new();
+    for (at, _) in code.match_indices("super::").chain(code.match_indices("crate::tui::")) {
+        if code[..at].ends_with("::") {
+            continue;
+        }
+        let is_use = code[..at].ends_with("use ");
+        let end = match is_use {
+            true => code[at..].find(';'),
+            false => code[at..].find(|c: char| !c.is_alphanumeric() && c != '_' && c != ':'),
+        };
+        let path = code[at..at + end.unwrap()].replace(' ', "");
+        for path in expanded(&path) {
+            let up = path.matches("super::").count();
+            let mut base: Vec<&str> = own.split('/').filter(|part| !part.is_empty()).collect();
+            match path.starts_with("crate") {
+                true => base.clear(),
+                false => base.truncate(base.len().saturating_sub(up)),
+            }
+            let rest = path.replace("crate::tui::", "").replace("super::", "");
+            base.extend(rest.split("::"));
+            found.push(base.join("/"));
+        }
+    }
+    found
 }
 
 #[test]
-fn no_part_of_the_explorer_names_a_field_of_another() {
-    let parts = parts_of_the_state();
-    assert!((8..15).contains(&parts.len()), "{parts:?}");
-    // What every part reads, and what is no value of its own file.
-    let common = ["scene", "machine", "status"];
-    let homes: BTreeMap<&str, &[&str]> = BTreeMap::from([
-        ("knobs", ["knobs.rs", "sweep.rs"].as_slice()),
-        ("play", &["play.rs"]),
-        ("run", &["run.rs", "verdict.rs"]),
-        ("layout", &["layout.rs"]),
-        ("reading", &["reading.rs"]),
-        ("map", &["map.rs"]),
-        ("dialogue", &["dialogue.rs"]),
-        ("files", &["files.rs", "scenes.rs"]),
-        ("lessons", &["lesson.rs"]),
-        ("mouse", &["mouse.rs"]),
-        ("appearance", &[]),
-    ]);
-    let (mut wrong, mut own) = (Vec::new(), 0);
-    for part in parts.iter().filter(|part| !common.contains(&part.as_str())) {
-        let homes = homes.get(part.as_str()).unwrap_or_else(|| panic!("where is {part}?"));
-        for file in sources(&root().join("src/tui/app")) {
-            let name = file.file_name().unwrap().to_str().unwrap();
-            let text = fs::read_to_string(&file).unwrap();
-            // Tests look at any part; the head of the state puts the parts together.
-            let code = text.split("#[cfg(test)]").next().unwrap();
-            let code: String = code.split_whitespace().collect();
-            for reach in code.split(&format!("self.{part}.")).skip(1) {
-                let end = reach.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap();
-                match reach[end..].starts_with('(') {
-                    true => {}
-                    false if name == "mod.rs" || homes.contains(&name) => own += 1,
-                    false => wrong.push(format!("{name}: {part}.{}", &reach[..end])),
-                }
+fn every_part_of_the_explorer_uses_only_what_is_below_it() {
+    let folder = root().join("src/tui");
+    let (mut wrong, mut uses) = (Vec::new(), 0);
+    for file in sources(&folder) {
+        let inside = file.strip_prefix(&folder).unwrap().to_str().unwrap();
+        let own = inside.trim_end_matches(".rs").trim_end_matches("mod").trim_end_matches('/');
+        if own.ends_with("tests") {
+            continue;
+        }
+        for named in named_in_the_explorer(own, &fs::read_to_string(&file).unwrap()) {
+            uses += 1;
+            let (above, below) = (part_of(own), part_of(&named));
+            if above != below && above.0 >= below.0 {
+                wrong.push(format!("{inside}: {named}"));
             }
         }
     }
-    assert!(wrong.is_empty(), "fields of another part:\n{}", wrong.join("\n"));
-    assert!(own > 50, "only {own} fields were found");
+    assert!(wrong.is_empty(), "not below:\n{}", wrong.join("\n"));
+    assert!(uses > 500, "only {uses} uses were found");
 }
 
 #[test]

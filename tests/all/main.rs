@@ -67,6 +67,7 @@ mod scene_defaults;
 mod scene_modes;
 mod scene_notes;
 mod scene_numbers;
+mod scene_support;
 mod scenes;
 mod security;
 mod signs_of_life;

@@ -77,7 +77,7 @@ fn a_place_that_takes_no_file_is_said_before_anything_is_computed() {
     let none = directory.path().join("none/map.csv");
     // So many cells that a debug build would need hours.
     let large = "map --solver event --speed 0:500:3900 --pulse 1e5:1e6:3900";
-    for path in [none, file.join("map.csv"), file.join("map.svg")] {
+    for path in [none, file.join("map.csv"), file.join("map.json")] {
         let output = rubscope(&words(large, &["--out", path.to_str().unwrap()]));
         assert_eq!(output.status.code(), Some(1));
         let said = message(&output);

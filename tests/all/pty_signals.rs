@@ -14,6 +14,15 @@ fn large() -> Terminal {
     terminal
 }
 
+/// Tests each case in a thread: most of the time is spent waiting.
+fn each_in_its_thread<T: Send>(cases: impl Iterator<Item = T>, test: impl Fn(T) + Sync) {
+    std::thread::scope(|scope| {
+        for case in cases {
+            scope.spawn(|| test(case));
+        }
+    });
+}
+
 /// Signals that end a program: name, number on Linux and on most other systems.
 const DEADLY: [(&str, u32); 7] =
     [("INT", 2), ("TERM", 15), ("HUP", 1), ("QUIT", 3), ("ABRT", 6), ("ALRM", 14), ("PROF", 27)];
@@ -48,7 +57,7 @@ fn every_signal_ends_it_with_the_terminal_restored() {
 
 #[test]
 fn a_signal_ends_it_while_nobody_reads_the_terminal() {
-    for (name, number) in DEADLY.into_iter().chain(MORE) {
+    each_in_its_thread(DEADLY.into_iter().chain(MORE), |(name, number)| {
         let mut terminal = large();
         terminal.block();
         terminal.signal(name);
@@ -56,7 +65,7 @@ fn a_signal_ends_it_while_nobody_reads_the_terminal() {
         assert_eq!(terminal.ended().exit_code(), 128 + number, "{name}");
         assert_eq!(terminal.wait(), 128 + number);
         terminal.assert_restored();
-    }
+    });
 }
 
 #[test]
@@ -70,20 +79,19 @@ fn a_signal_ends_it_in_every_state_read_or_not() {
         ("c", "bilateral:"),
         ("f5", "5 map"),
     ];
-    for (keys, seen) in states {
-        for read in [true, false] {
-            let mut terminal = large();
-            terminal.send(keys);
-            terminal.wait_for(seen);
-            if !read {
-                terminal.block();
-            }
-            terminal.signal("TERM");
-            assert_eq!(terminal.ended().exit_code(), 143, "{keys:?} read: {read}");
-            assert_eq!(terminal.wait(), 143);
-            terminal.assert_restored();
+    let cases = states.iter().flat_map(|state| [(*state, true), (*state, false)]);
+    each_in_its_thread(cases, |((keys, seen), read)| {
+        let mut terminal = large();
+        terminal.send(keys);
+        terminal.wait_for(seen);
+        if !read {
+            terminal.block();
         }
-    }
+        terminal.signal("TERM");
+        assert_eq!(terminal.ended().exit_code(), 143, "{keys:?} read: {read}");
+        assert_eq!(terminal.wait(), 143);
+        terminal.assert_restored();
+    });
 }
 
 #[test]

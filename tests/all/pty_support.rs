@@ -216,6 +216,11 @@ impl Terminal {
         self.parser.screen().contents()
     }
 
+    /// Whether the program has written these bytes, which may be none of the screen.
+    pub fn has_written(&self, bytes: &[u8]) -> bool {
+        self.written.windows(bytes.len()).any(|part| part == bytes)
+    }
+
     /// Waits until the screen contains a text.
     pub fn wait_for(&mut self, text: &str) {
         self.wait_until(text, |screen| screen.contents().contains(text));

@@ -1,5 +1,6 @@
 //! Every built-in scene does what its note says, also in longer runs.
 
+use crate::scene_support::{half_n, near_critical};
 use rubscope_solver::motion::{Motion, RunReport, Verdict, simulate};
 use rubscope_solver::scene::Scene;
 
@@ -89,13 +90,17 @@ fn grazing_touches_once_and_a_little_less_does_not() {
 }
 
 #[test]
-fn near_critical_is_held_by_a_breath() {
-    let report = run("near-critical", &[]);
+fn a_wave_near_the_critical_speed_is_held_by_a_breath() {
+    let scene = near_critical();
+    let critical = scene.machine().critical_speed().unwrap();
+    assert!((critical - 292.878).abs() < 5e-4, "{critical}");
+    let report = simulate(&scene.checked().unwrap());
     assert_eq!(report.outcome.verdict, Verdict::Locked);
     for contact in &report.outcome.contacts {
-        assert!((contact.multiplier_n + 0.065).abs() < 1e-3, "{contact:?}");
+        assert!((contact.multiplier_n + 0.065).abs() < 5e-4, "{contact:?}");
     }
-    assert_ne!(verdict("near-critical", &[("operation.speed_rad_s", "292.8")]), Verdict::Locked);
+    let slower = scene.with(&[("operation.speed_rad_s", "292.8")]).unwrap();
+    assert_ne!(simulate(&slower).outcome.verdict, Verdict::Locked);
 }
 
 #[test]
@@ -115,11 +120,11 @@ fn run_down_breaks_its_lock_at_the_lock_speed() {
 }
 
 #[test]
-fn half_n_slides_along_a_side_and_grows() {
-    let report = run("half-n", &[]);
+fn along_two_parallel_sides_a_wave_slides_and_grows() {
+    let report = simulate(&half_n().checked().unwrap());
     assert_eq!(report.outcome.verdict, Verdict::Slip);
-    assert!(report.outcome.amplitude_m > 30e-4);
-    let longer = run("half-n", &[("solver.end_s", "0.02")]);
+    assert!((report.outcome.amplitude_m / 1e-4 - 38.8).abs() < 0.05);
+    let longer = simulate(&half_n().with(&[("solver.end_s", "0.02")]).unwrap());
     assert_eq!(longer.outcome.verdict, Verdict::Failed);
     assert!(longer.outcome.message.unwrap().contains("beyond the casing radius"));
 }

@@ -1,6 +1,7 @@
 //! The knobs of the explorer: turned, typed, in groups, with their bars.
 
 use rubscope::tui::{Marker, Theme};
+use rubscope_solver::scene::ContactLaw;
 
 use crate::tui_support::{Session, scene};
 
@@ -13,6 +14,28 @@ fn a_knob_changes_the_verdict_and_undo_brings_it_back() {
     assert!(session.text().contains(" DECAY "), "{}", session.text());
     session.press("u");
     assert!(session.text().contains(" LOCKED "), "{}", session.text());
+}
+
+#[test]
+fn inclined_tips_take_the_law_that_only_pushes_with_them_and_undo_is_one_step() {
+    let mut session = Session::open(120, 40, scene(), Theme::Dark, Marker::Braille);
+    let before = session.app.scene.clone();
+    assert_eq!(before.solver.contact, ContactLaw::Bilateral);
+    session.select("bladed_disk.radial_coupling");
+    session.press("l");
+    let scene = &session.app.scene;
+    assert!(scene.bladed_disk.radial_coupling > 0.0);
+    assert_eq!(scene.solver.contact, ContactLaw::Unilateral);
+    let said = "contact is now unilateral: the bilateral law takes no inclined tips";
+    assert!(session.text().contains(said), "{}", session.text());
+    session.press("u");
+    assert_eq!(session.app.scene, before);
+    // The law itself is refused by name where the tips are inclined.
+    session.press("l");
+    session.select("solver.contact");
+    session.press("h");
+    assert!(session.app.knobs.refusal.as_ref().unwrap().contains("inclined tips"));
+    assert_eq!(session.app.scene.solver.contact, ContactLaw::Unilateral);
 }
 
 #[test]
@@ -105,7 +128,7 @@ fn bars_show_the_value_and_its_limits_in_every_alphabet() {
     session.press("j");
     let text = column(&session);
     assert!(text.contains("t▒▒▒▒▒▒▒▒▒█"), "{text}");
-    session.press("k");
+    session.press("h");
     // Past the limit the letter stands in the part that is not filled.
     session.press("\n350\n");
     let text = column(&session);

@@ -10,7 +10,7 @@ use rubscope::tui::engine::{Engine, Order, Snapshot};
 use rubscope::tui::events::ScreenEvent;
 use rubscope::tui::files::{FileJob, FileResult};
 use rubscope::tui::history::Channel;
-use rubscope::tui::terminal::{Host, NoHost};
+use rubscope::tui::host::{Host, NoHost};
 use rubscope::tui::worker::Stepwise;
 use rubscope::tui::{App, Exit, Marker, Theme, run};
 use rubscope_solver::scene::Scene;

@@ -4,7 +4,7 @@
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use rubscope::tui::bindings::Action;
 use rubscope::tui::events::ScreenEvent;
-use rubscope::tui::{Effect, Heard, Marker, Theme};
+use rubscope::tui::{Effect, Marker, MouseOutcome, Theme};
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::margins::{LimitName, Margins};
 
@@ -158,7 +158,7 @@ fn a_click_reads_a_row_and_a_second_one_jumps() {
         heard
     };
     let coincidence = find(&session, "388.31");
-    assert_eq!(click(&mut session, coincidence), Heard::Acted(Effect::None));
+    assert_eq!(click(&mut session, coincidence), MouseOutcome::Acted(Effect::None));
     assert_eq!(cell(&session), [0, 3]);
     click(&mut session, coincidence);
     let speed = session.app.machine.dangerous_speed().unwrap();
@@ -212,7 +212,7 @@ fn no_scene_is_too_odd() {
         set.iter().for_each(|(path, value)| scene.set(path, value).unwrap());
         scene
     };
-    let half = Scene { solver: short().solver, ..Scene::builtin("half-n").unwrap() };
+    let half = Scene { solver: short().solver, ..crate::scene_support::half_n() };
     let scenes = [
         half,
         with(&[("operation.nodal_diameters", "0")]),

@@ -2,7 +2,7 @@
 //! the screen.
 
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
-use rubscope::tui::{Effect, Heard, Marker, Theme};
+use rubscope::tui::{Effect, Marker, MouseOutcome, Theme};
 
 use crate::tui_support::{Session, scene};
 
@@ -20,11 +20,11 @@ fn with(
     modifiers: KeyModifiers,
     kind: MouseEventKind,
     at: (u16, u16),
-) -> Heard {
+) -> MouseOutcome {
     session.app.mouse(&MouseEvent { kind, column: at.0, row: at.1, modifiers })
 }
 
-fn mouse(session: &mut Session, kind: MouseEventKind, at: (u16, u16)) -> Heard {
+fn mouse(session: &mut Session, kind: MouseEventKind, at: (u16, u16)) -> MouseOutcome {
     with(session, KeyModifiers::NONE, kind, at)
 }
 
@@ -53,11 +53,11 @@ fn the_keys_of_the_last_line_can_be_clicked() {
     mouse(&mut session, LEFT, (commands.0 + 3, commands.1));
     session.press("undo");
     let choose = find(&session, "Enter do it");
-    assert_eq!(mouse(&mut session, LEFT, choose), Heard::Acted(Effect::None));
+    assert_eq!(mouse(&mut session, LEFT, choose), MouseOutcome::Acted(Effect::None));
     assert_eq!(session.app.scene.operation.speed_rad_s, 500.0);
     session.press("");
     let quit = find(&session, "q quit");
-    assert_eq!(mouse(&mut session, LEFT, quit), Heard::Acted(Effect::Quit));
+    assert_eq!(mouse(&mut session, LEFT, quit), MouseOutcome::Acted(Effect::Quit));
 }
 
 #[test]
@@ -67,14 +67,14 @@ fn a_screen_that_became_too_small_has_no_keys_to_click() {
     session.terminal.backend_mut().resize(80, 11);
     session.send(std::iter::once(rubscope::tui::events::ScreenEvent::Resize));
     assert!(session.text().contains("rubscope needs"), "{}", session.text());
-    assert_eq!(mouse(&mut session, LEFT, quit), Heard::Nothing);
+    assert_eq!(mouse(&mut session, LEFT, quit), MouseOutcome::Nothing);
 }
 
 #[test]
 fn a_click_selects_a_knob_and_the_wheel_turns_the_one_below_it() {
     let mut session = open(80, 24);
     let diameters = find(&session, "diameters n_d");
-    assert_eq!(mouse(&mut session, LEFT, diameters), Heard::Acted(Effect::None));
+    assert_eq!(mouse(&mut session, LEFT, diameters), MouseOutcome::Acted(Effect::None));
     assert_eq!(selected(&session), "operation.nodal_diameters");
     let damping = find(&session, "damping ζ_c");
     mouse(&mut session, ScrollUp, damping);
@@ -119,7 +119,7 @@ fn a_bar_is_set_where_it_is_clicked_and_a_drag_is_undone_in_one_step() {
     // Past its end: 1.5 times the highest limit, in steps of 5 rad/s.
     assert_eq!(session.app.scene.operation.speed_rad_s, 620.0);
     mouse(&mut session, Up(MouseButton::Left), (0, 0));
-    assert_eq!(mouse(&mut session, HELD, (left + 3, row)), Heard::Nothing);
+    assert_eq!(mouse(&mut session, HELD, (left + 3, row)), MouseOutcome::Nothing);
     session.press("u");
     assert_eq!(session.app.scene.operation.speed_rad_s, 500.0);
     // A line without a bar of its own is one; a click only selects it.
@@ -158,17 +158,17 @@ fn a_click_reads_the_large_chart_and_the_pointer_moves_the_cursor() {
     let (left, row) = find(&session, "0┤");
     let (first, last) = (left + 2, 79);
     // Nothing is drawn while the pointer only passes.
-    assert_eq!(mouse(&mut session, Moved, (first + 5, row)), Heard::Nothing);
+    assert_eq!(mouse(&mut session, Moved, (first + 5, row)), MouseOutcome::Nothing);
     mouse(&mut session, LEFT, (first, row));
     assert!(session.app.reading.on);
     let (from, to) = session.app.page();
     let cell = (to - from) / f64::from(last - first + 1);
     assert!((session.app.cursor_time().unwrap() - (from + 0.5 * cell)).abs() < 1e-12);
-    assert_eq!(mouse(&mut session, Moved, (last, row)), Heard::Pointed);
+    assert_eq!(mouse(&mut session, Moved, (last, row)), MouseOutcome::Pointed);
     assert!((session.app.cursor_time().unwrap() - (to - 0.5 * cell)).abs() < 1e-12);
-    assert_eq!(mouse(&mut session, Moved, (last, row)), Heard::Nothing);
+    assert_eq!(mouse(&mut session, Moved, (last, row)), MouseOutcome::Nothing);
     // Outside the chart the cursor stays.
-    assert_eq!(mouse(&mut session, Moved, (3, 8)), Heard::Nothing);
+    assert_eq!(mouse(&mut session, Moved, (3, 8)), MouseOutcome::Nothing);
     assert!(session.app.reading.cursor.is_some());
     mouse(&mut session, Down(MouseButton::Right), (last, row));
     assert!(session.app.reading.cursor.is_none() && !session.app.reading.on);
@@ -185,7 +185,7 @@ fn the_wheel_zooms_time_and_nothing_else() {
     mouse(&mut session, ScrollDown, (left + 9, row));
     assert_eq!(session.app.play.zoom, -1);
     session.press("3f");
-    assert_eq!(mouse(&mut session, ScrollUp, (40, 12)), Heard::Nothing);
+    assert_eq!(mouse(&mut session, ScrollUp, (40, 12)), MouseOutcome::Nothing);
     assert_eq!(session.app.play.zoom, -1);
 }
 
@@ -211,10 +211,10 @@ fn the_mouse_can_be_turned_off() {
     let damping = find(&session, "damping ζ_c");
     session.press("M");
     assert!(session.text().contains("mouse off"), "{}", session.text());
-    assert_eq!(mouse(&mut session, LEFT, damping), Heard::Nothing);
+    assert_eq!(mouse(&mut session, LEFT, damping), MouseOutcome::Nothing);
     assert_eq!(session.app.knobs.selected, 0);
     session.press("M");
-    assert_eq!(mouse(&mut session, LEFT, damping), Heard::Acted(Effect::None));
+    assert_eq!(mouse(&mut session, LEFT, damping), MouseOutcome::Acted(Effect::None));
 }
 
 #[test]

@@ -11,7 +11,7 @@ use ratatui::{Terminal, backend::TestBackend};
 use rubscope::tui::bindings::BINDINGS;
 use rubscope::tui::engine::{Engine, FullRunState, Order, Results, Snapshot};
 use rubscope::tui::events::ScreenEvent;
-use rubscope::tui::terminal::NoHost;
+use rubscope::tui::host::NoHost;
 use rubscope::tui::worker::Stepwise;
 use rubscope::tui::{App, Exit, Marker, Theme, run};
 use rubscope_solver::scene::Scene;

@@ -256,7 +256,7 @@ fn the_copied_command_repeats_live_changes_at_their_instants() {
 
 #[test]
 fn another_scene_has_scales_of_its_own() {
-    let mut session = open(scene("half-n"), 1e-3);
+    let mut session = open(crate::scene_support::half_n(), 1e-3);
     let before = session.app.run.ranges.casing;
     session.press_each(":paper-nd3\n");
     let after = session.app.run.ranges.casing;

@@ -4,7 +4,7 @@
 use super::repeated::Repeated;
 use super::{Several, StepLaw};
 
-/// `g = 0` on every row that was predicted to penetrate.
+/// The law `g = 0` on every row that was predicted to penetrate.
 #[derive(Debug)]
 pub(super) struct Bilateral;
 
@@ -27,8 +27,8 @@ impl StepLaw for Bilateral {
     }
 }
 
-/// Multipliers of two rows closed as equalities; not finite where the rows
-/// are dependent.
+/// Returns the multipliers of two rows closed as equalities, which are not finite where the
+/// rows are dependent.
 #[must_use]
 pub fn pair(w: [[f64; 2]; 2], gap: [f64; 2]) -> [f64; 2] {
     let determinant = w[0][0] * w[1][1] - w[0][1] * w[1][0];

@@ -19,19 +19,19 @@ use repeated::Repeated;
 pub use several::Several;
 pub use unilateral::complementary_pair;
 
-/// The multipliers of one step under a contact law. `None` stands for rows that
-/// cannot be told apart (singular equations).
+/// A contact law, which gives the multipliers of one step. `None` stands for rows that cannot
+/// be told apart (singular equations).
 pub trait StepLaw: std::fmt::Debug + Sync {
-    /// Whether a multiplier may pull.
+    /// Returns whether a multiplier may pull.
     fn pulls(&self) -> bool;
-    /// Two rows of different sides.
+    /// Solves two rows of different sides.
     fn pair(&self, w: [[f64; 2]; 2], gap: [f64; 2]) -> Option<[f64; 2]>;
-    /// Any number of rows of different sides.
+    /// Solves any number of rows of different sides.
     fn several<'a>(&self, rows: &'a mut Several) -> Option<&'a [f64]>;
-    /// Rows of which several belong to one side.
+    /// Solves rows of which several belong to one side.
     fn repeated<'a>(&self, rows: &'a mut Repeated) -> Option<&'a [f64]>;
-    /// Force that keeps a corner closed, for the multipliers of its sides and the
-    /// cosine of the angle between them; the corner opens at zero \[N\].
+    /// Returns the force that keeps a corner closed, for the multipliers of its sides and the
+    /// cosine of the angle between them; the corner opens where it is zero \[N\].
     fn hold(&self, multipliers: [f64; 2], cos: f64) -> f64;
 }
 
@@ -46,12 +46,12 @@ pub enum ContactLaw {
     Unilateral,
     /// The paper's Eqs. (11)-(13): every penetration is an equality, pull or push.
     Bilateral,
-    /// A lining that gives way: pushes grow with the depth (docs/theory.md, section 10).
+    /// An elastic lining: contact forces grow with the depth (docs/theory.md, section 10).
     Smooth,
 }
 
 impl ContactLaw {
-    /// The law to compare with: the paper's two are each other's.
+    /// Returns the law to compare with.
     #[must_use]
     pub fn other(self) -> Self {
         match self {
@@ -61,7 +61,7 @@ impl ContactLaw {
     }
 }
 
-/// The rigid law of this name; where a lining gives way, the law of its limit.
+/// Returns the rigid law of this name; for a lining, the law of its stiff limit.
 #[must_use]
 pub fn law(name: ContactLaw) -> &'static dyn StepLaw {
     match name {
@@ -70,7 +70,7 @@ pub fn law(name: ContactLaw) -> &'static dyn StepLaw {
     }
 }
 
-/// Multiplier of one row alone: `lambda = g/W`.
+/// Returns the multiplier of one row alone, `lambda = g/W`.
 #[must_use]
 pub fn single(w: f64, gap: f64) -> f64 {
     gap / w

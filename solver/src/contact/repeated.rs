@@ -74,7 +74,7 @@ pub struct Repeated {
 }
 
 impl Repeated {
-    /// No rows, for a casing that a unit force displaces by `casing` in one step
+    /// Removes all rows, for a casing that a unit force displaces by `casing` in one step
     /// \[m/N\].
     pub fn begin(&mut self, casing: f64) {
         self.casing = casing;
@@ -82,8 +82,8 @@ impl Repeated {
         self.rows.clear();
     }
 
-    /// All rows are there. `blades` is the angle of one row by a unit torque on
-    /// another in one step.
+    /// Computes the compliance of the blades once all rows are there; `blades` is the angle of
+    /// one row by a unit torque on another in one step.
     pub fn bend_by(&mut self, blades: impl Fn(usize, usize) -> f64) {
         self.bends.clear();
         for (i, row) in self.rows.iter().enumerate() {
@@ -93,7 +93,7 @@ impl Repeated {
         }
     }
 
-    /// Every row closed as an equality, Eq. (13a). `None` where the rows are
+    /// Closes every row as an equality, Eq. (13a). `None` where the rows are
     /// dependent and contradict each other.
     pub fn all_closed(&mut self) -> Option<&[f64]> {
         self.active.clear();
@@ -102,7 +102,7 @@ impl Repeated {
         Some(&self.multipliers)
     }
 
-    /// The complementarity problem of these rows, by principal pivoting with
+    /// Solves the complementarity problem of these rows by principal pivoting with
     /// the least index (Murty) from all penetrations closed, which is nearly
     /// always the answer. Not `Several`: its one matrix `W` loses the digits in which these
     /// rows differ. `None` where it does not end within its bound of work.
@@ -126,7 +126,7 @@ impl Repeated {
         None
     }
 
-    /// `B_rs` of one row and all others \[m/N\].
+    /// Returns `B_rs` of one row and all others \[m/N\].
     fn bends(&self, row: usize) -> &[f64] {
         let count = self.rows.len();
         &self.bends[row * count..(row + 1) * count]

@@ -22,7 +22,7 @@ pub struct Several {
 }
 
 impl Several {
-    /// Rows of these gaps \[m\], where a unit multiplier of row `b` closes the gap of row
+    /// Fills in rows with these gaps \[m\], where a unit multiplier of row `b` closes the gap of row
     /// `a` by `entry(a, b)` \[m/N\].
     pub fn fill(&mut self, gaps: &[f64], entry: impl Fn(usize, usize) -> f64) {
         let rows = gaps.len();
@@ -34,7 +34,7 @@ impl Several {
         }
     }
 
-    /// Every row closed as an equality, Eq. (13a). `None` where `W` is singular, to the
+    /// Closes every row as an equality, Eq. (13a). `None` where `W` is singular, to the
     /// digits it has: more rows than coordinates that could close them.
     pub fn all_closed(&mut self) -> Option<&[f64]> {
         self.begin(|_| true);
@@ -42,7 +42,7 @@ impl Several {
         Some(&self.multipliers)
     }
 
-    /// The complementarity problem of these rows, by principal pivoting with the least
+    /// Solves the complementarity problem of these rows by principal pivoting with the least
     /// index (Murty), which ends for every positive definite `W`. Few rows begin with all
     /// penetrations closed, which is nearly always the answer; where this has none, and
     /// for more rows, they begin open. `None` where it does not end within its bound or a
@@ -66,7 +66,7 @@ impl Several {
         self.closed.extend(self.gaps.iter().map(|&gap| is_closed(gap)));
     }
 
-    /// The largest predicted gap, or penetration \[m\].
+    /// Returns the largest predicted gap or penetration \[m\].
     fn scale(&self) -> f64 {
         self.gaps.iter().fold(0.0_f64, |most, gap| most.max(gap.abs()))
     }
@@ -94,14 +94,14 @@ impl Several {
         None
     }
 
-    /// The gap of a row after the pushes \[m\].
+    /// Returns the gap of a row after the contact forces \[m\].
     fn left(&self, row: usize) -> f64 {
         let rows = self.gaps.len();
         let moved = self.w[row * rows..].iter().zip(&self.multipliers);
         self.gaps[row] - moved.map(|(w, lambda)| w * lambda).sum::<f64>()
     }
 
-    /// Multipliers that close the chosen rows. `None` where more than the part `singular`
+    /// Finds the multipliers that close the chosen rows. `None` where more than the part `singular`
     /// of the largest gap is left of them.
     fn close(&mut self, singular: f64) -> Option<()> {
         let rows = self.gaps.len();

@@ -4,7 +4,7 @@
 use super::repeated::Repeated;
 use super::{Several, StepLaw, pair, single};
 
-/// A linear complementarity problem on the rows.
+/// The linear complementarity problem of the rows.
 #[derive(Debug)]
 pub(super) struct Unilateral;
 
@@ -27,8 +27,8 @@ impl StepLaw for Unilateral {
     }
 }
 
-/// The complementarity problem of two rows, by cases: neither, the first, the
-/// second, both. `None` where no case holds (dependent rows).
+/// Solves the complementarity problem of two rows by cases: neither, the first, the second,
+/// both. `None` where no case holds (dependent rows).
 #[must_use]
 pub fn complementary_pair(w: [[f64; 2]; 2], gap: [f64; 2]) -> Option<[f64; 2]> {
     if gap[0] >= 0.0 && gap[1] >= 0.0 {

@@ -4,6 +4,7 @@
 //! and the outward normal `-exp(i psi_k)`.
 
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, PI, TAU};
+use std::sync::OnceLock;
 
 /// Phase groups of the blades and the polygon that they form.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,7 +22,19 @@ pub struct ContactPolygon {
     /// Half the angle between neighbouring sides, `delta = pi/N'` \[rad\].
     pub delta: f64,
     /// `(cos psi_k, sin psi_k)` of every side.
-    directions: Vec<(f64, f64)>,
+    directions: Directions,
+}
+
+/// `(cos psi_k, sin psi_k)` of every side, computed when first asked for: many studies of
+/// large disks ask for none.
+#[derive(Clone, Debug, Default)]
+struct Directions(OnceLock<Vec<(f64, f64)>>);
+
+impl PartialEq for Directions {
+    /// The sides of a polygon determine its directions.
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
 impl ContactPolygon {
@@ -32,7 +45,6 @@ impl ContactPolygon {
         let blades = blades.max(1);
         let blades_per_side = gcd(blades, nodal_diameters);
         let sides = blades / blades_per_side;
-        let directions = (0..sides).map(|k| fraction_of_turn(k, sides)).collect();
         Self {
             blades,
             nodal_diameters,
@@ -40,7 +52,7 @@ impl ContactPolygon {
             blades_per_side,
             clearance,
             delta: PI / f64::from(sides),
-            directions,
+            directions: Directions::default(),
         }
     }
 
@@ -69,7 +81,9 @@ impl ContactPolygon {
     pub fn direction(&self, side: u32) -> (f64, f64) {
         // Called in every step, and a division is slow.
         let side = if side < self.sides { side } else { side % self.sides };
-        self.directions[side as usize]
+        let sides = self.sides;
+        let all = || (0..sides).map(|k| fraction_of_turn(k, sides)).collect();
+        self.directions.0.get_or_init(all)[side as usize]
     }
 
     /// The side a blade (numbered from 1, as in the paper) belongs to.

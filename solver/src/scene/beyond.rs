@@ -5,14 +5,14 @@ use super::check::{down, up};
 use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind, Value, keys};
 
 impl Scene {
-    /// Whether this scene has more than the paper's model. Those that have not are
-    /// solved by the paper's own solvers, bit for bit as without this.
+    /// Returns whether this scene has more than the paper's model. Others are solved by the
+    /// paper's own solvers, bit for bit.
     #[must_use]
     pub fn goes_beyond(&self) -> bool {
         self.has_other_tips() || self.changes_with_speed()
     }
 
-    /// Whether its machine changes with the rotor speed, so that a run feels it.
+    /// Returns whether the machine changes with the rotor speed in a run.
     #[must_use]
     pub fn changes_with_speed(&self) -> bool {
         let stiffens = self.bladed_disk.centrifugal_stiffening != 0.0;
@@ -20,7 +20,7 @@ impl Scene {
         grows || (stiffens && self.solver.model != ModelSize::Rigid)
     }
 
-    /// Whether tips and casing meet otherwise than in the paper, at any speed.
+    /// Returns whether the contact of tips and casing differs from the paper at any speed.
     #[must_use]
     pub fn has_other_tips(&self) -> bool {
         let (disk, surface) = (&self.bladed_disk, &self.contact);
@@ -34,15 +34,15 @@ impl Scene {
             || (model == ModelSize::Full && disk.mistuning != 0.0)
     }
 
-    /// Whether the modes of the disk have other diameters than those of the casing.
+    /// Returns whether the modes of the disk have other diameters than those of the casing.
     #[must_use]
     pub fn has_other_diameters(&self) -> bool {
         let casing = self.operation.nodal_diameters;
         self.bladed_disk.diameters_beside(casing) != casing
     }
 
-    /// What steady states and limits are of where the runs of this scene ask for more:
-    /// they are of equal blades in the modes of one number of diameters.
+    /// Returns what steady states and limits leave out, for scenes whose runs have every blade
+    /// alone: they assume equal blades in the modes of one number of diameters.
     #[must_use]
     pub fn tuned_note(&self) -> Option<String> {
         let disk = &self.bladed_disk;
@@ -59,15 +59,14 @@ impl Scene {
         })
     }
 
-    /// The clearance of a rotor at rest, `g0 = R_c - l_b`; below zero all blades rub there
-    /// \[m\].
+    /// Returns the clearance of a rotor at rest, `g0 = R_c - l_b`, which is negative where all
+    /// blades interfere with the casing \[m\].
     #[must_use]
     pub fn clearance(&self) -> f64 {
         self.casing.radius_m - self.bladed_disk.blade_length_m
     }
 
-    /// Sets the clearance by the radius of the casing; whether the scene allows it, its
-    /// check says.
+    /// Sets the clearance by the radius of the casing, without a check of the scene.
     ///
     /// # Errors
     /// A radius that its key does not allow.
@@ -94,9 +93,13 @@ impl Scene {
     }
 }
 
+/// Rejects combinations beyond the paper's model that have no meaning or no unique answer.
+///
 /// # Errors
-/// The first combination that is not allowed, named by its key.
+/// The first such combination, named by its key.
 pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
+    diameters(scene)?;
+    slope(scene)?;
     friction(scene)?;
     restitution(scene)?;
     mistuning(scene)?;
@@ -105,7 +108,31 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     by_events(scene)
 }
 
-/// Friction has one direction: that in which the blades slide.
+/// Refuses rigid contact of blades in other diameters than those of the casing.
+fn diameters(scene: &Scene) -> Result<(), SceneError> {
+    if scene.solver.contact == ContactLaw::Smooth || !scene.has_other_diameters() {
+        return Ok(());
+    }
+    let casing = scene.operation.nodal_diameters;
+    let allowed = format!(
+        "0 or that of the casing, {casing}, with rigid contact; solver.contact = \"smooth\" takes \
+         others"
+    );
+    Err(SceneError::refused(keys::DISK_DIAMETERS, scene.bladed_disk.nodal_diameters, allowed))
+}
+
+/// Refuses inclined tips under the paper's law, whose gaps the blade angles do not close.
+fn slope(scene: &Scene) -> Result<(), SceneError> {
+    let kappa = scene.bladed_disk.radial_coupling;
+    if kappa == 0.0 || scene.solver.contact != ContactLaw::Bilateral {
+        return Ok(());
+    }
+    let allowed = "0 with solver.contact = \"bilateral\", the paper's law; \"unilateral\" and \
+                   \"smooth\" take inclined tips";
+    Err(SceneError::refused(keys::RADIAL_COUPLING, kappa, allowed))
+}
+
+/// Rejects friction without one direction in which the blades slide.
 fn friction(scene: &Scene) -> Result<(), SceneError> {
     let (mu, operation) = (scene.contact.friction, &scene.operation);
     if mu == 0.0 {
@@ -141,8 +168,8 @@ fn mistuning(scene: &Scene) -> Result<(), SceneError> {
     Err(SceneError::refused(keys::MISTUNING, sd, allowed))
 }
 
-/// Rigid contact of single blades that dig in under friction has no unique pushes
-/// once three of them touch.
+/// Rejects rigid contact of single blades with self-locking friction, which has no unique
+/// contact forces once three blades touch.
 fn digging_in(scene: &Scene) -> Result<(), SceneError> {
     let (kappa, mu) = (scene.bladed_disk.radial_coupling, scene.contact.friction);
     let forward = if scene.operation.speed_rad_s < 0.0 { -mu } else { mu };
@@ -158,7 +185,7 @@ fn digging_in(scene: &Scene) -> Result<(), SceneError> {
     Err(SceneError::refused(keys::RADIAL_COUPLING, kappa, allowed))
 }
 
-/// A push must open the gap under it, `1/m_c + c2/m_a > 0`, and in a time step with `m/h^2 +
+/// Rejects tips whose contact force closes its own gap: it must open it, `1/m_c + c2/m_a > 0`, and in a time step with `m/h^2 +
 /// d/2h` in place of `m` too: otherwise no push, or more than one, closes the gap.
 fn opening(scene: &Scene) -> Result<(), SceneError> {
     let machine = scene.machine();
@@ -191,7 +218,7 @@ fn opening(scene: &Scene) -> Result<(), SceneError> {
     Err(SceneError::refused(keys::RADIAL_COUPLING, kappa, allowed))
 }
 
-/// The event solver takes what has constant coefficients in the frame of the blades.
+/// Rejects events of equations whose coefficients change in the frame of the blades.
 fn by_events(scene: &Scene) -> Result<(), SceneError> {
     let ramp = scene.operation.speed_ramp_rad_s2;
     if scene.solver.kind != SolverKind::Event || ramp == 0.0 || !scene.goes_beyond() {

@@ -32,9 +32,7 @@ pub const BUILTIN: &[Builtin] = builtin![
     "rocking",
     "slip",
     "grazing",
-    "near-critical",
     "run-down",
-    "half-n",
     "coincidence",
     "rub",
     "digs-in",
@@ -43,7 +41,7 @@ pub const BUILTIN: &[Builtin] = builtin![
 ];
 
 impl Scene {
-    /// The built-in scene of this name.
+    /// Returns the built-in scene of this name.
     ///
     /// # Errors
     /// No such scene; the message lists the existing ones.

@@ -15,8 +15,10 @@ const MOST_TURN: f64 = 0.5;
 /// Relative margin of a product or quotient at a bound, for round-off.
 const ROUND_OFF: f64 = 1.0 + 1e-12;
 
+/// Rejects combinations of values that have no meaning.
+///
 /// # Errors
-/// The first combination that is not allowed, named by its key.
+/// The first such combination, named by its key.
 pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     clearance(scene)?;
     growth(scene)?;
@@ -47,7 +49,7 @@ fn clearance(scene: &Scene) -> Result<(), SceneError> {
     Err(SceneError::refused(keys::CASING_RADIUS, scene.casing.radius_m, allowed))
 }
 
-/// Rigid contact needs a clearance over the whole run, also where blades grow.
+/// Rejects rigid contact without a clearance over the whole run, also where blades grow.
 fn growth(scene: &Scene) -> Result<(), SceneError> {
     let (loss, fastest) = (scene.casing.clearance_loss_m_s2, scene.fastest_rad_s());
     let rigid = scene.solver.contact != ContactLaw::Smooth;
@@ -62,7 +64,7 @@ fn growth(scene: &Scene) -> Result<(), SceneError> {
     Err(SceneError::refused(keys::CLEARANCE_LOSS, format!("{loss:e}"), allowed))
 }
 
-/// The squares of frequencies must stay in the range of numbers.
+/// Rejects frequencies whose squares leave the range of numbers.
 fn frequencies(scene: &Scene) -> Result<(), SceneError> {
     let machine = scene.machine();
     for (key, value, frequency) in [
@@ -113,7 +115,7 @@ fn excitation(scene: &Scene) -> Result<(), SceneError> {
     Err(SceneError::refused(keys::EXCITATION, amplitude, allowed))
 }
 
-/// Bounds of the step, each printed so that the printed value is accepted.
+/// Rejects a step that is too long or too short; each bound is accepted as it is printed.
 fn explicit(scene: &Scene) -> Result<(), SceneError> {
     let (step, end) = (scene.solver.step_s, scene.solver.end_s);
     let fastest = scene.fastest_rad_s();
@@ -159,7 +161,7 @@ fn explicit(scene: &Scene) -> Result<(), SceneError> {
     Err(refused(allowed))
 }
 
-/// A run of no step has no verdict.
+/// Rejects a run that is shorter than one step.
 fn one_step(step: f64, end: f64) -> Result<(), SceneError> {
     // As the solvers count.
     if end / step + STEP_ROUND_OFF >= 1.0 {
@@ -169,7 +171,7 @@ fn one_step(step: f64, end: f64) -> Result<(), SceneError> {
     Err(SceneError::refused(keys::END, format!("{end:e}"), allowed))
 }
 
-/// Most steps of this scene, in four digits.
+/// Returns the largest number of steps of this scene, in four digits.
 fn most_steps(scene: &Scene) -> f64 {
     // Of these, a step may look at every blade.
     let lining = scene.solver.contact == ContactLaw::Smooth;
@@ -181,34 +183,34 @@ fn most_steps(scene: &Scene) -> f64 {
     }
 }
 
-/// A number in four digits, not above it.
+/// Rounds down to four digits.
 pub(super) fn down(x: f64) -> f64 {
     let near = four_digits(x);
     if near > x { four_digits(near - unit(x)) } else { near }
 }
 
-/// A number in four digits, not below it.
+/// Rounds up to four digits.
 pub(super) fn up(x: f64) -> f64 {
     -down(-x)
 }
 
-/// A number in four digits, below it.
+/// Returns the next number of four digits below.
 fn below(x: f64) -> f64 {
     let near = down(x);
     if near < x { near } else { four_digits(near - unit(x)) }
 }
 
-/// The number nearest in four digits, which prints as them.
+/// Rounds to four digits.
 fn four_digits(x: f64) -> f64 {
     format!("{x:.3e}").parse().unwrap_or(x)
 }
 
-/// One unit of the fourth digit of a number.
+/// Returns one unit of the fourth digit of a number.
 fn unit(x: f64) -> f64 {
     if x == 0.0 || !x.is_finite() { 0.0 } else { 10_f64.powf(x.abs().log10().floor() - 3.0) }
 }
 
-/// The event solver drives no blades.
+/// Rejects an excitation of the blades with the event solver.
 fn undriven(scene: &Scene) -> Result<(), SceneError> {
     match scene.excitation.amplitude_nm {
         0.0 => Ok(()),
@@ -219,7 +221,7 @@ fn undriven(scene: &Scene) -> Result<(), SceneError> {
     }
 }
 
-/// What the event solver does not support.
+/// Rejects what the event solver does not support.
 ///
 /// # Errors
 /// An excitation, the bilateral law, or a disk of more than two modes.

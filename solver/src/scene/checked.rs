@@ -48,7 +48,7 @@ impl Deref for CheckedScene {
 }
 
 impl CheckedScene {
-    /// Whether the event solver supports the contact law, the model size and the
+    /// Checks that the event solver supports the contact law, the model size and the
     /// excitation.
     ///
     /// # Errors
@@ -57,7 +57,7 @@ impl CheckedScene {
         check::event(&self.0)
     }
 
-    /// Whether nothing in it goes beyond the paper's model.
+    /// Checks that nothing goes beyond the paper's model.
     ///
     /// # Errors
     /// It does, in one line.
@@ -69,7 +69,7 @@ impl CheckedScene {
         Err(SceneError::refused("scene", &self.title, allowed))
     }
 
-    /// The scene, to be changed.
+    /// Returns the scene, to be changed.
     #[must_use]
     pub fn into_scene(self) -> Scene {
         self.0
@@ -82,8 +82,8 @@ impl CheckedScene {
         self
     }
 
-    /// This scene after a change that cannot break a bound: by round-off, or
-    /// away from all bounds.
+    /// Returns this scene after a change that cannot break a bound: by round-off, or away from
+    /// all bounds.
     pub(crate) fn perturbed(&self, change: impl FnOnce(&mut Scene)) -> Self {
         let mut scene = self.0.clone();
         change(&mut scene);
@@ -100,10 +100,12 @@ pub struct Adjustment {
     pub from: &'static str,
     /// The word it has.
     pub to: &'static str,
+    /// The end of the sentence that begins with the word it had.
+    pub why: &'static str,
 }
 
 impl Scene {
-    /// This scene as one that can be solved.
+    /// Returns this scene as one that can be solved.
     ///
     /// # Errors
     /// The first key out of bounds, or the first combination that is not allowed
@@ -117,15 +119,25 @@ impl Scene {
         Ok(CheckedScene(self.clone()))
     }
 
-    /// Where one of solver, contact law and model was asked for, and the others
-    /// are not possible with it, takes the nearest that are. What was asked for
-    /// itself stays. Returns what was changed.
+    /// Takes the nearest solver, contact law and model that are possible with what was asked
+    /// for: one of these three, or the slope of the tips. What was asked for itself stays.
+    /// Returns what was changed.
     pub fn make_compatible(&mut self, asked: impl Fn(&str) -> bool) -> Vec<Adjustment> {
         const KIND: &str = keys::SOLVER;
         const CONTACT: &str = keys::LAW;
         const MODEL: &str = keys::MODEL;
         let mut made = Vec::new();
+        let inclined = self.bladed_disk.radial_coupling != 0.0;
         let solver = &mut self.solver;
+        if inclined
+            && solver.contact == ContactLaw::Bilateral
+            && asked(keys::RADIAL_COUPLING)
+            && !asked(CONTACT)
+        {
+            let why = "takes no inclined tips";
+            made.push(Adjustment { key: CONTACT, from: "bilateral", to: "unilateral", why });
+            solver.contact = ContactLaw::Unilateral;
+        }
         if solver.kind != SolverKind::Event {
             return made;
         }
@@ -134,26 +146,28 @@ impl Scene {
             ContactLaw::Bilateral => Some("bilateral"),
             ContactLaw::Smooth => Some("smooth"),
         };
+        let why = "the event solver does not know";
         let full = solver.model == ModelSize::Full;
         if asked(KIND) {
             if let Some(from) = law
                 && !asked(CONTACT)
             {
-                made.push(Adjustment { key: CONTACT, from, to: "unilateral" });
+                made.push(Adjustment { key: CONTACT, from, to: "unilateral", why });
                 solver.contact = ContactLaw::Unilateral;
             }
             if full && !asked(MODEL) {
-                made.push(Adjustment { key: MODEL, from: "full", to: "modal" });
+                made.push(Adjustment { key: MODEL, from: "full", to: "modal", why });
                 solver.model = ModelSize::Modal;
             }
         } else if (asked(CONTACT) && law.is_some()) || (asked(MODEL) && full) {
-            made.push(Adjustment { key: KIND, from: "event", to: "explicit" });
+            let why = "cannot do what the options ask";
+            made.push(Adjustment { key: KIND, from: "event", to: "explicit", why });
             solver.kind = SolverKind::Explicit;
         }
         made
     }
 
-    /// This scene for the event solver, which knows one contact law.
+    /// Returns this scene for the event solver, which knows one contact law.
     #[must_use]
     pub fn as_reference(&self) -> Self {
         let mut scene = self.clone();

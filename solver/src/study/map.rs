@@ -51,25 +51,25 @@ pub struct Map {
 }
 
 impl MapPlan {
-    /// Number of cells.
+    /// Returns the number of cells.
     #[must_use]
     pub fn len(&self) -> usize {
         self.x.count as usize * self.y.count as usize
     }
 
-    /// Whether there are no cells.
+    /// Returns whether there are no cells.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// The number of the cell in a column and a row.
+    /// Returns the number of the cell in a column and a row.
     #[must_use]
     pub fn index(&self, column: u32, row: u32) -> usize {
         row as usize * self.x.count as usize + column as usize
     }
 
-    /// The scene of a cell.
+    /// Returns the scene of a cell.
     ///
     /// # Errors
     /// A combination of values that is not allowed.
@@ -89,7 +89,7 @@ impl MapPlan {
         Err(SceneError::refused("map", size, format!("from 1 to {MOST_CELLS} cells")))
     }
 
-    /// Refuses a plan with too many cells, with one key twice, or with a corner that is
+    /// Rejects a plan with too many cells, with one key twice, or with a corner that is
     /// not a valid scene.
     ///
     /// # Errors
@@ -109,8 +109,8 @@ impl MapPlan {
         Ok(())
     }
 
-    /// Computes one cell; none where `go_on` said no on the way. A scene that is
-    /// refused counts as failed.
+    /// Computes one cell; `None` where `go_on` stopped it. A scene that is refused counts as
+    /// failed.
     #[must_use]
     pub fn compute(&self, index: usize, go_on: GoOn<'_>) -> Option<Cell> {
         let Ok(scene) = self.scene_of(index) else {
@@ -126,7 +126,7 @@ impl MapPlan {
 }
 
 impl Map {
-    /// A map with nothing computed.
+    /// Creates a map with nothing computed.
     #[must_use]
     pub fn empty(plan: MapPlan) -> Self {
         let cells = Cells::empty(plan.len());
@@ -157,19 +157,19 @@ impl Map {
         self.wall_s += started.elapsed().as_secs_f64();
     }
 
-    /// Whether every cell is computed.
+    /// Returns whether every cell is computed.
     #[must_use]
     pub fn is_complete(&self) -> bool {
         self.cells.iter().all(Option::is_some)
     }
 
-    /// The cell of a column and a row.
+    /// Returns the cell of a column and a row.
     #[must_use]
     pub fn at(&self, column: u32, row: u32) -> Option<Cell> {
         *self.cells.get(self.plan.index(column, row))?
     }
 
-    /// How many cells have each verdict, and how many are sensitive.
+    /// Returns how many cells have each verdict, and how many are sensitive.
     #[must_use]
     pub fn census(&self) -> ([(Verdict, usize); 8], usize) {
         let cells = || self.cells.iter().flatten();
@@ -209,13 +209,13 @@ const KINDS: usize = Verdict::ALL.len();
 pub struct Cells(Vec<AtomicU8>);
 
 impl Cells {
-    /// So many cells with nothing computed.
+    /// Creates cells with nothing computed.
     #[must_use]
     pub fn empty(count: usize) -> Self {
         Self((0..count).map(|_| AtomicU8::new(0)).collect())
     }
 
-    /// How many cells there are.
+    /// Returns the number of cells.
     #[must_use]
     pub fn len(&self) -> usize {
         self.0.len()
@@ -227,7 +227,7 @@ impl Cells {
         self.0.is_empty()
     }
 
-    /// A cell; none where there is no such place.
+    /// Returns a cell; `None` outside the map.
     #[must_use]
     pub fn get(&self, index: usize) -> Option<&'static Option<Cell>> {
         MEANING.get(usize::from(self.0.get(index)?.load(Ordering::Relaxed)))
@@ -241,7 +241,7 @@ impl Cells {
         }
     }
 
-    /// All cells in order.
+    /// Returns all cells in order.
     pub fn iter(&self) -> impl Iterator<Item = &'static Option<Cell>> + '_ {
         (0..self.len()).filter_map(|index| self.get(index))
     }

@@ -31,6 +31,9 @@ fn scene(base: &str, options: &str) -> Scene {
     Scene::builtin(base).unwrap().with(&changes).unwrap().into_scene()
 }
 
+/// Half as many diameters as blades, which gives two parallel sides and no corner.
+const HALF_N: &str =
+    "nd 11 speed 100 pulse 20000 solver event contact unilateral model rigid end 0.012";
 /// A start in a corner of the paper's machine with this rate.
 const CORNER: &str =
     "initial.u_c_m -9.9999999999989e-05 initial.u_s_m -1.4377829399495726e-05 pulse 0";
@@ -75,7 +78,7 @@ fn bilateral_contact_leaves_the_open_side_of_two_alone() {
     for model in ["rigid", "modal", "full"] {
         let [unilateral, bilateral] = ["unilateral", "bilateral"].map(|contact| {
             let how = format!("solver explicit step 1e-6 contact {contact} model {model}");
-            run("half-n", &how)
+            run("paper-nd3", &format!("{HALF_N} {how}"))
         });
         assert_eq!(bilateral.outcome.verdict, Verdict::Slip, "{model}: {:?}", bilateral.outcome);
         assert_eq!((bilateral.impact_count, bilateral.checks.tensile_steps), (4, 0));
@@ -84,7 +87,8 @@ fn bilateral_contact_leaves_the_open_side_of_two_alone() {
         // Two sides of 11 blades, one of them in contact.
         assert_eq!(bilateral.outcome.contacts.len(), 1, "{:?}", bilateral.outcome.contacts);
     }
-    let four = run("half-n", "solver explicit contact bilateral nd 2 bladed_disk.blades 4");
+    let how = "solver explicit contact bilateral nd 2 bladed_disk.blades 4";
+    let four = run("paper-nd3", &format!("{HALF_N} {how}"));
     assert_eq!((four.outcome.verdict, four.impact_count), (Verdict::Decay, 1));
 }
 
@@ -129,7 +133,7 @@ fn the_largest_blade_angle_counts_blades_that_never_touch() {
 #[test]
 fn both_solvers_stop_when_a_blade_passes_a_tenth_of_a_radian() {
     let stop = |how: &str| {
-        let report = run("half-n", &format!("model modal end 0.02 {how}"));
+        let report = run("paper-nd3", &format!("{HALF_N} model modal end 0.02 {how}"));
         assert_eq!(report.outcome.verdict, Verdict::Failed, "{:?}", report.outcome);
         assert!(report.outcome.message.unwrap().contains("beyond the 0.1 rad"));
         report.r#final.t_s
@@ -308,7 +312,7 @@ fn a_strong_pulse_or_a_soft_casing_costs_no_more_looks() {
     assert!((thrown.r#final.u_c_m - 0.25).abs() < 1e-5, "{:?}", thrown.r#final);
     assert_eq!(thrown.impact_count, 0);
     let how = "nd 429 end 3.16e-4 casing.modal_stiffness_n_per_m 4.1e-5 casing.radius_m 0.499901";
-    let soft = run("half-n", how);
+    let soft = run("paper-nd3", &format!("{HALF_N} {how}"));
     assert!(soft.outcome.message.unwrap().contains("no corner holds the casing wave"));
 }
 

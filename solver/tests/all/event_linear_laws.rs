@@ -12,7 +12,6 @@ use crate::{drawn, event_linear};
 struct Machine {
     blades: u32,
     casing: u32,
-    disk: u32,
     rigid: bool,
     numbers: Vec<(&'static str, f64)>,
 }
@@ -22,14 +21,13 @@ fn machine() -> impl Strategy<Value = Machine> {
     let friction = prop_oneof![Just(0.0), 0.0..0.5];
     let rebound = prop_oneof![Just(0.0), 0.0..0.9];
     let speed = prop_oneof![50.0..600.0, -600.0..-50.0];
-    let sizes = (1_u32..=40, 0_u32..=12, 0_u32..=12, any::<bool>());
+    let sizes = (1_u32..=40, 0_u32..=12, any::<bool>());
     let contact = (slope, friction, rebound, 0.0..0.4);
     let drive = (speed, 1e3..3e5, 0.0..0.1, 0.0..0.1);
     (sizes, contact, drive).prop_map(|(sizes, contact, drive)| Machine {
         blades: sizes.0,
         casing: sizes.1,
-        disk: sizes.2,
-        rigid: sizes.3,
+        rigid: sizes.2,
         numbers: vec![
             ("bladed_disk.radial_coupling", contact.0),
             ("contact.friction", contact.1),
@@ -47,7 +45,6 @@ fn scene(machine: &Machine) -> CheckedScene {
     let mut scene: Scene = event_linear::scene("modal", &[]).into_scene();
     scene.bladed_disk.blades = machine.blades;
     scene.operation.nodal_diameters = machine.casing;
-    scene.bladed_disk.nodal_diameters = machine.disk;
     scene.solver.end_s = 0.05;
     if machine.rigid {
         scene.set("solver.model", "rigid").unwrap();

@@ -4,7 +4,7 @@
 //! blades stands in the ledger.
 
 use rubscope_solver::model::LiningLaw;
-use rubscope_solver::motion::{FailureReason, Motion, State};
+use rubscope_solver::motion::{ActiveSet, FailureReason, Motion, State};
 use rubscope_solver::scene::{CheckedScene, Scene};
 
 use crate::machine_at_speed::frozen;
@@ -337,5 +337,41 @@ fn waves_grow_on_the_right_side_of_each_threshold() {
         };
         let (early, late) = (size(&mut motion, 1.0), size(&mut motion, 1.9));
         assert_eq!(late > early, grows, "{speed}: {early:e} {late:e}");
+    }
+}
+
+#[test]
+fn a_clearance_that_shrinks_under_a_lock_takes_energy_and_leaves_no_tip_in_the_casing() {
+    for restitution in ["0", "0.3"] {
+        let corner = [
+            ("solver.kind", "event"),
+            ("solver.model", "rigid"),
+            ("operation.pulse_n", "0"),
+            ("operation.speed_rad_s", "450"),
+            ("casing.clearance_loss_m_s2", "1e-10"),
+            ("contact.restitution", restitution),
+        ];
+        let mut scene = Scene::builtin("undamped").unwrap().with(&corner).unwrap().into_scene();
+        let resting = scene.machine();
+        let machine = resting.at(450.0);
+        let (delta, nu) = (machine.polygon.delta, machine.nu(450.0));
+        let (c, s) = machine.polygon.direction(0);
+        let (d, reach) = (delta, -machine.clearance() * (1.0 - 1e-12) / delta.cos());
+        let (x, y) = ((c * d.cos() - s * d.sin()) * reach, (s * d.cos() + c * d.sin()) * reach);
+        (scene.initial.u_c_m, scene.initial.u_s_m) = (x, y);
+        (scene.initial.v_c_m_s, scene.initial.v_s_m_s) = (-nu * y, nu * x);
+        let mut motion = Motion::new(&scene.checked().unwrap());
+        motion.advance(1e-3).unwrap();
+        assert!(matches!(motion.contacts().active_set, ActiveSet::Corner(..)), "{restitution}");
+        let stored = 0.5 * machine.casing_stiffness * (x * x + y * y);
+        motion.set_speed(480.0, 0.0);
+        motion.advance(1.1e-3).unwrap();
+        let gaps = motion.blade_gaps();
+        assert!(gaps.iter().all(|gap| *gap >= -1e-15), "{restitution}: {gaps:?}");
+        let residual = motion.checks().energy_residual_j.unwrap();
+        assert!(residual.abs() < 1e-9 * stored, "{restitution}: {residual} of {stored}");
+        if let Some(account) = motion.energy_account() {
+            assert!(account.growth_work_j < 0.0, "{account:?}");
+        }
     }
 }

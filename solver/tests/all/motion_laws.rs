@@ -49,7 +49,8 @@ fn machines() -> impl Strategy<Value = Scene> {
             scene.operation.pulse_n = drive.1;
             scene.operation.speed_ramp_rad_s2 = when(on[4], drive.2);
             if on[5] {
-                scene.bladed_disk.nodal_diameters = drive.3;
+                let lining = kinds.1 == ContactLaw::Smooth;
+                scene.bladed_disk.nodal_diameters = if lining { drive.3 } else { 0 };
                 scene.excitation.amplitude_nm = when(kinds.0 != ModelSize::Rigid, 0.3);
             }
             if kinds.0 == ModelSize::Full && on[3] {

@@ -1,52 +1,156 @@
-//! Reports of the frequency domain: JSON (`rubscope.hbm/1`), tables and a
-//! heading in sentences. Results serialise themselves; this file has only the
-//! views that combine several results or take parts of one.
+//! Steady states against speed (`rubscope hbm`): what each view computes, and its tables and
+//! JSON (`rubscope.hbm/1`). A view is one file with one [`View`], which is in [`VIEWS`].
 
 use std::rc::Rc;
 
-use serde::Serialize;
-use serde_json::{Value, json};
-
+mod branches;
+mod campbell;
+mod coincidence;
+mod compliance;
+mod excitation;
 mod heading;
-mod joined;
-mod lining;
-mod parts;
-mod tables;
+mod locked;
+mod rows;
+mod slip;
+mod smooth;
+mod whirl;
 
 pub use heading::Heading;
-pub use joined::{
-    CompliancePoint, WhirlRow, compliance, compliance_chart, compliance_table, wave_table, whirl,
-    whirl_table,
-};
-pub use lining::*;
-pub use tables::*;
+pub use locked::LOCKED;
+pub use rows::Parts;
+use rows::Rows;
 
-use parts::{Part, Parts};
+use super::number::{per_speed, short};
+use super::table::{MadeTable, Table};
+use rubscope_solver::harmonic::{Corner, Form, HarmonicError, Sweep, locked_motion};
+use rubscope_solver::model::{LockWindow, Machine};
+use rubscope_solver::scene::{Quantity, Scene, keys};
 
-use crate::report::number::{per_speed, short};
-use rubscope_solver::harmonic::{
-    Branches, Campbell, ExcitedLock, ExcitedLocks, Form, Line, LockedPoint, SlipPoint, Sweep,
-};
-use rubscope_solver::model::{ContactPolygon, Excitation, LockWindow, Machine};
-use rubscope_solver::scene::Scene;
+/// The views with an option, in the order of the help.
+pub const VIEWS: [&View; 8] = [
+    &branches::BRANCHES,
+    &slip::SLIP,
+    &campbell::CAMPBELL,
+    &excitation::EXCITATION,
+    &smooth::SMOOTH,
+    &coincidence::COINCIDENCE,
+    &whirl::WHIRL,
+    &compliance::COMPLIANCE,
+];
 
-/// The whole answer of `rubscope hbm --json`, its parts in order.
-#[derive(Debug, Serialize)]
-#[serde(transparent)]
-pub struct HbmReport(Parts);
+/// A view of the steady states of a scene.
+#[derive(Debug)]
+pub struct View {
+    /// Its option, without dashes.
+    pub option: &'static str,
+    /// Help of the option.
+    pub help: &'static str,
+    /// An option for a second range of values.
+    pub range: Option<RangeOption>,
+    /// Whether its numbers have the damping of the scene whatever is asked for.
+    pub always_damped: bool,
+    /// Whether it is of one speed.
+    pub one_speed: bool,
+    /// Which lock stands beside it in JSON.
+    pub lock: LockBeside,
+    /// Computes it.
+    pub answer: fn(&Request<'_>) -> Result<Answer, HarmonicError>,
+}
 
-impl HbmReport {
-    /// The report of the machine of a scene, without points; the coincidence is that of a
-    /// rotor that turns in the sense of `speed`.
+/// The option for a second range of a view.
+#[derive(Debug)]
+pub struct RangeOption {
+    /// Its name, without dashes.
+    pub option: &'static str,
+    /// Its help.
+    pub help: &'static str,
+    /// The quantity of its values.
+    pub quantity: Quantity,
+}
+
+/// The lock of rigid contact beside a view.
+#[derive(Debug)]
+pub enum LockBeside {
+    /// The view has the contact law of the scene and no such lock.
+    OfScene,
+    /// The view has rigid contact. Where the lock is refused for a reason that the function
+    /// tolerates, it is left out.
+    Rigid(fn(&HarmonicError) -> bool),
+}
+
+/// The input of a view.
+#[derive(Debug)]
+pub struct Request<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Rotor speeds \[rad/s\].
+    pub speeds: &'a [f64],
+    /// The equations of the lock.
+    pub form: Form,
+    /// Whether the equations have the damping of the scene.
+    pub damped: bool,
+    /// The two blades that hold the wave, if they are chosen.
+    pub pair: Option<[u32; 2]>,
+    /// The values of the second range of the view, if they are given.
+    pub range: Option<&'a [f64]>,
+    /// Machine of the scene, with rigid contact where the view has it.
+    pub machine: Machine,
+    /// The locked motion, where there is one and the view has rigid contact.
+    pub sweep: Option<Rc<Sweep>>,
+}
+
+impl Request<'_> {
+    /// Returns the speed furthest from standstill, whose sense of rotation counts \[rad/s\].
     #[must_use]
-    pub fn new(scene: &Scene, machine: &Machine, form: Form, damped: bool, speed: f64) -> Self {
-        let report = Self(Parts::default())
+    pub fn fastest(&self) -> f64 {
+        let further = |a: &f64, b: &f64| a.abs().total_cmp(&b.abs());
+        self.speeds.iter().copied().max_by(further).unwrap_or(self.scene.operation.speed_rad_s)
+    }
+
+    /// Returns the least and the largest speed \[rad/s\].
+    fn span(&self) -> [f64; 2] {
+        let least = self.speeds.iter().copied().fold(f64::INFINITY, f64::min);
+        [least, self.speeds.iter().copied().fold(f64::NEG_INFINITY, f64::max)]
+    }
+
+    fn corner(&self) -> Result<Corner, HarmonicError> {
+        let polygon = &self.machine.polygon;
+        self.pair.map_or_else(|| Corner::paper(polygon), |pair| Corner::of_blades(polygon, pair))
+    }
+
+    /// Computes a view, with the fields that all views have before its own.
+    ///
+    /// # Errors
+    /// The first key that has no meaning for the view, by its name.
+    pub fn answer(&mut self, view: &View) -> Result<Answer, HarmonicError> {
+        if let LockBeside::Rigid(tolerates) = view.lock {
+            self.machine = self.scene.machine().with_lining(None);
+            let Self { form, damped, pair, speeds, .. } = *self;
+            let found = match self.scene.clearance() {
+                ..=0.0 => Err(no_clearance(self.scene)),
+                _ => locked_motion(&self.machine, form, damped, pair, speeds),
+            };
+            match found {
+                Ok(sweep) => self.sweep = Some(Rc::new(sweep)),
+                Err(error) if tolerates(&error) => {}
+                Err(error) => return Err(error),
+            }
+        }
+        let answer = (view.answer)(self)?;
+        Ok(Answer { json: self.json().and(answer.json), ..answer })
+    }
+
+    /// Returns the fields of every view.
+    fn json(&self) -> Parts {
+        let Self { scene, machine, form, damped, .. } = self;
+        let (speed, notes) = (self.fastest(), notes(scene, machine));
+        let window = machine.lock_window(speed);
+        let json = Parts::default()
             .with("scene", scene.reported())
             .with("form", form)
             .with("damped", damped);
-        let (notes, window) = (notes(scene, machine), machine.lock_window(speed));
-        let report = if notes.is_empty() { report } else { report.with("notes", notes) };
-        report
+        let json = if notes.is_empty() { json } else { json.with("notes", notes) };
+        let json = json
             .with("omega_c_rad_s", machine.critical_speed())
             .with("omega_lock_rad_s", window.map(|window| window.from))
             .with("lock_ends_rad_s", window.and_then(|window| window.to))
@@ -55,138 +159,57 @@ impl HbmReport {
             .with("casing_frequency_rad_s", machine.omega_c)
             .with("blade_frequency_rad_s", machine.omega_bd)
             .with("clearance_m", machine.clearance())
-            .with("locked_amplitude_m", machine.locked_amplitude())
-            .with("missing_rad_s", [(); 0])
-            .with("points", [(); 0])
-    }
-
-    /// Adds a part, or replaces it in its place.
-    #[must_use]
-    pub fn with(self, name: &'static str, part: impl Serialize) -> Self {
-        Self(self.0.with_whole(name, part))
-    }
-
-    /// As `with`, of parts of which some are made as they are written.
-    #[must_use]
-    pub fn with_parts(self, name: &'static str, parts: Parts) -> Self {
-        Self(self.0.with(name, Part::Parts(parts)))
-    }
-
-    /// Adds an array with an element for each item, made as it is written.
-    #[must_use]
-    pub fn with_rows<T: 'static>(
-        self,
-        name: &'static str,
-        items: &Rc<Vec<T>>,
-        of: impl Fn(&T) -> Value + 'static,
-    ) -> Self {
-        Self(self.0.with_rows(name, items, of))
-    }
-
-    /// Adds every equilibrium at these speeds, made as they are written, and where they
-    /// change.
-    #[must_use]
-    pub fn with_branches(self, branches: &Rc<Branches>) -> Self {
-        let parts = Parts::default().with_whole("thresholds", &branches.thresholds);
-        let (speeds, branches) = (branches.speeds(), Rc::clone(branches));
-        let states =
-            move |place| Ok(branches.states_at(place)?.iter().map(|state| json!(state)).collect());
-        self.with_parts("branches", parts.with("states", Part::Rows(speeds, Box::new(states))))
-    }
-
-    /// Adds the locked motion over speed.
-    #[must_use]
-    pub fn with_sweep(self, polygon: &ContactPolygon, sweep: &Rc<Sweep>) -> Self {
-        let blades = sweep.corner.sides().map(|side| polygon.blades_of_side(side));
-        let report = self.with("missing_rad_s", &sweep.missing);
-        let (count, sweep) = (sweep.points.len(), Rc::clone(sweep));
-        let points = move |place: usize| {
-            let point = sweep.points.get(place);
-            Ok(point.map(|point| with_groups(point, &blades)).into_iter().collect())
-        };
-        Self(report.0.with("points", Part::Rows(count, Box::new(points))))
+            .with("locked_amplitude_m", machine.locked_amplitude());
+        match &self.sweep {
+            Some(sweep) => locked::points(json, &machine.polygon, sweep),
+            None => json.with("missing_rad_s", [(); 0]).with("points", [(); 0]),
+        }
     }
 }
 
-/// A locked motion with its multipliers and angles by phase group.
-fn with_groups(point: &LockedPoint, blades: &[Vec<u32>; 2]) -> Value {
-    let mut value = json!(point);
-    if let Some(map) = value.as_object_mut() {
-        let groups = [0, 1].map(|i| {
-            let (multiplier, alpha) = (point.multipliers_n[i], point.alpha_rad[i]);
-            json!({ "blades": blades[i], "multiplier_n": multiplier, "alpha_rad": alpha })
-        });
-        map.shift_remove("multipliers_n");
-        map.shift_remove("alpha_rad");
-        map.shift_insert(1, "groups".to_string(), json!(groups));
+/// The result of a view.
+#[derive(Debug)]
+pub struct Answer {
+    /// Its fields in JSON.
+    pub json: Parts,
+    /// Its tables, each below a title.
+    pub tables: Vec<(String, MadeTable)>,
+    /// The table for files.
+    pub file: MadeTable,
+}
+
+impl Answer {
+    /// Creates an answer whose last table is the one for files.
+    fn of(json: Parts, tables: Vec<(String, MadeTable)>) -> Self {
+        let last = tables.last().map(|(_, table)| table.clone());
+        let file = last.unwrap_or_else(|| Table::default().into());
+        Self { json, tables, file }
     }
-    value
 }
 
-/// Slip at one speed in JSON, with `null` for each figure where there is none.
-#[must_use]
-pub fn slip(point: &SlipPoint) -> Value {
-    let mut value = json!({
-        "speed_rad_s": point.speed_rad_s,
-        "exists": point.exists(),
-        "stable": point.stable(),
-        "reason": point.outcome.err(),
-    });
-    let orbit = json!(point.outcome.unwrap_or_default());
-    if let (Some(map), Value::Object(orbit)) = (value.as_object_mut(), orbit) {
-        let null = |(name, figure)| (name, if point.exists() { figure } else { Value::Null });
-        map.extend(orbit.into_iter().map(null));
-    }
-    value
+/// Tolerates no refusal of the lock.
+const fn nothing(_: &HarmonicError) -> bool {
+    false
 }
 
-/// Campbell data at these speeds \[rad/s\] in JSON.
-#[must_use]
-pub fn campbell(campbell: &Campbell, speeds: &Rc<Vec<f64>>) -> Parts {
-    let at = Rc::clone(speeds);
-    let line = move |line: &Line| {
-        let frequencies: Vec<f64> = at.iter().map(|&speed| line.at(speed)).collect();
-        json!({
-            "name": line.name,
-            "at_standstill_rad_s": line.at_standstill_rad_s,
-            "slope": line.slope,
-            "frequency_rad_s": frequencies,
-        })
-    };
-    Parts::default()
-        .with_rows("speed_rad_s", speeds, |speed| json!(speed))
-        .with_rows("lines", &Rc::new(campbell.lines.clone()), line)
-        .with_whole("coincidences", &campbell.coincidences)
+/// Refuses a preload, in which rigid contact has no place.
+fn no_clearance(scene: &Scene) -> HarmonicError {
+    let length = scene.bladed_disk.blade_length_m;
+    refused(
+        keys::CASING_RADIUS,
+        scene.casing.radius_m,
+        format!(
+            "above bladed_disk.blade_length_m = {length} here: hbm --smooth has the steady states of \
+         a preloaded lining"
+        ),
+    )
 }
 
-/// The response of the lock to an engine order in JSON: amplitudes of
-/// oscillation, and whether this order drives the modes.
-#[must_use]
-pub fn excitation(excitation: &Excitation, drives: bool, found: &Rc<ExcitedLocks>) -> Parts {
-    let point = |lock: ExcitedLock| {
-        json!({
-            "speed_rad_s": lock.state.speed_rad_s,
-            "frequency_rad_s": lock.frequency_rad_s,
-            "character": lock.state.character,
-            "casing_m": lock.casing_m(),
-            "alpha_c_rad": lock.response[2].norm(),
-            "alpha_s_rad": lock.response[3].norm(),
-            "multipliers_n": lock.multipliers_n.map(|multiplier| multiplier.norm()),
-            "relative_amplitude": lock.relative_amplitude,
-            "relative_multiplier": lock.relative_multiplier,
-            "release_torque_nm": lock.release_torque_nm,
-        })
-    };
-    let (places, found) = (found.places(), Rc::clone(found));
-    let points = move |place| Ok(found.lock_at(place)?.map(point).into_iter().collect());
-    Parts::default()
-        .with_whole("amplitude_nm", excitation.amplitude_nm)
-        .with_whole("order", excitation.order)
-        .with_whole("drives", drives)
-        .with("points", Part::Rows(places, Box::new(points)))
+fn refused(key: &'static str, value: impl ToString, allowed: String) -> HarmonicError {
+    HarmonicError::Refused { key, value: value.to_string(), allowed }
 }
 
-/// What the numbers are of, where the scene asks for more than the view has.
+/// Returns what the numbers are of, where the scene asks for more than the view has.
 #[must_use]
 pub fn notes(scene: &Scene, machine: &Machine) -> Vec<String> {
     let hard = scene.lining().filter(|_| machine.lining.is_none());
@@ -194,7 +217,7 @@ pub fn notes(scene: &Scene, machine: &Machine) -> Vec<String> {
     hard.into_iter().chain(scene.tuned_note()).collect()
 }
 
-/// The speeds of a window: `472.117 to 566.259`, or where it begins alone.
+/// Returns the speeds of a window: `472.117 to 566.259`, or where it begins alone.
 #[must_use]
 pub fn speeds_of(window: LockWindow) -> String {
     match window.to {

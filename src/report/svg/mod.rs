@@ -37,7 +37,7 @@ pub fn write(figure: &Figure, origin: &Provenance, out: &mut dyn Write) -> Resul
     out.write_all(text.as_bytes())
 }
 
-/// Where a picture comes from, as an element of SVG.
+/// Returns where a picture comes from, as an element of SVG.
 #[must_use]
 pub fn describe(origin: &Provenance) -> String {
     // A name of a file may hold anything.
@@ -46,7 +46,7 @@ pub fn describe(origin: &Provenance) -> String {
     format!("<desc>{}</desc>\n", escaped(&text))
 }
 
-/// Text as it stands in XML.
+/// Returns the text as it stands in XML.
 #[must_use]
 pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
@@ -86,7 +86,7 @@ fn draw(figure: &Figure, description: &str, text: &mut String) -> Drawn<()> {
     Ok(())
 }
 
-/// A text whose negative numbers have the sign of print.
+/// Returns a text whose negative numbers have the sign of print.
 fn signed(text: &str) -> String {
     let mut before = ' ';
     let mut letters = text.chars().peekable();

@@ -143,7 +143,7 @@ pub fn draw(panel: &Panel, area: &Area) -> Drawn<()> {
     Ok(())
 }
 
-/// The name of a mark, above the axes, in the middle over its line.
+/// Returns the name of a mark, above the axes, in the middle over its line.
 fn draw_mark(mark: &Mark, at: &(i32, i32), area: &Area) -> Drawn<()> {
     let (left, top) = area.get_base_pixel();
     let half = px(width_of(mark.label) as i32) / 2;
@@ -152,8 +152,8 @@ fn draw_mark(mark: &Mark, at: &(i32, i32), area: &Area) -> Drawn<()> {
     Ok(area.draw_text(mark.label, &style, place)?)
 }
 
-/// The names of the series that have points, but for faint ones, in rows;
-/// returns their height.
+/// Returns the names of the series that have points, but for faint ones, in rows; returns their
+/// height.
 fn draw_names(panel: &Panel, area: &Area) -> Drawn<u32> {
     let width = area.dim_in_pixel().0 / FINE;
     let start = LABELS as u32 + 16;
@@ -172,7 +172,7 @@ fn draw_names(panel: &Panel, area: &Area) -> Drawn<u32> {
     Ok(if left == start { 0 } else { 4 + LINE * (row + 1) })
 }
 
-/// How a series is drawn, before its name.
+/// Returns how a series is drawn, before its name.
 fn draw_sample(style: Style, (left, top): (i32, i32), area: &Area) -> Drawn<()> {
     let at = |dx: i32, dy: i32| (px(left + dx), px(top + dy));
     let fill = colour(style);
@@ -224,8 +224,8 @@ pub struct Scale<'a> {
 }
 
 impl<'a> Scale<'a> {
-    /// The range of the cells, or without any of all points, widened by this
-    /// part of itself; a logarithmic axis without cells has whole decades.
+    /// Creates the range of the cells, or without any of all points, widened by this part of
+    /// itself; a logarithmic axis without cells has whole decades.
     pub fn of(
         panel: &Panel,
         quantity: &'a Quantity,
@@ -258,13 +258,13 @@ impl<'a> Scale<'a> {
         scale
     }
 
-    /// A value in the units shown.
+    /// Returns a value in the units shown.
     pub fn shown(&self, value: f64) -> f64 {
         let value = value * self.quantity.factor;
         if self.quantity.log { value.log10() } else { value }
     }
 
-    /// The axis as the drawing library needs it.
+    /// Returns the axis as the drawing library needs it.
     pub fn axis(&self) -> Axis {
         let ticks = if self.quantity.log {
             log_ticks(self.low, self.high, MOST_TICKS)
@@ -274,7 +274,7 @@ impl<'a> Scale<'a> {
         Axis { range: RangedCoordf64::from(self.low..self.high), ticks }
     }
 
-    /// The label of a tick.
+    /// Returns the label of a tick.
     pub fn label(&self, tick: f64) -> String {
         if self.quantity.log {
             return power_of_ten(tick);
@@ -311,19 +311,19 @@ impl Ranged for Axis {
     }
 }
 
-/// Whether a panel is a map.
+/// Returns whether a panel is a map.
 pub fn has_cells(panel: &Panel) -> bool {
     panel.series.iter().any(|series| matches!(series.style, Style::Cells(_)))
 }
 
-/// The points that set the range of the axes: those of cells, if there are any.
+/// Returns the points that set the range of the axes: those of cells, if there are any.
 fn ranging(panel: &Panel) -> impl Iterator<Item = &(f64, f64)> {
     let only_cells = has_cells(panel);
     let chosen = move |style: Style| !only_cells || matches!(style, Style::Cells(_));
     panel.series.iter().filter(move |series| chosen(series.style)).flat_map(|series| &series.points)
 }
 
-/// Steps between the different values of x and of y, at least one each.
+/// Returns the steps between the different values of x and of y, at least one each.
 pub fn tiles(panel: &Panel) -> (usize, usize) {
     let count = |of: fn(&(f64, f64)) -> f64| {
         let mut values: Vec<f64> = ranging(panel).map(of).collect();

@@ -32,7 +32,7 @@ const COLOURS: [RGBColor; 6] = [
 pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 pub type Drawn<T> = Result<T, Box<dyn std::error::Error>>;
 
-/// A length in pixels shown, as drawn.
+/// Returns a length in pixels shown, as drawn.
 pub fn px(length: i32) -> i32 {
     length * FINE as i32
 }
@@ -45,7 +45,7 @@ pub fn write_at(area: &Area, text: &str, at: (i32, i32), size: i32) -> Drawn<()>
     write_from(area, text, at, size, HPos::Left)
 }
 
-/// Text with its left end, its middle or its right end there.
+/// Returns the text with its left end, its middle or its right end there.
 pub fn write_from(area: &Area, text: &str, (x, y): (i32, i32), size: i32, end: HPos) -> Drawn<()> {
     // Text of a scene is plain, that of a caller of the library need not be.
     let text: String = text.chars().filter(|c| is_plain(*c)).collect();
@@ -56,22 +56,22 @@ pub fn write_from(area: &Area, text: &str, (x, y): (i32, i32), size: i32, end: H
 /// Stands for an underscore that is one, in a name as it is typed.
 pub const UNDERSCORE: char = '\u{e000}';
 
-/// Text whose underscores are no subscripts.
+/// Returns the text whose underscores are no subscripts.
 pub fn typed(text: &str) -> String {
     text.replace('_', UNDERSCORE.encode_utf8(&mut [0; 4]))
 }
 
-/// How many letters of a size fit into a width.
+/// Returns how many letters of a size fit into a width.
 pub fn letters_in(width: u32, size: i32) -> usize {
     (f64::from(width) / (LETTER * f64::from(size))) as usize
 }
 
-/// About how wide a text of the usual size is \[px\].
+/// Estimates the width of a text of the usual size \[px\].
 pub fn width_of(text: &str) -> u32 {
     (LETTER * f64::from(TEXT) * text.chars().count() as f64).ceil() as u32
 }
 
-/// A text in lines that fit into this width.
+/// Returns a text in lines that fit into this width.
 pub fn wrapped(text: &str, width: u32) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
@@ -86,7 +86,7 @@ pub fn wrapped(text: &str, width: u32) -> Vec<String> {
     lines
 }
 
-/// The lines of the mark of a number, about its place; none for a disc. They are open, so
+/// Returns the lines of the mark of a number, about its place; none for a disc. They are open, so
 /// that marks at one place can be seen, and one more than colours.
 pub fn strokes(number: usize, radius: i32) -> Vec<Vec<(i32, i32)>> {
     let r = px(radius);

@@ -1,17 +1,9 @@
 //! The open dialogue: what the keyboard acts on.
-//!
-//! The open help: what is looked for in it, and how far it is scrolled.
-//!
-//! The open list of commands: what is typed, which line is chosen, and doing it.
 
-use crate::report::line::clean;
-use crate::tui::app::{App, Effect};
 use crate::tui::bindings::Action;
-use crate::tui::commands::{self, Command};
-use crate::tui::{lessons, panels};
-use rubscope_solver::scene::Scene;
+use crate::tui::lessons;
 
-/// What the keyboard acts on.
+/// Target of the keyboard: the main screen or an open dialogue.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum InputMode {
     /// Knobs and charts.
@@ -46,7 +38,7 @@ pub enum Purpose {
 /// The open dialogue, if one is.
 #[derive(Clone, Debug)]
 pub struct Dialogue {
-    /// What the keyboard acts on.
+    /// Target of the keyboard: the main screen or an open dialogue.
     pub mode: InputMode,
     /// Page of the note of the selected scene, where it is long.
     pub note_page: usize,
@@ -54,7 +46,7 @@ pub struct Dialogue {
     /// what to try.
     pub is_new: bool,
     /// Whether the screen has shown the question that is open.
-    asked: bool,
+    pub asked: bool,
 }
 
 impl Default for Dialogue {
@@ -64,54 +56,29 @@ impl Default for Dialogue {
 }
 
 impl Dialogue {
-    /// What the keyboard acts on.
-    pub(super) fn mode(&self) -> &InputMode {
-        &self.mode
-    }
-
-    /// Whether none is open.
-    pub(super) fn is_closed(&self) -> bool {
+    /// Returns whether none is open.
+    pub fn is_closed(&self) -> bool {
         self.mode == InputMode::Main
     }
 
     /// Opens another, at its first page.
-    pub(super) fn open(&mut self, mode: InputMode) {
+    pub fn open(&mut self, mode: InputMode) {
         (self.mode, self.note_page) = (mode, 0);
     }
 
     /// Opens a question, which is answered once the screen has shown it.
-    pub(super) fn ask(&mut self, mode: InputMode) {
+    pub fn ask(&mut self, mode: InputMode) {
         self.open(mode);
         self.asked = false;
     }
 
-    /// Another scene of the list is the chosen one, on the same page of its note.
-    pub(super) fn choose(&mut self, place: Option<usize>) {
-        self.mode = InputMode::Scenes(place);
-    }
-
     /// Closes it.
-    pub(super) fn close(&mut self) {
+    pub fn close(&mut self) {
         self.mode = InputMode::Main;
     }
 
-    /// The screen has shown it.
-    pub(super) fn drawn(&mut self) {
-        self.asked = true;
-    }
-
-    /// Whether the screen has shown the question.
-    pub(super) fn is_asked(&self) -> bool {
-        self.asked
-    }
-
-    /// A key was pressed: the user has found the keyboard.
-    pub(super) fn introduce(&mut self) {
-        self.is_new = false;
-    }
-
-    /// The text that is being typed.
-    pub(super) fn typed(&mut self) -> Option<&mut String> {
+    /// Returns the text that is being typed.
+    pub fn typed(&mut self) -> Option<&mut String> {
         match &mut self.mode {
             InputMode::Typing(text) | InputMode::Sweeping(text) | InputMode::Naming(_, text) => {
                 Some(text)
@@ -122,8 +89,8 @@ impl Dialogue {
         }
     }
 
-    /// After a change of what is looked for, the list begins at its top.
-    pub(super) fn look_again(&mut self) {
+    /// Scrolls the list to its top after a change of what is searched.
+    pub fn look_again(&mut self) {
         match &mut self.mode {
             InputMode::Help(help) => help.scroll = 0,
             InputMode::Palette(palette) => palette.place = 0,
@@ -131,8 +98,8 @@ impl Dialogue {
         }
     }
 
-    /// Its own keys; false where it has none for this.
-    pub(super) fn act(&mut self, action: Action) -> bool {
+    /// Carries out an action of a list; returns false where the dialogue has none for this.
+    pub fn act(&mut self, action: Action) -> bool {
         match (&mut self.mode, action) {
             (InputMode::Lessons(place), Action::KnobBelow) => {
                 let last = lessons::all().len().saturating_sub(1);
@@ -157,182 +124,32 @@ pub struct HelpState {
     pub scroll: u16,
 }
 
-impl App {
-    /// Scrolls the help, or clears its filter; whether the action did that.
-    pub(super) fn scroll_help(&mut self, help: &HelpState, action: Action) -> bool {
-        let page = panels::body(self).height.saturating_sub(2).max(1);
-        // Further than the end, a key up would do nothing for a while.
-        let from = help.scroll.min(panels::help_bottom(self, help));
-        let scroll = match action {
-            Action::KnobBelow => from.saturating_add(1),
-            Action::KnobAbove => from.saturating_sub(1),
-            Action::PageForward => from.saturating_add(page),
-            Action::PageBack => from.saturating_sub(page),
-            Action::Close if !help.filter.is_empty() => {
-                self.dialogue.open(InputMode::Help(HelpState::default()));
-                return true;
-            }
-            _ => return false,
-        };
-        let scroll = scroll.min(panels::help_bottom(self, help));
-        self.dialogue.open(InputMode::Help(HelpState { scroll, ..help.clone() }));
-        true
-    }
-}
-
 /// The open list.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PaletteState {
-    /// What is looked for.
+    /// Text that is searched for.
     pub typed: String,
     /// The chosen line of what was found.
     pub place: usize,
 }
 
-impl App {
-    /// Opens the list with these words.
-    pub(super) fn look_for(&mut self, typed: &str) {
-        self.dialogue.open(InputMode::Palette(PaletteState { typed: typed.into(), place: 0 }));
-    }
-
-    /// Moves the choice; whether the action did that.
-    pub(super) fn move_choice(&mut self, palette: &PaletteState, action: Action) -> bool {
-        const PAGE: usize = 8;
-        let last = commands::found(self, &palette.typed).len().saturating_sub(1);
-        let place = match action {
-            Action::KnobBelow => palette.place + 1,
-            Action::KnobAbove => palette.place.saturating_sub(1),
-            Action::PageForward => palette.place + PAGE,
-            Action::PageBack => palette.place.saturating_sub(PAGE),
-            _ => return false,
-        };
-        self.dialogue
-            .open(InputMode::Palette(PaletteState { place: place.min(last), ..palette.clone() }));
-        true
-    }
-
-    /// Does what was chosen; where there is nothing to choose, the list stays open.
-    pub(super) fn choose_command(&mut self, palette: &PaletteState) -> Effect {
-        let chosen = commands::found(self, &palette.typed).into_iter().nth(palette.place);
-        let chosen = chosen.map_or_else(|| commands::only(self, &palette.typed), Ok);
-        chosen.and_then(|found| self.obey(found.command)).unwrap_or_else(|reason| {
-            self.status = Some(clean(&reason));
-            Effect::None
-        })
-    }
-
-    /// Does what was asked for in words.
-    ///
-    /// # Errors
-    /// There is no such instant or blade, or a knob does not take the value, in words.
-    pub fn obey(&mut self, command: Command) -> Result<Effect, String> {
-        self.dialogue.close();
-        match command {
-            Command::Act(action) => return Ok(self.act(action)),
-            Command::GoTo(t) => {
-                self.has_instant(t)?;
-                self.go_to(t);
-            }
-            Command::Blade(blade) => self.go_to_blade(blade)?,
-            Command::Axes(paths) => self.put_axes(paths),
-            Command::Scene(name) => self.open_builtin(name),
-            Command::Lesson(place) => self.begin_lesson(place),
-            Command::Select(place) => self.knobs.select(place),
-            Command::Theme(theme) => self.status = Some(self.appearance.use_theme(theme)),
-            Command::Write(purpose, name) => return Ok(self.write(purpose, &name, false)),
-            Command::Set(place, text) => {
-                self.knobs.select(place);
-                self.accept(&text);
-                if let Some(refusal) = self.knobs.refusal() {
-                    return Err(refusal.to_string());
-                }
-            }
-        }
-        Ok(Effect::None)
-    }
-
-    /// Makes a built-in scene the current one; undo brings the former one back.
-    pub fn open_builtin(&mut self, name: &str) {
-        match Scene::builtin(name).and_then(|scene| scene.checked()) {
-            Ok(scene) => {
-                self.open_scene(name.to_string(), scene);
-                self.status = Some(format!("opened {name}"));
-            }
-            Err(error) => self.status = Some(clean(&error.to_string())),
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tui::{Marker, Theme};
 
     #[test]
     fn what_is_typed_is_of_the_open_dialogue_and_a_list_begins_at_its_top() {
         let mut dialogue = Dialogue::default();
-        assert!(dialogue.is_closed() && dialogue.is_asked() && dialogue.typed().is_none());
+        assert!(dialogue.is_closed() && dialogue.asked && dialogue.typed().is_none());
         dialogue.open(InputMode::Palette(PaletteState { typed: "ab".into(), place: 3 }));
         dialogue.look_again();
         assert!(!dialogue.act(Action::Accept));
         let expected = PaletteState { typed: "ab".into(), place: 0 };
-        assert_eq!(*dialogue.mode(), InputMode::Palette(expected));
+        assert_eq!(dialogue.mode, InputMode::Palette(expected));
         dialogue.ask(InputMode::Replacing(Purpose::Save, "a".into()));
-        assert!(!dialogue.is_asked());
-        dialogue.drawn();
+        assert!(!dialogue.asked);
+        dialogue.asked = true;
         dialogue.close();
-        assert!(dialogue.is_asked() && dialogue.is_closed());
-    }
-
-    fn app() -> App {
-        App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Braille)
-    }
-
-    #[test]
-    fn a_value_that_is_refused_changes_nothing_and_says_so() {
-        let mut app = app();
-        let before = app.scene.clone();
-        app.choose_command(&PaletteState { typed: "blades 0".into(), place: 0 });
-        assert_eq!(app.scene, before);
-        assert!(app.status.is_some_and(|status| status.contains("blades N: 0 is not possible")));
-    }
-
-    #[test]
-    fn what_is_no_command_says_why_and_the_list_stays_open() {
-        let mut app = app();
-        app.look_for("speed qqq");
-        let open = app.dialogue.mode.clone();
-        app.choose_command(&PaletteState { typed: "speed qqq".into(), place: 0 });
-        assert_eq!(app.dialogue.mode, open);
-        assert!(app.status.is_some_and(|status| status.contains("qqq")));
-    }
-
-    #[test]
-    fn a_key_that_types_nothing_says_so_and_a_letter_ends_a_refusal() {
-        use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
-        let mut app = app();
-        app.act(Action::Type);
-        for code in [KeyCode::Char(' '), KeyCode::Tab] {
-            app.key(&KeyEvent::new(code, KeyModifiers::NONE));
-            assert!(app.status.take().is_some_and(|status| status.contains("no meaning here")));
-        }
-        app.key(&KeyEvent::new(KeyCode::Char('x'), KeyModifiers::NONE));
-        app.act(Action::Accept);
-        assert!(app.knobs.refusal().is_some());
-        app.act(Action::DeleteLast);
-        assert!(app.knobs.refusal().is_none() && !app.dialogue.is_closed());
-    }
-
-    #[test]
-    fn a_scene_that_is_opened_can_be_undone() {
-        let mut app = app();
-        let before = app.scene.clone();
-        app.knobs.live = true;
-        app.open_builtin("rocking");
-        assert_eq!(*app.scene, Scene::builtin("rocking").unwrap());
-        assert_eq!((&app.files.opened, app.knobs.live), (&app.scene, true));
-        assert_eq!(app.files.source.as_ref().map(|source| source.name.as_str()), Some("rocking"));
-        app.act(Action::Undo);
-        assert_eq!(app.scene, before);
+        assert!(dialogue.asked && dialogue.is_closed());
     }
 }

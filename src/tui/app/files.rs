@@ -1,17 +1,10 @@
-//! Writing files: the scene as TOML, the data of the large chart as CSV, the
-//! screen as SVG. No file is replaced without a question.
-//!
-//! The command line that repeats the run on the screen.
-//!
-//! The list of scenes: the built-in ones and the files of the directory; the
-//! open one is marked, and another can be opened.
+//! The files: the open scene, the list of those that can be opened, the file that is being
+//! written, and the command line that repeats the run on the screen.
 
 use std::path::{Component, Path, PathBuf};
 
 use crate::report::CommandLine;
-use crate::tui::app::{App, Effect, InputMode, Purpose, Source};
-use crate::tui::export;
-use crate::tui::files::{FileJob, FileResult};
+use crate::tui::app::{App, Purpose, Source};
 use crate::tui::files::{FoundScene, FoundScenes, builtin_scenes};
 use rubscope_solver::scene::keys::differences;
 use rubscope_solver::scene::{CheckedScene, DEFAULT, Scene};
@@ -21,19 +14,19 @@ use rubscope_solver::scene::{CheckedScene, DEFAULT, Scene};
 pub struct Writing {
     /// Its name, as typed.
     pub name: String,
-    purpose: Purpose,
+    pub purpose: Purpose,
     /// Whether no key was pressed since.
-    undisturbed: bool,
+    pub undisturbed: bool,
 }
 
 /// The files, and the open scene.
 #[derive(Clone, Debug)]
 pub struct Files {
-    /// Where files are written; the working directory unless set.
+    /// Directory in which files are written; the working directory unless set.
     pub directory: PathBuf,
     /// The scene as it was opened; `Backspace` restores its values.
     pub opened: CheckedScene,
-    /// Where the scene is from, for the command line that repeats the run.
+    /// Origin of the scene, for the command line that repeats the run.
     pub source: Option<Source>,
     /// The file that is being written.
     pub writing: Option<Writing>,
@@ -42,35 +35,20 @@ pub struct Files {
 }
 
 impl Files {
-    /// With this scene open.
-    pub(super) fn of(opened: CheckedScene) -> Self {
+    /// Creates the files with this scene open.
+    pub fn of(opened: CheckedScene) -> Self {
         let (directory, found) = (PathBuf::new(), FoundScenes::default());
         Self { directory, opened, source: None, writing: None, found }
     }
 
-    /// The scene as it was opened.
-    pub(super) fn opened(&self) -> &CheckedScene {
-        &self.opened
-    }
-
-    /// Where it is from.
-    pub(super) fn source(&self) -> Option<&Source> {
-        self.source.as_ref()
-    }
-
     /// Makes another scene the open one; without a source that stays.
-    pub(super) fn open(&mut self, scene: CheckedScene, source: Option<Source>) {
+    pub fn open(&mut self, scene: CheckedScene, source: Option<Source>) {
         self.opened = scene;
         self.source = source.or(self.source.take());
     }
 
-    /// The open scene as it was.
-    pub(super) fn reopen(&mut self, scene: CheckedScene, source: Option<Source>) {
-        (self.opened, self.source) = (scene, source);
-    }
-
-    /// A key was pressed while a file is being written.
-    pub(super) fn disturb(&mut self) {
+    /// Records that a key was pressed while a file is being written.
+    pub fn disturb(&mut self) {
         if let Some(writing) = &mut self.writing {
             writing.undisturbed = false;
         }
@@ -78,80 +56,22 @@ impl Files {
 }
 
 impl App {
-    /// Has a file written; where one exists, the result is a question.
-    pub(super) fn write(&mut self, purpose: Purpose, name: &str, replace: bool) -> Effect {
-        let name = name.trim();
-        if name.is_empty() {
-            self.status = Some("a file name is needed; Esc leaves".into());
-            return Effect::None;
-        }
-        self.dialogue.close();
-        if let Some(writing) = &self.files.writing {
-            self.status = Some(format!("{name} not written: still writing {}", writing.name));
-            return Effect::None;
-        }
-        let content = match purpose {
-            Purpose::Save => Ok(self.scene_to_save().to_toml()),
-            Purpose::Export if name.ends_with(".svg") => Ok(export::svg(self)),
-            Purpose::Export => self.panel().csv(self),
-        };
-        match content {
-            Ok(content) => {
-                self.status = Some(format!("writing {name} ..."));
-                self.files.writing =
-                    Some(Writing { name: name.into(), purpose, undisturbed: true });
-                Effect::Write(FileJob { path: self.files.directory.join(name), content, replace })
-            }
-            Err(reason) => {
-                self.status = Some(format!("nothing exported: {reason}"));
-                Effect::None
-            }
-        }
-    }
-
-    /// Tells how the writing of the file went; whether it is written.
-    pub fn written(&mut self, result: FileResult) -> bool {
-        let Some(Writing { name, purpose, undisturbed }) = self.files.writing.take() else {
-            return true;
-        };
-        self.status = match &result {
-            FileResult::Written => Some(format!("written: {name}")),
-            FileResult::Failed(reason) => Some(format!("cannot write {name}: {reason}")),
-            FileResult::Exists if undisturbed => {
-                self.dialogue.ask(InputMode::Replacing(purpose, name));
-                None
-            }
-            // A key that was meant for something else must not be the answer.
-            FileResult::Exists => Some(format!("{name} exists and is as it was; save again")),
-        };
-        result == FileResult::Written
-    }
-
-    /// The screen shows this state: from now on a key can be the answer to its
-    /// question, and a sweep can go on.
-    pub fn drawn(&mut self) {
-        self.dialogue.drawn();
-        self.sweep_on();
-    }
-}
-
-impl App {
-    /// The command line as text.
+    /// Returns the command line as text.
     pub fn command(&self) -> String {
         self.command_line().to_string()
     }
 
-    /// `rubscope run SCENE` with every key that differs from it.
+    /// Returns `rubscope run SCENE` with every key that differs from the scene.
     pub fn command_line(&self) -> CommandLine {
         // Without a source it is the default scene, which is built in.
         let default = || Source {
             name: DEFAULT.into(),
             scene: Scene::builtin(DEFAULT).unwrap_or_else(|_| Scene::base()),
         };
-        let Source { name, scene: base } = self.files.source().cloned().unwrap_or_else(default);
+        let Source { name, scene: base } = self.files.source.clone().unwrap_or_else(default);
         // Live changes come at their instants, after which the forecast is as long
         // as the scene says.
-        let mut scene = self.run.scene().clone().into_scene();
+        let mut scene = self.run.started.clone().into_scene();
         scene.solver.end_s = self.end_s();
         let start = CommandLine::from_base("run", &name, &base, &scene);
         let live = &self.results().applied;
@@ -160,16 +80,9 @@ impl App {
         live.iter().fold(start, at)
     }
 
-    /// Keys that differ from a scene, with their values as text.
-    pub(super) fn changes_from(&self, base: &Scene) -> Vec<(&'static str, String)> {
+    /// Returns the keys that differ from a scene, with their values as text.
+    pub fn changes_from(&self, base: &Scene) -> Vec<(&'static str, String)> {
         differences(base, &self.scene).collect()
-    }
-
-    /// The command to copy; the status line shows it too.
-    pub(super) fn copied(&mut self) -> String {
-        let command = self.command();
-        self.status = Some(format!("copied: {command}"));
-        command
     }
 }
 
@@ -187,9 +100,9 @@ pub struct SceneEntry {
 }
 
 impl App {
-    /// Every scene that can be opened. One from elsewhere that is open comes first.
+    /// Returns every scene that can be opened. One from elsewhere that is open comes first.
     pub fn scene_entries(&self) -> Vec<SceneEntry> {
-        let open = self.files.source().map_or(DEFAULT, |source| source.name.as_str());
+        let open = self.files.source.as_ref().map_or(DEFAULT, |source| source.name.as_str());
         let builtin = builtin_scenes().iter().map(|FoundScene { name, scene }| SceneEntry {
             name: name.clone(),
             scene: scene.clone(),
@@ -212,109 +125,14 @@ impl App {
         entries
     }
 
-    /// The place of the selected scene: the open one, unless another was chosen.
+    /// Returns the place of the selected scene: the open one, unless another was chosen.
     pub fn scene_place(&self, entries: &[SceneEntry], chosen: Option<usize>) -> usize {
         let open = || entries.iter().position(|entry| entry.open).unwrap_or(0);
         chosen.unwrap_or_else(open).min(entries.len().saturating_sub(1))
     }
-
-    /// Opens the list, and has the files of the directory read.
-    pub(super) fn list_scenes(&mut self) -> Effect {
-        self.dialogue.open(InputMode::Scenes(None));
-        if std::mem::replace(&mut self.files.found.reading, true) {
-            // A folder that does not answer is asked once.
-            return Effect::None;
-        }
-        Effect::FindScenes(self.files.directory.clone())
-    }
-
-    /// Takes the scenes that were found. The selected one stays selected.
-    pub fn scenes_found(&mut self, found: FoundScenes) {
-        let chosen = match self.dialogue.mode() {
-            InputMode::Scenes(Some(place)) => self.scene_entries().get(*place).cloned(),
-            _ => None,
-        };
-        self.files.found = found;
-        if let Some(chosen) = chosen {
-            let same = |entry: &SceneEntry| entry.name == chosen.name && entry.file == chosen.file;
-            self.dialogue.choose(self.scene_entries().iter().position(same));
-        }
-    }
-
-    pub(super) fn move_in_scenes(&mut self, by: i64) {
-        let InputMode::Scenes(chosen) = *self.dialogue.mode() else { return };
-        let entries = self.scene_entries();
-        let last = i64::try_from(entries.len()).unwrap_or(1) - 1;
-        let place = i64::try_from(self.scene_place(&entries, chosen)).unwrap_or(0);
-        let place = usize::try_from((place + by).clamp(0, last)).ok();
-        self.dialogue.open(InputMode::Scenes(place));
-    }
-
-    /// Opens the chosen scene, if it is one.
-    pub(super) fn open_chosen_scene(&mut self) {
-        let InputMode::Scenes(chosen) = *self.dialogue.mode() else { return };
-        let entries = self.scene_entries();
-        let Some(entry) = entries.get(self.scene_place(&entries, chosen)) else { return };
-        match &entry.scene {
-            Ok(scene) => {
-                let path = match entry.file && !entry.open {
-                    true => self.files.directory.join(&entry.name).to_string_lossy().into_owned(),
-                    false => entry.name.clone(),
-                };
-                self.dialogue.close();
-                self.open_scene(path, scene.clone());
-                self.status = Some(format!("opened {}", entry.name));
-            }
-            Err(_) => self.status = Some(format!("{} cannot be opened", entry.name)),
-        }
-    }
-
-    /// Makes another scene the open one, with the charts that it names; undo
-    /// brings the former back.
-    pub fn open_scene(&mut self, name: String, scene: CheckedScene) {
-        self.knobs.remember(self.past());
-        self.end_lesson();
-        let source = Source { name, scene: scene.clone().into_scene() };
-        self.files.open(scene.clone(), Some(source));
-        self.layout.open(&scene);
-        self.map = self.map.anchored(&scene);
-        self.reading.stop();
-        self.knobs.forget_refusal();
-        self.set_scene(scene, false);
-    }
-
-    /// The scene to save. Title and note of the opened scene would be false where
-    /// knobs were turned: then they say what was changed.
-    pub(super) fn scene_to_save(&self) -> Scene {
-        let mut scene = self.scene.clone().into_scene();
-        let (base, name) = match &self.files.source {
-            Some(source) => (&source.scene, source.name.as_str()),
-            None => (&*self.files.opened, "the opened scene"),
-        };
-        let mut changes = self.changes_from(base);
-        changes.retain(|(path, _)| !["title", "note"].contains(path));
-        if changes.is_empty() {
-            return scene;
-        }
-        let fits = |text: String, most: usize| text.chars().take(most).collect::<String>();
-        // Words of the user's own stay.
-        if scene.title == base.title {
-            scene.title = fits(format!("changed from {name}"), 200);
-        }
-        if scene.note == base.note {
-            let list: Vec<String> =
-                changes.iter().map(|(path, value)| format!("{path} = {value}")).collect();
-            scene.note = fits(format!("changed from {name}: {}", list.join(", ")), 4000);
-        }
-        // A name with letters that a title cannot have.
-        if scene.checked().is_err() {
-            (scene.title, scene.note) = ("changed".into(), String::new());
-        }
-        scene
-    }
 }
 
-/// Whether two paths are written for the same file.
+/// Returns whether two paths are written for the same file.
 fn same_path(one: &Path, other: &Path) -> bool {
     let parts = |path: &Path| -> Vec<std::ffi::OsString> {
         let named = path.components().filter(|part| *part != Component::CurDir);
@@ -326,109 +144,9 @@ fn same_path(one: &Path, other: &Path) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tui::bindings::Action;
-    use crate::tui::{Marker, Theme};
-    use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
-
-    fn press(app: &mut App, code: KeyCode) -> Effect {
-        app.key(&KeyEvent::new(code, KeyModifiers::NONE))
-    }
-
-    fn app() -> App {
-        App::new(Scene::base().checked().unwrap(), Theme::Dark, Marker::Braille)
-    }
 
     #[test]
-    fn a_file_that_takes_long_leaves_the_keys_alone_and_a_second_one_waits() {
-        let mut app = app();
-        press(&mut app, KeyCode::Char('s'));
-        assert!(matches!(press(&mut app, KeyCode::Enter), Effect::Write(_)));
-        assert_eq!(app.status.as_deref(), Some("writing scene.toml ..."));
-        press(&mut app, KeyCode::Char('s'));
-        assert_eq!(press(&mut app, KeyCode::Enter), Effect::None);
-        let refused = "scene.toml not written: still writing scene.toml";
-        assert_eq!(app.status.as_deref(), Some(refused));
-        assert!(app.written(FileResult::Written) && app.files.writing.is_none());
-        assert_eq!(app.status.as_deref(), Some("written: scene.toml"));
-    }
-
-    #[test]
-    fn a_name_without_an_end_says_where_its_end_is() {
-        let mut app = app();
-        press(&mut app, KeyCode::Char('s'));
-        let InputMode::Naming(_, name) = &app.dialogue.mode else { panic!() };
-        for _ in name.len()..200 {
-            press(&mut app, KeyCode::Char('x'));
-            assert_eq!(app.status, None);
-        }
-        press(&mut app, KeyCode::Char('x'));
-        assert_eq!(app.status.as_deref(), Some("no room: at most 200 letters"));
-        press(&mut app, KeyCode::Backspace);
-        assert_eq!(app.status, None);
-    }
-
-    #[test]
-    fn the_question_whether_to_replace_takes_no_key_that_was_pressed_before_it() {
-        let mut app = app();
-        press(&mut app, KeyCode::Char('s'));
-        press(&mut app, KeyCode::Enter);
-        assert!(!app.written(FileResult::Exists));
-        assert!(matches!(app.dialogue.mode, InputMode::Replacing(..)));
-        // Nor one that came before the screen showed it.
-        assert_eq!(press(&mut app, KeyCode::Char('y')), Effect::None);
-        assert!(matches!(app.dialogue.mode, InputMode::Replacing(..)));
-        app.drawn();
-        let Effect::Write(job) = press(&mut app, KeyCode::Char('y')) else { panic!() };
-        assert!(job.replace);
-        // Here a key comes before the answer: `y` copies, and is no answer.
-        press(&mut app, KeyCode::Char('j'));
-        assert!(!app.written(FileResult::Exists));
-        assert_eq!(app.dialogue.mode, InputMode::Main);
-        assert!(matches!(press(&mut app, KeyCode::Char('y')), Effect::Copy(_)));
-    }
-
-    #[test]
-    fn the_command_names_what_differs_and_nothing_else() {
-        let mut scene = Scene::builtin("paper-nd3").unwrap();
-        let app = App::new(scene.checked().unwrap(), Theme::Dark, Marker::Braille);
-        assert_eq!(app.command(), "rubscope run paper-nd3");
-        scene.set("operation.speed_rad_s", "-430").unwrap();
-        scene.set("solver.contact", "unilateral").unwrap();
-        scene.set("title", "it's mine").unwrap();
-        let app = App::new(scene.checked().unwrap(), Theme::Dark, Marker::Braille);
-        assert_eq!(
-            app.command(),
-            "rubscope run paper-nd3 --set 'title=it'\\''s mine' \
-             --set operation.speed_rad_s=-430.0 --set solver.contact=unilateral"
-        );
-    }
-
-    #[test]
-    fn a_folder_that_does_not_answer_is_asked_once_and_holds_nothing_up() {
-        let mut app = App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Ascii);
-        assert!(matches!(app.act(Action::Scenes), Effect::FindScenes(_)));
-        app.act(Action::Close);
-        assert_eq!(app.act(Action::Scenes), Effect::None);
-        app.act(Action::KnobBelow);
-        let chosen = app.scene_entries()[1].name.clone();
-        // A file that comes late leaves the selected scene selected.
-        let scene = Ok(Scene::base().checked().unwrap());
-        let files = vec![FoundScene { name: "late.toml".into(), scene }];
-        app.scenes_found(FoundScenes { files, ..FoundScenes::default() });
-        assert_eq!(app.scene_entries().last().unwrap().name, "late.toml");
-        app.act(Action::Accept);
-        assert_eq!(app.files.source.as_ref().unwrap().name, chosen);
-        // Now it is asked again.
-        assert!(matches!(app.act(Action::Scenes), Effect::FindScenes(_)));
-    }
-
-    #[test]
-    fn an_open_file_of_another_folder_is_in_the_list() {
-        let mut app = App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Ascii);
-        app.files.source = Some(Source { name: "other/mine.toml".into(), scene: Scene::base() });
-        let entries = app.scene_entries();
-        assert!(entries[0].open && entries[0].name == "other/mine.toml");
-        assert_eq!(app.scene_place(&entries, None), 0);
+    fn a_path_may_begin_with_a_dot() {
         assert!(same_path(Path::new("./a.toml"), Path::new("a.toml")));
         assert!(!same_path(Path::new("b/a.toml"), Path::new("a.toml")));
     }

@@ -2,7 +2,7 @@
 
 use super::App;
 use crate::tui::bindings::Action;
-use crate::tui::views::{ViewId, ViewPanel};
+use crate::tui::views::id::ViewId;
 use rubscope_solver::scene::Scene;
 
 /// Most charts next to the large one.
@@ -26,8 +26,8 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// The charts that a scene names, and then the others.
-    pub(super) fn of(scene: &Scene) -> Self {
+    /// Creates the layout with the charts that a scene names first.
+    pub fn of(scene: &Scene) -> Self {
         let views = ViewId::all().collect();
         let mut layout = Self {
             views,
@@ -41,8 +41,8 @@ impl Layout {
         layout
     }
 
-    /// The charts that a scene names come first.
-    pub(super) fn open(&mut self, scene: &Scene) {
+    /// Puts the charts that a scene names first.
+    pub fn open(&mut self, scene: &Scene) {
         let named = scene.view.charts.iter().filter_map(|word| ViewId::from_word(word));
         let mut views: Vec<ViewId> = named.collect();
         views.extend(
@@ -51,61 +51,56 @@ impl Layout {
         self.views = views;
     }
 
-    /// The large chart.
+    /// Returns the large chart.
     pub fn view(&self) -> ViewId {
         self.views.first().copied().unwrap_or(ViewId::Response)
     }
 
-    /// Every view, the large one first.
+    /// Returns every view, the large one first.
     pub fn views(&self) -> &[ViewId] {
         &self.views
     }
 
-    /// The charts as they were; whether the large one is another.
-    pub(super) fn set_views(&mut self, views: Vec<ViewId>) -> bool {
+    /// Restores the order of the charts; returns whether the large one is another.
+    pub fn set_views(&mut self, views: Vec<ViewId>) -> bool {
         let before = self.view();
         self.views = views;
         self.view() != before
     }
 
     /// Makes a view the large one; the former one takes its place. False where it is large.
-    fn show(&mut self, view: ViewId) -> bool {
+    pub fn show(&mut self, view: ViewId) -> bool {
         let place = self.views.iter().position(|other| *other == view).unwrap_or(0);
         self.views.swap(0, place);
         place > 0
     }
 
     /// Orders the charts beside the large one.
-    pub(super) fn order_beside(&mut self, rank: impl Fn(ViewId) -> u8) {
+    pub fn order_beside(&mut self, rank: impl Fn(ViewId) -> u8) {
         if let Some((_, others)) = self.views.split_first_mut() {
             others.sort_by_key(|view| rank(*view));
         }
     }
 
-    /// Whether the gaps are drawn against time.
-    pub(super) fn is_heat(&self) -> bool {
-        self.heat
-    }
-
-    /// Whether the margins are those of all diameters.
+    /// Returns whether the margins are those of all diameters.
     pub fn is_surveyed(&self) -> bool {
         self.survey
     }
 
-    /// The margins of all diameters, or of one; what to say.
-    pub(super) fn turn_survey(&mut self, on: bool) -> String {
+    /// Shows the margins of all diameters, or of one; returns the message.
+    pub fn turn_survey(&mut self, on: bool) -> String {
         self.survey = on;
         format!("margins of {}", if on { "all diameters" } else { "n_d alone" })
     }
 
-    /// The gaps against time, or those of one instant; what to say.
-    pub(super) fn turn_gaps(&mut self) -> String {
+    /// Shows the gaps against time, or those of one instant; returns the message.
+    pub fn turn_gaps(&mut self) -> String {
         self.heat = !self.heat;
         format!("gaps {}", if self.heat { "against time" } else { "of this instant" })
     }
 
     /// Its keys.
-    pub(super) fn act(&mut self, action: Action) {
+    pub fn act(&mut self, action: Action) {
         match action {
             Action::Charts => self.beside = (self.beside + 1) % (MOST_BESIDE + 1),
             Action::FullScreen => self.full_screen = !self.full_screen,
@@ -114,8 +109,8 @@ impl Layout {
         }
     }
 
-    /// The view some places after the large one in the table.
-    pub(super) fn neighbour(&self, by: i64) -> ViewId {
+    /// Returns the view some places after the large one in the table.
+    pub fn neighbour(&self, by: i64) -> ViewId {
         let views: Vec<ViewId> = ViewId::all().collect();
         let place = (self.view() as i64 + by).rem_euclid(views.len() as i64);
         views.get(place as usize).copied().unwrap_or(self.view())
@@ -123,37 +118,25 @@ impl Layout {
 }
 
 impl App {
-    /// The large chart.
+    /// Returns the large chart.
     pub fn view(&self) -> ViewId {
         self.layout.view()
     }
 
-    /// What the large chart draws and exports.
-    pub fn panel(&self) -> &'static dyn ViewPanel {
-        self.view().panel()
-    }
-
-    /// Whether a view is the large chart.
+    /// Returns whether a view is the large chart.
     pub fn is_large(&self, view: ViewId) -> bool {
         self.view() == view
     }
 
-    /// Whether a view can be on the screen.
+    /// Returns whether a view can be on the screen.
     pub fn is_open(&self, view: ViewId) -> bool {
         let shown = if self.is_alone() { 1 } else { 1 + self.layout.beside };
         self.layout.views.iter().take(shown).any(|other| *other == view)
     }
 
-    /// Whether only the large chart is on the screen.
+    /// Returns whether only the large chart is on the screen.
     pub fn is_alone(&self) -> bool {
-        self.layout.full_screen || self.appearance.is_wide() || self.compares()
-    }
-
-    /// Makes a view the large one; an instant that is read goes on being read.
-    pub(super) fn show(&mut self, view: ViewId) {
-        if self.layout.show(view) {
-            self.keep_instant();
-        }
+        self.layout.full_screen || self.appearance.wide || self.compares()
     }
 }
 

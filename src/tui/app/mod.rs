@@ -11,19 +11,16 @@ mod mouse;
 mod play;
 mod reading;
 mod run;
-mod update;
+mod sweep;
 mod verdict;
 
-pub use dialogue::{InputMode, Purpose};
-
-pub use dialogue::HelpState;
-pub use lesson::LessonProgress;
-
-pub use dialogue::PaletteState;
-pub use files::SceneEntry;
-pub use mouse::Heard;
+pub use dialogue::{HelpState, InputMode, PaletteState, Purpose};
+pub use files::{SceneEntry, Writing};
+pub use knobs::Past;
+pub use lesson::{LessonProgress, StepProgress};
+pub use mouse::{Grip, Target};
 pub use reading::{Cursor, STEP, cell_of};
-pub use update::Effect;
+pub use sweep::Sweep;
 
 use dialogue::Dialogue;
 use files::Files;
@@ -40,12 +37,12 @@ use super::bindings::Context;
 use super::engine::{Moment, Order};
 use super::raster::Marker;
 use super::theme::Theme;
-use super::views::ViewId;
-use super::views::map::MapChoice;
+use super::views::id::ViewId;
+use super::views::map::plan::MapChoice;
 use rubscope_solver::model::Machine;
 use rubscope_solver::scene::{CheckedScene, Scene};
 
-/// Where a scene is from.
+/// Origin of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Source {
     /// Its name or path.
@@ -54,7 +51,7 @@ pub struct Source {
     pub scene: Scene,
 }
 
-/// How the explorer ends.
+/// End of the explorer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
     /// The user quit, or the input ended.
@@ -63,8 +60,8 @@ pub enum Exit {
     Signal(u8),
 }
 
-/// The explorer: what every part reads, and the parts. Each has a file with its state,
-/// its keys and its tests, and no part names a field of another.
+/// The explorer: what every part reads, and the parts. Each part has a file with its state and
+/// what can be asked of it; what keys do with it is in `update`.
 #[derive(Clone, Debug)]
 pub struct App {
     /// The scene with the current values of the knobs.
@@ -81,9 +78,9 @@ pub struct App {
     pub run: Run,
     /// The charts on the screen.
     pub layout: Layout,
-    /// What is read in the large chart.
+    /// Place and instant that are read in the large chart.
     pub reading: Reading,
-    /// What the map sweeps, and under which law.
+    /// Axes and contact law of the map.
     pub map: MapChoice,
     /// The open dialogue, if one is.
     pub dialogue: Dialogue,
@@ -98,7 +95,7 @@ pub struct App {
 }
 
 impl App {
-    /// The explorer on a checked scene.
+    /// Creates the explorer on a checked scene.
     pub fn new(scene: CheckedScene, theme: Theme, marker: Marker) -> Self {
         let machine = scene.machine();
         Self {
@@ -119,7 +116,7 @@ impl App {
         }
     }
 
-    /// What the keyboard acts on, as the table of bindings names it.
+    /// Returns what the keyboard acts on, as the table of bindings names it.
     pub fn context(&self) -> Context {
         match self.dialogue.mode {
             InputMode::Main if self.reading.on => Context::Reading,
@@ -136,7 +133,7 @@ impl App {
         }
     }
 
-    /// The order for the engine.
+    /// Returns the order for the engine.
     pub fn order(&self) -> Order {
         Order {
             scene: self.scene.clone(),
@@ -161,25 +158,25 @@ impl App {
         }
     }
 
-    /// Whether the large chart compares both contact laws, over the whole height.
+    /// Returns whether the large chart compares both contact laws, over the whole height.
     pub fn compares(&self) -> bool {
         self.run.compare && self.is_large(ViewId::Response)
     }
 
-    /// The instant that every panel shows: that under the reading cursor, or now.
+    /// Returns the instant that every panel shows: that under the reading cursor, or now.
     pub fn shown(&self) -> Option<&Moment> {
         let reading = self.results().reading.as_deref();
         let reading = reading.filter(|_| self.cursor_time().is_some());
         reading.or(self.moment())
     }
 
-    /// The current rotor speed \[rad/s\].
+    /// Returns the current rotor speed \[rad/s\].
     pub fn speed(&self) -> f64 {
         let moment = self.moment();
         moment.map_or(self.scene.operation.speed_rad_s, |moment| moment.speed)
     }
 
-    /// Why the motion stopped.
+    /// Returns why the motion stopped.
     pub fn failure(&self) -> Option<&String> {
         self.moment()?.failure.as_ref()
     }
@@ -188,11 +185,11 @@ impl App {
 /// Bins recorded per page: more than the sub-pixels of a wide screen.
 const BINS_PER_PAGE: f64 = 1024.0;
 
-/// The paper's scene on a screen of 120 x 40, for the tests of the parts.
+/// Returns the paper's scene on a screen of 120 x 40, for the tests of the parts.
 #[cfg(test)]
-fn on_screen() -> App {
+pub fn on_screen() -> App {
     let scene = rubscope_solver::scene::Scene::builtin("paper-nd3").unwrap().checked().unwrap();
-    let mut app = App::new(scene, crate::tui::Theme::Mono, crate::tui::Marker::Braille);
+    let mut app = App::new(scene, Theme::Mono, Marker::Braille);
     app.layout.size = (120, 40);
     app
 }

@@ -1,78 +1,67 @@
-//! The mouse: what a click, a wheel or a drag at a place of the screen does.
-//! Nothing needs it; a key does the same.
+//! The mouse: whether it acts, what it holds, and what is drawn where.
 
 use std::cell::RefCell;
 
-use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use ratatui::layout::Rect;
 
-use super::{App, Cursor, Effect, InputMode};
+use super::{App, Cursor};
 use crate::tui::bindings::Action;
-use crate::tui::knobs::KNOBS;
-use crate::tui::panels::{self, Target};
-
-/// What a mouse event has changed.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Heard {
-    /// Nothing on the screen.
-    Nothing,
-    /// The reading cursor follows the pointer: the next frame is soon enough.
-    Pointed,
-    /// As much as a key, with its effect.
-    Acted(Effect),
-}
+use crate::tui::views::id::ViewId;
 
 /// A knob whose bar is held.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Grip {
-    knob: usize,
+pub struct Grip {
+    /// Its place in the table.
+    pub knob: usize,
     /// The column where it was taken.
-    x: u16,
+    pub x: u16,
     /// Whether it has been turned since: one drag is undone in one step.
-    turned: bool,
+    pub turned: bool,
 }
 
-/// Where data of the large chart is drawn, and which part of it: from where to where
-/// across, and up.
-#[derive(Clone, Copy, Debug)]
-struct NotedChart {
-    area: Rect,
-    parts: [(f64, f64); 2],
+/// Something that is drawn and can be clicked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Target {
+    /// A key of the last line.
+    Key(Action),
+    /// The heading of a group of knobs, with its first knob.
+    Group(usize),
+    /// The line of a knob.
+    Knob(usize),
+    /// The bar of a knob.
+    Bar(usize),
+    /// A chart that is not the large one.
+    View(ViewId),
+    /// The data of the large chart, or a part of it: from where to where across, and up.
+    Chart([(f64, f64); 2]),
+    /// A lesson of the list.
+    Lesson(usize),
 }
 
 /// The mouse.
 #[derive(Clone, Debug)]
 pub struct Mouse {
-    /// Whether it acts.
+    /// Whether the mouse is used.
     pub on: bool,
     /// The knob whose bar it holds.
-    grip: Option<Grip>,
-    /// Where it clicked last, if it is still there.
-    clicked: Option<(u16, u16)>,
-    /// Where its wheel turned a knob last, and which.
-    wheeled: Option<((u16, u16), usize)>,
-    /// Where the data of the large chart was drawn last, and which part of it.
-    charts: RefCell<Vec<NotedChart>>,
-    /// Where the keys of the last line were drawn last.
-    keys: RefCell<Vec<(Rect, Action)>>,
+    pub grip: Option<Grip>,
+    /// Cell of the last click, if the pointer is still there.
+    pub clicked: Option<(u16, u16)>,
+    /// Cell at which the wheel turned a knob last, and that knob.
+    pub wheeled: Option<((u16, u16), usize)>,
+    /// Areas of the last frame; of those that overlap, the last one is on top.
+    drawn: RefCell<Vec<(Rect, Target)>>,
 }
 
 impl Default for Mouse {
     fn default() -> Self {
-        Self {
-            on: true,
-            grip: None,
-            clicked: None,
-            wheeled: None,
-            charts: RefCell::default(),
-            keys: RefCell::default(),
-        }
+        Self { on: true, grip: None, clicked: None, wheeled: None, drawn: RefCell::default() }
     }
 }
 
 impl Mouse {
-    /// It acts, or no longer; what to say.
-    pub(super) fn toggle(&mut self) -> String {
+    /// Switches the mouse on or off; returns the message.
+    pub fn toggle(&mut self) -> String {
         (self.on, self.grip) = (!self.on, None);
         let how = match self.on {
             true => "mouse on: click, drag, wheel; with Shift it selects text",
@@ -80,248 +69,47 @@ impl Mouse {
         };
         how.into()
     }
-
-    /// Whether it acts.
-    pub(super) fn is_on(&self) -> bool {
-        self.on
-    }
 }
 
 impl App {
-    /// Handles a mouse event.
-    pub fn mouse(&mut self, event: &MouseEvent) -> Heard {
-        let at = (event.column, event.row);
-        if !self.mouse.on {
-            return Heard::Nothing;
-        }
-        let heard = match (self.dialogue.mode(), event.kind) {
-            // A typed name is finished or left by a key.
-            (InputMode::Naming(..) | InputMode::Replacing(..), _) => Heard::Nothing,
-            (_, MouseEventKind::Down(MouseButton::Left)) if self.key_at(at).is_some() => {
-                self.key_at(at).map_or(Heard::Nothing, |action| self.acted(action))
-            }
-            (InputMode::Main | InputMode::Typing(_), kind) => self.mouse_main(kind, event, at),
-            (_, MouseEventKind::ScrollUp) => self.acted(Action::KnobAbove),
-            (_, MouseEventKind::ScrollDown) => self.acted(Action::KnobBelow),
-            (_, MouseEventKind::Down(MouseButton::Right)) => self.acted(Action::Close),
-            (_, MouseEventKind::Down(MouseButton::Left)) => self.choose(at),
-            _ => Heard::Nothing,
-        };
-        if matches!(heard, Heard::Acted(_)) {
-            self.files.disturb();
-            self.check_lesson();
-        }
-        heard
+    /// Forgets what was drawn, before the next frame.
+    pub fn forget_drawn(&self) {
+        self.mouse.drawn.take();
     }
 
-    fn acted(&mut self, action: Action) -> Heard {
-        Heard::Acted(self.act(action))
-    }
-
-    fn mouse_main(&mut self, kind: MouseEventKind, event: &MouseEvent, at: (u16, u16)) -> Heard {
-        match kind {
-            MouseEventKind::Down(MouseButton::Left) => self.click(at),
-            MouseEventKind::Down(MouseButton::Right) => self.acted(Action::Close),
-            MouseEventKind::Drag(MouseButton::Left) => self.drag(at),
-            MouseEventKind::Up(_) => {
-                self.mouse.grip = None;
-                Heard::Nothing
-            }
-            MouseEventKind::Moved => self.hover(at),
-            MouseEventKind::ScrollUp | MouseEventKind::ScrollDown => {
-                let coarse = KeyModifiers::SHIFT | KeyModifiers::CONTROL;
-                let up = kind == MouseEventKind::ScrollUp;
-                self.wheel(at, up, event.modifiers.intersects(coarse))
-            }
-            _ => Heard::Nothing,
+    /// Records what is drawn in an area.
+    pub fn note(&self, area: Rect, target: Target) {
+        if let Ok(mut drawn) = self.mouse.drawn.try_borrow_mut() {
+            drawn.push((area, target));
         }
     }
 
-    fn click(&mut self, at: (u16, u16)) -> Heard {
-        let Some(target) = panels::target(self, at) else { return Heard::Nothing };
-        if matches!(self.dialogue.mode(), InputMode::Typing(_)) {
-            self.act(Action::Close);
-        }
-        self.status = None;
-        let again = self.mouse.clicked.replace(at) == Some(at);
-        match target {
-            Target::Group(knob) => self.knobs.select(knob),
-            Target::Knob(knob) => {
-                self.knobs.select(knob);
-                self.mouse.grip = Some(Grip { knob, x: at.0, turned: false });
-            }
-            Target::Bar(knob, part) => {
-                self.knobs.select(knob);
-                self.mouse.grip = Some(Grip { knob, x: at.0, turned: true });
-                self.set_part(knob, part);
-            }
-            Target::View(view) => self.show(view),
-            Target::Chart(_) if again && self.reading.cursor().is_some() => self.open_cursor(),
-            Target::Chart(cursor) => self.point(cursor),
-        }
-        Heard::Acted(Effect::None)
+    /// Returns what is drawn in a cell of the screen, and its area.
+    pub fn target(&self, at: (u16, u16)) -> Option<(Rect, Target)> {
+        self.last_drawn(|(area, _)| area.contains(at.into()))
     }
 
-    fn drag(&mut self, at: (u16, u16)) -> Heard {
-        let Some(grip) = self.mouse.grip else { return self.hover(at) };
-        if at.0 == grip.x && !grip.turned {
-            return Heard::Nothing;
-        }
-        let Some(part) = panels::part_of_bar(self, at.0) else { return Heard::Nothing };
-        let known = self.knobs.remembered();
-        self.set_part(grip.knob, part);
-        if grip.turned {
-            self.knobs.merge(known);
-        }
-        self.mouse.grip = Some(Grip { turned: true, ..grip });
-        Heard::Acted(Effect::None)
+    /// Returns the area of the bar that is drawn.
+    pub fn bar_area(&self) -> Option<Rect> {
+        self.last_drawn(|(_, target)| matches!(target, Target::Bar(_))).map(|(area, _)| area)
     }
 
-    fn hover(&mut self, at: (u16, u16)) -> Heard {
-        if self.mouse.clicked.is_some_and(|clicked| clicked != at) {
-            self.mouse.clicked = None;
-        }
-        let Some(Target::Chart(cursor)) = panels::target(self, at).filter(|_| self.reading.is_on())
-        else {
-            return Heard::Nothing;
-        };
-        let moved = self.reading.cursor() != Some(cursor);
-        self.put_cursor(cursor);
-        if moved { Heard::Pointed } else { Heard::Nothing }
-    }
-
-    fn wheel(&mut self, at: (u16, u16), up: bool, coarse: bool) -> Heard {
-        let target = panels::target(self, at);
-        // A row with or without a bar moves those below under a pointer that stays.
-        let same = |(place, knob): &((u16, u16), usize)| {
-            let is_chart = matches!(target, Some(Target::Chart(_) | Target::View(_)));
-            let path = KNOBS.get(*knob).map(|knob| knob.path);
-            *place == at && path == self.selected().map(|knob| knob.path) && !is_chart
-        };
-        let kept = self.mouse.wheeled.filter(same).map(|(_, knob)| Target::Knob(knob));
-        match kept.or(target) {
-            Some(Target::Knob(knob) | Target::Bar(knob, _)) => {
-                self.mouse.wheeled = Some((at, knob));
-                self.knobs.select(knob);
-                self.acted(Action::Turn { up, coarse })
-            }
-            Some(Target::Chart(_)) if self.panel().is_over_time(self) => {
-                self.acted(if up { Action::ZoomIn } else { Action::ZoomOut })
-            }
-            _ => Heard::Nothing,
-        }
-    }
-
-    /// Chooses an entry of the list that is open.
-    fn choose(&mut self, at: (u16, u16)) -> Heard {
-        match (self.dialogue.mode(), panels::lesson_at(self, at)) {
-            (InputMode::Lessons(_), Some(place)) => {
-                self.dialogue.open(InputMode::Lessons(place));
-                self.acted(Action::Accept)
-            }
-            _ => Heard::Nothing,
-        }
-    }
-
-    /// Turns a knob to a place of its bar.
-    fn set_part(&mut self, place: usize, part: f64) {
-        let Some(knob) = KNOBS.get(place) else { return };
-        let range = knob.range(&self.scene, self.files.opened(), &self.machine);
-        if let Some(value) = range.and_then(|range| knob.near(range.at(part))) {
-            self.set(knob, value);
-        }
-    }
-
-    /// Forgets where the large chart and the keys were drawn, before the next picture.
-    pub fn forget_places(&self) {
-        if let Ok(mut places) = self.mouse.charts.try_borrow_mut() {
-            places.clear();
-        }
-        if let Ok(mut places) = self.mouse.keys.try_borrow_mut() {
-            places.clear();
-        }
-    }
-
-    /// Notes where a key of the last line is drawn, and what it does.
-    pub fn note_key(&self, area: Rect, action: Action) {
-        if let Ok(mut places) = self.mouse.keys.try_borrow_mut() {
-            places.push((area, action));
-        }
-    }
-
-    /// What the key does that is drawn in a cell of the screen.
-    fn key_at(&self, at: (u16, u16)) -> Option<Action> {
-        let places = self.mouse.keys.try_borrow().ok()?;
-        places.iter().find(|(area, _)| area.contains(at.into())).map(|(_, action)| *action)
-    }
-
-    /// Notes where the data of the large chart is drawn, for the mouse, and which
-    /// part of it: from where to where across, and up.
-    pub fn note_chart(&self, inner: Rect, parts: [(f64, f64); 2]) {
-        if let Ok(mut places) = self.mouse.charts.try_borrow_mut() {
-            places.push(NotedChart { area: inner, parts });
-        }
-    }
-
-    /// The place in the large chart that is drawn in a cell of the screen.
-    pub fn cursor_at(&self, (x, y): (u16, u16)) -> Option<Cursor> {
-        let places = self.mouse.charts.try_borrow().ok()?;
-        let noted = places.iter().find(|noted| noted.area.contains((x, y).into()))?;
-        let (inner, parts) = (noted.area, noted.parts);
-        let middle = |(low, high): (f64, f64), cells: u16, width: u16| {
-            low + (high - low) * (f64::from(cells) + 0.5) / f64::from(width)
-        };
-        Some(Cursor {
-            across: middle(parts[0], x - inner.x, inner.width),
-            up: middle(parts[1], inner.bottom() - 1 - y, inner.height),
-        })
+    fn last_drawn(&self, is_wanted: impl Fn(&(Rect, Target)) -> bool) -> Option<(Rect, Target)> {
+        let drawn = self.mouse.drawn.try_borrow().ok()?;
+        drawn.iter().rev().copied().find(|noted| is_wanted(noted))
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::tui::app::on_screen;
-
-    fn event(kind: MouseEventKind, (column, row): (u16, u16)) -> MouseEvent {
-        MouseEvent { kind, column, row, modifiers: KeyModifiers::NONE }
-    }
-
-    const LEFT: MouseEventKind = MouseEventKind::Down(MouseButton::Left);
-
-    #[test]
-    fn a_place_of_the_chart_is_the_middle_of_its_cell() {
-        let app = on_screen();
-        app.note_chart(Rect::new(10, 5, 20, 10), [(0.0, 1.0), (0.5, 1.0)]);
-        let at = |place| app.cursor_at(place).map(|cursor| (cursor.across, cursor.up));
-        assert_eq!(at((10, 14)), Some((0.025, 0.525)));
-        assert_eq!(at((29, 5)), Some((0.975, 0.975)));
-        assert_eq!((at((9, 14)), at((30, 14)), at((10, 15))), (None, None, None));
-        app.forget_places();
-        assert_eq!(at((10, 14)), None);
-    }
-
-    #[test]
-    fn a_key_of_the_last_line_acts_in_every_dialogue_and_nowhere_else() {
-        let mut app = on_screen();
-        app.note_key(Rect::new(0, 39, 4, 1), Action::Help);
-        app.note_key(Rect::new(6, 39, 4, 1), Action::Quit);
-        assert_eq!(app.mouse(&event(LEFT, (3, 39))), Heard::Acted(Effect::None));
-        assert!(matches!(app.dialogue.mode, InputMode::Help(_)));
-        assert_eq!(app.mouse(&event(LEFT, (5, 39))), Heard::Nothing);
-        assert_eq!(app.mouse(&event(LEFT, (9, 39))), Heard::Acted(Effect::Quit));
-        assert_eq!(app.mouse(&event(MouseEventKind::Moved, (9, 39))), Heard::Nothing);
-        // A name that is typed is finished by a key.
-        app.dialogue.mode = InputMode::Naming(super::super::Purpose::Save, "a".into());
-        assert_eq!(app.mouse(&event(LEFT, (9, 39))), Heard::Nothing);
-    }
-
-    #[test]
-    fn a_mouse_that_is_off_does_nothing() {
-        let mut app = on_screen();
-        app.note_key(Rect::new(0, 39, 4, 1), Action::Help);
-        assert!(app.mouse.toggle().contains("off") && !app.mouse.is_on());
-        assert_eq!(app.mouse(&event(LEFT, (0, 39))), Heard::Nothing);
-        assert!(app.mouse.toggle().contains("on") && app.dialogue.is_closed());
+impl Cursor {
+    /// Returns the place in the large chart that is drawn in a cell of an area with these parts
+    /// of it.
+    pub fn at((x, y): (u16, u16), area: Rect, parts: [(f64, f64); 2]) -> Self {
+        let middle = |(low, high): (f64, f64), cells: u16, width: u16| {
+            low + (high - low) * (f64::from(cells) + 0.5) / f64::from(width)
+        };
+        Self {
+            across: middle(parts[0], x - area.x, area.width),
+            up: middle(parts[1], area.bottom() - 1 - y, area.height),
+        }
     }
 }

@@ -2,7 +2,7 @@
 //! at any rate, then a new one starts.
 
 use super::App;
-use crate::tui::axis::{instant, nice_step, readable};
+use crate::tui::axis::nice_step;
 use crate::tui::bindings::Action;
 use crate::tui::engine::PageRecord;
 use crate::tui::history::{Bin, BinHistory};
@@ -18,13 +18,13 @@ const FIRST_RATE: usize = 8;
 /// Wall-clock seconds a page takes to fill.
 const PAGE_SECONDS: f64 = 4.0;
 
-/// From this rate on it is real time, to two digits.
+/// Least rate that is called real time.
 const REAL: f64 = 0.95;
 
 /// Zoom steps in either direction.
 const MOST_ZOOM: i32 = 12;
 
-/// Length of a page at a rate and a zoom, a round number \[s\].
+/// Returns the length of a page at a rate and a zoom, a round number \[s\].
 pub fn page_length(rate: f64, zoom: i32) -> f64 {
     let usual = nice_step(PAGE_SECONDS * rate, 1).unwrap_or(PAGE_SECONDS * rate);
     // Every zoom step is one place in the sequence 1, 2, 5, 10, 20, 50, ...
@@ -40,8 +40,8 @@ pub fn page_length(rate: f64, zoom: i32) -> f64 {
     format!("{mantissa}e{}", place.div_euclid(3)).parse().unwrap_or(usual)
 }
 
-/// Where a scene begins to play \[s\].
-pub(super) fn begin_s(scene: &Scene) -> f64 {
+/// Returns where a scene begins to play \[s\].
+pub fn begin_s(scene: &Scene) -> f64 {
     scene.view.begin_s.min(scene.solver.end_s)
 }
 
@@ -58,39 +58,39 @@ pub struct Play {
     pub slow_at_events: bool,
     /// Pages back from the current one.
     pub pages_back: i64,
-    /// Where the motion goes at once \[s\].
-    pub(super) go_to_s: f64,
-    pub(super) goes: u64,
-    pub(super) steps: u64,
-    pub(super) jumps: u64,
-    pub(super) extensions: u64,
+    /// Instant to which the motion goes at once \[s\].
+    pub go_to_s: f64,
+    pub goes: u64,
+    pub steps: u64,
+    pub jumps: u64,
+    pub extensions: u64,
     /// Whether it stopped because the run has come to its end.
     stopped_by_end: bool,
     /// The page of the last snapshot.
     page: i64,
-    /// The latest jump whose result was told.
+    /// Latest jump whose result was reported.
     met: u64,
-    /// How often the end of the run was told.
+    /// Number of times that the end of the run was reported.
     ends: u64,
 }
 
-/// How fast time passes on the screen, to come back to.
+/// Rate of play on the screen, to be restored.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tempo {
     rate: usize,
     zoom: i32,
-    slow_at_events: bool,
+    pub slow_at_events: bool,
 }
 
 impl Play {
-    /// From an instant on \[s\].
-    pub(super) fn from(go_to_s: f64) -> Self {
+    /// Creates the state of playing that begins at an instant \[s\].
+    pub fn from(go_to_s: f64) -> Self {
         let (playing, slow_at_events) = (true, true);
         Self { playing, rate: FIRST_RATE, slow_at_events, go_to_s, ..Self::default() }
     }
 
-    /// Its keys; what they say.
-    pub(super) fn act(&mut self, action: Action) -> Option<String> {
+    /// Carries out an action on playing; returns the message, if there is one.
+    pub fn act(&mut self, action: Action) -> Option<String> {
         match action {
             Action::Pause => {
                 self.playing = !self.playing;
@@ -119,8 +119,8 @@ impl Play {
         None
     }
 
-    /// The run begins again.
-    pub(super) fn restart(&mut self, go_to_s: f64) {
+    /// Resets what belongs to the former run.
+    pub fn restart(&mut self, go_to_s: f64) {
         self.playing |= std::mem::take(&mut self.stopped_by_end);
         (self.pages_back, self.page, self.go_to_s) = (0, 0, go_to_s);
         (self.ends, self.extensions) = (0, 0);
@@ -128,48 +128,32 @@ impl Play {
         self.met = self.jumps;
     }
 
-    /// How fast time passes on the screen.
-    pub(super) fn tempo(&self) -> Tempo {
+    /// Returns how fast time passes on the screen.
+    pub fn tempo(&self) -> Tempo {
         Tempo { rate: self.rate, zoom: self.zoom, slow_at_events: self.slow_at_events }
     }
 
-    /// Time passes as it did.
-    pub(super) fn set_tempo(&mut self, tempo: Tempo) {
+    /// Restores how fast time passes.
+    pub fn set_tempo(&mut self, tempo: Tempo) {
         (self.rate, self.zoom) = (tempo.rate, tempo.zoom);
         self.slow_at_events = tempo.slow_at_events;
     }
 
-    /// The motion slows down at changes of contact as it did, and goes on at its pace.
-    pub(super) fn slow_as(&mut self, tempo: Tempo) {
-        self.slow_at_events = tempo.slow_at_events;
-    }
-
-    /// What happens in a few microseconds can be seen; a page has this length, where one
-    /// is wanted \[s\].
-    pub(super) fn show_closely(&mut self, page_s: Option<Option<f64>>) {
+    /// Slows down at changes of contact, and sets the length of a page where one is wanted \[s\].
+    pub fn show_closely(&mut self, page_s: Option<Option<f64>>) {
         self.slow_at_events = true;
         if let Some(length) = page_s {
             self.zoom = length.map_or(0, |length| self.zoom_for(length));
         }
     }
 
-    /// Whether another page than the current one is shown.
-    pub(super) fn is_elsewhere(&self) -> bool {
-        self.pages_back != 0
-    }
-
-    /// The current page again.
-    pub(super) fn show_now(&mut self) {
-        self.pages_back = 0;
-    }
-
-    /// Whether another page is the current one since the last call.
-    pub(super) fn is_new_page(&mut self, page: i64) -> bool {
+    /// Records the current page; returns whether it is another one than at the last call.
+    pub fn is_new_page(&mut self, page: i64) -> bool {
         std::mem::replace(&mut self.page, page) != page
     }
 
-    /// Whether this snapshot is the first that knows what the latest jump has met.
-    pub(super) fn is_met(&mut self, jumps: u64) -> bool {
+    /// Returns whether this snapshot is the first with the result of the latest jump.
+    pub fn is_met(&mut self, jumps: u64) -> bool {
         let is_new = jumps == self.jumps && jumps > self.met;
         if is_new {
             self.met = jumps;
@@ -178,7 +162,7 @@ impl Play {
     }
 
     /// Stops where the run has come to its end once more; whether time passed until then.
-    pub(super) fn stop_at_end(&mut self, ends: u64) -> bool {
+    pub fn stop_at_end(&mut self, ends: u64) -> bool {
         let is_new = ends > self.ends;
         if is_new {
             self.ends = ends;
@@ -187,17 +171,12 @@ impl Play {
         is_new && self.stopped_by_end
     }
 
-    /// Whether time passes.
-    pub(super) fn is_playing(&self) -> bool {
-        self.playing
-    }
-
-    /// Motion per wall-clock time.
+    /// Returns the motion per wall-clock time.
     fn rate(&self) -> f64 {
         RATES.get(self.rate).copied().unwrap_or(5e-3)
     }
 
-    /// The zoom at which a page is as long as this, or a little longer.
+    /// Returns the zoom at which a page is as long as this, or a little longer.
     fn zoom_for(&self, length: f64) -> i32 {
         let mut all = (-MOST_ZOOM..=MOST_ZOOM).rev();
         let long = |zoom: &i32| page_length(self.rate(), *zoom) >= length * (1.0 - 1e-9);
@@ -206,28 +185,28 @@ impl Play {
 }
 
 impl App {
-    /// Motion per wall-clock time.
+    /// Returns the motion per wall-clock time.
     pub fn rate(&self) -> f64 {
         self.play.rate()
     }
 
-    /// Length of a page \[s\].
+    /// Returns the length of a page \[s\].
     pub fn page_s(&self) -> f64 {
         page_length(self.rate(), self.play.zoom)
     }
 
-    /// Motion time now \[s\].
+    /// Returns the motion time now \[s\].
     pub fn now(&self) -> f64 {
         self.moment().map_or(0.0, |moment| moment.state.t_s)
     }
 
-    /// The end of the forecast \[s\].
+    /// Returns the end of the forecast \[s\].
     pub fn end_s(&self) -> f64 {
         let end = self.results().end_s;
         if end > 0.0 { end } else { self.scene.solver.end_s }
     }
 
-    /// The page that is shown, from and to \[s\].
+    /// Returns the page that is shown, from and to \[s\].
     pub fn page(&self) -> (f64, f64) {
         let length = self.page_s();
         let number = (self.page_number() - self.play.pages_back).max(0);
@@ -235,15 +214,15 @@ impl App {
         (start, start + length)
     }
 
-    /// The record of the page that is shown: computed again at its zoom, with what is to
+    /// Returns the record of the page that is shown: computed again at its zoom, with what is to
     /// come, or until that is done what was played at a zoom like it.
     pub fn record(&self) -> &[Bin] {
-        self.recorded(self.results().page.as_deref(), self.run.played())
+        self.recorded(self.results().page.as_deref(), &self.run.history)
     }
 
-    /// The same under the other contact law.
+    /// Returns the same under the other contact law.
     pub fn comparison_record(&self) -> &[Bin] {
-        self.recorded(self.results().comparison_page.as_deref(), self.run.compared())
+        self.recorded(self.results().comparison_page.as_deref(), &self.run.comparison)
     }
 
     fn recorded<'a>(&self, page: Option<&'a PageRecord>, played: &'a BinHistory) -> &'a [Bin] {
@@ -254,67 +233,30 @@ impl App {
         }
     }
 
-    /// The bins of a record that are behind the motion, and those ahead of it.
+    /// Returns the bins of a record that are behind the motion, and those ahead of it.
     pub fn past_and_future<'a>(&self, record: &'a [Bin]) -> (&'a [Bin], &'a [Bin]) {
         let now = self.now();
         record.split_at(record.partition_point(|bin| bin.from < now))
     }
 
-    /// The last step may pass the end of the run, which may be that of a page.
-    pub(super) fn page_number(&self) -> i64 {
+    /// Returns the last step may pass the end of the run, which may be that of a page.
+    pub fn page_number(&self) -> i64 {
         self.page_of(self.now().min(self.end_s()))
     }
 
-    /// The page of an instant: one that has just become full is shown full.
-    fn page_of(&self, t: f64) -> i64 {
+    /// Returns the page of an instant: one that has just become full is shown full.
+    pub fn page_of(&self, t: f64) -> i64 {
         (t / self.page_s() - 1e-9).floor().max(0.0) as i64
     }
 
-    /// Part of the page that is before the instant that is read, or now, 0 to 1.
+    /// Returns the part of the page that is before the instant that is read, or now, 0 to 1.
     pub fn part_of_page(&self) -> f64 {
         let (from, to) = self.page();
-        ((self.reading.instant().unwrap_or(self.now()) - from) / (to - from)).clamp(0.0, 1.0)
+        ((self.reading.at_s.unwrap_or(self.now()) - from) / (to - from)).clamp(0.0, 1.0)
     }
 
-    /// Whether the run has this instant.
-    ///
-    /// # Errors
-    /// It has not, in words.
-    pub(super) fn has_instant(&self, t: f64) -> Result<(), String> {
-        let end = self.end_s();
-        if (0.0..=end).contains(&t) {
-            return Ok(());
-        }
-        let [t, end] = [t, end].map(|t| readable(t, "s"));
-        Err(format!("t = {t}: from 0 to {end}, the end of the run"))
-    }
-
-    /// Goes to an instant: what is read, while a chart is read, otherwise the motion, which
-    /// begins again where that is behind.
-    pub(super) fn go_to(&mut self, t: f64) {
-        if self.reading.is_on() {
-            self.play.pages_back = self.page_number() - self.page_of(t);
-            self.read_instant(t);
-            return;
-        }
-        if t < self.now() {
-            self.restart();
-        }
-        (self.play.go_to_s, self.play.pages_back) = (t, 0);
-        self.play.goes += 1;
-        self.status = Some(format!("on to {}", instant(t)));
-    }
-
-    /// Goes a page back, or forward, as far as the forecast.
-    pub(super) fn pan(&mut self, back: bool) {
-        let last = self.page_of(self.end_s());
-        let now = self.page_number();
-        let pages = self.play.pages_back + if back { 1 } else { -1 };
-        self.play.pages_back = pages.clamp((now - last).min(0), now);
-    }
-
-    /// The rate that is reached, in words: `200x slower` than real time; while nothing plays
-    /// the one that is asked for.
+    /// Returns the rate that is reached, in words: `200x slower` than real time; while nothing
+    /// plays the one that is asked for.
     pub fn rate_text(&self) -> String {
         let rate = if self.play.playing { self.results().pace.reached } else { Some(self.rate()) };
         let Some(rate) = rate else { return self.appearance.ellipsis().into() };
@@ -344,16 +286,16 @@ mod tests {
     #[test]
     fn at_the_end_of_the_run_time_stops_once_and_goes_on_when_asked() {
         let mut play = Play::from(0.0);
-        assert!(play.stop_at_end(1) && !play.is_playing() && !play.stop_at_end(1));
+        assert!(play.stop_at_end(1) && !play.playing && !play.stop_at_end(1));
         play.act(Action::Pause);
-        assert_eq!((play.is_playing(), play.extensions), (true, 1));
+        assert_eq!((play.playing, play.extensions), (true, 1));
         assert!(play.stop_at_end(2));
         // Another run plays again, but not where the user has stopped it.
         play.restart(0.0);
-        assert!(play.is_playing() && play.extensions == 0);
+        assert!(play.playing && play.extensions == 0);
         play.act(Action::Step);
         play.restart(0.0);
-        assert!(!play.is_playing() && play.steps == 1);
+        assert!(!play.playing && play.steps == 1);
         play.act(Action::Jump);
         assert!(play.is_met(1) && !play.is_met(1));
         play.act(Action::Jump);

@@ -2,25 +2,22 @@
 //! What it reads there is up to the view.
 
 use super::App;
-use crate::tui::views::{Opening, ViewId};
+use crate::tui::views::id::ViewId;
 
 /// A place in the large chart, as parts of its width from the left and of its
 /// height from below, 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cursor {
-    /// From the left.
+    /// Distance from the left.
     pub across: f64,
-    /// From below.
+    /// Distance from below.
     pub up: f64,
 }
 
-/// One step of the cursor where the chart has no cells, and a large one.
+/// One step of the cursor where the chart has no cells.
 pub const STEP: f64 = 0.01;
-const LARGE_STEP: f64 = 0.1;
-/// Cells of a large step in a chart of cells.
-const LARGE_CELLS: i64 = 5;
 
-/// What is read in the large chart.
+/// Place and instant that are read in the large chart.
 #[derive(Clone, Debug, Default)]
 pub struct Reading {
     /// The reading cursor.
@@ -28,247 +25,40 @@ pub struct Reading {
     /// Whether the arrows move it, not the knobs.
     pub on: bool,
     /// The instant that it reads, where it was put in a chart over time \[s\].
-    at_s: Option<f64>,
+    pub at_s: Option<f64>,
 }
 
 impl Reading {
-    /// Whether the arrows move the cursor, not the knobs.
-    pub(super) fn is_on(&self) -> bool {
-        self.on
-    }
-
-    /// The reading cursor.
-    pub(super) fn cursor(&self) -> Option<Cursor> {
-        self.cursor
-    }
-
-    /// Whether there is something to leave.
-    pub(super) fn is_open(&self) -> bool {
+    /// Returns whether there is something to leave.
+    pub fn is_open(&self) -> bool {
         self.on || self.cursor.is_some()
     }
 
-    /// The instant that was read last \[s\].
-    pub(super) fn instant(&self) -> Option<f64> {
-        self.at_s
-    }
-
-    /// The cursor is at this place of a chart that is not over time.
-    pub(super) fn move_to(&mut self, cursor: Cursor) {
-        self.cursor = Some(cursor);
-    }
-
-    /// Nothing is read any more.
-    pub(super) fn stop(&mut self) {
+    /// Stops reading.
+    pub fn stop(&mut self) {
         *self = Self::default();
     }
 }
 
 impl App {
-    /// The cursor in a view, while that is the large chart.
+    /// Returns the cursor in a view, while that is the large chart.
     pub fn cursor_in(&self, view: ViewId) -> Option<Cursor> {
         self.reading.cursor.filter(|_| self.is_large(view))
     }
 
-    /// The place of the pointer is read from now on.
-    pub(super) fn point(&mut self, cursor: Cursor) {
-        self.reading.on = true;
-        self.put_cursor(cursor);
-    }
-
-    /// Reads this instant.
-    pub(super) fn read_instant(&mut self, t: f64) {
-        self.reading.at_s = Some(t);
-        self.reading.cursor = Some(self.panel().here(self));
-    }
-
-    /// The instant that is read: that of the cursor in the chart over time where it was
+    /// Returns the instant that is read: that of the cursor in the chart over time where it was
     /// last \[s\].
     pub fn cursor_time(&self) -> Option<f64> {
         self.reading.at_s.filter(|_| self.reading.cursor.is_some())
     }
 
-    /// Puts the cursor at a place of the large chart; over time, that instant is read.
-    pub(super) fn put_cursor(&mut self, cursor: Cursor) {
-        if self.panel().is_over_time(self) {
-            let (from, to) = self.page();
-            self.reading.at_s = Some(from + cursor.across * (to - from));
-        }
-        self.reading.cursor = Some(cursor);
-    }
-
-    /// Moves the cursor up or down only: an instant that is read goes on being read, also
-    /// where it is on another page.
-    fn put_beside(&mut self, cursor: Cursor) {
-        match self.cursor_time() {
-            Some(_) => self.reading.move_to(cursor),
-            None => self.put_cursor(cursor),
-        }
-    }
-
-    /// Reads the gap of a blade, numbered from 1.
-    ///
-    /// # Errors
-    /// There is no such blade, in words.
-    pub(super) fn go_to_blade(&mut self, blade: u32) -> Result<(), String> {
-        let all = self.machine.polygon.blades;
-        if !(1..=all).contains(&blade) {
-            return Err(format!("blade {blade}: from 1 to {all}"));
-        }
-        self.show(ViewId::Gaps);
-        self.reading.on = true;
-        let (part, here) = ((f64::from(blade) - 0.5) / f64::from(all), self.panel().here(self));
-        self.put_beside(match self.layout.is_heat() {
-            true => Cursor { up: part, ..here },
-            false => Cursor { across: part, ..here },
-        });
-        let gap = self.shown().and_then(|moment| moment.gaps.get(blade as usize - 1).copied());
-        self.status = gap.map(|gap| format!("blade {blade}: gap {}", self.gap_words(gap)));
-        Ok(())
-    }
-
-    /// After a change of the large chart: an instant goes on being read.
-    pub(super) fn keep_instant(&mut self) {
-        match self.cursor_time() {
-            Some(_) => self.reading.cursor = Some(self.panel().here(self)),
-            None => self.reading.stop(),
-        }
-    }
-
-    /// Nothing is read any more.
+    /// Stops reading.
     pub fn stop_reading(&mut self) {
         self.reading.stop();
     }
-
-    /// The arrows move the cursor from now on, or no longer.
-    pub(super) fn toggle_reading(&mut self) {
-        if self.reading.on {
-            return self.reading.stop();
-        }
-        self.reading.on = true;
-        if self.reading.cursor.is_none() {
-            self.put_cursor(self.panel().here(self));
-        }
-    }
-
-    /// Moves the cursor by some steps; it appears where the motion is.
-    pub(super) fn move_cursor(&mut self, right: i64, up: i64, coarse: bool) {
-        let panel = self.panel();
-        let mut cursor = self.reading.cursor.unwrap_or_else(|| panel.here(self));
-        if panel.is_over_time(self) {
-            // The page may be another one since.
-            cursor.across = self.part_of_page();
-        }
-        let [across, high] = panel.grid(self);
-        let moved = |part: f64, by: i64, cells: u32| match cells {
-            0 => (part + by as f64 * if coarse { LARGE_STEP } else { STEP }).clamp(0.0, 1.0),
-            cells => {
-                let by = if coarse { by * LARGE_CELLS } else { by };
-                let last = i64::from(cells) - 1;
-                let cell = (cell_of(part, cells) as i64 + by).clamp(0, last);
-                (cell as f64 + 0.5) / f64::from(cells)
-            }
-        };
-        let (across, up) = (moved(cursor.across, right, across), moved(cursor.up, up, high));
-        match right {
-            0 => self.put_beside(Cursor { across, up }),
-            _ => self.put_cursor(Cursor { across, up }),
-        }
-    }
-
-    /// The gaps against time, or those of one instant; the blade that is read stays.
-    pub(super) fn turn_gaps(&mut self) {
-        let cursor = self.cursor_in(ViewId::Gaps);
-        let blade =
-            cursor.map(|cursor| if self.layout.is_heat() { cursor.up } else { cursor.across });
-        self.status = Some(self.layout.turn_gaps());
-        self.show(ViewId::Gaps);
-        if let Some(blade) = blade {
-            let here = self.panel().here(self);
-            self.put_beside(match self.layout.is_heat() {
-                true => Cursor { up: blade, ..here },
-                false => Cursor { across: blade, ..here },
-            });
-        }
-    }
-
-    /// Does what the large chart does at the cursor.
-    pub(super) fn open_cursor(&mut self) {
-        match self.opening() {
-            None => self.status = Some("Enter opens nothing in this chart".into()),
-            Some(Opening::Run(scene)) => self.open_run(*scene),
-            Some(Opening::Jump { path, value, to }) => self.jump_to_limit(path, value, &to),
-            Some(Opening::Select(path)) => self.select_to_turn(path),
-            Some(Opening::Nothing(reason)) => self.status = Some(reason),
-        }
-    }
-
-    /// What Enter does at the reading cursor.
-    pub fn opening(&self) -> Option<Opening> {
-        self.panel().opening(self, self.reading.cursor?)
-    }
 }
 
-/// The cell of a part, 0 to 1, of a row of cells.
+/// Returns the cell of a part, 0 to 1, of a row of cells.
 pub fn cell_of(part: f64, cells: u32) -> u32 {
     ((part * f64::from(cells)) as u32).min(cells.saturating_sub(1))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::tui::app::{PaletteState, on_screen};
-
-    #[test]
-    fn an_instant_that_is_read_stays_from_view_to_view() {
-        let mut app = on_screen();
-        app.walk(ViewId::Response);
-        app.point(Cursor { across: 0.25, up: 0.5 });
-        let read = Some(5e-3);
-        for view in ViewId::all().chain([ViewId::Gaps, ViewId::Response]) {
-            app.walk(view);
-            assert_eq!(app.cursor_time(), read, "{}", view.word());
-            assert_eq!(app.order().cursor_s, read);
-        }
-        assert_eq!(app.cursor_in(ViewId::Response), Some(Cursor { across: 0.25, up: 0.5 }));
-        // On a page that it is not on, too, unless the cursor is moved across.
-        app.play.zoom = 6;
-        assert!(app.page().1 < 5e-3);
-        app.move_cursor(0, 1, false);
-        assert_eq!(app.cursor_time(), read);
-        app.move_cursor(-1, 0, false);
-        assert!(app.cursor_time().is_some_and(|t| t < app.page().1));
-        app.reading.stop();
-        assert_eq!((app.cursor_time(), app.reading.is_open()), (None, false));
-    }
-
-    #[test]
-    fn a_blade_is_read_by_its_number_in_both_pictures_of_the_gaps() {
-        let mut app = on_screen();
-        for heat in [false, true] {
-            app.layout.heat = heat;
-            app.go_to_blade(7).unwrap();
-            let cursor = app.cursor_in(ViewId::Gaps).unwrap();
-            let part = if heat { cursor.up } else { cursor.across };
-            assert_eq!((cell_of(part, 22), app.reading.is_on()), (6, true));
-        }
-        for blade in [0, 23] {
-            app.choose_command(&PaletteState { typed: format!("blade {blade}"), place: 0 });
-            let refused = format!("blade {blade}: from 1 to 22");
-            assert_eq!(app.status.as_deref(), Some(refused.as_str()));
-        }
-    }
-
-    #[test]
-    fn the_cursor_goes_from_cell_to_cell_and_stops_at_the_ends() {
-        let mut app = on_screen();
-        app.walk(ViewId::Gaps);
-        app.toggle_reading();
-        let cell = |app: &App| cell_of(app.cursor_in(ViewId::Gaps).unwrap().across, 22);
-        for (right, coarse, at) in [(1, false, 1), (1, true, 6), (-1, false, 5), (-1, true, 0)] {
-            app.move_cursor(right, 0, coarse);
-            assert_eq!(cell(&app), at);
-        }
-        (0..9).for_each(|_| app.move_cursor(1, 0, true));
-        assert_eq!((cell(&app), cell_of(1.0, 22), cell_of(0.5, 0)), (21, 21, 0));
-    }
 }

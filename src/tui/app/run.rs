@@ -30,14 +30,14 @@ pub struct Run {
     /// Chart ranges.
     pub ranges: Ranges,
     /// The record of the running motion.
-    history: BinHistory,
+    pub history: BinHistory,
     /// The record under the other contact law.
-    comparison: BinHistory,
+    pub comparison: BinHistory,
     /// The latest verdict there is, of this scene or of an older one.
-    pub(super) answer: Option<Arc<Answer>>,
-    pub(super) restarts: u64,
-    pub(super) changes: u64,
-    pub(super) pulses: u64,
+    pub answer: Option<Arc<Answer>>,
+    pub restarts: u64,
+    pub changes: u64,
+    pub pulses: u64,
 }
 
 /// A pinned run, drawn behind the next ones.
@@ -52,8 +52,8 @@ pub struct Baseline {
 }
 
 impl Baseline {
-    /// What was pinned: the knobs in which it differs from the present scene, and
-    /// its verdict.
+    /// Returns what was pinned: the knobs in which it differs from the present scene, and its
+    /// verdict.
     pub fn what(&self, app: &App) -> String {
         let differs = |knob: &&Knob| knob.get(&self.scene) != knob.get(&app.scene);
         let shown = |knob: &Knob| format!("{} {}", knob.label, knob.text(&self.scene));
@@ -79,8 +79,7 @@ pub struct Ranges {
 }
 
 impl Ranges {
-    /// Ranges at the start: the clearance and a little more. Where the blades rub at
-    /// rest, as far into the lining.
+    /// Creates the run of a scene at its start.
     pub fn of(clearance: f64) -> Self {
         let size = clearance.abs();
         let gaps = match clearance < 0.0 {
@@ -99,7 +98,7 @@ impl Ranges {
 
 impl Run {
     /// Of a scene at its start.
-    pub(super) fn of(scene: &CheckedScene, machine: &Machine) -> Self {
+    pub fn of(scene: &CheckedScene, machine: &Machine) -> Self {
         Self {
             started: scene.clone(),
             latest: Snapshot::default(),
@@ -115,8 +114,8 @@ impl Run {
         }
     }
 
-    /// Of a scene from its start again. Old studies stay until there are new ones.
-    fn restart(&mut self, scene: &CheckedScene) {
+    /// Starts the run again. Results of studies stay until there are new ones.
+    pub fn restart(&mut self, scene: &CheckedScene) {
         self.restarts += 1;
         self.started = scene.clone();
         self.history.clear();
@@ -128,14 +127,14 @@ impl Run {
         self.latest = Snapshot { results, ..Snapshot::default() };
     }
 
-    /// A knob acts on the motion.
+    /// Records that a knob acts on the motion.
     fn change(&mut self) {
         self.changes += 1;
         self.forget_forecasts();
     }
 
-    /// The pulse is fired again.
-    pub(super) fn fire(&mut self) {
+    /// Records that the pulse is fired again.
+    pub fn fire(&mut self) {
         self.pulses += 1;
         self.forget_forecasts();
     }
@@ -148,14 +147,14 @@ impl Run {
         results.sensitive = Sensitive::Unknown;
     }
 
-    /// The ranges of the charts follow the data, or stay; what to say.
-    pub(super) fn autoscale(&mut self) -> String {
+    /// Makes the ranges of the charts follow the data, or stay; returns the message.
+    pub fn autoscale(&mut self) -> String {
         self.ranges.follow = !self.ranges.follow;
         format!("scales {}", if self.ranges.follow { "follow the data" } else { "stay fixed" })
     }
 
     /// Compares the other contact law, or no longer.
-    pub(super) fn set_compare(&mut self, compare: bool) {
+    pub fn set_compare(&mut self, compare: bool) {
         if compare != self.compare {
             self.compare = compare;
             let results = &mut self.latest.results;
@@ -163,35 +162,15 @@ impl Run {
             self.comparison.clear();
         }
     }
-
-    /// The record of what was played.
-    pub(super) fn played(&self) -> &BinHistory {
-        &self.history
-    }
-
-    /// The same under the other contact law.
-    pub(super) fn compared(&self) -> &BinHistory {
-        &self.comparison
-    }
-
-    /// Whether the other contact law runs too.
-    pub(super) fn is_compared(&self) -> bool {
-        self.compare
-    }
-
-    /// The scene with which it started.
-    pub(super) fn scene(&self) -> &CheckedScene {
-        &self.started
-    }
 }
 
 impl App {
-    /// What was computed of the run.
+    /// Returns what was computed of the run.
     pub fn results(&self) -> &Results {
         &self.run.latest.results
     }
 
-    /// The motion as it plays.
+    /// Returns the motion as it plays.
     pub fn moment(&self) -> Option<&Moment> {
         self.run.latest.moment.as_ref()
     }
@@ -216,7 +195,7 @@ impl App {
     }
 
     /// Pins the run behind the next ones, or removes what is pinned.
-    pub(super) fn pin(&mut self) {
+    pub fn pin(&mut self) {
         if self.run.baseline.take().is_some() {
             self.status = Some("baseline removed".into());
             return;
@@ -238,7 +217,7 @@ impl App {
             self.run.latest.trouble = snapshot.trouble;
             return true;
         }
-        // An answer is told with its value, however old.
+        // A verdict is shown with its value, however old.
         self.run.answer = snapshot.results.answer.take().or(self.run.answer.take());
         if snapshot.restarts != self.run.restarts {
             return false;
@@ -257,7 +236,7 @@ impl App {
         self.run.latest = Snapshot { results, trouble: known.trouble, ..snapshot };
         self.turn_page();
         self.fit_to_forecast(!had_forecast);
-        self.tell_moment();
+        self.report_moment();
         self.check_lesson();
         true
     }
@@ -292,13 +271,13 @@ impl App {
         }
     }
 
-    /// Number of the knobs' state.
+    /// Returns the number of the knobs' state.
     fn generation(&self) -> u64 {
         generation(self.run.restarts, self.run.changes, self.run.pulses)
     }
 
     /// Says what a jump has met, and that the run has come to its end.
-    fn tell_moment(&mut self) {
+    fn report_moment(&mut self) {
         let Some(moment) = self.moment() else { return };
         let ((jumps, met), ends) = (moment.met, moment.ends);
         if self.play.is_met(jumps) {
@@ -333,7 +312,7 @@ impl App {
         grow(gaps, most.map(|most| (low, clearance + most)));
     }
 
-    /// When a new page starts, ranges may shrink to the data of the old one.
+    /// Lets ranges shrink to the data of the old page when a new one starts.
     fn turn_page(&mut self) {
         let page = self.page_number();
         if !self.play.is_new_page(page) || !self.run.ranges.follow {
@@ -349,10 +328,10 @@ impl App {
         }
     }
 
-    /// Whether the wave is fixed in the frame of the blades: the motion is
-    /// paused, or a corner has been held for a while.
+    /// Returns whether the wave is fixed in the frame of the blades: the motion is paused, or a
+    /// corner has been held for a while.
     pub fn is_still(&self) -> bool {
-        !self.play.is_playing()
+        !self.play.playing
             || self.moment().is_some_and(|moment| {
                 let held = moment.state.t_s - moment.since;
                 matches!(moment.active_set, ActiveSet::Corner(..)) && held > self.page_s() * STILL
@@ -418,7 +397,7 @@ mod tests {
         }
         assert_eq!((run.restarts, run.changes, run.pulses), (1, 1, 1));
         run.set_compare(true);
-        assert!(run.is_compared());
+        assert!(run.compare);
         assert_eq!(run.autoscale(), "scales stay fixed");
         assert!(!run.ranges.follow);
     }

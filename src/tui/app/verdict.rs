@@ -1,9 +1,5 @@
-//! The verdict in one sentence, and what touches, in words.
-//!
-//! What touches, as the blades see it: which of them, and how deep in a lining.
-//!
-//! The speeds that a scene is measured by: of a lock, and of the coincidence that can
-//! make it whirl.
+//! The state of the run in words: its verdict in one sentence, which blades touch and how deep
+//! in a lining, and the speeds of locks and coincidence that it is compared with.
 
 use crate::report::sentence::{Cause, Doubt, Facts, Sentence};
 use crate::tui::app::App;
@@ -17,7 +13,7 @@ use rubscope_solver::motion::{ActiveSet, Verdict};
 use rubscope_solver::scene::{ContactLaw, ModelSize};
 
 impl App {
-    /// The full run of the scene's own solver, once it is computed.
+    /// Returns the full run of the scene's own solver, once it is computed.
     pub fn full_run(&self) -> Option<&FullRun> {
         match &self.results().full_run {
             Some(FullRunState::Done(run)) => Some(run),
@@ -25,12 +21,12 @@ impl App {
         }
     }
 
-    /// Whether there will be no verdict: the run takes too long.
+    /// Returns whether there will be no verdict: the run takes too long.
     pub fn is_given_up(&self) -> bool {
         matches!(self.results().full_run, Some(FullRunState::GivenUp(_)))
     }
 
-    /// What happens, in words that fit in so many columns.
+    /// Returns what happens, in words that fit in so many columns.
     pub fn sentence(&self, width: usize) -> Sentence {
         let of = |word: &str, forms: &[String]| Sentence::of(word, forms, &[], width);
         if let Some(trouble) = &self.run.latest.trouble {
@@ -55,7 +51,7 @@ impl App {
         }
     }
 
-    /// While there is no verdict, the latest one stays, with its value.
+    /// Returns the sentence while there is no verdict: the latest one, with its value.
     fn computing(&self, part: &str, width: usize) -> Sentence {
         let forms = [format!("Computing the run{part}."), format!("Computing{part}.")];
         match self.older_answer() {
@@ -64,13 +60,13 @@ impl App {
         }
     }
 
-    /// The word of the verdict, as `sentence` begins with it.
+    /// Returns the word of the verdict, as `sentence` begins with it.
     pub fn verdict_word(&self) -> String {
         self.sentence(0).word
     }
 
-    /// The verdict of a scene that differs in one knob, `at 405 rad/s: WHIRL`, or of this one
-    /// before it was changed in another way.
+    /// Returns the verdict of a scene that differs in one knob, `at 405 rad/s: WHIRL`, or of this
+    /// one before it was changed in another way.
     fn older_answer(&self) -> Option<String> {
         let Answer { scene, verdict } = self.run.answer.as_deref()?;
         let mut differ = KNOBS.iter().filter(|knob| knob.get(scene) != knob.get(&self.scene));
@@ -82,7 +78,7 @@ impl App {
         Some(format!("{when}: {}", verdict.as_ref().to_uppercase()))
     }
 
-    /// What the sentence of a run says.
+    /// Returns what the sentence of a run says.
     fn facts(&self, run: &FullRun) -> Facts {
         let polygon = &self.machine.polygon;
         let blades = |pulling: bool| {
@@ -103,7 +99,7 @@ impl App {
         }
     }
 
-    /// What makes a run doubtful: pulls, a tiny change, or that the event solver says
+    /// Returns what makes a run doubtful: pulls, a tiny change, or that the event solver says
     /// otherwise.
     fn doubts(&self, run: &FullRun) -> Vec<Doubt> {
         let other = self.results().reference.as_ref().map(|other| other.verdict);
@@ -122,7 +118,7 @@ impl App {
         doubts
     }
 
-    /// The blades in contact at the instant that is shown, in words.
+    /// Returns the blades in contact at the instant that is shown, in words.
     pub fn contact_shown(&self) -> String {
         let Some(moment) = self.shown() else { return String::new() };
         if let Some(failure) = &moment.failure {
@@ -138,7 +134,7 @@ impl App {
         }
     }
 
-    /// The state of the motion now: `free`, `touching 12`, `held on 6 + 21`.
+    /// Returns the state of the motion now: `free`, `touching 12`, `held on 6 + 21`.
     pub fn state_now(&self) -> String {
         let Some(moment) = self.moment() else { return "starting".into() };
         if moment.failure.is_some() {
@@ -165,7 +161,7 @@ impl App {
         }
     }
 
-    /// A change of contact in words.
+    /// Returns a change of contact in words.
     pub fn happening(&self, what: Happening) -> String {
         let blades = |sides: ActiveSet| self.numbers_of(sides.sides());
         match what {
@@ -183,13 +179,13 @@ impl App {
         }
     }
 
-    /// The next change of contact: when, and what.
+    /// Returns the next change of contact: when, and what.
     pub fn next_change(&self) -> Option<Mark> {
         let now = self.now();
         self.full_run()?.marks.iter().find(|mark| mark.t_s > now).copied()
     }
 
-    /// The blades of some sides, `blades 6 + 21`.
+    /// Returns the blades of some sides, `blades 6 + 21`.
     pub fn blades_of(&self, sides: impl Iterator<Item = u32>) -> String {
         let numbers = self.numbers_of(sides);
         match numbers.chars().any(|letter| matches!(letter, '+' | ',')) {
@@ -199,7 +195,7 @@ impl App {
         }
     }
 
-    /// The numbers of the blades of some sides, `6 + 21`.
+    /// Returns the numbers of the blades of some sides, `6 + 21`.
     pub fn numbers_of(&self, sides: impl Iterator<Item = u32>) -> String {
         let mut all: Vec<Vec<u32>> =
             sides.take(4).map(|side| self.machine.polygon.blades_of_side(side)).collect();
@@ -213,28 +209,28 @@ impl App {
 /// known.
 const CLOSED: f64 = 1e-9;
 
-/// How far the chart of the polygon reaches, in amplitudes of a corner.
+/// Reach of the chart of the polygon, in amplitudes of a corner.
 const MARGIN: f64 = 1.15;
 
 impl App {
-    /// How far the chart of the polygon reaches while the point is inside \[m\].
+    /// Returns how far the chart of the polygon reaches while the point is inside \[m\].
     pub fn usual_reach(&self) -> f64 {
         let polygon = &self.machine.polygon;
         let corner = if polygon.has_corners() { polygon.delta.cos() } else { 1.0 };
         MARGIN * (polygon.clearance / corner).abs()
     }
 
-    /// Whether the casing has a lining, which gives way.
+    /// Returns whether the casing has a lining, which gives way.
     pub fn has_lining(&self) -> bool {
         self.scene.solver.contact == ContactLaw::Smooth
     }
 
-    /// Whether the blades rub at rest.
+    /// Returns whether the blades rub at rest.
     pub fn is_pressed(&self) -> bool {
         self.machine.clearance() < 0.0
     }
 
-    /// The blades in contact at the instant that is shown, numbered from 1.
+    /// Returns the blades in contact at the instant that is shown, numbered from 1.
     pub fn touching_blades(&self) -> Vec<u32> {
         let Some(moment) = self.shown() else { return Vec::new() };
         let polygon = &self.machine.polygon;
@@ -249,14 +245,14 @@ impl App {
         }
     }
 
-    /// The blade that is deepest in the lining at the instant that is shown, and its
-    /// gap \[m\].
+    /// Returns the blade that is deepest in the lining at the instant that is shown, and its gap
+    /// \[m\].
     pub fn deepest(&self) -> Option<(u32, f64)> {
         let gaps = (1..).zip(self.shown()?.gaps.iter().copied());
         gaps.filter(|(_, gap)| *gap < 0.0).min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// A gap in words: how far a blade is from the casing, or how deep in its lining.
+    /// Returns a gap in words: how far a blade is from the casing, or how deep in its lining.
     pub fn gap_words(&self, gap: f64) -> String {
         match self.has_lining() && gap < 0.0 {
             true => format!("{} into the lining", readable(-gap, "m")),
@@ -265,8 +261,8 @@ impl App {
         }
     }
 
-    /// The blades in a lining at the instant that is shown, in words.
-    pub(super) fn in_the_lining(&self) -> String {
+    /// Returns the blades in a lining at the instant that is shown, in words.
+    pub fn in_the_lining(&self) -> String {
         let touching = self.touching_blades();
         let all = self.machine.polygon.blades as usize;
         let who = match touching.as_slice() {
@@ -286,31 +282,31 @@ impl App {
 }
 
 impl App {
-    /// The speed from which on a lock only pushes \[rad/s\], 0 where it does so at
+    /// Returns the speed from which on a lock only pushes \[rad/s\], 0 where it does so at
     /// standstill; none where nothing locks, as where all blades rub.
     pub fn lock_speed(&self) -> Option<f64> {
         self.lock_window().map(|window| window.from)
     }
 
-    /// The speeds between which a lock only pushes.
+    /// Returns the speeds between which a lock only pushes.
     pub fn lock_window(&self) -> Option<LockWindow> {
         self.machine.lock_window(self.speed())
     }
 
-    /// Whether blades and casing drive each other where they touch, so that a
-    /// coincidence is dangerous: tips that move outward, or a lining.
+    /// Returns whether blades and casing drive each other where they touch, so that a coincidence
+    /// is dangerous: tips that move outward, or a lining.
     pub fn is_coupled(&self) -> bool {
         let bends = self.scene.solver.model != ModelSize::Rigid;
         self.has_lining() || (bends && self.machine.radial_coupling != 0.0)
     }
 
-    /// What steady states are of where every blade of the run moves alone, in few words.
+    /// Returns what steady states are of where every blade of the run moves alone, in few words.
     pub fn tuned_note(&self) -> Option<&'static str> {
         self.scene.tuned_note().map(|_| "of equal blades, two modes")
     }
 
-    /// The coincidence that is dangerous here \[rad/s\]: of the sum of the frequencies,
-    /// or of their difference where the tips dig in.
+    /// Returns the coincidence that is dangerous here \[rad/s\]: of the sum of the frequencies, or
+    /// of their difference where the tips dig in.
     pub fn coincidence(&self) -> Option<f64> {
         self.machine.coincidence_felt_at(self.speed()).map(f64::abs)
     }

@@ -1,18 +1,16 @@
-//! The one table of key bindings: the key handler, the footer, the help and
-//! the manual page use it.
-//!
-//! The groups of actions, under whose headings the help lists their keys.
+//! The table of key bindings, which the key handler, the footer, the help and the manual page
+//! use, and the groups of actions under which the help lists them.
 
 mod table;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use strum::{EnumIter, IntoStaticStr};
 
-use crate::tui::views::ViewId;
+use crate::tui::views::id::ViewId;
 
 pub use table::BINDINGS;
 
-/// What a key does.
+/// Action of a key.
 #[expect(missing_docs, reason = "the table says what each action does")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
@@ -77,7 +75,7 @@ pub enum Action {
     DeleteLast,
 }
 
-/// Where a binding holds.
+/// Context in which a binding holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Context {
     /// Charts and knobs.
@@ -100,6 +98,8 @@ pub enum Context {
     Question,
     /// A scene is being chosen.
     Scenes,
+    /// Any dialogue is open: the keys that all of them have.
+    Dialogue,
 }
 
 /// A key with its modifiers. Shift is part of a letter, not a modifier of it.
@@ -107,14 +107,14 @@ pub enum Context {
 pub struct Chord {
     /// The key.
     pub code: KeyCode,
-    /// With Control.
+    /// Whether Control is held.
     pub ctrl: bool,
-    /// With Shift, for keys that are no characters.
+    /// Whether Shift is held, for keys that are no characters.
     pub shift: bool,
 }
 
 impl Chord {
-    /// The chord of a key event.
+    /// Returns the bindings of a context.
     pub fn of(event: &KeyEvent) -> Self {
         let shift = event.modifiers.contains(KeyModifiers::SHIFT);
         let ctrl = event.modifiers.contains(KeyModifiers::CONTROL);
@@ -169,26 +169,30 @@ impl std::fmt::Display for Chord {
 /// One line of the table.
 #[derive(Clone, Debug)]
 pub struct Binding {
-    /// Where it holds.
+    /// Context in which it holds.
     pub context: Context,
     /// The keys.
     pub keys: &'static [Chord],
-    /// What they do.
+    /// Action of the keys.
     pub action: Action,
-    /// Their action, in a few words.
+    /// Description of the action in a few words.
     pub what: &'static str,
     /// Keys and word of the footer, if it is shown there.
     pub footer: Option<(&'static str, &'static str)>,
 }
 
 impl Context {
-    /// The context that has the keys which this one has not.
+    /// Returns the context that has the keys which this one has not.
     pub fn behind(self) -> Option<Self> {
-        matches!(self, Self::Reading | Self::Question).then_some(Self::Main)
+        match self {
+            Self::Main | Self::Dialogue => None,
+            Self::Reading | Self::Question => Some(Self::Main),
+            _ => Some(Self::Dialogue),
+        }
     }
 }
 
-/// What a key does in a context.
+/// Returns what a key does in a context.
 pub fn lookup(context: Context, chord: Chord) -> Option<Action> {
     let own = of(context).find(|binding| binding.keys.contains(&chord));
     match (own, context.behind()) {
@@ -197,39 +201,39 @@ pub fn lookup(context: Context, chord: Chord) -> Option<Action> {
     }
 }
 
-/// The bindings of a context.
+/// Creates the bindings of a context.
 pub fn of(context: Context) -> impl Iterator<Item = &'static Binding> {
     BINDINGS.iter().filter(move |binding| binding.context == context)
 }
 
-/// The keys of a binding as text, such as `Up, k`.
+/// Returns the keys of a binding as text, such as `Up, k`.
 pub fn keys_text(binding: &Binding) -> String {
     binding.keys.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }
 
-/// What an action is about, in the order of the help.
+/// Group of actions, in the order of the help.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, EnumIter, IntoStaticStr)]
 pub enum Group {
     /// Selecting and turning knobs.
     Knobs,
-    /// How the motion is played, and which part of it is shown.
+    /// Playing the motion, and choosing the part that is shown.
     Time,
-    /// Which charts there are, and reading them.
+    /// Choosing charts and reading them.
     #[strum(serialize = "Views and charts")]
     Views,
-    /// What to open and to learn.
+    /// Opening scenes and lessons.
     #[strum(serialize = "Scenes and lessons")]
     Scenes,
-    /// What leaves the program.
+    /// Writing and copying.
     Files,
-    /// How it looks.
+    /// Colours, marker and units.
     Look,
     /// The program itself.
     Program,
 }
 
 impl Action {
-    /// The group of an action.
+    /// Returns the group of an action.
     pub fn group(self) -> Group {
         match self {
             Self::KnobAbove

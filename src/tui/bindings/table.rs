@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use crossterm::event::KeyCode;
 
 use super::{Action, Binding, Chord, Context};
-use crate::tui::views::ViewId;
+use crate::tui::views::id::ViewId;
 
 pub(super) const fn letter(letter: char) -> Chord {
     Chord { code: KeyCode::Char(letter), ctrl: false, shift: false }
@@ -38,28 +38,15 @@ const fn turn(up: bool, coarse: bool) -> Action {
     Action::Turn { up, coarse }
 }
 
-/// The keys of the views.
-const DIGITS: [Chord; 9] = [
-    letter('1'),
-    letter('2'),
-    letter('3'),
-    letter('4'),
-    letter('5'),
-    letter('6'),
-    letter('7'),
-    letter('8'),
-    letter('9'),
-];
-
 /// Every binding, in the order of the help; those of the footer come in the
 /// order of their importance.
 pub static BINDINGS: LazyLock<Vec<Binding>> = LazyLock::new(|| {
-    let views = ViewId::all().zip(DIGITS.chunks(1)).map(|(view, keys)| Binding {
+    // Keys and words are leaked once, because the others are static too.
+    let views = ViewId::all().map(|view| Binding {
         context: Context::Main,
-        keys,
+        keys: vec![letter(char::from(b'0' + view.digit()))].leak(),
         action: Action::View(view),
-        // Leaked once, because the other texts are static too.
-        what: format!("view {}: {}", view.digit(), view.panel().what()).leak(),
+        what: format!("view {}: {}", view.digit(), view.what()).leak(),
         footer: None,
     });
     BEFORE_VIEWS.iter().cloned().chain(views).chain(AFTER_VIEWS.iter().cloned()).collect()
@@ -206,26 +193,18 @@ const AFTER_VIEWS: &[Binding] = &[
     bind!(Typing, [key(KeyCode::Enter)], Action::Accept, "take the value", "Enter" "take"),
     bind!(Typing, [key(KeyCode::Esc)], Action::Close, "leave it as it was", "Esc" "leave"),
     bind!(Typing, [key(KeyCode::Backspace)], Action::DeleteLast, "delete the last character", "Backspace" "delete"),
-    bind!(Typing, [ctrl('c')], Action::Quit, "quit", "Ctrl-C" "quit"),
-    bind!(Typing, [ctrl('z')], Action::Suspend, "suspend"),
-    bind!(Typing, [ctrl('l')], Action::Redraw, "draw the screen again"),
     bind!(Help, [letter('?'), key(KeyCode::Esc)], Action::Close, "close the help", "? Esc" "close"),
     bind!(Help, [key(KeyCode::Down)], Action::KnobBelow, "scroll down", "↑↓" "scroll"),
     bind!(Help, [key(KeyCode::Up)], Action::KnobAbove, "scroll up"),
     bind!(Help, [key(KeyCode::PageDown)], Action::PageForward, "a page down"),
     bind!(Help, [key(KeyCode::PageUp)], Action::PageBack, "a page up"),
-    bind!(Help, [letter('q'), ctrl('c')], Action::Quit, "quit", "q" "quit"),
-    bind!(Help, [ctrl('z')], Action::Suspend, "suspend"),
-    bind!(Help, [ctrl('l')], Action::Redraw, "draw the screen again"),
+    bind!(Help, [letter('q')], Action::Quit, "quit", "q" "quit"),
     bind!(Filter, [key(KeyCode::Esc)], Action::Close, "clear the filter", "Esc" "clear"),
     bind!(Filter, [key(KeyCode::Backspace)], Action::DeleteLast, "delete the last character", "Backspace" "delete"),
     bind!(Filter, [key(KeyCode::Down)], Action::KnobBelow, "scroll down", "↑↓" "scroll"),
     bind!(Filter, [key(KeyCode::Up)], Action::KnobAbove, "scroll up"),
     bind!(Filter, [key(KeyCode::PageDown)], Action::PageForward, "a page down"),
     bind!(Filter, [key(KeyCode::PageUp)], Action::PageBack, "a page up"),
-    bind!(Filter, [ctrl('c')], Action::Quit, "quit", "Ctrl-C" "quit"),
-    bind!(Filter, [ctrl('z')], Action::Suspend, "suspend"),
-    bind!(Filter, [ctrl('l')], Action::Redraw, "draw the screen again"),
     bind!(Palette, [key(KeyCode::Enter)], Action::Accept, "do it", "Enter" "do it"),
     bind!(Palette, [key(KeyCode::Esc)], Action::Close, "leave", "Esc" "leave"),
     bind!(Palette, [key(KeyCode::Down), key(KeyCode::Tab)], Action::KnobBelow, "the line below", "↑↓" "choose"),
@@ -233,21 +212,13 @@ const AFTER_VIEWS: &[Binding] = &[
     bind!(Palette, [key(KeyCode::PageDown)], Action::PageForward, "a page down"),
     bind!(Palette, [key(KeyCode::PageUp)], Action::PageBack, "a page up"),
     bind!(Palette, [key(KeyCode::Backspace)], Action::DeleteLast, "delete the last character"),
-    bind!(Palette, [ctrl('c')], Action::Quit, "quit", "Ctrl-C" "quit"),
-    bind!(Palette, [ctrl('z')], Action::Suspend, "suspend"),
-    bind!(Palette, [ctrl('l')], Action::Redraw, "draw the screen again"),
     bind!(Replacing, [letter('y')], Action::Yes, "replace the file", "y" "replace"),
     bind!(Replacing, [letter('n'), key(KeyCode::Esc)], Action::Close, "leave it as it is", "n" "leave it"),
-    bind!(Replacing, [ctrl('c')], Action::Quit, "quit", "Ctrl-C" "quit"),
-    bind!(Replacing, [ctrl('z')], Action::Suspend, "suspend"),
-    bind!(Replacing, [ctrl('l')], Action::Redraw, "draw the screen again"),
     bind!(Lessons, [key(KeyCode::Up), letter('k')], Action::KnobAbove, "the lesson above", "↑↓" "choose"),
     bind!(Lessons, [key(KeyCode::Down), letter('j')], Action::KnobBelow, "the lesson below"),
     bind!(Lessons, [key(KeyCode::Enter), letter('g')], Action::Accept, "begin the lesson", "Enter" "begin"),
     bind!(Lessons, [key(KeyCode::Esc)], Action::Close, "close the list", "Esc" "close"),
-    bind!(Lessons, [letter('q'), ctrl('c')], Action::Quit, "quit", "q" "quit"),
-    bind!(Lessons, [ctrl('z')], Action::Suspend, "suspend"),
-    bind!(Lessons, [ctrl('l')], Action::Redraw, "draw the screen again"),
+    bind!(Lessons, [letter('q')], Action::Quit, "quit", "q" "quit"),
     bind!(Question, [key(KeyCode::Up), letter('k')], Action::KnobAbove, "the answer above", "↑↓" "choose"),
     bind!(Question, [key(KeyCode::Down), letter('j')], Action::KnobBelow, "the answer below"),
     bind!(Question, [key(KeyCode::Enter)], Action::Accept, "answer", "Enter" "answer"),
@@ -258,7 +229,8 @@ const AFTER_VIEWS: &[Binding] = &[
     bind!(Scenes, [key(KeyCode::Enter)], Action::Accept, "open the scene", "Enter" "open"),
     bind!(Scenes, [letter(' ')], Action::PageForward, "the rest of a long note"),
     bind!(Scenes, [key(KeyCode::Esc), letter('o')], Action::Close, "close the list", "Esc" "close"),
-    bind!(Scenes, [letter('q'), ctrl('c')], Action::Quit, "quit", "q" "quit"),
-    bind!(Scenes, [ctrl('z')], Action::Suspend, "suspend"),
-    bind!(Scenes, [ctrl('l')], Action::Redraw, "draw the screen again"),
+    bind!(Scenes, [letter('q')], Action::Quit, "quit", "q" "quit"),
+    bind!(Dialogue, [ctrl('c')], Action::Quit, "quit", "Ctrl-C" "quit"),
+    bind!(Dialogue, [ctrl('z')], Action::Suspend, "suspend"),
+    bind!(Dialogue, [ctrl('l')], Action::Redraw, "draw the screen again"),
 ];

@@ -106,27 +106,6 @@ fn without_a_folder_nothing_is_remembered_and_nothing_is_said() {
 }
 
 #[test]
-fn a_silent_terminal_is_remembered_once_and_by_the_way_it_is_reached() {
-    let home = tempfile::tempdir().unwrap();
-    let path = home.path().join("config.toml");
-    for name in (0..20).flat_map(|k| [k, k]) {
-        let mut memory = Memory::at(Some(path.clone()));
-        let mut app = app();
-        memory.prepare(&mut app);
-        memory.silent = Some(format!("terminal {name}"));
-        memory.keep(&app, Duration::MAX);
-    }
-    let config = read(&path);
-    assert_eq!(config.silent_terminals.len(), MOST_TERMINALS);
-    assert!(config.is_silent("terminal 19") && !config.is_silent("terminal 0"));
-    let remote = |name: &str| if name == "TERM" { "xterm".to_string() } else { "x".repeat(900) };
-    let name = terminal_name(&remote);
-    assert!(name.ends_with(" over ssh") && name.len() < 100, "{name}");
-    let local = |name: &str| if name == "TERM" { "xterm".to_string() } else { String::new() };
-    assert_eq!(terminal_name(&local), "xterm");
-}
-
-#[test]
 fn a_home_that_does_not_exist_is_not_made() {
     let home = tempfile::tempdir().unwrap();
     let none = home.path().join("none");

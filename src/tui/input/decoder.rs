@@ -6,23 +6,28 @@ use std::time::Duration;
 use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 
 use super::sequence::{Piece, piece};
+use crate::tui::ground::Ground;
 
 /// Ctrl-C as a byte. No sequence and no letter contains it.
 const CTRL_C: u8 = 3;
 const ESCAPE: u8 = 0x1b;
 const PASTE_ENDS: &[u8] = b"\x1b[201~";
 
-/// After so long without a byte the end of a pasted text is lost. Shorter: the rest of a text
-/// that comes over a slow line acts as keys.
+/// The beginning of a report of the background. It may come in pieces, of which no byte is a key.
+const REPORT: &[u8] = b"\x1b]1";
+/// After so long without a byte the end of a pasted text, or of a report, is lost. Shorter: the
+/// rest of what comes over a slow line acts as keys.
 const LOST: Duration = Duration::from_secs(2);
 
-/// What has come of an event that is not complete.
+/// Bytes of an event that is not complete.
 #[derive(Debug, Default)]
 pub struct Decoder {
     /// The beginning of a sequence, or of a letter of several bytes.
     begun: Vec<u8>,
     /// The text that is being pasted.
     pasted: Option<Vec<u8>>,
+    /// The latest report of the background.
+    pub ground: Option<Ground>,
 }
 
 impl Decoder {
@@ -45,12 +50,13 @@ impl Decoder {
             Piece::Unfinished => return,
             Piece::Paste => self.pasted = Some(Vec::new()),
             Piece::Event(event) => found.push_back(event),
+            Piece::Ground(ground) => self.ground = Some(ground),
             Piece::Nothing => {}
         }
         self.begun.clear();
     }
 
-    /// There is no more at once: an Escape is the key of this name.
+    /// Records that no more bytes come at once: an Escape alone is the key of this name.
     pub fn end(&mut self, found: &mut VecDeque<Event>) {
         if self.begun == [ESCAPE] {
             self.begun.clear();
@@ -58,11 +64,16 @@ impl Decoder {
         }
     }
 
-    /// Nothing has come for so long, a moment at least: what was begun takes no key with it,
-    /// and a Ctrl-C that came last is a key also where the end of a pasted text was lost.
+    /// Records that nothing has come for this long: what was begun swallows no key, and a Ctrl-C
+    /// that came last is a key even where the end of a pasted text was lost.
     pub fn pause(&mut self, silent: Duration, found: &mut VecDeque<Event>) {
         self.end(found);
-        self.begun.clear();
+        if self.begun == [ESCAPE, b']'] {
+            found.push_back(Event::Key(KeyEvent::new(KeyCode::Char(']'), KeyModifiers::ALT)));
+        }
+        if !self.begun.starts_with(REPORT) || silent >= LOST {
+            self.begun.clear();
+        }
         if self.pasted.take_if(|text| text.last() == Some(&CTRL_C)).is_some() {
             found.push_back(Event::Key(KeyEvent::new(KeyCode::Char('c'), KeyModifiers::CONTROL)));
         }
@@ -71,7 +82,7 @@ impl Decoder {
         }
     }
 
-    /// Whether more must come.
+    /// Returns whether more must come.
     pub fn is_unfinished(&self) -> bool {
         !self.begun.is_empty() || self.pasted.is_some()
     }
@@ -128,7 +139,6 @@ mod tests {
             ("\x1bx", Char('x'), alt),
             ("\x1bX", Char('X'), alt | shift),
             ("\x1bζ", Char('ζ'), alt),
-            ("\x1b]", Char(']'), alt),
             ("\x1b\r", Enter, alt),
             ("\x1b[A", Up, NONE),
             ("\x1b[B", Down, NONE),
@@ -248,6 +258,20 @@ mod tests {
             assert!(!decoder.is_unfinished());
             assert_eq!(take(b"q", moment, &mut decoder), q, "{begun:?}");
         }
+        // A report that comes in pieces is none of the user's keys.
+        for piece in ["\x1b]11;rg", "b:ffff/f", "fff/ffff"] {
+            assert_eq!(take(piece.as_bytes(), moment, &mut decoder), [], "{piece:?}");
+            assert!(decoder.is_unfinished() && decoder.ground.is_none());
+        }
+        assert_eq!(take(b"\x1b\\q", moment, &mut decoder), q);
+        assert_eq!(decoder.ground.take(), Some(Ground::Light));
+        assert_eq!(take(b"\x1b]11;rgb:0/0/0\x07q", moment, &mut decoder), q);
+        assert_eq!(decoder.ground.take(), Some(Ground::Dark));
+        assert_eq!(take(b"\x1b]11;rgb:0/0", LOST, &mut decoder), []);
+        assert_eq!(take(b"q", moment, &mut decoder), q);
+        let alt = [key(KeyCode::Char(']'), KeyModifiers::ALT)];
+        assert_eq!(take(b"\x1b]", moment, &mut decoder), alt);
+        assert_eq!(decoder.ground, None);
         assert_eq!(take(b"\xc3", moment, &mut decoder), []);
         assert_eq!(take(b"q", moment, &mut decoder), q);
         // A pasted text has more time; what there is of it is not lost.

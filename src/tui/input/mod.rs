@@ -10,6 +10,7 @@ use std::time::Duration;
 
 use crossterm::event::Event;
 
+use super::ground::Ground;
 use super::terminal;
 use decoder::Decoder;
 
@@ -27,13 +28,14 @@ pub struct Input {
 }
 
 impl Input {
-    /// The next event; waits for it.
+    /// Waits for the next event and returns it; `None` where the terminal has reported its
+    /// background instead.
     ///
     /// # Errors
     /// The terminal is closed.
-    pub fn next(&mut self) -> Result<Event> {
+    pub fn next(&mut self) -> Result<Option<Event>> {
         let mut silent = Duration::ZERO;
-        while self.found.is_empty() {
+        while self.found.is_empty() && self.decoder.ground.is_none() {
             let wait = self.decoder.is_unfinished().then_some(MOMENT);
             if self.look(wait)? {
                 silent = Duration::ZERO;
@@ -42,13 +44,12 @@ impl Input {
                 self.decoder.pause(silent, &mut self.found);
             }
         }
-        self.found.pop_front().ok_or_else(|| std::io::ErrorKind::UnexpectedEof.into())
+        Ok(self.found.pop_front())
     }
 
-    /// Whether there is another event within this time.
-    pub fn has_more(&mut self, within: Duration) -> bool {
-        // An error comes again where the event is read.
-        !self.found.is_empty() || (self.look(Some(within)).is_ok() && !self.found.is_empty())
+    /// Returns the background that the terminal has reported since the last call.
+    pub fn take_ground(&mut self) -> Option<Ground> {
+        self.decoder.ground.take()
     }
 
     /// Takes what is there, and waits for it this long or for ever; whether there

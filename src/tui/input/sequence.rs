@@ -5,16 +5,20 @@ use crossterm::event::{
     Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
 };
 
-/// What bytes are.
+use crate::tui::ground::{Ground, begins_report};
+
+/// Interpretation of the bytes since the last event.
 #[derive(Debug)]
 pub enum Piece {
-    /// The beginning of something.
+    /// The beginning of a sequence.
     Unfinished,
-    /// Something complete.
+    /// A complete event.
     Event(Event),
     /// The beginning of a pasted text.
     Paste,
-    /// Nothing that is known here.
+    /// The background of the terminal.
+    Ground(Ground),
+    /// A sequence that is not known here.
     Nothing,
 }
 
@@ -24,13 +28,14 @@ impl From<Option<Event>> for Piece {
     }
 }
 
-/// What bytes that began one event are.
+/// Interprets the bytes since the last event.
 pub fn piece(bytes: &[u8]) -> Piece {
     match bytes {
         [] | [0x1b] => Piece::Unfinished,
         [0x1b, 0x1b, ..] => press(KeyCode::Esc),
         [0x1b, b'[', rest @ ..] => control_sequence(rest),
         [0x1b, b'O'] => Piece::Unfinished,
+        [0x1b, b']', rest @ ..] => report(rest),
         [0x1b, b'O', last, ..] => lettered(*last).map(|code| key(code, KeyModifiers::NONE)).into(),
         [0x1b, rest @ ..] => match piece(rest) {
             Piece::Event(Event::Key(with)) => {
@@ -52,6 +57,17 @@ pub fn piece(bytes: &[u8]) -> Piece {
     }
 }
 
+/// Interprets what follows `ESC ]`: a report of the terminal.
+fn report(bytes: &[u8]) -> Piece {
+    match bytes {
+        [report @ .., 0x07] | [report @ .., 0x1b, b'\\'] => {
+            Ground::reported(report).map_or(Piece::Nothing, Piece::Ground)
+        }
+        [begun @ .., 0x1b] | begun if begins_report(begun) => Piece::Unfinished,
+        _ => Piece::Nothing,
+    }
+}
+
 fn key(code: KeyCode, modifiers: KeyModifiers) -> Event {
     Event::Key(KeyEvent::new(code, modifiers))
 }
@@ -69,7 +85,7 @@ fn typed(letter: char) -> Event {
     key(KeyCode::Char(letter), capital)
 }
 
-/// What follows `ESC [`.
+/// Returns what follows `ESC [`.
 fn control_sequence(bytes: &[u8]) -> Piece {
     match bytes {
         // The console of Linux has F1 to F5 so.
@@ -106,8 +122,8 @@ fn pointed(numbers: &str, up: bool) -> Option<Event> {
     mouse(button, place()?, place()?, up)
 }
 
-/// Two bits of the button, Shift, Alt, Control, whether it moves, and two bits for
-/// the wheel.
+/// Returns two bits of the button, Shift, Alt, Control, whether it moves, and two bits for the
+/// wheel.
 fn mouse(bits: u8, column: u16, row: u16, up: bool) -> Option<Event> {
     let button = match bits & 3 {
         0 => Some(MouseButton::Left),
@@ -120,7 +136,7 @@ fn mouse(bits: u8, column: u16, row: u16, up: bool) -> Option<Event> {
         (0 | 1, true, _) => MouseEventKind::Moved,
         (0, _, Some(button)) if up => MouseEventKind::Up(button),
         (0, _, Some(button)) => MouseEventKind::Down(button),
-        // Which one is not told.
+        // The button is not reported.
         (0, _, None) => MouseEventKind::Up(MouseButton::Left),
         (1, ..) => match bits & 3 {
             0 => MouseEventKind::ScrollUp,
@@ -137,7 +153,7 @@ fn mouse(bits: u8, column: u16, row: u16, up: bool) -> Option<Event> {
     Some(Event::Mouse(MouseEvent { kind, column, row, modifiers }))
 }
 
-/// A key with its modifiers: `CSI A`, `CSI 1;5 A`, `CSI 5 ~`, `CSI 99;5 u`.
+/// Returns a key with its modifiers: `CSI A`, `CSI 1;5 A`, `CSI 5 ~`, `CSI 99;5 u`.
 fn pressed(numbers: &str, last: u8) -> Option<Event> {
     let mut numbers = numbers.split(';');
     let which = numbers.next()?.split(':').next()?;
@@ -180,7 +196,7 @@ fn pressed(numbers: &str, last: u8) -> Option<Event> {
     Some(Event::Key(key))
 }
 
-/// Keys that end in a letter of their own.
+/// Returns the keys that end in a letter of their own.
 fn lettered(last: u8) -> Option<KeyCode> {
     Some(match last {
         b'A' => KeyCode::Up,
@@ -195,7 +211,7 @@ fn lettered(last: u8) -> Option<KeyCode> {
     })
 }
 
-/// Keys that have a number.
+/// Returns the keys that have a number.
 fn numbered(number: u8) -> Option<KeyCode> {
     Some(match number {
         1 | 7 => KeyCode::Home,

@@ -1,19 +1,18 @@
-//! Where a knob cannot change the run as the others stand, and why: a column of the table.
-//!
-//! Which knobs have a scene leave the paper's model. A folded group shows these.
+//! When a knob changes nothing because of the values of the others, and when it takes a scene
+//! beyond the model of the paper.
 
 use std::sync::LazyLock;
 
 use crate::tui::knobs::{Group, Knob};
 use rubscope_solver::scene::{ContactLaw, ModelSize, Scene, SolverKind};
 
-/// Why a knob changes nothing in a scene.
+/// Function that gives the reason why a knob changes nothing in a scene.
 pub type Inert = fn(&Scene) -> Option<&'static str>;
 
 const STILL: &str = "the blades of the rigid model do not move";
 
 impl Knob {
-    /// The reason why this knob does not change the run of a scene, if it does not.
+    /// Returns the reason why this knob does not change the run of a scene, if it does not.
     pub fn inert(&self, scene: &Scene) -> Option<&'static str> {
         (self.inert)(scene)
     }
@@ -98,8 +97,8 @@ pub fn order(scene: &Scene) -> Option<&'static str> {
 static PAPER: LazyLock<Scene> = LazyLock::new(Scene::base);
 
 impl Knob {
-    /// Whether it is one of those beyond the paper and has another value than there,
-    /// or describes the lining that the scene has.
+    /// Returns whether it is one of those beyond the paper and has another value than there, or
+    /// describes the lining that the scene has.
     pub fn leaves_the_paper(&self, scene: &Scene) -> bool {
         let lining = self.path.starts_with("contact.s");
         self.group == Group::Beyond

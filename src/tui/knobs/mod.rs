@@ -10,12 +10,12 @@ mod table;
 use inert::Inert;
 pub use naming::{Fit, best, called, fit, plain};
 use number::CLEARANCE;
-pub use number::number;
 use number::{decades, mantissas};
 use range::Bar;
 pub use range::{KnobRange, meaning};
 pub use table::KNOBS;
 
+use crate::tui::axis;
 use rubscope_solver::scene::units::UnitError;
 use rubscope_solver::scene::{
     Adjustment, Allowed, CheckedScene, ContactLaw, Quantity, Scene, SceneError, Value, keys,
@@ -26,31 +26,31 @@ use rubscope_solver::scene::{
 /// the law of contact that only pushes.
 const LAWS: [&str; 3] = ["bilateral", "unilateral", "smooth"];
 
-/// How a knob turns.
+/// Steps by which a knob turns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Turn {
-    /// By equal steps, fine and coarse.
+    /// Equal steps, fine and coarse.
     Linear(f64, f64),
-    /// By mantissas over decades; below this magnitude only zero.
+    /// Round mantissas over decades; below this magnitude only zero.
     Decades(f64),
-    /// By whole steps, fine and coarse.
+    /// Whole steps, fine and coarse.
     Whole(u64, u64),
-    /// Through a list of words.
+    /// A list of words.
     Words,
 }
 
-/// What a knob belongs to, in the order of the panel.
+/// Group of knobs, in the order of the panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Group {
-    /// What a first look needs: speed, pulse, dampings, contact and solver.
+    /// Speed, pulse, dampings, contact and solver.
     Operation,
-    /// How pulse and speed go on in time.
+    /// Pulse and speed over time.
     Time,
-    /// How the motion is computed.
+    /// Model and accuracy of the computation.
     Model,
     /// Casing and bladed disk.
     Machine,
-    /// What the paper's model leaves out: coupled tips, friction, linings.
+    /// Extensions of the model of the paper: coupled tips, friction, linings.
     Beyond,
     /// State at t = 0, and the excitation.
     Start,
@@ -61,23 +61,23 @@ impl Group {
     pub const ALL: [Self; 6] =
         [Self::Operation, Self::Time, Self::Model, Self::Machine, Self::Beyond, Self::Start];
 
-    /// Its heading.
+    /// Returns its heading.
     pub fn name(self) -> &'static str {
         ["operation", "time", "model", "machine", "beyond the paper", "start"][self as usize]
     }
 
-    /// Places of its knobs in the table.
+    /// Returns the places of its knobs in the table.
     pub fn places(self) -> impl Iterator<Item = usize> {
         KNOBS.iter().enumerate().filter(move |(_, knob)| knob.group == self).map(|(place, _)| place)
     }
 }
 
-/// The place of the knob of a key in the table.
+/// Returns the place of the knob of a key in the table.
 pub fn place_of(path: &str) -> Option<usize> {
     KNOBS.iter().position(|knob| knob.path == path)
 }
 
-/// The knob of a key.
+/// Returns the knob of a key.
 pub fn knob_of(path: &str) -> Option<&'static Knob> {
     KNOBS.get(place_of(path)?)
 }
@@ -85,21 +85,21 @@ pub fn knob_of(path: &str) -> Option<&'static Knob> {
 /// One knob.
 #[derive(Debug)]
 pub struct Knob {
-    /// What it belongs to.
+    /// Its group.
     pub group: Group,
     /// Short name.
     pub label: &'static str,
     /// The key that it sets.
     pub path: &'static str,
-    /// How it turns.
+    /// Steps by which it turns.
     pub turn: Turn,
-    /// What turning it does, in one sentence.
+    /// Effect of turning it, in one sentence.
     pub does: &'static str,
     /// The range of its bar.
     bar: Bar,
     /// The magnitude that is usual, where it is 0 in the opened scene.
     usual: f64,
-    /// Why it changes nothing, where it does not.
+    /// Reason why it changes nothing, where it does not.
     inert: Inert,
 }
 
@@ -108,7 +108,7 @@ impl Knob {
         keys::KEYS.iter().find(|key| key.path == self.path)
     }
 
-    /// The value in a scene.
+    /// Returns the value in a scene.
     pub fn get(&self, scene: &Scene) -> Value {
         self.key().map_or_else(
             || {
@@ -120,9 +120,9 @@ impl Knob {
         )
     }
 
-    /// Sets it and checks the whole scene, which is unchanged on error. If the
-    /// solver does not support the contact law or the model, the nearest
-    /// supported choice is taken; the second value is a message about it.
+    /// Sets it and checks the whole scene, which is unchanged on error. If solver, contact law
+    /// and model do not go with it, the nearest that do are taken; the second value is a
+    /// message about it.
     ///
     /// # Errors
     /// The refusal, in one line.
@@ -154,7 +154,7 @@ impl Knob {
         Ok((changed, said))
     }
 
-    /// What to say about keys that follow this knob.
+    /// Returns what to say about keys that follow this knob.
     fn followed(&self, made: &[Adjustment], law: ContactLaw) -> Option<String> {
         let first = made.first()?;
         Some(match (first.key, self.path) {
@@ -163,6 +163,9 @@ impl Knob {
             }
             (keys::SOLVER, keys::LAW) => {
                 "solver is now explicit: bilateral is a law of the time step".into()
+            }
+            (_, keys::RADIAL_COUPLING) => {
+                "contact is now unilateral: the bilateral law takes no inclined tips".into()
             }
             (keys::SOLVER, _) => {
                 "solver is now explicit: the event solver has no full model".into()
@@ -177,7 +180,7 @@ impl Knob {
         })
     }
 
-    /// The value after one turn.
+    /// Returns the value after one turn.
     pub fn turned(&self, value: &Value, up: bool, coarse: bool, scene: &Scene) -> Value {
         match (value, self.turn) {
             (Value::Real(x), Turn::Linear(fine, large)) => {
@@ -216,7 +219,7 @@ impl Knob {
         }
     }
 
-    /// The nearest multiple of a step, within bounds.
+    /// Returns the nearest multiple of a step, within bounds.
     fn round_to(&self, x: f64, step: f64) -> f64 {
         let next = (x / step).round() * step;
         // Decimal digits, without the round-off of a multiple.
@@ -231,36 +234,36 @@ impl Knob {
         }
     }
 
-    /// What it may hold.
+    /// Returns what it may hold.
     pub fn allowed(&self) -> Allowed {
         self.key().map_or(number::ALLOWED, |key| key.allowed)
     }
 
-    /// The unit; empty for words and counts.
+    /// Returns the unit; empty for words and counts.
     pub fn unit(&self) -> &'static str {
         self.key().map_or("m", |key| key.unit).trim_matches('-')
     }
 
-    /// The value in a scene as shown.
+    /// Returns the value in a scene as shown.
     pub fn text(&self, scene: &Scene) -> String {
         self.shown(&self.get(scene))
     }
 
-    /// The value as shown, with prefix and unit.
+    /// Returns the value as shown, with prefix and unit.
     pub fn shown(&self, value: &Value) -> String {
         match value {
-            Value::Real(x) => number(*x, self.unit()),
+            Value::Real(x) => axis::number(*x, self.unit()),
             Value::Text(word) => word.clone(),
             other => other.to_string(),
         }
     }
 
-    /// Its symbol: the last word of its name.
+    /// Returns its symbol: the last word of its name.
     pub fn symbol(&self) -> &'static str {
         self.label.split(' ').next_back().unwrap_or(self.label)
     }
 
-    /// Its label without its symbol.
+    /// Returns its label without its symbol.
     pub fn name(&self) -> &'static str {
         let is_word = |word: &str| word.len() > 1 && word.bytes().all(|b| b.is_ascii_lowercase());
         match self.label.rsplit_once(' ') {
@@ -269,7 +272,8 @@ impl Knob {
         }
     }
 
-    /// What it may hold, in words with its unit; nothing for words, which its sentence names.
+    /// Returns what it may hold, in words with its unit; nothing for words, which its sentence
+    /// names.
     pub fn range_words(&self) -> String {
         let words = match self.allowed() {
             Allowed::OneOf(words) => return format!("one of {}", words.join(", ")),
@@ -279,7 +283,7 @@ impl Knob {
         format!("{words} {}", self.unit()).trim_end().to_string()
     }
 
-    /// A refusal of a value of it in the words of the panel, without keys of the file.
+    /// Returns a refusal of a value of it in the words of the panel, without keys of the file.
     pub fn refusal(&self, error: &SceneError) -> String {
         if let SceneError::Unit { value, why, .. } = error {
             return format!("{}: {value} cannot be read: {why}", self.label);
@@ -308,7 +312,7 @@ impl Knob {
         }
     }
 
-    /// What a number of it is of.
+    /// Returns what a number of it is of.
     fn quantity(&self) -> Quantity {
         Quantity::of(self.unit())
     }

@@ -2,10 +2,11 @@
 
 use super::{KNOBS, Knob};
 use crate::tui::appearance::Appearance;
-use crate::tui::{Marker, Theme};
+use crate::tui::raster::Marker;
+use crate::tui::theme::Theme;
 use rubscope_solver::scene::keys;
 
-/// How well words name a knob, the best first.
+/// Quality of a match between words and a knob, the best first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Fit {
     /// They are its label, also without its symbol, or its key.
@@ -21,7 +22,7 @@ pub enum Fit {
 /// The words of a key that are units.
 const UNITS: [&str; 9] = ["n", "m", "s", "rad", "s2", "kg", "m2", "nm", "per"];
 
-/// How well these words name a knob, also without Greek letters; none if they do not.
+/// Returns how well these words name a knob, also without Greek letters; none if they do not.
 pub fn fit(knob: &Knob, words: &[&str]) -> Option<Fit> {
     let typed = words.join(" ");
     let lower = typed.to_lowercase();
@@ -47,7 +48,7 @@ pub fn fit(knob: &Knob, words: &[&str]) -> Option<Fit> {
     (!words.is_empty() && words.iter().all(begins)).then_some(Fit::Begins)
 }
 
-/// The knob that is named best.
+/// Returns the knob that is named best.
 pub fn best(
     mut knobs: impl Iterator<Item = &'static Knob>,
     words: &[&str],
@@ -56,7 +57,7 @@ pub fn best(
     fitting.min_by_key(|(fit, _)| *fit)
 }
 
-/// The knob that a line names and nothing else: by its name, the first word of it, or its
+/// Returns the knob that a line names and nothing else: by its name, the first word of it, or its
 /// symbol.
 pub fn called(typed: &str) -> Option<usize> {
     let words: Vec<&str> = typed.split_whitespace().collect();
@@ -71,7 +72,7 @@ pub fn called(typed: &str) -> Option<usize> {
         .or_else(|| place(Fit::Symbol, |knob| knob.name() != knob.label))
 }
 
-/// A text in letters that every keyboard has.
+/// Returns a text in letters that every keyboard has.
 pub fn plain(text: &str) -> String {
     Appearance::new(Theme::Mono, Marker::Ascii).spell(text)
 }

@@ -1,10 +1,7 @@
-//! Numbers as they are turned, typed and shown: round mantissas over decades,
-//! SI prefixes, no trailing zeros.
-//!
-//! The only knob that is not a key: the clearance `g0 = R_c - l_b`, set by the casing
+//! How a number turns, by round mantissas over decades; and the only knob that is not a key:
+//! the clearance `g0 = R_c - l_b`, set by the casing
 //! radius. With a lining it turns on below zero, where all blades rub at rest.
 
-use crate::report::number::{SiScale, told, trimmed};
 use rubscope_solver::scene::{Allowed, ContactLaw, Scene};
 
 /// Mantissas of fine turns, two digits; coarse turns use 1, 2 and 5.
@@ -14,12 +11,12 @@ const FINE: &[f64] = &[
 ];
 const COARSE: &[f64] = &[1.0, 2.0, 5.0];
 
-/// The mantissas of a turn.
+/// Returns the mantissas of a turn.
 pub(super) fn mantissas(coarse: bool) -> &'static [f64] {
     if coarse { COARSE } else { FINE }
 }
 
-/// The next number up or down whose mantissa is in the list.
+/// Returns the next number up or down whose mantissa is in the list.
 pub(super) fn decades(x: f64, up: bool, mantissas: &[f64], least: f64) -> f64 {
     if x.abs() < least * (1.0 - 1e-9) {
         return if up { least } else { 0.0 };
@@ -46,25 +43,10 @@ pub(super) fn decades(x: f64, up: bool, mantissas: &[f64], least: f64) -> f64 {
     }
 }
 
-/// A number in readable form: up to seven digits, a prefix for units that take
-/// one, no trailing zeros.
-pub fn number(x: f64, unit: &str) -> String {
-    let (x, unit) = told(x, unit);
-    let scale = SiScale::before(unit, x);
-    let shown = x / scale.factor;
-    let text = if shown != 0.0 && !(1e-4..1e7).contains(&shown.abs()) {
-        format!("{shown:e}")
-    } else {
-        let digits = 6 - shown.abs().max(1e-4).log10().floor() as i32;
-        trimmed(&format!("{shown:.*}", digits.clamp(0, 9) as usize)).to_string()
-    };
-    format!("{text} {}{unit}", scale.prefix).trim_end().to_string()
-}
-
 /// Its name in the place of a path.
 pub(super) use rubscope_solver::scene::keys::CLEARANCE;
 
-/// What it may hold; a rigid casing refuses what is not above 0.
+/// Allowed values; a rigid casing refuses what is not above 0.
 pub(super) const ALLOWED: Allowed = Allowed::Real { min: -1e3, max: 1e3, above: false };
 
 /// The least clearance of a turn \[m\],
@@ -72,7 +54,7 @@ pub(super) const LEAST: f64 = 1e-9;
 /// and of a turn on a lining, from which one more goes on to the other side of zero.
 const LEAST_ON_LINING: f64 = 1e-6;
 
-/// The value after one turn. There is no clearance of zero.
+/// Returns the value after one turn. There is no clearance of zero.
 pub(super) fn turned(x: f64, up: bool, coarse: bool, scene: &Scene) -> f64 {
     let lining = scene.solver.contact == ContactLaw::Smooth;
     let least = if lining { LEAST_ON_LINING } else { LEAST };
@@ -89,17 +71,6 @@ mod tests {
     use super::*;
     use crate::tui::knobs::{Knob, knob_of};
     use rubscope_solver::scene::Value;
-
-    #[test]
-    fn numbers_read_as_people_write_them() {
-        assert_eq!(number(1e-4, "m"), "100 µm");
-        assert_eq!(number(1e6, "N"), "1 MN");
-        assert_eq!(number(0.05, ""), "0.05");
-        assert_eq!(number(-430.0, "rad/s"), "-430 rad/s");
-        assert_eq!(number(1.544e6, "N/m"), "1.544 MN/m");
-        assert_eq!(number(0.0, "N"), "0 N");
-        assert_eq!(number(1e-7, "s"), "100 ns");
-    }
 
     fn clearance() -> &'static Knob {
         knob_of(super::CLEARANCE).unwrap()

@@ -4,7 +4,7 @@
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-use crate::tui::app::{App, InputMode, Purpose};
+use crate::tui::app::{App, InputMode, Purpose, Target};
 use crate::tui::bindings::{self, Action, Binding, Chord, Context};
 use crate::tui::text::{columns, pieces, print, shorten};
 use crate::tui::theme::Role;
@@ -15,7 +15,7 @@ const GAP: &str = "  ";
 /// From this width on there is room for the key of the palette.
 const PALETTE_FROM: u16 = 60;
 
-/// What somebody who is new can try.
+/// Hint for new users.
 const TRY: &str = "new here? → turns Ω, g: lessons";
 
 /// Draws the line.
@@ -93,26 +93,26 @@ impl Entry {
         Rect { x: area.x + wide, width: area.width - wide, ..area }
     }
 
-    /// A sign does what its key does; the name of a key, and the word, what the binding does.
+    /// Records what a click does: on a sign what its key does, on the name of a key and the word
+    /// what the binding does.
     fn note(&self, app: &App, own: Rect) {
+        app.note(own, Target::Key(self.binding.action));
         let mut at = own.x;
         for token in self.keys.split(' ') {
             let is_name = token.chars().nth(1).is_some_and(char::is_lowercase);
             for sign in token.chars() {
                 let action = bindings::lookup(app.context(), Chord::from(sign));
                 if let Some(action) = action.filter(|_| !is_name && at < own.right()) {
-                    app.note_key(Rect { x: at, width: 1, ..own }, action);
+                    app.note(Rect { x: at, width: 1, ..own }, Target::Key(action));
                 }
                 at = at.saturating_add(1);
             }
             at = at.saturating_add(1);
         }
-        app.note_key(own, self.binding.action);
     }
 }
 
-/// The end of a text, where its cursor is, with a mark where its beginning is
-/// left out.
+/// Returns the end of a text, where its cursor is, with a mark where its beginning is left out.
 fn ending(text: &str, width: usize, mark: &str) -> String {
     let count = text.chars().count();
     if count <= width {
@@ -122,25 +122,26 @@ fn ending(text: &str, width: usize, mark: &str) -> String {
     mark.chars().chain(text.chars().skip(skip)).collect()
 }
 
-/// The bindings that hold now, with what is left of those of the main screen.
+/// Returns the bindings that hold now, with what is left of those of the main screen.
 fn current(app: &App) -> impl Iterator<Item = &'static Binding> {
     let context = app.context();
     bindings::of(context).chain(context.behind().into_iter().flat_map(bindings::of))
 }
 
-/// Whether a binding has its place at the right end.
+/// Returns whether a binding has its place at the right end.
 fn is_kept(binding: &Binding) -> bool {
     matches!(binding.action, Action::Palette | Action::Help | Action::Quit)
 }
 
-/// What stands at the right end: words where a message leaves room for them,
-/// otherwise keys alone.
+/// Returns what stands at the right end: words where a message leaves room for them, otherwise keys
+/// alone.
 fn kept(app: &App, width: u16, message: Option<usize>) -> Vec<Entry> {
     let entries = |palette: bool, words: bool| {
         let mut entries: Vec<Entry> = Vec::new();
         for binding in current(app).filter(|binding| is_kept(binding)) {
             let Some((keys, word)) = binding.footer else { continue };
-            if binding.action == Action::Palette && !palette {
+            let known = entries.iter().any(|entry| entry.binding.action == binding.action);
+            if known || (binding.action == Action::Palette && !palette) {
                 continue;
             }
             let gap = match (entries.is_empty(), words) {
@@ -162,8 +163,8 @@ fn kept(app: &App, width: u16, message: Option<usize>) -> Vec<Entry> {
     found.unwrap_or_else(|| entries(false, false))
 }
 
-/// The other keys, those that matter most first. A key and its word are shown
-/// together or not at all.
+/// Draws the other keys, the most important first. A key and its word are shown together or not at
+/// all.
 fn keys(app: &App, buffer: &mut Buffer, area: Rect) {
     let mut rest = area;
     let others = bindings::of(app.context()).filter(|binding| !is_kept(binding));

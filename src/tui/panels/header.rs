@@ -19,15 +19,15 @@ use rubscope_solver::scene::ContactLaw;
 type Parts = Vec<(String, Style)>;
 
 /// Columns of the lines where there is no screen: room for all of them.
-const TOLD: u16 = 240;
+const WIDE: u16 = 240;
 
-/// Both lines as text, for where there is no screen.
+/// Returns both lines as text, for where there is no screen.
 pub fn head_text(app: &App) -> [String; 2] {
-    let area = Rect::new(0, 0, TOLD, 2);
+    let area = Rect::new(0, 0, WIDE, 2);
     let mut buffer = Buffer::empty(area);
     draw(app, &mut buffer, area);
     let row = |y: u16| {
-        let cells = (0..TOLD).filter_map(|x| buffer.cell((x, y)));
+        let cells = (0..WIDE).filter_map(|x| buffer.cell((x, y)));
         let text: String = cells.map(|cell| cell.symbol()).collect();
         // What stands apart on a screen is parted by three spaces.
         let parts = text.split("   ").map(str::trim).filter(|part| !part.is_empty());
@@ -46,22 +46,22 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     second(app, buffer, area);
 }
 
-/// The first line; the columns that it takes.
+/// Draws the first line; returns the columns that it takes.
 fn sentence(app: &App, buffer: &mut Buffer, area: Rect) -> u16 {
     let look = &app.appearance;
     // A space on each side of the word.
     let width = usize::from(area.width).saturating_sub(1);
-    let (told, style) = told(app, width);
-    let mut parts = vec![(format!(" {} ", told.word), style.add_modifier(Modifier::REVERSED))];
-    parts.push((format!(" {}", told.what), look.style(Role::Text)));
-    parts.extend(told.doubt.map(|doubt| (format!(" {doubt}"), look.style(Role::Trouble))));
+    let (headline, style) = headline(app, width);
+    let mut parts = vec![(format!(" {} ", headline.word), style.add_modifier(Modifier::REVERSED))];
+    parts.push((format!(" {}", headline.what), look.style(Role::Text)));
+    parts.extend(headline.doubt.map(|doubt| (format!(" {doubt}"), look.style(Role::Trouble))));
     let parts: Parts = parts.into_iter().map(|(text, style)| (look.spell(&text), style)).collect();
     pieces(buffer, area, 0, &parts);
     u16::try_from(parts.iter().map(|(text, _)| columns(text)).sum::<usize>()).unwrap_or(u16::MAX)
 }
 
-/// What is told of the run in so many columns, and the style of its word.
-pub fn told(app: &App, width: usize) -> (Sentence, Style) {
+/// Returns what is listed of the run in so many columns, and the style of its word.
+pub fn headline(app: &App, width: usize) -> (Sentence, Style) {
     let look = &app.appearance;
     // The end would answer the question of a lesson.
     if app.is_asked() {
@@ -79,7 +79,7 @@ pub fn told(app: &App, width: usize) -> (Sentence, Style) {
     (sentence, style)
 }
 
-/// The one style of the word of a verdict: its colour in the map.
+/// Returns the one style of the word of a verdict: its colour in the map.
 fn verdict_style(look: &Appearance, verdict: Verdict) -> Style {
     let own = colour(look, verdict).filter(|_| look.theme != Theme::Mono);
     let style = match (verdict, own) {
@@ -92,7 +92,7 @@ fn verdict_style(look: &Appearance, verdict: Verdict) -> Style {
     style.add_modifier(Modifier::BOLD)
 }
 
-/// The title of the scene at the right end, if there is room for all of it.
+/// Prints the title of the scene at the right end, if there is room for all of it.
 fn title(app: &App, buffer: &mut Buffer, area: Rect, used: u16) {
     let look = &app.appearance;
     let title = look.spell(&app.scene.title);
@@ -115,7 +115,7 @@ impl Part {
         Self { forms }
     }
 
-    /// A part of one form and one style.
+    /// Creates a part of one form and one style.
     fn plain(rank: u8, text: String, style: Style) -> Self {
         Self::new(vec![(rank, vec![(text, style)])])
     }
@@ -162,7 +162,7 @@ fn second(app: &App, buffer: &mut Buffer, area: Rect) {
     pieces(buffer, area, 1, &line);
 }
 
-/// `NOW 12.0 ms held on 12 + 19 ► 200x slower`.
+/// Returns the present state: `NOW 12.0 ms held on 12 + 19 ► 200x slower`.
 fn now(app: &App) -> Part {
     let look = &app.appearance;
     let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
@@ -198,7 +198,7 @@ fn now(app: &App) -> Part {
     ])
 }
 
-/// The speed in parts of its limits: `500 rad/s = 1.71 Ω_c = 1.21 Ω_lock`.
+/// Returns the speed in parts of its limits: `500 rad/s = 1.71 Ω_c = 1.21 Ω_lock`.
 fn speed(app: &App) -> Part {
     let look = &app.appearance;
     let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
@@ -234,7 +234,7 @@ fn speed(app: &App) -> Part {
     Part::new(forms)
 }
 
-/// The limits of the speed that matter here, the most important first.
+/// Returns the limits of the speed that matter here, the most important first.
 fn named_limits(app: &App) -> Vec<(&'static str, Option<f64>)> {
     let (critical, lock) = (("Ω_c", app.machine.critical_speed()), app.lock_speed());
     let lock = (if lock.is_none() { "lock" } else { "Ω_lock" }, lock);
@@ -248,12 +248,12 @@ fn named_limits(app: &App) -> Vec<(&'static str, Option<f64>)> {
     limits
 }
 
-/// The limits as numbers.
+/// Returns the limits as numbers.
 fn limits(app: &App) -> Option<Part> {
     let quiet = app.appearance.style(Role::Quiet);
     let to = app.lock_window().and_then(|window| window.to);
     let known = named_limits(app).into_iter().filter_map(|(name, limit)| Some((name, limit?)));
-    let mut told: Vec<String> = known
+    let mut listed: Vec<String> = known
         .map(|(name, limit)| {
             let to = to.filter(|_| name == "Ω_lock").map(|to| format!(" to {}", short(to)));
             format!("{name} {}{}", short(limit), to.unwrap_or_default())
@@ -262,19 +262,19 @@ fn limits(app: &App) -> Option<Part> {
     if !app.is_coupled()
         && let Some(coincidence) = app.machine.dangerous_speed_toward(app.speed())
     {
-        told.push(format!("coincidence {}", short(coincidence)));
+        listed.push(format!("coincidence {}", short(coincidence)));
     }
-    (!told.is_empty()).then(|| Part::plain(10, told.join(", "), quiet))
+    (!listed.is_empty()).then(|| Part::plain(10, listed.join(", "), quiet))
 }
 
-/// Four or five digits are enough for a limit.
+/// Writes a limit with four or five digits.
 fn short(speed: f64) -> String {
     let speed = per_speed(speed);
     let decimals = if speed.abs() < 10.0 { 3 } else { 1 };
     trimmed(&format!("{speed:.decimals$}")).to_string()
 }
 
-/// `AT 100 ms locked since 38.1 µs`; never without what is known then.
+/// Returns the end of the run and its verdict: `AT 100 ms locked since 38.1 µs`.
 fn end(app: &App) -> Part {
     let look = &app.appearance;
     let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
@@ -297,7 +297,7 @@ fn end(app: &App) -> Part {
     Part::new(longer.into_iter().chain([at(1, run.verdict.to_string())]).collect())
 }
 
-/// What contact that only pushes does, by the event solver.
+/// Returns what contact that only pushes does, by the event solver.
 fn other(app: &App) -> Option<Part> {
     let own = app.full_run()?;
     let other = app.results().reference.as_ref()?;
@@ -310,21 +310,21 @@ fn other(app: &App) -> Option<Part> {
     Some(Part::plain(6, text, quiet))
 }
 
-/// That it is not known whether a tiny change changes the outcome.
+/// Returns a note where it is not known whether a tiny change changes the outcome.
 fn unsure(app: &App) -> Option<Part> {
     let text = format!("small changes: not checked in {} s", FORECAST_LIMIT.as_secs());
     let given_up = app.results().sensitive == Sensitive::GivenUp;
     given_up.then(|| Part::plain(6, text, app.appearance.style(Role::Quiet)))
 }
 
-/// The pinned run, if it ended in another way.
+/// Returns the pinned run, if it ended in another way.
 fn baseline(app: &App) -> Option<Part> {
     let word = &app.run.baseline.as_ref()?.word;
     let text = format!("pinned: {word}");
     (*word != app.verdict_word()).then(|| Part::plain(3, text, app.appearance.style(Role::Text)))
 }
 
-/// What keys do otherwise than usual: pages of time, and knobs that act at once.
+/// Returns what keys do otherwise than usual: pages of time, and knobs that act at once.
 fn modes(app: &App) -> Vec<Part> {
     let focus = app.appearance.style(Role::Focus);
     let pages = app.play.pages_back;
@@ -335,14 +335,14 @@ fn modes(app: &App) -> Vec<Part> {
     pages.into_iter().chain(live).chain(missing).map(|text| Part::plain(1, text, focus)).collect()
 }
 
-/// The next change of contact.
+/// Returns the next change of contact.
 fn next(app: &App) -> Option<Part> {
     let next = app.next_change().filter(|_| !app.is_asked())?;
     let (what, after) = (app.happening(next.what), readable(next.t_s - app.now(), "s"));
     Some(Part::plain(8, format!("next: {what} in {after}"), app.appearance.style(Role::Quiet)))
 }
 
-/// How fast the run was computed.
+/// Returns how fast the run was computed.
 fn cost(app: &App) -> Option<Part> {
     let pace = &app.results().pace;
     let run = pace.run_s?;
@@ -357,7 +357,7 @@ fn cost(app: &App) -> Option<Part> {
     Some(Part::plain(11, parts.join(", "), app.appearance.style(Role::Quiet)))
 }
 
-/// Two or three digits are enough for a duration.
+/// Returns two or three digits are enough for a duration.
 fn duration(seconds: f64) -> String {
     let scale = crate::tui::axis::SiScale::of(seconds);
     let shown = seconds / scale.factor;
@@ -376,7 +376,7 @@ mod tests {
     fn a_run_that_was_given_up_is_told_as_text_and_not_as_work() {
         let scene = Scene::base().checked().unwrap();
         let mut app = App::new(scene, Theme::Dark, Marker::Braille);
-        let style = |app: &App| told(app, 80).1;
+        let style = |app: &App| headline(app, 80).1;
         assert_eq!(style(&app), app.appearance.style(Role::Quiet));
         app.run.latest.results.full_run = Some(FullRunState::GivenUp(0.3));
         assert_eq!(app.verdict_word(), "NO FORECAST");

@@ -40,7 +40,7 @@ impl Entry {
         Self { left, right, also: String::new() }
     }
 
-    /// Whether it has all these words; a single letter is one that stands alone.
+    /// Returns whether it has all these words; a single letter is one that stands alone.
     fn has(&self, heading: &str, words: &[String]) -> bool {
         let text = format!("{heading} {} {} {}", self.left, self.right, self.also).to_lowercase();
         let is_named = |letter: &str| {
@@ -54,7 +54,7 @@ impl Entry {
     }
 }
 
-/// Every section of the help: its heading and its entries.
+/// Returns every section of the help: its heading and its entries.
 fn sections(app: &App) -> Vec<(&'static str, Vec<Entry>)> {
     let look = &app.appearance;
     let keys = Group::iter().map(|group| {
@@ -89,7 +89,7 @@ fn sections(app: &App) -> Vec<(&'static str, Vec<Entry>)> {
     here.chain(keys).chain(words).chain(elsewhere).collect()
 }
 
-/// What the large chart shows, what to look for, and its keys.
+/// Returns what the large chart shows, what to look for, and its keys.
 fn here(app: &App) -> Vec<Entry> {
     let look = &app.appearance;
     let Some(words) = glossary::view(app.view()) else { return Vec::new() };
@@ -111,7 +111,7 @@ fn keys_width(width: u16) -> u16 {
     if width >= 60 { 22 } else { 14 }
 }
 
-/// The lines that the filter leaves, and the number of entries among them.
+/// Returns the lines that the filter leaves, and the number of entries among them.
 fn lines(app: &App, area: Rect, filter: &str) -> (Vec<Line>, usize) {
     let left = usize::from(keys_width(area.width));
     let width = usize::from(area.width).saturating_sub(left + 1);
@@ -140,19 +140,19 @@ fn lines(app: &App, area: Rect, filter: &str) -> (Vec<Line>, usize) {
     (lines, count)
 }
 
-/// The rows of the list in the body of the screen.
+/// Returns the rows of the list in the body of the screen.
 fn list(body: Rect) -> Rect {
     Rect { y: body.y + ABOVE, height: body.height.saturating_sub(ABOVE), ..body }
 }
 
-/// The furthest that the help can be scrolled on this screen.
+/// Returns the furthest that the help can be scrolled on this screen.
 pub fn help_bottom(app: &App, help: &HelpState) -> u16 {
     let area = list(super::body(app));
     let lines = lines(app, area, &help.filter).0.len();
     u16::try_from(lines).unwrap_or(u16::MAX).saturating_sub(area.height)
 }
 
-/// What the help says about these words, in lines of so many columns.
+/// Returns what the help says about these words, in lines of so many columns.
 pub fn help_text(app: &App, width: u16, words: &str) -> Vec<String> {
     let (lines, _) = lines(app, Rect::new(0, 0, width, 1), words);
     let left = usize::from(keys_width(width));
@@ -198,7 +198,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, help: &HelpState) {
 mod tests {
     use super::*;
     use crate::tui::knobs::KNOBS;
-    use crate::tui::views::ViewId;
+    use crate::tui::views::id::ViewId;
     use crate::tui::{raster::Marker, theme::Theme};
     use rubscope_solver::scene::Scene;
 

@@ -1,18 +1,14 @@
-//! The knobs: a column in groups with the selected one explained below, or a
-//! single line if there is no room.
-//!
-//! Which lines the column of knobs has: the operation and the group of the selected knob are
-//! open, or that group alone where both have no room, and the others are folded, with what
-//! is changed in them. Only the selected knob has a bar. The mouse asks it too.
-//!
-//! The bar of a knob: where its value stands in its range, with the limits on it.
+//! The knobs: a column in groups with the selected one explained below, or a single line if
+//! there is no room. The first group and that of the selected knob are open, the others are
+//! folded and show what is changed in them. Only the selected knob has a bar, with the limits on
+//! it; the mouse asks for the same lines.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::Modifier;
 
 use crate::report::line::capital;
-use crate::tui::app::{App, InputMode};
+use crate::tui::app::{App, InputMode, Target};
 use crate::tui::knobs::{Group, KNOBS, Knob, KnobRange, meaning};
 use crate::tui::text::{columns, first_lines, pieces, print, shorten, wrap};
 use crate::tui::theme::Role;
@@ -26,14 +22,23 @@ pub fn panel(app: &App, buffer: &mut Buffer, area: Rect) {
     for (y, line) in (area.y..area.bottom()).zip(&lines) {
         let row = Rect { y, height: 1, ..area };
         match *line {
-            ColumnLine::Heading(group) => heading(app, buffer, row, group),
-            ColumnLine::Folded(group) => folded(app, buffer, row, group),
+            ColumnLine::Heading(group) | ColumnLine::Folded(group) => {
+                if let Some(first) = group.places().next() {
+                    app.note(row, Target::Group(first));
+                }
+                match line {
+                    ColumnLine::Heading(_) => heading(app, buffer, row, group),
+                    _ => folded(app, buffer, row, group),
+                }
+            }
             ColumnLine::Knob(place) => {
+                app.note(row, Target::Knob(place));
                 if let Some(knob) = KNOBS.get(place) {
                     self::knob(app, buffer, row, knob, place == app.knobs.selected);
                 }
             }
             ColumnLine::Bar(place) => {
+                app.note(row, Target::Knob(place));
                 if let Some(knob) = KNOBS.get(place) {
                     draw(app, buffer, bar_cells(row), knob);
                 }
@@ -55,7 +60,7 @@ pub fn panel(app: &App, buffer: &mut Buffer, area: Rect) {
     }
 }
 
-/// Why the value of the knob in this row was refused, below it and over what is there.
+/// Prints why the value of the knob in this row was refused, below it and over what is there.
 fn refusal(app: &App, buffer: &mut Buffer, area: Rect, at: u16) {
     let Some(refusal) = &app.knobs.refusal else { return };
     let (look, width) = (&app.appearance, usize::from(area.width));
@@ -64,7 +69,7 @@ fn refusal(app: &App, buffer: &mut Buffer, area: Rect, at: u16) {
     }
 }
 
-/// A rule with the name of an open group.
+/// Draws a rule with the name of an open group.
 fn heading(app: &App, buffer: &mut Buffer, row: Rect, group: Group) {
     let look = &app.appearance;
     let (rule, quiet) = (look.either("─", "-"), look.style(Role::Quiet));
@@ -74,8 +79,8 @@ fn heading(app: &App, buffer: &mut Buffer, row: Rect, group: Group) {
     pieces(buffer, row, 0, &parts);
 }
 
-/// A folded group: its name, how many knobs it has, and those that are not as in the scene,
-/// as many as have room.
+/// Draws a folded group: its name, the number of its knobs, and as many of those that differ from
+/// the scene as have room.
 fn folded(app: &App, buffer: &mut Buffer, row: Rect, group: Group) {
     let look = &app.appearance;
     let head = look.spell(&format!(" {} {} ▸", group.name(), group.places().count()));
@@ -104,7 +109,7 @@ fn folded(app: &App, buffer: &mut Buffer, row: Rect, group: Group) {
     pieces(buffer, row, 0, &[(head, text), (shown, text.add_modifier(Modifier::BOLD))]);
 }
 
-/// A line with a knob.
+/// Draws a line with a knob.
 fn knob(app: &App, buffer: &mut Buffer, row: Rect, knob: &Knob, selected: bool) {
     let look = &app.appearance;
     let value = knob.get(&app.scene);
@@ -133,7 +138,7 @@ fn knob(app: &App, buffer: &mut Buffer, row: Rect, knob: &Knob, selected: bool) 
     print(buffer, row, 0, &format!("{label}{}{shown}", " ".repeat(pad)), style);
 }
 
-/// What the selected knob does, its allowed values, and the letters on its bar.
+/// Returns what the selected knob does, its allowed values, and the letters on its bar.
 fn notes(app: &App, width: usize, cells: Rect) -> Vec<(String, Role)> {
     let Some(knob) = app.selected() else { return Vec::new() };
     let of = |text: &str, role: Role| {
@@ -149,7 +154,7 @@ fn notes(app: &App, width: usize, cells: Rect) -> Vec<(String, Role)> {
     lines
 }
 
-/// One sentence: what a knob does, and its range.
+/// Returns one sentence: what a knob does, and its range.
 fn sentence(knob: &Knob) -> String {
     let text = capital(knob.does);
     match knob.allowed() {
@@ -161,6 +166,7 @@ fn sentence(knob: &Knob) -> String {
 
 /// Draws the selected knob alone, with its bar where there is room.
 pub fn strip(app: &App, buffer: &mut Buffer, area: Rect) {
+    app.note(area, Target::Knob(app.knobs.selected));
     let look = &app.appearance;
     let width = usize::from(area.width);
     if let Some(refusal) = &app.knobs.refusal {
@@ -194,7 +200,7 @@ const LEAST_BAR: u16 = 8;
 /// place while the value changes.
 const TEXT: u16 = 27;
 
-/// The cells of the bar in the line of the selected knob, where there is room.
+/// Returns the cells of the bar in the line of the selected knob, where there is room.
 pub fn strip_bar(app: &App, area: Rect) -> Option<Rect> {
     let text = u16::try_from(columns(&strip_text(app, app.selected()?))).ok()?;
     let start = text.max(TEXT) + 2;
@@ -218,8 +224,7 @@ pub enum ColumnLine {
 /// Rows kept free for the note on the selected knob.
 pub const NOTES: u16 = 5;
 
-/// The lines of the column in an area of this height, with the selected knob in
-/// sight.
+/// Returns the lines of the column in an area of this height, with the selected knob in sight.
 pub fn lines(app: &App, height: u16) -> Vec<ColumnLine> {
     let rows = usize::from(height - NOTES.min(height / 2));
     let chosen = app.selected().map_or(Group::Operation, |knob| knob.group);
@@ -236,8 +241,8 @@ pub fn lines(app: &App, height: u16) -> Vec<ColumnLine> {
     lines.into_iter().skip(first).take(rows).collect()
 }
 
-/// All lines with these groups open; of what goes beyond the paper, the knobs by which the
-/// scene leaves it are told where there is room.
+/// Returns all lines with these groups open; of what goes beyond the paper, the knobs by which the
+/// scene leaves it are legend_of where there is room.
 fn all(app: &App, open: &[Group], telling: bool) -> Vec<ColumnLine> {
     let mut lines = Vec::new();
     for group in Group::ALL {
@@ -262,29 +267,30 @@ fn all(app: &App, open: &[Group], telling: bool) -> Vec<ColumnLine> {
     lines
 }
 
-/// Whether a knob turns through a range.
+/// Returns whether a knob turns through a range.
 fn has_bar(app: &App, place: usize) -> bool {
     let (scene, opened) = (&app.scene, &app.files.opened);
     KNOBS.get(place).is_some_and(|knob| knob.range(scene, opened, &app.machine).is_some())
 }
 
-/// The columns of the cells of a bar in a line of the panel.
+/// Returns the columns of the cells of a bar in a line of the panel.
 pub fn bar_cells(area: Rect) -> Rect {
     Rect { x: area.x + 2, width: area.width.saturating_sub(3), ..area }
 }
 
-/// The part of the screen that knobs are drawn in, without the gap to the charts.
+/// Returns the part of the screen that knobs are drawn in, without the gap to the charts.
 pub fn inside(area: Rect) -> Rect {
     Rect { width: area.width.saturating_sub(1), ..area }
 }
 
-/// Draws the bar of a knob over an area, its two ends outside of it; nothing for
+/// Draws the bar of the selected knob over an area, its two ends outside of it; nothing for
 /// knobs of words.
 pub fn draw(app: &App, buffer: &mut Buffer, cells: Rect, knob: &Knob) {
     let Some(range) = knob.range(&app.scene, &app.files.opened, &app.machine) else { return };
     if cells.width == 0 {
         return;
     }
+    app.note(cells, Target::Bar(app.knobs.selected));
     let look = &app.appearance;
     let value = knob.number(&app.scene).and_then(|value| range.place(value));
     let here = value.map(|part| cell(cells, part));
@@ -318,7 +324,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, cells: Rect, knob: &Knob) {
     }
 }
 
-/// The letters that are drawn, and their columns: of those in one cell the last.
+/// Returns the letters that are drawn, and their columns: of those in one cell the last.
 fn letters(range: &KnobRange, cells: Rect) -> impl Iterator<Item = (char, u16)> {
     let places = range.marks.iter().map(move |(letter, part)| (*letter, cell(cells, *part)));
     let hidden = move |place: usize, x: u16| {
@@ -327,7 +333,7 @@ fn letters(range: &KnobRange, cells: Rect) -> impl Iterator<Item = (char, u16)> 
     places.enumerate().filter(move |(place, (_, x))| !hidden(*place, *x)).map(|(_, mark)| mark)
 }
 
-/// What the letters on the bar of a knob mean, those that are drawn: `On its bar: c Ω_c.`
+/// Returns what the letters on the bar of a knob mean, those that are drawn: `On its bar: c Ω_c.`
 pub fn legend(app: &App, cells: Rect, knob: &Knob) -> Option<String> {
     let range = knob.range(&app.scene, &app.files.opened, &app.machine)?;
     let named: Vec<String> =
@@ -335,15 +341,9 @@ pub fn legend(app: &App, cells: Rect, knob: &Knob) -> Option<String> {
     (!named.is_empty() && cells.width > 0).then(|| format!("On its bar: {}.", named.join(", ")))
 }
 
-/// The column of a part, 0 to 1, of a bar.
+/// Returns the column of a part, 0 to 1, of a bar.
 fn cell(cells: Rect, part: f64) -> u16 {
     cells.x + (part * f64::from(cells.width - 1)).round() as u16
-}
-
-/// The part of a bar at a column.
-pub fn part(cells: Rect, x: u16) -> f64 {
-    let along = f64::from(x.saturating_sub(cells.x)) / f64::from(cells.width.max(2) - 1);
-    along.clamp(0.0, 1.0)
 }
 
 #[cfg(test)]
@@ -354,13 +354,13 @@ mod tests {
     fn the_letters_that_are_drawn_on_a_bar_are_told_and_no_others() {
         let scene = rubscope_solver::scene::Scene::base().checked().unwrap();
         let app = App::new(scene, crate::tui::Theme::Mono, crate::tui::Marker::Braille);
-        let told = |width| legend(&app, Rect::new(0, 0, width, 1), &KNOBS[0]).unwrap();
-        let wide = told(200);
+        let legend_of = |width| legend(&app, Rect::new(0, 0, width, 1), &KNOBS[0]).unwrap();
+        let wide = legend_of(200);
         for meaning in ["a adhesive limit", "x coincidence", "c Ω_c", "L Ω_lock"] {
             assert!(wide.contains(meaning), "{wide}");
         }
         // In one cell only the last can be seen.
-        assert_eq!(told(1), "On its bar: L Ω_lock.");
+        assert_eq!(legend_of(1), "On its bar: L Ω_lock.");
     }
 
     #[test]

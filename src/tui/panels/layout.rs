@@ -1,12 +1,9 @@
 //! The places of all panels at each screen size.
-//!
-//! What is at a place of the screen, for the mouse.
 
-use ratatui::layout::{Constraint, Layout, Position, Rect};
+use ratatui::layout::{Constraint, Layout, Rect};
 
-use crate::tui::app::{App, Cursor};
-use crate::tui::panels::knobs::{self, ColumnLine};
-use crate::tui::panels::{lesson, presentation};
+use crate::tui::app::App;
+use crate::tui::panels::presentation;
 use crate::tui::views::{LEAST_ROWS, ViewId};
 
 /// Narrowest screen.
@@ -14,13 +11,13 @@ pub const LEAST_WIDTH: u16 = 40;
 /// Lowest screen.
 pub const LEAST_HEIGHT: u16 = 12;
 
-/// From this width on, the knobs have a separate column.
+/// Least width at which the knobs have a separate column.
 const KNOBS_FROM: u16 = 66;
 /// Width of that column.
 const KNOBS_WIDTH: u16 = 27;
-/// From this width on, they stay beside two contact laws that are compared.
+/// Least width at which they stay beside two contact laws that are compared.
 const KNOBS_BESIDE_LAWS: u16 = 110;
-/// From this width on, two charts are side by side.
+/// Least width at which two charts are side by side.
 const PAIR_FROM: u16 = 76;
 
 /// The places of one frame.
@@ -43,7 +40,7 @@ pub struct Places {
     pub footer: Rect,
 }
 
-/// Places for a screen of this size.
+/// Returns the places for a screen of this size.
 pub fn places(area: Rect, app: &App) -> Places {
     if presentation::is_shown(app, area) {
         let [letters, chart, knobs, footer] = presentation::split(app, area);
@@ -73,12 +70,12 @@ pub fn places(area: Rect, app: &App) -> Places {
     Places { header, body, knobs, column, charts, letters: None, lesson, footer }
 }
 
-/// The first rows of an area, and the rest below.
+/// Returns the first rows of an area, and the rest below.
 fn below(area: Rect, rows: u16) -> [Rect; 2] {
     Layout::vertical([Constraint::Length(rows), Constraint::Min(1)]).areas(area)
 }
 
-/// Rows of the current lesson, above the knobs and charts.
+/// Returns the rows of the current lesson, above the knobs and charts.
 fn lesson(body: Rect, app: &App) -> (Option<Rect>, Rect) {
     if app.lessons.progress.is_none() || body.height < 9 {
         return (None, body);
@@ -101,7 +98,7 @@ fn lesson(body: Rect, app: &App) -> (Option<Rect>, Rect) {
 /// Rows of the wheel above another chart: it has no axis.
 const WHEEL_ROWS: u16 = 10;
 
-/// One large chart, and as many of the requested smaller ones as can be read. The wheel is
+/// Returns one large chart, and as many of the requested smaller ones as can be read. The wheel is
 /// as wide as it is high and has another chart at its side; any other has the whole width.
 fn split(area: Rect, app: &App) -> Vec<(ViewId, Rect)> {
     let views = app.layout.views().iter().copied();
@@ -149,115 +146,36 @@ const LOWER: u16 = 45;
 /// Part of the width that the wheel has, in per cent.
 const WHEEL_PART: u16 = 44;
 
-/// Rows between header and footer, which take three.
+/// Returns the rows between header and footer, which take three.
 fn body_rows(app: &App) -> u16 {
     app.layout.size.1.saturating_sub(3)
 }
 
-/// Most rows of a lesson beside the charts.
+/// Returns the greatest number of rows of a lesson beside the charts.
 fn most_rows(body: u16) -> u16 {
     body / 2
 }
 
-/// Rows of a page of a lesson in front of the charts.
+/// Returns the rows of a page of a lesson in front of the charts.
 fn page_rows(body: u16) -> u16 {
     body.saturating_sub(1)
 }
 
-/// Whether the text of the lesson hides the charts on this screen.
+/// Returns whether the text of the lesson hides the charts on this screen.
 pub fn lesson_fills(app: &App) -> bool {
     let rows = super::lesson::rows(app, usize::from(app.layout.size.0));
     app.lessons.progress.is_some() && rows > most_rows(body_rows(app))
 }
 
-/// Pages of the text of the lesson where it hides the charts.
+/// Returns the pages of the text of the lesson where it hides the charts.
 pub fn lesson_pages(app: &App) -> usize {
     super::lesson::pages(app, usize::from(app.layout.size.0), page_rows(body_rows(app)))
 }
 
-/// The room between header and footer on this screen.
+/// Returns the room between header and footer on this screen.
 pub fn body(app: &App) -> Rect {
     let area = Rect::new(0, 0, app.layout.size.0, app.layout.size.1);
     places(area, app).body
-}
-
-/// Something that can be clicked.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Target {
-    /// The heading of a group; its first knob.
-    Group(usize),
-    /// The line of a knob.
-    Knob(usize),
-    /// The bar of a knob, and a place on it, 0 to 1.
-    Bar(usize, f64),
-    /// A chart that is not the large one.
-    View(ViewId),
-    /// A place in the large chart.
-    Chart(Cursor),
-}
-
-fn places_of(app: &App) -> Option<Places> {
-    let (width, height) = app.layout.size;
-    let drawn = width >= LEAST_WIDTH && height >= LEAST_HEIGHT;
-    drawn.then(|| places(Rect::new(0, 0, width, height), app))
-}
-
-/// What is at a place of the screen while nothing is open over the charts.
-pub fn target(app: &App, (x, y): (u16, u16)) -> Option<Target> {
-    let places = places_of(app)?;
-    let at = Position::new(x, y);
-    if places.knobs.contains(at) {
-        return knob_target(app, &places, (x, y));
-    }
-    let (view, _) = places.charts.iter().find(|(_, area)| area.contains(at))?;
-    match *view == app.view() {
-        true => app.cursor_at((x, y)).map(Target::Chart),
-        false => Some(Target::View(*view)),
-    }
-}
-
-fn knob_target(app: &App, places: &Places, (x, y): (u16, u16)) -> Option<Target> {
-    if !places.column {
-        let cells = alone(app, places).filter(|cells| cells.contains((x, y).into()));
-        return Some(match cells {
-            Some(cells) => Target::Bar(app.knobs.selected, knobs::part(cells, x)),
-            None => Target::Knob(app.knobs.selected),
-        });
-    }
-    let area = knobs::inside(places.knobs);
-    let line = *knobs::lines(app, area.height).get(usize::from(y - area.y))?;
-    Some(match line {
-        ColumnLine::Heading(group) | ColumnLine::Folded(group) => {
-            Target::Group(group.places().next()?)
-        }
-        ColumnLine::Knob(place) => Target::Knob(place),
-        ColumnLine::Bar(place) => Target::Bar(place, knobs::part(knobs::bar_cells(area), x)),
-    })
-}
-
-/// The cells of the bar of the selected knob where it is the only one.
-fn alone(app: &App, places: &Places) -> Option<Rect> {
-    match places.letters {
-        Some(_) => Some(presentation::bar_cells(places.knobs)),
-        None => knobs::strip_bar(app, places.knobs),
-    }
-}
-
-/// The place on the bar of the selected knob at a column of the screen, 0 to 1.
-pub fn part_of_bar(app: &App, x: u16) -> Option<f64> {
-    let places = places_of(app)?;
-    let cells = match places.column {
-        true => knobs::bar_cells(knobs::inside(places.knobs)),
-        false => alone(app, &places)?,
-    };
-    Some(knobs::part(cells, x))
-}
-
-/// The lesson at a place of the screen while their list is open.
-pub fn lesson_at(app: &App, (x, y): (u16, u16)) -> Option<usize> {
-    let body = places_of(app)?.body;
-    let inside = body.contains((x, y).into());
-    if inside { lesson::place_at(app, body, y) } else { None }
 }
 
 #[cfg(test)]

@@ -4,15 +4,15 @@
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 
 use super::lists::{first_in_sight, look_of};
-use crate::tui::app::{App, InputMode};
+use crate::tui::app::{App, Target};
 use crate::tui::lessons::{self, LETTERS, Lesson, LessonStep};
 use crate::tui::text::{columns, print, shorten, wrap};
 use crate::tui::theme::Role;
 
-/// From this width on, the question stays beside its answer.
+/// Least width at which the question stays beside its answer.
 const WIDE: usize = 110;
 
-/// The list of lessons, one of them selected, with what was done of each.
+/// Draws the list of lessons, one of them selected, with what was done of each.
 pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
     let look = &app.appearance;
     let mark = look.ellipsis();
@@ -20,10 +20,11 @@ pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
     let bold = look.style(Role::Text).add_modifier(Modifier::BOLD);
     let head = "Lessons: Enter begins one, g goes on, B back, G leaves";
     print(buffer, area, 0, &shorten(head, width, mark), bold);
-    let first = first_listed(area, place);
+    let first = first_in_sight(place, usize::from(area.height.saturating_sub(2)));
     for (row, (index, lesson)) in
         (2..area.height).zip(lessons::all().iter().enumerate().skip(first))
     {
+        app.note(Rect { y: area.y + row, height: 1, ..area }, Target::Lesson(index));
         let (sign, style) = look_of(look, index == place, Role::Text);
         let (done, steps) = (app.lessons.done.count(lesson), lesson.steps.len());
         let done = if done == steps { "done".to_string() } else { format!("{done}/{steps}") };
@@ -38,26 +39,13 @@ pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
     }
 }
 
-/// The first lesson in sight, so that the selected one is.
-fn first_listed(area: Rect, place: usize) -> usize {
-    first_in_sight(place, usize::from(area.height.saturating_sub(2)))
-}
-
-/// The lesson in a row of the screen while the list is open in `area`.
-pub fn place_at(app: &App, area: Rect, y: u16) -> Option<usize> {
-    let InputMode::Lessons(place) = app.dialogue.mode else { return None };
-    let row = y.checked_sub(area.y + 2)?;
-    let place = first_listed(area, place) + usize::from(row);
-    (place < lessons::all().len()).then_some(place)
-}
-
 /// Lines of the end of a step that are in sight beside a chart, at least.
 const LEAST: usize = 3;
 
 /// A line and its colour.
 type Line = (String, Role);
 
-/// The lines of a step below its head.
+/// Returns the lines of a step below its head.
 fn lines(app: &App, width: usize) -> Vec<Line> {
     let Some((step, now)) = app.lesson_step() else { return Vec::new() };
     let look = &app.appearance;
@@ -103,7 +91,7 @@ fn lines(app: &App, width: usize) -> Vec<Line> {
     lines
 }
 
-/// Which answer is right.
+/// Returns which answer is right.
 fn judged(step: &LessonStep, answer: usize) -> String {
     let right = step.right_place().unwrap_or(0);
     let text = step.answers.get(right).map_or("", String::as_str);
@@ -115,7 +103,7 @@ fn judged(step: &LessonStep, answer: usize) -> String {
     }
 }
 
-/// The head: lesson, step, and the keys that lead on.
+/// Returns the head: lesson, step, and the keys that lead on.
 fn head(app: &App, width: usize) -> (String, String) {
     let Some((lesson, progress)) = app.current_lesson() else { return Default::default() };
     let look = &app.appearance;
@@ -139,13 +127,13 @@ fn is_last(lesson: &Lesson, step: usize) -> bool {
     step + 1 == lesson.steps.len()
 }
 
-/// Rows the step needs, with its head and a rule below.
+/// Returns the rows the step needs, with its head and a rule below.
 pub fn rows(app: &App, width: usize) -> u16 {
     u16::try_from(lines(app, width).len() + 2).unwrap_or(u16::MAX)
 }
 
-/// Rows of what must be in sight beside a chart, with the head and a rule: the open question
-/// with its answers, or the end of the step.
+/// Returns the rows of what must be in sight beside a chart, with the head and a rule: the open
+/// question with its answers, or the end of the step.
 pub fn end_rows(app: &App, width: usize) -> u16 {
     let asked = app.lesson_step().filter(|_| app.is_asked());
     let before = asked.map_or(0, |(step, _)| wrap(&app.appearance.spell(&step.text), width).len());
@@ -153,7 +141,7 @@ pub fn end_rows(app: &App, width: usize) -> u16 {
     u16::try_from(rows + 2).unwrap_or(u16::MAX)
 }
 
-/// Pages the step needs in so many rows, head and rule included.
+/// Returns the pages the step needs in so many rows, head and rule included.
 pub fn pages(app: &App, width: usize, rows: u16) -> usize {
     lines(app, width).len().div_ceil(text_rows(rows))
 }
@@ -162,7 +150,7 @@ fn text_rows(rows: u16) -> usize {
     usize::from(rows.saturating_sub(2)).max(1)
 }
 
-/// The current step as text, in lines of so many columns; nothing without a lesson.
+/// Returns the current step as text, in lines of so many columns; nothing without a lesson.
 pub fn lesson_text(app: &App, width: u16) -> Vec<String> {
     let (left, right) = head(app, usize::from(width));
     let head = [left, right].join("   ");

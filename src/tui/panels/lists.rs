@@ -51,14 +51,14 @@ pub fn commands(app: &App, buffer: &mut Buffer, area: Rect, palette: &PaletteSta
     }
 }
 
-/// The first entry in sight of a list with so many rows, so that the chosen one is
-/// in sight.
+/// Returns the first entry in sight of a list with so many rows, so that the chosen one is in
+/// sight.
 pub fn first_in_sight(chosen: usize, rows: usize) -> usize {
     (chosen + 1).saturating_sub(rows)
 }
 
-/// The sign before an entry and its style; one that is not chosen has the colour
-/// of its role.
+/// Returns the sign before an entry and its style; one that is not chosen has the colour of its
+/// role.
 pub fn look_of(look: &Appearance, is_chosen: bool, role: Role) -> (&'static str, Style) {
     match is_chosen {
         true => (look.either("▸", ">"), look.style(Role::Focus).add_modifier(Modifier::REVERSED)),
@@ -66,7 +66,7 @@ pub fn look_of(look: &Appearance, is_chosen: bool, role: Role) -> (&'static str,
     }
 }
 
-/// From this width on, the note is beside the list.
+/// Least width at which the note is beside the list.
 const BESIDE_FROM: u16 = 100;
 /// Widest list beside a note.
 const LIST_WIDTH: u16 = 64;
@@ -131,7 +131,7 @@ fn rows(app: &App, buffer: &mut Buffer, area: Rect, entries: &[SceneEntry], plac
     }
 }
 
-/// The lines about a scene.
+/// Returns the lines about a scene.
 fn notes(app: &App, entry: &SceneEntry, width: usize) -> Vec<(String, Role)> {
     let (text, role) = match &entry.scene {
         Ok(scene) if scene.note.is_empty() => ("It has no note.", Role::Quiet),

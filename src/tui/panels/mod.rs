@@ -12,14 +12,13 @@ mod presentation;
 
 use ratatui::{Frame, buffer::Buffer, layout::Rect};
 
-use super::app::{App, InputMode};
+use super::app::{App, InputMode, Target};
 use super::text::{CUT, print, wrap};
 use super::theme::Role;
 use super::views::ViewArea;
 pub use header::head_text;
 pub use help::{help_bottom, help_text};
 pub use layout::{LEAST_HEIGHT, LEAST_WIDTH, body, lesson_fills, lesson_pages};
-pub use layout::{Target, lesson_at, part_of_bar, target};
 pub use lesson::lesson_text;
 
 /// Draws the whole screen.
@@ -30,7 +29,7 @@ pub fn draw(frame: &mut Frame, app: &App) {
 
 /// Paints the whole screen into a buffer.
 pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
-    app.forget_places();
+    app.forget_drawn();
     app.appearance.use_speeds();
     if area.width < LEAST_WIDTH || area.height < LEAST_HEIGHT {
         let needs = format!(
@@ -68,6 +67,9 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
         }
         for (view, area) in &places.charts {
             let at = ViewArea { area: *area, digit: view.digit(), large: *view == app.view() };
+            if !at.large {
+                app.note(*area, Target::View(*view));
+            }
             view.panel().draw(app, buffer, at);
         }
     }

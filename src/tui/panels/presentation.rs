@@ -8,16 +8,16 @@ use ratatui::widgets::Widget;
 use tui_big_text::{BigText, PixelSize};
 
 use super::{header, knobs};
-use crate::tui::app::{App, InputMode};
+use crate::tui::app::{App, InputMode, Target};
 use crate::tui::text::{columns, print, shorten};
 use crate::tui::theme::Role;
 
 /// Smaller screens have the usual panels.
 const LEAST: (u16, u16) = (60, 18);
-/// From this height on, letters and bar are twice as high.
+/// Least height at which letters and bar are twice as high.
 const TALL: u16 = 32;
 
-/// Whether the screen is drawn so.
+/// Returns whether the screen is drawn so.
 pub fn is_shown(app: &App, area: Rect) -> bool {
     let open = matches!(
         app.dialogue.mode,
@@ -44,9 +44,9 @@ pub fn split(app: &App, area: Rect) -> [Rect; 4] {
 /// Draws the verdict and its reason.
 pub fn letters(app: &App, buffer: &mut Buffer, area: Rect) {
     let look = &app.appearance;
-    let (told, style) = header::told(app, usize::from(area.width));
+    let (headline, style) = header::headline(app, usize::from(area.width));
     let rows = area.height.saturating_sub(1);
-    let wide = u16::try_from(columns(&told.word)).unwrap_or(u16::MAX);
+    let wide = u16::try_from(columns(&headline.word)).unwrap_or(u16::MAX);
     let sizes = [
         (PixelSize::Full, 8, 8, true),
         (PixelSize::HalfHeight, 8, 4, false),
@@ -60,7 +60,7 @@ pub fn letters(app: &App, buffer: &mut Buffer, area: Rect) {
             let text = BigText::builder()
                 .pixel_size(size)
                 .style(style)
-                .lines(vec![told.word.as_str().into()])
+                .lines(vec![headline.word.as_str().into()])
                 .centered()
                 .build();
             let area = Rect { height: rows, ..area };
@@ -70,9 +70,10 @@ pub fn letters(app: &App, buffer: &mut Buffer, area: Rect) {
                 solid(buffer, area);
             }
         }
-        None => centred(app, buffer, area, rows / 2, &told.word, style),
+        None => centred(app, buffer, area, rows / 2, &headline.word, style),
     }
-    let parts = told.doubt.map_or(told.what.clone(), |doubt| format!("{} {doubt}", told.what));
+    let parts =
+        headline.doubt.map_or(headline.what.clone(), |doubt| format!("{} {doubt}", headline.what));
     centred(app, buffer, area, rows, &parts, look.style(Role::Text));
 }
 
@@ -97,6 +98,7 @@ fn centred(app: &App, buffer: &mut Buffer, area: Rect, row: u16, text: &str, sty
 /// Draws the selected knob: its value, and a bar over the whole width.
 pub fn knob(app: &App, buffer: &mut Buffer, area: Rect) {
     let Some(knob) = app.selected() else { return };
+    app.note(area, Target::Knob(app.knobs.selected));
     let focus = app.appearance.style(Role::Focus).add_modifier(Modifier::BOLD);
     match (&app.knobs.refusal, &app.dialogue.mode) {
         (Some(refusal), _) => {
@@ -113,8 +115,8 @@ pub fn knob(app: &App, buffer: &mut Buffer, area: Rect) {
     knobs::draw(app, buffer, bar_cells(area), knob);
 }
 
-/// The cells of the bar of the selected knob.
-pub fn bar_cells(area: Rect) -> Rect {
+/// Returns the cells of the bar of the selected knob.
+fn bar_cells(area: Rect) -> Rect {
     let height = area.height.saturating_sub(1);
     Rect { x: area.x + 2, y: area.y + 1, width: area.width.saturating_sub(4), height }
 }

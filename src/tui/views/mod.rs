@@ -1,10 +1,11 @@
 //! The views: one folder or file each, and the one table of them. To add a
-//! view, write its file, add it to the two lists here, and add its word to
+//! view, write its file, add it here and to the list in `id`, and add its word to
 //! `CHARTS`, the words that a scene file may hold.
 
 pub mod coincidence;
 mod frame;
 mod gaps;
+pub mod id;
 pub mod locked;
 pub mod map;
 pub mod margins;
@@ -16,30 +17,10 @@ mod table;
 
 pub use panel::{LEAST_ROWS, Opening, ViewArea, ViewPanel};
 
+use super::app::{App, cell_of};
+pub use id::ViewId;
+use margins::COLUMNS;
 use rubscope_solver::scene::keys::CHARTS;
-
-/// Names a view, in the order of the digits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ViewId {
-    /// `u_c`, `u_s`, `alpha_c`, `alpha_s` against time.
-    Response,
-    /// The gap of every blade.
-    Gaps,
-    /// Multipliers of the locked motion against speed.
-    Locked,
-    /// The wave as a point in the frame of the blades, and the wheel.
-    Frame,
-    /// Verdicts over speed and pulse.
-    Map,
-    /// Spectrum of the run, and Campbell lines.
-    Spectrum,
-    /// Speed against error of every solver.
-    Precision,
-    /// How far the scene is from every limit, and what moves it.
-    Margins,
-    /// What the coincidence of blades and casing does while they touch.
-    Coincidence,
-}
 
 /// The table of views.
 const VIEWS: [(ViewId, &dyn ViewPanel); CHARTS.len()] = [
@@ -55,41 +36,29 @@ const VIEWS: [(ViewId, &dyn ViewPanel); CHARTS.len()] = [
 ];
 
 impl ViewId {
-    /// All views.
-    pub fn all() -> impl Iterator<Item = Self> {
-        VIEWS.iter().map(|(id, _)| *id)
-    }
-
-    /// What it draws and exports.
+    /// Returns what it draws and exports.
     pub fn panel(self) -> &'static dyn ViewPanel {
         VIEWS[self as usize].1
     }
-
-    /// Its word in scene files, lessons and file names.
-    pub fn word(self) -> &'static str {
-        CHARTS[self as usize]
-    }
-
-    /// The view a word stands for.
-    pub fn from_word(word: &str) -> Option<Self> {
-        Self::all().find(|view| view.word() == word)
-    }
-
-    /// The digit key that opens it.
-    pub fn digit(self) -> u8 {
-        self as u8 + 1
-    }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+impl App {
+    /// Returns what the large chart draws and exports.
+    pub fn panel(&self) -> &'static dyn ViewPanel {
+        self.view().panel()
+    }
 
-    #[test]
-    fn every_view_stands_at_its_place_in_the_table() {
-        for (place, view) in ViewId::all().enumerate() {
-            assert_eq!(view as usize, place);
-            assert_eq!(ViewId::from_word(CHARTS[place]), Some(view));
-        }
+    /// Returns what Enter does at the reading cursor.
+    pub fn opening(&self) -> Option<Opening> {
+        self.panel().opening(self, self.reading.cursor?)
+    }
+
+    /// Returns the column and row of the margins under the cursor; the first row is the upper one.
+    pub fn margins_cell(&self) -> Option<[usize; 2]> {
+        let cursor = self.cursor_in(ViewId::Margins)?;
+        let rows =
+            u32::try_from(self.margins()?.0.margins.limits.len()).ok().filter(|rows| *rows > 0)?;
+        let row = rows - 1 - cell_of(cursor.up, rows);
+        Some([cell_of(cursor.across, COLUMNS), row].map(|cell| cell as usize))
     }
 }

@@ -1,14 +1,12 @@
-//! The trait of a view, and what all views share: the title row with its
-//! legend, and CSV text.
-//!
-//! Speeds that are marked on a chart over speeds, with their names.
+//! The trait of a view, and what views share: the title row with its legend, the names of marked
+//! speeds and levels, and CSV text.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Modifier, Style};
 
 use crate::report::table::{TableCell, write_csv};
-use crate::tui::app::{App, Cursor};
+use crate::tui::app::{App, Cursor, Target};
 use crate::tui::appearance::Appearance;
 use crate::tui::axis::ChartAxis;
 use crate::tui::plot::Plot;
@@ -20,19 +18,16 @@ use rubscope_solver::scene::CheckedScene;
 
 /// A view: how it is drawn and exported.
 pub trait ViewPanel: Sync {
-    /// What it shows, for the help.
-    fn what(&self) -> &'static str;
-
     /// Draws it.
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea);
 
-    /// Its data as CSV.
+    /// Writes named columns of numbers as CSV text.
     ///
     /// # Errors
     /// There is nothing to export; the reason as text.
     fn csv(&self, app: &App) -> Result<String, String>;
 
-    /// Whether it is drawn over the page of time.
+    /// Returns whether it is drawn over the page of time.
     fn is_over_time(&self, _: &App) -> bool {
         false
     }
@@ -43,18 +38,18 @@ pub trait ViewPanel: Sync {
         [0, 0]
     }
 
-    /// Where the reading cursor appears.
+    /// Returns where the reading cursor appears.
     fn here(&self, _: &App) -> Cursor {
         Cursor { across: 0.5, up: 0.5 }
     }
 
-    /// What Enter does at a place of the chart.
+    /// Returns what Enter does at a place of the chart.
     fn opening(&self, _: &App, _: Cursor) -> Option<Opening> {
         None
     }
 }
 
-/// What Enter does at a place of a chart.
+/// Action of Enter at a place of a chart.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Opening {
     /// Opens the run of a scene.
@@ -75,7 +70,7 @@ pub enum Opening {
 }
 
 impl Opening {
-    /// It in one word, for the last line.
+    /// Returns what Enter does in one word, for the last line.
     pub fn word(&self) -> Option<&'static str> {
         match self {
             Self::Run(_) => Some("open"),
@@ -91,7 +86,7 @@ pub const LEAST_ROWS: u16 = 11;
 /// Columns of one that has another at its side.
 const LEAST_COLUMNS: u16 = 38;
 
-/// Where a view is drawn, and how its title begins.
+/// Area in which a view is drawn, and the beginning of its title.
 #[derive(Clone, Copy, Debug)]
 pub struct ViewArea {
     /// The part of the screen.
@@ -106,26 +101,26 @@ impl ViewArea {
     /// Notes where data is drawn, so that the mouse can point at it.
     pub fn note(self, app: &App, inner: Rect) {
         if self.large {
-            app.note_chart(inner, [(0.0, 1.0); 2]);
+            app.note(inner, Target::Chart([(0.0, 1.0); 2]));
         }
     }
 
-    /// As `note`, of an area that has only a part of the chart: from where to where
+    /// Same as [`Self::note`], for an area that shows only a part of the chart: from where to where
     /// across, and up.
     pub fn note_part(self, app: &App, inner: Rect, parts: [(f64, f64); 2]) {
         if self.large && inner.area() > 0 {
-            app.note_chart(inner, parts);
+            app.note(inner, Target::Chart(parts));
         }
     }
 
-    /// Two slots, one above the other; the lower one takes `percent` of the height.
+    /// Returns two slots, one above the other; the lower one takes `percent` of the height.
     pub fn rows(self, percent: u16) -> [Self; 2] {
         let lower = (self.area.height * percent / 100).max(LEAST_ROWS.min(self.area.height / 2));
         let parts = [Constraint::Min(1), Constraint::Length(lower)];
         Layout::vertical(parts).areas(self.area).map(|area| Self { area, ..self })
     }
 
-    /// Two charts that can be read, above each other or side by side; one where there is no
+    /// Returns two charts that can be read, above each other or side by side; one where there is no
     /// room for two.
     pub fn pair(self, percent: u16) -> (Self, Option<Self>) {
         let [first, second] = match self.area {
@@ -136,15 +131,15 @@ impl ViewArea {
         (first, Some(second))
     }
 
-    /// Two slots of equal width, side by side.
+    /// Returns two slots of equal width, side by side.
     pub fn columns(self) -> [Self; 2] {
         let halves = [Constraint::Percentage(50), Constraint::Percentage(50)];
         Layout::horizontal(halves).spacing(1).areas(self.area).map(|area| Self { area, ..self })
     }
 }
 
-/// The title row: a rule with the digit and name of the view and of its legend, the first
-/// ones first, what fits whole. Returns the rest of the area.
+/// Draws the title row: a rule with the digit and name of the view and as many entries of its
+/// legend, the first ones first, as fit whole. Returns the rest of the area.
 pub fn title(
     app: &App,
     buffer: &mut Buffer,
@@ -178,7 +173,7 @@ pub fn title(
     Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area }
 }
 
-/// That the study of a view takes long, and how far it is. The map says so itself.
+/// Returns the progress of a study that takes long. The map shows its own.
 fn working(app: &App, at: ViewArea) -> Option<(String, Style)> {
     let known = app.results().working.iter().find(|working| working.view.digit() == at.digit)?;
     let text = match known.part {
@@ -188,7 +183,7 @@ fn working(app: &App, at: ViewArea) -> Option<(String, Style)> {
     (known.view != ViewId::Map).then(|| (text, app.appearance.style(Role::Focus)))
 }
 
-/// A legend entry: a stretch of the line and the name of what it shows.
+/// Returns a legend entry: a stretch of the line and the name of what it shows.
 pub fn entry(look: &Appearance, pen: &Pen, name: &str) -> (String, Style) {
     let stroke = match (look.ascii(), pen.dashed) {
         (true, _) => pen.sign.to_string().repeat(2),
@@ -198,12 +193,12 @@ pub fn entry(look: &Appearance, pen: &Pen, name: &str) -> (String, Style) {
     (format!("{stroke} {name}"), pen.style)
 }
 
-/// A legend entry of what is drawn in single dots.
+/// Returns a legend entry of what is drawn in single dots.
 pub fn dots(look: &Appearance, name: &str) -> (String, Style) {
     (format!("{} {name}", look.either("· ·", ". .")), look.style(Role::Quiet))
 }
 
-/// The name of a level, on it where the chart is empty, the farthest to the right.
+/// Prints the name of a level on it, as far to the right as the chart is empty.
 pub fn name_level(plot: &mut Plot, x: ChartAxis, level: f64, name: &str, style: Style) {
     let Some(row) = plot.row(level) else { return };
     let parts = (0..=LEVEL_PLACES).rev().map(|k| f64::from(k) / f64::from(LEVEL_PLACES));
@@ -216,6 +211,22 @@ pub fn name_level(plot: &mut Plot, x: ChartAxis, level: f64, name: &str, style: 
 
 /// Places along a level that are tried for its name.
 const LEVEL_PLACES: u32 = 40;
+
+/// Prints lines above a chart; returns the rest of the area.
+pub fn lines_above(
+    app: &App,
+    buffer: &mut Buffer,
+    inside: Rect,
+    lines: &[String],
+    role: Role,
+) -> Rect {
+    let rows = u16::try_from(lines.len()).unwrap_or(u16::MAX).min(inside.height);
+    let area = Rect { x: inside.x + 1, width: inside.width.saturating_sub(1), ..inside };
+    for (row, line) in (0..rows).zip(lines) {
+        print(buffer, area, row, line, app.appearance.style(role));
+    }
+    Rect { y: inside.y + rows, height: inside.height - rows, ..inside }
+}
 
 /// Shows that the study of a view is not computed yet: those of the run come first.
 pub fn not_yet(app: &App, buffer: &mut Buffer, inside: Rect) {
@@ -244,7 +255,7 @@ pub fn csv<R: IntoIterator<Item = f64>>(
     String::from_utf8(bytes).map_err(|error| error.to_string())
 }
 
-/// The names of columns.
+/// Returns the names of columns.
 pub fn names(names: &[&str]) -> Vec<String> {
     names.iter().map(ToString::to_string).collect()
 }
@@ -262,7 +273,7 @@ pub fn name_speeds(plot: &mut Plot, marks: &[(f64, &str)], app: &App) {
     }
 }
 
-/// Upright lines at marked speeds, at the present one, and at that which is read.
+/// Draws vertical lines at marked speeds, at the present one, and at the one under the cursor.
 pub fn uprights(plot: &mut Plot, app: &App, marks: &[(f64, &str)], read: Option<f64>) {
     let look = &app.appearance;
     for (speed, _) in marks {

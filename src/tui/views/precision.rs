@@ -22,10 +22,6 @@ const LEGEND_FROM: u16 = 8;
 pub struct PrecisionView;
 
 impl ViewPanel for PrecisionView {
-    fn what(&self) -> &'static str {
-        "speed against error"
-    }
-
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
         let look = &app.appearance;
         let quiet = look.style(Role::Quiet);

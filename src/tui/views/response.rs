@@ -4,7 +4,7 @@
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-use super::panel::{ViewArea, ViewPanel, csv, dots, entry, name_level, names, title};
+use super::panel::{ViewArea, ViewPanel, csv, dots, entry, lines_above, name_level, names, title};
 use crate::report::line::clean;
 use crate::tui::app::{App, Cursor};
 use crate::tui::axis::{AutoRange, ChartAxis, instant, readable};
@@ -23,24 +23,20 @@ use rubscope_solver::scene::ModelSize;
 const PINNED: usize = 8;
 /// Most changes of contact on a page that are looked at for their names.
 const MOST_NAMES: usize = 500;
-/// From this width on, two contact laws are side by side.
+/// Least width at which two contact laws are side by side.
 const SIDE_BY_SIDE_FROM: u16 = 90;
 
 /// The view.
 pub struct ResponseView;
 
 impl ViewPanel for ResponseView {
-    fn what(&self) -> &'static str {
-        "response"
-    }
-
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
         let casing = Page::casing("response".into(), app);
         if app.run.compare {
             both_laws(app, buffer, at);
         } else if let (above, Some(below)) = at.pair(40)
             && app.layout.full_screen
-            && !app.appearance.is_wide()
+            && !app.appearance.wide
             && bends(app)
         {
             page(app, buffer, above, &casing);
@@ -66,7 +62,7 @@ impl ViewPanel for ResponseView {
         Cursor { across: app.part_of_page(), up: 0.5 }
     }
 
-    /// Least and greatest value of every channel in each bin of the page.
+    /// Returns the least and greatest value of every channel in each bin of the page.
     fn csv(&self, app: &App) -> Result<String, String> {
         let channels = [
             (Channel::UC, "u_c_m"),
@@ -95,12 +91,12 @@ impl ViewPanel for ResponseView {
     }
 }
 
-/// Whether blades bend at all: those of the rigid model would show round-off.
+/// Returns whether blades bend at all: those of the rigid model would show round-off.
 fn bends(app: &App) -> bool {
     app.scene.solver.model != ModelSize::Rigid
 }
 
-/// What one chart shows.
+/// Content of one chart.
 struct Page<'a> {
     name: String,
     names: [&'static str; 2],
@@ -129,7 +125,7 @@ impl<'a> Page<'a> {
     }
 }
 
-/// The two contact laws side by side, or one above the other.
+/// Draws the two contact laws side by side, or one above the other.
 fn both_laws(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let [first, second] =
         if at.area.width >= SIDE_BY_SIDE_FROM { at.columns() } else { at.rows(50) };
@@ -151,7 +147,7 @@ fn both_laws(app: &App, buffer: &mut Buffer, at: ViewArea) {
     page(app, buffer, second, &theirs);
 }
 
-/// Why the scene cannot have the other law.
+/// Draws why the scene cannot have the other law.
 fn refused(app: &App, buffer: &mut Buffer, at: ViewArea, name: &str, why: &str) {
     let look = &app.appearance;
     let inside = title(app, buffer, at, name, &[]);
@@ -228,19 +224,16 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
     names_of_marks(app, &mut plot, what);
 }
 
-/// Why the motion stopped, in the words of the solver, above the chart; returns the rest.
+/// Prints why the motion stopped, in the words of the solver, above the chart; returns the rest of
+/// the area.
 fn failed(app: &App, buffer: &mut Buffer, inside: Rect) -> Rect {
     let (look, width) = (&app.appearance, usize::from(inside.width).saturating_sub(2));
-    let lines = app.failure().map_or(Vec::new(), |failure| wrap(&look.spell(failure), width));
-    let rows = u16::try_from(lines.len()).unwrap_or(u16::MAX).min(inside.height / 3);
-    let area = Rect { x: inside.x + 1, width: inside.width.saturating_sub(1), ..inside };
-    for (row, line) in (0..rows).zip(lines) {
-        print(buffer, area, row, &line, look.style(Role::Trouble));
-    }
-    Rect { y: inside.y + rows, height: inside.height - rows, ..inside }
+    let mut lines = app.failure().map_or(Vec::new(), |failure| wrap(&look.spell(failure), width));
+    lines.truncate(usize::from(inside.height / 3));
+    lines_above(app, buffer, inside, &lines, Role::Trouble)
 }
 
-/// The clearance, which the casing may pass where the tips move with it, and its name.
+/// Returns the clearance, which the casing may pass where the tips move with it, and its name.
 fn clearance_levels(app: &App, what: &Page) -> Vec<(f64, &'static str)> {
     if !app.scene.goes_beyond() || what.unit != "m" {
         return Vec::new();
@@ -250,8 +243,8 @@ fn clearance_levels(app: &App, what: &Page) -> Vec<(f64, &'static str)> {
     [clearance, -clearance].into_iter().zip(names).collect()
 }
 
-/// The values at the reading cursor, computed for that instant.
-/// It comes without the instant where that has no room.
+/// Returns the values at the reading cursor, computed for that instant. It comes without the
+/// instant where that has no room.
 fn reading(app: &App, what: &Page, width: usize) -> Option<String> {
     app.cursor_time()?;
     let values = |moment: &Moment| match what.unit {
@@ -275,8 +268,8 @@ fn reading(app: &App, what: &Page, width: usize) -> Option<String> {
     Some(if columns(&whole) + 7 > width { values } else { whole })
 }
 
-/// The run to come, in dots. They are those of the whole page, so that they stay where they
-/// are while the motion comes to them.
+/// Draws the run to come in dots. They are those of the whole page, so that they do not move while
+/// the motion comes to them.
 fn ghost(app: &App, plot: &mut Plot, what: &Page) {
     let (look, ahead) = (&app.appearance, app.now());
     let machine = &app.machine;
@@ -297,7 +290,7 @@ fn ghost(app: &App, plot: &mut Plot, what: &Page) {
     }
 }
 
-/// The blades at the first contacts of the page, on the axis of time.
+/// Prints the blades at the first contacts of the page on the time axis.
 fn names_of_marks(app: &App, plot: &mut Plot, what: &Page) {
     let Some(run) = what.forecast.filter(|_| what.own && what.unit == "m") else { return };
     let (from, to) = app.page();

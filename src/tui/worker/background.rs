@@ -21,7 +21,7 @@ pub struct Background<T> {
 /// Most threads for one purpose.
 const MOST_THREADS: usize = 16;
 
-/// Threads for work in the background: one core is for the screen and the motion.
+/// Returns the threads for work in the background: one core is for the screen and the motion.
 pub fn spare_threads() -> usize {
     let cores = available_parallelism().map_or(1, usize::from);
     cores.saturating_sub(1).clamp(1, MOST_THREADS)
@@ -53,7 +53,7 @@ impl<T: Send + 'static> Background<T> {
         Self { results: started.then_some(results), dropped }
     }
 
-    /// The next result, waiting for it no longer than `patience`.
+    /// Returns the next result, waiting for it no longer than `patience`.
     pub fn receive(&mut self, patience: Duration) -> Option<T> {
         match self.results.as_ref()?.recv_timeout(patience) {
             Ok(result) => Some(result),
@@ -66,7 +66,7 @@ impl<T: Send + 'static> Background<T> {
         }
     }
 
-    /// Whether no more results come.
+    /// Returns whether no more results come.
     pub fn is_done(&self) -> bool {
         self.results.is_none()
     }

@@ -31,14 +31,15 @@ impl Comparison {
         Some(Self { motion, recorder: Recorder::default(), full_run, page, copies })
     }
 
-    /// The motion was changed from outside; its full run is `length` seconds from here.
+    /// Records that the motion was changed from outside; its full run is `length` seconds from
+    /// here.
     pub fn changed(&mut self, length: f64) {
         self.copies.changed(&self.motion);
         self.page.forget();
         self.forecast(length);
     }
 
-    /// A new full run, from here on.
+    /// Starts a new full run from here.
     pub fn forecast(&mut self, length: f64) {
         self.full_run = FullRunJob::new(self.motion.clone(), length);
     }
@@ -51,7 +52,7 @@ impl Comparison {
         }
     }
 
-    /// The latest motion by `t` that is known.
+    /// Returns the latest motion by `t` that is known.
     pub fn before(&self, t: f64) -> Option<Motion> {
         self.full_run.before(t).or_else(|| self.copies.before(t, &self.motion))
     }
@@ -79,7 +80,7 @@ impl Comparison {
     }
 }
 
-/// The scene under the other contact law, with the solver that supports both.
+/// Returns the scene under the other contact law, with the solver that supports both.
 ///
 /// # Errors
 /// The scene cannot have that law; the reason in one line.

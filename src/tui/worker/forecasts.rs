@@ -1,8 +1,6 @@
-//! What is computed beside the motion that plays: the run to its end, the same by
-//! the event solver, whether a small change would change it, and the studies.
-//!
-//! The latest verdict, and the run of an older scene that goes on to get one: while a knob is
-//! turned faster than a run takes, the answers come as often as runs can.
+//! What is computed beside the motion that plays: the run to its end, the same by the event
+//! solver, whether a small change would change it, and the studies. While a knob is turned
+//! faster than a run takes, an older run goes on, so that verdicts come as often as runs can.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -29,7 +27,7 @@ pub struct Forecasts {
 }
 
 impl Forecasts {
-    /// For the motion of a scene at its start.
+    /// Creates the forecasts for the motion of a scene at its start.
     pub fn of(motion: &Motion, scene: &Scene, (studies, answers): (Studies, Answers)) -> Self {
         Self {
             full_run: FullRunJob::new(motion.clone(), scene.solver.end_s),
@@ -41,7 +39,7 @@ impl Forecasts {
         }
     }
 
-    /// The studies.
+    /// Returns the studies.
     pub fn studies(&mut self) -> &mut Studies {
         &mut self.studies
     }
@@ -51,57 +49,57 @@ impl Forecasts {
         self.studies.stop_unwanted(order, &self.full_run);
     }
 
-    /// The studies and answers, for the next motion; this one was of `scene`.
+    /// Returns the studies and answers for the next motion; this one was of `scene`.
     pub fn hand_over(&mut self, scene: &CheckedScene, motion: &Motion) -> (Studies, Answers) {
         self.changed(scene, motion, 0.0);
         (std::mem::take(&mut self.studies), std::mem::take(&mut self.answers))
     }
 
-    /// As `again`, of a motion that was of `scene` and has been changed.
+    /// Same as [`Self::again`], for a motion of `scene` that has been changed.
     pub fn changed(&mut self, scene: &CheckedScene, motion: &Motion, length: f64) {
         let run = std::mem::replace(&mut self.full_run, FullRunJob::new(motion.clone(), length));
         self.answers.turned_on(scene, run);
         self.reference = None;
     }
 
-    /// A new run of `length` seconds from where the motion is. The reference
-    /// starts from rest, so it does not apply to it.
+    /// Starts a new run of `length` seconds from where the motion is. The reference starts from
+    /// rest, so it does not apply to it.
     pub fn again(&mut self, motion: &Motion, length: f64) {
         self.full_run = FullRunJob::new(motion.clone(), length);
         self.reference = None;
     }
 
-    /// Whether it is sensitive is not asked of a motion that was changed.
+    /// Marks the sensitivity as unknown: it is not computed for a motion that was changed.
     pub fn forget_sensitivity(&mut self) {
         (self.sensitivity, self.sensitive) = (None, Some(Sensitive::Unknown));
     }
 
-    /// The end of the run \[s\].
+    /// Returns the end of the run \[s\].
     pub fn end(&self) -> f64 {
         self.full_run.end()
     }
 
-    /// The motion of the run by `t`, computed on the way; none before its start.
+    /// Returns the motion of the run by `t`, computed on the way; none before its start.
     pub fn before(&self, t: f64) -> Option<Motion> {
         self.full_run.before(t)
     }
 
-    /// How far the run is \[s\], and whether it goes no farther.
+    /// Returns how far the run is \[s\], and whether it goes no farther.
     pub fn reached(&self) -> (f64, bool) {
         (self.full_run.t_s(), self.full_run.is_done())
     }
 
-    /// Wall time spent on the run, until it is done.
+    /// Returns the wall time spent on the run, until it is done.
     pub fn wall(&self) -> Option<Duration> {
         (!self.full_run.is_done()).then(|| self.full_run.wall())
     }
 
-    /// The changes of contact ahead, as far as they are known.
+    /// Returns the changes of contact ahead, as far as they are known.
     pub fn marks(&self) -> &[Mark] {
         self.full_run.marks()
     }
 
-    /// Whether there is more to compute.
+    /// Returns whether there is more to compute.
     pub fn is_computing(&self, order: &Order, comparison: Option<&FullRunJob>) -> bool {
         let mut runs = std::iter::once(&self.full_run).chain(&self.reference).chain(comparison);
         runs.any(|run| !run.is_done())
@@ -145,7 +143,7 @@ impl Forecasts {
         self.studies.compute(order, &self.full_run);
     }
 
-    /// What is known so far.
+    /// Returns what is known so far.
     pub fn results(&self, order: &Order, comparison: Option<&FullRunJob>) -> Results {
         let full_run = self.full_run.state();
         let done_in = matches!(full_run, FullRunState::Done(_)).then(|| self.full_run.wall_s());
@@ -169,8 +167,8 @@ impl Forecasts {
     }
 }
 
-/// The event solver under unilateral contact, if the scene uses another solver. A
-/// lining that gives way is another machine.
+/// Returns the event solver under unilateral contact, if the scene uses another solver. A lining
+/// that gives way is another machine.
 fn reference(scene: &Scene) -> Option<FullRunJob> {
     if scene.solver.kind == SolverKind::Event || scene.solver.contact == ContactLaw::Smooth {
         return None;
@@ -217,7 +215,7 @@ pub struct Answers {
 }
 
 impl Answers {
-    /// A run is not wanted any more: it goes on, unless another one does.
+    /// Takes over a run that is not wanted any more, unless an older one goes on.
     pub fn turned_on(&mut self, scene: &CheckedScene, run: FullRunJob) {
         self.left = HELD;
         if self.older.is_none() && !run.is_done() && !run.wall().is_zero() {
@@ -225,7 +223,7 @@ impl Answers {
         }
     }
 
-    /// Whether an older run goes on.
+    /// Returns whether an older run goes on.
     pub fn is_computing(&self) -> bool {
         self.older.is_some()
     }
@@ -240,7 +238,7 @@ impl Answers {
         true
     }
 
-    /// So much wall time went into the older run: its result is noted, or it is given up.
+    /// Records the wall time of the older run: its result is kept, or it is given up.
     fn spend(&mut self, spent: Duration) {
         let Some((scene, run)) = &self.older else { return };
         self.left = self.left.saturating_sub(spent);
@@ -259,7 +257,7 @@ impl Answers {
         }
     }
 
-    /// The latest answer.
+    /// Returns the latest answer.
     pub fn latest(&self) -> Option<Arc<Answer>> {
         self.latest.clone()
     }
@@ -281,7 +279,7 @@ mod tests {
     fn a_held_key_gets_the_answer_of_a_run_that_was_begun() {
         let mut answers = Answers::default();
         // Each run has a slice before the next turn of the knob, and takes many.
-        let mut told = Vec::new();
+        let mut reported = Vec::new();
         for turn in 0..100_000 {
             let (scene, mut run) = run(400.0 + 1e-3 * f64::from(turn));
             if !answers.compute() {
@@ -289,15 +287,15 @@ mod tests {
             }
             answers.turned_on(&scene, run);
             let speed = answers.latest().map(|answer| answer.scene.operation.speed_rad_s);
-            if told.last().copied() != speed {
-                told.extend(speed);
+            if reported.last().copied() != speed {
+                reported.extend(speed);
             }
-            if told.len() > 2 {
+            if reported.len() > 2 {
                 break;
             }
         }
         // Not those of all values, but the next one begins when one is done.
-        assert!(told.len() > 2 && told.is_sorted(), "{told:?}");
+        assert!(reported.len() > 2 && reported.is_sorted(), "{reported:?}");
     }
 
     #[test]

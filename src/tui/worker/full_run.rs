@@ -37,7 +37,7 @@ const SAMPLES: u32 = 2048;
 pub(super) const SLICE: Duration = Duration::from_millis(5);
 
 impl FullRunJob {
-    /// A run of `length` seconds from where the motion is.
+    /// Creates a run of `length` seconds from where the motion is.
     pub fn new(motion: Motion, length: f64) -> Self {
         let start = motion.t_s();
         let before = steps(&motion).unwrap_or_default();
@@ -60,7 +60,7 @@ impl FullRunJob {
         }
     }
 
-    /// The same run in slices of this length, however fast the machine is.
+    /// Creates the same run in slices of this length, however fast the machine is.
     #[cfg(test)]
     pub fn in_slices_of(mut self, slice: Duration) -> Self {
         self.slice = slice;
@@ -97,32 +97,32 @@ impl FullRunJob {
         }
     }
 
-    /// `u_c` and `u_s` at equal intervals over the run so far \[m\].
+    /// Returns `u_c` and `u_s` at equal intervals over the run so far \[m\].
     pub fn signal(&self) -> Vec<[f64; 2]> {
         self.points.iter().skip(1).map(|[u_c, u_s, ..]| [*u_c, *u_s]).collect()
     }
 
-    /// The last copy of the motion on the way by `t`.
+    /// Returns the last copy of the motion on the way by `t`.
     pub fn before(&self, t: f64) -> Option<Motion> {
         self.copies.before(t, &self.motion)
     }
 
-    /// The changes of contact so far, in order of time.
+    /// Returns the changes of contact so far, in order of time.
     pub fn marks(&self) -> &[Mark] {
         &self.marks.seen
     }
 
-    /// How far it is \[s\].
+    /// Returns how far it is \[s\].
     pub fn t_s(&self) -> f64 {
         self.motion.t_s()
     }
 
-    /// The end of the run \[s\].
+    /// Returns the end of the run \[s\].
     pub fn end(&self) -> f64 {
         self.end
     }
 
-    /// What it came to, and which way, once it is done: of a run from the start of a scene,
+    /// Returns what it came to, and which way, once it is done: of a run from the start of a scene,
     /// what changed runs must agree with.
     pub fn reached(&self) -> Option<(VerdictReached, Course)> {
         let run = self.result.as_ref()?;
@@ -149,7 +149,7 @@ impl FullRunJob {
         }
     }
 
-    /// Its progress or its result.
+    /// Returns its progress or its result.
     pub fn state(&self) -> FullRunState {
         if let Some(run) = &self.result {
             return FullRunState::Done(Box::new(run.clone()));
@@ -162,40 +162,40 @@ impl FullRunJob {
         ((self.motion.t_s() - self.start) / (self.end - self.start)).clamp(0.0, 1.0)
     }
 
-    /// The wall time it still takes, as far as it can be known.
+    /// Returns the wall time it still takes, as far as it can be known.
     pub fn left(&self) -> Option<Duration> {
         let left = self.wall_s() * (1.0 / self.part() - 1.0);
         Duration::try_from_secs_f64(left).ok()
     }
 
-    /// Whether it is over.
+    /// Returns whether it is over.
     pub fn is_done(&self) -> bool {
         self.result.is_some() || self.wall >= self.limit
     }
 
-    /// Wall time so far.
+    /// Returns the wall time so far.
     pub fn wall(&self) -> Duration {
         self.wall
     }
 
-    /// Wall time so far \[s\].
+    /// Returns the wall time so far \[s\].
     pub fn wall_s(&self) -> f64 {
         self.wall.as_secs_f64()
     }
 
-    /// Wall time over the number of steps taken \[s\], for a solver that steps.
+    /// Returns the wall time over the number of steps taken \[s\], for a solver that steps.
     pub fn step_s(&self) -> Option<f64> {
         let [taken, _] = self.steps()?;
         (taken > 0).then(|| self.wall_s() / taken as f64)
     }
 
-    /// The part of its steps that was skipped, for a solver that steps.
+    /// Returns the part of its steps that was skipped, for a solver that steps.
     pub fn skipped(&self) -> Option<f64> {
         let [taken, skipped] = self.steps()?;
         (taken + skipped > 0).then(|| skipped as f64 / (taken + skipped) as f64)
     }
 
-    /// Steps taken and skipped in this run.
+    /// Returns the steps taken and skipped in this run.
     fn steps(&self) -> Option<[u64; 2]> {
         let [taken, skipped] = steps(&self.motion)?;
         let [taken_before, skipped_before] = self.before;
@@ -203,7 +203,7 @@ impl FullRunJob {
     }
 }
 
-/// Steps of a motion taken and skipped so far.
+/// Returns the steps of a motion taken and skipped so far.
 fn steps(motion: &Motion) -> Option<[u64; 2]> {
     Some([motion.steps_taken()?, motion.steps_skipped()?])
 }

@@ -9,8 +9,8 @@ const MOST_STEPS: usize = 20_000;
 /// Most halvings of the step in which the change is; doubles need no more.
 const MOST_HALVINGS: usize = 80;
 
-/// When the contact changes next, looked for in steps of `step` \[s\]; none if no
-/// change comes soon, or `go_on` says no.
+/// Returns when the contact changes next, looked for in steps of `step` \[s\]; none if no change
+/// comes soon, or `go_on` says no.
 pub fn next_change(motion: &Motion, step: f64, go_on: GoOn<'_>) -> Option<f64> {
     let log = motion.contacts();
     let before = (log.active_set, log.impact_count);
@@ -49,7 +49,7 @@ pub fn next_change(motion: &Motion, step: f64, go_on: GoOn<'_>) -> Option<f64> {
     None
 }
 
-/// What changed since `marks` began, seen from the motion after it.
+/// Returns what changed since `marks` began, seen from the motion after it.
 pub fn met(mut marks: Marks, motion: &Motion) -> Option<Mark> {
     marks.look(motion.contacts());
     marks.seen.last().copied()

@@ -17,6 +17,5 @@ mod thread;
 pub use comparison::other_law;
 pub use playback::Playback;
 pub use recorder::{in_blade_frame, rim_point};
-pub use studies::Found;
 pub use thread::Stepwise;
 pub use thread::{WORKER_NAME, Worker};

@@ -30,7 +30,7 @@ pub struct Turned {
 }
 
 impl Turned {
-    /// A frame was drawn.
+    /// Records that a frame was drawn.
     pub fn drawn(&mut self) {
         self.by = 0.0;
     }
@@ -49,7 +49,7 @@ impl Turned {
         self.phase = phase;
     }
 
-    /// Whether the wave must wait for a frame before it turns by `next` more.
+    /// Returns whether the wave must wait for a frame before it turns by `next` more.
     pub fn must_wait(&self, next: f64) -> bool {
         self.by > 0.0 && self.by + next > TURN * TAU
     }
@@ -57,7 +57,7 @@ impl Turned {
 
 /// Wall time over which the rate that is reached is taken \[s\].
 const OVER: f64 = 0.5;
-/// A figure that is as near as this stays, so that it does not tremble.
+/// A displayed value that changes by less than this is not redrawn, to avoid flicker.
 const NEAR: f64 = 0.1;
 
 /// The rate that is reached.
@@ -69,7 +69,7 @@ pub struct Reached {
 }
 
 impl Reached {
-    /// So much was played in so much wall time.
+    /// Records how much was played in how much wall time.
     pub fn add(&mut self, wall: f64, played: f64) {
         (self.wall, self.played) = (self.wall + wall, self.played + played);
         if self.wall < OVER {
@@ -82,13 +82,13 @@ impl Reached {
         (self.wall, self.played) = (0.0, 0.0);
     }
 
-    /// The rate, once it is known.
+    /// Returns the rate, once it is known.
     pub fn rate(&self) -> Option<f64> {
         self.shown
     }
 }
 
-/// The rate of play at an instant, given the changes of contact ahead and behind.
+/// Returns the rate of play at an instant, given the changes of contact ahead and behind.
 pub fn rate_at(now: f64, rate: f64, marks: &[Mark]) -> f64 {
     let next = marks.partition_point(|mark| mark.t_s <= now);
     let ahead = marks.get(next).map(|mark| mark.t_s - now);

@@ -56,7 +56,7 @@ impl Page {
         self.job = from().map(|motion| PageJob { page, until, bin, step, motion, recorder, wall });
     }
 
-    /// Whether nothing is under way.
+    /// Returns whether nothing is under way.
     pub fn is_done(&self) -> bool {
         self.job.is_none()
     }
@@ -76,7 +76,7 @@ impl Page {
         }
     }
 
-    /// Wall time spent on the one under way.
+    /// Returns the wall time spent on the one under way.
     pub fn wall(&self) -> Duration {
         self.job.as_ref().map_or(Duration::ZERO, |job| job.wall)
     }
@@ -86,14 +86,14 @@ impl Page {
         *self = Self::default();
     }
 
-    /// The latest that is complete.
+    /// Returns the latest that is complete.
     pub fn record(&self) -> Option<Arc<PageRecord>> {
         self.done.clone()
     }
 }
 
 impl PageJob {
-    /// Whether the end is reached; false where `go_on` said no.
+    /// Computes until the end is reached; returns false where `go_on` said no.
     fn go_on(&mut self, go_on: GoOn<'_>) -> bool {
         let Some(recorder) = &mut self.recorder else {
             let reached = self.motion.advance_while(self.page.0, go_on);
@@ -131,13 +131,13 @@ impl PageJob {
     }
 }
 
-/// The time between two samples of a record in bins of `bin` seconds, in which no turn of
+/// Returns the time between two samples of a record in bins of `bin` seconds, in which no turn of
 /// the wave against the blades is lost.
 pub fn sample_length(motion: &Motion, bin: f64) -> f64 {
     (bin / SAMPLES).min(longest_sample(motion)).max(1e-12)
 }
 
-/// The longest sample in which no turn of the wave against the blades is lost.
+/// Returns the longest sample in which no turn of the wave against the blades is lost.
 pub fn longest_sample(motion: &Motion) -> f64 {
     let machine = motion.machine();
     let fastest = machine.omega_c + machine.nu(motion.rotor().speed(motion.t_s()).abs());

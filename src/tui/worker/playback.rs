@@ -17,7 +17,7 @@ use super::recorder::Recorder;
 use super::studies::{Bounds, Studies};
 use crate::tui::engine::{Limit, Moment, Order, Snapshot};
 use crate::tui::trace::Mark;
-use crate::tui::views::ViewId;
+use crate::tui::views::id::ViewId;
 use rubscope_solver::motion::{Change, Motion};
 use rubscope_solver::scene::keys::differences;
 
@@ -37,7 +37,7 @@ pub struct Playback {
     limit: Limit,
     turned: Turned,
     reached: Reached,
-    /// Where the motion goes at once \[s\].
+    /// Instant to which the motion goes at once \[s\].
     going: Option<f64>,
     copies: Copies,
     reading: Reading,
@@ -58,7 +58,7 @@ impl Playback {
         Self::with_time_limit(order, PLAY_LIMIT)
     }
 
-    /// As `new`; `play` may take this much wall time per call.
+    /// Same as [`Self::new`]; `play` may take this much wall time per call.
     pub fn with_time_limit(order: Order, time_limit: Duration) -> Self {
         Self::start(order, time_limit, Default::default())
     }
@@ -171,7 +171,7 @@ impl Playback {
         }
     }
 
-    /// A new forecast, from here on.
+    /// Starts a new forecast from here.
     fn forecast(&mut self) {
         let length = self.order.scene.solver.end_s;
         self.forecasts.again(&self.motion, length);
@@ -180,7 +180,7 @@ impl Playback {
         }
     }
 
-    /// Whether the motion has come to the end of its forecast.
+    /// Returns whether the motion has come to the end of its forecast.
     fn is_at_end(&self) -> bool {
         let step = self.motion.steps().map_or(0.0, |_| self.order.scene.solver.step_s);
         // The explicit solver ends at its last step by then.
@@ -206,7 +206,7 @@ impl Playback {
         self.turned.follow(&self.motion, &state);
     }
 
-    /// A frame was drawn: the wave may turn on.
+    /// Records that a frame was drawn: the wave may turn on.
     pub fn drawn(&mut self) {
         self.turned.drawn();
     }
@@ -290,8 +290,8 @@ impl Playback {
         });
     }
 
-    /// Before a change, which acts at one instant on both motions: the other
-    /// contact law is played up to it, or given up.
+    /// Plays the motion under the other contact law up to a change, which acts at one instant on
+    /// both motions, or gives it up.
     fn level_comparison(&mut self) {
         self.play_comparison(self.time_limit.max(moves::JUMP_LIMIT));
         if std::mem::take(&mut self.behind) {
@@ -299,7 +299,7 @@ impl Playback {
         }
     }
 
-    /// Whether there is more to compute.
+    /// Returns whether there is more to compute.
     pub fn is_computing(&self) -> bool {
         let comparison = self.comparison.as_ref().map(|comparison| &comparison.full_run);
         self.behind
@@ -322,7 +322,7 @@ impl Playback {
         self.forecasts.compute(&self.order, comparison);
     }
 
-    /// The present instant and results, and the bins since the last call.
+    /// Returns the present instant and results, and the bins since the last call.
     pub fn snapshot(&mut self) -> Snapshot {
         let now = Moment {
             multipliers: self.recorder.mean_forces(),

@@ -81,7 +81,8 @@ fn a_jump_stops_at_the_change_of_contact_at_any_zoom() {
     run.advance(scene.solver.end_s).unwrap();
     let impacts: Vec<f64> = run.contacts().impacts.iter().map(|impact| impact.t_s).collect();
     for bin_s in [1e-9, 2e-5, 1e-3] {
-        let mut order = Order { bin_s, ..order(scene.clone()) };
+        // A page of so many bins, as on the screen.
+        let mut order = Order { bin_s, page: (0.0, 1024.0 * bin_s), ..order(scene.clone()) };
         let mut playback = computed(&order);
         for (number, impact) in (1..).zip(impacts.iter().take(2)) {
             order.jumps = number;
@@ -89,8 +90,8 @@ fn a_jump_stops_at_the_change_of_contact_at_any_zoom() {
             playback.apply(&order);
             let now = playback.motion.t_s();
             assert!((now - impact).abs() <= 1e-12 * impact.max(1e-6), "{now} {impact}");
-            let (told, met) = playback.snapshot().moment.unwrap().met;
-            assert_eq!((told, met.unwrap().t_s), (number, *impact));
+            let (number_met, met) = playback.snapshot().moment.unwrap().met;
+            assert_eq!((number_met, met.unwrap().t_s), (number, *impact));
         }
     }
 }
@@ -154,7 +155,7 @@ fn a_comparison_that_is_slow_catches_up_before_a_change_acts_on_both() {
     }
 }
 
-/// The paper's scene over a millisecond, with both laws.
+/// Returns the paper's scene over a millisecond, with both laws.
 fn short() -> Order {
     let mut scene = Scene::base();
     (scene.solver.step_s, scene.solver.end_s) = (1e-6, 1e-3);

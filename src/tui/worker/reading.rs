@@ -1,8 +1,6 @@
-//! The instant of the reading cursor, computed from a copy of the motion in
-//! slices, so that neither the playback nor the next order waits for it.
-//!
-//! Copies of the motion at some instants, so that any instant of the run can be
-//! computed again exactly.
+//! The instant of the reading cursor, computed in slices, so that neither the playback nor the
+//! next order waits for it; and the copies of the motion from which any instant of the run can
+//! be computed again exactly.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -14,7 +12,7 @@ use rubscope_solver::motion::Motion;
 #[derive(Debug, Default)]
 pub struct Reading {
     done: Option<Arc<Moment>>,
-    /// Until when, and how far it is.
+    /// Instant to reach, and the motion on its way.
     under_way: Option<(f64, Motion)>,
 }
 
@@ -41,12 +39,12 @@ impl Reading {
         self.under_way = None;
     }
 
-    /// Whether it is complete.
+    /// Returns whether it is complete.
     pub fn is_done(&self) -> bool {
         self.under_way.is_none()
     }
 
-    /// The latest that is complete.
+    /// Returns the latest that is complete.
     pub fn moment(&self) -> Option<Arc<Moment>> {
         self.done.clone()
     }
@@ -68,7 +66,7 @@ pub struct Copies {
 }
 
 impl Copies {
-    /// From the start of a motion of which `length` seconds matter.
+    /// Creates the copies from the start of a motion of which `length` seconds matter.
     pub fn of(motion: &Motion, length: f64) -> Self {
         Self { copies: vec![(motion.clone(), true)], spacing: length * PART }
     }
@@ -90,7 +88,7 @@ impl Copies {
         }
     }
 
-    /// The motion was changed from outside: an earlier copy does not know it.
+    /// Records that the motion was changed from outside, which earlier copies do not have.
     pub fn changed(&mut self, motion: &Motion) {
         let now = motion.t_s();
         self.copies.retain(|(copy, _)| copy.t_s() < now);
@@ -100,8 +98,7 @@ impl Copies {
         }
     }
 
-    /// The last copy by `t`, to be advanced from there; none before what is
-    /// remembered.
+    /// Returns the last copy by `t`, to be advanced from there; none before what is remembered.
     pub fn before(&self, t: f64, now: &Motion) -> Option<Motion> {
         let copies = self.copies.iter().map(|(copy, _)| copy).chain([now]);
         copies.take_while(|copy| copy.t_s() <= t).last().cloned()

@@ -5,15 +5,15 @@ use crate::tui::history::{Bin, CHANNELS, MOST_BINS, thin};
 use rubscope_solver::model::Machine;
 use rubscope_solver::motion::{ActiveSet, ContactLog, Motion, State};
 
-/// `z = (u_c + i u_s) exp(-i n_d theta)` \[m\], with `turned = n_d theta`.
+/// Returns `z = (u_c + i u_s) exp(-i n_d theta)` \[m\], with `turned = n_d theta`.
 pub fn in_blade_frame(u: [f64; 2], turned: f64) -> [f64; 2] {
     let (sin, cos) = turned.sin_cos();
     [u[0] * cos + u[1] * sin, u[1] * cos - u[0] * sin]
 }
 
-/// The casing as the tips of the blades see it, `w = z - kappa l_b a` \[m\]: the point
-/// in the polygon, with `turned = n_d theta`. It is `z` where tips do not move outward,
-/// and where the disk has other diameters, so that no one point stands for all blades.
+/// Returns the casing as the tips of the blades see it, `w = z - kappa l_b a` \[m\]: the point in
+/// the polygon, with `turned = n_d theta`. It is `z` where tips do not move outward, and where the
+/// disk has other diameters, so that no one point stands for all blades.
 pub fn rim_point(machine: &Machine, state: &State, turned: f64) -> [f64; 2] {
     let z = in_blade_frame(state.u, turned);
     let outward = machine.radial_coupling * machine.blade_length;
@@ -38,7 +38,7 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    /// A record that begins where the motion is.
+    /// Creates a record that begins where the motion is.
     pub fn from(motion: &Motion) -> Self {
         let log = motion.contacts();
         Self { impacts: log.impact_count, active_set: log.active_set, ..Self::default() }
@@ -89,13 +89,13 @@ impl Recorder {
         }
     }
 
-    /// The first and the last instant of contact since the last sample.
+    /// Returns the first and the last instant of contact since the last sample.
     fn contact(&self, log: &ContactLog, from: f64, to: f64) -> Option<(f64, f64)> {
         let known = usize::try_from(self.impacts).unwrap_or(usize::MAX);
         let new = log.impact_count.saturating_sub(self.impacts);
         let impacts = || log.impacts.iter().skip(known).map(|impact| impact.t_s);
         // Of impacts whose instants are not kept, only the sample is known.
-        let untold = usize::try_from(new).is_ok_and(|new| impacts().count() < new);
+        let unknown = usize::try_from(new).is_ok_and(|new| impacts().count() < new);
         let [was, is] = [self.active_set, log.active_set].map(|set| set != ActiveSet::Nothing);
         let ended = log.last_contact.filter(|t| *t > from && *t <= to);
         let last = if is { Some(to) } else { ended };
@@ -104,7 +104,7 @@ impl Recorder {
             (false, true) => Some(log.since.clamp(from, to)),
             (false, false) => last,
         };
-        let all = [first.zip(last), untold.then_some((from, to))].into_iter().flatten();
+        let all = [first.zip(last), unknown.then_some((from, to))].into_iter().flatten();
         let all = all.chain(impacts().map(|t| (t, t)));
         all.reduce(|(a, b), (c, d)| (a.min(c), b.max(d)))
     }
@@ -122,19 +122,19 @@ impl Recorder {
         }
     }
 
-    /// The closed bins since last asked.
+    /// Returns the closed bins since last asked.
     pub fn take_bins(&mut self) -> Vec<Bin> {
         std::mem::take(&mut self.done)
     }
 
-    /// All bins, with the one that is open.
+    /// Returns all bins, with the one that is open.
     pub fn finish(&mut self) -> Vec<Bin> {
         self.done.extend(self.open.take());
         self.take_bins()
     }
 
-    /// Mean force on each side since last asked; the former means if the motion
-    /// did not move since.
+    /// Returns the mean force on each side since the last call; the former means if the motion did
+    /// not move since.
     pub fn mean_forces(&mut self) -> Vec<(u32, f64)> {
         if self.over > 0.0 {
             self.means = self.sums.iter().map(|(side, sum)| (*side, sum / self.over)).collect();

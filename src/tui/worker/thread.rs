@@ -1,10 +1,7 @@
-//! The worker thread: one slot with the latest order, one with the latest
-//! snapshot. Neither side waits for the other: a newer order replaces an older
-//! one, and a snapshot that was not taken is merged with the next.
-//!
-//! An engine without thread and clock, for tests that must give the same
-//! screens on every machine: every snapshot advances the motion by the same
-//! time, and the speed of the solver is a fixed number.
+//! The worker thread: one slot with the latest order, one with the latest snapshot. Neither side
+//! waits for the other: a newer order replaces an older one, and a snapshot that was not taken
+//! is merged with the next. Beside it an engine without thread and clock, for tests that must
+//! give the same screens on every machine.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -37,8 +34,8 @@ struct Shared {
 }
 
 impl Shared {
-    /// A poisoned lock contains plain values that are always replaced as a
-    /// whole, so they are valid.
+    /// Returns a poisoned lock contains plain values that are always replaced as a whole, so they
+    /// are valid.
     fn lock(&self) -> MutexGuard<'_, Slots> {
         self.slots.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -132,8 +129,8 @@ fn run(shared: &Shared, wake: &Waker) {
     }
 }
 
-/// The next order, if there is one, and whether a frame was drawn; waits when
-/// there is nothing to do. None if the thread must end.
+/// Returns the next order, if there is one, and whether a frame was drawn; waits when there is
+/// nothing to do. None if the thread must end.
 fn next_order(shared: &Shared, busy: bool, playing: bool) -> Option<(Option<Order>, bool)> {
     let mut slots = shared.lock();
     if slots.order.is_none() && !slots.quit && !busy {
@@ -201,7 +198,7 @@ pub struct Stepwise {
 }
 
 impl Stepwise {
-    /// An engine that plays `stride` seconds of motion between two snapshots.
+    /// Creates an engine that plays `stride` seconds of motion between two snapshots.
     pub fn new(stride: f64) -> Self {
         Self { stride, map_cells: MAP_CELLS, order: None, playback: None, fresh: false }
     }

@@ -2,7 +2,7 @@
 //! form or as a series to round-off, and the next change is found, not stepped over.
 //!
 //! Two ways to move between events: `exact` in the blade angles (the paper's model), and
-//! `linear` in them (inclined and rubbing tips, restitution, other diameters). Below both
+//! `linear` in them (inclined and rubbing tips, restitution). Below both
 //! are the clock (here), the looks ahead that pass nothing and the series they go by (`series`).
 
 mod exact;
@@ -12,7 +12,10 @@ mod series;
 pub use exact::ExactEvents;
 pub use linear::LinearEvents;
 
+use crate::motion::{ActiveSet, ContactLog, Failure, FailureReason, Pulse, Rotor};
 use crate::numeric::sum::two_sum;
+use crate::scene::Scene;
+use crate::tolerances::{AN_INSTANT, MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS};
 
 /// Start of a stretch and the present instant \[s\].
 #[derive(Clone, Copy, Debug, Default)]
@@ -23,32 +26,110 @@ pub(super) struct Clock {
 }
 
 impl Clock {
-    /// The start of the stretch \[s\].
+    /// Returns the start of the stretch \[s\].
     pub fn start(&self) -> f64 {
         self.start.0
     }
 
-    /// Seconds from the start of the stretch to `t`.
+    /// Returns the seconds from the start of the stretch to `t`.
     pub fn elapsed(&self, t: f64) -> f64 {
         ((t - self.start.0) - self.start.1).max(0.0)
     }
 
-    /// A stretch begins `s` seconds after the start of the one before.
+    /// Begins a stretch `s` seconds after the start of the one before.
     pub fn pass(&mut self, s: f64) {
         let (t, low) = self.start;
         self.start = two_sum(t, s + low);
         self.arrive(self.start.0);
     }
 
-    /// A stretch begins at `t`.
+    /// Begins a stretch at `t`.
     pub fn begin_at(&mut self, t: f64) {
         self.start = (t, 0.0);
         self.arrive(t);
     }
 
-    /// It is `t` now, or later.
+    /// Advances the present instant to `t`, never back.
     pub fn arrive(&mut self, t: f64) {
         self.now = self.now.max(t);
+    }
+}
+
+/// What both solvers keep of a run: its time, drive and contacts, the bounds of its work, and
+/// the failure that ended it.
+#[derive(Clone, Debug)]
+struct Run {
+    clock: Clock,
+    rotor: Rotor,
+    pulse: Pulse,
+    log: ContactLog,
+    /// Number of events.
+    events: u64,
+    /// Number of events with no time between them, up to the last one.
+    idle: u32,
+    /// Number of looks ahead.
+    looks: u64,
+    /// Deepest penetration \[m\].
+    deepest: f64,
+    /// Largest blade angle \[rad\].
+    widest: f64,
+    /// Whether energies, the largest angle and the deepest penetration are followed.
+    checked: bool,
+    failure: Option<Failure>,
+}
+
+impl Run {
+    fn of(scene: &Scene) -> Self {
+        Self {
+            clock: Clock::default(),
+            rotor: Rotor::of(scene),
+            pulse: Pulse::of(scene),
+            log: ContactLog::default(),
+            events: 0,
+            idle: 0,
+            looks: 0,
+            deepest: 0.0,
+            widest: 0.0,
+            checked: true,
+            failure: None,
+        }
+    }
+
+    /// Ends the run `s` seconds after the start of the stretch.
+    fn fail(&mut self, s: f64, reason: FailureReason) -> Failure {
+        let t_s = self.clock.start() + s;
+        self.clock.arrive(t_s);
+        self.failure.get_or_insert(Failure { t_s, reason }).clone()
+    }
+
+    /// Counts the end of a stretch in which the motion has turned by `phase`, which may be an
+    /// event; returns the bound that is exceeded.
+    fn count(&mut self, phase: f64, is_event: bool) -> Option<FailureReason> {
+        self.idle = if phase > AN_INSTANT { 0 } else { self.idle + 1 };
+        self.events += u64::from(is_event);
+        if self.events > MOST_EVENTS {
+            Some(FailureReason::Events)
+        } else if self.looks > MOST_LOOKS {
+            Some(FailureReason::Looks)
+        } else {
+            (self.idle > MOST_EVENTS_AT_ONCE).then_some(FailureReason::EventsAtOnce)
+        }
+    }
+
+    /// Starts the pulse now.
+    fn fire(&mut self) {
+        let (now, length) = (self.clock.now, self.pulse.end - self.pulse.start);
+        self.pulse = Pulse { start: now, end: now + length, ..self.pulse };
+    }
+
+    /// Records that these sides are held from the start of the stretch on.
+    fn hold(&mut self, active_set: ActiveSet) {
+        let (t, before) = (self.clock.start(), self.log.active_set);
+        if before != ActiveSet::Nothing && before != active_set {
+            // The old contact lasted until now.
+            self.log.touch(t, before);
+        }
+        self.log.touch(t, active_set);
     }
 }
 

@@ -23,7 +23,7 @@ use crate::tui::views::ViewId;
 use crate::tui::views::coincidence::curves::{CoincidenceCurves, frequencies, points};
 use crate::tui::views::frame::square;
 use crate::tui::views::panel::{
-    ViewArea, ViewPanel, csv, entry, name_speeds, not_yet, title, uprights,
+    ViewArea, ViewPanel, csv, entry, lines_above, name_speeds, not_yet, title, uprights,
 };
 use rubscope_solver::harmonic::{CoincidencePoint, Joint, Lining, RoundWhirl, round_whirls};
 use rubscope_solver::motion::ActiveSet;
@@ -36,10 +36,6 @@ const BESIDE_FROM: u16 = 76;
 pub struct CoincidenceView;
 
 impl ViewPanel for CoincidenceView {
-    fn what(&self) -> &'static str {
-        "coincidence: how large a wave becomes, and why"
-    }
-
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
         let beside = at.area.width >= BESIDE_FROM;
         let (curves, compliance) = match at.columns() {
@@ -196,12 +192,7 @@ fn tell(app: &App, buffer: &mut Buffer, inside: Rect, text: &str, role: Role) ->
     if text.is_empty() || lines.len() > most {
         return inside;
     }
-    let rows = u16::try_from(lines.len()).unwrap_or(0);
-    let area = Rect { x: inside.x + 1, width: inside.width.saturating_sub(1), ..inside };
-    for (row, line) in (0..rows).zip(&lines) {
-        print(buffer, area, row, line, look.style(role));
-    }
-    Rect { y: inside.y + rows, height: inside.height.saturating_sub(rows), ..inside }
+    lines_above(app, buffer, inside, &lines, role)
 }
 
 /// What the curve says, in one sentence.

@@ -1,9 +1,6 @@
-//! View 4: the wheel, and where there is room the casing wave as a point in the frame that
-//! turns with the blades, inside the polygon of phase groups, with its trail.
-//!
-//! The bladed disk as a wheel, in the frame of the blades: blades as spokes, the casing
-//! around them with its lobes magnified by a stated factor, and the blades that touch it
-//! marked and numbered.
+//! View 4: the bladed disk as a wheel in the frame of the blades, inside the casing, whose lobes
+//! are magnified by a stated factor; and where there is room the casing wave as a point in the
+//! same frame, inside the polygon of phase groups, with its trail.
 
 use std::f64::consts::TAU;
 
@@ -22,17 +19,13 @@ use crate::tui::views::response::ResponseView;
 use crate::tui::worker::{in_blade_frame, rim_point};
 use rubscope_solver::motion::ActiveSet;
 
-/// From this width on, the polygon is beside the wheel where nothing else is shown.
+/// Least width at which the polygon is beside the wheel where nothing else is shown.
 const BOTH_FROM: u16 = 76;
 
 /// The view.
 pub struct FrameView;
 
 impl ViewPanel for FrameView {
-    fn what(&self) -> &'static str {
-        "the wheel, and the wave as the blades see it"
-    }
-
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
         if at.area.width >= BOTH_FROM && app.is_alone() {
             let [left, right] = at.columns();
@@ -43,13 +36,13 @@ impl ViewPanel for FrameView {
         }
     }
 
-    /// The trail is among the columns of the response.
+    /// Returns the trail is among the columns of the response.
     fn csv(&self, app: &App) -> Result<String, String> {
         ResponseView.csv(app)
     }
 }
 
-/// A square of half side `reach` fitted into an area of cells twice as high as wide.
+/// Returns a square of half side `reach` fitted into an area of cells twice as high as wide.
 pub fn square(area: Rect, reach: f64) -> (ChartAxis, ChartAxis) {
     // The labels take about six columns and two rows.
     let (width, height) = (
@@ -64,8 +57,8 @@ pub fn square(area: Rect, reach: f64) -> (ChartAxis, ChartAxis) {
     (ChartAxis::scaled(-x, x), ChartAxis::scaled(-y, y))
 }
 
-/// The place under the reading cursor, and how far the nearest blade is from it
-/// where blades are rigid.
+/// Returns the place under the reading cursor, and how far the nearest blade is from it where
+/// blades are rigid.
 fn reading(app: &App, x: ChartAxis, y: ChartAxis) -> Option<String> {
     let cursor = app.cursor_in(ViewId::Frame)?;
     let (x, y) = (x.at(cursor.across), y.at(cursor.up));
@@ -77,7 +70,7 @@ fn reading(app: &App, x: ChartAxis, y: ChartAxis) -> Option<String> {
     Some(format!("{gap}{to} {blade} at {}, {}", readable(x, "m"), readable(y, "m")))
 }
 
-/// What the point is: the casing, as the tips of the blades see it.
+/// Returns what the point is: the casing, as the tips of the blades see it.
 fn named(app: &App) -> &'static str {
     let machine = &app.machine;
     match machine.radial_coupling == 0.0 {
@@ -88,7 +81,7 @@ fn named(app: &App) -> &'static str {
     }
 }
 
-/// Which sides touch at the instant that is shown. In a lining the gaps say it.
+/// Returns which sides touch at the instant that is shown. In a lining the gaps say it.
 fn touching_sides(app: &App) -> impl Fn(u32) -> bool {
     let polygon = &app.machine.polygon;
     let active_set = app.shown().map_or(ActiveSet::Nothing, |moment| moment.active_set);
@@ -157,7 +150,7 @@ const MOST: f64 = 1.2;
 const HUB: f64 = 0.5;
 /// Points of the casing outline.
 const OUTLINE: u32 = 240;
-/// Where the numbers of touching blades can stand: in the hub, which has no data.
+/// Radii at which the numbers of touching blades can stand: in the hub, which has no data.
 const NUMBERS: [f64; 3] = [0.76 * HUB, 0.5 * HUB, 0.3 * HUB];
 /// Most numbers.
 const MOST_NUMBERS: usize = 8;
@@ -247,7 +240,7 @@ fn wheel(app: &App, buffer: &mut Buffer, at: ViewArea) {
     }
 }
 
-/// The blade next to the reading cursor, its gap, and the instant that is read.
+/// Returns the blade next to the reading cursor, its gap, and the instant that is read.
 fn blade_read(app: &App, x: ChartAxis, y: ChartAxis, cursor: Cursor) -> Option<String> {
     let moment = app.shown()?;
     let blades = app.machine.polygon.blades;

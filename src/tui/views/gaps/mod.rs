@@ -1,8 +1,6 @@
-//! View 2: the gap of every blade now, over the fixed zero line of the casing;
-//! blades in contact have a mark and their number.
-//!
-//! View 2 against time: a row for each blade, a column for each part of the page,
-//! the smallest gap as a shade and contact as a full block. It needs no colour.
+//! View 2: the gap of every blade at one instant, over the fixed zero line of the casing, or
+//! against time: a row for each blade, a column for each part of the page, and the smallest gap
+//! as a shade, which needs no colour. Blades in contact have a mark and their number.
 
 use ratatui::buffer::Buffer;
 
@@ -21,10 +19,6 @@ use rubscope_solver::motion::ActiveSet;
 pub struct GapsView;
 
 impl ViewPanel for GapsView {
-    fn what(&self) -> &'static str {
-        "gaps"
-    }
-
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
         if app.layout.heat { draw_heat(app, buffer, at) } else { draw(app, buffer, at) }
     }
@@ -52,7 +46,7 @@ impl ViewPanel for GapsView {
     }
 }
 
-/// The gaps of one instant.
+/// Draws the gaps of one instant.
 fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let quiet = look.style(Role::Quiet);
@@ -108,14 +102,14 @@ fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     }
 }
 
-/// The blade under the reading cursor, from 0.
+/// Returns the blade under the reading cursor, from 0.
 fn read_blade(app: &App) -> Option<u32> {
     let cursor = app.cursor_in(ViewId::Gaps)?;
     let part = if app.layout.heat { cursor.up } else { cursor.across };
     Some(cell_of(part, app.machine.polygon.blades))
 }
 
-/// The blade under the reading cursor, its gap, and the instant that is read.
+/// Returns the blade under the reading cursor, its gap, and the instant that is read.
 fn reading(app: &App) -> Option<String> {
     let moment = app.shown()?;
     let blade = read_blade(app).and_then(|blade| {
@@ -163,18 +157,17 @@ struct Spot {
     touched: bool,
 }
 
-/// The smallest gap of a side over a bin \[m\], of blades whose modes are those of the
-/// casing, without their small angles. A bin stores only
-/// the least and greatest coordinates of the wave, so this is a lower bound.
+/// Returns the smallest gap of a side over a bin \[m\], of blades whose modes are those of the
+/// casing, without their small angles. A bin stores only the least and greatest coordinates of the
+/// wave, so this is a lower bound.
 fn least_gap(polygon: &ContactPolygon, side: u32, bin: &Bin) -> f64 {
     let (c, s) = polygon.direction(side);
     let [(x0, x1), (y0, y1)] = [Channel::RimX, Channel::RimY].map(|channel| bin.span(channel));
     polygon.clearance + (c * x0).min(c * x1) + (s * y0).min(s * y1)
 }
 
-/// Whether a side was touched in a bin. If a bin has more than two sides, only
-/// their number is known; then these are all sides that came as near as the
-/// sides of a corner.
+/// Returns whether a side was touched in a bin. If a bin has more than two sides, only their number
+/// is known; then these are all sides that came as near as the sides of a corner.
 fn touches(polygon: &ContactPolygon, lining: bool, side: u32, bin: &Bin) -> bool {
     match bin.touched {
         // In a lining many blades touch: the gaps say which.
@@ -186,7 +179,7 @@ fn touches(polygon: &ContactPolygon, lining: bool, side: u32, bin: &Bin) -> bool
     }
 }
 
-/// Every side in every column of the page.
+/// Returns every side in every column of the page.
 fn spots(app: &App, columns: usize) -> Vec<Vec<Option<Spot>>> {
     let polygon = &app.machine.polygon;
     let (from, to) = app.page();
@@ -220,8 +213,8 @@ fn smallest(spots: &[Spot]) -> f64 {
     spots.iter().map(|spot| spot.gap).fold(f64::INFINITY, f64::min)
 }
 
-/// The sign of the blades of one row where all rub at rest: the deeper, the darker,
-/// and the lightest where they are off the lining.
+/// Returns the sign of the blades of one row where all rub at rest: the deeper, the darker, and the
+/// lightest where they are off the lining.
 fn sign_in_lining(spots: &[Spot], signs: [char; 4]) -> Option<(char, bool)> {
     let gap = smallest(spots);
     let place = DEPTHS.iter().position(|most| gap < *most)?;
@@ -229,7 +222,7 @@ fn sign_in_lining(spots: &[Spot], signs: [char; 4]) -> Option<(char, bool)> {
     Some((*sign, gap < 0.0))
 }
 
-/// The sign of the blades of one row, lower blade first.
+/// Returns the sign of the blades of one row, lower blade first.
 fn sign(spots: &[Spot], signs: [char; 4], ascii: bool) -> Option<(char, bool)> {
     let gap = smallest(spots);
     match spots {
@@ -244,7 +237,7 @@ fn sign(spots: &[Spot], signs: [char; 4], ascii: bool) -> Option<(char, bool)> {
     }
 }
 
-/// The smallest gap of every blade in each bin of the page, as CSV.
+/// Returns the smallest gap of every blade in each bin of the page, as CSV.
 ///
 /// # Errors
 /// There is no data yet.

@@ -20,7 +20,7 @@ use crate::tui::text::{first_lines, print, wrap};
 use crate::tui::theme::Role;
 use crate::tui::views::locked::curves::LockedCurves;
 use crate::tui::views::panel::{
-    self, LEAST_ROWS, ViewArea, ViewPanel, csv, dots, entry, name_speeds, title,
+    self, LEAST_ROWS, ViewArea, ViewPanel, csv, dots, entry, lines_above, name_speeds, title,
 };
 use rubscope_solver::harmonic::{Form, LockedPoint, Sweep, locked_motion};
 use rubscope_solver::motion::{ActiveSet, Verdict};
@@ -36,10 +36,6 @@ const READ_ROWS: usize = 3;
 pub struct LockedView;
 
 impl ViewPanel for LockedView {
-    fn what(&self) -> &'static str {
-        "locked motion"
-    }
-
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
         let curves = app.results().found.locked.as_deref();
         let locks = curves.filter(|curves| curves.damped.is_some());
@@ -196,12 +192,7 @@ fn read(app: &App, curves: &LockedCurves, buffer: &mut Buffer, inside: Rect) -> 
     let most = READ_ROWS.min(usize::from(inside.height / 4)).max(1);
     let lines = wrap(&look.spell(&reading(app, speed)), width);
     let lines = first_lines(lines, width, most, look.ellipsis());
-    let rows = u16::try_from(lines.len()).unwrap_or(0).min(inside.height);
-    let area = Rect { x: inside.x + 1, width: inside.width.saturating_sub(1), ..inside };
-    for (row, line) in (0..rows).zip(&lines) {
-        print(buffer, area, row, line, look.style(Role::Focus));
-    }
-    Rect { y: inside.y + rows, height: inside.height - rows, ..inside }
+    lines_above(app, buffer, inside, &lines, Role::Focus)
 }
 
 /// The threshold speeds, the present speed and the reading cursor.

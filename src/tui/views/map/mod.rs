@@ -4,13 +4,11 @@
 
 mod picture;
 pub use picture::colour;
-mod plan;
+pub mod plan;
 mod words;
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-pub use plan::{CellRun, LiveMap, coarse_first};
-pub use plan::{MapAxis, MapChoice, numeric};
 pub use words::value_text;
 
 use super::panel::{Opening, ViewArea, ViewPanel, not_yet, title};
@@ -18,26 +16,23 @@ use crate::report::map::write_csv;
 use crate::tui::app::{App, Cursor};
 use crate::tui::text::{print, spelled_pieces};
 use crate::tui::theme::Role;
+use plan::LiveMap;
 use rubscope_solver::study::{Axis, MapPlan};
 use words::Line;
 
-/// From this width on, what the map means stands beside it.
+/// Least width at which what the map means stands beside it.
 const BESIDE_FROM: u16 = 92;
 /// Width of that column.
 const BESIDE: u16 = 34;
-/// From this height on, there are two rows of words above the map.
+/// Least height at which there are two rows of words above the map.
 const TWO_ROWS_FROM: u16 = 14;
-/// From this height on, there is one.
+/// Least height at which there is one.
 const ONE_ROW_FROM: u16 = 7;
 
 /// The view.
 pub struct MapView;
 
 impl ViewPanel for MapView {
-    fn what(&self) -> &'static str {
-        "map of the verdict over two knobs"
-    }
-
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
         let live = app.results().found.map.as_deref();
         let plan = app.map_plan();
@@ -60,7 +55,7 @@ impl ViewPanel for MapView {
         app.shown_plan().map_or(Cursor { across: 0.5, up: 0.5 }, |plan| here(app, &plan))
     }
 
-    /// The run of the cell: its knobs, and the law and solver of the map.
+    /// Returns the run of the cell: its knobs, and the law and solver of the map.
     fn opening(&self, app: &App, _: Cursor) -> Option<Opening> {
         let (plan, [column, row]) = (app.shown_plan()?, app.map_cell()?);
         let scene = plan.scene_of(plan.index(column, row)).ok()?;
@@ -75,7 +70,7 @@ impl ViewPanel for MapView {
     }
 }
 
-/// The cell of a map nearest to the present knobs.
+/// Returns the cell of a map nearest to the present knobs.
 pub fn here(app: &App, plan: &MapPlan) -> Cursor {
     let part = |axis: &Axis| {
         let count = f64::from(axis.count.max(1));

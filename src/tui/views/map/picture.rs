@@ -5,8 +5,9 @@ use ratatui::style::{Color, Style};
 use ratatui::{buffer::Buffer, layout::Rect};
 
 use super::super::panel::ViewArea;
+use super::plan::LiveMap;
+use super::words;
 use super::words::present;
-use super::{LiveMap, words};
 use crate::report::map::mark;
 use crate::tui::app::App;
 use crate::tui::appearance::Appearance;
@@ -18,12 +19,12 @@ use rubscope_solver::scene::keys::SPEED;
 use rubscope_solver::study::overlay::Curve;
 use rubscope_solver::study::{Axis, Cell};
 
-/// Whether cells are letters.
+/// Returns whether cells are letters.
 pub fn letters(look: &Appearance) -> bool {
     look.ascii() || look.theme == Theme::Mono
 }
 
-/// The colour of a verdict; none for the quiet one, which is a shade.
+/// Returns the colour of a verdict; none for the quiet one, which is a shade.
 pub fn colour(look: &Appearance, verdict: Verdict) -> Option<Color> {
     let [dark, light, safe, safe_light] = match verdict {
         Verdict::Decay => return None,
@@ -72,7 +73,7 @@ pub fn draw(app: &App, live: &LiveMap, buffer: &mut Buffer, area: Rect, at: View
     }
 }
 
-/// Whether a place on an axis has a cell.
+/// Returns whether a place on an axis has a cell.
 pub fn is_inside(axis: &Axis, place: f64) -> bool {
     (-0.5..=f64::from(axis.count) - 0.5).contains(&place)
 }
@@ -123,13 +124,13 @@ impl Picture<'_> {
         }
     }
 
-    /// The column of a place on the axis across.
+    /// Returns the column of a place on the axis across.
     fn column(&self, place: f64) -> u16 {
         let part = place / f64::from(self.live.map.plan.x.count.max(2) - 1);
         self.inner.x + spread(part, self.inner.width)
     }
 
-    /// The row of a place on the axis up.
+    /// Returns the row of a place on the axis up.
     fn row(&self, place: f64) -> u16 {
         let part = 1.0 - place / f64::from(self.live.map.plan.y.count.max(2) - 1);
         let from_top = match letters(self.look) {
@@ -139,7 +140,7 @@ impl Picture<'_> {
         self.inner.y + from_top
     }
 
-    /// One sign over the cells, on the colour that is there.
+    /// Draws one sign over the cells, on the colour that is there.
     fn over(&mut self, x: u16, y: u16, sign: char, role: Role) {
         if !(self.inner.y..self.inner.bottom()).contains(&y) {
             return;
@@ -153,7 +154,7 @@ impl Picture<'_> {
         self.plot.text(x, y, sign.encode_utf8(&mut [0; 4]), style);
     }
 
-    /// A threshold speed over the map.
+    /// Draws a threshold speed over the map.
     fn line(&mut self, line: &Curve) {
         let (live, inner) = (self.live, self.inner);
         let (x, y) = (&live.map.plan.x, &live.map.plan.y);
@@ -176,8 +177,8 @@ impl Picture<'_> {
         }
     }
 
-    /// The names of the lines with their speeds, in the lowest rows, where most
-    /// maps are quiet.
+    /// Prints the names of the lines with their speeds in the lowest rows, where most maps are
+    /// quiet.
     fn names(&mut self) {
         let (live, inner) = (self.live, self.inner);
         let plan = &live.map.plan;
@@ -208,12 +209,12 @@ impl Picture<'_> {
     }
 }
 
-/// The places of a point of a line.
+/// Returns the places of a point of a line.
 fn places(x: &Axis, y: &Axis, (across, up): (f64, f64)) -> [f64; 2] {
     [x.place(across), y.place(up)]
 }
 
-/// The colour of signs on this one.
+/// Returns the colour of signs on this one.
 fn ink(look: &Appearance, ground: Color) -> Color {
     match (look.theme, ground) {
         (Theme::Light, _) | (_, Color::Black) => Color::White,
@@ -221,7 +222,7 @@ fn ink(look: &Appearance, ground: Color) -> Color {
     }
 }
 
-/// A part, 0 to 1, as one of so many places.
+/// Returns a part, 0 to 1, as one of so many places.
 fn spread(part: f64, places: u16) -> u16 {
     let last = f64::from(places.saturating_sub(1));
     (part * last).round().clamp(0.0, last) as u16
@@ -240,7 +241,7 @@ fn style(look: &Appearance, cell: Option<Cell>) -> Style {
     }
 }
 
-/// Two cells, one above the other, as one sign with two colours.
+/// Returns two cells, one above the other, as one sign with two colours.
 fn block(look: &Appearance, [above, below]: [Option<Cell>; 2]) -> (char, Style) {
     let of = |cell: Option<Cell>| cell.and_then(|cell| colour(look, cell.verdict));
     let plain = Style::new();
@@ -264,7 +265,7 @@ fn block(look: &Appearance, [above, below]: [Option<Cell>; 2]) -> (char, Style) 
 /// A lock that pulls.
 const PULLS: char = '▒';
 
-/// The sign of a verdict in the legend, as it is on the map.
+/// Returns the sign of a verdict in the legend, as it is on the map.
 pub fn sign(look: &Appearance, verdict: Verdict) -> (char, Style) {
     let cell = Some(Cell { verdict, sensitive: false });
     match (letters(look), colour(look, verdict)) {

@@ -1,8 +1,6 @@
-//! What the explorer's map sweeps: two knobs over sensible ranges, under the
-//! scene's own contact law, solver and model, or under the other law.
-//!
-//! The map as it is computed: coarse blocks first, then finer ones in a fixed
-//! order, and the run of one cell.
+//! The map of the explorer: two knobs over sensible ranges, under the scene's own contact law,
+//! solver and model or under the other law. It is computed in coarse blocks first, then in finer
+//! ones in a fixed order.
 
 use crate::tui::axis::nice_step;
 use crate::tui::knobs::{KNOBS, Knob, knob_of};
@@ -15,7 +13,7 @@ use rubscope_solver::study::{Axis, Cell, Map, MapPlan};
 /// Most cells across and up. Usual ranges give round values: 7.5 rad/s for 600,
 /// a tenth of a decade for four.
 const CELLS: [u32; 2] = [81, 41];
-/// What a key may hold that has no knob.
+/// Allowed values of a key without a knob.
 const ANY: Allowed = Allowed::Real { min: f64::MIN, max: f64::MAX, above: false };
 /// The key of the torque on the blades.
 const TORQUE: &str = keys::EXCITATION;
@@ -28,7 +26,7 @@ const PULSES: [f64; 2] = [1e3, 1e7];
 /// The greatest damping of a map, unless the present one is greater.
 const DAMPING: f64 = 0.2;
 
-/// What is chosen for the map.
+/// Choices for the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapChoice {
     /// The contact law, where it is not the scene's own.
@@ -56,7 +54,7 @@ pub struct MapAxis {
 }
 
 impl MapChoice {
-    /// The same for another opened scene.
+    /// Creates the same for another opened scene.
     pub fn anchored(mut self, scene: &Scene) -> Self {
         for axis in [&mut self.x, &mut self.y] {
             let value = knob_of(axis.path).and_then(|knob| knob.number(scene));
@@ -65,7 +63,7 @@ impl MapChoice {
         self
     }
 
-    /// The map of a scene.
+    /// Returns the map of a scene.
     ///
     /// # Errors
     /// The scene has no such map; the reason in one line.
@@ -94,7 +92,7 @@ impl MapChoice {
     }
 }
 
-/// The knobs that can be on an axis.
+/// Returns the knobs that can be on an axis.
 pub fn numeric() -> impl Iterator<Item = &'static Knob> {
     let is_number = |allowed| matches!(allowed, Allowed::Real { .. } | Allowed::Whole { .. });
     KNOBS.iter().filter(move |knob| is_number(knob.allowed()))
@@ -182,8 +180,8 @@ impl MapAxis {
     }
 }
 
-/// From rest to above every threshold, and to the present speed if it is far
-/// outside, in the present sense of rotation.
+/// Returns the range from rest to above every threshold, and to the present speed if it is far
+/// outside, in the present direction of rotation.
 fn speeds(scene: &Scene) -> Range {
     let mut scene = scene.clone();
     let speed = scene.operation.speed_rad_s;
@@ -196,7 +194,7 @@ fn speeds(scene: &Scene) -> Range {
     if speed < 0.0 { even(-fastest, 0.0) } else { even(0.0, fastest) }
 }
 
-/// A size to begin with for a key that is zero.
+/// Returns a size to begin with for a key that is zero.
 fn usual(path: &str, scene: &Scene, clearance: f64) -> f64 {
     match path {
         keys::INITIAL_V_C | keys::INITIAL_V_S => clearance * scene.machine().omega_c,
@@ -213,7 +211,7 @@ fn usual(path: &str, scene: &Scene, clearance: f64) -> f64 {
     }
 }
 
-/// A decade to either side of a positive value, both signs of a signed one.
+/// Returns a decade to either side of a positive value, both signs of a signed one.
 fn around(allowed: Allowed, value: f64, usual: f64) -> Range {
     let size = if value == 0.0 { usual } else { value.abs() };
     let round = nice_step(2.0 * size, 1).unwrap_or(2.0 * size);
@@ -249,7 +247,7 @@ pub struct LiveMap {
 }
 
 impl LiveMap {
-    /// A map with nothing computed.
+    /// Creates a map with nothing computed.
     pub fn of(plan: MapPlan) -> Self {
         let mut lines = threshold_curves(&plan);
         // Without damping two thresholds are one.
@@ -262,8 +260,7 @@ impl LiveMap {
         Self { lines, map: Map::empty(plan), tried: 0 }
     }
 
-    /// What to draw at a cell: its own verdict, or that of the smallest block
-    /// around it.
+    /// Returns what to draw at a cell: its own verdict, or that of the smallest block around it.
     pub fn shown(&self, column: u32, row: u32) -> Option<Cell> {
         let (x, y) = (self.map.plan.x.count, self.map.plan.y.count);
         BLOCKS
@@ -272,19 +269,19 @@ impl LiveMap {
             .find_map(|&block| self.map.at(centre(column, block, x), centre(row, block, y)))
     }
 
-    /// Whether all cells were tried.
+    /// Returns whether all cells were tried.
     pub fn is_complete(&self) -> bool {
         self.tried >= self.map.cells.len()
     }
 }
 
-/// The cell that stands for the block around a cell.
+/// Returns the cell that stands for the block around a cell.
 fn centre(cell: u32, block: u32, count: u32) -> u32 {
     (cell - cell % block + block / 2).min(count.saturating_sub(1))
 }
 
-/// All cells of a map in the order in which they are computed, and how many of
-/// them cover the whole map as the coarsest blocks.
+/// Returns all cells of a map in the order in which they are computed, and how many of them cover
+/// the whole map as the coarsest blocks.
 pub fn coarse_first(plan: &MapPlan) -> (Vec<usize>, usize) {
     let (x, y) = (plan.x.count, plan.y.count);
     let mut taken = vec![false; plan.len()];
@@ -315,7 +312,7 @@ pub struct CellRun {
     pub plan: MapPlan,
     /// Its column and row.
     pub cell: [u32; 2],
-    /// How the motion lasts.
+    /// Verdict of the run.
     pub verdict: Verdict,
     /// Start of the final contact \[s\].
     pub since: Option<f64>,
@@ -330,7 +327,6 @@ pub struct CellRun {
 mod tests {
     use super::*;
     use crate::tui::knobs::Group;
-    use crate::tui::views::map::MapChoice;
     use rubscope_solver::scene::ModelSize;
 
     #[test]

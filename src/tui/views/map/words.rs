@@ -4,12 +4,12 @@
 use ratatui::style::Style;
 
 use super::picture::{is_inside, sign};
-use super::{CellRun, LiveMap};
+use super::plan::{CellRun, LiveMap};
 use crate::report::map::means;
-use crate::report::number::{count, grouped, rounded, told};
+use crate::report::number::{count, grouped, in_shown_unit, rounded};
 use crate::tui::app::App;
-use crate::tui::axis::readable;
-use crate::tui::knobs::{Knob, knob_of, number};
+use crate::tui::axis::{number, readable};
+use crate::tui::knobs::{Knob, knob_of};
 use crate::tui::text::{columns, few, wrap};
 use crate::tui::theme::Role;
 use rubscope_solver::motion::Verdict;
@@ -25,17 +25,17 @@ const PROGRESS_STEPS: usize = 64;
 /// Cells of the progress bar.
 const BAR: usize = 8;
 
-/// The unit of a key.
+/// Returns the unit of a key.
 pub fn unit(path: &str) -> &'static str {
     knob_of(path).map_or("", Knob::unit)
 }
 
-/// A value of a key in four digits, with its unit.
+/// Returns a value of a key in four digits, with its unit.
 pub fn value_text(path: &str, value: f64) -> String {
     number(rounded(value, 4), unit(path))
 }
 
-/// As `value_text`; a number without a unit with its symbol, such as `n_d 3`.
+/// Same as [`value_text`]; a number without a unit with its symbol, such as `n_d 3`.
 fn named_value(axis: &Axis, value: f64) -> String {
     let symbol = knob_of(&axis.path).map(Knob::symbol);
     match symbol.filter(|_| unit(&axis.path).is_empty()) {
@@ -44,7 +44,7 @@ fn named_value(axis: &Axis, value: f64) -> String {
     }
 }
 
-/// The present value of the key on an axis.
+/// Returns the present value of the key on an axis.
 pub fn present(app: &App, axis: &Axis) -> f64 {
     if axis.path == SPEED {
         return app.speed();
@@ -52,7 +52,7 @@ pub fn present(app: &App, axis: &Axis) -> f64 {
     knob_of(&axis.path).and_then(|knob| knob.number(&app.scene)).unwrap_or(f64::NAN)
 }
 
-/// The name of an axis, with the unit that its ticks do not have.
+/// Returns the name of an axis, with the unit that its ticks do not have.
 fn axis_name(axis: &Axis) -> String {
     let name = knob_of(&axis.path).map_or(axis.path.as_str(), |knob| knob.label);
     match unit(&axis.path) {
@@ -60,7 +60,7 @@ fn axis_name(axis: &Axis) -> String {
         unit => {
             // The same prefix as the ticks.
             let scale = crate::tui::axis::SiScale::of(axis.from.abs().max(axis.to.abs()));
-            let (_, unit) = told(0.0, unit);
+            let (_, unit) = in_shown_unit(0.0, unit);
             if axis.path == SPEED {
                 return format!("{name} [{unit}]");
             }
@@ -69,7 +69,7 @@ fn axis_name(axis: &Axis) -> String {
     }
 }
 
-/// The title: what the map shows, and how far it is; as much as fits.
+/// Returns the title: what the map shows, and how far it is; as much as fits.
 pub fn title(app: &App, live: Option<&LiveMap>, wanted: Option<&MapPlan>, width: u16) -> Line {
     let look = &app.appearance;
     let Some(plan) = live.map(|live| &live.map.plan).or(wanted) else { return Vec::new() };
@@ -108,7 +108,7 @@ pub fn title(app: &App, live: Option<&LiveMap>, wanted: Option<&MapPlan>, width:
     line
 }
 
-/// How far the map is, long and short.
+/// Returns how far the map is, long and short.
 fn progress(app: &App, live: &LiveMap) -> [String; 3] {
     let all = live.map.cells.len().max(1);
     let step = all.div_ceil(PROGRESS_STEPS);
@@ -122,7 +122,7 @@ fn progress(app: &App, live: &LiveMap) -> [String; 3] {
     [format!("{of} {bar}"), of, format!("{} %", 100 * done / all)]
 }
 
-/// The verdicts on the map, and the sign of the present knobs.
+/// Returns the verdicts on the map, and the sign of the present knobs.
 pub fn legend(app: &App, live: &LiveMap) -> Line {
     let look = &app.appearance;
     let mut line: Line = Vec::new();
@@ -140,7 +140,7 @@ fn occurring(live: &LiveMap) -> impl Iterator<Item = Verdict> {
     census.into_iter().filter(|(_, count)| *count > 0).map(|(verdict, _)| verdict)
 }
 
-/// Where the present knobs are.
+/// Returns where the present knobs are.
 fn now(app: &App, live: &LiveMap) -> String {
     let plan = &live.map.plan;
     let axes = [(&plan.x, ["left of", "right of"]), (&plan.y, ["below", "above"])];
@@ -157,7 +157,7 @@ fn now(app: &App, live: &LiveMap) -> String {
     format!("{} now {x}, {y}", app.appearance.either('╋', '+'))
 }
 
-/// The cell under the cursor in one row, or the key that leads to it.
+/// Returns the cell under the cursor in one row, or the key that leads to it.
 pub fn row(app: &App, live: &LiveMap) -> Line {
     let look = &app.appearance;
     let Some([head, verdict, detail]) = cell(app, live) else {
@@ -175,7 +175,7 @@ pub fn row(app: &App, live: &LiveMap) -> Line {
     ]
 }
 
-/// Values, verdict and details of the cell under the cursor.
+/// Returns the values, verdict and details of the cell under the cursor.
 fn cell(app: &App, live: &LiveMap) -> Option<[String; 3]> {
     let [column, row] = app.map_cell()?;
     let plan = &live.map.plan;
@@ -192,7 +192,7 @@ fn cell(app: &App, live: &LiveMap) -> Option<[String; 3]> {
     Some([values.join(", "), verdict, run.map(detail).unwrap_or_default()])
 }
 
-/// Blades, start and forces of the run of a cell.
+/// Returns the blades, start and forces of the run of a cell.
 fn detail(run: &CellRun) -> String {
     let mut out = String::new();
     if let Some(since) = run.since {
@@ -208,7 +208,7 @@ fn detail(run: &CellRun) -> String {
     out + &count(run.impacts, "impact")
 }
 
-/// The column beside the map.
+/// Returns the column beside the map.
 pub fn column(app: &App, live: &LiveMap, width: usize) -> Vec<Line> {
     let look = &app.appearance;
     let [text, quiet, focus] = [Role::Text, Role::Quiet, Role::Focus].map(|role| look.style(role));
@@ -241,7 +241,7 @@ pub fn column(app: &App, live: &LiveMap, width: usize) -> Vec<Line> {
     lines
 }
 
-/// The lines of a map, in the order of their speeds on its axis.
+/// Returns the lines of a map, in the order of their speeds on its axis.
 pub fn by_speed(live: &LiveMap) -> Vec<&Curve> {
     let on_x = live.map.plan.x.path == SPEED;
     let speed = |line: &Curve| line.points.first().map_or(0.0, |(x, y)| if on_x { *x } else { *y });
@@ -250,7 +250,7 @@ pub fn by_speed(live: &LiveMap) -> Vec<&Curve> {
     lines
 }
 
-/// The name of a line, and its speed where that is the same all over the map.
+/// Returns the name of a line, and its speed where that is the same all over the map.
 pub fn line_name(line: &Curve) -> String {
     let name = line.name.replace("Omega", "Ω");
     let Some(first) = line.points.first() else { return name };

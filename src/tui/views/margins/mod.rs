@@ -1,9 +1,8 @@
 //! View 8: how far the scene is from every limit, and what moves each of them most.
 
+pub mod live;
 mod rows;
 mod survey;
-
-use std::sync::Arc;
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
@@ -14,8 +13,6 @@ use crate::tui::text::{first_lines, print, wrap};
 use crate::tui::theme::Role;
 use crate::tui::views::table::Rows;
 pub use rows::DIGITS;
-use rubscope_solver::study::margins::Margins;
-use rubscope_solver::study::survey::Survey;
 
 /// Columns of the reading cursor: the limit, and the knobs that matter most.
 pub const COLUMNS: u32 = margins::STRONGEST as u32 + 1;
@@ -26,23 +23,10 @@ const TOLD_FROM: u16 = 6;
 /// and from this one on it has two lines.
 const TOLD_TWICE_FROM: u16 = 16;
 
-/// The margins, and the survey once it is computed.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LiveMargins {
-    /// What is known.
-    pub margins: Margins,
-    /// The survey of all diameters, once it is computed.
-    pub survey: Option<Arc<Survey>>,
-}
-
 /// The view.
 pub struct MarginsView;
 
 impl ViewPanel for MarginsView {
-    fn what(&self) -> &'static str {
-        "margins: how far from every limit, and what moves it"
-    }
-
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
         if app.layout.is_surveyed() {
             return survey::draw(app, buffer, at, survey::cell(app).filter(|_| at.large));
@@ -126,11 +110,15 @@ impl ViewPanel for MarginsView {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
+    use super::live::LiveMargins;
     use super::*;
     use crate::tui::bindings::Action;
     use crate::tui::views::ViewId;
     use crate::tui::{Marker, Theme};
     use rubscope_solver::scene::Scene;
+    use rubscope_solver::study::margins::Margins;
 
     fn app() -> App {
         let scene = Scene::base().checked().unwrap();

@@ -1,13 +1,9 @@
 //! View 6: the spectrum of the casing motion over the whole run, and the
 //! Campbell lines that show where frequencies coincide.
-//!
-//! Amplitude spectrum of the casing motion over a whole run: a Hann window,
-//! then a real Fourier transform.
 
-use std::f64::consts::TAU;
+pub mod lines;
 
 use ratatui::buffer::Buffer;
-use realfft::RealFftPlanner;
 
 use crate::report::number::{frequency_unit, per_frequency, speed_unit};
 use crate::tui::app::App;
@@ -19,6 +15,7 @@ use crate::tui::views::ViewId;
 use crate::tui::views::panel::{
     ViewArea, ViewPanel, csv, entry, name_level, name_speeds, not_yet, title,
 };
+use crate::tui::views::spectrum::lines::Spectrum;
 
 /// Smallest amplitude shown, as a power of ten of a metre, and the greatest.
 const DECADES: (f64, f64) = (-10.0, -3.0);
@@ -27,10 +24,6 @@ const DECADES: (f64, f64) = (-10.0, -3.0);
 pub struct SpectrumView;
 
 impl ViewPanel for SpectrumView {
-    fn what(&self) -> &'static str {
-        "spectrum and Campbell lines"
-    }
-
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
         let (first, second) = at.pair(50);
         amplitudes(app, buffer, first);
@@ -55,7 +48,7 @@ fn highest(app: &App) -> f64 {
     (1.3 * most / step).ceil() * step
 }
 
-/// Frequencies in the fixed frame, with their names \[rad/s\].
+/// Returns the frequencies in the fixed frame, with their names \[rad/s\].
 fn lines(app: &App, speed: f64) -> [(f64, &'static str); 4] {
     let machine = app.machine.at(speed);
     let wave = machine.nu(speed);
@@ -104,7 +97,7 @@ fn amplitudes(app: &App, buffer: &mut Buffer, at: ViewArea) {
     name_speeds(&mut plot, &marks, app);
 }
 
-/// The line nearest to a frequency.
+/// Returns the line nearest to a frequency.
 fn reading(spectrum: &Spectrum, frequency: f64) -> Option<String> {
     let line = (frequency / spectrum.resolution).round().max(0.0) as usize;
     let (u_c, u_s) = (spectrum.cosine.get(line)?, spectrum.sine.get(line)?);
@@ -150,74 +143,4 @@ fn campbell(app: &App, buffer: &mut Buffer, at: ViewArea) {
         plot.point(sense * speed, app.machine.omega_c, meet, look.style(Role::Contact));
     }
     name_level(&mut plot, x, app.machine.omega_c, &look.spell("ω_c"), look.style(Role::Text));
-}
-
-/// Amplitudes at equal steps of angular frequency, from zero.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Spectrum {
-    /// Distance of two lines \[rad/s\].
-    pub resolution: f64,
-    /// Amplitude of `u_c` \[m\].
-    pub cosine: Vec<f64>,
-    /// Amplitude of `u_s` \[m\].
-    pub sine: Vec<f64>,
-}
-
-impl Spectrum {
-    /// Spectrum of samples at equal intervals over `length` seconds.
-    pub fn of(signal: &[[f64; 2]], length: f64) -> Self {
-        let of = |place: usize| {
-            let samples: Vec<f64> =
-                signal.iter().map(|pair| pair.get(place).copied().unwrap_or(0.0)).collect();
-            amplitudes_of(samples)
-        };
-        Self { resolution: TAU / length, cosine: of(0), sine: of(1) }
-    }
-}
-
-/// Amplitude of each line; a sine on a line shows its own amplitude.
-fn amplitudes_of(mut samples: Vec<f64>) -> Vec<f64> {
-    let count = samples.len();
-    if count < 8 || samples.iter().any(|x| !x.is_finite()) {
-        return Vec::new();
-    }
-    for (k, sample) in samples.iter_mut().enumerate() {
-        *sample *= 0.5 - 0.5 * (TAU * k as f64 / count as f64).cos();
-    }
-    let transform = RealFftPlanner::<f64>::new().plan_fft_forward(count);
-    let mut lines = transform.make_output_vec();
-    if transform.process(&mut samples, &mut lines).is_err() {
-        return Vec::new();
-    }
-    // The window halves the amplitude, the transform gives half of count times it.
-    lines.iter().map(|line| 4.0 * line.norm() / count as f64).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_sine_on_a_line_shows_its_frequency_and_amplitude() {
-        let signal: Vec<[f64; 2]> = (1..=2048)
-            .map(|k| {
-                let t = 0.1 * f64::from(k) / 2048.0;
-                let (sin, cos) = (TAU * 240.0 * t).sin_cos();
-                [3e-4 * cos, 1e-4 * sin]
-            })
-            .collect();
-        let spectrum = Spectrum::of(&signal, 0.1);
-        let line = (TAU * 240.0 / spectrum.resolution).round() as usize;
-        assert_eq!(line, 24);
-        // A Hann window resolves a sine on a line exactly, to round-off.
-        assert!((spectrum.cosine[24] - 3e-4).abs() < 1e-12);
-        assert!((spectrum.sine[24] - 1e-4).abs() < 1e-12);
-        assert!(spectrum.cosine[30] < 1e-12);
-    }
-
-    #[test]
-    fn signals_that_are_no_numbers_have_no_spectrum() {
-        assert!(Spectrum::of(&[[f64::NAN, 0.0]; 64], 1.0).cosine.is_empty());
-        assert!(Spectrum::of(&[], 1.0).cosine.is_empty());
-    }
 }

@@ -1,8 +1,6 @@
-//! Moves of the motion that do not take the time that they show: a step, a jump to the next
-//! change of contact, and one to an instant of the run ahead.
-//!
-//! What is computed again of the motion, from copies: the page on the screen, and the
-//! instant of the reading cursor.
+//! Moves of the motion that take less time than they show: a step, a jump to the next change of
+//! contact, and one to an instant of the run ahead; and what is computed again from copies of
+//! the motion: the page on the screen and the instant of the reading cursor.
 
 use std::time::{Duration, Instant};
 
@@ -20,7 +18,7 @@ const JUMP_SAMPLES: f64 = 20_000.0;
 pub(super) const JUMP_LIMIT: Duration = Duration::from_secs(1);
 
 impl Playback {
-    /// One time step, or one sample of a solver that does not step.
+    /// Takes one time step, or one sample of a solver without steps.
     pub(super) fn step(&mut self) {
         let step = match self.motion.steps() {
             Some(_) => self.order.scene.solver.step_s,
@@ -97,7 +95,7 @@ impl Playback {
 }
 
 impl Playback {
-    /// The latest motion by `t` that is known: a copy of the run ahead, or of the past.
+    /// Returns the latest motion by `t` that is known: a copy of the run ahead, or of the past.
     fn before(&self, t: f64) -> Option<Motion> {
         self.forecasts.before(t).or_else(|| self.copies.before(t, &self.motion))
     }
@@ -125,7 +123,7 @@ impl Playback {
         self.reading.go_on(self.time_limit.min(SLICE));
     }
 
-    /// Whether the pages on the screen are computed.
+    /// Returns whether the pages on the screen are computed.
     pub(super) fn pages_are_done(&self) -> bool {
         self.page.is_done() && self.comparison.as_ref().is_none_or(|theirs| theirs.page.is_done())
     }

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::{Given, Study};
-use crate::tui::views::ViewId;
 use crate::tui::views::coincidence::curves::CoincidenceCurves;
+use crate::tui::views::id::ViewId;
 use crate::tui::worker::background::Background;
 use rubscope_solver::scene::Scene;
 

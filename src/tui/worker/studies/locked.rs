@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use super::{Given, Study};
-use crate::tui::views::ViewId;
+use crate::tui::views::id::ViewId;
 use crate::tui::views::locked::curves::LockedCurves;
 use rubscope_solver::scene::Scene;
 

@@ -1,15 +1,13 @@
-//! The computation of the map, in threads of its own that stop within a millisecond when
-//! nobody wants it any more.
-//!
-//! The run of the map's cell under the cursor, in a thread of its own.
+//! The study of the map and that of the cell under its cursor, in threads of their own that stop
+//! within a millisecond when nobody wants their results any more.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use crate::tui::engine::FORECAST_LIMIT;
-use crate::tui::views::ViewId;
-use crate::tui::views::map::{CellRun, LiveMap, coarse_first};
+use crate::tui::views::id::ViewId;
+use crate::tui::views::map::plan::{CellRun, LiveMap, coarse_first};
 use crate::tui::worker::background::{Background, spare_threads};
 use crate::tui::worker::studies::{Given, Study};
 use rubscope_solver::motion::{GoOn, Motion, verdict_of};
@@ -104,7 +102,7 @@ impl Study for MapStudy {
 }
 
 impl MapStudy {
-    /// A map of `plan`; of its cells at most the `most` coarsest are computed.
+    /// Creates a map of `plan`; of its cells at most the `most` coarsest are computed.
     fn new(plan: &MapPlan, most: usize) -> Self {
         let (mut order, first) = coarse_first(plan);
         order.truncate(most.max(1));
@@ -217,7 +215,7 @@ fn run_of(plan: MapPlan, cell: [u32; 2], go_on: GoOn<'_>) -> Option<CellRun> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tui::views::map::MapChoice;
+    use crate::tui::views::map::plan::MapChoice;
     use crate::tui::worker::studies::tests::with_given;
     use rubscope_solver::motion::Verdict;
     use rubscope_solver::scene::Scene;

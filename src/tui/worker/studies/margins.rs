@@ -5,8 +5,8 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::{Given, Study};
-use crate::tui::views::ViewId;
-use crate::tui::views::margins::LiveMargins;
+use crate::tui::views::id::ViewId;
+use crate::tui::views::margins::live::LiveMargins;
 use crate::tui::worker::background::Background;
 use rubscope_solver::scene::CheckedScene;
 use rubscope_solver::study::margins::Margins;

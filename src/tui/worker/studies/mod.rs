@@ -14,27 +14,27 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::full_run::{FullRunJob, SLICE};
-use crate::tui::engine::{Order, Working};
-use crate::tui::views::ViewId;
+use crate::tui::engine::{Found, Order, Working};
+use crate::tui::views::id::ViewId;
 use rubscope_solver::study::MapPlan;
 
-/// A study that takes longer says how far it is.
+/// Wall time after which a study shows its progress.
 const LONG: Duration = Duration::from_millis(500);
 
-/// What studies depend on.
+/// Inputs of the studies.
 #[derive(Debug)]
 pub struct Given<'a> {
-    /// What is wanted.
+    /// Order that is carried out.
     pub order: &'a Order,
     /// The map that is wanted, if there is one.
     pub plan: Option<MapPlan>,
     /// The run to its end.
     pub run: &'a FullRunJob,
-    /// How far it goes.
+    /// Bounds of the computation.
     pub bounds: Bounds,
 }
 
-/// How far studies go: all the way, but in tests.
+/// Bounds of the studies, which only tests have.
 #[derive(Clone, Copy, Debug)]
 pub struct Bounds {
     /// Most cells of a map.
@@ -60,13 +60,13 @@ pub trait Study: fmt::Debug + Sized {
     /// Whether it takes so long that others like it go on beside it.
     const BESIDE: bool = false;
 
-    /// The inputs that are wanted; none where no view shows it.
+    /// Returns the inputs that are wanted; none where no view shows it.
     fn key(given: &Given) -> Option<Self::Key>;
 
     /// Starts it.
     fn begin(key: &Self::Key, given: &Given) -> Self;
 
-    /// Whether nothing more comes.
+    /// Returns whether nothing more comes.
     fn is_done(&self) -> bool {
         true
     }
@@ -75,21 +75,21 @@ pub trait Study: fmt::Debug + Sized {
     /// than `patience`.
     fn work(&mut self, _patience: Duration) {}
 
-    /// How far it is, 0 to 1, where that is known.
+    /// Returns how far it is, 0 to 1, where that is known.
     fn part(&self) -> Option<f64> {
         None
     }
 
-    /// The result, as soon as it can be shown instead of the one before.
+    /// Returns the result, as soon as it can be shown instead of the one before.
     fn found(&self) -> Option<&Arc<Self::Found>>;
 
-    /// What to show where there is no result before.
+    /// Returns what to show where there is no result before.
     fn first(&self) -> Option<&Arc<Self::Found>> {
         None
     }
 
-    /// Nobody wants it now; false where it must end, so that the work of the next order has
-    /// the processor.
+    /// Pauses the study while it is not wanted; returns false where it must end, so that the work
+    /// of the next order has the processor.
     fn wait(&mut self) -> bool {
         true
     }
@@ -97,20 +97,20 @@ pub trait Study: fmt::Debug + Sized {
 
 /// A study, and what it found for the inputs before.
 #[derive(Debug)]
-struct Kept<S: Study> {
+struct StudySlot<S: Study> {
     study: Option<(S::Key, S)>,
     before: Option<Arc<S::Found>>,
-    /// Since when it is wanted.
+    /// Start of the computation.
     since: Option<Instant>,
 }
 
-impl<S: Study> Default for Kept<S> {
+impl<S: Study> Default for StudySlot<S> {
     fn default() -> Self {
         Self { study: None, before: None, since: None }
     }
 }
 
-impl<S: Study> Kept<S> {
+impl<S: Study> StudySlot<S> {
     fn replace(&mut self, study: Option<(S::Key, S)>) {
         let old = std::mem::replace(&mut self.study, study);
         let found = old.as_ref().and_then(|(_, old)| old.found()).filter(|_| S::STAYS).cloned();
@@ -137,11 +137,11 @@ trait Work {
     fn is_done(&self, given: &Given) -> bool;
     fn work(&mut self, given: &Given, patience: Duration);
     fn stop_unwanted(&mut self, given: &Given);
-    /// How far it is, where it takes long.
+    /// Returns how far it is, where it takes long.
     fn working(&self, given: &Given) -> Option<Working>;
 }
 
-impl<S: Study> Work for Kept<S> {
+impl<S: Study> Work for StudySlot<S> {
     fn is_beside(&self) -> bool {
         S::BESIDE
     }
@@ -177,18 +177,12 @@ impl<S: Study> Work for Kept<S> {
 }
 
 macro_rules! studies {
-    ($($(#[$what:meta])* $name:ident: $study:ty,)*) => {
+    ($($name:ident: $study:ty,)*) => {
         /// The studies of one scene, in the order in which they are computed.
         #[derive(Debug, Default)]
         pub struct Studies {
             bounds: Bounds,
-            $($name: Kept<$study>,)*
-        }
-
-        /// What the studies have found.
-        #[derive(Clone, Debug, Default)]
-        pub struct Found {
-            $($(#[$what])* pub $name: Option<Arc<<$study as Study>::Found>>,)*
+            $($name: StudySlot<$study>,)*
         }
 
         impl Studies {
@@ -200,7 +194,7 @@ macro_rules! studies {
                 [$(&mut self.$name as &mut dyn Work),*].into_iter()
             }
 
-            /// What they have found so far.
+            /// Returns what they have found so far.
             pub fn found(&self, order: &Order, run: &FullRunJob) -> Found {
                 let given = self.given(order, run);
                 Found { $($name: self.$name.shown(&given),)* }
@@ -210,19 +204,12 @@ macro_rules! studies {
 }
 
 studies! {
-    /// The locked motion against speed.
     locked: locked::LockedStudy,
-    /// The spectrum of the run.
     spectrum: spectrum::SpectrumStudy,
-    /// What a coincidence does; none within where there is no coincidence.
     coincidence: coincidence::CoincidenceStudy,
-    /// The margins; what is searched arrives later.
     margins: margins::MarginsStudy,
-    /// The run of the map's cell that was asked for.
     cell: map::CellStudy,
-    /// The map; cells arrive one by one.
     map: map::MapStudy,
-    /// Speed against error; rows arrive one by one.
     precision: precision::PrecisionStudy,
 }
 
@@ -242,13 +229,13 @@ impl Studies {
         self.all_mut().for_each(|study| study.stop_unwanted(&given));
     }
 
-    /// What takes long.
+    /// Returns what takes long.
     pub fn working(&self, order: &Order, run: &FullRunJob) -> Vec<Working> {
         let given = self.given(order, run);
         self.all().filter_map(|study| study.working(&given)).collect()
     }
 
-    /// Whether a study that is needed is missing.
+    /// Returns whether a study that is needed is missing.
     pub fn is_computing(&self, order: &Order, run: &FullRunJob) -> bool {
         let given = self.given(order, run);
         self.all().any(|study| !study.is_done(&given))
@@ -272,7 +259,7 @@ impl Studies {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tui::views::ViewId;
+    use crate::tui::views::id::ViewId;
     use crate::tui::{App, Marker, Theme};
     use rubscope_solver::motion::Motion;
     use rubscope_solver::scene::Scene;

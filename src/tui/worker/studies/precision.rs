@@ -5,7 +5,7 @@ use std::sync::mpsc::Sender;
 use std::time::Duration;
 
 use super::{Given, Study};
-use crate::tui::views::ViewId;
+use crate::tui::views::id::ViewId;
 use crate::tui::worker::background::Background;
 use rubscope_solver::motion::GoOn;
 use rubscope_solver::scene::Scene;

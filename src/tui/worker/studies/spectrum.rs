@@ -3,15 +3,15 @@
 use std::sync::Arc;
 
 use super::{Given, Study};
-use crate::tui::views::ViewId;
-use crate::tui::views::spectrum::Spectrum;
+use crate::tui::views::id::ViewId;
+use crate::tui::views::spectrum::lines::Spectrum;
 
 /// The spectrum of a run.
 #[derive(Debug)]
 pub struct SpectrumStudy(Arc<Spectrum>);
 
 impl Study for SpectrumStudy {
-    /// What tells a run from others: the knobs, and its end.
+    /// Identification of the run: the knobs, and its end.
     type Key = (u64, f64);
     type Found = Spectrum;
     const VIEW: ViewId = ViewId::Spectrum;

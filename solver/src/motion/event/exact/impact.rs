@@ -18,7 +18,7 @@ impl ExactEvents {
         let parameters = &self.parameters;
         let (normal, spin) = parameters.normal(side, &self.tips);
         let met = place * normal.conj();
-        self.deepest = self.deepest.max(-(parameters.clearance + met.re));
+        self.run.deepest = self.run.deepest.max(-(parameters.clearance + met.re));
         let (y, size) = (met.im, parameters.clearance + rate.norm() / parameters.omega);
         if parameters.corners {
             let polygon = &parameters.machine.polygon;
@@ -98,21 +98,21 @@ impl ExactEvents {
     /// Books impulses (per unit mass) on sides at their places, with the closing
     /// speeds they end: each takes the work `-impulse nu y` from the rotor.
     fn strike(&mut self, impulses: &[(u32, f64, f64, f64)]) {
-        let t = self.clock.start();
+        let t = self.run.clock.start();
         for &(side, y, impulse, closing) in impulses {
             self.kick(side, y, impulse);
             self.energy_balance.rotor -= impulse * self.parameters.drive.nu * y;
             self.energy_balance.lost += 0.5 * impulse * closing;
             if let Some(blades) = &self.parameters.following {
-                self.widest = self.widest.max(blades.kicked(y, impulse));
+                self.run.widest = self.run.widest.max(blades.kicked(y, impulse));
             }
             if closing > SOFT_TOUCH * self.parameters.omega * self.parameters.clearance {
-                self.log.impact(t, side);
+                self.run.log.impact(t, side);
             }
         }
         match *impulses {
-            [(side, ..)] => self.log.touch(t, ActiveSet::Side(side)),
-            [(a, ..), (b, ..)] => self.log.touch(t, ActiveSet::of(&[a, b])),
+            [(side, ..)] => self.run.log.touch(t, ActiveSet::Side(side)),
+            [(a, ..), (b, ..)] => self.run.log.touch(t, ActiveSet::of(&[a, b])),
             _ => {}
         }
     }

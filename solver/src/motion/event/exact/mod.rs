@@ -28,7 +28,7 @@ mod slide;
 mod transitions;
 
 use crate::model::Machine;
-use crate::motion::event::Clock;
+use crate::motion::event::Run;
 use crate::motion::{
     Checks, ContactLog, Failure, FailureReason, GoOn, Plane, Pulse, Rotor, Solver, State, Verdict,
     to_the_end,
@@ -52,11 +52,8 @@ use transitions::Passage;
 #[derive(Clone, Debug)]
 pub struct ExactEvents {
     parameters: Parameters,
-    rotor: Rotor,
-    pulse: Pulse,
-    log: ContactLog,
+    run: Run,
     energy_balance: EnergyBalance,
-    clock: Clock,
     mode: Mode,
     /// Blades at the start of the segment.
     tips: Tips,
@@ -64,16 +61,8 @@ pub struct ExactEvents {
     safe: f64,
     /// The event that ends the segment, once found.
     found: Option<(f64, Ending)>,
-    events: u64,
-    idle: u32,
-    /// Looks ahead in this segment, and in the whole run.
+    /// Looks ahead in this segment.
     looks: u64,
-    all_looks: u64,
-    deepest: f64,
-    widest: f64,
-    /// Whether energies and the widest angle are followed.
-    checked: bool,
-    failure: Option<Failure>,
     /// Series of a rocking motion, once one was looked for.
     tables: Option<Box<rocking::Tables>>,
 }
@@ -102,22 +91,12 @@ impl ExactEvents {
         let mut event = Self {
             mode: Mode::Free(free::Free::new(place, rate, Tips::default())),
             parameters,
-            rotor: Rotor::of(scene),
-            pulse: Pulse::of(scene),
-            log: ContactLog::default(),
             energy_balance,
-            clock: Clock::default(),
+            run: Run::of(scene),
             safe: 0.0,
             found: None,
-            events: 0,
-            idle: 0,
             looks: 0,
-            all_looks: 0,
-            deepest: 0.0,
-            widest: 0.0,
-            checked: true,
             tips: Tips::default(),
-            failure: None,
             tables: None,
         };
         event.parameters.drive = event.drive_now(0.0);
@@ -149,15 +128,15 @@ impl ExactEvents {
     /// # Errors
     /// As `advance`.
     pub fn next_event(&mut self, limit: f64) -> Result<f64, Failure> {
-        let events = self.events;
-        while events == self.events {
+        let events = self.run.events;
+        while events == self.run.events {
             if self.change(limit, &to_the_end)? == Passage::Later {
                 self.arrive(limit)?;
-                return Ok(self.clock.now);
+                return Ok(self.run.clock.now);
             }
         }
-        self.arrive(self.clock.start().max(self.clock.now))?;
-        Ok(self.clock.now)
+        self.arrive(self.run.clock.start().max(self.run.clock.now))?;
+        Ok(self.run.clock.now)
     }
 }
 
@@ -169,7 +148,7 @@ impl Solver for ExactEvents {
                 Passage::Later => return self.arrive(until).map(|()| true),
                 // Nothing happens before `safe`.
                 Passage::Paused => {
-                    let reached = until.min(self.clock.start() + self.safe);
+                    let reached = until.min(self.run.clock.start() + self.safe);
                     return self.arrive(reached).map(|()| false);
                 }
             }
@@ -177,15 +156,15 @@ impl Solver for ExactEvents {
     }
 
     fn t_s(&self) -> f64 {
-        self.clock.now
+        self.run.clock.now
     }
 
     fn state(&self) -> State {
-        let s = self.elapsed(self.clock.now);
+        let s = self.elapsed(self.run.clock.now);
         let (u, v) = self.mode.standing(&self.parameters, s);
         let Tips { angle, rate } = self.mode.reported(&self.parameters, s);
         State {
-            t_s: self.clock.now,
+            t_s: self.run.clock.now,
             u: [u.re, u.im],
             v: [v.re, v.im],
             alpha: [angle.re, angle.im],
@@ -194,11 +173,11 @@ impl Solver for ExactEvents {
     }
 
     fn contacts(&self) -> &ContactLog {
-        &self.log
+        &self.run.log
     }
 
     fn multipliers(&self) -> Vec<(u32, f64)> {
-        let s = self.elapsed(self.clock.now);
+        let s = self.elapsed(self.run.clock.now);
         let pushes = self.mode.pushes(&self.parameters, s);
         let multiplier = |(side, push): (u32, f64)| (side, -push * self.parameters.mass);
         pushes.into_iter().flatten().map(multiplier).collect()
@@ -206,12 +185,12 @@ impl Solver for ExactEvents {
 
     fn over(&self) -> bool {
         let Mode::Free(free) = &self.mode else { return false };
-        let (u, v) = free.at(&self.parameters, self.elapsed(self.clock.now));
+        let (u, v) = free.at(&self.parameters, self.elapsed(self.run.clock.now));
         self.parameters.drive.pulse == 0.0 && free::Free::spent(&self.parameters, u, v)
     }
 
     fn final_verdict(&self) -> Option<Verdict> {
-        if self.failure.is_some() {
+        if self.run.failure.is_some() {
             Some(Verdict::Failed)
         } else if self.over() {
             Some(Verdict::Decay)
@@ -224,7 +203,7 @@ impl Solver for ExactEvents {
             && let Some(blades) = &self.parameters.blades
             && self.parameters.drive.steady()
         {
-            let s = self.elapsed(self.clock.now);
+            let s = self.elapsed(self.run.clock.now);
             held.for_good(&self.parameters, blades, s).then_some(Verdict::Locked)
         } else {
             None
@@ -232,15 +211,15 @@ impl Solver for ExactEvents {
     }
 
     fn failure(&self) -> Option<&Failure> {
-        self.failure.as_ref()
+        self.run.failure.as_ref()
     }
 
     fn pulse(&self) -> &Pulse {
-        &self.pulse
+        &self.run.pulse
     }
 
     fn rotor(&self) -> &Rotor {
-        &self.rotor
+        &self.run.rotor
     }
 
     fn machine(&self) -> &Machine {
@@ -248,36 +227,32 @@ impl Solver for ExactEvents {
     }
 
     fn checks(&self) -> Checks {
-        let s = self.elapsed(self.clock.now);
+        let s = self.elapsed(self.run.clock.now);
         let mut energy_balance = self.energy_balance;
         self.mode.book(&self.parameters, s, &mut energy_balance);
         let residual = energy_balance.residual(self.mode.energy(&self.parameters, s));
         Checks {
-            max_penetration_m: self.deepest,
-            max_blade_angle_rad: self.mode.largest_angle(&self.parameters, s, self.widest),
+            max_penetration_m: self.run.deepest,
+            max_blade_angle_rad: self.mode.largest_angle(&self.parameters, s, self.run.widest),
             energy_residual_j: Some(self.parameters.mass * residual),
             ..Checks::default()
         }
     }
 
     fn forgo_checks(&mut self) {
-        self.checked = false;
+        self.run.checked = false;
     }
 
     fn fire(&mut self) {
-        let length = self.pulse.end - self.pulse.start;
-        self.intervene(|event| {
-            let now = event.clock.now;
-            event.pulse = Pulse { start: now, end: now + length, ..event.pulse };
-        });
+        self.intervene(|event| event.run.fire());
     }
 
     fn set_speed(&mut self, speed: f64, ramp: f64) {
         self.intervene(|event| {
-            event.rotor.change(event.clock.now, speed, ramp);
+            event.run.rotor.change(event.run.clock.now, speed, ramp);
             event.energy_balance.rotor += event.parameters.turn_at(speed, &event.tips);
         });
-        if self.failure.is_none() && self.parameters.machine.changes_with_speed() {
+        if self.run.failure.is_none() && self.parameters.machine.changes_with_speed() {
             if ramp != 0.0 {
                 self.fail(0.0, FailureReason::Ramp);
             } else if self.parameters.clearance <= 0.0 {
@@ -294,7 +269,7 @@ impl Solver for ExactEvents {
     }
 
     fn events(&self) -> Option<u64> {
-        Some(self.events)
+        Some(self.run.events)
     }
 
     fn blades_follow(&self) -> bool {
@@ -331,7 +306,7 @@ mod tests {
                 assert_eq!(full.state(), bare.state(), "{name}");
                 assert_eq!(full.contacts(), bare.contacts(), "{name}");
             }
-            assert!(bare.energy_balance.dissipated == 0.0 && full.events > 3, "{name}");
+            assert!(bare.energy_balance.dissipated == 0.0 && full.run.events > 3, "{name}");
         }
     }
 
@@ -341,9 +316,9 @@ mod tests {
         // Hours of bouncing.
         scene.solver.end_s = 1e6;
         let mut event = ExactEvents::new(&scene.checked().unwrap()).unwrap();
-        event.all_looks = MOST_LOOKS - 100;
+        event.run.looks = MOST_LOOKS - 100;
         let mut other = event.clone();
-        (other.all_looks, other.events) = (0, MOST_EVENTS - 10);
+        (other.run.looks, other.run.events) = (0, MOST_EVENTS - 10);
         for (mut event, expected) in [(event, FailureReason::Looks), (other, FailureReason::Events)]
         {
             let failure = event.advance(1e6).unwrap_err();

@@ -20,10 +20,7 @@ use super::parameters::Drive;
 use super::slide::{From, SideSeries, Slide};
 use super::{ExactEvents, locked, rocking};
 use crate::motion::{ActiveSet, Failure, FailureReason, GoOn, Plane};
-use crate::tolerances::{
-    AN_INSTANT, BRIEF_ROCKING, LOOKS_UNASKED, MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS,
-    ON_A_SIDE,
-};
+use crate::tolerances::{BRIEF_ROCKING, LOOKS_UNASKED, MOST_LOOKS, ON_A_SIDE};
 
 /// What a search for the event that ends a segment comes to.
 enum Sought {
@@ -49,41 +46,34 @@ pub(super) enum Passage {
 impl ExactEvents {
     /// Seconds from the start of the segment to `t`.
     pub(super) fn elapsed(&self, t: f64) -> f64 {
-        self.clock.elapsed(t)
+        self.run.clock.elapsed(t)
     }
 
     /// Goes through the next event, if it comes no later than `until`.
     pub(super) fn change(&mut self, until: f64, go_on: GoOn<'_>) -> Result<Passage, Failure> {
-        if let Some(failure) = &self.failure {
+        if let Some(failure) = &self.run.failure {
             return Err(failure.clone());
         }
         let (s, what) = match self.seek(self.elapsed(until), go_on) {
             Sought::Found(s, what) => (s, what),
-            Sought::Nothing => return self.failure.clone().map_or(Ok(Passage::Later), Err),
+            Sought::Nothing => return self.run.failure.clone().map_or(Ok(Passage::Later), Err),
             Sought::Paused => return Ok(Passage::Paused),
         };
         self.check_angles(s)?;
         let rates = self.parameters.omega + self.parameters.drive.nu.abs();
-        self.idle = if s * rates > AN_INSTANT { 0 } else { self.idle + 1 };
-        if what != Ending::SeriesEnd {
-            self.events += 1;
-        }
+        let exceeded = self.run.count(s * rates, what != Ending::SeriesEnd);
         let reason = if matches!(what, Ending::Gone | Ending::Edge(_)) && !self.parameters.corners {
             Some(FailureReason::NoCorner { radius_m: self.parameters.reach })
         } else if what == Ending::Lost {
             Some(FailureReason::Series)
-        } else if self.events > MOST_EVENTS {
-            Some(FailureReason::Events)
-        } else if self.idle > MOST_EVENTS_AT_ONCE {
-            Some(FailureReason::EventsAtOnce)
         } else {
-            None
+            exceeded
         };
         match reason {
             Some(reason) => _ = self.fail(s, reason),
             None => self.pass(s, what),
         }
-        self.failure.clone().map_or(Ok(Passage::Passed), Err)
+        self.run.failure.clone().map_or(Ok(Passage::Passed), Err)
     }
 
     /// Ends `advance` at `until`.
@@ -92,20 +82,17 @@ impl ExactEvents {
     /// Blades went beyond small angles before.
     pub(super) fn arrive(&mut self, until: f64) -> Result<(), Failure> {
         self.check_angles(self.elapsed(until))?;
-        self.clock.arrive(until);
+        self.run.clock.arrive(until);
         let active_set = self.mode.active_set(&self.parameters);
         if active_set != ActiveSet::Nothing {
-            self.log.touch(self.clock.now, active_set);
+            self.run.log.touch(self.run.clock.now, active_set);
         }
         Ok(())
     }
 
     /// Ends the motion `s` seconds into the segment.
     pub(super) fn fail(&mut self, s: f64, reason: FailureReason) -> Failure {
-        let t_s = self.clock.start() + s;
-        self.clock.arrive(t_s);
-        let failure = Failure { t_s, reason };
-        self.failure.get_or_insert(failure).clone()
+        self.run.fail(s, reason)
     }
 
     /// The event that ends the segment, if no later than `limit` seconds after
@@ -134,8 +121,8 @@ impl ExactEvents {
                 return Sought::Paused;
             }
             self.looks += 1;
-            self.all_looks += 1;
-            if self.all_looks > MOST_LOOKS {
+            self.run.looks += 1;
+            if self.run.looks > MOST_LOOKS {
                 self.fail(self.safe, FailureReason::Looks);
                 return Sought::Nothing;
             }
@@ -151,23 +138,23 @@ impl ExactEvents {
         if self.parameters.drive.pulse == 0.0 {
             f64::INFINITY
         } else {
-            self.elapsed(self.pulse.end)
+            self.elapsed(self.run.pulse.end)
         }
     }
 
     /// Books the segment and moves its start by `s`; the mode is left to be
     /// replaced.
     pub(super) fn rebase(&mut self, s: f64, what: Option<Ending>) {
-        if self.checked {
+        if self.run.checked {
             self.mode.book(&self.parameters, s, &mut self.energy_balance);
-            self.widest = self.mode.largest_angle(&self.parameters, s, self.widest);
+            self.run.widest = self.mode.largest_angle(&self.parameters, s, self.run.widest);
         }
         self.tips = self.mode.tips(&self.parameters, s);
         let phase = self.parameters.drive.phase(s) % TAU;
         if what == Some(Ending::PulseEnd) {
-            self.clock.begin_at(self.pulse.end);
+            self.run.clock.begin_at(self.run.pulse.end);
         } else {
-            self.clock.pass(s);
+            self.run.clock.pass(s);
         }
         self.parameters.drive = self.drive_now(phase);
         self.safe = 0.0;
@@ -178,14 +165,14 @@ impl ExactEvents {
 
     /// Rotor and pulse from the start of the segment on.
     pub(super) fn drive_now(&self, phase: f64) -> Drive {
-        let t = self.clock.start();
+        let t = self.run.clock.start();
         let diameters = self.parameters.machine.nodal_diameters;
-        let acting = (self.pulse.start..self.pulse.end).contains(&t);
+        let acting = (self.run.pulse.start..self.run.pulse.end).contains(&t);
         Drive {
             phase,
-            nu: diameters * self.rotor.speed(t),
-            nu_rate: diameters * self.rotor.ramp(),
-            pulse: if acting { self.pulse.force / self.parameters.mass } else { 0.0 },
+            nu: diameters * self.run.rotor.speed(t),
+            nu_rate: diameters * self.run.rotor.ramp(),
+            pulse: if acting { self.run.pulse.force / self.parameters.mass } else { 0.0 },
         }
     }
 
@@ -198,10 +185,10 @@ impl ExactEvents {
     /// As `intervene`, with the rate of free flight or along a side multiplied
     /// by `factor`.
     pub(super) fn intervene_scaled(&mut self, factor: f64, change: impl FnOnce(&mut Self)) {
-        if self.failure.is_some() {
+        if self.run.failure.is_some() {
             return;
         }
-        let s = self.elapsed(self.clock.now);
+        let s = self.elapsed(self.run.clock.now);
         let side = self.mode.along(&self.parameters, s);
         let (place, mut rate) = self.mode.seen_by_rotor(&self.parameters, s, side);
         if let (Mode::Slide(_) | Mode::Driven(_), Some((side, along))) = (&self.mode, side) {
@@ -213,7 +200,7 @@ impl ExactEvents {
         let mut flight = self.mode.flight(&self.parameters, s);
         let corner = self.mode.corner().filter(|_| !matches!(self.mode, Mode::Rocking { .. }));
         self.rebase(s, None);
-        self.clock.begin_at(self.clock.now);
+        self.run.clock.begin_at(self.run.clock.now);
         let (nu, clearance) = (self.parameters.drive.nu, self.parameters.clearance);
         change(self);
         self.parameters.drive = self.drive_now(self.parameters.drive.phase);
@@ -505,14 +492,7 @@ impl ExactEvents {
     }
 
     pub(super) fn enter(&mut self, mode: Mode) {
-        let t = self.clock.start();
-        let active_set = mode.active_set(&self.parameters);
-        let before = self.log.active_set;
-        if before != ActiveSet::Nothing && before != active_set {
-            // The old contact lasted until now.
-            self.log.touch(t, before);
-        }
-        self.log.touch(t, active_set);
+        self.run.hold(mode.active_set(&self.parameters));
         self.mode = mode;
     }
 }

@@ -96,8 +96,7 @@ impl Rest {
             rooms.push((push, per_unit(&row)));
         }
         // A wave held in a corner of the polygon is away from all other sides.
-        let fixed = held.rows.len() == 2
-            && parameters.tips.nodal_diameters == parameters.machine.polygon.nodal_diameters;
+        let fixed = held.rows.len() == 2;
         for row in (0..parameters.rows.len()).filter(|row| !fixed && !held.rows.contains(row)) {
             let along = DVector::from_fn(size, |n, _| {
                 let at = scales.point(&unit(n));

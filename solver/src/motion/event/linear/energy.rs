@@ -91,21 +91,20 @@ impl Energies {
         point: &Point,
         impulses: impl Iterator<Item = (usize, f64)>,
     ) {
-        let (mut sum, mut casing, mut tips) = (0.0, Plane::default(), Plane::default());
+        let (mut sum, mut along) = (0.0, Plane::default());
         for (row, impulse) in impulses {
-            if let Some(row) = parameters.rows.get(row) {
+            if let Some(direction) = parameters.rows.get(row) {
                 sum += impulse;
-                casing += row.direction.casing * impulse;
-                tips += row.direction.tip * impulse;
+                along += direction * impulse;
             }
         }
         // The sides turn with the rotor: their slope carries the casing along.
-        let slope = dot(casing, Plane::i() * point.z * parameters.nu);
+        let slope = dot(along, Plane::i() * point.z * parameters.nu);
         let sliding = parameters.friction * parameters.speed * parameters.radius * sum;
-        let on_casing = dot(Plane::i() * casing * parameters.turn.im, parameters.carried(point));
+        let on_casing = dot(Plane::i() * along * parameters.turn.im, parameters.carried(point));
         let length = parameters.machine.blade_length;
         let on_blades =
-            parameters.blades.map_or(0.0, |_| -parameters.friction * length * dot(tips, point.da));
+            parameters.blades.map_or(0.0, |_| -parameters.friction * length * dot(along, point.da));
         self.rotor += slope;
         self.sliding += sliding;
         self.dragged += on_casing + on_blades;

@@ -1,6 +1,5 @@
 //! The event-driven solver of what goes beyond the paper's model: tips whose path has
-//! a slope, friction, restitution, and disks with other diameters than the casing
-//! (docs/theory.md, section 10).
+//! a slope, friction and restitution (docs/theory.md, section 10).
 //!
 //! In the frame of the blades casing and blades together obey linear equations with
 //! constant coefficients, if the angles of the blades are left out of the phases of
@@ -24,7 +23,7 @@ mod transitions;
 
 use std::sync::OnceLock;
 
-use super::Clock;
+use super::Run;
 use crate::model::Machine;
 use crate::motion::{
     Checks, ContactLog, EnergyAccount, Failure, FailureReason, GoOn, Plane, Pulse, Rotor, Solver,
@@ -58,11 +57,8 @@ use stretch::{Ending, Held, OpenedGap, Stretch};
 #[derive(Clone, Debug)]
 pub struct LinearEvents {
     parameters: Parameters,
-    rotor: Rotor,
-    pulse: Pulse,
-    log: ContactLog,
+    run: Run,
     energies: Energies,
-    clock: Clock,
     /// `n_d theta` at the start, modulo a turn \[rad\].
     phase: f64,
     held: Held,
@@ -73,14 +69,6 @@ pub struct LinearEvents {
     /// What is known for good of the rows that are held, once asked.
     rest: OnceLock<Option<Rest>>,
     swings: Swings,
-    events: u64,
-    idle: u32,
-    looks: u64,
-    deepest: f64,
-    widest: f64,
-    /// Whether energies, the widest angle and the deepest gap are followed.
-    checked: bool,
-    failure: Option<Failure>,
 }
 
 impl LinearEvents {
@@ -99,11 +87,8 @@ impl LinearEvents {
 
     fn from_point(scene: &CheckedScene, parameters: Parameters, point: Point) -> Self {
         let mut motion = Self {
-            rotor: Rotor::of(scene),
-            pulse: Pulse::of(scene),
-            log: ContactLog::default(),
             energies: Energies { start: parameters.energy(&point), ..Energies::default() },
-            clock: Clock::default(),
+            run: Run::of(scene),
             phase: 0.0,
             held: Held::default(),
             opened: Vec::new(),
@@ -111,13 +96,6 @@ impl LinearEvents {
             next: (f64::INFINITY, Ending::StretchEnd),
             rest: OnceLock::new(),
             swings: Swings::new(&parameters, scene.solver.end_s),
-            events: 0,
-            idle: 0,
-            looks: 0,
-            deepest: 0.0,
-            widest: 0.0,
-            checked: true,
-            failure: None,
             parameters,
         };
         motion.begin(point);
@@ -155,30 +133,35 @@ impl LinearEvents {
     /// The energies until now.
     fn energies_now(&self) -> Energies {
         let mut energies = self.energies;
-        energies.book(&self.parameters, &self.held, &self.stretch, self.elapsed(self.clock.now));
+        energies.book(
+            &self.parameters,
+            &self.held,
+            &self.stretch,
+            self.elapsed(self.run.clock.now),
+        );
         energies
     }
 
     /// Where the motion is now.
     fn point_now(&self) -> Point {
-        self.stretch.point(&self.parameters, self.elapsed(self.clock.now))
+        self.stretch.point(&self.parameters, self.elapsed(self.run.clock.now))
     }
 }
 
 impl Solver for LinearEvents {
     fn advance_while(&mut self, until: f64, go_on: GoOn<'_>) -> Result<bool, Failure> {
         loop {
-            if let Some(failure) = &self.failure {
+            if let Some(failure) = &self.run.failure {
                 return Err(failure.clone());
             }
             if self.next.0 > self.elapsed(until) {
-                self.clock.arrive(until);
+                self.run.clock.arrive(until);
                 if !self.held.rows.is_empty() {
-                    self.log.touch(self.clock.now, self.log.active_set);
+                    self.run.log.touch(self.run.clock.now, self.run.log.active_set);
                 }
                 return Ok(true);
             }
-            if self.looks.is_multiple_of(LOOKS_UNASKED) && !go_on() {
+            if self.run.looks.is_multiple_of(LOOKS_UNASKED) && !go_on() {
                 return Ok(false);
             }
             self.pass();
@@ -186,29 +169,20 @@ impl Solver for LinearEvents {
     }
 
     fn t_s(&self) -> f64 {
-        self.clock.now
+        self.run.clock.now
     }
 
     fn state(&self) -> State {
-        let (s, point) = (self.elapsed(self.clock.now), self.point_now());
+        let (s, point) = (self.elapsed(self.run.clock.now), self.point_now());
         let turn = Plane::cis(self.phase + self.parameters.nu * s);
         let (u, v) = (point.z * turn, self.parameters.carried(&point) * turn);
         State {
-            t_s: self.clock.now,
+            t_s: self.run.clock.now,
             u: [u.re, u.im],
             v: [v.re, v.im],
             alpha: [point.a.re, point.a.im],
             alpha_rate: [point.da.re, point.da.im],
         }
-    }
-
-    fn blade_angles(&self) -> Vec<f64> {
-        let (tips, a) = (&self.parameters.tips, self.point_now().a);
-        let angle = |blade| {
-            let (cos, sin) = tips.direction(tips.side_of_blade(blade));
-            cos * a.re + sin * a.im
-        };
-        (1..=tips.blades).map(angle).collect()
     }
 
     fn blade_gaps(&self) -> Vec<f64> {
@@ -224,15 +198,9 @@ impl Solver for LinearEvents {
 
     fn multipliers(&self) -> Vec<(u32, f64)> {
         let mass = self.parameters.machine.casing_mass;
-        let pushes = self.held.with(self.stretch.pushes_at(self.elapsed(self.clock.now)));
-        let mut sides: Vec<(u32, f64)> = Vec::new();
-        for (row, push) in pushes {
-            let Some(row) = self.parameters.rows.get(row) else { continue };
-            match sides.iter_mut().find(|(side, _)| *side == row.side) {
-                Some((_, sum)) => *sum -= push * mass,
-                None => sides.push((row.side, -push * mass)),
-            }
-        }
+        let pushes = self.held.with(self.stretch.pushes_at(self.elapsed(self.run.clock.now)));
+        let mut sides: Vec<(u32, f64)> =
+            pushes.map(|(row, push)| (row as u32, -push * mass)).collect();
         in_phase_order(&self.parameters.machine.polygon, &mut sides);
         sides
     }
@@ -242,21 +210,21 @@ impl Solver for LinearEvents {
     }
 
     fn final_verdict(&self) -> Option<Verdict> {
-        if let Some(failure) = &self.failure {
-            Some(failure.verdict_beyond(&self.pulse))
+        if let Some(failure) = &self.run.failure {
+            Some(failure.verdict_beyond(&self.run.pulse))
         } else if self.over() {
             Some(Verdict::Decay)
         } else {
-            self.held_for_good(self.elapsed(self.clock.now)).then_some(Verdict::Locked)
+            self.held_for_good(self.elapsed(self.run.clock.now)).then_some(Verdict::Locked)
         }
     }
 
     fn pulse(&self) -> &Pulse {
-        &self.pulse
+        &self.run.pulse
     }
 
     fn contacts(&self) -> &ContactLog {
-        &self.log
+        &self.run.log
     }
 
     fn machine(&self) -> &Machine {
@@ -264,11 +232,11 @@ impl Solver for LinearEvents {
     }
 
     fn rotor(&self) -> &Rotor {
-        &self.rotor
+        &self.run.rotor
     }
 
     fn events(&self) -> Option<u64> {
-        Some(self.events)
+        Some(self.run.events)
     }
 
     fn swing(&self) -> f64 {
@@ -281,14 +249,14 @@ impl Solver for LinearEvents {
     }
 
     fn failure(&self) -> Option<&Failure> {
-        self.failure.as_ref()
+        self.run.failure.as_ref()
     }
 
     fn checks(&self) -> Checks {
-        let (s, parameters) = (self.elapsed(self.clock.now), &self.parameters);
+        let (s, parameters) = (self.elapsed(self.run.clock.now), &self.parameters);
         let residual = self.energies_now().residual(parameters.energy(&self.point_now()));
         Checks {
-            max_penetration_m: self.deepest,
+            max_penetration_m: self.run.deepest,
             max_blade_angle_rad: self.widest_until(s),
             energy_residual_j: Some(parameters.machine.casing_mass * residual),
             ..Checks::default()
@@ -297,7 +265,7 @@ impl Solver for LinearEvents {
 
     fn energy_account(&self) -> Option<EnergyAccount> {
         let mass = self.parameters.machine.casing_mass;
-        let energies = self.checked.then(|| self.energies_now())?;
+        let energies = self.run.checked.then(|| self.energies_now())?;
         let stored = self.parameters.energy(&self.point_now()) - energies.start;
         Some(EnergyAccount {
             pulse_work_j: mass * energies.pulse,
@@ -313,23 +281,19 @@ impl Solver for LinearEvents {
     }
 
     fn forgo_checks(&mut self) {
-        self.checked = false;
+        self.run.checked = false;
     }
 
     fn fire(&mut self) {
-        let length = self.pulse.end - self.pulse.start;
         self.swings.forget();
-        self.intervene(|motion, _| {
-            let now = motion.clock.now;
-            motion.pulse = Pulse { start: now, end: now + length, ..motion.pulse };
-        });
+        self.intervene(|motion, _| motion.run.fire());
     }
 
     /// A ramp is none of this solver's: it fails there.
     fn set_speed(&mut self, speed: f64, ramp: f64) {
         self.swings.forget();
         self.intervene(|motion, point| {
-            motion.rotor.change(motion.clock.now, speed, ramp);
+            motion.run.rotor.change(motion.run.clock.now, speed, ramp);
             motion.take_speed(speed, point);
         });
         if ramp != 0.0 {
@@ -348,7 +312,7 @@ impl Solver for LinearEvents {
             let free = match side {
                 None => motion.parameters.carried(point),
                 Some(side) => {
-                    let along = Plane::i() * side.direction.casing;
+                    let along = Plane::i() * side;
                     along * (along.conj() * point.dz).re
                 }
             };
@@ -440,7 +404,7 @@ mod tests {
                 assert!((state.amplitude() / z - 1.0).abs() < 1e-9);
                 assert!((state.alpha[0].hypot(state.alpha[1]) / a - 1.0).abs() < 1e-9);
             }
-            assert!(motion.looks < 1000, "{} stretches of a motion at rest", motion.looks);
+            assert!(motion.run.looks < 1000, "{} stretches of a motion at rest", motion.run.looks);
         }
     }
 

@@ -5,16 +5,12 @@
 //! unit casing mass,
 //!
 //! `z'' + drag z' + spring z = f exp(-i n_d theta) + (1 + i mu_c) sum Q_j exp(i psi_j)`,
-//! `a'' + 2 c a' + omega_bd^2 a = -lever sum Q_j tip_j`.
+//! `a'' + 2 c a' + omega_bd^2 a = -lever sum Q_j exp(i psi_j)`.
 //!
-//! Blades that always touch together make one row. Where blades and casing have the same
-//! diameters that is a side of the polygon. Otherwise blades of one side have different
-//! angles: only those whose phases agree in both modes have one gap; without a slope of the
-//! tips the angles do not move the gaps, and a side is one row whose torque is shared evenly.
+//! The blades of one side of the polygon touch together: each side is one row, of the same
+//! number.
 
-use std::collections::BTreeMap;
-
-use crate::model::{ContactPolygon, Machine};
+use crate::model::Machine;
 use crate::motion::Plane;
 use crate::motion::propagator::Propagator;
 use crate::scene::{ModelSize, Scene};
@@ -64,10 +60,8 @@ pub(super) struct Parameters {
     /// Response of the free casing in the standing frame.
     pub casing: Propagator,
     pub blades: Option<Blades>,
-    /// What can touch.
-    pub rows: Vec<Row>,
-    /// Phases of the blades in their own modes.
-    pub tips: ContactPolygon,
+    /// Direction `exp(i psi)` in which a push of each row moves casing and blade modes.
+    pub rows: Vec<Plane>,
     pub restitution: f64,
     /// Casing radius \[m\].
     pub radius: f64,
@@ -78,11 +72,10 @@ pub(super) struct Parameters {
 impl Parameters {
     pub(super) fn new(scene: &Scene) -> Self {
         let machine = scene.machine();
-        let tips = ContactPolygon::new(
-            machine.polygon.blades,
-            scene.bladed_disk.diameters_beside(scene.operation.nodal_diameters),
-            machine.clearance(),
-        );
+        let direction = |side| {
+            let (cos, sin) = machine.polygon.direction(side);
+            Plane::new(cos, sin)
+        };
         let moving = scene.solver.model != ModelSize::Rigid;
         let (omega, omega_bd) = (machine.omega_c, machine.omega_bd);
         let blades = moving.then(|| Blades {
@@ -96,7 +89,7 @@ impl Parameters {
             lever: 0.0,
         });
         let mut parameters = Self {
-            rows: rows(&machine, &tips, moving),
+            rows: (0..machine.polygon.sides).map(direction).collect(),
             casing: Propagator::new(machine.casing_damping_ratio * omega, omega * omega),
             blades,
             speed: 0.0,
@@ -105,7 +98,6 @@ impl Parameters {
             spring: Plane::default(),
             turn: Plane::default(),
             friction: 0.0,
-            tips,
             restitution: scene.contact.restitution,
             radius: scene.casing.radius_m,
             tolerance: tolerances::EVENT,
@@ -115,7 +107,7 @@ impl Parameters {
         parameters
     }
 
-    /// Blades as stiff as those of the machine.
+    /// Gives the blades the stiffness of the machine.
     pub(super) fn stiffen(&mut self) {
         let machine = &self.machine;
         if let Some(blades) = &mut self.blades {
@@ -124,7 +116,7 @@ impl Parameters {
         }
     }
 
-    /// Turns with another speed \[rad/s\].
+    /// Takes another rotor speed \[rad/s\].
     pub(super) fn turn_at(&mut self, speed: f64) {
         let machine = &self.machine;
         let (nu, damping) = (machine.nu(speed), 2.0 * self.casing.damping);
@@ -140,17 +132,17 @@ impl Parameters {
         (self.speed, self.nu) = (speed, nu);
     }
 
-    /// Clearance at rest `g0` \[m\].
+    /// Returns the clearance `g0` \[m\].
     pub(super) fn clearance(&self) -> f64 {
         self.machine.clearance()
     }
 
-    /// `kappa l_b` \[m\]; 0 where the blades do not move.
+    /// Returns `kappa l_b`, or 0 where the blades do not move \[m\].
     pub(super) fn arm(&self) -> f64 {
         self.blades.map_or(0.0, |blades| blades.arm)
     }
 
-    /// The sum of all rates of the free motion, seen from the blades \[rad/s\].
+    /// Returns the sum of all rates of the free motion, seen from the blades \[rad/s\].
     pub(super) fn rates(&self) -> f64 {
         let omega = self.machine.omega_c + 2.0 * self.casing.damping + self.nu.abs();
         let own = self
@@ -159,17 +151,17 @@ impl Parameters {
         omega.max(own)
     }
 
-    /// The row's share of a displacement of casing and blades.
+    /// Returns the share of a displacement of casing and blades along a row.
     pub(super) fn along(&self, row: usize, z: Plane, a: Plane) -> f64 {
-        self.rows.get(row).map_or(0.0, |row| row.direction.along(self.arm(), z, a))
+        self.rows.get(row).map_or(0.0, |direction| along(*direction, self.arm(), z, a))
     }
 
-    /// Gap of a row \[m\].
+    /// Returns the gap of a row \[m\].
     pub(super) fn gap(&self, row: usize, point: &Point) -> f64 {
         self.clearance() + self.along(row, point.z, point.a)
     }
 
-    /// Accelerations of casing and blades without pushes.
+    /// Returns the accelerations of casing and blades without contact forces.
     pub(super) fn free(&self, point: &Point, force: Plane) -> (Plane, Plane) {
         let z = force - self.spring * point.z - self.drag * point.dz;
         let a = self.blades.map_or_else(Plane::default, |blades| {
@@ -179,7 +171,7 @@ impl Parameters {
         (z, a)
     }
 
-    /// The sum of the sizes of the terms of such accelerations, as a gap feels them.
+    /// Returns the sum of the magnitudes of the terms of such accelerations along a gap.
     pub(super) fn size_of_free(&self, point: &Point, force: Plane) -> f64 {
         let casing = size(force)
             + (self.casing.stiffness + self.nu * self.nu) * size(point.z)
@@ -191,33 +183,31 @@ impl Parameters {
         casing + self.arm().abs() * blades
     }
 
-    /// What these pushes, each with its row, add to the accelerations of casing and blades.
+    /// Returns what these contact forces, each with its row, add to the accelerations of casing
+    /// and blades.
     pub(super) fn pushed(&self, pushes: impl Iterator<Item = (usize, f64)>) -> (Plane, Plane) {
-        self.moved(pushes.filter_map(|(row, push)| Some((self.rows.get(row)?.direction, push))))
+        self.moved(pushes.filter_map(|(row, push)| Some((*self.rows.get(row)?, push))))
     }
 
-    /// The same of pushes along these directions.
-    pub(super) fn moved(&self, pushes: impl Iterator<Item = (Direction, f64)>) -> (Plane, Plane) {
-        let (mut casing, mut tips) = (Plane::default(), Plane::default());
-        for (row, push) in pushes {
-            casing += row.casing * push;
-            tips += row.tip * push;
-        }
-        (self.turn * casing, tips * -self.blades.map_or(0.0, |blades| blades.lever))
+    /// Returns the same for contact forces along these directions.
+    pub(super) fn moved(&self, pushes: impl Iterator<Item = (Plane, f64)>) -> (Plane, Plane) {
+        let sum = pushes.fold(Plane::default(), |sum, (direction, push)| sum + direction * push);
+        (self.turn * sum, sum * -self.blades.map_or(0.0, |blades| blades.lever))
     }
 
-    /// How much a unit push on row `by` opens `row`: `W`, not symmetric under friction.
+    /// Returns how much a unit contact force on row `by` opens `row`: `W`, not symmetric under
+    /// friction.
     pub(super) fn joint(&self, row: usize, by: usize) -> f64 {
         let (z, a) = self.pushed(std::iter::once((by, 1.0)));
         self.along(row, z, a)
     }
 
-    /// Rate of the casing as the standing frame sees it, along the axes of the blades.
+    /// Returns the velocity of the casing in the fixed frame, along the axes of the blades.
     pub(super) fn carried(&self, point: &Point) -> Plane {
         point.dz + Plane::i() * point.z * self.nu
     }
 
-    /// Energy per unit casing mass \[m^2/s^2\].
+    /// Returns the energy per unit casing mass \[m^2/s^2\].
     pub(super) fn energy(&self, point: &Point) -> f64 {
         let casing = self.carried(point).norm_sqr() + self.casing.stiffness * point.z.norm_sqr();
         let blades = self.blades.map_or(0.0, |blades| {
@@ -227,8 +217,8 @@ impl Parameters {
         0.5 * (casing + blades)
     }
 
-    /// How near to the blades the casing can ever come without pulse or push: both
-    /// energies only fall \[m\].
+    /// Returns a bound of the displacement at a gap without pulse and contact, as both energies
+    /// only fall \[m\].
     pub(super) fn swing(&self, point: &Point) -> f64 {
         let reach = |place: Plane, rate: Plane, stiffness: f64| {
             (place.norm_sqr() + rate.norm_sqr() / stiffness).sqrt()
@@ -240,98 +230,20 @@ impl Parameters {
             })
     }
 
-    /// The largest angle of any blade \[rad\].
+    /// Returns the largest angle of any blade \[rad\].
     pub(super) fn largest_angle(&self, a: Plane) -> f64 {
-        self.tips.largest_component(a.re, a.im)
+        self.machine.polygon.largest_component(a.re, a.im)
     }
 }
 
-/// The length of a vector whose square is no round-off.
+/// Returns the length of a vector.
 pub(super) fn size(vector: Plane) -> f64 {
     vector.norm_sqr().sqrt()
 }
 
-/// Blades that touch together.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Row {
-    /// The side of the polygon they belong to.
-    pub side: u32,
-    pub direction: Direction,
-}
-
-/// Where a row pushes.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Direction {
-    /// Direction `exp(i psi)` in which a push moves the casing.
-    pub casing: Plane,
-    /// Mean of `exp(i n_b Phi)` over its blades: how it turns the blade modes.
-    pub tip: Plane,
-}
-
-impl Direction {
-    /// Its share of a displacement of casing and blades whose tips rise by `arm`.
-    pub(super) fn along(&self, arm: f64, z: Plane, a: Plane) -> f64 {
-        let casing = self.casing.re * z.re + self.casing.im * z.im;
-        casing - arm * (self.tip.re * a.re + self.tip.im * a.im)
-    }
-}
-
-/// Every row of a machine whose blades have the phases of `tips`.
-pub(super) fn rows(machine: &Machine, tips: &ContactPolygon, moving: bool) -> Vec<Row> {
-    let polygon = &machine.polygon;
-    let plane = |(cos, sin): (f64, f64)| Plane::new(cos, sin);
-    let same = tips.nodal_diameters == polygon.nodal_diameters;
-    if same || !moving {
-        let row = |side| {
-            let casing = plane(polygon.direction(side));
-            Row { side, direction: Direction { casing, tip: casing } }
-        };
-        return (0..polygon.sides).map(row).collect();
-    }
-    let apart = machine.radial_coupling != 0.0;
-    let mut groups: BTreeMap<(u32, u32), (Plane, f64)> = BTreeMap::new();
-    for blade in 1..=polygon.blades {
-        let tip = tips.side_of_blade(blade);
-        let key = (polygon.side_of_blade(blade), if apart { tip } else { 0 });
-        let (sum, count) = groups.entry(key).or_default();
-        *sum += plane(tips.direction(tip));
-        *count += 1.0;
-    }
-    let row = |((side, _), (sum, count)): ((u32, u32), (Plane, f64))| Row {
-        side,
-        direction: Direction { casing: plane(polygon.direction(side)), tip: sum / count },
-    };
-    groups.into_iter().map(row).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::Scene;
-
-    fn found(blades: &str, casing: &str, disk: &str, slope: &str) -> Vec<Row> {
-        let scene = Scene::base()
-            .with(&[
-                ("bladed_disk.blades", blades),
-                ("operation.nodal_diameters", casing),
-                ("bladed_disk.nodal_diameters", disk),
-                ("bladed_disk.radial_coupling", slope),
-            ])
-            .unwrap();
-        let (n, tips) = (scene.bladed_disk.blades, disk.parse().unwrap());
-        rows(&scene.machine(), &ContactPolygon::new(n, tips, 1e-4), true)
-    }
-
-    #[test]
-    fn blades_share_a_row_where_all_that_moves_their_gaps_agrees() {
-        assert_eq!(found("22", "3", "3", "0.1").len(), 22);
-        assert_eq!(found("22", "4", "4", "0.1").len(), 11);
-        // Opposite blades agree in the casing's phase, and not in that of five diameters.
-        assert_eq!(found("22", "4", "5", "0.1").len(), 22);
-        assert_eq!(found("22", "4", "6", "0.1").len(), 11);
-        let merged = found("22", "4", "5", "0");
-        assert_eq!(merged.len(), 11);
-        assert!(merged.iter().all(|row| row.direction.tip.norm() < 1e-15));
-        assert_eq!(found("22", "3", "25", "0.1").len(), 22);
-    }
+/// Returns the share of a displacement of casing and blades, whose tips rise by `arm`, along the
+/// direction of a row.
+pub(super) fn along(direction: Plane, arm: f64, z: Plane, a: Plane) -> f64 {
+    let casing = direction.re * z.re + direction.im * z.im;
+    casing - arm * (direction.re * a.re + direction.im * a.im)
 }

@@ -6,7 +6,7 @@
 //! Order by order the pushes are those that keep the held gaps closed: with `c_j` the
 //! row of a gap, `c_j (free acceleration) + sum W_jk Q_k = 0`.
 
-use super::parameters::{Direction, Parameters, Point};
+use super::parameters::{Parameters, Point, along};
 use crate::motion::Plane;
 use crate::motion::event::series::{
     STRETCH, TERMS, Terms, curved_step, ended, gap, jounce, values,
@@ -20,7 +20,7 @@ use crate::tolerances::{EVENT, MOST_HALVINGS, MOST_HELD, PEAK_LOOKS, ROUND_OFF};
 pub(super) struct Held {
     pub rows: Vec<usize>,
     /// Where they push.
-    directions: [Direction; MOST_HELD],
+    directions: [Plane; MOST_HELD],
     /// The inverse of their contact matrix.
     pub inverse: Square<MOST_HELD>,
 }
@@ -38,9 +38,9 @@ impl Held {
             return None;
         }
         let inverse = inverse(&matrix, rows.len())?;
-        let mut directions = [Direction::default(); MOST_HELD];
+        let mut directions = [Plane::default(); MOST_HELD];
         for (direction, &row) in directions.iter_mut().zip(&rows) {
-            *direction = parameters.rows.get(row)?.direction;
+            *direction = *parameters.rows.get(row)?;
         }
         Some(Self { rows, directions, inverse })
     }
@@ -58,7 +58,7 @@ impl Held {
     fn against(&self, arm: f64, casing: Plane, tips: Plane) -> [f64; MOST_HELD] {
         let mut openings = [0.0; MOST_HELD];
         for (opening, row) in openings.iter_mut().zip(&self.directions).take(self.rows.len()) {
-            *opening = row.along(arm, casing, tips);
+            *opening = along(*row, arm, casing, tips);
         }
         self.pushes(&openings)
     }
@@ -318,13 +318,12 @@ impl Stretch {
     /// Gap of a row as a power series \[m\].
     pub(super) fn gap(&self, parameters: &Parameters, row: usize) -> Terms {
         let arm = parameters.arm();
-        let direction =
-            parameters.rows.get(row).map_or_else(Direction::default, |row| row.direction);
+        let direction = parameters.rows.get(row).copied().unwrap_or_default();
         let ([z_re, z_im], [a_re, a_im]) = (&self.z, &self.a);
         let mut terms = [0.0; TERMS];
         let parts = z_re.iter().zip(z_im).zip(a_re.iter().zip(a_im));
         for (term, ((z_re, z_im), (a_re, a_im))) in terms.iter_mut().zip(parts) {
-            *term = direction.along(arm, Plane::new(*z_re, *z_im), Plane::new(*a_re, *a_im));
+            *term = along(direction, arm, Plane::new(*z_re, *z_im), Plane::new(*a_re, *a_im));
         }
         terms[0] += parameters.clearance();
         terms

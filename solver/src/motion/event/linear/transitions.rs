@@ -11,39 +11,37 @@ use std::f64::consts::TAU;
 use super::LinearEvents;
 use super::parameters::{Point, size};
 use super::stretch::{Ending, Held, OpenedGap, Stretch, seek};
-use crate::motion::{ActiveSet, Failure, FailureReason, Plane};
+use crate::motion::{ActiveSet, FailureReason, Plane};
 use crate::numeric::elimination::inverse;
 use crate::tolerances::{
-    AN_INSTANT, AS_ZERO, AT_A_CORNER, JUST_OPENED, MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_HELD,
-    MOST_LOOKS, MOST_TOUCHING, ROUND_OFF, ROUNDINGS, SOFT_TOUCH,
+    AN_INSTANT, AS_ZERO, AT_A_CORNER, JUST_OPENED, MOST_HELD, MOST_TOUCHING, ROUND_OFF, ROUNDINGS,
+    SOFT_TOUCH,
 };
 
 impl LinearEvents {
     /// Seconds from the start of the stretch to `t`.
     pub(super) fn elapsed(&self, t: f64) -> f64 {
-        self.clock.elapsed(t)
+        self.run.clock.elapsed(t)
     }
 
     /// Ends the motion `s` seconds into the stretch.
     pub(super) fn fail(&mut self, s: f64, reason: FailureReason) {
-        let t_s = self.clock.start() + s;
-        self.clock.arrive(t_s);
-        self.failure.get_or_insert(Failure { t_s, reason });
+        self.run.fail(s, reason);
         self.next = (f64::INFINITY, Ending::StretchEnd);
     }
 
     /// Whether the pulse acts from the start of the stretch on, for more than an
     /// instant.
     fn pulses(&self) -> bool {
-        self.pulse.at(self.clock.start()) != 0.0
-            && self.elapsed(self.pulse.end) * self.parameters.rates() > AN_INSTANT
+        self.run.pulse.at(self.run.clock.start()) != 0.0
+            && self.elapsed(self.run.pulse.end) * self.parameters.rates() > AN_INSTANT
     }
 
     /// The force of the pulse per unit casing mass at the start of the stretch, in the
     /// frame of the blades \[m/s^2\].
     pub(super) fn force(&self) -> Plane {
         if self.pulses() {
-            Plane::cis(-self.phase) * (self.pulse.force / self.parameters.machine.casing_mass)
+            Plane::cis(-self.phase) * (self.run.pulse.force / self.parameters.machine.casing_mass)
         } else {
             Plane::default()
         }
@@ -58,7 +56,7 @@ impl LinearEvents {
 
     /// The next stretch, from this point on with the rows held now.
     pub(super) fn enter(&mut self, point: Point) {
-        if self.failure.is_some() {
+        if self.run.failure.is_some() {
             return;
         }
         let pulses = self.pulses();
@@ -71,7 +69,7 @@ impl LinearEvents {
             self.next = (f64::INFINITY, Ending::StretchEnd);
             return;
         }
-        let most = if pulses { self.elapsed(self.pulse.end) } else { f64::INFINITY };
+        let most = if pulses { self.elapsed(self.run.pulse.end) } else { f64::INFINITY };
         let force = self.force();
         self.stretch.begin(&self.parameters, &self.held, point, force, most);
         if self.stretch.lost {
@@ -92,30 +90,20 @@ impl LinearEvents {
     /// Passes the event that ends the stretch.
     pub(super) fn pass(&mut self) {
         let (s, what) = self.next;
-        self.looks += 1;
-        self.idle = if s * self.parameters.rates() > AN_INSTANT { 0 } else { self.idle + 1 };
-        if what != Ending::StretchEnd {
-            self.events += 1;
+        self.run.looks += 1;
+        let phase = s * self.parameters.rates();
+        if let Some(reason) = self.run.count(phase, what != Ending::StretchEnd) {
+            return self.fail(s, reason);
         }
-        let reason = if self.events > MOST_EVENTS {
-            FailureReason::Events
-        } else if self.looks > MOST_LOOKS {
-            FailureReason::Looks
-        } else if self.idle > MOST_EVENTS_AT_ONCE {
-            FailureReason::EventsAtOnce
+        let pulsed = self.pulses();
+        let Some(mut point) = self.rebase(s) else { return };
+        if what == Ending::StretchEnd && pulsed && !self.pulses() {
+            // The pushes jump with the force.
+            let rows = self.held.rows.clone();
+            self.settle(&mut point, &rows);
         } else {
-            let pulsed = self.pulses();
-            let Some(mut point) = self.rebase(s) else { return };
-            if what == Ending::StretchEnd && pulsed && !self.pulses() {
-                // The pushes jump with the force.
-                let rows = self.held.rows.clone();
-                self.settle(&mut point, &rows);
-            } else {
-                self.follow(&mut point, what);
-            }
-            return;
-        };
-        self.fail(s, reason);
+            self.follow(&mut point, what);
+        }
     }
 
     /// What comes after an event.
@@ -165,31 +153,31 @@ impl LinearEvents {
     fn rebase(&mut self, s: f64) -> Option<Point> {
         let point = self.stretch.point(&self.parameters, s);
         self.check_growth(s, &point);
-        if self.failure.is_some() {
+        if self.run.failure.is_some() {
             return None;
         }
         let parameters = &self.parameters;
-        if self.checked {
+        if self.run.checked {
             self.energies.book(parameters, &self.held, &self.stretch, s);
-            self.widest = self.widest_until(s);
+            self.run.widest = self.widest_until(s);
             let [travel, reach] = self.stretch.travel;
             if reach + travel >= parameters.clearance() {
                 let known = |row: usize| self.opened.iter().any(|gap| gap.row == row);
                 let gaps = (0..parameters.rows.len()).filter(|&row| !known(row));
                 let least = gaps.map(|row| parameters.gap(row, &point)).fold(0.0, f64::min);
-                self.deepest = self.deepest.max(-least);
+                self.run.deepest = self.run.deepest.max(-least);
             }
         }
         let limit = JUST_OPENED * parameters.clearance();
         let later = self.opened.iter().map(|gap| gap.later(parameters, &self.stretch, s));
         self.opened = later.filter(|gap| gap.gap < limit).collect();
         self.phase = (self.phase + parameters.nu * s) % TAU;
-        if self.pulses() && s >= self.elapsed(self.pulse.end) {
-            self.clock.begin_at(self.pulse.end);
+        if self.pulses() && s >= self.elapsed(self.run.pulse.end) {
+            self.run.clock.begin_at(self.run.pulse.end);
         } else {
-            self.clock.pass(s);
+            self.run.clock.pass(s);
         }
-        self.swings.see(self.clock.start(), size(point.a));
+        self.swings.see(self.run.clock.start(), size(point.a));
         Some(point)
     }
 
@@ -201,7 +189,7 @@ impl LinearEvents {
         // Free blades swing on for long: their largest swing comes within a period.
         let s = s.min(TAU / self.parameters.machine.omega_bd);
         let parts = if self.stretch.free { 64 } else { 4 };
-        (0..=parts).fold(self.widest, |widest, part| {
+        (0..=parts).fold(self.run.widest, |widest, part| {
             let point =
                 self.stretch.point(&self.parameters, s * f64::from(part) / f64::from(parts));
             if point.a.norm() <= widest {
@@ -225,12 +213,12 @@ impl LinearEvents {
     /// Changes rotor, pulse or rate at the present instant; the casing keeps its place,
     /// and its rate in the standing frame but for `change`.
     pub(super) fn intervene(&mut self, change: impl FnOnce(&mut Self, &mut Point)) {
-        if self.failure.is_some() {
+        if self.run.failure.is_some() {
             return;
         }
-        let s = self.elapsed(self.clock.now);
+        let s = self.elapsed(self.run.clock.now);
         let Some(mut point) = self.rebase(s) else { return };
-        self.clock.begin_at(self.clock.now);
+        self.run.clock.begin_at(self.run.clock.now);
         let (before, energy) = (self.parameters.nu, self.parameters.energy(&point));
         let clearance = self.parameters.clearance();
         let rate = point.dz;
@@ -347,19 +335,18 @@ impl LinearEvents {
 
     /// Enters the impacts of rows that closed faster than `soft` \[m/s\].
     fn log_impacts(&mut self, met: &[(usize, f64)], impulses: &[f64], soft: f64) {
-        let t = self.clock.start();
+        let t = self.run.clock.start();
         let mut touched = ActiveSet::Nothing;
         for (&(row, rate), &impulse) in met.iter().zip(impulses) {
-            let Some(row) = self.parameters.rows.get(row).filter(|_| impulse > 0.0) else {
-                continue;
-            };
-            touched = touched.with(row.side);
-            if rate < -soft {
-                self.log.impact(t, row.side);
+            if impulse > 0.0 {
+                touched = touched.with(row as u32);
+                if rate < -soft {
+                    self.run.log.impact(t, row as u32);
+                }
             }
         }
         if touched != ActiveSet::Nothing {
-            self.log.touch(t, touched);
+            self.run.log.touch(t, touched);
         }
     }
 
@@ -407,18 +394,13 @@ impl LinearEvents {
         if held.rows != self.held.rows {
             self.rest = std::sync::OnceLock::new();
         }
-        let t = self.clock.start();
-        let sides = held.rows.iter().filter_map(|&row| self.parameters.rows.get(row));
-        let active_set = sides.fold(ActiveSet::Nothing, |set, row| set.with(row.side));
-        let before = self.log.active_set;
-        if before != ActiveSet::Nothing && before != active_set {
-            // The old contact lasted until now.
-            self.log.touch(t, before);
-        }
-        self.log.touch(t, active_set);
+        let t = self.run.clock.start();
+        let sides = held.rows.iter().map(|&row| row as u32);
+        let active_set = sides.fold(ActiveSet::Nothing, ActiveSet::with);
+        self.run.hold(active_set);
         if active_set == ActiveSet::Many && held.rows != self.held.rows {
             // Other sides, though as many.
-            self.log.since = t;
+            self.run.log.since = t;
         }
         self.held = held;
     }

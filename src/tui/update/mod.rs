@@ -1,16 +1,28 @@
-//! Keys and actions: each changes the state and returns an effect outside it.
+//! Keys and actions: each changes the state and returns an effect outside it. One file for
+//! each part of the state.
+
+mod dialogue;
+mod files;
+mod knobs;
+mod lesson;
+mod map;
+mod mouse;
+mod reading;
+mod sweep;
+
+pub use mouse::MouseOutcome;
 
 use rubscope_solver::scene::keys::PULSE;
 use std::path::PathBuf;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-use super::{App, HelpState, InputMode, Purpose};
+use super::app::{App, HelpState, InputMode, Purpose};
 use crate::report::line::{self, clean};
 use crate::tui::bindings::{Action, Chord, lookup};
 use crate::tui::files::FileJob;
 use crate::tui::knobs::knob_of;
-use crate::tui::views::ViewId;
+use crate::tui::views::id::ViewId;
 use crate::tui::worker::other_law;
 
 /// An effect outside the state.
@@ -42,7 +54,7 @@ impl App {
     pub fn key(&mut self, event: &KeyEvent) -> Effect {
         self.files.disturb();
         self.stop_sweep();
-        self.dialogue.introduce();
+        self.dialogue.is_new = false;
         if event.modifiers.contains(KeyModifiers::ALT) && event.code != KeyCode::Esc {
             // Escape and a key that arrive together look like Alt and that key.
             self.act(Action::Close);
@@ -83,24 +95,24 @@ impl App {
         Effect::None
     }
 
-    /// Another text is typed: what was said of the one before is over.
+    /// Forgets the message about the text that was typed before.
     fn typed_on(&mut self) {
-        self.knobs.forget_refusal();
+        self.knobs.refusal = None;
         self.dialogue.look_again();
     }
 
-    /// What can be seen of this state, without what only a status says.
+    /// Returns what can be seen of this state, without what only a status says.
     fn seen(&self) -> impl PartialEq + use<> {
         let shown = (self.order(), self.layout.clone(), self.appearance);
-        let open = (self.dialogue.mode().clone(), self.lessons.progress().cloned());
-        let read = (self.reading.cursor(), self.reading.is_on());
-        (shown, open, read, self.selected().map(|knob| knob.path), self.knobs.refusal().cloned())
+        let open = (self.dialogue.mode.clone(), self.lessons.progress.clone());
+        let read = (self.reading.cursor, self.reading.on);
+        (shown, open, read, self.selected().map(|knob| knob.path), self.knobs.refusal.clone())
     }
 
-    /// What to say of a key that has changed nothing.
+    /// Returns what to say of a key that has changed nothing.
     fn nothing(&self, chord: Chord, action: Action) -> String {
         match action {
-            Action::Close if self.lessons.progress().is_some() => "G leaves the lesson".into(),
+            Action::Close if self.lessons.progress.is_some() => "G leaves the lesson".into(),
             Action::Close => "nothing is open; q quits".into(),
             Action::LeaveLesson => "no lesson is open; g lists them".into(),
             Action::Turn { .. } => "this knob goes no further".into(),
@@ -132,7 +144,7 @@ impl App {
     pub fn act(&mut self, action: Action) -> Effect {
         self.status = None;
         self.appearance.use_speeds();
-        match (self.dialogue.mode().clone(), action) {
+        match (self.dialogue.mode.clone(), action) {
             (_, Action::Quit) => return Effect::Quit,
             (_, Action::Suspend) => return Effect::Suspend,
             (_, Action::Redraw) => return Effect::Redraw,
@@ -147,7 +159,7 @@ impl App {
             }
             (InputMode::Main, Action::Mouse) => {
                 self.status = Some(self.mouse.toggle());
-                return Effect::Mouse(self.mouse.is_on());
+                return Effect::Mouse(self.mouse.on);
             }
             (InputMode::Help(help), action) if self.scroll_help(&help, action) => {}
             (InputMode::Palette(palette), Action::Accept) => return self.choose_command(&palette),
@@ -156,7 +168,7 @@ impl App {
                 return self.write(purpose, &name, false);
             }
             // What was typed before the question was seen is no answer to it.
-            (InputMode::Replacing(..), Action::Yes) if !self.dialogue.is_asked() => {}
+            (InputMode::Replacing(..), Action::Yes) if !self.dialogue.asked => {}
             (InputMode::Replacing(purpose, name), Action::Yes) => {
                 return self.write(purpose, &name, true);
             }
@@ -183,13 +195,13 @@ impl App {
     }
 
     fn close(&mut self) {
-        self.knobs.forget_refusal();
+        self.knobs.refusal = None;
         if !self.dialogue.is_closed() {
             self.dialogue.close();
-        } else if self.reading.is_open() || self.play.is_elsewhere() {
+        } else if self.reading.is_open() || self.play.pages_back != 0 {
             self.reading.stop();
-            self.play.show_now();
-        } else if self.appearance.is_wide() {
+            self.play.pages_back = 0;
+        } else if self.appearance.wide {
             self.present(false);
         } else {
             self.layout.act(Action::Close);
@@ -207,7 +219,7 @@ impl App {
             Action::KnobBelow => self.knobs.walk(false),
             Action::Turn { up, coarse } => self.turn(up, coarse),
             Action::Type => {
-                self.knobs.forget_refusal();
+                self.knobs.refusal = None;
                 self.dialogue.open(InputMode::Typing(String::new()));
             }
             Action::Reset => self.reset(),
@@ -227,13 +239,13 @@ impl App {
             Action::OtherLaw if self.is_large(ViewId::Map) => self.other_map_law(),
             Action::MapAxis { up } => self.look_for(if up { "up " } else { "across " }),
             Action::OtherLaw => match other_law(&self.scene) {
-                Err(why) if !self.run.is_compared() => {
+                Err(why) if !self.run.compare => {
                     let law = self.scene.solver.contact.other();
                     self.status = Some(clean(&format!("no {law} law beside this: {why}")));
                 }
                 _ => {
-                    self.run.set_compare(!self.run.is_compared());
-                    if self.run.is_compared() {
+                    self.run.set_compare(!self.run.compare);
+                    if self.run.compare {
                         self.show(ViewId::Response);
                     }
                 }
@@ -268,19 +280,19 @@ impl App {
             }
             Action::Sweep => self.ask_sweep(),
             Action::Autoscale => self.status = Some(self.run.autoscale()),
-            Action::Present => self.present(!self.appearance.is_wide()),
+            Action::Present => self.present(!self.appearance.wide),
             Action::Live => self.status = Some(self.knobs.turn_live()),
             _ => {}
         }
     }
 
-    /// The screen for a projector, or the usual one.
+    /// Changes to the screen for a projector, or to the usual one.
     pub(super) fn present(&mut self, on: bool) {
-        if on && self.lessons.is_open() {
+        if on && self.lessons.progress.is_some() {
             self.status = Some("a lesson needs the usual screen; G leaves it".into());
             return;
         }
-        self.appearance.set_wide(on);
+        self.appearance.wide = on;
         self.status = on.then(|| "P or Esc: back to the usual screen".into());
     }
 }
@@ -300,7 +312,7 @@ mod tests {
             for view in ViewId::all() {
                 let mut app = App::new(scene.clone(), Theme::Mono, Marker::Braille);
                 app.act(Action::View(view));
-                if app.reading.is_on() != reads {
+                if app.reading.on != reads {
                     app.act(Action::Read);
                 }
                 let context = app.context();

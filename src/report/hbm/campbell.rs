@@ -1,0 +1,79 @@
+//! Frequencies against speed, engine orders, and the coincidences (30).
+
+use serde_json::{Value, json};
+
+use super::{Answer, LockBeside, Parts, Request, Rows, View};
+use crate::report::table::{Column, MadeTable, Table, TableCell};
+use rubscope_solver::harmonic::{Campbell, Coincidence, HarmonicError, Line};
+
+/// View: frequencies against speed.
+pub const CAMPBELL: View = View {
+    option: "campbell",
+    help: "View: frequencies against speed, engine orders, and the coincidences (30)",
+    range: None,
+    always_damped: false,
+    one_speed: false,
+    // Frequencies need no corner, no rigid contact and no balance of one harmonic.
+    lock: LockBeside::Rigid(|error| {
+        matches!(error, HarmonicError::NoCorner { .. } | HarmonicError::Refused { .. })
+    }),
+    answer,
+};
+
+/// Engine orders in addition to that of the scene.
+const ORDERS: [u32; 4] = [1, 2, 3, 4];
+
+fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
+    let excitation = &request.scene.excitation;
+    let mut orders = ORDERS.to_vec();
+    if excitation.amplitude_nm > 0.0 && !orders.contains(&excitation.order) {
+        orders.push(excitation.order);
+    }
+    let campbell = Campbell::of(&request.machine, &orders, request.fastest())?;
+    let (lines, speeds) = (campbell.lines, request.speeds.to_vec());
+    let json = Parts::default()
+        .with("speed_rad_s", &speeds)
+        .with_rows("lines", &Rows::of(lines.clone()), {
+            let speeds = speeds.clone();
+            move |line| value(line, &speeds)
+        })
+        .with("coincidences", &campbell.coincidences);
+    let coincidences = "Coincidences +-omega_c = n_d Omega +- omega_bd, Eq. (30):".to_string();
+    let title = "Frequencies in the standing frame [rad/s]:".to_string();
+    let tables = vec![
+        (coincidences, Table::of(&campbell.coincidences, COINCIDENCES).into()),
+        (title, table(lines, speeds)),
+    ];
+    Ok(Answer::of(Parts::default().with_parts("campbell", json), tables))
+}
+
+fn value(line: &Line, speeds: &[f64]) -> Value {
+    let frequencies: Vec<f64> = speeds.iter().map(|&speed| line.at(speed)).collect();
+    json!({
+        "name": line.name,
+        "at_standstill_rad_s": line.at_standstill_rad_s,
+        "slope": line.slope,
+        "frequency_rad_s": frequencies,
+    })
+}
+
+/// Returns the lines over speed, one per column.
+fn table(lines: Vec<Line>, speeds: Vec<f64>) -> MadeTable {
+    let names = lines.iter().map(|line| line.name.clone());
+    let names = std::iter::once("speed_rad_s".to_string()).chain(names).collect();
+    MadeTable::named(names, speeds.len(), move |place| {
+        let row = |&speed: &f64| {
+            let lines = lines.iter().map(|line| line.at(speed));
+            std::iter::once(speed).chain(lines).map(TableCell::from).collect()
+        };
+        speeds.get(place).map(row).unwrap_or_default()
+    })
+}
+
+/// Columns of the coincidences.
+const COINCIDENCES: &[Column<'_, Coincidence>] = &[
+    ("speed_rad_s", |found| found.speed_rad_s.into()),
+    ("casing_rad_s", |found| found.casing_rad_s.into()),
+    ("blades_rad_s", |found| found.blades_rad_s.into()),
+    ("dangerous", |found| if found.dangerous { "yes" } else { "no" }.into()),
+];

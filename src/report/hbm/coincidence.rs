@@ -1,0 +1,55 @@
+//! What the coincidences do: growth of rest and the wave that lasts, against speed.
+
+use serde_json::json;
+
+use super::{Answer, LockBeside, Parts, Request, Rows, View};
+use crate::report::number::{per_speed, short, speed, speed_unit};
+use crate::report::table::Column;
+use rubscope_solver::harmonic::{
+    CoincidencePoint, HarmonicError, coincidence, shifted_coincidence,
+};
+
+/// View: what the coincidences do.
+pub const COINCIDENCE: View = View {
+    option: "coincidence",
+    help: "View: what the coincidences do: growth of rest and the wave that lasts, against speed",
+    range: None,
+    always_damped: true,
+    one_speed: false,
+    lock: LockBeside::OfScene,
+    answer,
+};
+
+fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
+    let Request { scene, machine, speeds, .. } = request;
+    let points = Rows::of(coincidence(scene, speeds)?);
+    let sense = 1_f64.copysign(request.fastest());
+    let markers: Vec<f64> =
+        machine.coincidence_speeds().iter().map(|speed| sense * speed).collect();
+    let shifted = shifted_coincidence(scene, request.fastest());
+    let shown: Vec<String> = markers.iter().map(|speed| short(per_speed(*speed))).collect();
+    let mut title = format!("Coincidences (30) at {} {}", shown.join(" and "), speed_unit());
+    if let Some(shifted) = shifted {
+        title += &format!(", on the lining at {}", speed(shifted));
+    }
+    title += match scene.clearance() > 0.0 {
+        true => "; the wave that lasts once it touches:",
+        false => "; growth of rest, and the wave it grows into:",
+    };
+    let json = Parts::default()
+        .with("markers_rad_s", markers)
+        .with("shifted_rad_s", shifted)
+        .with_rows("points", &points, |point| json!(point));
+    let json = Parts::default().with_parts("coincidence", json);
+    Ok(Answer::of(json, vec![(title, points.table(CURVE))]))
+}
+
+/// Columns of a coincidence against speed.
+const CURVE: &[Column<'_, CoincidencePoint>] = &[
+    ("speed_rad_s", |point| point.speed_rad_s.into()),
+    ("growth_1_s", |point| point.growth_1_s.into()),
+    ("blade_amplitude_rad", |point| point.blade_amplitude_rad.into()),
+    ("casing_amplitude_m", |point| point.casing_amplitude_m.into()),
+    ("omega_rad_s", |point| point.omega_rad_s.into()),
+    ("bounded", |point| point.bounded.into()),
+];

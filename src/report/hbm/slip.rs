@@ -1,0 +1,130 @@
+//! Lasting slip, and where it exists.
+
+use serde_json::{Value, json};
+
+use super::{Answer, LockBeside, Parts, RangeOption, Request, Rows, View, nothing, refused};
+use crate::report::number::speed;
+use crate::report::table::{Column, Table, TableCell};
+use rubscope_solver::harmonic::{
+    HarmonicError, SlipLimit, SlipOrbit, SlipPoint, SlipRegion, slip_limits, slip_over,
+};
+use rubscope_solver::scene::{Quantity, keys};
+
+/// View: lasting slip.
+pub const SLIP: View = View {
+    option: "slip",
+    help: "View: lasting slip, the fixed point of the map from corner to corner",
+    range: Some(RangeOption {
+        option: "zetas",
+        help: "With --slip: also the speeds where slip exists over damping ratios of the casing",
+        quantity: Quantity::Plain,
+    }),
+    always_damped: true,
+    one_speed: false,
+    lock: LockBeside::Rigid(nothing),
+    answer,
+};
+
+fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
+    let Request { machine, speeds, .. } = request;
+    let points = slip_over(machine, speeds)?;
+    let limits = slip_limits(machine, speeds)?;
+    let title = heading(&points, &limits);
+    let limits: Vec<f64> = limits.iter().map(|limit| limit.speed_rad_s).collect();
+    let points = Rows::of(points);
+    let mut json =
+        Parts::default().with_rows("slip", &points, value).with("slip_limits_rad_s", limits);
+    let mut tables = vec![(title, points.table(SLIPS))];
+    if let Some(zetas) = request.range {
+        let regions: Vec<SlipRegion> =
+            zetas.iter().map(|zeta| region(request, *zeta)).collect::<Result<_, _>>()?;
+        json = json.with("slip_region", &regions);
+        let title = "Where slip exists between these speeds:".to_string();
+        tables.push((title, Table::of(&regions, REGIONS).into()));
+    }
+    Ok(Answer::of(json, tables))
+}
+
+fn heading(points: &[SlipPoint], limits: &[SlipLimit]) -> String {
+    let changes: Vec<String> = limits
+        .iter()
+        .map(|limit| {
+            let change = if limit.appears { "appears" } else { "vanishes" };
+            format!("{change} at {}", speed(limit.speed_rad_s))
+        })
+        .collect();
+    let found = points.iter().filter(|point| point.exists()).count();
+    match (changes.is_empty(), found) {
+        (false, _) => format!("Slip {}.", changes.join(", ")),
+        (true, 0) => "There is no slip at any of these speeds.".to_string(),
+        (true, all) if all == points.len() => "Slip exists at all of these speeds.".to_string(),
+        (true, _) => "Slip exists at some of these speeds.".to_string(),
+    }
+}
+
+/// Finds where slip exists with a damping ratio of the casing.
+fn region(request: &Request<'_>, zeta: f64) -> Result<SlipRegion, HarmonicError> {
+    let mut damped = request.scene.clone();
+    damped
+        .set(keys::CASING_DAMPING, &zeta.to_string())
+        .map_err(|_| refused("--zetas", zeta, "damping ratios from 0 to 10".to_string()))?;
+    let (machine, [lowest, _]) = (damped.machine(), request.span());
+    Ok(SlipRegion {
+        casing_damping_ratio: zeta,
+        exists_at_lowest: slip_over(&machine, &[lowest])?.iter().any(SlipPoint::exists),
+        limits: slip_limits(&machine, request.speeds)?,
+    })
+}
+
+/// Returns slip at one speed as JSON, with `null` for each figure where there is none.
+fn value(point: &SlipPoint) -> Value {
+    let mut value = json!({
+        "speed_rad_s": point.speed_rad_s,
+        "exists": point.exists(),
+        "stable": point.stable(),
+        "reason": point.outcome.err(),
+    });
+    let orbit = json!(point.outcome.unwrap_or_default());
+    if let (Some(map), Value::Object(orbit)) = (value.as_object_mut(), orbit) {
+        let null = |(name, figure)| (name, if point.exists() { figure } else { Value::Null });
+        map.extend(orbit.into_iter().map(null));
+    }
+    value
+}
+
+/// Columns of slip.
+const SLIPS: &[Column<'_, SlipPoint>] = &[
+    ("speed_rad_s", |point| point.speed_rad_s.into()),
+    ("slip", |point| match point.outcome {
+        Ok(_) if point.stable() => "stable".into(),
+        Ok(_) => "unstable".into(),
+        Err(reason) => <&str>::from(reason).into(),
+    }),
+    ("wave_speed_rad_s", |point| of_slip(point, |orbit| orbit.wave_speed_rad_s)),
+    ("period_s", |point| of_slip(point, |orbit| orbit.period_s)),
+    ("slope", |point| of_slip(point, |orbit| orbit.slope)),
+    ("least_push_n", |point| of_slip(point, |orbit| orbit.least_push_n)),
+    ("torque_nm", |point| of_slip(point, |orbit| orbit.torque_nm)),
+    ("power_w", |point| of_slip(point, |orbit| orbit.power_w)),
+];
+
+fn of_slip(point: &SlipPoint, figure: fn(SlipOrbit) -> f64) -> TableCell {
+    point.outcome.ok().map(figure).into()
+}
+
+/// Columns of where there is slip.
+const REGIONS: &[Column<'_, SlipRegion>] = &[
+    ("casing_damping_ratio", |region| region.casing_damping_ratio.into()),
+    ("slip", |region| match (region.limits.is_empty(), region.exists_at_lowest) {
+        (true, true) => "everywhere".into(),
+        (true, false) => "nowhere".into(),
+        (false, _) => "in part".into(),
+    }),
+    ("appears_rad_s", |region| first(region, true)),
+    ("vanishes_rad_s", |region| first(region, false)),
+];
+
+fn first(region: &SlipRegion, appears: bool) -> TableCell {
+    let found = region.limits.iter().find(|limit| limit.appears == appears);
+    found.map(|limit| limit.speed_rad_s).into()
+}

@@ -1,0 +1,178 @@
+//! Steady states of blades on a lining: rest and the waves it grows into where blades press
+//! it at rest, else locks, whirl, and which linings hold a lock.
+
+use serde_json::json;
+
+use super::{Answer, LockBeside, Parts, Request, View, refused, speeds_of};
+use crate::report::number::{short, speed, speed_unit};
+use crate::report::table::{Column, Table, TableCell};
+use rubscope_solver::harmonic::{
+    Cycle, HarmonicError, HopfPoint, Lining, LiningState, Rest, growth_threshold,
+    least_lock_stiffness, shifted_coincidence,
+};
+use rubscope_solver::scene::{ContactLaw, keys};
+
+/// View: steady states of blades on a lining.
+pub const SMOOTH: View = View {
+    option: "smooth",
+    help: "View: steady states of blades on a lining (solver.contact = \"smooth\"): rest, the \
+           waves it grows into, locks and which linings hold them",
+    range: None,
+    always_damped: true,
+    one_speed: false,
+    lock: LockBeside::OfScene,
+    answer,
+};
+
+/// Rest at one speed, whether waves far out stay bounded, and the wave that lasts.
+type RestRow = (Rest, bool, Option<Cycle>);
+
+fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
+    let Request { scene, machine, speeds, .. } = request;
+    if scene.solver.contact != ContactLaw::Smooth {
+        let allowed = "\"smooth\" with --smooth: only a lining has these steady states";
+        return Err(refused(keys::LAW, scene.solver.contact, allowed.to_string()));
+    }
+    let lining = Lining::of(machine, &scene.contact)?;
+    let (mut states, mut cycles, mut rests): (Vec<LiningState>, Vec<Cycle>, Vec<RestRow>) =
+        Default::default();
+    for &speed in *speeds {
+        states.extend(lining.states(speed)?);
+        let here = lining.cycles(speed)?;
+        let lasting = here.iter().find(|cycle| cycle.stable).copied();
+        rests.push((lining.rest(speed), lining.is_bounded(speed), lasting));
+        cycles.extend(here);
+    }
+    let ([from, to], fastest) = (request.span(), request.fastest());
+    let pressed = lining.stiffness_at_rest() > 0.0;
+    let hopf = if pressed && from < to { lining.hopf_points([from, to])? } else { Vec::new() };
+    let shifted = shifted_coincidence(scene, fastest);
+    let threshold = growth_threshold(machine, fastest);
+    let (window, least) = (machine.lock_window(fastest), least_lock_stiffness(machine));
+    let json = Parts::default()
+        .with("preload_m", lining.preload_m())
+        .with("stiffness_at_rest_n_per_m", lining.stiffness_at_rest())
+        .with("shifted_coincidence_rad_s", shifted)
+        .with("threshold_n_per_m", threshold.map(|least| least.stiffness_n_per_m))
+        .with("threshold_rad_s", threshold.map(|least| least.speed_rad_s))
+        .with("hopf", &hopf)
+        .with("rest", rests.iter().map(value).collect::<Vec<_>>())
+        .with("cycles", &cycles)
+        .with("lock_from_rad_s", window.map(|window| window.from))
+        .with("lock_to_rad_s", window.and_then(|window| window.to))
+        .with("least_stiffness_n_per_m", least.map(|least| least.stiffness_n_per_m))
+        .with("least_stiffness_rad_s", least.map(|least| least.speed_rad_s))
+        .with("states", &states);
+    let mut tables = Vec::new();
+    if pressed {
+        tables.push((pressed_title(&lining, shifted, &hopf), Table::of(&rests, RESTS).into()));
+    } else {
+        if !cycles.is_empty() {
+            let title = "Whirl, waves that turn against the blades:".to_string();
+            tables.push((title, Table::of(&cycles, CYCLES).into()));
+        }
+        let mut title = "Steady states in the frame of the blades.".to_string();
+        if let Some(least) = least {
+            let held = window.map_or_else(
+                || "holds it at no speed".to_string(),
+                |window| format!("holds it from {} {}", speeds_of(window), speed_unit()),
+            );
+            title += &format!(
+                " Without smoothing a lock of two groups needs a lining of at least {} N/m (at \
+                 {}); one of {} N/m {held}.",
+                short(least.stiffness_n_per_m),
+                speed(least.speed_rad_s),
+                short(lining.stiffness_n_per_m)
+            );
+        }
+        tables.push((title, Table::of(&states, STATES).into()));
+    }
+    Ok(Answer::of(Parts::default().with_parts("smooth", json), tables))
+}
+
+fn pressed_title(lining: &Lining<'_>, shifted: Option<f64>, hopf: &[HopfPoint]) -> String {
+    let mut title = format!(
+        "Rest with all blades pressed in by {} m, together {} N/m.",
+        short(lining.preload_m()),
+        short(lining.stiffness_at_rest())
+    );
+    if let Some(shifted) = shifted {
+        title += &format!(" Coincidence on the lining {}.", speed(shifted));
+    }
+    let change = |point: &HopfPoint| {
+        let change = if point.grows_above { "grows from" } else { "decays from" };
+        format!("{change} {}", speed(point.speed_rad_s))
+    };
+    let changes: Vec<String> = hopf.iter().map(change).collect();
+    match changes.is_empty() {
+        true => title + " Between these speeds nothing begins or ends to grow.",
+        false => title + &format!(" A wave {}.", changes.join(", ")),
+    }
+}
+
+fn value((rest, bounded, _): &RestRow) -> serde_json::Value {
+    let worst = rest.worst();
+    json!({
+        "speed_rad_s": rest.speed_rad_s,
+        "growth_1_s": worst.growth_1_s,
+        "s_rad_s": worst.s_rad_s,
+        "omega_rad_s": worst.omega_rad_s,
+        "grows": rest.grows,
+        "bounded": bounded,
+    })
+}
+
+/// Columns of rest under preload, with the wave that it grows into.
+const RESTS: &[Column<'_, RestRow>] = &[
+    ("speed_rad_s", |row| row.0.speed_rad_s.into()),
+    ("growth_1_s", |row| row.0.worst().growth_1_s.into()),
+    ("s_rad_s", |row| row.0.worst().s_rad_s.into()),
+    ("omega_rad_s", |row| row.0.worst().omega_rad_s.into()),
+    ("cycle_omega_rad_s", |row| row.2.map(|cycle| cycle.omega_rad_s).into()),
+    ("gap_amplitude_m", |row| row.2.map(|cycle| cycle.gap_amplitude_m).into()),
+    ("casing_m", |row| row.2.map(|cycle| cycle.casing_m).into()),
+    ("blade_rad", |row| row.2.map(|cycle| cycle.blade_rad).into()),
+    ("rest", |(rest, bounded, cycle)| {
+        match (rest.grows, cycle, bounded) {
+            (false, None, _) => "decays",
+            (false, Some(_), _) => "decays, a wave lasts",
+            (true, Some(_), _) => "grows to a wave",
+            (true, None, true) => "grows",
+            (true, None, false) => "grows without bound",
+        }
+        .into()
+    }),
+];
+
+/// Columns of waves of constant amplitude.
+const CYCLES: &[Column<'_, Cycle>] = &[
+    ("speed_rad_s", |cycle| cycle.speed_rad_s.into()),
+    ("omega_rad_s", |cycle| cycle.omega_rad_s.into()),
+    ("s_rad_s", |cycle| cycle.s_rad_s.into()),
+    ("gap_amplitude_m", |cycle| cycle.gap_amplitude_m.into()),
+    ("casing_m", |cycle| cycle.casing_m.into()),
+    ("blade_rad", |cycle| cycle.blade_rad.into()),
+    ("growth_1_s", |cycle| cycle.growth_1_s.into()),
+    ("character", |cycle| word(cycle.stable)),
+];
+
+/// Columns of waves that stand in the frame of the blades.
+const STATES: &[Column<'_, LiningState>] = &[
+    ("speed_rad_s", |state| state.speed_rad_s.into()),
+    ("pushing", |state| (state.pushing as f64).into()),
+    ("push_a_n", |state| push(state, 0)),
+    ("push_b_n", |state| push(state, 1)),
+    ("push_c_n", |state| push(state, 2)),
+    ("casing_m", |state| state.casing_m.into()),
+    ("blade_rad", |state| state.blade_rad.into()),
+    ("growth_1_s", |state| state.growth_1_s.into()),
+    ("character", |state| word(state.stable)),
+];
+
+fn word(stable: bool) -> TableCell {
+    if stable { "stable" } else { "unstable" }.into()
+}
+
+fn push(state: &LiningState, place: usize) -> TableCell {
+    state.pushes.get(place).map(|push| push.push_n).into()
+}

@@ -1,0 +1,106 @@
+//! Whirl of inclined tips in the limit of many blades, where it begins, and where a lock
+//! flutters.
+
+use serde_json::{Value, json};
+
+use super::{Answer, LockBeside, Parts, Request, Rows, View, nothing, speeds_of};
+use crate::report::number::{speed, speed_unit};
+use crate::report::table::{Column, TableCell};
+use rubscope_solver::harmonic::{
+    HarmonicError, Joint, RoundWhirl, RoundWhirlLoads, flutter_speed, round_whirls,
+    undamped_flutter_speed, whirl_onset,
+};
+use rubscope_solver::model::Machine;
+
+/// View: whirl against speed.
+pub const WHIRL: View = View {
+    option: "whirl",
+    help: "View: whirl of inclined tips in the limit of many blades, where it begins, and where \
+           a lock flutters",
+    range: None,
+    always_damped: true,
+    one_speed: false,
+    lock: LockBeside::Rigid(nothing),
+    answer,
+};
+
+fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
+    let (machine, toward) = (&request.machine, request.fastest());
+    let rows = request.speeds.iter().map(|&speed| WhirlRow::at(machine, speed));
+    let rows = Rows::of(rows.collect());
+    let (onset, flutter) = (whirl_onset(machine, toward), flutter_speed(machine, toward));
+    let window = machine.lock_window(toward);
+    let mut title = match onset {
+        Some(onset) => format!("On a rim of many blades whirl begins at {}", speed(onset)),
+        None => "Nothing whirls on a rim of many blades".to_string(),
+    };
+    title += &match window {
+        Some(window) => format!("; a lock holds from {} {}", speeds_of(window), speed_unit()),
+        None => "; no lock holds at any speed".to_string(),
+    };
+    title += &match flutter {
+        Some(limit) => format!("; blades and casing as one flutter above {}.", speed(limit)),
+        None => ".".to_string(),
+    };
+    let json = Parts::default()
+        .with("whirl_onset_rad_s", onset)
+        .with("flutter_speed_rad_s", flutter)
+        .with("flutter_undamped_rad_s", undamped_flutter_speed(machine, toward))
+        .with("lock_window_rad_s", window.map(|window| [Some(window.from), window.to]))
+        .with_rows("whirl", &rows, value);
+    Ok(Answer::of(json, vec![(title, rows.table(WHIRLS))]))
+}
+
+/// The lasting whirl at one speed, if there is one, with its loads.
+#[derive(Clone, Copy, Debug)]
+struct WhirlRow {
+    speed_rad_s: f64,
+    wave: Option<(RoundWhirl, RoundWhirlLoads)>,
+}
+
+impl WhirlRow {
+    /// Finds the lasting whirl of a machine at a speed \[rad/s\].
+    fn at(machine: &Machine, speed: f64) -> Self {
+        let joint = Joint::at(machine, speed);
+        let lasting = RoundWhirl::lasting(&round_whirls(&joint));
+        // Without a coupling every undamped resonance would do.
+        let rubs = joint.machine.clearance() > 0.0 && joint.coupling_product != 0.0;
+        let open = lasting.filter(|_| rubs);
+        Self { speed_rad_s: speed, wave: open.map(|wave| (wave, wave.loads(&joint))) }
+    }
+}
+
+/// Returns the whirl at one speed as JSON, with `null` for each figure where there is none.
+fn value(row: &WhirlRow) -> Value {
+    let figure = |of: fn(&(RoundWhirl, RoundWhirlLoads)) -> f64| row.wave.as_ref().map(of);
+    json!({
+        "speed_rad_s": row.speed_rad_s,
+        "exists": row.wave.is_some(),
+        "omega_rad_s": figure(|(wave, _)| wave.omega_rad_s),
+        "s_rad_s": figure(|(wave, _)| wave.s_rad_s),
+        "growth_per_s": figure(|(wave, _)| wave.growth_per_s),
+        "stiffness_n_per_m": figure(|(wave, _)| wave.stiffness_n_per_m),
+        "push_n": figure(|(_, loads)| loads.push_n),
+        "casing_m": figure(|(_, loads)| loads.casing_m),
+        "blade_rad": figure(|(_, loads)| loads.blade_rad),
+        "casing_w": figure(|(_, loads)| loads.casing_w),
+        "blades_w": figure(|(_, loads)| loads.blades_w),
+        "friction_w": figure(|(_, loads)| loads.friction_w),
+    })
+}
+
+/// Columns of whirl against speed.
+const WHIRLS: &[Column<'_, WhirlRow>] = &[
+    ("speed_rad_s", |row| row.speed_rad_s.into()),
+    ("whirl", |row| if row.wave.is_some() { "attracts" } else { "none" }.into()),
+    ("omega_rad_s", |row| figure(row, |(wave, _)| wave.omega_rad_s)),
+    ("s_rad_s", |row| figure(row, |(wave, _)| wave.s_rad_s)),
+    ("growth_per_s", |row| figure(row, |(wave, _)| wave.growth_per_s)),
+    ("push_n", |row| figure(row, |(_, loads)| loads.push_n)),
+    ("casing_m", |row| figure(row, |(_, loads)| loads.casing_m)),
+    ("blade_rad", |row| figure(row, |(_, loads)| loads.blade_rad)),
+];
+
+fn figure(row: &WhirlRow, of: fn(&(RoundWhirl, RoundWhirlLoads)) -> f64) -> TableCell {
+    row.wave.as_ref().map(of).into()
+}

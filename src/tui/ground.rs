@@ -1,0 +1,101 @@
+//! The background of the terminal, dark or light: what the environment says, or
+//! what the terminal reports when it is asked (OSC 11). Nothing waits for the report:
+//! it comes among the keys.
+
+/// The background.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Ground {
+    /// Light text is readable on it.
+    #[default]
+    Dark,
+    /// Dark text is readable on it.
+    Light,
+}
+
+/// Asks the terminal for the colour of its background.
+pub const QUESTION: &[u8] = b"\x1b]11;?\x07";
+
+/// The beginning of the report, after `ESC ]`.
+const BEGINNING: &[u8] = b"11;rgb";
+
+/// Most bytes of a report.
+const LONGEST: usize = 40;
+
+/// Luminance of the grey half-way between black and white as the eye sees it.
+const MIDDLE: f64 = 0.184;
+
+impl Ground {
+    /// Returns the background that `COLORFGBG` names, such as `15;0`: the last number is
+    /// its colour.
+    pub fn named(variable: &str) -> Option<Self> {
+        match variable.rsplit(';').next()?.parse::<u8>().ok()? {
+            0..=6 | 8 => Some(Self::Dark),
+            7 | 9..=15 => Some(Self::Light),
+            _ => None,
+        }
+    }
+
+    /// Reads a complete report without its beginning and its end, such as
+    /// `11;rgb:ffff/ffff/ffff`.
+    pub fn reported(report: &[u8]) -> Option<Self> {
+        let text = std::str::from_utf8(report.strip_prefix(BEGINNING)?).ok()?;
+        let (_, colours) = text.split_once(':')?;
+        let mut parts = colours.split('/').map(|digits| {
+            let most = 16_f64.powi(i32::try_from(digits.len()).ok()?) - 1.0;
+            Some(f64::from(u32::from_str_radix(digits, 16).ok()?) / most)
+        });
+        let mut weighted = |weight: f64| Some(weight * parts.next()??.powf(2.2));
+        let luminance = weighted(0.2126)? + weighted(0.7152)? + weighted(0.0722)?;
+        Some(if luminance > MIDDLE { Self::Light } else { Self::Dark })
+    }
+}
+
+/// Returns whether these bytes can be the beginning of a report.
+pub fn begins_report(bytes: &[u8]) -> bool {
+    let rest = bytes.iter().skip(BEGINNING.len());
+    bytes.len() <= LONGEST
+        && bytes.iter().zip(BEGINNING).all(|(byte, wanted)| byte == wanted)
+        && rest.into_iter().all(|byte| byte.is_ascii_hexdigit() || b":/".contains(byte))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_environment_names_the_ground() {
+        for (text, ground) in [
+            ("15;0", Some(Ground::Dark)),
+            ("0;15", Some(Ground::Light)),
+            ("0;default;15", Some(Ground::Light)),
+            ("12;8", Some(Ground::Dark)),
+            ("0;7", Some(Ground::Light)),
+            ("15;default", None),
+            ("", None),
+            ("0;256", None),
+        ] {
+            assert_eq!(Ground::named(text), ground, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_report_has_one_to_four_digits_of_each_colour() {
+        for (report, ground) in [
+            ("11;rgb:ffff/ffff/ffff", Some(Ground::Light)),
+            ("11;rgb:1e1e/1e1e/1e1e", Some(Ground::Dark)),
+            ("11;rgba:f/f/d/0", Some(Ground::Light)),
+            ("11;rgb:fd/f6/e3", Some(Ground::Light)),
+            ("11;rgb:0000/0000/ffff", Some(Ground::Dark)),
+            ("11;rgb:7f/7f/7f", Some(Ground::Light)),
+            ("11;rgb:70/70/70", Some(Ground::Dark)),
+            ("11;rgb:ffff/ffff", None),
+            ("11;rgb:", None),
+            ("12;rgb:0/0/0", None),
+            ("", None),
+        ] {
+            assert_eq!(Ground::reported(report.as_bytes()), ground, "{report}");
+            assert!(report.starts_with("12") || begins_report(report.as_bytes()), "{report}");
+        }
+        assert!(!begins_report(b"11;rgb:0/0/0q") && !begins_report(&[b'1'; 50]));
+    }
+}

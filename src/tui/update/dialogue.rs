@@ -1,0 +1,162 @@
+//! Dialogues: scrolling the help, the list of commands, and what is asked for in words.
+
+use super::Effect;
+use crate::report::line::clean;
+use crate::tui::app::{App, HelpState, InputMode, PaletteState};
+use crate::tui::bindings::Action;
+use crate::tui::commands::{self, Command};
+use crate::tui::panels;
+use rubscope_solver::scene::Scene;
+
+impl App {
+    /// Scrolls the help, or clears its filter; whether the action did that.
+    pub(super) fn scroll_help(&mut self, help: &HelpState, action: Action) -> bool {
+        let page = panels::body(self).height.saturating_sub(2).max(1);
+        // Further than the end, a key up would do nothing for a while.
+        let from = help.scroll.min(panels::help_bottom(self, help));
+        let scroll = match action {
+            Action::KnobBelow => from.saturating_add(1),
+            Action::KnobAbove => from.saturating_sub(1),
+            Action::PageForward => from.saturating_add(page),
+            Action::PageBack => from.saturating_sub(page),
+            Action::Close if !help.filter.is_empty() => {
+                self.dialogue.open(InputMode::Help(HelpState::default()));
+                return true;
+            }
+            _ => return false,
+        };
+        let scroll = scroll.min(panels::help_bottom(self, help));
+        self.dialogue.open(InputMode::Help(HelpState { scroll, ..help.clone() }));
+        true
+    }
+
+    /// Opens the list with these words.
+    pub(super) fn look_for(&mut self, typed: &str) {
+        self.dialogue.open(InputMode::Palette(PaletteState { typed: typed.into(), place: 0 }));
+    }
+
+    /// Moves the choice; whether the action did that.
+    pub(super) fn move_choice(&mut self, palette: &PaletteState, action: Action) -> bool {
+        const PAGE: usize = 8;
+        let last = commands::found(self, &palette.typed).len().saturating_sub(1);
+        let place = match action {
+            Action::KnobBelow => palette.place + 1,
+            Action::KnobAbove => palette.place.saturating_sub(1),
+            Action::PageForward => palette.place + PAGE,
+            Action::PageBack => palette.place.saturating_sub(PAGE),
+            _ => return false,
+        };
+        self.dialogue
+            .open(InputMode::Palette(PaletteState { place: place.min(last), ..palette.clone() }));
+        true
+    }
+
+    /// Does what was chosen; where there is nothing to choose, the list stays open.
+    pub(super) fn choose_command(&mut self, palette: &PaletteState) -> Effect {
+        let chosen = commands::found(self, &palette.typed).into_iter().nth(palette.place);
+        let chosen = chosen.map_or_else(|| commands::only(self, &palette.typed), Ok);
+        chosen.and_then(|found| self.obey(found.command)).unwrap_or_else(|reason| {
+            self.status = Some(clean(&reason));
+            Effect::None
+        })
+    }
+
+    /// Does what was asked for in words.
+    ///
+    /// # Errors
+    /// There is no such instant or blade, or a knob does not take the value, in words.
+    pub fn obey(&mut self, command: Command) -> Result<Effect, String> {
+        self.dialogue.close();
+        match command {
+            Command::Act(action) => return Ok(self.act(action)),
+            Command::GoTo(t) => {
+                self.has_instant(t)?;
+                self.go_to(t);
+            }
+            Command::Blade(blade) => self.go_to_blade(blade)?,
+            Command::Axes(paths) => self.put_axes(paths),
+            Command::Scene(name) => self.open_builtin(name),
+            Command::Lesson(place) => self.begin_lesson(place),
+            Command::Select(place) => self.knobs.select(place),
+            Command::Theme(theme) => self.status = Some(self.appearance.use_theme(theme)),
+            Command::Write(purpose, name) => return Ok(self.write(purpose, &name, false)),
+            Command::Set(place, text) => {
+                self.knobs.select(place);
+                self.accept(&text);
+                if let Some(refusal) = &self.knobs.refusal {
+                    return Err(refusal.to_string());
+                }
+            }
+        }
+        Ok(Effect::None)
+    }
+
+    /// Makes a built-in scene the current one; undo brings the former one back.
+    pub fn open_builtin(&mut self, name: &str) {
+        match Scene::builtin(name).and_then(|scene| scene.checked()) {
+            Ok(scene) => {
+                self.open_scene(name.to_string(), scene);
+                self.status = Some(format!("opened {name}"));
+            }
+            Err(error) => self.status = Some(clean(&error.to_string())),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tui::{Marker, Theme};
+
+    fn app() -> App {
+        App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Braille)
+    }
+
+    #[test]
+    fn a_value_that_is_refused_changes_nothing_and_says_so() {
+        let mut app = app();
+        let before = app.scene.clone();
+        app.choose_command(&PaletteState { typed: "blades 0".into(), place: 0 });
+        assert_eq!(app.scene, before);
+        assert!(app.status.is_some_and(|status| status.contains("blades N: 0 is not possible")));
+    }
+
+    #[test]
+    fn what_is_no_command_says_why_and_the_list_stays_open() {
+        let mut app = app();
+        app.look_for("speed qqq");
+        let open = app.dialogue.mode.clone();
+        app.choose_command(&PaletteState { typed: "speed qqq".into(), place: 0 });
+        assert_eq!(app.dialogue.mode, open);
+        assert!(app.status.is_some_and(|status| status.contains("qqq")));
+    }
+
+    #[test]
+    fn a_key_that_types_nothing_says_so_and_a_letter_ends_a_refusal() {
+        use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+        let mut app = app();
+        app.act(Action::Type);
+        for code in [KeyCode::Char(' '), KeyCode::Tab] {
+            app.key(&KeyEvent::new(code, KeyModifiers::NONE));
+            assert!(app.status.take().is_some_and(|status| status.contains("no meaning here")));
+        }
+        app.key(&KeyEvent::new(KeyCode::Char('x'), KeyModifiers::NONE));
+        app.act(Action::Accept);
+        assert!(app.knobs.refusal.is_some());
+        app.act(Action::DeleteLast);
+        assert!(app.knobs.refusal.is_none() && !app.dialogue.is_closed());
+    }
+
+    #[test]
+    fn a_scene_that_is_opened_can_be_undone() {
+        let mut app = app();
+        let before = app.scene.clone();
+        app.knobs.live = true;
+        app.open_builtin("rocking");
+        assert_eq!(*app.scene, Scene::builtin("rocking").unwrap());
+        assert_eq!((&app.files.opened, app.knobs.live), (&app.scene, true));
+        assert_eq!(app.files.source.as_ref().map(|source| source.name.as_str()), Some("rocking"));
+        app.act(Action::Undo);
+        assert_eq!(app.scene, before);
+    }
+}

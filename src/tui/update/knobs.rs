@@ -1,0 +1,116 @@
+//! Turning knobs, and coming back to an earlier state.
+
+use crate::tui::app::{App, LessonProgress, Past};
+use crate::tui::knobs::Knob;
+use rubscope_solver::motion::Change;
+use rubscope_solver::scene::{CheckedScene, Value};
+
+impl App {
+    pub(super) fn turn(&mut self, up: bool, coarse: bool) {
+        if let Some(knob) = self.selected() {
+            let value = knob.turned(&knob.get(&self.scene), up, coarse, &self.scene);
+            self.set(knob, value);
+        }
+    }
+
+    pub(super) fn reset(&mut self) {
+        if let Some(knob) = self.selected() {
+            self.set(knob, knob.get(&self.files.opened));
+        }
+    }
+
+    /// Accepts the typed text; after a refusal it can be corrected.
+    pub(super) fn accept(&mut self, text: &str) {
+        let Some(knob) = self.selected() else { return };
+        match knob.parse(text) {
+            Ok(value) => {
+                if self.set(knob, value) {
+                    self.dialogue.close();
+                }
+            }
+            Err(error) => self.knobs.refuse(knob, &error),
+        }
+    }
+
+    /// Makes a scene that differs in knobs the current one; it can be undone.
+    pub(super) fn turn_to(&mut self, scene: CheckedScene) {
+        if scene != self.scene {
+            self.knobs.remember(self.past());
+            self.set_turned_scene(scene);
+        }
+    }
+
+    /// Sets a knob; false where the value was refused.
+    pub(super) fn set(&mut self, knob: &'static Knob, value: Value) -> bool {
+        match knob.set(&self.scene, value) {
+            Ok((scene, said)) => {
+                self.knobs.refusal = None;
+                if said.is_some() {
+                    self.status = said;
+                }
+                self.turn_to(scene);
+                true
+            }
+            Err(error) => {
+                self.knobs.refuse(knob, &error);
+                false
+            }
+        }
+    }
+
+    /// Uses the scene after a turn of a knob: live, if this is enabled and possible.
+    pub(super) fn set_turned_scene(&mut self, scene: CheckedScene) {
+        let failed = self.failure().is_some();
+        let live = self.knobs.live && !failed && Change::acts_live(&self.scene, &scene);
+        if self.knobs.live && !live && self.status.is_none() {
+            self.status = Some("this cannot act on a running motion: restarted".into());
+        }
+        self.set_scene(scene, live);
+    }
+
+    /// Undoes the last change of the scene, or redoes the last that was undone.
+    pub(super) fn step_back(&mut self, redo: bool) {
+        match self.knobs.step_back(redo, self.past()) {
+            Some(past) => self.come_back(past),
+            None => {
+                let word = if redo { "redo" } else { "undo" };
+                self.status = Some(format!("nothing to {word}"));
+            }
+        }
+    }
+
+    /// Gives the user's own state back, as it was before a lesson.
+    pub(super) fn give_back(&mut self, own: Past) {
+        self.knobs.remember(self.past());
+        self.play.set_tempo(own.tempo);
+        self.come_back(own);
+    }
+
+    /// Makes a state the present one. If only knobs were turned since, their
+    /// turning may act on the running motion; another scene starts from t = 0.
+    pub(super) fn come_back(&mut self, past: Past) {
+        self.knobs.refusal = None;
+        let step = |lesson: Option<&LessonProgress>| {
+            lesson.map(|now| (now.lesson, now.step, now.now().answer))
+        };
+        let same_step = step(past.lesson.as_ref()) == step(self.lessons.progress.as_ref());
+        let same_file = past.source.as_ref() == self.files.source.as_ref();
+        if past.opened == self.files.opened && same_file && same_step {
+            self.set_turned_scene(past.scene);
+            return;
+        }
+        (self.files.opened, self.files.source) = (past.opened, past.source);
+        self.lessons.progress = past.lesson;
+        if self.lessons.progress.is_some() {
+            self.present(false);
+        }
+        self.knobs.live = past.live;
+        if self.layout.set_views(past.views) {
+            self.keep_instant();
+        }
+        self.run.set_compare(past.compare);
+        if past.scene != self.scene {
+            self.set_scene(past.scene, false);
+        }
+    }
+}

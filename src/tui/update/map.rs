@@ -1,0 +1,188 @@
+//! The map and the margins: axes, laws, and what Enter opens.
+
+use crate::report::number::rounded;
+use crate::tui::app::App;
+use crate::tui::axis::number;
+use crate::tui::knobs::{Knob, knob_of, place_of};
+use crate::tui::views::id::ViewId;
+use crate::tui::views::map::plan::MapAxis;
+use crate::tui::views::map::{here, value_text};
+use crate::tui::views::margins::DIGITS;
+use rubscope_solver::scene::{Allowed, CheckedScene, Value};
+use rubscope_solver::study::Axis;
+
+impl App {
+    /// Makes a view the large one by a key. The map gives the arrows to its cell
+    /// cursor at once.
+    pub(super) fn walk(&mut self, view: ViewId) {
+        self.show(view);
+        if view == ViewId::Map && self.dialogue.is_closed() && !self.reading.on {
+            self.toggle_reading();
+        }
+    }
+
+    pub(super) fn other_map_law(&mut self) {
+        let law = self.map_law().other();
+        self.map.law = Some(law).filter(|law| *law != self.scene.solver.contact);
+        self.status = Some(match self.map_plan() {
+            Ok(plan) => format!("the map: {law} law, {} solver", plan.scene.solver.kind),
+            Err(reason) => format!("no map: {reason}"),
+        });
+    }
+
+    /// Puts knobs on the axes of the map, across and up, and shows it. A knob that is on
+    /// the other axis changes places with the one that was here.
+    pub(super) fn put_axes(&mut self, [across, up]: [Option<&'static str>; 2]) {
+        let axis = |path: &'static str| {
+            let anchor = knob_of(path).and_then(|knob| knob.number(&self.scene)).unwrap_or(0.0);
+            MapAxis { path, anchor }
+        };
+        let (before, mut map) = (self.map, self.map);
+        map.x = across.map_or(before.x, axis);
+        map.y = up.map_or(before.y, axis);
+        if map.x.path == map.y.path {
+            match across {
+                Some(_) => map.y = before.x,
+                None => map.x = before.y,
+            }
+        }
+        self.map = map;
+        self.walk(ViewId::Map);
+        let plan = self.map_plan();
+        self.status = Some(match &plan {
+            Ok(plan) => {
+                let named = |axis: &Axis| {
+                    let label = knob_of(&axis.path).map_or(axis.path.as_str(), |knob| knob.label);
+                    let [from, to] = [axis.from, axis.to].map(|end| value_text(&axis.path, end));
+                    format!("{label} {from} to {to}")
+                };
+                format!("the map: {} across, {} up", named(&plan.x), named(&plan.y))
+            }
+            Err(reason) => format!("no such map: {reason}"),
+        });
+        if let (Some(_), Ok(plan)) = (self.reading.cursor, plan) {
+            // The map on the screen is still the one before.
+            self.reading.cursor = Some(here(self, &plan));
+        }
+    }
+
+    /// Opens a run of the map from its start, also where knobs act live: only
+    /// then it has the verdict of its cell.
+    pub(super) fn open_run(&mut self, scene: CheckedScene) {
+        let opened = self.shown_plan().map(|plan| {
+            let values = [&plan.x, &plan.y].map(|axis| {
+                let text = |knob: &Knob| format!("{} {}", knob.label, knob.text(&scene));
+                knob_of(&axis.path).map_or_else(String::new, text)
+            });
+            values.join(", ")
+        });
+        let law = scene.solver.contact;
+        let live = self.knobs.live;
+        self.knobs.live = false;
+        if scene == self.scene {
+            self.restart();
+        } else {
+            self.turn_to(scene);
+        }
+        self.knobs.live = live;
+        self.status = opened.map(|values| format!("opened {values}, {law}; u undoes"));
+    }
+
+    /// Shows the margins of all diameters instead of those of one, or the other way round; from
+    /// another view the survey.
+    pub(super) fn turn_survey(&mut self) {
+        let on = !(self.is_large(ViewId::Margins) && self.layout.is_surveyed());
+        let said = self.layout.turn_survey(on);
+        self.reading.stop();
+        self.walk(ViewId::Margins);
+        self.status = Some(said);
+    }
+
+    /// Gives a knob exactly the value of a limit, and selects it to go on from there.
+    pub(super) fn jump_to_limit(&mut self, path: &str, value: f64, to: &str) {
+        let Some((place, knob)) = place_of(path).zip(knob_of(path)) else { return };
+        self.knobs.select(place);
+        let value_of = match knob.allowed() {
+            Allowed::Whole { .. } => Value::Whole(value as u64),
+            _ => Value::Real(value),
+        };
+        if self.set(knob, value_of) {
+            let name = knob.label.split(' ').next().unwrap_or(knob.label);
+            let jumped = format!("{name} {}: {to}", number(rounded(value, DIGITS), knob.unit()));
+            // A message about what else the turn did stays.
+            let more = self.status.take().map_or(String::new(), |said| format!("; {said}"));
+            self.status = Some(jumped + &more);
+        }
+    }
+
+    /// Selects a knob while a chart is read.
+    pub(super) fn select_to_turn(&mut self, path: &str) {
+        if self.select_path(path)
+            && let Some(knob) = self.selected()
+        {
+            self.status = Some(format!("{} selected; i gives it the arrows", knob.label));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tui::app::on_screen;
+    use rubscope_solver::scene::ContactLaw;
+    use rubscope_solver::scene::keys::{CLEARANCE, PULSE, SPEED};
+
+    fn axes(app: &App) -> [&'static str; 2] {
+        [app.map.x.path, app.map.y.path]
+    }
+
+    #[test]
+    fn axes_are_chosen_and_a_knob_is_on_one_of_them_only() {
+        let mut app = on_screen();
+        assert_eq!(axes(&app), [SPEED, PULSE]);
+        for (chosen, wanted) in [
+            ([Some(PULSE), None], [PULSE, SPEED]),
+            ([None, Some(PULSE)], [SPEED, PULSE]),
+            ([Some(CLEARANCE), None], [CLEARANCE, PULSE]),
+            ([Some(SPEED), Some("casing.damping_ratio")], [SPEED, "casing.damping_ratio"]),
+        ] {
+            app.put_axes(chosen);
+            assert_eq!(axes(&app), wanted);
+            assert!(app.status.as_ref().is_some_and(|status| status.starts_with("the map: ")));
+            let plan = app.map_plan().unwrap();
+            assert_eq!([plan.x.path.as_str(), plan.y.path.as_str()], wanted);
+        }
+        // It is on the screen, with the arrows at the cell of the present knobs.
+        assert!(app.is_large(ViewId::Map) && app.reading.on);
+        app.put_axes([Some(CLEARANCE), None]);
+        let [column, _] = app.map_cell().unwrap();
+        let cell = app.map_plan().unwrap().x.value(column);
+        assert!((cell - 1e-4).abs() < 5e-6, "{cell}");
+    }
+
+    #[test]
+    fn the_other_law_of_the_map_is_left_again() {
+        let mut app = on_screen();
+        assert_eq!(app.map_law(), ContactLaw::Bilateral);
+        app.other_map_law();
+        assert_eq!(
+            (app.map_law(), app.scene.solver.contact),
+            (ContactLaw::Unilateral, ContactLaw::Bilateral)
+        );
+        app.other_map_law();
+        assert_eq!(app.map.law, None);
+    }
+
+    #[test]
+    fn a_run_of_the_map_starts_anew_though_knobs_act_live() {
+        let mut app = on_screen();
+        app.knobs.live = true;
+        let (restarts, same) = (app.run.restarts, app.scene.clone());
+        app.open_run(same);
+        let mut other = app.scene.clone().into_scene();
+        other.operation.speed_rad_s = 450.0;
+        app.open_run(other.checked().unwrap());
+        assert_eq!((app.run.restarts, app.knobs.live), (restarts + 2, true));
+        assert!(app.status.as_ref().is_some_and(|status| status.contains("450 rad/s")));
+    }
+}
