@@ -246,7 +246,7 @@ fn what_has_no_meaning_ends_with_status_2_and_one_line() {
         (vec!["--excitation"], "rubscope: excitation.amplitude_nm = 0: allowed is above 0"),
         (vec!["--harmonics", "4"], "rubscope: hbm --harmonics is gone: hbm --slip gives"),
         (vec!["--follow", "a.b", "--over", "1:2"], "rubscope: hbm --follow is gone: hbm --smooth"),
-        (vec!["slip", "--fold"], "rubscope: hbm --fold is gone: hbm --branches gives the speed"),
+        (vec!["slip", "--fold"], "rubscope: hbm --fold is gone: hbm --branches says from"),
         (vec!["--slip", "--zetas", "0:99:2"], "rubscope: --zetas = 99: allowed is"),
         (vec!["--zetas", "0:1:2"], "rubscope: the following required arguments"),
         (vec!["--out", "a.txt"], "rubscope: --out = a.txt: allowed is"),

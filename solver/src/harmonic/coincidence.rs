@@ -25,7 +25,7 @@ pub struct Line {
 }
 
 impl Line {
-    /// Frequency at a rotor speed \[rad/s\]; negative for a wave that turns
+    /// Returns the frequency at a rotor speed \[rad/s\]; negative for a wave that turns
     /// backward in the standing frame.
     #[must_use]
     pub fn at(&self, speed: f64) -> f64 {
@@ -64,7 +64,7 @@ pub struct Campbell {
 }
 
 impl Campbell {
-    /// With the engine-order lines `order * Omega` of these orders. The dangerous
+    /// Creates the lines, with those of these engine orders, `order * Omega`. The dangerous
     /// coincidence is that of a rotor that turns in the sense of `speed`.
     ///
     /// ```
@@ -139,8 +139,8 @@ pub struct CoincidencePoint {
     pub bounded: bool,
 }
 
-/// The coincidence of a scene over speeds \[rad/s\]. Under preload the wave is what rest
-/// grows into; over a clearance it is one that a large enough pulse leaves behind.
+/// Computes the coincidence of a scene over speeds \[rad/s\]. Under preload the wave is what
+/// rest grows into; over a clearance it is one that a large enough pulse leaves behind.
 ///
 /// # Errors
 /// A machine without a travelling wave of blades and casing, or a speed that is not
@@ -161,8 +161,8 @@ pub fn coincidence(scene: &Scene, speeds: &[f64]) -> Result<Vec<CoincidencePoint
     speeds.iter().map(point).collect()
 }
 
-/// The coincidence that the lining of a scene shifts, for a rotor that turns in the sense
-/// of `speed` \[rad/s\]; none where no blade rubs at rest.
+/// Returns the coincidence that the lining of a scene shifts, for a rotor that turns in the
+/// sense of `speed` \[rad/s\]; none where no blade rubs at rest.
 #[must_use]
 pub fn shifted_coincidence(scene: &Scene, speed: f64) -> Option<f64> {
     let machine = scene.machine();
@@ -189,8 +189,8 @@ fn on_lining(lining: &Lining, speed: f64) -> Result<CoincidencePoint, HarmonicEr
     })
 }
 
-/// Rigid contact: the wave that attracts has the amplitude of the clearance. Waves stay
-/// bounded unless the structures flutter as one.
+/// Computes the wave on a rigid casing: the one that attracts has the amplitude of the
+/// clearance. Waves stay bounded unless the structures flutter as one.
 fn on_rigid_casing(machine: &Machine, speed: f64) -> CoincidencePoint {
     let joint = Joint::at(machine, speed);
     let clearance = joint.machine.clearance();

@@ -20,7 +20,7 @@ pub struct Corner {
 }
 
 impl Corner {
-    /// The corner between side `a` and the next one in increasing phase.
+    /// Returns the corner between side `a` and the next one in increasing phase.
     ///
     /// # Errors
     /// The polygon has no corners.
@@ -30,7 +30,7 @@ impl Corner {
         Ok(Self { a, b: polygon.next(a) })
     }
 
-    /// The default corner: that of the paper's blades 6 and 21 where these are
+    /// Returns the default corner: that of the paper's blades 6 and 21 where these are
     /// phase neighbours, else the corner that starts nearest their phase, side
     /// `15 N'/22` rounded.
     ///
@@ -47,7 +47,7 @@ impl Corner {
         Self::after(polygon, nearest as u32)
     }
 
-    /// The corner between the groups of two blades, numbered from 1, given in
+    /// Returns the corner between the groups of two blades, numbered from 1, given in
     /// either order.
     ///
     /// # Errors
@@ -84,7 +84,7 @@ impl Corner {
         }
     }
 
-    /// The two sides, `[a, b]`.
+    /// Returns the two sides, `[a, b]`.
     #[must_use]
     pub fn sides(self) -> [u32; 2] {
         [self.a, self.b]
@@ -103,8 +103,8 @@ pub(super) struct Configuration {
 }
 
 impl Configuration {
-    /// With the blade modes bent by these contacts, given as side, scaled
-    /// multiplier and moment arm; `compliance` is softness times share.
+    /// Creates the configuration with the blade modes bent by these contacts, given as side,
+    /// scaled multiplier and moment arm; `compliance` is softness times share.
     pub fn bent(
         polygon: &ContactPolygon,
         z: (f64, f64),
@@ -132,14 +132,14 @@ impl Configuration {
         (c * cos - s * sin, s * cos + c * sin)
     }
 
-    /// Gap of a side over `g0`.
+    /// Returns the gap of a side over `g0`.
     pub fn gap(&self, polygon: &ContactPolygon, side: u32) -> f64 {
         let (c, s) = self.direction(polygon, side);
         let rise = self.slope * self.turn_of(polygon.direction(side));
         1.0 + self.z.0 * c + self.z.1 * s - rise
     }
 
-    /// Smallest gap over `g0` of the sides not in `contacts`; infinite if there
+    /// Returns the smallest gap over `g0` of the sides not in `contacts`; infinite if there
     /// are none.
     pub fn smallest_gap(&self, polygon: &ContactPolygon, contacts: &[u32]) -> f64 {
         (0..polygon.sides)
@@ -148,7 +148,7 @@ impl Configuration {
             .fold(f64::INFINITY, f64::min)
     }
 
-    /// A side in contact with this (scaled) multiplier.
+    /// Returns a side in contact with this (scaled) multiplier.
     pub fn held(&self, polygon: &ContactPolygon, side: u32, multiplier: f64) -> ClosedSide {
         let direction = self.direction(polygon, side);
         let across = self.z.1 * direction.0 - self.z.0 * direction.1;

@@ -26,19 +26,20 @@ pub(super) struct CornerAngle<T = f64> {
 }
 
 impl<T: Number> CornerAngle<T> {
-    /// Of a machine's corners.
+    /// Creates the corner angle of a machine.
     pub fn of(machine: &Machine<T>) -> Self {
         let scales = Scales::of(machine);
         Self::new(machine.polygon.delta, scales.softness * scales.share)
     }
 
-    /// With the (dimensionless) softness of the blades times their share.
+    /// Creates the corner angle from the (dimensionless) softness of the blades times their
+    /// share.
     pub fn new(delta: f64, bend: T) -> Self {
         Self { delta, compliance: bend * delta.sin().powi(2) }
     }
 
-    /// `stiffness` at the fold, where the branch turns back: `at_fold` depends on `delta`
-    /// alone, so `stiffness` goes with one over the compliance.
+    /// Returns `stiffness` at the fold, where the branch turns back: `at_fold` depends on
+    /// `delta` alone, so `stiffness` goes with one over the compliance.
     pub fn fold_stiffness(&self) -> Option<T> {
         let plain = CornerAngle { delta: self.delta, compliance: self.compliance.re() };
         let (stiffness, _) = plain.stiffness(plain.at_fold())?;
@@ -47,8 +48,8 @@ impl<T: Number> CornerAngle<T> {
 }
 
 impl CornerAngle {
-    /// The change of the corner angle `Delta - delta` \[rad\] at `stiffness`, on the branch of stiff
-    /// blades; `None` beyond its fold.
+    /// Returns the change of the corner angle `Delta - delta` \[rad\] at `stiffness`, on the
+    /// branch of stiff blades; `None` beyond its fold.
     pub fn at(&self, stiffness: f64) -> Option<f64> {
         let mut angle_change = 0.0;
         // Steps shrink at least by half (at the fold), until they are rounding.
@@ -80,7 +81,7 @@ impl CornerAngle {
         None
     }
 
-    /// `stiffness` at a change of the corner angle, and its slope; `None` if the
+    /// Returns `stiffness` at a change of the corner angle, and its slope; `None` if the
     /// blades are too stiff for such an opening.
     pub fn stiffness(&self, angle_change: f64) -> Option<(f64, f64)> {
         if self.compliance < AS_GOOD_AS_RIGID {
@@ -93,7 +94,7 @@ impl CornerAngle {
         (stiffness.is_finite() && slope.is_finite()).then_some((stiffness, slope))
     }
 
-    /// The change of the corner angle at the fold \[rad\]: it depends on
+    /// Returns the change of the corner angle at the fold \[rad\]: it depends on
     /// `delta` alone.
     pub fn at_fold(&self) -> f64 {
         let falls = |angle_change: f64| {

@@ -254,7 +254,7 @@ impl Equations {
         jacobian
     }
 
-    /// Whether neither the slope nor the friction of the tips has a part.
+    /// Returns whether neither the slope nor the friction of the tips has a part.
     fn has_paper_tips(&self) -> bool {
         self.slope == 0.0 && self.lever == 0.0 && self.friction == 0.0
     }

@@ -54,8 +54,8 @@ pub enum Character {
 }
 
 impl Character {
-    /// Of a steady state whose contacts push, or else may be held by a pull, whose other
-    /// gaps are as small as this, and about which some motion grows or not.
+    /// Returns the character of a steady state whose contacts push, or else may be held by a
+    /// pull, whose other gaps are as small as this, and about which some motion grows or not.
     pub(super) fn of(
         pushes: bool,
         held_by_pulls: bool,
@@ -73,7 +73,7 @@ impl Character {
         }
     }
 
-    /// Whether pushes can hold it, with every other gap open.
+    /// Returns whether pushes can hold it, with every other gap open.
     #[must_use]
     pub fn is_admissible(self) -> bool {
         matches!(self, Self::Unstable | Self::Stable)
@@ -134,7 +134,7 @@ fn as_pairs<S: serde::Serializer>(values: &[Complex<f64>], out: S) -> Result<S::
     out.collect_seq(values.iter().map(|value| [value.re, value.im]))
 }
 
-/// All equilibria at one speed \[rad/s\] that exist, rest first. The side is
+/// Returns all equilibria at one speed \[rad/s\] that exist, rest first. The side is
 /// the first of the default corner.
 ///
 /// ```
@@ -169,7 +169,7 @@ pub fn equilibria(
     Ok(found)
 }
 
-/// The equilibrium of one kind on `side`, or on the corner between it and the
+/// Returns the equilibrium of one kind on `side`, or on the corner between it and the
 /// next, at one speed; `None` where there is none.
 ///
 /// # Errors
@@ -205,8 +205,8 @@ pub fn equilibrium(
 /// `z` and the loads (side, multiplier, moment arm) of an equilibrium, scaled.
 type Loaded = ((f64, f64), Vec<(u32, f64, f64)>);
 
-/// One side holds the wave: `(stiffness + i drag) z = -Lambda exp(i phi)` and a
-/// closed gap give `Lambda = (stiffness^2 + drag^2)/stiffness`, moment arm
+/// Returns the state in which one side holds the wave: `(stiffness + i drag) z = -Lambda exp(i
+/// phi)` and a closed gap give `Lambda = (stiffness^2 + drag^2)/stiffness`, moment arm
 /// `drag/stiffness`; the blade angle only turns the frame.
 fn on_side(machine: &Machine, scales: &Scales, wave: Wave, side: u32) -> Option<Loaded> {
     let (stiffness, drag) = (wave.stiffness, wave.drag);
@@ -248,7 +248,7 @@ pub(super) fn loads_of(
     vec![load(corner.a, push_a), load(corner.b, push_b)]
 }
 
-/// Gaps, stability, torque and character of a configuration under its loads.
+/// Computes gaps, stability, torque and character of a configuration under its loads.
 ///
 /// # Errors
 /// Eigenvalues that cannot be computed.
@@ -332,7 +332,7 @@ pub struct Branches {
 }
 
 impl Branches {
-    /// Over these speeds \[rad/s\]; changes are found between neighbouring
+    /// Creates the branches over these speeds \[rad/s\]; changes are found between neighbouring
     /// ones and then bisected.
     ///
     /// # Errors
@@ -366,13 +366,13 @@ impl Branches {
         Ok(Self { thresholds, ..found })
     }
 
-    /// How many speeds there are.
+    /// Returns the number of speeds.
     #[must_use]
     pub fn speeds(&self) -> usize {
         self.speeds.len()
     }
 
-    /// Every equilibrium at the speed at a place of the list.
+    /// Returns every equilibrium at the speed at a place of the list.
     ///
     /// # Errors
     /// None for what `over` gave.
@@ -386,7 +386,7 @@ impl Branches {
         Ok(states)
     }
 
-    /// Every equilibrium at every speed, in the order of the speeds.
+    /// Returns every equilibrium at every speed, in the order of the speeds.
     ///
     /// # Errors
     /// None for what `over` gave.
@@ -404,7 +404,7 @@ impl Branches {
     }
 }
 
-/// The changes of `what` between two speeds, as far as bisection finds them:
+/// Returns the changes of `what` between two speeds, as far as bisection finds them:
 /// the speed, and the values below and above.
 pub(super) fn changes<T: Copy + PartialEq>(
     low: f64,

@@ -76,7 +76,7 @@ pub enum HarmonicError {
 }
 
 impl HarmonicError {
-    /// A value that is not what is allowed of its key.
+    /// Creates the refusal of a value that is not allowed for its key.
     pub(super) fn refused(
         key: &'static str,
         value: impl ToString,

@@ -37,21 +37,21 @@ pub struct ExcitedLock {
 }
 
 impl ExcitedLock {
-    /// Amplitude of the casing's response \[m\].
+    /// Returns the amplitude of the casing's response \[m\].
     #[must_use]
     pub fn casing_m(&self) -> f64 {
         self.response[0].norm().hypot(self.response[1].norm())
     }
 }
 
-/// Whether an engine order drives the modes of this machine.
+/// Returns whether an engine order drives the modes of this machine.
 #[must_use]
 pub fn drives(machine: &Machine, order: u32) -> bool {
     let (forward, backward) = reach(machine, order);
     forward || backward
 }
 
-/// Whether `n_d + E` and `n_d - E` are multiples of `N`.
+/// Returns whether `n_d + E` and `n_d - E` are multiples of `N`.
 fn reach(machine: &Machine, order: u32) -> (bool, bool) {
     let blades = u64::from(machine.polygon.blades);
     let diameters = u64::from(machine.polygon.nodal_diameters) % blades;
@@ -72,7 +72,7 @@ pub struct ExcitedLocks {
 }
 
 impl ExcitedLocks {
-    /// Over these speeds \[rad/s\].
+    /// Creates the responses over these speeds \[rad/s\].
     ///
     /// # Errors
     /// A polygon without corners, a speed that is not finite, or eigenvalues that cannot
@@ -94,13 +94,13 @@ impl ExcitedLocks {
         Ok(found)
     }
 
-    /// How many speeds there are.
+    /// Returns the number of speeds.
     #[must_use]
     pub fn places(&self) -> usize {
         self.speeds.len()
     }
 
-    /// The locked motion at the speed at a place of the list, if there is one.
+    /// Returns the locked motion at the speed at a place of the list, if there is one.
     ///
     /// # Errors
     /// None for what `over` gave.
@@ -159,7 +159,7 @@ fn at(
     }))
 }
 
-/// The load on `(alpha_c, alpha_s)` per unit torque on each blade, as the
+/// Returns the load on `(alpha_c, alpha_s)` per unit torque on each blade, as the
 /// coefficients of `exp(i E Omega t)`.
 fn modal_load(machine: &Machine, order: u32) -> [Complex<f64>; 2] {
     let half = 0.5 * f64::from(machine.polygon.blades);
@@ -173,7 +173,7 @@ fn modal_load(machine: &Machine, order: u32) -> [Complex<f64>; 2] {
     ]
 }
 
-/// Largest change of `|z|`: the part of the response along `z`.
+/// Returns the largest change of `|z|`: the part of the response along `z`.
 fn radial(state: &Equilibrium, response: &[Complex<f64>; 4]) -> f64 {
     let amplitude = state.amplitude_m;
     ((response[0] * state.z_m[0] + response[1] * state.z_m[1]) / amplitude).norm()
@@ -183,7 +183,7 @@ fn radial(state: &Equilibrium, response: &[Complex<f64>; 4]) -> f64 {
 type Forced = (Vector4<Complex<f64>>, Vector2<Complex<f64>>);
 
 impl Linearised {
-    /// The steady response to a load `exp(i ratio t)` on the blade modes, both
+    /// Returns the steady response to a load `exp(i ratio t)` on the blade modes, both
     /// contacts of a corner kept: coordinates and multipliers, scaled. `None`
     /// at an undamped resonance.
     fn forced(&self, load: [Complex<f64>; 2], ratio: f64) -> Option<Forced> {

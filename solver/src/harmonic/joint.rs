@@ -36,13 +36,13 @@ pub struct Joint<'a> {
 }
 
 impl<'a> Joint<'a> {
-    /// At a rotor speed \[rad/s\].
+    /// Creates the joint at a rotor speed \[rad/s\].
     #[must_use]
     pub fn at(machine: &'a Machine, speed: f64) -> Self {
         Self::of(machine.at(speed), speed)
     }
 
-    /// Of a machine at that speed.
+    /// Creates the joint of a machine that is the one at that speed.
     pub(super) fn of(machine: Cow<'a, Machine>, speed: f64) -> Self {
         Self {
             nu: machine.nu(speed),
@@ -52,8 +52,8 @@ impl<'a> Joint<'a> {
         }
     }
 
-    /// Whether blades and casing meet in one travelling wave: `N' >= 3`, and the modes of
-    /// the disk have the diameters of the casing or an alias of them, `+-n_d` modulo `N`.
+    /// Returns whether blades and casing meet in one travelling wave: `N' >= 3`, and the modes
+    /// of the disk have the diameters of the casing or an alias of them, `+-n_d` modulo `N`.
     #[must_use]
     pub fn has_one_wave(machine: &Machine) -> bool {
         let blades = f64::from(machine.polygon.blades);
@@ -62,7 +62,7 @@ impl<'a> Joint<'a> {
         machine.polygon.has_corners() && (meets(1.0) || meets(-1.0))
     }
 
-    /// Dynamic stiffness of the casing at a frequency in the standing frame,
+    /// Returns the dynamic stiffness of the casing at a frequency in the standing frame,
     /// `k_c - omega^2 m_c + i omega d_c` \[N/m\].
     #[must_use]
     pub fn casing_stiffness(&self, omega: f64) -> Complex<f64> {
@@ -70,7 +70,7 @@ impl<'a> Joint<'a> {
         Complex::new(m.casing_stiffness - omega * omega * m.casing_mass, omega * m.casing_damping)
     }
 
-    /// Dynamic stiffness of the blade modes at a frequency in the frame of the
+    /// Returns the dynamic stiffness of the blade modes at a frequency in the frame of the
     /// blades, `k_a - s^2 m_a + i s d_a` \[N m/rad\].
     #[must_use]
     pub fn blade_stiffness(&self, s: f64) -> Complex<f64> {
@@ -79,7 +79,7 @@ impl<'a> Joint<'a> {
         Complex::new(m.blade_modal_stiffness - inertia, s * m.blade_modal_damping)
     }
 
-    /// The joint compliance `B(omega) = (1 + i mu_c)/(casing) + c2/(blades)`, which a
+    /// Returns the joint compliance `B(omega) = (1 + i mu_c)/(casing) + c2/(blades)`, which a
     /// wave of pushes of casing frequency `omega` meets \[m/N\].
     #[must_use]
     pub fn compliance(&self, omega: f64) -> Complex<f64> {
@@ -91,7 +91,7 @@ impl<'a> Joint<'a> {
         casing + self.blade_stiffness(omega - self.nu).inv() * self.coupling_product
     }
 
-    /// Lever of a push at the blades, `|kappa + mu| l_b` \[m\].
+    /// Returns the lever of a contact force at the blades, `|kappa + mu| l_b` \[m\].
     #[must_use]
     pub fn blade_lever(&self) -> f64 {
         let machine = &*self.machine;
@@ -100,7 +100,7 @@ impl<'a> Joint<'a> {
     }
 }
 
-/// The flutter speed without any damping, as a magnitude \[rad/s\]:
+/// Returns the flutter speed without any damping, as a magnitude \[rad/s\]:
 /// `Omega_f = sqrt[(1/m_c + c2/m_a)(k_c + k_a/c2)]/n_d`, never below the dangerous
 /// coincidence. None where tips are not joined or never flutter; for a rotor that turns
 /// in the sense of `toward`.
@@ -120,7 +120,7 @@ pub fn undamped_flutter_speed<T: Number>(machine: &Machine<T>, toward: f64) -> O
     speed.re().is_finite().then_some(speed)
 }
 
-/// The rotor speed above which the lock of a machine flutters, as a magnitude \[rad/s\],
+/// Returns the rotor speed above which the lock of a machine flutters, as a magnitude \[rad/s\],
 /// with its damping; that is lower than without by a finite amount, however small the
 /// damping is (Ziegler's paradox); the lowest where there are several. None where tips are
 /// not joined or never flutter; for a rotor that turns in the sense of `toward`.
@@ -138,8 +138,8 @@ pub struct Flutter<T = f64> {
     pub to: Option<f64>,
 }
 
-/// Every range of speeds in which the lock of a machine flutters, as `flutter_speed`. Where
-/// the machine changes with the speed, those that begin up to `FLUTTER_FURTHEST` critical
+/// Returns every range of speeds in which the lock of a machine flutters, as `flutter_speed`.
+/// Where the machine changes with the speed, those that begin up to `FLUTTER_FURTHEST` critical
 /// speeds and before the clearance is lost.
 #[must_use]
 pub fn flutters<T: Number>(machine: &Machine<T>, toward: f64) -> Vec<Flutter<T>> {
@@ -148,7 +148,7 @@ pub fn flutters<T: Number>(machine: &Machine<T>, toward: f64) -> Vec<Flutter<T>>
     let from = if undamped {
         undamped_flutter_speed(machine, toward)
     } else if machine.changes_with_speed() {
-        return sought_flutters(machine, toward);
+        return search_flutters(machine, toward);
     } else {
         constant_flutter_speed(machine, &pair)
     };
@@ -157,8 +157,9 @@ pub fn flutters<T: Number>(machine: &Machine<T>, toward: f64) -> Vec<Flutter<T>>
     from.map(|from| Flutter { from, to: None }).into_iter().collect()
 }
 
-/// Of a machine that changes with the speed: the changes of growth over a scan, refined.
-fn sought_flutters<T: Number>(machine: &Machine<T>, toward: f64) -> Vec<Flutter<T>> {
+/// Searches the flutter of a machine that changes with the speed: the changes of growth over a
+/// scan, refined.
+fn search_flutters<T: Number>(machine: &Machine<T>, toward: f64) -> Vec<Flutter<T>> {
     let plain = machine.plain();
     let Some(critical) = plain.critical_speed() else { return Vec::new() };
     let grows = |speed: f64| {
@@ -188,7 +189,7 @@ fn sought_flutters<T: Number>(machine: &Machine<T>, toward: f64) -> Vec<Flutter<
     found
 }
 
-/// A flutter speed with its derivatives: one step of Newton's method from the root, with
+/// Returns a flutter speed with its derivatives: one step of Newton's method from the root, with
 /// the machine of that speed.
 fn derived<T: Number>(machine: &Machine<T>, root: f64, toward: f64) -> Option<T> {
     let plain = machine.plain();
@@ -199,7 +200,7 @@ fn derived<T: Number>(machine: &Machine<T>, root: f64, toward: f64) -> Option<T>
     Some(speed - (step - step.re()))
 }
 
-/// How far the turn of a speed is from the nearest limit of the machine at that speed.
+/// Returns how far the turn of a speed is from the nearest limit of the machine at that speed.
 fn apart<T: Number>(machine: &Machine<T>, speed: T, toward: f64) -> Option<T> {
     let pair = HeldPair::of(&machine.at(speed), toward)?;
     let turn = machine.nu(speed) / machine.omega_c;
@@ -216,8 +217,8 @@ fn constant_flutter_speed<T: Number>(machine: &Machine<T>, pair: &HeldPair<T>) -
     Some(first * machine.critical_speed()?)
 }
 
-/// Growth of the motion that keeps a lock of joined tips, for a gap that does not turn
-/// with the blades: the roots `l = i s` \[1/s\]. Empty without joined tips.
+/// Returns the growth of the motion that keeps a lock of joined tips, for a gap that does not
+/// turn with the blades: the roots `l = i s` \[1/s\]. Empty without joined tips.
 #[must_use]
 pub fn lock_roots(joint: &Joint) -> Vec<Complex<f64>> {
     let Some(pair) = HeldPair::of(&joint.machine, joint.nu) else { return Vec::new() };
@@ -242,7 +243,7 @@ struct HeldPair<T> {
 }
 
 impl<T: Number> HeldPair<T> {
-    /// None where the corner cannot move: tips that no bending lifts.
+    /// Creates the pair; `None` where the corner cannot move: tips that no bending lifts.
     fn of(machine: &Machine<T>, toward: f64) -> Option<Self> {
         // A rotor that turns backward is the mirror image of one that turns forward.
         let coupling = machine.coupling_product_at(T::from(toward)) * machine.casing_stiffness
@@ -265,7 +266,7 @@ impl<T: Number> HeldPair<T> {
         self.casing.re() != 0.0
     }
 
-    /// The speeds of every motion that neither grows nor decays.
+    /// Returns the speeds of every motion that neither grows nor decays.
     fn limits(&self) -> Vec<T> {
         match (self.has_friction(), self.casing_is_damped()) {
             (false, _) => self.limit_without_friction().into_iter().collect(),
@@ -274,8 +275,8 @@ impl<T: Number> HeldPair<T> {
         }
     }
 
-    /// Without friction the imaginary part is `2 c zeta_c x = -2 zeta_bd y`, and the real
-    /// part gives the size of both.
+    /// Returns the limit without friction. There the imaginary part is `2 c zeta_c x = -2
+    /// zeta_bd y`, and the real part gives the size of both.
     fn limit_without_friction(&self) -> Option<T> {
         let c = self.coupling;
         let square = (c + 1.0) / (c * (c * self.casing * self.casing + self.blades * self.blades));
@@ -283,9 +284,9 @@ impl<T: Number> HeldPair<T> {
         turn.re().is_finite().then_some(turn)
     }
 
-    /// With friction the imaginary part gives `x` of `y`, and the real part is a quartic of
-    /// `y`. Two steps of Newton's method take its roots to the last digit, and carry the
-    /// derivatives of the number.
+    /// Returns the limits with friction. There the imaginary part gives `x` of `y`, and the
+    /// real part is a quartic of `y`. Two steps of Newton's method take its roots to the last
+    /// digit, and carry the derivatives of the number.
     fn limits_with_friction(&self) -> Vec<T> {
         let roots = real_roots(&|from, to| self.quartic(from, to), &[-1.0, 0.0, 1.0]);
         let refined = |root: f64| {
@@ -301,12 +302,12 @@ impl<T: Number> HeldPair<T> {
         roots.into_iter().map(refined).collect()
     }
 
-    /// `x` of `y`, by the imaginary part.
+    /// Returns `x` of `y`, by the imaginary part.
     fn casing_at(&self, y: T) -> T {
         -(self.blades * y + self.friction * (-(y * y) + 1.0)) / (self.coupling * self.casing)
     }
 
-    /// The real part over its slope, `x` taken as that of `y`.
+    /// Returns the real part over its slope, `x` taken as that of `y`.
     fn newton_step(&self, y: T) -> T {
         let Self { coupling: c, casing, blades, friction: mu, .. } = *self;
         let x = self.casing_at(y);
@@ -316,7 +317,8 @@ impl<T: Number> HeldPair<T> {
         value / slope
     }
 
-    /// The real part times the square of `2 c zeta_c`, a quartic of `y` between two points.
+    /// Returns the real part times the square of `2 c zeta_c`, a quartic of `y` between two
+    /// points.
     fn quartic(&self, from: Point, to: Point) -> Coefficients {
         let [c, casing, blades, mu] =
             [self.coupling, self.casing, self.blades, self.friction].map(|part| part.re());
@@ -332,8 +334,8 @@ impl<T: Number> HeldPair<T> {
         sum(weight * weight, &product(&rest, &one), -c, &product(&x, &x))
     }
 
-    /// Without damping of the casing the imaginary part is a quadratic of `y`, and the real
-    /// part gives `x` but for its sign.
+    /// Returns the limits without damping of the casing. There the imaginary part is a
+    /// quadratic of `y`, and the real part gives `x` but for its sign.
     fn limits_of_undamped_casing(&self) -> Vec<T> {
         let Self { coupling: c, blades, friction: mu, rate, .. } = *self;
         let root = (blades * blades + mu * mu * 4.0).sqrt();
@@ -345,7 +347,7 @@ impl<T: Number> HeldPair<T> {
         turns.concat()
     }
 
-    /// The two roots `l = i s` of the motion over `omega_c`, at a speed: of
+    /// Returns the two roots `l = i s` of the motion over `omega_c`, at a speed: of
     /// `c [(l + i n)^2 + 2 zeta_c (l + i n) + 1] + (1 + i mu_c)[(l/r)^2 + 2 zeta_bd l/r + 1]`.
     fn roots(&self, turn: f64) -> [Complex<f64>; 2] {
         let [c, rate, drag] = [self.coupling.re(), self.rate.re(), self.casing.re()];
@@ -366,7 +368,7 @@ impl<T: Number> HeldPair<T> {
         [far, near]
     }
 
-    /// Whether no motion grows just below a speed, and one does just above.
+    /// Returns whether no motion grows just below a speed, and one does just above.
     fn begins_to_grow(&self, turn: f64) -> bool {
         let grows = |turn: f64| self.roots(turn).iter().any(|root| root.re > 0.0);
         !grows(turn * (1.0 - BESIDE_A_LIMIT)) && grows(turn * (1.0 + BESIDE_A_LIMIT))

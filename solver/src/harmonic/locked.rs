@@ -80,7 +80,7 @@ pub struct Sweep {
 }
 
 impl Locked {
-    /// Prepares the equations. Undamped is the paper's Eq. (27); damped adds
+    /// Creates the solver. Undamped is the paper's Eq. (27); damped adds
     /// `d_c` to its casing rows.
     ///
     /// # Errors
@@ -108,7 +108,7 @@ impl Locked {
         })
     }
 
-    /// The corner that holds the wave.
+    /// Returns the corner that holds the wave.
     #[must_use]
     pub fn corner(&self) -> Corner {
         self.corner
@@ -130,7 +130,7 @@ impl Locked {
         Ok(self.point(&machine, speed, &equations, &unknowns))
     }
 
-    /// The locked motion at each speed \[rad/s\].
+    /// Computes the locked motion at each speed \[rad/s\].
     ///
     /// # Errors
     /// A speed that is not finite.
@@ -190,7 +190,7 @@ impl Locked {
     }
 }
 
-/// The locked motion of a machine over speeds \[rad/s\], held between the
+/// Computes the locked motion of a machine over speeds \[rad/s\], held between the
 /// groups of two blades (the paper's where `None`, see [`Corner::paper`]).
 ///
 /// ```
@@ -245,7 +245,7 @@ pub struct LockLoads<T = f64> {
     pub energy_j: T,
 }
 
-/// The loads of the lock of a machine at a speed \[rad/s\]; none without corners,
+/// Returns the loads of the lock of a machine at a speed \[rad/s\]; none without corners,
 /// beyond the fold of very soft blades, and on a lining where no two groups hold it alone.
 #[must_use]
 pub fn lock_loads<T: Number>(machine: &Machine<T>, speed: T) -> Option<LockLoads<T>> {
@@ -277,8 +277,8 @@ pub fn lock_loads<T: Number>(machine: &Machine<T>, speed: T) -> Option<LockLoads
 }
 
 impl<T: Number> LockLoads<T> {
-    /// Of a wave of this amplitude \[m\] that takes this torque \[N m\], with the pushes and
-    /// angles of both groups, and the angles of all \[N, rad\].
+    /// Creates the loads of a wave of this amplitude \[m\] that takes this torque \[N m\], with
+    /// the pushes and angles of both groups, and the angles of all \[N, rad\].
     pub(super) fn of(
         (machine, speed): (&Machine<T>, T),
         (amplitude, torque): (T, T),
@@ -300,7 +300,7 @@ impl<T: Number> LockLoads<T> {
     }
 }
 
-/// The largest speed with a lock \[rad/s\]: blades that are soft give way above it.
+/// Returns the largest speed with a lock \[rad/s\]: blades that are soft give way above it.
 /// None without corners, with tips that are inclined or rub, on a lining, and where it is
 /// beyond any speed that a number can square.
 #[must_use]

@@ -1,4 +1,4 @@
-//! Whirl where there are so many blades that their polygon is round (docs/theory.md,
+//! Whirl in the limit of many blades, whose polygon is round (docs/theory.md,
 //! section 10): a travelling wave of pushes that both structures carry, each at its own
 //! frequency; and the rotor speeds where it begins: folds, where a pair of waves is born, the
 //! one that attracts and its threshold.
@@ -42,8 +42,9 @@ pub struct RoundWhirl {
     pub growth_per_s: f64,
 }
 
-/// Every round whirl at one speed, by increasing stiffness. Empty where blades and
-/// casing do not meet in one wave ([`Joint::has_one_wave`]), and where nothing is lost, so that any frequency would do.
+/// Returns every round whirl at one speed, by increasing stiffness. Empty where blades and
+/// casing do not meet in one wave ([`Joint::has_one_wave`]), and where nothing is lost, so that
+/// any frequency would do.
 #[must_use]
 pub fn round_whirls(joint: &Joint) -> Vec<RoundWhirl> {
     let machine = &*joint.machine;
@@ -84,7 +85,7 @@ pub struct RoundWhirlLoads {
 }
 
 impl RoundWhirl {
-    /// Its loads at the clearance of the machine. Without friction the rotor gives the
+    /// Returns its loads at the clearance of the machine. Without friction the rotor gives the
     /// sum of the two dampers, of which the casing takes `omega/nu` and the blades
     /// `|s|/nu` (Manley and Rowe).
     #[must_use]
@@ -105,7 +106,7 @@ impl RoundWhirl {
         }
     }
 
-    /// The stable wave of a speed that is stiffest.
+    /// Returns the stable wave of a speed that is stiffest.
     #[must_use]
     pub fn lasting(waves: &[Self]) -> Option<Self> {
         waves.iter().rev().find(|wave| wave.attracts).copied()
@@ -139,7 +140,7 @@ impl Scaled {
         }
     }
 
-    /// `Im B |casing|^2 |blades|^2` from one frequency to another.
+    /// Returns `Im B |casing|^2 |blades|^2` from one frequency to another.
     fn imaginary(&self, from: Point, to: Point) -> Coefficients {
         // The place of a frequency among those of the blades, y = s/omega_bd.
         let seen = |u: Point| (u.p - self.turn * u.q) / self.blade_rate;
@@ -162,7 +163,7 @@ impl Scaled {
         sum(1.0, &casing_part, -self.coupling, &blade_part)
     }
 
-    /// The wave of one root \[rad/s\], if it pushes.
+    /// Returns the wave of one root \[rad/s\], if it pushes.
     fn wave(&self, joint: &Joint, omega: f64) -> Option<RoundWhirl> {
         let compliance = joint.compliance(omega);
         // At an undamped resonance both parts change their sign through infinity.
@@ -185,7 +186,7 @@ impl Scaled {
         })
     }
 
-    /// Growth of small motions about a wave, in `omega_c`. The wave turns a little
+    /// Returns the growth of small motions about a wave, in `omega_c`. The wave turns a little
     /// ahead, the push stays in its direction: with `G = 1/B` and growth `l`,
     /// `G(x - i l) + conj G(x - i conj l) = 2 G(x)`. One root is zero, a mere shift.
     fn growth(&self, joint: &Joint, x: f64) -> Option<f64> {
@@ -247,7 +248,7 @@ pub struct WhirlOnset {
     pub wave: RoundWhirl,
 }
 
-/// The slowest speed at which whirl begins for a rotor that turns in the sense of
+/// Returns the slowest speed at which whirl begins for a rotor that turns in the sense of
 /// `toward`, with its derivatives of the first order; none where there is none up to 20
 /// dangerous coincidences, and where a lining is too soft for that wave \[rad/s\].
 ///
@@ -258,7 +259,7 @@ pub fn whirl_onset<T: Number>(machine: &Machine<T>, toward: f64) -> Option<T> {
     beginnings(machine, toward, true).first().copied()
 }
 
-/// As `whirl_onset`, every such speed, from the slowest.
+/// Returns every speed at which whirl begins, from the slowest, as [`whirl_onset`].
 #[must_use]
 pub fn whirl_beginnings<T: Number>(machine: &Machine<T>, toward: f64) -> Vec<T> {
     beginnings(machine, toward, false)
@@ -269,11 +270,11 @@ fn beginnings<T: Number>(machine: &Machine<T>, toward: f64, first: bool) -> Vec<
     if machine.coupling_product_at(T::from(toward)).re() == 0.0 {
         return Vec::new();
     }
-    let onsets = sought(&machine.plain(), toward, first).into_iter();
+    let onsets = search_onsets(&machine.plain(), toward, first).into_iter();
     onsets.filter(|onset| onset.appears).filter_map(|onset| derived(machine, &onset)).collect()
 }
 
-/// The speed of a fold with its derivatives.
+/// Returns the speed of a fold with its derivatives.
 fn derived<T: Number>(machine: &Machine<T>, onset: &WhirlOnset) -> Option<T> {
     // A lining is never stiffer than where blades lift off for half of each turn.
     let softest = machine.lining.map(|lining| lining.stiffness_n_per_m.re());
@@ -312,15 +313,16 @@ fn derived<T: Number>(machine: &Machine<T>, onset: &WhirlOnset) -> Option<T> {
     Some(-(imaginary - imaginary.re()) / by_speed + onset.speed_rad_s)
 }
 
-/// Every fold of round whirl for a rotor that turns in the sense of `toward`, from
+/// Returns every fold of round whirl for a rotor that turns in the sense of `toward`, from
 /// the slowest.
 #[must_use]
 pub fn whirl_onsets(machine: &Machine, toward: f64) -> Vec<WhirlOnset> {
-    sought(machine, toward, false)
+    search_onsets(machine, toward, false)
 }
 
-/// The same, or only as far as to the first that appears: the rest takes most of the time.
-fn sought(machine: &Machine, toward: f64, first: bool) -> Vec<WhirlOnset> {
+/// Searches the folds, all of them or up to the first that appears: the rest takes most of the
+/// time.
+fn search_onsets(machine: &Machine, toward: f64, first: bool) -> Vec<WhirlOnset> {
     if machine.nodal_diameters == 0.0 {
         return Vec::new();
     }
@@ -343,20 +345,16 @@ fn sought(machine: &Machine, toward: f64, first: bool) -> Vec<WhirlOnset> {
                 continue;
             }
             let there = waves(speed);
-            let told_apart = if there.len() == many.len() { there } else { many };
+            let distinct = if there.len() == many.len() { there } else { many };
             let speed_rad_s = sense * speed;
-            found.extend(closest(&told_apart).map(|wave| WhirlOnset {
-                speed_rad_s,
-                appears,
-                wave,
-            }));
+            found.extend(closest(&distinct).map(|wave| WhirlOnset { speed_rad_s, appears, wave }));
         }
         (low, at_low) = (high, at_high);
     }
     found
 }
 
-/// The speeds between two where the number of waves changes, with the waves a hair
+/// Returns the speeds between two where the number of waves changes, with the waves a hair
 /// below and above: nearer, round-off takes the two of a fold for one or none.
 fn changes(
     (low, mut before): (f64, Vec<RoundWhirl>),
@@ -376,7 +374,7 @@ fn changes(
     found
 }
 
-/// Of all waves the stiffer of the two that are nearest to each other.
+/// Returns the stiffer of the two waves that are nearest to each other.
 fn closest(waves: &[RoundWhirl]) -> Option<RoundWhirl> {
     let apart = |pair: &[RoundWhirl]| match pair {
         [one, other] => (one.omega_rad_s - other.omega_rad_s).abs(),

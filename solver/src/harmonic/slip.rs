@@ -75,13 +75,13 @@ pub struct SlipPoint {
 }
 
 impl SlipPoint {
-    /// Whether there is a lasting slip that contact can hold.
+    /// Returns whether there is a lasting slip that contact can hold.
     #[must_use]
     pub fn exists(&self) -> bool {
         self.outcome.is_ok()
     }
 
-    /// Whether neighbouring motions converge to it.
+    /// Returns whether neighbouring motions converge to it.
     #[must_use]
     pub fn stable(&self) -> bool {
         self.outcome.is_ok_and(|orbit| orbit.slope.abs() < 1.0)
@@ -101,7 +101,7 @@ pub struct Crossing {
     pub slope: f64,
 }
 
-/// The map: from a speed just after one corner \[m/s\], along a side, to that
+/// Returns the map from a speed just after one corner \[m/s\], along a side, to that
 /// just after the next; `None` where the wave turns back (and rocks into the
 /// corner), or not above the critical speed.
 ///
@@ -138,7 +138,7 @@ pub fn slip_map(machine: &Machine, rotor_speed: f64, speed: f64) -> Option<Cross
     })
 }
 
-/// Lasting slip over a list of rotor speeds \[rad/s\].
+/// Computes lasting slip over a list of rotor speeds \[rad/s\].
 ///
 /// # Errors
 /// A polygon without corners, or a speed that is not finite.
@@ -170,7 +170,7 @@ pub struct SlipRegion {
     pub limits: Vec<SlipLimit>,
 }
 
-/// The speeds between the least and the largest of a list \[rad/s\] where slip
+/// Returns the speeds between the least and the largest of a list \[rad/s\] where slip
 /// appears or vanishes.
 ///
 /// # Errors
@@ -192,7 +192,7 @@ pub fn slip_limits(machine: &Machine, speeds: &[f64]) -> Result<Vec<SlipLimit>, 
     Ok(limits)
 }
 
-/// The repeating arc at a speed, held by contact all along.
+/// Returns the repeating arc at a speed, held by contact all along.
 fn repeating(machine: &Machine, speed: f64) -> Result<(SaddleFlow, Arc), NoSlip> {
     if machine.at(speed).clearance() <= 0.0 {
         return Err(NoSlip::Closed);
@@ -225,7 +225,7 @@ impl Units {
     }
 }
 
-/// How much areas of the sliding flow shrink along an arc.
+/// Returns by how much areas of the sliding flow shrink along an arc.
 fn contraction(slide: &SaddleFlow, arc: &Arc) -> f64 {
     (-2.0 * slide.zeta * arc.time).exp()
 }
@@ -292,7 +292,7 @@ impl Means {
     }
 }
 
-/// Mean of `e^(rate t)` over `[0, time]`.
+/// Returns the mean of `e^(rate t)` over `[0, time]`.
 fn mean_exponential(rate: f64, time: f64) -> f64 {
     let x = rate * time;
     if x == 0.0 { 1.0 } else { x.exp_m1() / x }
@@ -325,8 +325,8 @@ struct Arc {
 }
 
 impl SaddleFlow {
-    /// At a rotor speed `speed` \[rad/s\], taken without its sign; `None` without
-    /// corners or not above the critical speed.
+    /// Creates the flow at a rotor speed `speed` \[rad/s\], taken without its sign; `None`
+    /// without corners or not above the critical speed.
     fn at(machine: &Machine, speed: f64) -> Option<Self> {
         let zeta = machine.casing_damping_ratio;
         let ratio = machine.nu(speed).abs() / machine.omega_c;
@@ -346,7 +346,7 @@ impl SaddleFlow {
         saddle.is_finite().then_some(slide)
     }
 
-    /// The arc that starts at the corner `y = -end` with this speed.
+    /// Returns the arc that starts at the corner `y = -end` with this speed.
     fn starting(&self, speed: f64) -> (f64, f64) {
         let [up, down] = self.roots;
         let offset = -self.end - self.saddle;
@@ -354,26 +354,26 @@ impl SaddleFlow {
         (grow, offset - grow)
     }
 
-    /// Speed just after a corner below which the wave turns back before the
+    /// Returns the speed just after a corner below which the wave turns back before the
     /// next: the stable manifold of the saddle.
     fn least_speed(&self) -> f64 {
         (self.roots[1] * (-self.end - self.saddle)).max(0.0)
     }
 
-    /// Position and speed along an arc.
+    /// Returns position and speed along an arc.
     fn state(&self, arc: &Arc, time: f64) -> (f64, f64) {
         let [up, down] = self.roots;
         let (grow, decay) = (arc.grow * (up * time).exp(), arc.decay * (down * time).exp());
         (self.saddle + grow + decay, grow * up + decay * down)
     }
 
-    /// Push at a position and speed; negative would be a pull.
+    /// Returns the contact force at a position and speed; negative would be a pull.
     fn push(&self, y: f64, speed: f64) -> f64 {
         let f = self.ratio;
         (f - 1.0) * (f + 1.0) - 2.0 * f * speed - 2.0 * self.zeta * f * y
     }
 
-    /// Smallest push along an arc.
+    /// Returns the smallest contact force along an arc.
     fn least_push(&self, arc: &Arc) -> f64 {
         let at = |time| {
             let (y, speed) = self.state(arc, time);
@@ -387,7 +387,7 @@ impl SaddleFlow {
         if time > 0.0 && time < arc.time { ends.min(at(time)) } else { ends }
     }
 
-    /// The arc from a speed just after one corner to the next corner; `None`
+    /// Returns the arc from a speed just after one corner to the next corner; `None`
     /// where the wave turns back. Contact is not checked.
     fn cross(&self, speed: f64) -> Option<Arc> {
         if speed <= self.least_speed() {
@@ -400,7 +400,7 @@ impl SaddleFlow {
         Some(Arc { grow, decay, time })
     }
 
-    /// The arc that takes a given time from corner to corner.
+    /// Returns the arc that takes a given time from corner to corner.
     fn in_time(&self, time: f64) -> Arc {
         let [up, down] = self.roots;
         let (start, stop) = (-self.end - self.saddle, self.end - self.saddle);
@@ -411,12 +411,12 @@ impl SaddleFlow {
         Arc { grow, decay: start - grow, time }
     }
 
-    /// Speeds just after the corner an arc starts at, and just before the next.
+    /// Returns the speeds just after the corner an arc starts at, and just before the next.
     fn end_speeds(&self, arc: &Arc) -> [f64; 2] {
         [self.state(arc, 0.0).1, self.state(arc, arc.time).1]
     }
 
-    /// The arc that repeats itself: the drag restores on a side the speed lost
+    /// Returns the arc that repeats itself: the drag restores on a side the speed lost
     /// at a corner. At most one exists, because the slope of the map from
     /// corner to corner is below one there; `None` if there is none.
     fn repeating(&self) -> Option<Arc> {
@@ -435,7 +435,7 @@ impl SaddleFlow {
     }
 }
 
-/// The first time from which a condition holds, to the last digit, found by
+/// Returns the first time from which a condition holds, to the last digit, found by
 /// doubling from `guess` and then halving.
 fn first_time(holds: impl Fn(f64) -> bool, guess: f64) -> Option<f64> {
     let (mut below, mut above) = (0.0, guess);

@@ -50,8 +50,8 @@ pub(super) struct Linearised {
 }
 
 impl Linearised {
-    /// About an equilibrium at rotor speed `speed` \[rad/s\]; `damped` includes
-    /// the damping of casing and blades.
+    /// Creates the motion about an equilibrium at rotor speed `speed` \[rad/s\]; `damped`
+    /// includes the damping of casing and blades.
     pub fn about(machine: &Machine, speed: f64, damped: bool, held: &[ClosedSide]) -> Self {
         let wave = Wave::at(machine, speed, damped);
         let whirl = 2.0 * machine.nu(speed) / machine.omega_c;
@@ -106,7 +106,7 @@ impl Linearised {
         }
     }
 
-    /// Basis of the motions that keep every contact, one column each, in
+    /// Returns a basis of the motions that keep every contact, one column each, in
     /// coordinates of unit mass; orthonormal.
     fn free_motions(&self, weights: &[f64]) -> DMatrix<f64> {
         let mut basis = DMatrix::identity(weights.len(), weights.len());
@@ -127,7 +127,7 @@ impl Linearised {
         basis
     }
 
-    /// Whether without the contact forces every contact would close: then the
+    /// Returns whether without the contact forces every contact would close: then the
     /// equality of Eq. (11) holds this state for any signs.
     pub fn closes(&self) -> bool {
         self.gradients.iter().all(|gradient| {
@@ -141,7 +141,7 @@ impl Linearised {
         })
     }
 
-    /// Eigenvalues of the motion that keeps every contact \[1/s\]; `None` if
+    /// Returns the eigenvalues of the motion that keeps every contact \[1/s\]; `None` if
     /// they overflow or do not converge.
     pub fn eigenvalues(&self) -> Option<Vec<Complex<f64>>> {
         // The last coordinate is the sine mode of the blades; blades whose rates
@@ -167,25 +167,25 @@ impl Linearised {
         Some(values.iter().map(|value| value * (self.rate / unit)).collect())
     }
 
-    /// Gradients of the gaps in contact.
+    /// Returns the gradients of the gaps in contact.
     pub fn gradients(&self) -> &[Vector4<f64>] {
         &self.gradients
     }
 
-    /// `K + i ratio C - ratio^2 M`.
+    /// Returns `K + i ratio C - ratio^2 M`.
     pub fn dynamic_stiffness(&self, ratio: f64) -> Matrix4<Complex<f64>> {
         let static_part = self.stiffness - Matrix4::from_diagonal(&self.mass) * (ratio * ratio);
         static_part.zip_map(&(self.damping * ratio), Complex::new)
     }
 
-    /// The two motions that remain in a corner: those of the blades, which the
+    /// Returns the two motions that remain in a corner: those of the blades, which the
     /// casing follows.
     pub fn corner_basis(&self) -> Option<Matrix4x2<f64>> {
         let [a, b] = self.gradients.as_slice() else { return None };
         Some(follow(a, b))
     }
 
-    /// `M, C, K` of the two blade motions in a corner, as the forces that do no work on
+    /// Returns `M, C, K` of the two blade motions in a corner, as the forces that do no work on
     /// them see them.
     fn corner_motion(&self) -> Option<[Matrix2<f64>; 3]> {
         let basis = self.corner_basis()?;
@@ -198,8 +198,8 @@ impl Linearised {
         ])
     }
 
-    /// Whether a motion grows in a corner whose forces are not along the gradients of its
-    /// gaps, or the eigenvalues of the two cannot be computed.
+    /// Returns whether a motion grows in a corner whose forces are not along the gradients of
+    /// its gaps, or the eigenvalues of the two cannot be computed.
     fn grows_in_corner(&self) -> bool {
         let values = self.corner_motion().and_then(|[mass, damping, stiffness]| {
             let inverse = mass.try_inverse()?;
@@ -212,7 +212,7 @@ impl Linearised {
         values.is_none_or(|values| grows(&values, 1.0))
     }
 
-    /// Whether no motion that keeps every contact grows. In a corner by the signs of
+    /// Returns whether no motion that keeps every contact grows. In a corner by the signs of
     /// its characteristic polynomial, which needs no eigenvalues unless the result
     /// is close; otherwise by the eigenvalues. False if these cannot be computed.
     pub fn is_stable(&self) -> bool {
@@ -227,7 +227,7 @@ impl Linearised {
     }
 }
 
-/// Whether a motion with one of these eigenvalues grows. Real parts up to a small
+/// Returns whether a motion with one of these eigenvalues grows. Real parts up to a small
 /// part of the eigenvalue, or of `rate`, are rounding: a nearly defective pair
 /// has half the digits, and all eigenvalues have the rounding of the largest.
 pub(super) fn grows(values: &[Complex<f64>], rate: f64) -> bool {
@@ -237,7 +237,7 @@ pub(super) fn grows(values: &[Complex<f64>], rate: f64) -> bool {
         .any(|value| value.re > (NEUTRAL * value.norm().max(rate)).max(ROUND_OFF * fastest))
 }
 
-/// Eigenvalues of the motion about rest \[1/s\], which keeps no contact: those of
+/// Returns the eigenvalues of the motion about rest \[1/s\], which keeps no contact: those of
 /// the casing, turned by the rotor, and of the blades.
 pub(super) fn at_rest(machine: &Machine, speed: f64, damped: bool) -> Vec<Complex<f64>> {
     let roots = |rate: f64, zeta: f64| {
@@ -257,18 +257,18 @@ pub(super) fn at_rest(machine: &Machine, speed: f64, damped: bool) -> Vec<Comple
     values
 }
 
-/// The largest real part of these eigenvalues.
+/// Returns the largest real part of these eigenvalues.
 pub(super) fn largest_growth(values: &[Complex<f64>]) -> f64 {
     values.iter().map(|value| value.re).fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// `n_d alpha_i` per unit of scaled blade coordinate.
+/// Returns `n_d alpha_i` per unit of scaled blade coordinate.
 pub(super) fn blade_scale(machine: &Machine) -> f64 {
     let scales = Scales::of(machine);
     (scales.softness * scales.share).sqrt()
 }
 
-/// The casing follows the blades: `(x, y) = -B_u^-1 B_alpha alpha`.
+/// Returns the motions in which the casing follows the blades: `(x, y) = -B_u^-1 B_alpha alpha`.
 fn follow(a: &Vector4<f64>, b: &Vector4<f64>) -> Matrix4x2<f64> {
     let determinant = a[0] * b[1] - a[1] * b[0];
     let mut basis = Matrix4x2::zeros();
@@ -281,7 +281,7 @@ fn follow(a: &Vector4<f64>, b: &Vector4<f64>) -> Matrix4x2<f64> {
     basis
 }
 
-/// `[a4, a3, a2, a1, a0]` of `det(M s^2 + C s + K)`.
+/// Returns `[a4, a3, a2, a1, a0]` of `det(M s^2 + C s + K)`.
 fn characteristic([m, c, k]: &[Matrix2<f64>; 3]) -> [f64; 5] {
     let entry = |i: usize, j: usize| [m[(i, j)], c[(i, j)], k[(i, j)]];
     let product = |p: [f64; 3], q: [f64; 3]| {
@@ -297,7 +297,7 @@ fn characteristic([m, c, k]: &[Matrix2<f64>; 3]) -> [f64; 5] {
     std::array::from_fn(|i| diagonal[i] - other[i])
 }
 
-/// Hurwitz's criterion: every root has a negative real part. `None` if it is
+/// Returns whether, by Hurwitz's criterion, every root has a negative real part. `None` if it is
 /// too close to neutral to decide.
 fn hurwitz([a4, a3, a2, a1, a0]: [f64; 5]) -> Option<bool> {
     let last = a1 * (a2 * a3 - a1 * a4) - a3 * a3 * a0;
@@ -309,8 +309,8 @@ fn hurwitz([a4, a3, a2, a1, a0]: [f64; 5]) -> Option<bool> {
     clear.then_some(signs && last > 0.0)
 }
 
-/// Without damping the odd coefficients vanish and no motion grows where both
-/// roots in `s^2` are real and negative. Two equal ones differ by rounding.
+/// Returns whether no motion grows without damping. The odd coefficients vanish, and none grows
+/// where both roots in `s^2` are real and negative. Two equal ones differ by rounding.
 fn all_oscillate([a4, _, a2, _, a0]: [f64; 5]) -> bool {
     a4 > 0.0 && a2 > 0.0 && a0 > 0.0 && a2 * a2 - 4.0 * a4 * a0 >= -AS_ZERO * a2 * a2
 }

@@ -26,7 +26,7 @@ pub struct Heading<'a> {
 }
 
 impl Heading<'_> {
-    /// Describes the machine and the blades that hold the wave, one fact per line.
+    /// Writes the machine and the blades that hold the wave, one fact per line.
     ///
     /// # Errors
     /// An error of the writer.

@@ -20,7 +20,7 @@ pub const LOCKED: View = View {
     answer,
 };
 
-/// The two tables of the locked motion: a short one to read, every number for files.
+/// Makes the two tables of the locked motion: a short one to read, every number for files.
 fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let rows = request.sweep.as_ref().map_or_else(|| Rows::of(Vec::new()), rows);
     let tables = vec![(String::new(), rows.table(SUMMARY))];

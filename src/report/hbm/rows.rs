@@ -152,10 +152,10 @@ mod tests {
                 (0..count).flat_map(|place| -> Vec<Value> { at(place) }).collect();
             let streamed = rows(count, move |place| Ok(at(place)));
             let whole = json!({ "before": [1], "rows": whole });
-            let told = |value: &dyn Fn() -> serde_json::Result<String>| value().unwrap();
+            let written = |value: &dyn Fn() -> serde_json::Result<String>| value().unwrap();
             assert_eq!(
-                told(&|| serde_json::to_string_pretty(&streamed)),
-                told(&|| serde_json::to_string_pretty(&whole))
+                written(&|| serde_json::to_string_pretty(&streamed)),
+                written(&|| serde_json::to_string_pretty(&whole))
             );
         }
     }

@@ -3,11 +3,11 @@
 //! lining (docs/theory.md, section 10).
 //!
 //! `S(r) = -1/Re B(omega)`, `Im B(omega) = 0`: the blades together must be as stiff as
-//! the joint asks. The frequency is that of so many blades that they are round, so the wave is steady
-//! in a frame that turns with it, and its stability needs only eigenvalues there: of eight
-//! real states, casing and blade wave with their rates. With `z -> z e^{ist}` every time
-//! derivative becomes `d/dt + i omega` for the casing and `d/dt + i s` for the blades; a
-//! steady state in the frame of the blades has `omega = nu`, `s = 0`.
+//! the joint requires. The frequency is that in the limit of many blades, so the wave is
+//! steady in a frame that turns with it, and its stability needs only eigenvalues there: of
+//! eight real states, casing and blade wave with their rates. With `z -> z e^{ist}` every
+//! time derivative becomes `d/dt + i omega` for the casing and `d/dt + i s` for the blades;
+//! a steady state in the frame of the blades has `omega = nu`, `s = 0`.
 
 use nalgebra::{Complex, DMatrix};
 use serde::Serialize;
@@ -56,7 +56,7 @@ pub enum Whirl {
 }
 
 impl Lining<'_> {
-    /// Every wave of constant amplitude at a speed \[rad/s\], by increasing amplitude.
+    /// Returns every wave of constant amplitude at a speed \[rad/s\], by increasing amplitude.
     ///
     /// # Errors
     /// Stiffnesses that differ by too many powers of ten.
@@ -102,7 +102,7 @@ impl Lining<'_> {
         })
     }
 
-    /// Whether waves of any amplitude stay bounded: far out, where every blade lifts off
+    /// Returns whether waves of any amplitude stay bounded: far out, where every blade lifts off
     /// for half of each turn, they decay.
     #[must_use]
     pub fn is_bounded(&self, speed: f64) -> bool {
@@ -110,7 +110,7 @@ impl Lining<'_> {
         !Quartic::new(&joint, self.stiffness_far_out()).rest(speed).grows
     }
 
-    /// What a wave comes to at a speed \[rad/s\]: with preload one that grows from rest,
+    /// Returns what a wave comes to at a speed \[rad/s\]: with preload one that grows from rest,
     /// with a clearance one that was large enough to touch.
     ///
     /// # Errors
@@ -129,7 +129,7 @@ impl Lining<'_> {
 /// A real matrix of two rows that acts on `(Re w, Im w)`.
 pub(super) type Tangent = [[f64; 2]; 2];
 
-/// The growth rates `Re` and frequencies `Im` of the motions about a wave of casing
+/// Returns the growth rates `Re` and frequencies `Im` of the motions about a wave of casing
 /// frequency `omega` and blade frequency `s` \[rad/s\], whose pushes change by
 /// `dp = -tangent dw` \[N/m\]; `None` where the eigenvalues overflow.
 pub(super) fn small_motions(

@@ -30,7 +30,7 @@ pub struct Lining<'a> {
 }
 
 impl<'a> Lining<'a> {
-    /// Of a machine and the surface of its contact.
+    /// Creates the lining of `machine` from the properties of its contact surface.
     ///
     /// # Errors
     /// A machine whose blades do not all share in one travelling wave: without corners,
@@ -53,7 +53,7 @@ impl<'a> Lining<'a> {
         })
     }
 
-    /// The same with the machine at a rotor speed \[rad/s\].
+    /// Returns the lining of the machine at a rotor speed \[rad/s\].
     #[must_use]
     pub fn at(&self, speed: f64) -> Self {
         let machine = match self.machine.at(speed) {
@@ -63,20 +63,20 @@ impl<'a> Lining<'a> {
         Self { machine, ..*self }
     }
 
-    /// Depth to which every blade is pressed in at rest, `-g0` \[m\]; negative where there
-    /// is a clearance.
+    /// Returns the depth to which every blade is pressed in at rest, `-g0` \[m\]; negative
+    /// where there is a clearance.
     #[must_use]
     pub fn preload_m(&self) -> f64 {
         -self.machine.clearance()
     }
 
-    /// Push at a gap `g` \[N\].
+    /// Returns the contact force at a gap `g` \[N\].
     #[must_use]
     pub fn push(&self, gap: f64) -> f64 {
         self.law().push(gap)
     }
 
-    /// How much the push grows as the gap closes, `-dP/dg` \[N/m\].
+    /// Returns the contact stiffness, `-dP/dg` \[N/m\].
     #[must_use]
     pub fn slope(&self, gap: f64) -> f64 {
         self.law().slope(gap)
@@ -87,22 +87,22 @@ impl<'a> Lining<'a> {
         LiningLaw { stiffness_n_per_m, smoothing_m }
     }
 
-    /// Stiffness of all blades against a small wave at rest: `S0 = N k_p/2`, zero with a
-    /// clearance \[N/m\].
+    /// Returns the stiffness of all blades against a small wave at rest: `S0 = N k_p/2`, zero
+    /// with a clearance \[N/m\].
     #[must_use]
     pub fn stiffness_at_rest(&self) -> f64 {
         0.5 * f64::from(self.machine.polygon.blades) * self.slope(self.machine.clearance())
     }
 
-    /// Stiffness against a wave so large that blades lift off for half of each turn,
+    /// Returns the stiffness against a wave so large that blades lift off for half of each turn,
     /// `N k_p/4` \[N/m\].
     #[must_use]
     pub fn stiffness_far_out(&self) -> f64 {
         0.25 * f64::from(self.machine.polygon.blades) * self.stiffness_n_per_m
     }
 
-    /// Stiffness `S(r)` of all blades against a wave of amplitude `r > 0` in the gaps,
-    /// of many blades \[N/m\].
+    /// Returns the stiffness `S(r)` of all blades against a wave of amplitude `r > 0` in the
+    /// gaps, of many blades \[N/m\].
     #[must_use]
     pub fn stiffness_of_wave(&self, r: f64) -> f64 {
         let depth = self.preload_m() / r;
@@ -110,7 +110,7 @@ impl<'a> Lining<'a> {
         scale * mean(depth, self.smoothing_m / r)
     }
 
-    /// How fast that stiffness changes with the amplitude, `r dS/dr` \[N/m\].
+    /// Returns the change of that stiffness with the amplitude, `r dS/dr` \[N/m\].
     ///
     /// The mean of `d(x/r)` over the lining depends on `r` through its two ends only.
     #[must_use]
@@ -120,7 +120,7 @@ impl<'a> Lining<'a> {
         scale * mean_change(depth, width)
     }
 
-    /// Every amplitude of a wave that meets this stiffness, in increasing order \[m\].
+    /// Returns every amplitude of a wave that meets this stiffness, in increasing order \[m\].
     #[must_use]
     pub fn amplitudes(&self, stiffness: f64) -> Vec<f64> {
         let length = self.preload_m().abs() + self.smoothing_m;
@@ -138,7 +138,7 @@ impl<'a> Lining<'a> {
     }
 }
 
-/// The place between two of different sign where a function changes its sign.
+/// Returns the place between two of different sign where a function changes its sign.
 pub(super) fn between([low, high]: [f64; 2], of: impl Fn(f64) -> f64) -> f64 {
     let (start, end) = (of(low), of(high));
     if start == 0.0 || end == 0.0 {
@@ -148,7 +148,7 @@ pub(super) fn between([low, high]: [f64; 2], of: impl Fn(f64) -> f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// Share of a wave of amplitude 1 that meets a linear lining of depth `x`:
+/// Returns the share of a wave of amplitude 1 that meets a linear lining of depth `x`:
 /// `f - sin f cos f` with `cos f = -x`; `pi` where no blade lifts off.
 fn share(x: f64) -> f64 {
     if x >= 1.0 {
@@ -162,12 +162,12 @@ fn share(x: f64) -> f64 {
     }
 }
 
-/// Its derivative, `2 sin f`.
+/// Returns the derivative of `share`, `2 sin f`.
 fn share_slope(x: f64) -> f64 {
     2.0 * ((1.0 - x) * (1.0 + x)).max(0.0).sqrt()
 }
 
-/// `int_{-inf}^{x} share`: `sin f - sin^3 f/3 - f cos f`.
+/// Returns `int_{-inf}^{x} share`: `sin f - sin^3 f/3 - f cos f`.
 fn whole(x: f64) -> f64 {
     if x >= 1.0 {
         return PI * x;
@@ -180,7 +180,7 @@ fn whole(x: f64) -> f64 {
     sin - sin * sin * sin / 3.0 + angle * x
 }
 
-/// The mean of `share` over a lining from `depth - width` to `depth`.
+/// Returns the mean of `share` over a lining from `depth - width` to `depth`.
 pub(super) fn mean(depth: f64, width: f64) -> f64 {
     if width > LINING_DIVIDED {
         return (whole(depth) - whole(depth - width)) / width;
@@ -188,7 +188,7 @@ pub(super) fn mean(depth: f64, width: f64) -> f64 {
     averaged(depth, width, share)
 }
 
-/// How that mean changes with the logarithm of the amplitude, of which depth and width
+/// Returns the change of that mean with the logarithm of the amplitude, of which depth and width
 /// are both parts: `mean - [x share]/width` between its ends.
 pub(super) fn mean_change(depth: f64, width: f64) -> f64 {
     if width > LINING_DIVIDED {
@@ -198,8 +198,8 @@ pub(super) fn mean_change(depth: f64, width: f64) -> f64 {
     -averaged(depth, width, |x| x * share_slope(x))
 }
 
-/// A mean by quadrature, exact to round-off over a narrow lining: cut at its kinks, with
-/// a substitution that takes their roots away.
+/// Computes a mean by quadrature, exact to round-off over a narrow lining: cut at its kinks,
+/// with a substitution that takes their roots away.
 fn averaged(depth: f64, width: f64, of: impl Fn(f64) -> f64) -> f64 {
     if width == 0.0 {
         return of(depth);

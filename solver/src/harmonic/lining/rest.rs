@@ -47,7 +47,7 @@ pub struct Rest {
 }
 
 impl Rest {
-    /// The motion that grows fastest, or decays slowest.
+    /// Returns the motion that grows fastest, or decays slowest.
     #[must_use]
     pub fn worst(&self) -> RestRoot {
         self.roots[0]
@@ -55,7 +55,7 @@ impl Rest {
 }
 
 impl Lining<'_> {
-    /// The motions about rest at a speed \[rad/s\]. With a clearance these are those of
+    /// Returns the motions about rest at a speed \[rad/s\]. With a clearance these are those of
     /// casing and blades, each by itself.
     #[must_use]
     pub fn rest(&self, speed: f64) -> Rest {
@@ -80,7 +80,7 @@ pub(super) struct Quartic {
 }
 
 impl Quartic {
-    /// Of a joint and a stiffness of all blades \[N/m\].
+    /// Creates the quartic of a joint and a stiffness of all blades \[N/m\].
     pub fn new(joint: &Joint, stiffness: f64) -> Self {
         let m = &*joint.machine;
         let casing = m.casing_stiffness / m.casing_mass;
@@ -100,7 +100,7 @@ impl Quartic {
         }
     }
 
-    /// `L_c`, `L_a` and their derivatives.
+    /// Returns `L_c`, `L_a` and their derivatives.
     fn parts(&self, t: Complex<f64>) -> [[Complex<f64>; 2]; 2] {
         let of = |[square, rate]: [f64; 2], at: Complex<f64>| {
             let turned = Complex::new(0.0, rate);
@@ -109,7 +109,7 @@ impl Quartic {
         [of(self.casing, t + self.nu), of(self.blades, t)]
     }
 
-    /// Value, derivative and size of the terms.
+    /// Returns the value, the derivative and the size of the terms.
     fn at(&self, t: Complex<f64>) -> (Complex<f64>, Complex<f64>, f64) {
         let [[c, c_slope], [a, a_slope]] = self.parts(t);
         let (joined_c, joined_a) = (c + self.on_casing, a + self.on_blades);
@@ -120,7 +120,7 @@ impl Quartic {
         (value, slope, joined_c.norm() * joined_a.norm() + product.norm())
     }
 
-    /// Residual of a root \[rad/s\] over the size of its terms, for tests.
+    /// Returns the residual of a root \[rad/s\] over the size of its terms, for tests.
     #[cfg(test)]
     pub fn residual(&self, s: Complex<f64>) -> f64 {
         let t = s / self.scale;
@@ -130,7 +130,7 @@ impl Quartic {
         self.at(t).0.norm() / (casing * blades)
     }
 
-    /// The four roots \[rad/s\], by the iteration of Aberth and Ehrlich.
+    /// Returns the four roots \[rad/s\], by the iteration of Aberth and Ehrlich.
     pub fn roots(&self) -> [Complex<f64>; 4] {
         let casing = (Complex::from(self.casing[0]) + self.on_casing).sqrt();
         let blades = Complex::from(self.blades[0] + self.on_blades).sqrt();
@@ -169,7 +169,7 @@ impl Quartic {
         roots.map(|root| root * self.scale)
     }
 
-    /// The motions about rest.
+    /// Returns the motions about rest.
     pub fn rest(&self, speed: f64) -> Rest {
         let nu = self.nu * self.scale;
         let mut roots = self.roots().map(|s| RestRoot {
@@ -223,7 +223,7 @@ pub struct GrowthThreshold {
     pub speed_rad_s: f64,
 }
 
-/// The coincidence of a machine whose blades together have a stiffness \[N/m\], in the
+/// Returns the coincidence of a machine whose blades together have a stiffness \[N/m\], in the
 /// sense of rotation of `sense`; `None` for blades that nothing comes back to.
 fn shifted(machine: &Machine, stiffness: f64, sense: f64) -> Option<ShiftedCoincidence> {
     let product = machine.coupling_product_at(sense);
@@ -238,7 +238,7 @@ fn shifted(machine: &Machine, stiffness: f64, sense: f64) -> Option<ShiftedCoinc
     Some(ShiftedCoincidence { speed_rad_s: speed.copysign(sense), casing_rad_s, blades_rad_s })
 }
 
-/// The frequencies of casing and blades at rest that all press on this stiffness; `None`
+/// Returns the frequencies of casing and blades at rest that all press on this stiffness; `None`
 /// for blades that nothing comes back to.
 fn pressed(machine: &Machine, stiffness: f64, product: f64) -> Option<[f64; 2]> {
     let blades = machine.blade_stiffness_at_rest() + stiffness * product;
@@ -249,7 +249,7 @@ fn pressed(machine: &Machine, stiffness: f64, product: f64) -> Option<[f64; 2]> 
     Some([casing, (blades / machine.blade_modal_mass).sqrt()])
 }
 
-/// Width in speed over which growth changes around a coincidence \[rad/s\].
+/// Returns the width in speed over which growth changes around a coincidence \[rad/s\].
 fn width(machine: &Machine, stiffness: f64, sense: f64) -> f64 {
     let product = machine.coupling_product_at(sense).abs();
     let casing = (machine.casing_stiffness + stiffness) * machine.casing_mass;
@@ -264,7 +264,7 @@ fn width(machine: &Machine, stiffness: f64, sense: f64) -> f64 {
 const BESIDE_REST: f64 = 1e-9;
 
 impl Lining<'_> {
-    /// The coincidence at which rest grows fastest, for a rotor that turns in the sense
+    /// Returns the coincidence at which rest grows fastest, for a rotor that turns in the sense
     /// of `speed`; none with a clearance.
     #[must_use]
     pub fn shifted_coincidence(&self, speed: f64) -> Option<ShiftedCoincidence> {
@@ -272,7 +272,7 @@ impl Lining<'_> {
         (stiffness > 0.0).then(|| shifted(&self.machine, stiffness, speed)).flatten()
     }
 
-    /// Every speed in a range \[rad/s\] at which the worst growth at rest changes its
+    /// Returns every speed in a range \[rad/s\] at which the worst growth at rest changes its
     /// sign, in increasing order.
     ///
     /// # Errors
@@ -316,7 +316,7 @@ impl Lining<'_> {
             .collect())
     }
 
-    /// The speeds of the scan, in order.
+    /// Returns the speeds of the scan, in order.
     fn places(&self, [from, to]: [f64; 2]) -> Vec<f64> {
         let mut linings = vec![self.at(from).stiffness_at_rest(), self.at(to).stiffness_at_rest()];
         linings.dedup();
@@ -344,7 +344,7 @@ impl Lining<'_> {
         places
     }
 
-    /// The extremum among three neighbours, where it has another sign than they.
+    /// Returns the extremum among three neighbours, where it has another sign than they.
     fn extreme(&self, three: [Rest; 3]) -> Option<Rest> {
         let [before, here, after] = three.map(|rest| rest.worst().growth_1_s);
         let sense = if three[1].grows { -1.0 } else { 1.0 };
@@ -359,7 +359,7 @@ impl Lining<'_> {
     }
 }
 
-/// The least stiffness of a lining under preload that makes rest grow at the peak near
+/// Returns the least stiffness of a lining under preload that makes rest grow at the peak near
 /// the coincidence, for a rotor that turns in the sense of `sense`; zero where blades or
 /// casing have no damping, none for a machine whose blades and casing are not coupled.
 #[must_use]
@@ -392,7 +392,7 @@ pub fn growth_threshold(machine: &Machine, sense: f64) -> Option<GrowthThreshold
     None
 }
 
-/// The speed of the fastest growth near a coincidence, and that growth \[1/s\].
+/// Returns the speed of the fastest growth near a coincidence, and that growth \[1/s\].
 fn peak(machine: &Machine, stiffness: f64, sense: f64) -> Option<(f64, f64)> {
     let middle = shifted(machine, stiffness, sense)?.speed_rad_s;
     let reach = PEAK_REACH * width(machine, stiffness, sense);

@@ -79,7 +79,7 @@ struct Balance<'a> {
     scale: f64,
 }
 
-/// A product of two complex numbers as a matrix that acts on the second.
+/// Returns a product of two complex numbers as a matrix that acts on the second.
 fn as_matrix(number: Complex<f64>) -> Matrix2<f64> {
     Matrix2::new(number.re, -number.im, number.im, number.re)
 }
@@ -97,7 +97,7 @@ impl<'a> Balance<'a> {
         Self { lining, joint, speed, casing, pushed, scale }
     }
 
-    /// Of all sides: phase, and gap at a place.
+    /// Returns the phase and the gap at a place of every side.
     fn gaps(&self, w: Vector2<f64>) -> impl Iterator<Item = (u32, Vector2<f64>, f64)> {
         let machine = &*self.lining.machine;
         let clearance = machine.clearance();
@@ -107,7 +107,8 @@ impl<'a> Balance<'a> {
         })
     }
 
-    /// The push of all blades at a place, and how it changes: `dp = -tangent dw`.
+    /// Returns the contact force of all blades at a place, and how it changes: `dp = -tangent
+    /// dw`.
     fn pushes(&self, w: Vector2<f64>) -> (Vector2<f64>, Matrix2<f64>) {
         let each = f64::from(self.lining.machine.polygon.blades_per_side);
         self.gaps(w).fold((Vector2::zeros(), Matrix2::zeros()), |(push, slope), (_, n, gap)| {
@@ -119,15 +120,15 @@ impl<'a> Balance<'a> {
         })
     }
 
-    /// Residual of the two equations and its derivative by `w`, both dimensionless but
-    /// for the length of `w`.
+    /// Returns the residual of the two equations and its derivative by `w`, both dimensionless
+    /// but for the length of `w`.
     fn residual(&self, w: Vector2<f64>) -> (Vector2<f64>, Matrix2<f64>) {
         let (push, slope) = self.pushes(w);
         let (casing, pushed) = (as_matrix(self.casing), as_matrix(self.pushed));
         ((casing * w - pushed * push) / self.scale, (casing + pushed * slope) / self.scale)
     }
 
-    /// Newton's method; `None` where it does not settle.
+    /// Solves the equations by Newton's method; `None` where it does not converge.
     fn solve(&self, start: Vector2<f64>) -> Option<Vector2<f64>> {
         let length = self.length();
         let mut w = start;
@@ -154,12 +155,12 @@ impl<'a> Balance<'a> {
         (residual.norm() <= AS_ZERO * w.norm().max(length)).then_some(w)
     }
 
-    /// Clearance and smoothing, as the length of this contact \[m\].
+    /// Returns clearance and smoothing, as the length of this contact \[m\].
     fn length(&self) -> f64 {
         self.lining.machine.clearance().abs() + self.lining.smoothing_m
     }
 
-    /// The place that neighbouring sides from the first on would hold if they were
+    /// Returns the place that neighbouring sides from the first on would hold if they were
     /// springs, `eps = 0`.
     fn sprung(&self, sides: u32) -> Option<Vector2<f64>> {
         let machine = &*self.lining.machine;
@@ -176,7 +177,7 @@ impl<'a> Balance<'a> {
         (casing + pushed * slope).lu().solve(&(pushed * push))
     }
 
-    /// Starts of Newton's method.
+    /// Returns the starts of Newton's method.
     fn starts(&self) -> Vec<Vector2<f64>> {
         let polygon = &self.lining.machine.polygon;
         let mut starts: Vec<Vector2<f64>> =
@@ -190,7 +191,7 @@ impl<'a> Balance<'a> {
         starts
     }
 
-    /// Whether two places are the same up to a turn by whole sides.
+    /// Returns whether two places are the same up to a turn by whole sides.
     fn alike(&self, one: Vector2<f64>, other: Vector2<f64>) -> bool {
         let polygon = &self.lining.machine.polygon;
         let length = one.norm().max(self.length());
@@ -201,7 +202,7 @@ impl<'a> Balance<'a> {
         })
     }
 
-    /// The state at a place.
+    /// Returns the state at a place.
     fn state(&self, w: Vector2<f64>) -> Result<LiningState, HarmonicError> {
         let machine = &*self.lining.machine;
         let unsettled = HarmonicError::Unsettled { speed: self.speed };
@@ -242,7 +243,7 @@ impl<'a> Balance<'a> {
 }
 
 impl Lining<'_> {
-    /// Every steady state at a speed \[rad/s\], by the number of groups that push; of
+    /// Returns every steady state at a speed \[rad/s\], by the number of groups that push; of
     /// those that differ by a turn by whole groups, one.
     ///
     /// # Errors
@@ -279,8 +280,8 @@ fn dot<T: Number>(a: Pair<T>, n: [f64; 2]) -> T {
 /// The two groups of the corner that is looked at.
 const SIDES: [u32; 2] = [0, 1];
 
-/// The place of the wave that two groups alone hold; none where there is no such place, or
-/// the smallest motion leaves it.
+/// Returns the place of the wave that two groups alone hold; none where there is no such place,
+/// or the smallest motion leaves it.
 fn place(machine: &Machine, speed: f64) -> Option<(Vector2<f64>, Balance<'_>)> {
     let law = machine.lining.filter(|_| Joint::has_one_wave(machine))?;
     let LiningLaw { stiffness_n_per_m, smoothing_m } = law;
@@ -292,7 +293,7 @@ fn place(machine: &Machine, speed: f64) -> Option<(Vector2<f64>, Balance<'_>)> {
     held.then_some((w, balance))
 }
 
-/// The loads of a lock that two groups hold on the lining of a machine; none where no
+/// Returns the loads of a lock that two groups hold on the lining of a machine; none where no
 /// two groups alone do.
 pub(in crate::harmonic) fn lock_loads<T: Number>(
     machine: &Machine<T>,
@@ -347,7 +348,7 @@ pub struct LeastStiffness {
     pub speed_rad_s: f64,
 }
 
-/// The stiffness that a lining needs at a speed \[N/m\]; infinite where no lock exists.
+/// Returns the stiffness that a lining needs at a speed \[N/m\]; infinite where no lock exists.
 fn needed(machine: &Machine, speed: f64) -> f64 {
     let polygon = &machine.polygon;
     let joint = Joint::at(machine, speed);
@@ -359,12 +360,12 @@ fn needed(machine: &Machine, speed: f64) -> f64 {
     1.0 / ((2.0 * polygon.delta).sin() * left * f64::from(polygon.blades_per_side))
 }
 
-/// The speed at this logarithm of its excess over the lock of rigid contact.
+/// Returns the speed at this logarithm of its excess over the lock of rigid contact.
 fn speed_at(lock: f64, excess: f64) -> f64 {
     lock * (1.0 + excess.exp())
 }
 
-/// The softest lining of this machine that holds a lock of a rotor that turns forward;
+/// Returns the softest lining of this machine that holds a lock of a rotor that turns forward;
 /// zero at the critical speed where the casing has no damping. None without a lock of
 /// rigid contact.
 #[must_use]
@@ -378,7 +379,7 @@ pub fn least_lock_stiffness(machine: &Machine) -> Option<LeastStiffness> {
     Some(LeastStiffness { stiffness_n_per_m: needed(machine, speed_rad_s), speed_rad_s })
 }
 
-/// Where the needed stiffness is least: it falls to one minimum and rises.
+/// Finds where the needed stiffness is least: it falls to one minimum and rises.
 fn bottom(machine: &Machine, lock: f64) -> f64 {
     let of = |excess: f64| needed(machine, speed_at(lock, excess));
     let [low, high] = WINDOW_REACH;
