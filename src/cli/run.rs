@@ -16,7 +16,7 @@ use crate::report::{CommandLine, History, Provenance, Wall, json, npz, summary};
 use rubscope_solver::motion::{
     CHANGED_RUNS, Sample, Sampling, Verdict, run_to_end_watched, to_the_end,
 };
-use rubscope_solver::scene::Scene;
+use rubscope_solver::scene::{Scene, Shortcuts, SolverKind};
 
 /// Simulate a scene in time and report how it ends.
 #[derive(Args, Debug)]
@@ -42,11 +42,21 @@ pub struct RunCommand {
     /// Do not find out whether the run is sensitive and which digits hold: one run, not several
     #[arg(long)]
     no_sensitivity: bool,
+    /// Take every step of the explicit solver, without a leap or an early verdict
+    #[arg(long)]
+    plain: bool,
 }
 
 impl RunCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
-        let scene = self.options.scene()?;
+        let mut scene = self.options.scene()?;
+        if self.plain {
+            if scene.solver.kind != SolverKind::Explicit {
+                let reason = "--plain: of --solver explicit only; the event solver has no steps";
+                return Err(Refusal::because(reason).into());
+            }
+            scene = scene.with_shortcuts(Shortcuts::NONE);
+        }
         let script = RequestedScript::resolve(&script::parse(&self.at)?, &scene)?;
         let acts = script.changes();
         let path = match &self.out {
@@ -114,6 +124,6 @@ impl RunCommand {
     fn command(&self, scene: &Scene) -> CommandLine {
         let start = CommandLine::new("run", scene);
         let line = self.at.iter().fold(start, |line, change| line.option("--at", change));
-        line.flag("--no-sensitivity", self.no_sensitivity)
+        line.flag("--no-sensitivity", self.no_sensitivity).flag("--plain", self.plain)
     }
 }

@@ -128,7 +128,7 @@ fn bars_show_the_value_and_its_limits_in_every_alphabet() {
     session.press("j");
     let text = column(&session);
     assert!(text.contains("t▒▒▒▒▒▒▒▒▒█"), "{text}");
-    session.press("h");
+    session.press("k");
     // Past the limit the letter stands in the part that is not filled.
     session.press("\n350\n");
     let text = column(&session);

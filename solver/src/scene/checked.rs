@@ -5,7 +5,7 @@ use std::ops::Deref;
 
 use serde::Serialize;
 
-use super::{ContactLaw, KEYS, ModelSize, Scene, SceneError, SolverKind, check};
+use super::{ContactLaw, KEYS, ModelSize, Scene, SceneError, Shortcuts, SolverKind, check};
 
 /// A scene whose keys and their combinations are all allowed.
 ///
@@ -73,6 +73,13 @@ impl CheckedScene {
     #[must_use]
     pub fn into_scene(self) -> Scene {
         self.0
+    }
+
+    /// Returns this scene, run with these shortcuts of the explicit solver.
+    #[must_use]
+    pub fn with_shortcuts(mut self, shortcuts: Shortcuts) -> Self {
+        self.0.solver.shortcuts = shortcuts;
+        self
     }
 
     /// Returns this scene after a change that cannot break a bound: by round-off, or away from

@@ -15,6 +15,7 @@ mod error;
 mod file;
 pub mod keys;
 mod modes;
+mod shortcuts;
 pub mod units;
 
 use serde::Serialize;
@@ -26,6 +27,7 @@ pub use checked::{Adjustment, CheckedScene};
 pub use error::SceneError;
 pub use file::read_text;
 pub use keys::{Allowed, KEYS, Key, Value};
+pub use shortcuts::Shortcuts;
 pub use units::Quantity;
 
 pub use crate::contact::ContactLaw;
@@ -74,6 +76,9 @@ pub struct SolverChoice {
     pub step_s: f64,
     /// End of the simulation \[s\].
     pub end_s: f64,
+    /// Shortcuts of the explicit solver; no key of a scene file.
+    #[serde(skip)]
+    pub shortcuts: Shortcuts,
 }
 
 impl Default for SolverChoice {
@@ -84,6 +89,7 @@ impl Default for SolverChoice {
             model: ModelSize::Modal,
             step_s: 1e-7,
             end_s: 0.1,
+            shortcuts: Shortcuts::default(),
         }
     }
 }

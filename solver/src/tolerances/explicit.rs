@@ -32,9 +32,6 @@ pub(crate) const SHORTEST_BLOCK_OF_BLADES: u64 = 128;
 /// rings keep one turn of them. Speed only.
 pub(crate) const SHAPES_KEPT: u32 = 128;
 
-/// Blades that are looked at before the bound on all others, at most. Speed only.
-pub(crate) const BLADES_FIRST: usize = 8;
-
 /// Blades that cost as much one by one as all of them at once, for each doubling of their
 /// number; so many rows of shapes are kept of a larger ring. Speed only.
 pub(crate) const FEW_BLADES: usize = 6;
@@ -56,18 +53,6 @@ pub(crate) const HELD_PROBE: f64 = 1e-6;
 /// Part of a predicted gap that a step of the map may leave, as a push bends the blades:
 /// it makes 1e-11 of the angles at rest, on which the pushes of both sides nearly cancel.
 pub(crate) const HELD_LEFT: f64 = 1e-12;
-
-/// Largest blade phase `n_d alpha` for which the linear map of a lock may say that no sign
-/// changes \[rad\]: what its square changes is small against the room that is kept.
-pub(crate) const KEPT_TURN: f64 = 0.02;
-
-/// Part of a push or gap that the swing of a lock may take where its linear motion is followed:
-/// what is left is ten times what the square of a phase up to `KEPT_TURN` changes.
-pub(crate) const FOLLOWED_ROOM: f64 = 0.8;
-
-/// Looks at that motion at most, of `ANGLE_LOOK` each: eighty turns. More: a decision that
-/// comes earlier costs more than it saves.
-pub(crate) const FOLLOWED_LOOKS: usize = 4096;
 
 /// Largest blade phase `n_d alpha` whose cube the gap of a side that is slid on may leave
 /// out \[rad\]: it makes round-off.
@@ -95,10 +80,6 @@ pub(crate) const ANGLE_LOOK: f64 = 0.125;
 /// Largest entry on the diagonal of the change of a leap that is kept as a
 /// change. Beyond, digits are lost less in the map itself.
 pub(crate) const LEAP_SMALL: f64 = 0.25;
-
-/// Growths of a sliding wave, as powers of e, in one leap: beyond, it has gone from
-/// round-off to the clearance. Speed only.
-pub(crate) const LEAP_FOLDS: f64 = 8.0;
 
 /// Part of the clearance that a neighbour of a side has left, up to which a predicted
 /// penetration needs no look at the neighbour. Speed only.

@@ -10,7 +10,7 @@
 //! | closed forms | `explicit` `explicit_tip_locks` | `lock_ends` | `event_cases` | `event_linear` | `theory` `hbm_laws` `hbm_whirl` |
 //! | plain stepping, or integration | `plain_stepper` `rebound` | `explicit_lining` | `event_modal` | `rebound` | `hbm_time` `hbm_excitation` |
 //! | its order | `order` `rebound` | `explicit_lining` | `order` | `explicit_tips` | |
-//! | leaps are steps | `sliding` `soft_locks` `plain_stepper` | | | | |
+//! | leaps are steps | `shortcuts` `sliding` `soft_locks` `plain_stepper` | | | | |
 //! | no pull, no energy made, mirrors | `motion_laws` | `motion_laws` | `event_laws` | `event_linear_laws` | `hbm_laws` |
 //! | sizes of the disk agree | `full_disk` | `explicit_lining` | | | |
 //! | live changes | `live_changes` `live_random` | `motion_laws` | `live_event` | `event_linear_laws` | |
@@ -52,6 +52,7 @@ mod plain;
 mod plain_self;
 mod plain_stepper;
 mod rebound;
+mod shortcuts;
 mod sliding;
 mod soft_locks;
 mod tips_support;

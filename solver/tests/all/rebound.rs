@@ -5,7 +5,7 @@
 use crate::drawn;
 use proptest::prelude::*;
 use rubscope_solver::motion::Motion;
-use rubscope_solver::scene::{ModelSize, Scene, SolverKind};
+use rubscope_solver::scene::{ModelSize, Scene, Shortcuts, SolverKind};
 
 /// Steps of one scene, as parts of the shortest.
 const STEPS: [f64; 5] = [1.0, 1.11, 1.23, 1.37, 1.58];
@@ -168,7 +168,8 @@ fn a_change_on_the_way_loses_no_rebound() {
     let mut scene = Scene::base();
     scene.solver.model = ModelSize::Rigid;
     (scene.contact.restitution, scene.solver.step_s) = (0.8, 1e-6);
-    let checked = scene.checked().unwrap();
+    // Every step is taken, so that a leap cut elsewhere rounds nothing else.
+    let checked = scene.checked().unwrap().with_shortcuts(Shortcuts::NONE);
     let mut changed = Motion::new(&checked);
     // The same parameters again, between any two steps of the first impact.
     for step in 222..242_u32 {

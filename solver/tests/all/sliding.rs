@@ -1,6 +1,5 @@
-//! A wave that slides along a side, in leaps where blades are rigid and by short steps
-//! where they move, against plain stepping in twice the digits, over whole runs of
-//! random scenes.
+//! A wave that slides along a side, by short steps where blades move, against plain stepping
+//! in twice the digits, over whole runs of random scenes.
 
 use crate::plain::compare::Pair;
 use crate::plain::scenes::scene;
@@ -68,7 +67,7 @@ fn on_a_side(pair: &Pair, part: f64, rate: f64) -> Pair {
 }
 
 #[test]
-fn a_way_along_a_side_is_that_of_plain_steps_to_thirteen_digits() {
+fn a_way_along_a_side_is_that_of_plain_steps_to_twelve_digits() {
     let mut slid = 0;
     for seed in 0..240 {
         let part = |k: u64| random(seed, 20 + k);
@@ -88,9 +87,8 @@ fn a_way_along_a_side_is_that_of_plain_steps_to_thirteen_digits() {
             let (u, plain) = (pair.motion.state().u, pair.plain.u());
             let size = plain[0].hypot(plain[1]).max(pair.scene().machine().clearance());
             let error = (u[0] - plain[0]).hypot(u[1] - plain[1]) / size;
-            // Where blades move, every step rounds.
-            let allowed = [1e-13, 1e-12][seed as usize % 2] * amplified;
-            assert!(error < allowed, "{seed} at {until}: {error:e} of {amplified:e}");
+            // Every step rounds.
+            assert!(error < 1e-12 * amplified, "{seed} at {until}: {error:e} of {amplified:e}");
             pair.check(&format!("seed {seed}"));
             slid += 1;
         }

@@ -202,7 +202,13 @@ mod tests {
             let beyond = |knob: &&Knob| knob.group == Group::Beyond && knob.inert(&scene).is_none();
             for knob in KNOBS.iter().filter(beyond) {
                 let value = knob.turned(&knob.get(&scene), true, true, &scene);
-                let after = simulate(&knob.set(&scene, value).unwrap().0);
+                // Rigid contact refuses other diameters of the disk; the smooth law takes them.
+                let Ok((turned, _)) = knob.set(&scene, value) else {
+                    assert_eq!(knob.path, "bladed_disk.nodal_diameters");
+                    assert!(!case.contains(&("solver.contact", "smooth")));
+                    continue;
+                };
+                let after = simulate(&turned);
                 assert_ne!(after.r#final, before.r#final, "{} {case:?}", knob.label);
                 seen.insert(knob.path);
             }

@@ -239,7 +239,9 @@ impl<B: Disk> Explicit<B> {
 
     fn stored_in(&self, u: [Coordinate; 2], blades: &B) -> f64 {
         let casing: f64 = u.iter().map(|&at| self.casing.twice_energy(at)).sum();
-        let lining = self.lining.as_ref().map_or(0.0, Lining::stored);
+        // No leap presses a lining.
+        let pressed = self.lining.as_ref().filter(|_| !self.leaps.are_ahead());
+        let lining = pressed.map_or(0.0, Lining::stored);
         0.5 * casing + blades.energy() + lining
     }
 
@@ -254,10 +256,10 @@ impl<B: Disk> Explicit<B> {
         if clearance <= 0.0 || self.drive.excitation.is_some() || self.follows_speed() {
             return false;
         }
-        let rise = self.tips.rise.abs();
-        let tips = if rise == 0.0 { 0.0 } else { rise * self.blades.reach() };
+        let (u, blades) = self.materialized();
+        let tips = self.rise_to_come(&blades);
         let resting = !self.lining.as_ref().is_some_and(Lining::presses);
-        resting && tips < clearance && self.casing.reach_of(self.u).0 + tips < clearance
+        resting && tips < clearance && self.casing.reach_of(u).0 + tips < clearance
     }
 }
 

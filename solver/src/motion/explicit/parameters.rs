@@ -91,7 +91,6 @@ impl<B: Disk> Explicit<B> {
         self.machine = scene.machine().at(speed).into_owned();
         self.blades = self.blades.with_parameters(scene, &self.machine);
         self.casing = Oscillator::of_casing(&self.machine, self.drive.step);
-        self.leaps.forget_map();
         self.law = contact::law(scene.solver.contact);
         self.drive.set_parameters(scene);
         self.neighbours_matter = self.neighbours_matter();

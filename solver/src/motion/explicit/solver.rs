@@ -181,7 +181,6 @@ impl<B: Disk> Solver for Explicit<B> {
         self.interrupt();
         self.beyond.lasting.forget();
         self.drive.set_speed(self.n, speed, ramp);
-        self.leaps.forget_map();
         self.take_speed();
     }
 

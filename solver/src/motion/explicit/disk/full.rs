@@ -7,10 +7,9 @@
 
 use std::sync::Arc;
 
-use super::angle_bounds::AngleBounds;
 use super::full_at_once::Seen;
 use super::ring::{Ring, springs};
-use super::shapes::{NearRows, Room, product};
+use super::shapes::Room;
 use super::{Columns, Disk, RowTable};
 use crate::model::{Machine, gcd};
 use crate::motion::Plane;
@@ -32,9 +31,7 @@ pub struct FullBlades {
     before: Vec<f64>,
     /// The diameters that the excitation drove in the last step, and its torques \[N m\].
     torque: Option<(usize, [f64; 2])>,
-    near: NearRows,
     pub(super) room: Room,
-    pub(super) bounds: AngleBounds,
     pub(super) seen: Seen,
 }
 
@@ -118,7 +115,6 @@ impl Disk for FullBlades {
                 }
             }
         }
-        new.bounds.reset(f64::INFINITY);
         new
     }
     fn coordinates(&self) -> usize {
@@ -132,39 +128,31 @@ impl Disk for FullBlades {
         self.torque = self.driving(driven);
         let pulled = self.pull();
         self.seen.steps = self.seen.steps.saturating_add(1);
-        let Self { ring, x, increments, before, torque, bounds, .. } = self;
-        if !before.is_empty() {
-            before.copy_from_slice(increments);
+        if !self.before.is_empty() {
+            self.before.copy_from_slice(&self.increments);
         }
-        bounds.drive(torque.map(|(k, _)| k));
-        let mut change = match *torque {
-            None => {
-                let change = ring.step(x, increments);
-                bounds.turn(change);
-                change
-            }
-            Some((k, torques)) => {
-                let pair = ring.take_pair(k, x, increments);
-                let rest = ring.step(x, increments);
-                bounds.turn(rest);
-                rest + ring.drive(k, torques, pair, x, increments)
-            }
-        };
+        let driven = self.torque.map(|(k, torques)| {
+            let before = self.ring.pair(k).map(|place| self.coordinate_at(place));
+            (k, torques, before)
+        });
+        let Self { ring, x, increments, .. } = self;
+        let mut change = ring.step(x, increments);
+        if let Some((k, torques, before)) = driven {
+            change += ring.drive(k, torques, before, x, increments);
+        }
         self.seen.slack += change;
         if pulled {
             change += self.turn_all();
         }
         change
     }
-    #[inline]
     fn angle(&mut self, row: u32) -> f64 {
-        let Self { ring, rows, x, near, .. } = self;
-        mean_of(ring, rows, near, row, |shapes| product(shapes, x))
+        self.mean(row, |member| self.ring.shapes.at(member, &self.x))
     }
     fn angle_before(&mut self, row: u32) -> f64 {
-        let Self { ring, rows, x, increments, before, near, .. } = self;
-        mean_of(ring, rows, near, row, |shapes| {
-            product(shapes, x) - product(shapes, increments) - product(shapes, before)
+        self.mean(row, |member| {
+            let at = |values: &[f64]| self.ring.shapes.at(member, values);
+            at(&self.x) - at(&self.increments) - at(&self.before)
         })
     }
     fn compliance(&self, a: u32, b: u32) -> f64 {
@@ -173,10 +161,6 @@ impl Disk for FullBlades {
     #[inline]
     fn correct(&mut self, row: u32, torque: f64) {
         let (members, rows) = (self.rows.members, self.rows.table.count() as u32);
-        if members == 1 {
-            self.turn(row, torque);
-            return;
-        }
         for member in 0..members {
             self.turn(row + member * rows, torque / f64::from(members));
         }
@@ -188,27 +172,27 @@ impl Disk for FullBlades {
     }
     fn shrink(&mut self, part: f64) {
         self.x.iter_mut().for_each(|x| *x *= part);
-        self.bounds.reset(f64::INFINITY);
-        self.seen.steps = u32::MAX;
+        self.seen.forget();
     }
     fn angles(&mut self, rows: &mut Columns) {
         if self.are_many(rows) {
             self.see_all();
         }
-        let seen = self.seen.are_of_now().then_some(&self.seen.angles);
-        let (ring, table, x, near) = (&self.ring, &self.rows, &self.x, &mut self.near);
-        rows.put_angles(|row| match seen {
-            Some(angles) => angles[row as usize],
-            None => mean_of(ring, table, near, row, |shapes| product(shapes, x)),
-        });
+        let Self { ring, seen, x, .. } = &*self;
+        for (angle, row) in rows.angle.iter_mut().zip(&rows.index) {
+            *angle = self.mean(*row, |member| match seen.are_of_now() {
+                true => seen.angles[member],
+                false => ring.shapes.at(member, x),
+            });
+        }
     }
     fn push(&mut self, rows: &Columns, _: [f64; 2]) -> f64 {
         if self.are_many(rows) {
-            self.put(rows.each(|four| four.torque));
+            self.put(rows.each(&rows.torque));
             return self.turn_all();
         }
         let mut change = 0.0;
-        for (row, _, torque) in rows.each(|four| four.torque) {
+        for (row, _, torque) in rows.each(&rows.torque) {
             if torque != 0.0 {
                 self.correct(row, torque);
                 change += self.compliance(row, row) * torque.abs();
@@ -217,7 +201,7 @@ impl Disk for FullBlades {
         change
     }
     fn swept(&mut self, rows: &Columns) -> f64 {
-        self.put(rows.pushes());
+        self.put(rows.each(&rows.push));
         let Self { ring, increments, before, room, .. } = self;
         let (mut swept, moved) = (0.0, |place: usize| 0.5 * (increments[place] + before[place]));
         ring.shapes.feel(room, |k, felt| {
@@ -227,7 +211,7 @@ impl Disk for FullBlades {
         swept
     }
     fn begin(&mut self, rows: &Columns, _: [f64; 2]) {
-        self.put(rows.each(|four| four.torque));
+        self.put(rows.each(&rows.torque));
         let Self { ring, x, increments, room, .. } = self;
         ring.shapes.feel(room, |k, felt| {
             for (place, felt) in ring.pair(k).into_iter().zip(felt) {
@@ -252,34 +236,40 @@ impl Disk for FullBlades {
             let now = self.seen.largest[0];
             return (now, now);
         }
-        self.bounds.look(&self.ring, &mut self.near, &self.x, largest)
+        self.look_at_largest(largest)
     }
     fn reach(&self) -> f64 {
-        // With springs of their own the modes of the tuned ring exchange energy.
-        if self.rows.springs.is_empty() { self.reaches().0 } else { f64::INFINITY }
+        if !self.rows.springs.is_empty() {
+            // With springs of their own the modes of the tuned ring exchange energy.
+            return f64::INFINITY;
+        }
+        // Of modes that all add up, or of the norm, which a blade's angle does not exceed as
+        // shapes are orthonormal.
+        let (mut sum, mut square) = (0.0, 0.0);
+        for (k, oscillator) in self.ring.oscillators.iter().enumerate() {
+            let x = oscillator.reach_of(self.ring.pair(k).map(|place| self.coordinate_at(place))).0;
+            sum += self.ring.shapes.scale(k) * x;
+            square += x * x;
+        }
+        f64::min(sum, square.sqrt())
     }
-    fn peak(&self, steps: u64, least: f64) -> f64 {
-        self.clone().fly(steps, least).0
+    fn can_fly(&self, steps: u64, largest: f64) -> bool {
+        // No angle on the way needs a look.
+        let least =
+            (self.ring.shapes.count() as u64).clamp(SHORTEST_BLOCK, SHORTEST_BLOCK_OF_BLADES);
+        steps >= least && self.reach() <= largest
+    }
+    fn peak(&self, _: u64, least: f64) -> f64 {
+        least
     }
     fn skip(&mut self, steps: u64) {
-        self.leap(steps);
-        self.bounds.reset(f64::INFINITY);
-    }
-    fn fly(&mut self, steps: u64, least: f64) -> (f64, f64) {
-        self.bounds.drive(None);
-        let (farthest, longest) = self.reaches();
-        let turned = longest * steps as f64;
-        let bound = farthest.min(self.bounds.largest() + turned);
-        if bound <= least {
-            self.leap(steps);
-            self.bounds.turn(turned);
-            return (least, bound);
+        for (k, oscillator) in self.ring.oscillators.iter().enumerate() {
+            for place in self.ring.pair(k) {
+                let ahead = oscillator.skip(self.coordinate_at(place), steps);
+                (self.x[place], self.increments[place]) = (ahead.x, ahead.increment);
+            }
         }
-        let most = self.fly_looking(steps, least);
-        (most, self.bounds.largest())
-    }
-    fn shortest_block(&self) -> u64 {
-        (self.ring.shapes.count() as u64).clamp(SHORTEST_BLOCK, SHORTEST_BLOCK_OF_BLADES)
+        self.seen.forget();
     }
     fn bound(&mut self) -> f64 {
         self.see();
@@ -316,23 +306,6 @@ impl Disk for FullBlades {
     }
 }
 
-/// The mean over the members of a row.
-fn mean_of(
-    ring: &Ring,
-    rows: &Rows,
-    near: &mut NearRows,
-    row: u32,
-    value: impl Fn(&[f64]) -> f64,
-) -> f64 {
-    if rows.members == 1 {
-        return value(near.row(&ring.shapes, row));
-    }
-    let count = rows.table.count() as u32;
-    let sum: f64 =
-        (0..rows.members).map(|member| value(near.row(&ring.shapes, row + member * count))).sum();
-    sum / f64::from(rows.members)
-}
-
 impl FullBlades {
     /// Blades at rest, `alike` of them one member.
     fn resting(scene: &Scene, machine: &Machine, alike: u32) -> Self {
@@ -344,16 +317,8 @@ impl FullBlades {
             increments: vec![0.0; coordinates],
             before: vec![0.0; if scene.goes_beyond() { coordinates } else { 0 }],
             torque: None,
-            near: NearRows::default(),
             room: ring.shapes.room(),
-            bounds: AngleBounds::at_rest(members),
-            seen: Seen {
-                angles: vec![0.0; rows.table.count()],
-                slack: 0.0,
-                // Not looked at yet.
-                steps: u32::MAX,
-                largest: [0.0; 2],
-            },
+            seen: Seen::nothing(members),
             ring: Arc::new(ring),
             rows: Arc::new(rows),
         }
@@ -361,6 +326,13 @@ impl FullBlades {
 
     pub(super) fn coordinate_at(&self, place: usize) -> Coordinate {
         Coordinate { x: self.x[place], increment: self.increments[place] }
+    }
+
+    /// Returns the mean over the members of a row.
+    fn mean(&self, row: u32, value: impl Fn(usize) -> f64) -> f64 {
+        let rows = self.rows.table.count();
+        let members = self.rows.members as usize;
+        (0..members).map(|member| value(row as usize + member * rows)).sum::<f64>() / members as f64
     }
 
     /// The diameters that an excitation drives, in those of the ring, and its torques.
@@ -372,10 +344,9 @@ impl FullBlades {
 
     /// Corrects the step by a torque on one member (from 0); a bound on what it turns.
     fn turn(&mut self, member: u32, torque: f64) -> f64 {
-        let Self { ring, x, increments, near, .. } = self;
-        ring.correct(near.row(&ring.shapes, member), torque, x, increments);
+        let Self { ring, x, increments, .. } = self;
+        ring.shapes.with_row(member as usize, |row| ring.correct(row, torque, x, increments));
         let change = ring.influence[0] * torque.abs();
-        self.bounds.turn(change);
         self.seen.slack += change;
         change
     }

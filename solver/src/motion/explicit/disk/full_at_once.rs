@@ -5,7 +5,7 @@ use super::Columns;
 use super::full::FullBlades;
 use crate::tolerances::{FEW_BLADES, FEW_PRESSED};
 
-/// A look at the angles of all rows.
+/// The angles of all members when they were looked at last.
 #[derive(Clone, Debug)]
 pub(super) struct Seen {
     pub angles: Vec<f64>,
@@ -17,6 +17,17 @@ pub(super) struct Seen {
 }
 
 impl Seen {
+    /// Returns that of members which have not been looked at yet.
+    pub fn nothing(members: usize) -> Self {
+        let angles = vec![0.0; members];
+        Self { angles, slack: f64::INFINITY, steps: u32::MAX, largest: [0.0; 2] }
+    }
+
+    /// Forgets what was seen.
+    pub fn forget(&mut self) {
+        (self.slack, self.steps) = (f64::INFINITY, u32::MAX);
+    }
+
     /// Whether nothing has moved since.
     pub fn are_of_now(&self) -> bool {
         self.steps == 0 && self.slack == 0.0
@@ -36,7 +47,8 @@ impl FullBlades {
 
     /// Whether so many rows cost more one by one than all at once.
     pub(super) fn are_many(&self, rows: &Columns) -> bool {
-        rows.index.len() * self.rows.members as usize > self.ring.few / FEW_BLADES * FEW_PRESSED
+        rows.index.len() * self.rows.members as usize
+            > self.ring.shapes.few() / FEW_BLADES * FEW_PRESSED
     }
 
     /// Puts values of rows, shared evenly by their members, into the room.
@@ -62,7 +74,6 @@ impl FullBlades {
             }
         });
         let change = rows.most_turned * most;
-        self.bounds.turn(change);
         self.seen.slack += change;
         change
     }
@@ -80,22 +91,127 @@ impl FullBlades {
         if self.seen.are_of_now() {
             return;
         }
-        let Self { ring, rows, x, room, seen, .. } = self;
+        let Self { ring, x, room, seen, .. } = self;
         ring.shapes.all_into(x, room);
-        let angles = &room.blades;
-        let mean = angles.iter().sum::<f64>() / angles.len() as f64;
-        let most = |about: f64| {
-            let size = |angle: &f64| (angle - about).abs();
-            angles.iter().map(size).fold(0.0, |most, at| if at <= most { most } else { at })
-        };
+        seen.angles.copy_from_slice(&room.blades);
+        let mean = seen.angles.iter().sum::<f64>() / seen.angles.len() as f64;
+        let most = |about: f64| seen.angles.iter().map(|x| size(x - about)).fold(0.0, f64::max);
         seen.largest = [most(0.0), most(mean)];
-        let count = rows.table.count();
-        seen.angles.copy_from_slice(&angles[..count]);
-        for members in angles[count..].chunks(count) {
-            seen.angles.iter_mut().zip(members).for_each(|(sum, angle)| *sum += angle);
-        }
-        let each = 1.0 / f64::from(rows.members);
-        seen.angles.iter_mut().for_each(|sum| *sum *= each);
         (seen.slack, seen.steps) = (0.0, 0);
+    }
+
+    /// Looks at those members whose angles may be beyond `largest`; the largest of these, and
+    /// a bound on all angles.
+    pub(super) fn look_at_largest(&mut self, largest: f64) -> (f64, f64) {
+        let Self { ring, seen, x, .. } = self;
+        let mut left = ring.shapes.few().min(seen.angles.len() / 2);
+        let (mut now, mut bound) = (0.0_f64, 0.0_f64);
+        for (member, angle) in seen.angles.iter().enumerate() {
+            let most = angle.abs() + seen.slack;
+            if most <= largest {
+                bound = bound.max(most);
+            } else if left > 0 {
+                left -= 1;
+                now = now.max(size(ring.shapes.at(member, x)));
+            } else {
+                self.see_all();
+                return (self.seen.largest[0], self.seen.largest[0]);
+            }
+        }
+        (now, bound.max(now))
+    }
+}
+
+/// Returns the size of an angle; what is no number is beyond any bound.
+fn size(angle: f64) -> f64 {
+    if angle.is_nan() { f64::INFINITY } else { angle.abs() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::full::tests::{at_rest, pressed, scene, widest};
+    use crate::motion::explicit::EngineOrderTorque;
+    use crate::motion::explicit::disk::{Disk, FullBlades};
+    use crate::motion::explicit::record::Watch;
+
+    #[test]
+    fn the_largest_angle_of_all_steps_is_found() {
+        for (count, order) in
+            [(5, None), (22, None), (22, Some(5)), (131, None), (140, None), (140, Some(7))]
+        {
+            let scene = scene(count, order);
+            let torque = EngineOrderTorque::of(&scene);
+            let (mut blades, mut watch, mut most) = (at_rest(&scene), Watch::default(), 0.0_f64);
+            let mut looks = 0;
+            for step in 0..600_u32 {
+                let phase = 0.05 * f64::from(step);
+                let mut unknown =
+                    watch.moved(blades.predict(torque.as_ref().map(|torque| (torque, phase))));
+                // Pushes of one blade, of its neighbour, and one from far away.
+                if step % 97 < 20 {
+                    let (blade, push) = ((step / 97 * 7) % count, 1.0 + (0.1 * phase).sin());
+                    blades.correct(blade, push);
+                    unknown = watch.moved(blades.compliance(blade, blade) * push);
+                }
+                if unknown {
+                    looks += 1;
+                    watch.look(blades.look(watch.largest())).unwrap();
+                }
+                most = most.max(widest(&blades));
+                // Round-off of the transform, and of the sum of the bounds.
+                let error = (watch.largest() - most).abs();
+                assert!(error < 1e-13 * most, "{count} {order:?} {step}: {error:e} of {most:e}");
+                assert!(watch.bound() >= widest(&blades) * (1.0 - 1e-12), "{count} {step}");
+            }
+            assert!((10..550).contains(&looks), "{count} {order:?}: {looks} looks");
+        }
+    }
+
+    #[test]
+    fn no_number_is_beyond_every_bound() {
+        for order in [None, Some(3)] {
+            let scene = scene(22, order);
+            let torque = EngineOrderTorque::of(&scene);
+            let mut blades = at_rest(&scene);
+            let mut watch = Watch::default();
+            blades.correct(3, f64::NAN);
+            assert!(watch.moved(blades.predict(torque.as_ref().map(|torque| (torque, 0.0)))));
+            assert!(watch.look(blades.look(watch.largest())).is_err());
+        }
+    }
+
+    #[test]
+    fn angles_are_never_beyond_their_estimates() {
+        let scene = pressed(1e-5);
+        let mut blades = FullBlades::at_rest(&scene, &scene.machine(), None);
+        for step in 0..3000_u32 {
+            blades.predict(None);
+            if step % 50 < 5 {
+                blades.correct(step % 22, -0.3);
+            }
+            let angles = blades.every_angle();
+            let (_, estimates, slack) = blades.estimates();
+            for (angle, estimate) in angles.iter().zip(estimates) {
+                assert!((angle - estimate).abs() <= slack * (1.0 + 1e-9) + 1e-18, "{step}");
+            }
+            let most = angles.iter().fold(0.0_f64, |most, angle| most.max(angle.abs()));
+            assert!(most <= blades.bound() * (1.0 + 1e-9));
+        }
+    }
+
+    #[test]
+    fn bent_blades_that_get_other_parameters_are_looked_at() {
+        let scene = pressed(1e-5);
+        let mut blades = FullBlades::at_rest(&scene, &scene.machine(), None);
+        for step in 0..100_u32 {
+            blades.predict(None);
+            blades.correct(step % 22, -0.3);
+        }
+        for steps in 0..2 {
+            let mut changed = blades.with_parameters(&scene, &scene.machine());
+            (0..steps).for_each(|_| _ = changed.predict(None));
+            let most = changed.every_angle().iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            assert!(most > 0.0 && most <= changed.bound() * (1.0 + 1e-9), "{steps}: {most}");
+        }
     }
 }

@@ -4,13 +4,10 @@
 //! To contact they all look alike: *rows* of blades that nothing tells apart, their
 //! angles, and the angle that torques on rows make in one step.
 //!
-//! Read `table` (rows), `rigid`, `modal`; then `shapes`, `ring`, `full` and `full_at_once`,
-//! whose largest angle `angle_bounds` and `full_flight` keep cheap.
+//! Read `table` (rows), `rigid`, `modal`; then `shapes`, `ring`, `full` and `full_at_once`.
 
-mod angle_bounds;
 mod full;
 mod full_at_once;
-mod full_flight;
 mod modal;
 mod rigid;
 mod ring;
@@ -20,7 +17,7 @@ mod table;
 pub use full::FullBlades;
 pub use modal::ModalBlades;
 pub use rigid::RigidBlades;
-pub(in crate::motion) use table::{Columns, RowTable};
+pub(in crate::motion) use table::{Columns, RowTable, dot, total};
 
 use std::fmt::Debug;
 
@@ -29,7 +26,7 @@ use super::oscillator::Coordinate;
 use crate::model::Machine;
 use crate::motion::Plane;
 use crate::scene::Scene;
-use crate::tolerances::SHORTEST_BLOCK;
+use crate::tolerances::{LARGEST_BLADE_ANGLE, SHORTEST_BLOCK};
 
 /// What the explicit solver asks of the bladed disk.
 pub(in crate::motion) trait Disk: Clone + Debug + Send + Sync + 'static {
@@ -64,13 +61,13 @@ pub(in crate::motion) trait Disk: Clone + Debug + Send + Sync + 'static {
     }
     /// Finds the angles of these rows \[rad\].
     fn angles(&mut self, rows: &mut Columns) {
-        rows.put_angles(|row| self.angle(row));
+        rows.angle.iter_mut().zip(&rows.index).for_each(|(x, row)| *x = self.angle(*row));
     }
     /// Corrects the predicted step by the torques on these rows, of which two modes feel
     /// so much \[N m\]; a bound on the change of any blade angle \[rad\].
     fn push(&mut self, rows: &Columns, _felt: [f64; 2]) -> f64 {
         let mut change = 0.0;
-        for (row, _, torque) in rows.each(|four| four.torque) {
+        for (row, _, torque) in rows.each(&rows.torque) {
             if torque != 0.0 {
                 self.correct(row, torque);
                 change += self.compliance(row, row) * torque.abs();
@@ -89,7 +86,7 @@ pub(in crate::motion) trait Disk: Clone + Debug + Send + Sync + 'static {
     /// steps \[N rad\].
     fn swept(&mut self, rows: &Columns) -> f64 {
         let mut swept = 0.0;
-        for (row, _, push) in rows.pushes() {
+        for (row, _, push) in rows.each(&rows.push) {
             if push != 0.0 {
                 swept += push * 0.5 * (self.angle(row) - self.angle_before(row));
             }
@@ -115,16 +112,11 @@ pub(in crate::motion) trait Disk: Clone + Debug + Send + Sync + 'static {
     fn peak(&self, steps: u64, least: f64) -> f64;
     /// `steps` free steps at once.
     fn skip(&mut self, steps: u64);
-    /// Takes that many free steps at once: their `peak`, and a bound on every
-    /// blade angle at their end \[rad\].
-    fn fly(&mut self, steps: u64, least: f64) -> (f64, f64) {
-        let most = self.peak(steps, least);
-        self.skip(steps);
-        (most, self.look(most).1)
-    }
-    /// Fewest free steps that are worth a block.
-    fn shortest_block(&self) -> u64 {
-        SHORTEST_BLOCK
+    /// Returns whether so many free steps at once are worth it, where no angle was above
+    /// `largest` so far.
+    fn can_fly(&self, steps: u64, _largest: f64) -> bool {
+        // Blades that may swing too far are followed step by step.
+        steps >= SHORTEST_BLOCK && self.reach() <= LARGEST_BLADE_ANGLE
     }
     /// The modes of a held corner; none where there are more than two.
     fn held_modes(&self) -> Option<HeldModes<'_>> {

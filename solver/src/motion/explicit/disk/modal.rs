@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use super::{Columns, Disk, HeldModes, RowTable};
+use super::{Columns, Disk, HeldModes, RowTable, dot};
 use crate::model::{ContactPolygon, Machine, gcd};
 use crate::motion::Plane;
 use crate::motion::explicit::{Coordinate, Driven, Oscillator};
@@ -159,16 +159,7 @@ impl Disk for ModalBlades {
         self.modes.iter_mut().for_each(|mode| mode.x *= part);
     }
     fn swept(&mut self, rows: &Columns) -> f64 {
-        let mut pushes = [[0.0; 4]; 2];
-        for four in &rows.fours {
-            let push = four.pushes[rows.latest & 1];
-            for (sum, shape) in pushes.iter_mut().zip(four.shape) {
-                for k in 0..4 {
-                    sum[k] += shape[k] * push[k];
-                }
-            }
-        }
-        let [c, s] = pushes.map(|[a, b, c, d]| (a + b) + (c + d));
+        let [c, s] = rows.shape.each_ref().map(|shape| dot(shape, &rows.push));
         let moved = |k: usize| 0.5 * (self.modes[k].increment + self.before[k]);
         c * moved(0) + s * moved(1)
     }

@@ -26,8 +26,6 @@ pub(super) struct Ring {
     pub oscillators: Vec<Oscillator>,
     /// Angle of a member per unit torque `distance` members away.
     pub influence: Vec<f64>,
-    /// Members that are looked at one by one, at most.
-    pub few: usize,
     /// Largest turn of a mode in a step \[rad\].
     pub fastest: f64,
     /// Inertia of a member \[kg m^2\], and the stiffness of each mode at rest \[N m/rad\].
@@ -84,7 +82,6 @@ impl Ring {
         }
         Self {
             alike,
-            few: shapes.few(),
             influence: shapes.all(&torque),
             fastest: oscillators.iter().map(Oscillator::turn).fold(0.0, f64::max),
             ratio: coefficients(|oscillator| oscillator.ratio),
@@ -131,16 +128,8 @@ impl Ring {
         self.largest_shape * sums.iter().sum::<f64>()
     }
 
-    /// Takes the modes of `k` diameters out, for a step of the others.
-    pub fn take_pair(&self, k: usize, x: &mut [f64], increments: &mut [f64]) -> [Coordinate; 2] {
-        self.pair(k).map(|place| Coordinate {
-            x: std::mem::take(&mut x[place]),
-            increment: std::mem::take(&mut increments[place]),
-        })
-    }
-
-    /// The step of the modes of `k` diameters under the torques on them; a bound
-    /// on what it does to any angle \[rad\].
+    /// Replaces the free step of the modes of `k` diameters, which were at `before`, by that
+    /// under the torques on them; a bound on what it does to any angle \[rad\].
     pub fn drive(
         &self,
         k: usize,
@@ -180,26 +169,6 @@ impl Ring {
                 let change = compliance[lane] * torque * shape[lane];
                 x[lane] += change;
                 increment[lane] += change;
-            }
-        }
-    }
-
-    /// Gives every member and what the modes of `k` diameters make of its angle
-    /// to `look`; nothing, where there are none such.
-    pub fn each_of_pair(&self, k: Option<usize>, x: &[f64], mut look: impl FnMut(usize, f64)) {
-        let Some(k) = k else {
-            (0..self.shapes.count()).for_each(|member| look(member, 0.0));
-            return;
-        };
-        let scale = self.shapes.scale(k);
-        let [a, b] = self.pair(k).map(|place| scale * x[place]);
-        let mut at = 0;
-        for member in 0..self.shapes.count() {
-            let (c, s) = self.shapes.turn()[at];
-            look(member, a * c + b * s);
-            at += k;
-            if at >= self.shapes.count() {
-                at -= self.shapes.count();
             }
         }
     }

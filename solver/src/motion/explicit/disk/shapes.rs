@@ -13,7 +13,6 @@ use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
 use crate::model::fraction_of_turn;
 use crate::motion::Plane;
-use crate::motion::explicit::Coordinate;
 use crate::tolerances::{FEW_BLADES, SHAPES_KEPT};
 
 /// Numbers that are added side by side.
@@ -92,11 +91,6 @@ impl Shapes {
         row
     }
 
-    /// `(cos, sin)` of `2 pi i/N`.
-    pub fn turn(&self) -> &[(f64, f64)] {
-        &self.turn
-    }
-
     /// How many blades there are.
     pub fn count(&self) -> usize {
         self.turn.len()
@@ -130,19 +124,17 @@ impl Shapes {
         })
     }
 
-    /// The row of a blade (from 0), if it is kept.
-    pub fn kept(&self, blade: usize) -> Option<&[f64]> {
-        self.rows.get(blade).map(Vec::as_slice)
+    /// Calls `with` with the row of shapes at a blade (from 0).
+    pub fn with_row<T>(&self, blade: usize, with: impl FnOnce(&[f64]) -> T) -> T {
+        match self.rows.get(blade) {
+            Some(row) => with(row),
+            None => with(&self.row(blade)),
+        }
     }
 
-    /// The value at a blade (from 0) of what has these coordinates.
+    /// Returns the value at a blade (from 0) of what has these coordinates.
     pub fn at(&self, blade: usize, coordinates: &[f64]) -> f64 {
-        if let Some(row) = self.kept(blade) {
-            return product(row, coordinates);
-        }
-        let (cosines, sines) = coordinates.split_at(self.width);
-        let values = cosines.iter().zip(sines);
-        self.along(blade).zip(values).map(|((c, s), (x, y))| c * x + s * y).sum()
+        self.with_row(blade, |row| product(row, coordinates))
     }
 
     /// How many blades cost less one by one than all of them at once.
@@ -161,18 +153,21 @@ impl Shapes {
         }
     }
 
-    /// The values at every blade.
+    /// Returns the values at every blade.
     pub fn all(&self, coordinates: &[f64]) -> Vec<f64> {
-        if self.count() <= self.few() {
-            return (0..self.count()).map(|blade| self.at(blade, coordinates)).collect();
-        }
         let mut room = self.room();
         self.all_into(coordinates, &mut room);
         room.blades
     }
 
-    /// As `all`, into the room.
+    /// Puts the values at every blade into the room.
     pub fn all_into(&self, coordinates: &[f64], room: &mut Room) {
+        if self.count() <= self.few() {
+            for (blade, value) in room.blades.iter_mut().enumerate() {
+                *value = self.at(blade, coordinates);
+            }
+            return;
+        }
         let (cosines, sines) = coordinates.split_at(self.width);
         let modes = self.scales.iter().zip(cosines.iter().zip(sines));
         for (k, (value, (scale, (c, s)))) in room.spectrum.iter_mut().zip(modes).enumerate() {
@@ -196,17 +191,10 @@ impl Shapes {
             felt(k, [scale * value.re, -scale * value.im]);
         }
     }
-
-    /// Position and increment of every blade.
-    pub fn all_moving(&self, positions: &[f64], increments: &[f64]) -> Vec<Coordinate> {
-        let [x, increments] = [positions, increments].map(|values| self.all(values));
-        let both = x.into_iter().zip(increments);
-        both.map(|(x, increment)| Coordinate { x, increment }).collect()
-    }
 }
 
 /// The value of what has these coordinates where the shapes are those of `row`.
-pub(super) fn product(row: &[f64], coordinates: &[f64]) -> f64 {
+fn product(row: &[f64], coordinates: &[f64]) -> f64 {
     let mut sums = [0.0; LANES];
     let (shapes, values) = (row.as_chunks::<LANES>().0, coordinates.as_chunks::<LANES>().0);
     for (shape, value) in shapes.iter().zip(values) {
@@ -215,41 +203,6 @@ pub(super) fn product(row: &[f64], coordinates: &[f64]) -> f64 {
         }
     }
     (sums[0] + sums[2]) + (sums[1] + sums[3])
-}
-
-/// The rows asked for last.
-#[derive(Clone, Debug, Default)]
-pub(in crate::motion) struct NearRows {
-    rows: Vec<(u32, Arc<[f64]>)>,
-    /// Place of the oldest, once there are enough.
-    oldest: usize,
-}
-
-impl NearRows {
-    /// The row of a blade (from 0).
-    pub fn row<'a>(&'a mut self, shapes: &'a Shapes, blade: u32) -> &'a [f64] {
-        if let Some(row) = shapes.kept(blade as usize) {
-            return row;
-        }
-        let place = match self.rows.iter().position(|(known, _)| *known == blade) {
-            Some(place) => place,
-            None => self.make(shapes, blade),
-        };
-        &self.rows[place].1
-    }
-
-    /// Makes a row, instead of the oldest where there are enough; its place.
-    fn make(&mut self, shapes: &Shapes, blade: u32) -> usize {
-        let row = (blade, shapes.row(blade as usize).into());
-        if self.rows.len() < shapes.few() {
-            self.rows.push(row);
-            return self.rows.len() - 1;
-        }
-        let place = self.oldest;
-        self.rows[place] = row;
-        self.oldest = (place + 1) % self.rows.len();
-        place
-    }
 }
 
 #[cfg(test)]
@@ -288,16 +241,16 @@ mod tests {
         for count in [1, 2, 3, 4, 5, 7, 8, 9, 22, 66, 97, 128, 129, 131, 180, 220, 243, 1001] {
             let shapes = Shapes::new(count);
             let (x, v) = (coordinates(&shapes, 0.7), coordinates(&shapes, 1.3));
-            let (all, moving) = (shapes.all(&x), shapes.all_moving(&x, &v));
-            assert_eq!((all.len(), moving.len()), (count as usize, count as usize));
+            let [all, rates] = [&x, &v].map(|values| shapes.all(values));
+            assert_eq!((all.len(), rates.len()), (count as usize, count as usize));
             // Round-off of a sum of N terms of one, and of phases of a turn.
             let allowed = 1e-15 * f64::from(count + 4);
             for blade in 0..count as usize {
                 let expected = plain(&shapes, blade, &x);
-                for found in [shapes.at(blade, &x), all[blade], moving[blade].x] {
+                for found in [shapes.at(blade, &x), all[blade]] {
                     assert!((found - expected).abs() < allowed, "{count} {blade}: {found}");
                 }
-                let rate = moving[blade].increment - plain(&shapes, blade, &v);
+                let rate = rates[blade] - plain(&shapes, blade, &v);
                 assert!(rate.abs() < allowed, "{count} {blade}: {rate}");
             }
         }
@@ -315,24 +268,6 @@ mod tests {
                     assert!((product - expected).abs() < 1e-13, "{count} {i} {j}: {product}");
                 }
             }
-        }
-    }
-}
-
-#[cfg(test)]
-mod near_tests {
-    use super::*;
-
-    #[test]
-    fn a_row_is_that_of_its_blade_however_often_and_in_whatever_order() {
-        for count in [22, 131, 220] {
-            let (shapes, mut near) = (Shapes::new(count), NearRows::default());
-            for step in 0..500 {
-                let blade = (step * step / 7) % count;
-                assert_eq!(near.row(&shapes, blade), shapes.row(blade as usize), "{step}");
-            }
-            assert!(near.rows.len() <= shapes.few());
-            assert_eq!(near.rows.is_empty(), count == 22);
         }
     }
 }

@@ -48,39 +48,36 @@ impl RowTable {
     }
 }
 
-/// Some rows as columns of numbers, four at a time; the last is repeated, without
-/// stiffness, until they are whole fours.
+/// Some rows as columns of numbers, one entry a row.
 #[derive(Clone, Debug, Default)]
 pub(in crate::motion) struct Columns {
     pub index: Vec<u32>,
     pub side: Vec<u32>,
-    pub fours: Vec<Four>,
-    pub latest: usize,
-}
-
-/// Four rows side by side.
-#[derive(Clone, Copy, Debug, Default)]
-pub(in crate::motion) struct Four {
-    /// Direction at rest, `(cos psi, sin psi)`.
-    pub cosine: [f64; 4],
-    pub sine: [f64; 4],
+    /// Direction at rest, `cos psi` and `sin psi`.
+    pub cosine: Vec<f64>,
+    pub sine: Vec<f64>,
     /// `Disk::shape_of`.
-    pub shape: [[f64; 4]; 2],
+    pub shape: [Vec<f64>; 2],
     /// Stiffness of the lining under all blades of a row \[N/m\].
-    pub stiffness: [f64; 4],
-    /// Angle \[rad\] and torque \[N m\] of each row, where there are not only two modes.
-    pub angle: [f64; 4],
-    pub torque: [f64; 4],
-    /// Push on the blades of a row, that of the latest step at the place `latest` and that
-    /// of the step before, and the sum of the pushes since it was given to the record
-    /// \[N\].
-    pub pushes: [[f64; 4]; 2],
-    pub impulse: [f64; 4],
+    pub stiffness: Vec<f64>,
+    /// Angle of each row \[rad\], unless two modes are all that moves.
+    pub angle: Vec<f64>,
+    /// Direction with the phase of the blades.
+    pub normal: [Vec<f64>; 2],
+    /// Depth in the lining \[m\].
+    pub depth: Vec<f64>,
+    /// Push on the blades of a row and its torque in the latest step, and the push in the step
+    /// before \[N, N m\].
+    pub push: Vec<f64>,
+    pub torque: Vec<f64>,
+    pub before: Vec<f64>,
+    /// Sum of the pushes since it was given to the record \[N\].
+    pub impulse: Vec<f64>,
 }
 
 impl Columns {
-    /// These rows of a disk under a lining of this stiffness for each blade, with the
-    /// directions of their sides and their shapes.
+    /// Creates the columns of these rows of a disk under a lining of this stiffness for each
+    /// blade, with the directions of their sides and their shapes.
     pub fn of(
         rows: &[u32],
         table: &RowTable,
@@ -89,59 +86,63 @@ impl Columns {
         shape: impl Fn(u32) -> (f64, f64),
     ) -> Self {
         let side: Vec<u32> = rows.iter().map(|&row| table.side[row as usize]).collect();
-        let each = f64::from(table.blades_per_row) * stiffness_n_per_m;
-        let four = |(rows, sides): (&[u32], &[u32])| {
-            let last = rows.len() - 1;
-            let column = |of: &dyn Fn(usize) -> f64| [0, 1, 2, 3].map(|k: usize| of(k.min(last)));
-            Four {
-                cosine: column(&|k| direction(sides[k]).0),
-                sine: column(&|k| direction(sides[k]).1),
-                shape: [column(&|k| shape(rows[k]).0), column(&|k| shape(rows[k]).1)],
-                stiffness: [0, 1, 2, 3].map(|k| if k <= last { each } else { 0.0 }),
-                ..Four::default()
-            }
-        };
-        let fours = rows.chunks(4).zip(side.chunks(4)).map(four).collect();
-        Self { index: rows.to_vec(), side, fours, latest: 0 }
-    }
-
-    /// Takes the angle of each row from this; those that pad a four have that of its last.
-    pub fn put_angles(&mut self, mut angle: impl FnMut(u32) -> f64) {
-        for (four, rows) in self.fours.iter_mut().zip(self.index.chunks(4)) {
-            let mut last = 0.0;
-            for (k, place) in four.angle.iter_mut().enumerate() {
-                if let Some(&row) = rows.get(k) {
-                    last = angle(row);
-                }
-                *place = last;
-            }
+        let (cosine, sine) = side.iter().map(|&side| direction(side)).unzip();
+        let shapes: (Vec<f64>, Vec<f64>) = rows.iter().map(|&row| shape(row)).unzip();
+        let [zeros, each] = [0.0, f64::from(table.blades_per_row) * stiffness_n_per_m]
+            .map(|value| vec![value; rows.len()]);
+        Self {
+            index: rows.to_vec(),
+            side,
+            cosine,
+            sine,
+            shape: shapes.into(),
+            stiffness: each,
+            angle: zeros.clone(),
+            normal: [zeros.clone(), zeros.clone()],
+            depth: zeros.clone(),
+            push: zeros.clone(),
+            torque: zeros.clone(),
+            before: zeros.clone(),
+            impulse: zeros,
         }
     }
 
-    /// Index and side of each row, and this value of it.
-    pub fn each(
-        &self,
-        value: impl Fn(&Four) -> [f64; 4] + Clone,
-    ) -> impl Iterator<Item = (u32, u32, f64)> + Clone {
-        let values = self.fours.iter().flat_map(value);
-        let rows = self.index.iter().zip(&self.side);
-        rows.zip(values).map(|((&index, &side), value)| (index, side, value))
+    /// Returns index and side of each row with its entry in a column.
+    pub fn each<'a>(
+        &'a self,
+        column: &'a [f64],
+    ) -> impl Iterator<Item = (u32, u32, f64)> + Clone + 'a {
+        let rows = self.index.iter().zip(&self.side).zip(column);
+        rows.map(|((&index, &side), &value)| (index, side, value))
     }
+}
 
-    /// The push of each row in the latest step \[N\].
-    pub fn pushes(&self) -> impl Iterator<Item = (u32, u32, f64)> + Clone {
-        self.each(|four| four.pushes[self.latest & 1])
+/// Returns the sum of the products of two columns, four sums side by side.
+pub(in crate::motion) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0; 4];
+    let ((fours, left), (others, more)) = (a.as_chunks::<4>(), b.as_chunks::<4>());
+    for (a, b) in fours.iter().zip(others) {
+        for lane in 0..4 {
+            sums[lane] += a[lane] * b[lane];
+        }
     }
+    for (sum, (a, b)) in sums.iter_mut().zip(left.iter().zip(more)) {
+        *sum += a * b;
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3])
+}
 
-    /// The same in the step before \[N\].
-    pub fn before(&self) -> impl Iterator<Item = (u32, u32, f64)> + Clone {
-        self.each(|four| four.pushes[(self.latest ^ 1) & 1])
+/// Returns the sum of a column, added up as `dot` does.
+pub(in crate::motion) fn total(column: &[f64]) -> f64 {
+    let mut sums = [0.0; 4];
+    let (fours, left) = column.as_chunks::<4>();
+    for four in fours {
+        for lane in 0..4 {
+            sums[lane] += four[lane];
+        }
     }
-
-    /// Puts the push of the row at a place in the latest step \[N\].
-    pub fn put_push(&mut self, place: usize, push: f64) {
-        self.fours[place / 4].pushes[self.latest & 1][place % 4] = push;
-    }
+    sums.iter_mut().zip(left).for_each(|(sum, x)| *sum += x);
+    (sums[0] + sums[1]) + (sums[2] + sums[3])
 }
 
 #[cfg(test)]
@@ -166,20 +167,5 @@ mod tests {
                 }
             }
         }
-    }
-
-    #[test]
-    fn what_pads_a_four_is_its_last_row_without_stiffness() {
-        let table = RowTable::new(&Scene::base().machine(), 1);
-        let rows: Vec<u32> = (3..9).collect();
-        let shape = |row: u32| (f64::from(row), -f64::from(row));
-        let mut columns = Columns::of(&rows, &table, 2.0, |side| (f64::from(side), 0.5), shape);
-        columns.put_angles(|row| 0.1 * f64::from(row));
-        let [first, last] = [columns.fours[0], columns.fours[1]];
-        assert_eq!(first.shape, [[3.0, 4.0, 5.0, 6.0], [-3.0, -4.0, -5.0, -6.0]]);
-        assert_eq!((first.stiffness, last.stiffness), ([2.0; 4], [2.0, 2.0, 0.0, 0.0]));
-        assert_eq!(last.shape[0], [7.0, 8.0, 8.0, 8.0]);
-        assert_eq!(last.angle, [7.0, 8.0, 8.0, 8.0].map(|row| 0.1 * row));
-        assert_eq!(last.cosine[1..], [f64::from(table.side[8]); 3]);
     }
 }

@@ -2,18 +2,12 @@
 //! along. It is looked at wherever asked, and taken at its end; looking never changes the
 //! trajectory. Then the verdicts that nothing to come can change (docs/theory.md, section
 //! 9).
-//!
-//! Flight: the discrete energy bounds how far `|u|` can travel in one step (section 6). So
-//! many steps as cannot reach the clearance are one block.
 
 use super::held_corner::HeldCorner;
-use super::held_side::HeldSide;
 use crate::motion::explicit::disk::Disk;
 use crate::motion::explicit::{Coordinate, Explicit};
-use crate::motion::{ActiveSet, EnergyAccount, Verdict};
-use crate::tolerances::{
-    BREAK_STEPS, HELD_AFTER, LARGEST_BLADE_ANGLE, LIGHT_BLADES, ROOM_TO_CHANGE, SHORTEST_BLOCK,
-};
+use crate::motion::{EnergyAccount, Verdict};
+use crate::tolerances::{HELD_AFTER, LIGHT_BLADES, ROOM_TO_CHANGE};
 
 /// A block without end: no contact can ever come again.
 pub(in crate::motion::explicit) const ENDLESS: u64 = u64::MAX;
@@ -42,20 +36,13 @@ impl Block {
 }
 
 impl<B: Disk> Explicit<B> {
-    /// Whether a block is open, deciding on one if it can be long enough to be worth it.
+    /// Whether a block is open; begins one if it can be long enough to be worth it.
     pub(in crate::motion::explicit) fn open_block(&mut self) -> bool {
-        let held = self.leaps.block.is_open() || (self.record.last_touch == self.n && self.hold());
-        if !held {
-            self.leaps.block = Block::new(self.flight());
-        }
-        self.leaps.block.is_open()
-    }
-
-    /// Whether a lock beyond the paper is held.
-    pub(in crate::motion::explicit) fn open_lock(&mut self) -> bool {
-        let lasts = self.leaps.same_sides >= HELD_AFTER && self.record.last_touch == self.n;
-        if lasts && !self.leaps.block.is_open() {
-            self.hold_lock();
+        if !self.leaps.block.is_open() {
+            let lasts = !self.goes_beyond || self.leaps.same_sides >= HELD_AFTER;
+            if !(lasts && self.record.last_touch == self.n && self.hold_lock()) {
+                self.begin_flight();
+            }
         }
         self.leaps.block.is_open()
     }
@@ -68,6 +55,8 @@ impl<B: Disk> Explicit<B> {
         if let Some(held) = self.leaps.held.take() {
             self.log_held(&held, before);
             self.leaps.held = Some(held);
+        } else {
+            self.log_flight(before);
         }
         if self.leaps.block.used == self.leaps.block.length {
             self.close_block();
@@ -79,12 +68,10 @@ impl<B: Disk> Explicit<B> {
         self.end_sliding();
         let used = self.leaps.block.used;
         if used > 0 && self.leaps.held.is_none() {
-            let (largest, bound) = self.blades.fly(used, self.watch.largest());
-            self.watch.skipped(largest, bound);
-            self.u = self.u.map(|coordinate| self.casing.skip(coordinate, used));
+            self.take_flight(used);
         } else if used > 0 {
             let largest = self.largest_angle();
-            if let Some(Held::Corner(corner)) = &self.leaps.held {
+            if let Some(corner) = &self.leaps.held {
                 self.beyond.before = self.held_before(corner, used);
             }
             (self.u, self.blades) = self.materialized();
@@ -96,7 +83,7 @@ impl<B: Disk> Explicit<B> {
             && self.leaps.block.used > 0
         {
             self.record.last_touch = self.n;
-            for (side, lambda) in held.multipliers(self.leaps.block.used) {
+            for (side, lambda) in held.pushes_by_side(self.leaps.block.used) {
                 self.record.keep_touching(self.n, side);
                 for row in self.rows.iter_mut().filter(|row| row.side == side) {
                     row.lambda = lambda;
@@ -112,7 +99,7 @@ impl<B: Disk> Explicit<B> {
         let (used, least) = (self.leaps.block.used, self.watch.largest());
         match &self.leaps.held {
             _ if used == 0 => least,
-            Some(Held::Corner(held)) => held.largest_angle(used, least),
+            Some(held) => held.largest_angle(used, least),
             _ => self.blades.peak(used, least),
         }
     }
@@ -122,49 +109,21 @@ impl<B: Disk> Explicit<B> {
         if let Some(sliding) = &self.leaps.sliding {
             return self.slid(sliding);
         }
-        let mut blades = self.blades.clone();
         let used = self.leaps.block.used;
         match &self.leaps.held {
-            _ if used == 0 => (self.u, blades),
-            Some(Held::Corner(corner)) => self.held_at(corner, used),
-            Some(Held::Side(side)) => (self.along_side(side, used), blades),
-            None => {
-                blades.skip(used);
-                (self.u.map(|coordinate| self.casing.skip(coordinate, used)), blades)
-            }
+            _ if used == 0 => (self.u, self.blades.clone()),
+            Some(corner) => self.held_at(corner, used),
+            None => self.flown(used),
         }
     }
 }
 
 impl<B: Disk> Explicit<B> {
-    /// Steps that cannot touch; none where they are too few to be worth a block.
-    pub(in crate::motion::explicit) fn flight(&mut self) -> u64 {
-        let clearance = self.machine.polygon.clearance;
-        let distance2 = self.u[0].x * self.u[0].x + self.u[1].x * self.u[1].x;
-        // Blades that are driven do not follow the free recurrence.
-        let outside = distance2 >= clearance * clearance;
-        if outside || self.drive.pulse_to_come(self.n) || self.drive.excitation.is_some() {
-            return 0;
-        }
-        let distance = distance2.sqrt();
-        let (farthest, longest) = self.casing.reach_of(self.u);
-        let length =
-            if farthest < clearance { ENDLESS } else { ((clearance - distance) / longest) as u64 };
-        // Blades that may swing too far are followed step by step.
-        if length < self.blades.shortest_block() || self.blades.reach() > LARGEST_BLADE_ANGLE {
-            return 0;
-        }
-        // Such a block is longer than the pause that ends a contact.
-        if self.record.log.active_set != ActiveSet::Nothing {
-            self.end_contact(self.n.max(self.record.last_touch + BREAK_STEPS + 1));
-        }
-        length
-    }
-
     /// Whether no contact can ever come again: the casing, whatever the blades
     /// do, never reaches one.
     pub(in crate::motion::explicit) fn no_contact_to_come(&self) -> bool {
-        if self.leaps.held.is_some()
+        if !self.scene.solver.shortcuts.proofs
+            || self.leaps.held.is_some()
             || self.leaps.sliding.is_some()
             || self.drive.pulse_to_come(self.n)
         {
@@ -179,57 +138,11 @@ impl<B: Disk> Explicit<B> {
     }
 }
 
-/// Sides that close in every step of the open block.
-#[derive(Clone, Debug)]
-pub(in crate::motion::explicit) enum Held {
-    /// A lock.
-    Corner(Box<HeldCorner>),
-    /// A wave that slides along one side of rigid blades.
-    Side(HeldSide),
-}
-
-impl Held {
-    /// Multipliers of the step that led to `steps` steps from the start \[N\].
-    pub fn multipliers(&self, steps: u64) -> impl Iterator<Item = (u32, f64)> {
-        let pair = match self {
-            Self::Corner(corner) => corner.by_side(corner.multipliers(steps)),
-            Self::Side(side) => [Some((side.side, side.multiplier(steps))), None],
-        };
-        pair.into_iter().flatten()
-    }
-
-    /// Sums of the multipliers of the steps after `before`, up to `steps` \[N\].
-    fn sums(&self, before: u64, steps: u64) -> impl Iterator<Item = (u32, f64)> {
-        let pair = match self {
-            Self::Corner(corner) => corner.by_side(corner.sums(before, steps)),
-            Self::Side(side) => [Some((side.side, side.sum(before, steps))), None],
-        };
-        pair.into_iter().flatten()
-    }
-}
-
 impl<B: Disk> Explicit<B> {
-    /// Begins a block of steps in which the same sides close, if there are enough.
-    pub(in crate::motion::explicit) fn hold(&mut self) -> bool {
-        if self.hold_lock() {
-            return true;
-        }
-        if let Some(side) = self.hold_side() {
-            let length = side.length;
-            if length < SHORTEST_BLOCK {
-                self.leaps.slide_tried = self.n + length;
-                return false;
-            }
-            self.leaps.held = Some(Held::Side(side));
-            self.leaps.block = Block::new(length);
-        }
-        self.leaps.held.is_some()
-    }
-
     /// Begins a block without end of a lock, if it can.
     fn hold_lock(&mut self) -> bool {
         let Some(corner) = self.hold_corner() else { return false };
-        self.leaps.held = Some(Held::Corner(corner));
+        self.leaps.held = Some(corner);
         self.leaps.block = Block::new(ENDLESS);
         true
     }
@@ -253,29 +166,20 @@ impl<B: Disk> Explicit<B> {
         }
     }
 
-    /// Keeps what the steps of held sides did since `before`.
-    pub(in crate::motion::explicit) fn log_held(&mut self, held: &Held, before: u64) {
+    /// Records what the steps of a held lock did since `before`.
+    fn log_held(&mut self, corner: &HeldCorner, before: u64) {
         let (used, t) = (self.leaps.block.used(), self.time_of(self.latest_step()));
-        for (side, sum) in held.sums(before, used) {
+        for (side, sum) in corner.by_side(corner.sums(before, used)) {
             self.record.impulse(side, sum);
         }
         self.record.log.touch(t, self.record.log.active_set);
-        if let Held::Corner(corner) = held {
-            self.record.deepest = self.record.deepest.max(corner.deepest());
-            if self.goes_beyond {
-                self.log_lock(corner, before);
-            }
+        self.record.deepest = self.record.deepest.max(corner.deepest());
+        if corner.pulls {
+            self.record.log.tensile_steps += used - before;
+            self.record.log.last_tensile = Some(t);
         }
-        match held {
-            Held::Corner(corner) if corner.pulls => {
-                self.record.log.tensile_steps += used - before;
-                self.record.log.last_tensile = Some(t);
-            }
-            Held::Corner(_) => {}
-            Held::Side(side) => {
-                let deepest = side.deepest(before, used);
-                self.record.deepest_predicted = self.record.deepest_predicted.max(deepest);
-            }
+        if self.goes_beyond {
+            self.log_lock(corner, before);
         }
     }
 }
@@ -287,13 +191,14 @@ impl<B: Disk> Explicit<B> {
         if let Some(failure) = &self.failure {
             let beyond = failure.verdict_beyond(&self.drive.pulse);
             Some(if self.goes_beyond { beyond } else { Verdict::Failed })
+        } else if !self.scene.solver.shortcuts.proofs {
+            None
         } else if self.no_contact_to_come() {
             Some(Verdict::Decay)
-        } else if let Some(Held::Corner(held)) = &self.leaps.held {
+        } else if let Some(held) = &self.leaps.held {
             Some(locked(held.pulls))
         } else if self.goes_beyond || self.blades.held_modes().is_some() {
-            let dies = self.dies().then_some(Verdict::Decay);
-            dies.or_else(|| self.lock_for_good().map(locked))
+            self.dies().then_some(Verdict::Decay)
         } else {
             self.corner_for_good()
         }

@@ -31,7 +31,7 @@ use crate::tolerances::{
     SMALL_TURNS,
 };
 
-pub(super) type StepMap = SMatrix<f64, 4, 4>;
+type StepMap = SMatrix<f64, 4, 4>;
 
 /// The map of a held corner, from one step on.
 #[derive(Clone, Debug)]
@@ -54,9 +54,9 @@ pub(in crate::motion::explicit) struct HeldCorner {
 
 impl HeldCorner {
     /// Values of the two sides, each with its side.
-    pub fn by_side(&self, [a, b]: [f64; 2]) -> [Option<(u32, f64)>; 2] {
+    pub fn by_side(&self, [a, b]: [f64; 2]) -> [(u32, f64); 2] {
         let [first, second] = self.step.sides();
-        [Some((first, a)), Some((second, b))]
+        [(first, a), (second, b)]
     }
 
     /// Blade modes after `steps` steps.
@@ -64,11 +64,12 @@ impl HeldCorner {
         self.rest + self.deviations.after(steps)
     }
 
-    /// Multipliers of the step that led to `steps` steps from the start \[N\].
-    pub fn multipliers(&self, steps: u64) -> [f64; 2] {
+    /// Multipliers of the step that led to `steps` steps from the start, each with its
+    /// side \[N\].
+    pub fn pushes_by_side(&self, steps: u64) -> [(u32, f64); 2] {
         // The step itself knows them to the last digit, at any vibration.
         let step = self.step.from(self.modes(steps.saturating_sub(1)));
-        step.map_or(self.multipliers, |step| step.multipliers)
+        self.by_side(step.map_or(self.multipliers, |step| step.multipliers))
     }
 
     /// Sums of the multipliers of the steps after `before`, up to `steps` \[N\].
@@ -160,6 +161,9 @@ impl<B: Disk> Explicit<B> {
     /// trusted for all later steps.
     #[inline]
     pub(in crate::motion::explicit) fn hold_corner(&mut self) -> Option<Box<HeldCorner>> {
+        if !self.scene.solver.shortcuts.lock {
+            return None;
+        }
         let sides = self.steady_corner_since(self.leaps.hold_tried)?;
         self.leaps.hold_tried = self.n + HELD_AGAIN;
         self.make_map(sides)
@@ -183,9 +187,22 @@ impl<B: Disk> Explicit<B> {
     // Out of the steps: its stack is large.
     #[inline(never)]
     fn make_map(&self, sides: [u32; 2]) -> Option<Box<HeldCorner>> {
-        let Standing { step, resting, start, swing, growth } = self.stand_in(sides, true)?;
-        let phase = self.machine.nodal_diameters * swing.0;
-        if phase > SMALL_TURNS[2] || !self.is_kept(&step, &resting, swing, true) {
+        let (machine, speed) = (&self.machine, self.drive.speed(self.n));
+        let now = self.modes_of_sides()?;
+        let turn = machine.nu(speed) * self.drive.step;
+        let mut step = CornerStep::new(machine, self.tips, &self.casing, now.moving, sides, turn);
+        let now = as_modes(now.modes);
+        let resting = rest_in(&mut step, now)?;
+        let start = now - resting.rest;
+        let (mut swing, mut growth) = ((0.0, 0.0), 1.0);
+        if let Some(blades) = step.blades() {
+            let oscillator = blades.oscillator();
+            growth = growth_of(&Leap::new(resting.change), oscillator.turn())?;
+            let (angle, increment) = oscillator.reach_of(as_coordinates(start));
+            swing = (growth * angle, growth * increment);
+        }
+        let phase = machine.nodal_diameters * swing.0;
+        if phase > SMALL_TURNS[2] || !self.is_kept(&step, &resting, swing) {
             return None;
         }
         // Where steps leave gaps, the deepest prediction has been seen.
@@ -194,7 +211,6 @@ impl<B: Disk> Explicit<B> {
         if leaves && deepest.fold(0.0, f64::max) > self.record.deepest_predicted {
             return None;
         }
-        let (machine, speed) = (&self.machine, self.drive.speed(self.n));
         let Resting { rest, at_rest, change, unchanged, slopes } = resting;
         let [a, b] = at_rest.multipliers;
         let (length, radius) = (machine.blade_length, self.scene.casing.radius_m);
@@ -226,28 +242,6 @@ impl<B: Disk> Explicit<B> {
         held.closes(&at_rest)?.then(|| Box::new(held))
     }
 
-    /// The corner of these sides, its rest and the swing about it, with how far the swing
-    /// may grow first where that is asked for.
-    pub(super) fn stand_in(&self, sides: [u32; 2], grows: bool) -> Option<Standing> {
-        let now = self.modes_of_sides()?;
-        let turn = self.machine.nu(self.drive.speed(self.n)) * self.drive.step;
-        let (machine, casing) = (&self.machine, &self.casing);
-        let mut step = CornerStep::new(machine, self.tips, casing, now.moving, sides, turn);
-        let now = as_modes(now.modes);
-        let resting = rest_in(&mut step, now)?;
-        let start = now - resting.rest;
-        let (mut swing, mut growth) = ((0.0, 0.0), 1.0);
-        if let Some(blades) = step.blades() {
-            let oscillator = blades.oscillator();
-            swing = oscillator.reach_of(as_coordinates(start));
-            if grows {
-                growth = growth_of(&Leap::new(resting.change), oscillator.turn())?;
-                swing = (growth * swing.0, growth * swing.1);
-            }
-        }
-        Some(Standing { step, resting, start, swing, growth })
-    }
-
     /// The modes of blades whose rows are sides, where the casing is rigid and gives nothing
     /// back.
     pub(super) fn modes_of_sides(&self) -> Option<HeldModes<'_>> {
@@ -259,22 +253,14 @@ impl<B: Disk> Explicit<B> {
         if !self.goes_beyond || plain() { self.blades.held_modes() } else { None }
     }
 
-    /// Whether predicted gaps, and multipliers where these `matter`, never come near a change
-    /// of sign, and no blade of another side near the casing: neither at rest nor by a swing
-    /// about it.
-    pub(super) fn is_kept(
-        &self,
-        step: &CornerStep,
-        at: &Resting,
-        (angle, increment): (f64, f64),
-        matter: bool,
-    ) -> bool {
-        if self.goes_beyond && !self.is_far_from_others(step, at, angle) {
-            return false;
-        }
-        (0..4).filter(|&k| matter || k >= 2).all(|k| {
-            let (rest, swing) = (at.value(k), at.moves(k, (angle, increment)));
-            at.sign_fits(k, self.law.pulls()) && swing < ROOM_TO_CHANGE * rest.abs()
+    /// Whether predicted gaps and multipliers never come near a change of sign, and no blade
+    /// of another side near the casing: neither at rest nor by a swing about it.
+    fn is_kept(&self, step: &CornerStep, at: &Resting, swing: (f64, f64)) -> bool {
+        let far = !self.goes_beyond || self.is_far_from_others(step, at, swing.0);
+        far && (0..4).all(|k| {
+            let value = at.value(k);
+            let fits = value.is_finite() && ((k < 2 && self.law.pulls()) || value < 0.0);
+            fits && at.moves(k, swing) < ROOM_TO_CHANGE * value.abs()
         })
     }
 
@@ -282,7 +268,7 @@ impl<B: Disk> Explicit<B> {
     /// sides that are closed hold the polygon of the tips at its corner; only the phases of
     /// their blades and of the other side move it, across the corner by up to three times as
     /// much as along a normal.
-    pub(super) fn is_far_from_others(&self, step: &CornerStep, at: &Resting, angle: f64) -> bool {
+    fn is_far_from_others(&self, step: &CornerStep, at: &Resting, angle: f64) -> bool {
         let (place, _) = step.casing(at.rest);
         let turn = self.machine.nodal_diameters * angle;
         let moves = 5.0 * turn * (place.norm() + self.tips.rise.abs() * angle);
@@ -340,44 +326,27 @@ fn growth_of(leap: &Leap<4>, turn: f64) -> Option<f64> {
 }
 
 /// Blade modes at rest in a corner, the step from there, and the map of the deviation.
-pub(super) struct Resting {
-    pub rest: Modes,
-    pub at_rest: Stepped,
+struct Resting {
+    rest: Modes,
+    at_rest: Stepped,
     /// The map, minus one, and its inverse; zero for rigid blades.
-    pub change: StepMap,
-    pub unchanged: StepMap,
-    pub slopes: [Modes; 4],
+    change: StepMap,
+    unchanged: StepMap,
+    slopes: [Modes; 4],
 }
 
 impl Resting {
     /// A push (0, 1 \[N\]) or a predicted gap (2, 3 \[m\]).
-    pub(super) fn value(&self, k: usize) -> f64 {
+    fn value(&self, k: usize) -> f64 {
         let Stepped { multipliers: [a, b], gaps: [first, second], .. } = self.at_rest;
         [a, b, first, second][k]
     }
 
-    /// Whether it has the sign there that a lock asks of it, by a law that may pull.
-    pub(super) fn sign_fits(&self, k: usize, pulls: bool) -> bool {
-        let value = self.value(k);
-        value.is_finite() && ((k < 2 && pulls) || value < 0.0)
-    }
-
     /// How far a swing moves a push (0, 1 \[N\]) or a predicted gap (2, 3 \[m\]) at most.
-    pub(super) fn moves(&self, k: usize, swing: (f64, f64)) -> f64 {
+    fn moves(&self, k: usize, swing: (f64, f64)) -> f64 {
         let ((angle, increment), slope) = (swing, self.slopes[k]);
         angle * slope[0].hypot(slope[1]) + increment * slope[2].hypot(slope[3])
     }
-}
-
-/// A corner, its rest, and the blades about it.
-pub(super) struct Standing {
-    pub step: CornerStep,
-    pub resting: Resting,
-    /// Blade modes now, less those at rest.
-    pub start: Modes,
-    /// Bounds on angle and increment of what they come to, and how far they may grow first.
-    pub swing: (f64, f64),
-    pub growth: f64,
 }
 
 /// The rest nearest to `now`. Where steps leave more than next to nothing of their gaps,
@@ -430,7 +399,7 @@ fn as_modes([c, s]: [Coordinate; 2]) -> Modes {
     Modes::new(c.x, s.x, c.increment, s.increment)
 }
 
-pub(super) fn as_coordinates(modes: Modes) -> [Coordinate; 2] {
+fn as_coordinates(modes: Modes) -> [Coordinate; 2] {
     [
         Coordinate { x: modes[0], increment: modes[2] },
         Coordinate { x: modes[1], increment: modes[3] },

@@ -1,23 +1,20 @@
-//! Steps taken many at once, with the result of taking each: free flight (`block`), a held
-//! lock (`corner_step`, `unfolded`, `held_corner`), a wave that slides along one side
-//! of rigid blades (`held_side`). Along a side of blades that move a short step is enough
-//! (`sliding`). A lock of a larger swing is known to last (`kept`). Each says itself where it applies (docs/theory.md, section 6); beyond the
-//! paper these are locks and sides of blades that move. Read them in this order.
+//! Steps taken many at once, with the result of taking each: free flight (`flight`), a held
+//! lock (`corner_step`, `unfolded`, `held_corner`). Along a side of blades that move a short
+//! step is enough (`sliding`, `along_side`). Each says itself where it applies
+//! (docs/theory.md, section 6). Read them in this order.
 
+mod along_side;
 mod block;
 mod corner_step;
+mod flight;
 mod held_corner;
-mod held_side;
-mod kept;
 mod sliding;
 mod unfolded;
 
-use std::sync::Arc;
-
 use super::Explicit;
 use super::disk::Disk;
-use block::{Block, Held};
-use held_side::SideMap;
+use block::Block;
+use held_corner::HeldCorner;
 use sliding::Sliding;
 
 /// What was decided on ahead, and when to try again.
@@ -27,14 +24,13 @@ pub(super) struct Leaps {
     block: Block,
     /// Steps of the blocks closed so far.
     skipped: u64,
-    /// The sides that the open block holds, if it is in contact.
-    held: Option<Held>,
+    /// The lock that the open block holds, if it is in contact.
+    held: Option<Box<HeldCorner>>,
     /// Step before which a corner is not tried to be held.
     hold_tried: u64,
-    /// The same for a side.
+    /// The same for a side, and for a flight beyond the paper.
     slide_tried: u64,
-    /// The map of a side at this speed, once asked for.
-    side_map: Option<Arc<SideMap>>,
+    flight_tried: u64,
     /// The wave on a side of blades that move; `u` and `blades` are then those before.
     sliding: Option<Sliding>,
     /// Steps in a row until the latest contact with the same sides.
@@ -44,17 +40,12 @@ pub(super) struct Leaps {
 impl Leaps {
     /// Whether a lock is held.
     pub fn holds_corner(&self) -> bool {
-        matches!(self.held, Some(Held::Corner(_)))
+        self.held.is_some()
     }
 
     /// Whether the coordinates are those of an earlier step.
     pub fn are_ahead(&self) -> bool {
-        self.holds_corner() || self.sliding.is_some()
-    }
-
-    /// The speed or the machine is another.
-    pub fn forget_map(&mut self) {
-        self.side_map = None;
+        self.block.used() > 0 || self.sliding.is_some()
     }
 
     /// Steps of all blocks.
@@ -67,7 +58,7 @@ impl Leaps {
         let of_slide = |sliding: &Sliding| vec![(sliding.side, sliding.multiplier)];
         let of_block = || {
             let held = self.held.as_ref().filter(|_| self.block.used() > 0)?;
-            Some(held.multipliers(self.block.used()).collect())
+            Some(held.pushes_by_side(self.block.used()).to_vec())
         };
         self.sliding.as_ref().map(of_slide).or_else(of_block)
     }
@@ -77,14 +68,11 @@ impl<B: Disk> Explicit<B> {
     /// Takes steps at once, up to step `target` and about `most` of them, if there are
     /// any to take; how many are worth a look at the clock.
     pub(super) fn leap(&mut self, target: u64, most: usize) -> Option<usize> {
-        if self.goes_beyond && self.open_lock() {
-            self.use_block(target);
-            Some(0)
-        } else if self.is_sliding() {
+        if self.is_sliding() {
             let unseen = if self.goes_beyond { self.beyond.unseen(self.n) } else { u64::MAX };
             self.slide((target - self.n).min(most as u64).min(unseen));
             Some(most.min(unseen as usize))
-        } else if !self.goes_beyond && self.open_block() {
+        } else if self.open_block() {
             self.use_block(target);
             Some(0)
         } else {
@@ -101,7 +89,7 @@ impl<B: Disk> Explicit<B> {
     pub(super) fn interrupt(&mut self) {
         self.close_block();
         self.leaps.hold_tried = self.n;
-        self.leaps.slide_tried = self.n;
+        (self.leaps.slide_tried, self.leaps.flight_tried) = (self.n, self.n);
         self.leaps.same_sides = 0;
         if let Some(lining) = &mut self.lining {
             lining.rest = std::sync::OnceLock::new();

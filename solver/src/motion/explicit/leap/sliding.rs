@@ -10,7 +10,7 @@
 //! Tips that move outward or rub slide by the same loop, with larger phases, their slope
 //! and friction, and what the ledger of energy asks of each step.
 
-use super::held_side::SideStep;
+use super::along_side::SideStep;
 use crate::model::Machine;
 use crate::motion::explicit::disk::ModalBlades;
 use crate::motion::explicit::record::Watch;
