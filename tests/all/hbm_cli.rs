@@ -295,6 +295,9 @@ fn whirl_has_its_onset_and_its_limits() {
     // The paper's tips: said, not failed.
     let paper = json(&["--whirl", "--speed", "450"]);
     assert_eq!(paper["whirl"][0]["exists"], false);
+    // Without damping every frequency would do.
+    let undamped = json(&["undamped", "--whirl", "--speed", "450:500:6"]);
+    assert!(undamped["whirl"].as_array().unwrap().iter().all(|row| row["exists"] == false));
     assert!(paper["whirl_onset_rad_s"].is_null() && paper["flutter_speed_rad_s"].is_null());
 }
 
@@ -306,6 +309,11 @@ fn the_compliance_crosses_the_negative_axis_where_the_waves_are() {
         let list = report["compliance"][name].as_array().unwrap();
         list.iter().map(number).collect::<Vec<f64>>()
     });
+    let all = json(&[&INCLINED[..], &["--compliance", "--speed", "450"]].concat());
+    let all = all["compliance"]["omega_rad_s"].as_array().unwrap().clone();
+    let [first, last] = [&all[0], &all[all.len() - 1]].map(number);
+    // 1.5 times the fastest resonance, both ways.
+    assert!(all.len() == 201 && first == -last && last > 1.5 * 1350.0, "{first} {last}");
     let waves = report["compliance"]["waves"].as_array().unwrap();
     let crossings = im.windows(2).filter(|pair| pair[0] * pair[1] < 0.0).count();
     assert_eq!((waves.len(), crossings), (2, 2));
