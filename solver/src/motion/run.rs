@@ -245,8 +245,13 @@ fn advance_looking(
 /// `window` seconds; [`Verdict::Failed`] where the contact forces contradict it.
 #[must_use]
 pub fn verdict_of(motion: &Motion, window: f64) -> Verdict {
-    let verdict = motion.final_verdict().unwrap_or_else(|| motion.lasting(window));
+    let verdict = proven_or_lasting(motion, window);
     if wrong_pull(motion, verdict).is_some() { Verdict::Failed } else { verdict }
+}
+
+/// Returns the proven verdict on a motion, or that over the last `window` seconds.
+fn proven_or_lasting(motion: &Motion, window: f64) -> Verdict {
+    motion.final_verdict().unwrap_or_else(|| motion.lasting(window))
 }
 
 /// Returns the pull that contradicts the verdict on a motion: under a law that only
@@ -272,7 +277,7 @@ fn pull_beyond(most: f64, forces: impl Iterator<Item = f64>) -> Option<FailureRe
 /// describe, contradicts the verdict.
 #[must_use]
 pub fn judge_end(motion: &Motion, checks: &Checks, window: f64) -> (Verdict, Option<Failure>) {
-    let verdict = motion.final_verdict().unwrap_or_else(|| motion.lasting(window));
+    let verdict = proven_or_lasting(motion, window);
     if let Some(failure) = motion.failure() {
         return (verdict, Some(failure.clone()));
     }
