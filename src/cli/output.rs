@@ -120,10 +120,7 @@ pub fn say_written(written: Written, what: &str, shown: &impl std::fmt::Display)
 /// Lets a write beyond the limit of file sizes fail, as on a full disk. Without
 /// this the system ends the program there.
 pub fn outlive_size_limit() {
-    #[cfg(unix)]
-    {
-        let seen = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(false));
-        // If it cannot be had, all else still works.
-        let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, seen);
-    }
+    let seen = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(false));
+    // If it cannot be had, all else still works.
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, seen);
 }

@@ -75,14 +75,8 @@ pub(super) fn folder(path: &Path) -> &Path {
 }
 
 /// Returns whether the file has more than one hard link.
-#[cfg(unix)]
 pub(super) fn has_other_names(metadata: &Metadata) -> bool {
     std::os::unix::fs::MetadataExt::nlink(metadata) > 1
-}
-
-#[cfg(not(unix))]
-pub(super) fn has_other_names(_: &Metadata) -> bool {
-    false
 }
 
 /// Returns the file that links which lead nowhere would create.
@@ -116,7 +110,6 @@ fn open_here(path: &Path) -> Option<PathBuf> {
 /// Opens what is written to directly. Standard output goes on where it is: opened
 /// again, a file behind it would be written from its start.
 pub(super) fn open_stream(path: &Path) -> Result<File> {
-    #[cfg(unix)]
     if path.file_name().is_some_and(|name| name == "1")
         && (path.starts_with("/proc/self/fd") || path.starts_with("/dev/fd"))
     {

@@ -3,6 +3,7 @@
 
 use std::fs::{File, Metadata};
 use std::io::{Error, ErrorKind, Result};
+use std::os::unix::fs::{MetadataExt, PermissionsExt, fchown};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 use std::time::{Duration, Instant};
@@ -101,15 +102,9 @@ impl Temporary {
         let mut builder = tempfile::Builder::new();
         let prefix = format!(".rubscope-{}-", std::process::id());
         builder.prefix(&prefix);
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt;
-            // Never more readable than what it replaces.
-            let new = std::fs::Permissions::from_mode(mode);
-            builder.permissions(replaced.map_or(new, Metadata::permissions));
-        }
-        #[cfg(not(unix))]
-        let _ = (replaced, mode);
+        // Never more readable than what it replaces.
+        let new = std::fs::Permissions::from_mode(mode);
+        builder.permissions(replaced.map_or(new, Metadata::permissions));
         let file = builder.tempfile_in(folder)?;
         let hidden = Hidden::new(file.path().to_path_buf());
         Ok(Self::Named(file, hidden))
@@ -178,17 +173,12 @@ fn must_stay(error: &Error) -> bool {
 }
 
 /// Keeps the owner as far as this is permitted.
-#[cfg(unix)]
 fn keep_owner(file: &File, replaced: &Metadata) {
-    use std::os::unix::fs::{MetadataExt, fchown};
     let (owner, group) = (Some(replaced.uid()), Some(replaced.gid()));
     if fchown(file, owner, group).is_err() {
         let _ = fchown(file, None, group);
     }
 }
-
-#[cfg(not(unix))]
-fn keep_owner(_: &File, _: &Metadata) {}
 
 /// Writes the new name itself to the disk. Not every file system can do that, and the file is
 /// already in its place.
@@ -289,10 +279,8 @@ mod tests {
         assert_eq!(count(folder.path()), 0);
     }
 
-    #[cfg(unix)]
     #[test]
     fn a_hidden_name_is_no_more_readable_than_what_it_replaces() {
-        use std::os::unix::fs::PermissionsExt;
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.csv");
         std::fs::write(&path, "secret").unwrap();

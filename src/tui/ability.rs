@@ -14,8 +14,7 @@ pub struct Ability {
 impl Ability {
     /// Reads what the terminal can show from the environment.
     pub fn of(variable: &dyn Fn(&str) -> String) -> Self {
-        // Windows has none of these variables, and can show everything but octants.
-        Self { ascii_only: cfg!(unix) && only_ascii(variable), octants: draws_octants(variable) }
+        Self { ascii_only: only_ascii(variable), octants: draws_octants(variable) }
     }
 
     /// Returns whether it can show this marker.

@@ -24,9 +24,7 @@ mod ground;
 pub mod history;
 #[doc(hidden)]
 pub mod host;
-#[cfg_attr(not(unix), path = "input_other.rs")]
 mod input;
-#[cfg_attr(not(unix), path = "job_other.rs")]
 mod job;
 mod knobs;
 #[doc(hidden)]
@@ -44,7 +42,6 @@ mod text;
 mod theme;
 #[doc(hidden)]
 pub mod trace;
-#[cfg_attr(not(unix), path = "tty_other.rs")]
 mod tty;
 mod update;
 mod views;
@@ -81,7 +78,7 @@ pub fn check_terminal() -> Result<(), &'static str> {
         return Err("the explorer needs a terminal on standard output; without one, use \
                     `rubscope run`, or `rubscope --lines`");
     }
-    if !std::io::stdin().is_terminal() && cfg!(unix) && File::open("/dev/tty").is_err() {
+    if !std::io::stdin().is_terminal() && File::open("/dev/tty").is_err() {
         return Err("the explorer needs a keyboard, and standard input is no terminal");
     }
     Ok(())

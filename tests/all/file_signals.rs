@@ -1,8 +1,6 @@
 //! Writing that is ended by a signal, by the limit of file sizes or by a full disk
 //! leaves what was there before, and no other file.
 
-#![cfg(unix)]
-
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};

@@ -86,7 +86,6 @@ fn a_file_is_read_up_to_its_limit_and_no_further() {
     }
 }
 
-#[cfg(unix)]
 mod unix {
     use super::*;
     use std::os::unix::fs::{MetadataExt, PermissionsExt, chown, symlink};

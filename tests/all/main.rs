@@ -55,10 +55,8 @@ mod margins_odd;
 mod own_machine;
 mod pty;
 mod pty_bursts;
-#[cfg(unix)]
 mod pty_config;
 mod pty_signals;
-#[cfg(unix)]
 mod pty_support;
 mod python;
 mod readme;

@@ -149,7 +149,6 @@ fn an_adaptive_map_says_what_it_saved() {
 }
 
 /// The line of the document, with the program in place of its name.
-#[cfg(unix)]
 #[test]
 fn the_parallel_line_of_the_document_gives_the_map_of_one_run() {
     use std::process::Command;
