@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use tempfile::NamedTempFile;
 
-use super::{in_place, place};
+use super::place;
 
 /// Hidden files of this program that have a name at this moment.
 static NAMED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
@@ -28,7 +28,7 @@ pub(super) const PRIVATE: u32 = 0o600;
 static PLACING: Mutex<()> = Mutex::new(());
 
 /// Locks the placing of files: until the guard is dropped, [`settle`] waits.
-pub(super) fn placing() -> MutexGuard<'static, ()> {
+fn placing() -> MutexGuard<'static, ()> {
     PLACING.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -151,25 +151,11 @@ impl Temporary {
                 }
                 linked => linked?,
             },
-            Self::Named(file, _hidden) => match file.persist(path) {
-                Err(failed) if must_stay(&failed.error) => {
-                    in_place::exchange(failed.file.as_file(), path)?;
-                }
-                persisted => drop(persisted?),
-            },
+            Self::Named(file, _hidden) => drop(file.persist(path)?),
         }
         sync_folder(path);
         Ok(())
     }
-}
-
-/// Returns whether the place is a file that cannot be renamed over, though it can be written: it is
-/// mounted there, or in a folder where all rename only their own.
-fn must_stay(error: &Error) -> bool {
-    matches!(
-        error.kind(),
-        ErrorKind::ResourceBusy | ErrorKind::CrossesDevices | ErrorKind::PermissionDenied
-    )
 }
 
 /// Keeps the owner as far as this is permitted.
@@ -227,10 +213,7 @@ mod unnamed {
             if renamed.is_err() {
                 let _ = std::fs::remove_file(&hidden.0);
             }
-            return match renamed {
-                Err(error) if must_stay(&error) => in_place::exchange(file, path),
-                renamed => renamed,
-            };
+            return renamed;
         }
     }
 }
