@@ -70,6 +70,7 @@ mod scenes;
 mod security;
 mod signs_of_life;
 mod soak;
+mod stepwise;
 mod survey;
 mod theory;
 mod tui_help;
