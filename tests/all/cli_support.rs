@@ -26,7 +26,15 @@ pub fn hearing(program: impl AsRef<OsStr>) -> Command {
 
 /// Runs `rubscope` with these arguments and captures its output.
 pub fn rubscope(arguments: &[&str]) -> Output {
-    assert_cmd::cargo::cargo_bin_cmd!("rubscope").args(arguments).output().unwrap()
+    program().args(arguments).output().unwrap()
+}
+
+/// Runs a command, which must end with this status.
+pub fn ended(command: &mut Command, status: i32) -> Output {
+    let output = command.output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(status), "{command:?} said {said}");
+    output
 }
 
 /// The one-line error of a command for refused input.

@@ -164,7 +164,7 @@ fn the_parallel_line_of_the_document_gives_the_map_of_one_run() {
         .find(|block| block.starts_with("parallel "))
         .unwrap();
     let directory = tempfile::tempdir().unwrap();
-    let program = assert_cmd::cargo::cargo_bin!("rubscope");
+    let program = env!("CARGO_BIN_EXE_rubscope");
     std::os::unix::fs::symlink(program, directory.path().join("rubscope")).unwrap();
     let search = format!("{}:{}", directory.path().display(), std::env::var("PATH").unwrap());
     let run = |script: &str| {
