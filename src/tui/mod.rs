@@ -108,13 +108,13 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
     let term = variable("TERM");
     let is_plain = ability::is_plain(&term);
     let is_asked = choice.follows_ground() && ground.is_none() && !is_plain && !term.is_empty();
-    let ability = ability::Ability::of(&variable);
     let theme = choice.theme(ground.unwrap_or_default());
-    let mut app = App::new(scene, theme, options.marker(&memory.config, &ability));
+    let mut app =
+        App::new(scene, theme, options.marker(&memory.config, ability::only_ascii(&variable)));
     app.appearance.follows_ground = choice.follows_ground();
     app.files.source.clone_from(&options.source);
     app.mouse.on = options.mouse;
-    app.appearance.octants = ability.octants || options.marker == Some(Marker::Octant);
+    app.appearance.octants = options.marker == Some(Marker::Octant);
     app.appearance.rpm = options.rpm;
     memory.prepare(&mut app);
     terminal::set_mouse(app.mouse.on)?;

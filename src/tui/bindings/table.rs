@@ -162,7 +162,7 @@ const AFTER_VIEWS: &[Binding] = &[
         Main,
         [letter('m')],
         Action::Marker,
-        "next marker (braille, halfblock, dot, ascii; octant where the terminal draws it)"
+        "next marker (braille, halfblock, dot, ascii; octant with --marker octant)"
     ),
     bind!(
         Main,
