@@ -12,7 +12,7 @@ mod several;
 mod unilateral;
 
 use serde::Serialize;
-use strum::{AsRefStr, Display, EnumString, VariantNames};
+use strum::{AsRefStr, Display, EnumString, IntoStaticStr, VariantNames};
 
 pub use bilateral::pair;
 use repeated::Repeated;
@@ -37,7 +37,17 @@ pub trait StepLaw: std::fmt::Debug + Sync {
 
 /// Which contact law closes the predicted penetrations.
 #[derive(
-    Clone, Copy, Debug, PartialEq, Eq, Serialize, Display, EnumString, AsRefStr, VariantNames,
+    Clone,
+    Copy,
+    Debug,
+    PartialEq,
+    Eq,
+    Serialize,
+    Display,
+    EnumString,
+    AsRefStr,
+    IntoStaticStr,
+    VariantNames,
 )]
 #[serde(rename_all = "lowercase")]
 #[strum(serialize_all = "lowercase")]
@@ -57,6 +67,16 @@ impl ContactLaw {
         match self {
             Self::Unilateral => Self::Bilateral,
             Self::Bilateral | Self::Smooth => Self::Unilateral,
+        }
+    }
+
+    /// Returns why the event solver does not know the law; `None` where it does.
+    #[must_use]
+    pub fn lacks_events(self) -> Option<&'static str> {
+        match self {
+            Self::Unilateral => None,
+            Self::Bilateral => Some("bilateral is a law of the time step"),
+            Self::Smooth => Some("a lining has no events"),
         }
     }
 }

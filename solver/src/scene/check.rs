@@ -227,14 +227,10 @@ fn undriven(scene: &Scene) -> Result<(), SceneError> {
 /// An excitation, the bilateral law, or a disk of more than two modes.
 pub(super) fn event(scene: &Scene) -> Result<(), SceneError> {
     undriven(scene)?;
-    let law = match scene.solver.contact {
-        ContactLaw::Unilateral => None,
-        ContactLaw::Bilateral => Some(("\"bilateral\"", "bilateral is a law of the time step")),
-        ContactLaw::Smooth => Some(("\"smooth\"", "a lining has no events")),
-    };
-    if let Some((given, why)) = law {
+    let law = scene.solver.contact;
+    if let Some(why) = law.lacks_events() {
         let allowed = format!("\"unilateral\" with solver.kind = \"event\" ({why})");
-        return Err(SceneError::refused(keys::LAW, given, allowed));
+        return Err(SceneError::refused(keys::LAW, format!("\"{law}\""), allowed));
     }
     if scene.solver.model == ModelSize::Full {
         return Err(SceneError::refused(
