@@ -24,6 +24,11 @@ impl<B: Disk> Explicit<B> {
     pub(super) fn meet(&mut self, distance2: f64) -> Result<f64, FailureReason> {
         self.stays_in_range(distance2)?;
         let (z, turn) = self.in_blade_frame();
+        if self.beyond.account.forgone {
+            // The bound of angles that are not looked at grows with each step.
+            let largest = self.watch.largest();
+            self.watch.skipped(largest, self.blades.look(largest).1);
+        }
         let deepest = self.gather(z);
         if deepest <= 0.0 {
             self.open_gap();

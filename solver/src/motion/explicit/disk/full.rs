@@ -179,20 +179,20 @@ impl Disk for FullBlades {
             self.see_all();
         }
         let Self { ring, seen, x, .. } = &*self;
-        for (angle, row) in rows.angle.iter_mut().zip(&rows.index) {
-            *angle = self.mean(*row, |member| match seen.are_of_now() {
+        rows.put_angles(|row| {
+            self.mean(row, |member| match seen.are_of_now() {
                 true => seen.angles[member],
                 false => ring.shapes.at(member, x),
-            });
-        }
+            })
+        });
     }
     fn push(&mut self, rows: &Columns, _: [f64; 2]) -> f64 {
         if self.are_many(rows) {
-            self.put(rows.each(&rows.torque));
+            self.put(rows.each(|four| four.torque));
             return self.turn_all();
         }
         let mut change = 0.0;
-        for (row, _, torque) in rows.each(&rows.torque) {
+        for (row, _, torque) in rows.each(|four| four.torque) {
             if torque != 0.0 {
                 self.correct(row, torque);
                 change += self.compliance(row, row) * torque.abs();
@@ -201,7 +201,7 @@ impl Disk for FullBlades {
         change
     }
     fn swept(&mut self, rows: &Columns) -> f64 {
-        self.put(rows.each(&rows.push));
+        self.put(rows.each(|four| four.push));
         let Self { ring, increments, before, room, .. } = self;
         let (mut swept, moved) = (0.0, |place: usize| 0.5 * (increments[place] + before[place]));
         ring.shapes.feel(room, |k, felt| {
@@ -211,7 +211,7 @@ impl Disk for FullBlades {
         swept
     }
     fn begin(&mut self, rows: &Columns, _: [f64; 2]) {
-        self.put(rows.each(&rows.torque));
+        self.put(rows.each(|four| four.torque));
         let Self { ring, x, increments, room, .. } = self;
         ring.shapes.feel(room, |k, felt| {
             for (place, felt) in ring.pair(k).into_iter().zip(felt) {
@@ -253,14 +253,11 @@ impl Disk for FullBlades {
         }
         f64::min(sum, square.sqrt())
     }
-    fn can_fly(&self, steps: u64, largest: f64) -> bool {
-        // No angle on the way needs a look.
-        let least =
-            (self.ring.shapes.count() as u64).clamp(SHORTEST_BLOCK, SHORTEST_BLOCK_OF_BLADES);
-        steps >= least && self.reach() <= largest
+    fn shortest_block(&self) -> u64 {
+        (self.ring.shapes.count() as u64).clamp(SHORTEST_BLOCK, SHORTEST_BLOCK_OF_BLADES)
     }
-    fn peak(&self, _: u64, least: f64) -> f64 {
-        least
+    fn peak(&self, steps: u64, least: f64) -> f64 {
+        if self.reach() <= least { least } else { self.clone().fly_looking(steps, least) }
     }
     fn skip(&mut self, steps: u64) {
         for (k, oscillator) in self.ring.oscillators.iter().enumerate() {

@@ -1,7 +1,7 @@
 //! All blades of the full disk at once, by transforms: looks at their angles, and torques on
 //! many of them.
 
-use super::Columns;
+use super::{Columns, Disk};
 use super::full::FullBlades;
 use crate::tolerances::{FEW_BLADES, FEW_PRESSED};
 
@@ -120,6 +120,54 @@ impl FullBlades {
         }
         (now, bound.max(now))
     }
+}
+
+impl FullBlades {
+    /// Takes `left` free steps and returns the largest angle of a blade in them; `least` where
+    /// none is larger \[rad\]. All blades are looked at again once one of them may have gone
+    /// beyond the largest angle before and come back: until then, an angle that grows is
+    /// largest at the next look.
+    pub(super) fn fly_looking(&mut self, mut left: u64, least: f64) -> f64 {
+        let mut most = least;
+        loop {
+            let (angles, increments) =
+                (self.ring.shapes.all(&self.x), self.ring.shapes.all(&self.increments));
+            most = angles.iter().fold(most, |most, angle| most.max(angle.abs()));
+            if left == 0 {
+                return most;
+            }
+            let bend = self.most_bent();
+            let unseen = |(angle, increment): (&f64, &f64)| {
+                let outward = increment * angle.signum();
+                let within = until(most - angle.abs(), outward, bend);
+                let beyond = until(most + angle.abs(), -outward, bend);
+                within.min(beyond).max(outward / bend)
+            };
+            let free = angles.iter().zip(&increments).map(unseen).fold(left as f64, f64::min);
+            let steps = (free as u64).clamp(1, left);
+            self.skip(steps);
+            left -= steps;
+        }
+    }
+
+    /// Returns a bound on the change of the increment of any angle in one of the free steps to
+    /// come \[rad\]; shapes are orthonormal.
+    fn most_bent(&self) -> f64 {
+        let each = self.ring.oscillators.iter().enumerate().map(|(k, oscillator)| {
+            let pair = self.ring.pair(k).map(|place| self.coordinate_at(place));
+            let (x, increment) = oscillator.reach_of(pair);
+            oscillator.pull * x + oscillator.loss * increment
+        });
+        each.map(|bend| bend * bend).sum::<f64>().sqrt()
+    }
+}
+
+/// Returns the steps in which an angle cannot grow by `room`, where its increment is `increment`
+/// now and changes by no more than `bend` in a step.
+fn until(room: f64, increment: f64, bend: f64) -> f64 {
+    let rate = increment + 0.5 * bend;
+    let root = (rate * rate + 2.0 * bend * room).sqrt();
+    if rate > 0.0 { 2.0 * room / (rate + root) } else { (root - rate) / bend }
 }
 
 /// Returns the size of an angle; what is no number is beyond any bound.

@@ -17,7 +17,7 @@ mod table;
 pub use full::FullBlades;
 pub use modal::ModalBlades;
 pub use rigid::RigidBlades;
-pub(in crate::motion) use table::{Columns, RowTable, dot, total};
+pub(in crate::motion) use table::{Columns, Four, Lanes, RowTable, total};
 
 use std::fmt::Debug;
 
@@ -26,7 +26,7 @@ use super::oscillator::Coordinate;
 use crate::model::Machine;
 use crate::motion::Plane;
 use crate::scene::Scene;
-use crate::tolerances::{LARGEST_BLADE_ANGLE, SHORTEST_BLOCK};
+use crate::tolerances::SHORTEST_BLOCK;
 
 /// What the explicit solver asks of the bladed disk.
 pub(in crate::motion) trait Disk: Clone + Debug + Send + Sync + 'static {
@@ -61,13 +61,13 @@ pub(in crate::motion) trait Disk: Clone + Debug + Send + Sync + 'static {
     }
     /// Finds the angles of these rows \[rad\].
     fn angles(&mut self, rows: &mut Columns) {
-        rows.angle.iter_mut().zip(&rows.index).for_each(|(x, row)| *x = self.angle(*row));
+        rows.put_angles(|row| self.angle(row));
     }
     /// Corrects the predicted step by the torques on these rows, of which two modes feel
     /// so much \[N m\]; a bound on the change of any blade angle \[rad\].
     fn push(&mut self, rows: &Columns, _felt: [f64; 2]) -> f64 {
         let mut change = 0.0;
-        for (row, _, torque) in rows.each(&rows.torque) {
+        for (row, _, torque) in rows.each(|four| four.torque) {
             if torque != 0.0 {
                 self.correct(row, torque);
                 change += self.compliance(row, row) * torque.abs();
@@ -86,7 +86,7 @@ pub(in crate::motion) trait Disk: Clone + Debug + Send + Sync + 'static {
     /// steps \[N rad\].
     fn swept(&mut self, rows: &Columns) -> f64 {
         let mut swept = 0.0;
-        for (row, _, push) in rows.each(&rows.push) {
+        for (row, _, push) in rows.each(|four| four.push) {
             if push != 0.0 {
                 swept += push * 0.5 * (self.angle(row) - self.angle_before(row));
             }
@@ -112,11 +112,9 @@ pub(in crate::motion) trait Disk: Clone + Debug + Send + Sync + 'static {
     fn peak(&self, steps: u64, least: f64) -> f64;
     /// `steps` free steps at once.
     fn skip(&mut self, steps: u64);
-    /// Returns whether so many free steps at once are worth it, where no angle was above
-    /// `largest` so far.
-    fn can_fly(&self, steps: u64, _largest: f64) -> bool {
-        // Blades that may swing too far are followed step by step.
-        steps >= SHORTEST_BLOCK && self.reach() <= LARGEST_BLADE_ANGLE
+    /// Returns the number of free steps from which on it is faster to take them at once.
+    fn shortest_block(&self) -> u64 {
+        SHORTEST_BLOCK
     }
     /// The modes of a held corner; none where there are more than two.
     fn held_modes(&self) -> Option<HeldModes<'_>> {

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use super::{Columns, Disk, HeldModes, RowTable, dot};
+use super::{Columns, Disk, HeldModes, RowTable, total};
 use crate::model::{ContactPolygon, Machine, gcd};
 use crate::motion::Plane;
 use crate::motion::explicit::{Coordinate, Driven, Oscillator};
@@ -159,7 +159,13 @@ impl Disk for ModalBlades {
         self.modes.iter_mut().for_each(|mode| mode.x *= part);
     }
     fn swept(&mut self, rows: &Columns) -> f64 {
-        let [c, s] = rows.shape.each_ref().map(|shape| dot(shape, &rows.push));
+        let mut felt = [[0.0; 4]; 2];
+        for four in &rows.fours {
+            for (felt, shape) in felt.iter_mut().zip(&four.shape) {
+                (0..4).for_each(|lane| felt[lane] += shape[lane] * four.push[lane]);
+            }
+        }
+        let [c, s] = felt.map(total);
         let moved = |k: usize| 0.5 * (self.modes[k].increment + self.before[k]);
         c * moved(0) + s * moved(1)
     }

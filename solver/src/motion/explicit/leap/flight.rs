@@ -7,7 +7,7 @@ use crate::motion::explicit::disk::{Disk, HeldModes};
 use crate::motion::explicit::lining::Lining;
 use crate::motion::explicit::{Coordinate, Explicit};
 use crate::motion::{ActiveSet, EnergyAccount};
-use crate::tolerances::{BREAK_STEPS, SHORTEST_BLOCK};
+use crate::tolerances::{BREAK_STEPS, LARGEST_BLADE_ANGLE, SHORTEST_BLOCK};
 
 impl<B: Disk> Explicit<B> {
     /// Begins a block of steps that cannot touch, if there are enough to be worth it.
@@ -39,7 +39,10 @@ impl<B: Disk> Explicit<B> {
         let (distance, (farthest, longest)) = (distance2.sqrt(), self.casing.reach_of(self.u));
         let length =
             if farthest < room { ENDLESS } else { ((room - distance) / longest).max(0.0) as u64 };
-        if self.blades.can_fly(length, self.watch.largest()) { length } else { 0 }
+        // Blades that may swing too far are followed step by step.
+        let flies =
+            length >= self.blades.shortest_block() && self.blades.reach() <= LARGEST_BLADE_ANGLE;
+        if flies { length } else { 0 }
     }
 
     /// Whether nothing but their own springs will move casing and blades in flight.
