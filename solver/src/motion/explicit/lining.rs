@@ -155,10 +155,12 @@ impl Lining {
     }
 
     /// Computes the pushes of all rows, with the casing at `z` in the frame of the blades and
-    /// these angles of the modes beside that of each row, whose phases never exceed `most`.
+    /// the modes at these angles; no phase exceeds `most`.
     fn press(&mut self, z: Plane, tips: &TipLaw, modes: [f64; 2], most: f64) {
         // The shortest series of sine and cosine that is exact.
-        self.sums = if most < SHORT_SERIES_PHASE {
+        self.sums = if tips.diameters == 0.0 {
+            self.press_by(z, tips, modes, |_| (0.0, 1.0))
+        } else if most < SHORT_SERIES_PHASE {
             self.press_by(z, tips, modes, |phase| {
                 let q = phase * phase;
                 // Short chains of operations.
@@ -191,17 +193,17 @@ impl Lining {
         let by_depth = if eps > 0.0 { 0.5 / eps } else { 0.0 };
         let TipLaw { clearance, diameters, pushed, .. } = *tips;
         // Angles stand for phases where there are no diameters.
-        let (scale, turns) = if diameters == 0.0 { (1.0, 0.0) } else { (diameters, 1.0) };
+        let scale = if diameters == 0.0 { 1.0 } else { diameters };
         let rise = tips.rise / scale;
         let [c, s] = modes.map(|mode| mode * scale);
         let [mut x, mut y, mut pushes, mut turning, mut deepest] = [Lanes::default(); 5];
-        let [mut felt_c, mut felt_s, mut changed] = [Lanes::default(); 3];
-        let presses = |push: f64| if push > 0.0 { 1.0 } else { 0.0 };
+        let ([mut felt_c, mut felt_s], mut changed) = ([Lanes::default(); 2], [0_u64; 4]);
+        let presses = |push: f64| if push > 0.0 { u64::MAX } else { 0 };
         for four in &mut self.near.fours {
             // No lane branches or looks at another: one vector instruction takes all.
             for k in 0..4 {
-                let phase = four.shape[0][k] * c + four.shape[1][k] * s + four.angle[k] * scale;
-                let (sin, cos) = sin_cos(phase * turns);
+                let phase = four.shape[0][k] * c + four.shape[1][k] * s;
+                let (sin, cos) = sin_cos(phase);
                 let across = four.cosine[k] * cos - four.sine[k] * sin;
                 let along = four.sine[k] * cos + four.cosine[k] * sin;
                 let inward = across * z.re + along * z.im;
@@ -212,7 +214,6 @@ impl Lining {
                 let depth = parabola * parabola * by_depth + (deep - parabola);
                 let (push, before) = (depth * four.stiffness[k], four.push[k]);
                 let torque = push * (arm * diameters - pushed);
-                let other = presses(push) - presses(before);
                 (four.push[k], four.before[k], four.torque[k]) = (push, before, torque);
                 four.impulse[k] += push;
                 x[k] += push * across;
@@ -221,9 +222,8 @@ impl Lining {
                 turning[k] += torque;
                 felt_c[k] += four.shape[0][k] * torque;
                 felt_s[k] += four.shape[1][k] * torque;
-                let deep = if push > 0.0 { deep } else { 0.0 };
                 deepest[k] = if deep > deepest[k] { deep } else { deepest[k] };
-                changed[k] += other * other;
+                changed[k] |= presses(push) ^ presses(before);
             }
         }
         Sums {
@@ -232,7 +232,7 @@ impl Lining {
             torque: total(turning),
             felt: [total(felt_c), total(felt_s)],
             deepest: deepest.into_iter().fold(0.0, f64::max),
-            changed: total(changed) > 0.0,
+            changed: changed != [0; 4],
         }
     }
 
@@ -340,7 +340,7 @@ impl<B: Disk> Explicit<B> {
         if modes.is_none() {
             blades.angles(&mut lining.near);
         }
-        lining.press(z, tips, modes.unwrap_or_default(), tips.diameters * bound);
+        lining.press(z, tips, modes.unwrap_or([1.0, 0.0]), tips.diameters * bound);
         if anew || lining.sums.changed {
             lining.keep_change(record, n, blades.table().count());
         }

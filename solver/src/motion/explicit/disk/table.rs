@@ -48,8 +48,8 @@ impl RowTable {
     }
 }
 
-/// Some rows with their numbers, four rows side by side: what is left of the last four has no
-/// stiffness and feels nothing.
+/// Some rows with their numbers, four rows side by side. The last row fills up the last four,
+/// without stiffness.
 #[derive(Clone, Debug, Default)]
 pub(in crate::motion) struct Columns {
     pub index: Vec<u32>,
@@ -66,12 +66,10 @@ pub(in crate::motion) struct Four {
     /// Direction at rest, `cos psi` and `sin psi`.
     pub cosine: Lanes,
     pub sine: Lanes,
-    /// `Disk::shape_of`.
+    /// `Disk::shape_of`; where not only two modes move, the angle of the row \[rad\] and zero.
     pub shape: [Lanes; 2],
     /// Stiffness of the lining under all blades of a row \[N/m\].
     pub stiffness: Lanes,
-    /// Angle of each row \[rad\]; zero where two modes are all that moves.
-    pub angle: Lanes,
     /// Push on the blades of a row and its torque in the latest step, and the push in the step
     /// before \[N, N m\].
     pub push: Lanes,
@@ -94,19 +92,24 @@ impl Columns {
         let side: Vec<u32> = rows.iter().map(|&row| table.side[row as usize]).collect();
         let each = f64::from(table.blades_per_row) * stiffness_n_per_m;
         let mut fours = vec![Four::default(); rows.len().div_ceil(4)];
-        for (place, (&row, &side)) in rows.iter().zip(&side).enumerate() {
+        for place in 0..4 * fours.len() {
             let (four, lane) = (&mut fours[place / 4], place % 4);
-            (four.cosine[lane], four.sine[lane]) = direction(side);
-            (four.shape[0][lane], four.shape[1][lane]) = shape(row);
-            four.stiffness[lane] = each;
+            let row = place.min(rows.len() - 1);
+            (four.cosine[lane], four.sine[lane]) = direction(side[row]);
+            (four.shape[0][lane], four.shape[1][lane]) = shape(rows[row]);
+            four.stiffness[lane] = if row == place { each } else { 0.0 };
         }
         Self { index: rows.to_vec(), side, fours }
     }
 
     /// Takes the angle of each row from `angle`.
     pub fn put_angles(&mut self, mut angle: impl FnMut(u32) -> f64) {
+        let mut last = 0.0;
         for (four, rows) in self.fours.iter_mut().zip(self.index.chunks(4)) {
-            four.angle.iter_mut().zip(rows).for_each(|(place, row)| *place = angle(*row));
+            for (lane, place) in four.shape[0].iter_mut().enumerate() {
+                last = rows.get(lane).map_or(last, |row| angle(*row));
+                *place = last;
+            }
         }
     }
 
