@@ -11,10 +11,9 @@ use super::Explicit;
 use super::disk::Disk;
 use super::pushes::{push, solve};
 use super::rows::{Row, TipLaw, turned};
-use crate::contact::repeated::{GroupReference, Repeat};
 use crate::motion::{ActiveSet, FailureReason, Plane};
 use crate::tolerances::{
-    LONG_STEP, MOST_LONG_STEPS, MOST_ROWS, NEIGHBOUR_DEPTHS, ROUND_OFF, ROUNDINGS, TIP_MARGIN,
+    LONG_STEP, MOST_LONG_STEPS, MOST_ROWS, NEIGHBOUR_DEPTHS, ROUND_OFF, TIP_MARGIN,
 };
 
 impl<B: Disk> Explicit<B> {
@@ -63,21 +62,17 @@ impl<B: Disk> Explicit<B> {
         deepest
     }
 
-    /// Appends the rows of a side that penetrate (or matter); its deepest
-    /// penetration.
+    /// Appends the row of a side if it penetrates or matters, and returns its penetration.
     fn add_side(&mut self, side: u32, z: Plane) -> f64 {
         let direction = self.machine.polygon.direction(side);
-        let mut deepest = 0.0_f64;
-        for place in 0..self.blades.table().rows_per_side() {
-            let index = self.blades.table().of_side(side)[place];
-            let angle = self.blades.angle(index);
-            let place = self.tips.place(direction, z, angle);
-            deepest = deepest.max(-place.gap);
-            if place.gap < 0.0 || self.neighbours_matter {
-                self.rows.push(Row { index, side, angle, place, lambda: 0.0 });
-            }
+        // In the paper's model nothing tells the blades of a side apart.
+        let index = self.blades.table().of_side(side)[0];
+        let angle = self.blades.angle(index);
+        let place = self.tips.place(direction, z, angle);
+        if place.gap < 0.0 || self.neighbours_matter {
+            self.rows.push(Row { index, side, angle, place, lambda: 0.0 });
         }
-        deepest
+        -place.gap
     }
 
     /// Multipliers of all rows by the chosen law.
@@ -86,65 +81,14 @@ impl<B: Disk> Explicit<B> {
             // Rows that would be pulled shut are those that penetrate, no others.
             self.rows.retain(|row| row.place.gap < 0.0);
         }
-        let repeated = self.rows.windows(2).any(|pair| pair[0].side == pair[1].side);
-        // The rows of one side each that may only push are closed one by one.
-        if self.rows.len() > MOST_ROWS && (repeated || self.law.pulls()) {
+        // Rows that may only push are closed one by one.
+        if self.rows.len() > MOST_ROWS && self.law.pulls() {
             return Err(FailureReason::Rows { rows: self.rows.len() });
-        }
-        if repeated {
-            return self.solve_repeated();
         }
         self.gaps.clear();
         self.gaps.extend(self.rows.iter().map(|row| row.place.gap));
         let Self { rows, gaps, several, tips, law, casing, blades, .. } = self;
         solve(tips, *law, casing.compliance, blades, rows, gaps, several)
-    }
-
-    /// As `solve`, where a side has several rows: each is given by its difference
-    /// from the first row of its side.
-    fn solve_repeated(&mut self) -> Result<(), FailureReason> {
-        let diameters = self.machine.nodal_diameters;
-        let repeated = &mut self.repeated;
-        repeated.begin(self.casing.compliance);
-        let mut first = &self.rows[0];
-        for row in &self.rows {
-            let normal = parts(row.place.normal);
-            if repeated.groups.is_empty() || row.side != first.side {
-                first = row;
-                repeated.groups.push(GroupReference { gap: row.place.gap, normal });
-            }
-            let (c, s) = parts(first.place.normal);
-            let mut repeat = Repeat {
-                group: repeated.groups.len() - 1,
-                gap: 0.0,
-                normal: (c, s),
-                turned: (0.0, 0.0),
-                moment_arm: first.place.moment_arm,
-            };
-            let turns = [row, first].map(|row| diameters * row.angle);
-            let apart = turns[0] - turns[1];
-            // Blades that stand alike to round-off are one.
-            if apart.abs() > ROUNDINGS * (turns[0].abs() + turns[1].abs()) {
-                let half = (0.5 * apart).sin();
-                let (cos, sin) = (-2.0 * half * half, apart.sin());
-                let reach = first.place.gap - self.machine.polygon.clearance;
-                repeat.gap = reach * cos + first.place.moment_arm / diameters * sin;
-                repeat.normal = normal;
-                repeat.turned = (c * cos - s * sin, s * cos + c * sin);
-                repeat.moment_arm = row.place.moment_arm;
-            }
-            repeated.rows.push(repeat);
-        }
-        let compliance =
-            |a: usize, b: usize| self.blades.compliance(self.rows[a].index, self.rows[b].index);
-        repeated.bend_by(compliance);
-        let rows = self.rows.len();
-        let lambda = self.law.repeated(repeated).ok_or(FailureReason::Singular { rows })?;
-        for (row, value) in self.rows.iter_mut().zip(lambda) {
-            row.lambda = *value;
-        }
-        let finite = self.rows.iter().all(|row| row.lambda.is_finite());
-        if finite { Ok(()) } else { Err(FailureReason::Singular { rows }) }
     }
 
     /// What a step can leave at most of the gaps that it closes, for a casing that it
@@ -203,10 +147,6 @@ impl<B: Disk> Explicit<B> {
         let soft = moment_arm * moment_arm * self.blades.compliance(0, 0);
         turn * self.casing.compliance < 2.0 * soft
     }
-}
-
-fn parts(direction: Plane) -> (f64, f64) {
-    (direction.re, direction.im)
 }
 
 impl<B: Disk> Explicit<B> {

@@ -184,13 +184,6 @@ impl EngineOrderTorque {
         (amplitude != 0.0).then_some(Self { amplitude, order, blades })
     }
 
-    /// Nodal diameters of the modes that feel it, at most half the blades.
-    #[must_use]
-    pub fn diameters(&self) -> u32 {
-        let order = self.order % self.blades;
-        order.min(self.blades - order)
-    }
-
     /// Phase `E theta` at an instant \[rad\].
     #[must_use]
     pub fn phase(&self, rotor: &Rotor, t: f64) -> f64 {

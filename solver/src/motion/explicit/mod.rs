@@ -31,13 +31,12 @@ mod solver;
 mod spin;
 
 pub(super) use disk::{FullBlades, ModalBlades, RigidBlades};
-pub(super) use drive::EngineOrderTorque;
 pub(super) use oscillator::{Coordinate, Oscillator};
 
 use std::sync::Arc;
 
 use super::{Failure, FailureReason, Plane};
-use crate::contact::{Several, StepLaw, repeated::Repeated};
+use crate::contact::{Several, StepLaw};
 use crate::model::Machine;
 use crate::scene::CheckedScene;
 use beyond::Beyond;
@@ -81,8 +80,6 @@ pub(super) struct Explicit<B: Disk> {
     leaps: Leaps,
     /// Rows of three sides or more.
     several: Several,
-    /// Rows of which several belong to one side; see `solve_repeated`.
-    repeated: Repeated,
     /// Whether the neighbours of a penetrating side always count; see `correct`.
     neighbours_matter: bool,
 }

@@ -16,7 +16,6 @@ use super::lining::Lining;
 use super::record::{Record, Watch};
 use super::rows::TipLaw;
 use super::{Explicit, Oscillator};
-use crate::contact::repeated::Repeated;
 use crate::contact::{self, Several};
 use crate::model::Machine;
 use crate::motion::Change;
@@ -62,7 +61,6 @@ impl<B: Disk> Explicit<B> {
             beyond: Beyond::of(scene, speed),
             leaps: Leaps::default(),
             several: Several::default(),
-            repeated: Repeated::default(),
             neighbours_matter: false,
             machine,
         };

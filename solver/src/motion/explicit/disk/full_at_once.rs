@@ -1,8 +1,8 @@
 //! All blades of the full disk at once, by transforms: looks at their angles, and torques on
 //! many of them.
 
-use super::{Columns, Disk};
 use super::full::FullBlades;
+use super::{Columns, Disk};
 use crate::tolerances::{FEW_BLADES, FEW_PRESSED};
 
 /// The angles of all members when they were looked at last.
@@ -178,23 +178,18 @@ fn size(angle: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::super::full::tests::{at_rest, pressed, scene, widest};
-    use crate::motion::explicit::EngineOrderTorque;
     use crate::motion::explicit::disk::{Disk, FullBlades};
     use crate::motion::explicit::record::Watch;
 
     #[test]
     fn the_largest_angle_of_all_steps_is_found() {
-        for (count, order) in
-            [(5, None), (22, None), (22, Some(5)), (131, None), (140, None), (140, Some(7))]
-        {
-            let scene = scene(count, order);
-            let torque = EngineOrderTorque::of(&scene);
-            let (mut blades, mut watch, mut most) = (at_rest(&scene), Watch::default(), 0.0_f64);
+        for count in [5, 22, 131, 140] {
+            let mut blades = at_rest(&scene(count));
+            let (mut watch, mut most) = (Watch::default(), 0.0_f64);
             let mut looks = 0;
             for step in 0..600_u32 {
                 let phase = 0.05 * f64::from(step);
-                let mut unknown =
-                    watch.moved(blades.predict(torque.as_ref().map(|torque| (torque, phase))));
+                let mut unknown = watch.moved(blades.predict(None));
                 // Pushes of one blade, of its neighbour, and one from far away.
                 if step % 97 < 20 {
                     let (blade, push) = ((step / 97 * 7) % count, 1.0 + (0.1 * phase).sin());
@@ -208,23 +203,40 @@ mod tests {
                 most = most.max(widest(&blades));
                 // Round-off of the transform, and of the sum of the bounds.
                 let error = (watch.largest() - most).abs();
-                assert!(error < 1e-13 * most, "{count} {order:?} {step}: {error:e} of {most:e}");
+                assert!(error < 1e-13 * most, "{count} {step}: {error:e} of {most:e}");
                 assert!(watch.bound() >= widest(&blades) * (1.0 - 1e-12), "{count} {step}");
             }
-            assert!((10..550).contains(&looks), "{count} {order:?}: {looks} looks");
+            assert!((10..550).contains(&looks), "{count}: {looks} looks");
         }
     }
 
     #[test]
     fn no_number_is_beyond_every_bound() {
-        for order in [None, Some(3)] {
-            let scene = scene(22, order);
-            let torque = EngineOrderTorque::of(&scene);
-            let mut blades = at_rest(&scene);
-            let mut watch = Watch::default();
-            blades.correct(3, f64::NAN);
-            assert!(watch.moved(blades.predict(torque.as_ref().map(|torque| (torque, 0.0)))));
-            assert!(watch.look(blades.look(watch.largest())).is_err());
+        let (mut blades, mut watch) = (at_rest(&scene(22)), Watch::default());
+        blades.correct(3, f64::NAN);
+        assert!(watch.moved(blades.predict(None)));
+        assert!(watch.look(blades.look(watch.largest())).is_err());
+    }
+
+    #[test]
+    fn the_largest_angle_of_a_flight_is_that_of_its_steps() {
+        for count in [1, 5, 22, 131, 140] {
+            for steps in [1_u64, 10, 300, 3000] {
+                let mut blades = at_rest(&scene(count));
+                for step in 0..40 {
+                    blades.predict(None);
+                    blades.correct(step % count.min(3), 1.0);
+                }
+                let least = 0.5 * widest(&blades);
+                let mut plain = blades.clone();
+                let most = (0..steps).fold(widest(&blades), |most, _| {
+                    plain.predict(None);
+                    most.max(widest(&plain))
+                });
+                let found = blades.peak(steps, least);
+                assert!((found - most).abs() < 1e-12 * most, "{count} {steps}: {found} {most}");
+                assert_eq!(blades.peak(steps, 2.0 * blades.reach()), 2.0 * blades.reach());
+            }
         }
     }
 

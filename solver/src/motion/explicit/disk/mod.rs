@@ -66,6 +66,10 @@ pub(in crate::motion) trait Disk: Clone + Debug + Send + Sync + 'static {
     /// Corrects the predicted step by the torques on these rows, of which two modes feel
     /// so much \[N m\]; a bound on the change of any blade angle \[rad\].
     fn push(&mut self, rows: &Columns, _felt: [f64; 2]) -> f64 {
+        self.push_each(rows)
+    }
+    /// Does the same by one torque after the other.
+    fn push_each(&mut self, rows: &Columns) -> f64 {
         let mut change = 0.0;
         for (row, _, torque) in rows.each(|four| four.torque) {
             if torque != 0.0 {

@@ -1,17 +1,16 @@
 //! The bladed disk as a ring of equal blades in its Fourier modes, where the
 //! circulant matrices of Eqs. (2)-(3) are diagonal: what does not move.
 //!
-//! Blades `N/d` apart do the same for ever if `d` divides the number of blades,
-//! the nodal diameters and the order of the excitation: nothing tells them
-//! apart. So `d` such blades are one member of a ring of `N/d`, with the inertia
+//! Blades `N/d` apart do the same for ever if `d` divides the number of blades and
+//! the nodal diameters: nothing tells them apart. So `d` such blades are one member of a ring of `N/d`, with the inertia
 //! of all of them, and a push on it is shared evenly.
 //! A mistuned disk has springs of its own beside (section 10).
 
 use std::f64::consts::TAU;
 
 use super::shapes::{LANES, Shapes};
-use crate::model::{Machine, blade_frequency, gcd};
-use crate::motion::explicit::{Coordinate, EngineOrderTorque, Oscillator};
+use crate::model::{Machine, blade_frequency};
+use crate::motion::explicit::Oscillator;
 use crate::scene::Scene;
 
 /// Members, modes and rows of a ring. A list of coefficients is laid out as the
@@ -43,13 +42,9 @@ pub(super) struct Ring {
 }
 
 impl Ring {
-    /// How many blades of a scene are one member, at most.
-    pub fn most_alike(scene: &Scene, machine: &Machine) -> u32 {
-        if scene.bladed_disk.mistuning != 0.0 {
-            return 1;
-        }
-        let group = machine.polygon.blades_per_side;
-        EngineOrderTorque::of(scene).map_or(group, |torque| gcd(group, torque.diameters()))
+    /// Returns how many blades of a scene are one member.
+    pub fn alike(scene: &Scene, machine: &Machine) -> u32 {
+        if scene.bladed_disk.mistuning != 0.0 { 1 } else { machine.polygon.blades_per_side }
     }
 
     /// The ring of a scene with `alike` blades as one member.
@@ -126,30 +121,6 @@ impl Ring {
             }
         }
         self.largest_shape * sums.iter().sum::<f64>()
-    }
-
-    /// Replaces the free step of the modes of `k` diameters, which were at `before`, by that
-    /// under the torques on them; a bound on what it does to any angle \[rad\].
-    pub fn drive(
-        &self,
-        k: usize,
-        torques: [f64; 2],
-        before: [Coordinate; 2],
-        x: &mut [f64],
-        increments: &mut [f64],
-    ) -> f64 {
-        let mut change = 0.0;
-        for (place, (torque, at)) in self.pair(k).into_iter().zip(torques.into_iter().zip(before)) {
-            let driven = self.oscillators[k].step(at, self.shapes.scale(k) * torque);
-            (x[place], increments[place]) = (driven.x, driven.increment);
-            change += driven.increment.abs();
-        }
-        self.largest_shape * change
-    }
-
-    /// The diameters that an excitation drives, in those of the ring.
-    pub fn driven(&self, torque: &EngineOrderTorque) -> usize {
-        (torque.diameters() / self.alike) as usize
     }
 
     /// Places of the cosine and sine coordinates of `k` diameters of the ring.

@@ -31,11 +31,6 @@ impl RowTable {
         self.side.len()
     }
 
-    /// How many rows each side has.
-    pub fn rows_per_side(&self) -> usize {
-        self.rows_per_side
-    }
-
     /// Whether a side is one row.
     pub fn is_by_side(&self) -> bool {
         self.rows_per_side == 1
