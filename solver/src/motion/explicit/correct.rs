@@ -17,9 +17,8 @@ use crate::tolerances::{
 };
 
 impl<B: Disk> Explicit<B> {
-    /// A predicted step outside the circle of the clearance: find what
-    /// penetrates and correct it. Returns a bound on what that does to any blade
-    /// angle \[rad\].
+    /// Corrects a predicted step outside the circle of the clearance by the rows that penetrate.
+    /// Returns a bound on the change of any blade angle \[rad\].
     pub(super) fn meet(&mut self, distance2: f64) -> Result<f64, FailureReason> {
         self.stays_in_range(distance2)?;
         let (z, turn) = self.in_blade_frame();
@@ -45,8 +44,8 @@ impl<B: Disk> Explicit<B> {
         Ok(change)
     }
 
-    /// Fills `rows` with those that penetrate and, where pushing on one side
-    /// may push its neighbour in, the neighbours; the deepest penetration.
+    /// Fills `rows` with those that penetrate and, where a push on one side may close the gap of
+    /// its neighbour, the neighbours. Returns the deepest penetration.
     fn gather(&mut self, z: Plane) -> f64 {
         // A blade angle moves a gap by at most |z| n_d alpha.
         let reach = self.machine.nodal_diameters * self.watch.bound();
@@ -75,7 +74,7 @@ impl<B: Disk> Explicit<B> {
         -place.gap
     }
 
-    /// Multipliers of all rows by the chosen law.
+    /// Computes the multipliers of all rows by the contact law.
     fn solve(&mut self) -> Result<(), FailureReason> {
         if self.law.pulls() {
             // Rows that would be pulled shut are those that penetrate, no others.
@@ -91,9 +90,8 @@ impl<B: Disk> Explicit<B> {
         solve(tips, *law, casing.compliance, blades, rows, gaps, several)
     }
 
-    /// What a step can leave at most of the gaps that it closes, for a casing that it
-    /// shifts from `z` and blades that it turns by `change`: parts of second order, and
-    /// round-off \[m\].
+    /// Returns a bound on the gaps that are left by a step that shifts the casing from `z` and
+    /// turns the blades by `change`: terms of second order, and round-off \[m\].
     fn most_left(&self, z: Plane, shift: Plane, change: f64) -> f64 {
         let size = |a: Plane| a.re.abs() + a.im.abs();
         let (z, shift, turned) = (size(z), size(shift), self.tips.diameters * change);
@@ -102,7 +100,7 @@ impl<B: Disk> Explicit<B> {
         (z + shift) * turned * turned + shift * turned + ROUND_OFF * rounded
     }
 
-    /// Keeps the penetration that the step has left, with the casing at `z`.
+    /// Records the penetration that the step has left, with the casing at `z`.
     fn keep_depth(&mut self, z: Plane) {
         let TipLaw { diameters, clearance, .. } = self.tips;
         for row in self.rows.iter().filter(|row| row.lambda != 0.0) {
@@ -117,7 +115,7 @@ impl<B: Disk> Explicit<B> {
         }
     }
 
-    /// Keeps what the step did: impulses, impacts, pulls.
+    /// Records impulses, impacts and pulls of the step.
     pub(super) fn keep_rows(&mut self) {
         let n = self.n;
         let (mut active_set, mut pulls) = (ActiveSet::Nothing, false);
@@ -138,8 +136,8 @@ impl<B: Disk> Explicit<B> {
         }
     }
 
-    /// Whether pushing on one side can push another into the casing: fewer
-    /// than four sides, or blades soft enough to couple them.
+    /// Returns whether a push on one side can close the gap of another: with fewer than four sides,
+    /// or with blades soft enough to couple them.
     pub(super) fn neighbours_matter(&self) -> bool {
         let polygon = &self.machine.polygon;
         let turn = (2.0 * polygon.delta).cos();
@@ -150,7 +148,7 @@ impl<B: Disk> Explicit<B> {
 }
 
 impl<B: Disk> Explicit<B> {
-    /// Corrects a predicted step that may touch; whether to look at the blades.
+    /// Corrects a predicted step that may touch. Returns whether to look at the blades.
     ///
     /// # Errors
     /// It went through more than the clearance, or its rows have no answer.
@@ -197,8 +195,10 @@ impl<B: Disk> Explicit<B> {
         Ok(self.watch.moved(change))
     }
 
+    /// Checks that the wave does not pass the blades too fast for the step for many steps.
+    ///
     /// # Errors
-    /// The wave passes the blades too fast for the step, and has for long.
+    /// It does.
     fn look_at_speed(&mut self) -> Result<(), FailureReason> {
         let [c, s] = self.u.map(|coordinate| coordinate.increment);
         let (moved2, long) = (c * c + s * s, self.beyond.long);
@@ -211,8 +211,8 @@ impl<B: Disk> Explicit<B> {
         Ok(())
     }
 
-    /// Makes rows of the candidates, with their distances to the target; how far the
-    /// deepest is beyond its own.
+    /// Makes rows of the candidates, with their distances to the target. Returns how far the
+    /// deepest one is beyond its target.
     pub(super) fn gather_targets(&mut self, z: Plane, tips: &TipLaw, restitution: f64) -> f64 {
         self.rows.clear();
         self.gaps.clear();
@@ -230,13 +230,13 @@ impl<B: Disk> Explicit<B> {
         deepest
     }
 
-    /// The highest target of a step, `-e g[n-1]` of the deepest row \[m\].
+    /// Returns the highest target of a step, `-e g[n-1]` of the deepest row \[m\].
     pub(super) fn highest_target(&self) -> f64 {
         self.scene.contact.restitution * self.beyond.dips[0].max(self.beyond.dips[1])
     }
 
-    /// Puts the rows whose distance to the target is below a limit before the others,
-    /// which may have dipped too; how many they are.
+    /// Moves the rows whose distance to the target is below a limit before the others, and returns
+    /// their number.
     fn below_first(&mut self, limit: f64) -> usize {
         let mut kept = 0;
         for place in 0..self.rows.len() {
@@ -249,7 +249,7 @@ impl<B: Disk> Explicit<B> {
         kept
     }
 
-    /// The gap of a row two steps before.
+    /// Returns the gap of a row two steps before.
     fn gap_before(&mut self, row: &Row, tips: &TipLaw) -> f64 {
         let [c, s] = self.moved();
         let u = Plane::new(self.u[0].x - c, self.u[1].x - s);
@@ -259,7 +259,7 @@ impl<B: Disk> Explicit<B> {
         gap + self.lost_clearance()
     }
 
-    /// The turn of the frame of the blades two steps before.
+    /// Returns the turn of the frame of the blades two steps before.
     fn turn_before(&self) -> Plane {
         let (c, s) = match self.n.checked_sub(2) {
             Some(n) => self.drive.look_at_turn(n),
@@ -272,7 +272,7 @@ impl<B: Disk> Explicit<B> {
         Plane::new(c, s)
     }
 
-    /// Penetration left, and the flows of energy of the pushes.
+    /// Records the penetration that is left and the energy flows of the pushes.
     fn settle(&mut self, z: Plane, turn: Plane, tips: &TipLaw) {
         let mut dip = 0.0_f64;
         for place in 0..self.rows.len() {

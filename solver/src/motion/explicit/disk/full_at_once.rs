@@ -5,7 +5,7 @@ use super::full::FullBlades;
 use super::{Columns, Disk};
 use crate::tolerances::{FEW_BLADES, FEW_PRESSED};
 
-/// The angles of all members when they were looked at last.
+/// Angles of all members at the latest look at them.
 #[derive(Clone, Debug)]
 pub(super) struct Seen {
     pub angles: Vec<f64>,
@@ -17,7 +17,7 @@ pub(super) struct Seen {
 }
 
 impl Seen {
-    /// Returns that of members which have not been looked at yet.
+    /// Creates the state of members that have not been looked at yet.
     pub fn nothing(members: usize) -> Self {
         let angles = vec![0.0; members];
         Self { angles, slack: f64::INFINITY, steps: u32::MAX, largest: [0.0; 2] }
@@ -28,14 +28,14 @@ impl Seen {
         (self.slack, self.steps) = (f64::INFINITY, u32::MAX);
     }
 
-    /// Whether nothing has moved since.
+    /// Returns whether nothing has moved since.
     pub fn are_of_now(&self) -> bool {
         self.steps == 0 && self.slack == 0.0
     }
 }
 
 impl FullBlades {
-    /// Puts the torques of the extra springs into the room; whether there are any.
+    /// Puts the torques of the extra springs into the room. Returns whether there are any.
     pub(super) fn pull(&mut self) -> bool {
         let Self { ring, rows, x, room, .. } = self;
         if !rows.springs.is_empty() {
@@ -45,7 +45,7 @@ impl FullBlades {
         !rows.springs.is_empty()
     }
 
-    /// Whether so many rows cost more one by one than all at once.
+    /// Returns whether these rows cost more one by one than all at once.
     pub(super) fn are_many(&self, rows: &Columns) -> bool {
         rows.index.len() * self.rows.members as usize
             > self.ring.shapes.few() / FEW_BLADES * FEW_PRESSED
@@ -62,7 +62,8 @@ impl FullBlades {
         }
     }
 
-    /// Corrects the step by the torques in the room; a bound on what it turns.
+    /// Corrects the step by the torques in the room. Returns a bound on the change of any angle
+    /// \[rad\].
     pub(super) fn turn_all(&mut self) -> f64 {
         let Self { ring, rows, x, increments, room, .. } = self;
         let most = room.blades.iter().fold(0.0_f64, |most, torque| most.max(torque.abs()));
@@ -100,8 +101,8 @@ impl FullBlades {
         (seen.slack, seen.steps) = (0.0, 0);
     }
 
-    /// Looks at those members whose angles may be beyond `largest`; the largest of these, and
-    /// a bound on all angles.
+    /// Looks at those members whose angles may be beyond `largest`. Returns the largest of these
+    /// angles, and a bound on all angles.
     pub(super) fn look_at_largest(&mut self, largest: f64) -> (f64, f64) {
         let Self { ring, seen, x, .. } = self;
         let mut left = ring.shapes.few().min(seen.angles.len() / 2);
