@@ -69,22 +69,22 @@ impl Lining {
         }
     }
 
-    /// Whether all rows press.
+    /// Returns whether all rows press.
     pub fn all_press(&self) -> bool {
         self.touching.all
     }
 
-    /// Whether any row presses.
+    /// Returns whether any row presses.
     pub fn presses(&self) -> bool {
         self.touching.sides != ActiveSet::Nothing
     }
 
-    /// The rows that press: index, side and push \[N\].
+    /// Returns the rows that press: index, side and push \[N\].
     fn pressed(&self) -> impl Iterator<Item = (u32, u32, f64)> {
         self.near.each(|four| four.push).filter(|(_, _, push)| *push > 0.0)
     }
 
-    /// The multipliers of the rows that press, with their sides \[N\].
+    /// Returns the multipliers of the rows that press, with their sides \[N\].
     pub fn multipliers(&self) -> Vec<(u32, f64)> {
         self.pressed().map(|(_, side, push)| (side, -push)).collect()
     }
@@ -99,13 +99,13 @@ impl Lining {
         self.near.fours.iter_mut().for_each(|four| four.impulse = Lanes::default());
     }
 
-    /// Stored between the last two steps \[J\].
+    /// Returns the energy stored between the last two steps \[J\].
     pub fn stored(&self) -> f64 {
         let before = self.held_before.unwrap_or_else(|| self.energy(|four| four.before));
         0.5 * (before + self.energy(|four| four.push))
     }
 
-    /// Stored under these pushes of all rows \[J\].
+    /// Returns the energy stored under these pushes of all rows \[J\].
     fn energy(&self, pushes: impl Fn(&Four) -> Lanes) -> f64 {
         let LiningLaw { stiffness_n_per_m: k, smoothing_m } = self.law;
         let of_row = |push: f64, stiffness: f64| {
@@ -300,7 +300,8 @@ impl<B: Disk> Explicit<B> {
             - tips.casing_friction * along;
     }
 
-    /// What the pushes of the latest step do to casing and blades of the one after it.
+    /// Applies the pushes of the latest step to the blades of the next one. Returns the shift of
+    /// the casing.
     pub(super) fn push_ahead(&self, tips: &TipLaw, blades: &mut B) -> Plane {
         let Some(lining) = &self.lining else { return Plane::default() };
         blades.push(&lining.near, lining.sums.felt);

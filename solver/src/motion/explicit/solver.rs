@@ -211,7 +211,7 @@ impl<B: Disk> Solver for Explicit<B> {
 }
 
 impl<B: Disk> Explicit<B> {
-    /// Casing and blades one step on from the latest, before what contact does to it.
+    /// Returns the casing and blades one step on from the latest, before what contact does to it.
     fn ahead(&self, u: [Coordinate; 2], blades: &B) -> ([Coordinate; 2], B) {
         let n = self.latest_step();
         let (force, mut blades) = (self.drive.force(n), blades.clone());

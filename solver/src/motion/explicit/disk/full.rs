@@ -297,7 +297,7 @@ impl FullBlades {
         change
     }
 
-    /// Twice the energy in the extra springs between the last two steps \[J\].
+    /// Returns twice the energy in the extra springs between the last two steps \[J\].
     fn twice_in_springs(&self) -> f64 {
         if self.rows.springs.is_empty() {
             return 0.0;

@@ -31,12 +31,12 @@ impl RowTable {
         self.side.len()
     }
 
-    /// Whether a side is one row.
+    /// Returns whether a side is one row.
     pub fn is_by_side(&self) -> bool {
         self.rows_per_side == 1
     }
 
-    /// The rows of a side.
+    /// Returns the rows of a side.
     pub fn of_side(&self, side: u32) -> &[u32] {
         let first = side as usize * self.rows_per_side;
         &self.of_sides[first..first + self.rows_per_side]
