@@ -219,7 +219,7 @@ impl Disk for FullBlades {
         (self.ring.shapes.count() as u64).clamp(SHORTEST_BLOCK, SHORTEST_BLOCK_OF_BLADES)
     }
     fn peak(&self, steps: u64, least: f64) -> f64 {
-        if self.reach() <= least { least } else { self.highest(steps, least) }
+        if self.reach() <= least { least } else { self.clone().fly_looking(steps, least) }
     }
     fn skip(&mut self, steps: u64) {
         for (k, oscillator) in self.ring.oscillators.iter().enumerate() {

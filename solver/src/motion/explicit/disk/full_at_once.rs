@@ -124,29 +124,31 @@ impl FullBlades {
 }
 
 impl FullBlades {
-    /// Returns the largest angle of a blade in so many free steps; `least` where none is larger
-    /// \[rad\]. An interval of steps is halved as long as the angles at its ends, and a bound on how
-    /// far others may leave the line between them, do not exclude a larger one.
-    pub(super) fn highest(&self, steps: u64, least: f64) -> f64 {
-        let angles = |blades: &Self| blades.ring.shapes.all(&blades.x);
-        let mut last = self.clone();
-        last.skip(steps);
+    /// Takes `left` free steps and returns the largest angle of a blade in them; `least` where
+    /// none is larger \[rad\]. All blades are looked at again once one of them may have gone
+    /// beyond the largest angle before and come back: until then, an angle that grows is
+    /// largest at the next look.
+    pub(super) fn fly_looking(&mut self, mut left: u64, least: f64) -> f64 {
         let mut most = least;
-        let mut left = vec![(self.clone(), angles(self), angles(&last), steps)];
-        while let Some((from, start, end, steps)) = left.pop() {
-            let high = start.iter().chain(&end).fold(0.0_f64, |high, angle| high.max(angle.abs()));
-            most = most.max(high);
-            let bow = from.most_bent() * (steps as f64).powi(2) / 8.0;
-            if steps > 1 && high + bow > most && from.reach() > most {
-                let half = steps / 2;
-                let mut middle = from.clone();
-                middle.skip(half);
-                let between = angles(&middle);
-                left.push((middle, between.clone(), end, steps - half));
-                left.push((from, start, between, half));
+        loop {
+            let (angles, increments) =
+                (self.ring.shapes.all(&self.x), self.ring.shapes.all(&self.increments));
+            most = angles.iter().fold(most, |most, angle| most.max(angle.abs()));
+            if left == 0 {
+                return most;
             }
+            let bend = self.most_bent();
+            let unseen = |(angle, increment): (&f64, &f64)| {
+                let outward = increment * angle.signum();
+                let within = until(most - angle.abs(), outward, bend);
+                let beyond = until(most + angle.abs(), -outward, bend);
+                within.min(beyond).max(outward / bend)
+            };
+            let free = angles.iter().zip(&increments).map(unseen).fold(left as f64, f64::min);
+            let steps = (free as u64).clamp(1, left);
+            self.skip(steps);
+            left -= steps;
         }
-        most
     }
 
     /// Returns a bound on the change of the increment of any angle in one of the free steps to
@@ -159,6 +161,14 @@ impl FullBlades {
         });
         each.map(|bend| bend * bend).sum::<f64>().sqrt()
     }
+}
+
+/// Returns the steps in which an angle cannot grow by `room`, where its increment is `increment`
+/// now and changes by no more than `bend` in a step.
+fn until(room: f64, increment: f64, bend: f64) -> f64 {
+    let rate = increment + 0.5 * bend;
+    let root = (rate * rate + 2.0 * bend * room).sqrt();
+    if rate > 0.0 { 2.0 * room / (rate + root) } else { (root - rate) / bend }
 }
 
 /// Returns the size of an angle; what is no number is beyond any bound.
