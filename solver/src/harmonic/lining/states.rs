@@ -393,3 +393,21 @@ fn bottom(machine: &Machine, lock: f64) -> f64 {
     let best = best.unwrap_or(1);
     highest([place(best - 1), place(best + 1)], |excess| -of(excess)).0
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    #[test]
+    fn rest_under_preload_is_one_state() {
+        let scene = Scene::builtin("coincidence").unwrap();
+        let machine = scene.machine();
+        let lining = Lining::of(&machine, &scene.contact).unwrap();
+        for speed in [100.0, 390.0, 406.0, -445.0] {
+            let states = lining.states(speed).unwrap();
+            let rests = states.iter().filter(|state| state.casing_m < 1e-12);
+            assert_eq!(rests.count(), 1, "{speed}: {states:?}");
+        }
+    }
+}

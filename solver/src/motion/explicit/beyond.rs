@@ -305,6 +305,54 @@ mod tests {
     }
 
     #[test]
+    fn friction_turns_round_with_the_rotor() {
+        let mut motion = Explicit::<ModalBlades>::new(&scene("unilateral").checked().unwrap());
+        for speed in [300.0, -300.0, -450.0, 200.0] {
+            motion.set_speed(speed, 0.0);
+            let tips = motion.tips_at(motion.n);
+            assert_eq!(tips.friction, 0.1_f64.copysign(speed));
+            assert_eq!(tips.casing_friction, motion.machine.casing_friction_at(speed));
+        }
+    }
+
+    #[test]
+    fn a_casing_outruns_the_tips_whichever_way_it_moves() {
+        let motion = Explicit::<ModalBlades>::new(&scene("unilateral").checked().unwrap());
+        let longest = motion.tip_speed() * motion.drive.step / motion.machine.tangential_ratio;
+        for way in 0..8 {
+            let (s, c) = (0.7 * f64::from(way)).sin_cos();
+            for (part, runs) in [(0.999, false), (1.001, true)] {
+                let mut moved = motion.clone();
+                moved.u[0].increment = part * longest * c;
+                moved.u[1].increment = part * longest * s;
+                assert_eq!(moved.is_outrun(&moved.tips).is_err(), runs, "{way} {part}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_same_parameters_again_leave_the_ledger_of_a_lining_as_it_is() {
+        let scene = Scene::base().with(&[
+            ("solver.contact", "smooth"),
+            ("solver.step_s", "1e-6"),
+            ("casing.radius_m", "0.49988"),
+            ("contact.stiffness_n_per_m", "1e5"),
+            ("bladed_disk.radial_coupling", "0.3"),
+            ("operation.pulse_n", "1e3"),
+        ]);
+        let scene = scene.unwrap();
+        let mut motion = Explicit::<ModalBlades>::new(&scene);
+        motion.advance(1e-3).unwrap();
+        let mut again = motion.clone();
+        again.set_parameters(&scene);
+        let [a, b] = [&mut motion, &mut again].map(|motion| {
+            motion.advance(2e-3).unwrap();
+            motion.energy_account().unwrap().residual()
+        });
+        assert!((a - b).abs() < 1e-11 * motion.stored(), "{a:e} {b:e}");
+    }
+
+    #[test]
     fn a_running_motion_takes_over_each_parameter_and_its_ledger_goes_on() {
         let turns = [
             ("casing.damping_ratio", "0.2"),

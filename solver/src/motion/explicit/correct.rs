@@ -316,9 +316,35 @@ impl<B: Disk> Explicit<B> {
 
 #[cfg(test)]
 mod tests {
-    use crate::motion::Solver;
+    use super::MOST_LONG_STEPS;
     use crate::motion::explicit::{Explicit, RigidBlades};
+    use crate::motion::{Plane, Solver};
     use crate::scene::{ModelSize, Scene};
+
+    #[test]
+    fn long_steps_fail_where_more_than_the_most_follow_each_other() {
+        let mut motion = Explicit::<RigidBlades>::new(&Scene::base().checked().unwrap());
+        motion.u[1].increment = 1.01 * motion.beyond.long;
+        for _ in 0..MOST_LONG_STEPS {
+            assert_eq!(motion.look_at_speed(), Ok(()));
+        }
+        assert!(motion.look_at_speed().is_err());
+        motion.u[1].increment = 0.0;
+        assert_eq!(motion.look_at_speed(), Ok(()));
+        motion.u[0].increment = -1.01 * motion.beyond.long;
+        assert_eq!(motion.look_at_speed(), Ok(()));
+    }
+
+    #[test]
+    fn the_frame_two_steps_before_turns_back_to_before_the_start() {
+        let mut motion = Explicit::<RigidBlades>::new(&Scene::base().checked().unwrap());
+        let turn = motion.machine.nu(motion.drive.speed(0)) * motion.drive.step;
+        for n in 1..4 {
+            motion.n = n;
+            let apart = motion.turn_before() - Plane::cis(turn * (n as f64 - 2.0));
+            assert!(apart.norm() < 1e-15, "{n}: {apart}");
+        }
+    }
 
     /// Rigid tips and a frictionless casing: pushes move gaps in proportion.
     #[test]

@@ -215,6 +215,28 @@ mod tests {
     use crate::scene::Scene;
 
     #[test]
+    fn a_pulse_is_to_come_as_long_as_it_acts_and_steps_are_steady_soon_after() {
+        for steps in [10.0, 10.3, 10.5, 10.7] {
+            let mut scene = Scene::base();
+            scene.solver.step_s = 1e-6;
+            scene.operation.pulse_s = steps * 1e-6;
+            let mut drive = Drive::of(&scene);
+            for fired in [0, 30] {
+                if fired > 0 {
+                    drive.fire(fired);
+                }
+                for n in fired..fired + 15 {
+                    let comes = (n..60).any(|n| drive.force(n) != 0.0);
+                    assert_eq!(drive.pulse_to_come(n), comes, "{steps} {fired} {n}");
+                    let steady = drive.is_steady(n);
+                    assert!(!(steady && comes), "{steps} {fired} {n}");
+                    assert!(steady || n < fired + 13, "{steps} {fired} {n}");
+                }
+            }
+        }
+    }
+
+    #[test]
     fn a_look_at_a_phase_is_the_phase_of_a_step_taken() {
         for ramp in ["0", "-300"] {
             let scene = Scene::base().with(&[("operation.speed_ramp_rad_s2", ramp)]).unwrap();

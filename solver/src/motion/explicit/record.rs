@@ -178,3 +178,21 @@ impl Watch {
         self.room = self.largest - bound;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_contact_is_over_and_a_new_one_an_impact_after_a_pause_of_more_than_two_steps() {
+        for pause in 0..6 {
+            let mut record = Record::of(11, 1e-6);
+            record.push(10, 4, -1.0);
+            record.touch(10, ActiveSet::Side(4), false);
+            let next = 10 + pause;
+            assert_eq!(record.is_over(next), pause > BREAK_STEPS, "{pause}");
+            record.meet(next + 1, 4);
+            assert_eq!(record.log.impact_count, 1 + u64::from(pause >= BREAK_STEPS), "{pause}");
+        }
+    }
+}

@@ -192,7 +192,6 @@ impl<B: Disk> Solver for Explicit<B> {
             return;
         }
         self.close_block();
-        self.leaps.same_sides = 0;
         let before = self.stored_beyond();
         for coordinate in &mut self.u {
             coordinate.increment *= factor;

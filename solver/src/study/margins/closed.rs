@@ -270,6 +270,32 @@ mod tests {
     }
 
     #[test]
+    fn only_blades_that_bend_much_have_another_lock_speed_than_rigid_ones() {
+        let note = |stiffness: f64| {
+            let mut scene = Scene::base();
+            scene.bladed_disk.stiffness_nm_per_rad = stiffness;
+            scene.bladed_disk.coupling_nm_per_rad = 0.0;
+            let limits = limits(&scene.checked().unwrap());
+            limits.into_iter().find(|limit| limit.name == LimitName::OmegaLock).unwrap().note
+        };
+        assert_eq!([note(15e3), note(5.0)], [None, None]);
+        assert!(note(0.02).is_some_and(|note| note.contains("bend so much")));
+    }
+
+    #[test]
+    fn tips_that_just_touch_at_rest_have_no_limit_of_a_contact() {
+        let known = |clearance: f64| {
+            let mut scene = Scene::builtin("soft-lining").unwrap();
+            scene.bladed_disk.radial_coupling = 0.3;
+            scene.bladed_disk.blade_length_m = scene.casing.radius_m - clearance;
+            let found = speeds(&scene).into_iter().map(|(name, _)| name);
+            found.filter(|name| !OF_NO_CONTACT.contains(name)).count()
+        };
+        assert!(known(1e-4) > 0);
+        assert_eq!([known(0.0), known(-1e-5)], [0, 0]);
+    }
+
+    #[test]
     fn what_a_soft_lining_does_not_hold_has_its_own_reason() {
         let limits = limits_of(1e8, 1e-6);
         for (name, reason) in [

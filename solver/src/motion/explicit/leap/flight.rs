@@ -115,3 +115,21 @@ impl<B: Disk> Explicit<B> {
         self.watch.skipped(largest, bound);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::motion::explicit::{Explicit, ModalBlades};
+    use crate::scene::Scene;
+
+    #[test]
+    fn a_flight_of_one_step_keeps_the_dip_before_it_and_a_longer_one_none() {
+        let scene = Scene::base().with(&[("contact.restitution", "0.5")]).unwrap();
+        let mut motion = Explicit::<ModalBlades>::new(&scene);
+        motion.beyond.dips = [1e-9, 2e-9];
+        for (steps, dips) in [(1, [0.0, 1e-9]), (2, [0.0; 2]), (9, [0.0; 2])] {
+            let mut flown = motion.clone();
+            flown.take_flight(steps);
+            assert_eq!(flown.beyond.dips, dips, "{steps}");
+        }
+    }
+}
