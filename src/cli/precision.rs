@@ -6,11 +6,11 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::options::SceneOptions;
-use super::status::{self, Refusal, Status};
+use super::status::{self, Refusal, Status, say};
 use super::{Done, output, sign};
 use crate::report::{CommandLine, Provenance, json, precision as report, svg};
 use rubscope_solver::motion::to_the_end;
-use rubscope_solver::study::precision::{Effort, Measure, Precision, ways};
+use rubscope_solver::study::precision::{Effort, Measure, Method, Precision, ways};
 
 /// Measure every solver's speed against its error on a scene.
 #[derive(Args, Debug)]
@@ -78,6 +78,9 @@ impl PrecisionCommand {
         if !self.json {
             report::write(measured, out)?;
         }
-        Ok(Status::Done)
+        let Method::None(lack) = measured.reference.method else { return Ok(Status::Done) };
+        out.flush()?;
+        say(&format!("rubscope: nothing to compare with: {}", report::why_none(lack)));
+        Ok(Status::Failed)
     }
 }

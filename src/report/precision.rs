@@ -63,8 +63,9 @@ fn found(reference: &Reference) -> String {
     }
 }
 
-/// Why there is no reference.
-fn why_none(lack: Lack) -> &'static str {
+/// Returns why there is no reference.
+#[must_use]
+pub fn why_none(lack: Lack) -> &'static str {
     match lack {
         Lack::NotFalling => "the end does not settle with the step",
         Lack::TooFar => "the end settles with the step, but not yet at the finest",

@@ -40,6 +40,19 @@ pub enum ScreenEvent {
     InputClosed,
 }
 
+impl ScreenEvent {
+    /// Returns whether it is Ctrl-C, which quits everywhere.
+    pub fn is_interrupt(&self) -> bool {
+        let interrupt = (KeyCode::Char('c'), KeyModifiers::CONTROL);
+        matches!(self, Self::Key(key) if (key.code, key.modifiers) == interrupt)
+    }
+
+    /// Returns whether the user has typed, pasted or pointed.
+    pub fn is_input(&self) -> bool {
+        matches!(self, Self::Key(_) | Self::Pasted(_) | Self::Mouse(_))
+    }
+}
+
 /// Starts the thread that reads keys, and the report of the background among them.
 ///
 /// # Errors
@@ -51,6 +64,11 @@ pub fn read_keys(to: Sender<ScreenEvent>) -> std::io::Result<()> {
             let event = input.next().transpose().and_then(screen_event);
             let ground = input.take_ground().map(ScreenEvent::Ground);
             for event in [ground, event].into_iter().flatten() {
+                if event.is_interrupt() {
+                    // A frame that waits for the terminal must not keep the drawing thread
+                    // from hearing it.
+                    super::terminal::cut_frame();
+                }
                 let last = event == ScreenEvent::InputClosed;
                 if to.send(event).is_err() || last {
                     return;
@@ -65,14 +83,7 @@ pub fn read_keys(to: Sender<ScreenEvent>) -> std::io::Result<()> {
 fn screen_event(event: std::io::Result<Event>) -> Option<ScreenEvent> {
     Some(match event {
         // Some terminals also report releases; repeats count as presses.
-        Ok(Event::Key(key)) if key.kind != KeyEventKind::Release => {
-            if key.code == KeyCode::Char('c') && key.modifiers == KeyModifiers::CONTROL {
-                // It quits everywhere; a frame that waits for the terminal must not
-                // keep the drawing thread from hearing it.
-                super::terminal::cut_frame();
-            }
-            ScreenEvent::Key(key)
-        }
+        Ok(Event::Key(key)) if key.kind != KeyEventKind::Release => ScreenEvent::Key(key),
         Ok(Event::Mouse(mouse)) => ScreenEvent::Mouse(mouse),
         Ok(Event::Resize(..)) => ScreenEvent::Resize,
         Ok(Event::Paste(text)) => ScreenEvent::Pasted(text),

@@ -49,7 +49,7 @@ mod views;
 pub mod worker;
 
 use std::fs::File;
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 use std::sync::{Arc, mpsc};
 
 pub use app::{App, Exit, Source};
@@ -61,6 +61,8 @@ pub use run::run;
 pub use theme::{Theme, ThemeChoice};
 pub use update::{Effect, MouseOutcome};
 
+use crate::report::line::clean;
+use anyhow::Context;
 use rubscope_solver::scene::CheckedScene;
 
 /// Returns whether there is a terminal that only shows lines.
@@ -134,7 +136,10 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
         ended
     });
     drop(guard);
-    memory.keep(&app, ending::PATIENCE);
+    if let Some(why) = memory.keep(&app, ending::PATIENCE) {
+        // A terminal that is gone shows nothing.
+        let _ = writeln!(std::io::stderr(), "rubscope: {}", clean(&why));
+    }
     if app.files.writing.is_some() {
         files::tidy_up();
     }
@@ -145,7 +150,7 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
             (None, Some(reason)) => anyhow::bail!(reason),
             (None, None) => Ok(0),
         },
-        // The terminal was there and is gone: nobody is left to read a message.
-        (None, Err(_)) => Ok(128 + run::HANGUP),
+        (None, Err(error)) if terminal::is_gone(&error) => Ok(128 + run::HANGUP),
+        (None, Err(error)) => Err(error).context("cannot use the terminal"),
     }
 }

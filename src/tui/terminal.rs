@@ -298,6 +298,14 @@ pub fn install_panic_hook(caught: &'static [&'static str]) {
     }));
 }
 
+/// Returns whether an error says that the terminal is no more: nobody is left to read a message.
+pub fn is_gone(error: &Error) -> bool {
+    use std::io::ErrorKind::{BrokenPipe, NotFound, UnexpectedEof};
+    // EIO and ENXIO, of a terminal whose other end is closed, have no kind of their own.
+    matches!(error.kind(), BrokenPipe | NotFound | UnexpectedEof)
+        || [5, 6].map(Some).contains(&error.raw_os_error())
+}
+
 /// Restores the terminal when dropped.
 pub struct Guard;
 

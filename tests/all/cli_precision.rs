@@ -15,8 +15,13 @@ fn compare_to(finest: &str, arguments: &[&str]) -> Value {
     let output = rubscope(
         &[&["precision", "--json", "--repeat", "1", "--finest", finest], arguments].concat(),
     );
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    serde_json::from_slice(&output.stdout).unwrap()
+    let told = String::from_utf8_lossy(&output.stderr);
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    // Without anything to compare with it has failed, and says why.
+    let failed = report["reference"]["method"] == "none";
+    assert_eq!(output.status.code(), Some(i32::from(failed)), "{told}");
+    assert_eq!(told.contains("rubscope: nothing to compare with: "), failed, "{told}");
+    report
 }
 
 /// The readable output of a comparison.

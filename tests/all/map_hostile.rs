@@ -82,6 +82,10 @@ fn a_first_line_without_meaning_is_refused() {
     let said = reason(part.replacen(&version, "rubscope 9.9.9\u{1b}[2J", 1).as_bytes());
     assert!(said.contains("a.csv: was written by rubscope 9.9.9"), "{said}");
     assert!(said.contains(&format!("this is {}", env!("CARGO_PKG_VERSION"))), "{said}");
+    let other = part.replacen(env!("RUBSCOPE_COMMIT"), "0a1b2c3d4-modified-5e6f70819", 1);
+    let said = reason(other.as_bytes());
+    assert!(said.contains("0a1b2c3d4-modified-5e6f70819"), "{said}");
+    assert!(said.contains("allowed are parts of the same version and commit"), "{said}");
 }
 
 #[test]

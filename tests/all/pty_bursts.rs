@@ -58,6 +58,21 @@ fn one_ctrl_c_is_heard_after_a_sequence_without_an_end_in_every_mode() {
     }
 }
 
+/// All that was sent before a Ctrl-C would take far more of the processor.
+#[cfg(target_os = "linux")]
+#[test]
+fn one_ctrl_c_does_not_wait_until_a_burst_before_it_is_answered() {
+    for burst in ["8".to_string() + &"5".repeat(40_000), "hl".repeat(100_000)] {
+        let mut terminal = opened("", "? help");
+        let before = terminal.processor_s();
+        terminal.send(&(burst.clone() + "\u{3}"));
+        let took = terminal.last_processor_s() - before;
+        assert_eq!(terminal.wait(), 0);
+        terminal.assert_restored();
+        assert!(took < 3.0, "{took} s for {} bytes", burst.len());
+    }
+}
+
 /// The size comes by a signal, not with the keys.
 #[test]
 fn another_size_of_the_terminal_is_drawn() {

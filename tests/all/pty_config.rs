@@ -74,6 +74,38 @@ fn without_the_config_file_nothing_is_read_or_written() {
 }
 
 #[test]
+fn a_config_file_that_cannot_be_written_is_told_once_at_the_end() {
+    let home = home();
+    std::os::unix::fs::symlink("nowhere", home.path().join("rubscope")).unwrap();
+    let mut terminal = explorer(home.path(), &[]).size(200, 24).open();
+    terminal.wait_for("LOCKED");
+    terminal.send("tt");
+    terminal.wait_for("theme colour-blind on dark");
+    terminal.send("q");
+    assert_eq!(terminal.wait(), 0);
+    terminal.assert_restored();
+    let text = terminal.text();
+    assert_eq!(text.matches("rubscope: nothing is remembered: cannot write ").count(), 1, "{text}");
+    assert!(text.contains("File exists"), "{text}");
+}
+
+/// The shell that started it allows so few open files.
+#[test]
+fn a_terminal_that_cannot_be_used_is_told_in_one_line() {
+    let script = "ulimit -n 6; exec \"$@\"";
+    let mut terminal = Start::shell(script, &["--no-config"]).size(120, 24).open();
+    assert_eq!(terminal.wait(), 1);
+    terminal.assert_restored();
+    let text = terminal.text();
+    let told: Vec<&str> = text.lines().filter(|line| !line.is_empty()).collect();
+    assert!(
+        told.len() == 1 && told[0].starts_with("rubscope: cannot use the terminal: "),
+        "{text}"
+    );
+    assert!(told[0].contains("Too many open files"), "{text}");
+}
+
+#[test]
 fn the_first_screen_does_not_wait_for_the_background_and_its_report_changes_the_theme() {
     let home = home();
     for (report, theme) in [

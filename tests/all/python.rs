@@ -125,7 +125,7 @@ fn every_array_of_a_history_is_in_the_document() {
     for column in rubscope::report::History::new(2).columns() {
         assert!(text.contains(&format!("`{}`", column.name)), "{}", column.name);
     }
-    for name in ["scene", "command", "version"] {
+    for name in ["scene", "command", "version", "commit"] {
         assert!(text.contains(&format!("`{name}`")), "{name}");
     }
 }

@@ -145,6 +145,26 @@ fn assert_numbers_are_checked(lesson: &Lesson, step: &LessonStep) {
     }
 }
 
+/// What a text says of the header, up to the next sign.
+fn quoted_header(text: &str) -> Option<&str> {
+    let (_, rest) = text.split_once("eader says ")?;
+    rest.split([',', '.', ':', ';']).next()
+}
+
+/// What a step says of the header stands there, on a small screen and on a large one; whether it
+/// says anything.
+fn assert_header_is_shown(session: &mut Session, step: &LessonStep) -> bool {
+    let texts = [Some(&step.text), step.reason.as_ref(), step.task.as_ref()];
+    let quoted: Vec<&str> =
+        texts.into_iter().flatten().filter_map(|text| quoted_header(text)).collect();
+    for size in [(80, 24), (120, 40)] {
+        resize(session, size);
+        let header = session.rows()[..3].join("\n");
+        quoted.iter().for_each(|words| assert!(header.contains(words), "{words} in {header}"));
+    }
+    !quoted.is_empty()
+}
+
 fn resize(session: &mut Session, (width, height): (u16, u16)) {
     session.terminal.backend_mut().resize(width, height);
     session.send(std::iter::once(ScreenEvent::Resize));
@@ -187,7 +207,7 @@ fn assert_has_room(session: &mut Session, step: &LessonStep) {
 
 #[test]
 fn every_step_says_what_the_solvers_find_and_has_room_at_every_size() {
-    let mut runs = Runs::default();
+    let (mut runs, mut headers) = (Runs::default(), 0);
     for (place, lesson) in lessons::all().iter().enumerate() {
         let mut session = begin(120, 40, place);
         for (number, step) in lesson.steps.iter().enumerate() {
@@ -223,11 +243,13 @@ fn every_step_says_what_the_solvers_find_and_has_room_at_every_size() {
             let verdict = |check: &Check| check.run.as_deref() == Some("verdict");
             assert!(checks(step).iter().any(verdict) || number == 0, "{at}: no verdict is checked");
             assert_numbers_are_checked(lesson, step);
+            headers += u32::from(assert_header_is_shown(&mut session, step));
             session.press("g");
         }
         assert!(session.app.lessons.progress.is_none());
         assert_eq!(*session.app.scene, scene(), "{}", lesson.title);
     }
+    assert!(headers > 0, "no text speaks of the header");
 }
 
 #[test]

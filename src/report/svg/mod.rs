@@ -206,8 +206,9 @@ mod tests {
     fn a_picture_says_where_it_comes_from() {
         let svg = drawn(vec![], false);
         let told = svg.split_once("<desc>").unwrap().1.split_once("</desc>").unwrap().0;
-        let version = concat!("rubscope ", env!("CARGO_PKG_VERSION"), "\nrubscope figures ");
-        assert!(told.starts_with(version), "{told}");
+        let (version, commit) = (env!("CARGO_PKG_VERSION"), env!("RUBSCOPE_COMMIT"));
+        let begins = format!("rubscope {version} {commit}\nrubscope figures ");
+        assert!(told.starts_with(&begins), "{told}");
         assert!(told.contains("title = \"a &lt; b\"") && told.contains("[operation]"));
     }
 
