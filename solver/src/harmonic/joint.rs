@@ -418,44 +418,36 @@ mod tests {
     }
 
     #[test]
-    fn a_lock_begins_to_grow_at_its_flutter_speed_in_every_case_of_friction_and_damping() {
-        for data in [
+    fn a_lock_grows_between_the_ends_of_its_flutter_and_nowhere_else() {
+        let choices =
+            |kappa: f64| [0.1, 0.3, 0.6].map(|mu| [0.02, 0.1].map(|zeta| [kappa, mu, 0.0, zeta]));
+        let others = [
             [0.5, 0.0, 0.05, 0.01],
             [0.5, 0.0, 0.0, 0.01],
             [0.5, 0.0, 0.05, 0.0],
             [0.5, 0.3, 0.05, 0.01],
             [0.5, 0.3, 0.05, 0.0],
             [1.0, 0.1, 0.02, 0.03],
-        ] {
+        ];
+        let undamped = [0.3, 0.7, 1.5].map(choices).into_iter().flatten().flatten();
+        let mut from_rest = 0;
+        for data in undamped.chain(others) {
             let machine = machine(data);
-            let speed = flutter_speed(&machine, 1.0).unwrap();
-            assert!(speed > 0.0 && speed.is_finite(), "{data:?} {speed}");
+            let found = flutters(&machine, 1.0);
+            from_rest += usize::from(found[0].from == 0.0);
             let growth = |speed: f64| {
                 let roots = lock_roots(&Joint::at(&machine, speed));
                 roots.iter().map(|root| root.re).fold(f64::NEG_INFINITY, f64::max)
             };
-            assert!(growth(0.999 * speed) < 0.0 || data[1] == 0.0, "{data:?} {speed}");
-            assert!(growth(1.001 * speed) > 0.0, "{data:?} {speed}");
-            assert!(growth(speed).abs() < 1e-9 * machine.omega_c, "{data:?} {speed}");
+            for end in found.iter().flat_map(|range| [Some(range.from), range.to]).flatten() {
+                assert!(end == 0.0 || growth(end).abs() < 1e-9 * machine.omega_c, "{data:?} {end}");
+            }
+            for speed in (1..200).map(|n| 7.3 * f64::from(n)) {
+                let inside = found.iter().any(|range| range.has(speed));
+                assert_eq!(inside, growth(speed) > 0.0, "{data:?} {speed} {found:?}");
+            }
         }
-    }
-
-    #[test]
-    fn of_all_limits_with_an_undamped_casing_flutter_is_one_ahead_where_growth_begins() {
-        let choices =
-            |kappa: f64| [0.1, 0.3, 0.6].map(|mu| [0.02, 0.1].map(|zeta| [kappa, mu, 0.0, zeta]));
-        for data in [0.3, 0.7, 1.5].map(choices).into_iter().flatten().flatten() {
-            let machine = machine(data);
-            let speed = flutter_speed(&machine, 1.0).unwrap();
-            let grows = |speed: f64| {
-                lock_roots(&Joint::at(&machine, speed)).iter().any(|root| root.re > 0.0)
-            };
-            assert!(speed > 0.0 && speed.is_finite(), "{data:?} {speed}");
-            assert!(
-                !grows(speed * (1.0 - 1e-5)) && grows(speed * (1.0 + 1e-5)),
-                "{data:?} {speed}"
-            );
-        }
+        assert!(from_rest > 5, "{from_rest}");
     }
 
     #[test]

@@ -202,8 +202,11 @@ fn note(scene: &CheckedScene, name: LimitName, value: f64) -> Option<String> {
     let begins = fluttering.iter().find(|flutter| flutter.from == value);
     if name == LimitName::FlutterSpeed {
         let ends = begins?.to.map(|to| format!("up to {} rad/s", rounded(to, 6)));
-        let from_rest = (value == 0.0).then(|| ends.clone().unwrap_or("at every speed".into()));
-        return from_rest.or(ends);
+        return match ends {
+            Some(ends) if value == 0.0 => Some(format!("from rest on, {ends}")),
+            None if value == 0.0 => Some("at every speed".to_string()),
+            ends => ends,
+        };
     }
     if name == LimitName::LockEnds && begins.is_some() {
         return Some("there the lock begins to flutter".to_string());
