@@ -56,10 +56,8 @@ mod margins_odd;
 mod own_machine;
 mod pty;
 mod pty_bursts;
-#[cfg(unix)]
 mod pty_config;
 mod pty_signals;
-#[cfg(unix)]
 mod pty_support;
 mod python;
 mod readme;
@@ -73,6 +71,7 @@ mod scenes;
 mod security;
 mod signs_of_life;
 mod soak;
+mod stepwise;
 mod survey;
 mod theory;
 mod tui_help;

@@ -43,19 +43,19 @@ pub(super) const DISK: Structure = Structure {
     ],
 };
 
-/// The name of a key in its table.
+/// Returns the name of a key in its table.
 fn leaf(path: &str) -> &str {
     path.split_once('.').map_or(path, |(_, leaf)| leaf)
 }
 
-/// A mode as it was read: its values, and its frequency where that stands for a stiffness.
+/// A mode as it was read: its values, and its frequency where that replaces a stiffness.
 struct Read {
     mode: Mode,
     frequency_hz: Option<f64>,
 }
 
 impl Structure {
-    /// The modes of a list in a scene file.
+    /// Reads the modes of a list in a scene file.
     ///
     /// # Errors
     /// The first mode with an unknown key, a value that is not allowed, or a number of
@@ -87,7 +87,7 @@ impl Structure {
         }
     }
 
-    /// What a mode may have, in words.
+    /// Describes what a mode may have, in words.
     pub(super) fn form(&self) -> String {
         format!("with {DIAMETERS} and any of {}", self.names().join(", "))
     }
@@ -134,7 +134,7 @@ impl Structure {
         Ok(Read { mode, frequency_hz })
     }
 
-    /// The list in one line, as `--set` takes it.
+    /// Returns the list in one line, as `--set` accepts it.
     pub(super) fn text(&self, modes: &[Mode]) -> String {
         let each = modes.iter().map(|mode| {
             let values: Vec<String> =
@@ -144,7 +144,7 @@ impl Structure {
         format!("[{}]", each.collect::<Vec<_>>().join(", "))
     }
 
-    /// The list as a part of a file.
+    /// Returns the list as a part of a scene file.
     pub(super) fn blocks(&self, modes: &[Mode]) -> String {
         let block = |mode: &Mode| {
             let values: String =
@@ -161,10 +161,10 @@ impl Structure {
         [(DIAMETERS, mode.nodal_diameters.to_string())].into_iter().chain(numbers)
     }
 
-    /// Whether a text is such a list.
+    /// Checks that a text is such a list.
     ///
     /// # Errors
-    /// Why it is not.
+    /// The reason why it is not.
     pub(super) fn check(&self, text: &str) -> Result<(), SceneError> {
         self.parsed(text).map(drop)
     }
@@ -183,7 +183,7 @@ impl Structure {
         }
     }
 
-    /// The modes of a checked text, each with the stiffness that its frequency asks for.
+    /// Returns the modes of a checked text, each with the stiffness that its frequency requires.
     pub(super) fn modes(&self, text: &str, stiffness: impl Fn(&Mode, f64) -> f64) -> Vec<Mode> {
         let known = |read: Read| {
             let asked = read.frequency_hz.map(|hertz| stiffness(&read.mode, TAU * hertz));
@@ -193,13 +193,13 @@ impl Structure {
     }
 }
 
-/// Some of a table, in one line.
+/// Returns the beginning of a table in one line.
 fn short(table: &Table) -> String {
     let values = table.iter().map(|(name, value)| format!("{name} = {}", file::one_line(value)));
     values.collect::<Vec<_>>().join(", ")
 }
 
-/// A number of a mode, within the bounds of the key beside the list.
+/// Reads a number of a mode within the bounds of the key beside the list.
 fn number(path: &str, value: &Toml, key: &keys::Key) -> Result<f64, SceneError> {
     match value {
         Toml::String(text) => number_of(path, text, key),
@@ -207,7 +207,7 @@ fn number(path: &str, value: &Toml, key: &keys::Key) -> Result<f64, SceneError> 
     }
 }
 
-/// The same from text, with or without its unit.
+/// Does the same for text, with or without its unit.
 pub(super) fn number_of(path: &str, text: &str, key: &keys::Key) -> Result<f64, SceneError> {
     bounded(path, text, key, read(path, text, key.quantity())?)
 }
@@ -222,12 +222,12 @@ fn bounded(
         .ok_or_else(|| SceneError::refused(path, given, key.allowed.to_string()))
 }
 
-/// A number of a file that has no unit.
+/// Returns a number of a file that has no unit.
 fn plain(value: &Toml) -> Option<f64> {
     value.as_float().or_else(|| value.as_integer().map(|n| n as f64))
 }
 
-/// A number of a quantity; none for text that is none.
+/// Reads a number of a quantity; `None` for text that is not a number.
 fn read(path: &str, text: &str, of: Quantity) -> Result<Option<f64>, SceneError> {
     match of.read(text) {
         Ok(number) => Ok(Some(number)),
@@ -236,7 +236,7 @@ fn read(path: &str, text: &str, of: Quantity) -> Result<Option<f64>, SceneError>
     }
 }
 
-/// A frequency: a bare number is in hertz, as the key says.
+/// Reads a frequency; a number without a unit is in hertz, as the key says.
 fn hertz(path: &str, value: &Toml) -> Result<f64, SceneError> {
     match value {
         Toml::String(text) => hertz_of(path, text),
@@ -244,7 +244,7 @@ fn hertz(path: &str, value: &Toml) -> Result<f64, SceneError> {
     }
 }
 
-/// The same from text.
+/// Does the same for text.
 pub(super) fn hertz_of(path: &str, text: &str) -> Result<f64, SceneError> {
     let given = match text.trim().parse() {
         Ok(bare) => Some(bare),
@@ -260,19 +260,19 @@ fn frequency(path: &str, given: String, hertz: Option<f64>) -> Result<f64, Scene
     })
 }
 
-/// `4 k_bb sin^2(pi n/N)`: what the stiffness between blades adds to `k_b` \[N m/rad\].
+/// Returns `4 k_bb sin^2(pi n/N)`, which the stiffness between blades adds to `k_b` \[N m/rad\].
 pub(super) fn of_neighbours(coupling: f64, diameters: u32, blades: u32) -> f64 {
     let sine = (PI * f64::from(diameters) / f64::from(blades)).sin();
     4.0 * coupling * sine * sine
 }
 
-/// The modes of the casing in a text that was checked.
+/// Sets the modes of the casing from a text that was checked.
 pub(super) fn set_casing(scene: &mut Scene, text: &str) {
     let own = scene.casing.modal_mass_kg;
     scene.casing.modes = CASING.modes(text, |mode, omega| mode.mass.unwrap_or(own) * omega * omega);
 }
 
-/// The modes of the disk in a text that was checked.
+/// Sets the modes of the disk from a text that was checked.
 pub(super) fn set_disk(scene: &mut Scene, text: &str) {
     let BladedDisk { inertia_kg_m2: own, coupling_nm_per_rad: coupling, blades, .. } =
         scene.bladed_disk;
@@ -282,8 +282,10 @@ pub(super) fn set_disk(scene: &mut Scene, text: &str) {
     });
 }
 
+/// Rejects modes of the disk that no stiffness gives.
+///
 /// # Errors
-/// A mode whose frequency the blades have without any stiffness of their own.
+/// A mode with a frequency that the coupling between blades alone exceeds.
 pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     let disk = &scene.bladed_disk;
     let soft = |mode: &&Mode| mode.stiffness.is_some_and(|stiffness| stiffness <= 0.0);
@@ -303,34 +305,34 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
 }
 
 impl Scene {
-    /// The casing with the values of its mode in use, that of the scene's nodal diameters.
+    /// Returns the casing with the values of its mode in use, that of the scene's nodal diameters.
     #[must_use]
     pub fn casing_in_use(&self) -> Casing {
         self.casing.at(self.operation.nodal_diameters)
     }
 
-    /// The disk with the values of its mode in use.
+    /// Returns the disk with the values of its mode in use.
     #[must_use]
     pub fn disk_in_use(&self) -> BladedDisk {
         self.bladed_disk.at(self.disk_diameters())
     }
 
-    /// Nodal diameters of the modes of the disk.
+    /// Returns the nodal diameters of the modes of the disk.
     fn disk_diameters(&self) -> u32 {
         self.bladed_disk.diameters_beside(self.operation.nodal_diameters)
     }
 
-    /// A value of the casing's mode in use.
+    /// Returns a value of the casing's mode in use.
     pub(super) fn casing_part(&mut self, part: ModePart) -> &mut f64 {
         self.casing.part_at(self.operation.nodal_diameters, part)
     }
 
-    /// A value of the disk's mode in use.
+    /// Returns a value of the disk's mode in use.
     pub(super) fn disk_part(&mut self, part: ModePart) -> &mut f64 {
         self.bladed_disk.part_at(self.disk_diameters(), part)
     }
 
-    /// This scene with no modes but the structures' own.
+    /// Returns this scene without modes that have values of their own.
     pub(super) fn without_modes(&self) -> Self {
         let mut scene = self.clone();
         scene.casing.modes.clear();
@@ -338,8 +340,8 @@ impl Scene {
         scene
     }
 
-    /// What is taken where modes are known, but none of these diameters: in a sentence
-    /// without its end.
+    /// Describes the values in use where modes are known, but none of these diameters, as a
+    /// sentence without its full stop.
     #[must_use]
     pub fn modes_note(&self) -> Option<String> {
         let missing = |modes: &[Mode], diameters: u32| {
@@ -364,7 +366,7 @@ impl Scene {
     }
 }
 
-/// Most numbers that a note lists.
+/// Largest count of numbers that a note lists.
 const LISTED: usize = 8;
 
 fn listed(known: &[String]) -> String {
