@@ -21,7 +21,7 @@ pub const WIDTH: usize = 100;
 pub enum TableCell {
     /// A number; what is no finite number is left empty.
     Number(f64),
-    /// A number for files, and how people read it.
+    /// A number for files, and how people read it; what is no finite number is left empty there.
     Told(f64, String),
     /// A word or two.
     Word(String),
@@ -103,9 +103,9 @@ impl Heading {
 impl TableCell {
     fn in_csv(self) -> String {
         match self {
-            Self::Number(x) | Self::Told(x, _) => exact(x),
+            Self::Number(x) | Self::Told(x, _) if x.is_finite() => exact(x),
             Self::Word(word) => word,
-            Self::Empty => String::new(),
+            Self::Number(_) | Self::Told(..) | Self::Empty => String::new(),
         }
     }
 }

@@ -40,6 +40,7 @@ mod hbm_slip;
 mod hbm_time;
 mod hbm_whirl;
 mod house;
+mod lasting_locks;
 mod lesson_values;
 mod map_adaptive;
 mod map_cli;

@@ -49,6 +49,8 @@ pub struct LockedPoint {
     /// Whether it lasts by pushes alone: admissible, and no motion that keeps both
     /// contacts grows.
     pub stable: bool,
+    /// Largest growth of those motions, where one grows \[1/s\].
+    pub growth_1_s: Option<f64>,
     /// Largest row of the eight equations (27), dimensionless: torques over
     /// `n_d k_c g0^2`, gaps over `g0`, forces over `k_c g0`.
     pub residual: f64,
@@ -162,10 +164,14 @@ impl Locked {
         let held = [(0, push_a), (1, push_b)]
             .map(|(i, push)| configuration.held(polygon, sides[i], -push));
         let motion = Linearised::about(machine, speed, self.damped, &held);
+        let mut growth = None;
         let pushes = push_a >= 0.0 && push_b >= 0.0;
         // A pull has no friction.
         let held_by_pulls = machine.friction == 0.0 && motion.closes();
-        let character = Character::of(pushes, held_by_pulls, smallest_gap, || !motion.is_stable());
+        let character = Character::of(pushes, held_by_pulls, smallest_gap, || {
+            growth = motion.growth();
+            growth.is_some()
+        });
         let Scales { length, force, .. } = Scales::of(machine);
         let residual = equations.residual(unknowns).map(f64::abs);
         let torque = machine.nodal_diameters * force * length * equations.torque(unknowns);
@@ -185,6 +191,7 @@ impl Locked {
             character,
             admissible: character.is_admissible(),
             stable: character == Character::Stable,
+            growth_1_s: growth.filter(|growth| growth.is_finite()),
             residual: residual.into_iter().fold(0.0, f64::max),
         }
     }

@@ -3,8 +3,9 @@
 use crate::report::CommandLine;
 use crate::report::line::capital;
 use crate::report::number::{count, rounded, short, speed, time, with_unit};
+use crate::report::table::TableCell;
 use rubscope_solver::scene::Scene;
-use rubscope_solver::study::margins::{Found, LimitName, Margins, Quantity, parameter};
+use rubscope_solver::study::margins::{Found, LimitName, MOST_TIMES, Margins, Quantity, parameter};
 
 /// A margin from which on it is told as a factor.
 const FACTORS: f64 = 9.0;
@@ -19,11 +20,21 @@ pub fn value(x: f64, digits: usize, quantity: Quantity) -> String {
 /// beyond.
 #[must_use]
 pub fn margin(part: f64) -> String {
+    if part > MOST_TIMES {
+        return format!("> {} x", 1.0 + MOST_TIMES);
+    }
     if part >= FACTORS {
         return format!("{} x", short(rounded(1.0 + part, 4)));
     }
     let percent = 100.0 * part;
     if percent.abs() < 99.95 { format!("{percent:+.1} %") } else { format!("{percent:+.0} %") }
+}
+
+/// A margin as a cell: above `MOST_TIMES` files have no number.
+#[must_use]
+pub fn margin_cell(part: Option<f64>) -> TableCell {
+    let shown = |part: f64| if part > MOST_TIMES { f64::NAN } else { part };
+    part.map_or(TableCell::Empty, |part| TableCell::Told(shown(part), margin(part)))
 }
 
 /// A change in per cent, of one per cent of a parameter.
@@ -159,7 +170,8 @@ mod tests {
             (-0.9996, "-100 %"),
             (8.99, "+899 %"),
             (9.0, "10 x"),
-            (262.5, "263.5 x"),
+            (98.5, "99.5 x"),
+            (262.5, "> 100 x"),
         ] {
             assert_eq!(margin(part), told);
         }
@@ -169,8 +181,8 @@ mod tests {
             (0.01234, "+0.012 %"),
             (-0.01234, "-0.012 %"),
             (99.99, "+99.99 %"),
-            (1234.56, "+1235 %"),
-            (-1234.56, "-1235 %"),
+            (100.0, "+100 %"),
+            (-100.0, "-100 %"),
         ] {
             assert_eq!(change(by), told);
         }

@@ -149,13 +149,14 @@ impl Case<'_> {
 /// The ranges that follow from the scene.
 pub mod bars {
     use super::{AROUND, Case, KnobRange, touching_pulse};
+    use rubscope_solver::harmonic::lock_window;
 
     /// End of the bar of the speed over the greatest threshold.
     const BEYOND: f64 = 1.5;
 
     pub fn speed(case: &Case) -> KnobRange {
         let machine = case.machine;
-        let window = machine.lock_window(case.value);
+        let window = lock_window(machine, case.value);
         let lock = window.map(|window| window.from);
         let limits = [machine.critical_speed(), lock, machine.dangerous_speed()];
         let most = limits.into_iter().flatten().fold(0.0, f64::max);

@@ -5,10 +5,12 @@ use num_dual::Dual64;
 
 use super::limit::{Limit, LimitName, Sensitivities};
 use super::parameters::{Parameter, Parameters, acting, sensitivity};
-use crate::harmonic::{flutters, lock_fold_speed, lock_loads, whirl_beginnings, whirl_onset};
+use crate::harmonic::{
+    flutters, lock_fold_speed, lock_growth, lock_loads, lock_windows, whirl_beginnings, whirl_onset,
+};
 use crate::model::{Machine, Number};
 use crate::numeric::rounding::rounded;
-use crate::scene::{CheckedScene, Scene};
+use crate::scene::{CheckedScene, ModelSize, Scene};
 
 /// How far beyond the speeds of interest the end of the branch of a lock is told, as a
 /// factor: stiff blades give way at speeds that no rotor has.
@@ -49,7 +51,11 @@ pub(super) fn values<T: Number>(parameters: &Parameters<T>) -> [Option<T>; CLOSE
 fn every<T: Number>(parameters: &Parameters<T>) -> [Vec<T>; CLOSED.len()] {
     let machine = parameters.machine();
     let speed = parameters.operation.speed_rad_s;
-    let loads = lock_loads(&machine, speed);
+    // Blades of the rigid model do not bend under the loads.
+    let loads = match parameters.model {
+        ModelSize::Rigid => lock_loads(&machine.clone().with_stiff_blades(), speed),
+        ModelSize::Modal | ModelSize::Full => lock_loads(&machine, speed),
+    };
     let of = |get: fn(&crate::harmonic::LockLoads<T>) -> T| one(loads.as_ref().map(get));
     let of_lock = [
         of(|loads| loads.pushes_n[0]),
@@ -65,7 +71,7 @@ fn every<T: Number>(parameters: &Parameters<T>) -> [Vec<T>; CLOSED.len()] {
 fn speed_values<T: Number>(machine: &Machine<T>, speed: T) -> [Vec<T>; SPEEDS] {
     let toward = speed.re();
     let sense = 1_f64.copysign(toward);
-    let windows = machine.lock_windows(toward);
+    let windows = lock_windows(machine, toward);
     let whirls = if machine.changes_with_speed() {
         whirl_beginnings(machine, toward)
     } else {
@@ -92,7 +98,8 @@ fn one<T>(value: Option<T>) -> Vec<T> {
 
 /// Returns the end of the branch of the lock, where a rotor may come near it.
 fn fold<T: Number>(machine: &Machine<T>, speed: T) -> Option<T> {
-    let far = machine.lock_speed_toward(speed.re())?.re().max(speed.re().abs()) * FAR;
+    let lock = machine.lock_windows(speed.re()).first()?.from;
+    let far = lock.re().max(speed.re().abs()) * FAR;
     lock_fold_speed(machine).filter(|fold| fold.re() < far)
 }
 
@@ -183,18 +190,40 @@ fn note(scene: &CheckedScene, name: LimitName, value: f64) -> Option<String> {
     if name == LimitName::LockEnds && machine.closing_speed() == Some(value) {
         return Some("there the clearance is lost".to_string());
     }
+    let speed = scene.operation.speed_rad_s;
+    if name.quantity().path().is_none() {
+        let bends = scene.solver.model != ModelSize::Rigid;
+        let growth = lock_growth(&machine, speed).filter(|_| bends)?;
+        return Some(format!(
+            "of a lock that does not last: it grows by {} 1/s",
+            rounded(growth, 3)
+        ));
+    }
+    let fluttering = if scene.lining().is_none() { flutters(&machine, speed) } else { Vec::new() };
+    let begins = fluttering.iter().find(|flutter| flutter.from == value);
     if name == LimitName::FlutterSpeed {
-        let found = flutters(&machine, scene.operation.speed_rad_s);
-        let ends = found.iter().find(|flutter| flutter.from == value)?.to?;
-        return Some(format!("up to {} rad/s, where stiffer blades end it", rounded(ends, 6)));
+        let ends = begins?.to.map(|to| format!("up to {} rad/s", rounded(to, 6)));
+        return match ends {
+            Some(ends) if value == 0.0 => Some(format!("from rest on, {ends}")),
+            None if value == 0.0 => Some("at every speed".to_string()),
+            ends => ends,
+        };
+    }
+    if name == LimitName::LockEnds && begins.is_some() {
+        return Some("there the lock begins to flutter".to_string());
+    }
+    if name == LimitName::OmegaLock && fluttering.iter().any(|flutter| flutter.to == Some(value)) {
+        return Some("below it the lock flutters".to_string());
     }
     if !of_speeds || scene.casing_in_use().damping_ratio == 0.0 {
         return None;
     }
     // Blades that bend leave a push where rigid ones have none.
-    let sense = 1_f64.copysign(scene.operation.speed_rad_s);
-    let of_rigid_blades =
-        if name == LimitName::LockEnds { value } else { machine.lock_speed_toward(sense)? };
+    let sense = 1_f64.copysign(speed);
+    let of_rigid_blades = match name {
+        LimitName::OmegaAdhesive => machine.lock_windows(sense).first()?.from,
+        _ => value,
+    };
     let left = lock_loads(&machine, sense * of_rigid_blades).is_none_or(|loads| {
         let [a, b] = loads.pushes_n.map(f64::abs);
         a.min(b) > BENDING * (a + b)
@@ -219,7 +248,9 @@ fn why_none(scene: &CheckedScene, name: LimitName) -> String {
     } else if !polygon.has_corners() {
         format!("{diameters} nodal diameters make no corner of blades")
     } else {
-        let hard = machine.clone().with_lining(None).lock_window(scene.operation.speed_rad_s);
+        let toward = scene.operation.speed_rad_s;
+        let pushed = machine.clone().with_lining(None).lock_windows(toward);
+        let hard = pushed.first();
         match (machine.lining, name) {
             _ if scene.clearance() <= 0.0 => "all blades rub at rest: nothing locks",
             _ if !of_speeds && machine.clearance() <= 0.0 => {
@@ -235,6 +266,9 @@ fn why_none(scene: &CheckedScene, name: LimitName) -> String {
             (Some(_), _) if hard.is_some() => {
                 "two groups alone hold no stable lock on the lining at this speed; others \
                  may: its steady states"
+            }
+            (None, LimitName::OmegaLock) if hard.is_some() => {
+                "a lock flutters at every speed at which both blades push"
             }
             _ if machine.tips_incline_or_rub() => {
                 "friction or the slope of the tips leaves no lock here"

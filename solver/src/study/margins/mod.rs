@@ -18,7 +18,8 @@ use serde::Serialize;
 use crate::scene::CheckedScene;
 
 pub(super) use closed::{speed_sensitivities, speeds};
-pub use limit::{Limit, LimitName, Quantity, Sensitivities, Side};
+pub(super) use limit::shown_margin;
+pub use limit::{Limit, LimitName, MOST_TIMES, Quantity, Sensitivities, Side};
 pub use parameters::{CLEARANCE, PARAMETERS, Parameter, acting, parameter};
 pub use target::{Found, Target, TargetError};
 pub use touching::{FirstTouch, first_touch, grazing_pulse};

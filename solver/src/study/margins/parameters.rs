@@ -32,6 +32,7 @@ pub(super) struct Parameters<T> {
     pub stiffness: T,
     pub smoothing: T,
     pub law: ContactLaw,
+    pub model: ModelSize,
     pub operation: Operation<T>,
 }
 
@@ -211,6 +212,7 @@ impl<T: Number> Parameters<T> {
             stiffness: scene.contact.stiffness_n_per_m.into(),
             smoothing: scene.contact.smoothing_m.into(),
             law: scene.solver.contact,
+            model: scene.solver.model,
             operation: Operation {
                 nodal_diameters: operation.nodal_diameters,
                 speed_rad_s: operation.speed_rad_s.into(),
@@ -239,11 +241,15 @@ impl<T: Number> Parameters<T> {
     }
 }
 
+/// Largest sensitivity: one per cent of the parameter moves the limit by as much as itself, and
+/// the slope says nothing of such a change.
+const MOST_SENSITIVE: f64 = 100.0;
+
 /// The sensitivity of a value by a parameter of this value, from its derivative; none
-/// where there is none.
+/// where there is none, and above `MOST_SENSITIVE`.
 pub(super) fn sensitivity(value: f64, derivative: f64, parameter: f64) -> Option<f64> {
     // A change in per cent of nothing is nothing, whatever the derivative.
     let by = if parameter == 0.0 { 0.0 } else { derivative * parameter / value };
     // There is no minus zero.
-    by.is_finite().then_some(by + 0.0)
+    (by.abs() <= MOST_SENSITIVE).then_some(by + 0.0)
 }
