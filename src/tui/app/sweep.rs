@@ -1,6 +1,7 @@
 //! A sweep: the selected knob goes from its value to another by itself, one value after
 //! the verdict of the value before is on the screen.
 
+use crate::report::number::{from_shown, in_shown_unit, rounded};
 use crate::tui::app::App;
 use crate::tui::knobs::Knob;
 use rubscope_solver::scene::{Scene, Value};
@@ -40,14 +41,14 @@ impl App {
     pub fn sweep_question(&self, typed: &str) -> Option<String> {
         let knob = self.selected()?;
         let now = knob.text(&self.scene);
-        Some(format!("sweep {} from {now} to: {typed}_", knob.label))
+        Some(format!("sweep {} from {now} to: {}", knob.label, knob.typed(typed)))
     }
 }
 
 impl Sweep {
     /// Creates a sweep of a knob from one value, which is the present one, to another.
     pub fn new(knob: &'static Knob, from: &Value, to: &Value) -> Self {
-        let mut rest = values(from, to);
+        let mut rest = values(from, to, knob.unit());
         rest.reverse();
         Self { knob, all: rest.len(), rest, found: Vec::new() }
     }
@@ -95,7 +96,7 @@ impl Sweep {
 
 /// Returns the values after the first, up to the last: even steps, or even ratios where both have
 /// one sign and are far apart.
-fn values(from: &Value, to: &Value) -> Vec<Value> {
+fn values(from: &Value, to: &Value, unit: &str) -> Vec<Value> {
     match (from, to) {
         (Value::Whole(from), Value::Whole(to)) => {
             let count = from.abs_diff(*to).min(MOST_WHOLE);
@@ -106,17 +107,18 @@ fn values(from: &Value, to: &Value) -> Vec<Value> {
             }
             values
         }
-        (Value::Real(from), Value::Real(to)) => {
+        (Value::Real(from), Value::Real(last)) => {
+            let [from, to] = [*from, *last].map(|end| in_shown_unit(end, unit).0);
             let ratio = to / from;
             let far = ratio > 0.0 && ratio.is_finite() && !(0.1..=10.0).contains(&ratio);
             let value = |k: u32| {
                 let part = f64::from(k) / f64::from(VALUES);
                 let x = if far { from * ratio.powf(part) } else { from + part * (to - from) };
                 // Few digits, as one would type them.
-                format!("{x:.5e}").parse().unwrap_or(x)
+                from_shown(rounded(x, 6), unit)
             };
             let between = (1..VALUES).map(value);
-            between.chain([*to]).map(Value::Real).collect()
+            between.chain([*last]).map(Value::Real).collect()
         }
         _ => Vec::new(),
     }
@@ -128,13 +130,14 @@ mod tests {
 
     #[test]
     fn values_go_from_one_end_to_the_other() {
-        let reals = values(&Value::Real(300.0), &Value::Real(500.0));
+        let values = |from, to| super::values(&from, &to, "rad/s");
+        let reals = values(Value::Real(300.0), Value::Real(500.0));
         assert_eq!((reals.len(), &reals[0]), (200, &Value::Real(301.0)));
         assert_eq!(reals.last(), Some(&Value::Real(500.0)));
-        let powers = values(&Value::Real(1e3), &Value::Real(1e7));
+        let powers = values(Value::Real(1e3), Value::Real(1e7));
         assert_eq!(powers[99], Value::Real(1e5));
-        let down = values(&Value::Whole(5), &Value::Whole(2));
+        let down = values(Value::Whole(5), Value::Whole(2));
         assert_eq!(down, [4, 3, 2].map(Value::Whole));
-        assert!(values(&Value::Whole(5), &Value::Whole(5)).is_empty());
+        assert!(values(Value::Whole(5), Value::Whole(5)).is_empty());
     }
 }
