@@ -13,6 +13,8 @@ const AT_START: &str = " at t = 0";
 pub fn symbol(path: &str) -> String {
     match path {
         CLEARANCE => return "g0".to_string(),
+        "casing.frequency_hz" => return "f_c".to_string(),
+        "bladed_disk.frequency_hz" => return "f_bd".to_string(),
         // These are told in words.
         keys::PULSE => return "F".to_string(),
         keys::SPEED_RAMP => return "ramp".to_string(),

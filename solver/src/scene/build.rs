@@ -9,8 +9,9 @@ use std::f64::consts::TAU;
 
 use crate::numeric::rounding::rounded;
 
-use super::modes::{hertz_of, number_of, of_neighbours};
+use super::modes::{hertz_of, number_of};
 use super::{Allowed, Scene, SceneError, keys};
+use crate::model::of_neighbours;
 
 /// One mode of a modal analysis.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -454,7 +454,8 @@ mod tests {
         let refused = speed.refusal(&refused);
         let other = knob("operation.pulse_n").parse("4500").unwrap();
         tell_in_rpm(false);
-        assert_eq!(typed, [4500.0, 4500.0, 450.0 / turn, 4500.0].map(|x| Value::Real(x * turn)));
+        let turned = Value::Real(4500.0 * turn);
+        assert_eq!(typed, [turned.clone(), turned.clone(), Value::Real(450.0), turned]);
         for (turned, round) in turns.into_iter().zip([4800.0, 5000.0, 4700.0, 4500.0]) {
             assert!((turned - round).abs() < 1e-9, "{turned} {round}");
         }
