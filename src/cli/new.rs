@@ -8,7 +8,7 @@ use anyhow::Context;
 use clap::Args;
 
 use super::Done;
-use super::status::{Refusal, Status, say};
+use super::status::{Refusal, Status, note, say};
 use crate::file;
 use crate::report::check::write_doubts;
 use crate::report::number::{rounded, tell_in_rpm, with_typed_unit};
@@ -179,6 +179,9 @@ impl NewCommand {
         }
         let ratio = |option, given: &Option<String>, what, key| {
             let read = |text: &str| number(option, text, key);
+            if given.is_none() && !asking.answers {
+                note(format!("rubscope: {what}: {USUAL_DAMPING} is assumed ({option})"));
+            }
             asking.value(option, given.as_ref(), what, Some(USUAL_DAMPING), &read)
         };
         let what = ["Damping ratio of the casing", "Damping ratio of the bladed disk"];

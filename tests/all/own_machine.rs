@@ -5,7 +5,7 @@ use std::path::Path;
 
 use rubscope_solver::scene::Scene;
 
-use crate::cli_support::{refusal, rubscope};
+use crate::cli_support::{program, refusal, rubscope};
 
 /// The worked example of docs/your-machine.md.
 pub const TABLE: &str = "\
@@ -171,6 +171,8 @@ fn an_ordinary_blade_family_is_taken_as_it_is_and_a_slip_is_shown_before_it_is_w
     let made = rubscope(&of_table(good.to_str().unwrap(), table.to_str().unwrap()));
     let said = String::from_utf8_lossy(&made.stderr).into_owned();
     assert!(made.status.success() && !said.contains("slip"), "{said}");
+    let assumed = "rubscope: Damping ratio of the bladed disk: 0.01 is assumed (--disk-damping)";
+    assert!(said.contains(assumed), "{said}");
     let mut scene = Scene::load(good.to_str().unwrap()).unwrap();
     assert!((scene.operation.speed_rad_s / (9500.0 * TAU / 60.0) - 1.0).abs() < 1e-13);
     for (diameters, hertz, mass) in [(2, 214.0, 3.9), (3, 297.5, 2.9), (8, 378.0, 2.25)] {
@@ -190,4 +192,18 @@ fn an_ordinary_blade_family_is_taken_as_it_is_and_a_slip_is_shown_before_it_is_w
     let told = text(&["check", slipped.to_str().unwrap()]);
     let told = told.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(told.contains(doubt) && !told.contains("Nothing looks"), "{told}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_name_that_is_no_text_is_refused_as_by_every_command() {
+    use std::os::unix::ffi::OsStrExt;
+    let name = std::ffi::OsStr::from_bytes(b"\xff.toml");
+    let said = |command: &str| {
+        let output = program().arg(command).arg(name).output().unwrap();
+        assert_eq!(output.status.code(), Some(2));
+        String::from_utf8(output.stderr).unwrap()
+    };
+    assert_eq!(said("new"), said("check"));
+    assert_eq!(said("new").lines().count(), 1);
 }

@@ -78,15 +78,9 @@ pub fn target(found: &Found, margins: &Margins) -> String {
                 "No value of {by} was found for {name}: it could not be followed from that of the scene, {least}."
             );
         }
-        let met = match found.met {
+        let met = match found.met.map(|ends| ends.map(|end| value(end, 6, quantity))) {
             Some([least, most]) if least == most => "it does not depend on it".to_string(),
-            Some([least, most]) => {
-                format!(
-                    "it goes from {} to {}",
-                    value(least, 6, quantity),
-                    value(most, 6, quantity)
-                )
-            }
+            Some([least, most]) => format!("it goes from {least} to {most}"),
             None => "there is no such limit with any of them".to_string(),
         };
         return format!("No value of {by} from {least} to {most} puts {name} at {wanted}: {met}.");

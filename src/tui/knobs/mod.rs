@@ -186,7 +186,7 @@ impl Knob {
         match (value, self.turn) {
             (Value::Real(x), Turn::Linear(fine, large)) => {
                 let step = if coarse { large } else { fine };
-                Value::Real(self.stepped(*x, step, if up { 1.0 } else { -1.0 }))
+                Value::Real(self.stepped(*x, step, Some(up)))
             }
             (Value::Real(x), Turn::Decades(_)) if self.path == CLEARANCE => {
                 Value::Real(number::turned(*x, up, coarse, scene))
@@ -219,13 +219,19 @@ impl Knob {
         }
     }
 
-    /// Returns the multiple of a step that is nearest to a value some steps on, in the unit as it
-    /// is shown, within bounds.
-    fn stepped(&self, x: f64, step: f64, on: f64) -> f64 {
+    /// Returns the next multiple of a step up or down from a value, or the nearest, in the unit as
+    /// it is shown, within bounds.
+    fn stepped(&self, x: f64, step: f64, up: Option<bool>) -> f64 {
         let (shown, unit) = in_shown_unit(x, self.unit());
         // A turn a minute is about a tenth of a radian a second.
         let step = if unit == self.unit() { step } else { 10.0 * step };
-        let next = (shown / step + on).round() * step;
+        let at = shown / step;
+        let multiple = match up {
+            Some(true) => (at + 1e-9).floor() + 1.0,
+            Some(false) => (at - 1e-9).ceil() - 1.0,
+            None => at.round(),
+        };
+        let next = multiple * step;
         // Decimal digits, without the round-off of a multiple.
         let digits = (-step.log10()).ceil().clamp(0.0, 12.0) as usize + 1;
         let next = format!("{next:.digits$}").parse().unwrap_or(next);
@@ -456,7 +462,7 @@ mod tests {
         tell_in_rpm(false);
         let turned = Value::Real(4500.0 * turn);
         assert_eq!(typed, [turned.clone(), turned.clone(), Value::Real(450.0), turned]);
-        for (turned, round) in turns.into_iter().zip([4800.0, 5000.0, 4700.0, 4500.0]) {
+        for (turned, round) in turns.into_iter().zip([4800.0, 5000.0, 4750.0, 4500.0]) {
             assert!((turned - round).abs() < 1e-9, "{turned} {round}");
         }
         assert_eq!((real(up.clone()).round(), &back), (4550.0, &typed[0]));
