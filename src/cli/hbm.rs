@@ -132,9 +132,7 @@ impl RequestedView {
 
 impl HbmCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
-        if let Some(path) = &self.out {
-            output::format(path, &["csv"])?;
-        }
+        output::format(self.out.as_deref(), &["csv"])?;
         let view = self.view.view;
         let resolved = self.options.resolve(Swept { speed: true, pulse: false })?;
         let scene: &Scene = &resolved.scene;

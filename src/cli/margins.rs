@@ -41,10 +41,7 @@ pub struct MarginsCommand {
 
 impl MarginsCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
-        let format = match &self.out {
-            Some(path) => Some(output::format(path, &["csv", "svg"])?),
-            None => None,
-        };
+        let format = output::format(self.out.as_deref(), &["csv", "svg"])?;
         let scene = self.options.scene()?;
         let target = match (&self.target(), &self.by) {
             (Some(target), Some(by)) => {

@@ -1,6 +1,8 @@
 //! The scene a command works on: a built-in scene or a file, and options that
 //! change it. Precedence: option, then file, then documented default.
 
+use std::os::unix::fs::FileTypeExt;
+
 use clap::Args;
 use rubscope_solver::scene::keys;
 
@@ -210,14 +212,10 @@ impl SceneOptions {
 /// # Errors
 /// As `Scene::load_unchecked`.
 pub(super) fn read_scene(name: &str) -> Result<Scene, SceneError> {
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::FileTypeExt;
-        let is_pipe = std::fs::metadata(name).is_ok_and(|found| found.file_type().is_fifo());
-        // That of a shell has no name of its own there.
-        if is_pipe && !["/dev/", "/proc/"].iter().any(|folder| name.starts_with(folder)) {
-            say(&format!("rubscope: {name} is a pipe: waiting for its writer"));
-        }
+    let is_pipe = std::fs::metadata(name).is_ok_and(|found| found.file_type().is_fifo());
+    // That of a shell has no name of its own there.
+    if is_pipe && !["/dev/", "/proc/"].iter().any(|folder| name.starts_with(folder)) {
+        say(&format!("rubscope: {name} is a pipe: waiting for its writer"));
     }
     Scene::load_unchecked(name)
 }

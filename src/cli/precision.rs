@@ -38,10 +38,7 @@ impl PrecisionCommand {
         if self.finest.is_nan() || self.finest <= 0.0 {
             return Err(Refusal::of("--finest", self.finest, "a time step above 0").into());
         }
-        let format = match &self.out {
-            Some(path) => Some(output::format(path, &["csv", "svg"])?),
-            None => None,
-        };
+        let format = output::format(self.out.as_deref(), &["csv", "svg"])?;
         let effort = Effort { repeats: self.repeat, finest_s: self.finest, ..Effort::default() };
         let ways = ways(&scene, effort);
         let form = "{spinner} {bar:30} {pos}/{len} {msg} {elapsed}";

@@ -38,10 +38,7 @@ pub struct SurveyCommand {
 
 impl SurveyCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
-        let format = match &self.out {
-            Some(path) => Some(output::format(path, &["csv", "svg"])?),
-            None => None,
-        };
+        let format = output::format(self.out.as_deref(), &["csv", "svg"])?;
         let scene = self.options.scene()?;
         let range = self.range().as_deref().map(speed_range).transpose();
         let range = range.map_err(|error| Refusal::because(format!("--{error}")))?;

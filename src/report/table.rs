@@ -371,17 +371,6 @@ impl MadeTable {
         Self { headings, places, rows, at }
     }
 
-    /// With these columns, and a row for each item.
-    pub fn over<T: Clone + 'static>(
-        columns: &'static [Column<'static, T>],
-        items: &Rc<Vec<T>>,
-    ) -> Self {
-        let (count, items) = (items.len(), Rc::clone(items));
-        Self::of(columns, [count; 2], move |place| {
-            Ok(items.get(place).cloned().into_iter().collect())
-        })
-    }
-
     /// With columns of these names, and a row for each place, which has these cells.
     pub fn named(
         names: Vec<String>,

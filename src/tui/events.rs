@@ -3,7 +3,6 @@
 
 use std::sync::mpsc::Sender;
 use std::thread;
-#[cfg(unix)]
 use std::time::Duration;
 
 use crossterm::event::{Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers, MouseEvent};
@@ -87,7 +86,6 @@ fn screen_event(event: std::io::Result<Event>) -> Option<ScreenEvent> {
 ///
 /// # Errors
 /// The system cannot start a thread or watch signals.
-#[cfg(unix)]
 pub fn watch_signals(to: Sender<ScreenEvent>) -> std::io::Result<()> {
     use super::{ending, files, job, terminal};
     use signal_hook::consts::{SIGCONT, SIGTSTP, SIGWINCH};
@@ -125,7 +123,6 @@ pub fn watch_signals(to: Sender<ScreenEvent>) -> std::io::Result<()> {
 
 /// Returns every signal that ends a program which does not catch it, and can be caught; not those
 /// of faults in the program itself.
-#[cfg(unix)]
 fn deadly_signals() -> Vec<i32> {
     use signal_hook::consts::{
         SIGABRT, SIGALRM, SIGHUP, SIGINT, SIGPROF, SIGQUIT, SIGSYS, SIGTERM, SIGTRAP, SIGUSR1,
@@ -145,15 +142,5 @@ fn deadly_signals() -> Vec<i32> {
     signals
 }
 
-/// No signals to wait for.
-///
-/// # Errors
-/// None here.
-#[cfg(not(unix))]
-pub fn watch_signals(_: Sender<ScreenEvent>) -> std::io::Result<()> {
-    Ok(())
-}
-
 /// Time that the drawing thread may take to end after a signal: it has a file to keep.
-#[cfg(unix)]
 const GRACE: Duration = super::ending::PATIENCE;

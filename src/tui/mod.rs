@@ -24,9 +24,7 @@ mod ground;
 pub mod history;
 #[doc(hidden)]
 pub mod host;
-#[cfg_attr(not(unix), path = "input_other.rs")]
 mod input;
-#[cfg_attr(not(unix), path = "job_other.rs")]
 mod job;
 mod knobs;
 #[doc(hidden)]
@@ -44,7 +42,6 @@ mod text;
 mod theme;
 #[doc(hidden)]
 pub mod trace;
-#[cfg_attr(not(unix), path = "tty_other.rs")]
 mod tty;
 mod update;
 mod views;
@@ -81,7 +78,7 @@ pub fn check_terminal() -> Result<(), &'static str> {
         return Err("the explorer needs a terminal on standard output; without one, use \
                     `rubscope run`, or `rubscope --lines`");
     }
-    if !std::io::stdin().is_terminal() && cfg!(unix) && File::open("/dev/tty").is_err() {
+    if !std::io::stdin().is_terminal() && File::open("/dev/tty").is_err() {
         return Err("the explorer needs a keyboard, and standard input is no terminal");
     }
     Ok(())
@@ -111,13 +108,13 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
     let term = variable("TERM");
     let is_plain = ability::is_plain(&term);
     let is_asked = choice.follows_ground() && ground.is_none() && !is_plain && !term.is_empty();
-    let ability = ability::Ability::of(&variable);
     let theme = choice.theme(ground.unwrap_or_default());
-    let mut app = App::new(scene, theme, options.marker(&memory.config, &ability));
+    let mut app =
+        App::new(scene, theme, options.marker(&memory.config, ability::only_ascii(&variable)));
     app.appearance.follows_ground = choice.follows_ground();
     app.files.source.clone_from(&options.source);
     app.mouse.on = options.mouse;
-    app.appearance.octants = ability.octants || options.marker == Some(Marker::Octant);
+    app.appearance.octants = options.marker == Some(Marker::Octant);
     app.appearance.rpm = options.rpm;
     memory.prepare(&mut app);
     terminal::set_mouse(app.mouse.on)?;

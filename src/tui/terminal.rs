@@ -221,7 +221,6 @@ pub fn write(bytes: &[u8]) -> Result<(), Error> {
 ///
 /// # Errors
 /// The terminal is closed.
-#[cfg(unix)]
 pub fn read(bytes: &mut [u8], wait: Option<Duration>) -> Result<Option<usize>, Error> {
     tty()?.read(bytes, wait)
 }

@@ -144,7 +144,7 @@ fn the_ranges_of_a_map_and_of_a_sweep_are_in_their_help() {
 
 #[test]
 fn a_closed_pipe_ends_the_program_quietly() {
-    let program = assert_cmd::cargo::cargo_bin!("rubscope");
+    let program = env!("CARGO_BIN_EXE_rubscope");
     for arguments in [&["scenes", "paper-nd3"][..], &["completions", "bash"], &["--help"]] {
         let mut child = Command::new(program)
             .args(arguments)

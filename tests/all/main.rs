@@ -55,10 +55,8 @@ mod margins_odd;
 mod own_machine;
 mod pty;
 mod pty_bursts;
-#[cfg(unix)]
 mod pty_config;
 mod pty_signals;
-#[cfg(unix)]
 mod pty_support;
 mod python;
 mod readme;
@@ -72,6 +70,7 @@ mod scenes;
 mod security;
 mod signs_of_life;
 mod soak;
+mod stepwise;
 mod survey;
 mod theory;
 mod tui_help;

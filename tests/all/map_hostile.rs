@@ -2,18 +2,19 @@
 
 use std::path::Path;
 use std::process::Output;
-use std::time::Duration;
+
+use crate::cli_support::hearing;
 
 const MAP: &str = "map --contact bilateral --model rigid --step 1e-6 --speed 250:500:4 \
                    --pulse 0:4e5:3 --set title=Monday --shard 1/1";
-/// Patience: a part is refused within milliseconds, also on a busy machine.
-const PATIENCE: Duration = Duration::from_secs(120);
+/// Patience in seconds: a part is refused within milliseconds, also on a busy machine.
+const PATIENCE: &str = "120";
 
 fn run(folder: &Path, command: &str) -> Output {
-    assert_cmd::cargo::cargo_bin_cmd!("rubscope")
+    hearing("timeout")
+        .args([PATIENCE, env!("CARGO_BIN_EXE_rubscope")])
         .args(command.split_whitespace())
         .current_dir(folder)
-        .timeout(PATIENCE)
         .output()
         .unwrap()
 }

@@ -1,8 +1,6 @@
 //! The built program in a pseudo-terminal whose user sends more than is read at
 //! once, or sequences without an end: one Ctrl-C is heard all the same.
 
-#![cfg(unix)]
-
 use crate::pty_support::{SHORT, Start, Terminal};
 
 /// Keys that open each mode, and what is seen then.

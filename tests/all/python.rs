@@ -90,7 +90,7 @@ fn the_python_of_the_documents_runs() {
         match language.as_str() {
             "sh" => {
                 let arguments = text.trim_end().strip_prefix("rubscope ").unwrap().split(' ');
-                let run = assert_cmd::cargo::cargo_bin_cmd!("rubscope")
+                let run = crate::cli_support::program()
                     .args(arguments)
                     .current_dir(folder.path())
                     .output()

@@ -1,8 +1,6 @@
 //! While a command is at work, a line on its terminal moves, and Ctrl-C ends it: every
 //! command on every built-in scene either has ended or shows the line.
 
-#![cfg(unix)]
-
 use std::path::Path;
 
 use rubscope_solver::scene::BUILTIN;

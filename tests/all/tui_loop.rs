@@ -10,10 +10,11 @@ use rubscope::tui::engine::{Engine, Order, Snapshot};
 use rubscope::tui::events::ScreenEvent;
 use rubscope::tui::files::{FileJob, FileResult};
 use rubscope::tui::history::Channel;
-use rubscope::tui::host::{Host, NoHost};
-use rubscope::tui::worker::Stepwise;
+use rubscope::tui::host::Host;
 use rubscope::tui::{App, Exit, Marker, Theme, run};
 use rubscope_solver::scene::Scene;
+
+use crate::stepwise::{NoHost, Stepwise};
 
 /// Ends the loop at the second picture.
 struct Second {

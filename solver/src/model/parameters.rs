@@ -35,13 +35,13 @@ pub enum ModePart {
     Damping,
 }
 
-/// The frequency that the mode of so many diameters has instead of a stiffness \[Hz\].
+/// Returns the frequency that the mode of so many diameters has instead of a stiffness \[Hz\].
 pub(crate) fn frequency_of(modes: &[Mode], diameters: u32) -> Option<f64> {
     mode_of(modes, diameters)?.frequency_hz
 }
 
 impl Mode {
-    /// One of its values.
+    /// Returns one of its values.
     #[must_use]
     pub fn part(&self, part: ModePart) -> Option<f64> {
         match part {
@@ -51,7 +51,7 @@ impl Mode {
         }
     }
 
-    /// The same, to be changed.
+    /// Returns the same, to be changed.
     pub fn part_mut(&mut self, part: ModePart) -> &mut Option<f64> {
         match part {
             ModePart::Mass => &mut self.mass,
@@ -61,12 +61,12 @@ impl Mode {
     }
 }
 
-/// The mode of so many diameters, if it is known.
+/// Returns the mode of so many diameters, if it is known.
 fn mode_of(modes: &[Mode], diameters: u32) -> Option<&Mode> {
     modes.iter().find(|mode| mode.nodal_diameters == diameters)
 }
 
-/// A value that the mode of so many diameters has of its own. A stiffness that is set
+/// Returns a value that the mode of so many diameters has of its own. A stiffness that is set
 /// replaces a frequency.
 fn own_part(modes: &mut [Mode], diameters: u32, part: ModePart) -> Option<&mut f64> {
     let mode = modes.iter_mut().find(|mode| mode.nodal_diameters == diameters)?;
@@ -76,14 +76,14 @@ fn own_part(modes: &mut [Mode], diameters: u32, part: ModePart) -> Option<&mut f
     mode.part_mut(part).as_mut()
 }
 
-/// `4 k_bb sin^2(pi n/N)`: what the stiffness between blades adds to `k_b` \[N m/rad\].
+/// Returns `4 k_bb sin^2(pi n/N)`, what the stiffness between blades adds to `k_b` \[N m/rad\].
 #[must_use]
 pub(crate) fn of_neighbours(coupling: f64, diameters: u32, blades: u32) -> f64 {
     let sine = (PI * f64::from(diameters) / f64::from(blades)).sin();
     4.0 * coupling * sine * sine
 }
 
-/// Modes with the names that their values have in a scene file.
+/// Returns the modes with the names that their values have in a scene file.
 fn named<S: Serializer>(modes: &[Mode], names: [&str; 2], out: S) -> Result<S::Ok, S::Error> {
     out.collect_seq(modes.iter().map(|mode| {
         let parts = [(names[0], mode.mass), (names[1], mode.stiffness)];
@@ -144,7 +144,7 @@ pub struct BladedDisk<T = f64> {
 }
 
 impl<T> BladedDisk<T> {
-    /// Nodal diameters of its modes, beside a casing of `n_d`.
+    /// Returns the nodal diameters of its modes, beside a casing of `n_d`.
     #[must_use]
     pub fn diameters_beside(&self, casing: u32) -> u32 {
         if self.nodal_diameters == 0 { casing } else { self.nodal_diameters }
@@ -152,7 +152,7 @@ impl<T> BladedDisk<T> {
 }
 
 impl BladedDisk {
-    /// It with the values of its mode of so many diameters, and no other modes.
+    /// Returns it with the values of its mode of these diameters, and without other modes.
     #[must_use]
     pub fn at(&self, diameters: u32) -> Self {
         let mode = mode_of(&self.modes, diameters);
@@ -172,7 +172,7 @@ impl BladedDisk {
         }
     }
 
-    /// A value of that mode, or its own where the mode has none.
+    /// Returns a value of that mode, or its own where the mode has none.
     pub fn part_at(&mut self, diameters: u32, part: ModePart) -> &mut f64 {
         let own = match part {
             ModePart::Mass => &mut self.inertia_kg_m2,
@@ -226,7 +226,7 @@ pub struct Casing<T = f64> {
 }
 
 impl Casing {
-    /// It with the values of its mode of so many diameters, and no other modes.
+    /// Returns it with the values of its mode of these diameters, and without other modes.
     #[must_use]
     pub fn at(&self, diameters: u32) -> Self {
         let mode = mode_of(&self.modes, diameters);
@@ -244,7 +244,7 @@ impl Casing {
         }
     }
 
-    /// A value of that mode, or its own where the mode has none.
+    /// Returns a value of that mode, or its own where the mode has none.
     pub fn part_at(&mut self, diameters: u32, part: ModePart) -> &mut f64 {
         let own = match part {
             ModePart::Mass => &mut self.modal_mass_kg,
@@ -284,7 +284,7 @@ pub struct ContactSurface<T = f64> {
 }
 
 impl Default for ContactSurface {
-    /// The paper's contact, and the estimate of a sprayed metal lining.
+    /// Creates the paper's contact, and the estimate of a sprayed metal lining.
     fn default() -> Self {
         Self { friction: 0.0, restitution: 0.0, stiffness_n_per_m: 1e7, smoothing_m: 1e-6 }
     }

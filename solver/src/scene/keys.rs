@@ -36,7 +36,7 @@ impl std::fmt::Display for Value {
 /// The allowed values of a key.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Allowed {
-    /// A finite number from `min` to `max`; above `min` where `above`.
+    /// A finite number from `min` to `max`, without `min` itself where `above` is set.
     Real {
         /// Lower bound.
         min: f64,
@@ -56,9 +56,9 @@ pub enum Allowed {
     OneOf(&'static [&'static str]),
     /// One or more of these words, each once.
     SomeOf(&'static [&'static str]),
-    /// A line of text of up to so many characters.
+    /// A line of text with a limited number of characters.
     Text {
-        /// Most characters.
+        /// Largest number of characters.
         most: usize,
     },
     /// A list of the modes of a structure, as text.
@@ -83,18 +83,18 @@ impl std::fmt::Display for Allowed {
     }
 }
 
-/// Which running motions go on with another value of a key.
+/// Which running motions accept another value of a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Live {
     /// Every motion.
     Always,
     /// Motions by time steps.
     Steps,
-    /// None: it makes another motion.
+    /// None: another value starts another motion.
     Never,
-    /// None: it is over once a motion runs.
+    /// None: it acts only before a motion runs.
     Start,
-    /// It says nothing to a motion.
+    /// It has no effect on a motion.
     Aside,
 }
 
@@ -103,22 +103,22 @@ pub enum Live {
 pub struct Key {
     /// Dotted path, as in the file.
     pub path: &'static str,
-    /// Unit, as shown.
+    /// Unit, as it is shown.
     pub unit: &'static str,
-    /// What it is, in a few words.
+    /// Description, in a few words.
     pub what: &'static str,
-    /// Whether a running motion takes it over.
+    /// Which running motions accept another value.
     pub live: Live,
     /// Allowed values.
     pub allowed: Allowed,
-    /// Reads it.
+    /// Returns its value in a scene.
     pub get: fn(&Scene) -> Value,
-    /// Writes it; the value is of the right kind.
+    /// Sets it in a scene; the value must be of its kind.
     pub(super) set: fn(&mut Scene, Value),
 }
 
 impl Key {
-    /// What it is, with its unit, as the title of an axis.
+    /// Returns its description with its unit, as the title of an axis.
     #[must_use]
     pub fn title(&self) -> String {
         if self.unit == "-" {
@@ -128,7 +128,7 @@ impl Key {
         }
     }
 
-    /// Refuses values of another kind or out of bounds.
+    /// Rejects values of another kind or out of bounds.
     ///
     /// # Errors
     /// One line with key, value and what is allowed.
@@ -164,7 +164,7 @@ impl Key {
         }
     }
 
-    /// What a number of it is of.
+    /// Returns the quantity of its numbers.
     #[must_use]
     pub fn quantity(&self) -> Quantity {
         Quantity::of(self.unit)
@@ -196,10 +196,9 @@ impl Key {
     }
 }
 
-/// Whether a character takes its place in a line of text and does nothing else: none
-/// that moves the cursor of a terminal, breaks the line or its direction, is not seen, or
-/// is none of XML. Joiners and selectors are among those: terminals do not agree on the
-/// width of what they make.
+/// Returns whether a character is visible text and nothing else: it does not move the cursor of a
+/// terminal or break the line or its direction, it is not invisible, and XML allows it. Joiners
+/// and selectors are refused, too: terminals do not agree on the width of the result.
 #[must_use]
 pub fn is_plain(c: char) -> bool {
     let acts = matches!(
@@ -213,7 +212,7 @@ pub fn is_plain(c: char) -> bool {
     !c.is_control() && !acts
 }
 
-/// The key with this dotted path.
+/// Returns the key with this dotted path.
 ///
 /// # Errors
 /// An unknown path; the message lists the keys of its table.
@@ -221,7 +220,7 @@ pub fn find(path: &str) -> Result<&'static Key, SceneError> {
     KEYS.iter().find(|key| key.path == path).ok_or_else(|| unknown(path))
 }
 
-/// The error for an unknown key, with the keys of its table.
+/// Returns the error for an unknown key, with the keys of its table.
 pub(super) fn unknown(path: &str) -> SceneError {
     let table = path.split_once('.').map_or("", |(table, _)| table);
     let of_table = |key: &&Key| key.path.split_once('.').map_or("", |(t, _)| t) == table;
@@ -345,24 +344,24 @@ macro_rules! charts {
     };
 }
 
-/// Keys in which a scene differs from another, with their values as text; what the
-/// explorer opens with is not counted.
+/// Returns the keys in which a scene differs from another, with their values as text, without the
+/// keys of the explorer's first view.
 pub fn differences(from: &Scene, to: &Scene) -> impl Iterator<Item = (&'static str, String)> {
     changed(from, to, false)
 }
 
-/// As `differences`, of what the explorer opens with.
+/// Same as `differences`, for the keys of the explorer's first view.
 pub fn view_differences(from: &Scene, to: &Scene) -> impl Iterator<Item = (&'static str, String)> {
     changed(from, to, true)
 }
 
-/// The keys in which a scene differs from another.
+/// Returns the keys in which a scene differs from another.
 pub fn differing(from: &Scene, to: &Scene) -> impl Iterator<Item = &'static Key> + Clone {
     KEYS.iter().filter(move |key| (key.get)(from) != (key.get)(to))
 }
 
-/// Set one after the other they make the one scene of the other: what chooses the modes
-/// in use comes first, what they are last.
+/// Returns the changes that, set one after the other, lead from one scene to the other: first the
+/// keys that choose the modes in use, last the values of these modes.
 fn changed(from: &Scene, to: &Scene, view: bool) -> impl Iterator<Item = (&'static str, String)> {
     let (mut made, scene) = walked(from, to, view);
     let alike = scene.casing == to.casing && scene.bladed_disk == to.bladed_disk;
@@ -378,10 +377,10 @@ fn changed(from: &Scene, to: &Scene, view: bool) -> impl Iterator<Item = (&'stat
     made.into_iter()
 }
 
-/// The lists of modes.
+/// Keys of the lists of modes.
 const MODES: [&str; 2] = [DISK_MODES, CASING_MODES];
 
-/// The keys that lead from a scene to another, and where they lead.
+/// Returns the keys that lead from a scene to another, and the scene that results.
 fn walked(from: &Scene, to: &Scene, view: bool) -> (Vec<(&'static str, String)>, Scene) {
     const FIRST: [&str; 2] = [DIAMETERS, DISK_DIAMETERS];
     let mut scene = from.clone();
@@ -407,7 +406,7 @@ fn walked(from: &Scene, to: &Scene, view: bool) -> (Vec<(&'static str, String)>,
     (made, scene)
 }
 
-/// The value of a key in a scene as text that is read back exactly.
+/// Returns the value of a key in a scene as text that is read back exactly.
 fn text_of(key: &Key, scene: &Scene) -> String {
     match (key.get)(scene) {
         Value::Real(x) => format!("{x:?}"),
@@ -417,8 +416,8 @@ fn text_of(key: &Key, scene: &Scene) -> String {
     }
 }
 
-/// What is no key, but is turned and swept as one: the clearance `R_c - l_b`, which the
-/// radius of the casing sets.
+/// Quantity that is not a key but is changed and swept like one: the clearance `R_c - l_b`, which
+/// the radius of the casing sets.
 pub const CLEARANCE: &str = "clearance";
 
 /// Makes of each row the constant with the path of a key, and the key in `KEYS`.
@@ -469,7 +468,7 @@ keys! {
     INITIAL_U_S "initial.u_s_m" = real(Start, "m", "u_s at t = 0", false -1e3..1e3, initial.u_s_m);
     INITIAL_V_C "initial.v_c_m_s" = real(Start, "m/s", "rate of u_c at t = 0", false -1e6..1e6, initial.v_c_m_s);
     INITIAL_V_S "initial.v_s_m_s" = real(Start, "m/s", "rate of u_s at t = 0", false -1e6..1e6, initial.v_s_m_s);
-    EXCITATION "excitation.amplitude_nm" = real(Steps, "N m", "engine-order torque on each blade, 0 for none", false 0.0..1e9, excitation.amplitude_nm);
+    EXCITATION "excitation.amplitude_nm" = real(Steps, "N m", "engine-order torque on each blade (modal model), 0 for none", false 0.0..1e9, excitation.amplitude_nm);
     ENGINE_ORDER "excitation.order" = whole(Steps, "engine order of that torque", 1..4096, excitation.order);
     SOLVER "solver.kind" = word(Never, "solver", SolverKind, solver.kind);
     LAW "solver.contact" = word(Steps, "contact law", ContactLaw, solver.contact);

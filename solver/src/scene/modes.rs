@@ -43,13 +43,13 @@ pub(super) const DISK: Structure = Structure {
     ],
 };
 
-/// The name of a key in its table.
+/// Returns the name of a key in its table.
 fn leaf(path: &str) -> &str {
     path.split_once('.').map_or(path, |(_, leaf)| leaf)
 }
 
 impl Structure {
-    /// The modes of a list in a scene file.
+    /// Reads the modes of a list in a scene file.
     ///
     /// # Errors
     /// The first mode with an unknown key, a value that is not allowed, or a number of
@@ -81,7 +81,7 @@ impl Structure {
         }
     }
 
-    /// What a mode may have, in words.
+    /// Describes what a mode may have, in words.
     pub(super) fn form(&self) -> String {
         format!("with {DIAMETERS} and any of {}", self.names().join(", "))
     }
@@ -128,7 +128,7 @@ impl Structure {
         Ok(mode)
     }
 
-    /// The list in one line, as `--set` takes it.
+    /// Returns the list in one line, as `--set` accepts it.
     pub(super) fn text(&self, modes: &[Mode]) -> String {
         let each = modes.iter().map(|mode| {
             let values: Vec<String> =
@@ -138,7 +138,7 @@ impl Structure {
         format!("[{}]", each.collect::<Vec<_>>().join(", "))
     }
 
-    /// The list as a part of a file.
+    /// Returns the list as a part of a scene file.
     pub(super) fn blocks(&self, modes: &[Mode]) -> String {
         let block = |mode: &Mode| {
             let values: String =
@@ -157,10 +157,10 @@ impl Structure {
         [(DIAMETERS, mode.nodal_diameters.to_string())].into_iter().chain(numbers)
     }
 
-    /// Whether a text is such a list.
+    /// Checks that a text is such a list.
     ///
     /// # Errors
-    /// Why it is not.
+    /// The reason why it is not.
     pub(super) fn check(&self, text: &str) -> Result<(), SceneError> {
         self.parsed(text).map(drop)
     }
@@ -179,19 +179,19 @@ impl Structure {
         }
     }
 
-    /// The modes of a checked text.
+    /// Returns the modes of a checked text.
     pub(super) fn modes(&self, text: &str) -> Vec<Mode> {
         self.parsed(text).unwrap_or_default()
     }
 }
 
-/// Some of a table, in one line.
+/// Returns the beginning of a table in one line.
 fn short(table: &Table) -> String {
     let values = table.iter().map(|(name, value)| format!("{name} = {}", file::one_line(value)));
     values.collect::<Vec<_>>().join(", ")
 }
 
-/// A number of a mode, within the bounds of the key beside the list.
+/// Reads a number of a mode within the bounds of the key beside the list.
 fn number(path: &str, value: &Toml, key: &keys::Key) -> Result<f64, SceneError> {
     match value {
         Toml::String(text) => number_of(path, text, key),
@@ -199,7 +199,7 @@ fn number(path: &str, value: &Toml, key: &keys::Key) -> Result<f64, SceneError> 
     }
 }
 
-/// The same from text, with or without its unit.
+/// Does the same for text, with or without its unit.
 pub(super) fn number_of(path: &str, text: &str, key: &keys::Key) -> Result<f64, SceneError> {
     bounded(path, text, key, read(path, text, key.quantity())?)
 }
@@ -214,12 +214,12 @@ fn bounded(
         .ok_or_else(|| SceneError::refused(path, given, key.allowed.to_string()))
 }
 
-/// A number of a file that has no unit.
+/// Returns a number of a file that has no unit.
 fn plain(value: &Toml) -> Option<f64> {
     value.as_float().or_else(|| value.as_integer().map(|n| n as f64))
 }
 
-/// A number of a quantity; none for text that is none.
+/// Reads a number of a quantity; `None` for text that is not a number.
 fn read(path: &str, text: &str, of: Quantity) -> Result<Option<f64>, SceneError> {
     match of.read(text) {
         Ok(number) => Ok(Some(number)),
@@ -228,7 +228,7 @@ fn read(path: &str, text: &str, of: Quantity) -> Result<Option<f64>, SceneError>
     }
 }
 
-/// A frequency: a bare number is in hertz, as the key says.
+/// Reads a frequency; a number without a unit is in hertz, as the key says.
 fn hertz(path: &str, value: &Toml) -> Result<f64, SceneError> {
     match value {
         Toml::String(text) => hertz_of(path, text),
@@ -236,7 +236,7 @@ fn hertz(path: &str, value: &Toml) -> Result<f64, SceneError> {
     }
 }
 
-/// The same from text.
+/// Does the same for text.
 pub(super) fn hertz_of(path: &str, text: &str) -> Result<f64, SceneError> {
     let given = match text.trim().parse() {
         Ok(bare) => Some(bare),
@@ -252,8 +252,10 @@ fn frequency(path: &str, given: String, hertz: Option<f64>) -> Result<f64, Scene
     })
 }
 
+/// Rejects modes of the disk that no stiffness gives.
+///
 /// # Errors
-/// A mode whose frequency the blades have without any stiffness of their own.
+/// A mode with a frequency that the coupling between blades alone exceeds.
 pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     let disk = &scene.bladed_disk;
     let stiffness = |mode: &Mode| disk.at(mode.nodal_diameters).stiffness_nm_per_rad;
@@ -273,13 +275,13 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
 }
 
 impl Scene {
-    /// The casing with the values of its mode in use, that of the scene's nodal diameters.
+    /// Returns the casing with the values of its mode in use, that of the scene's nodal diameters.
     #[must_use]
     pub fn casing_in_use(&self) -> Casing {
         self.casing.at(self.operation.nodal_diameters)
     }
 
-    /// The disk with the values of its mode in use.
+    /// Returns the disk with the values of its mode in use.
     #[must_use]
     pub fn disk_in_use(&self) -> BladedDisk {
         self.bladed_disk.at(self.disk_diameters())
@@ -290,7 +292,7 @@ impl Scene {
         self.bladed_disk.diameters_beside(self.operation.nodal_diameters)
     }
 
-    /// The frequencies that the modes in use of casing and disk have instead of a
+    /// Returns the frequencies that the modes in use of casing and disk have instead of a
     /// stiffness \[Hz\].
     pub(crate) fn frequencies_in_use(&self) -> [Option<f64>; 2] {
         [
@@ -329,12 +331,12 @@ impl Scene {
         self.casing.part_at(self.operation.nodal_diameters, part)
     }
 
-    /// A value of the disk's mode in use.
+    /// Returns a value of the disk's mode in use.
     pub(super) fn disk_part(&mut self, part: ModePart) -> &mut f64 {
         self.bladed_disk.part_at(self.disk_diameters(), part)
     }
 
-    /// This scene with no modes but the structures' own.
+    /// Returns this scene without modes that have values of their own.
     pub(super) fn without_modes(&self) -> Self {
         let mut scene = self.clone();
         scene.casing.modes.clear();
@@ -342,8 +344,8 @@ impl Scene {
         scene
     }
 
-    /// What is taken where modes are known, but none of these diameters: in a sentence
-    /// without its end.
+    /// Describes the values in use where modes are known, but none of these diameters, as a
+    /// sentence without its full stop.
     #[must_use]
     pub fn modes_note(&self) -> Option<String> {
         let missing = |modes: &[Mode], diameters: u32| {
@@ -368,7 +370,7 @@ impl Scene {
     }
 }
 
-/// Most numbers that a note lists.
+/// Largest count of numbers that a note lists.
 const LISTED: usize = 8;
 
 fn listed(known: &[String]) -> String {

@@ -39,7 +39,6 @@ fn what_was_chosen_by_key_is_there_at_the_next_start() {
     assert!(config.marker.is_some() && config.introduced);
     let next = session(&path, |_| {});
     assert_eq!((next.layout.beside, next.dialogue.is_new), (config.charts.unwrap(), false));
-    #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
         let mode = |path: &Path| path.metadata().unwrap().permissions().mode() & 0o777;

@@ -334,9 +334,14 @@ pub(in crate::harmonic) fn lock_loads<T: Number>(
         dot(bent, n) + dot(swing, n)
     };
     let amplitude = (z[0] * z[0] + z[1] * z[1]).sqrt();
-    let groups = (pushes, SIDES.map(angle));
-    let all = (0..polygon.sides).map(angle);
-    Some(LockLoads::of((machine, speed), (amplitude, -(torques[0] + torques[1])), groups, all))
+    let torque_nm = -(torques[0] + torques[1]);
+    Some(LockLoads {
+        pushes_n: pushes,
+        alpha_rad: SIDES.map(angle),
+        amplitude_m: amplitude,
+        torque_nm,
+        power_w: torque_nm * speed,
+    })
 }
 
 /// The softest lining that holds a lock, and the speed where it does.

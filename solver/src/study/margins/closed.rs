@@ -38,13 +38,14 @@ pub(super) const CLOSED: [LimitName; 13] = [
 const SELDOM: [LimitName; 4] =
     [LimitName::LockEnds, LimitName::LockFold, LimitName::WhirlOnset, LimitName::FlutterSpeed];
 
-/// The first of every closed form of these parameters, in the order of `CLOSED`; none
+/// Returns the first of every closed form of these parameters, in the order of `CLOSED`; none
 /// where the machine has no such limit.
 pub(super) fn values<T: Number>(parameters: &Parameters<T>) -> [Option<T>; CLOSED.len()] {
     every(parameters).map(|found| found.first().copied())
 }
 
-/// As `values`, all of them: of a machine that changes with the speed there may be several.
+/// Same as for `values`, all of them: of a machine that changes with the speed there may be
+/// several.
 fn every<T: Number>(parameters: &Parameters<T>) -> [Vec<T>; CLOSED.len()] {
     let machine = parameters.machine();
     let speed = parameters.operation.speed_rad_s;
@@ -60,7 +61,7 @@ fn every<T: Number>(parameters: &Parameters<T>) -> [Vec<T>; CLOSED.len()] {
     std::array::from_fn(|_| all.next().unwrap_or_default())
 }
 
-/// Those that are speeds.
+/// Returns those that are speeds.
 fn speed_values<T: Number>(machine: &Machine<T>, speed: T) -> [Vec<T>; SPEEDS] {
     let toward = speed.re();
     let sense = 1_f64.copysign(toward);
@@ -89,7 +90,7 @@ fn one<T>(value: Option<T>) -> Vec<T> {
     value.into_iter().collect()
 }
 
-/// The end of the branch of the lock, where a rotor may come near it.
+/// Returns the end of the branch of the lock, where a rotor may come near it.
 fn fold<T: Number>(machine: &Machine<T>, speed: T) -> Option<T> {
     let far = machine.lock_speed_toward(speed.re())?.re().max(speed.re().abs()) * FAR;
     lock_fold_speed(machine).filter(|fold| fold.re() < far)
@@ -111,7 +112,7 @@ fn keep_known<T>(scene: &Scene, found: &mut [Vec<T>]) {
     }
 }
 
-/// The limits of a scene that are speeds, all of them.
+/// Returns the limits of a scene that are speeds, all of them.
 pub(in crate::study) fn speeds(scene: &Scene) -> Vec<(LimitName, f64)> {
     every_speed(scene, &Parameters::<f64>::of(scene))
 }
@@ -134,7 +135,7 @@ fn every_speed<T: Number>(scene: &Scene, parameters: &Parameters<T>) -> Vec<(Lim
     each.filter(|(_, value)| value.re().is_finite()).collect()
 }
 
-/// The limits of a scene in closed form.
+/// Returns the limits of a scene in closed form.
 pub(super) fn limits(scene: &CheckedScene) -> Vec<Limit> {
     let parameters = Parameters::<f64>::of(scene);
     let mut found = every(&parameters);

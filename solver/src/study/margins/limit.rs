@@ -165,12 +165,6 @@ impl Limit {
         }
     }
 
-    /// Whether it is a load of the lock, which limits nothing of the scene.
-    #[must_use]
-    pub fn is_load(&self) -> bool {
-        self.quantity.path().is_none()
-    }
-
     /// Returns which way a load of the lock acts, or on which side of another limit the
     /// scene stands.
     #[must_use]

@@ -7,7 +7,7 @@ use crate::motion::explicit::disk::{Disk, HeldModes};
 use crate::motion::explicit::lining::Lining;
 use crate::motion::explicit::{Coordinate, Explicit};
 use crate::motion::{ActiveSet, EnergyAccount};
-use crate::tolerances::{BREAK_STEPS, SHORTEST_BLOCK};
+use crate::tolerances::{BREAK_STEPS, LARGEST_BLADE_ANGLE, SHORTEST_BLOCK};
 
 impl<B: Disk> Explicit<B> {
     /// Begins a block of steps that cannot touch, if there are enough to be worth it.
@@ -27,7 +27,7 @@ impl<B: Disk> Explicit<B> {
         self.leaps.block = Block::new(length);
     }
 
-    /// Steps that cannot touch; none where they are too few to be worth a block.
+    /// Returns the steps that cannot touch; none where they are too few to be worth a block.
     fn flight(&mut self) -> u64 {
         // Beyond it, every side is open and above its target.
         let room = self.machine.clearance() - self.highest_target();
@@ -39,10 +39,13 @@ impl<B: Disk> Explicit<B> {
         let (distance, (farthest, longest)) = (distance2.sqrt(), self.casing.reach_of(self.u));
         let length =
             if farthest < room { ENDLESS } else { ((room - distance) / longest).max(0.0) as u64 };
-        if self.blades.can_fly(length, self.watch.largest()) { length } else { 0 }
+        // Blades that may swing too far are followed step by step.
+        let flies =
+            length >= self.blades.shortest_block() && self.blades.reach() <= LARGEST_BLADE_ANGLE;
+        if flies { length } else { 0 }
     }
 
-    /// Whether nothing but their own springs will move casing and blades in flight.
+    /// Returns whether nothing but their own springs will move casing and blades in flight.
     fn is_free(&self) -> bool {
         let free = !self.drive.pulse_to_come(self.n) && self.drive.excitation.is_none();
         let beyond = || {
@@ -52,13 +55,13 @@ impl<B: Disk> Explicit<B> {
         self.scene.solver.shortcuts.flight && free && (!self.goes_beyond || beyond())
     }
 
-    /// A bound on how far tips can still rise in free motion \[m\].
+    /// Returns a bound on how far tips can still rise in free motion \[m\].
     pub(in crate::motion::explicit) fn rise_to_come(&self, blades: &B) -> f64 {
         let rise = self.tips.rise.abs();
         if rise == 0.0 { 0.0 } else { rise * blades.reach() }
     }
 
-    /// Casing and blades after so many steps of free flight.
+    /// Returns the casing and blades after so many steps of free flight.
     pub(super) fn flown(&self, steps: u64) -> ([Coordinate; 2], B) {
         let mut blades = self.blades.clone();
         blades.skip(steps);
