@@ -75,7 +75,8 @@ fn create_with(
     write: impl FnOnce(&mut dyn Write) -> Result<()>,
 ) -> Result<()> {
     if path.symlink_metadata().is_ok() {
-        return Err(Error::from(ErrorKind::AlreadyExists));
+        let exists = format!("{} exists", path.display());
+        return Err(Error::new(ErrorKind::AlreadyExists, exists));
     }
     let (Place::New(path) | Place::Stream(path) | Place::Existing { path, .. }) = Place::of(path)?;
     let temporary = Temporary::beside(&path, None, mode)?;

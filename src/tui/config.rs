@@ -56,7 +56,7 @@ pub struct Config {
 
 /// Units in which numbers are shown.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[serde(default, expecting = "for units a table: units.speed = \"rpm\" or \"rad/s\"")]
 pub struct Units {
     /// Unit of speeds.
     #[serde(skip_serializing_if = "Option::is_none")]

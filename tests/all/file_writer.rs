@@ -58,6 +58,7 @@ fn a_created_file_takes_the_place_of_none() {
     create(&path, text("mine")).unwrap();
     let refused = create(&path, |_| panic!("nothing is to be written")).unwrap_err();
     assert_eq!(refused.kind(), ErrorKind::AlreadyExists);
+    assert!(refused.to_string().ends_with("a.toml exists"), "{refused}");
     // Nor of one that comes while it is written.
     let late = folder.path().join("late.toml");
     let refused = create(&late, |out| {

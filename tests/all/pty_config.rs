@@ -135,3 +135,35 @@ fn the_first_screen_does_not_wait_for_the_background_and_its_report_changes_the_
     let text = std::fs::read_to_string(file(home.path())).unwrap();
     assert!(!text.contains("theme"), "{text}");
 }
+
+#[test]
+fn a_new_scene_asks_again_after_a_bad_answer() {
+    let home = home();
+    let mut terminal = Start::command(&["new", "mine.toml", "--rpm"]).folder(home.path()).open();
+    for (question, answers) in [
+        ("Number of blades: ", &["many", "36"][..]),
+        ("Inner radius", &["420 kg", "420mm"]),
+        ("Clearance", &["2m", "0.3mm"]),
+        ("Nodal diameters: ", &["-5", "5"]),
+        ("Frequency of the casing", &["0", "420.3"]),
+        ("mode of the casing", &["heavy", "2.9"]),
+        ("Frequency of the bladed disk", &["155.9"]),
+        ("mode of the bladed disk", &["5.4"]),
+        ("Damping ratio of the casing", &["5 kN", "5"]),
+        ("Damping ratio of the bladed disk", &[""]),
+        ("Speeds of the machine", &["fast", "6000:11000"]),
+        ("all the same? yes or no: ", &["perhaps", "yes"]),
+    ] {
+        for answer in answers {
+            terminal.wait_until(question, |screen| {
+                screen.contents().trim_end().lines().last().is_some_and(|line| {
+                    line.contains(question.trim_end()) && line.trim_end().ends_with(':')
+                })
+            });
+            terminal.send(&format!("{answer}\r"));
+        }
+    }
+    assert_eq!(terminal.wait(), 0);
+    let scene = std::fs::read_to_string(home.path().join("mine.toml")).unwrap();
+    assert!(scene.contains("speed_rad_s = 890.117918") && scene.contains("blades = 36"), "{scene}");
+}

@@ -280,7 +280,7 @@ macro_rules! moded {
     };
 }
 macro_rules! modes {
-    ($path:expr, $live:ident, $what:literal, $structure:ident, $table:ident, $set:ident) => {
+    ($path:expr, $live:ident, $what:literal, $structure:ident, $table:ident) => {
         Key {
             path: $path,
             unit: "-",
@@ -290,7 +290,7 @@ macro_rules! modes {
             get: |scene| Value::Text(modes::$structure.text(&scene.$table.modes)),
             set: |scene, value| {
                 if let Value::Text(text) = value {
-                    modes::$set(scene, &text)
+                    scene.$table.modes = modes::$structure.modes(&text)
                 }
             },
         }
@@ -447,14 +447,14 @@ keys! {
     DISK_DIAMETERS "bladed_disk.nodal_diameters" = whole(Never, "nodal diameters of the disk, 0 as the casing, n_b", 0..4096, bladed_disk.nodal_diameters);
     MISTUNING "bladed_disk.mistuning" = real(Never, "-", "standard deviation of single k_b (full model), sd", false 0.0..0.2, bladed_disk.mistuning);
     MISTUNING_SEED "bladed_disk.mistuning_seed" = whole(Never, "draw of the single k_b, seed", 0..1_000_000, bladed_disk.mistuning_seed);
-    DISK_MODES "bladed_disk.modes" = modes(Aside, "modes of the disk by their diameters", DISK, bladed_disk, set_disk);
+    DISK_MODES "bladed_disk.modes" = modes(Aside, "modes of the disk by their diameters", DISK, bladed_disk);
     CASING_RADIUS "casing.radius_m" = real(Never, "m", "casing radius R_c", true 0.0..1e3, casing.radius_m);
     CASING_MASS "casing.modal_mass_kg" = moded(Steps, "kg", "casing modal mass m_c", true 0.0..1e9, casing_in_use.modal_mass_kg, casing_part Mass);
     CASING_STIFFNESS "casing.modal_stiffness_n_per_m" = moded(Steps, "N/m", "casing modal stiffness k_c", true 0.0..1e15, casing_in_use.modal_stiffness_n_per_m, casing_part Stiffness);
     CASING_DAMPING "casing.damping_ratio" = moded(Steps, "-", "casing damping zeta_c", false 0.0..10.0, casing_in_use.damping_ratio, casing_part Damping);
     TANGENTIAL_RATIO "casing.tangential_ratio" = real(Steps, "-", "tangential over radial casing amplitude tau", false 0.0..10.0, casing.tangential_ratio);
     CLEARANCE_LOSS "casing.clearance_loss_m_s2" = real(Steps, "m s^2", "clearance lost with speed, g0 - c Omega^2, c", false 0.0..1.0, casing.clearance_loss_m_s2);
-    CASING_MODES "casing.modes" = modes(Aside, "modes of the casing by their diameters", CASING, casing, set_casing);
+    CASING_MODES "casing.modes" = modes(Aside, "modes of the casing by their diameters", CASING, casing);
     FRICTION "contact.friction" = real(Steps, "-", "friction coefficient mu", false 0.0..5.0, contact.friction);
     RESTITUTION "contact.restitution" = real(Steps, "-", "coefficient of restitution e", false 0.0..0.95, contact.restitution);
     LINING_STIFFNESS "contact.stiffness_n_per_m" = real(Steps, "N/m", "stiffness of the lining under a blade (smooth only) k_p", true 0.0..1e15, contact.stiffness_n_per_m);

@@ -73,7 +73,7 @@ const fn whole(of: Quantity, name: &'static str, factor: f64) -> Unit {
 const UNITS: &[Unit] = &[
     Unit { of: Plain, name: "%", power: -2, factor: 1.0, prefixed: false },
     whole(Speed, "rad/s", 1.0),
-    whole(Speed, "rpm", TAU / 60.0),
+    Unit { of: Speed, name: "rpm", power: 0, factor: TAU / 60.0, prefixed: true },
     Unit { of: Speed, name: "Hz", power: 0, factor: TAU, prefixed: true },
     whole(Acceleration, "rad/s^2", 1.0),
     whole(Acceleration, "rpm/s", TAU / 60.0),
@@ -327,6 +327,7 @@ mod tests {
             (Speed, "-430 rad/s", -430.0),
             (Speed, "9500rpm", 9500.0 * (TAU / 60.0)),
             (Speed, "9500 RPM", 9500.0 * (TAU / 60.0)),
+            (Speed, "9.5krpm", 9500.0 * (TAU / 60.0)),
             (Speed, "150Hz", 150.0 * TAU),
             (Speed, "0.15 kHz", 150.0 * TAU),
             (Speed, "1.2k", 1200.0),

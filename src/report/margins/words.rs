@@ -77,7 +77,8 @@ pub fn note(margins: &Margins) -> Option<String> {
 #[must_use]
 pub fn target(found: &Found, margins: &Margins) -> String {
     let Found { name, by, .. } = *found;
-    let (quantity, unit) = (name.quantity(), parameter(by).map_or("", |by| by.unit()));
+    let changed = parameter(by);
+    let (quantity, unit) = (name.quantity(), changed.map_or("", |by| by.unit()));
     let unit = if unit == "-" { "" } else { unit };
     let wanted = value(found.wanted, 6, quantity);
     let parameter = |x: f64| format!("{} {unit}", short(x)).trim_end().to_string();
@@ -88,15 +89,9 @@ pub fn target(found: &Found, margins: &Margins) -> String {
                 "No value of {by} was found for {name}: it could not be followed from that of the scene, {least}."
             );
         }
-        let met = match found.met {
+        let met = match found.met.map(|ends| ends.map(|end| value(end, 6, quantity))) {
             Some([least, most]) if least == most => "it does not depend on it".to_string(),
-            Some([least, most]) => {
-                format!(
-                    "it goes from {} to {}",
-                    value(least, 6, quantity),
-                    value(most, 6, quantity)
-                )
-            }
+            Some([least, most]) => format!("it goes from {least} to {most}"),
             None => "there is no such limit with any of them".to_string(),
         };
         return format!("No value of {by} from {least} to {most} puts {name} at {wanted}: {met}.");
@@ -106,7 +101,9 @@ pub fn target(found: &Found, margins: &Margins) -> String {
         Some(before) => format!("{} gives {}", parameter(found.from), value(before, 6, quantity)),
         None => format!("the scene has {}", parameter(found.from)),
     };
-    format!("{by} = {} puts {name} at {wanted} ({gives}).", parameter(to))
+    let line = changed.and_then(|by| by.line(&margins.scene, to));
+    let line = line.map_or(String::new(), |line| format!(" In the scene file: {line}."));
+    format!("{by} = {} puts {name} at {wanted} ({gives}).{line}", parameter(to))
 }
 
 /// The command that shows the limit with the parameter found, by another way than the

@@ -56,7 +56,13 @@ fn the_unit_of_speeds_is_remembered_and_can_be_written_by_hand() {
     assert_eq!(read(&path).units.speed, Some(SpeedUnit::Radians));
     assert!(!session(&path, |_| {}).appearance.rpm);
     std::fs::write(&path, "[units]\nspeed = \"knots\"\n").unwrap();
-    assert!(Memory::at(Some(path)).complaint.unwrap().starts_with("config.toml is not used"));
+    assert!(
+        Memory::at(Some(path.clone())).complaint.unwrap().starts_with("config.toml is not used")
+    );
+    std::fs::write(&path, "units = \"rpm\"\n").unwrap();
+    let complaint = Memory::at(Some(path)).complaint.unwrap();
+    assert!(complaint.contains("expected for units a table: units.speed = \"rpm\""), "{complaint}");
+    assert_eq!(complaint.lines().count(), 1);
 }
 
 #[test]

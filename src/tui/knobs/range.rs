@@ -267,7 +267,7 @@ impl Knob {
     /// dragged.
     pub fn near(&self, x: f64) -> Option<Value> {
         match (self.turn, self.allowed()) {
-            (Turn::Linear(fine, _), _) => Some(Value::Real(self.round_to(x, fine))),
+            (Turn::Linear(fine, _), _) => Some(Value::Real(self.stepped(x, fine, None))),
             (Turn::Decades(_), _) => Some(Value::Real(self.bounded(rounded(x, 2)))),
             (Turn::Whole(..), Allowed::Whole { min, max }) => {
                 // A negative or huge number is at a bound.

@@ -109,7 +109,7 @@ pub fn knob(app: &App, buffer: &mut Buffer, area: Rect) {
             centred(app, buffer, area, 0, refusal, app.appearance.style(Role::Trouble));
         }
         (None, InputMode::Typing(text)) => {
-            centred(app, buffer, area, 0, &format!("{} = {text}_", knob.label), focus);
+            centred(app, buffer, area, 0, &format!("{} = {}", knob.label, knob.typed(text)), focus);
         }
         _ => {
             let shown = knob.text(&app.scene);
