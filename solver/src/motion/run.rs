@@ -9,8 +9,8 @@ use super::script::{Script, Scripted};
 use super::sensitivity::sign;
 use super::wave::WaveTracker;
 use super::{
-    Checks, Contact, EnergyAccount, Failure, FailureReason, GoOn, Hold, Motion, Outcome, State,
-    Verdict, to_the_end,
+    Basis, Checks, Contact, EnergyAccount, Failure, FailureReason, GoOn, Hold, Motion, Outcome,
+    Proof, State, Verdict, to_the_end,
 };
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, SolverKind};
 use crate::tolerances::{
@@ -290,6 +290,33 @@ pub fn judge_end(motion: &Motion, checks: &Checks, window: f64) -> (Verdict, Opt
     }
 }
 
+/// Returns what the verdict on a motion rests on; none where it stopped early.
+fn basis(motion: &Motion, verdict: Verdict, window: f64) -> Option<Basis> {
+    let (log, to_s) = (motion.contacts(), motion.t_s());
+    let (by, since_s) = match verdict {
+        Verdict::Failed | Verdict::Divergent => return None,
+        _ if motion.final_verdict() != Some(verdict) => {
+            return Some(Basis::Judged { from_s: (to_s - window).max(0.0), to_s });
+        }
+        Verdict::Locked | Verdict::Adhesive => (Proof::HeldCorner, log.since),
+        _ => match motion.linear_rest() {
+            Some(rest) => (Proof::LinearRest, rest.since_s),
+            None => (Proof::NoContact, log.last_contact.unwrap_or(0.0)),
+        },
+    };
+    Some(Basis::Proved { by, since_s })
+}
+
+/// Returns the rate at which the wave of a motion dies about its linear rest \[1/s\].
+fn decay_rate(motion: &Motion, verdict: Verdict) -> Option<f64> {
+    if matches!(verdict, Verdict::Failed | Verdict::Divergent) {
+        return None;
+    }
+    let machine = motion.machine();
+    let free = || motion.over().then(|| machine.casing_damping_ratio * machine.omega_c);
+    motion.linear_rest().map(|rest| rest.rate_per_s).or_else(free)
+}
+
 /// Runs a scene to its end.
 #[must_use]
 pub fn simulate(scene: &CheckedScene) -> RunReport {
@@ -413,6 +440,8 @@ pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) 
     };
     let outcome = Outcome {
         verdict,
+        basis: basis(motion, verdict, window),
+        decay_rate_per_s: decay_rate(motion, verdict),
         sensitive: None,
         spread: None,
         message: motion.stopped().or_else(|| failure.as_ref().map(ToString::to_string)),
