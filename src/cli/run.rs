@@ -91,6 +91,7 @@ impl RunCommand {
             report.ask_changed_runs(&acts, &to_the_end);
             wall.certainty_s = Some(started.elapsed().as_secs_f64());
         }
+        report.ask_events(&acts, &to_the_end);
         let changes = Some(&script).filter(|script| !script.is_empty());
         let command = self.command(&scene);
         if self.json {

@@ -34,7 +34,7 @@ pub use run::{
     simulate_with, verdict_of,
 };
 pub use script::{Change, Script};
-pub use sensitivity::{CHANGED_RUNS, Spread, is_sensitive, run_with_sensitivity};
+pub use sensitivity::{CHANGED_RUNS, Certainty, Spread, certainty, run_with_certainty};
 pub use solver::{GoOn, Motion, Solver, to_the_end};
 pub use verdict::{Basis, Checks, Contact, LinearRest, Outcome, Proof, Verdict};
 

@@ -9,7 +9,7 @@ use super::script::{Script, Scripted};
 use super::sensitivity::sign;
 use super::wave::WaveTracker;
 use super::{
-    Basis, Checks, Contact, EnergyAccount, Failure, FailureReason, GoOn, Hold, Motion, Outcome,
+    ActiveSet, Basis, Checks, Contact, Course, EnergyAccount, Failure, FailureReason, GoOn, Hold, Motion, Outcome,
     Proof, State, Verdict, to_the_end,
 };
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, SolverKind};
@@ -123,6 +123,9 @@ pub struct RunReport {
     /// What another run must agree with if this one is not sensitive.
     #[serde(skip)]
     pub reached: VerdictReached,
+    /// The way of this run, against which changed ones are held.
+    #[serde(skip)]
+    pub(super) course: Course,
 }
 
 /// How a run lasts, without its history.
@@ -137,6 +140,8 @@ pub struct VerdictReached {
     pub rested: bool,
     /// Since when the wave is locked \[s\].
     pub locked_s: Option<f64>,
+    /// The sides that hold it.
+    pub held: ActiveSet,
 }
 
 impl VerdictReached {
@@ -150,6 +155,7 @@ impl VerdictReached {
             impact_count: log.impact_count,
             rested: locked || log.corner_time() >= period,
             locked_s: locked.then_some(log.since),
+            held: if locked { log.active_set } else { ActiveSet::Nothing },
         }
     }
 }
@@ -376,6 +382,7 @@ pub fn run_to_end_watched(
     let mut scripted = Scripted::new(Motion::new(scene), script);
     let end = scene.solver.end_s;
     let mut wave = WaveTracker::over(scene, script);
+    let mut course = Course::over(end);
     let mut sample = 0_u32;
     loop {
         let sample_time = match sampling.intervals {
@@ -383,7 +390,7 @@ pub fn run_to_end_watched(
             n if sample > n => f64::INFINITY,
             n => end * (f64::from(sample) / f64::from(n)),
         };
-        let until = sample_time.min(wave.next_look()).min(end);
+        let until = sample_time.min(wave.next_look()).min(course.due()).min(end);
         let advanced = loop {
             match scripted.advance_while(until, &|| watch.goes_on()) {
                 Ok(false) => watch.look(&scripted.motion),
@@ -400,16 +407,19 @@ pub fn run_to_end_watched(
                 && scripted.motion.final_verdict().is_some();
             if decided { wave.stop() } else { wave.look(scripted.motion.state()) }
         }
+        if until >= course.due() {
+            course.see(&scripted.motion);
+        }
         if until >= sample_time {
             sink(&take_sample(&mut scripted.motion, sampling.gaps));
             sample += 1;
         }
         let sampled = sampling.intervals == 0 || sample > sampling.intervals;
-        if until >= end && wave.next_look() > end && sampled {
+        if until >= end && wave.next_look().min(course.due()) > end && sampled {
             break;
         }
     }
-    report(scene, &scripted.motion, &wave)
+    report(scene, &scripted.motion, &wave, course)
 }
 
 fn take_sample(motion: &mut Motion, gaps: bool) -> Sample {
@@ -424,7 +434,12 @@ fn take_sample(motion: &mut Motion, gaps: bool) -> Sample {
 }
 
 /// What there is to say of a motion at the end of its run.
-pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) -> RunReport {
+pub(super) fn report(
+    scene: &CheckedScene,
+    motion: &Motion,
+    wave: &WaveTracker,
+    course: Course,
+) -> RunReport {
     let machine = motion.machine();
     let polygon = &machine.polygon;
     let (log, state) = (motion.contacts(), motion.state());
@@ -443,6 +458,9 @@ pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) 
         basis: basis(motion, verdict, window),
         decay_rate_per_s: decay_rate(motion, verdict),
         sensitive: None,
+        ends_otherwise: None,
+        depends_on_step: None,
+        by_events: None,
         spread: None,
         message: motion.stopped().or_else(|| failure.as_ref().map(ToString::to_string)),
         lock_time_s: locked.then_some(log.since),
@@ -489,6 +507,7 @@ pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) 
         broken: lock_that_broke(motion),
         failure,
         reached: VerdictReached::of(motion, verdict),
+        course,
     }
 }
 

@@ -125,8 +125,16 @@ pub struct Outcome {
     /// all blades; negative where it grows; none elsewhere \[1/s\].
     pub decay_rate_per_s: Option<f64>,
     /// Whether a tiny change of what drives the run, or of its rate on the way,
-    /// changes the verdict or the impact count; none where it was not asked.
+    /// changes the verdict, the blades that hold, the impact count or the time of the
+    /// lock; none where it was not asked.
     pub sensitive: Option<bool>,
+    /// Whether it changes the verdict, or the blades that hold.
+    pub ends_otherwise: Option<bool>,
+    /// Whether another step changes them; none where there are no steps, too.
+    pub depends_on_step: Option<bool>,
+    /// Verdict of the event solver, where that of a run by steps is another.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub by_events: Option<Verdict>,
     /// How far such changes move the final numbers; none where it was not asked.
     pub spread: Option<Spread>,
     /// Why the run failed.

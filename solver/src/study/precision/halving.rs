@@ -175,6 +175,7 @@ fn falling(runs: &[Halved], changes: &[f64]) -> Option<(Option<f64>, f64)> {
 
 #[cfg(test)]
 mod tests {
+    use crate::motion::ActiveSet;
     use super::*;
     use crate::motion::Verdict;
 
@@ -189,6 +190,7 @@ mod tests {
                     impact_count: impacts(n),
                     rested: false,
                     locked_s: None,
+                    held: ActiveSet::Nothing,
                 };
                 Halved { step_s, u: [end(step_s), 0.0], reached: Some(reached) }
             })
