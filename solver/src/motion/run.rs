@@ -123,7 +123,7 @@ pub struct RunReport {
     /// What another run must agree with if this one is not sensitive.
     #[serde(skip)]
     pub reached: VerdictReached,
-    /// The way of this run, against which changed ones are held.
+    /// The way of this run, against which changed ones are held; unseen where it was not asked.
     #[serde(skip)]
     pub(super) course: Course,
 }
@@ -336,7 +336,7 @@ pub fn simulate_with(
     sampling: Sampling,
     sink: &mut dyn FnMut(&Sample),
 ) -> RunReport {
-    let mut report = run_to_end(scene, script, sampling, sink);
+    let mut report = run_to_end_watched(scene, script, sampling, sink, &mut Unwatched, true);
     report.ask_changed_runs(script, &to_the_end);
     report
 }
@@ -349,7 +349,7 @@ pub fn run_to_end(
     sampling: Sampling,
     sink: &mut dyn FnMut(&Sample),
 ) -> RunReport {
-    run_to_end_watched(scene, script, sampling, sink, &mut Unwatched)
+    run_to_end_watched(scene, script, sampling, sink, &mut Unwatched, false)
 }
 
 /// Looks at a run on the way, when it wants to. The run is the same.
@@ -371,13 +371,15 @@ impl Watch for Unwatched {
     fn look(&mut self, _: &Motion) {}
 }
 
-/// As `run_to_end`, and looked at on the way.
+/// As `run_to_end`, and looked at on the way; `will_ask` keeps what changed runs are held
+/// against.
 pub fn run_to_end_watched(
     scene: &CheckedScene,
     script: &Script,
     sampling: Sampling,
     sink: &mut dyn FnMut(&Sample),
     watch: &mut dyn Watch,
+    will_ask: bool,
 ) -> RunReport {
     let mut scripted = Scripted::new(Motion::new(scene), script);
     let end = scene.solver.end_s;
@@ -390,7 +392,8 @@ pub fn run_to_end_watched(
             n if sample > n => f64::INFINITY,
             n => end * (f64::from(sample) / f64::from(n)),
         };
-        let until = sample_time.min(wave.next_look()).min(course.due()).min(end);
+        let course_due = if will_ask { course.due() } else { f64::INFINITY };
+        let until = sample_time.min(wave.next_look()).min(course_due).min(end);
         let advanced = loop {
             match scripted.advance_while(until, &|| watch.goes_on()) {
                 Ok(false) => watch.look(&scripted.motion),
@@ -407,7 +410,7 @@ pub fn run_to_end_watched(
                 && scripted.motion.final_verdict().is_some();
             if decided { wave.stop() } else { wave.look(scripted.motion.state()) }
         }
-        if until >= course.due() {
+        if until >= course_due {
             course.see(&scripted.motion);
         }
         if until >= sample_time {
@@ -415,7 +418,7 @@ pub fn run_to_end_watched(
             sample += 1;
         }
         let sampled = sampling.intervals == 0 || sample > sampling.intervals;
-        if until >= end && wave.next_look().min(course.due()) > end && sampled {
+        if until >= end && wave.next_look() > end && sampled {
             break;
         }
     }
