@@ -15,8 +15,8 @@ use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use rubscope_solver::harmonic::{Form, locked_motion};
 use rubscope_solver::motion::{
-    ExactEvents, Motion, Sample, Sampling, Script, run_to_end, run_to_verdict,
-    run_with_certainty, to_the_end,
+    ExactEvents, Motion, Sample, Sampling, Script, run_to_end, run_to_verdict, run_with_certainty,
+    to_the_end,
 };
 use rubscope_solver::scene::{CheckedScene, Scene};
 

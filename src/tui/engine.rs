@@ -13,7 +13,9 @@ use super::views::locked::curves::LockedCurves;
 use super::views::map::plan::{CellRun, LiveMap, MapChoice};
 use super::views::margins::live::LiveMargins;
 use super::views::spectrum::lines::Spectrum;
-use rubscope_solver::motion::{Certainty, ActiveSet, Checks, Failure, Hold, Motion, State, Verdict};
+use rubscope_solver::motion::{
+    ActiveSet, Certainty, Checks, Failure, Hold, Motion, State, Verdict,
+};
 use rubscope_solver::scene::CheckedScene;
 use rubscope_solver::study::MapPlan;
 use rubscope_solver::study::precision::Precision;

@@ -67,7 +67,8 @@ impl Machine {
     #[must_use]
     pub fn push_scale(&self, nu: f64) -> f64 {
         let fastest = self.omega_c.max(nu.abs());
-        let spread = if self.polygon.has_corners() { (2.0 * self.polygon.delta).sin() } else { 1.0 };
+        let spread =
+            if self.polygon.has_corners() { (2.0 * self.polygon.delta).sin() } else { 1.0 };
         self.casing_mass * fastest * fastest * self.clearance().abs() / spread
     }
 }

@@ -9,8 +9,8 @@ use super::script::{Script, Scripted};
 use super::sensitivity::sign;
 use super::wave::WaveTracker;
 use super::{
-    ActiveSet, Basis, Checks, Contact, Course, EnergyAccount, Failure, FailureReason, GoOn, Hold, Motion, Outcome,
-    Proof, State, Verdict, to_the_end,
+    ActiveSet, Basis, Checks, Contact, Course, EnergyAccount, Failure, FailureReason, GoOn, Hold,
+    Motion, Outcome, Proof, State, Verdict, to_the_end,
 };
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, SolverKind};
 use crate::tolerances::{

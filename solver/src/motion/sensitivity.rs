@@ -19,7 +19,7 @@ use super::wave::WaveTracker;
 use super::{Contact, GoOn, Motion, RunReport, Verdict};
 use crate::scene::{CheckedScene, ContactLaw, SolverKind};
 use crate::tolerances::{
-    FINER, LARGEST_BLADE_ANGLE, LOCK_MOMENT, OTHER_STEP, PERTURBATION, STEPS_TO_TRY, STEP_AGREES,
+    FINER, LARGEST_BLADE_ANGLE, LOCK_MOMENT, OTHER_STEP, PERTURBATION, STEP_AGREES, STEPS_TO_TRY,
 };
 
 /// What changed runs say of a run.

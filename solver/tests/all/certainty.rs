@@ -64,9 +64,8 @@ fn a_proved_lock_near_its_limit_holds_in_longer_runs() {
                 };
                 let [short, long] = ["0.0015", "0.024"].map(run);
                 if is_proved(&short) {
-                    let told = |report: &RunReport| {
-                        (report.outcome.verdict, report.outcome.lock_time_s)
-                    };
+                    let told =
+                        |report: &RunReport| (report.outcome.verdict, report.outcome.lock_time_s);
                     assert_eq!(told(&short), told(&long), "{blades} {near} {kind} {model}");
                     proved[usize::from(short.outcome.verdict == Verdict::Locked)] += 1;
                 }

@@ -59,7 +59,9 @@ fn assert_reads_well(facts: &Facts) {
 
 #[test]
 fn a_sentence_is_the_one_of_every_width_down_to_its_own() {
-    for doubts in [vec![], vec![Doubt::Pulls(7, Some(Verdict::Decay)), Doubt::Sensitive { ends: true }]] {
+    for doubts in
+        [vec![], vec![Doubt::Pulls(7, Some(Verdict::Decay)), Doubt::Sensitive { ends: true }]]
+    {
         for verdict in Verdict::ALL {
             let facts = Facts { doubts: doubts.clone(), ..facts(verdict) };
             for width in WIDTHS {

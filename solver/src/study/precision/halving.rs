@@ -175,8 +175,8 @@ fn falling(runs: &[Halved], changes: &[f64]) -> Option<(Option<f64>, f64)> {
 
 #[cfg(test)]
 mod tests {
-    use crate::motion::ActiveSet;
     use super::*;
+    use crate::motion::ActiveSet;
     use crate::motion::Verdict;
 
     /// Runs at seven halvings of a step of one second, whose ends are these, with as many

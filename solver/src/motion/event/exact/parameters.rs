@@ -15,7 +15,9 @@ use crate::model::Machine;
 use crate::motion::Plane;
 use crate::motion::propagator::Propagator;
 use crate::scene::{ModelSize, Scene};
-use crate::tolerances::{self, CERTAIN_PUSH, CLEARANCES_A_RADIAN, FOLLOWING_GAP, FOLLOWING_RATES, ROUND_OFF};
+use crate::tolerances::{
+    self, CERTAIN_PUSH, CLEARANCES_A_RADIAN, FOLLOWING_GAP, FOLLOWING_RATES, ROUND_OFF,
+};
 
 /// The machine in the units the solver works with: everything per unit mass.
 #[derive(Clone, Debug)]

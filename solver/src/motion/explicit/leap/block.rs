@@ -7,7 +7,7 @@ use super::held_corner::HeldCorner;
 use crate::motion::explicit::disk::Disk;
 use crate::motion::explicit::{Coordinate, Explicit};
 use crate::motion::{EnergyAccount, Verdict};
-use crate::tolerances::{HELD_AFTER, CERTAIN_PUSH, LIGHT_BLADES, ROOM_TO_CHANGE};
+use crate::tolerances::{CERTAIN_PUSH, HELD_AFTER, LIGHT_BLADES, ROOM_TO_CHANGE};
 
 /// A block without end: no contact can ever come again.
 pub(in crate::motion::explicit) const ENDLESS: u64 = u64::MAX;

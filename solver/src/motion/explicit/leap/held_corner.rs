@@ -27,8 +27,8 @@ use crate::motion::explicit::disk::{Disk, HeldModes};
 use crate::motion::explicit::oscillator::{LARGEST, Leap};
 use crate::motion::explicit::{Coordinate, Explicit};
 use crate::tolerances::{
-    ANGLE_LOOK, CERTAIN_PUSH, HELD_AFTER, HELD_AGAIN, HELD_CORRECTIONS, HELD_PROBE, MOST_GROWTH, ROOM_TO_CHANGE,
-    SMALL_TURNS,
+    ANGLE_LOOK, CERTAIN_PUSH, HELD_AFTER, HELD_AGAIN, HELD_CORRECTIONS, HELD_PROBE, MOST_GROWTH,
+    ROOM_TO_CHANGE, SMALL_TURNS,
 };
 
 type StepMap = SMatrix<f64, 4, 4>;
