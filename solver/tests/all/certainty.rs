@@ -172,7 +172,7 @@ fn a_verdict_that_another_step_changes_says_so() {
 
 #[test]
 fn a_step_that_is_too_long_is_blamed_and_one_that_holds_is_named() {
-    for step in ["1e-6", "6.1e-7"] {
+    for step in ["1e-6", "6.18e-7"] {
         let report = simulate(&scene("paper-nd3", &[("solver.step_s", step)]));
         let message = report.outcome.message.unwrap();
         let (_, holds) = message.split_once("the step is too long: with ").unwrap();
