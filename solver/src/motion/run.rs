@@ -326,7 +326,7 @@ fn decay_rate(motion: &Motion, verdict: Verdict) -> Option<f64> {
         return None;
     }
     let machine = motion.machine();
-    let free = || motion.over().then(|| machine.casing_damping_ratio * machine.omega_c);
+    let free = || motion.over().then_some(machine.casing_damping_ratio * machine.omega_c);
     motion.linear_rest().map(|rest| rest.rate_per_s).or_else(free)
 }
 
