@@ -3,9 +3,10 @@
 //! structures (docs/theory.md, section 4). Where it changes with the speed: `spin`.
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 use super::spin::Spin;
-use super::{BladedDisk, Casing, ContactPolygon, LiningLaw, Number};
+use super::{BladedDisk, Casing, ContactPolygon, LiningLaw, Number, Tips};
 
 /// The four-coordinate model of one machine at one number of nodal diameters.
 ///
@@ -59,6 +60,8 @@ pub struct Machine<T = f64> {
     pub lining: Option<LiningLaw<T>>,
     /// How it changes with the speed, if it does.
     pub(super) spin: Option<Spin<T>>,
+    /// What tells tips and places of the casing apart, if anything does.
+    pub(crate) tips: Option<Arc<Tips<T>>>,
 }
 
 impl<T: Number> Machine<T> {
@@ -98,7 +101,9 @@ impl<T: Number> Machine<T> {
             friction: T::from(0.0),
             lining: None,
             spin: None,
+            tips: None,
         };
+        machine.tips = Tips::of(disk, casing, &machine.polygon).map(Arc::new);
         machine.spin = Spin::of(disk, casing, &machine);
         machine
     }
@@ -191,6 +196,7 @@ impl<T: Number> Machine<T> {
                 smoothing_m: of(lining.smoothing_m),
             }),
             spin: self.spin.map(|spin| spin.map(&of)),
+            tips: self.tips.as_ref().map(|tips| Arc::new(tips.map(&of))),
         }
     }
 

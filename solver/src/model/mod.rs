@@ -9,6 +9,7 @@ mod number;
 mod parameters;
 mod polygon;
 mod spin;
+mod tips;
 
 pub use lining::LiningLaw;
 pub use lock::LockWindow;
@@ -18,4 +19,5 @@ pub use parameters::{
     BladedDisk, Casing, ContactSurface, Excitation, Initial, Mode, ModePart, Operation,
 };
 pub use polygon::ContactPolygon;
+pub(crate) use tips::Tips;
 pub(crate) use polygon::{fraction_of_turn, gcd};

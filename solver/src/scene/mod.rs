@@ -191,6 +191,20 @@ impl Scene {
         machine
     }
 
+    /// Where the casing starts: at its initial place, or, where none is given and tips leave
+    /// the centre outside of rigid contact, at the open place nearest to it \[m\].
+    #[must_use]
+    pub fn start(&self) -> (f64, f64) {
+        let Initial { u_c_m, u_s_m, v_c_m_s, v_s_m_s } = self.initial;
+        let machine = self.machine();
+        let given = [u_c_m, u_s_m, v_c_m_s, v_s_m_s].iter().any(|value| *value != 0.0);
+        let lined = self.solver.contact == ContactLaw::Smooth;
+        if given || lined || !machine.is_uneven() {
+            return (u_c_m, u_s_m);
+        }
+        machine.nearest_open((0.0, 0.0), 0.0, |_| 0.0).unwrap_or_default()
+    }
+
     /// The lining under a blade, with the smooth law.
     #[must_use]
     pub fn lining(&self) -> Option<LiningLaw> {

@@ -14,6 +14,7 @@ use super::disk::{Columns, Disk, dot, total};
 use super::lasting::mark;
 use super::record::Record;
 use super::rows::TipLaw;
+use super::uneven::Uneven;
 use crate::model::LiningLaw;
 use crate::motion::{ActiveSet, Plane};
 use crate::tolerances::{LINING_MARGIN, SERIES_PHASE, SHORT_SERIES_PHASE};
@@ -157,17 +158,31 @@ impl Lining {
 
     /// Computes the pushes of all rows, with the casing at `z` in the frame of the blades and
     /// the modes or each row at its angle, whose phase never exceeds `most`.
-    fn press(&mut self, z: Plane, tips: &TipLaw, modes: Option<[f64; 2]>, most: f64) {
+    fn press(
+        &mut self,
+        z: Plane,
+        tips: &TipLaw,
+        modes: Option<[f64; 2]>,
+        most: f64,
+        uneven: Option<&Uneven>,
+    ) {
+        if let Some(uneven) = uneven {
+            let short = |blade, angle| uneven.short(blade, angle);
+            self.sums = self.press_by(z, tips, modes, short, f64::sin_cos);
+            return;
+        }
+        // Less zero is the same number.
+        let even = |_, _| [0.0; 2];
         // The shortest series of sine and cosine that is exact.
         self.sums = if most < SHORT_SERIES_PHASE {
-            self.press_by(z, tips, modes, |phase| {
+            self.press_by(z, tips, modes, even, |phase| {
                 let q = phase * phase;
                 // Short chains of operations.
                 let cos = (1.0 - q * 0.5) + (q * q) * (1.0 / 24.0);
                 (phase - (phase * (1.0 / 6.0)) * q, cos)
             })
         } else if most < SERIES_PHASE {
-            self.press_by(z, tips, modes, |phase| {
+            self.press_by(z, tips, modes, even, |phase| {
                 let q = phase * phase;
                 let fifth = 1.0 - q * (1.0 / 20.0) * (1.0 - q * (1.0 / 42.0));
                 let fourth = 1.0 - q * (1.0 / 30.0) * (1.0 - q * (1.0 / 56.0));
@@ -175,17 +190,19 @@ impl Lining {
                 (phase - phase * (q * (1.0 / 6.0) * fifth), cos)
             })
         } else {
-            self.press_by(z, tips, modes, f64::sin_cos)
+            self.press_by(z, tips, modes, even, f64::sin_cos)
         };
     }
 
-    /// Does the same by this sine and cosine.
+    /// Does the same by this sine and cosine, of rows short of the clearance by so much, with
+    /// levers that are.
     #[inline(always)]
     fn press_by(
         &mut self,
         z: Plane,
         tips: &TipLaw,
         modes: Option<[f64; 2]>,
+        short: impl Fn(u32, f64) -> [f64; 2],
         sin_cos: impl Fn(f64) -> (f64, f64),
     ) -> Sums {
         let eps = self.law.smoothing_m;
@@ -208,7 +225,7 @@ impl Lining {
         // Slices of one length, so that the loop has no checks.
         let [phase, cosine, sine] =
             [&rows.angle, &rows.cosine, &rows.sine].map(|column| &column[..count]);
-        let stiffness = &rows.stiffness[..count];
+        let (stiffness, index) = (&rows.stiffness[..count], &rows.index[..count]);
         let [normal_c, normal_s] = &mut rows.normal;
         let [normal_c, normal_s, depth, push, torque] =
             [normal_c, normal_s, &mut rows.depth, &mut rows.push, &mut rows.torque]
@@ -219,12 +236,13 @@ impl Lining {
             let along = sine[k] * cos + cosine[k] * sin;
             let inward = across * z.re + along * z.im;
             let arm = across * z.im - along * z.re;
-            let deep = phase[k] * rise - (inward + clearance);
+            let [short, steep] = short(index[k], phase[k] / scale);
+            let deep = phase[k] * rise - (inward + clearance - short);
             let deep = if deep > 0.0 { deep } else { 0.0 };
             let parabola = if deep < eps { deep } else { eps };
             let pressed = (parabola * parabola * by_depth + (deep - parabola)) * stiffness[k];
             (normal_c[k], normal_s[k], depth[k]) = (across, along, deep);
-            (push[k], torque[k]) = (pressed, pressed * (arm * diameters - pushed));
+            (push[k], torque[k]) = (pressed, pressed * (arm * diameters - steep - pushed));
         }
         rows.impulse.iter_mut().zip(&*push).for_each(|(impulse, push)| *impulse += push);
         let both = push.iter().zip(&rows.before);
@@ -337,12 +355,13 @@ impl<B: Disk> Explicit<B> {
         }
         let anew = self.find_near(z, tips, bound);
         let n = self.n;
-        let Self { lining: Some(lining), blades, record, .. } = self else { return };
+        let Self { lining: Some(lining), blades, record, beyond, .. } = self else { return };
         let modes = blades.modes();
         if modes.is_none() {
             blades.angles(&mut lining.near);
         }
-        lining.press(z, tips, modes, tips.diameters * bound);
+        let uneven = beyond.uneven.as_ref();
+        lining.press(z, tips, modes, tips.diameters * bound, uneven);
         if anew || lining.sums.changed {
             lining.keep_change(record, n, blades.table().count());
         }
@@ -399,15 +418,19 @@ impl<B: Disk> Explicit<B> {
         let back = Plane::cis(tips.diameters * self.drive.speed(0) * self.drive.step);
         let z = Plane::new(self.u[0].x - self.u[0].increment, self.u[1].x - self.u[1].increment);
         let lost = self.beyond.closed[0];
-        let Self { lining: Some(lining), blades, machine, .. } = self else { return };
-        let each = f64::from(blades.table().blades_per_row);
-        let mut energy = 0.0;
-        for (row, side, _) in lining.pressed() {
-            let direction = machine.polygon.direction(side);
-            let gap = tips.place(direction, z * back, blades.angle_before(row)).gap + lost;
-            energy += each * lining.law.energy(gap);
+        let each = f64::from(self.blades.table().blades_per_row);
+        let pressed: Vec<(u32, u32)> = match &self.lining {
+            Some(lining) => lining.pressed().map(|(row, side, _)| (row, side)).collect(),
+            None => Vec::new(),
+        };
+        let mut gaps = Vec::with_capacity(pressed.len());
+        for (row, side) in pressed {
+            let angle = self.blades.angle_before(row);
+            gaps.push(self.place_of((row, side), z * back, &tips, angle, 1).gap + lost);
         }
-        lining.held_before = Some(energy);
+        let Some(lining) = &mut self.lining else { return };
+        let energies = gaps.into_iter().map(|gap| each * lining.law.energy(gap));
+        lining.held_before = Some(energies.fold(0.0, |sum, energy| sum + energy));
         self.keep_pressed();
     }
 

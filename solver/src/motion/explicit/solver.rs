@@ -181,6 +181,7 @@ impl<B: Disk> Solver for Explicit<B> {
         self.interrupt();
         self.beyond.lasting.forget();
         self.drive.set_speed(self.n, speed, ramp);
+        self.take_shape();
         self.take_speed();
     }
 

@@ -36,11 +36,6 @@ impl RowTable {
         self.rows_per_side
     }
 
-    /// Whether a side is one row.
-    pub fn is_by_side(&self) -> bool {
-        self.rows_per_side == 1
-    }
-
     /// The rows of a side.
     pub fn of_side(&self, side: u32) -> &[u32] {
         let first = side as usize * self.rows_per_side;
