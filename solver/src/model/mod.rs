@@ -9,6 +9,7 @@ mod number;
 mod parameters;
 mod polygon;
 mod spin;
+mod tip_corner;
 mod tips;
 
 pub use lining::LiningLaw;
@@ -19,5 +20,6 @@ pub use parameters::{
     BladedDisk, Casing, ContactSurface, Excitation, Initial, Mode, ModePart, Operation,
 };
 pub use polygon::ContactPolygon;
+pub use tip_corner::TipCorner;
 pub(crate) use tips::Tips;
 pub(crate) use polygon::{fraction_of_turn, gcd};
