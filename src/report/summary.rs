@@ -105,6 +105,10 @@ fn meaning(report: &RunReport) -> &'static str {
         Verdict::Whirl => {
             "The contact is permanent, passes from blade to blade and keeps the blades swinging."
         }
+        Verdict::Forced => {
+            "One blade or group of blades presses without a break and drags the wave; no corner \
+             is held."
+        }
         Verdict::Divergent => {
             "Nothing bounds the growth of the motion; what follows is the last state."
         }
@@ -331,6 +335,7 @@ mod tests {
             (Verdict::Bounce, "again and again"),
             (Verdict::Slip, "slips along the blades"),
             (Verdict::Whirl, "keeps the blades swinging"),
+            (Verdict::Forced, "drags the wave"),
             (Verdict::Divergent, "Nothing bounds the growth"),
             (Verdict::Locked, "all of them push"),
             (Verdict::Adhesive, "a pull holds it, which a real contact cannot do"),

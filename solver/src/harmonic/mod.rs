@@ -25,6 +25,7 @@ mod joint;
 mod lining;
 mod locked;
 mod round_whirl;
+mod roundness;
 mod slip;
 mod stability;
 
@@ -40,7 +41,7 @@ pub use error::HarmonicError;
 pub use excitation::{ExcitedLock, ExcitedLocks, drives};
 pub use joint::{Flutter, Joint, flutter_speed, flutters, lock_roots, undamped_flutter_speed};
 pub use lining::{
-    Cycle, GroupPush, GrowthThreshold, HopfPoint, LeastStiffness, Lining, LiningState, Rest,
+    Cycle, Forced, GroupPush, GrowthThreshold, HopfPoint, LeastStiffness, Lining, LiningState, Rest,
     RestRoot, ShiftedCoincidence, Whirl, growth_threshold, least_lock_stiffness,
 };
 pub use locked::{
@@ -50,6 +51,7 @@ pub use round_whirl::{
     RoundWhirl, RoundWhirlLoads, WhirlOnset, round_whirls, whirl_beginnings, whirl_onset,
     whirl_onsets,
 };
+pub use roundness::roundness;
 pub use slip::{
     Crossing, NoSlip, SlipLimit, SlipOrbit, SlipPoint, SlipRegion, slip_limits, slip_map, slip_over,
 };

@@ -100,10 +100,12 @@ pub trait Solver: Debug + Send + Sync {
     /// The verdict over the last `window` seconds.
     fn lasting(&self, window: f64) -> Verdict {
         let clearance = self.machine().clearance().abs();
-        match judge(self.contacts(), self.t_s(), window) {
+        let (contacts, now) = (self.contacts(), self.t_s());
+        let verdict = match judge(contacts, now, window) {
             Verdict::Slip if self.swing() > WHIRL_SWING * clearance => Verdict::Whirl,
             other => other,
-        }
+        };
+        verdict.unless_forced(self.machine(), contacts, now - window)
     }
 
     /// How far blade tips swing outward over the last part of the run,

@@ -171,7 +171,7 @@ impl Map {
 
     /// Returns how many cells have each verdict, and how many are sensitive.
     #[must_use]
-    pub fn census(&self) -> ([(Verdict, usize); 8], usize) {
+    pub fn census(&self) -> ([(Verdict, usize); Verdict::ALL.len()], usize) {
         let cells = || self.cells.iter().flatten();
         let count = Verdict::ALL
             .map(|verdict| (verdict, cells().filter(|cell| cell.verdict == verdict).count()));

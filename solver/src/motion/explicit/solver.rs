@@ -108,7 +108,8 @@ impl<B: Disk> Solver for Explicit<B> {
         }
         let (lasting, clearance) = (&self.beyond.lasting, self.machine.clearance());
         let lining = self.lining.is_some();
-        lasting.verdict(log, now, window, clearance, lining, || self.no_wave_dies())
+        let verdict = lasting.verdict(log, now, window, clearance, lining, || self.no_wave_dies());
+        verdict.unless_forced(&self.machine, log, now - window)
     }
 
     fn swing(&self) -> f64 {

@@ -3,9 +3,11 @@
 
 use num_dual::Dual64;
 
-use super::limit::{Limit, LimitName, Sensitivities};
+use super::limit::{Limit, LimitName, Quantity, Sensitivities};
 use super::parameters::{Parameter, Parameters, acting, sensitivity};
-use crate::harmonic::{flutters, lock_fold_speed, lock_loads, whirl_beginnings, whirl_onset};
+use crate::harmonic::{
+    flutters, lock_fold_speed, lock_loads, roundness, whirl_beginnings, whirl_onset,
+};
 use crate::model::{Machine, Number};
 use crate::numeric::rounding::rounded;
 use crate::scene::{CheckedScene, Scene};
@@ -15,10 +17,10 @@ use crate::scene::{CheckedScene, Scene};
 const FAR: f64 = 10.0;
 
 /// How many of the closed forms are speeds; they come first.
-const SPEEDS: usize = 9;
+const SPEEDS: usize = 10;
 
 /// The closed forms, in the order in which they are shown.
-pub(super) const CLOSED: [LimitName; 13] = [
+pub(super) const CLOSED: [LimitName; 15] = [
     LimitName::OmegaC,
     LimitName::OmegaAdhesive,
     LimitName::OmegaLock,
@@ -28,15 +30,28 @@ pub(super) const CLOSED: [LimitName; 13] = [
     LimitName::CoincidenceDifference,
     LimitName::WhirlOnset,
     LimitName::FlutterSpeed,
+    LimitName::FirstTouch,
     LimitName::PushA,
     LimitName::PushB,
     LimitName::Torque,
     LimitName::Power,
+    LimitName::Roundness,
 ];
 
 /// Those that few machines have, shown where they are.
-const SELDOM: [LimitName; 4] =
-    [LimitName::LockEnds, LimitName::LockFold, LimitName::WhirlOnset, LimitName::FlutterSpeed];
+const SELDOM: [LimitName; 6] = [
+    LimitName::LockEnds,
+    LimitName::LockFold,
+    LimitName::WhirlOnset,
+    LimitName::FlutterSpeed,
+    LimitName::FirstTouch,
+    LimitName::Roundness,
+];
+
+/// The numbers of lobes of which the roundness of a lock is told.
+fn lobes_of(diameters: u32) -> impl Iterator<Item = u32> {
+    (1..=4).chain((diameters > 4).then_some(diameters))
+}
 
 /// The first of every closed form of these parameters, in the order of `CLOSED`; none
 /// where the machine has no such limit.
@@ -56,7 +71,9 @@ fn every<T: Number>(parameters: &Parameters<T>) -> [Vec<T>; CLOSED.len()] {
         of(|loads| loads.torque_nm),
         of(|loads| loads.power_w),
     ];
-    let mut all = speed_values(&machine, speed).into_iter().chain(of_lock);
+    let lobes = lobes_of(parameters.operation.nodal_diameters);
+    let round = lobes.map_while(|lobes| roundness(&machine, speed, lobes)).collect();
+    let mut all = speed_values(&machine, speed).into_iter().chain(of_lock).chain([round]);
     std::array::from_fn(|_| all.next().unwrap_or_default())
 }
 
@@ -82,6 +99,7 @@ fn speed_values<T: Number>(machine: &Machine<T>, speed: T) -> [Vec<T>; SPEEDS] {
         machine.coincidence_differences(),
         whirls.into_iter().map(|onset| onset * sense).collect(),
         fluttering.into_iter().map(|flutter| flutter.from).collect(),
+        one(machine.touching_speed()),
     ]
 }
 
@@ -141,8 +159,11 @@ pub(super) fn limits(scene: &CheckedScene) -> Vec<Limit> {
     keep_known(scene, &mut found);
     let derived: Vec<[Vec<Dual64>; CLOSED.len()]> =
         acting(scene).map(|parameter| every(&parameter.seeded(scene))).collect();
-    let present =
-        |name: LimitName| name.quantity().path().map(|_| scene.operation.speed_rad_s.abs());
+    let present = |name: LimitName| match name.quantity() {
+        Quantity::Height => Some(scene.casing.out_of_round_m),
+        quantity => quantity.path().map(|_| scene.operation.speed_rad_s.abs()),
+    };
+    let lobes: Vec<u32> = lobes_of(scene.operation.nodal_diameters).collect();
     let limits = CLOSED.into_iter().enumerate().flat_map(|(place, name)| {
         let mut limits = Vec::new();
         for (which, &value) in found[place].iter().enumerate() {
@@ -153,6 +174,10 @@ pub(super) fn limits(scene: &CheckedScene) -> Vec<Limit> {
             });
             limit.sensitivities = Sensitivities(by.collect());
             limit.note = note(scene, name, value);
+            if name == LimitName::Roundness {
+                limit.lobes = lobes.get(which).copied();
+                limit.note = limit.lobes.map(|lobes| format!("of {lobes} lobes"));
+            }
             limits.push(limit);
         }
         if limits.is_empty() {
@@ -234,6 +259,9 @@ fn why_none(scene: &CheckedScene, name: LimitName) -> String {
             (Some(_), _) if hard.is_some() => {
                 "two groups alone hold no stable lock on the lining at this speed; others \
                  may: its steady states"
+            }
+            _ if machine.is_uneven() => {
+                "not known of these tips and this shape of the casing: runs have it"
             }
             _ if machine.tips_incline_or_rub() => {
                 "friction or the slope of the tips leaves no lock here"
