@@ -32,7 +32,8 @@ pub fn write(report: &RunReport, wall: Wall, out: &mut dyn Write) -> Result<()> 
         writeln!(out, "{}", report.scene.title)?;
     }
     writeln!(out, "{}", how(report))?;
-    if let Some(note) = report.scene.modes_note() {
+    let scene = &report.scene;
+    for note in scene.modes_note().into_iter().chain(scene.start_note()) {
         writeln!(out, "{}.", capital(&note))?;
     }
     if report.solver.linearised {

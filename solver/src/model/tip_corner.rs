@@ -44,26 +44,29 @@ impl<T: Number> Machine<T> {
     /// Every corner of two sides that no other cuts off, at the clearance of now.
     #[must_use]
     pub fn tip_corners(&self) -> Vec<TipCorner<T>> {
-        let polygon = &self.polygon;
-        let apothems: Vec<f64> = (0..polygon.sides).map(|side| self.apothem(side).re()).collect();
+        let sides = self.polygon.sides;
+        let apothems: Vec<f64> = (0..sides).map(|side| self.apothem(side).re()).collect();
+        let least = apothems.iter().copied().fold(f64::INFINITY, f64::min);
         let mut corners = Vec::new();
-        for (a, height) in (0..polygon.sides).zip(&apothems) {
-            let (c, s) = polygon.direction(a);
-            // Along the side, from the foot of its normal.
-            let (mut low, mut high, mut next) = (f64::NEG_INFINITY, f64::INFINITY, None);
-            for (other, apothem) in (0..polygon.sides).zip(&apothems).filter(|(b, _)| *b != a) {
-                let (x, y) = polygon.direction(other);
-                let (cos, sin) = (c * x + s * y, c * y - s * x);
-                let open = apothem - height * cos;
-                if sin > f64::EPSILON && open / sin < high {
-                    (high, next) = (open / sin, Some(other));
-                } else if sin < -f64::EPSILON {
-                    low = low.max(open / sin);
-                } else if open < 0.0 {
-                    high = f64::NEG_INFINITY;
+        for (a, height) in (0..sides).zip(&apothems) {
+            // How far along the side others let it reach, from the foot of its normal.
+            let reach = |backward: bool| {
+                let (mut end, mut cutting) = (f64::INFINITY, a);
+                for k in 1..sides.div_ceil(2) {
+                    let (sin, cos) = (2.0 * self.polygon.delta * f64::from(k)).sin_cos();
+                    if least > 0.0 && (least - height * cos) / sin > end {
+                        break;
+                    }
+                    let other = (a + if backward { sides - k } else { k }) % sides;
+                    let cut = (apothems[other as usize] - height * cos) / sin;
+                    if cut < end {
+                        (end, cutting) = (cut, other);
+                    }
                 }
-            }
-            if let Some(b) = next.filter(|_| low < high) {
+                (end, cutting)
+            };
+            let ((high, b), (low, _)) = (reach(false), reach(true));
+            if -low < high && b != a {
                 corners.push(self.tip_corner([a, b]));
             }
         }

@@ -205,6 +205,18 @@ impl Scene {
         machine.nearest_open((0.0, 0.0), 0.0, |_| 0.0).unwrap_or_default()
     }
 
+    /// Where the casing starts, if not at its initial place.
+    #[must_use]
+    pub fn start_note(&self) -> Option<String> {
+        let (x, y) = self.start();
+        ((x, y) != (self.initial.u_c_m, self.initial.u_s_m)).then(|| {
+            format!(
+                "tips leave the centre outside, so the casing begins at rest at the nearest open \
+                 place, u_c = {x:.6e} m and u_s = {y:.6e} m"
+            )
+        })
+    }
+
     /// The lining under a blade, with the smooth law.
     #[must_use]
     pub fn lining(&self) -> Option<LiningLaw> {

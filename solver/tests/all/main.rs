@@ -39,6 +39,7 @@ mod explicit_lining;
 mod explicit_tip_locks;
 mod explicit_tips;
 mod full_disk;
+mod imperfect;
 mod live_changes;
 mod live_event;
 mod live_random;

@@ -273,8 +273,8 @@ impl<B: Disk> Explicit<B> {
         self.gaps.clear();
         let mut deepest = 0.0_f64;
         // Of blades that turn alike only the deepest of a side can hold.
-        let alike = self.tips.rise == 0.0 || self.blades.wave().is_some();
-        let one_by_one = alike && self.blades.table().rows_per_side() > 1;
+        let alone = self.blades.table().rows_per_side() > 1
+            && (self.tips.rise == 0.0 || self.blades.wave().is_some());
         for place in 0..self.beyond.candidates.len() {
             let row = self.row_at(self.beyond.candidates[place], z, tips);
             let mut gap = row.place.gap;
@@ -283,7 +283,7 @@ impl<B: Disk> Explicit<B> {
             }
             deepest = deepest.max(-gap);
             let same = |known: &Row| known.side == row.side;
-            if let Some(known) = self.rows.iter().position(same).filter(|_| one_by_one) {
+            if let Some(known) = alone.then(|| self.rows.iter().position(same)).flatten() {
                 if gap < self.gaps[known] {
                     (self.rows[known], self.gaps[known]) = (row, gap);
                 }

@@ -176,7 +176,6 @@ pub(super) fn limits(scene: &CheckedScene) -> Vec<Limit> {
             limit.note = note(scene, name, value);
             if name == LimitName::Roundness {
                 limit.lobes = lobes.get(which).copied();
-                limit.note = limit.lobes.map(|lobes| format!("of {lobes} lobes"));
             }
             limits.push(limit);
         }
