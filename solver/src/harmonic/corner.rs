@@ -43,7 +43,8 @@ impl Corner {
     ) -> Result<Self, HarmonicError> {
         let polygon = &machine.polygon;
         if !machine.has_unequal_tips() {
-            return blades.map_or_else(|| Self::paper(polygon), |pair| Self::of_blades(polygon, pair));
+            return blades
+                .map_or_else(|| Self::paper(polygon), |pair| Self::of_blades(polygon, pair));
         }
         error::refuse_no_corner(polygon)?;
         let Some([first, second]) = blades else {

@@ -41,8 +41,8 @@ pub use error::HarmonicError;
 pub use excitation::{ExcitedLock, ExcitedLocks, drives};
 pub use joint::{Flutter, Joint, flutter_speed, flutters, lock_roots, undamped_flutter_speed};
 pub use lining::{
-    Cycle, Forced, GroupPush, GrowthThreshold, HopfPoint, LeastStiffness, Lining, LiningState, Rest,
-    RestRoot, ShiftedCoincidence, Whirl, growth_threshold, least_lock_stiffness,
+    Cycle, Forced, GroupPush, GrowthThreshold, HopfPoint, LeastStiffness, Lining, LiningState,
+    Rest, RestRoot, ShiftedCoincidence, Whirl, growth_threshold, least_lock_stiffness,
 };
 pub use locked::{
     LockLoads, Locked, LockedPoint, Sweep, lock_fold_speed, lock_loads, locked_motion,

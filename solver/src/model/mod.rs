@@ -20,6 +20,6 @@ pub use parameters::{
     BladedDisk, Casing, ContactSurface, Excitation, Initial, Mode, ModePart, Operation,
 };
 pub use polygon::ContactPolygon;
+pub(crate) use polygon::{fraction_of_turn, gcd};
 pub use tip_corner::TipCorner;
 pub(crate) use tips::Tips;
-pub(crate) use polygon::{fraction_of_turn, gcd};

@@ -1,4 +1,4 @@
-//! Tips of their own and a casing that is out of round (docs/theory.md, section 11): what each
+//! Tips of their own and a casing that is out of round (docs/theory.md, section 10): what each
 //! gap has beside the clearance, `-b_i + e cos(m phi_i - psi)`, and where the casing has room
 //! among the tips, which are sides of a polygon with apothems `h_i = g0 - b_i`.
 
@@ -28,8 +28,7 @@ pub(crate) struct Tips<T = f64> {
 impl<T: Number> Tips<T> {
     /// Creates those of a machine; none where its tips are equal and its casing is round.
     pub fn of(disk: &BladedDisk<T>, casing: &Casing<T>, polygon: &ContactPolygon) -> Option<Self> {
-        let numbers =
-            [disk.tip_scatter_m, disk.longest_tip_m, disk.orbit_m, casing.out_of_round_m];
+        let numbers = [disk.tip_scatter_m, disk.longest_tip_m, disk.orbit_m, casing.out_of_round_m];
         let own = disk.tips_m.iter().any(|b| *b != 0.0);
         if !own && numbers.iter().all(|number| number.re() == 0.0) {
             return None;
@@ -119,7 +118,11 @@ impl<T: Number> Machine<T> {
     /// centre outside \[m\].
     #[must_use]
     pub fn apothem(&self, side: u32) -> T {
-        if self.tips.is_none() { self.clearance } else { self.clearance - self.longest_of_side(side) }
+        if self.tips.is_none() {
+            self.clearance
+        } else {
+            self.clearance - self.longest_of_side(side)
+        }
     }
 
     /// The smallest gap that a casing at rest can have, `g0 - e - max b` \[m\].
@@ -132,7 +135,8 @@ impl<T: Number> Machine<T> {
     #[must_use]
     pub fn most_uneven(&self) -> T {
         let Some(tips) = &self.tips else { return T::zero() };
-        let longest = tips.longer.iter().copied().reduce(|a, b| if a.re() < b.re() { b } else { a });
+        let longest =
+            tips.longer.iter().copied().reduce(|a, b| if a.re() < b.re() { b } else { a });
         tips.out_of_round + longest.unwrap_or_else(T::zero)
     }
 }
@@ -175,7 +179,8 @@ impl Machine {
         }
         let turns = if tips.out_of_round == 0.0 { 1 } else { (16 * tips.lobes).clamp(64, 1024) };
         let theta = |k: u32| TAU * f64::from(k) / f64::from(turns);
-        self.clearance > 0.0 && (0..turns).all(|k| self.nearest_open((0.0, 0.0), theta(k), |_| 0.0).is_some())
+        self.clearance > 0.0
+            && (0..turns).all(|k| self.nearest_open((0.0, 0.0), theta(k), |_| 0.0).is_some())
     }
 }
 

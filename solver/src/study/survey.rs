@@ -106,7 +106,8 @@ impl Scattered {
             let mut rotor = scene.clone();
             (rotor.bladed_disk.tips_m, rotor.casing.out_of_round_m) = (Vec::new(), 0.0);
             (rotor.bladed_disk.longest_tip_m, rotor.bladed_disk.orbit_m) = (0.0, 0.0);
-            (rotor.bladed_disk.tip_scatter_m, rotor.bladed_disk.tip_seed) = (tip_scatter_m, tip_seed);
+            (rotor.bladed_disk.tip_scatter_m, rotor.bladed_disk.tip_seed) =
+                (tip_scatter_m, tip_seed);
             rotor.machine().lock_speed_toward(scene.operation.speed_rad_s)
         };
         let (equal_rad_s, tip_scatter_m) = (lock(0.0, 1)?, 0.01 * scene.clearance());

@@ -1,11 +1,11 @@
 //! Tips of their own lengths and a casing out of round: closed forms to their digits, and runs.
-//! The numbers are those of two other codes (docs/theory.md, section 11).
+//! The numbers are those of two other codes (docs/theory.md, section 10).
 
 use std::f64::consts::TAU;
 
+use nalgebra::Complex;
 use rubscope_solver::harmonic::{Lining, lock_loads, roundness};
 use rubscope_solver::motion::{ActiveSet, Motion, RunReport, Verdict};
-use nalgebra::Complex;
 use rubscope_solver::scene::{CheckedScene, ModelSize, Scene, Shortcuts};
 use rubscope_solver::study::margins::{LimitName, Margins};
 use rubscope_solver::study::survey::Scattered;
@@ -135,12 +135,12 @@ fn held_with(keys: &[(&str, &str)], lobes: u32, height: f64) -> Option<(CheckedS
     };
     let [at_a, at_b] = sides.map(lobe);
     let sine = (a.conj() * b).im;
-    let corner = Complex::i() * (a * second - b * first) / -sine;
+    let corner = Complex::new(0.0, -1.0 / sine) * (a * second - b * first);
     // z_1 conj(d) + conj(z_2) d = -e exp(i m Phi) of both sides.
     let over = Complex::new(0.0, -0.5 / sine);
     let z1 = (at_b * a - at_a * b) * over;
     let z2 = ((at_a * b.conj() - at_b * a.conj()) * over).conj();
-    let z: Complex<f64> = corner + z1 + z2;
+    let z = corner + z1 + z2;
     let turning = Complex::new(0.0, f64::from(lobes) * speed) * (z1 - z2);
     let v = Complex::new(0.0, machine.nu(speed)) * z + turning;
     let initial = &mut start.initial;
@@ -370,8 +370,7 @@ fn a_rub_on_arcs_makes_the_coincidence_grow_by_itself() {
     assert!((softer + 2.84).abs() < 5e-3, "{softer}");
     // In time, from a small wave on.
     let seen = |keys: &[(&str, &str)]| {
-        let base =
-            [(SPEED, "420"), ("initial.u_c_m", "1e-9"), ("contact.smoothing_m", "1e-7")];
+        let base = [(SPEED, "420"), ("initial.u_c_m", "1e-9"), ("contact.smoothing_m", "1e-7")];
         let scene = rubbing(&[&on_arcs[..], &base, keys].concat());
         let mut motion = Motion::new(&scene);
         let mut mean = |from: f64| {
@@ -414,15 +413,15 @@ fn what_leaves_no_room_or_is_no_list_is_refused_by_name() {
         ),
         (&[("casing.out_of_round_m", "1e-6")], "casing.lobes = 0: allowed is 1 or more"),
         (
-            &[
-                ("casing.lobes", "2"),
-                ("casing.out_of_round_m", "1e-6"),
-                ("solver.kind", "event"),
-            ],
+            &[("casing.lobes", "2"), ("casing.out_of_round_m", "1e-6"), ("solver.kind", "event")],
             "casing.out_of_round_m = 1e-6: allowed is 0 with solver.kind",
         ),
         (
-            &[("bladed_disk.orbit_m", "1e-6"), ("solver.kind", "event"), ("operation.speed_ramp_rad_s2", "1")],
+            &[
+                ("bladed_disk.orbit_m", "1e-6"),
+                ("solver.kind", "event"),
+                ("operation.speed_ramp_rad_s2", "1"),
+            ],
             "operation.speed_ramp_rad_s2 = 1: allowed is 0",
         ),
     ] {

@@ -58,7 +58,8 @@ fn corners(request: &Request<'_>) -> Result<Answer, HarmonicError> {
             let [a, b] = corner.sides;
             let locked = Locked::new(machine, Corner { a, b }, Form::Modal, *damped)?;
             let points = locked.sweep(speeds)?.points;
-            found.extend(points.into_iter().map(|point| (point.speed_rad_s, corner, window, point)));
+            found
+                .extend(points.into_iter().map(|point| (point.speed_rad_s, corner, window, point)));
         }
     }
     let json = json!(

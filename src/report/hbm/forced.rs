@@ -32,10 +32,11 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let lining = Lining::of(machine, &scene.contact)?;
     let forced = speeds.iter().map(|speed| lining.forced(*speed, lobes, height)).collect();
     let points = Rows::of(forced);
-    let json = Parts::default()
-        .with("lobes", lobes)
-        .with("out_of_round_m", height)
-        .with_rows("points", &points, |point| json!(point));
+    let json = Parts::default().with("lobes", lobes).with("out_of_round_m", height).with_rows(
+        "points",
+        &points,
+        |point| json!(point),
+    );
     let title = format!("{lobes} lobes of {height:e} m drive, where all blades press:");
     let json = Parts::default().with_parts("forced", json);
     Ok(Answer::of(json, vec![(title, points.table(POINTS))]))

@@ -148,7 +148,8 @@ impl Request<'_> {
     fn knows_tips(&self, view: &View) -> Result<(), HarmonicError> {
         let (machine, height) = (&self.machine, self.scene.casing.out_of_round_m);
         let refuse = |key, given: String| {
-            let option = if view.option.is_empty() { "hbm".into() } else { format!("--{}", view.option) };
+            let option =
+                if view.option.is_empty() { "hbm".into() } else { format!("--{}", view.option) };
             Err(refused(key, given, format!("none with {option}, which is not derived for it")))
         };
         if machine.has_unequal_tips() && !["", "branches", "campbell"].contains(&view.option) {

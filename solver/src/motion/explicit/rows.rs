@@ -161,9 +161,8 @@ impl<B: Disk> Explicit<B> {
             Some(w) => self.walk(w, look + least, false, |this, side| {
                 let open = this.machine.polygon.gap(side, w.re, w.im) - most;
                 let tips = &this.machine.tips;
-                let is_near = |row: &u32| {
-                    tips.as_ref().is_none_or(|tips| open - tips.longer(*row) < look)
-                };
+                let is_near =
+                    |row: &u32| tips.as_ref().is_none_or(|tips| open - tips.longer(*row) < look);
                 let rows = this.blades.table().of_side(side).iter();
                 this.beyond.candidates.extend(rows.copied().filter(is_near));
                 false

@@ -98,9 +98,8 @@ const SELDOM: [&str; 6] = [
 /// that stays the same at every speed none that would change it.
 pub fn acting(scene: &Scene) -> impl Iterator<Item = &'static Parameter> {
     let lined = scene.solver.contact == ContactLaw::Smooth;
-    let changes = |parameter: &Parameter| {
-        !SELDOM.contains(&parameter.path) || parameter.of(scene) != 0.0
-    };
+    let changes =
+        |parameter: &Parameter| !SELDOM.contains(&parameter.path) || parameter.of(scene) != 0.0;
     PARAMETERS
         .iter()
         .filter(move |parameter| (lined || !parameter.is_of_lining()) && changes(parameter))

@@ -7,7 +7,6 @@
 //! of all of them, and a push on it is shared evenly.
 //! A mistuned disk has springs of its own beside (section 10).
 
-
 use super::shapes::{LANES, Shapes};
 use crate::model::{Machine, blade_frequency, gcd};
 use crate::motion::explicit::{Coordinate, EngineOrderTorque, Oscillator};
