@@ -108,7 +108,8 @@ fn pushes_of_unequal_tips_are_those_of_their_corner() {
         let loads = lock_loads(&machine, speed).unwrap();
         let closed = machine.locked_multipliers(speed).unwrap();
         for k in 0..2 {
-            close(loads.pushes_n[k], pushes[k], 1e-7);
+            // With blades that bend.
+            close(loads.pushes_n[k], pushes[k], 2e-6);
             close(-closed[k], pushes[k], 2e-8);
         }
     }
