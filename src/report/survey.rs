@@ -93,6 +93,9 @@ pub fn write(survey: &Survey, out: &mut dyn Write) -> Result<()> {
     }
     survey.note.iter().try_for_each(|note| tell(&format!("The limits are {note}.")))?;
     survey.scattered.iter().try_for_each(|scattered| tell(&of_scatter(scattered)))?;
+    if survey.rows.len() > 1 {
+        tell("One nodal diameter also moves the shaft, which this model does not have.")?;
+    }
     writeln!(out)?;
     shown(survey).write_text(out)?;
     writeln!(out)?;
