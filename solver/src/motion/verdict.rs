@@ -68,12 +68,13 @@ impl Verdict {
     }
 
     /// This verdict of a motion since `start`, or forced where one side of a machine has
-    /// touched alone since then, and its tips or its casing make it do so.
+    /// touched alone since then, whose tip or whose lobe leaves a casing at rest no clearance.
     #[must_use]
     pub(super) fn unless_forced(self, machine: &Machine, log: &ContactLog, start: f64) -> Self {
-        let alone = matches!(log.active_set, ActiveSet::Side(_)) && log.since <= start;
-        let forced = machine.is_uneven() && alone && self.keeps_contact();
-        if forced { Self::Forced } else { self }
+        let ActiveSet::Side(side) = log.active_set else { return self };
+        let beyond = machine.is_uneven() && machine.apothem(side) < machine.out_of_round();
+        let lasts = log.since <= start && self.keeps_contact();
+        if beyond && lasts { Self::Forced } else { self }
     }
 }
 
