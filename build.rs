@@ -1,6 +1,6 @@
-//! Says of which commit the program is: `rubscope --version` prints it. Without
-//! git, or outside a checkout of its own, it is the version alone; nothing here can
-//! make a build fail.
+//! Says of which commit the program is: `rubscope --version` prints it, and results carry it.
+//! Without git, outside a checkout of its own, or where the sources were changed, a hash of the
+//! sources tells one program from another; nothing here can make a build fail.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -27,8 +27,10 @@ const DIGITS: usize = 9;
 fn main() {
     // Cargo runs this in the folder of the package.
     let folder = Path::new(".");
-    let commit = commit(folder).map_or_else(String::new, |commit| format!(" ({commit})"));
-    println!("cargo::rustc-env=RUBSCOPE_VERSION={}{commit}", env!("CARGO_PKG_VERSION"));
+    let commit = commit(folder);
+    let (hash, _date) = commit.split_once(' ').unwrap_or((&commit, ""));
+    println!("cargo::rustc-env=RUBSCOPE_COMMIT={hash}");
+    println!("cargo::rustc-env=RUBSCOPE_VERSION={} ({commit})", env!("CARGO_PKG_VERSION"));
     // Where it was and is no more, the package was built in the same target folder.
     let watched = SOURCES.iter().chain([&INFO]).map(Into::into).chain(head(folder));
     for path in watched.filter(|path: &PathBuf| path.exists()) {
@@ -36,19 +38,21 @@ fn main() {
     }
 }
 
-/// The commit of a folder: from the file that `cargo package` adds, else from git.
-pub fn commit(folder: &Path) -> Option<String> {
-    match std::fs::read_to_string(folder.join(INFO)) {
-        Ok(info) => packaged(&info),
+/// The commit of a folder: from the file that `cargo package` adds, else from git; where there is
+/// none, or the sources were changed, with a hash of the sources.
+pub fn commit(folder: &Path) -> String {
+    let known = match std::fs::read_to_string(folder.join(INFO)) {
+        Ok(info) => packaged(folder, &info),
         Err(_) => checked_out(folder),
-    }
+    };
+    known.unwrap_or_else(|| format!("source-{}", hash(folder)))
 }
 
-fn packaged(info: &str) -> Option<String> {
+fn packaged(folder: &Path, info: &str) -> Option<String> {
     let (_, rest) = info.split_once("\"sha1\"")?;
     let hash = short(rest.split('"').nth(1)?)?;
     let flat: String = info.split_whitespace().collect();
-    Some(hash + modified(flat.contains("\"dirty\":true")))
+    Some(hash + &modified(folder, flat.contains("\"dirty\":true")))
 }
 
 fn checked_out(folder: &Path) -> Option<String> {
@@ -60,7 +64,7 @@ fn checked_out(folder: &Path) -> Option<String> {
     let (hash, date) = head.split_once(' ')?;
     let status = [&["status", "--porcelain", "--"][..], &SOURCES].concat();
     let changed = !git(folder, &status)?.is_empty();
-    Some(format!("{}{} {date}", short(hash)?, modified(changed)))
+    Some(format!("{}{} {date}", short(hash)?, modified(folder, changed)))
 }
 
 /// What changes when another commit is checked out or made.
@@ -68,8 +72,32 @@ fn head(folder: &Path) -> Option<PathBuf> {
     Some(folder.join(git(folder, &["rev-parse", "--git-path", "logs/HEAD"])?))
 }
 
-fn modified(changed: bool) -> &'static str {
-    if changed { "-modified" } else { "" }
+fn modified(folder: &Path, changed: bool) -> String {
+    if changed { format!("-modified-{}", hash(folder)) } else { String::new() }
+}
+
+/// Digits of a hash (FNV-1a) of the names and contents of the sources.
+fn hash(folder: &Path) -> String {
+    let mut files = Vec::new();
+    SOURCES.iter().for_each(|name| add_files(folder.join(name), &mut files));
+    files.sort();
+    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+    for file in files {
+        let name = file.strip_prefix(folder).unwrap_or(&file).to_string_lossy().into_owned();
+        let content = std::fs::read(&file).unwrap_or_default();
+        for byte in name.bytes().chain([0]).chain(content).chain([0]) {
+            hash = (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3);
+        }
+    }
+    format!("{hash:016x}").chars().take(DIGITS).collect()
+}
+
+fn add_files(path: PathBuf, files: &mut Vec<PathBuf>) {
+    match std::fs::read_dir(&path) {
+        Ok(entries) => entries.flatten().for_each(|entry| add_files(entry.path(), files)),
+        Err(_) if path.is_file() => files.push(path),
+        Err(_) => {}
+    }
 }
 
 fn short(hash: &str) -> Option<String> {

@@ -5,16 +5,19 @@
 
 #![expect(clippy::unwrap_used, reason = "a benchmark states what must hold")]
 
+#[path = "../tests/all/stepwise.rs"]
+mod stepwise;
+
 use std::hint::black_box;
 use std::sync::mpsc;
 use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use ratatui::{Terminal, backend::TestBackend};
-use rubscope::tui::host::NoHost;
-use rubscope::tui::worker::{Playback, Stepwise};
+use rubscope::tui::worker::Playback;
 use rubscope::tui::{App, Marker, Theme, run};
 use rubscope_solver::scene::Scene;
+use stepwise::{NoHost, Stepwise};
 
 /// The default scene, with a run that does not end while it is measured.
 fn app() -> App {

@@ -4,3 +4,5 @@
 pub mod fuzz_keys;
 #[path = "../../tests/all/fuzz_laws.rs"]
 pub mod fuzz_laws;
+#[path = "../../tests/all/stepwise.rs"]
+mod stepwise;

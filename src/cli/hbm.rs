@@ -12,7 +12,7 @@ use super::status::{self, Refusal, Status, say};
 use super::words::Words;
 use super::{Done, output};
 use crate::report::hbm::{Heading, LOCKED, Request, VIEWS, View};
-use crate::report::number::speed;
+use crate::report::number::{speed, with_typed_unit};
 use crate::report::{CommandLine, json};
 use rubscope_solver::harmonic::{Form, HarmonicError, Sweep};
 use rubscope_solver::scene::Scene;
@@ -109,7 +109,8 @@ impl RequestedView {
             return Ok(None);
         };
         let name = format!("--{}", range.option);
-        Ok(Some(Range::parse(&name, text, range.quantity)?.values()))
+        let text = with_typed_unit(text, range.quantity);
+        Ok(Some(Range::parse(&name, &text, range.quantity)?.values()))
     }
 
     /// Adds its options to a command.
@@ -120,7 +121,10 @@ impl RequestedView {
             option => command.flag(&format!("--{option}"), true),
         };
         match &view.range {
-            Some(option) => command.optional(&format!("--{}", option.option), range.as_ref()),
+            Some(option) => {
+                let range = range.as_ref().map(|text| with_typed_unit(text, option.quantity));
+                command.optional(&format!("--{}", option.option), range)
+            }
             None => command,
         }
     }
@@ -128,9 +132,7 @@ impl RequestedView {
 
 impl HbmCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
-        if let Some(path) = &self.out {
-            output::format(path, &["csv"])?;
-        }
+        output::format(self.out.as_deref(), &["csv"])?;
         let view = self.view.view;
         let resolved = self.options.resolve(Swept { speed: true, pulse: false })?;
         let scene: &Scene = &resolved.scene;

@@ -110,7 +110,6 @@ impl MapCommand {
         };
         let plan = self.plan()?;
         check_picture(&plan, format)?;
-        self.result.try_place()?;
         status::say_noted();
         let mut map = Map::empty(plan);
         self.compute(&mut map, shard)?;
@@ -164,7 +163,7 @@ impl MapCommand {
         let cells = map.cells.len();
         let whole = Shard { number: 1, count: 1 };
         let indices = shard.unwrap_or(whole).indices(cells);
-        let form = "{spinner} {bar:30} {pos}/{len} cells, {per_sec}, {eta} left";
+        let form = "{spinner} {bar:30} {pos}/{len} cells{rate}";
         let bar = sign::bar(indices.len() as u64, form);
         let count = |_, _| bar.inc(1);
         builder.build()?.install(|| match self.adaptive {
@@ -183,7 +182,6 @@ impl Merge {
         let format = self.result.format(&WHOLE)?;
         let map = read_parts(&self.files)?;
         check_picture(&map.plan, format)?;
-        self.result.try_place()?;
         self.result.deliver(&map, format, out)?;
         Ok(Status::Done)
     }
@@ -211,13 +209,8 @@ fn read_parts(files: &[PathBuf]) -> anyhow::Result<Map> {
 }
 
 impl ResultOptions {
-    fn format(&self, endings: &[&'static str]) -> Result<Option<&'static str>, Refusal> {
-        self.out.as_deref().map(|path| output::ending(path, endings)).transpose()
-    }
-
-    /// Checks that the result can be written, before anything is computed.
-    fn try_place(&self) -> anyhow::Result<()> {
-        self.out.as_deref().map_or(Ok(()), output::try_place)
+    fn format(&self, endings: &[&'static str]) -> anyhow::Result<Option<&'static str>> {
+        output::format(self.out.as_deref(), endings)
     }
 
     /// Prints and writes the finished map. If it cannot be written, it goes

@@ -8,10 +8,11 @@ use clap::Args;
 use super::options::SceneOptions;
 use super::status::{self, Refusal, Status};
 use super::{Done, gone, output};
+use crate::report::number::with_typed_unit;
 use crate::report::{CommandLine, Provenance, json, margins as report, svg};
 use rubscope_solver::motion::to_the_end;
-use rubscope_solver::scene::CheckedScene;
-use rubscope_solver::study::margins::{Margins, Target, TargetError};
+use rubscope_solver::scene::{CheckedScene, Quantity};
+use rubscope_solver::study::margins::{LimitName, Margins, Target, TargetError};
 
 /// Find how far a scene is from every limit, and what moves each limit most.
 ///
@@ -40,12 +41,9 @@ pub struct MarginsCommand {
 
 impl MarginsCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
-        let format = match &self.out {
-            Some(path) => Some(output::format(path, &["csv", "svg"])?),
-            None => None,
-        };
+        let format = output::format(self.out.as_deref(), &["csv", "svg"])?;
         let scene = self.options.scene()?;
-        let target = match (&self.target, &self.by) {
+        let target = match (&self.target(), &self.by) {
             (Some(target), Some(by)) => {
                 let name = target.split('=').next().unwrap_or_default().trim();
                 let refused = |error: TargetError| {
@@ -89,10 +87,24 @@ impl MarginsCommand {
         Ok(())
     }
 
+    /// The target with the unit of its value.
+    fn target(&self) -> Option<String> {
+        let text = self.target.as_ref()?;
+        let parts = text.split_once('=');
+        let limit = |name: &str| name.trim().parse::<LimitName>().ok();
+        Some(match parts.and_then(|(name, value)| Some((name, value, limit(name)?))) {
+            Some((name, value, limit)) => {
+                let of = Quantity::of(limit.quantity().unit());
+                format!("{name}={}", with_typed_unit(value, of))
+            }
+            None => text.clone(),
+        })
+    }
+
     /// The command that gives the same answer again.
     fn command(&self, scene: &CheckedScene) -> CommandLine {
         CommandLine::new("margins", scene)
-            .optional("--target", self.target.as_ref())
+            .optional("--target", self.target())
             .optional("--by", self.by.as_ref())
     }
 }

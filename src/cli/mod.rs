@@ -33,8 +33,7 @@ use clap::{Parser, Subcommand};
 
 use status::Status;
 
-/// Version and, where it is known, commit of the program (`build.rs`), for
-/// `--version`. What is written to files has the version alone.
+/// Version and commit of the program (`build.rs`), for `--version`.
 const VERSION: &str = env!("RUBSCOPE_VERSION");
 
 /// The result of a command: how it ended, or why it could not run.

@@ -8,11 +8,15 @@ use anyhow::Context;
 use clap::Args;
 
 use super::Done;
-use super::status::{Refusal, Status};
+use super::status::{Refusal, Status, note, say};
 use crate::file;
+use crate::report::check::write_doubts;
+use crate::report::number::{rounded, tell_in_rpm, with_typed_unit};
 use crate::report::survey as report;
-use rubscope_solver::numeric::rounding::rounded;
-use rubscope_solver::scene::{Family, ModalData, Quantity, Scene, SceneError, read_modes};
+use rubscope_solver::scene::units::UnitError;
+use rubscope_solver::scene::{
+    Family, ModalData, Quantity, Scene, SceneError, Value, keys, read_modes,
+};
 use rubscope_solver::study::margins::{LimitName, Margins};
 use rubscope_solver::study::survey::{Survey, speed_range};
 
@@ -32,7 +36,7 @@ const DIGITS: usize = 2;
 pub struct NewCommand {
     /// The file to write, FILE.toml; one that exists is left alone
     #[arg(value_name = "FILE")]
-    file: PathBuf,
+    file: String,
     /// Modes as CSV: structure (casing or disk), nodal_diameters, frequency_hz, modal_mass_kg
     /// and, if known, damping_ratio, named in the first line
     #[arg(long, value_name = "FILE")]
@@ -70,35 +74,52 @@ pub struct NewCommand {
     /// The speeds of the machine, such as 6000rpm:11000rpm
     #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true)]
     range: Option<String>,
-    /// Show speeds in rpm
+    /// Speeds in rpm, shown and given without a unit
     #[arg(long)]
     rpm: bool,
 }
 
 impl NewCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
-        let shown = self.file.display();
-        let is_toml = self.file.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml"));
+        let (shown, path) = (&self.file, Path::new(&self.file));
+        let is_toml = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml"));
         if !is_toml {
             return Err(Refusal::of("FILE", shown, "a name that ends in .toml").into());
         }
-        if self.file.symlink_metadata().is_ok() {
+        if path.symlink_metadata().is_ok() {
             let allowed = "a name that is not taken: this file exists";
             return Err(Refusal::of("FILE", shown, allowed).into());
         }
-        let mut data = self.data(&Asking::new())?;
+        tell_in_rpm(self.rpm);
+        let asking = Asking::new();
+        let mut data = self.data(&asking)?;
         let scene = Scene::from_toml(&data.to_toml()?)?.checked()?;
-        let touching = Margins::of(&scene).limit(LimitName::TouchingPulse).and_then(|l| l.value);
+        let margins = Margins::of(&scene);
+        let touching = margins.limit(LimitName::TouchingPulse).and_then(|limit| limit.value);
         data.pulse_n = touching.map_or(data.pulse_n, |pulse| rounded(PULSE * pulse, DIGITS));
         let text = data.to_toml()?;
-        file::create(&self.file, |out| out.write_all(text.as_bytes()))
+        let scene = Scene::from_toml(&text)?.checked()?;
+        self.ask_about(&Margins::of(&scene).doubts(), &asking)?;
+        file::create(path, |out| out.write_all(text.as_bytes()))
             .with_context(|| format!("cannot write {shown}"))?;
         writeln!(out, "Wrote {shown}.")?;
         writeln!(out)?;
-        crate::report::number::tell_in_rpm(self.rpm);
-        let scene = Scene::from_toml(&text)?.checked()?;
         report::write(&Survey::of(&scene, Some(data.range_rad_s), None), out)?;
         Ok(Status::Done)
+    }
+
+    /// Shows what looks like a slip, and asks whether it is one.
+    fn ask_about(&self, doubts: &[String], asking: &Asking) -> anyhow::Result<()> {
+        write_doubts(doubts, &mut stderr())?;
+        if doubts.is_empty() || !asking.answers {
+            return Ok(());
+        }
+        let what = format!("Write {} all the same? yes or no", self.file);
+        asking.value("FILE", None, &what, None, &|answer| match answer {
+            "yes" | "y" => Ok(()),
+            "no" | "n" => Err(Stop.into()),
+            _ => Err(Refusal::of("answer", answer, "yes or no").into()),
+        })
     }
 
     /// Returns everything that was given, and what is asked for.
@@ -125,65 +146,65 @@ impl NewCommand {
             }
         }
         let first = casing.first().map(|mode| mode.nodal_diameters.to_string());
-        let blades = asking.value("--blades", self.blades.as_ref(), "Number of blades", None)?;
-        let blades = whole("--blades", &blades)?;
-        let length = |asking: &Asking, option: &'static str, given, what| {
-            asking
-                .value(option, given, what, None)
-                .and_then(|text| number(option, &text, Quantity::Length))
-        };
-        let radius = "Inner radius of the casing [m, or such as 500mm]";
-        let radius_m = length(asking, "--radius", self.radius.as_ref(), radius)?;
-        let clearance = "Clearance of the blade tips [m, or such as 0.3mm]";
-        let clearance_m = length(asking, "--clearance", self.clearance.as_ref(), clearance)?;
-        if radius_m <= 0.0 {
-            return Err(Refusal::of("--radius", radius_m, "a length above 0").into());
-        }
-        if !(clearance_m > 0.0 && clearance_m < radius_m) {
+        let counted = |option, key| move |text: &str| whole(option, text, key);
+        let blades = "Number of blades";
+        let read = counted("--blades", keys::BLADES);
+        let blades = asking.value("--blades", self.blades.as_ref(), blades, None, &read)?;
+        let what = "Inner radius of the casing [m, or such as 500mm]";
+        let read = |text: &str| number("--radius", text, keys::CASING_RADIUS);
+        let radius_m = asking.value("--radius", self.radius.as_ref(), what, None, &read)?;
+        let what = "Clearance of the blade tips [m, or such as 0.3mm]";
+        let read = |text: &str| {
+            let clearance = number("--clearance", text, keys::CASING_RADIUS)?;
             let allowed = format!("a length above 0 and below the radius, {radius_m} m");
-            return Err(Refusal::of("--clearance", format!("{clearance_m} m"), allowed).into());
-        }
-        let nd = asking.value("--nd", self.nd.as_ref(), "Nodal diameters", first.as_deref())?;
-        let nodal_diameters = whole("--nd", &nd)?;
+            let refused = || Refusal::of("--clearance", format!("{clearance} m"), allowed);
+            (clearance < radius_m).then_some(clearance).ok_or_else(|| refused().into())
+        };
+        let clearance_m =
+            asking.value("--clearance", self.clearance.as_ref(), what, None, &read)?;
+        let read = counted("--nd", keys::DIAMETERS);
+        let nd =
+            asking.value("--nd", self.nd.as_ref(), "Nodal diameters", first.as_deref(), &read)?;
         for (option, name, modes) in
             [("--casing", "casing", &mut casing), ("--disk", "bladed disk", &mut disk)]
         {
             if modes.is_empty() {
                 let what = format!("Frequency of the {name} with {nd} nodal diameters [Hz]");
-                let frequency = asking.value(option, None, &what, None)?;
+                let read = |text: &str| Ok(family(option, &format!("{nd}:{text}:1"))?.frequency_hz);
+                let frequency = asking.value(option, None, &what, None, &read)?;
                 let what = format!("Modal mass of that mode of the {name} [kg]");
-                let mass = asking.value(option, None, &what, None)?;
-                modes.push(family(option, &format!("{nd}:{frequency}:{mass}"))?);
+                let read = |text: &str| Ok(family(option, &format!("{nd}:{frequency}:{text}"))?);
+                modes.push(asking.value(option, None, &what, None, &read)?);
             }
         }
-        let ratio = |option, given, what| {
-            asking
-                .value(option, given, what, Some(USUAL_DAMPING))
-                .and_then(|text| number(option, &text, Quantity::Plain))
+        let ratio = |option, given: &Option<String>, what, key| {
+            let read = |text: &str| number(option, text, key);
+            if given.is_none() && !asking.answers {
+                note(format!("rubscope: {what}: {USUAL_DAMPING} is assumed ({option})"));
+            }
+            asking.value(option, given.as_ref(), what, Some(USUAL_DAMPING), &read)
         };
+        let what = ["Damping ratio of the casing", "Damping ratio of the bladed disk"];
         let damping_ratios = [
-            ratio("--casing-damping", self.casing_damping.as_ref(), "Damping ratio of the casing")?,
-            ratio(
-                "--disk-damping",
-                self.disk_damping.as_ref(),
-                "Damping ratio of the bladed disk",
-            )?,
+            ratio("--casing-damping", &self.casing_damping, what[0], keys::CASING_DAMPING)?,
+            ratio("--disk-damping", &self.disk_damping, what[1], keys::BLADE_DAMPING)?,
         ];
-        let range = "Speeds of the machine, FROM:TO, such as 6000rpm:11000rpm";
-        let range = asking.value("--range", self.range.as_ref(), range, None)?;
-        let refused = |error: rubscope_solver::study::survey::SurveyError| {
-            Refusal::because(format!("--{error}"))
+        let what = "Speeds of the machine, FROM:TO, such as 6000rpm:11000rpm";
+        let read = |text: &str| {
+            let range = speed_range(&with_typed_unit(text, Quantity::Speed));
+            range.map_err(|error| Refusal::because(format!("--{error}")).into())
         };
-        let range_rad_s = speed_range(&range).map_err(refused)?;
-        let speed = |text: &String| number("--speed", text, Quantity::Speed);
+        let range_rad_s = asking.value("--range", self.range.as_ref(), what, None, &read)?;
+        let speed = |text: &String| number("--speed", text, keys::SPEED);
         let speed_rad_s = self.speed.as_ref().map(speed).transpose()?;
-        let title = self.file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        let title =
+            Path::new(&self.file).file_stem().map(|stem| stem.to_string_lossy().into_owned());
         Ok(ModalData {
             title: title.unwrap_or_default(),
             blades,
             radius_m,
             clearance_m,
-            nodal_diameters,
+            nodal_diameters: nd,
             casing,
             disk,
             damping_ratios,
@@ -215,18 +236,30 @@ fn family(option: &str, text: &str) -> Result<Family, SceneError> {
     Family::read([diameters, frequency, mass], None, &|name| format!("{option} {text}: {name}"))
 }
 
-fn whole(option: &str, text: &str) -> Result<u32, Refusal> {
-    text.trim().parse().map_err(|_| Refusal::of(option, text, "a whole number"))
+/// Reads a whole number that a key takes.
+fn whole(option: &str, text: &str, path: &str) -> anyhow::Result<u32> {
+    let key = keys::find(path)?;
+    let read = text.trim().parse().ok();
+    let allowed = read.filter(|n| key.check(&Value::Whole(u64::from(*n))).is_ok());
+    allowed.ok_or_else(|| Refusal::of(option, text, key.allowed).into())
 }
 
-fn number(option: &str, text: &str, of: Quantity) -> anyhow::Result<f64> {
-    let refused = |why| Refusal::because(format!("{option} = {text}: {why}"));
-    let read = of.read(text).map_err(refused)?;
-    match read.is_finite() {
-        true => Ok(read),
-        false => Err(Refusal::of(option, text, "a finite number").into()),
-    }
+/// Reads a number that a key takes.
+fn number(option: &str, text: &str, path: &str) -> anyhow::Result<f64> {
+    let key = keys::find(path)?;
+    let of = key.quantity();
+    let read = of.read(&with_typed_unit(text, of)).map_err(|why| match why {
+        UnitError::NoNumber => Refusal::of(option, text, key.allowed),
+        why => Refusal::because(format!("{option} = {text}: {why}")),
+    })?;
+    let is_allowed = key.check(&Value::Real(read)).is_ok();
+    is_allowed.then_some(read).ok_or_else(|| Refusal::of(option, text, key.allowed).into())
 }
+
+/// The user does not want the file.
+#[derive(Debug, thiserror::Error)]
+#[error("nothing is written")]
+struct Stop;
 
 /// Who answers questions: a user at a terminal, or nobody.
 struct Asking {
@@ -238,25 +271,24 @@ impl Asking {
         Self { answers: stdin().is_terminal() }
     }
 
-    /// Returns what was given, or the answer to a question; an empty answer is the usual one.
-    fn value(
+    /// Returns what was given, or the answer to a question, as it is read; an empty answer is the
+    /// usual one, and what cannot be read is asked for again.
+    fn value<T>(
         &self,
         option: &'static str,
         given: Option<&String>,
         what: &str,
         usual: Option<&str>,
-    ) -> anyhow::Result<String> {
-        if let Some(given) = given {
-            return Ok(given.clone());
-        }
-        if !self.answers {
-            return match usual {
-                Some(usual) => Ok(usual.to_string()),
-                None => {
-                    let what = format!("new: {option} is missing ({what}); nobody is there to ask");
-                    Err(Refusal::because(what).into())
-                }
-            };
+        read: &dyn Fn(&str) -> anyhow::Result<T>,
+    ) -> anyhow::Result<T> {
+        let missing = |more: &str| {
+            Refusal::because(format!("new: {option} is missing ({what}){more}")).into()
+        };
+        match (given, usual) {
+            (Some(given), _) => return read(given),
+            (None, Some(usual)) if !self.answers => return read(usual),
+            (None, None) if !self.answers => return Err(missing("; nobody is there to ask")),
+            _ => {}
         }
         let hint = usual.map_or(String::new(), |usual| format!(" (Enter: {usual})"));
         loop {
@@ -264,12 +296,16 @@ impl Asking {
             stderr().flush()?;
             let mut line = String::new();
             if stdin().lock().read_line(&mut line)? == 0 {
-                return Err(Refusal::because(format!("new: {option} is missing ({what})")).into());
+                return Err(missing(""));
             }
-            match (line.trim(), usual) {
-                ("", None) => {}
-                ("", Some(usual)) => return Ok(usual.to_string()),
-                (answer, _) => return Ok(answer.to_string()),
+            let answer = match (line.trim(), usual) {
+                ("", None) => continue,
+                ("", Some(usual)) => usual,
+                (answer, _) => answer,
+            };
+            match read(answer) {
+                Err(error) if !error.is::<Stop>() => say(&format!("{error:#}")),
+                done => return done,
             }
         }
     }

@@ -1,16 +1,19 @@
 //! The scene a command works on: a built-in scene or a file, and options that
 //! change it. Precedence: option, then file, then documented default.
 
+use std::os::unix::fs::FileTypeExt;
+
 use clap::Args;
 use rubscope_solver::scene::keys;
 
 use super::range::Range;
 use super::status::{Refusal, note, say};
 use super::words::Words;
-use crate::report::number::tell_in_rpm;
+use crate::report::number::{tell_in_rpm, with_typed_unit};
 use rubscope_solver::model::Operation;
 use rubscope_solver::scene::{
-    Adjustment, CheckedScene, ContactLaw, DEFAULT, ModelSize, Scene, SceneError, SolverKind,
+    Adjustment, CheckedScene, ContactLaw, DEFAULT, ModelSize, Quantity, Scene, SceneError,
+    SolverKind,
 };
 
 /// The scene and the options that change it, on every command.
@@ -56,7 +59,7 @@ pub struct SceneOptions {
     /// Any key of the scene file, such as bladed_disk.blades=24; repeatable, applied last
     #[arg(long, value_name = "PATH=VALUE", allow_hyphen_values = true, help_heading = HEADING)]
     set: Vec<String>,
-    /// Show speeds in rpm; files and JSON keep rad/s
+    /// Speeds in rpm, shown and given without a unit; files, JSON and --set keep rad/s
     #[arg(long, help_heading = HEADING)]
     rpm: bool,
 }
@@ -96,10 +99,10 @@ impl SceneOptions {
         self.rpm
     }
 
-    /// Returns the speed or range given with `--speed`, as it was typed.
+    /// Returns the speed or range given with `--speed`, with its unit.
     #[must_use]
-    pub fn speed(&self) -> Option<&str> {
-        self.speed.as_deref()
+    pub fn speed(&self) -> Option<String> {
+        self.speed.as_ref().map(|text| with_typed_unit(text, Quantity::Speed))
     }
 
     /// Returns the scene that these options describe. A key that had to be changed to fit them is
@@ -133,6 +136,8 @@ impl SceneOptions {
         let (mut speeds, mut pulses) = (None, None);
         for (option, key, text) in self.named() {
             let Some(text) = text else { continue };
+            let of = keys::find(key)?.quantity();
+            let text = &with_typed_unit(text, of);
             let range = match key {
                 keys::SPEED if swept.speed => Some(&mut speeds),
                 keys::PULSE if swept.pulse => Some(&mut pulses),
@@ -140,7 +145,7 @@ impl SceneOptions {
             };
             match range {
                 Some(range) if Range::looks_like(text) => {
-                    let parsed = Range::parse(option, text, keys::find(key)?.quantity())?;
+                    let parsed = Range::parse(option, text, of)?;
                     *range = Some(parsed);
                     scene.set(key, &parsed.from.to_string())?;
                 }
@@ -207,14 +212,10 @@ impl SceneOptions {
 /// # Errors
 /// As `Scene::load_unchecked`.
 pub(super) fn read_scene(name: &str) -> Result<Scene, SceneError> {
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::FileTypeExt;
-        let is_pipe = std::fs::metadata(name).is_ok_and(|found| found.file_type().is_fifo());
-        // That of a shell has no name of its own there.
-        if is_pipe && !["/dev/", "/proc/"].iter().any(|folder| name.starts_with(folder)) {
-            say(&format!("rubscope: {name} is a pipe: waiting for its writer"));
-        }
+    let is_pipe = std::fs::metadata(name).is_ok_and(|found| found.file_type().is_fifo());
+    // That of a shell has no name of its own there.
+    if is_pipe && !["/dev/", "/proc/"].iter().any(|folder| name.starts_with(folder)) {
+        say(&format!("rubscope: {name} is a pipe: waiting for its writer"));
     }
     Scene::load_unchecked(name)
 }

@@ -7,29 +7,15 @@ use super::status::{Refusal, say};
 use crate::file::{self, Written};
 use anyhow::Context;
 
-/// Returns the ending of a file given with `--out`, which must be one of these; the place is tried.
+/// Returns the ending of the file of `--out`, if it is given: one of these. The place is tried.
 ///
 /// # Errors
 /// Another ending, or a path where no file can be written.
-pub fn format(path: &Path, endings: &[&'static str]) -> anyhow::Result<&'static str> {
-    let known = ending(path, endings)?;
-    try_place(path)?;
-    Ok(known)
-}
-
-/// Tries whether a file can be written there.
-///
-/// # Errors
-/// It cannot.
-pub fn try_place(path: &Path) -> anyhow::Result<()> {
-    file::check_place(path).with_context(|| format!("cannot write {}", path.display()))
-}
-
-/// Returns the ending of a file given with `--out`, which must be one of these.
-///
-/// # Errors
-/// Another ending.
-pub fn ending(path: &Path, endings: &[&'static str]) -> Result<&'static str, Refusal> {
+pub fn format(
+    path: Option<&Path>,
+    endings: &[&'static str],
+) -> anyhow::Result<Option<&'static str>> {
+    let Some(path) = path else { return Ok(None) };
     let given = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
     let Some(known) = endings.iter().find(|known| known.eq_ignore_ascii_case(given)) else {
         let names: Vec<String> = endings.iter().map(|known| format!(".{known}")).collect();
@@ -39,9 +25,18 @@ pub fn ending(path: &Path, endings: &[&'static str]) -> Result<&'static str, Ref
             None => String::new(),
         };
         let allowed = format!("a file name ending in {listed}");
-        return Err(Refusal::of("--out", path.display(), allowed));
+        return Err(Refusal::of("--out", path.display(), allowed).into());
     };
-    Ok(known)
+    try_place(path)?;
+    Ok(Some(known))
+}
+
+/// Tries whether a file can be written there.
+///
+/// # Errors
+/// It cannot.
+pub fn try_place(path: &Path) -> anyhow::Result<()> {
+    file::check_place(path).with_context(|| format!("cannot write {}", path.display()))
 }
 
 /// Writes a file, completely or not at all, and prints what is in it, and whether
@@ -120,10 +115,7 @@ pub fn say_written(written: Written, what: &str, shown: &impl std::fmt::Display)
 /// Lets a write beyond the limit of file sizes fail, as on a full disk. Without
 /// this the system ends the program there.
 pub fn outlive_size_limit() {
-    #[cfg(unix)]
-    {
-        let seen = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(false));
-        // If it cannot be had, all else still works.
-        let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, seen);
-    }
+    let seen = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(false));
+    // If it cannot be had, all else still works.
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, seen);
 }

@@ -6,11 +6,11 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::options::SceneOptions;
-use super::status::{self, Refusal, Status};
+use super::status::{self, Refusal, Status, say};
 use super::{Done, output, sign};
 use crate::report::{CommandLine, Provenance, json, precision as report, svg};
 use rubscope_solver::motion::to_the_end;
-use rubscope_solver::study::precision::{Effort, Measure, Precision, ways};
+use rubscope_solver::study::precision::{Effort, Measure, Method, Precision, ways};
 
 /// Measure every solver's speed against its error on a scene.
 #[derive(Args, Debug)]
@@ -38,10 +38,7 @@ impl PrecisionCommand {
         if self.finest.is_nan() || self.finest <= 0.0 {
             return Err(Refusal::of("--finest", self.finest, "a time step above 0").into());
         }
-        let format = match &self.out {
-            Some(path) => Some(output::format(path, &["csv", "svg"])?),
-            None => None,
-        };
+        let format = output::format(self.out.as_deref(), &["csv", "svg"])?;
         let effort = Effort { repeats: self.repeat, finest_s: self.finest, ..Effort::default() };
         let ways = ways(&scene, effort);
         let form = "{spinner} {bar:30} {pos}/{len} {msg} {elapsed}";
@@ -81,6 +78,9 @@ impl PrecisionCommand {
         if !self.json {
             report::write(measured, out)?;
         }
-        Ok(Status::Done)
+        let Method::None(lack) = measured.reference.method else { return Ok(Status::Done) };
+        out.flush()?;
+        say(&format!("rubscope: nothing to compare with: {}", report::why_none(lack)));
+        Ok(Status::Failed)
     }
 }

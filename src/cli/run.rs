@@ -59,10 +59,7 @@ impl RunCommand {
         }
         let script = RequestedScript::resolve(&script::parse(&self.at)?, &scene)?;
         let acts = script.changes();
-        let path = match &self.out {
-            Some(path) => Some((path, output::format(path, &["csv", "npz"])?)),
-            None => None,
-        };
+        let format = output::format(self.out.as_deref(), &["csv", "npz"])?;
         let gaps = if self.gaps { scene.bladed_disk.blades } else { 0 };
         let most = History::most_samples(gaps);
         if self.samples > most {
@@ -74,7 +71,7 @@ impl RunCommand {
         }
         let mut history = History::new(gaps);
         // Both ends are samples. The smallest gap needs the gaps of all blades.
-        let sampling = match path {
+        let sampling = match format {
             Some(_) => Sampling { intervals: self.samples - 1, gaps: true },
             None => Sampling::default(),
         };
@@ -96,7 +93,7 @@ impl RunCommand {
         if self.json {
             json::write_run(&report, &command, wall, changes, out)?;
         }
-        if let Some((path, format)) = path {
+        if let Some((path, format)) = self.out.as_ref().zip(format) {
             let samples = format!("{} samples", history.len());
             let csv = |out: &mut dyn Write| history.write_csv(out);
             let command = command

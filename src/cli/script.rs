@@ -106,10 +106,18 @@ impl RequestedStep {
         if !acts_live(key, before) {
             return Err(fixed());
         }
-        let scene = before.clone().into_scene().with(&[(path, value)]).map_err(refused)?;
+        let mut running = before.clone().into_scene();
+        if t_s > 0.0 {
+            // What closes the gaps on the way is for the motion to meet, wherever it began.
+            (running.initial.u_c_m, running.initial.u_s_m) = (0.0, 0.0);
+        }
+        let scene = running.with(&[(path, value)]).map_err(refused)?;
         scene.slides().map_err(refused)?;
         if key.live != Live::Always && !motion::Change::is_live(before, &scene) {
-            return Err(fixed());
+            return Err(match motion::Change::crosses(before, &scene) {
+                Some(why) => Refusal::of(OPTION, &shown, why),
+                None => fixed(),
+            });
         }
         let mut acts = motion::Change::between(before, &scene);
         if path == SPEED && before.operation.speed_rad_s == scene.operation.speed_rad_s {

@@ -6,10 +6,10 @@ use std::sync::OnceLock;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
 
 use super::status::say;
-use crate::report::number::{grouped, time};
+use crate::report::number::{grouped, rounded, short, time};
 use rubscope_solver::motion::{Motion, Watch};
 use rubscope_solver::scene::{CheckedScene, SolverKind};
 use rubscope_solver::tolerances::{MOST_EVENTS, MOST_LOOKS};
@@ -23,28 +23,57 @@ const TICK: Duration = Duration::from_millis(100);
 /// Template of the line until a command shows more.
 const PLAIN: &str = "{spinner} {msg} {elapsed}";
 
-/// The line, once a command has begun on a terminal.
+/// Time between two lines where standard error is no terminal.
+const APART: Duration = Duration::from_secs(10);
+
+/// The line, once a command has begun; it is drawn on a terminal only.
 static SIGN: OnceLock<ProgressBar> = OnceLock::new();
 
 fn style(sign: &ProgressBar, template: &str) {
     if let Ok(style) = ProgressStyle::with_template(template) {
-        sign.set_style(style);
+        sign.set_style(style.with_key("rate", rate));
     }
 }
 
-/// Shows the sign of life from now on, as long as the command is at work.
-pub fn begin() {
-    if !stderr().is_terminal() {
-        return;
+/// Writes the rate, and the time that is left by it, once there is one.
+fn rate(state: &ProgressState, out: &mut dyn std::fmt::Write) {
+    let rate = rounded(state.per_sec(), 2);
+    if rate > 0.0 {
+        // What is not written is not seen.
+        let _ = write!(out, ", {}/s, {:#} left", short(rate), HumanDuration(state.eta()));
     }
-    let sign = SIGN.get_or_init(|| ProgressBar::new_spinner().with_message("at work"));
+}
+
+/// Shows the sign of life from now on, as long as the command is at work: a line that moves on a
+/// terminal, elsewhere a line from time to time.
+pub fn begin() {
+    let seen = stderr().is_terminal();
+    let new = if seen { ProgressBar::new_spinner } else { ProgressBar::hidden };
+    let sign = SIGN.get_or_init(|| new().with_message("at work"));
     style(sign, PLAIN);
-    let begun = || {
-        thread::sleep(SOON);
-        sign.enable_steady_tick(TICK);
+    let begun = move || match seen {
+        true => {
+            thread::sleep(SOON);
+            sign.enable_steady_tick(TICK);
+        }
+        false => loop {
+            thread::sleep(APART);
+            if sign.is_finished() {
+                return;
+            }
+            say(&now(sign));
+        },
     };
     // Without a thread the work is done all the same.
     let _ = thread::Builder::new().name("rubscope-sign".into()).spawn(begun);
+}
+
+/// Returns how far the work is.
+fn now(sign: &ProgressBar) -> String {
+    let part = sign.length().filter(|parts| *parts > 0);
+    let part = part.map(|parts| format!(", {} %", 100 * sign.position() / parts));
+    let elapsed = sign.elapsed().as_secs();
+    format!("rubscope: {}{} after {elapsed} s", sign.message(), part.unwrap_or_default())
 }
 
 /// Shows what is being done now.
@@ -186,6 +215,15 @@ fn bound(scene: &CheckedScene, changed: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_pipe_is_told_how_far_the_work_is() {
+        let sign = ProgressBar::hidden().with_message("at work");
+        assert_eq!(now(&sign), "rubscope: at work after 0 s");
+        sign.set_length(1071);
+        sign.inc(107);
+        assert_eq!(now(&sign), "rubscope: at work, 9 % after 0 s");
+    }
 
     #[test]
     fn the_sign_goes_before_the_first_byte_of_the_output_wherever_that_goes() {

@@ -6,7 +6,6 @@
 ///
 /// # Errors
 /// The system cannot start a thread or watch signals.
-#[cfg(unix)]
 pub(super) fn watch() -> std::io::Result<()> {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGQUIT, SIGTERM};
     let ignored = ignored();
@@ -26,23 +25,12 @@ pub(super) fn watch() -> std::io::Result<()> {
 }
 
 /// Longest wait for the change of a file at the end: a disk may not answer.
-#[cfg(unix)]
 const LONGEST_CHANGE: std::time::Duration = std::time::Duration::from_secs(2);
 
 /// Returns the signals that were ignored when the program started, a bit each from signal 1 on;
 /// none where the system does not tell.
-#[cfg(unix)]
 fn ignored() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
     mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0)
-}
-
-/// Without signals the system ends a command.
-///
-/// # Errors
-/// None here.
-#[cfg(not(unix))]
-pub(super) fn watch() -> std::io::Result<()> {
-    Ok(())
 }

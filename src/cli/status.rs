@@ -107,12 +107,26 @@ pub fn usage(error: &clap::Error, arguments: &[OsString]) -> u8 {
             Err(failure) => exit(Err(failure.into())),
         },
         _ => {
-            let gone = gone::argument(error, arguments);
-            let line = gone.unwrap_or_else(|| in_one_line(&error.to_string()));
+            let known = gone::argument(error, arguments).or_else(|| file(error, arguments));
+            let line = known.unwrap_or_else(|| in_one_line(&error.to_string()));
             say(&format!("rubscope: {line}"));
             2
         }
     }
+}
+
+/// Returns how a file is named that was taken for an option, as its name begins with `-`.
+fn file(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
+    let is_file = |name: &&str| {
+        let ending = std::path::Path::new(name).extension();
+        name.starts_with('-')
+            && ending.is_some()
+            && !name.contains('=')
+            && name.parse::<f64>().is_err()
+    };
+    let name = arguments.iter().filter_map(|name| name.to_str()).find(is_file);
+    let name = name.filter(|_| error.kind() == Usage::UnknownArgument)?;
+    Some(format!("{name}: allowed is ./{name} for a file whose name begins with -"))
 }
 
 /// Returns the message of clap without its usage block, as one line.

@@ -8,8 +8,9 @@ use clap::Args;
 use super::options::SceneOptions;
 use super::status::{self, Refusal, Status};
 use super::{Done, output};
+use crate::report::number::with_typed_unit;
 use crate::report::{CommandLine, Provenance, json, survey as report, svg};
-use rubscope_solver::scene::CheckedScene;
+use rubscope_solver::scene::{CheckedScene, Quantity};
 use rubscope_solver::study::margins::{TargetError, parameter};
 use rubscope_solver::study::survey::{Survey, speed_range};
 
@@ -37,12 +38,9 @@ pub struct SurveyCommand {
 
 impl SurveyCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
-        let format = match &self.out {
-            Some(path) => Some(output::format(path, &["csv", "svg"])?),
-            None => None,
-        };
+        let format = output::format(self.out.as_deref(), &["csv", "svg"])?;
         let scene = self.options.scene()?;
-        let range = self.range.as_deref().map(speed_range).transpose();
+        let range = self.range().as_deref().map(speed_range).transpose();
         let range = range.map_err(|error| Refusal::because(format!("--{error}")))?;
         let by = match &self.by {
             Some(path) => Some(parameter(path.trim()).ok_or_else(|| {
@@ -56,6 +54,11 @@ impl SurveyCommand {
         Ok(Status::Done)
     }
 
+    /// The range with its units.
+    fn range(&self) -> Option<String> {
+        self.range.as_ref().map(|text| with_typed_unit(text, Quantity::Speed))
+    }
+
     fn deliver(
         &self,
         survey: &Survey,
@@ -64,7 +67,7 @@ impl SurveyCommand {
         out: &mut dyn Write,
     ) -> anyhow::Result<()> {
         let command = CommandLine::new("survey", scene)
-            .optional("--range", self.range.as_ref())
+            .optional("--range", self.range())
             .optional("--by", self.by.as_ref());
         if self.json {
             json::write_as("rubscope.survey/1", &command, survey, out)?;

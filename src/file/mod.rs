@@ -4,7 +4,6 @@
 //! place when it is complete and on the disk. So a full disk, a failure or a kill
 //! leaves the file that was there before, and no other.
 
-mod in_place;
 mod place;
 mod temporary;
 
@@ -31,13 +30,11 @@ pub enum Written {
 /// completely or not at all.
 ///
 /// Mode and, as far as permitted, owner stay; links are followed and stay links.
-/// A file of several hard links, or in a folder that takes no other, is complete
-/// before its content is exchanged, and stays one file; a kill at that moment can
-/// mix the two contents. A device or a pipe is written to directly.
+/// Other hard links keep the old content. A device or a pipe is written to directly.
 ///
 /// # Errors
-/// An error of the system or of `write`, or a file that is read-only; what was
-/// there is then unchanged.
+/// An error of the system or of `write`, a file that is read-only, or a folder that
+/// takes no file; what was there is then unchanged.
 pub fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<Written> {
     let (path, replaced) = match Place::of(path)? {
         Place::Stream(path) => {
@@ -48,25 +45,10 @@ pub fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) ->
         Place::Existing { path, metadata } => (path, Some(metadata)),
     };
     let replaced = replaced.as_ref();
-    let beside = match replaced {
-        Some(metadata) if place::has_other_names(metadata) => None,
-        _ => match Temporary::beside(&path, replaced, USUAL) {
-            // The file can be written, but its folder takes no other.
-            Err(error) if replaced.is_some() && error.kind() == ErrorKind::PermissionDenied => None,
-            temporary => Some(temporary?),
-        },
-    };
-    if let Some(temporary) = beside {
-        fill(temporary.file(), write)?;
-        temporary.finish(replaced)?;
-        temporary.replace(&path)?;
-    } else {
-        let beside = tempfile::tempfile_in(place::folder(&path));
-        let complete = beside.or_else(|_| tempfile::tempfile())?;
-        fill(&complete, write)?;
-        let _placing = temporary::placing();
-        in_place::exchange(&complete, &path)?;
-    }
+    let temporary = Temporary::beside(&path, replaced, USUAL)?;
+    fill(temporary.file(), write)?;
+    temporary.finish(replaced)?;
+    temporary.replace(&path)?;
     Ok(if replaced.is_some() { Written::Replaced } else { Written::New })
 }
 
@@ -93,7 +75,8 @@ fn create_with(
     write: impl FnOnce(&mut dyn Write) -> Result<()>,
 ) -> Result<()> {
     if path.symlink_metadata().is_ok() {
-        return Err(Error::from(ErrorKind::AlreadyExists));
+        let exists = format!("{} exists", path.display());
+        return Err(Error::new(ErrorKind::AlreadyExists, exists));
     }
     let (Place::New(path) | Place::Stream(path) | Place::Existing { path, .. }) = Place::of(path)?;
     let temporary = Temporary::beside(&path, None, mode)?;

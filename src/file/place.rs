@@ -50,7 +50,7 @@ impl Place {
         if metadata.permissions().readonly() {
             return Err(Error::new(ErrorKind::PermissionDenied, "the file is read-only"));
         }
-        // A folder may allow to exchange a file that itself allows no writing.
+        // A folder may allow to replace a file that itself allows no writing.
         File::options().append(true).open(path)?;
         Ok(Self::Existing { path: path.canonicalize()?, metadata })
     }
@@ -63,26 +63,16 @@ impl Place {
 /// a file that is read-only.
 pub fn check_place(path: &Path) -> Result<()> {
     match Place::of(path)? {
-        // A file that exists and can be written can also be exchanged in place.
-        Place::Stream(_) | Place::Existing { .. } => Ok(()),
-        Place::New(path) => Temporary::beside(&path, None, USUAL).map(drop),
+        Place::Stream(_) => Ok(()),
+        Place::New(path) | Place::Existing { path, .. } => {
+            Temporary::beside(&path, None, USUAL).map(drop)
+        }
     }
 }
 
 /// Returns the folder of a file.
 pub(super) fn folder(path: &Path) -> &Path {
     path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
-}
-
-/// Returns whether the file has more than one hard link.
-#[cfg(unix)]
-pub(super) fn has_other_names(metadata: &Metadata) -> bool {
-    std::os::unix::fs::MetadataExt::nlink(metadata) > 1
-}
-
-#[cfg(not(unix))]
-pub(super) fn has_other_names(_: &Metadata) -> bool {
-    false
 }
 
 /// Returns the file that links which lead nowhere would create.
@@ -116,7 +106,6 @@ fn open_here(path: &Path) -> Option<PathBuf> {
 /// Opens what is written to directly. Standard output goes on where it is: opened
 /// again, a file behind it would be written from its start.
 pub(super) fn open_stream(path: &Path) -> Result<File> {
-    #[cfg(unix)]
     if path.file_name().is_some_and(|name| name == "1")
         && (path.starts_with("/proc/self/fd") || path.starts_with("/dev/fd"))
     {

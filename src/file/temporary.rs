@@ -3,13 +3,14 @@
 
 use std::fs::{File, Metadata};
 use std::io::{Error, ErrorKind, Result};
+use std::os::unix::fs::{MetadataExt, PermissionsExt, fchown};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 use std::time::{Duration, Instant};
 
 use tempfile::NamedTempFile;
 
-use super::{in_place, place};
+use super::place;
 
 /// Hidden files of this program that have a name at this moment.
 static NAMED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
@@ -27,7 +28,7 @@ pub(super) const PRIVATE: u32 = 0o600;
 static PLACING: Mutex<()> = Mutex::new(());
 
 /// Locks the placing of files: until the guard is dropped, [`settle`] waits.
-pub(super) fn placing() -> MutexGuard<'static, ()> {
+fn placing() -> MutexGuard<'static, ()> {
     PLACING.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -101,15 +102,9 @@ impl Temporary {
         let mut builder = tempfile::Builder::new();
         let prefix = format!(".rubscope-{}-", std::process::id());
         builder.prefix(&prefix);
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt;
-            // Never more readable than what it replaces.
-            let new = std::fs::Permissions::from_mode(mode);
-            builder.permissions(replaced.map_or(new, Metadata::permissions));
-        }
-        #[cfg(not(unix))]
-        let _ = (replaced, mode);
+        // Never more readable than what it replaces.
+        let new = std::fs::Permissions::from_mode(mode);
+        builder.permissions(replaced.map_or(new, Metadata::permissions));
         let file = builder.tempfile_in(folder)?;
         let hidden = Hidden::new(file.path().to_path_buf());
         Ok(Self::Named(file, hidden))
@@ -156,39 +151,20 @@ impl Temporary {
                 }
                 linked => linked?,
             },
-            Self::Named(file, _hidden) => match file.persist(path) {
-                Err(failed) if must_stay(&failed.error) => {
-                    in_place::exchange(failed.file.as_file(), path)?;
-                }
-                persisted => drop(persisted?),
-            },
+            Self::Named(file, _hidden) => drop(file.persist(path)?),
         }
         sync_folder(path);
         Ok(())
     }
 }
 
-/// Returns whether the place is a file that cannot be renamed over, though it can be written: it is
-/// mounted there, or in a folder where all rename only their own.
-fn must_stay(error: &Error) -> bool {
-    matches!(
-        error.kind(),
-        ErrorKind::ResourceBusy | ErrorKind::CrossesDevices | ErrorKind::PermissionDenied
-    )
-}
-
 /// Keeps the owner as far as this is permitted.
-#[cfg(unix)]
 fn keep_owner(file: &File, replaced: &Metadata) {
-    use std::os::unix::fs::{MetadataExt, fchown};
     let (owner, group) = (Some(replaced.uid()), Some(replaced.gid()));
     if fchown(file, owner, group).is_err() {
         let _ = fchown(file, None, group);
     }
 }
-
-#[cfg(not(unix))]
-fn keep_owner(_: &File, _: &Metadata) {}
 
 /// Writes the new name itself to the disk. Not every file system can do that, and the file is
 /// already in its place.
@@ -237,10 +213,7 @@ mod unnamed {
             if renamed.is_err() {
                 let _ = std::fs::remove_file(&hidden.0);
             }
-            return match renamed {
-                Err(error) if must_stay(&error) => in_place::exchange(file, path),
-                renamed => renamed,
-            };
+            return renamed;
         }
     }
 }
@@ -289,10 +262,8 @@ mod tests {
         assert_eq!(count(folder.path()), 0);
     }
 
-    #[cfg(unix)]
     #[test]
     fn a_hidden_name_is_no_more_readable_than_what_it_replaces() {
-        use std::os::unix::fs::PermissionsExt;
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.csv");
         std::fs::write(&path, "secret").unwrap();

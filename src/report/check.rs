@@ -18,20 +18,38 @@ use rubscope_solver::study::survey::Scattered;
 /// # Errors
 /// An error of the writer.
 pub fn write(scene: &CheckedScene, out: &mut dyn Write) -> Result<()> {
-    let doubts = scene.doubts();
+    let margins = Margins::of(scene);
     let mut paragraphs =
-        vec![scene.title.clone(), machine(scene), frequencies(scene), limits(scene)];
+        vec![scene.title.clone(), machine(scene), frequencies(scene), limits(&margins)];
     paragraphs.extend(Scattered::of(scene).as_ref().map(survey::of_scatter));
     paragraphs.extend(unknown(scene));
-    paragraphs.push(match doubts.len() {
-        0 => "Nothing looks like a slip of a unit or a decimal point.".to_string(),
-        some => format!("{} like a slip:", if some == 1 { "This looks" } else { "These look" }),
-    });
+    let doubts = margins.doubts();
+    if doubts.is_empty() {
+        paragraphs.push(CHECKED.to_string());
+    }
     for text in paragraphs.iter().filter(|text| !text.is_empty()) {
         wrapped(text, WIDTH).iter().try_for_each(|line| writeln!(out, "{line}"))?;
     }
+    write_doubts(&doubts, out)
+}
+
+/// What was checked where nothing is doubted.
+const CHECKED: &str = "Checked: radius, clearance, tip speed, pulse and the push of a tip by their \
+    size; frequency, modal mass and damping ratio of every mode, and their course over the \
+    diameters. Nothing looks like a slip of a unit or a decimal point.";
+
+/// Writes what looks like a slip, if anything does.
+///
+/// # Errors
+/// An error of the writer.
+pub fn write_doubts(doubts: &[String], out: &mut dyn Write) -> Result<()> {
+    match doubts.len() {
+        0 => return Ok(()),
+        1 => writeln!(out, "This looks like a slip:")?,
+        _ => writeln!(out, "These look like a slip:")?,
+    }
     for doubt in doubts {
-        for (row, line) in wrapped(&doubt, WIDTH - 2).iter().enumerate() {
+        for (row, line) in wrapped(doubt, WIDTH - 2).iter().enumerate() {
             writeln!(out, "{} {line}", if row == 0 { "-" } else { " " })?;
         }
     }
@@ -91,8 +109,8 @@ fn frequencies(scene: &CheckedScene) -> String {
 }
 
 /// Returns where the scene stands.
-fn limits(scene: &CheckedScene) -> String {
-    let margins = Margins::of(scene);
+fn limits(margins: &Margins) -> String {
+    let scene = &margins.scene;
     let now = speed(scene.operation.speed_rad_s);
     let mut told = vec![format!("The rotor turns at {now}.")];
     for limit in &margins.limits {
@@ -110,6 +128,8 @@ fn limits(scene: &CheckedScene) -> String {
             limit.margin.map_or(String::new(), |part| format!(" ({})", words::margin(part)));
         told.push(format!("{} {value}{margin}: {}.", limit.name, limit.name.what()));
     }
+    let push = margins.tip_push().map(|push| with_unit(push, 4, "N"));
+    told.extend(push.map(|push| format!("In the lock a blade tip pushes with up to {push}.")));
     told.join(" ")
 }
 

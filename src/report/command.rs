@@ -12,6 +12,9 @@ use rubscope_solver::scene::{BUILTIN, DEFAULT, Scene};
 pub const PROGRAM: &str = "rubscope";
 /// Its version.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+/// Its commit, with a hash of its sources where they are of none (`build.rs`): another one may
+/// judge a motion in another way.
+pub const COMMIT: &str = env!("RUBSCOPE_COMMIT");
 
 /// A command line of this program, quoted for a shell.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,7 +25,9 @@ impl CommandLine {
     /// differs from the one of that name; charts are not counted.
     #[must_use]
     pub fn from_base(command: &str, name: &str, base: &Scene, scene: &Scene) -> Self {
-        let start = Self(format!("{PROGRAM} {command} {}", quoted(name)));
+        // A file whose name begins with - would be taken for an option.
+        let here = if name.starts_with('-') { "./" } else { "" };
+        let start = Self(format!("{PROGRAM} {command} {}", quoted(&format!("{here}{name}"))));
         let set = |(path, text)| format!("{path}={text}");
         differences(base, scene).map(set).fold(start, |line, set| line.option("--set", set))
     }
@@ -73,10 +78,10 @@ impl CommandLine {
         self
     }
 
-    /// Returns the program, its version and the command, as `program` in JSON.
+    /// Returns the program, its version and commit and the command, as `program` in JSON.
     #[must_use]
     pub fn program(&self) -> Value {
-        json!({ "name": PROGRAM, "version": VERSION, "command": self.0 })
+        json!({ "name": PROGRAM, "version": VERSION, "commit": COMMIT, "command": self.0 })
     }
 }
 
@@ -106,11 +111,11 @@ pub struct Provenance {
 }
 
 impl Provenance {
-    /// Returns all of it as text: a line with program and version, the command, and the scene as a
+    /// Returns all of it as text: a line with program, version and commit, the command, and the scene as a
     /// scene file.
     #[must_use]
     pub fn text(&self) -> String {
-        format!("{PROGRAM} {VERSION}\n{}\n\n{}", self.command, self.scene.to_toml())
+        format!("{PROGRAM} {VERSION} {COMMIT}\n{}\n\n{}", self.command, self.scene.to_toml())
     }
 }
 
@@ -122,6 +127,8 @@ mod tests {
     fn a_command_names_what_differs_and_nothing_else() {
         let mut scene = Scene::builtin("slip").unwrap();
         assert_eq!(CommandLine::new("run", &scene).to_string(), "rubscope run slip");
+        let dashed = CommandLine::from_base("run", "-a.toml", &scene, &scene);
+        assert_eq!(dashed.to_string(), "rubscope run ./-a.toml");
         scene.set("operation.speed_rad_s", "-430").unwrap();
         scene.set("title", "it's mine").unwrap();
         scene.set("note", "seen on Monday").unwrap();

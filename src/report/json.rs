@@ -6,6 +6,7 @@ use std::io::Write;
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use super::sentence::growth_of;
 use super::{CommandLine, Wall};
 use rubscope_solver::motion::RunReport;
 
@@ -56,6 +57,14 @@ pub fn write_run(
     if let Some(Value::Object(solver)) = value.get_mut("solver") {
         solver.insert("wall_s".to_string(), json!(wall.run_s));
         solver.insert("certainty_s".to_string(), json!(wall.certainty_s));
+    }
+    if let (Some(growth), Some(Value::Object(outcome))) =
+        (growth_of(report), value.get_mut("outcome"))
+    {
+        outcome.insert("growth_1_s".to_string(), json!(growth));
+    }
+    if let (Some(note), Some(report)) = (report.scene.share_note(), value.as_object_mut()) {
+        report.insert("notes".to_string(), json!([note]));
     }
     if let (Some(changes), Some(report)) = (changes, value.as_object_mut()) {
         report.insert("changes".to_string(), json!(changes));

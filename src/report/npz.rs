@@ -1,5 +1,5 @@
 //! A history for numpy: `numpy.load(file)["u_c_m"]` is the column of that
-//! name. An `.npz` is a zip of `.npy` arrays. The arrays `version`, `command`
+//! name. An `.npz` is a zip of `.npy` arrays. The arrays `version`, `commit`, `command`
 //! and `scene` (a scene file) are texts: `numpy.load(file)["scene"].item()`.
 
 use std::io::{Error, Result, Write};
@@ -7,7 +7,7 @@ use std::io::{Error, Result, Write};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
-use super::command::VERSION;
+use super::command::{COMMIT, VERSION};
 use super::{History, Provenance};
 
 /// Hides the first error of the writer from the archive, which would print it in its own words.
@@ -48,6 +48,7 @@ pub fn write(history: &History, origin: &Provenance, out: &mut dyn Write) -> Res
         add(&values.name, column(&values.values))?;
     }
     add("version", text(VERSION))?;
+    add("commit", text(COMMIT))?;
     add("command", text(&origin.command.to_string()))?;
     add("scene", text(&origin.scene.to_toml()))?;
     archive.finish().map_err(Error::other)?;

@@ -5,6 +5,7 @@ use std::cell::Cell;
 use std::f64::consts::TAU;
 
 pub use rubscope_solver::numeric::rounding::rounded;
+use rubscope_solver::scene::Quantity;
 
 /// Returns a number in at most six significant digits.
 ///
@@ -105,6 +106,28 @@ pub fn per_frequency(omega: f64) -> f64 {
 #[must_use]
 pub fn in_shown_unit(x: f64, unit: &str) -> (f64, &str) {
     if unit == RAD_S { (per_speed(x), speed_unit()) } else { (x, unit) }
+}
+
+/// Returns a number as it is shown, in its own unit of SI: the inverse of [`in_shown_unit`].
+#[must_use]
+pub fn from_shown(x: f64, unit: &str) -> f64 {
+    if unit == RAD_S && IN_RPM.get() { x * (TAU / 60.0) } else { x }
+}
+
+/// Returns a number of a quantity, or a range of them, as it was typed: a speed without a unit of
+/// its own gets the unit in which speeds are shown.
+#[must_use]
+pub fn with_typed_unit(text: &str, of: Quantity) -> String {
+    if of != Quantity::Speed || !IN_RPM.get() {
+        return text.to_string();
+    }
+    let is_bare = |number: &str| !number.contains('%') && Quantity::Plain.read(number).is_ok();
+    let parts = text.split(':').enumerate().map(|(place, part)| match part.trim_end() {
+        // The third part of a range is a count.
+        number if place < 2 && is_bare(number) => format!("{number}{}", speed_unit()),
+        _ => part.to_string(),
+    });
+    parts.collect::<Vec<_>>().join(":")
 }
 
 const RAD_S: &str = "rad/s";
@@ -299,6 +322,34 @@ mod tests {
         ] {
             assert_eq!(with_unit(x, digits, unit), text);
         }
+    }
+
+    #[test]
+    fn a_bare_speed_that_is_typed_has_the_unit_in_which_speeds_are_shown() {
+        let typed = |text| with_typed_unit(text, Quantity::Speed);
+        assert_eq!((typed("4500"), from_shown(450.0, "rad/s")), ("4500".into(), 450.0));
+        tell_in_rpm(true);
+        for (text, with_unit) in [
+            ("4500", "4500rpm"),
+            (" -4.5k ", " -4.5krpm"),
+            ("0:9e3:51", "0rpm:9e3rpm:51"),
+            ("150Hz:9500", "150Hz:9500rpm"),
+            ("450 rad/s", "450 rad/s"),
+            ("43 kN", "43 kN"),
+            ("20m", "20m"),
+            ("5 %", "5 %"),
+            ("fast", "fast"),
+            ("", ""),
+        ] {
+            assert_eq!(typed(text), with_unit);
+        }
+        let (force, read) = (with_typed_unit("4500", Quantity::Force), typed("4.5k"));
+        let [shown, back] = [450.0, 4500.0].map(|x| (per_speed(x), from_shown(x, "rad/s")));
+        tell_in_rpm(false);
+        assert_eq!(force, "4500");
+        assert_eq!(Quantity::Speed.read(&read), Ok(4500.0 * (TAU / 60.0)));
+        assert_eq!(back.1, 4500.0 * (TAU / 60.0));
+        assert!((shown.0 * TAU / 60.0 / 450.0 - 1.0).abs() < 1e-15);
     }
 
     #[test]

@@ -15,7 +15,7 @@ use super::map::names;
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::{Axis, AxisError, Cell, Map, MapPlan};
 
-/// Version and commit of the program: another one may judge a motion in another way.
+/// Version and commit of the program.
 const VERSION: &str = env!("RUBSCOPE_VERSION");
 /// Start of the first line, before the version.
 const PROGRAM: &str = "# rubscope ";

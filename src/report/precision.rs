@@ -1,5 +1,4 @@
-//! Speed against error as a table, as CSV, as a figure, and as a chart in text:
-//! log error against log time, one letter a series.
+//! Speed against error as a table, as CSV, and as a figure: log error against log time.
 
 use std::io::{Result, Write};
 
@@ -10,11 +9,7 @@ use rubscope_solver::scene::{ContactLaw, ModelSize, SolverKind};
 use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
 use rubscope_solver::study::precision::{Lack, Method, Precision, Reference, Row, Way};
 
-/// Size of the text chart.
-const COLUMNS: usize = 64;
-const ROWS: usize = 20;
-
-/// Letter of a series in the text chart: solver, law and model size.
+/// Letter of a series on the screen: solver, law and model size.
 #[must_use]
 pub fn letter(way: &Way) -> char {
     let base = match (way.solver, way.contact) {
@@ -68,8 +63,9 @@ fn found(reference: &Reference) -> String {
     }
 }
 
-/// Why there is no reference.
-fn why_none(lack: Lack) -> &'static str {
+/// Returns why there is no reference.
+#[must_use]
+pub fn why_none(lack: Lack) -> &'static str {
     match lack {
         Lack::NotFalling => "the end does not settle with the step",
         Lack::TooFar => "the end settles with the step, but not yet at the finest",
@@ -126,7 +122,6 @@ pub fn reference_words(reference: &Reference) -> String {
 pub fn table(report: &Precision) -> Table {
     let head = |name, words, digits| Heading::from(name).words(words).digits(digits);
     let columns: &[Column<'_, Row, Heading>] = &[
-        (Heading::shown(""), |row| letter(&row.way).to_string().into()),
         ("solver".into(), |row| row.way.solver.as_ref().into()),
         ("contact".into(), |row| row.way.contact.as_ref().into()),
         ("model".into(), |row| row.way.model.as_ref().into()),
@@ -167,7 +162,7 @@ fn count_of(steps: Option<u64>) -> TableCell {
     steps.map(|n| n as f64).into()
 }
 
-/// Table, chart and reference, to read.
+/// Writes reference and table, to read.
 ///
 /// # Errors
 /// An error of the writer.
@@ -202,12 +197,7 @@ pub fn write(report: &Precision, out: &mut dyn Write) -> Result<()> {
         )?;
     }
     writeln!(out)?;
-    table(report).write_text(out)?;
-    if report.rows.iter().any(|row| row.error_final.is_some()) {
-        writeln!(out)?;
-        write_chart(report, out)?;
-    }
-    Ok(())
+    table(report).write_text(out)
 }
 
 /// The place of a row in a chart with two logarithmic axes.
@@ -291,72 +281,4 @@ fn style(way: &Way) -> Style {
         ModelSize::Full => 7,
     };
     Style::Discs(colour, radius)
-}
-
-/// Log error (up) against log time (right), a letter a row; errors of zero in a
-/// separate line below.
-fn write_chart(report: &Precision, out: &mut dyn Write) -> Result<()> {
-    let placed: Vec<(PlotPlace, char)> =
-        report.rows.iter().filter_map(|row| Some((place(row)?, letter(&row.way)))).collect();
-    let Some((left, right)) = decades(placed.iter().map(|(at, _)| at.time)) else { return Ok(()) };
-    let column = |x: f64| ((x - left) / (right - left) * COLUMNS as f64).round() as usize;
-    let mut zeros = vec![' '; COLUMNS + 1];
-    writeln!(out, "log10 error (of the clearance) against log10 time (s)")?;
-    if let Some((bottom, top)) = decades(placed.iter().filter_map(|(at, _)| at.error)) {
-        let mut cells = vec![vec![' '; COLUMNS + 1]; ROWS + 1];
-        for (at, mark) in &placed {
-            let line = match at.error {
-                Some(y) => {
-                    cells.get_mut(((top - y) / (top - bottom) * ROWS as f64).round() as usize)
-                }
-                None => None,
-            };
-            if let Some(cell) = line.and_then(|line| line.get_mut(column(at.time))) {
-                *cell = *mark;
-            }
-        }
-        for (index, line) in cells.iter().enumerate() {
-            let level = top - (top - bottom) * index as f64 / ROWS as f64;
-            let label = if (level - level.round()).abs() < 1e-9 {
-                format!("{level:.0}")
-            } else {
-                String::new()
-            };
-            write_line(&label, line, out)?;
-        }
-    }
-    for (at, mark) in placed.iter().filter(|(at, _)| at.error.is_none()) {
-        if let Some(cell) = zeros.get_mut(column(at.time)) {
-            *cell = *mark;
-        }
-    }
-    if zeros.iter().any(|&cell| cell != ' ') {
-        writeln!(out, "     : below, an error of 0, which has no logarithm")?;
-        write_line("0", &zeros, out)?;
-    }
-    let mut axis = vec![' '; COLUMNS + 8];
-    for decade in (left as i32)..=(right as i32) {
-        let at = column(f64::from(decade));
-        for (offset, digit) in decade.to_string().chars().enumerate() {
-            if let Some(cell) = axis.get_mut(at + offset) {
-                *cell = digit;
-            }
-        }
-    }
-    let axis: String = axis.iter().collect();
-    writeln!(out, "     +{}", "-".repeat(COLUMNS))?;
-    writeln!(out, "     {}", axis.trim_end())?;
-    writeln!(
-        out,
-        "{}; capitals: modal; 1, 2: full",
-        match report.scene.solver.contact {
-            ContactLaw::Smooth => "s explicit smooth",
-            _ => "e event, u explicit unilateral, b explicit bilateral",
-        }
-    )
-}
-
-fn write_line(label: &str, cells: &[char], out: &mut dyn Write) -> Result<()> {
-    let cells: String = cells.iter().collect();
-    writeln!(out, "{label:>4} |{}", cells.trim_end())
 }

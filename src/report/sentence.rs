@@ -6,8 +6,10 @@ use std::fmt;
 
 use super::line::capital;
 use super::number::{count, grouped, with_unit};
+use rubscope_solver::harmonic::lock_growth;
+use rubscope_solver::model::Machine;
 use rubscope_solver::motion::{Failure, FailureReason, RunReport, Verdict};
-use rubscope_solver::scene::ContactLaw;
+use rubscope_solver::scene::{ContactLaw, ModelSize, Scene};
 
 /// Between the word of the verdict and its sentence, and between two sentences.
 const APART: [&str; 2] = ["  ", " "];
@@ -40,11 +42,13 @@ pub struct Facts {
 }
 
 /// Reason to doubt a verdict.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Doubt {
     /// The contact pulled in so many steps, which no real one can; and what a contact that
     /// only pushes does, where that is known.
     Pulls(u64, Option<Verdict>),
+    /// The lock is unstable at a constant speed, and grows at this rate \[1/s\].
+    Grows(f64),
     /// A change that no measurement could see changes the outcome.
     Sensitive,
     /// Another verdict of the event solver, for this reason.
@@ -104,6 +108,25 @@ impl Sentence {
     }
 }
 
+/// Returns how fast a lock grows in which a run of a scene ended, of this machine at this speed
+/// \[1/s\]; none where it lasts, and where the speed changes.
+#[must_use]
+pub fn growth(verdict: Verdict, scene: &Scene, machine: &Machine, speed: f64) -> Option<f64> {
+    let steady = scene.operation.speed_ramp_rad_s2 == 0.0;
+    let bends = scene.solver.model != ModelSize::Rigid;
+    (verdict == Verdict::Locked && steady && bends).then(|| lock_growth(machine, speed))?
+}
+
+/// Returns the rate of [`growth`] in words.
+pub(super) fn rate(growth: f64) -> String {
+    with_unit(growth, 3, "1/s")
+}
+
+/// Returns the growth of the lock in which a run ended \[1/s\].
+pub(super) fn growth_of(report: &RunReport) -> Option<f64> {
+    growth(report.outcome.verdict, &report.scene, &report.end_machine, report.end_speed_rad_s)
+}
+
 impl Facts {
     /// Collects the facts of a run. What unilateral contact would do is not known of it.
     #[must_use]
@@ -114,6 +137,7 @@ impl Facts {
             let groups = groups.filter(move |group| !pulling || group.multiplier_n > 0.0);
             groups.flat_map(|group| group.blades.iter().copied()).collect()
         };
+        let grows = growth_of(report).map(Doubt::Grows);
         let pulls = report.checks.tensile_steps;
         let pulls = (pulls > 0).then_some(Doubt::Pulls(pulls, None));
         let sensitive = (outcome.sensitive == Some(true)).then_some(Doubt::Sensitive);
@@ -127,7 +151,7 @@ impl Facts {
             damped: scene.casing_in_use().damping_ratio > 0.0,
             broken: report.broken.map(|(_, speed)| speed),
             failure: report.failure.clone(),
-            doubts: pulls.into_iter().chain(sensitive).collect(),
+            doubts: grows.into_iter().chain(pulls).chain(sensitive).collect(),
         }
     }
 
@@ -331,6 +355,14 @@ impl Facts {
                         "But it pulls.".into(),
                     ],
                 }
+            }
+            Doubt::Grows(growth) => {
+                let grows = format!("it grows by {}", rate(growth));
+                vec![
+                    format!("But this lock is unstable: {grows}."),
+                    format!("{}.", capital(&grows)),
+                    "It is unstable.".into(),
+                ]
             }
             Doubt::Sensitive => plain(&[
                 "A tiny change of pulse or speed ends otherwise.",

@@ -5,7 +5,9 @@ use std::io::{Result, Write};
 use super::Wall;
 use super::line::capital;
 use super::number::Digits;
-use super::number::{count, grouped, per_speed, short, speed, time};
+use super::number::{count, grouped, per_speed, rounded, short, speed, time};
+use super::sentence::{growth_of, rate};
+use rubscope_solver::harmonic::lock_window;
 use rubscope_solver::model::Machine;
 use rubscope_solver::motion::{Contact, RunReport, Verdict};
 use rubscope_solver::scene::{ContactLaw, SolverKind};
@@ -36,6 +38,9 @@ pub fn write(report: &RunReport, wall: Wall, out: &mut dyn Write) -> Result<()> 
     for note in scene.modes_note().into_iter().chain(scene.start_note()) {
         writeln!(out, "{}.", capital(&note))?;
     }
+    if let Some(note) = report.scene.share_note() {
+        writeln!(out, "{}.", capital(note))?;
+    }
     if report.solver.linearised {
         writeln!(out, "Blade angles inside the gap's phase are left out (linearised).")?;
     }
@@ -43,6 +48,10 @@ pub fn write(report: &RunReport, wall: Wall, out: &mut dyn Write) -> Result<()> 
     writeln!(out, "Verdict: {}. {}", report.outcome.verdict, meaning(report))?;
     if let Some(message) = &report.outcome.message {
         writeln!(out, "Reason: {message}.")?;
+    }
+    if let Some(growth) = growth_of(report) {
+        let rate = rate(growth);
+        writeln!(out, "Held, but this lock is unstable: it grows by {rate} and does not last.")?;
     }
     if report.outcome.sensitive == Some(true) {
         writeln!(
@@ -210,7 +219,7 @@ fn touch(contact: &Contact, moved: Option<f64>, digits: &Digits) -> String {
 /// Returns the rotor speed, compared with the threshold speeds.
 fn speeds(report: &RunReport, machine: &Machine) -> String {
     let now = report.end_speed_rad_s;
-    let lock = machine.lock_window(now);
+    let lock = lock_window(machine, now);
     let at_end = if now == report.scene.operation.speed_rad_s { "" } else { " at the end" };
     let mut parts = vec![format!("Rotor speed{at_end}: {}", speed(now))];
     let part_of = |name: &str, threshold: f64| {
@@ -247,7 +256,20 @@ fn impacts(report: &RunReport) -> String {
         .collect();
     let all = u64::try_from(listed.len()).is_ok_and(|listed| listed == report.impact_count);
     let start = if all { "" } else { "the first ones " };
-    format!("{}: {start}{}.", count(report.impact_count, "impact"), listed.join("; "))
+    let (least, series) = match report.impacts_accumulate_at_s {
+        Some(t_s) => {
+            let at = time(rounded(t_s, 6));
+            (
+                "At least ",
+                format!(
+                    " They accumulate at {at}: infinitely many end there, of which so many were counted."
+                ),
+            )
+        }
+        None => ("", String::new()),
+    };
+    let counted = count(report.impact_count, "impact");
+    format!("{least}{counted}: {start}{}.{series}", listed.join("; "))
 }
 
 fn checks(report: &RunReport, machine: &Machine, out: &mut dyn Write) -> Result<()> {

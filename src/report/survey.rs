@@ -65,7 +65,7 @@ pub fn table(survey: &Survey) -> Table {
             let of_limit = [
                 limit.name.to_string().into(),
                 limit.value.into(),
-                limit.margin.into(),
+                words::margin_cell(limit.margin),
                 limit.in_range.into(),
                 limit.by.into(),
             ];
@@ -151,7 +151,7 @@ fn machine(survey: &Survey) -> String {
 /// What the speeds of the other sense are.
 fn sense(survey: &Survey) -> String {
     let mirrored = survey.rows.iter().all(|row| {
-        let back = row.limits.iter().filter(|limit| limit.value < 0.0);
+        let back = row.limits.iter().filter(|limit| limit.value.is_sign_negative());
         back.into_iter().all(|limit| {
             row.limit(limit.name, true).is_some_and(|forward| forward.value == -limit.value)
         })
@@ -239,7 +239,10 @@ fn nearest(survey: &Survey, out: &mut dyn Write) -> Result<()> {
 
 /// A limit of a number of diameters, in words.
 fn line(diameters: u32, limit: &SurveyLimit) -> Vec<TableCell> {
-    let margin = limit.margin.map_or_else(|| "the other way round".into(), words::margin);
+    let margin = match limit.margin {
+        None if limit.value == 0.0 => String::new(),
+        margin => margin.map_or_else(|| "the other way round".into(), words::margin),
+    };
     vec![
         diameters.to_string().into(),
         limit.name.to_string().into(),

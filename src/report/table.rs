@@ -21,7 +21,7 @@ pub const WIDTH: usize = 100;
 pub enum TableCell {
     /// A number; what is no finite number is left empty.
     Number(f64),
-    /// A number for files, and how people read it.
+    /// A number for files, and how people read it; what is no finite number is left empty there.
     Told(f64, String),
     /// A word or two.
     Word(String),
@@ -103,9 +103,9 @@ impl Heading {
 impl TableCell {
     fn in_csv(self) -> String {
         match self {
-            Self::Number(x) | Self::Told(x, _) => exact(x),
+            Self::Number(x) | Self::Told(x, _) if x.is_finite() => exact(x),
             Self::Word(word) => word,
-            Self::Empty => String::new(),
+            Self::Number(_) | Self::Told(..) | Self::Empty => String::new(),
         }
     }
 }
@@ -369,17 +369,6 @@ impl MadeTable {
         let cells = |item: &T| columns.iter().map(|column| (column.1)(item)).collect();
         let at: RowsAt = Rc::new(move |place| Ok(items(place)?.iter().map(cells).collect()));
         Self { headings, places, rows, at }
-    }
-
-    /// With these columns, and a row for each item.
-    pub fn over<T: Clone + 'static>(
-        columns: &'static [Column<'static, T>],
-        items: &Rc<Vec<T>>,
-    ) -> Self {
-        let (count, items) = (items.len(), Rc::clone(items));
-        Self::of(columns, [count; 2], move |place| {
-            Ok(items.get(place).cloned().into_iter().collect())
-        })
     }
 
     /// With columns of these names, and a row for each place, which has these cells.

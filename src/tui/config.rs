@@ -2,6 +2,7 @@
 //! written only when that changed; without a folder for it, nothing is
 //! remembered.
 
+use std::io::ErrorKind::NotADirectory;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::channel;
@@ -55,7 +56,7 @@ pub struct Config {
 
 /// Units in which numbers are shown.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[serde(default, expecting = "for units a table: units.speed = \"rpm\" or \"rad/s\"")]
 pub struct Units {
     /// Unit of speeds.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -107,15 +108,9 @@ impl Config {
     }
 }
 
-#[cfg(unix)]
 fn private_folder(folder: &Path) -> std::io::Result<()> {
     use std::os::unix::fs::DirBuilderExt;
     std::fs::DirBuilder::new().recursive(true).mode(0o700).create(folder)
-}
-
-#[cfg(not(unix))]
-fn private_folder(folder: &Path) -> std::io::Result<()> {
-    std::fs::create_dir_all(folder)
 }
 
 /// Returns whether a folder may be made: not below a home that does not exist.
@@ -194,29 +189,31 @@ impl Memory {
         self.began = Some(Choices::of(app));
     }
 
-    /// Remembers what was changed since the beginning, for the next start. Waits no
-    /// longer than this for a disk that does not answer.
-    pub fn keep(self, app: &App, patience: Duration) {
-        let Some(path) = self.path.clone() else { return };
+    /// Remembers what was changed since the beginning, for the next start; returns why it could
+    /// not. Waits no longer than this for a disk that does not answer.
+    pub fn keep(self, app: &App, patience: Duration) -> Option<String> {
+        let path = self.path.clone()?;
         let ended = Choices::of(app);
         let (introduced, lessons) = (!app.dialogue.is_new, app.lessons.done.clone());
         let (done, wait) = channel();
         let work = move || {
             // Another explorer may have written it meanwhile.
-            if let Ok(config) = Config::read(&path) {
+            let kept = Config::read(&path).and_then(|config| {
                 let mut changed = self.changed(config.clone(), ended, introduced);
                 changed.steps_done.join(lessons);
-                if changed != config {
-                    // A folder that takes no file: nothing is remembered.
-                    let _ = changed.write(&path);
-                }
-            }
+                let is_new = changed != config;
+                let written = if is_new { changed.write(&path) } else { Ok(()) };
+                // A place that is no folder is meant to keep nothing.
+                let told = written.err().filter(|error| error.kind() != NotADirectory);
+                told.map_or(Ok(()), |error| Err(error.to_string()))
+            });
+            let failed =
+                |why| format!("nothing is remembered: cannot write {}: {why}", path.display());
             // Without a receiver nobody waits any more.
-            let _ = done.send(());
+            let _ = done.send(kept.err().map(failed));
         };
-        if std::thread::Builder::new().name(FILES_NAME.into()).spawn(work).is_ok() {
-            let _ = wait.recv_timeout(patience);
-        }
+        std::thread::Builder::new().name(FILES_NAME.into()).spawn(work).ok()?;
+        wait.recv_timeout(patience).ok()?
     }
 
     fn changed(&self, mut config: Config, ended: Choices, introduced: bool) -> Config {

@@ -3,7 +3,6 @@
 
 use std::sync::mpsc::Sender;
 use std::thread;
-#[cfg(unix)]
 use std::time::Duration;
 
 use crossterm::event::{Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers, MouseEvent};
@@ -41,6 +40,19 @@ pub enum ScreenEvent {
     InputClosed,
 }
 
+impl ScreenEvent {
+    /// Returns whether it is Ctrl-C, which quits everywhere.
+    pub fn is_interrupt(&self) -> bool {
+        let interrupt = (KeyCode::Char('c'), KeyModifiers::CONTROL);
+        matches!(self, Self::Key(key) if (key.code, key.modifiers) == interrupt)
+    }
+
+    /// Returns whether the user has typed, pasted or pointed.
+    pub fn is_input(&self) -> bool {
+        matches!(self, Self::Key(_) | Self::Pasted(_) | Self::Mouse(_))
+    }
+}
+
 /// Starts the thread that reads keys, and the report of the background among them.
 ///
 /// # Errors
@@ -52,6 +64,11 @@ pub fn read_keys(to: Sender<ScreenEvent>) -> std::io::Result<()> {
             let event = input.next().transpose().and_then(screen_event);
             let ground = input.take_ground().map(ScreenEvent::Ground);
             for event in [ground, event].into_iter().flatten() {
+                if event.is_interrupt() {
+                    // A frame that waits for the terminal must not keep the drawing thread
+                    // from hearing it.
+                    super::terminal::cut_frame();
+                }
                 let last = event == ScreenEvent::InputClosed;
                 if to.send(event).is_err() || last {
                     return;
@@ -66,14 +83,7 @@ pub fn read_keys(to: Sender<ScreenEvent>) -> std::io::Result<()> {
 fn screen_event(event: std::io::Result<Event>) -> Option<ScreenEvent> {
     Some(match event {
         // Some terminals also report releases; repeats count as presses.
-        Ok(Event::Key(key)) if key.kind != KeyEventKind::Release => {
-            if key.code == KeyCode::Char('c') && key.modifiers == KeyModifiers::CONTROL {
-                // It quits everywhere; a frame that waits for the terminal must not
-                // keep the drawing thread from hearing it.
-                super::terminal::cut_frame();
-            }
-            ScreenEvent::Key(key)
-        }
+        Ok(Event::Key(key)) if key.kind != KeyEventKind::Release => ScreenEvent::Key(key),
         Ok(Event::Mouse(mouse)) => ScreenEvent::Mouse(mouse),
         Ok(Event::Resize(..)) => ScreenEvent::Resize,
         Ok(Event::Paste(text)) => ScreenEvent::Pasted(text),
@@ -87,7 +97,6 @@ fn screen_event(event: std::io::Result<Event>) -> Option<ScreenEvent> {
 ///
 /// # Errors
 /// The system cannot start a thread or watch signals.
-#[cfg(unix)]
 pub fn watch_signals(to: Sender<ScreenEvent>) -> std::io::Result<()> {
     use super::{ending, files, job, terminal};
     use signal_hook::consts::{SIGCONT, SIGTSTP, SIGWINCH};
@@ -125,7 +134,6 @@ pub fn watch_signals(to: Sender<ScreenEvent>) -> std::io::Result<()> {
 
 /// Returns every signal that ends a program which does not catch it, and can be caught; not those
 /// of faults in the program itself.
-#[cfg(unix)]
 fn deadly_signals() -> Vec<i32> {
     use signal_hook::consts::{
         SIGABRT, SIGALRM, SIGHUP, SIGINT, SIGPROF, SIGQUIT, SIGSYS, SIGTERM, SIGTRAP, SIGUSR1,
@@ -145,15 +153,5 @@ fn deadly_signals() -> Vec<i32> {
     signals
 }
 
-/// No signals to wait for.
-///
-/// # Errors
-/// None here.
-#[cfg(not(unix))]
-pub fn watch_signals(_: Sender<ScreenEvent>) -> std::io::Result<()> {
-    Ok(())
-}
-
 /// Time that the drawing thread may take to end after a signal: it has a file to keep.
-#[cfg(unix)]
 const GRACE: Duration = super::ending::PATIENCE;

@@ -216,16 +216,19 @@ impl Ink {
 mod tests {
     use super::*;
     use crate::tui::Marker;
-    use crate::tui::engine::Engine;
-    use crate::tui::worker::Stepwise;
+    use crate::tui::worker::Playback;
     use rubscope_solver::scene::Scene;
 
     #[test]
     fn a_picture_is_well_formed_and_says_what_the_screen_says() {
         let mut app = App::new(Scene::base().checked().unwrap(), Theme::Dark, Marker::Braille);
-        let mut engine = Stepwise::new(5e-3);
-        engine.order(&app.order());
-        app.apply_snapshot(engine.take().unwrap());
+        let limit = std::time::Duration::MAX;
+        let mut playback = Playback::with_time_limit(app.order(), limit);
+        while playback.is_computing() {
+            playback.compute();
+        }
+        playback.play(5e-3);
+        app.apply_snapshot(playback.snapshot());
         let svg = svg(&app);
         assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
         assert_eq!(svg.matches("<text").count(), svg.matches("</text>").count());

@@ -225,7 +225,6 @@ mod tests {
         assert_eq!(found.missing, None);
     }
 
-    #[cfg(unix)]
     #[test]
     fn a_pipe_is_not_opened_and_a_folder_of_many_files_has_an_end() {
         let folder = tempfile::tempdir().unwrap();

@@ -53,25 +53,6 @@ pub trait Host {
     }
 }
 
-/// A host without a terminal, for tests; files are written at once.
-#[derive(Debug, Default)]
-pub struct NoHost;
-
-impl Host for NoHost {
-    fn suspend(&mut self, _: bool) -> Result<bool> {
-        Ok(true)
-    }
-    fn resume(&mut self) -> Result<()> {
-        Ok(())
-    }
-    fn copy(&mut self, _: &str) -> Result<()> {
-        Ok(())
-    }
-    fn write(&mut self, job: FileJob) -> Option<FileResult> {
-        Some(job.run())
-    }
-}
-
 /// The real terminal, its shell, and a thread for files.
 #[derive(Debug)]
 pub struct Shell {

@@ -76,46 +76,9 @@ pub struct LessonStep {
     /// Whether the other contact law is compared, from the answer on.
     #[serde(default)]
     pub compare: bool,
-    /// Statements that must be true when the step is done. A test asks the solvers.
+    /// Statements that must be true when the step is done, for the test that asks the solvers.
     #[serde(default)]
-    pub check: Vec<Check>,
-}
-
-/// A number or a word of the text, and where it is from.
-#[derive(Clone, Debug, Deserialize, PartialEq)]
-#[serde(deny_unknown_fields)]
-pub struct Check {
-    /// Something of the run to the end.
-    pub run: Option<String>,
-    /// Something of the steady states, from the harmonic balance.
-    pub hbm: Option<String>,
-    /// Something of the machine.
-    pub model: Option<String>,
-    /// A limit of the scene.
-    pub margins: Option<String>,
-    /// The parameter of which one per cent more changes that limit by a part of it.
-    pub by: Option<String>,
-    /// A key of the scene.
-    pub key: Option<String>,
-    /// The rotor speed for `hbm`, if not that of the scene \[rad/s\].
-    pub speed: Option<f64>,
-    /// Keys in which the scene differs from that of the step.
-    #[serde(default)]
-    pub with: Settings,
-    /// Expected value.
-    pub is: Expected,
-    /// Largest difference; half of the last digit if not given.
-    pub within: Option<f64>,
-}
-
-/// Expectation of a check.
-#[derive(Clone, Debug, Deserialize, PartialEq)]
-#[serde(untagged)]
-pub enum Expected {
-    /// A number, in SI units.
-    Number(f64),
-    /// A word.
-    Word(String),
+    pub check: Vec<toml::Table>,
 }
 
 /// Condition under which a task is done.

@@ -61,8 +61,7 @@ pub fn lines(
     prompt: bool,
 ) -> anyhow::Result<()> {
     let variable = |name: &str| std::env::var(name).unwrap_or_default();
-    let ability = ability::Ability::of(&variable);
-    let marker = options.marker(&config::Config::default(), &ability);
+    let marker = options.marker(&config::Config::default(), ability::only_ascii(&variable));
     let mut lines = Lines::of(scene, marker);
     lines.app.files.source.clone_from(&options.source);
     lines.app.appearance.rpm = options.rpm;

@@ -24,9 +24,7 @@ mod ground;
 pub mod history;
 #[doc(hidden)]
 pub mod host;
-#[cfg_attr(not(unix), path = "input_other.rs")]
 mod input;
-#[cfg_attr(not(unix), path = "job_other.rs")]
 mod job;
 mod knobs;
 #[doc(hidden)]
@@ -44,7 +42,6 @@ mod text;
 mod theme;
 #[doc(hidden)]
 pub mod trace;
-#[cfg_attr(not(unix), path = "tty_other.rs")]
 mod tty;
 mod update;
 mod views;
@@ -52,7 +49,7 @@ mod views;
 pub mod worker;
 
 use std::fs::File;
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 use std::sync::{Arc, mpsc};
 
 pub use app::{App, Exit, Source};
@@ -64,6 +61,8 @@ pub use run::run;
 pub use theme::{Theme, ThemeChoice};
 pub use update::{Effect, MouseOutcome};
 
+use crate::report::line::clean;
+use anyhow::Context;
 use rubscope_solver::scene::CheckedScene;
 
 /// Returns whether there is a terminal that only shows lines.
@@ -81,7 +80,7 @@ pub fn check_terminal() -> Result<(), &'static str> {
         return Err("the explorer needs a terminal on standard output; without one, use \
                     `rubscope run`, or `rubscope --lines`");
     }
-    if !std::io::stdin().is_terminal() && cfg!(unix) && File::open("/dev/tty").is_err() {
+    if !std::io::stdin().is_terminal() && File::open("/dev/tty").is_err() {
         return Err("the explorer needs a keyboard, and standard input is no terminal");
     }
     Ok(())
@@ -111,13 +110,13 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
     let term = variable("TERM");
     let is_plain = ability::is_plain(&term);
     let is_asked = choice.follows_ground() && ground.is_none() && !is_plain && !term.is_empty();
-    let ability = ability::Ability::of(&variable);
     let theme = choice.theme(ground.unwrap_or_default());
-    let mut app = App::new(scene, theme, options.marker(&memory.config, &ability));
+    let mut app =
+        App::new(scene, theme, options.marker(&memory.config, ability::only_ascii(&variable)));
     app.appearance.follows_ground = choice.follows_ground();
     app.files.source.clone_from(&options.source);
     app.mouse.on = options.mouse;
-    app.appearance.octants = ability.octants || options.marker == Some(Marker::Octant);
+    app.appearance.octants = options.marker == Some(Marker::Octant);
     app.appearance.rpm = options.rpm;
     memory.prepare(&mut app);
     terminal::set_mouse(app.mouse.on)?;
@@ -137,7 +136,10 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
         ended
     });
     drop(guard);
-    memory.keep(&app, ending::PATIENCE);
+    if let Some(why) = memory.keep(&app, ending::PATIENCE) {
+        // A terminal that is gone shows nothing.
+        let _ = writeln!(std::io::stderr(), "rubscope: {}", clean(&why));
+    }
     if app.files.writing.is_some() {
         files::tidy_up();
     }
@@ -148,7 +150,7 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
             (None, Some(reason)) => anyhow::bail!(reason),
             (None, None) => Ok(0),
         },
-        // The terminal was there and is gone: nobody is left to read a message.
-        (None, Err(_)) => Ok(128 + run::HANGUP),
+        (None, Err(error)) if terminal::is_gone(&error) => Ok(128 + run::HANGUP),
+        (None, Err(error)) => Err(error).context("cannot use the terminal"),
     }
 }

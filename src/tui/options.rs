@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use strum::{EnumString, VariantNames};
 
-use super::ability::{Ability, is_remote};
+use super::ability::is_remote;
 use super::app::Source;
 use super::config::Config;
 use super::line::Line;
@@ -86,9 +86,13 @@ impl ExploreOptions {
 
     /// Returns the marker: an option wins over what the terminal can show, and that over the config
     /// file.
-    pub(super) fn marker(&self, config: &Config, ability: &Ability) -> Marker {
-        let remembered = config.marker.filter(|marker| ability.shows(*marker));
-        self.marker.or(remembered).unwrap_or_else(|| ability.marker())
+    pub(super) fn marker(&self, config: &Config, only_ascii: bool) -> Marker {
+        let usual = if only_ascii { Marker::Ascii } else { Marker::Braille };
+        // Few terminals draw octants, and another one may be used now.
+        let is_shown = |marker: &Marker| {
+            *marker == Marker::Ascii || (*marker != Marker::Octant && !only_ascii)
+        };
+        self.marker.or(config.marker.filter(is_shown)).unwrap_or(usual)
     }
 
     /// Returns the line: over SSH it is thin.
@@ -148,11 +152,9 @@ mod tests {
         let config = |marker| Config { marker: Some(marker), ..Config::default() };
         let options = ExploreOptions::default();
         let given = ExploreOptions { marker: Some(Marker::Octant), ..ExploreOptions::default() };
-        let plain = Ability { ascii_only: true, octants: false };
-        let usual = Ability { ascii_only: false, octants: false };
-        assert_eq!(options.marker(&config(Marker::Dot), &usual), Marker::Dot);
-        assert_eq!(options.marker(&config(Marker::Octant), &usual), Marker::Braille);
-        assert_eq!(options.marker(&config(Marker::Dot), &plain), Marker::Ascii);
-        assert_eq!(given.marker(&config(Marker::Dot), &plain), Marker::Octant);
+        assert_eq!(options.marker(&config(Marker::Dot), false), Marker::Dot);
+        assert_eq!(options.marker(&config(Marker::Octant), false), Marker::Braille);
+        assert_eq!(options.marker(&config(Marker::Dot), true), Marker::Ascii);
+        assert_eq!(given.marker(&config(Marker::Dot), true), Marker::Octant);
     }
 }

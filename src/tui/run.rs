@@ -1,6 +1,7 @@
 //! The loop of the drawing thread. Backend, events, engine and host are given
 //! to it, so that whole screens can be tested without a terminal.
 
+use std::collections::VecDeque;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
@@ -26,6 +27,35 @@ const ANSWER: Duration = Duration::from_millis(15);
 
 /// Longest wait of quitting for a file that is being written.
 const LAST_FILE: Duration = Duration::from_secs(1);
+
+/// Most events before a Ctrl-C that are still answered: more than anybody types ahead of the
+/// screen, and answered in a fraction of a second.
+const MOST_AHEAD: usize = 1000;
+
+/// The events that have come and are not answered yet.
+struct Events<'a> {
+    from: &'a Receiver<ScreenEvent>,
+    waiting: VecDeque<ScreenEvent>,
+}
+
+impl Events<'_> {
+    /// Returns the next event that is there. Behind a burst of keys a Ctrl-C is the next one.
+    fn next(&mut self) -> Option<ScreenEvent> {
+        // Not for ever: more may come as fast as they are taken.
+        for event in self.from.try_iter().take(100 * MOST_AHEAD) {
+            if event.is_interrupt() && self.waiting.len() > MOST_AHEAD {
+                self.waiting.retain(|event| !event.is_input());
+            }
+            self.waiting.push_back(event);
+        }
+        self.waiting.pop_front()
+    }
+
+    /// Returns the next event, and waits for it this long.
+    fn within(&mut self, wait: Duration) -> Result<ScreenEvent, RecvTimeoutError> {
+        self.next().map_or_else(|| self.from.recv_timeout(wait), Ok)
+    }
+}
 
 /// Urgency of the next frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -61,6 +91,7 @@ pub fn run<B: Backend>(
     host: &mut dyn Host,
     frame: Duration,
 ) -> Result<Exit, B::Error> {
+    let mut events = Events { from: events, waiting: VecDeque::new() };
     let mut ordered: Option<Order> = None;
     let mut due = Due::Now;
     let mut drawn: Option<Instant> = None;
@@ -72,7 +103,7 @@ pub fn run<B: Backend>(
         let wait = drawn.map_or(Duration::ZERO, |at| due.pause(frame).saturating_sub(at.elapsed()));
         let wait = wait.max(throttle.wait(due == Due::Now, Instant::now()));
         let wait = wait.max(until(answer));
-        let mut next = match events.recv_timeout(wait) {
+        let mut next = match events.within(wait) {
             Ok(event) => Some(event),
             Err(RecvTimeoutError::Timeout) => None,
             Err(RecvTimeoutError::Disconnected) => {
@@ -83,13 +114,13 @@ pub fn run<B: Backend>(
         while let Some(event) = next {
             match handle(event, app, host) {
                 Reaction::Exit(exit) => return Ok(exit),
-                Reaction::Quit => return Ok(last_file(events, app, host)),
+                Reaction::Quit => return Ok(last_file(&mut events, app, host)),
                 Reaction::Draw(soon) => due = due.max(soon),
                 Reaction::Look => due = due.max(look(app, engine)),
                 Reaction::Redraw => (again, due) = (true, Due::Now),
             }
             // After many key presses only the last state is computed.
-            next = events.try_recv().ok();
+            next = events.next();
         }
         if order(app, engine, &mut ordered) {
             answer = Some(Instant::now() + ANSWER);
@@ -253,12 +284,12 @@ fn written(result: FileResult, app: &mut App, host: &mut dyn Host) {
 }
 
 /// Waits a moment for the file that is being written.
-fn last_file(events: &Receiver<ScreenEvent>, app: &mut App, host: &mut dyn Host) -> Exit {
+fn last_file(events: &mut Events, app: &mut App, host: &mut dyn Host) -> Exit {
     let began = Instant::now();
     while app.files.writing.is_some() {
-        match events.recv_timeout(LAST_FILE.saturating_sub(began.elapsed())) {
+        match events.within(LAST_FILE.saturating_sub(began.elapsed())) {
             // The keys after the one that quits are for nobody.
-            Ok(ScreenEvent::Key(_) | ScreenEvent::Pasted(_) | ScreenEvent::Mouse(_)) => {}
+            Ok(event) if event.is_input() => {}
             Ok(other) => {
                 if let Reaction::Exit(exit) = handle(other, app, host) {
                     return exit;

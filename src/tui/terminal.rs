@@ -221,7 +221,6 @@ pub fn write(bytes: &[u8]) -> Result<(), Error> {
 ///
 /// # Errors
 /// The terminal is closed.
-#[cfg(unix)]
 pub fn read(bytes: &mut [u8], wait: Option<Duration>) -> Result<Option<usize>, Error> {
     tty()?.read(bytes, wait)
 }
@@ -297,6 +296,14 @@ pub fn install_panic_hook(caught: &'static [&'static str]) {
         leave();
         report(info);
     }));
+}
+
+/// Returns whether an error says that the terminal is no more: nobody is left to read a message.
+pub fn is_gone(error: &Error) -> bool {
+    use std::io::ErrorKind::{BrokenPipe, NotFound, UnexpectedEof};
+    // EIO and ENXIO, of a terminal whose other end is closed, have no kind of their own.
+    matches!(error.kind(), BrokenPipe | NotFound | UnexpectedEof)
+        || [5, 6].map(Some).contains(&error.raw_os_error())
 }
 
 /// Restores the terminal when dropped.

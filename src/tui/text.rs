@@ -3,7 +3,7 @@
 use ratatui::{buffer::Buffer, layout::Rect, style::Style};
 
 use super::appearance::Appearance;
-use crate::report::line::harmless;
+use crate::report::line::{harmless, wrapped};
 
 /// Characters in a cell on average, at most: a letter may have several accents,
 /// but no cell a text of its own.
@@ -87,22 +87,10 @@ pub fn spelled_pieces(
     x - area.x
 }
 
-/// Words broken into lines no wider than `width`.
+/// Returns a text in lines no wider than `width`, at least one.
 pub fn wrap(text: &str, width: usize) -> Vec<String> {
-    let mut lines = vec![String::new()];
-    for word in text.split_whitespace() {
-        let word: String = word.chars().take(width.max(1)).collect();
-        let Some(last) = lines.last_mut() else { break };
-        if last.is_empty() {
-            *last = word;
-        } else if last.chars().count() + 1 + word.chars().count() <= width {
-            last.push(' ');
-            last.push_str(&word);
-        } else {
-            lines.push(word);
-        }
-    }
-    lines
+    let lines = wrapped(text, width.max(1));
+    if lines.is_empty() { vec![String::new()] } else { lines }
 }
 
 /// Returns as many of these lines as there is room for; where some are left out, the last one ends

@@ -260,7 +260,7 @@ fn many_speeds_take_little_memory() {
             // With 40 MB of data and no more: a program that wants more is aborted.
             let run = std::process::Command::new("sh")
                 .args(["-c", "ulimit -d 40000; exec \"$0\" \"$@\""])
-                .arg(assert_cmd::cargo::cargo_bin!("rubscope"))
+                .arg(env!("CARGO_BIN_EXE_rubscope"))
                 .args(["hbm", "--zeta-casing", "0.01", "--speed", "0:500:10000"])
                 .args(view)
                 .args(out)

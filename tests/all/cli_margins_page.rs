@@ -66,7 +66,7 @@ fn the_page_says_and_draws_the_same() {
         "411.934 rad/s".into(),
         "Ω_lock".replace('_', ""),
         "+4.4 %".into(),
-        "263.6 x".into(),
+        "&gt; 100 x".into(),
         "ζc +0.33 %".into(),
         "−6.94122 mN m".into(),
     ] {

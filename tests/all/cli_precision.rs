@@ -15,8 +15,13 @@ fn compare_to(finest: &str, arguments: &[&str]) -> Value {
     let output = rubscope(
         &[&["precision", "--json", "--repeat", "1", "--finest", finest], arguments].concat(),
     );
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    serde_json::from_slice(&output.stdout).unwrap()
+    let told = String::from_utf8_lossy(&output.stderr);
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    // Without anything to compare with it has failed, and says why.
+    let failed = report["reference"]["method"] == "none";
+    assert_eq!(output.status.code(), Some(i32::from(failed)), "{told}");
+    assert_eq!(told.contains("rubscope: nothing to compare with: "), failed, "{told}");
+    report
 }
 
 /// The readable output of a comparison.
@@ -95,7 +100,7 @@ fn another_contact_law_is_no_wrong_answer() {
         assert!(row["verdict_right"].is_boolean());
     }
     let text = text(&short);
-    let lines: Vec<&str> = text.lines().filter(|line| line.contains("  explicit  ")).collect();
+    let lines: Vec<&str> = text.lines().filter(|line| line.starts_with("explicit  ")).collect();
     assert_eq!(lines.len(), 12, "{text}");
     for line in lines {
         assert_eq!(line.contains(" bilateral "), line.ends_with("  other law"), "{line}");
@@ -117,16 +122,14 @@ fn an_error_of_zero_is_called_zero_and_stays_off_the_logarithmic_axis() {
     let exact = rows(&report).iter().filter(|row| row["error_final"] == 0.0).count();
     assert_eq!(exact, 8, "the event solver's rows");
     let printed = text(&free);
-    assert!(!printed.contains("e-16") && !printed.contains("\n -16 |"), "{printed}");
-    let marks = printed.lines().find(|line| line.starts_with("   0 |")).unwrap();
-    assert!(marks.contains('e') || marks.contains('E'), "{marks}");
+    assert!(!printed.contains("e-16"), "{printed}");
     let (_, picture) = files(&free);
     assert!(picture.contains("error 0, off this scale") && !picture.contains("1e-16"), "{picture}");
     assert!(picture.contains("explicit bilateral modal, other law"), "{picture}");
     // If no row can be on such an axis, a message says so.
     let still = ["--pulse", "0", "--end", "0.003"];
     let printed = text(&still);
-    assert!(printed.contains("\n   0 |") && !printed.contains("inf"), "{printed}");
+    assert!(!printed.contains("inf"), "{printed}");
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("still.svg");
     let command = ["precision", "--repeat", "1", "--finest", "1e-6", "--out"];
@@ -142,11 +145,11 @@ fn a_wrong_verdict_under_the_same_law_is_called_wrong() {
     let text = text(&["slip", "--model", "rigid", "--end", "0.05"]);
     let ending = |start: &str| {
         let line = text.lines().find(|line| line.starts_with(start)).unwrap();
-        line.split_whitespace().skip(11).collect::<Vec<_>>().join(" ")
+        line.split_whitespace().skip(10).collect::<Vec<_>>().join(" ")
     };
-    assert_eq!(ending("u  explicit  unilateral  rigid          1e-5"), "locked wrong", "{text}");
-    assert_eq!(ending("b  explicit  bilateral   rigid          1e-6"), "locked other law");
-    assert_eq!(ending("u  explicit  unilateral  rigid          1e-6"), "slip");
+    assert_eq!(ending("explicit  unilateral  rigid          1e-5"), "locked wrong", "{text}");
+    assert_eq!(ending("explicit  bilateral   rigid          1e-6"), "locked other law");
+    assert_eq!(ending("explicit  unilateral  rigid          1e-6"), "slip");
     assert!(text.contains("\ntaken, skipped: "), "{text}");
 }
 
@@ -200,7 +203,7 @@ fn what_the_event_solver_does_not_know_is_measured_against_halved_steps() {
     );
     let text = text(&lining);
     assert!(text.contains("halved steps to 1.25e-6 s, extrapolated: locked"), "{text}");
-    assert!(text.contains("order 2.0") && text.contains("s explicit smooth; capitals"), "{text}");
+    assert!(text.contains("order 2.0"), "{text}");
     let (table, picture) = files(&lining);
     assert!(table.lines().count() == 13 && picture.contains("explicit smooth full"), "{table}");
 }

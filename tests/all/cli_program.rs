@@ -57,6 +57,19 @@ fn wrong_usage_is_one_line() {
 }
 
 #[test]
+fn a_file_whose_name_begins_with_a_dash_is_told_how_to_be_named() {
+    for arguments in [&["run", "-x.toml"][..], &["-x.toml"], &["map", "merge", "a.csv", "-x.toml"]]
+    {
+        let told = refusal(arguments);
+        let expected = "-x.toml: allowed is ./-x.toml for a file whose name begins with -";
+        assert_eq!(told, format!("rubscope: {expected}"), "{arguments:?}");
+    }
+    // An option that is none stays one.
+    assert!(refusal(&["run", "-x"]).contains("unexpected argument '-x' found"));
+    assert!(refusal(&["run", "--no.such=1.0"]).contains("unexpected argument '--no.such'"));
+}
+
+#[test]
 fn control_characters_in_arguments_do_not_reach_the_terminal() {
     let message = refusal(&["run", "a\u{1b}[31m\nb"]);
     assert!(!message.chars().any(char::is_control), "{message:?}");
@@ -144,7 +157,7 @@ fn the_ranges_of_a_map_and_of_a_sweep_are_in_their_help() {
 
 #[test]
 fn a_closed_pipe_ends_the_program_quietly() {
-    let program = assert_cmd::cargo::cargo_bin!("rubscope");
+    let program = env!("CARGO_BIN_EXE_rubscope");
     for arguments in [&["scenes", "paper-nd3"][..], &["completions", "bash"], &["--help"]] {
         let mut child = Command::new(program)
             .args(arguments)

@@ -2,7 +2,7 @@
 
 use std::io::Read;
 
-use crate::cli_support::{refusal, rubscope};
+use crate::cli_support::{ended, program, refusal, rubscope};
 use rubscope::report::summary;
 use rubscope_solver::motion::simulate;
 use rubscope_solver::scene::Scene;
@@ -149,7 +149,7 @@ fn numpy_files_hold_one_array_a_column() {
     let bytes = std::fs::read(&path).unwrap();
     assert_eq!(&bytes[..4], b"PK\x03\x04");
     let entries = u16::from_le_bytes([bytes[bytes.len() - 12], bytes[bytes.len() - 11]]);
-    assert_eq!(entries, 11 + 3);
+    assert_eq!(entries, 11 + 4);
     let mut archive = zip::ZipArchive::new(std::io::Cursor::new(bytes)).unwrap();
     let mut text = |name: &str| {
         let mut bytes = Vec::new();
@@ -159,13 +159,13 @@ fn numpy_files_hold_one_array_a_column() {
         letters.map(|letter| char::from_u32(letter).unwrap()).collect::<String>()
     };
     assert_eq!(text("version.npy"), env!("CARGO_PKG_VERSION"));
+    assert_eq!(text("commit.npy"), env!("RUBSCOPE_COMMIT"));
     // The scene is a scene file, and the command gives the same file again.
     let scene = rubscope_solver::scene::Scene::from_toml(&text("scene.npy")).unwrap();
     assert_eq!(scene.operation.nodal_diameters, 3);
     let command = text("command.npy");
     let elsewhere = tempfile::tempdir().unwrap();
-    let mut again = assert_cmd::cargo::cargo_bin_cmd!("rubscope");
-    again.args(command.split(' ').skip(1)).current_dir(&elsewhere).assert().success();
+    ended(program().args(command.split(' ').skip(1)).current_dir(&elsewhere), 0);
     let again = std::fs::read(elsewhere.path().join("history.npz")).unwrap();
     assert!(std::fs::read(&path).unwrap() == again, "{command}");
 }
@@ -189,6 +189,7 @@ fn reports_say_where_they_come_from() {
         let program = &report["program"];
         assert_eq!(program["name"], "rubscope");
         assert_eq!(program["version"], env!("CARGO_PKG_VERSION"));
+        assert_eq!(program["commit"], env!("RUBSCOPE_COMMIT"));
         assert!(report["scene"]["operation"]["pulse_n"].is_number());
         let command = program["command"].as_str().unwrap();
         let words: Vec<&str> = command.split(' ').skip(1).collect();

@@ -143,7 +143,6 @@ fn the_event_solver_and_the_bilateral_law_asked_for_together_are_refused() {
 }
 
 /// A device without end, or a huge file, is refused before it fills the memory.
-#[cfg(unix)]
 #[test]
 fn a_scene_file_has_a_largest_size() {
     let folder = tempfile::tempdir().unwrap();
@@ -158,7 +157,6 @@ fn a_scene_file_has_a_largest_size() {
 }
 
 /// A pipe that nobody writes to would be waited for in silence.
-#[cfg(unix)]
 #[test]
 fn a_scene_from_a_pipe_is_read_and_one_in_a_folder_says_that_it_waits() {
     use std::process::Stdio;

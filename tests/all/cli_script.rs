@@ -283,3 +283,53 @@ fn a_run_without_changes_says_nothing_of_them() {
     let output = rubscope(&["run", "--end", "1e-4"]);
     assert!(!String::from_utf8(output.stdout).unwrap().contains("hanged"));
 }
+
+#[test]
+fn a_change_that_would_leave_the_papers_model_or_return_to_it_is_refused_with_the_reason() {
+    let mut scene = explicit();
+    scene.solver.contact = ContactLaw::Unilateral;
+    let said = script(&["0.001:bladed_disk.radial_coupling=0.1"], &scene).unwrap_err();
+    assert!(said.contains("a running motion does not leave it"), "{said}");
+    assert!(!said.contains("bladed_disk.radial_coupling, "), "{said}");
+    scene.bladed_disk.radial_coupling = 0.1;
+    let said = script(&["0.001:bladed_disk.radial_coupling=0"], &scene).unwrap_err();
+    assert!(said.contains("a running motion does not return to it"), "{said}");
+    // What the reasons name is taken.
+    script(&["0.001:bladed_disk.radial_coupling=1e-9"], &scene).unwrap();
+    scene.bladed_disk.radial_coupling = 1e-9;
+    script(&["0.001:bladed_disk.radial_coupling=0.1"], &scene).unwrap();
+}
+
+#[test]
+fn a_live_change_is_judged_by_the_running_state() {
+    // The initial place is inside the clearance of 400 rad/s, and outside that of 480.
+    let started = [
+        "--step",
+        "1e-6",
+        "--end",
+        "0.03",
+        "--set",
+        "operation.speed_ramp_rad_s2=0",
+        "--set",
+        "initial.u_c_m=2.2e-5",
+        "--set",
+        "initial.u_s_m=7.5e-5",
+        "--set",
+        "casing.clearance_loss_m_s2=1e-10",
+        "--no-sensitivity",
+        "--json",
+    ];
+    let run = |change: &[&str]| {
+        let first = ["run", "run-down", "--solver", "explicit"];
+        rubscope(&[&first[..], &started, change].concat())
+    };
+    let late = run(&["--at", "0.01:operation.speed_rad_s=480"]);
+    assert_eq!(late.status.code(), Some(0), "{}", String::from_utf8_lossy(&late.stderr));
+    let report: serde_json::Value = serde_json::from_slice(&late.stdout).unwrap();
+    assert_ne!(report["outcome"]["verdict"], "failed");
+    let residual = report["checks"]["energy_residual_j"].as_f64().unwrap();
+    assert!(residual.abs() < 1e-3, "{residual}");
+    // At the start the running state is the initial one.
+    let early = run(&["--at", "0:operation.speed_rad_s=480"]);
+    assert!(String::from_utf8_lossy(&early.stderr).contains("initial.u_c_m"));
+}

@@ -12,26 +12,29 @@ pub fn program() -> Command {
 /// a script, ignore some; what they start would too, and a shell cannot change that. A
 /// signal that is caught here is the usual one there, and still does nothing here.
 pub fn hearing(program: impl AsRef<OsStr>) -> Command {
-    #[cfg(unix)]
-    {
-        static ONCE: std::sync::Once = std::sync::Once::new();
-        ONCE.call_once(|| {
-            let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-            let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
-            let ignored = ignored.map_or(0, |set| u64::from_str_radix(set.trim(), 16).unwrap());
-            for signal in
-                [1, 2, 3, 15].into_iter().filter(|signal| ignored >> (signal - 1) & 1 == 1)
-            {
-                signal_hook::flag::register(signal, std::sync::Arc::default()).unwrap();
-            }
-        });
-    }
+    static ONCE: std::sync::Once = std::sync::Once::new();
+    ONCE.call_once(|| {
+        let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+        let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+        let ignored = ignored.map_or(0, |set| u64::from_str_radix(set.trim(), 16).unwrap());
+        for signal in [1, 2, 3, 15].into_iter().filter(|signal| ignored >> (signal - 1) & 1 == 1) {
+            signal_hook::flag::register(signal, std::sync::Arc::default()).unwrap();
+        }
+    });
     Command::new(program)
 }
 
 /// Runs `rubscope` with these arguments and captures its output.
 pub fn rubscope(arguments: &[&str]) -> Output {
-    assert_cmd::cargo::cargo_bin_cmd!("rubscope").args(arguments).output().unwrap()
+    program().args(arguments).output().unwrap()
+}
+
+/// Runs a command, which must end with this status.
+pub fn ended(command: &mut Command, status: i32) -> Output {
+    let output = command.output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(status), "{command:?} said {said}");
+    output
 }
 
 /// The one-line error of a command for refused input.

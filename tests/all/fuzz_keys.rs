@@ -9,10 +9,11 @@ use ratatui::{Terminal, backend::TestBackend};
 use rubscope::tui::bindings::BINDINGS;
 use rubscope::tui::engine::{Engine, Order, Snapshot};
 use rubscope::tui::events::ScreenEvent;
-use rubscope::tui::host::NoHost;
 use rubscope::tui::worker::Playback;
 use rubscope::tui::{App, Exit, Marker, Theme, run};
 use rubscope_solver::scene::Scene;
+
+use crate::stepwise::NoHost;
 
 /// Most bytes of one stream.
 const LONGEST: usize = 400;

@@ -28,12 +28,12 @@ fn close(value: f64, expected: f64, part: f64) {
 
 #[test]
 fn pushes_of_the_linearised_lock() {
-    for (tips, pushes, casing, blades) in [
-        ([0.1, 0.0, 0.0], [258.358348020, 55.600932525], 1.051647234e-4, 8.308641313e-5),
-        ([0.1, 0.15, 0.0], [282.221918276, 52.075944593], 1.120426576e-4, 2.213009798e-4),
-        ([0.0, 0.15, 0.05], [295.465760024, 4.150702554], 1.010283227e-4, 1.195782347e-4),
-        ([-0.05, 0.15, 0.0], [237.953135565, 57.982055172], 9.907933261e-5, 7.827859089e-5),
-        ([0.0, 0.0, 0.0], [244.415923, 57.294779], 1.010283e-4, 0.0),
+    for (tips, pushes, casing) in [
+        ([0.1, 0.0, 0.0], [258.358348020, 55.600932525], 1.051647234e-4),
+        ([0.1, 0.15, 0.0], [282.221918276, 52.075944593], 1.120426576e-4),
+        ([0.0, 0.15, 0.05], [295.465760024, 4.150702554], 1.010283227e-4),
+        ([-0.05, 0.15, 0.0], [237.953135565, 57.982055172], 9.907933261e-5),
+        ([0.0, 0.0, 0.0], [244.415923, 57.294779], 1.010283e-4),
     ] {
         let machine = machine(tips);
         let found = machine.locked_multipliers(500.0).unwrap();
@@ -41,10 +41,9 @@ fn pushes_of_the_linearised_lock() {
         for (multiplier, push) in found.iter().zip(pushes) {
             close(-multiplier, push, digits.max(6e-10 / push));
         }
-        // |z| and |a| of the exact pair are these up to the turn of the blades.
+        // |z| of the exact pair is this up to the turn of the blades.
         let loads = lock_loads(&machine, 500.0).unwrap();
         close(loads.amplitude_m, casing, 1e-4);
-        assert!((loads.largest_alpha_rad - blades).abs() <= 0.02 * blades + 1e-7);
     }
 }
 
@@ -130,7 +129,7 @@ fn windows_of_the_theory() {
         ([0.1, 0.15, 0.05], 548.980917, Some(())),
         ([-0.1, 0.3, 0.0], 406.867471, None),
     ] {
-        let window = machine(tips).lock_window(1.0).unwrap();
+        let window = machine(tips).lock_windows(1.0).first().copied().unwrap();
         assert!((window.from - from).abs() < 5.01e-7, "{window:?}");
         assert_eq!(window.to.map(|_| ()), to, "{tips:?}");
         assert_eq!(machine(tips).lock_speed(), Some(window.from));
@@ -138,7 +137,7 @@ fn windows_of_the_theory() {
     for (kappa, from, to) in
         [(0.1, 414.855, 1952.9), (0.2, 426.006, 936.38), (0.3, 472.117, 566.259)]
     {
-        let window = machine([kappa, 0.0, 0.0]).lock_window(1.0).unwrap();
+        let window = machine([kappa, 0.0, 0.0]).lock_windows(1.0).first().copied().unwrap();
         assert!((window.from - from).abs() < 5.01e-4, "{window:?}");
         let digit = if to > 1000.0 {
             0.0501
@@ -149,7 +148,7 @@ fn windows_of_the_theory() {
         };
         assert!((window.to.unwrap() - to).abs() < digit, "{window:?}");
     }
-    assert_eq!(machine([0.35, 0.0, 0.0]).lock_window(1.0), None);
+    assert_eq!(machine([0.35, 0.0, 0.0]).lock_windows(1.0).first().copied(), None);
     // Friction at the casing beyond the angle of a corner: none at any speed.
     let slope = machine([0.0; 3]).polygon.delta.tan();
     assert_eq!(machine([0.0, 0.5, slope * 1.0001]).lock_windows(1.0), vec![]);
@@ -327,7 +326,6 @@ proptest! {
                 prop_assert!((one.pushes_n[i] - other.pushes_n[1 - i]).abs() <= 1e-9 * size);
             }
             close(other.amplitude_m, one.amplitude_m, 1e-9);
-            close(other.largest_alpha_rad, one.largest_alpha_rad, 1e-9);
         }
     }
 }

@@ -31,17 +31,17 @@ fn a_soft_lining_cannot_hold_a_lock() {
         ("2e8", &[][..], [480.472, 548.470]),
         ("1e8", &light[..], [315.398, 535.074]),
     ] {
-        let found = lined(stiffness, more).machine().lock_window(1.0).unwrap();
+        let found = lined(stiffness, more).machine().lock_windows(1.0).first().copied().unwrap();
         assert!((found.from - window[0]).abs() < 6e-4, "{found:?}");
         assert!((found.to.unwrap() - window[1]).abs() < 6e-4, "{found:?}");
     }
-    let stiff = lined("1e9", &[]).machine().lock_window(1.0).unwrap();
+    let stiff = lined("1e9", &[]).machine().lock_windows(1.0).first().copied().unwrap();
     assert!((stiff.from - 417.6167).abs() < 6e-5, "{stiff:?}");
-    let soft = lined("1.93e8", &[]).machine().lock_window(1.0);
+    let soft = lined("1.93e8", &[]).machine().lock_windows(1.0).first().copied();
     assert_eq!(soft, None);
     // Next to rigid contact the window is that of the paper's lock.
     let machine = lined("1e15", &[]).machine();
-    let window = machine.lock_window(1.0).unwrap();
+    let window = machine.lock_windows(1.0).first().copied().unwrap();
     close(window.from, machine.with_lining(None).lock_speed().unwrap(), 2e-6);
     assert!(window.to.unwrap() > 1e6);
 }
@@ -55,7 +55,7 @@ fn pushes_of_a_soft_lock_to_its_last_speed() {
         close(lock.pushes[0].push_n, 163.825941, 1e-8);
         close(lock.pushes[1].push_n, 0.541935, 2e-6);
         assert!(lining.states(416.6166508).unwrap().iter().all(|state| state.pushing == 0));
-        let from = lining.machine.lock_window(1.0).unwrap().from;
+        let from = lining.machine.lock_windows(1.0).first().copied().unwrap().from;
         let held = |speed: f64| lining.states(speed).unwrap().len() > 1;
         assert!(held(from + 1e-6) && !held(from - 1e-6));
         // The saddle of one group is beside the lock.
@@ -116,7 +116,7 @@ fn the_least_stiffness_is_where_a_window_opens() {
         assert_eq!(least_lock_stiffness(&lined("1e6", more).machine()), Some(least));
         let window = |part: f64| {
             let stiffness = (least.stiffness_n_per_m * part).to_string();
-            lined(&stiffness, more).machine().lock_window(1.0)
+            lined(&stiffness, more).machine().lock_windows(1.0).first().copied()
         };
         assert_eq!(window(1.0 - 1e-9), None);
         let opens = window(1.0 + 1e-9).unwrap();

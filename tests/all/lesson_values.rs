@@ -3,11 +3,54 @@
 use std::collections::BTreeMap;
 
 use rubscope::tui::App;
-use rubscope::tui::lessons::Check;
+use rubscope::tui::lessons::{LessonStep, Settings};
 use rubscope_solver::harmonic::{Form, Lining, locked_motion};
 use rubscope_solver::motion::{RunReport, Sampling, Script, run_to_end};
 use rubscope_solver::scene::{CheckedScene, Value, keys};
 use rubscope_solver::study::margins::Margins;
+use serde::Deserialize;
+
+/// A number or a word of the text, and where it is from.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Check {
+    /// Something of the run to the end.
+    pub run: Option<String>,
+    /// Something of the steady states, from the harmonic balance.
+    pub hbm: Option<String>,
+    /// Something of the machine.
+    pub model: Option<String>,
+    /// A limit of the scene.
+    pub margins: Option<String>,
+    /// The parameter of which one per cent more changes that limit by a part of it.
+    pub by: Option<String>,
+    /// A key of the scene.
+    pub key: Option<String>,
+    /// The rotor speed for `hbm`, if not that of the scene \[rad/s\].
+    pub speed: Option<f64>,
+    /// Keys in which the scene differs from that of the step.
+    #[serde(default)]
+    pub with: Settings,
+    /// Expected value.
+    pub is: Expected,
+    /// Largest difference; half of the last digit if not given.
+    pub within: Option<f64>,
+}
+
+/// Expectation of a check.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(untagged)]
+pub enum Expected {
+    /// A number, in SI units.
+    Number(f64),
+    /// A word.
+    Word(String),
+}
+
+/// The checks of a step.
+pub fn checks(step: &LessonStep) -> Vec<Check> {
+    step.check.iter().map(|check| check.clone().try_into().unwrap()).collect()
+}
 
 /// Runs that were asked for, by their scene: several checks ask for the same.
 #[derive(Default)]

@@ -40,6 +40,7 @@ mod hbm_slip;
 mod hbm_time;
 mod hbm_whirl;
 mod house;
+mod lasting_locks;
 mod lesson_values;
 mod map_adaptive;
 mod map_cli;
@@ -55,10 +56,8 @@ mod margins_odd;
 mod own_machine;
 mod pty;
 mod pty_bursts;
-#[cfg(unix)]
 mod pty_config;
 mod pty_signals;
-#[cfg(unix)]
 mod pty_support;
 mod python;
 mod readme;
@@ -72,6 +71,7 @@ mod scenes;
 mod security;
 mod signs_of_life;
 mod soak;
+mod stepwise;
 mod survey;
 mod theory;
 mod tui_help;

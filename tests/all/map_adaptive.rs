@@ -3,6 +3,8 @@
 
 use serde_json::Value;
 
+use crate::cli_support::program;
+
 /// A row of the table: options, what they solve with, runs, cells, and cells
 /// that differ.
 struct Row {
@@ -39,7 +41,7 @@ fn rows() -> Vec<Row> {
 }
 
 fn map(options: &[String], more: &[&str]) -> Value {
-    let output = assert_cmd::cargo::cargo_bin_cmd!("rubscope")
+    let output = program()
         .args(["map", "--json", "--no-sensitivity"])
         .args(options)
         .args(more)

@@ -149,7 +149,6 @@ fn an_adaptive_map_says_what_it_saved() {
 }
 
 /// The line of the document, with the program in place of its name.
-#[cfg(unix)]
 #[test]
 fn the_parallel_line_of_the_document_gives_the_map_of_one_run() {
     use std::process::Command;
@@ -165,7 +164,7 @@ fn the_parallel_line_of_the_document_gives_the_map_of_one_run() {
         .find(|block| block.starts_with("parallel "))
         .unwrap();
     let directory = tempfile::tempdir().unwrap();
-    let program = assert_cmd::cargo::cargo_bin!("rubscope");
+    let program = env!("CARGO_BIN_EXE_rubscope");
     std::os::unix::fs::symlink(program, directory.path().join("rubscope")).unwrap();
     let search = format!("{}:{}", directory.path().display(), std::env::var("PATH").unwrap());
     let run = |script: &str| {

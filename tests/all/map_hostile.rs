@@ -2,18 +2,19 @@
 
 use std::path::Path;
 use std::process::Output;
-use std::time::Duration;
+
+use crate::cli_support::hearing;
 
 const MAP: &str = "map --contact bilateral --model rigid --step 1e-6 --speed 250:500:4 \
                    --pulse 0:4e5:3 --set title=Monday --shard 1/1";
-/// Patience: a part is refused within milliseconds, also on a busy machine.
-const PATIENCE: Duration = Duration::from_secs(120);
+/// Patience in seconds: a part is refused within milliseconds, also on a busy machine.
+const PATIENCE: &str = "120";
 
 fn run(folder: &Path, command: &str) -> Output {
-    assert_cmd::cargo::cargo_bin_cmd!("rubscope")
+    hearing("timeout")
+        .args([PATIENCE, env!("CARGO_BIN_EXE_rubscope")])
         .args(command.split_whitespace())
         .current_dir(folder)
-        .timeout(PATIENCE)
         .output()
         .unwrap()
 }
@@ -81,6 +82,10 @@ fn a_first_line_without_meaning_is_refused() {
     let said = reason(part.replacen(&version, "rubscope 9.9.9\u{1b}[2J", 1).as_bytes());
     assert!(said.contains("a.csv: was written by rubscope 9.9.9"), "{said}");
     assert!(said.contains(&format!("this is {}", env!("CARGO_PKG_VERSION"))), "{said}");
+    let other = part.replacen(env!("RUBSCOPE_COMMIT"), "0a1b2c3d4-modified-5e6f70819", 1);
+    let said = reason(other.as_bytes());
+    assert!(said.contains("0a1b2c3d4-modified-5e6f70819"), "{said}");
+    assert!(said.contains("allowed are parts of the same version and commit"), "{said}");
 }
 
 #[test]

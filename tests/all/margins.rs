@@ -121,7 +121,11 @@ fn every_derivative_is_that_of_central_differences() {
                 let lengths = path.ends_with("_m") && *path != CLEARANCE;
                 let scale = if lengths { 1e4 } else { 1.0 };
                 let expected = differenced(&scene, path, &value);
-                let error = (by.unwrap() - expected).abs();
+                let Some(by) = by else {
+                    assert!(expected.abs() > 99.0, "{} by {path}: {expected}", limit.name);
+                    continue;
+                };
+                let error = (by - expected).abs();
                 let most = 1e-6 * (1.0 + expected.abs()).max(scale);
                 assert!(error < most, "{} by {path}: {by:?} is not {expected}", limit.name);
                 compared += 1;

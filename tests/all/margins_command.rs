@@ -3,7 +3,7 @@
 
 use serde_json::Value;
 
-use crate::cli_support::{refusal, rubscope};
+use crate::cli_support::{program, refusal, rubscope};
 use crate::margins::close;
 
 const DAMPING: &str = "casing.damping_ratio";
@@ -31,7 +31,7 @@ fn a_target_is_reached_and_the_harmonic_balance_says_so() {
 fn the_answer_does_not_depend_on_threads() {
     let arguments = ["margins", "--json", "--end", "0.02"];
     let answers = ["1", "3"].map(|threads| {
-        let mut program = assert_cmd::cargo::cargo_bin_cmd!("rubscope");
+        let mut program = program();
         let out = program.args(arguments).env("RAYON_NUM_THREADS", threads).output().unwrap();
         let mut answer: Value = serde_json::from_slice(&out.stdout).unwrap();
         // What it took differs.

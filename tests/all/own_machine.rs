@@ -5,7 +5,7 @@ use std::path::Path;
 
 use rubscope_solver::scene::Scene;
 
-use crate::cli_support::{refusal, rubscope};
+use crate::cli_support::{program, refusal, rubscope};
 
 /// The worked example of docs/your-machine.md.
 pub const TABLE: &str = "\
@@ -131,7 +131,10 @@ fn a_check_says_what_follows_and_what_looks_like_a_slip() {
         "The casing has 420.3 Hz (2.9 kg, damping ratio 0.01), the bladed disk 155.9 Hz (5.4 kg",
         "The rotor turns at 890.118 rad/s. omega_c 528.165 rad/s (+68.5 %): critical speed",
         "Modes of the casing are known for 3 of 19 numbers of diameters",
-        "Nothing looks like a slip of a unit or a decimal point.",
+        "In the lock a blade tip pushes with up to ",
+        "Checked: radius, clearance, tip speed, pulse and the push of a tip by their size; frequency, \
+         modal mass and damping ratio of every mode, and their course over the diameters. Nothing \
+         looks like a slip of a unit or a decimal point.",
     ] {
         assert!(told.contains(words), "{words}: {told}");
     }
@@ -149,4 +152,58 @@ fn a_check_says_what_follows_and_what_looks_like_a_slip() {
     assert!(missing.contains("No mode of the casing with 7 nodal diameters is known"), "{missing}");
     let own = text(&["check", "undamped", "--set", "casing.modes=[]"]);
     assert!(own.contains("One mode of the casing is given"), "{own}");
+}
+
+/// The words of a new scene from a table.
+fn of_table<'a>(file: &'a str, table: &'a str) -> Vec<&'a str> {
+    let machine = ["--blades", "40", "--radius", "420mm", "--clearance", "0.3mm", "--nd", "2"];
+    [&["new", file, "--modes", table][..], &machine, &["--range", "7000:12000", "--rpm"]].concat()
+}
+
+#[test]
+fn an_ordinary_blade_family_is_taken_as_it_is_and_a_slip_is_shown_before_it_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let [table, good, odd, slipped] =
+        ["min.csv", "good.toml", "odd.csv", "slipped.toml"].map(|name| folder.path().join(name));
+    let family = "Structure;Nodal diameters;Frequency [Hz];Modal mass [kg]\ndisk;2;214;3,9\n\
+                  disk;3;297,5;2,9\ndisk;8;378;2,25\ncasing;2;145;9,8\ncasing;3;272;9,1\n";
+    std::fs::write(&table, format!("\u{feff}{family}")).unwrap();
+    let made = rubscope(&of_table(good.to_str().unwrap(), table.to_str().unwrap()));
+    let said = String::from_utf8_lossy(&made.stderr).into_owned();
+    assert!(made.status.success() && !said.contains("slip"), "{said}");
+    let assumed = "rubscope: Damping ratio of the bladed disk: 0.01 is assumed (--disk-damping)";
+    assert!(said.contains(assumed), "{said}");
+    let mut scene = Scene::load(good.to_str().unwrap()).unwrap();
+    assert!((scene.operation.speed_rad_s / (9500.0 * TAU / 60.0) - 1.0).abs() < 1e-13);
+    for (diameters, hertz, mass) in [(2, 214.0, 3.9), (3, 297.5, 2.9), (8, 378.0, 2.25)] {
+        scene.operation.nodal_diameters = diameters;
+        let machine = scene.machine();
+        let tip = machine.blade_modal_mass / machine.blade_length.powi(2);
+        assert!((machine.omega_bd / (TAU * hertz) - 1.0).abs() < 1e-12, "{diameters}");
+        assert!((tip / mass - 1.0).abs() < 1e-12, "{diameters}");
+    }
+    std::fs::write(&odd, family.replace("297,5", "2,975")).unwrap();
+    let made = rubscope(&of_table(slipped.to_str().unwrap(), odd.to_str().unwrap()));
+    let said =
+        String::from_utf8_lossy(&made.stderr).split_whitespace().collect::<Vec<_>>().join(" ");
+    let doubt =
+        "- The frequency of the bladed disk is 2.9750 Hz at 3 diameters and 214.0000 Hz at 2.";
+    assert!(made.status.success() && said.contains(doubt), "{said}");
+    let told = text(&["check", slipped.to_str().unwrap()]);
+    let told = told.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(told.contains(doubt) && !told.contains("Nothing looks"), "{told}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_name_that_is_no_text_is_refused_as_by_every_command() {
+    use std::os::unix::ffi::OsStrExt;
+    let name = std::ffi::OsStr::from_bytes(b"\xff.toml");
+    let said = |command: &str| {
+        let output = program().arg(command).arg(name).output().unwrap();
+        assert_eq!(output.status.code(), Some(2));
+        String::from_utf8(output.stderr).unwrap()
+    };
+    assert_eq!(said("new"), said("check"));
+    assert_eq!(said("new").lines().count(), 1);
 }

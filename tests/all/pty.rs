@@ -1,8 +1,6 @@
 //! The built program in a pseudo-terminal: it opens, a knob is turned, the
 //! verdict changes, and the terminal is restored.
 
-#![cfg(unix)]
-
 use crate::pty_support::{SHORT, Start, Terminal};
 
 fn is_coloured(terminal: &Terminal) -> bool {

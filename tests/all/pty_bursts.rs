@@ -1,8 +1,6 @@
 //! The built program in a pseudo-terminal whose user sends more than is read at
 //! once, or sequences without an end: one Ctrl-C is heard all the same.
 
-#![cfg(unix)]
-
 use crate::pty_support::{SHORT, Start, Terminal};
 
 /// Keys that open each mode, and what is seen then.
@@ -57,6 +55,21 @@ fn one_ctrl_c_is_heard_after_a_sequence_without_an_end_in_every_mode() {
         let mut terminal = opened(keys, seen);
         terminal.send(&format!("\u{1b}[200~{}", "abc".repeat(20_000)));
         ends(terminal, &format!("{keys:?} a long text"));
+    }
+}
+
+/// All that was sent before a Ctrl-C would take far more of the processor.
+#[cfg(target_os = "linux")]
+#[test]
+fn one_ctrl_c_does_not_wait_until_a_burst_before_it_is_answered() {
+    for burst in ["8".to_string() + &"5".repeat(40_000), "hl".repeat(100_000)] {
+        let mut terminal = opened("", "? help");
+        let before = terminal.processor_s();
+        terminal.send(&(burst.clone() + "\u{3}"));
+        let took = terminal.last_processor_s() - before;
+        assert_eq!(terminal.wait(), 0);
+        terminal.assert_restored();
+        assert!(took < 3.0, "{took} s for {} bytes", burst.len());
     }
 }
 

@@ -74,6 +74,38 @@ fn without_the_config_file_nothing_is_read_or_written() {
 }
 
 #[test]
+fn a_config_file_that_cannot_be_written_is_told_once_at_the_end() {
+    let home = home();
+    std::os::unix::fs::symlink("nowhere", home.path().join("rubscope")).unwrap();
+    let mut terminal = explorer(home.path(), &[]).size(200, 24).open();
+    terminal.wait_for("LOCKED");
+    terminal.send("tt");
+    terminal.wait_for("theme colour-blind on dark");
+    terminal.send("q");
+    assert_eq!(terminal.wait(), 0);
+    terminal.assert_restored();
+    let text = terminal.text();
+    assert_eq!(text.matches("rubscope: nothing is remembered: cannot write ").count(), 1, "{text}");
+    assert!(text.contains("File exists"), "{text}");
+}
+
+/// The shell that started it allows so few open files.
+#[test]
+fn a_terminal_that_cannot_be_used_is_told_in_one_line() {
+    let script = "ulimit -n 6; exec \"$@\"";
+    let mut terminal = Start::shell(script, &["--no-config"]).size(120, 24).open();
+    assert_eq!(terminal.wait(), 1);
+    terminal.assert_restored();
+    let text = terminal.text();
+    let told: Vec<&str> = text.lines().filter(|line| !line.is_empty()).collect();
+    assert!(
+        told.len() == 1 && told[0].starts_with("rubscope: cannot use the terminal: "),
+        "{text}"
+    );
+    assert!(told[0].contains("Too many open files"), "{text}");
+}
+
+#[test]
 fn the_first_screen_does_not_wait_for_the_background_and_its_report_changes_the_theme() {
     let home = home();
     for (report, theme) in [
@@ -102,4 +134,36 @@ fn the_first_screen_does_not_wait_for_the_background_and_its_report_changes_the_
     assert_eq!(terminal.wait(), 0);
     let text = std::fs::read_to_string(file(home.path())).unwrap();
     assert!(!text.contains("theme"), "{text}");
+}
+
+#[test]
+fn a_new_scene_asks_again_after_a_bad_answer() {
+    let home = home();
+    let mut terminal = Start::command(&["new", "mine.toml", "--rpm"]).folder(home.path()).open();
+    for (question, answers) in [
+        ("Number of blades: ", &["many", "36"][..]),
+        ("Inner radius", &["420 kg", "420mm"]),
+        ("Clearance", &["2m", "0.3mm"]),
+        ("Nodal diameters: ", &["-5", "5"]),
+        ("Frequency of the casing", &["0", "420.3"]),
+        ("mode of the casing", &["heavy", "2.9"]),
+        ("Frequency of the bladed disk", &["155.9"]),
+        ("mode of the bladed disk", &["5.4"]),
+        ("Damping ratio of the casing", &["5 kN", "5"]),
+        ("Damping ratio of the bladed disk", &[""]),
+        ("Speeds of the machine", &["fast", "6000:11000"]),
+        ("all the same? yes or no: ", &["perhaps", "yes"]),
+    ] {
+        for answer in answers {
+            terminal.wait_until(question, |screen| {
+                screen.contents().trim_end().lines().last().is_some_and(|line| {
+                    line.contains(question.trim_end()) && line.trim_end().ends_with(':')
+                })
+            });
+            terminal.send(&format!("{answer}\r"));
+        }
+    }
+    assert_eq!(terminal.wait(), 0);
+    let scene = std::fs::read_to_string(home.path().join("mine.toml")).unwrap();
+    assert!(scene.contains("speed_rad_s = 890.117918") && scene.contains("blades = 36"), "{scene}");
 }

@@ -1,8 +1,6 @@
 //! Signals end the explorer in every state, with the terminal restored, even
 //! if nobody reads what it writes.
 
-#![cfg(unix)]
-
 use std::time::Duration;
 
 use crate::pty_support::{SHORT, Start, Terminal};

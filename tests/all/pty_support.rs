@@ -283,6 +283,36 @@ impl Terminal {
         }
     }
 
+    /// The processor time of the program so far, where the system tells it in a file, and whether
+    /// it has ended.
+    #[cfg(target_os = "linux")]
+    fn used_s(&self) -> (f64, bool) {
+        let stat = std::fs::read_to_string(format!("/proc/{}/stat", self.process)).unwrap();
+        let fields: Vec<&str> = stat.rsplit_once(") ").unwrap().1.split(' ').collect();
+        // In ticks of 10 ms: its own, and those of the system for it.
+        let ticks = [11, 12].map(|place: usize| fields[place].parse::<f64>().unwrap());
+        ((ticks[0] + ticks[1]) / 100.0, fields[0] == "Z")
+    }
+
+    #[cfg(target_os = "linux")]
+    pub fn processor_s(&self) -> f64 {
+        self.used_s().0
+    }
+
+    /// The same at the end of the program, which is waited for.
+    #[cfg(target_os = "linux")]
+    pub fn last_processor_s(&self) -> f64 {
+        let began = Instant::now();
+        loop {
+            let (used, ended) = self.used_s();
+            if ended {
+                return used;
+            }
+            assert!(began.elapsed() < PATIENCE, "it does not end: {used} s");
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    }
+
     /// Nobody reads the terminal any more; the program writes until it is full.
     pub fn block(&mut self) {
         self.reader.store(PAUSES, Ordering::SeqCst);

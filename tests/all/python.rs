@@ -90,7 +90,7 @@ fn the_python_of_the_documents_runs() {
         match language.as_str() {
             "sh" => {
                 let arguments = text.trim_end().strip_prefix("rubscope ").unwrap().split(' ');
-                let run = assert_cmd::cargo::cargo_bin_cmd!("rubscope")
+                let run = crate::cli_support::program()
                     .args(arguments)
                     .current_dir(folder.path())
                     .output()
@@ -125,7 +125,7 @@ fn every_array_of_a_history_is_in_the_document() {
     for column in rubscope::report::History::new(2).columns() {
         assert!(text.contains(&format!("`{}`", column.name)), "{}", column.name);
     }
-    for name in ["scene", "command", "version"] {
+    for name in ["scene", "command", "version", "commit"] {
         assert!(text.contains(&format!("`{name}`")), "{name}");
     }
 }

@@ -237,3 +237,43 @@ fn an_axis_over_the_diameters_takes_their_modes() {
         close(scene.machine().critical_speed().unwrap(), critical, 1e-5);
     }
 }
+
+#[test]
+fn where_a_mode_has_a_frequency_it_is_the_parameter_and_a_target_names_the_line_to_write() {
+    let modes = "[{ nodal_diameters = 3, frequency_hz = 139.84, modal_mass_kg = 2.0 }]";
+    let set = format!("casing.modes={modes}");
+    let text = |more: &[&str]| {
+        let output = rubscope(&[&["margins", "paper-nd3", "--set", &set], more].concat());
+        assert!(output.status.success());
+        let told = String::from_utf8(output.stdout).unwrap();
+        told.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    // A mass beside a frequency moves no frequency, in the table of sensitivities and in a target.
+    let scene = Scene::builtin("paper-nd3").unwrap().with(&[("casing.modes", modes)]).unwrap();
+    let margins = rubscope_solver::study::margins::Margins::of(&scene);
+    let critical = margins.limit(rubscope_solver::study::margins::LimitName::OmegaC).unwrap();
+    let by = |path| critical.sensitivities.by(path);
+    assert_eq!(by("casing.modal_mass_kg"), Some(0.0));
+    close(by("casing.frequency_hz").unwrap(), 1.0, 1e-12);
+    assert_eq!(by("casing.modal_stiffness_n_per_m"), None);
+    let target = ["--target", "omega_c=300", "--by"];
+    let none = text(&[&target[..], &["casing.modal_mass_kg"]].concat());
+    assert!(none.contains("puts omega_c at 300 rad/s: it does not depend on it"), "{none}");
+    let found = text(&[&target[..], &["casing.frequency_hz"]].concat());
+    let line = "In the scene file: frequency_hz = ";
+    let (_, rest) = found.split_once(line).unwrap_or_else(|| panic!("{found}"));
+    let (value, place) = rest.split_once(' ').unwrap();
+    assert!(place.starts_with("in [[casing.modes]] of 3 diameters."), "{found}");
+    // The line does what is said.
+    let changed = modes.replace("139.84", value);
+    let scene = Scene::builtin("paper-nd3").unwrap().with(&[("casing.modes", &changed)]).unwrap();
+    close(scene.machine().critical_speed().unwrap(), 300.0, 1e-9);
+    // The knob of the stiffness takes the place of the frequency, and both are kept in a file.
+    let mut scene = scene.into_scene();
+    assert_eq!(Scene::from_toml(&scene.to_toml()).unwrap(), scene);
+    scene.set("casing.modal_stiffness_n_per_m", "1.5e6").unwrap();
+    let mode = &scene.casing.modes[0];
+    assert_eq!((mode.frequency_hz, mode.stiffness), (None, Some(1.5e6)));
+    let own = rubscope(&["margins", "paper-nd3", "--target", "omega_c=300", "--by", "clearance"]);
+    assert!(own.status.success());
+}

@@ -158,7 +158,7 @@ fn a_soft_lining_cannot_hold_a_lock() {
     let holds = |stiffness: f64| {
         let mut scene = Scene::builtin(name).unwrap();
         scene.contact.stiffness_n_per_m = stiffness;
-        scene.machine().lock_window(1.0)
+        scene.machine().lock_windows(1.0).first().copied()
     };
     assert!(
         holds(1.9375e8).unwrap().from < 500.0 && holds(1.936e8).is_none_or(|at| at.from > 500.0)

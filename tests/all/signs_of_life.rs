@@ -1,9 +1,10 @@
 //! While a command is at work, a line on its terminal moves, and Ctrl-C ends it: every
 //! command on every built-in scene either has ended or shows the line.
 
-#![cfg(unix)]
-
+use std::io::{BufRead, BufReader};
 use std::path::Path;
+use std::process::Stdio;
+use std::time::{Duration, Instant};
 
 use rubscope_solver::scene::BUILTIN;
 
@@ -21,7 +22,8 @@ const COMMANDS: [&str; 7] = [
 ];
 
 /// Of these the line must be seen: in any build they take many seconds.
-const LONG: [&str; 4] = [
+const LONG: [&str; 5] = [
+    "map undamped --solver event --model rigid --end 1e6 --speed 300:500:2 --pulse 1e4:2e4:2",
     "run undamped --solver event --model rigid --end 1e6",
     "precision undamped --repeat 1000 --set solver.end_s=20",
     "figures --out .",
@@ -72,8 +74,24 @@ fn what_takes_long_shows_that_it_is_alive() {
         let folder = tempfile::tempdir().unwrap();
         let mut terminal = start(command, folder.path());
         assert!(!terminal.ends_before(is_seen), "{command} showed nothing");
+        // There is no rate before the first part is done.
+        assert!(!terminal.text().contains(" 0/s"), "{command}: {}", terminal.text());
         interrupt(terminal, command);
     }
+}
+
+#[test]
+fn into_a_pipe_long_work_says_how_far_it_is_every_ten_seconds() {
+    let mut command = crate::cli_support::program();
+    command.args(LONG[0].split(' ')).stderr(Stdio::piped()).stdout(Stdio::null());
+    let began = Instant::now();
+    let mut child = command.spawn().unwrap();
+    let lines = BufReader::new(child.stderr.take().unwrap()).lines();
+    let told: Vec<String> = lines.map(Result::unwrap).take(2).collect();
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert_eq!(told, [10, 20].map(|after| format!("rubscope: at work, 0 % after {after} s")));
+    assert!(began.elapsed() >= Duration::from_secs(20));
 }
 
 #[test]

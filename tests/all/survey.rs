@@ -143,6 +143,52 @@ fn what_lies_in_the_range_is_told_the_nearest_first() {
 }
 
 #[test]
+fn a_bare_speed_is_in_rpm_with_the_option_and_keys_and_other_units_stay() {
+    let json = |words: String| json(&words.split(' ').collect::<Vec<_>>());
+    let speed = |words: &str| {
+        let run = json(format!("{words} --json"));
+        run["scene"]["operation"]["speed_rad_s"].as_f64().unwrap()
+    };
+    let turns = 4500.0 * (std::f64::consts::TAU / 60.0);
+    for (words, expected) in [
+        ("margins --rpm --speed 4500", turns),
+        ("margins --rpm --speed 4.5k", turns),
+        ("margins --speed 4500rpm", turns),
+        ("margins --rpm --speed 75Hz", turns),
+        ("margins --rpm --speed 450rad/s", 450.0),
+        ("margins --rpm --set operation.speed_rad_s=450", 450.0),
+        ("margins --speed 450", 450.0),
+        ("run --rpm --speed 4500 --end 0.001", turns),
+    ] {
+        assert!((speed(words) / expected - 1.0).abs() < 1e-14, "{words}");
+    }
+    // Every option that takes speeds, and the command in JSON gives the same again.
+    for (bare, with_unit, command) in [
+        ("survey --range 2000:3000", "survey --range 2000rpm:3000rpm", "--range 2000rpm:3000rpm"),
+        ("hbm --speed 4000:5000:3", "hbm --speed 4000rpm:5000rpm:3", "--speed 4000rpm:5000rpm:3"),
+        (
+            "margins --target omega_c=3000 --by casing.modal_mass_kg",
+            "margins --target omega_c=3000rpm --by casing.modal_mass_kg",
+            "--target omega_c=3000rpm",
+        ),
+    ] {
+        let [mut in_rpm, mut same] =
+            [json(format!("{bare} --rpm --json")), json(format!("{with_unit} --json"))];
+        assert!(in_rpm["program"]["command"].as_str().unwrap().contains(command), "{in_rpm}");
+        for found in [&mut in_rpm, &mut same] {
+            found["cost"] = serde_json::Value::Null;
+            found["wall_s"] = serde_json::Value::Null;
+        }
+        assert_eq!(in_rpm, same, "{bare}");
+    }
+    let told = text("margins --rpm --speed 4500");
+    assert!(told.contains("4500 rpm"), "{told}");
+    let columns = text("map --rpm --speed 4000:5000:2 --pulse 1e4:2e4:2 --end 0.001");
+    // Its axis has the name of the key, and with it its unit.
+    assert!(columns.contains("418.879 523.599"), "{columns}");
+}
+
+#[test]
 fn speeds_are_told_in_turns_a_minute_where_that_is_wanted() {
     let told = text("survey paper-nd3 --range 2000rpm:3000rpm --rpm");
     let joined = told.split_whitespace().collect::<Vec<_>>().join(" ");

@@ -7,10 +7,10 @@ use std::time::Duration;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::{Terminal, backend::TestBackend, buffer::Buffer};
 use rubscope::tui::events::ScreenEvent;
-use rubscope::tui::host::NoHost;
-use rubscope::tui::worker::Stepwise;
 use rubscope::tui::{App, Marker, Theme, run};
 use rubscope_solver::scene::Scene;
+
+use crate::stepwise::{NoHost, Stepwise};
 
 /// Escape sequences, a break of a line, text from right to left, characters
 /// without a width, wide ones, and letters with many accents.

@@ -1,5 +1,7 @@
 //! The knobs of the explorer: turned, typed, in groups, with their bars.
 
+use std::f64::consts::TAU;
+
 use rubscope::tui::{Marker, Theme};
 use rubscope_solver::scene::ContactLaw;
 
@@ -182,4 +184,22 @@ fn the_operation_stays_open_beside_the_solver_on_a_usual_screen() {
     let text = column(&session);
     assert!(text.contains("speed Ω") && text.contains("▸contact"), "{text}");
     assert!(text.contains("Contact law: unilateral"), "{text}");
+}
+
+#[test]
+fn after_the_unit_of_speeds_is_changed_bare_speeds_are_in_rpm_everywhere() {
+    let mut session = Session::open(120, 40, scene(), Theme::Dark, Marker::Braille);
+    let now = |session: &Session| session.app.scene.operation.speed_rad_s * 60.0 / TAU;
+    session.press("U\n45");
+    assert!(column(&session).contains("45_ rpm"), "{}", column(&session));
+    session.press("00\n");
+    assert!((now(&session) - 4500.0).abs() < 1e-9, "{}", now(&session));
+    session.press("l");
+    assert!((now(&session) - 4550.0).abs() < 1e-9, "{}", now(&session));
+    session.press(":speed 4600\n");
+    assert!((now(&session) - 4600.0).abs() < 1e-9, "{}", now(&session));
+    session.press(":speed 450 rad/s\n");
+    assert!((session.app.scene.operation.speed_rad_s - 450.0).abs() < 1e-9);
+    session.press("U\n500\n");
+    assert_eq!(session.app.scene.operation.speed_rad_s, 500.0);
 }

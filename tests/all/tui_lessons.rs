@@ -3,12 +3,12 @@
 
 use rubscope::tui::bindings::{Action, Context};
 use rubscope::tui::events::ScreenEvent;
-use rubscope::tui::lessons::{self, Check, Expected, Lesson, LessonStep};
+use rubscope::tui::lessons::{self, Lesson, LessonStep};
 use rubscope::tui::{App, Marker, Theme};
 use rubscope_solver::motion::simulate;
 use rubscope_solver::scene::Scene;
 
-use super::lesson_values::{Runs, found};
+use super::lesson_values::{Check, Expected, Runs, checks, found};
 use super::tui_support::{Session, scene};
 
 /// Begins a lesson of a fresh explorer.
@@ -135,7 +135,7 @@ fn assert_numbers_are_checked(lesson: &Lesson, step: &LessonStep) {
     let prose = [Some(&step.text), step.question.as_ref(), right, step.reason.as_ref()];
     let texts = prose.into_iter().chain([step.task.as_ref()]).flatten();
     for (digits, values) in texts.flat_map(|text| numbers(text)) {
-        let checked = step.check.iter().any(|check| match check.is {
+        let checked = checks(step).iter().any(|check| match check.is {
             Expected::Number(is) => {
                 values.iter().any(|value| (is.abs() - value).abs() <= 1e-9 * value.abs())
             }
@@ -143,6 +143,26 @@ fn assert_numbers_are_checked(lesson: &Lesson, step: &LessonStep) {
         });
         assert!(checked, "{}: {digits} is in the text, but nothing checks it", lesson.title);
     }
+}
+
+/// What a text says of the header, up to the next sign.
+fn quoted_header(text: &str) -> Option<&str> {
+    let (_, rest) = text.split_once("eader says ")?;
+    rest.split([',', '.', ':', ';']).next()
+}
+
+/// What a step says of the header stands there, on a small screen and on a large one; whether it
+/// says anything.
+fn assert_header_is_shown(session: &mut Session, step: &LessonStep) -> bool {
+    let texts = [Some(&step.text), step.reason.as_ref(), step.task.as_ref()];
+    let quoted: Vec<&str> =
+        texts.into_iter().flatten().filter_map(|text| quoted_header(text)).collect();
+    for size in [(80, 24), (120, 40)] {
+        resize(session, size);
+        let header = session.rows()[..3].join("\n");
+        quoted.iter().for_each(|words| assert!(header.contains(words), "{words} in {header}"));
+    }
+    !quoted.is_empty()
 }
 
 fn resize(session: &mut Session, (width, height): (u16, u16)) {
@@ -187,7 +207,7 @@ fn assert_has_room(session: &mut Session, step: &LessonStep) {
 
 #[test]
 fn every_step_says_what_the_solvers_find_and_has_room_at_every_size() {
-    let mut runs = Runs::default();
+    let (mut runs, mut headers) = (Runs::default(), 0);
     for (place, lesson) in lessons::all().iter().enumerate() {
         let mut session = begin(120, 40, place);
         for (number, step) in lesson.steps.iter().enumerate() {
@@ -219,15 +239,17 @@ fn every_step_says_what_the_solvers_find_and_has_room_at_every_size() {
             assert!(progress(&session).done, "{at}: {}", session.text());
             assert!(session.app.lessons.done.has(lesson, number));
             assert!(!session.text().contains("FAILED"), "{at}: {}", session.text());
-            step.check.iter().for_each(|check| assert_true(check, &session, &mut runs));
+            checks(step).iter().for_each(|check| assert_true(check, &session, &mut runs));
             let verdict = |check: &Check| check.run.as_deref() == Some("verdict");
-            assert!(step.check.iter().any(verdict) || number == 0, "{at}: no verdict is checked");
+            assert!(checks(step).iter().any(verdict) || number == 0, "{at}: no verdict is checked");
             assert_numbers_are_checked(lesson, step);
+            headers += u32::from(assert_header_is_shown(&mut session, step));
             session.press("g");
         }
         assert!(session.app.lessons.progress.is_none());
         assert_eq!(*session.app.scene, scene(), "{}", lesson.title);
     }
+    assert!(headers > 0, "no text speaks of the header");
 }
 
 #[test]

@@ -10,10 +10,11 @@ use rubscope::tui::engine::{Engine, Order, Snapshot};
 use rubscope::tui::events::ScreenEvent;
 use rubscope::tui::files::{FileJob, FileResult};
 use rubscope::tui::history::Channel;
-use rubscope::tui::host::{Host, NoHost};
-use rubscope::tui::worker::Stepwise;
+use rubscope::tui::host::Host;
 use rubscope::tui::{App, Exit, Marker, Theme, run};
 use rubscope_solver::scene::Scene;
+
+use crate::stepwise::{NoHost, Stepwise};
 
 /// Ends the loop at the second picture.
 struct Second {
@@ -114,6 +115,27 @@ fn quitting_waits_for_the_file_and_keeps_the_reason_why_it_was_not_written() {
         while events.try_recv().is_ok() {}
     }
     assert_eq!(host.suspended, 3, "a suspension was lost");
+}
+
+/// A Ctrl-C does not wait until what was sent before it is answered; a word and a name that
+/// were typed ahead of it are.
+#[test]
+fn behind_a_burst_of_keys_a_ctrl_c_is_the_next_one() {
+    let key = |code, modifiers| ScreenEvent::Key(KeyEvent::new(code, modifiers));
+    for (before, answered) in [(1000, true), (1001, false)] {
+        let (sender, events) = channel();
+        for _ in 0..before {
+            sender.send(key(KeyCode::Right, KeyModifiers::NONE)).unwrap();
+        }
+        sender.send(key(KeyCode::Char('c'), KeyModifiers::CONTROL)).unwrap();
+        let scene = Scene::base().checked().unwrap();
+        let mut app = App::new(scene.clone(), Theme::Dark, Marker::Braille);
+        let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
+        let frame = Duration::from_millis(100);
+        let exit = run(&mut terminal, &events, &mut app, &mut Silent, &mut NoHost, frame);
+        assert_eq!(exit.unwrap(), Exit::Done);
+        assert_eq!(app.scene != scene, answered, "{before} keys");
+    }
 }
 
 /// What failed before the key that quits came, with no screen in between.

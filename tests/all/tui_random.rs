@@ -11,10 +11,10 @@ use ratatui::{Terminal, backend::TestBackend};
 use rubscope::tui::bindings::BINDINGS;
 use rubscope::tui::engine::{Engine, FullRunState, Order, Results, Snapshot};
 use rubscope::tui::events::ScreenEvent;
-use rubscope::tui::host::NoHost;
-use rubscope::tui::worker::Stepwise;
 use rubscope::tui::{App, Exit, Marker, Theme, run};
 use rubscope_solver::scene::Scene;
+
+use crate::stepwise::{NoHost, Stepwise};
 
 /// Number of looks that the answers of `Late` are delayed: more than one `press` has.
 const DELAY: usize = 3;

@@ -7,10 +7,10 @@ use std::time::Duration;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::{Terminal, backend::TestBackend};
 use rubscope::tui::events::ScreenEvent;
-use rubscope::tui::host::NoHost;
-use rubscope::tui::worker::Stepwise;
 use rubscope::tui::{App, Exit, Marker, Theme, run};
 use rubscope_solver::scene::Scene;
+
+use crate::stepwise::{NoHost, Stepwise};
 
 /// An explorer, its screen and its engine.
 pub struct Session {

@@ -1,5 +1,5 @@
 //! Time on the screen: one instant in every panel, now and at the end, the run to
-//! come, changes of contact, and the sweep of a knob.
+//! come, and changes of contact.
 
 use ratatui::{Terminal, backend::TestBackend};
 use rubscope::tui::{Marker, Source, Theme};
@@ -125,37 +125,6 @@ fn the_motion_stops_at_the_end_of_the_run_and_goes_on_when_asked() {
 }
 
 #[test]
-fn a_sweep_goes_through_the_verdicts_by_itself_and_is_one_turn_to_undo() {
-    let mut scene = scene("adhesive");
-    scene.solver.end_s = 0.01;
-    let mut session = open(scene, 1e-9);
-    let before = session.app.scene.clone();
-    session.press_each("S");
-    assert!(
-        row(&session, 39).contains("sweep speed Ω from 360 rad/s to: _"),
-        "{}",
-        row(&session, 39)
-    );
-    session.press_each("460\n");
-    for _ in 0..400 {
-        if session.app.knobs.sweep.is_none() {
-            break;
-        }
-        session.press_each("");
-    }
-    assert_eq!(session.app.scene.operation.speed_rad_s, 460.0);
-    let told = session.app.status.clone().unwrap();
-    // Omega_lock is 411.86 rad/s; with this step the sign changes 0.2 rad/s later.
-    assert_eq!(told, "speed Ω: ADHESIVE 360 rad/s to 412 rad/s, LOCKED 412.5 rad/s to 460 rad/s");
-    session.press_each("u");
-    assert_eq!(session.app.scene, before);
-    // Any key stops one that is under way.
-    session.press_each("S460\n");
-    session.press_each(" ");
-    assert!(session.app.knobs.sweep.is_none() && session.app.scene.operation.speed_rad_s < 460.0);
-}
-
-#[test]
 fn a_pin_says_what_it_pinned() {
     let mut session = open(scene("rocking"), 1e-3);
     session.press_each("1b");
@@ -237,12 +206,8 @@ fn the_copied_command_repeats_live_changes_at_their_instants() {
         assert_eq!(command.matches(" --at ").count(), 3, "{command}");
         let run = app.full_run().unwrap();
         let words = words(&command);
-        let output = assert_cmd::Command::cargo_bin("rubscope")
-            .unwrap()
-            .args(&words[1..])
-            .arg("--json")
-            .output()
-            .unwrap();
+        let output =
+            crate::cli_support::program().args(&words[1..]).arg("--json").output().unwrap();
         let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
         let outcome = &report["outcome"];
         assert_eq!(outcome["verdict"].as_str().unwrap(), run.verdict.as_ref(), "{command}");

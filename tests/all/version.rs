@@ -32,18 +32,19 @@ fn git(folder: &Path, arguments: &[&str]) -> Option<String> {
 fn a_package_is_of_the_commit_that_its_file_names() {
     let folder = tempfile::tempdir().unwrap();
     for (info, told) in [
-        (format!("{{\"git\": {{\n\"sha1\": \"{HASH}\"}}}}"), Some("012345678")),
+        (format!("{{\"git\": {{\n\"sha1\": \"{HASH}\"}}}}"), "012345678"),
         (
             format!("{{\"git\": {{\"sha1\": \"{HASH}\", \"dirty\": true}}}}"),
-            Some("012345678-modified"),
+            "012345678-modified-cbf29ce48",
         ),
-        ("{\"git\": {\"sha1\": \"a\"}}".to_string(), None),
-        ("{\"git\": {\"sha1\": \"no hexadecimal\"}}".to_string(), None),
-        ("{}".to_string(), None),
-        (String::new(), None),
+        ("{\"git\": {\"sha1\": \"a\"}}".to_string(), "source-cbf29ce48"),
+        ("{\"git\": {\"sha1\": \"no hexadecimal\"}}".to_string(), "source-cbf29ce48"),
+        ("{}".to_string(), "source-cbf29ce48"),
+        (String::new(), "source-cbf29ce48"),
     ] {
+        // The hash of no sources is the first value of FNV-1a.
         fs::write(folder.path().join(".cargo_vcs_info.json"), &info).unwrap();
-        assert_eq!(build::commit(folder.path()).as_deref(), told, "{info}");
+        assert_eq!(build::commit(folder.path()), told, "{info}");
     }
 }
 
@@ -51,47 +52,68 @@ fn a_package_is_of_the_commit_that_its_file_names() {
 fn a_checkout_is_of_its_commit_and_says_if_the_sources_were_changed() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path();
-    assert_eq!(build::commit(path), None);
+    let source = || build::commit(path).split_once("source-").map(|(_, hash)| hash.to_string());
+    assert!(source().is_some());
     for (name, text) in [("src/lib.rs", "one"), ("notes.md", "one"), ("vendor/rubscope/a", "one")] {
         let file = path.join(name);
         fs::create_dir_all(file.parent().unwrap()).unwrap();
         fs::write(file, text).unwrap();
     }
+    // Outside a checkout a hash tells changed sources, and moved ones, from those before.
+    let before = source().unwrap();
+    fs::write(path.join("src/lib.rs"), "other").unwrap();
+    let changed = source().unwrap();
+    fs::rename(path.join("src/lib.rs"), path.join("src/main.rs")).unwrap();
+    assert!(before != changed && source().unwrap() != changed);
+    fs::remove_file(path.join("src/main.rs")).unwrap();
+    fs::write(path.join("src/lib.rs"), "one").unwrap();
+    fs::write(path.join("notes.md"), "two").unwrap();
+    assert_eq!(source().unwrap(), before);
     if git(path, &["init", "--quiet"]).is_none() {
         eprintln!("skipped: there is no git");
         return;
     }
-    assert_eq!(build::commit(path), None, "there is no commit yet");
+    assert_eq!(source().unwrap(), before, "there is no commit yet");
     git(path, &["add", "."]);
     git(path, &["commit", "--quiet", "--message", "one"]);
     let hash = git(path, &["rev-parse", "HEAD"]).unwrap();
-    let clean = Some(format!("{} 2026-02-03", &hash[..9]));
+    let clean = format!("{} 2026-02-03", &hash[..9]);
     assert_eq!(build::commit(path), clean);
     // What the program is not made of does not change it.
-    fs::write(path.join("notes.md"), "two").unwrap();
+    fs::write(path.join("notes.md"), "three").unwrap();
     assert_eq!(build::commit(path), clean);
     // A copy in the repository of something else is not of that commit.
-    assert_eq!(build::commit(&path.join("vendor/rubscope")), None);
-    fs::write(path.join("src/new.rs"), "two").unwrap();
-    assert_eq!(build::commit(path), Some(format!("{}-modified 2026-02-03", &hash[..9])));
+    assert_eq!(build::commit(&path.join("vendor/rubscope")), "source-cbf29ce48");
+    // Two changes of one commit are two programs.
+    let [two, three] = ["two", "three"].map(|text| {
+        fs::write(path.join("src/new.rs"), text).unwrap();
+        let commit = build::commit(path);
+        let rest = commit.strip_prefix(&format!("{}-modified-", &hash[..9])).unwrap();
+        assert!(rest.ends_with(" 2026-02-03"), "{commit}");
+        rest.to_string()
+    });
+    assert_ne!(two, three);
 }
 
 #[test]
-fn the_program_prints_its_version_and_perhaps_its_commit() {
+fn the_program_prints_its_version_and_its_commit() {
     let output = rubscope(&["--version"]);
     let printed = String::from_utf8(output.stdout).unwrap();
     assert_eq!(rubscope(&["-V"]).stdout, printed.as_bytes());
     let plain = concat!("rubscope ", env!("CARGO_PKG_VERSION"));
     let rest = printed.trim_end().strip_prefix(plain).unwrap();
-    if !rest.is_empty() {
-        let commit = rest.strip_prefix(" (").and_then(|rest| rest.strip_suffix(')')).unwrap();
-        let hash = &commit[..9];
-        assert!(hash.bytes().all(|byte| byte.is_ascii_hexdigit()), "{printed}");
-        let (rest, date) = commit[9..].split_once(' ').unwrap_or((&commit[9..], ""));
-        assert!(["", "-modified"].contains(&rest), "{printed}");
-        assert!(date.is_empty() || date.len() == "2026-02-03".len(), "{printed}");
-    }
+    let commit = rest.strip_prefix(" (").and_then(|rest| rest.strip_suffix(')')).unwrap();
+    let (commit, date) = commit.split_once(' ').unwrap_or((commit, ""));
+    assert_eq!(commit, env!("RUBSCOPE_COMMIT"));
+    let parts: Vec<&str> = commit.split('-').collect();
+    let is_hash = |part: &&str| part.len() == 9 && part.bytes().all(|b| b.is_ascii_hexdigit());
+    let known = match parts[..] {
+        [hash] | ["source", hash] => is_hash(&hash),
+        [commit, "modified", hash] => is_hash(&commit) && is_hash(&hash),
+        _ => false,
+    };
+    assert!(known && [0, "2026-02-03".len()].contains(&date.len()), "{printed}");
     // The manual is of a version, whatever the commit.
     let page = String::from_utf8(rubscope(&["man"]).stdout).unwrap();
-    assert!(rest.is_empty() || !page.contains(rest), "{page}");
+    assert!(!page.contains(rest), "{page}");
 }

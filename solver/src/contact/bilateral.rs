@@ -1,7 +1,6 @@
 //! The paper's law, Eq. (13a): every predicted penetration is closed as an
 //! equality, by a push or by a pull (docs/theory.md, section 6).
 
-use super::repeated::Repeated;
 use super::{Several, StepLaw};
 
 /// The law `g = 0` on every row that was predicted to penetrate.
@@ -16,9 +15,6 @@ impl StepLaw for Bilateral {
         Some(pair(w, gap))
     }
     fn several<'a>(&self, rows: &'a mut Several) -> Option<&'a [f64]> {
-        rows.all_closed()
-    }
-    fn repeated<'a>(&self, rows: &'a mut Repeated) -> Option<&'a [f64]> {
         rows.all_closed()
     }
     /// It lasts while both sides are predicted to penetrate.

@@ -3,19 +3,16 @@
 //! below zero pushes. A law is one file, and one line each of `ContactLaw` and `law`.
 //!
 //! At most one corner of the polygon touches in every ordinary step, so a law
-//! solves two rows by cases; larger sets go to `several`, and sets with several blades of
-//! one side to `repeated`, which keeps the digits that such rows lose there.
+//! solves two rows by cases; larger sets go to `several`.
 
 mod bilateral;
-pub mod repeated;
 mod several;
 mod unilateral;
 
 use serde::Serialize;
-use strum::{AsRefStr, Display, EnumString, VariantNames};
+use strum::{AsRefStr, Display, EnumString, IntoStaticStr, VariantNames};
 
 pub use bilateral::pair;
-use repeated::Repeated;
 pub use several::Several;
 pub use unilateral::complementary_pair;
 
@@ -28,8 +25,6 @@ pub trait StepLaw: std::fmt::Debug + Sync {
     fn pair(&self, w: [[f64; 2]; 2], gap: [f64; 2]) -> Option<[f64; 2]>;
     /// Solves any number of rows of different sides.
     fn several<'a>(&self, rows: &'a mut Several) -> Option<&'a [f64]>;
-    /// Solves rows of which several belong to one side.
-    fn repeated<'a>(&self, rows: &'a mut Repeated) -> Option<&'a [f64]>;
     /// Returns the force that keeps a corner closed, for the multipliers of its sides and the
     /// cosine of the angle between them; the corner opens where it is zero \[N\].
     fn hold(&self, multipliers: [f64; 2], cos: f64) -> f64;
@@ -37,7 +32,17 @@ pub trait StepLaw: std::fmt::Debug + Sync {
 
 /// Which contact law closes the predicted penetrations.
 #[derive(
-    Clone, Copy, Debug, PartialEq, Eq, Serialize, Display, EnumString, AsRefStr, VariantNames,
+    Clone,
+    Copy,
+    Debug,
+    PartialEq,
+    Eq,
+    Serialize,
+    Display,
+    EnumString,
+    AsRefStr,
+    IntoStaticStr,
+    VariantNames,
 )]
 #[serde(rename_all = "lowercase")]
 #[strum(serialize_all = "lowercase")]
@@ -57,6 +62,16 @@ impl ContactLaw {
         match self {
             Self::Unilateral => Self::Bilateral,
             Self::Bilateral | Self::Smooth => Self::Unilateral,
+        }
+    }
+
+    /// Returns why the event solver does not know the law; `None` where it does.
+    #[must_use]
+    pub fn lacks_events(self) -> Option<&'static str> {
+        match self {
+            Self::Unilateral => None,
+            Self::Bilateral => Some("bilateral is a law of the time step"),
+            Self::Smooth => Some("a lining has no events"),
         }
     }
 }

@@ -1,7 +1,6 @@
 //! Signorini's law (docs/theory.md, section 2): `g >= 0`, `lambda <= 0`,
 //! `g lambda = 0`. A multiplier only pushes, and only where the gap is closed.
 
-use super::repeated::Repeated;
 use super::{Several, StepLaw, pair, single};
 
 /// The linear complementarity problem of the rows.
@@ -16,9 +15,6 @@ impl StepLaw for Unilateral {
         complementary_pair(w, gap)
     }
     fn several<'a>(&self, rows: &'a mut Several) -> Option<&'a [f64]> {
-        rows.complementary()
-    }
-    fn repeated<'a>(&self, rows: &'a mut Repeated) -> Option<&'a [f64]> {
         rows.complementary()
     }
     /// It lasts while both sides push.

@@ -10,8 +10,8 @@
 //! - every equilibrium, its stability and thresholds: `equilibria`, `stability`
 //! - slip as a map: `slip`
 //! - coincidences and excitation: `coincidence`, `excitation`
-//! - blades and casing as one (section 10), and the speed from which their lock flutters:
-//!   `joint`; the whirl in the limit of many
+//! - blades and casing as one (section 10), the speeds at which their lock flutters, and those
+//!   at which a lock holds: `joint`; the whirl in the limit of many
 //!   blades: `round_whirl`; on a lining: `lining`
 
 mod coincidence;
@@ -39,7 +39,10 @@ pub use equilibria::{
 };
 pub use error::HarmonicError;
 pub use excitation::{ExcitedLock, ExcitedLocks, drives};
-pub use joint::{Flutter, Joint, flutter_speed, flutters, lock_roots, undamped_flutter_speed};
+pub use joint::{
+    Joint, flutter_speed, flutters, lock_growth, lock_roots, lock_window, lock_windows,
+    undamped_flutter_speed,
+};
 pub use lining::{
     Cycle, Forced, GroupPush, GrowthThreshold, HopfPoint, LeastStiffness, Lining, LiningState,
     Rest, RestRoot, ShiftedCoincidence, Whirl, growth_threshold, least_lock_stiffness,

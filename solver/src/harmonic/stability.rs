@@ -198,32 +198,35 @@ impl Linearised {
         ])
     }
 
-    /// Returns whether a motion grows in a corner whose forces are not along the gradients of
-    /// its gaps, or the eigenvalues of the two cannot be computed.
-    fn grows_in_corner(&self) -> bool {
-        let values = self.corner_motion().and_then(|[mass, damping, stiffness]| {
-            let inverse = mass.try_inverse()?;
-            let mut first_order = DMatrix::zeros(4, 4);
-            first_order.view_mut((0, 2), (2, 2)).fill_with_identity();
-            first_order.view_mut((2, 0), (2, 2)).copy_from(&-(inverse * stiffness));
-            first_order.view_mut((2, 2), (2, 2)).copy_from(&-(inverse * damping));
-            eigenvalues(first_order)
-        });
-        values.is_none_or(|values| grows(&values, 1.0))
+    /// Returns the eigenvalues in a corner whose forces are not along the gradients of its gaps
+    /// \[1/s\]; `None` if they cannot be computed.
+    fn eigenvalues_in_corner(&self) -> Option<Vec<Complex<f64>>> {
+        let [mass, damping, stiffness] = self.corner_motion()?;
+        let inverse = mass.try_inverse()?;
+        let mut first_order = DMatrix::zeros(4, 4);
+        first_order.view_mut((0, 2), (2, 2)).fill_with_identity();
+        first_order.view_mut((2, 0), (2, 2)).copy_from(&-(inverse * stiffness));
+        first_order.view_mut((2, 2), (2, 2)).copy_from(&-(inverse * damping));
+        Some(eigenvalues(first_order)?.iter().map(|value| value * self.rate).collect())
     }
 
-    /// Returns whether no motion that keeps every contact grows. In a corner by the signs of
-    /// its characteristic polynomial, which needs no eigenvalues unless the result
-    /// is close; otherwise by the eigenvalues. False if these cannot be computed.
-    pub fn is_stable(&self) -> bool {
-        if self.forces != self.gradients {
-            return !self.grows_in_corner();
-        }
-        let by_signs = self.corner_motion().and_then(|motion| {
+    /// Returns how fast a motion that keeps every contact grows \[1/s\]; `None` where none does.
+    /// In a corner by the signs of its characteristic polynomial, which needs no eigenvalues
+    /// unless the result is close; otherwise by the eigenvalues. Infinite if these cannot be
+    /// computed.
+    pub fn growth(&self) -> Option<f64> {
+        let along = self.forces == self.gradients;
+        let by_signs = self.corner_motion().filter(|_| along).and_then(|motion| {
             let polynomial = characteristic(&motion);
             if self.damped { hurwitz(polynomial) } else { Some(all_oscillate(polynomial)) }
         });
-        by_signs.unwrap_or_else(|| self.eigenvalues().is_some_and(|v| !grows(&v, self.rate)))
+        if by_signs == Some(true) {
+            return None;
+        }
+        let values = if along { self.eigenvalues() } else { self.eigenvalues_in_corner() };
+        let Some(values) = values else { return Some(f64::INFINITY) };
+        let unstable = by_signs == Some(false) || grows(&values, self.rate);
+        unstable.then(|| largest_growth(&values))
     }
 }
 

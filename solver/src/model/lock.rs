@@ -15,10 +15,10 @@
 use super::{Machine, Number};
 use crate::numeric::real_roots::{Coefficients, Point, product, real_roots, sum};
 
-/// Speeds at which a lock is held by pushes alone, as magnitudes.
+/// Speeds at which a lock is held by pushes alone, or at which it flutters, as magnitudes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LockWindow<T = f64> {
-    /// The lowest; 0 where a lock holds at standstill \[rad/s\].
+    /// The lowest; 0 where it does so from standstill on \[rad/s\].
     pub from: T,
     /// The highest, where there is one \[rad/s\].
     pub to: Option<T>,
@@ -32,6 +32,23 @@ impl LockWindow {
     }
 }
 
+impl<T: Number> LockWindow<T> {
+    /// The parts of it, in order, that lie outside another one.
+    pub(crate) fn without(self, other: &Self) -> impl Iterator<Item = Self> + use<T> {
+        let ends_before = |to: T| self.to.is_none_or(|end| end.re() > to.re());
+        let lower = Self {
+            from: self.from,
+            to: Some(other.from).filter(|to| ends_before(*to)).or(self.to),
+        };
+        let upper = other.to.filter(|to| ends_before(*to)).map(|to| {
+            let from = if to.re() > self.from.re() { to } else { self.from };
+            Self { from, to: self.to }
+        });
+        let lower = Some(lower).filter(|_| self.from.re() < other.from.re());
+        lower.into_iter().chain(upper)
+    }
+}
+
 impl<T: Number> Machine<T> {
     /// Speed from which both multipliers of the locked motion are compressive for a
     /// rotor that turns forward; without friction, inclined tips and a lining
@@ -39,24 +56,11 @@ impl<T: Number> Machine<T> {
     /// \[rad/s\]; none without corners, and where no speed has a lock.
     #[must_use]
     pub fn lock_speed(&self) -> Option<T> {
-        self.lock_window(1.0).map(|window| window.from)
+        self.lock_windows(1.0).first().map(|window| window.from)
     }
 
-    /// As `lock_speed`, of a rotor that turns in the sense of this speed, as a magnitude.
-    #[must_use]
-    pub fn lock_speed_toward(&self, speed: f64) -> Option<T> {
-        self.lock_window(speed).map(|window| window.from)
-    }
-
-    /// The lowest window of speeds with a lock, for a rotor that turns in the sense of
-    /// `toward`.
-    #[must_use]
-    pub fn lock_window(&self, toward: f64) -> Option<LockWindow<T>> {
-        self.lock_windows(toward).into_iter().next()
-    }
-
-    /// Every window of speeds with a lock, in order, for a rotor that turns in the sense
-    /// of `toward`. Empty where blades rub at rest, and where inclined tips have modes of
+    /// Every window of speeds at which pushes alone balance a lock, in order, for a rotor that
+    /// turns in the sense of `toward`; whether it lasts, `harmonic::lock_windows` says. Empty where blades rub at rest, and where inclined tips have modes of
     /// other diameters than the casing: no single wave then holds the pair.
     #[must_use]
     pub fn lock_windows(&self, toward: f64) -> Vec<LockWindow<T>> {
@@ -368,7 +372,7 @@ mod tests {
         let casing = Casing { tangential_ratio: 0.3, ..Casing::default() };
         for k in 1..20_u32 {
             let machine = paper(casing.clone()).with_friction(0.02 * f64::from(k));
-            let window = machine.lock_window(1.0).unwrap();
+            let window = machine.lock_windows(1.0).first().copied().unwrap();
             assert_eq!(window.to, None, "{k}");
             let push = |part: f64| {
                 let multipliers = machine.locked_multipliers(window.from * part).unwrap();

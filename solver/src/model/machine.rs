@@ -64,6 +64,9 @@ pub struct Machine<T = f64> {
     pub(crate) tips: Option<Arc<Tips<T>>>,
 }
 
+/// Factor on stiffness and mass of blades that no force bends. Larger: squares overflow.
+const STIFF_BLADES: f64 = 1e120;
+
 impl<T: Number> Machine<T> {
     /// Derives the model of a rotor at rest. The parameters must be checked before (`scene`).
     #[must_use]
@@ -134,6 +137,27 @@ impl<T: Number> Machine<T> {
             blade_modal_damping: zero,
             blade_damping_ratio: zero,
             spin: self.spin.map(|spin| Spin { blade_damping_ratio: zero, ..spin }),
+            ..self
+        }
+    }
+
+    /// The same machine with blades that do not give way to forces, at their frequency, which
+    /// no derivative changes.
+    #[must_use]
+    pub fn with_stiff_blades(self) -> Self {
+        let fixed = |value: T| T::from(value.re());
+        let stiff = |value: T| T::from(value.re() * STIFF_BLADES);
+        Self {
+            blade_inertia: stiff(self.blade_inertia),
+            blade_modal_mass: stiff(self.blade_modal_mass),
+            blade_modal_damping: stiff(self.blade_modal_damping),
+            blade_modal_stiffness: stiff(self.blade_modal_stiffness),
+            omega_bd: fixed(self.omega_bd),
+            spin: self.spin.map(|spin| Spin {
+                stiffening: fixed(spin.stiffening),
+                omega_bd: fixed(spin.omega_bd),
+                ..spin
+            }),
             ..self
         }
     }

@@ -19,6 +19,7 @@ pub use number::Number;
 pub use parameters::{
     BladedDisk, Casing, ContactSurface, Excitation, Initial, Mode, ModePart, Operation,
 };
+pub(crate) use parameters::{frequency_of, of_neighbours};
 pub use polygon::ContactPolygon;
 pub(crate) use polygon::{fraction_of_turn, gcd};
 pub use tip_corner::TipCorner;

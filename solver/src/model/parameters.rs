@@ -4,6 +4,7 @@
 //! its derivative along (`Number`).
 
 use std::collections::BTreeMap;
+use std::f64::consts::{PI, TAU};
 
 use serde::{Serialize, Serializer};
 
@@ -17,6 +18,8 @@ pub struct Mode {
     pub mass: Option<f64>,
     /// Modal stiffness of the casing \[N/m\], or of a blade on the disk \[N m/rad\].
     pub stiffness: Option<f64>,
+    /// Frequency \[Hz\], which stands for the stiffness that gives it.
+    pub frequency_hz: Option<f64>,
     /// Damping ratio.
     pub damping_ratio: Option<f64>,
 }
@@ -32,8 +35,13 @@ pub enum ModePart {
     Damping,
 }
 
+/// Returns the frequency that the mode of so many diameters has instead of a stiffness \[Hz\].
+pub(crate) fn frequency_of(modes: &[Mode], diameters: u32) -> Option<f64> {
+    mode_of(modes, diameters)?.frequency_hz
+}
+
 impl Mode {
-    /// One of its values.
+    /// Returns one of its values.
     #[must_use]
     pub fn part(&self, part: ModePart) -> Option<f64> {
         match part {
@@ -43,7 +51,7 @@ impl Mode {
         }
     }
 
-    /// The same, to be changed.
+    /// Returns the same, to be changed.
     pub fn part_mut(&mut self, part: ModePart) -> &mut Option<f64> {
         match part {
             ModePart::Mass => &mut self.mass,
@@ -53,23 +61,35 @@ impl Mode {
     }
 }
 
-/// The mode of so many diameters, if it is known.
+/// Returns the mode of so many diameters, if it is known.
 fn mode_of(modes: &[Mode], diameters: u32) -> Option<&Mode> {
     modes.iter().find(|mode| mode.nodal_diameters == diameters)
 }
 
-/// A value that the mode of so many diameters has of its own.
+/// Returns a value that the mode of so many diameters has of its own. A stiffness that is set
+/// replaces a frequency.
 fn own_part(modes: &mut [Mode], diameters: u32, part: ModePart) -> Option<&mut f64> {
-    modes.iter_mut().find(|mode| mode.nodal_diameters == diameters)?.part_mut(part).as_mut()
+    let mode = modes.iter_mut().find(|mode| mode.nodal_diameters == diameters)?;
+    if part == ModePart::Stiffness && mode.frequency_hz.take().is_some() {
+        mode.stiffness = Some(0.0);
+    }
+    mode.part_mut(part).as_mut()
 }
 
-/// Modes with the names that their values have in a scene file.
+/// Returns `4 k_bb sin^2(pi n/N)`, what the stiffness between blades adds to `k_b` \[N m/rad\].
+#[must_use]
+pub(crate) fn of_neighbours(coupling: f64, diameters: u32, blades: u32) -> f64 {
+    let sine = (PI * f64::from(diameters) / f64::from(blades)).sin();
+    4.0 * coupling * sine * sine
+}
+
+/// Returns the modes with the names that their values have in a scene file.
 fn named<S: Serializer>(modes: &[Mode], names: [&str; 2], out: S) -> Result<S::Ok, S::Error> {
     out.collect_seq(modes.iter().map(|mode| {
         let parts = [(names[0], mode.mass), (names[1], mode.stiffness)];
         let mut all = BTreeMap::from([("nodal_diameters", Number::Whole(mode.nodal_diameters))]);
-        let damping = [("damping_ratio", mode.damping_ratio)];
-        let known = parts.into_iter().chain(damping);
+        let more = [("frequency_hz", mode.frequency_hz), ("damping_ratio", mode.damping_ratio)];
+        let known = parts.into_iter().chain(more);
         all.extend(known.filter_map(|(name, value)| Some((name, Number::Real(value?)))));
         all
     }))
@@ -136,7 +156,7 @@ pub struct BladedDisk<T = f64> {
 }
 
 impl<T> BladedDisk<T> {
-    /// Nodal diameters of its modes, beside a casing of `n_d`.
+    /// Returns the nodal diameters of its modes, beside a casing of `n_d`.
     #[must_use]
     pub fn diameters_beside(&self, casing: u32) -> u32 {
         if self.nodal_diameters == 0 { casing } else { self.nodal_diameters }
@@ -144,14 +164,20 @@ impl<T> BladedDisk<T> {
 }
 
 impl BladedDisk {
-    /// It with the values of its mode of so many diameters, and no other modes.
+    /// Returns it with the values of its mode of these diameters, and without other modes.
     #[must_use]
     pub fn at(&self, diameters: u32) -> Self {
         let mode = mode_of(&self.modes, diameters);
         let of = |part, own: f64| mode.and_then(|mode| mode.part(part)).unwrap_or(own);
+        let inertia_kg_m2 = of(ModePart::Mass, self.inertia_kg_m2);
+        let by_frequency = frequency_of(&self.modes, diameters).map(|hertz| {
+            let neighbours = of_neighbours(self.coupling_nm_per_rad, diameters, self.blades);
+            inertia_kg_m2 * (TAU * hertz).powi(2) - neighbours
+        });
+        let stiffness = || of(ModePart::Stiffness, self.stiffness_nm_per_rad);
         Self {
-            inertia_kg_m2: of(ModePart::Mass, self.inertia_kg_m2),
-            stiffness_nm_per_rad: of(ModePart::Stiffness, self.stiffness_nm_per_rad),
+            inertia_kg_m2,
+            stiffness_nm_per_rad: by_frequency.unwrap_or_else(stiffness),
             damping_ratio: of(ModePart::Damping, self.damping_ratio),
             tips_m: self.tips_m.clone(),
             modes: Vec::new(),
@@ -159,7 +185,7 @@ impl BladedDisk {
         }
     }
 
-    /// It in other numbers, without its modes.
+    /// Returns it in other numbers, without its modes.
     #[must_use]
     pub fn to<T: From<f64>>(&self) -> BladedDisk<T> {
         BladedDisk {
@@ -184,7 +210,7 @@ impl BladedDisk {
         }
     }
 
-    /// A value of that mode, or its own where the mode has none.
+    /// Returns a value of that mode, or its own where the mode has none.
     pub fn part_at(&mut self, diameters: u32, part: ModePart) -> &mut f64 {
         let own = match part {
             ModePart::Mass => &mut self.inertia_kg_m2,
@@ -250,21 +276,25 @@ pub struct Casing<T = f64> {
 }
 
 impl Casing {
-    /// It with the values of its mode of so many diameters, and no other modes.
+    /// Returns it with the values of its mode of these diameters, and without other modes.
     #[must_use]
     pub fn at(&self, diameters: u32) -> Self {
         let mode = mode_of(&self.modes, diameters);
         let of = |part, own: f64| mode.and_then(|mode| mode.part(part)).unwrap_or(own);
+        let modal_mass_kg = of(ModePart::Mass, self.modal_mass_kg);
+        let by_frequency = frequency_of(&self.modes, diameters);
+        let stiffness = || of(ModePart::Stiffness, self.modal_stiffness_n_per_m);
         Self {
-            modal_mass_kg: of(ModePart::Mass, self.modal_mass_kg),
-            modal_stiffness_n_per_m: of(ModePart::Stiffness, self.modal_stiffness_n_per_m),
+            modal_mass_kg,
+            modal_stiffness_n_per_m: by_frequency
+                .map_or_else(stiffness, |hertz| modal_mass_kg * (TAU * hertz).powi(2)),
             damping_ratio: of(ModePart::Damping, self.damping_ratio),
             modes: Vec::new(),
             ..*self
         }
     }
 
-    /// It in other numbers, without its modes.
+    /// Returns it in other numbers, without its modes.
     #[must_use]
     pub fn to<T: From<f64>>(&self) -> Casing<T> {
         Casing {
@@ -281,7 +311,7 @@ impl Casing {
         }
     }
 
-    /// A value of that mode, or its own where the mode has none.
+    /// Returns a value of that mode, or its own where the mode has none.
     pub fn part_at(&mut self, diameters: u32, part: ModePart) -> &mut f64 {
         let own = match part {
             ModePart::Mass => &mut self.modal_mass_kg,
@@ -324,7 +354,7 @@ pub struct ContactSurface<T = f64> {
 }
 
 impl Default for ContactSurface {
-    /// The paper's contact, and the estimate of a sprayed metal lining.
+    /// Creates the paper's contact, and the estimate of a sprayed metal lining.
     fn default() -> Self {
         Self { friction: 0.0, restitution: 0.0, stiffness_n_per_m: 1e7, smoothing_m: 1e-6 }
     }

@@ -124,12 +124,6 @@ impl ContactPolygon {
         if side == 0 { self.sides - 1 } else { side - 1 }
     }
 
-    /// Whether two different sides share a corner.
-    #[must_use]
-    pub fn are_neighbours(&self, a: u32, b: u32) -> bool {
-        self.has_corners() && (self.next(a) == b || self.next(b) == a)
-    }
-
     /// Gap of a side at the point `z = (x, y)` of the blade frame, rigid
     /// blades \[m\]; positive means open. Eq. (14).
     #[must_use]
@@ -241,7 +235,6 @@ mod tests {
         assert_eq!((polygon.sides, polygon.blades_per_side), (22, 1));
         assert_eq!(polygon.side_of_blade(6), 15);
         assert_eq!(polygon.side_of_blade(21), 16);
-        assert!(polygon.are_neighbours(15, 16));
     }
 
     #[test]

@@ -9,9 +9,10 @@ use super::script::{Script, Scripted};
 use super::sensitivity::sign;
 use super::wave::WaveTracker;
 use super::{
-    Checks, Contact, EnergyAccount, Failure, FailureReason, GoOn, Hold, Motion, Outcome, State,
-    Verdict, to_the_end,
+    ActiveSet, Checks, Contact, ContactLog, EnergyAccount, Failure, FailureReason, GoOn, Hold,
+    Motion, Outcome, State, Verdict, to_the_end,
 };
+use crate::model::Machine;
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, SolverKind};
 use crate::tolerances::{
     LARGEST_BLADE_ANGLE, LAST_PART, LOOKS_A_PERIOD, PULL_ROUND_OFF, RUN_LOOKS,
@@ -102,8 +103,11 @@ pub struct RunReport {
     pub outcome: Outcome,
     /// The first 1000 impacts.
     pub impacts: Vec<ImpactReport>,
-    /// All impacts.
+    /// All impacts; of a series that accumulates those that were counted.
     pub impact_count: u64,
+    /// Where impacts accumulate, infinitely many in a finite time \[s\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub impacts_accumulate_at_s: Option<f64>,
     /// The state at the end.
     pub r#final: FinalState,
     /// Largest errors of the run.
@@ -114,6 +118,9 @@ pub struct RunReport {
     /// Speed of the rotor at the end, after ramps and changes \[rad/s\].
     #[serde(skip)]
     pub end_speed_rad_s: f64,
+    /// The machine at the end, after changes.
+    #[serde(skip)]
+    pub end_machine: Machine,
     /// The lock that broke on the way, and the speed of the rotor then \[rad/s\].
     #[serde(skip)]
     pub broken: Option<(Hold, f64)>,
@@ -449,6 +456,7 @@ pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) 
             .map(|hit| ImpactReport { t_s: hit.t_s, blades: polygon.blades_of_side(hit.side) })
             .collect(),
         impact_count: log.impact_count,
+        impacts_accumulate_at_s: accumulation(scene, log, machine),
         r#final: FinalState {
             t_s: state.t_s,
             u_c_m: state.u[0],
@@ -459,10 +467,26 @@ pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) 
         checks,
         energy: motion.energy_account(),
         end_speed_rad_s: motion.rotor().speed(state.t_s),
+        end_machine: machine.clone(),
         broken: lock_that_broke(motion),
         failure,
         reached: VerdictReached::of(motion, verdict),
     }
+}
+
+/// Returns where impacts accumulate \[s\]: rigid pushes come to rest in a corner by infinitely
+/// many, and with restitution on a side, too. Such a rest is one of a casing period at least.
+fn accumulation(scene: &CheckedScene, log: &ContactLog, machine: &Machine) -> Option<f64> {
+    let lasts = |(from, until): &(f64, f64)| until - from >= TAU / machine.omega_c;
+    let now = |from: f64| Some((from, log.last_contact?));
+    let held = matches!(log.active_set, ActiveSet::Corner(..));
+    let corner = now(log.since).filter(|_| held);
+    let rebounds = scene.contact.restitution > 0.0;
+    let side = log.unbroken_since.filter(|_| rebounds).and_then(now);
+    let before = log.longest_hold.map(|hold| (hold.from, hold.until));
+    let rigid = scene.solver.contact == ContactLaw::Unilateral && log.impact_count > 0;
+    let rests = [before, side, corner].into_iter().flatten().filter(lasts);
+    rests.map(|(from, _)| from).reduce(f64::min).filter(|_| rigid)
 }
 
 /// The longest hold of a corner that ended on the way, if it was as long as a casing period,

@@ -28,11 +28,30 @@ impl Change {
     /// beyond the paper or has a lining and the other has not.
     #[must_use]
     pub fn is_live(before: &Scene, now: &Scene) -> bool {
-        let kind =
-            |scene: &Scene| (scene.solver.contact == ContactLaw::Smooth, scene.goes_beyond());
         now.solver.kind == SolverKind::Explicit
-            && kind(before) == kind(now)
+            && Self::crosses(before, now).is_none()
             && keys::differing(before, now).all(|key| key.live != Live::Never)
+    }
+
+    /// What is allowed instead, where one of two scenes goes beyond the paper's model, or has a
+    /// lining, and the other has not: a motion has the steps of one of them from its start on.
+    #[must_use]
+    pub fn crosses(before: &Scene, now: &Scene) -> Option<&'static str> {
+        let lined = |scene: &Scene| scene.solver.contact == ContactLaw::Smooth;
+        match (before.goes_beyond(), now.goes_beyond()) {
+            _ if lined(before) != lined(now) => {
+                Some("the law of the start: a running motion keeps its lining, or has none")
+            }
+            (false, true) => Some(
+                "a value that stays in the paper's model: a running motion does not leave it \
+                 (start beyond it, such as with bladed_disk.radial_coupling = 1e-9)",
+            ),
+            (true, false) => Some(
+                "a value that stays beyond the paper's model: a running motion does not return \
+                 to it (such as 1e-9 in place of 0)",
+            ),
+            _ => None,
+        }
     }
 
     /// Whether what differs acts on a running motion, and nothing of it needs another one.

@@ -69,6 +69,21 @@ impl Scene {
         })
     }
 
+    /// Returns that the contact of this scene can have several answers, of which its runs take
+    /// one: with friction, several single blades on a side of radial tips share a push in more
+    /// than one way, as the product of their levers `A (A - mu l_b)` is negative for
+    /// `0 < A < mu l_b`.
+    #[must_use]
+    pub fn share_note(&self) -> Option<&'static str> {
+        let rubs = self.contact.friction != 0.0 && self.bladed_disk.radial_coupling == 0.0;
+        let rigid = self.solver.contact != ContactLaw::Smooth;
+        let several = self.machine().polygon.blades_per_side > 1;
+        (rubs && rigid && several && self.solver.model == ModelSize::Full).then_some(
+            "with friction several blades of a side can share its push in more than one way; \
+             this run takes the even share, one answer of several",
+        )
+    }
+
     /// Returns the clearance of a rotor at rest, `g0 = R_c - l_b`, which is negative where all
     /// blades interfere with the casing \[m\].
     #[must_use]

@@ -9,8 +9,9 @@ use std::f64::consts::TAU;
 
 use crate::numeric::rounding::rounded;
 
-use super::modes::{hertz_of, number_of, of_neighbours};
+use super::modes::{hertz_of, number_of};
 use super::{Allowed, Scene, SceneError, keys};
+use crate::model::of_neighbours;
 
 /// One mode of a modal analysis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,7 +68,7 @@ impl ModalData {
         let disk = own(&self.disk, keys::DISK_MODES)?;
         let length = digits(self.radius_m - self.clearance_m);
         let inertia = self.inertia(&disk, length);
-        let (stiffness, coupling) = self.springs(&disk, inertia);
+        let (stiffness, coupling) = self.springs(&disk, length);
         let omega = TAU * casing.frequency_hz;
         let [from, to] = self.range_rad_s;
         let mut text = String::new();
@@ -97,7 +98,10 @@ impl ModalData {
         line(&format!("damping_ratio = {:?}  # of every blade mode", self.damping_ratios[1]));
         if self.disk.len() > 1 {
             line("");
-            line("# Modes of the disk: frequency in Hz, inertia of a blade in kg m^2.");
+            line(
+                "# Modes of the disk: frequency in Hz, inertia of a blade in kg m^2. Diameters without",
+            );
+            line("# a mode have the values above.");
         }
         for mode in self.disk.iter().filter(|_| self.disk.len() > 1) {
             line("[[bladed_disk.modes]]");
@@ -154,69 +158,84 @@ impl ModalData {
         digits(share * mode.modal_mass_kg * length * length / f64::from(self.blades))
     }
 
-    /// `k_b` and `k_bb` that give the mode, and with it the one that differs most in the
-    /// stiffness between blades; no such stiffness from one mode, or where it would pull.
-    fn springs(&self, mode: &Family, inertia: f64) -> (f64, f64) {
+    /// `k_b` and `k_bb` for diameters without a mode, from the stiffness of the mode, with its own
+    /// inertia, and of the one that differs most in the stiffness between blades. No stiffness
+    /// between blades from one mode, where it would pull, and where it alone would be more than
+    /// another mode has.
+    fn springs(&self, mode: &Family, length: f64) -> (f64, f64) {
         let part = |mode: &Family| of_neighbours(1.0, mode.nodal_diameters, self.blades);
-        let square = |mode: &Family| (TAU * mode.frequency_hz).powi(2);
+        let whole = |mode: &Family| self.inertia(mode, length) * (TAU * mode.frequency_hz).powi(2);
         let far = |other: &&Family| (part(other) - part(mode)).abs();
         let other = self.disk.iter().max_by(|a, b| far(a).total_cmp(&far(b)));
-        let coupling = other.filter(|other| far(other) > 0.0).map_or(0.0, |other| {
-            inertia * (square(mode) - square(other)) / (part(mode) - part(other))
-        });
-        let stiffness = inertia * square(mode) - coupling * part(mode);
-        match coupling > 0.0 && stiffness > 0.0 {
-            true => (digits(stiffness), digits(coupling)),
-            false => (digits(inertia * square(mode)), 0.0),
+        let coupling = other
+            .filter(|other| far(other) > 0.0)
+            .map_or(0.0, |other| digits((whole(mode) - whole(other)) / (part(mode) - part(other))));
+        let leaves = |mode: &Family| whole(mode) - coupling * part(mode);
+        match coupling > 0.0 && self.disk.iter().all(|mode| leaves(mode) > 0.0) {
+            true => (digits(leaves(mode)), coupling),
+            false => (digits(whole(mode)), 0.0),
         }
     }
 }
 
 /// Reads the modes of a table: a line of names, then a line for each mode. Names are
-/// `structure` (casing or disk), `nodal_diameters`,
-/// `frequency_hz`, `modal_mass_kg`, and `damping_ratio` if there is one. Empty lines and
+/// `structure` (casing or disk), `nodal_diameters`, `frequency_hz`, `modal_mass_kg`, and
+/// `damping_ratio` if there is one, also as `Frequency [Hz]`. Cells stand between commas, or
+/// between semicolons or tabs, with which numbers may have a decimal comma. Empty lines and
 /// those that begin with `#` are left out, and columns of other names.
 ///
 /// # Errors
 /// A missing column, or a value that is not allowed, by its line and column.
 pub fn read_modes(text: &str) -> Result<[Vec<Family>; 2], SceneError> {
-    let mut lines = text.trim_start_matches('\u{feff}').lines().enumerate().filter(|(_, line)| {
-        let line = line.trim();
-        !line.is_empty() && !line.starts_with('#')
-    });
-    let cells = |line: &str| -> Vec<String> {
-        line.split(',').map(|cell| cell.trim().trim_matches('"').to_string()).collect()
+    let text = text.trim_start_matches('\u{feff}');
+    let head = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#'));
+    let between = |c: &u8| head.unwrap_or_default().as_bytes().contains(c);
+    let delimiter = [b';', b'\t'].into_iter().find(between).unwrap_or(b',');
+    let mut reader = csv::ReaderBuilder::new();
+    reader.delimiter(delimiter).comment(Some(b'#')).flexible(true).trim(csv::Trim::All);
+    let mut reader = reader.has_headers(false).from_reader(text.as_bytes());
+    let cells = |record: csv::Result<csv::StringRecord>| {
+        let record = record.map_err(|error| {
+            SceneError::refused("the table", error.to_string(), "lines of cells")
+        })?;
+        let line = record.position().map_or(0, csv::Position::line);
+        Ok::<_, SceneError>((line, record))
     };
-    let names = lines.next().map_or_else(Vec::new, |(_, line)| cells(line));
+    let mut records = reader
+        .records()
+        .map(cells)
+        .filter(|read| !read.as_ref().is_ok_and(|(_, record)| record.iter().all(str::is_empty)));
+    let names = records
+        .next()
+        .transpose()?
+        .map_or_else(Vec::new, |(_, record)| record.iter().map(column_name).collect());
     let count = |name: &str| names.iter().filter(|known| *known == name).count();
     if count(STRUCTURE) != 1 || COLUMNS.iter().any(|name| count(name) != 1) {
-        let allowed =
-            format!("{STRUCTURE}, {}, each once, separated by commas", COLUMNS.join(", "));
+        let allowed = format!("{STRUCTURE}, {}, each once", COLUMNS.join(", "));
         return Err(SceneError::refused("the first line", names.join(","), allowed));
     }
     let mut found = [Vec::new(), Vec::new()];
-    for (place, line) in lines {
-        let row = cells(line);
-        if row.len() != names.len() {
+    for record in records {
+        let (line, record) = record?;
+        if record.len() != names.len() {
             let allowed = format!("as many as names in the first line, {}", names.len());
-            let given = format!("{} cells", row.len());
-            return Err(SceneError::refused(format!("line {}", place + 1), given, allowed));
+            let given = format!("{} cells", record.len());
+            return Err(SceneError::refused(format!("line {line}"), given, allowed));
         }
         let cell = |name: &str| {
             let at = names.iter().position(|known| known == name);
-            at.and_then(|at| row.get(at)).map_or("", String::as_str)
+            let cell = at.and_then(|at| record.get(at)).unwrap_or_default();
+            if delimiter == b',' { cell.to_string() } else { cell.replace(',', ".") }
         };
-        let path = |name: &str| format!("line {}, {name}", place + 1);
+        let path = |name: &str| format!("line {line}, {name}");
         let structure = match cell(STRUCTURE).to_lowercase().as_str() {
             "casing" => 0,
             "disk" => 1,
             other => return Err(SceneError::refused(path(STRUCTURE), other, "casing or disk")),
         };
-        let mode = Family::read(
-            COLUMNS.map(cell),
-            Some(cell("damping_ratio")).filter(|cell| !cell.is_empty()),
-            &path,
-        )?;
+        let damping = Some(cell("damping_ratio")).filter(|cell| !cell.is_empty());
+        let numbers = COLUMNS.map(cell);
+        let mode = Family::read(numbers.each_ref().map(String::as_str), damping.as_deref(), &path)?;
         let modes: &mut Vec<Family> = &mut found[structure];
         if modes.iter().any(|known| known.nodal_diameters == mode.nodal_diameters) {
             let given = format!("{} twice", mode.nodal_diameters);
@@ -226,6 +245,13 @@ pub fn read_modes(text: &str) -> Result<[Vec<Family>; 2], SceneError> {
         modes.push(mode);
     }
     Ok(found)
+}
+
+/// The name of a column as keys are written: `frequency_hz` for `Frequency [Hz]`.
+fn column_name(written: &str) -> String {
+    let lower = written.to_lowercase();
+    let words = lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+    words.collect::<Vec<_>>().join("_")
 }
 
 /// A number as it is written: what round-off adds is left out.
@@ -305,11 +331,25 @@ mod tests {
             (format!("{head}\ncasing,4,310"), "line 2 = 3 cells"),
             (head.replace("structure", "struct"), "the first line = struct,nodal_diameters"),
             (format!("{head},structure"), "each once"),
-            (head.replace(',', ";"), "separated by commas"),
             (format!("{head}\nrotor,4,310.7,3.1"), "line 2, structure = rotor"),
         ] {
             let error = read_modes(&table).unwrap_err().to_string();
             assert!(error.contains(refusal), "{table}: {error}");
+        }
+    }
+
+    #[test]
+    fn tables_of_spreadsheets_have_semicolons_decimal_commas_and_names_with_units() {
+        let expected = read_modes(
+            "structure,nodal_diameters,frequency_hz,modal_mass_kg,damping_ratio\n\
+             casing,4,310.7,3.1,0.01\ndisk,4,151.3,5.5,\n",
+        );
+        for (separator, comma) in [(";", ","), ("\t", ","), (";", "."), (",", ".")] {
+            let table = "\u{feff}# of the rig\r\n\r\nStructure;Nodal diameters;Frequency [Hz];\
+                         \"Modal mass (kg)\";Damping ratio;Remark\r\n\
+                         Casing;4;310.7;3.1;0.01;\r\ndisk;4;151.3;5.5;;\"left; or right\"\r\n;;;;;\r\n";
+            let table = table.replace('.', comma).replace("left;", "left").replace(';', separator);
+            assert_eq!(read_modes(&table), expected, "{table}");
         }
     }
 
@@ -333,6 +373,32 @@ mod tests {
             close(machine.blade_modal_mass / tip, disk.modal_mass_kg);
         }
         assert_eq!(scene.modes_note(), None);
+    }
+
+    #[test]
+    fn every_mode_of_a_blade_family_keeps_its_own_frequency_and_mass() {
+        let family = |nodal_diameters, frequency_hz, modal_mass_kg| Family {
+            nodal_diameters,
+            frequency_hz,
+            modal_mass_kg,
+            damping_ratio: None,
+        };
+        let ordinary = vec![family(2, 214.0, 3.9), family(3, 297.5, 2.9), family(8, 378.0, 2.25)];
+        // One that is softer than the springs of the two others alone.
+        let odd = vec![family(2, 100.0, 3.0), family(6, 60.0, 3.0), family(8, 400.0, 3.0)];
+        for disk in [ordinary, odd] {
+            for nodal_diameters in [2, 3, 8, 6] {
+                let data = ModalData { nodal_diameters, disk: disk.clone(), ..data() };
+                let mut scene = Scene::from_toml(&data.to_toml().unwrap()).unwrap();
+                for mode in &disk {
+                    scene.operation.nodal_diameters = mode.nodal_diameters;
+                    let machine = scene.machine();
+                    close(machine.omega_bd, TAU * mode.frequency_hz);
+                    let tip = machine.blade_length * machine.blade_length;
+                    close(machine.blade_modal_mass / tip, mode.modal_mass_kg);
+                }
+            }
+        }
     }
 
     #[test]

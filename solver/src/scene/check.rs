@@ -118,6 +118,8 @@ fn excitation(scene: &Scene) -> Result<(), SceneError> {
         return undriven(scene);
     } else if scene.solver.model == ModelSize::Rigid {
         "0 with solver.model = \"rigid\", whose blades do not move"
+    } else if scene.solver.model == ModelSize::Full {
+        "0 with solver.model = \"full\"; with solver.model = \"modal\" any"
     } else {
         return Ok(());
     };
@@ -236,14 +238,10 @@ fn undriven(scene: &Scene) -> Result<(), SceneError> {
 /// An excitation, the bilateral law, or a disk of more than two modes.
 pub(super) fn event(scene: &Scene) -> Result<(), SceneError> {
     undriven(scene)?;
-    let law = match scene.solver.contact {
-        ContactLaw::Unilateral => None,
-        ContactLaw::Bilateral => Some(("\"bilateral\"", "bilateral is a law of the time step")),
-        ContactLaw::Smooth => Some(("\"smooth\"", "a lining has no events")),
-    };
-    if let Some((given, why)) = law {
+    let law = scene.solver.contact;
+    if let Some(why) = law.lacks_events() {
         let allowed = format!("\"unilateral\" with solver.kind = \"event\" ({why})");
-        return Err(SceneError::refused(keys::LAW, given, allowed));
+        return Err(SceneError::refused(keys::LAW, format!("\"{law}\""), allowed));
     }
     if scene.solver.model == ModelSize::Full {
         return Err(SceneError::refused(
@@ -263,6 +261,23 @@ mod tests {
     fn number_after(message: &str, word: &str) -> Option<f64> {
         let rest = message.split(word).nth(1)?.trim_start();
         rest.split([' ', ',']).next()?.parse().ok()
+    }
+
+    #[test]
+    fn only_the_two_modes_take_an_excitation() {
+        for (model, said) in [
+            (ModelSize::Rigid, Some("allowed is 0 with solver.model = \"rigid\"")),
+            (ModelSize::Modal, None),
+            (ModelSize::Full, Some("allowed is 0 with solver.model = \"full\"")),
+        ] {
+            let mut scene = Scene::base();
+            (scene.solver.model, scene.excitation.amplitude_nm) = (model, 0.3);
+            let refused = check(&scene).err().map(|error| error.to_string());
+            assert_eq!(refused.is_some(), said.is_some(), "{model}");
+            let (refused, said) = (refused.unwrap_or_default(), said.unwrap_or_default());
+            assert!(refused.contains(said), "{refused}");
+            assert!(refused.is_empty() || refused.starts_with("excitation.amplitude_nm = 0.3"));
+        }
     }
 
     #[test]

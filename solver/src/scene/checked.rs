@@ -144,11 +144,7 @@ impl Scene {
         if solver.kind != SolverKind::Event {
             return made;
         }
-        let law = match solver.contact {
-            ContactLaw::Unilateral => None,
-            ContactLaw::Bilateral => Some("bilateral"),
-            ContactLaw::Smooth => Some("smooth"),
-        };
+        let law = solver.contact.lacks_events().map(|_| solver.contact.into());
         let why = "the event solver does not know";
         let full = solver.model == ModelSize::Full;
         if asked(KIND) {

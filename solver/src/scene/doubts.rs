@@ -4,22 +4,114 @@
 use std::f64::consts::TAU;
 
 use super::{Scene, keys};
+use crate::model::Mode;
 use crate::tolerances::{
-    DOUBTFUL_CLEARANCE, DOUBTFUL_DAMPING, DOUBTFUL_FREQUENCY, DOUBTFUL_GAP, DOUBTFUL_MASSES,
-    DOUBTFUL_TIP_SPEED,
+    DOUBTFUL_CLEARANCE, DOUBTFUL_COURSE, DOUBTFUL_DAMPING, DOUBTFUL_DENSITY, DOUBTFUL_FORCE,
+    DOUBTFUL_FREQUENCY, DOUBTFUL_GAP, DOUBTFUL_RADIUS, DOUBTFUL_TIP_SPEED,
 };
+
+/// Casing or disk, and the keys of its numbers.
+struct Structure {
+    name: &'static str,
+    modes: &'static str,
+    mass: &'static str,
+    damping: &'static str,
+}
+
+const STRUCTURES: [Structure; 2] = [
+    Structure {
+        name: "casing",
+        modes: keys::CASING_MODES,
+        mass: keys::CASING_MASS,
+        damping: keys::CASING_DAMPING,
+    },
+    Structure {
+        name: "bladed disk",
+        modes: keys::DISK_MODES,
+        mass: keys::BLADE_INERTIA,
+        damping: keys::BLADE_DAMPING,
+    },
+];
+
+/// What is looked at in a mode.
+#[derive(Clone, Copy)]
+struct Looked {
+    diameters: u32,
+    hertz: f64,
+    /// At the rim of the casing, or at the tips \[kg\].
+    mass: f64,
+    damping: f64,
+}
 
 impl Scene {
     /// What looks like a slip.
     #[must_use]
     pub fn doubts(&self) -> Vec<String> {
+        let radius = self.radius_doubt();
+        // Tips are not too fast where the radius is what is too large.
+        let speed = if radius.is_none() { self.speed_doubt() } else { None };
         let doubts =
-            [self.clearance_doubt(), self.speed_doubt(), self.mass_doubt(), self.diameters_doubt()];
+            [radius, self.clearance_doubt(), speed, self.force_doubt(), self.diameters_doubt()];
         let mut all: Vec<String> = doubts.into_iter().flatten().collect();
-        all.extend(self.modes_doubts());
-        all.extend(self.frequency_doubts());
-        all.extend(self.damping_doubts());
+        for (structure, own) in STRUCTURES.iter().zip([&self.casing.modes, &self.bladed_disk.modes])
+        {
+            all.extend(self.modes_doubts(structure, own));
+            let looked = self.looked(structure, own);
+            all.extend(self.mass_doubt(structure, &looked));
+            all.extend(frequency_doubt(structure, &looked));
+            all.extend(damping_doubt(structure, &looked));
+            all.extend(course_doubts(structure, looked));
+        }
         all
+    }
+
+    /// The modes of a structure, or what it has at the diameters of the scene.
+    fn looked(&self, structure: &Structure, own: &[Mode]) -> Vec<Looked> {
+        let mut diameters: Vec<u32> = own.iter().map(|mode| mode.nodal_diameters).collect();
+        if diameters.is_empty() {
+            diameters.push(self.operation.nodal_diameters);
+        }
+        let is_casing = structure.modes == keys::CASING_MODES;
+        let look = |diameters| {
+            let mut scene = self.clone();
+            scene.operation.nodal_diameters = diameters;
+            if !own.is_empty() {
+                scene.bladed_disk.nodal_diameters = 0;
+            }
+            let machine = scene.machine();
+            let length = machine.blade_length;
+            let (omega, mass, damping) = match is_casing {
+                true => (machine.omega_c, machine.casing_mass, scene.casing_in_use().damping_ratio),
+                false => {
+                    let mass = machine.blade_modal_mass / (length * length);
+                    (machine.omega_bd, mass, scene.disk_in_use().damping_ratio)
+                }
+            };
+            Looked { diameters, hertz: omega / TAU, mass, damping }
+        };
+        diameters.into_iter().map(look).collect()
+    }
+
+    fn radius_doubt(&self) -> Option<String> {
+        let radius = self.casing.radius_m;
+        let [least, most] = DOUBTFUL_RADIUS;
+        (!(least..=most).contains(&radius)).then(|| {
+            format!(
+                "{} = {radius} is in m, and casings have a radius of {least} to {most} m. Was it mm? Then write \"{radius} mm\".",
+                keys::CASING_RADIUS
+            )
+        })
+    }
+
+    fn force_doubt(&self) -> Option<String> {
+        let force = self.operation.pulse_n;
+        (force.abs() > DOUBTFUL_FORCE).then(|| {
+            format!(
+                "{} = {force:e} is in N, and more than the weight of {:.0} t. Is its unit right?",
+                keys::PULSE,
+                DOUBTFUL_FORCE / 1e4
+            )
+        })
     }
 
     fn clearance_doubt(&self) -> Option<String> {
@@ -54,19 +146,6 @@ impl Scene {
         })
     }
 
-    fn mass_doubt(&self) -> Option<String> {
-        let machine = self.machine();
-        let disk = machine.blade_modal_mass / (machine.blade_length * machine.blade_length);
-        let ratio = machine.casing_mass / disk;
-        let far = !(1.0 / DOUBTFUL_MASSES..=DOUBTFUL_MASSES).contains(&ratio);
-        far.then(|| {
-            format!(
-                "{} = {} kg, and the disk's modal mass at the tips ({} with {}) is {disk:.4} kg: they differ by a factor of {:.0}. Was one of them in g?",
-                keys::CASING_MASS, machine.casing_mass, keys::BLADE_INERTIA, keys::BLADE_LENGTH, ratio.max(1.0 / ratio)
-            )
-        })
-    }
-
     fn diameters_doubt(&self) -> Option<String> {
         let (diameters, blades) = (self.operation.nodal_diameters, self.bladed_disk.blades);
         (diameters > blades / 2).then(|| {
@@ -74,50 +153,164 @@ impl Scene {
         })
     }
 
-    fn modes_doubts(&self) -> Vec<String> {
-        let blades = self.bladed_disk.blades;
-        let named =
-            [(keys::CASING_MODES, &self.casing.modes), (keys::DISK_MODES, &self.bladed_disk.modes)];
-        let all =
-            named.into_iter().flat_map(|(key, modes)| modes.iter().map(move |mode| (key, mode)));
-        let far = all.filter(|(_, mode)| mode.nodal_diameters > blades / 2);
-        far.map(|(key, mode)| {
+    fn modes_doubts(&self, structure: &Structure, own: &[Mode]) -> Vec<String> {
+        let (blades, key) = (self.bladed_disk.blades, structure.modes);
+        let far = own.iter().filter(|mode| mode.nodal_diameters > blades / 2);
+        far.map(|mode| {
             format!("{key} has a mode of {} diameters, more than half of the {blades} blades; it is never in use.", mode.nodal_diameters)
         })
         .collect()
     }
 
-    fn frequency_doubts(&self) -> Vec<String> {
-        let machine = self.machine();
-        let [least, most] = DOUBTFUL_FREQUENCY;
-        let named = [
-            ("casing", keys::CASING_STIFFNESS, machine.omega_c),
-            ("bladed disk", keys::BLADE_STIFFNESS, machine.omega_bd),
-        ];
-        let far = named.into_iter().filter(|(.., omega)| !(least..=most).contains(&(omega / TAU)));
-        far.map(|(name, key, omega)| {
-            let hertz = omega / TAU;
-            format!("The frequency of the {name} is {hertz:.4} Hz ({key} and the mass beside it); first modes usually have {least} to {most} Hz.")
-        })
-        .collect()
+    fn mass_doubt(&self, structure: &Structure, looked: &[Looked]) -> Option<String> {
+        // The unit of the radius is asked about where it is what is wrong.
+        self.radius_doubt().is_none().then_some(())?;
+        let [least, most] = DOUBTFUL_DENSITY.map(|density| density * self.casing.radius_m.powi(3));
+        let (mode, at) = first(looked, |mode| !(least..=most).contains(&mode.mass))?;
+        Some(format!(
+            "The modal mass of the {}{at} is {:.4} kg ({}); at this radius modes of metal have {least:.2} to {most:.0} kg. Was it in g or in t?",
+            structure.name, mode.mass, structure.mass
+        ))
     }
+}
 
-    fn damping_doubts(&self) -> Vec<String> {
-        let [casing, disk] = [self.casing_in_use().damping_ratio, self.disk_in_use().damping_ratio];
-        let named = [(keys::CASING_DAMPING, casing), (keys::BLADE_DAMPING, disk)];
-        let large = named.into_iter().filter(|(_, ratio)| *ratio > DOUBTFUL_DAMPING);
-        large
-            .map(|(key, ratio)| {
-                format!("{key} = {ratio} is a part of critical damping; structures have thousandths to hundredths. Was it per cent? Then write \"{ratio} %\".")
-            })
-            .collect()
+/// The first mode that is doubted, and which it is: one of several, and how many more are.
+fn first(looked: &[Looked], is_doubted: impl Fn(&Looked) -> bool) -> Option<(Looked, String)> {
+    let doubted: Vec<&Looked> = looked.iter().filter(|mode| is_doubted(mode)).collect();
+    let mode = **doubted.first()?;
+    let at = match (looked.len(), doubted.len()) {
+        (1, _) => String::new(),
+        (_, 1) => format!(" at {} diameters", mode.diameters),
+        (_, all) => format!(" at {} diameters (and {} more)", mode.diameters, all - 1),
+    };
+    Some((mode, at))
+}
+
+fn frequency_doubt(structure: &Structure, looked: &[Looked]) -> Option<String> {
+    let [least, most] = DOUBTFUL_FREQUENCY;
+    let (mode, at) = first(looked, |mode| !(least..=most).contains(&mode.hertz))?;
+    Some(format!(
+        "The frequency of the {}{at} is {:.4} Hz; first modes usually have {least} to {most} Hz.",
+        structure.name, mode.hertz
+    ))
+}
+
+fn damping_doubt(structure: &Structure, looked: &[Looked]) -> Option<String> {
+    let (mode, at) = first(looked, |mode| mode.damping > DOUBTFUL_DAMPING)?;
+    let ratio = mode.damping;
+    Some(format!(
+        "{} = {ratio}{at} is a part of critical damping; structures have thousandths to hundredths. Was it per cent? Then write \"{ratio} %\".",
+        structure.damping
+    ))
+}
+
+/// The modes whose frequency or mass lies far from those of the others: frequencies and masses
+/// of a structure go smoothly over the diameters.
+fn course_doubts(structure: &Structure, looked: Vec<Looked>) -> Vec<String> {
+    let mut doubts = Vec::new();
+    for (what, unit, value) in [
+        ("frequency", "Hz", (|mode| mode.hertz) as fn(&Looked) -> f64),
+        ("modal mass", "kg", |mode| mode.mass),
+    ] {
+        let far = |a: &Looked, b: &Looked| {
+            let [a_n, b_n] = [a, b].map(|mode| f64::from(mode.diameters.max(1)));
+            let apart = (value(a) / value(b)).ln().abs();
+            apart > DOUBTFUL_COURSE[0].ln() + DOUBTFUL_COURSE[1] * (a_n / b_n).ln().abs()
+        };
+        let mut rest = looked.clone();
+        loop {
+            let against = |mode: &Looked| rest.iter().filter(|other| far(mode, other)).count();
+            let Some(place) = (0..rest.len()).max_by_key(|place| against(&rest[*place])) else {
+                break;
+            };
+            if against(&rest[place]) == 0 {
+                break;
+            }
+            let odd = rest.remove(place);
+            let near = rest.iter().min_by_key(|other| other.diameters.abs_diff(odd.diameters));
+            doubts.extend(near.map(|near| {
+                format!(
+                    "The {what} of the {} is {:.4} {unit} at {} diameters and {:.4} {unit} at {}. Is the decimal point right, and the unit?",
+                    structure.name, value(&odd), odd.diameters, value(near), near.diameters
+                )
+            }));
+        }
     }
+    doubts
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::scene::BUILTIN;
+
+    #[test]
+    fn the_whole_table_is_looked_at_and_absolute_sizes() {
+        let told = |changes: &[(&str, &str)]| Scene::base().with(changes).unwrap().doubts();
+        let modes = |numbers: &[(u32, f64, f64)]| {
+            let mode = |(diameters, hertz, mass): &(u32, f64, f64)| {
+                format!(
+                    "{{ nodal_diameters = {diameters}, frequency_hz = {hertz:?}, modal_mass_kg = {mass:?} }}"
+                )
+            };
+            let all: Vec<String> = numbers.iter().map(mode).collect();
+            format!("[{}]", all.join(", "))
+        };
+        let good =
+            [(2, 145.0, 9.8), (3, 272.0, 9.1), (4, 422.7, 8.7), (5, 611.3, 8.4), (6, 822.7, 8.2)];
+        let casing = |change: fn(&mut (u32, f64, f64))| {
+            let mut numbers = good;
+            numbers.iter_mut().for_each(change);
+            told(&[("casing.modes", &modes(&numbers))])
+        };
+        assert_eq!(casing(|_| ()), [""; 0]);
+        for (doubts, asked) in [
+            (
+                casing(|mode| mode.2 *= 1e3),
+                "mass of the casing at 2 diameters (and 4 more) is 9800.",
+            ),
+            (
+                casing(|mode| mode.2 *= 1e-3),
+                "mass of the casing at 2 diameters (and 4 more) is 0.0098",
+            ),
+            (
+                casing(|mode| {
+                    if mode.0 == 5 {
+                        mode.1 = 0.6113
+                    }
+                }),
+                "The frequency of the casing at 5 diameters is 0.6113 Hz; first modes",
+            ),
+            (
+                casing(|mode| {
+                    if mode.0 == 6 {
+                        mode.1 = 8227.0
+                    }
+                }),
+                "The frequency of the casing is 8227.0000 Hz at 6 diameters and 611.3000 Hz at 5. Is",
+            ),
+            (
+                casing(|mode| {
+                    if mode.0 == 3 {
+                        mode.2 = 0.91
+                    }
+                }),
+                "The modal mass of the casing is 0.9100 kg at 3 diameters and 9.8000 kg at 2. Is",
+            ),
+            (
+                told(&[("bladed_disk.modes", "[{ nodal_diameters = 4, damping_ratio = 5.0 }]")]),
+                "bladed_disk.damping_ratio = 5 is a part of critical damping",
+            ),
+            (
+                told(&[("casing.radius_m", "420"), ("bladed_disk.blade_length_m", "419.7")]),
+                "casing.radius_m = 420 is in m, and casings have a radius of 0.02 to 8 m. Was it mm?",
+            ),
+            (told(&[("operation.pulse_n", "2e10")]), "operation.pulse_n = 2e10 is in N, and more"),
+        ] {
+            assert!(doubts.iter().any(|doubt| doubt.contains(asked)), "{asked}: {doubts:?}");
+            assert!(doubts.len() <= 2 && !doubts.concat().contains("tips at"), "{doubts:?}");
+        }
+    }
 
     #[test]
     fn slips_of_units_are_asked_about_and_usual_machines_are_not() {
@@ -145,7 +338,7 @@ mod tests {
             (
                 "casing.modal_mass_kg",
                 "0.002",
-                "casing.modal_mass_kg = 0.002 kg, and the disk's modal mass",
+                "The modal mass of the casing is 0.0020 kg (casing.modal_mass_kg); at this radius",
             ),
             ("casing.damping_ratio", "5", "casing.damping_ratio = 5 is a part of critical damping"),
             ("casing.modal_stiffness_n_per_m", "15", "The frequency of the casing is 0.4359 Hz"),

@@ -39,7 +39,7 @@ impl std::fmt::Display for Value {
 /// The allowed values of a key.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Allowed {
-    /// A finite number from `min` to `max`; above `min` where `above`.
+    /// A finite number from `min` to `max`, without `min` itself where `above` is set.
     Real {
         /// Lower bound.
         min: f64,
@@ -59,9 +59,9 @@ pub enum Allowed {
     OneOf(&'static [&'static str]),
     /// One or more of these words, each once.
     SomeOf(&'static [&'static str]),
-    /// A line of text of up to so many characters.
+    /// A line of text with a limited number of characters.
     Text {
-        /// Most characters.
+        /// Largest number of characters.
         most: usize,
     },
     /// A list of the modes of a structure, as text.
@@ -96,18 +96,18 @@ impl std::fmt::Display for Allowed {
     }
 }
 
-/// Which running motions go on with another value of a key.
+/// Which running motions accept another value of a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Live {
     /// Every motion.
     Always,
     /// Motions by time steps.
     Steps,
-    /// None: it makes another motion.
+    /// None: another value starts another motion.
     Never,
-    /// None: it is over once a motion runs.
+    /// None: it acts only before a motion runs.
     Start,
-    /// It says nothing to a motion.
+    /// It has no effect on a motion.
     Aside,
 }
 
@@ -116,22 +116,22 @@ pub enum Live {
 pub struct Key {
     /// Dotted path, as in the file.
     pub path: &'static str,
-    /// Unit, as shown.
+    /// Unit, as it is shown.
     pub unit: &'static str,
-    /// What it is, in a few words.
+    /// Description, in a few words.
     pub what: &'static str,
-    /// Whether a running motion takes it over.
+    /// Which running motions accept another value.
     pub live: Live,
     /// Allowed values.
     pub allowed: Allowed,
-    /// Reads it.
+    /// Returns its value in a scene.
     pub get: fn(&Scene) -> Value,
-    /// Writes it; the value is of the right kind.
+    /// Sets it in a scene; the value must be of its kind.
     pub(super) set: fn(&mut Scene, Value),
 }
 
 impl Key {
-    /// What it is, with its unit, as the title of an axis.
+    /// Returns its description with its unit, as the title of an axis.
     #[must_use]
     pub fn title(&self) -> String {
         if self.unit == "-" {
@@ -141,7 +141,7 @@ impl Key {
         }
     }
 
-    /// Refuses values of another kind or out of bounds.
+    /// Rejects values of another kind or out of bounds.
     ///
     /// # Errors
     /// One line with key, value and what is allowed.
@@ -180,7 +180,7 @@ impl Key {
         }
     }
 
-    /// What a number of it is of.
+    /// Returns the quantity of its numbers.
     #[must_use]
     pub fn quantity(&self) -> Quantity {
         Quantity::of(self.unit)
@@ -220,10 +220,9 @@ impl Key {
     }
 }
 
-/// Whether a character takes its place in a line of text and does nothing else: none
-/// that moves the cursor of a terminal, breaks the line or its direction, is not seen, or
-/// is none of XML. Joiners and selectors are among those: terminals do not agree on the
-/// width of what they make.
+/// Returns whether a character is visible text and nothing else: it does not move the cursor of a
+/// terminal or break the line or its direction, it is not invisible, and XML allows it. Joiners
+/// and selectors are refused, too: terminals do not agree on the width of the result.
 #[must_use]
 pub fn is_plain(c: char) -> bool {
     let acts = matches!(
@@ -237,7 +236,7 @@ pub fn is_plain(c: char) -> bool {
     !c.is_control() && !acts
 }
 
-/// The key with this dotted path.
+/// Returns the key with this dotted path.
 ///
 /// # Errors
 /// An unknown path; the message lists the keys of its table.
@@ -245,7 +244,7 @@ pub fn find(path: &str) -> Result<&'static Key, SceneError> {
     KEYS.iter().find(|key| key.path == path).ok_or_else(|| unknown(path))
 }
 
-/// The error for an unknown key, with the keys of its table.
+/// Returns the error for an unknown key, with the keys of its table.
 pub(super) fn unknown(path: &str) -> SceneError {
     let table = path.split_once('.').map_or("", |(table, _)| table);
     let of_table = |key: &&Key| key.path.split_once('.').map_or("", |(t, _)| t) == table;
@@ -305,7 +304,7 @@ macro_rules! moded {
     };
 }
 macro_rules! modes {
-    ($path:expr, $live:ident, $what:literal, $structure:ident, $table:ident, $set:ident) => {
+    ($path:expr, $live:ident, $what:literal, $structure:ident, $table:ident) => {
         Key {
             path: $path,
             unit: "-",
@@ -315,7 +314,7 @@ macro_rules! modes {
             get: |scene| Value::Text(modes::$structure.text(&scene.$table.modes)),
             set: |scene, value| {
                 if let Value::Text(text) = value {
-                    modes::$set(scene, &text)
+                    scene.$table.modes = modes::$structure.modes(&text)
                 }
             },
         }
@@ -379,24 +378,24 @@ macro_rules! charts {
     };
 }
 
-/// Keys in which a scene differs from another, with their values as text; what the
-/// explorer opens with is not counted.
+/// Returns the keys in which a scene differs from another, with their values as text, without the
+/// keys of the explorer's first view.
 pub fn differences(from: &Scene, to: &Scene) -> impl Iterator<Item = (&'static str, String)> {
     changed(from, to, false)
 }
 
-/// As `differences`, of what the explorer opens with.
+/// Same as `differences`, for the keys of the explorer's first view.
 pub fn view_differences(from: &Scene, to: &Scene) -> impl Iterator<Item = (&'static str, String)> {
     changed(from, to, true)
 }
 
-/// The keys in which a scene differs from another.
+/// Returns the keys in which a scene differs from another.
 pub fn differing(from: &Scene, to: &Scene) -> impl Iterator<Item = &'static Key> + Clone {
     KEYS.iter().filter(move |key| (key.get)(from) != (key.get)(to))
 }
 
-/// Set one after the other they make the one scene of the other: what chooses the modes
-/// in use comes first, what they are last.
+/// Returns the changes that, set one after the other, lead from one scene to the other: first the
+/// keys that choose the modes in use, last the values of these modes.
 fn changed(from: &Scene, to: &Scene, view: bool) -> impl Iterator<Item = (&'static str, String)> {
     let (mut made, scene) = walked(from, to, view);
     let alike = scene.casing == to.casing && scene.bladed_disk == to.bladed_disk;
@@ -412,10 +411,10 @@ fn changed(from: &Scene, to: &Scene, view: bool) -> impl Iterator<Item = (&'stat
     made.into_iter()
 }
 
-/// The lists of modes.
+/// Keys of the lists of modes.
 const MODES: [&str; 2] = [DISK_MODES, CASING_MODES];
 
-/// The keys that lead from a scene to another, and where they lead.
+/// Returns the keys that lead from a scene to another, and the scene that results.
 fn walked(from: &Scene, to: &Scene, view: bool) -> (Vec<(&'static str, String)>, Scene) {
     const FIRST: [&str; 2] = [DIAMETERS, DISK_DIAMETERS];
     let mut scene = from.clone();
@@ -441,7 +440,7 @@ fn walked(from: &Scene, to: &Scene, view: bool) -> (Vec<(&'static str, String)>,
     (made, scene)
 }
 
-/// The value of a key in a scene as text that is read back exactly.
+/// Returns the value of a key in a scene as text that is read back exactly.
 fn text_of(key: &Key, scene: &Scene) -> String {
     match (key.get)(scene) {
         Value::Real(x) => format!("{x:?}"),
@@ -451,8 +450,8 @@ fn text_of(key: &Key, scene: &Scene) -> String {
     }
 }
 
-/// What is no key, but is turned and swept as one: the clearance `R_c - l_b`, which the
-/// radius of the casing sets.
+/// Quantity that is not a key but is changed and swept like one: the clearance `R_c - l_b`, which
+/// the radius of the casing sets.
 pub const CLEARANCE: &str = "clearance";
 
 /// Makes of each row the constant with the path of a key, and the key in `KEYS`.
@@ -488,7 +487,7 @@ keys! {
     LONGEST_TIP "bladed_disk.longest_tip_m" = real(Steps, "m", "how much longer blade 1 is, b_1", false -1.0..1.0, bladed_disk.longest_tip_m);
     ORBIT "bladed_disk.orbit_m" = real(Steps, "m", "how far the rotor is off its centre, r", false 0.0..1.0, bladed_disk.orbit_m);
     ORBIT_ANGLE "bladed_disk.orbit_angle_rad" = real(Steps, "rad", "direction of that in the rotor, chi", false -100.0..100.0, bladed_disk.orbit_angle_rad);
-    DISK_MODES "bladed_disk.modes" = modes(Aside, "modes of the disk by their diameters", DISK, bladed_disk, set_disk);
+    DISK_MODES "bladed_disk.modes" = modes(Aside, "modes of the disk by their diameters", DISK, bladed_disk);
     CASING_RADIUS "casing.radius_m" = real(Never, "m", "casing radius R_c", true 0.0..1e3, casing.radius_m);
     CASING_MASS "casing.modal_mass_kg" = moded(Steps, "kg", "casing modal mass m_c", true 0.0..1e9, casing_in_use.modal_mass_kg, casing_part Mass);
     CASING_STIFFNESS "casing.modal_stiffness_n_per_m" = moded(Steps, "N/m", "casing modal stiffness k_c", true 0.0..1e15, casing_in_use.modal_stiffness_n_per_m, casing_part Stiffness);
@@ -498,7 +497,7 @@ keys! {
     LOBES "casing.lobes" = whole(Steps, "lobes of a casing out of round, m", 0..4096, casing.lobes);
     OUT_OF_ROUND "casing.out_of_round_m" = real(Steps, "m", "height of the lobes, e", false 0.0..1.0, casing.out_of_round_m);
     OUT_OF_ROUND_ANGLE "casing.out_of_round_angle_rad" = real(Steps, "rad", "phase of the lobes, psi", false -100.0..100.0, casing.out_of_round_angle_rad);
-    CASING_MODES "casing.modes" = modes(Aside, "modes of the casing by their diameters", CASING, casing, set_casing);
+    CASING_MODES "casing.modes" = modes(Aside, "modes of the casing by their diameters", CASING, casing);
     FRICTION "contact.friction" = real(Steps, "-", "friction coefficient mu", false 0.0..5.0, contact.friction);
     RESTITUTION "contact.restitution" = real(Steps, "-", "coefficient of restitution e", false 0.0..0.95, contact.restitution);
     LINING_STIFFNESS "contact.stiffness_n_per_m" = real(Steps, "N/m", "stiffness of the lining under a blade (smooth only) k_p", true 0.0..1e15, contact.stiffness_n_per_m);
@@ -512,7 +511,7 @@ keys! {
     INITIAL_U_S "initial.u_s_m" = real(Start, "m", "u_s at t = 0", false -1e3..1e3, initial.u_s_m);
     INITIAL_V_C "initial.v_c_m_s" = real(Start, "m/s", "rate of u_c at t = 0", false -1e6..1e6, initial.v_c_m_s);
     INITIAL_V_S "initial.v_s_m_s" = real(Start, "m/s", "rate of u_s at t = 0", false -1e6..1e6, initial.v_s_m_s);
-    EXCITATION "excitation.amplitude_nm" = real(Steps, "N m", "engine-order torque on each blade, 0 for none", false 0.0..1e9, excitation.amplitude_nm);
+    EXCITATION "excitation.amplitude_nm" = real(Steps, "N m", "engine-order torque on each blade (modal model), 0 for none", false 0.0..1e9, excitation.amplitude_nm);
     ENGINE_ORDER "excitation.order" = whole(Steps, "engine order of that torque", 1..4096, excitation.order);
     SOLVER "solver.kind" = word(Never, "solver", SolverKind, solver.kind);
     LAW "solver.contact" = word(Steps, "contact law", ContactLaw, solver.contact);

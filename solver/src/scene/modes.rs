@@ -2,22 +2,22 @@
 //! `[[bladed_disk.modes]]`, as they are read and written, and which of them is in use.
 //!
 //! What a mode leaves out is the structure's own value. A frequency stands for the
-//! stiffness that gives it: `k_c = m_c (2 pi f)^2` of the casing, and of the disk that
+//! stiffness that gives it, whatever the mass is: `k_c = m_c (2 pi f)^2` of the casing, and of the disk that
 //! `k_b` which with the given `k_bb` does, `m_b (2 pi f)^2 - 4 k_bb sin^2(pi n/N)`.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use toml::{Table, Value as Toml};
 
 use super::units::{Quantity, UnitError};
 use super::{Scene, SceneError, Value, file, keys};
-use crate::model::{BladedDisk, Casing, Mode, ModePart};
+use crate::model::{BladedDisk, Casing, Mode, ModePart, frequency_of, of_neighbours};
 
 /// Name of the number of diameters in a mode, and of its frequency.
 const DIAMETERS: &str = "nodal_diameters";
 const FREQUENCY: &str = "frequency_hz";
 /// Largest frequency \[Hz\]: beyond the range of any machine.
-const MOST_HZ: f64 = 1e9;
+pub(crate) const MOST_HZ: f64 = 1e9;
 
 /// A structure with modes: the path of its list, and the keys of mass and stiffness beside it.
 #[derive(Debug, PartialEq)]
@@ -43,25 +43,19 @@ pub(super) const DISK: Structure = Structure {
     ],
 };
 
-/// The name of a key in its table.
+/// Returns the name of a key in its table.
 fn leaf(path: &str) -> &str {
     path.split_once('.').map_or(path, |(_, leaf)| leaf)
 }
 
-/// A mode as it was read: its values, and its frequency where that stands for a stiffness.
-struct Read {
-    mode: Mode,
-    frequency_hz: Option<f64>,
-}
-
 impl Structure {
-    /// The modes of a list in a scene file.
+    /// Reads the modes of a list in a scene file.
     ///
     /// # Errors
     /// The first mode with an unknown key, a value that is not allowed, or a number of
     /// diameters that another has.
-    fn read(&self, items: &[Toml]) -> Result<Vec<Read>, SceneError> {
-        let mut found: Vec<Read> = Vec::with_capacity(items.len());
+    fn read(&self, items: &[Toml]) -> Result<Vec<Mode>, SceneError> {
+        let mut found: Vec<Mode> = Vec::with_capacity(items.len());
         for (place, item) in items.iter().enumerate() {
             let name = format!("{}[{}]", self.path, place + 1);
             let Toml::Table(table) = item else {
@@ -73,21 +67,21 @@ impl Structure {
             };
             found.push(self.mode(&name, table)?);
         }
-        found.sort_by_key(|read| read.mode.nodal_diameters);
-        let twice = found.windows(2).find(
-            |pair| matches!(pair, [a, b] if a.mode.nodal_diameters == b.mode.nodal_diameters),
-        );
+        found.sort_by_key(|mode| mode.nodal_diameters);
+        let twice = found
+            .windows(2)
+            .find(|pair| matches!(pair, [a, b] if a.nodal_diameters == b.nodal_diameters));
         match twice.and_then(|pair| pair.first()) {
-            Some(read) => Err(SceneError::refused(
+            Some(mode) => Err(SceneError::refused(
                 format!("{}.{DIAMETERS}", self.path),
-                format!("{} twice", read.mode.nodal_diameters),
+                format!("{} twice", mode.nodal_diameters),
                 "one mode for each number of diameters",
             )),
             None => Ok(found),
         }
     }
 
-    /// What a mode may have, in words.
+    /// Describes what a mode may have, in words.
     pub(super) fn form(&self) -> String {
         format!("with {DIAMETERS} and any of {}", self.names().join(", "))
     }
@@ -98,8 +92,8 @@ impl Structure {
         names
     }
 
-    fn mode(&self, name: &str, table: &Table) -> Result<Read, SceneError> {
-        let (mut mode, mut diameters, mut frequency_hz) = (Mode::default(), None, None);
+    fn mode(&self, name: &str, table: &Table) -> Result<Mode, SceneError> {
+        let (mut mode, mut diameters) = (Mode::default(), None);
         for (entry, value) in table {
             let path = format!("{name}.{entry}");
             let own = self.keys.iter().find(|(path, _)| leaf(path) == entry);
@@ -113,7 +107,7 @@ impl Structure {
                     SceneError::refused(&path, file::one_line(value), key.allowed.to_string())
                 })?);
             } else if entry == FREQUENCY {
-                frequency_hz = Some(hertz(&path, value)?);
+                mode.frequency_hz = Some(hertz(&path, value)?);
             } else {
                 let allowed = format!("{DIAMETERS}, {}", self.names().join(", "));
                 return Err(SceneError::UnknownKey { key: path, allowed });
@@ -126,15 +120,15 @@ impl Structure {
                 format!("a mode {}", self.form()),
             )
         })?;
-        if let (Some(frequency), Some(_)) = (frequency_hz, mode.stiffness) {
+        if let (Some(frequency), Some(_)) = (mode.frequency_hz, mode.stiffness) {
             let stiffness = leaf(self.keys[1].0);
             let allowed = format!("{FREQUENCY} or {stiffness}, not both");
             return Err(SceneError::refused(format!("{name}.{FREQUENCY}"), frequency, allowed));
         }
-        Ok(Read { mode, frequency_hz })
+        Ok(mode)
     }
 
-    /// The list in one line, as `--set` takes it.
+    /// Returns the list in one line, as `--set` accepts it.
     pub(super) fn text(&self, modes: &[Mode]) -> String {
         let each = modes.iter().map(|mode| {
             let values: Vec<String> =
@@ -144,7 +138,7 @@ impl Structure {
         format!("[{}]", each.collect::<Vec<_>>().join(", "))
     }
 
-    /// The list as a part of a file.
+    /// Returns the list as a part of a scene file.
     pub(super) fn blocks(&self, modes: &[Mode]) -> String {
         let block = |mode: &Mode| {
             let values: String =
@@ -155,21 +149,23 @@ impl Structure {
     }
 
     fn values(&self, mode: &Mode) -> impl Iterator<Item = (&'static str, String)> {
-        let parts = self.keys.map(|(path, part)| (leaf(path), mode.part(part)));
+        let [mass, stiffness, damping] =
+            self.keys.map(|(path, part)| (leaf(path), mode.part(part)));
+        let parts = [mass, stiffness, (FREQUENCY, mode.frequency_hz), damping];
         let numbers =
             parts.into_iter().filter_map(|(name, value)| Some((name, format!("{:?}", value?))));
         [(DIAMETERS, mode.nodal_diameters.to_string())].into_iter().chain(numbers)
     }
 
-    /// Whether a text is such a list.
+    /// Checks that a text is such a list.
     ///
     /// # Errors
-    /// Why it is not.
+    /// The reason why it is not.
     pub(super) fn check(&self, text: &str) -> Result<(), SceneError> {
         self.parsed(text).map(drop)
     }
 
-    fn parsed(&self, text: &str) -> Result<Vec<Read>, SceneError> {
+    fn parsed(&self, text: &str) -> Result<Vec<Mode>, SceneError> {
         let read = format!("modes = {text}").parse::<Table>().ok();
         match read.as_ref().and_then(|table| table.get("modes")) {
             Some(Toml::Array(items)) if read.as_ref().is_some_and(|table| table.len() == 1) => {
@@ -183,23 +179,19 @@ impl Structure {
         }
     }
 
-    /// The modes of a checked text, each with the stiffness that its frequency asks for.
-    pub(super) fn modes(&self, text: &str, stiffness: impl Fn(&Mode, f64) -> f64) -> Vec<Mode> {
-        let known = |read: Read| {
-            let asked = read.frequency_hz.map(|hertz| stiffness(&read.mode, TAU * hertz));
-            Mode { stiffness: asked.or(read.mode.stiffness), ..read.mode }
-        };
-        self.parsed(text).unwrap_or_default().into_iter().map(known).collect()
+    /// Returns the modes of a checked text.
+    pub(super) fn modes(&self, text: &str) -> Vec<Mode> {
+        self.parsed(text).unwrap_or_default()
     }
 }
 
-/// Some of a table, in one line.
+/// Returns the beginning of a table in one line.
 fn short(table: &Table) -> String {
     let values = table.iter().map(|(name, value)| format!("{name} = {}", file::one_line(value)));
     values.collect::<Vec<_>>().join(", ")
 }
 
-/// A number of a mode, within the bounds of the key beside the list.
+/// Reads a number of a mode within the bounds of the key beside the list.
 fn number(path: &str, value: &Toml, key: &keys::Key) -> Result<f64, SceneError> {
     match value {
         Toml::String(text) => number_of(path, text, key),
@@ -207,7 +199,7 @@ fn number(path: &str, value: &Toml, key: &keys::Key) -> Result<f64, SceneError> 
     }
 }
 
-/// The same from text, with or without its unit.
+/// Does the same for text, with or without its unit.
 pub(super) fn number_of(path: &str, text: &str, key: &keys::Key) -> Result<f64, SceneError> {
     bounded(path, text, key, read(path, text, key.quantity())?)
 }
@@ -222,12 +214,12 @@ fn bounded(
         .ok_or_else(|| SceneError::refused(path, given, key.allowed.to_string()))
 }
 
-/// A number of a file that has no unit.
+/// Returns a number of a file that has no unit.
 fn plain(value: &Toml) -> Option<f64> {
     value.as_float().or_else(|| value.as_integer().map(|n| n as f64))
 }
 
-/// A number of a quantity; none for text that is none.
+/// Reads a number of a quantity; `None` for text that is not a number.
 fn read(path: &str, text: &str, of: Quantity) -> Result<Option<f64>, SceneError> {
     match of.read(text) {
         Ok(number) => Ok(Some(number)),
@@ -236,7 +228,7 @@ fn read(path: &str, text: &str, of: Quantity) -> Result<Option<f64>, SceneError>
     }
 }
 
-/// A frequency: a bare number is in hertz, as the key says.
+/// Reads a frequency; a number without a unit is in hertz, as the key says.
 fn hertz(path: &str, value: &Toml) -> Result<f64, SceneError> {
     match value {
         Toml::String(text) => hertz_of(path, text),
@@ -244,7 +236,7 @@ fn hertz(path: &str, value: &Toml) -> Result<f64, SceneError> {
     }
 }
 
-/// The same from text.
+/// Does the same for text.
 pub(super) fn hertz_of(path: &str, text: &str) -> Result<f64, SceneError> {
     let given = match text.trim().parse() {
         Ok(bare) => Some(bare),
@@ -260,39 +252,19 @@ fn frequency(path: &str, given: String, hertz: Option<f64>) -> Result<f64, Scene
     })
 }
 
-/// `4 k_bb sin^2(pi n/N)`: what the stiffness between blades adds to `k_b` \[N m/rad\].
-pub(super) fn of_neighbours(coupling: f64, diameters: u32, blades: u32) -> f64 {
-    let sine = (PI * f64::from(diameters) / f64::from(blades)).sin();
-    4.0 * coupling * sine * sine
-}
-
-/// The modes of the casing in a text that was checked.
-pub(super) fn set_casing(scene: &mut Scene, text: &str) {
-    let own = scene.casing.modal_mass_kg;
-    scene.casing.modes = CASING.modes(text, |mode, omega| mode.mass.unwrap_or(own) * omega * omega);
-}
-
-/// The modes of the disk in a text that was checked.
-pub(super) fn set_disk(scene: &mut Scene, text: &str) {
-    let BladedDisk { inertia_kg_m2: own, coupling_nm_per_rad: coupling, blades, .. } =
-        scene.bladed_disk;
-    scene.bladed_disk.modes = DISK.modes(text, |mode, omega| {
-        let whole = mode.mass.unwrap_or(own) * omega * omega;
-        whole - of_neighbours(coupling, mode.nodal_diameters, blades)
-    });
-}
-
+/// Rejects modes of the disk that no stiffness gives.
+///
 /// # Errors
-/// A mode whose frequency the blades have without any stiffness of their own.
+/// A mode with a frequency that the coupling between blades alone exceeds.
 pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     let disk = &scene.bladed_disk;
-    let soft = |mode: &&Mode| mode.stiffness.is_some_and(|stiffness| stiffness <= 0.0);
-    let Some(mode) = disk.modes.iter().find(soft) else { return Ok(()) };
+    let stiffness = |mode: &Mode| disk.at(mode.nodal_diameters).stiffness_nm_per_rad;
+    let Some(mode) = disk.modes.iter().find(|mode| stiffness(mode) <= 0.0) else { return Ok(()) };
     let inertia = mode.mass.unwrap_or(disk.inertia_kg_m2);
     let (diameters, coupling) = (mode.nodal_diameters, disk.coupling_nm_per_rad);
     let neighbours = of_neighbours(coupling, diameters, disk.blades);
     let hertz = |stiffness: f64| (stiffness / inertia).sqrt() / TAU;
-    let given = hertz(neighbours + mode.stiffness.unwrap_or(0.0));
+    let given = hertz(neighbours + stiffness(mode));
     let least = hertz(neighbours);
     let allowed = format!(
         "above {least:.4} at {diameters} diameters, which {} = {coupling} alone gives",
@@ -303,21 +275,55 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
 }
 
 impl Scene {
-    /// The casing with the values of its mode in use, that of the scene's nodal diameters.
+    /// Returns the casing with the values of its mode in use, that of the scene's nodal diameters.
     #[must_use]
     pub fn casing_in_use(&self) -> Casing {
         self.casing.at(self.operation.nodal_diameters)
     }
 
-    /// The disk with the values of its mode in use.
+    /// Returns the disk with the values of its mode in use.
     #[must_use]
     pub fn disk_in_use(&self) -> BladedDisk {
         self.bladed_disk.at(self.disk_diameters())
     }
 
     /// Nodal diameters of the modes of the disk.
-    fn disk_diameters(&self) -> u32 {
+    pub(crate) fn disk_diameters(&self) -> u32 {
         self.bladed_disk.diameters_beside(self.operation.nodal_diameters)
+    }
+
+    /// Returns the frequencies that the modes in use of casing and disk have instead of a
+    /// stiffness \[Hz\].
+    pub(crate) fn frequencies_in_use(&self) -> [Option<f64>; 2] {
+        [
+            frequency_of(&self.casing.modes, self.operation.nodal_diameters),
+            frequency_of(&self.bladed_disk.modes, self.disk_diameters()),
+        ]
+    }
+
+    /// Gives the mode in use of the casing (0) or the disk (1) this frequency \[Hz\]; one that
+    /// has none the stiffness for it.
+    pub(crate) fn set_frequency(&mut self, which: usize, hertz: f64) -> Result<(), SceneError> {
+        let square = (TAU * hertz).powi(2);
+        let diameters = [self.operation.nodal_diameters, self.disk_diameters()][which];
+        let modes = [&mut self.casing.modes, &mut self.bladed_disk.modes];
+        let mode = modes
+            .into_iter()
+            .nth(which)
+            .and_then(|modes| modes.iter_mut().find(|mode| mode.nodal_diameters == diameters));
+        if let Some(given) = mode.and_then(|mode| mode.frequency_hz.as_mut()) {
+            *given = frequency(FREQUENCY, hertz.to_string(), Some(hertz))?;
+            return Ok(());
+        }
+        let BladedDisk { inertia_kg_m2, coupling_nm_per_rad, blades, .. } = self.disk_in_use();
+        let (key, stiffness) = match which {
+            0 => (keys::CASING_STIFFNESS, self.casing_in_use().modal_mass_kg * square),
+            _ => {
+                let neighbours = of_neighbours(coupling_nm_per_rad, diameters, blades);
+                (keys::BLADE_STIFFNESS, inertia_kg_m2 * square - neighbours)
+            }
+        };
+        self.set_value(keys::find(key)?, Value::Real(stiffness))
     }
 
     /// A value of the casing's mode in use.
@@ -325,12 +331,12 @@ impl Scene {
         self.casing.part_at(self.operation.nodal_diameters, part)
     }
 
-    /// A value of the disk's mode in use.
+    /// Returns a value of the disk's mode in use.
     pub(super) fn disk_part(&mut self, part: ModePart) -> &mut f64 {
         self.bladed_disk.part_at(self.disk_diameters(), part)
     }
 
-    /// This scene with no modes but the structures' own.
+    /// Returns this scene without modes that have values of their own.
     pub(super) fn without_modes(&self) -> Self {
         let mut scene = self.clone();
         scene.casing.modes.clear();
@@ -338,8 +344,8 @@ impl Scene {
         scene
     }
 
-    /// What is taken where modes are known, but none of these diameters: in a sentence
-    /// without its end.
+    /// Describes the values in use where modes are known, but none of these diameters, as a
+    /// sentence without its full stop.
     #[must_use]
     pub fn modes_note(&self) -> Option<String> {
         let missing = |modes: &[Mode], diameters: u32| {
@@ -364,7 +370,7 @@ impl Scene {
     }
 }
 
-/// Most numbers that a note lists.
+/// Largest count of numbers that a note lists.
 const LISTED: usize = 8;
 
 fn listed(known: &[String]) -> String {

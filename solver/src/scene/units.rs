@@ -8,14 +8,14 @@ use std::f64::consts::TAU;
 
 use thiserror::Error;
 
-/// What a number is of. The letter `m` alone is a metre, never a thousandth.
+/// Physical quantity of a number. The letter `m` alone is a metre, never a prefix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// A count, a ratio or a part.
     Plain,
     /// An angular speed or frequency.
     Speed,
-    /// Its rate.
+    /// An angular acceleration.
     Acceleration,
     /// A force.
     Force,
@@ -50,8 +50,8 @@ use Quantity::{
     Stiffness, Time, Torque, TorsionalStiffness, Velocity,
 };
 
-/// One unit: what it is of, how it is written, and what it is in SI units: a power of ten
-/// times a factor, which is 1 where it is a decimal one.
+/// A unit: its quantity, its symbol, and its size in SI units, a power of ten times a factor,
+/// which is 1 for a decimal unit.
 struct Unit {
     of: Quantity,
     name: &'static str,
@@ -69,11 +69,11 @@ const fn whole(of: Quantity, name: &'static str, factor: f64) -> Unit {
     Unit { of, name, power: 0, factor, prefixed: false }
 }
 
-/// Every unit, the one of SI first of its quantity.
+/// All units; for each quantity, the SI unit first.
 const UNITS: &[Unit] = &[
     Unit { of: Plain, name: "%", power: -2, factor: 1.0, prefixed: false },
     whole(Speed, "rad/s", 1.0),
-    whole(Speed, "rpm", TAU / 60.0),
+    Unit { of: Speed, name: "rpm", power: 0, factor: TAU / 60.0, prefixed: true },
     Unit { of: Speed, name: "Hz", power: 0, factor: TAU, prefixed: true },
     whole(Acceleration, "rad/s^2", 1.0),
     whole(Acceleration, "rpm/s", TAU / 60.0),
@@ -104,38 +104,39 @@ const UNITS: &[Unit] = &[
 const PREFIXES: [(char, i32); 7] =
     [('G', 9), ('M', 6), ('k', 3), ('m', -3), ('u', -6), ('n', -9), ('p', -12)];
 
-/// Why a text is no number of a quantity.
+/// Why a text is not a number of a quantity.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum UnitError {
-    /// It begins with no number.
+    /// The text does not begin with a number.
     #[error("no number")]
     NoNumber,
     /// The unit is one of another quantity.
     #[error("this is {is}; {}", takes(*.wanted))]
     Other {
-        /// What it is of.
+        /// Quantity of the unit.
         is: &'static str,
-        /// What it should be of.
+        /// Expected quantity.
         wanted: Quantity,
     },
-    /// No such unit.
+    /// The unit does not exist.
     #[error("no unit {unit}; {}", takes(*.wanted))]
     Unknown {
-        /// As given.
+        /// The unit as given.
         unit: String,
-        /// What it should be of.
+        /// Expected quantity.
         wanted: Quantity,
     },
 }
 
 impl Quantity {
-    /// Of a number in this unit of SI, as in the table of keys; a plain number for any other.
+    /// Returns the quantity of this SI unit, as the table of keys has it; a plain number for any
+    /// other text.
     #[must_use]
     pub fn of(unit: &str) -> Self {
         UNITS.iter().find(|known| known.name == unit).map_or(Plain, |known| known.of)
     }
 
-    /// What it is, with an article.
+    /// Returns its name, with an article.
     fn what(self) -> &'static str {
         match self {
             Plain => "a part",
@@ -157,7 +158,7 @@ impl Quantity {
         }
     }
 
-    /// Its units, in words: `rad/s, rpm or Hz`.
+    /// Returns its units in words: `rad/s, rpm or Hz`.
     #[must_use]
     pub fn units(self) -> String {
         let names: Vec<&str> =
@@ -187,7 +188,7 @@ impl Quantity {
         Ok(if factor == 1.0 { scaled } else { scaled * factor })
     }
 
-    /// What a unit of it, or a prefix alone, is in SI units.
+    /// Returns the size of one of its units, or of a prefix alone, in SI units.
     fn scale(self, written: &str) -> Option<(i32, f64)> {
         let of_unit = UNITS.iter().filter(|unit| unit.of == self).find_map(|unit| {
             let prefix = written.strip_suffix(plain(unit.name).as_str());
@@ -218,20 +219,20 @@ impl Quantity {
     }
 }
 
-/// Why a text is no range.
+/// Why a text is not a range.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RangeError {
-    /// It is not of the form `FROM:TO`.
+    /// The text does not have the form `FROM:TO`.
     Form,
-    /// One end is not of the quantity.
+    /// One end is not a number of the quantity.
     End(UnitError),
 }
 
-/// The ends of `FROM:TO`, numbers of a quantity, and what follows another colon. Whether
-/// they are finite, whoever asks looks.
+/// Reads the ends of `FROM:TO`, numbers of a quantity, and the text after another colon. The
+/// caller checks whether they are finite.
 ///
 /// # Errors
-/// Text of another form, or an end that is of something else.
+/// Text of another form, or an end that is not of this quantity.
 pub fn read_ends(text: &str, of: Quantity) -> Result<([f64; 2], Option<&str>), RangeError> {
     let mut parts = text.splitn(3, ':');
     let mut end = || match of.read(parts.next().ok_or(RangeError::Form)?) {
@@ -243,12 +244,12 @@ pub fn read_ends(text: &str, of: Quantity) -> Result<([f64; 2], Option<&str>), R
     Ok((ends, parts.next()))
 }
 
-/// What a quantity takes, in words.
+/// Describes what a quantity accepts, in words.
 fn takes(quantity: Quantity) -> String {
     format!("it takes {}", quantity.units())
 }
 
-/// What stands before `rpm` or `Hz` in capitals or not.
+/// Returns the text before `rpm` or `Hz`, in any case of letters.
 fn any_case<'a>(unit: &Unit, written: &'a str) -> Option<&'a str> {
     let at = written.len().checked_sub(unit.name.len())?;
     let (prefix, name) = written.split_at_checked(at)?;
@@ -262,7 +263,8 @@ fn power_of(prefix: &str) -> Option<i32> {
     PREFIXES.iter().find(|(known, _)| *known == letter).map(|(_, power)| *power)
 }
 
-/// A unit as it is compared: without spaces and points, with ASCII letters.
+/// Returns a unit in the form in which units are compared: without spaces and points, with ASCII
+/// letters.
 fn plain(unit: &str) -> String {
     let kept = unit.chars().filter(|c| !c.is_whitespace() && !matches!(c, '·' | '*' | '^'));
     kept.map(|c| match c {
@@ -273,7 +275,7 @@ fn plain(unit: &str) -> String {
     .collect()
 }
 
-/// Where the decimal number at the start of a text ends.
+/// Returns where the decimal number at the start of a text ends.
 fn number_end(text: &str) -> usize {
     let bytes = text.as_bytes();
     let digit = |at: usize| bytes.get(at).is_some_and(u8::is_ascii_digit);
@@ -306,7 +308,8 @@ impl<'a> Decimal<'a> {
         digits.parse::<f64>().ok().map(|_| Self { digits, power })
     }
 
-    /// Read as one decimal number.
+    /// Returns its product with a power of ten, read as one decimal number so that nothing is
+    /// rounded twice.
     fn times_ten_to(&self, power: i32) -> Option<f64> {
         format!("{}e{}", self.digits, self.power.checked_add(power)?).parse().ok()
     }
@@ -324,6 +327,7 @@ mod tests {
             (Speed, "-430 rad/s", -430.0),
             (Speed, "9500rpm", 9500.0 * (TAU / 60.0)),
             (Speed, "9500 RPM", 9500.0 * (TAU / 60.0)),
+            (Speed, "9.5krpm", 9500.0 * (TAU / 60.0)),
             (Speed, "150Hz", 150.0 * TAU),
             (Speed, "0.15 kHz", 150.0 * TAU),
             (Speed, "1.2k", 1200.0),

@@ -3,6 +3,7 @@
 
 use super::MapPlan;
 use super::margins::grazing_pulse;
+use crate::harmonic::lock_window;
 use crate::model::Machine;
 use crate::scene::Scene;
 use crate::scene::keys::{PULSE, SPEED};
@@ -34,8 +35,10 @@ pub fn speed_curves(plan: &MapPlan) -> Vec<Curve> {
     let Some(of_speed) = AlongOther::of(plan, SPEED) else { return Vec::new() };
     vec![
         of_speed.trace_speed("Omega_c", |machine, _| machine.critical_speed()),
-        of_speed.trace_speed("Omega_lock", Machine::lock_speed_toward),
-        of_speed.trace_speed("lock ends", |machine, toward| machine.lock_window(toward)?.to),
+        of_speed.trace_speed("Omega_lock", |machine, toward| {
+            lock_window(machine, toward).map(|window| window.from)
+        }),
+        of_speed.trace_speed("lock ends", |machine, toward| lock_window(machine, toward)?.to),
     ]
 }
 

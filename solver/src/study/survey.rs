@@ -11,7 +11,8 @@ use serde::Serialize;
 use strum::IntoEnumIterator;
 use thiserror::Error;
 
-use super::margins::{LimitName, Parameter, speed_sensitivities, speeds};
+use super::margins::{LimitName, Parameter, shown_margin, speed_sensitivities, speeds};
+use crate::harmonic::lock_window;
 use crate::scene::units::{self, RangeError, UnitError};
 use crate::scene::{CheckedScene, Scene};
 
@@ -108,7 +109,8 @@ impl Scattered {
             (rotor.bladed_disk.longest_tip_m, rotor.bladed_disk.orbit_m) = (0.0, 0.0);
             (rotor.bladed_disk.tip_scatter_m, rotor.bladed_disk.tip_seed) =
                 (tip_scatter_m, tip_seed);
-            rotor.machine().lock_speed_toward(scene.operation.speed_rad_s)
+            let window = lock_window(&rotor.machine(), scene.operation.speed_rad_s);
+            window.map(|window| window.from)
         };
         let (equal_rad_s, tip_scatter_m) = (lock(0.0, 1)?, 0.01 * scene.clearance());
         let draws = (1..=ROTORS).into_par_iter().map(|seed| lock(tip_scatter_m, seed));
@@ -141,6 +143,7 @@ pub struct SurveyLimit {
     /// Its speed; below zero for a rotor that turns backward \[rad/s\].
     pub value: f64,
     /// How far the scene is beyond it, as a part of it; none for the other sense of rotation.
+    #[serde(serialize_with = "shown_margin")]
     pub margin: Option<f64>,
     /// Whether it lies in the range; none without a range.
     pub in_range: Option<bool>,
@@ -153,7 +156,9 @@ impl SurveyRow {
     /// A limit of a rotor that turns forward, or backward.
     #[must_use]
     pub fn limit(&self, name: LimitName, forward: bool) -> Option<&SurveyLimit> {
-        self.limits.iter().find(|limit| limit.name == name && (limit.value > 0.0) == forward)
+        self.limits
+            .iter()
+            .find(|limit| limit.name == name && limit.value.is_sign_positive() == forward)
     }
 }
 
@@ -195,7 +200,7 @@ impl Survey {
         let own = self.is_forward();
         let wanted = |limit: &SurveyLimit| match limit.in_range {
             Some(inside) => inside,
-            None => (limit.value > 0.0) == own,
+            None => limit.value.is_sign_positive() == own,
         };
         let mut found: Vec<(u32, &SurveyLimit)> = self
             .rows
@@ -276,7 +281,7 @@ impl Speeds {
             SurveyLimit {
                 name: *name,
                 value,
-                margin: (present * sense >= 0.0).then(|| present.abs() / size - 1.0),
+                margin: (present * sense >= 0.0 && *size > 0.0).then(|| present.abs() / size - 1.0),
                 in_range: range.map(|[from, to]| (from..=to).contains(&value)),
                 by: self.by.get(place).copied().flatten(),
             }

@@ -20,6 +20,23 @@ pub(crate) const DOUBTFUL_FREQUENCY: [f64; 2] = [1.0, 2e4];
 /// cent given as parts pass.
 pub(crate) const DOUBTFUL_DAMPING: f64 = 0.3;
 
-/// Largest ratio of the modal masses of casing and disk, both ways. Larger: grams given as
-/// kilograms pass.
-pub(crate) const DOUBTFUL_MASSES: f64 = 300.0;
+/// Radius of a casing, from and to \[m\]: from turbochargers to steam turbines. Larger: a
+/// radius in millimetres passes.
+pub(crate) const DOUBTFUL_RADIUS: [f64; 2] = [0.02, 8.0];
+
+/// Modal mass of casing or disk over the cube of the radius, from and to \[kg/m^3\]. The
+/// paper's casing has 16, its disk 73, a whole disk of steel some 6000, a ring of sheet 2;
+/// wider by a factor of a thousand: grams and tonnes pass.
+pub(crate) const DOUBTFUL_DENSITY: [f64; 2] = [1.0, 6000.0];
+
+/// How far two modes of a structure may lie apart, in frequency and in modal mass: by this
+/// factor, times the ratio of their diameters to this power. Rings go with the square to
+/// third power of few diameters. Larger: a decimal point that is off by one place passes.
+pub(crate) const DOUBTFUL_COURSE: [f64; 2] = [3.0, 3.0];
+
+/// Largest pulse \[N\]. Larger: kilonewtons given as newtons twice pass.
+pub(crate) const DOUBTFUL_FORCE: f64 = 1e7;
+
+/// Largest push on one blade tip in the lock \[N\], that of some square centimetres of metal
+/// at their strength. Larger: a stiffness or a clearance that is off by a factor of ten passes.
+pub(crate) const DOUBTFUL_PUSH: f64 = 2e4;

@@ -62,10 +62,6 @@ pub(crate) const BESIDE_A_FOLD: f64 = 1e-10;
 /// shrink are round-off.
 pub(crate) const POLISHED: f64 = 1e-11;
 
-/// Part of the speed beside a limit of stability at which growth is asked. Larger: a
-/// limit close by is taken for it. Smaller: growth is round-off.
-pub(crate) const BESIDE_A_LIMIT: f64 = 1e-6;
-
 /// Flutter of a machine that changes with the speed is looked for up to so many critical
 /// speeds, from as small a part of one. Beyond, no rotor turns.
 pub(crate) const FLUTTER_FURTHEST: f64 = 100.0;

@@ -264,7 +264,7 @@ fn turned(scene: &Scene, turn: &[(&str, &str)]) -> Option<Scene> {
 fn parameters_turned_in_flight_in_contact_and_locked() {
     for turn in TURNS {
         each(&[(PULSE, "3e4")], |scene| {
-            // Rigid blades cannot be driven.
+            // Only the two modes can be driven.
             let Some(other) = turned(&scene, turn) else { return };
             let mut flying = Pair::new(&scene);
             assert!(flying.advance(0.0006).is_ok());

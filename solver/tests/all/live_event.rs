@@ -176,9 +176,9 @@ fn fired_while_locked() {
         for force in [20.0, -300.0, 150.0] {
             let mut scene = in_corner(scene.clone());
             (scene.operation.pulse_n, scene.operation.pulse_s) = (force, 1e-4);
-            let locked = exact(&scene, &[], 0.012).contacts().active_set;
+            let locked = exact(&scene, &[], 0.006).contacts().active_set;
             assert!(matches!(locked, ActiveSet::Corner(..)), "{force}: {locked:?}");
-            converges(&scene, &[(0.012, Fire)], 0.0124, 0.3);
+            converges(&scene, &[(0.006, Fire)], 0.0064, 0.3);
         }
     });
 }

@@ -69,7 +69,7 @@ fn turn(dice: &mut Dice, scene: &mut Scene) {
         4 => scene.bladed_disk.inertia_kg_m2 = dice.scale(0.05, 1.0),
         5 => scene.bladed_disk.stiffness_nm_per_rad = dice.scale(3e3, 1e5),
         6 => scene.bladed_disk.coupling_nm_per_rad = dice.scale(1.0, 1e5),
-        7 if scene.solver.model != ModelSize::Rigid => {
+        7 if scene.solver.model == ModelSize::Modal => {
             scene.excitation.amplitude_nm = dice.one_of(&[0.0, 0.0, 0.5, 5.0]);
             scene.excitation.order = dice.one_of(&[1, 3, 4, 19, 25]);
         }

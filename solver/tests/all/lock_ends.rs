@@ -147,7 +147,7 @@ fn a_lining_holds_a_pair_between_its_ends_alone() {
         }
         let machine = scene.machine();
         let lining = Lining::of(&machine, &scene.contact).unwrap();
-        let window = machine.lock_window(1.0).unwrap();
+        let window = machine.lock_windows(1.0).first().copied().unwrap();
         let pairs =
             |speed: f64| lining.states(speed).unwrap().iter().any(|state| state.pushing == 2);
         let to = window.to.unwrap();
@@ -203,7 +203,7 @@ fn runs_in_time_keep_a_lock_to_its_ends_and_lose_it_beyond() {
         (stiff(460.0), [439.5, 437.0]),
         (stiff(700.0), [729.0, 736.0]),
         (joined(520.0), {
-            let window = joined(520.0).machine().lock_window(1.0).unwrap();
+            let window = joined(520.0).machine().lock_windows(1.0).first().copied().unwrap();
             [window.from + 2.0, window.from - 2.0]
         }),
     ] {
@@ -281,9 +281,8 @@ fn loads_on_a_lining_are_those_of_its_steady_state() {
         // Torque that friction does not take is what the damper does.
         let nu = machine.nu(speed);
         let square = pair.casing_m.powi(2);
-        let energy = 0.5 * (machine.casing_stiffness + machine.casing_mass * nu * nu) * square;
         let loads = lock_loads(&machine, speed).unwrap();
-        assert!((loads.energy_j / energy - 1.0).abs() < 1e-9);
+        assert!((loads.amplitude_m / pair.casing_m - 1.0).abs() < 1e-9);
         if scene.contact.friction == 0.0 {
             let torque = machine.nodal_diameters * machine.casing_damping * nu * square;
             assert!((value(&base, LimitName::Torque).unwrap() / torque - 1.0).abs() < 1e-9);

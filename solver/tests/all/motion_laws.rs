@@ -51,7 +51,7 @@ fn machines() -> impl Strategy<Value = Scene> {
             if on[5] {
                 let lining = kinds.1 == ContactLaw::Smooth;
                 scene.bladed_disk.nodal_diameters = if lining { drive.3 } else { 0 };
-                scene.excitation.amplitude_nm = when(kinds.0 != ModelSize::Rigid, 0.3);
+                scene.excitation.amplitude_nm = when(kinds.0 == ModelSize::Modal, 0.3);
             }
             if kinds.0 == ModelSize::Full && on[3] {
                 scene.bladed_disk.mistuning = 0.02;

@@ -51,7 +51,7 @@ fn scenes() -> impl Strategy<Value = Scene> {
             scene.operation.pulse_n = if force > 0.0 { 10_f64.powf(force) } else { 0.0 };
             scene.operation.pulse_s = operation.3;
             (scene.solver.kind, scene.solver.contact, scene.solver.model) = kind;
-            if scene.solver.kind == SolverKind::Explicit && scene.solver.model != ModelSize::Rigid {
+            if scene.solver.kind == SolverKind::Explicit && scene.solver.model == ModelSize::Modal {
                 scene.excitation.amplitude_nm = torque;
                 scene.excitation.order = diameters;
             }

@@ -1,7 +1,5 @@
-//! The joint compliance `B(omega)`: a table over frequencies, a chart of text in the complex
-//! plane, and the whirls, where it crosses the negative real axis.
-
-use std::f64::consts::PI;
+//! The joint compliance `B(omega)`: over frequencies for files, and the whirls, where it
+//! crosses the negative real axis.
 
 use nalgebra::Complex;
 use serde_json::{Value, json};
@@ -15,8 +13,8 @@ use rubscope_solver::scene::{Quantity, keys};
 /// View: the joint compliance.
 pub const COMPLIANCE: View = View {
     option: "compliance",
-    help: "View: the joint compliance B(omega) in the complex plane; a whirl is where it crosses \
-           the negative real axis",
+    help: "View: the joint compliance B(omega), in JSON and CSV; a whirl is where it crosses the \
+           negative real axis",
     range: Some(RangeOption {
         option: "omegas",
         help: "With --compliance: casing frequencies of the table [default: beyond every \
@@ -36,12 +34,6 @@ pub const COMPLIANCE: View = View {
 const FREQUENCIES: usize = 201;
 /// How far beyond the fastest resonance they go.
 const BEYOND: f64 = 1.5;
-/// Columns and rows of the chart of the compliance.
-const CHART: (usize, usize) = (72, 24);
-/// Points of the chart about each resonance.
-const CHART_POINTS: usize = 4000;
-/// How far the chart goes beyond the crossing that is furthest left.
-const CHART_REACH: f64 = 2.5;
 
 fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let machine = &request.machine;
@@ -58,7 +50,6 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
         .with_rows("im_m_per_n", &points, |point| json!(finite(point.2.im)))
         .with("waves", waves.iter().map(value).collect::<Vec<_>>());
     let shown = format!("at {}", speed(request.fastest()));
-    let title = format!("B(omega) {shown}, real part to the right, imaginary part up [m/N]:");
     let crossings = if waves.is_empty() {
         format!("B(omega) does not cross the negative real axis {shown}: nothing whirls.")
     } else {
@@ -66,8 +57,7 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     };
     // On a lining that blades press at rest the amplitude decides.
     let columns = if joint.machine.clearance() <= 0.0 { PRESSED } else { WAVES };
-    let tables =
-        vec![(title, chart(&joint, &waves).into()), (crossings, Table::of(&waves, columns).into())];
+    let tables = vec![(crossings, Table::of(&waves, columns).into())];
     let json = Parts::default().with_parts("compliance", json);
     Ok(Answer { json, tables, file: points.table(POINTS) })
 }
@@ -140,64 +130,3 @@ const POINTS: &[Column<'_, Point>] = &[
     ("re_m_per_n", |point| finite(point.2.re).into()),
     ("im_m_per_n", |point| finite(point.2.im).into()),
 ];
-
-/// Draws the curve of the compliance in the complex plane, one line of text a row: the axes,
-/// `*` where a wave attracts and `o` at its threshold.
-fn chart(joint: &Joint, waves: &[Wave]) -> Table {
-    let machine = &*joint.machine;
-    let resonances = [
-        (machine.omega_c, machine.casing_damping_ratio * machine.omega_c),
-        (-machine.omega_c, machine.casing_damping_ratio * machine.omega_c),
-        (joint.nu + machine.omega_bd, machine.blade_damping_ratio * machine.omega_bd),
-        (joint.nu - machine.omega_bd, machine.blade_damping_ratio * machine.omega_bd),
-    ];
-    // Equal angles about a resonance are nearly equal steps along its circle.
-    let around = |(centre, width): (f64, f64)| {
-        (1..CHART_POINTS).map(move |k| {
-            let angle = PI * (k as f64 / CHART_POINTS as f64 - 0.5);
-            centre + width * angle.tan()
-        })
-    };
-    let curve: Vec<_> =
-        resonances.into_iter().flat_map(around).map(|omega| joint.compliance(omega)).collect();
-    let crossing = waves.iter().map(|(wave, _)| wave.stiffness_n_per_m.recip()).fold(0.0, f64::max);
-    let largest = |most: f64, size: f64| if size.is_finite() { most.max(size) } else { most };
-    let reach = if crossing > 0.0 {
-        CHART_REACH * crossing
-    } else {
-        curve.iter().map(|value| value.re.abs().max(value.im.abs())).fold(0.0, largest)
-    };
-    let (columns, rows) = CHART;
-    let mut cells = vec![vec![' '; columns + 1]; rows + 1];
-    let mut put = |re: f64, im: f64, mark: char| {
-        let column = (0.5 + 0.5 * re / reach) * columns as f64;
-        let row = (0.5 - 0.5 * im / reach) * rows as f64;
-        if column >= 0.0 && row >= 0.0 && column.is_finite() && row.is_finite() {
-            let cell = cells.get_mut(row.round() as usize);
-            if let Some(cell) = cell.and_then(|row| row.get_mut(column.round() as usize)) {
-                *cell = mark;
-            }
-        }
-    };
-    for k in 0..=columns {
-        put((2.0 * k as f64 / columns as f64 - 1.0) * reach, 0.0, '-');
-    }
-    for k in 0..=rows {
-        put(0.0, (2.0 * k as f64 / rows as f64 - 1.0) * reach, '|');
-    }
-    put(0.0, 0.0, '+');
-    for value in &curve {
-        put(value.re, value.im, '.');
-    }
-    for (wave, _) in waves {
-        let mark = if wave.attracts { '*' } else { 'o' };
-        put(-wave.stiffness_n_per_m.recip(), 0.0, mark);
-    }
-    let title = format!("-{reach:.3e} to {reach:.3e} both ways; * attracts, o is the threshold");
-    let mut chart = Table::new([title]);
-    for row in cells {
-        let line: String = row.into_iter().collect();
-        chart.push(vec![line.trim_end().to_string().into()]);
-    }
-    chart
-}

@@ -6,7 +6,7 @@ use std::io::{Result, Write};
 use super::{notes, speeds_of};
 use crate::report::line::capital;
 use crate::report::number::{self, count, short};
-use rubscope_solver::harmonic::{Form, Sweep};
+use rubscope_solver::harmonic::{Form, Sweep, lock_window};
 use rubscope_solver::model::Machine;
 use rubscope_solver::scene::Scene;
 
@@ -50,7 +50,7 @@ impl Heading<'_> {
         )?;
         if let Some(critical) = machine.critical_speed() {
             write!(out, "Critical speed {}", number::speed(critical))?;
-            let lock_of = |machine: &Machine| machine.lock_window(speed).map(speeds_of);
+            let lock_of = |machine: &Machine| lock_window(machine, speed).map(speeds_of);
             let (zeta, unit) = (short(machine.casing_damping_ratio), number::speed_unit());
             // More groups may hold a wave on a lining, elsewhere.
             let groups = if machine.lining.is_some() { " of two groups" } else { "" };

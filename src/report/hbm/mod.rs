@@ -23,7 +23,7 @@ use rows::Rows;
 
 use super::number::{per_speed, short};
 use super::table::{MadeTable, Table};
-use rubscope_solver::harmonic::{Corner, Form, HarmonicError, Sweep, locked_motion};
+use rubscope_solver::harmonic::{Corner, Form, HarmonicError, Sweep, lock_window, locked_motion};
 use rubscope_solver::model::{LockWindow, Machine};
 use rubscope_solver::scene::{Quantity, Scene, keys};
 
@@ -166,7 +166,7 @@ impl Request<'_> {
     fn json(&self) -> Parts {
         let Self { scene, machine, form, damped, .. } = self;
         let (speed, notes) = (self.fastest(), notes(scene, machine));
-        let window = machine.lock_window(speed);
+        let window = lock_window(machine, speed);
         let json = Parts::default()
             .with("scene", scene.reported())
             .with("form", form)

@@ -8,7 +8,7 @@ use crate::report::number::{short, speed, speed_unit};
 use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{
     Cycle, HarmonicError, HopfPoint, Lining, LiningState, Rest, growth_threshold,
-    least_lock_stiffness, shifted_coincidence,
+    least_lock_stiffness, lock_window, shifted_coincidence,
 };
 use rubscope_solver::scene::{ContactLaw, keys};
 
@@ -48,7 +48,7 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let hopf = if pressed && from < to { lining.hopf_points([from, to])? } else { Vec::new() };
     let shifted = shifted_coincidence(scene, fastest);
     let threshold = growth_threshold(machine, fastest);
-    let (window, least) = (machine.lock_window(fastest), least_lock_stiffness(machine));
+    let (window, least) = (lock_window(machine, fastest), least_lock_stiffness(machine));
     let json = Parts::default()
         .with("preload_m", lining.preload_m())
         .with("stiffness_at_rest_n_per_m", lining.stiffness_at_rest())

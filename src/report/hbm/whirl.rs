@@ -7,10 +7,10 @@ use super::{Answer, LockBeside, Parts, Request, Rows, View, nothing, speeds_of};
 use crate::report::number::{speed, speed_unit};
 use crate::report::table::{Column, TableCell};
 use rubscope_solver::harmonic::{
-    HarmonicError, Joint, RoundWhirl, RoundWhirlLoads, flutter_speed, round_whirls,
+    HarmonicError, Joint, RoundWhirl, RoundWhirlLoads, flutters, lock_window, round_whirls,
     undamped_flutter_speed, whirl_onset,
 };
-use rubscope_solver::model::Machine;
+use rubscope_solver::model::{LockWindow, Machine};
 
 /// View: whirl against speed.
 pub const WHIRL: View = View {
@@ -28,8 +28,8 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let (machine, toward) = (&request.machine, request.fastest());
     let rows = request.speeds.iter().map(|&speed| WhirlRow::at(machine, speed));
     let rows = Rows::of(rows.collect());
-    let (onset, flutter) = (whirl_onset(machine, toward), flutter_speed(machine, toward));
-    let window = machine.lock_window(toward);
+    let (onset, flutter) = (whirl_onset(machine, toward), flutters(machine, toward));
+    let window = lock_window(machine, toward);
     let mut title = match onset {
         Some(onset) => format!("On a rim of many blades whirl begins at {}", speed(onset)),
         None => "Nothing whirls on a rim of many blades".to_string(),
@@ -38,17 +38,30 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
         Some(window) => format!("; a lock holds from {} {}", speeds_of(window), speed_unit()),
         None => "; no lock holds at any speed".to_string(),
     };
-    title += &match flutter {
-        Some(limit) => format!("; blades and casing as one flutter above {}.", speed(limit)),
-        None => ".".to_string(),
-    };
+    if !flutter.is_empty() {
+        let ranges: Vec<String> = flutter.iter().map(|range| between(*range)).collect();
+        title += &format!("; blades and casing as one flutter {}", ranges.join(" and "));
+    }
+    title.push('.');
+    let ranges: Vec<_> = flutter.iter().map(|range| [Some(range.from), range.to]).collect();
     let json = Parts::default()
         .with("whirl_onset_rad_s", onset)
-        .with("flutter_speed_rad_s", flutter)
+        .with("flutter_speed_rad_s", flutter.first().map(|range| range.from))
+        .with("flutter_rad_s", ranges)
         .with("flutter_undamped_rad_s", undamped_flutter_speed(machine, toward))
         .with("lock_window_rad_s", window.map(|window| [Some(window.from), window.to]))
         .with_rows("whirl", &rows, value);
     Ok(Answer::of(json, vec![(title, rows.table(WHIRLS))]))
+}
+
+/// Returns a range of speeds in words.
+fn between(range: LockWindow) -> String {
+    match (range.from, range.to) {
+        (0.0, None) => "at every speed".to_string(),
+        (0.0, Some(to)) => format!("up to {}", speed(to)),
+        (from, None) => format!("above {}", speed(from)),
+        (from, Some(to)) => format!("from {} to {}", speed(from), speed(to)),
+    }
 }
 
 /// The lasting whirl at one speed, if there is one, with its loads.

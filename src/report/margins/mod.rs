@@ -33,9 +33,6 @@ pub fn titled(margins: &Margins, title: fn(LimitName) -> String) -> Table {
     for limit in &margins.limits {
         // The same word as in JSON.
         let quantity = json!(limit.quantity).as_str().map_or(TableCell::Empty, TableCell::from);
-        let told = |x: Option<f64>, text: fn(f64) -> String| {
-            x.map_or(TableCell::Empty, |x| TableCell::Told(x, text(x)))
-        };
         let value = limit.value.map_or(TableCell::Empty, |value| {
             TableCell::Told(value, words::value(value, 6, limit.quantity))
         });
@@ -47,7 +44,7 @@ pub fn titled(margins: &Margins, title: fn(LimitName) -> String) -> Table {
             quantity,
             value,
             limit.present.into(),
-            told(limit.margin, words::margin),
+            words::margin_cell(limit.margin),
         ];
         let strongest = limit.sensitivities.strongest(STRONGEST);
         let moved = (0..STRONGEST).map(|place| {

@@ -3,8 +3,9 @@
 use crate::report::CommandLine;
 use crate::report::line::capital;
 use crate::report::number::{count, rounded, short, speed, time, with_unit};
+use crate::report::table::TableCell;
 use rubscope_solver::scene::Scene;
-use rubscope_solver::study::margins::{Found, LimitName, Margins, Quantity, parameter};
+use rubscope_solver::study::margins::{Found, LimitName, MOST_TIMES, Margins, Quantity, parameter};
 
 /// A margin from which on it is told as a factor.
 const FACTORS: f64 = 9.0;
@@ -19,11 +20,21 @@ pub fn value(x: f64, digits: usize, quantity: Quantity) -> String {
 /// beyond.
 #[must_use]
 pub fn margin(part: f64) -> String {
+    if part > MOST_TIMES {
+        return format!("> {} x", 1.0 + MOST_TIMES);
+    }
     if part >= FACTORS {
         return format!("{} x", short(rounded(1.0 + part, 4)));
     }
     let percent = 100.0 * part;
     if percent.abs() < 99.95 { format!("{percent:+.1} %") } else { format!("{percent:+.0} %") }
+}
+
+/// A margin as a cell: above `MOST_TIMES` files have no number.
+#[must_use]
+pub fn margin_cell(part: Option<f64>) -> TableCell {
+    let shown = |part: f64| if part > MOST_TIMES { f64::NAN } else { part };
+    part.map_or(TableCell::Empty, |part| TableCell::Told(shown(part), margin(part)))
 }
 
 /// A change in per cent, of one per cent of a parameter.
@@ -66,7 +77,8 @@ pub fn note(margins: &Margins) -> Option<String> {
 #[must_use]
 pub fn target(found: &Found, margins: &Margins) -> String {
     let Found { name, by, .. } = *found;
-    let (quantity, unit) = (name.quantity(), parameter(by).map_or("", |by| by.unit()));
+    let changed = parameter(by);
+    let (quantity, unit) = (name.quantity(), changed.map_or("", |by| by.unit()));
     let unit = if unit == "-" { "" } else { unit };
     let wanted = value(found.wanted, 6, quantity);
     let parameter = |x: f64| format!("{} {unit}", short(x)).trim_end().to_string();
@@ -77,15 +89,9 @@ pub fn target(found: &Found, margins: &Margins) -> String {
                 "No value of {by} was found for {name}: it could not be followed from that of the scene, {least}."
             );
         }
-        let met = match found.met {
+        let met = match found.met.map(|ends| ends.map(|end| value(end, 6, quantity))) {
             Some([least, most]) if least == most => "it does not depend on it".to_string(),
-            Some([least, most]) => {
-                format!(
-                    "it goes from {} to {}",
-                    value(least, 6, quantity),
-                    value(most, 6, quantity)
-                )
-            }
+            Some([least, most]) => format!("it goes from {least} to {most}"),
             None => "there is no such limit with any of them".to_string(),
         };
         return format!("No value of {by} from {least} to {most} puts {name} at {wanted}: {met}.");
@@ -95,7 +101,9 @@ pub fn target(found: &Found, margins: &Margins) -> String {
         Some(before) => format!("{} gives {}", parameter(found.from), value(before, 6, quantity)),
         None => format!("the scene has {}", parameter(found.from)),
     };
-    format!("{by} = {} puts {name} at {wanted} ({gives}).", parameter(to))
+    let line = changed.and_then(|by| by.line(&margins.scene, to));
+    let line = line.map_or(String::new(), |line| format!(" In the scene file: {line}."));
+    format!("{by} = {} puts {name} at {wanted} ({gives}).{line}", parameter(to))
 }
 
 /// The command that shows the limit with the parameter found, by another way than the
@@ -159,7 +167,8 @@ mod tests {
             (-0.9996, "-100 %"),
             (8.99, "+899 %"),
             (9.0, "10 x"),
-            (262.5, "263.5 x"),
+            (98.5, "99.5 x"),
+            (262.5, "> 100 x"),
         ] {
             assert_eq!(margin(part), told);
         }
@@ -169,8 +178,8 @@ mod tests {
             (0.01234, "+0.012 %"),
             (-0.01234, "-0.012 %"),
             (99.99, "+99.99 %"),
-            (1234.56, "+1235 %"),
-            (-1234.56, "-1235 %"),
+            (100.0, "+100 %"),
+            (-100.0, "-100 %"),
         ] {
             assert_eq!(change(by), told);
         }

@@ -9,8 +9,8 @@ use std::io::{Error, Result, Write};
 use plotters::prelude::*;
 
 use super::Provenance;
-use super::line::harmless;
-use paper::{Drawn, FINE, TEXT, UNDERSCORE, wrapped, write_at};
+use super::line::{harmless, wrapped};
+use paper::{Drawn, FINE, TEXT, UNDERSCORE, letters_in, write_at};
 use rubscope_solver::study::figures::Figure;
 
 pub use margins::write_margins;
@@ -56,9 +56,10 @@ fn draw(figure: &Figure, description: &str, text: &mut String) -> Drawn<()> {
     let columns = figure.columns.clamp(1, figure.panels.len().max(1));
     let rows = figure.panels.len().div_ceil(columns);
     let width = WIDTH + WIDTH_MORE * u32::try_from(columns - 1)?;
-    let note = wrapped(&figure.note, width);
+    let letters = letters_in(width - 2 * LEFT as u32, TEXT);
+    let note = wrapped(&figure.note, letters);
     let caption: Vec<String> =
-        figure.caption.iter().flat_map(|line| wrapped(line, width)).collect();
+        figure.caption.iter().flat_map(|line| wrapped(line, letters)).collect();
     let head = 40 + LINE * u32::try_from(note.len())?;
     let foot = if caption.is_empty() { 0 } else { 16 + LINE * u32::try_from(caption.len())? };
     let body = PANEL * u32::try_from(rows)?;
@@ -205,8 +206,9 @@ mod tests {
     fn a_picture_says_where_it_comes_from() {
         let svg = drawn(vec![], false);
         let told = svg.split_once("<desc>").unwrap().1.split_once("</desc>").unwrap().0;
-        let version = concat!("rubscope ", env!("CARGO_PKG_VERSION"), "\nrubscope figures ");
-        assert!(told.starts_with(version), "{told}");
+        let (version, commit) = (env!("CARGO_PKG_VERSION"), env!("RUBSCOPE_COMMIT"));
+        let begins = format!("rubscope {version} {commit}\nrubscope figures ");
+        assert!(told.starts_with(&begins), "{told}");
         assert!(told.contains("title = \"a &lt; b\"") && told.contains("[operation]"));
     }
 

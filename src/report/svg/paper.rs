@@ -15,8 +15,6 @@ pub const FINE: u32 = 4;
 pub const TEXT: i32 = 15;
 /// Width of a letter, on average, as a part of that size: enough for wide fonts.
 const LETTER: f64 = 0.47;
-/// Left and right of text that is wrapped \[px\].
-const MARGINS: u32 = 40;
 
 /// Colours that colour-blind readers can distinguish (hues of Okabe and Ito), each lighter
 /// or darker than the others in grey.
@@ -69,21 +67,6 @@ pub fn letters_in(width: u32, size: i32) -> usize {
 /// Estimates the width of a text of the usual size \[px\].
 pub fn width_of(text: &str) -> u32 {
     (LETTER * f64::from(TEXT) * text.chars().count() as f64).ceil() as u32
-}
-
-/// Returns a text in lines that fit into this width.
-pub fn wrapped(text: &str, width: u32) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
-        match lines.last_mut() {
-            Some(line) if width_of(line) + width_of(word) + MARGINS <= width => {
-                line.push(' ');
-                line.push_str(word);
-            }
-            _ => lines.push(word.to_string()),
-        }
-    }
-    lines
 }
 
 /// Returns the lines of the mark of a number, about its place; none for a disc. They are open, so

@@ -14,8 +14,6 @@ pub enum InputMode {
     Help(HelpState),
     /// A command is being looked for.
     Palette(PaletteState),
-    /// The end of a sweep of the selected knob is being typed.
-    Sweeping(String),
     /// A file name is being typed.
     Naming(Purpose, String),
     /// A question: replace the existing file?
@@ -80,9 +78,7 @@ impl Dialogue {
     /// Returns the text that is being typed.
     pub fn typed(&mut self) -> Option<&mut String> {
         match &mut self.mode {
-            InputMode::Typing(text) | InputMode::Sweeping(text) | InputMode::Naming(_, text) => {
-                Some(text)
-            }
+            InputMode::Typing(text) | InputMode::Naming(_, text) => Some(text),
             InputMode::Help(help) => Some(&mut help.filter),
             InputMode::Palette(palette) => Some(&mut palette.typed),
             _ => None,

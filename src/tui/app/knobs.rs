@@ -4,7 +4,7 @@
 
 use crate::report::line::clean;
 use crate::tui::app::play::Tempo;
-use crate::tui::app::{App, LessonProgress, Source, Sweep};
+use crate::tui::app::{App, LessonProgress, Source};
 use crate::tui::knobs::{KNOBS, Knob, place_of};
 use crate::tui::views::id::ViewId;
 use rubscope_solver::scene::{CheckedScene, SceneError};
@@ -18,8 +18,6 @@ pub struct Knobs {
     pub refusal: Option<String>,
     /// Whether they act on the running motion.
     pub live: bool,
-    /// The sweep of one that is under way.
-    pub sweep: Option<Sweep>,
     undo: Vec<Past>,
     redo: Vec<Past>,
 }

@@ -11,7 +11,6 @@ mod mouse;
 mod play;
 mod reading;
 mod run;
-mod sweep;
 mod verdict;
 
 pub use dialogue::{HelpState, InputMode, PaletteState, Purpose};
@@ -20,7 +19,6 @@ pub use knobs::Past;
 pub use lesson::{LessonProgress, StepProgress};
 pub use mouse::{Grip, Target};
 pub use reading::{Cursor, STEP, cell_of};
-pub use sweep::Sweep;
 
 use dialogue::Dialogue;
 use files::Files;
@@ -122,7 +120,7 @@ impl App {
             InputMode::Main if self.reading.on => Context::Reading,
             InputMode::Main if self.is_asked() => Context::Question,
             InputMode::Main => Context::Main,
-            InputMode::Typing(_) | InputMode::Sweeping(_) => Context::Typing,
+            InputMode::Typing(_) => Context::Typing,
             InputMode::Help(ref help) if help.filter.is_empty() => Context::Help,
             InputMode::Help(_) => Context::Filter,
             InputMode::Palette(_) => Context::Palette,

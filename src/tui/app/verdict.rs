@@ -1,13 +1,14 @@
 //! The state of the run in words: its verdict in one sentence, which blades touch and how deep
 //! in a lining, and the speeds of locks and coincidence that it is compared with.
 
-use crate::report::sentence::{Cause, Doubt, Facts, Sentence};
+use crate::report::sentence::{Cause, Doubt, Facts, Sentence, growth};
 use crate::tui::app::App;
 use crate::tui::axis::readable;
 use crate::tui::engine::{Answer, FORECAST_LIMIT, FullRun, FullRunState, Sensitive};
 use crate::tui::knobs::KNOBS;
 use crate::tui::text::few;
 use crate::tui::trace::{Happening, Mark};
+use rubscope_solver::harmonic;
 use rubscope_solver::model::LockWindow;
 use rubscope_solver::motion::{ActiveSet, Verdict};
 use rubscope_solver::scene::{ContactLaw, ModelSize};
@@ -99,12 +100,13 @@ impl App {
         }
     }
 
-    /// Returns what makes a run doubtful: pulls, a tiny change, or that the event solver says
+    /// Returns what makes a run doubtful: a lock that grows, pulls, a tiny change, or that the event solver says
     /// otherwise.
     fn doubts(&self, run: &FullRun) -> Vec<Doubt> {
         let other = self.results().reference.as_ref().map(|other| other.verdict);
         let pulls = run.checks.tensile_steps;
-        let mut doubts = Vec::new();
+        let grows = growth(run.verdict, &self.scene, &self.machine, self.speed());
+        let mut doubts: Vec<Doubt> = grows.map(Doubt::Grows).into_iter().collect();
         if pulls > 0 {
             doubts.push(Doubt::Pulls(pulls, other));
         }
@@ -282,15 +284,15 @@ impl App {
 }
 
 impl App {
-    /// Returns the speed from which on a lock only pushes \[rad/s\], 0 where it does so at
+    /// Returns the speed from which on a lock holds by pushes \[rad/s\], 0 where it does so at
     /// standstill; none where nothing locks, as where all blades rub.
     pub fn lock_speed(&self) -> Option<f64> {
         self.lock_window().map(|window| window.from)
     }
 
-    /// Returns the speeds between which a lock only pushes.
+    /// Returns the speeds between which a lock holds by pushes.
     pub fn lock_window(&self) -> Option<LockWindow> {
-        self.machine.lock_window(self.speed())
+        harmonic::lock_window(&self.machine, self.speed())
     }
 
     /// Returns whether blades and casing drive each other where they touch, so that a coincidence

@@ -34,7 +34,6 @@ pub enum Action {
     Step,
     Restart,
     Fire,
-    Sweep,
     SlowAtEvents,
     Slower,
     Faster,
@@ -243,7 +242,6 @@ impl Action {
             | Self::Reset
             | Self::Undo
             | Self::Redo
-            | Self::Sweep
             | Self::Live
             | Self::Accept
             | Self::DeleteLast => Group::Knobs,

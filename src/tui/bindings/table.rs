@@ -88,7 +88,6 @@ const BEFORE_VIEWS: &[Binding] = &[
         Action::SlowAtEvents,
         "slower at changes of contact and faster between, or not"
     ),
-    bind!(Main, [letter('S')], Action::Sweep, "sweep the selected knob from its value to another"),
     bind!(Main, [letter('f')], Action::FullScreen, "one chart over the whole screen, or back", "f" "full"),
     bind!(Main, [letter('P')], Action::Present, "the screen for a projector, or back"),
     bind!(Main, [letter('M')], Action::Mouse, "mouse on or off; Shift selects text while it is on"),
@@ -163,7 +162,7 @@ const AFTER_VIEWS: &[Binding] = &[
         Main,
         [letter('m')],
         Action::Marker,
-        "next marker (braille, halfblock, dot, ascii; octant where the terminal draws it)"
+        "next marker (braille, halfblock, dot, ascii; octant with --marker octant)"
     ),
     bind!(
         Main,

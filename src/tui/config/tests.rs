@@ -39,7 +39,6 @@ fn what_was_chosen_by_key_is_there_at_the_next_start() {
     assert!(config.marker.is_some() && config.introduced);
     let next = session(&path, |_| {});
     assert_eq!((next.layout.beside, next.dialogue.is_new), (config.charts.unwrap(), false));
-    #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
         let mode = |path: &Path| path.metadata().unwrap().permissions().mode() & 0o777;
@@ -57,7 +56,13 @@ fn the_unit_of_speeds_is_remembered_and_can_be_written_by_hand() {
     assert_eq!(read(&path).units.speed, Some(SpeedUnit::Radians));
     assert!(!session(&path, |_| {}).appearance.rpm);
     std::fs::write(&path, "[units]\nspeed = \"knots\"\n").unwrap();
-    assert!(Memory::at(Some(path)).complaint.unwrap().starts_with("config.toml is not used"));
+    assert!(
+        Memory::at(Some(path.clone())).complaint.unwrap().starts_with("config.toml is not used")
+    );
+    std::fs::write(&path, "units = \"rpm\"\n").unwrap();
+    let complaint = Memory::at(Some(path)).complaint.unwrap();
+    assert!(complaint.contains("expected for units a table: units.speed = \"rpm\""), "{complaint}");
+    assert_eq!(complaint.lines().count(), 1);
 }
 
 #[test]

@@ -15,6 +15,7 @@ use range::Bar;
 pub use range::{KnobRange, meaning};
 pub use table::KNOBS;
 
+use crate::report::number::{exact, from_shown, in_shown_unit, rounded, with_typed_unit};
 use crate::tui::axis;
 use rubscope_solver::scene::units::UnitError;
 use rubscope_solver::scene::{
@@ -185,8 +186,7 @@ impl Knob {
         match (value, self.turn) {
             (Value::Real(x), Turn::Linear(fine, large)) => {
                 let step = if coarse { large } else { fine };
-                let next = (x / step + if up { 1.0 } else { -1.0 }).round() * step;
-                Value::Real(self.round_to(next, fine))
+                Value::Real(self.stepped(*x, step, Some(up)))
             }
             (Value::Real(x), Turn::Decades(_)) if self.path == CLEARANCE => {
                 Value::Real(number::turned(*x, up, coarse, scene))
@@ -219,12 +219,23 @@ impl Knob {
         }
     }
 
-    /// Returns the nearest multiple of a step, within bounds.
-    fn round_to(&self, x: f64, step: f64) -> f64 {
-        let next = (x / step).round() * step;
+    /// Returns the next multiple of a step up or down from a value, or the nearest, in the unit as
+    /// it is shown, within bounds.
+    fn stepped(&self, x: f64, step: f64, up: Option<bool>) -> f64 {
+        let (shown, unit) = in_shown_unit(x, self.unit());
+        // A turn a minute is about a tenth of a radian a second.
+        let step = if unit == self.unit() { step } else { 10.0 * step };
+        let at = shown / step;
+        let multiple = match up {
+            Some(true) => (at + 1e-9).floor() + 1.0,
+            Some(false) => (at - 1e-9).ceil() - 1.0,
+            None => at.round(),
+        };
+        let next = multiple * step;
         // Decimal digits, without the round-off of a multiple.
         let digits = (-step.log10()).ceil().clamp(0.0, 12.0) as usize + 1;
-        self.bounded(format!("{next:.digits$}").parse().unwrap_or(next))
+        let next = format!("{next:.digits$}").parse().unwrap_or(next);
+        self.bounded(from_shown(next, self.unit()))
     }
 
     fn bounded(&self, x: f64) -> f64 {
@@ -275,12 +286,22 @@ impl Knob {
     /// Returns what it may hold, in words with its unit; nothing for words, which its sentence
     /// names.
     pub fn range_words(&self) -> String {
+        let (factor, unit) = in_shown_unit(1.0, self.unit());
         let words = match self.allowed() {
             Allowed::OneOf(words) => return format!("one of {}", words.join(", ")),
+            Allowed::Real { min, max, above } if factor != 1.0 => {
+                let [min, max] = [min, max].map(|end| rounded(end * factor, 6));
+                Allowed::Real { min, max, above }.to_string()
+            }
             other => other.to_string(),
         };
         let words = words.trim_start_matches("a whole number ").trim_start_matches("a number ");
-        format!("{words} {}", self.unit()).trim_end().to_string()
+        format!("{words} {unit}").trim_end().to_string()
+    }
+
+    /// Returns what was typed so far, with a cursor and the unit that it has without its own.
+    pub fn typed(&self, text: &str) -> String {
+        format!("{text}_ {}", in_shown_unit(0.0, self.unit()).1).trim_end().to_string()
     }
 
     /// Returns a refusal of a value of it in the words of the panel, without keys of the file.
@@ -306,6 +327,10 @@ impl Knob {
                 format!("{}: {value} is no number; {}", self.label, self.range_words())
             }
             own_range if own && *allowed == own_range.to_string() => {
+                let value = match (value.parse::<f64>(), in_shown_unit(1.0, self.unit())) {
+                    (Ok(x), (factor, _)) if factor != 1.0 => exact(rounded(factor * x, 9)),
+                    _ => value.clone(),
+                };
                 format!("{}: {value} is not possible; {}", self.label, self.range_words())
             }
             _ => format!("{}: {value} is not possible; allowed is {}", words(key), words(allowed)),
@@ -327,7 +352,8 @@ impl Knob {
         let refused = |allowed: String| SceneError::refused(self.path, text, allowed);
         match self.allowed() {
             Allowed::Real { .. } => {
-                self.quantity().read(text).map(Value::Real).map_err(|why| match why {
+                let number = with_typed_unit(text, self.quantity());
+                self.quantity().read(&number).map(Value::Real).map_err(|why| match why {
                     UnitError::NoNumber => {
                         refused("a number, such as 500, 2.5e-7, 20k or 50u".into())
                     }
@@ -351,7 +377,9 @@ impl Knob {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::number::tell_in_rpm;
     use rubscope_solver::scene::SolverKind;
+    use std::f64::consts::TAU;
 
     fn knob(path: &str) -> &'static Knob {
         knob_of(path).unwrap()
@@ -409,6 +437,47 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn a_bare_speed_is_in_the_unit_that_is_shown_and_turns_to_round_values_of_it() {
+        let (speed, scene) = (knob("operation.speed_rad_s"), Scene::base());
+        let turn = TAU / 60.0;
+        let real = |value: Value| match value {
+            Value::Real(x) => x / turn,
+            other => panic!("{other:?}"),
+        };
+        tell_in_rpm(true);
+        let typed = ["4500", "4.5k", "450 rad/s", "75Hz"].map(|text| speed.parse(text).unwrap());
+        let start = Value::Real(500.0);
+        let turns = [(true, false), (true, true), (false, false), (false, true)]
+            .map(|(up, coarse)| real(speed.turned(&start, up, coarse, &scene)));
+        let up = speed.turned(&typed[0], true, false, &scene);
+        let back = speed.turned(&up, false, false, &scene);
+        let dragged = real(speed.near(470.0).unwrap());
+        let (words, prompt) = (speed.range_words(), speed.typed("45"));
+        let refused = speed.set(&scene, speed.parse("1e9").unwrap()).unwrap_err();
+        let refused = speed.refusal(&refused);
+        let other = knob("operation.pulse_n").parse("4500").unwrap();
+        tell_in_rpm(false);
+        let turned = Value::Real(4500.0 * turn);
+        assert_eq!(typed, [turned.clone(), turned.clone(), Value::Real(450.0), turned]);
+        for (turned, round) in turns.into_iter().zip([4800.0, 5000.0, 4750.0, 4500.0]) {
+            assert!((turned - round).abs() < 1e-9, "{turned} {round}");
+        }
+        assert_eq!((real(up.clone()).round(), &back), (4550.0, &typed[0]));
+        assert!((dragged - 4500.0).abs() < 1e-9, "{dragged}");
+        assert_eq!(
+            (words.as_str(), prompt.as_str()),
+            ("from -9.5493e6 to 9.5493e6 rpm", "45_ rpm")
+        );
+        assert!(refused.starts_with("speed Ω: 1000000000 is not possible; from -9.5"), "{refused}");
+        assert_eq!(other, Value::Real(4500.0));
+        assert_eq!(speed.parse("4500").unwrap(), Value::Real(4500.0));
+        assert_eq!(
+            (speed.typed(""), knob("contact.friction").typed("0.1")),
+            ("_ rad/s".into(), "0.1_".into())
+        );
     }
 
     #[test]

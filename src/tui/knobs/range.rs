@@ -149,13 +149,14 @@ impl Case<'_> {
 /// The ranges that follow from the scene.
 pub mod bars {
     use super::{AROUND, Case, KnobRange, touching_pulse};
+    use rubscope_solver::harmonic::lock_window;
 
     /// End of the bar of the speed over the greatest threshold.
     const BEYOND: f64 = 1.5;
 
     pub fn speed(case: &Case) -> KnobRange {
         let machine = case.machine;
-        let window = machine.lock_window(case.value);
+        let window = lock_window(machine, case.value);
         let lock = window.map(|window| window.from);
         let limits = [machine.critical_speed(), lock, machine.dangerous_speed()];
         let most = limits.into_iter().flatten().fold(0.0, f64::max);
@@ -266,7 +267,7 @@ impl Knob {
     /// dragged.
     pub fn near(&self, x: f64) -> Option<Value> {
         match (self.turn, self.allowed()) {
-            (Turn::Linear(fine, _), _) => Some(Value::Real(self.round_to(x, fine))),
+            (Turn::Linear(fine, _), _) => Some(Value::Real(self.stepped(x, fine, None))),
             (Turn::Decades(_), _) => Some(Value::Real(self.bounded(rounded(x, 2)))),
             (Turn::Whole(..), Allowed::Whole { min, max }) => {
                 // A negative or huge number is at a bound.

@@ -27,7 +27,6 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
         InputMode::Naming(Purpose::Export, name) => {
             Some(format!("export as (.csv data, .svg picture): {name}_"))
         }
-        InputMode::Sweeping(text) => app.sweep_question(text),
         InputMode::Replacing(_, name) => Some(format!("{name} exists: y replaces it, n leaves it")),
         _ => None,
     };
@@ -36,17 +35,12 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
         print(buffer, area, 0, &shown, look.style(Role::Focus));
         return;
     }
-    let hint = match app.knobs.sweep {
-        Some(ref sweep) => Some(sweep.progress()),
-        None => {
-            (app.dialogue.is_new && app.dialogue.mode == InputMode::Main).then(|| TRY.to_string())
-        }
-    };
+    let hint = (app.dialogue.is_new && app.dialogue.mode == InputMode::Main).then_some(TRY);
     // The list of commands has its message beside what is typed.
     let status = app.status.as_ref().filter(|_| app.context() != Context::Palette);
     let message = match (status, hint) {
         (Some(status), _) => Some((look.spell(status), Role::Good)),
-        (None, hint) => hint.map(|hint| (look.spell(&hint), Role::Focus)),
+        (None, hint) => hint.map(|hint| (look.spell(hint), Role::Focus)),
     };
     let width = usize::from(area.width);
     let wanted = message.as_ref().map(|(text, _)| columns(text));

@@ -118,7 +118,7 @@ fn knob(app: &App, buffer: &mut Buffer, row: Rect, knob: &Knob, selected: bool) 
     let sign = if selected { '▸' } else { ' ' };
     let label = look.spell(&format!("{sign}{}{}", knob.label, if changed { '*' } else { ' ' }));
     let shown = match (&app.dialogue.mode, selected) {
-        (InputMode::Typing(text), true) => format!("{text}_"),
+        (InputMode::Typing(text), true) => look.spell(&knob.typed(text)),
         // A sign beside the dim colour, for themes without colour.
         _ if inert => look.spell(&format!("({})", knob.shown(&value))),
         _ => look.spell(&knob.shown(&value)),
@@ -185,7 +185,7 @@ pub fn strip(app: &App, buffer: &mut Buffer, area: Rect) {
 
 fn strip_text(app: &App, knob: &Knob) -> String {
     let shown = match &app.dialogue.mode {
-        InputMode::Typing(text) => format!("{text}_"),
+        InputMode::Typing(text) => knob.typed(text),
         _ => knob.text(&app.scene),
     };
     let changed = if knob.get(&app.scene) == knob.get(&app.files.opened) { "" } else { "*" };

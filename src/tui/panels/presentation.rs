@@ -1,11 +1,10 @@
 //! The screen for a projector: one chart, the verdict in large letters, why in one
 //! sentence, and the knob being turned as a wide bar. Nothing else.
 
+use font8x8::{BASIC_FONTS, UnicodeFonts};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Modifier, Style};
-use ratatui::widgets::Widget;
-use tui_big_text::{BigText, PixelSize};
 
 use super::{header, knobs};
 use crate::tui::app::{App, InputMode, Target};
@@ -47,27 +46,20 @@ pub fn letters(app: &App, buffer: &mut Buffer, area: Rect) {
     let (headline, style) = header::headline(app, usize::from(area.width));
     let rows = area.height.saturating_sub(1);
     let wide = u16::try_from(columns(&headline.word)).unwrap_or(u16::MAX);
-    let sizes = [
-        (PixelSize::Full, 8, 8, true),
-        (PixelSize::HalfHeight, 8, 4, false),
-        (PixelSize::Quadrant, 4, 4, false),
-    ];
-    let size = sizes.into_iter().find(|(_, width, height, ascii)| {
-        wide.saturating_mul(*width) <= area.width && *height <= rows && (*ascii || !look.ascii())
+    // Cells of a letter, across and down.
+    let sizes = [(DOTS, DOTS), (DOTS, DOTS / 2), (DOTS / 2, DOTS / 2)];
+    let size = sizes.into_iter().find(|(width, height)| {
+        wide.saturating_mul(*width) <= area.width
+            && *height <= rows
+            && (*height == DOTS || !look.ascii())
     });
     match size {
-        Some((size, _, height, _)) => {
-            let text = BigText::builder()
-                .pixel_size(size)
-                .style(style)
-                .lines(vec![headline.word.as_str().into()])
-                .centered()
-                .build();
-            let area = Rect { height: rows, ..area };
-            let area = Rect { y: area.y + (rows - height) / 2, height, ..area };
-            text.render(area, buffer);
-            if look.ascii() {
-                solid(buffer, area);
+        Some((width, height)) => {
+            let left = (area.width - wide * width) / 2;
+            let mut at = Rect { x: area.x + left, y: area.y + (rows - height) / 2, width, height };
+            for letter in headline.word.chars() {
+                large_letter(buffer, at, letter, style, look.ascii());
+                at.x += width;
             }
         }
         None => centred(app, buffer, area, rows / 2, &headline.word, style),
@@ -77,13 +69,25 @@ pub fn letters(app: &App, buffer: &mut Buffer, area: Rect) {
     centred(app, buffer, area, rows, &parts, look.style(Role::Text));
 }
 
-/// Blocks as ASCII.
-fn solid(buffer: &mut Buffer, area: Rect) {
+/// Dots across and down of a large letter.
+const DOTS: u16 = 8;
+/// The signs of a cell of two by two dots: those above count 1 and 2, those below 4 and 8.
+const QUADRANTS: [char; 16] =
+    [' ', '▘', '▝', '▀', '▖', '▌', '▞', '▛', '▗', '▚', '▐', '▜', '▄', '▙', '▟', '█'];
+
+/// Draws a letter that fills this area.
+fn large_letter(buffer: &mut Buffer, area: Rect, letter: char, style: Style, ascii: bool) {
+    let glyph = BASIC_FONTS.get(letter).unwrap_or_default();
+    let dot = |x: u16, y: u16| usize::from(glyph.get(usize::from(y)).map_or(0, |row| row >> x & 1));
+    let (across, down) = (DOTS / area.width, DOTS / area.height);
     for at in area.positions() {
-        if let Some(cell) = buffer.cell_mut(at)
-            && cell.symbol() != " "
-        {
-            cell.set_char('#');
+        let (x, y) = ((at.x - area.x) * across, (at.y - area.y) * down);
+        // One dot fills a cell of its own.
+        let (right, below) = (x + across - 1, y + down - 1);
+        let dots = dot(x, y) + 2 * dot(right, y) + 4 * dot(x, below) + 8 * dot(right, below);
+        let sign = if ascii && dots > 0 { '#' } else { *QUADRANTS.get(dots).unwrap_or(&' ') };
+        if let Some(cell) = buffer.cell_mut(at) {
+            cell.set_char(sign).set_style(style);
         }
     }
 }
@@ -105,7 +109,7 @@ pub fn knob(app: &App, buffer: &mut Buffer, area: Rect) {
             centred(app, buffer, area, 0, refusal, app.appearance.style(Role::Trouble));
         }
         (None, InputMode::Typing(text)) => {
-            centred(app, buffer, area, 0, &format!("{} = {text}_", knob.label), focus);
+            centred(app, buffer, area, 0, &format!("{} = {}", knob.label, knob.typed(text)), focus);
         }
         _ => {
             let shown = knob.text(&app.scene);

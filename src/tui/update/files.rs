@@ -58,10 +58,9 @@ impl App {
     }
 
     /// Records that the screen shows this state: from now on a key can be the answer to its
-    /// question, and a sweep can go on.
+    /// question.
     pub fn drawn(&mut self) {
         self.dialogue.asked = true;
-        self.sweep_on();
     }
 
     /// Returns the command to copy, and shows it in the last line.

@@ -8,7 +8,6 @@ mod lesson;
 mod map;
 mod mouse;
 mod reading;
-mod sweep;
 
 pub use mouse::MouseOutcome;
 
@@ -53,7 +52,6 @@ impl App {
     /// Handles a key press.
     pub fn key(&mut self, event: &KeyEvent) -> Effect {
         self.files.disturb();
-        self.stop_sweep();
         self.dialogue.is_new = false;
         if event.modifiers.contains(KeyModifiers::ALT) && event.code != KeyCode::Esc {
             // Escape and a key that arrive together look like Alt and that key.
@@ -187,7 +185,6 @@ impl App {
             (InputMode::Scenes(_), Action::Accept) => self.open_chosen_scene(),
             (_, Action::Copy) => return Effect::Copy(self.copied()),
             (InputMode::Typing(text), Action::Accept) => self.accept(&text),
-            (InputMode::Sweeping(text), Action::Accept) => self.begin_sweep(&text),
             (_, Action::Close) => self.close(),
             _ => self.act_main(action),
         }
@@ -278,7 +275,6 @@ impl App {
                 let pulse = knob_of(PULSE).map(|knob| knob.text(&self.scene));
                 self.status = pulse.map(|pulse| format!("pulse of {pulse} fired"));
             }
-            Action::Sweep => self.ask_sweep(),
             Action::Autoscale => self.status = Some(self.run.autoscale()),
             Action::Present => self.present(!self.appearance.wide),
             Action::Live => self.status = Some(self.knobs.turn_live()),

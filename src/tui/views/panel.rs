@@ -138,6 +138,19 @@ impl ViewArea {
     }
 }
 
+/// Puts what is read at the cursor before the legend, where it stands in place of the name of the
+/// chart: names and units may have no room beside it. Returns the name that is left.
+pub fn read_before<'a>(
+    look: &Appearance,
+    legend: &mut Vec<(String, Style)>,
+    read: Option<String>,
+    name: &'a str,
+) -> &'a str {
+    let Some(read) = read else { return name };
+    legend.insert(0, (read, look.style(Role::Focus)));
+    ""
+}
+
 /// Draws the title row: a rule with the digit and name of the view and as many entries of its
 /// legend, the first ones first, as fit whole. Returns the rest of the area.
 pub fn title(

@@ -4,7 +4,9 @@
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-use super::panel::{ViewArea, ViewPanel, csv, dots, entry, lines_above, name_level, names, title};
+use super::panel::{
+    ViewArea, ViewPanel, csv, dots, entry, lines_above, name_level, names, read_before, title,
+};
 use crate::report::line::clean;
 use crate::tui::app::{App, Cursor};
 use crate::tui::axis::{AutoRange, ChartAxis, instant, readable};
@@ -167,11 +169,7 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
     let mut legend: Vec<_> =
         pens.iter().zip(what.names).map(|(pen, name)| entry(look, pen, name)).collect();
     let read = reading(app, what, usize::from(at.area.width));
-    let name = if read.is_some() { "" } else { what.name.as_str() };
-    if let Some(read) = read {
-        // The values come first: names and units may have no room.
-        legend.insert(0, (read, look.style(Role::Focus)));
-    }
+    let name = read_before(look, &mut legend, read, &what.name);
     legend.push((format!("{}{} by {}s", y.scale.prefix, what.unit, x.scale.prefix), quiet));
     if let Some(baseline) = app.run.baseline.as_ref().filter(|_| what.own) {
         legend.push((format!("+ + pinned: {}", baseline.what(app)), quiet));

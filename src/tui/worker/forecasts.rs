@@ -242,8 +242,7 @@ impl Answers {
     fn spend(&mut self, spent: Duration) {
         let Some((scene, run)) = &self.older else { return };
         self.left = self.left.saturating_sub(spent);
-        let nearly = run.left().is_some_and(|left| left <= HELD);
-        if run.is_done() || (self.left.is_zero() && !nearly) {
+        if run.is_done() || self.left.is_zero() {
             let (scene, state) = (scene.clone(), run.state());
             self.older = None;
             self.note(&scene, &state);

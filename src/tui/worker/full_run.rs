@@ -162,12 +162,6 @@ impl FullRunJob {
         ((self.motion.t_s() - self.start) / (self.end - self.start)).clamp(0.0, 1.0)
     }
 
-    /// Returns the wall time it still takes, as far as it can be known.
-    pub fn left(&self) -> Option<Duration> {
-        let left = self.wall_s() * (1.0 / self.part() - 1.0);
-        Duration::try_from_secs_f64(left).ok()
-    }
-
     /// Returns whether it is over.
     pub fn is_done(&self) -> bool {
         self.result.is_some() || self.wall >= self.limit

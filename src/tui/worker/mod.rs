@@ -1,5 +1,5 @@
-//! The solver behind the screen: a playback without clock or thread, the thread
-//! that drives it, and a replacement for tests.
+//! The solver behind the screen: a playback without clock or thread, and the thread
+//! that drives it.
 
 mod background;
 mod comparison;
@@ -17,5 +17,4 @@ mod thread;
 pub use comparison::other_law;
 pub use playback::Playback;
 pub use recorder::{in_blade_frame, rim_point};
-pub use thread::Stepwise;
 pub use thread::{WORKER_NAME, Worker};

@@ -100,7 +100,9 @@ impl PageJob {
             if reached != Ok(false) {
                 let recorder = self.recorder.insert(Recorder::from(&self.motion));
                 let state = self.motion.state();
-                recorder.record(&mut self.motion, &state, self.bin);
+                // Where each step is a bin, so is the start: lines go from sample to sample.
+                let length = if self.step > self.bin { 0.0 } else { self.bin };
+                recorder.record(&mut self.motion, &state, length);
             }
             return false;
         };
@@ -166,6 +168,7 @@ pub fn next_sample(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tui::history::Channel;
     use rubscope_solver::scene::Scene;
 
     /// A page over the first millisecond of a scene, computed to its end.
@@ -190,6 +193,33 @@ mod tests {
             page.is_done()
         };
         assert!(want(5e-4) && !want(8e-4));
+    }
+
+    #[test]
+    fn between_two_steps_a_page_is_the_straight_line_from_one_to_the_other() {
+        let scene = Scene::base();
+        let (step, page) = (scene.solver.step_s, (1e-3, 1e-3 + 5.0 * scene.solver.step_s));
+        let checked = scene.checked().unwrap();
+        let mut wanted = Page::default();
+        let motion = || Some(Motion::new(&checked));
+        wanted.want(page, step / 50.0, (step, page.1), motion);
+        while !wanted.is_done() {
+            wanted.compute();
+        }
+        let record = wanted.record().unwrap();
+        let at = |steps: f64| {
+            let mut motion = Motion::new(&checked);
+            motion.advance(page.0 + steps * step).unwrap();
+            motion.state().u[0]
+        };
+        for k in [0.0, 1.0, 2.0, 3.0] {
+            let (from, to) = (at(k), at(k + 1.0));
+            for bin in record.record.between(page.0 + (k + 0.1) * step, page.0 + (k + 0.9) * step) {
+                let part = (bin.to - page.0) / step - k;
+                let apart = bin.middle(Channel::UC) - from - part * (to - from);
+                assert!(apart.abs() < 1e-6 * (to - from).abs(), "{k} {part}: {apart:e}");
+            }
+        }
     }
 
     #[test]

@@ -14,7 +14,7 @@ use super::page::{PER_TURN, Page, next_sample, sample_length};
 use super::reading::Copies;
 use super::reading::Reading;
 use super::recorder::Recorder;
-use super::studies::{Bounds, Studies};
+use super::studies::Studies;
 use crate::tui::engine::{Limit, Moment, Order, Snapshot};
 use crate::tui::trace::Mark;
 use crate::tui::views::id::ViewId;
@@ -93,9 +93,9 @@ impl Playback {
         playback
     }
 
-    /// Bounds how far studies go.
-    pub fn bound_studies(&mut self, bounds: Bounds) {
-        self.forecasts.studies().bound(bounds);
+    /// Bounds the number of cells of a map, for tests.
+    pub fn bound_maps(&mut self, cells: usize) {
+        self.forecasts.studies().most_cells = Some(cells);
     }
 
     /// Takes a newer order and does what its counters ask for.

@@ -1,16 +1,14 @@
 //! The worker thread: one slot with the latest order, one with the latest snapshot. Neither side
 //! waits for the other: a newer order replaces an older one, and a snapshot that was not taken
-//! is merged with the next. Beside it an engine without thread and clock, for tests that must
-//! give the same screens on every machine.
+//! is merged with the next.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use crate::tui::engine::{Engine, Limit, Order, Pace, Snapshot, Waker};
+use crate::tui::engine::{Engine, Order, Snapshot, Waker};
 use crate::tui::history::{Bin, MOST_BINS, thin};
 use crate::tui::worker::Playback;
-use crate::tui::worker::studies::Bounds;
 
 /// Name of the thread: the panic hook leaves the screen alone for it.
 pub const WORKER_NAME: &str = "rubscope-worker";
@@ -180,58 +178,6 @@ fn catch_panic<T>(work: impl FnOnce() -> T) -> Result<T, String> {
             .unwrap_or_else(|| "unknown reason".to_string());
         format!("the solver stopped ({what}); r restarts")
     })
-}
-
-/// Cells of a map unless more are asked for: blocks of eight by eight.
-const MAP_CELLS: usize = 66;
-
-/// The engine driven by hand.
-#[derive(Debug)]
-pub struct Stepwise {
-    /// Motion between two snapshots \[s\].
-    pub stride: f64,
-    /// Most cells of a map, the coarsest ones.
-    pub map_cells: usize,
-    order: Option<Order>,
-    playback: Option<Playback>,
-    fresh: bool,
-}
-
-impl Stepwise {
-    /// Creates an engine that plays `stride` seconds of motion between two snapshots.
-    pub fn new(stride: f64) -> Self {
-        Self { stride, map_cells: MAP_CELLS, order: None, playback: None, fresh: false }
-    }
-}
-
-impl Engine for Stepwise {
-    fn order(&mut self, order: &Order) {
-        self.order = Some(order.clone());
-        self.fresh = true;
-    }
-
-    fn take(&mut self) -> Option<Snapshot> {
-        let order = self.order.as_ref()?;
-        let start = || Playback::with_time_limit(order.clone(), Duration::MAX);
-        let playback = self.playback.get_or_insert_with(start);
-        playback.bound_studies(Bounds { cells: self.map_cells });
-        playback.apply(order);
-        while playback.is_computing() {
-            playback.compute();
-        }
-        if order.playing {
-            playback.play(self.stride);
-        } else if !self.fresh {
-            return None;
-        }
-        self.fresh = false;
-        let mut snapshot = playback.snapshot();
-        let pace = &mut snapshot.results.pace;
-        let step_s = pace.step_s.map(|_| 42e-9);
-        let reached = Some(order.rate);
-        *pace = Pace { step_s, run_s: Some(42e-3), limit: Limit::None, reached, ..*pace };
-        Some(snapshot)
-    }
 }
 
 #[cfg(test)]

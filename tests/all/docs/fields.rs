@@ -8,6 +8,7 @@ use serde_json::Value;
 
 use super::{Document, read};
 use crate::cli_support::rubscope;
+use crate::lasting_locks;
 
 fn names(fields: &[&str]) -> BTreeSet<String> {
     fields.iter().map(ToString::to_string).collect()
@@ -71,6 +72,8 @@ fn every_field_of_the_reports_is_in_the_documents() {
                 "run --contact unilateral --set contact.restitution=0.3 --end 0.002 --json",
                 "run --solver event --set bladed_disk.stiffness_nm_per_rad=1e12 --json",
                 "run --solver event --set bladed_disk.radial_coupling=0.1 --json",
+                &lasting_locks::held_and_grows().join(" "),
+                "run --model full --nd 2 --contact unilateral --set contact.friction=0.3 --end 0.001 --json",
             ],
         ),
         ("| field of `rubscope.map/1` | what it is |", vec![map]),

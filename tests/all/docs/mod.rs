@@ -4,7 +4,6 @@
 //!
 //! `RUBSCOPE_WRITE_DOCS=1 cargo test docs` writes the tables anew.
 
-#[cfg(unix)]
 mod blocks;
 mod fields;
 mod lessons;

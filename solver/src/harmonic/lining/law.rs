@@ -287,6 +287,16 @@ mod tests {
     }
 
     #[test]
+    fn amplitudes_over_tips_that_just_touch_are_found() {
+        let machine = machine("0.4999");
+        let lining = lining(&machine, 3e-5);
+        for r in [1e-6, 1e-5, 4e-5, 1e-3] {
+            let found = lining.amplitudes(lining.stiffness_of_wave(r));
+            assert!(found.iter().any(|at| (at / r - 1.0).abs() < 1e-9), "{r}: {found:?}");
+        }
+    }
+
+    #[test]
     fn amplitudes_are_found_and_limits_kept() {
         let machine = machine("0.49988");
         let lining = lining(&machine, 1e-6);

@@ -457,6 +457,32 @@ mod tests {
     }
 
     #[test]
+    fn a_rotor_that_turns_backward_grows_at_the_mirrored_speeds() {
+        for loss in ["0", "4e-10", "6.1e-10"] {
+            let scene = Scene::base().with(&[
+                ("solver.contact", "smooth"),
+                ("bladed_disk.radial_coupling", "0.5"),
+                ("casing.clearance_loss_m_s2", loss),
+                ("casing.radius_m", if loss == "0" { "0.49988" } else { "0.5" }),
+            ]);
+            let machine = scene.unwrap().machine();
+            let surface = ContactSurface { stiffness_n_per_m: 27e3, ..Default::default() };
+            let lining = Lining::of(&machine, &surface).unwrap();
+            for (from, to) in [(200.0, 700.0), (390.0, 410.0), (400.0, 500.0)] {
+                let ahead = lining.hopf_points([from, to]).unwrap();
+                let mut back = lining.hopf_points([-to, -from]).unwrap();
+                back.reverse();
+                assert_eq!(ahead.len(), back.len(), "{loss} {from}");
+                for (ahead, back) in ahead.iter().zip(&back) {
+                    let apart = ahead.speed_rad_s + back.speed_rad_s;
+                    assert!(apart.abs() < 1e-9 * to, "{loss} {from}: {ahead:?} {back:?}");
+                    assert_ne!(ahead.grows_above, back.grows_above);
+                }
+            }
+        }
+    }
+
+    #[test]
     fn a_window_of_growth_just_above_the_threshold_is_found() {
         let mut scene = Scene::base();
         scene.set("casing.radius_m", "0.49988").unwrap();

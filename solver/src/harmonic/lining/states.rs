@@ -334,9 +334,14 @@ pub(in crate::harmonic) fn lock_loads<T: Number>(
         dot(bent, n) + dot(swing, n)
     };
     let amplitude = (z[0] * z[0] + z[1] * z[1]).sqrt();
-    let groups = (pushes, SIDES.map(angle));
-    let all = (0..polygon.sides).map(angle);
-    Some(LockLoads::of((machine, speed), (amplitude, -(torques[0] + torques[1])), groups, all))
+    let torque_nm = -(torques[0] + torques[1]);
+    Some(LockLoads {
+        pushes_n: pushes,
+        alpha_rad: SIDES.map(angle),
+        amplitude_m: amplitude,
+        torque_nm,
+        power_w: torque_nm * speed,
+    })
 }
 
 /// The softest lining that holds a lock, and the speed where it does.
@@ -387,4 +392,22 @@ fn bottom(machine: &Machine, lock: f64) -> f64 {
     let best = (1..WINDOW_LOOKS).min_by(|&a, &b| of(place(a)).total_cmp(&of(place(b))));
     let best = best.unwrap_or(1);
     highest([place(best - 1), place(best + 1)], |excess| -of(excess)).0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    #[test]
+    fn rest_under_preload_is_one_state() {
+        let scene = Scene::builtin("coincidence").unwrap();
+        let machine = scene.machine();
+        let lining = Lining::of(&machine, &scene.contact).unwrap();
+        for speed in [100.0, 390.0, 406.0, -445.0] {
+            let states = lining.states(speed).unwrap();
+            let rests = states.iter().filter(|state| state.casing_m < 1e-12);
+            assert_eq!(rests.count(), 1, "{speed}: {states:?}");
+        }
+    }
 }

@@ -14,12 +14,12 @@ use crate::motion::{ActiveSet, FailureReason};
 use crate::scene::{CheckedScene, ModelSize};
 use crate::tolerances::{ANGLE_LOOK, LONG_STEP};
 
-/// What a step leaves to the next, and what the verdict needs.
+/// State that only steps beyond the paper need, and what their verdict needs.
 #[derive(Clone, Debug)]
 pub(super) struct Beyond {
     /// Increments of the casing in the step before the last \[m\].
     pub before: [f64; 2],
-    /// Rows that may touch now, and how far they were looked for.
+    /// Rows that may touch, and the range in which they were searched for.
     pub candidates: Vec<u32>,
     pub found: Option<Found>,
     /// Bounds on the penetration left at the latest step and at the one before \[m\].
@@ -31,7 +31,7 @@ pub(super) struct Beyond {
     pub long: f64,
     pub long_steps: u32,
     pub lasting: Lasting,
-    /// What the clearance has lost in the latest step and in the one before \[m\].
+    /// Loss of clearance in the latest step and in the one before \[m\].
     pub closed: [f64; 2],
     pub account: Account,
     /// Tips of their own, and a casing out of round.
@@ -63,8 +63,8 @@ impl Beyond {
         }
     }
 
-    /// The next step until `n` at which to look at the swing of rigid tips, which is then
-    /// looked at.
+    /// Returns the next step up to `n` at which the swing of the tips is due to be observed, and
+    /// schedules the one after it.
     pub fn look_until(&mut self, n: u64) -> Option<u64> {
         let look = self.next_look;
         (look <= n).then(|| {
@@ -73,13 +73,13 @@ impl Beyond {
         })
     }
 
-    /// Steps from step `n` to that look, at least one.
+    /// Returns the number of steps from step `n` to that observation, at least one.
     pub fn unseen(&self, n: u64) -> u64 {
         self.next_look.saturating_sub(n).max(1)
     }
 
-    /// From now on with the parameters of another scene, at this rotor speed. Gaps of the
-    /// steps before may be others now, by as much as the clearance.
+    /// Takes over the parameters of another scene, at this rotor speed. Gaps of earlier steps may
+    /// change by as much as the clearance.
     pub fn set_parameters(&mut self, scene: &CheckedScene, machine: &Machine, speed: f64) {
         self.backward = speed < 0.0;
         self.steps_unseen = steps_unseen(scene);
@@ -89,7 +89,7 @@ impl Beyond {
     }
 }
 
-/// Way of the casing in a step that passes much of a side \[m\].
+/// Returns the motion of the casing in a step that passes much of a side \[m\].
 fn long_step(scene: &CheckedScene) -> f64 {
     let machine = scene.machine();
     let polygon = &machine.polygon;
@@ -97,7 +97,7 @@ fn long_step(scene: &CheckedScene) -> f64 {
     if polygon.has_corners() { LONG_STEP * side } else { f64::INFINITY }
 }
 
-/// Steps between two looks at the swing of rigid tips.
+/// Returns the number of steps between two observations of the swing of the tips.
 fn steps_unseen(scene: &CheckedScene) -> u64 {
     let machine = scene.machine();
     let fastest = match scene.solver.model {
@@ -108,7 +108,7 @@ fn steps_unseen(scene: &CheckedScene) -> u64 {
 }
 
 impl<B: Disk> Explicit<B> {
-    /// One step.
+    /// Takes one step.
     pub(super) fn take_step_beyond(&mut self) -> Result<(), FailureReason> {
         let force = self.drive.force(self.n);
         self.follow_speed()?;
@@ -129,7 +129,7 @@ impl<B: Disk> Explicit<B> {
         Ok(())
     }
 
-    /// Looks for contact and corrects the step by it; whether to look at the blades.
+    /// Looks for contact and corrects the step by it. Returns whether to look at the blades.
     fn touch(&mut self, tips: &TipLaw) -> Result<bool, FailureReason> {
         let (distance2, bound) = (self.distance2(), self.blades.bound());
         // Beyond it, even the nearest side is open, and above its target.
@@ -148,8 +148,11 @@ impl<B: Disk> Explicit<B> {
         self.meet_target(tips, bound)
     }
 
+    /// Checks that the casing surface moves more slowly than the tips along it, as friction
+    /// assumes.
+    ///
     /// # Errors
-    /// The casing outruns the blades.
+    /// It moves faster.
     fn is_outrun(&self, tips: &TipLaw) -> Result<(), FailureReason> {
         if tips.casing_friction == 0.0 {
             return Ok(());
@@ -164,12 +167,12 @@ impl<B: Disk> Explicit<B> {
         Ok(())
     }
 
-    /// Speed of the tips along the casing \[m/s\].
+    /// Returns the speed of the tips along the casing \[m/s\].
     pub(super) fn tip_speed(&self) -> f64 {
         self.drive.speed(self.n).abs() * self.scene.casing.radius_m
     }
 
-    /// What tips do at step `n`: friction turns round with the rotor.
+    /// Returns the law of the tips at step `n`: the sign of friction follows the rotor.
     pub(super) fn tips_at(&mut self, n: u64) -> TipLaw {
         let speed = self.drive.speed(n);
         if (speed < 0.0) != self.beyond.backward {
@@ -179,14 +182,14 @@ impl<B: Disk> Explicit<B> {
         self.tips
     }
 
-    /// Bookkeeping of a step without contact.
+    /// Records a step without contact.
     pub(super) fn part(&mut self) {
         self.open_gap();
         self.beyond.dips = [0.0, self.beyond.dips[0]];
         self.look_at_swing();
     }
 
-    /// Keeps since when the rows that push are the same.
+    /// Records since when the rows that push are the same.
     pub(super) fn keep_lasting(&mut self) {
         let (mut set, mut count) = (0_u64, 0);
         for row in self.rows.iter().filter(|row| row.lambda != 0.0) {
@@ -200,7 +203,7 @@ impl<B: Disk> Explicit<B> {
         }
     }
 
-    /// Keeps how far the tips swing, as often as needed.
+    /// Records how far the tips swing, as often as needed.
     pub(super) fn look_at_swing(&mut self) {
         if self.n >= self.beyond.next_look {
             self.beyond.next_look = self.n + self.beyond.steps_unseen;
@@ -209,19 +212,19 @@ impl<B: Disk> Explicit<B> {
         }
     }
 
-    /// How far the tips swing outward about their mean \[m\].
+    /// Returns how far the tips swing outward about their mean \[m\].
     pub(super) fn swing_of_blades(&mut self) -> f64 {
         let rise = self.tips.rise.abs();
         if rise == 0.0 { 0.0 } else { rise * self.blades.swing() }
     }
 
-    /// What the casing has moved in the last two steps \[m\].
+    /// Returns the motion of the casing over the last two steps \[m\].
     pub(super) fn moved(&self) -> [f64; 2] {
         let [c, s] = self.beyond.before;
         [self.u[0].increment + c, self.u[1].increment + s]
     }
 
-    /// Flows of energy of the step just taken, beside those of contact.
+    /// Adds the energy flows of the step just taken, except those of contact.
     fn count_flows(&mut self, force: f64) {
         let [c, s] = self.moved();
         let [loss, work] = self.blades.flows();
@@ -232,7 +235,7 @@ impl<B: Disk> Explicit<B> {
         sums.pulse_work_j += work;
     }
 
-    /// Energy in casing, blades and lining between the last two steps \[J\].
+    /// Returns the energy of casing, blades and lining between the last two steps \[J\].
     pub(super) fn stored(&self) -> f64 {
         if self.leaps.are_ahead() {
             let (u, blades) = self.materialized();
@@ -249,12 +252,12 @@ impl<B: Disk> Explicit<B> {
         0.5 * casing + blades.energy() + lining
     }
 
-    /// `stored`; zero in the paper's model, which keeps no account.
+    /// Returns `stored`, or zero in the paper's model, which has no energy account.
     pub(super) fn stored_beyond(&self) -> f64 {
         if self.goes_beyond { self.stored() } else { 0.0 }
     }
 
-    /// Whether casing and tips, whose energies bound them, never reach a contact again.
+    /// Returns whether the energies of casing and blades are too small for another contact.
     pub(super) fn rests(&self) -> bool {
         let clearance = self.tips.least;
         if clearance <= 0.0 || self.drive.excitation.is_some() || self.follows_speed() {
@@ -303,6 +306,54 @@ mod tests {
             "{casing:?} {:?} {tips:?} {law:?} {lining:?} {driven:?} {pulse}",
             blades.oscillator()
         )
+    }
+
+    #[test]
+    fn friction_turns_round_with_the_rotor() {
+        let mut motion = Explicit::<ModalBlades>::new(&scene("unilateral").checked().unwrap());
+        for speed in [300.0, -300.0, -450.0, 200.0] {
+            motion.set_speed(speed, 0.0);
+            let tips = motion.tips_at(motion.n);
+            assert_eq!(tips.friction, 0.1_f64.copysign(speed));
+            assert_eq!(tips.casing_friction, motion.machine.casing_friction_at(speed));
+        }
+    }
+
+    #[test]
+    fn a_casing_outruns_the_tips_whichever_way_it_moves() {
+        let motion = Explicit::<ModalBlades>::new(&scene("unilateral").checked().unwrap());
+        let longest = motion.tip_speed() * motion.drive.step / motion.machine.tangential_ratio;
+        for way in 0..8 {
+            let (s, c) = (0.7 * f64::from(way)).sin_cos();
+            for (part, runs) in [(0.999, false), (1.001, true)] {
+                let mut moved = motion.clone();
+                moved.u[0].increment = part * longest * c;
+                moved.u[1].increment = part * longest * s;
+                assert_eq!(moved.is_outrun(&moved.tips).is_err(), runs, "{way} {part}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_same_parameters_again_leave_the_ledger_of_a_lining_as_it_is() {
+        let scene = Scene::base().with(&[
+            ("solver.contact", "smooth"),
+            ("solver.step_s", "1e-6"),
+            ("casing.radius_m", "0.49988"),
+            ("contact.stiffness_n_per_m", "1e5"),
+            ("bladed_disk.radial_coupling", "0.3"),
+            ("operation.pulse_n", "1e3"),
+        ]);
+        let scene = scene.unwrap();
+        let mut motion = Explicit::<ModalBlades>::new(&scene);
+        motion.advance(1e-3).unwrap();
+        let mut again = motion.clone();
+        again.set_parameters(&scene);
+        let [a, b] = [&mut motion, &mut again].map(|motion| {
+            motion.advance(2e-3).unwrap();
+            motion.energy_account().unwrap().residual()
+        });
+        assert!((a - b).abs() < 1e-11 * motion.stored(), "{a:e} {b:e}");
     }
 
     #[test]

@@ -11,19 +11,22 @@ use super::Explicit;
 use super::disk::Disk;
 use super::pushes::{push, solve};
 use super::rows::{Row, TipLaw, turned};
-use crate::contact::repeated::{GroupReference, Repeat};
 use crate::motion::{ActiveSet, FailureReason, Plane};
 use crate::tolerances::{
-    LONG_STEP, MOST_LONG_STEPS, MOST_ROWS, NEIGHBOUR_DEPTHS, ROUND_OFF, ROUNDINGS, TIP_MARGIN,
+    LONG_STEP, MOST_LONG_STEPS, MOST_ROWS, NEIGHBOUR_DEPTHS, ROUND_OFF, TIP_MARGIN,
 };
 
 impl<B: Disk> Explicit<B> {
-    /// A predicted step outside the circle of the clearance: find what
-    /// penetrates and correct it. Returns a bound on what that does to any blade
-    /// angle \[rad\].
+    /// Corrects a predicted step outside the circle of the clearance by the rows that penetrate.
+    /// Returns a bound on the change of any blade angle \[rad\].
     pub(super) fn meet(&mut self, distance2: f64) -> Result<f64, FailureReason> {
         self.stays_in_range(distance2)?;
         let (z, turn) = self.in_blade_frame();
+        if self.beyond.account.forgone {
+            // The bound of angles that are not looked at grows with each step.
+            let largest = self.watch.largest();
+            self.watch.skipped(largest, self.blades.look(largest).1);
+        }
         let deepest = self.gather(z);
         if deepest <= 0.0 {
             self.open_gap();
@@ -41,8 +44,8 @@ impl<B: Disk> Explicit<B> {
         Ok(change)
     }
 
-    /// Fills `rows` with those that penetrate and, where pushing on one side
-    /// may push its neighbour in, the neighbours; the deepest penetration.
+    /// Fills `rows` with those that penetrate and, where a push on one side may close the gap of
+    /// its neighbour, the neighbours. Returns the deepest penetration.
     fn gather(&mut self, z: Plane) -> f64 {
         // A blade angle moves a gap by at most |z| n_d alpha.
         let reach = self.machine.nodal_diameters * self.watch.bound();
@@ -58,36 +61,28 @@ impl<B: Disk> Explicit<B> {
         deepest
     }
 
-    /// Appends the rows of a side that penetrate (or matter); its deepest
-    /// penetration.
+    /// Appends the row of a side if it penetrates or matters, and returns its penetration.
     fn add_side(&mut self, side: u32, z: Plane) -> f64 {
         let direction = self.machine.polygon.direction(side);
-        let mut deepest = 0.0_f64;
-        for place in 0..self.blades.table().rows_per_side() {
-            let index = self.blades.table().of_side(side)[place];
-            let angle = self.blades.angle(index);
-            let place = self.tips.place(direction, z, angle);
-            deepest = deepest.max(-place.gap);
-            if place.gap < 0.0 || self.neighbours_matter {
-                self.rows.push(Row { index, side, angle, place, lambda: 0.0 });
-            }
+        // In the paper's model nothing tells the blades of a side apart.
+        let index = self.blades.table().of_side(side)[0];
+        let angle = self.blades.angle(index);
+        let place = self.tips.place(direction, z, angle);
+        if place.gap < 0.0 || self.neighbours_matter {
+            self.rows.push(Row { index, side, angle, place, lambda: 0.0 });
         }
-        deepest
+        -place.gap
     }
 
-    /// Multipliers of all rows by the chosen law.
+    /// Computes the multipliers of all rows by the contact law.
     fn solve(&mut self) -> Result<(), FailureReason> {
         if self.law.pulls() {
             // Rows that would be pulled shut are those that penetrate, no others.
             self.rows.retain(|row| row.place.gap < 0.0);
         }
-        let repeated = self.rows.windows(2).any(|pair| pair[0].side == pair[1].side);
-        // The rows of one side each that may only push are closed one by one.
-        if self.rows.len() > MOST_ROWS && (repeated || self.law.pulls()) {
+        // Rows that may only push are closed one by one.
+        if self.rows.len() > MOST_ROWS && self.law.pulls() {
             return Err(FailureReason::Rows { rows: self.rows.len() });
-        }
-        if repeated {
-            return self.solve_repeated();
         }
         self.gaps.clear();
         self.gaps.extend(self.rows.iter().map(|row| row.place.gap));
@@ -95,56 +90,8 @@ impl<B: Disk> Explicit<B> {
         solve(tips, *law, casing.compliance, blades, rows, gaps, several)
     }
 
-    /// As `solve`, where a side has several rows: each is given by its difference
-    /// from the first row of its side.
-    fn solve_repeated(&mut self) -> Result<(), FailureReason> {
-        let diameters = self.machine.nodal_diameters;
-        let repeated = &mut self.repeated;
-        repeated.begin(self.casing.compliance);
-        let mut first = &self.rows[0];
-        for row in &self.rows {
-            let normal = parts(row.place.normal);
-            if repeated.groups.is_empty() || row.side != first.side {
-                first = row;
-                repeated.groups.push(GroupReference { gap: row.place.gap, normal });
-            }
-            let (c, s) = parts(first.place.normal);
-            let mut repeat = Repeat {
-                group: repeated.groups.len() - 1,
-                gap: 0.0,
-                normal: (c, s),
-                turned: (0.0, 0.0),
-                moment_arm: first.place.moment_arm,
-            };
-            let turns = [row, first].map(|row| diameters * row.angle);
-            let apart = turns[0] - turns[1];
-            // Blades that stand alike to round-off are one.
-            if apart.abs() > ROUNDINGS * (turns[0].abs() + turns[1].abs()) {
-                let half = (0.5 * apart).sin();
-                let (cos, sin) = (-2.0 * half * half, apart.sin());
-                let reach = first.place.gap - self.machine.polygon.clearance;
-                repeat.gap = reach * cos + first.place.moment_arm / diameters * sin;
-                repeat.normal = normal;
-                repeat.turned = (c * cos - s * sin, s * cos + c * sin);
-                repeat.moment_arm = row.place.moment_arm;
-            }
-            repeated.rows.push(repeat);
-        }
-        let compliance =
-            |a: usize, b: usize| self.blades.compliance(self.rows[a].index, self.rows[b].index);
-        repeated.bend_by(compliance);
-        let rows = self.rows.len();
-        let lambda = self.law.repeated(repeated).ok_or(FailureReason::Singular { rows })?;
-        for (row, value) in self.rows.iter_mut().zip(lambda) {
-            row.lambda = *value;
-        }
-        let finite = self.rows.iter().all(|row| row.lambda.is_finite());
-        if finite { Ok(()) } else { Err(FailureReason::Singular { rows }) }
-    }
-
-    /// What a step can leave at most of the gaps that it closes, for a casing that it
-    /// shifts from `z` and blades that it turns by `change`: parts of second order, and
-    /// round-off \[m\].
+    /// Returns a bound on the gaps that are left by a step that shifts the casing from `z` and
+    /// turns the blades by `change`: terms of second order, and round-off \[m\].
     fn most_left(&self, z: Plane, shift: Plane, change: f64) -> f64 {
         let size = |a: Plane| a.re.abs() + a.im.abs();
         let (z, shift, turned) = (size(z), size(shift), self.tips.diameters * change);
@@ -153,7 +100,7 @@ impl<B: Disk> Explicit<B> {
         (z + shift) * turned * turned + shift * turned + ROUND_OFF * rounded
     }
 
-    /// Keeps the penetration that the step has left, with the casing at `z`.
+    /// Records the penetration that the step has left, with the casing at `z`.
     fn keep_depth(&mut self, z: Plane) {
         let TipLaw { diameters, clearance, .. } = self.tips;
         for row in self.rows.iter().filter(|row| row.lambda != 0.0) {
@@ -168,7 +115,7 @@ impl<B: Disk> Explicit<B> {
         }
     }
 
-    /// Keeps what the step did: impulses, impacts, pulls.
+    /// Records impulses, impacts and pulls of the step.
     pub(super) fn keep_rows(&mut self) {
         let n = self.n;
         let (mut active_set, mut pulls) = (ActiveSet::Nothing, false);
@@ -189,8 +136,8 @@ impl<B: Disk> Explicit<B> {
         }
     }
 
-    /// Whether pushing on one side can push another into the casing: fewer
-    /// than four sides, or blades soft enough to couple them.
+    /// Returns whether a push on one side can close the gap of another: with fewer than four sides,
+    /// or with blades soft enough to couple them.
     pub(super) fn neighbours_matter(&self) -> bool {
         let polygon = &self.machine.polygon;
         let turn = (2.0 * polygon.delta).cos();
@@ -200,12 +147,8 @@ impl<B: Disk> Explicit<B> {
     }
 }
 
-fn parts(direction: Plane) -> (f64, f64) {
-    (direction.re, direction.im)
-}
-
 impl<B: Disk> Explicit<B> {
-    /// Corrects a predicted step that may touch; whether to look at the blades.
+    /// Corrects a predicted step that may touch. Returns whether to look at the blades.
     ///
     /// # Errors
     /// It went through more than the clearance, or its rows have no answer.
@@ -252,8 +195,10 @@ impl<B: Disk> Explicit<B> {
         Ok(self.watch.moved(change))
     }
 
+    /// Checks that the wave does not pass the blades too fast for the step for many steps.
+    ///
     /// # Errors
-    /// The wave passes the blades too fast for the step, and has for long.
+    /// It does.
     fn look_at_speed(&mut self) -> Result<(), FailureReason> {
         let [c, s] = self.u.map(|coordinate| coordinate.increment);
         let (moved2, long) = (c * c + s * s, self.beyond.long);
@@ -266,8 +211,8 @@ impl<B: Disk> Explicit<B> {
         Ok(())
     }
 
-    /// Makes rows of the candidates, with their distances to the target; how far the
-    /// deepest is beyond its own.
+    /// Makes rows of the candidates, with their distances to the target. Returns how far the
+    /// deepest one is beyond its target.
     pub(super) fn gather_targets(&mut self, z: Plane, tips: &TipLaw, restitution: f64) -> f64 {
         self.rows.clear();
         self.gaps.clear();
@@ -295,13 +240,13 @@ impl<B: Disk> Explicit<B> {
         deepest
     }
 
-    /// The highest target of a step, `-e g[n-1]` of the deepest row \[m\].
+    /// Returns the highest target of a step, `-e g[n-1]` of the deepest row \[m\].
     pub(super) fn highest_target(&self) -> f64 {
         self.scene.contact.restitution * self.beyond.dips[0].max(self.beyond.dips[1])
     }
 
-    /// Puts the rows whose distance to the target is below a limit before the others,
-    /// which may have dipped too; how many they are.
+    /// Moves the rows whose distance to the target is below a limit before the others, and returns
+    /// their number.
     fn below_first(&mut self, limit: f64) -> usize {
         let mut kept = 0;
         for place in 0..self.rows.len() {
@@ -314,7 +259,7 @@ impl<B: Disk> Explicit<B> {
         kept
     }
 
-    /// The gap of a row two steps before.
+    /// Returns the gap of a row two steps before.
     fn gap_before(&mut self, row: &Row, tips: &TipLaw) -> f64 {
         let [c, s] = self.moved();
         let u = Plane::new(self.u[0].x - c, self.u[1].x - s);
@@ -324,7 +269,7 @@ impl<B: Disk> Explicit<B> {
         gap + self.lost_clearance()
     }
 
-    /// The turn of the frame of the blades two steps before.
+    /// Returns the turn of the frame of the blades two steps before.
     fn turn_before(&self) -> Plane {
         let (c, s) = match self.n.checked_sub(2) {
             Some(n) => self.drive.look_at_turn(n),
@@ -337,7 +282,7 @@ impl<B: Disk> Explicit<B> {
         Plane::new(c, s)
     }
 
-    /// Penetration left, and the flows of energy of the pushes.
+    /// Records the penetration that is left and the energy flows of the pushes.
     fn settle(&mut self, z: Plane, turn: Plane, tips: &TipLaw) {
         let mut dip = 0.0_f64;
         for place in 0..self.rows.len() {
@@ -380,9 +325,35 @@ impl<B: Disk> Explicit<B> {
 
 #[cfg(test)]
 mod tests {
-    use crate::motion::Solver;
+    use super::MOST_LONG_STEPS;
     use crate::motion::explicit::{Explicit, RigidBlades};
+    use crate::motion::{Plane, Solver};
     use crate::scene::{ModelSize, Scene};
+
+    #[test]
+    fn long_steps_fail_where_more_than_the_most_follow_each_other() {
+        let mut motion = Explicit::<RigidBlades>::new(&Scene::base().checked().unwrap());
+        motion.u[1].increment = 1.01 * motion.beyond.long;
+        for _ in 0..MOST_LONG_STEPS {
+            assert_eq!(motion.look_at_speed(), Ok(()));
+        }
+        assert!(motion.look_at_speed().is_err());
+        motion.u[1].increment = 0.0;
+        assert_eq!(motion.look_at_speed(), Ok(()));
+        motion.u[0].increment = -1.01 * motion.beyond.long;
+        assert_eq!(motion.look_at_speed(), Ok(()));
+    }
+
+    #[test]
+    fn the_frame_two_steps_before_turns_back_to_before_the_start() {
+        let mut motion = Explicit::<RigidBlades>::new(&Scene::base().checked().unwrap());
+        let turn = motion.machine.nu(motion.drive.speed(0)) * motion.drive.step;
+        for n in 1..4 {
+            motion.n = n;
+            let apart = motion.turn_before() - Plane::cis(turn * (n as f64 - 2.0));
+            assert!(apart.norm() < 1e-15, "{n}: {apart}");
+        }
+    }
 
     /// Rigid tips and a frictionless casing: pushes move gaps in proportion.
     #[test]

@@ -45,30 +45,30 @@ impl Drive {
         n as f64 * self.step
     }
 
-    /// Rotor speed at step `n` \[rad/s\].
+    /// Returns the rotor speed at step `n` \[rad/s\].
     pub fn speed(&self, n: u64) -> f64 {
         self.rotor.speed(self.time_of(n))
     }
 
-    /// Mean force of the pulse over the step centred on `n`, whole at n = 0 \[N\].
+    /// Returns the mean force of the pulse over the step centred on `n`; at n = 0 all of it \[N\].
     pub fn force(&self, n: u64) -> f64 {
         let left_over = if n == self.left_over.0 { self.left_over.1 } else { 0.0 };
         self.pulse.mean_of_step(n, self.step) + left_over
     }
 
-    /// The excitation with its phase at step `n`.
+    /// Returns the excitation with its phase at step `n`.
     pub fn driven(&self, n: u64) -> Driven<'_> {
         let torque = self.excitation.as_ref()?;
         Some((torque, torque.phase(&self.rotor, self.time_of(n))))
     }
 
-    /// The turn of the frame of the blades at step `n`, `exp(i n_d theta)`, keeping the
+    /// Returns the turn of the frame of the blades at step `n`, `exp(i n_d theta)`, keeping the
     /// exact value for the steps after it.
     pub fn turn(&mut self, n: u64) -> (f64, f64) {
         self.phasor.at(n, &self.rotor, self.diameters, self.step)
     }
 
-    /// The same, keeping nothing.
+    /// Returns the same, keeping nothing.
     pub fn look_at_turn(&self, n: u64) -> (f64, f64) {
         self.phasor.look(n, &self.rotor, self.diameters, self.step)
     }
@@ -101,14 +101,14 @@ impl Drive {
         self.next_pulse = Pulse::of(scene);
     }
 
-    /// Whether the pulse still acts on step `n` or a later one.
+    /// Returns whether the pulse still acts on step `n` or a later one.
     pub fn pulse_to_come(&self, n: u64) -> bool {
         let left_over = self.left_over.0 == n && self.left_over.1 != 0.0;
         let acting = self.time_of(n) - 0.5 * self.step < self.pulse.end;
         left_over || (self.pulse.force != 0.0 && acting)
     }
 
-    /// Whether neither pulse nor ramp nor excitation acts from step `n` on.
+    /// Returns whether neither pulse nor ramp nor excitation acts from step `n` on.
     pub fn is_steady(&self, n: u64) -> bool {
         let over = self.pulse.force == 0.0 || self.time_of(n) > self.pulse.end + self.step;
         over && self.rotor.ramp() == 0.0 && self.excitation.is_none()
@@ -138,7 +138,7 @@ impl Phasor {
         Self { table, block: u64::MAX, at_block: (1.0, 0.0) }
     }
 
-    /// `(cos n_d theta, sin n_d theta)` at step `n`, keeping the exact value for the
+    /// Returns `(cos n_d theta, sin n_d theta)` at step `n`, keeping the exact value for the
     /// steps after it.
     pub fn at(&mut self, n: u64, rotor: &Rotor, diameters: f64, step: f64) -> (f64, f64) {
         if !self.table.is_empty() && n / TABLE != self.block {
@@ -148,7 +148,7 @@ impl Phasor {
         self.look(n, rotor, diameters, step)
     }
 
-    /// The same, keeping nothing.
+    /// Returns the same, keeping nothing.
     pub fn look(&self, n: u64, rotor: &Rotor, diameters: f64, step: f64) -> (f64, f64) {
         let Some((dc, ds)) = self.table.get((n % TABLE) as usize) else {
             return exact(n, rotor, diameters, step);
@@ -161,7 +161,7 @@ impl Phasor {
     }
 }
 
-/// `exp(i n_d theta)` at step `n` by its own sine and cosine.
+/// Returns `exp(i n_d theta)` at step `n` by its own sine and cosine.
 fn exact(n: u64, rotor: &Rotor, diameters: f64, step: f64) -> (f64, f64) {
     let (sin, cos) = (diameters * rotor.angle(n as f64 * step)).sin_cos();
     (cos, sin)
@@ -176,7 +176,7 @@ pub struct EngineOrderTorque {
 }
 
 impl EngineOrderTorque {
-    /// The excitation of a scene; none where its amplitude is zero.
+    /// Creates the excitation of a scene; none where its amplitude is zero.
     #[must_use]
     pub fn of(scene: &Scene) -> Option<Self> {
         let amplitude = scene.excitation.amplitude_nm;
@@ -184,20 +184,13 @@ impl EngineOrderTorque {
         (amplitude != 0.0).then_some(Self { amplitude, order, blades })
     }
 
-    /// Nodal diameters of the modes that feel it, at most half the blades.
-    #[must_use]
-    pub fn diameters(&self) -> u32 {
-        let order = self.order % self.blades;
-        order.min(self.blades - order)
-    }
-
-    /// Phase `E theta` at an instant \[rad\].
+    /// Returns the phase `E theta` at an instant \[rad\].
     #[must_use]
     pub fn phase(&self, rotor: &Rotor, t: f64) -> f64 {
         f64::from(self.order) * rotor.angle(t)
     }
 
-    /// `sum_i (cos, sin)(k Phi_i) Q_i` for `k` diameters at a phase \[N m\].
+    /// Returns `sum_i (cos, sin)(k Phi_i) Q_i` for `k` diameters at a phase \[N m\].
     #[must_use]
     pub fn torque_on(&self, diameters: u32, phase: f64) -> [f64; 2] {
         let (k, order) = (diameters % self.blades, self.order % self.blades);
@@ -220,6 +213,28 @@ impl EngineOrderTorque {
 mod tests {
     use super::*;
     use crate::scene::Scene;
+
+    #[test]
+    fn a_pulse_is_to_come_as_long_as_it_acts_and_steps_are_steady_soon_after() {
+        for steps in [10.0, 10.3, 10.5, 10.7] {
+            let mut scene = Scene::base();
+            scene.solver.step_s = 1e-6;
+            scene.operation.pulse_s = steps * 1e-6;
+            let mut drive = Drive::of(&scene);
+            for fired in [0, 30] {
+                if fired > 0 {
+                    drive.fire(fired);
+                }
+                for n in fired..fired + 15 {
+                    let comes = (n..60).any(|n| drive.force(n) != 0.0);
+                    assert_eq!(drive.pulse_to_come(n), comes, "{steps} {fired} {n}");
+                    let steady = drive.is_steady(n);
+                    assert!(!(steady && comes), "{steps} {fired} {n}");
+                    assert!(steady || n < fired + 13, "{steps} {fired} {n}");
+                }
+            }
+        }
+    }
 
     #[test]
     fn a_look_at_a_phase_is_the_phase_of_a_step_taken() {

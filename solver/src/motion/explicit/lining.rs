@@ -1,8 +1,7 @@
 //! A lining that gives way, as arrays: the gaps of all rows near it and the pushes of the
 //! latest step, which act on the next one (docs/theory.md, sections 6 and 10).
 //!
-//! `near` are the rows that may press, padded to whole fours by rows of no blade. They
-//! are looked for again when the casing has moved by the margin that they were looked for
+//! `near` are the rows that may press, four by four. They are looked for again when the casing has moved by the margin that they were looked for
 //! with. One pass over them finds the pushes and all their sums; what touches is kept by
 //! changes, and what the lining stores is worked out from the pushes when it is asked for.
 
@@ -10,7 +9,7 @@ use std::sync::OnceLock;
 
 use super::Explicit;
 use super::dies::Rest;
-use super::disk::{Columns, Disk, dot, total};
+use super::disk::{Columns, Disk, Four, Lanes, total};
 use super::lasting::mark;
 use super::record::Record;
 use super::rows::TipLaw;
@@ -71,44 +70,44 @@ impl Lining {
         }
     }
 
-    /// Whether all rows press.
+    /// Returns whether all rows press.
     pub fn all_press(&self) -> bool {
         self.touching.all
     }
 
-    /// Whether any row presses.
+    /// Returns whether any row presses.
     pub fn presses(&self) -> bool {
         self.touching.sides != ActiveSet::Nothing
     }
 
-    /// The rows that press: index, side and push \[N\].
+    /// Returns the rows that press: index, side and push \[N\].
     fn pressed(&self) -> impl Iterator<Item = (u32, u32, f64)> {
-        self.near.each(&self.near.push).filter(|(_, _, push)| *push > 0.0)
+        self.near.each(|four| four.push).filter(|(_, _, push)| *push > 0.0)
     }
 
-    /// The multipliers of the rows that press, with their sides \[N\].
+    /// Returns the multipliers of the rows that press, with their sides \[N\].
     pub fn multipliers(&self) -> Vec<(u32, f64)> {
         self.pressed().map(|(_, side, push)| (side, -push)).collect()
     }
 
     /// Gives the sums of the pushes until now to the record.
     pub fn give_impulses(&mut self, record: &mut Record) {
-        for (_, side, impulse) in self.near.each(&self.near.impulse) {
+        for (_, side, impulse) in self.near.each(|four| four.impulse) {
             if impulse != 0.0 {
                 record.impulse(side, -impulse);
             }
         }
-        self.near.impulse.fill(0.0);
+        self.near.fours.iter_mut().for_each(|four| four.impulse = Lanes::default());
     }
 
-    /// Stored between the last two steps \[J\].
+    /// Returns the energy stored between the last two steps \[J\].
     pub fn stored(&self) -> f64 {
-        let before = self.held_before.unwrap_or_else(|| self.energy(&self.near.before));
-        0.5 * (before + self.energy(&self.near.push))
+        let before = self.held_before.unwrap_or_else(|| self.energy(|four| four.before));
+        0.5 * (before + self.energy(|four| four.push))
     }
 
-    /// Stored under these pushes of all rows \[J\].
-    fn energy(&self, pushes: &[f64]) -> f64 {
+    /// Returns the energy stored under these pushes of all rows \[J\].
+    fn energy(&self, pushes: impl Fn(&Four) -> Lanes) -> f64 {
         let LiningLaw { stiffness_n_per_m: k, smoothing_m } = self.law;
         let of_row = |push: f64, stiffness: f64| {
             // As deep as such a push says of one blade.
@@ -118,9 +117,9 @@ impl Lining {
                 if on_line { deep + 0.5 * smoothing_m } else { (2.0 * smoothing_m * deep).sqrt() };
             stiffness / k * self.law.energy(-depth)
         };
-        let rows = pushes.iter().zip(&self.near.stiffness);
-        let pressed = rows.filter(|(push, _)| **push > 0.0);
-        pressed.map(|(push, stiffness)| of_row(*push, *stiffness)).sum()
+        let rows =
+            self.near.fours.iter().flat_map(|four| pushes(four).into_iter().zip(four.stiffness));
+        rows.filter(|(push, _)| *push > 0.0).map(|(push, stiffness)| of_row(push, stiffness)).sum()
     }
 
     /// Nothing presses at step `n`.
@@ -132,10 +131,9 @@ impl Lining {
         for (_, side, _) in self.pressed() {
             record.keep_touching(n.saturating_sub(1), side);
         }
-        self.held_before = Some(self.energy(&self.near.push));
-        let Columns { push, before, torque, .. } = &mut self.near;
-        for column in [push, before, torque] {
-            column.fill(0.0);
+        self.held_before = Some(self.energy(|four| four.push));
+        for four in &mut self.near.fours {
+            (four.push, four.before, four.torque) = Default::default();
         }
         (self.sums, self.touching) = (Sums::default(), Touching::default());
     }
@@ -144,37 +142,42 @@ impl Lining {
     /// in the step before.
     fn take_rows(&mut self, mut near: Columns, record: &mut Record, n: u64) {
         self.give_impulses(record);
-        self.held_before = Some(self.energy(&self.near.push));
+        self.held_before = Some(self.energy(|four| four.push));
         let mut places: Vec<(u32, usize)> = near.index.iter().copied().zip(0..).collect();
         places.sort_unstable();
         for (index, side, push) in self.pressed() {
             record.keep_touching(n.saturating_sub(1), side);
             if let Ok(found) = places.binary_search_by_key(&index, |(known, _)| *known) {
-                near.push[places[found].1] = push;
+                let place = places[found].1;
+                near.fours[place / 4].push[place % 4] = push;
             }
         }
         self.near = near;
     }
 
     /// Computes the pushes of all rows, with the casing at `z` in the frame of the blades and
-    /// the modes or each row at its angle, whose phase never exceeds `most`.
+    /// the modes at these angles; no phase exceeds `most`.
     fn press(
         &mut self,
         z: Plane,
         tips: &TipLaw,
-        modes: Option<[f64; 2]>,
+        modes: [f64; 2],
         most: f64,
         uneven: Option<&Uneven>,
     ) {
         if let Some(uneven) = uneven {
             let short = |blade, angle| uneven.short(blade, angle);
-            self.sums = self.press_by(z, tips, modes, short, f64::sin_cos);
+            self.sums = self.press_by(z, tips, modes, short, |phase| {
+                if tips.diameters == 0.0 { (0.0, 1.0) } else { phase.sin_cos() }
+            });
             return;
         }
         // Less zero is the same number.
         let even = |_, _| [0.0; 2];
         // The shortest series of sine and cosine that is exact.
-        self.sums = if most < SHORT_SERIES_PHASE {
+        self.sums = if tips.diameters == 0.0 {
+            self.press_by(z, tips, modes, even, |_| (0.0, 1.0))
+        } else if most < SHORT_SERIES_PHASE {
             self.press_by(z, tips, modes, even, |phase| {
                 let q = phase * phase;
                 // Short chains of operations.
@@ -201,7 +204,7 @@ impl Lining {
         &mut self,
         z: Plane,
         tips: &TipLaw,
-        modes: Option<[f64; 2]>,
+        modes: [f64; 2],
         short: impl Fn(u32, f64) -> [f64; 2],
         sin_cos: impl Fn(f64) -> (f64, f64),
     ) -> Sums {
@@ -209,63 +212,62 @@ impl Lining {
         let by_depth = if eps > 0.0 { 0.5 / eps } else { 0.0 };
         let TipLaw { clearance, diameters, pushed, .. } = *tips;
         // Angles stand for phases where there are no diameters.
-        let (scale, turns) = if diameters == 0.0 { (1.0, 0.0) } else { (diameters, 1.0) };
+        let scale = if diameters == 0.0 { 1.0 } else { diameters };
         let rise = tips.rise / scale;
-        let rows = &mut self.near;
-        std::mem::swap(&mut rows.push, &mut rows.before);
-        let count = rows.index.len();
-        let [shape_c, shape_s] = &rows.shape;
-        match modes.map(|modes| modes.map(|mode| mode * scale)) {
-            Some([c, s]) => {
-                let shapes = shape_c.iter().zip(shape_s);
-                rows.angle.iter_mut().zip(shapes).for_each(|(x, (pc, ps))| *x = pc * c + ps * s);
+        let [c, s] = modes.map(|mode| mode * scale);
+        let [mut x, mut y, mut pushes, mut turning, mut deepest] = [Lanes::default(); 5];
+        let ([mut felt_c, mut felt_s], mut changed) = ([Lanes::default(); 2], [0_u64; 4]);
+        let presses = |push: f64| if push > 0.0 { u64::MAX } else { 0 };
+        let Columns { index, fours, .. } = &mut self.near;
+        for (place, four) in fours.iter_mut().enumerate() {
+            // No lane branches or looks at another: one vector instruction takes all.
+            for k in 0..4 {
+                let phase = four.shape[0][k] * c + four.shape[1][k] * s;
+                let (sin, cos) = sin_cos(phase);
+                let across = four.cosine[k] * cos - four.sine[k] * sin;
+                let along = four.sine[k] * cos + four.cosine[k] * sin;
+                let inward = across * z.re + along * z.im;
+                let arm = across * z.im - along * z.re;
+                let blade = index.get(4 * place + k).copied().unwrap_or(u32::MAX);
+                let [short, steep] = short(blade, phase / scale);
+                let deep = phase * rise - (inward + clearance - short);
+                let deep = if deep > 0.0 { deep } else { 0.0 };
+                let parabola = if deep < eps { deep } else { eps };
+                let depth = parabola * parabola * by_depth + (deep - parabola);
+                let (push, before) = (depth * four.stiffness[k], four.push[k]);
+                let torque = push * (arm * diameters - steep - pushed);
+                (four.push[k], four.before[k], four.torque[k]) = (push, before, torque);
+                four.impulse[k] += push;
+                x[k] += push * across;
+                y[k] += push * along;
+                pushes[k] += push;
+                turning[k] += torque;
+                felt_c[k] += four.shape[0][k] * torque;
+                felt_s[k] += four.shape[1][k] * torque;
+                deepest[k] = if deep > deepest[k] { deep } else { deepest[k] };
+                changed[k] |= presses(push) ^ presses(before);
             }
-            None => rows.angle.iter_mut().for_each(|angle| *angle *= scale),
         }
-        // Slices of one length, so that the loop has no checks.
-        let [phase, cosine, sine] =
-            [&rows.angle, &rows.cosine, &rows.sine].map(|column| &column[..count]);
-        let (stiffness, index) = (&rows.stiffness[..count], &rows.index[..count]);
-        let [normal_c, normal_s] = &mut rows.normal;
-        let [normal_c, normal_s, depth, push, torque] =
-            [normal_c, normal_s, &mut rows.depth, &mut rows.push, &mut rows.torque]
-                .map(|column| &mut column[..count]);
-        for k in 0..count {
-            let (sin, cos) = sin_cos(phase[k] * turns);
-            let across = cosine[k] * cos - sine[k] * sin;
-            let along = sine[k] * cos + cosine[k] * sin;
-            let inward = across * z.re + along * z.im;
-            let arm = across * z.im - along * z.re;
-            let [short, steep] = short(index[k], phase[k] / scale);
-            let deep = phase[k] * rise - (inward + clearance - short);
-            let deep = if deep > 0.0 { deep } else { 0.0 };
-            let parabola = if deep < eps { deep } else { eps };
-            let pressed = (parabola * parabola * by_depth + (deep - parabola)) * stiffness[k];
-            (normal_c[k], normal_s[k], depth[k]) = (across, along, deep);
-            (push[k], torque[k]) = (pressed, pressed * (arm * diameters - steep - pushed));
-        }
-        rows.impulse.iter_mut().zip(&*push).for_each(|(impulse, push)| *impulse += push);
-        let both = push.iter().zip(&rows.before);
         Sums {
-            force: Plane::new(dot(push, normal_c), dot(push, normal_s)),
-            push: total(push),
-            torque: total(torque),
-            felt: [dot(shape_c, torque), dot(shape_s, torque)],
-            deepest: depth.iter().copied().fold(0.0, f64::max),
-            changed: both.into_iter().any(|(now, before)| (*now > 0.0) != (*before > 0.0)),
+            force: Plane::new(total(x), total(y)),
+            push: total(pushes),
+            torque: total(turning),
+            felt: [total(felt_c), total(felt_s)],
+            deepest: deepest.into_iter().fold(0.0, f64::max),
+            changed: changed != [0; 4],
         }
     }
 
     /// Keeps which rows press at step `n`, where these are others than before.
     fn keep_change(&mut self, record: &mut Record, n: u64, rows: usize) {
-        let both = self.near.each(&self.near.push).zip(&self.near.before);
-        for ((_, side, _), &before) in both.clone() {
+        let both = self.near.each(|four| [0, 1, 2, 3].map(|k| [four.push[k], four.before[k]]));
+        for (_, side, [_, before]) in both.clone() {
             if before > 0.0 {
                 record.keep_touching(n.saturating_sub(1), side);
             }
         }
         let (mut touching, mut count) = (Touching::default(), 0);
-        for ((index, side, now), &before) in both {
+        for (index, side, [now, before]) in both {
             if now > 0.0 {
                 touching.sides = touching.sides.with(side);
                 touching.set = touching.set.wrapping_add(mark(index));
@@ -320,7 +322,8 @@ impl<B: Disk> Explicit<B> {
             - tips.casing_friction * along;
     }
 
-    /// What the pushes of the latest step do to casing and blades of the one after it.
+    /// Applies the pushes of the latest step to the blades of the next one. Returns the shift of
+    /// the casing.
     pub(super) fn push_ahead(&self, tips: &TipLaw, blades: &mut B) -> Plane {
         let Some(lining) = &self.lining else { return Plane::default() };
         blades.push(&lining.near, lining.sums.felt);
@@ -361,6 +364,7 @@ impl<B: Disk> Explicit<B> {
             blades.angles(&mut lining.near);
         }
         let uneven = beyond.uneven.as_ref();
+        let modes = modes.unwrap_or([1.0, 0.0]);
         lining.press(z, tips, modes, tips.diameters * bound, uneven);
         if anew || lining.sums.changed {
             lining.keep_change(record, n, blades.table().count());
@@ -442,7 +446,7 @@ impl<B: Disk> Explicit<B> {
         self.lining = self.scene.lining().map(Lining::new);
         let part = old.map_or(1.0, |mut old| {
             old.give_impulses(&mut self.record);
-            let held = old.energy(&old.near.push);
+            let held = old.energy(|four| four.push);
             let before = 2.0 * old.stored() - held;
             old.release(&mut self.record, n + 1);
             if held > 0.0 { before / held } else { 1.0 }
@@ -451,8 +455,8 @@ impl<B: Disk> Explicit<B> {
         let (z, turn) = self.in_blade_frame();
         self.find_pressed(z, turn, &tips, bound);
         let Some(lining) = &mut self.lining else { return };
-        lining.held_before = Some(part * lining.energy(&lining.near.push));
+        lining.held_before = Some(part * lining.energy(|four| four.push));
         // The record has the pushes of this step.
-        lining.near.impulse.fill(0.0);
+        lining.near.fours.iter_mut().for_each(|four| four.impulse = Lanes::default());
     }
 }

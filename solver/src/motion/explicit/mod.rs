@@ -32,13 +32,12 @@ mod spin;
 mod uneven;
 
 pub(super) use disk::{FullBlades, ModalBlades, RigidBlades};
-pub(super) use drive::EngineOrderTorque;
 pub(super) use oscillator::{Coordinate, Oscillator};
 
 use std::sync::Arc;
 
 use super::{Failure, FailureReason, Plane};
-use crate::contact::{Several, StepLaw, repeated::Repeated};
+use crate::contact::{Several, StepLaw};
 use crate::model::Machine;
 use crate::scene::CheckedScene;
 use beyond::Beyond;
@@ -57,7 +56,7 @@ pub(super) struct Explicit<B: Disk> {
     law: &'static dyn StepLaw,
     /// The lining of the smooth law.
     lining: Option<Lining>,
-    /// What tips do at the rotor speed of now.
+    /// Law of the tips at the current rotor speed.
     tips: TipLaw,
     drive: Drive,
     casing: Oscillator,
@@ -65,7 +64,7 @@ pub(super) struct Explicit<B: Disk> {
     n: u64,
     u: [Coordinate; 2],
     blades: B,
-    /// Side to begin the search for the smallest gap at.
+    /// Side at which the search for the smallest gap begins.
     near: u32,
     /// Rows of the latest contact.
     rows: Vec<Row>,
@@ -74,22 +73,20 @@ pub(super) struct Explicit<B: Disk> {
     record: Record,
     watch: Watch,
     failure: Option<Failure>,
-    /// Whether the scene asks for more than the paper's model, and what that needs.
+    /// Whether the scene goes beyond the paper's model, and the state that this needs.
     goes_beyond: bool,
     beyond: Beyond,
 
-    /// What was decided on ahead.
+    /// Steps that are taken many at once.
     leaps: Leaps,
     /// Rows of three sides or more.
     several: Several,
-    /// Rows of which several belong to one side; see `solve_repeated`.
-    repeated: Repeated,
     /// Whether the neighbours of a penetrating side always count; see `correct`.
     neighbours_matter: bool,
 }
 
 impl<B: Disk> Explicit<B> {
-    /// One step: predict, look, correct.
+    /// Takes one step: predicts free motion, looks for penetrations, corrects them.
     fn take_step(&mut self) -> Result<(), FailureReason> {
         if self.goes_beyond {
             return self.take_step_beyond();
@@ -106,7 +103,8 @@ impl<B: Disk> Explicit<B> {
         self.look_at_blades(unknown)
     }
 
-    /// A step without contact, which corrects it afterwards; whether to look at the blades.
+    /// Predicts a step without contact, which is corrected afterwards. Returns whether to look at
+    /// the blades.
     #[inline]
     fn predict(&mut self, force: f64) -> bool {
         self.u = [self.casing.step(self.u[0], force), self.casing.step(self.u[1], 0.0)];
@@ -115,15 +113,15 @@ impl<B: Disk> Explicit<B> {
         self.watch.moved(change)
     }
 
-    /// `|u|^2` \[m^2\].
+    /// Returns `|u|^2` \[m^2\].
     fn distance2(&self) -> f64 {
         self.u[0].x * self.u[0].x + self.u[1].x * self.u[1].x
     }
 
-    /// Keeps the largest blade angle, where it is unknown.
+    /// Updates the largest blade angle, where it may have grown.
     ///
     /// # Errors
-    /// It is beyond what small angles allow.
+    /// The angle is beyond the limit of small angles.
     fn look_at_blades(&mut self, unknown: bool) -> Result<(), FailureReason> {
         if unknown {
             self.watch.look(self.blades.look(self.watch.largest()))?;
@@ -131,8 +129,8 @@ impl<B: Disk> Explicit<B> {
         Ok(())
     }
 
-    /// The casing in the frame of the blades at the latest step, and the turn of that
-    /// frame.
+    /// Returns the casing displacement in the frame of the blades at the latest step, and the turn
+    /// of that frame.
     fn in_blade_frame(&mut self) -> (Plane, Plane) {
         let (c, s) = self.drive.turn(self.n);
         if let Some(uneven) = &mut self.beyond.uneven {
@@ -151,8 +149,10 @@ impl<B: Disk> Explicit<B> {
         }
     }
 
+    /// Checks that the casing has moved by less than its radius.
+    ///
     /// # Errors
-    /// The casing has left its own size behind.
+    /// It has moved farther.
     fn stays_in_range(&self, distance2: f64) -> Result<(), FailureReason> {
         let radius_m = self.scene.casing.radius_m;
         if distance2.is_nan() || distance2 > radius_m * radius_m {
@@ -162,10 +162,10 @@ impl<B: Disk> Explicit<B> {
         Ok(())
     }
 
-    /// Keeps how deep a step predicted.
+    /// Records the deepest predicted penetration.
     ///
     /// # Errors
-    /// It went through more than the clearance.
+    /// It is deeper than the clearance.
     fn is_shallow(&mut self, depth_m: f64) -> Result<(), FailureReason> {
         self.record.deepest_predicted = self.record.deepest_predicted.max(depth_m);
         let clearance_m = self.machine.polygon.clearance;
@@ -175,14 +175,14 @@ impl<B: Disk> Explicit<B> {
         Ok(())
     }
 
-    /// Bookkeeping of a step without contact.
+    /// Records a step without contact.
     fn open_gap(&mut self) {
         if self.record.is_over(self.n) {
             self.end_contact(self.n);
         }
     }
 
-    /// The contact is broken at step `n`.
+    /// Records that the contact ends at step `n`.
     fn end_contact(&mut self, n: u64) {
         self.record.end_contact(n);
         self.beyond.lasting.touch(self.time_of(n), 0, false);

@@ -24,7 +24,7 @@ pub struct Oscillator {
     pub ratio: f64,
     /// `k/(m/h^2 + d/2h)`.
     pub pull: f64,
-    /// One less `ratio`, with its own digits.
+    /// `1 - ratio`, without the round-off of that difference.
     pub loss: f64,
     /// Displacement that a unit force makes in one step, `1/(m/h^2 + d/2h)`.
     pub compliance: f64,
@@ -32,9 +32,9 @@ pub struct Oscillator {
     damping: f64,
     stiffness: f64,
     step: f64,
-    /// What `lost` says: a division that no step repeats.
+    /// Value of `lost`, computed once.
     lost: f64,
-    /// Many steps at once, acting on `(x, increment)`; none once it was stiffened.
+    /// Map of many steps at once, on `(x, increment)`; none after a change of the stiffness.
     leap: Option<Leap<2>>,
 }
 
@@ -48,7 +48,7 @@ pub struct Coordinate {
 }
 
 impl Oscillator {
-    /// Coefficients for `mass`, `damping`, `stiffness` at a time step \[s\].
+    /// Computes the coefficients for `mass`, `damping`, `stiffness` at a time step \[s\].
     #[must_use]
     pub fn new(mass: f64, damping: f64, stiffness: f64, step: f64) -> Self {
         let inertia = mass / (step * step);
@@ -62,7 +62,7 @@ impl Oscillator {
         Self { ratio, pull, loss, compliance, mass, damping, stiffness, step, lost, leap }
     }
 
-    /// State at n = 0 from position and rate, so that `x[-1]` is
+    /// Returns the state at n = 0 from position and rate, so that `x[-1]` is
     /// `x - h v + h^2/2 a` with the acceleration that `force` gives.
     #[must_use]
     pub fn start(&self, x: f64, rate: f64, force: f64) -> Coordinate {
@@ -70,34 +70,34 @@ impl Oscillator {
         Coordinate { x, increment: self.step * (rate - 0.5 * self.step * acceleration) }
     }
 
-    /// The casing's.
+    /// Creates the oscillator of the casing.
     #[must_use]
     pub fn of_casing(machine: &Machine, step: f64) -> Self {
         Self::new(machine.casing_mass, machine.casing_damping, machine.casing_stiffness, step)
     }
 
-    /// A start as `start` makes it, with a force more than it knew.
+    /// Returns a state of `start` under an additional force.
     #[must_use]
     pub fn begin(&self, at: Coordinate, force: f64) -> Coordinate {
         let change = 0.5 * self.step * self.step * force / self.mass;
         Coordinate { increment: at.increment - change, ..at }
     }
 
-    /// From now on with another stiffness.
+    /// Sets another stiffness from now on.
     pub fn stiffen(&mut self, stiffness: f64) {
         self.stiffness = stiffness;
         self.pull = stiffness * self.compliance;
         self.leap = None;
     }
 
-    /// One step under a force.
+    /// Takes one step under a force.
     #[must_use]
     pub fn step(&self, at: Coordinate, force: f64) -> Coordinate {
         let increment = self.ratio * at.increment - self.pull * at.x + self.compliance * force;
         Coordinate { x: at.x + increment, increment }
     }
 
-    /// `steps` free steps at once.
+    /// Takes `steps` free steps at once.
     #[must_use]
     pub fn skip(&self, at: Coordinate, steps: u64) -> Coordinate {
         let Some(leap) = &self.leap else {
@@ -107,35 +107,35 @@ impl Oscillator {
         Coordinate { x: ahead.x, increment: ahead.y }
     }
 
-    /// Rate at step n of a free coordinate, `(x[n+1] - x[n-1])/2h`.
+    /// Returns the rate at step n of a free coordinate, `(x[n+1] - x[n-1])/2h`.
     #[must_use]
     pub fn rate(&self, at: Coordinate, force: f64) -> f64 {
         (at.increment + self.step(at, force).increment) / (2.0 * self.step)
     }
 
-    /// Twice the discrete energy, `m (increment/h)^2 + k x[n] x[n-1]`, which
-    /// free steps never increase.
+    /// Returns twice the discrete energy, `m (increment/h)^2 + k x[n] x[n-1]`, which free steps
+    /// never increase.
     #[must_use]
     pub fn twice_energy(&self, at: Coordinate) -> f64 {
         let rate = at.increment / self.step;
         self.mass * rate * rate + self.stiffness * at.x * (at.x - at.increment)
     }
 
-    /// Energy lost in damping is this times the square of two increments
-    /// \[J/rad^2\] or \[J/m^2\].
+    /// Returns the factor of the energy loss by damping: the loss is this times the square of the
+    /// sum of two successive increments \[J/rad^2\] or \[J/m^2\].
     #[must_use]
     pub fn lost(&self) -> f64 {
         self.lost
     }
 
-    /// Angle that a free coordinate turns through in a step, about \[rad\].
+    /// Returns the approximate phase of a free coordinate per step \[rad\].
     #[must_use]
     pub fn turn(&self) -> f64 {
         self.step * (self.stiffness / self.mass).sqrt()
     }
 
-    /// Largest `|x|` around the first turning point of a free coordinate, if it
-    /// comes within `steps` steps; zero otherwise.
+    /// Returns the largest `|x|` around the first turning point of a free coordinate, if it comes
+    /// within `steps` steps; zero otherwise.
     #[must_use]
     pub fn turning_point(&self, at: Coordinate, steps: u64) -> f64 {
         let damping = 0.5 * self.damping / self.mass;
@@ -160,14 +160,14 @@ impl Oscillator {
         size(low).max(size(high))
     }
 
-    /// `reach` of these coordinates together.
+    /// Returns `reach` for these coordinates together.
     #[must_use]
     pub fn reach_of(&self, coordinates: [Coordinate; 2]) -> (f64, f64) {
         self.reach(coordinates.into_iter().map(|at| self.twice_energy(at)).sum())
     }
 
-    /// Bounds on `|x|` and on `|increment|` over all free steps to come, for
-    /// one or more coordinates of this kind with this sum of `twice_energy`.
+    /// Returns bounds on `|x|` and on `|increment|` over all free steps to come, for one or more
+    /// coordinates of this kind with this sum of `twice_energy`.
     #[must_use]
     pub fn reach(&self, twice_energy: f64) -> (f64, f64) {
         let inertia = self.mass / (self.step * self.step);
@@ -191,7 +191,7 @@ pub(in crate::motion::explicit) struct Leap<const N: usize> {
 }
 
 impl<const N: usize> Leap<N> {
-    /// Of the map that adds `change` times the coordinates to them.
+    /// Computes the powers of the map that adds `change` times the coordinates to them.
     pub fn new(change: SMatrix<f64, N, N>) -> Self {
         let mut changes = vec![change];
         let is_small = |change: &SMatrix<f64, N, N>| change.diagonal().amax() < LEAP_SMALL;
@@ -211,7 +211,7 @@ impl<const N: usize> Leap<N> {
         Self { changes: changes.into(), powers: powers.into() }
     }
 
-    /// The coordinates `2^exponent` steps on, for an exponent up to `LARGEST`.
+    /// Returns the coordinates after `2^exponent` steps, for an exponent up to `LARGEST`.
     pub fn doubled(&self, at: SVector<f64, N>, exponent: usize) -> SVector<f64, N> {
         match self.changes.get(exponent) {
             Some(change) => at + change * at,
@@ -219,7 +219,7 @@ impl<const N: usize> Leap<N> {
         }
     }
 
-    /// The coordinates `steps` steps on.
+    /// Returns the coordinates after `steps` steps.
     pub fn apply(&self, mut at: SVector<f64, N>, steps: u64) -> SVector<f64, N> {
         let near = self.changes.len();
         let mut left = steps;

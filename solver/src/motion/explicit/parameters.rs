@@ -16,19 +16,18 @@ use super::lining::Lining;
 use super::record::{Record, Watch};
 use super::rows::TipLaw;
 use super::{Explicit, Oscillator};
-use crate::contact::repeated::Repeated;
 use crate::contact::{self, Several};
 use crate::model::Machine;
 use crate::motion::Change;
 use crate::scene::CheckedScene;
 
 impl<B: Disk> Explicit<B> {
-    /// The motion of a scene at t = 0.
+    /// Creates the motion of a scene at t = 0.
     pub(in crate::motion) fn new(scene: &CheckedScene) -> Self {
         Self::with_blades(scene, |machine, driven| B::at_rest(scene, machine, driven))
     }
 
-    /// The same with the blades that these make, of the machine and what drives it.
+    /// Returns the same with the blades that these make, of the machine and what drives it.
     pub(super) fn with_blades(
         scene: &CheckedScene,
         blades: impl FnOnce(&Machine, Driven<'_>) -> B,
@@ -62,7 +61,6 @@ impl<B: Disk> Explicit<B> {
             beyond: Beyond::of(scene, speed),
             leaps: Leaps::default(),
             several: Several::default(),
-            repeated: Repeated::default(),
             neighbours_matter: false,
             machine,
         };

@@ -8,7 +8,7 @@ use crate::contact::{Several, StepLaw, single};
 use crate::motion::{FailureReason, Plane};
 use crate::tolerances::CLOSED_PART;
 
-/// Entry of `W`: how far a unit multiplier of `b` closes the gap of `a` \[m/N\].
+/// Returns the entry of `W`: how far a unit multiplier of `b` closes the gap of `a` \[m/N\].
 #[inline(always)]
 fn influence<B: Disk>(tips: &TipLaw, casing_compliance: f64, blades: &B, a: &Row, b: &Row) -> f64 {
     let push = tips.push_on_casing(b.place.normal);

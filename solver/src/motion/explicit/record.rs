@@ -6,7 +6,7 @@ use crate::motion::contacts::in_phase_order;
 use crate::motion::{ActiveSet, ContactLog, EnergyAccount, FailureReason};
 use crate::tolerances::{BREAK_STEPS, LARGEST_BLADE_ANGLE};
 
-/// The record of a motion in steps of one length.
+/// Record of a motion in steps of constant length.
 #[derive(Clone, Debug)]
 pub(in crate::motion) struct Record {
     pub log: ContactLog,
@@ -16,7 +16,7 @@ pub(in crate::motion) struct Record {
     /// Deepest predicted one \[m\].
     pub deepest_predicted: f64,
     step: f64,
-    /// One more than the step of the latest contact of each side; 0 for never.
+    /// Step of the latest contact of each side, plus one; 0 for none.
     touched: Vec<u64>,
     /// Impulse on each side since `take_mean_forces` \[N s\].
     impulses: Vec<f64>,
@@ -24,7 +24,7 @@ pub(in crate::motion) struct Record {
 }
 
 impl Record {
-    /// Of a polygon with so many sides, in steps of this length.
+    /// Creates the record for a polygon with this number of sides and this step \[s\].
     pub fn of(sides: u32, step: f64) -> Self {
         Self {
             log: ContactLog::default(),
@@ -42,13 +42,13 @@ impl Record {
         n as f64 * self.step
     }
 
-    /// A multiplier on a side in step `n`.
+    /// Records a multiplier on a side in step `n`.
     pub fn push(&mut self, n: u64, side: u32, lambda: f64) {
         self.meet(n, side);
         self.impulse(side, lambda);
     }
 
-    /// A side touches in step `n`. What is pressed at the start did not hit.
+    /// Records that a side touches in step `n`. Contact at the start is not an impact.
     pub fn meet(&mut self, n: u64, side: u32) {
         let last = self.touched[side as usize];
         if n > 0 && (last == 0 || n + 1 > last + BREAK_STEPS) {
@@ -57,17 +57,17 @@ impl Record {
         self.keep_touching(n, side);
     }
 
-    /// A side touches until step `n`, as it did before.
+    /// Records that a side, which touched before, still touches in step `n`.
     pub fn keep_touching(&mut self, n: u64, side: u32) {
         self.touched[side as usize] = n + 1;
     }
 
-    /// The sum of the multipliers of some steps on a side.
+    /// Adds the sum of the multipliers of several steps on a side.
     pub fn impulse(&mut self, side: u32, sum: f64) {
         self.impulses[side as usize] += sum * self.step;
     }
 
-    /// These sides touch in step `n`, and some may pull.
+    /// Records that these sides touch in step `n`, and whether any pulls.
     pub fn touch(&mut self, n: u64, active_set: ActiveSet, pulls: bool) {
         self.last_touch = n;
         self.log.touch(self.time_of(n), active_set);
@@ -76,17 +76,17 @@ impl Record {
         }
     }
 
-    /// Whether the contact is over at step `n`, in which nothing touches.
+    /// Returns whether the contact is over at step `n`, in which nothing touches.
     pub fn is_over(&self, n: u64) -> bool {
         self.log.active_set != ActiveSet::Nothing && n > self.last_touch + BREAK_STEPS
     }
 
-    /// Nothing touches from step `n` on.
+    /// Records that nothing touches from step `n` on.
     pub fn end_contact(&mut self, n: u64) {
         self.log.touch(self.time_of(n), ActiveSet::Nothing);
     }
 
-    /// Sums of the multipliers of each side, in order of phase; none without contact.
+    /// Returns the sums of the multipliers of each side, in order of phase; none without contact.
     pub fn by_side(
         &self,
         polygon: &ContactPolygon,
@@ -106,7 +106,7 @@ impl Record {
         sums
     }
 
-    /// Mean forces on the sides since this was asked last, until step `n` \[N\].
+    /// Returns the mean forces on the sides since the last call, until step `n` \[N\].
     pub fn take_mean_forces(&mut self, polygon: &ContactPolygon, n: u64) -> Vec<(u32, f64)> {
         let span = self.time_of(n.saturating_sub(self.impulses_since));
         self.impulses_since = n;
@@ -122,13 +122,13 @@ impl Record {
     }
 }
 
-/// The account of a motion under way.
+/// Energy account of a motion under way.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Account {
     pub sums: EnergyAccount,
-    /// Energy at the start, less what changes from outside have put in \[J\].
+    /// Energy at the start plus the energy that changes from outside have added \[J\].
     pub start: f64,
-    /// Whether nobody asks.
+    /// Whether the account and the largest blade angle are not needed.
     pub forgone: bool,
 }
 
@@ -137,32 +137,33 @@ pub(super) struct Account {
 pub(super) struct Watch {
     /// \[rad\]
     largest: f64,
-    /// What every blade angle is below it, at least \[rad\].
+    /// Lower bound on the distance of every blade angle below it \[rad\].
     room: f64,
 }
 
 impl Watch {
-    /// The largest angle so far \[rad\].
+    /// Returns the largest angle so far \[rad\].
     pub fn largest(self) -> f64 {
         self.largest
     }
 
-    /// A bound on every blade angle now \[rad\].
+    /// Returns a bound on every blade angle now \[rad\].
     pub fn bound(self) -> f64 {
         self.largest - self.room
     }
 
-    /// Blades have moved by no more than `change`; whether to look at them.
+    /// Records that no blade has moved by more than `change`. Returns whether to look at the
+    /// blades.
     pub fn moved(&mut self, change: f64) -> bool {
         self.room -= change;
         self.room < 0.0 || self.room.is_nan()
     }
 
-    /// The largest angle now of any blade that may be beyond `largest`, and a
-    /// bound on every angle.
+    /// Records the largest angle now of any blade that may be beyond `largest`, and a bound on
+    /// every angle.
     ///
     /// # Errors
-    /// It is beyond what small angles allow, or not a number.
+    /// It is beyond the limit of small angles, or not a number.
     pub fn look(&mut self, (now, bound): (f64, f64)) -> Result<(), FailureReason> {
         self.largest = self.largest.max(now);
         self.room = self.largest - bound;
@@ -170,10 +171,28 @@ impl Watch {
         if fits { Ok(()) } else { Err(FailureReason::BladeAngle { angle_rad: now }) }
     }
 
-    /// Steps without a look, over which the largest angle was `largest`; blades
-    /// are below `bound` now.
+    /// Records steps that were taken at once, over which the largest angle was `largest`; blade
+    /// angles are below `bound` now.
     pub fn skipped(&mut self, largest: f64, bound: f64) {
         self.largest = self.largest.max(largest);
         self.room = self.largest - bound;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_contact_is_over_and_a_new_one_an_impact_after_a_pause_of_more_than_two_steps() {
+        for pause in 0..6 {
+            let mut record = Record::of(11, 1e-6);
+            record.push(10, 4, -1.0);
+            record.touch(10, ActiveSet::Side(4), false);
+            let next = 10 + pause;
+            assert_eq!(record.is_over(next), pause > BREAK_STEPS, "{pause}");
+            record.meet(next + 1, 4);
+            assert_eq!(record.log.impact_count, 1 + u64::from(pause >= BREAK_STEPS), "{pause}");
+        }
     }
 }

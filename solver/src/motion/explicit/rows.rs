@@ -14,7 +14,7 @@ use crate::model::{ContactPolygon, Machine};
 use crate::motion::Plane;
 use crate::tolerances::{SERIES_PHASE, SMALL_PHASE};
 
-/// What the tips do at the rotor speed of now.
+/// Geometry and friction of the tips at the current rotor speed.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::motion) struct TipLaw {
     pub clearance: f64,
@@ -45,7 +45,7 @@ impl TipLaw {
         }
     }
 
-    /// The row of a blade of this direction, at this casing place and blade angle.
+    /// Returns the row of a blade of this direction, at this casing displacement and blade angle.
     #[inline(always)]
     pub fn place(&self, direction: (f64, f64), z: Plane, angle: f64) -> Place {
         let normal = turned(direction, self.diameters * angle);
@@ -54,19 +54,19 @@ impl TipLaw {
         Place { gap, normal, moment_arm }
     }
 
-    /// Whether pushes act along the constraint rows, so that `W` is symmetric.
+    /// Returns whether pushes act along the constraint rows, so that `W` is symmetric.
     #[inline(always)]
     pub fn is_symmetric(&self) -> bool {
         self.friction == 0.0
     }
 
-    /// Torque of the multiplier of a row on its blades, with its friction \[N m\].
+    /// Returns the torque of the multiplier of a row on its blades, with its friction \[N m\].
     #[inline(always)]
     pub fn torque(&self, row: &Row) -> f64 {
         -row.lambda * (row.place.moment_arm - self.pushed)
     }
 
-    /// The direction of a push on the casing, with its friction.
+    /// Returns the direction of a push on the casing, with its friction.
     #[inline(always)]
     pub fn push_on_casing(&self, normal: Plane) -> Plane {
         Plane::new(
@@ -76,7 +76,7 @@ impl TipLaw {
     }
 }
 
-/// Where a blade tip is.
+/// Position of a blade tip.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::motion) struct Place {
     /// \[m\]
@@ -87,7 +87,7 @@ pub(in crate::motion) struct Place {
     pub moment_arm: f64,
 }
 
-/// One row of a step.
+/// A contact row of a step.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::motion) struct Row {
     pub index: u32,
@@ -99,7 +99,7 @@ pub(in crate::motion) struct Row {
     pub lambda: f64,
 }
 
-/// A direction turned by a small blade phase, to round-off.
+/// Returns a direction turned by a small blade phase, exact to round-off.
 #[inline(always)]
 pub(super) fn turned((c, s): (f64, f64), phase: f64) -> Plane {
     let q = phase * phase;
@@ -118,8 +118,7 @@ pub(super) fn turned((c, s): (f64, f64), phase: f64) -> Plane {
     Plane::new(c * cos - s * sin, s * cos + c * sin)
 }
 
-/// Where the polygon of the tips was, below which gap, and how far from the casing, when
-/// candidates were found.
+/// Position of the polygon of the tips, largest gap, and clearance, when candidates were found.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Found {
     place: Plane,
@@ -128,9 +127,9 @@ pub(super) struct Found {
 }
 
 impl<B: Disk> Explicit<B> {
-    /// The rows whose gaps may be below `reach` now, for blades within `bound`, and some
-    /// more, up to a gap larger by a `margin` and the way of the polygon; whether they were
-    /// looked for anew.
+    /// Finds the rows whose gaps may be below `reach`, for blade angles within `bound`, and those
+    /// whose gaps are larger by up to a `margin`, which holds while the polygon moves by less.
+    /// Returns whether they were searched for again.
     pub(super) fn find_candidates(
         &mut self,
         z: Plane,
@@ -181,9 +180,9 @@ impl<B: Disk> Explicit<B> {
         true
     }
 
-    /// Adds the nearest side of the polygon at `w` and those on either side of it, as long
-    /// as their gaps are below `look`, or, where `all` neighbours of a side may matter, the
-    /// side added before says that they do.
+    /// Adds the nearest side of the polygon at `w` and those on either side of it, as long as their
+    /// gaps are below `look` or, where `all` neighbours of a side may matter, `add` returned for
+    /// the side before that they do.
     #[inline]
     pub(super) fn walk(
         &mut self,
@@ -213,7 +212,7 @@ impl<B: Disk> Explicit<B> {
         }
     }
 
-    /// The side nearest to `z`, from the one found last: around the polygon the
+    /// Returns the side nearest to `z`, searched from the one found last: around the polygon the
     /// gap has a single minimum.
     fn follow(&self, z: Plane) -> u32 {
         let polygon = &self.machine.polygon;
@@ -230,7 +229,7 @@ impl<B: Disk> Explicit<B> {
         }
     }
 
-    /// A candidate as a row, with its exact gap.
+    /// Returns the row of a candidate, with its exact gap.
     pub(super) fn row_at(&mut self, index: u32, z: Plane, tips: &TipLaw) -> Row {
         let side = self.blades.table().side[index as usize];
         let angle = self.blades.angle(index);

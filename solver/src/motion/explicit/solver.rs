@@ -11,7 +11,7 @@ use crate::motion::{
     State, Verdict,
 };
 use crate::scene::CheckedScene;
-use crate::tolerances::{STEP_ROUND_OFF, UPDATES_UNASKED};
+use crate::tolerances::{LARGEST_BLADE_ANGLE, STEP_ROUND_OFF, UPDATES_UNASKED};
 
 impl<B: Disk> Solver for Explicit<B> {
     fn advance_while(&mut self, until: f64, go_on: GoOn<'_>) -> Result<bool, Failure> {
@@ -167,6 +167,8 @@ impl<B: Disk> Solver for Explicit<B> {
 
     fn forgo_checks(&mut self) {
         self.beyond.account.forgone = true;
+        // Only an angle beyond the model is looked for.
+        self.watch.skipped(LARGEST_BLADE_ANGLE, self.watch.bound());
     }
 
     fn fire(&mut self) {
@@ -192,7 +194,6 @@ impl<B: Disk> Solver for Explicit<B> {
             return;
         }
         self.close_block();
-        self.leaps.same_sides = 0;
         let before = self.stored_beyond();
         for coordinate in &mut self.u {
             coordinate.increment *= factor;
@@ -211,7 +212,7 @@ impl<B: Disk> Solver for Explicit<B> {
 }
 
 impl<B: Disk> Explicit<B> {
-    /// Casing and blades one step on from the latest, before what contact does to it.
+    /// Returns the casing and blades one step on from the latest, before what contact does to it.
     fn ahead(&self, u: [Coordinate; 2], blades: &B) -> ([Coordinate; 2], B) {
         let n = self.latest_step();
         let (force, mut blades) = (self.drive.force(n), blades.clone());

@@ -10,7 +10,7 @@ use crate::motion::{Failure, FailureReason};
 use crate::tolerances::{GIVE_WAY, TIP_MARGIN};
 
 impl<B: Disk> Explicit<B> {
-    /// Whether the machine changes from step to step.
+    /// Returns whether the machine changes from step to step.
     #[inline]
     pub(super) fn follows_speed(&self) -> bool {
         self.machine.changes_with_speed() && self.drive.rotor.ramp() != 0.0
@@ -57,7 +57,7 @@ impl<B: Disk> Explicit<B> {
         self.beyond.closed = [before - now, first - before];
     }
 
-    /// What the clearance has lost over the last two steps \[m\].
+    /// Returns the loss of clearance over the last two steps \[m\].
     #[inline]
     pub(super) fn lost_clearance(&self) -> f64 {
         self.beyond.closed[0] + self.beyond.closed[1]

@@ -16,6 +16,7 @@ mod zone;
 pub use figure::{Figure, Mark, Panel, Quantity, Series, Style};
 pub use which::Which;
 
+use crate::harmonic::lock_window;
 use crate::model::Machine;
 
 /// The blades of a phase group, such as "#6" or "#3+#14".
@@ -27,7 +28,7 @@ fn group_name(blades: &[u32]) -> String {
 /// multipliers of a lock push, of a rotor that turns in the sense of `speed`.
 fn speed_marks(machine: &Machine, speed: f64) -> Vec<Mark> {
     let sense = 1_f64.copysign(speed);
-    let window = machine.lock_window(sense);
+    let window = lock_window(machine, sense);
     let lock = window.filter(|_| !machine.locks_from_critical_speed()).map(|window| window.from);
     let ends = window.and_then(|window| window.to);
     [("Ω_c", machine.critical_speed()), ("Ω_lock", lock), ("lock ends", ends)]

@@ -6,11 +6,12 @@ use num_dual::Dual64;
 use super::limit::{Limit, LimitName, Quantity, Sensitivities};
 use super::parameters::{Parameter, Parameters, acting, sensitivity};
 use crate::harmonic::{
-    flutters, lock_fold_speed, lock_loads, roundness, whirl_beginnings, whirl_onset,
+    flutters, lock_fold_speed, lock_growth, lock_loads, lock_windows, roundness, whirl_beginnings,
+    whirl_onset,
 };
 use crate::model::{Machine, Number};
 use crate::numeric::rounding::rounded;
-use crate::scene::{CheckedScene, Scene};
+use crate::scene::{CheckedScene, ModelSize, Scene};
 
 /// How far beyond the speeds of interest the end of the branch of a lock is told, as a
 /// factor: stiff blades give way at speeds that no rotor has.
@@ -53,17 +54,22 @@ fn lobes_of(diameters: u32) -> impl Iterator<Item = u32> {
     (1..=4).chain((diameters > 4).then_some(diameters))
 }
 
-/// The first of every closed form of these parameters, in the order of `CLOSED`; none
+/// Returns the first of every closed form of these parameters, in the order of `CLOSED`; none
 /// where the machine has no such limit.
 pub(super) fn values<T: Number>(parameters: &Parameters<T>) -> [Option<T>; CLOSED.len()] {
     every(parameters).map(|found| found.first().copied())
 }
 
-/// As `values`, all of them: of a machine that changes with the speed there may be several.
+/// Same as for `values`, all of them: of a machine that changes with the speed there may be
+/// several.
 fn every<T: Number>(parameters: &Parameters<T>) -> [Vec<T>; CLOSED.len()] {
     let machine = parameters.machine();
     let speed = parameters.operation.speed_rad_s;
-    let loads = lock_loads(&machine, speed);
+    // Blades of the rigid model do not bend under the loads.
+    let loads = match parameters.model {
+        ModelSize::Rigid => lock_loads(&machine.clone().with_stiff_blades(), speed),
+        ModelSize::Modal | ModelSize::Full => lock_loads(&machine, speed),
+    };
     let of = |get: fn(&crate::harmonic::LockLoads<T>) -> T| one(loads.as_ref().map(get));
     let of_lock = [
         of(|loads| loads.pushes_n[0]),
@@ -77,11 +83,11 @@ fn every<T: Number>(parameters: &Parameters<T>) -> [Vec<T>; CLOSED.len()] {
     std::array::from_fn(|_| all.next().unwrap_or_default())
 }
 
-/// Those that are speeds.
+/// Returns those that are speeds.
 fn speed_values<T: Number>(machine: &Machine<T>, speed: T) -> [Vec<T>; SPEEDS] {
     let toward = speed.re();
     let sense = 1_f64.copysign(toward);
-    let windows = machine.lock_windows(toward);
+    let windows = lock_windows(machine, toward);
     let whirls = if machine.changes_with_speed() {
         whirl_beginnings(machine, toward)
     } else {
@@ -107,9 +113,10 @@ fn one<T>(value: Option<T>) -> Vec<T> {
     value.into_iter().collect()
 }
 
-/// The end of the branch of the lock, where a rotor may come near it.
+/// Returns the end of the branch of the lock, where a rotor may come near it.
 fn fold<T: Number>(machine: &Machine<T>, speed: T) -> Option<T> {
-    let far = machine.lock_speed_toward(speed.re())?.re().max(speed.re().abs()) * FAR;
+    let lock = machine.lock_windows(speed.re()).first()?.from;
+    let far = lock.re().max(speed.re().abs()) * FAR;
     lock_fold_speed(machine).filter(|fold| fold.re() < far)
 }
 
@@ -129,7 +136,7 @@ fn keep_known<T>(scene: &Scene, found: &mut [Vec<T>]) {
     }
 }
 
-/// The limits of a scene that are speeds, all of them.
+/// Returns the limits of a scene that are speeds, all of them.
 pub(in crate::study) fn speeds(scene: &Scene) -> Vec<(LimitName, f64)> {
     every_speed(scene, &Parameters::<f64>::of(scene))
 }
@@ -152,7 +159,7 @@ fn every_speed<T: Number>(scene: &Scene, parameters: &Parameters<T>) -> Vec<(Lim
     each.filter(|(_, value)| value.re().is_finite()).collect()
 }
 
-/// The limits of a scene in closed form.
+/// Returns the limits of a scene in closed form.
 pub(super) fn limits(scene: &CheckedScene) -> Vec<Limit> {
     let parameters = Parameters::<f64>::of(scene);
     let mut found = every(&parameters);
@@ -206,18 +213,40 @@ fn note(scene: &CheckedScene, name: LimitName, value: f64) -> Option<String> {
     if name == LimitName::LockEnds && machine.closing_speed() == Some(value) {
         return Some("there the clearance is lost".to_string());
     }
+    let speed = scene.operation.speed_rad_s;
+    if name.quantity().path().is_none() {
+        let bends = scene.solver.model != ModelSize::Rigid;
+        let growth = lock_growth(&machine, speed).filter(|_| bends)?;
+        return Some(format!(
+            "of a lock that does not last: it grows by {} 1/s",
+            rounded(growth, 3)
+        ));
+    }
+    let fluttering = if scene.lining().is_none() { flutters(&machine, speed) } else { Vec::new() };
+    let begins = fluttering.iter().find(|flutter| flutter.from == value);
     if name == LimitName::FlutterSpeed {
-        let found = flutters(&machine, scene.operation.speed_rad_s);
-        let ends = found.iter().find(|flutter| flutter.from == value)?.to?;
-        return Some(format!("up to {} rad/s, where stiffer blades end it", rounded(ends, 6)));
+        let ends = begins?.to.map(|to| format!("up to {} rad/s", rounded(to, 6)));
+        return match ends {
+            Some(ends) if value == 0.0 => Some(format!("from rest on, {ends}")),
+            None if value == 0.0 => Some("at every speed".to_string()),
+            ends => ends,
+        };
+    }
+    if name == LimitName::LockEnds && begins.is_some() {
+        return Some("there the lock begins to flutter".to_string());
+    }
+    if name == LimitName::OmegaLock && fluttering.iter().any(|flutter| flutter.to == Some(value)) {
+        return Some("below it the lock flutters".to_string());
     }
     if !of_speeds || scene.casing_in_use().damping_ratio == 0.0 {
         return None;
     }
     // Blades that bend leave a push where rigid ones have none.
-    let sense = 1_f64.copysign(scene.operation.speed_rad_s);
-    let of_rigid_blades =
-        if name == LimitName::LockEnds { value } else { machine.lock_speed_toward(sense)? };
+    let sense = 1_f64.copysign(speed);
+    let of_rigid_blades = match name {
+        LimitName::OmegaAdhesive => machine.lock_windows(sense).first()?.from,
+        _ => value,
+    };
     let left = lock_loads(&machine, sense * of_rigid_blades).is_none_or(|loads| {
         let [a, b] = loads.pushes_n.map(f64::abs);
         a.min(b) > BENDING * (a + b)
@@ -242,7 +271,9 @@ fn why_none(scene: &CheckedScene, name: LimitName) -> String {
     } else if !polygon.has_corners() {
         format!("{diameters} nodal diameters make no corner of blades")
     } else {
-        let hard = machine.clone().with_lining(None).lock_window(scene.operation.speed_rad_s);
+        let toward = scene.operation.speed_rad_s;
+        let pushed = machine.clone().with_lining(None).lock_windows(toward);
+        let hard = pushed.first();
         match (machine.lining, name) {
             _ if scene.clearance() <= 0.0 => "all blades rub at rest: nothing locks",
             _ if !of_speeds && machine.clearance() <= 0.0 => {
@@ -261,6 +292,9 @@ fn why_none(scene: &CheckedScene, name: LimitName) -> String {
             }
             _ if machine.is_uneven() => {
                 "not known of these tips and this shape of the casing: runs have it"
+            }
+            (None, LimitName::OmegaLock) if hard.is_some() => {
+                "a lock flutters at every speed at which both blades push"
             }
             _ if machine.tips_incline_or_rub() => {
                 "friction or the slope of the tips leaves no lock here"
@@ -293,6 +327,32 @@ mod tests {
             let speeds = [LimitName::OmegaLock, LimitName::LockEnds];
             assert_eq!(noted, if smoothing > 0.0 { &speeds[..] } else { &[] }, "{smoothing}");
         }
+    }
+
+    #[test]
+    fn only_blades_that_bend_much_have_another_lock_speed_than_rigid_ones() {
+        let note = |stiffness: f64| {
+            let mut scene = Scene::base();
+            scene.bladed_disk.stiffness_nm_per_rad = stiffness;
+            scene.bladed_disk.coupling_nm_per_rad = 0.0;
+            let limits = limits(&scene.checked().unwrap());
+            limits.into_iter().find(|limit| limit.name == LimitName::OmegaLock).unwrap().note
+        };
+        assert_eq!([note(15e3), note(5.0)], [None, None]);
+        assert!(note(0.02).is_some_and(|note| note.contains("bend so much")));
+    }
+
+    #[test]
+    fn tips_that_just_touch_at_rest_have_no_limit_of_a_contact() {
+        let known = |clearance: f64| {
+            let mut scene = Scene::builtin("soft-lining").unwrap();
+            scene.bladed_disk.radial_coupling = 0.3;
+            scene.bladed_disk.blade_length_m = scene.casing.radius_m - clearance;
+            let found = speeds(&scene).into_iter().map(|(name, _)| name);
+            found.filter(|name| !OF_NO_CONTACT.contains(name)).count()
+        };
+        assert!(known(1e-4) > 0);
+        assert_eq!([known(0.0), known(-1e-5)], [0, 0]);
     }
 
     #[test]

@@ -40,7 +40,7 @@ pub enum LimitName {
     LockFold,
     /// The speed from which inclined tips whirl with the casing.
     WhirlOnset,
-    /// The speed above which a lock of inclined tips flutters.
+    /// The speed from which a lock of inclined tips flutters; 0 where it does from rest on.
     FlutterSpeed,
     /// The speed at which growing blades first touch a casing at rest.
     FirstTouch,
@@ -109,9 +109,11 @@ pub struct Limit {
     /// magnitudes.
     pub present: Option<f64>,
     /// `present/value - 1`: how far beyond the limit the scene is, as a part of it;
-    /// below zero it is not there yet.
+    /// below zero it is not there yet. `null` in JSON above `MOST_TIMES`.
+    #[serde(serialize_with = "shown_margin")]
     pub margin: Option<f64>,
-    /// `d ln(value)/d ln(parameter)` of every parameter of the scene.
+    /// `d ln(value)/d ln(parameter)` of every parameter of the scene; none above
+    /// `MOST_SENSITIVE`.
     pub sensitivities: Sensitivities,
     /// What else is to be said, such as why there is no value.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -156,6 +158,17 @@ impl Sensitivities {
 /// in it is less than the last digit shown.
 const LEAST: f64 = 1e-4;
 
+/// A margin above which it says no more than "far beyond", as do its digits: 100 times.
+pub const MOST_TIMES: f64 = 99.0;
+
+/// Writes a margin that is not above `MOST_TIMES`.
+pub(in crate::study) fn shown_margin<S: serde::Serializer>(
+    margin: &Option<f64>,
+    out: S,
+) -> Result<S::Ok, S::Error> {
+    margin.filter(|margin| *margin <= MOST_TIMES).serialize(out)
+}
+
 /// Part of a limit within which a scene is at it.
 const AT: f64 = 1e-9;
 
@@ -174,12 +187,6 @@ impl Limit {
             sensitivities: Sensitivities::default(),
             note: None,
         }
-    }
-
-    /// Whether it is a load of the lock, which limits nothing of the scene.
-    #[must_use]
-    pub fn is_load(&self) -> bool {
-        self.quantity.path().is_none()
     }
 
     /// Returns which way a load of the lock acts, or on which side of another limit the
@@ -268,7 +275,7 @@ const LIMITS: [Entry; 16] = {
         entry(CoincidenceDifference, Speed, "Ω_difference", ["coincidence (30)", "coinc. (30)"], "coincidence (30) of their difference"),
         entry(LockFold, Speed, "Ω_fold", ["blades give way", "give way"], "above it soft blades give way, and no lock is left"),
         entry(WhirlOnset, Speed, "Ω_whirl", ["whirl begins", "whirl"], "above it blades and casing whirl, on a rim of many blades"),
-        entry(FlutterSpeed, Speed, "Ω_flutter", ["lock flutters", "flutter"], "above it a lock of inclined tips flutters"),
+        entry(FlutterSpeed, Speed, "Ω_flutter", ["lock flutters", "flutter"], "from it on a lock of inclined tips flutters"),
         entry(FirstTouch, Speed, "Ω_touch", ["first touch"; 2], "at it blades that grow touch a casing at rest"),
         entry(TouchingPulse, Pulse, "F_touches", ["F that touches", "F touches"], "smallest pulse that touches"),
         entry(PushA, Push, "−λ_a", ["push of group a", "push a"], "push of group a in the lock"),

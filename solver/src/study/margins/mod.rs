@@ -16,9 +16,11 @@ use std::time::Instant;
 use serde::Serialize;
 
 use crate::scene::CheckedScene;
+use crate::tolerances::DOUBTFUL_PUSH;
 
 pub(super) use closed::{speed_sensitivities, speeds};
-pub use limit::{Limit, LimitName, Quantity, Sensitivities, Side};
+pub(super) use limit::shown_margin;
+pub use limit::{Limit, LimitName, MOST_TIMES, Quantity, Sensitivities, Side};
 pub use parameters::{CLEARANCE, PARAMETERS, Parameter, acting, parameter};
 pub use target::{Found, Target, TargetError};
 pub use touching::{FirstTouch, first_touch, grazing_pulse};
@@ -71,6 +73,28 @@ impl Margins {
         let cost = Cost { wall_s: start.elapsed().as_secs_f64() };
         let (scene, note) = (scene.clone(), scene.tuned_note());
         Self { scene, note, limits, target: None, cost }
+    }
+
+    /// What looks like a slip of a unit or a decimal point: in the scene, and the push of a tip.
+    #[must_use]
+    pub fn doubts(&self) -> Vec<String> {
+        let push = self.tip_push().filter(|push| *push > DOUBTFUL_PUSH).map(|push| {
+            format!(
+                "In the lock a blade tip pushes with {:.1} kN; metal tips bear some {:.0} kN. Are \
+                 masses, frequencies and the clearance right?",
+                1e-3 * push,
+                1e-3 * DOUBTFUL_PUSH
+            )
+        });
+        self.scene.doubts().into_iter().chain(push).collect()
+    }
+
+    /// Returns the larger push of one tip in the lock \[N\], where both groups push.
+    #[must_use]
+    pub fn tip_push(&self) -> Option<f64> {
+        let push = |name| self.limit(name)?.value.filter(|push| *push > 0.0);
+        let larger = push(LimitName::PushA)?.max(push(LimitName::PushB)?);
+        Some(larger / f64::from(self.scene.machine().polygon.blades_per_side.max(1)))
     }
 
     /// The limit of this name, if it is among them.

@@ -1,11 +1,13 @@
 //! The parameters of a scene as numbers that may carry a derivative, and how each is
 //! read and changed.
 
+use std::f64::consts::TAU;
+
 use num_dual::Dual64;
 
-use crate::model::{BladedDisk, Casing, LiningLaw, Machine, Number, Operation};
+use crate::model::{BladedDisk, Casing, LiningLaw, Machine, Number, Operation, of_neighbours};
 use crate::motion::FreeFlight;
-use crate::scene::{Allowed, ContactLaw, Key, ModelSize, Scene, SceneError, Value, keys};
+use crate::scene::{Allowed, ContactLaw, Key, MOST_HZ, ModelSize, Scene, SceneError, Value, keys};
 
 pub use crate::scene::keys::CLEARANCE;
 
@@ -13,6 +15,12 @@ const RADIUS: &str = keys::CASING_RADIUS;
 const LENGTH: &str = keys::BLADE_LENGTH;
 const STIFFNESS: &str = keys::LINING_STIFFNESS;
 const SMOOTHING: &str = keys::LINING_SMOOTHING;
+/// Frequencies of the modes in use, which stand for a stiffness where a mode has one.
+const CASING_FREQUENCY: &str = "casing.frequency_hz";
+const BLADE_FREQUENCY: &str = "bladed_disk.frequency_hz";
+/// Each frequency, and the stiffness that it stands for.
+const FREQUENCIES: [(&str, &str); 2] =
+    [(CASING_FREQUENCY, keys::CASING_STIFFNESS), (BLADE_FREQUENCY, keys::BLADE_STIFFNESS)];
 /// The two lengths whose difference is the clearance.
 pub(super) const LENGTHS: [&str; 2] = [LENGTH, RADIUS];
 
@@ -32,7 +40,10 @@ pub(super) struct Parameters<T> {
     pub stiffness: T,
     pub smoothing: T,
     pub law: ContactLaw,
+    pub model: ModelSize,
     pub operation: Operation<T>,
+    /// Frequencies of casing and disk \[Hz\], where they stand for a stiffness.
+    pub frequencies: [Option<T>; 2],
 }
 
 /// A parameter of a scene that is a real number.
@@ -61,6 +72,10 @@ pub const PARAMETERS: &[Parameter] = &[
     at!(LENGTH, disk.blade_length_m),
     at!(keys::BLADE_INERTIA, disk.inertia_kg_m2),
     at!(keys::BLADE_STIFFNESS, disk.stiffness_nm_per_rad),
+    Parameter {
+        path: BLADE_FREQUENCY,
+        place: |all| all.frequencies[1].get_or_insert(Dual64::new(0.0, 0.0)),
+    },
     at!(keys::BLADE_COUPLING, disk.coupling_nm_per_rad),
     at!(keys::BLADE_DAMPING, disk.damping_ratio),
     at!(keys::STIFFENING, disk.centrifugal_stiffening),
@@ -71,6 +86,10 @@ pub const PARAMETERS: &[Parameter] = &[
     at!(RADIUS, casing.radius_m),
     at!(keys::CASING_MASS, casing.modal_mass_kg),
     at!(keys::CASING_STIFFNESS, casing.modal_stiffness_n_per_m),
+    Parameter {
+        path: CASING_FREQUENCY,
+        place: |all| all.frequencies[0].get_or_insert(Dual64::new(0.0, 0.0)),
+    },
     at!(keys::CASING_DAMPING, casing.damping_ratio),
     at!(keys::TANGENTIAL_RATIO, casing.tangential_ratio),
     at!(keys::CLEARANCE_LOSS, casing.clearance_loss_m_s2),
@@ -95,14 +114,21 @@ const SELDOM: [&str; 6] = [
 ];
 
 /// Those that act in a scene: one without a lining has none of its numbers, and a machine
-/// that stays the same at every speed none that would change it.
+/// that stays the same at every speed none that would change it. A mode has its frequency or
+/// its stiffness, whichever the scene gives.
 pub fn acting(scene: &Scene) -> impl Iterator<Item = &'static Parameter> {
     let lined = scene.solver.contact == ContactLaw::Smooth;
     let changes =
         |parameter: &Parameter| !SELDOM.contains(&parameter.path) || parameter.of(scene) != 0.0;
-    PARAMETERS
-        .iter()
-        .filter(move |parameter| (lined || !parameter.is_of_lining()) && changes(parameter))
+    let given = scene.frequencies_in_use();
+    let is_given = move |parameter: &Parameter| {
+        let mut pairs = FREQUENCIES.iter().zip(given);
+        pairs.all(|(&(frequency, stiffness), given)| {
+            parameter.path != if given.is_some() { stiffness } else { frequency }
+        })
+    };
+    let acts = move |parameter: &Parameter| lined || !parameter.is_of_lining();
+    PARAMETERS.iter().filter(move |one| acts(one) && changes(one) && is_given(one))
 }
 
 /// The parameter of this path; none for a key that holds no real number of the
@@ -113,9 +139,39 @@ pub fn parameter(path: &str) -> Option<&'static Parameter> {
 }
 
 impl Parameter {
+    /// Which frequency it is, if it is one: that of the casing or of the disk.
+    fn frequency(&self) -> Option<usize> {
+        FREQUENCIES.iter().position(|(path, _)| *path == self.path)
+    }
+
     /// The key that it changes.
     fn key(&self) -> Result<&'static Key, SceneError> {
         keys::find(if self.path == CLEARANCE { RADIUS } else { self.path })
+    }
+
+    /// The line of a scene file that sets it, and the part of the file where it stands.
+    #[must_use]
+    pub fn line(&self, scene: &Scene, value: f64) -> Option<String> {
+        let changed = self.set(scene, value).ok()?;
+        let (path, value) = match self.frequency() {
+            _ if self.path == CLEARANCE => (RADIUS, changed.casing.radius_m),
+            Some(which) if scene.frequencies_in_use()[which].is_none() => {
+                let path = FREQUENCIES[which].1;
+                (path, parameter(path)?.of(&changed))
+            }
+            _ => (self.path, value),
+        };
+        let (table, leaf) = path.split_once('.')?;
+        let (before, now, diameters) = match table {
+            "casing" => {
+                (&scene.casing.modes, &changed.casing.modes, scene.operation.nodal_diameters)
+            }
+            _ => (&scene.bladed_disk.modes, &changed.bladed_disk.modes, scene.disk_diameters()),
+        };
+        Some(match before != now {
+            true => format!("{leaf} = {value:?} in [[{table}.modes]] of {diameters} diameters"),
+            false => format!("{leaf} = {value:?} in [{table}]"),
+        })
     }
 
     /// Its value in a scene.
@@ -123,6 +179,11 @@ impl Parameter {
     pub fn of(&self, scene: &Scene) -> f64 {
         if self.path == CLEARANCE {
             return scene.clearance();
+        }
+        if let Some(which) = self.frequency() {
+            let given = scene.frequencies_in_use()[which];
+            let machine = scene.machine();
+            return given.unwrap_or([machine.omega_c, machine.omega_bd][which] / TAU);
         }
         match self.key().map(|key| (key.get)(scene)) {
             Ok(Value::Real(value)) => value,
@@ -136,6 +197,10 @@ impl Parameter {
     /// A value that its key does not allow.
     pub fn set(&self, scene: &Scene, value: f64) -> Result<Scene, SceneError> {
         let mut changed = scene.clone();
+        if let Some(which) = self.frequency() {
+            changed.set_frequency(which, value)?;
+            return Ok(changed);
+        }
         let of_key =
             if self.path == CLEARANCE { scene.bladed_disk.blade_length_m + value } else { value };
         changed.set_value(self.key()?, Value::Real(of_key))?;
@@ -154,7 +219,7 @@ impl Parameter {
     pub(super) fn largest(&self) -> f64 {
         match self.key().map(|key| key.allowed) {
             Ok(Allowed::Real { max, .. }) => max,
-            _ => f64::MAX,
+            _ => MOST_HZ,
         }
     }
 
@@ -175,12 +240,18 @@ impl Parameter {
     /// Its unit.
     #[must_use]
     pub fn unit(&self) -> &'static str {
+        if self.frequency().is_some() {
+            return "Hz";
+        }
         self.key().map_or("", |key| key.unit)
     }
 
     /// The parameters of a scene, with the derivative of this one.
     pub(super) fn seeded(&self, scene: &Scene) -> Parameters<Dual64> {
         let mut all = Parameters::of(scene);
+        if let Some(which) = self.frequency() {
+            all.frequencies[which] = Some(self.of(scene).into());
+        }
         (self.place)(&mut all).eps = 1.0;
         all
     }
@@ -205,6 +276,8 @@ impl<T: Number> Parameters<T> {
             stiffness: scene.contact.stiffness_n_per_m.into(),
             smoothing: scene.contact.smoothing_m.into(),
             law: scene.solver.contact,
+            model: scene.solver.model,
+            frequencies: scene.frequencies_in_use().map(|hertz| hertz.map(Into::into)),
             operation: Operation {
                 nodal_diameters: operation.nodal_diameters,
                 speed_rad_s: operation.speed_rad_s.into(),
@@ -222,7 +295,19 @@ impl<T: Number> Parameters<T> {
 
     /// The machine of these parameters at their speed.
     pub(super) fn machine(&self) -> Machine<T> {
-        let mut machine = Machine::new(&self.disk, &self.casing, self.operation.nodal_diameters)
+        let (mut disk, mut casing) = (self.disk.clone(), self.casing.clone());
+        let square = |hertz: T| (hertz * TAU) * (hertz * TAU);
+        let [of_casing, of_disk] = self.frequencies.map(|hertz| hertz.map(square));
+        if let Some(square) = of_casing {
+            casing.modal_stiffness_n_per_m = casing.modal_mass_kg * square;
+        }
+        if let Some(square) = of_disk {
+            let diameters = disk.diameters_beside(self.operation.nodal_diameters);
+            let share = of_neighbours(1.0, diameters, disk.blades);
+            disk.stiffness_nm_per_rad =
+                disk.inertia_kg_m2 * square - disk.coupling_nm_per_rad * share;
+        }
+        let mut machine = Machine::new(&disk, &casing, self.operation.nodal_diameters)
             .with_friction(self.friction)
             .with_lining((self.law == ContactLaw::Smooth).then_some(LiningLaw {
                 stiffness_n_per_m: self.stiffness,
@@ -233,11 +318,15 @@ impl<T: Number> Parameters<T> {
     }
 }
 
+/// Largest sensitivity: one per cent of the parameter moves the limit by as much as itself, and
+/// the slope says nothing of such a change.
+const MOST_SENSITIVE: f64 = 100.0;
+
 /// The sensitivity of a value by a parameter of this value, from its derivative; none
-/// where there is none.
+/// where there is none, and above `MOST_SENSITIVE`.
 pub(super) fn sensitivity(value: f64, derivative: f64, parameter: f64) -> Option<f64> {
     // A change in per cent of nothing is nothing, whatever the derivative.
     let by = if parameter == 0.0 { 0.0 } else { derivative * parameter / value };
     // There is no minus zero.
-    by.is_finite().then_some(by + 0.0)
+    (by.abs() <= MOST_SENSITIVE).then_some(by + 0.0)
 }

@@ -183,3 +183,27 @@ pub(super) fn why_none(scene: &CheckedScene) -> &'static str {
         "only for a casing that starts at rest"
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_instant_of_a_ramp_needs_a_smaller_pulse() {
+        for ramp in [1e5, 3e5, 1e6] {
+            let mut scene = Scene::base();
+            scene.operation.speed_rad_s = 50.0;
+            scene.operation.speed_ramp_rad_s2 = ramp;
+            let found = least(&scene, 1.0).unwrap().pulse_n;
+            let all = Parameters::<f64>::of(&scene);
+            let machine = all.machine();
+            let (flight, end) = (all.flight(&machine), longest(&scene, &machine));
+            let looks = (1..=20_000).map(|k| end * f64::from(k) / 2e4);
+            let sides = 0..machine.polygon.sides;
+            let forces = looks.flat_map(|t| sides.clone().map(move |side| (side, t)));
+            let forces = forces.map(|(side, t)| force(&flight, side, t)).filter(|f| *f > 0.0);
+            let least = forces.fold(f64::INFINITY, f64::min);
+            assert!(found <= least * (1.0 + 1e-9), "{ramp}: {found} {least}");
+        }
+    }
+}

@@ -19,33 +19,33 @@ use crate::tolerances::{
     REFERENCE_WORST,
 };
 
-/// The run at one step.
+/// Result of the run at one step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Halved {
     pub(super) step_s: f64,
     /// The casing at the instant compared \[m\].
     pub(super) u: [f64; 2],
-    /// How it lasted; none where it failed.
+    /// Verdict with its times; none where the run failed.
     pub(super) reached: Option<VerdictReached>,
 }
 
-/// What the runs tell together.
+/// What the runs at all steps show together.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Settled {
     pub(super) method: Method,
-    /// The order that is seen; none where all changes are round-off.
+    /// Observed order of convergence; none where all changes are round-off.
     pub(super) order: Option<f64>,
-    /// The casing \[m\], and how far it may be from the exact one, in clearances; none
+    /// Casing displacement of the reference \[m\] and a bound on its error, in clearances; none
     /// without a reference.
     pub(super) end: Option<([f64; 2], f64)>,
-    /// How far each halving moves the casing, in clearances.
+    /// Change of the casing displacement by each halving, in clearances.
     pub(super) changes: Vec<f64>,
-    /// Whether the finest runs have one verdict.
+    /// Whether the finest runs have the same verdict.
     pub(super) one_verdict: bool,
 }
 
-/// The steps, each half of the one before, down to the finest that `effort` allows;
-/// those that the scene refuses are left out. None at all where too few are left.
+/// Returns the steps, each half of the one before, down to the finest that `effort` allows,
+/// without those that the scene refuses; no steps where too few are left.
 pub(super) fn steps(way: Way, scene: &Scene, effort: Effort) -> Vec<f64> {
     let end = scene.solver.end_s;
     let least = effort.finest_s.max(end / effort.most_steps);
@@ -59,16 +59,18 @@ pub(super) fn steps(way: Way, scene: &Scene, effort: Effort) -> Vec<f64> {
     steps
 }
 
-/// The steps of rows: the finest that are asked for an order, but for the last, which is
-/// the reference or next to it.
+/// Returns the steps of the rows: the finest ones that determine the order, except the last,
+/// which is the reference or next to it.
 pub(super) fn rows(way: Way, scene: &Scene, effort: Effort) -> Vec<f64> {
     let mut steps = steps(way, scene, effort);
     _ = steps.pop();
     steps.split_off(steps.len().saturating_sub(CHANGES_ASKED))
 }
 
+/// Rejects a run that is too long for a reference by steps within this effort.
+///
 /// # Errors
-/// The run is too long for a reference by steps within this effort.
+/// The end of the scene.
 pub(super) fn check(way: Way, scene: &Scene, effort: Effort) -> Result<(), SceneError> {
     if !steps(way, scene, effort).is_empty() {
         return Ok(());
@@ -80,8 +82,8 @@ pub(super) fn check(way: Way, scene: &Scene, effort: Effort) -> Result<(), Scene
     Err(SceneError::refused(keys::END, scene.solver.end_s, allowed))
 }
 
-/// What runs at halved steps tell, on a rigid casing or a lining; `moment` \[s\] is how
-/// much later a wave may lock.
+/// Evaluates runs at halved steps, on a rigid casing or a lining. Lock times may differ by up to
+/// `moment` \[s\].
 pub(super) fn settle(runs: &[Halved], clearance: f64, moment: f64, rigid: bool) -> Settled {
     let none = |lack, changes, one_verdict| {
         let method = Method::None(lack);
@@ -123,7 +125,7 @@ pub(super) fn settle(runs: &[Halved], clearance: f64, moment: f64, rigid: bool) 
     }
 }
 
-/// Whether each change is smaller than the one before.
+/// Returns whether each change is smaller than the one before.
 fn falls(changes: &[f64]) -> bool {
     changes.windows(2).all(|pair| pair[1] < pair[0])
 }
@@ -132,9 +134,10 @@ fn verdict(run: &Halved) -> Option<crate::motion::Verdict> {
     run.reached.map(|reached| reached.verdict)
 }
 
-/// The order, the end extrapolated with it, and how far that is from the one of a step
-/// twice as long; of the finest steps at which two orders in a row are one whole number.
-/// Finer ones may have lost it in round-off, not in larger changes.
+/// Returns the order, the end extrapolated with it, and the distance of that end from the one
+/// extrapolated at twice the step, for the finest steps at which two successive orders round to
+/// the same whole number. At finer steps the order may be lost in round-off, but the changes may
+/// not grow.
 fn extrapolate(runs: &[Halved], changes: &[f64], clearance: f64) -> Option<(f64, [f64; 2], f64)> {
     let to_zero = |finer: usize, whole: f64| -> Option<[f64; 2]> {
         let (coarse, fine) = (runs.get(finer.checked_sub(1)?)?.u, runs.get(finer)?.u);
@@ -154,10 +157,10 @@ fn extrapolate(runs: &[Halved], changes: &[f64], clearance: f64) -> Option<(f64,
     })
 }
 
-/// The order with which the last changes fall on the whole, from the largest of the first
-/// three to the larger of the last two, and a bound of what is left beyond the finest step if
-/// they go on so; without an order where nothing is left but round-off. None where they do
-/// not fall.
+/// Returns the mean order with which the last changes fall, from the largest of the first three
+/// to the larger of the last two, and a bound on the remaining error of the finest step if they
+/// continue to fall in this way. There is no order where only round-off is left. `None` where the
+/// changes do not fall.
 fn falling(runs: &[Halved], changes: &[f64]) -> Option<(Option<f64>, f64)> {
     let first = changes.len().checked_sub(CHANGES_ASKED)?;
     let (changes, runs) = (changes.get(first..)?, runs.get(first..)?);

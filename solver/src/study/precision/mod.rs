@@ -64,8 +64,7 @@ pub struct Row {
 }
 
 impl Row {
-    /// Whether it solves the same problem as the reference and has another
-    /// verdict.
+    /// Returns whether it solves the same problem as the reference and has another verdict.
     #[must_use]
     pub fn is_wrong(&self) -> bool {
         !self.other_law && self.verdict_right == Some(false)
@@ -104,7 +103,7 @@ pub enum Lack {
     EventsFailed,
 }
 
-/// What everything is measured against; other model sizes have their own.
+/// Reference of the comparison; other model sizes have their own.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reference {
     /// The event solver under unilateral contact, or the finest of halved steps.
@@ -136,9 +135,9 @@ pub struct Reference {
 pub struct Precision {
     /// The scene; its solver settings are not used.
     pub scene: Scene,
-    /// What everything is measured against.
+    /// Reference of the comparison.
     pub reference: Reference,
-    /// One row a way.
+    /// Rows, one for each way.
     pub rows: Vec<Row>,
 }
 
@@ -160,8 +159,8 @@ pub struct Measure {
 }
 
 impl Measure {
-    /// Refuses a scene that the event solver does not know and that is too long for a
-    /// reference by steps.
+    /// Rejects a scene that the event solver does not support and that is too long for a reference
+    /// by halved steps.
     ///
     /// # Errors
     /// The end of the scene.
@@ -171,11 +170,11 @@ impl Measure {
             .or_else(|by_steps| halving::check(by_steps, scene, effort))
     }
 
-    /// Finds the references of a scene, for every model size among its ways; none where
-    /// `go_on` said no on the way.
+    /// Finds the references of a scene, for every model size among its ways; `None` where `go_on`
+    /// stopped it.
     ///
     /// # Errors
-    /// As `check`.
+    /// Same as for `check`.
     pub fn new(scene: &Scene, effort: Effort, go_on: GoOn<'_>) -> Result<Option<Self>, SceneError> {
         let own = scene.solver.model;
         Self::check(scene, effort)?;
@@ -200,14 +199,13 @@ impl Measure {
         Ok(Some(Self { scene: scene.clone(), reference, tracks }))
     }
 
-    /// What everything is measured against.
+    /// Returns the reference of the scene's own model size.
     #[must_use]
     pub fn reference(&self) -> &Reference {
         &self.reference
     }
 
-    /// Solves the scene one way, repeatedly, and compares; none where `go_on`
-    /// said no on the way.
+    /// Solves the scene one way, repeatedly, and compares; `None` where `go_on` stopped it.
     ///
     /// # Errors
     /// This way does not suit the scene.
@@ -253,7 +251,7 @@ impl Measure {
         }))
     }
 
-    /// Puts rows together.
+    /// Creates the report of these rows.
     #[must_use]
     pub fn report(self, rows: Vec<Row>) -> Precision {
         let Self { scene, reference, .. } = self;
@@ -261,7 +259,7 @@ impl Measure {
     }
 }
 
-/// The reference of the scene's own model size, in figures; none where `go_on` said no.
+/// Describes the reference of the scene's own model size; `None` where `go_on` stopped it.
 fn described(
     track: &Track,
     scene: &Scene,
@@ -302,13 +300,13 @@ fn described(
     Ok(reference.sensitive.map(|_| reference))
 }
 
-/// `|u_a - u_b|` \[m\].
+/// Returns `|u_a - u_b|` \[m\].
 fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// Largest difference in the times of the first impacts, if they are of the
-/// same blades \[s\].
+/// Returns the largest difference in the times of the first impacts, if they are of the same
+/// blades \[s\].
 fn impact_error(reference: &Motion, motion: &Motion) -> Option<f64> {
     let (expected, found) = (&reference.contacts().impacts, &motion.contacts().impacts);
     let count = expected.len().min(FIRST_IMPACTS);

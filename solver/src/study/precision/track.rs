@@ -11,27 +11,27 @@ use crate::motion::{GoOn, Motion, Verdict, VerdictReached, verdict_of};
 use crate::scene::{ContactLaw, Scene, SceneError};
 use crate::tolerances::{LAST_PART, LOCK_MOMENT, STEP_ROUND_OFF};
 
-/// The reference for one model size, at its end and a little before.
+/// Reference for one model size, at the end of the run and shortly before.
 pub(super) struct Track {
-    /// How it was computed: by events, or at the finest of halved steps.
+    /// How it was computed: by events, or at the finest of the halved steps.
     pub(super) way: Way,
     pub(super) end: Motion,
-    /// Its verdict; by steps that at the finest.
+    /// Its verdict; for halved steps, that of the finest step.
     pub(super) verdict: Verdict,
-    /// Wall time of its run \[s\].
+    /// Wall time of the run \[s\].
     pub(super) wall_s: f64,
     found: Found,
 }
 
 enum Found {
-    /// By events, from a time after which every explicit run has at least one more step.
+    /// By events: the motion at a time after which every explicit run takes at least one step.
     Events(Motion),
-    /// At halved steps, and the instant compared.
+    /// By halved steps, with the instant at which ends are compared \[s\].
     Steps(Settled, f64),
 }
 
 impl Track {
-    /// None where `go_on` said no on the way.
+    /// Runs the event solver; `None` where `go_on` stopped it.
     pub(super) fn by_events(
         way: Way,
         scene: &Scene,
@@ -51,7 +51,7 @@ impl Track {
         Ok(Some(Self { way, end, verdict, wall_s, found: Found::Events(before) }))
     }
 
-    /// None where `go_on` said no on the way.
+    /// Runs the explicit solver at halved steps; `None` where `go_on` stopped it.
     pub(super) fn by_steps(
         way: Way,
         scene: &Scene,
@@ -81,19 +81,19 @@ impl Track {
         Ok(Some(Self { way, end: run.motion, verdict, wall_s, found }))
     }
 
-    /// Whether it is the reference of this kind, whatever its step.
+    /// Returns whether this is the reference of that kind, at any step.
     pub(super) fn is_of(&self, reference: Result<Way, Way>) -> bool {
         let (Ok(way) | Err(way)) = reference;
         Way { step_s: None, ..self.way } == way
     }
 
-    /// The verdict of a right row; none where halved steps have several.
+    /// Returns the verdict that a correct row has; `None` where halved steps have several.
     pub(super) fn right(&self) -> Option<Verdict> {
         let one = self.settled().is_none_or(|settled| settled.one_verdict);
         one.then_some(self.verdict)
     }
 
-    /// What halved steps tell, if it is by steps.
+    /// Returns the evaluation of the halved steps, if it is a reference by steps.
     pub(super) fn settled(&self) -> Option<&Settled> {
         match &self.found {
             Found::Events(_) => None,
@@ -101,7 +101,7 @@ impl Track {
         }
     }
 
-    /// When a run is looked at to be compared \[s\].
+    /// Returns the instant at which a run is compared with this reference \[s\].
     pub(super) fn look_s(&self, scene: &Scene) -> f64 {
         match &self.found {
             Found::Events(_) => scene.solver.end_s,
@@ -109,8 +109,8 @@ impl Track {
         }
     }
 
-    /// The casing at the instant `t` of a run that was looked at \[m\]; none if it failed
-    /// by then, or if nothing is known of that instant.
+    /// Returns the casing displacement at the instant `t` of a run that is compared \[m\]; `None`
+    /// if the reference failed before it, or if nothing is known of that instant.
     pub(super) fn at(&self, t: f64) -> Option<[f64; 2]> {
         match &self.found {
             Found::Steps(settled, _) => settled.end.map(|(u, _)| u),

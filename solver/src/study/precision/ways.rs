@@ -19,11 +19,11 @@ const TOLERANCES: [f64; 4] = [1e-6, 1e-9, 1e-12, 1e-15];
 /// One way to solve the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Way {
-    /// Which solver.
+    /// Solver.
     pub solver: SolverKind,
-    /// Which contact law.
+    /// Contact law.
     pub contact: ContactLaw,
-    /// Which model size.
+    /// Model size.
     pub model: ModelSize,
     /// Time step; none for the event solver \[s\].
     pub step_s: Option<f64>,
@@ -31,16 +31,16 @@ pub struct Way {
     pub tolerance: Option<f64>,
 }
 
-/// How much effort to spend.
+/// Effort to spend on a comparison.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
-    /// Runs a row, for the median.
+    /// Number of runs of each row, for the median.
     pub repeats: u32,
     /// Smallest time step tried \[s\].
     pub finest_s: f64,
-    /// Seconds after which a row is no longer repeated.
+    /// Time after which a row is no longer repeated \[s\].
     pub seconds: f64,
-    /// Most steps of a run where the reference is one by steps.
+    /// Largest number of steps of a run where the reference is found by halved steps.
     pub most_steps: f64,
 }
 
@@ -51,13 +51,13 @@ impl Default for Effort {
 }
 
 impl Effort {
-    /// One run a row, and no step finer than the paper's, for a quick result.
+    /// One run for each row and no step below that of the paper, for a quick result.
     pub const QUICK: Self = Self { repeats: 1, finest_s: 1e-7, seconds: 0.0, most_steps: 5e5 };
 }
 
-/// Every way to solve a scene, coarse to fine. Steps beyond the stability
-/// limit or the end and other refused combinations are left out. Where the reference is
-/// one by steps, these are the finest of its steps but for the last.
+/// Returns every way to solve a scene, coarse to fine, without steps beyond the stability limit
+/// or the end and without other refused combinations. Where the reference is found by halved
+/// steps, these are the finest of its steps except the last.
 #[must_use]
 pub fn ways(scene: &Scene, effort: Effort) -> Vec<Way> {
     let laws: &[ContactLaw] = match scene.solver.contact {
@@ -97,7 +97,7 @@ pub fn ways(scene: &Scene, effort: Effort) -> Vec<Way> {
     ways
 }
 
-/// The event solver on one model size.
+/// Returns the event solver on one model size.
 pub(super) fn by_events(model: ModelSize, tolerance: f64) -> Way {
     Way {
         solver: SolverKind::Event,
@@ -108,11 +108,11 @@ pub(super) fn by_events(model: ModelSize, tolerance: f64) -> Way {
     }
 }
 
-/// What the runs of one model size are measured against: the event solver, which has
-/// the modes of the disk for all of its blades as long as these do not matter to contact.
+/// Returns what the runs of one model size are compared with: the event solver. It represents all
+/// blades by the modes of the disk as long as single blades do not matter to contact.
 ///
 /// # Errors
-/// The event solver does not know this: what is to be solved at halved steps instead.
+/// The event solver does not support this scene: the way to solve at halved steps instead.
 pub(super) fn reference(scene: &Scene, model: ModelSize) -> Result<Way, Way> {
     let smooth = scene.solver.contact == ContactLaw::Smooth;
     let contact = if smooth { ContactLaw::Smooth } else { ContactLaw::Unilateral };
@@ -128,7 +128,7 @@ pub(super) fn reference(scene: &Scene, model: ModelSize) -> Result<Way, Way> {
 }
 
 impl Way {
-    /// The scene solved this way.
+    /// Returns the scene with the settings of this way.
     ///
     /// # Errors
     /// This way does not suit the scene.
@@ -143,7 +143,7 @@ impl Way {
         scene.checked()
     }
 
-    /// The same way at another step.
+    /// Returns the same way at another step.
     pub(super) fn at_step(self, step_s: f64) -> Self {
         Self { step_s: Some(step_s), ..self }
     }
@@ -158,8 +158,8 @@ impl Way {
         })
     }
 
-    /// Runs to the end, by way of an instant at which it is looked at, and times it; none
-    /// where `go_on` said no on the way.
+    /// Runs to the end with a stop at the instant `look_s`, and measures the time; `None` where
+    /// `go_on` stopped it.
     pub(super) fn run(
         &self,
         scene: &Scene,

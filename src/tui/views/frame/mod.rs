@@ -14,7 +14,7 @@ use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
 use crate::tui::views::ViewId;
-use crate::tui::views::panel::{ViewArea, ViewPanel, title};
+use crate::tui::views::panel::{ViewArea, ViewPanel, read_before, title};
 use crate::tui::views::response::ResponseView;
 use crate::tui::worker::{in_blade_frame, rim_point};
 use rubscope_solver::motion::ActiveSet;
@@ -107,10 +107,7 @@ fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
         legend.insert(1, ("inside all rub".into(), look.style(Role::Text)));
     }
     let read = reading(app, x, y);
-    let name = if read.is_some() { "" } else { "blade frame" };
-    if let Some(read) = read {
-        legend.insert(0, (read, look.style(Role::Focus)));
-    }
+    let name = read_before(look, &mut legend, read, "blade frame");
     let inside = title(app, buffer, at, name, &legend);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     at.note(app, plot.inner);
@@ -176,10 +173,7 @@ fn wheel(app: &App, buffer: &mut Buffer, at: ViewArea) {
     ];
     let cursor = app.cursor_in(ViewId::Frame).filter(|_| at.large);
     let read = cursor.and_then(|cursor| blade_read(app, x, y, cursor));
-    let name = if read.is_some() { "" } else { "wheel" };
-    if let Some(read) = read {
-        legend.insert(0, (read, look.style(Role::Focus)));
-    }
+    let name = read_before(look, &mut legend, read, "wheel");
     let inside = title(app, buffer, at, name, &legend);
     let Some(mut plot) = Plot::bare(buffer, inside, x, y, look) else { return };
     at.note(app, plot.inner);

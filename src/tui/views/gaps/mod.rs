@@ -11,7 +11,7 @@ use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
 use crate::tui::views::ViewId;
-use crate::tui::views::panel::{self, ViewArea, ViewPanel, csv, name_level, title};
+use crate::tui::views::panel::{self, ViewArea, ViewPanel, csv, name_level, read_before, title};
 use rubscope_solver::model::ContactPolygon;
 use rubscope_solver::motion::ActiveSet;
 
@@ -280,10 +280,7 @@ fn draw_heat(app: &App, buffer: &mut Buffer, at: ViewArea) {
         legend.push((format!("of clearance; over {}s", x.scale.prefix), quiet));
     }
     let read = reading(app).filter(|_| at.large);
-    let name = if read.is_some() { "" } else { "gaps in time" };
-    if let Some(read) = read {
-        legend.insert(0, (read, look.style(Role::Focus)));
-    }
+    let name = read_before(look, &mut legend, read, "gaps in time");
     let inside = title(app, buffer, at, name, &legend);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     at.note(app, plot.inner);

@@ -4,7 +4,7 @@
 
 use crate::tui::axis::nice_step;
 use rubscope_solver::harmonic::{
-    Form, Joint, RoundWhirl, Sweep, flutter_speed, locked_motion, round_whirls,
+    Form, Joint, RoundWhirl, Sweep, flutter_speed, lock_window, locked_motion, round_whirls,
 };
 use rubscope_solver::model::Machine;
 use rubscope_solver::scene::{ContactLaw, ModelSize, Scene};
@@ -89,13 +89,13 @@ fn is_coupled(scene: &Scene) -> bool {
 /// flutters above another.
 fn marks(scene: &Scene, machine: &Machine) -> Vec<(f64, &'static str)> {
     let toward = scene.operation.speed_rad_s;
-    let window = machine.lock_window(toward);
-    let rigid = window.filter(|_| machine.lining.is_none() && is_coupled(scene));
+    let window = lock_window(machine, toward);
+    let shown = machine.lining.is_none() && is_coupled(scene);
     let mut marks: Vec<(f64, &'static str)> = [
         (machine.critical_speed(), "Ω_c"),
         (window.map(|window| window.from), "Ω_lock"),
         (window.and_then(|window| window.to), "lock ends"),
-        (rigid.and_then(|_| flutter_speed(machine, toward)), "Ω_f"),
+        (flutter_speed(machine, toward).filter(|_| shown), "Ω_f"),
         (machine.dangerous_speed(), "coincidence"),
     ]
     .into_iter()

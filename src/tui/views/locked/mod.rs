@@ -22,7 +22,7 @@ use crate::tui::views::locked::curves::LockedCurves;
 use crate::tui::views::panel::{
     self, LEAST_ROWS, ViewArea, ViewPanel, csv, dots, entry, lines_above, name_speeds, title,
 };
-use rubscope_solver::harmonic::{Form, LockedPoint, Sweep, locked_motion};
+use rubscope_solver::harmonic::{Form, LockedPoint, Sweep, lock_windows, locked_motion};
 use rubscope_solver::motion::{ActiveSet, Verdict};
 
 /// From this height on, the large chart shows the undamped curve of the paper too.
@@ -310,7 +310,7 @@ pub fn reading(app: &App, speed: f64) -> String {
     let ratio = point.amplitude_m / app.machine.clearance();
     // The push of a lining is another one: only its window is known here.
     let lining = app.has_lining();
-    let window = app.machine.lock_windows(speed).into_iter();
+    let window = lock_windows(&app.machine, speed).into_iter();
     let on_lining = || window.clone().any(|window| window.has(speed.abs()));
     let can_last = if lining { on_lining() } else { point.admissible && point.stable };
     let holds = match (a > 0.0 || b > 0.0, point.admissible, point.stable) {

@@ -13,7 +13,7 @@ use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
 use crate::tui::views::ViewId;
 use crate::tui::views::panel::{
-    ViewArea, ViewPanel, csv, entry, name_level, name_speeds, not_yet, title,
+    ViewArea, ViewPanel, csv, entry, name_level, name_speeds, not_yet, read_before, title,
 };
 use crate::tui::views::spectrum::lines::Spectrum;
 
@@ -68,11 +68,9 @@ fn amplitudes(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let spectrum = app.results().found.spectrum.as_ref();
     let mut legend = vec![("m by rad/s".to_string(), quiet)];
     legend.extend([entry(look, &look.first(), "u_c"), entry(look, &look.second(), "u_s")]);
-    if let Some(read) = cursor.and_then(|frequency| reading(spectrum?, frequency)) {
-        legend.insert(0, (read, look.style(Role::Focus)));
-    }
+    let read = cursor.and_then(|frequency| reading(spectrum?, frequency));
+    let name = read_before(look, &mut legend, read, "spectrum");
     legend.push(("whole run, Hann window".to_string(), quiet));
-    let name = if cursor.is_some() { "" } else { "spectrum" };
     let inside = title(app, buffer, at, name, &legend);
     let Some(spectrum) = spectrum else {
         return not_yet(app, buffer, inside);

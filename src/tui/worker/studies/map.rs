@@ -44,7 +44,7 @@ impl Study for MapStudy {
     }
 
     fn begin(plan: &MapPlan, given: &Given) -> Self {
-        Self::new(plan, given.bounds.cells)
+        Self::new(plan, given.most_cells.unwrap_or(usize::MAX))
     }
 
     fn is_done(&self) -> bool {

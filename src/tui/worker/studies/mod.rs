@@ -30,21 +30,8 @@ pub struct Given<'a> {
     pub plan: Option<MapPlan>,
     /// The run to its end.
     pub run: &'a FullRunJob,
-    /// Bounds of the computation.
-    pub bounds: Bounds,
-}
-
-/// Bounds of the studies, which only tests have.
-#[derive(Clone, Copy, Debug)]
-pub struct Bounds {
-    /// Most cells of a map.
-    pub cells: usize,
-}
-
-impl Default for Bounds {
-    fn default() -> Self {
-        Self { cells: usize::MAX }
-    }
+    /// Most cells of a map, which only tests bound.
+    pub most_cells: Option<usize>,
 }
 
 /// One study: its inputs, a slice of its work, and its result.
@@ -181,7 +168,8 @@ macro_rules! studies {
         /// The studies of one scene, in the order in which they are computed.
         #[derive(Debug, Default)]
         pub struct Studies {
-            bounds: Bounds,
+            /// Most cells of a map, which only tests bound.
+            pub most_cells: Option<usize>,
             $($name: StudySlot<$study>,)*
         }
 
@@ -214,13 +202,8 @@ studies! {
 }
 
 impl Studies {
-    /// Bounds how far they go.
-    pub fn bound(&mut self, bounds: Bounds) {
-        self.bounds = bounds;
-    }
-
     fn given<'a>(&self, order: &'a Order, run: &'a FullRunJob) -> Given<'a> {
-        Given { order, plan: order.map_plan(), run, bounds: self.bounds }
+        Given { order, plan: order.map_plan(), run, most_cells: self.most_cells }
     }
 
     /// Stops what is not wanted any more, so that what is has the processor.

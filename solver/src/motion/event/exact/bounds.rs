@@ -67,7 +67,7 @@ impl Bounds {
         Self { standing, turning: turned }
     }
 
-    /// As `new` without pulse and ramp, of the two waves that a lightly damped casing
+    /// Same as for `new` without pulse and ramp, of the two waves that a lightly damped casing
     /// is made of, each bounded by its amplitude now.
     pub fn of_waves(parameters: &Parameters, nu: f64, u: Plane, v: Plane) -> Option<Self> {
         let (c, swing) = (parameters.damping, parameters.propagator.swing()?);
@@ -118,7 +118,7 @@ impl Bounds {
     }
 }
 
-/// Bounds on a product and its first four derivatives from those of its factors.
+/// Returns bounds on a product and its first four derivatives from those of its factors.
 fn leibniz([z0, z1, z2, z3, z4]: [f64; 5], [e0, e1, e2, e3, e4]: [f64; 5]) -> [f64; 5] {
     [
         z0 * e0,
@@ -129,13 +129,13 @@ fn leibniz([z0, z1, z2, z3, z4]: [f64; 5], [e0, e1, e2, e3, e4]: [f64; 5]) -> [f
     ]
 }
 
-/// `|p|`, without the care `hypot` takes at the ends of the number range: no
+/// Returns `|p|`, without the care `hypot` takes at the ends of the number range: no
 /// length or rate of a casing is near them, and it took a quarter of a run.
 pub(super) fn size(p: Plane) -> f64 {
     p.norm_sqr().sqrt()
 }
 
-/// Bounds on `size exp(mu t - i ramp t^2/2)`, `|mu| <= rate`, and its first four
+/// Returns bounds on `size exp(mu t - i ramp t^2/2)`, `|mu| <= rate`, and its first four
 /// derivatives.
 fn hermite(size: f64, rate: f64, ramp: f64) -> [f64; 5] {
     let square = rate * rate;
@@ -150,7 +150,7 @@ fn lower<const N: usize>(bounds: &mut [f64; N], others: [f64; N]) {
     }
 }
 
-/// Time over which a casing that swings freely stays within the clearance \[s\]: where
+/// Returns the time over which a casing that swings freely stays within the clearance \[s\]: where
 /// it rises to it is known.
 pub(super) fn rise(parameters: &Parameters, swing: f64, u: Plane, v: Plane) -> f64 {
     // The square of its distance: but for damping, which only makes it smaller, a constant

@@ -91,7 +91,7 @@ impl Bends {
     }
 }
 
-/// Part of a vector along a direction.
+/// Returns the part of a vector along a direction.
 pub(super) fn dot(a: Plane, direction: Plane) -> f64 {
     a.re * direction.re + a.im * direction.im
 }
@@ -101,12 +101,12 @@ impl Free {
         Self { place, rate, tips, opened: [None; 2] }
     }
 
-    /// The blades, `s` seconds on.
+    /// Returns the blades, `s` seconds on.
     pub(super) fn tips(&self, parameters: &Parameters, s: f64) -> Tips {
         parameters.blades.map_or(self.tips, |blades| blades.free(&self.tips, s))
     }
 
-    /// The largest angle of any blade over the first `s` seconds, `least` where
+    /// Returns the largest angle of any blade over the first `s` seconds, `least` where
     /// none is larger \[rad\].
     pub(super) fn largest_angle(&self, parameters: &Parameters, s: f64, least: f64) -> f64 {
         let Some(blades) = &parameters.blades else { return least };
@@ -128,7 +128,7 @@ impl Free {
         most
     }
 
-    /// Place and rate in the standing frame, `s` seconds on.
+    /// Returns the place and rate in the standing frame, `s` seconds on.
     pub(super) fn at(&self, parameters: &Parameters, s: f64) -> (Plane, Plane) {
         let response = parameters.propagator.at(s);
         let stiffness = parameters.propagator.stiffness;
@@ -143,13 +143,13 @@ impl Free {
         }
     }
 
-    /// Whether the energy left cannot reach a side, with no pulse to come.
+    /// Returns whether the energy left cannot reach a side, with no pulse to come.
     pub(super) fn spent(parameters: &Parameters, place: Plane, rate: Plane) -> bool {
         let reach = parameters.omega * parameters.clearance;
         rate.norm_sqr() + parameters.omega * parameters.omega * place.norm_sqr() < reach * reach
     }
 
-    /// Second and third derivative of the gap of `side` at the start.
+    /// Returns the second and third derivative of the gap of `side` at the start.
     pub(super) fn curvature(&self, parameters: &Parameters, side: u32) -> (f64, f64) {
         let bends = Bends::new(parameters, self.place, self.rate);
         let (inward, nu) = parameters.facing(side, 0.0, &self.tips);
@@ -226,7 +226,7 @@ impl Free {
         Next::Until((s + stride.min(span)).max(s.next_up()))
     }
 
-    /// Time over which no side can close, `span` at most, or the side that touches
+    /// Returns the time over which no side can close, `span` at most, or the side that touches
     /// now.
     fn sides(
         &self,

@@ -136,7 +136,7 @@ pub(super) struct CornerContact {
 }
 
 impl ExactEvents {
-    /// The corner of `a` and the next side now.
+    /// Returns the corner of `a` and the next side now.
     pub(super) fn corner_contact(&self, a: u32) -> CornerContact {
         let parameters = &self.parameters;
         let b = parameters.machine.polygon.next(a);
@@ -159,7 +159,7 @@ impl ExactEvents {
         }
     }
 
-    /// Rates of both gaps of a corner at a casing rate.
+    /// Returns the rates of both gaps of a corner at a casing rate.
     pub(super) fn openings(&self, contact: &CornerContact, rate: Plane) -> [f64; 2] {
         // i (-g0 + i y) spin has the real part -y spin.
         std::array::from_fn(|k| {
@@ -167,7 +167,7 @@ impl ExactEvents {
         })
     }
 
-    /// As `openings`, where the round-off of a rate's two parts is none.
+    /// Same as for `openings`, where the round-off of a rate's two parts is none.
     pub(super) fn clean_openings(&self, contact: &CornerContact, rate: Plane) -> [f64; 2] {
         let noise =
             ROUND_OFF * (rate.norm() + self.parameters.clearance * self.parameters.drive.nu.abs());
@@ -176,17 +176,17 @@ impl ExactEvents {
 }
 
 impl CornerContact {
-    /// Where the casing is \[m\].
+    /// Returns the displacement of the casing \[m\].
     pub(super) fn place(&self, parameters: &Parameters) -> Plane {
         self.normals[0] * Plane::new(-parameters.clearance, self.y[0])
     }
 
-    /// Opening of the other gap by a push, over the opening of its own gap.
+    /// Returns the opening of the other gap by a push, over the opening of its own gap.
     pub(super) fn share(&self) -> f64 {
         self.cross / self.own
     }
 
-    /// Impulses or pushes that cancel two opening rates at once.
+    /// Returns the impulses or pushes that cancel two opening rates at once.
     pub(super) fn cancelled(&self, first: f64, second: f64) -> [f64; 2] {
         [
             -(self.own * first - self.cross * second) / self.determinant,
@@ -194,12 +194,12 @@ impl CornerContact {
         ]
     }
 
-    /// These impulses with their sides and places.
+    /// Returns these impulses with their sides and places.
     pub(super) fn on_sides(&self, impulses: [f64; 2]) -> [(u32, f64, f64); 2] {
         [(self.a, self.y[0], impulses[0]), (self.b, self.y[1], impulses[1])]
     }
 
-    /// The casing rate after impulses on both sides.
+    /// Returns the casing rate after impulses on both sides.
     pub(super) fn struck(&self, rate: Plane, impulses: [f64; 2]) -> Plane {
         rate + self.normals[0] * impulses[0] + self.normals[1] * impulses[1]
     }

@@ -27,7 +27,7 @@ use crate::motion::event::series::{
 };
 use crate::tolerances::{LIGHT_BLADES, MOST_HALVINGS, ROOM_TO_CHANGE};
 
-/// Opening accelerations `q_a`, `q_b` of a corner at rest, `s` seconds on, and
+/// Returns the opening accelerations `q_a`, `q_b` of a corner at rest, `s` seconds on, and
 /// their rates.
 pub(super) fn opening(parameters: &Parameters, a: u32, s: f64) -> [(f64, f64); 2] {
     let (nu, ramp, c2) =
@@ -48,7 +48,7 @@ pub(super) fn opening(parameters: &Parameters, a: u32, s: f64) -> [(f64, f64); 2
     openings
 }
 
-/// Impulses or pushes that cancel two opening rates at once:
+/// Returns the impulses or pushes that cancel two opening rates at once:
 /// `p + [[1, cos 2 delta], [cos 2 delta, 1]]^-1 q = 0`.
 pub(super) fn cancelled(parameters: &Parameters, a: f64, b: f64) -> [f64; 2] {
     let Plane { re: cos, im: sin } = parameters.turn;
@@ -56,7 +56,7 @@ pub(super) fn cancelled(parameters: &Parameters, a: f64, b: f64) -> [f64; 2] {
     [-(a - cos * b) * scale, -(b - cos * a) * scale]
 }
 
-/// Pushes per unit mass of both sides \[m/s^2\].
+/// Returns the pushes per unit mass of both sides \[m/s^2\].
 pub(super) fn pushes(parameters: &Parameters, a: u32, s: f64) -> [f64; 2] {
     let [first, second] = opening(parameters, a, s);
     cancelled(parameters, first.0, second.0)
@@ -225,7 +225,7 @@ impl CornerSeries {
         }
     }
 
-    /// Place and rate of the casing in the standing frame, `s` seconds on.
+    /// Returns the place and rate of the casing in the standing frame, `s` seconds on.
     pub(super) fn standing(&self, parameters: &Parameters, s: f64) -> (Plane, Plane) {
         let diameters = parameters.blades.map_or(0.0, |blades| blades.diameters);
         let (sin, cos) = parameters.machine.polygon.delta.sin_cos();
@@ -240,12 +240,12 @@ impl CornerSeries {
         (-turned * radius, -turned * Plane::new(growth, spin * radius))
     }
 
-    /// A bound on every blade angle over the stretch \[rad\].
+    /// Returns a bound on every blade angle over the stretch \[rad\].
     pub(super) fn largest_bound(&self) -> f64 {
         self.tips.iter().flatten().map(|term| term.abs()).sum()
     }
 
-    /// The blades, `s` seconds on.
+    /// Returns the blades, `s` seconds on.
     pub(super) fn tips(&self, parameters: &Parameters, s: f64) -> Tips {
         let [[xi, xi_rate, _], [eta, eta_rate, _]] =
             self.tips.map(|terms| values(&terms, s / self.length));
@@ -256,14 +256,14 @@ impl CornerSeries {
         }
     }
 
-    /// Pushes of both sides per unit mass \[m/s^2\].
+    /// Returns the pushes of both sides per unit mass \[m/s^2\].
     pub(super) fn pushes(&self, s: f64) -> [f64; 2] {
         let push =
             |terms| if self.rests(&terms) { 0.0 } else { values(&terms, s / self.length)[0] };
         self.pushes.map(push)
     }
 
-    /// Distance of both contacts from the middle of their sides \[m\].
+    /// Returns the distance of both contacts from the middle of their sides \[m\].
     pub(super) fn half_side(&self, parameters: &Parameters, s: f64) -> f64 {
         parameters.clearance * parameters.half_angle(self.a, &self.tips(parameters, s)).tan()
     }
@@ -292,7 +292,7 @@ impl CornerSeries {
         light && change < ROOM_TO_CHANGE * least
     }
 
-    /// Whether a push is nothing but round-off.
+    /// Returns whether a push is nothing but round-off.
     fn rests(&self, push: &Terms) -> bool {
         push.iter().map(|term| term.abs()).sum::<f64>() <= self.noise
     }
@@ -322,7 +322,7 @@ impl CornerSeries {
     }
 }
 
-/// `exp(i psi_m)`, half-way between a side and the next.
+/// Returns `exp(i psi_m)`, half-way between a side and the next.
 fn bisector(parameters: &Parameters, a: u32) -> Plane {
     parameters.direction(a) * Plane::cis(parameters.machine.polygon.delta)
 }

@@ -68,7 +68,7 @@ pub struct ExactEvents {
 }
 
 impl ExactEvents {
-    /// The motion of a scene at t = 0, whichever solver the scene names.
+    /// Creates the motion of a scene at t = 0, whichever solver the scene names.
     ///
     /// # Errors
     /// The contact law, the model size or what goes beyond the paper is nothing that
@@ -79,7 +79,7 @@ impl ExactEvents {
         Ok(Self::of(scene))
     }
 
-    /// As `new`, for a scene that names this solver or suits it.
+    /// Same as for `new`, for a scene that names this solver or suits it.
     pub(in crate::motion) fn of(scene: &CheckedScene) -> Self {
         let parameters = Parameters::new(scene);
         let place = Plane::new(scene.initial.u_c_m, scene.initial.u_s_m);
@@ -104,7 +104,7 @@ impl ExactEvents {
         event
     }
 
-    /// The same, with gaps below `tolerance` times the size of the motion taken
+    /// Creates the same, with gaps below `tolerance` times the size of the motion taken
     /// as closed; 1e-15 otherwise.
     #[must_use]
     pub fn with_tolerance(mut self, tolerance: f64) -> Self {
@@ -116,7 +116,7 @@ impl ExactEvents {
         self.parameters.tolerance = tolerance.clamp(*EVENT_RANGE.start(), *EVENT_RANGE.end());
     }
 
-    /// The tolerance in force.
+    /// Returns the tolerance in force.
     #[must_use]
     pub fn tolerance(&self) -> f64 {
         self.parameters.tolerance

@@ -85,7 +85,7 @@ impl Mode {
         }
     }
 
-    /// How long the mode is defined for \[s\].
+    /// Returns how long the mode is defined for \[s\].
     pub(super) fn length(&self) -> f64 {
         match self {
             Self::Driven(series) => series.length,
@@ -94,7 +94,7 @@ impl Mode {
         }
     }
 
-    /// The side slid along and the motion along it; a corner counts as its
+    /// Returns the side slid along and the motion along it; a corner counts as its
     /// first side.
     pub(super) fn along(&self, parameters: &Parameters, s: f64) -> Option<(u32, Along)> {
         match self {
@@ -134,7 +134,7 @@ impl Mode {
         }
     }
 
-    /// Place and rate in the standing frame, `s` seconds on.
+    /// Returns the place and rate in the standing frame, `s` seconds on.
     pub(super) fn standing(&self, parameters: &Parameters, s: f64) -> (Plane, Plane) {
         if let Self::Free(free) = self {
             return free.at(parameters, s);
@@ -149,7 +149,7 @@ impl Mode {
         along.seen(parameters.clearance, facing)
     }
 
-    /// Place and rate of a free flight in the standing frame, `s` seconds on; none
+    /// Returns the place and rate of a free flight in the standing frame, `s` seconds on; none
     /// in contact.
     pub(super) fn flight(&self, parameters: &Parameters, s: f64) -> Option<(Plane, Plane)> {
         match self {
@@ -158,7 +158,7 @@ impl Mode {
         }
     }
 
-    /// Place and rate as the rotor sees them, `s` seconds on, those of
+    /// Returns the place and rate as the rotor sees them, `s` seconds on, those of
     /// `u exp(-i n_d theta)`; from the motion along a side then, if there is one.
     pub(super) fn seen_by_rotor(
         &self,
@@ -178,7 +178,7 @@ impl Mode {
         along.seen(parameters.clearance, normal)
     }
 
-    /// The first side of the corner that the mode is in or rocks into.
+    /// Returns the first side of the corner that the mode is in or rocks into.
     pub(super) fn corner(&self) -> Option<u32> {
         match self {
             Self::Corner(a) | Self::Rocking { a, .. } | Self::Held(CornerSeries { a, .. }) => {
@@ -188,7 +188,7 @@ impl Mode {
         }
     }
 
-    /// The blades, `s` seconds on.
+    /// Returns the blades, `s` seconds on.
     pub(super) fn tips(&self, parameters: &Parameters, s: f64) -> Tips {
         match self {
             Self::Free(free) => free.tips(parameters, s),
@@ -198,7 +198,7 @@ impl Mode {
         }
     }
 
-    /// The blades as they are reported: stiff ones follow the pushes.
+    /// Returns the blades as they are reported: stiff ones follow the pushes.
     pub(super) fn reported(&self, parameters: &Parameters, s: f64) -> Tips {
         let Some(blades) = &parameters.following else { return self.tips(parameters, s) };
         let Some((_, along)) = self.along(parameters, s) else { return Tips::default() };
@@ -206,7 +206,7 @@ impl Mode {
         blades.following(parameters, pushes, [along.y, parameters.half_side])
     }
 
-    /// The largest angle of any blade over the first `s` seconds, `least` where
+    /// Returns the largest angle of any blade over the first `s` seconds, `least` where
     /// none is larger \[rad\].
     pub(super) fn largest_angle(&self, parameters: &Parameters, s: f64, least: f64) -> f64 {
         let angle = |t: f64| parameters.largest(&self.reported(parameters, t));
@@ -228,7 +228,7 @@ impl Mode {
         peak(s, rate, angle).max(least)
     }
 
-    /// Kinetic and potential energy per unit casing mass, `s` seconds on.
+    /// Returns the kinetic and potential energy per unit casing mass, `s` seconds on.
     pub(super) fn energy(&self, parameters: &Parameters, s: f64) -> f64 {
         let (u, v) = self.standing(parameters, s);
         let blades =
@@ -236,7 +236,7 @@ impl Mode {
         casing_energy(parameters, u, v) + blades
     }
 
-    /// Sides in contact with their pushes per unit mass, in phase order.
+    /// Returns the sides in contact with their pushes per unit mass, in phase order.
     pub(super) fn pushes(&self, parameters: &Parameters, s: f64) -> [Option<(u32, f64)>; 2] {
         let corner = match self {
             Self::Corner(a) => Some((*a, locked::pushes(parameters, *a, s))),
@@ -249,7 +249,7 @@ impl Mode {
         [self.along(parameters, s).map(|(side, along)| (side, along.push)), None]
     }
 
-    /// The sides in contact as the log of contacts names them.
+    /// Returns the sides in contact as the log of contacts names them.
     pub(super) fn active_set(&self, parameters: &Parameters) -> ActiveSet {
         match self {
             Self::Free(_) => ActiveSet::Nothing,
@@ -377,7 +377,7 @@ impl ExactEvents {
     }
 }
 
-/// The largest value over `[0, s]` of a function that changes at `rate`.
+/// Returns the largest value over `[0, s]` of a function that changes at `rate`.
 pub(super) fn peak(s: f64, rate: f64, value: impl Fn(f64) -> f64) -> f64 {
     let parts = (8.0 * rate * s).ceil().clamp(2.0, PEAK_LOOKS);
     let at = |k: f64| s * (k / parts).clamp(0.0, 1.0);
@@ -411,18 +411,18 @@ pub(super) struct EnergyBalance {
 }
 
 impl EnergyBalance {
-    /// Ending is missing from the balance at a state of this energy.
+    /// Returns what is missing from the balance at a final state of this energy.
     pub(super) fn residual(&self, energy: f64) -> f64 {
         self.pulse + self.rotor + self.growth - (energy - self.start) - self.dissipated - self.lost
     }
 }
 
-/// Kinetic and potential energy of the casing per unit mass.
+/// Returns the kinetic and potential energy of the casing per unit mass.
 pub(super) fn casing_energy(parameters: &Parameters, u: Plane, v: Plane) -> f64 {
     0.5 * (v.norm_sqr() + parameters.propagator.stiffness * u.norm_sqr())
 }
 
-/// Energy dissipated in `s` seconds of free flight, by the casing and by the
+/// Returns the energy dissipated in `s` seconds of free flight, by the casing and by the
 /// blades.
 pub(super) fn dissipated(parameters: &Parameters, free: &Free, s: f64) -> f64 {
     let centre = parameters.drive.pulse / parameters.propagator.stiffness;

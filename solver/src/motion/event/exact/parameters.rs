@@ -94,13 +94,13 @@ impl Parameters {
         stored(self) - before
     }
 
-    /// `exp(i psi)` of a side.
+    /// Returns `exp(i psi)` of a side.
     pub(super) fn direction(&self, side: u32) -> Plane {
         let (cos, sin) = self.machine.polygon.direction(side);
         Plane::new(cos, sin)
     }
 
-    /// `exp(i (psi + n_d alpha))` of a side, the direction in which its gap opens as
+    /// Returns `exp(i (psi + n_d alpha))` of a side, the direction in which its gap opens as
     /// the rotor sees it, and the rate `n_d alpha'`.
     pub(super) fn normal(&self, side: u32, tips: &Tips) -> (Plane, f64) {
         let direction = self.direction(side);
@@ -109,7 +109,7 @@ impl Parameters {
         (direction * Plane::cis((tips.angle * along).re), (tips.rate * along).re)
     }
 
-    /// Half the length of the side `a` towards the next \[m\].
+    /// Returns half the length of the side `a` towards the next \[m\].
     pub(super) fn half_length(&self, a: u32, tips: &Tips) -> f64 {
         match self.blades {
             None => self.half_side,
@@ -117,7 +117,7 @@ impl Parameters {
         }
     }
 
-    /// `exp(2 i tau)`, the turn from a side to the next.
+    /// Returns `exp(2 i tau)`, the turn from a side to the next.
     pub(super) fn turn_between(&self, a: u32, tips: &Tips) -> Plane {
         match self.blades {
             None => self.turn,
@@ -130,7 +130,7 @@ impl Parameters {
         self.blades.map_or(0.0, |blades| blades.ratio)
     }
 
-    /// Round-off of the pushes of a corner: of the accelerations that cancel in
+    /// Returns the round-off of the pushes of a corner: of the accelerations that cancel in
     /// them \[m/s^2\].
     pub(super) fn push_noise(&self) -> f64 {
         let square = (self.omega * self.omega).max(self.drive.nu * self.drive.nu);
@@ -138,7 +138,7 @@ impl Parameters {
         ROUND_OFF * (square * self.clearance + self.drive.pulse.abs()) / spread
     }
 
-    /// The pulse times `exp(i beta)` of a side, the direction that opens its gap,
+    /// Returns the pulse times `exp(i beta)` of a side, the direction that opens its gap,
     /// `s` seconds on \[m/s^2\].
     pub(super) fn pulse_on(&self, side: u32, s: f64) -> Plane {
         // Nearly always there is none: no sine then.
@@ -148,7 +148,7 @@ impl Parameters {
         self.direction(side) * Plane::cis(self.drive.phase(s)) * self.drive.pulse
     }
 
-    /// Push per unit mass that keeps the casing on a side at `y` with rate
+    /// Returns the push per unit mass that keeps the casing on a side at `y` with rate
     /// `rate`, while the wave turns by `nu` against the standing frame and the
     /// pulse has the component `pulse` along `exp(i beta)` \[m/s^2\]; negative
     /// where the side would have to pull.
@@ -174,17 +174,17 @@ pub(super) struct Drive {
 }
 
 impl Drive {
-    /// `n_d theta`, `s` seconds on \[rad\].
+    /// Returns `n_d theta`, `s` seconds on \[rad\].
     pub(super) fn phase(&self, s: f64) -> f64 {
         self.phase + (self.nu + 0.5 * self.nu_rate * s) * s
     }
 
-    /// `n_d Omega`, `s` seconds on \[rad/s\].
+    /// Returns `n_d Omega`, `s` seconds on \[rad/s\].
     pub(super) fn nu(&self, s: f64) -> f64 {
         self.nu + self.nu_rate * s
     }
 
-    /// Whether neither pulse nor ramp acts.
+    /// Returns whether neither pulse nor ramp acts.
     pub(super) fn steady(&self) -> bool {
         self.pulse == 0.0 && self.nu_rate == 0.0
     }
@@ -214,7 +214,7 @@ pub(super) struct Tips {
 }
 
 impl Blades {
-    /// The blades of a scene, if they move and can be moved: not in the rigid
+    /// Creates the blades of a scene, if they move and can be moved: not in the rigid
     /// model, and not without nodal diameters, where no force turns them.
     pub(super) fn of(scene: &Scene, machine: &Machine) -> Option<Self> {
         let moving = scene.solver.model == ModelSize::Modal && machine.nodal_diameters > 0.0;
@@ -236,7 +236,7 @@ impl Blades {
         self.propagator = Propagator::new(damping, self.omega * self.omega);
     }
 
-    /// Whether the casing cannot tell them from rigid ones, and they are so much
+    /// Returns whether the casing cannot tell them from rigid ones, and they are so much
     /// faster than the motion that their angles follow the pushes at once.
     pub(super) fn negligible(&self, scene: &Scene, machine: &Machine) -> bool {
         let operation = &scene.operation;
@@ -258,7 +258,7 @@ impl Blades {
             && self.diameters * angle * half_side < FOLLOWING_GAP * clearance
     }
 
-    /// Angles of blades that follow these pushes at once.
+    /// Returns the angles of blades that follow these pushes at once.
     pub(super) fn following(
         &self,
         parameters: &Parameters,
@@ -273,7 +273,7 @@ impl Blades {
         tips
     }
 
-    /// Largest angle of blades at rest after this impulse at `y` \[rad\].
+    /// Returns the largest angle of blades at rest after this impulse at `y` \[rad\].
     pub(super) fn kicked(&self, y: f64, impulse: f64) -> f64 {
         let rate = self.ratio / self.diameters * (y * impulse).abs();
         self.propagator
@@ -281,7 +281,7 @@ impl Blades {
             .map_or(0.0, |time| rate * self.propagator.at(time).unit)
     }
 
-    /// Blade angles of the free blades, `s` seconds on.
+    /// Returns the blade angles of the free blades, `s` seconds on.
     pub(super) fn free(&self, tips: &Tips, s: f64) -> Tips {
         if *tips == Tips::default() {
             return *tips;
@@ -294,18 +294,18 @@ impl Blades {
         }
     }
 
-    /// Largest angle the blades reach if left alone \[rad\].
+    /// Returns the largest angle the blades reach if left alone \[rad\].
     pub(super) fn amplitude(&self, tips: &Tips) -> f64 {
         (tips.angle.norm_sqr() + tips.rate.norm_sqr() / (self.omega * self.omega)).sqrt()
     }
 
-    /// Kinetic and potential energy per unit casing mass.
+    /// Returns the kinetic and potential energy per unit casing mass.
     pub(super) fn energy(&self, tips: &Tips) -> f64 {
         let stored = tips.rate.norm_sqr() + self.omega * self.omega * tips.angle.norm_sqr();
         0.5 * self.mass * stored
     }
 
-    /// Bounds on the first four derivatives of `n_d alpha` from now on.
+    /// Returns bounds on the first four derivatives of `n_d alpha` from now on.
     pub(super) fn turning(&self, tips: &Tips) -> [f64; 4] {
         let first = self.diameters * self.amplitude(tips) * self.omega;
         let factor = self.omega + 2.0 * self.propagator.damping;
@@ -320,12 +320,12 @@ impl PartialEq for Tips {
 }
 
 impl Parameters {
-    /// The largest angle of any blade \[rad\].
+    /// Returns the largest angle of any blade \[rad\].
     pub(super) fn largest(&self, tips: &Tips) -> f64 {
         self.machine.polygon.largest_component(tips.angle.re, tips.angle.im)
     }
 
-    /// `exp(i gamma)` of a side, the direction that opens its gap, and `gamma'`.
+    /// Returns `exp(i gamma)` of a side, the direction that opens its gap, and `gamma'`.
     pub(super) fn facing(&self, side: u32, s: f64, tips: &Tips) -> (Plane, f64) {
         let direction = self.direction(side);
         let diameters = self.blades.map_or(0.0, |blades| blades.diameters);
@@ -334,7 +334,7 @@ impl Parameters {
         (direction * Plane::cis(self.drive.phase(s) + shift), spin)
     }
 
-    /// Half the angle between a side and the next \[rad\].
+    /// Returns half the angle between a side and the next \[rad\].
     pub(super) fn half_angle(&self, a: u32, tips: &Tips) -> f64 {
         let diameters = self.blades.map_or(0.0, |blades| blades.diameters);
         let between = self.direction(self.machine.polygon.next(a)) - self.direction(a);

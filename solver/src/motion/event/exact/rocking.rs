@@ -38,7 +38,7 @@ pub(super) struct Limit {
     pub lost: f64,
 }
 
-/// The limit, if the motion that leaves the corner of `a` and the next side with
+/// Returns the limit, if the motion that leaves the corner of `a` and the next side with
 /// `speed > 0` along `a` (`second` false) or along the next side can do nothing
 /// but rock into it.
 pub(super) fn limit(
@@ -93,7 +93,7 @@ pub(super) struct Swing {
     pub lost: f64,
 }
 
-/// Steps through the crossings that `limit` sums, up to the instant `s`.
+/// Returns the steps through the crossings that `limit` sums, up to the instant `s`.
 pub(super) fn replay(parameters: &Parameters, a: u32, second: bool, speed: f64, s: f64) -> Swing {
     let Plane { re: cos, im: sin } = parameters.turn;
     let [(qa, _), (qb, _)] = opening(parameters, a, 0.0);
@@ -124,7 +124,7 @@ pub(super) fn replay(parameters: &Parameters, a: u32, second: bool, speed: f64, 
     }
 }
 
-/// Accelerations towards the corner along either side, the other side open.
+/// Returns the accelerations towards the corner along either side, the other side open.
 fn pulls(parameters: &Parameters, qa: f64, qb: f64) -> [f64; 2] {
     let Plane { re: cos, im: sin } = parameters.turn;
     [-(qb - cos * qa) / sin, -(qa - cos * qb) / sin]
@@ -134,7 +134,7 @@ fn value(series: &PowerSeries, x: f64) -> f64 {
     series.iter().rev().fold(0.0, |sum, term| sum * x + term)
 }
 
-/// The series at `x`, if its last orders are round-off.
+/// Returns the series at `x`, if its last orders are round-off.
 fn exact(series: &PowerSeries, x: f64) -> Option<f64> {
     let sum = value(series, x);
     let last = x.powi(ORDERS as i32 - 1);
@@ -248,7 +248,7 @@ fn excursion(c: f64, stiffness: f64) -> (PowerSeries, PowerSeries) {
     (table[1], back)
 }
 
-/// Powers of a series without constant term, from the zeroth to the last order.
+/// Returns the powers of a series without constant term, from the zeroth to the last order.
 fn powers(series: &PowerSeries) -> [PowerSeries; ORDERS + 1] {
     let mut table = [[0.0; ORDERS + 1]; ORDERS + 1];
     table[0][0] = 1.0;

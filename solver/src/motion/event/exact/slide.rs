@@ -110,7 +110,7 @@ pub(super) struct Along {
 }
 
 impl Along {
-    /// Place and rate in a frame where the side's gap opens along `direction`, and
+    /// Returns the place and rate in a frame where the side's gap opens along `direction`, and
     /// which sees the side turn with `spin` \[rad/s\].
     pub(super) fn seen(&self, clearance: f64, (direction, spin): (Plane, f64)) -> (Plane, Plane) {
         let place = Plane::new(-clearance, self.y);
@@ -126,7 +126,7 @@ impl Slide {
         Self { side, y, rate, propagator, pull: drag - propagator.stiffness * y }
     }
 
-    /// Displacement from the start and rate, `s` seconds on.
+    /// Returns the displacement from the start and rate, `s` seconds on.
     fn moved(&self, s: f64) -> (f64, f64) {
         let response = self.propagator.at(s);
         let displacement = self.rate * response.unit + self.pull * response.ramp;
@@ -191,7 +191,7 @@ impl Slide {
         sums
     }
 
-    /// Fastest rate of the motion along the side \[1/s\].
+    /// Returns the fastest rate of the motion along the side \[1/s\].
     pub(super) fn fastest(&self) -> f64 {
         2.0 * self.propagator.damping + self.propagator.stiffness.abs().sqrt()
     }
@@ -247,13 +247,13 @@ impl Slide {
     }
 }
 
-/// Response along a side at the wave frequency `nu`. The difference of squares
+/// Returns the response along a side at the wave frequency `nu`. The difference of squares
 /// is taken as a product, so that it is exactly zero at `nu = omega_c`.
 pub(super) fn propagator(parameters: &Parameters, nu: f64) -> Propagator {
     Propagator::new(parameters.damping, (parameters.omega - nu) * (parameters.omega + nu))
 }
 
-/// Round-off of the push \[m/s^2\].
+/// Returns the round-off of the push \[m/s^2\].
 pub(super) fn push_noise(parameters: &Parameters, nu: f64, y: f64, rate: f64, pulse: f64) -> f64 {
     let square = (parameters.omega * parameters.omega).max(nu * nu);
     parameters.tolerance
@@ -419,7 +419,7 @@ impl SideSeries {
         }
     }
 
-    /// Speed at the start away from the upper (`true`) or lower end \[m/s\].
+    /// Returns the speed at the start away from the upper (`true`) or lower end \[m/s\].
     pub(super) fn parting(&self, upper: bool) -> f64 {
         self.rooms[usize::from(!upper)][1] / self.length
     }
@@ -430,7 +430,7 @@ impl SideSeries {
         Along { y, rate: rate / self.length, push: values(&self.push, x)[0] }
     }
 
-    /// Whether the other side of a polygon of two may be met within the stretch:
+    /// Returns whether the other side of a polygon of two may be met within the stretch:
     /// blades that turn by `x` leave it open by `2 cos x (g0 cos x + y sin x)`.
     pub(super) fn may_meet_other(&self, parameters: &Parameters) -> bool {
         let Some(blades) = parameters.blades.filter(|_| parameters.machine.polygon.sides == 2)
@@ -448,12 +448,12 @@ impl SideSeries {
                 .any(|y| turned.iter().any(|x| y * x.tan() <= -parameters.clearance))
     }
 
-    /// A bound on every blade angle over the stretch \[rad\].
+    /// Returns a bound on every blade angle over the stretch \[rad\].
     pub(super) fn largest_bound(&self) -> f64 {
         self.tips.iter().flatten().map(|term| term.abs()).sum()
     }
 
-    /// The blades, `s` seconds on.
+    /// Returns the blades, `s` seconds on.
     pub(super) fn tips(&self, parameters: &Parameters, s: f64) -> Tips {
         if parameters.blades.is_none() {
             return Tips::default();
@@ -513,7 +513,7 @@ impl Blades {
     }
 }
 
-/// Series of the tangent, `T' = (1 + T^2) angle'`.
+/// Returns the series of the tangent, `T' = (1 + T^2) angle'`.
 fn tangent(angle: &Terms) -> Terms {
     let (mut result, mut factor, mut rate) = ([0.0; TERMS], [0.0; TERMS], [0.0; TERMS]);
     result[0] = angle[0].tan();

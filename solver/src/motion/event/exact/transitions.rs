@@ -95,7 +95,7 @@ impl ExactEvents {
         self.run.fail(s, reason)
     }
 
-    /// The event that ends the segment, if no later than `limit` seconds after
+    /// Returns the event that ends the segment, if no later than `limit` seconds after
     /// its start. The looks ahead depend neither on `limit` nor on pauses.
     fn seek(&mut self, limit: f64, go_on: GoOn<'_>) -> Sought {
         let pulse_end = self.pulse_left();
@@ -372,7 +372,7 @@ impl ExactEvents {
         }
     }
 
-    /// Second derivatives of both gaps of a corner at rest, without its pushes.
+    /// Returns the second derivatives of both gaps of a corner at rest, without its pushes.
     fn opening_accelerations(&self, contact: &CornerContact, rate: Plane) -> [f64; 2] {
         let parameters = &self.parameters;
         if parameters.blades.is_none() {
@@ -406,7 +406,7 @@ impl ExactEvents {
         }
     }
 
-    /// Place and rate along a side, as above.
+    /// Returns the place and rate along a side, as above.
     fn at_corner(&self, side: u32, rate: Plane, upper: bool, opens: f64) -> (f64, f64) {
         let parameters = &self.parameters;
         let lower = if upper { parameters.machine.polygon.previous(side) } else { side };
@@ -438,7 +438,7 @@ impl ExactEvents {
         }
     }
 
-    /// Whether a side that touches without rate pushes.
+    /// Returns whether a side that touches without rate pushes.
     fn pushes(&self, side: u32, y: f64, along: f64, rate: Plane) -> bool {
         let parameters = &self.parameters;
         let push = match &parameters.blades {
@@ -479,7 +479,7 @@ impl ExactEvents {
         self.enter(Mode::Free(free));
     }
 
-    /// Place of a point on a side.
+    /// Returns the place of a point on a side.
     fn on_side(&self, side: u32, y: f64) -> Plane {
         Plane::new(-self.parameters.clearance, y) * self.parameters.normal(side, &self.tips).0
     }

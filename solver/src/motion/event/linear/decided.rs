@@ -152,3 +152,50 @@ fn resting_blades(parameters: &Parameters, held: &Held, point: &Point) -> Plane 
     let (_, tips) = parameters.pushed(held.with(pushes));
     parameters.blades.map_or_else(Plane::default, |blades| tips / blades.propagator.stiffness)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    #[test]
+    fn nothing_is_held_for_good_where_a_push_is_none() {
+        let mut random = fastrand::Rng::with_seed(3);
+        let (mut pulled, mut kept) = (0, 0);
+        for (kappa, mu, speed) in
+            [("0.1", "0", "500"), ("0.1", "0.15", "500"), ("0", "0.15", "520")]
+        {
+            let scene = Scene::base().with(&[
+                ("solver.kind", "event"),
+                ("bladed_disk.radial_coupling", kappa),
+                ("contact.friction", mu),
+                ("operation.speed_rad_s", speed),
+            ]);
+            let parameters = Parameters::new(&scene.unwrap());
+            let held = Held::new(&parameters, vec![0, 1]).unwrap();
+            let rest = Rest::of(&parameters, &held).unwrap();
+            let largest =
+                rest.rooms.iter().map(|(room, share)| room / share).fold(f64::INFINITY, f64::min);
+            let size = rest.bound.nrows();
+            for turn in 0..400 {
+                let x = DVector::from_fn(size, |_, _| random.f64() - 0.5);
+                let part =
+                    0.05 * f64::from(turn % 80) * largest / x.dot(&(&rest.bound * &x)).sqrt();
+                let left = Scales::of(&parameters).point(&(x * part));
+                let point = Point {
+                    z: rest.point.z + left.z,
+                    dz: left.dz,
+                    a: rest.point.a + left.a,
+                    da: left.da,
+                };
+                let pushes = slope(&parameters, &held, &point, 1.0).1;
+                let for_good = rest.for_good(&parameters, &point);
+                let pulls = pushes.iter().take(2).any(|push| *push <= 0.0);
+                assert!(!(for_good && pulls), "{kappa} {mu} {turn}: {pushes:?}");
+                pulled += u32::from(pulls);
+                kept += u32::from(for_good);
+            }
+        }
+        assert!(pulled > 50 && kept > 100, "{pulled} {kept}");
+    }
+}

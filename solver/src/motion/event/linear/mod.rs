@@ -123,13 +123,6 @@ impl LinearEvents {
         }
     }
 
-    /// Largest amplitude `|alpha_c + i alpha_s|` of the blade modes over the last one
-    /// to two casing periods \[rad\]. Times `|kappa| l_b` it is how far the tips swing.
-    #[must_use]
-    pub fn recent_blade_amplitude(&self) -> f64 {
-        self.swings.largest().max(self.point_now().a.norm())
-    }
-
     /// The energies until now.
     fn energies_now(&self) -> Energies {
         let mut energies = self.energies;

@@ -470,6 +470,8 @@ fn try_choice(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::motion::Solver;
+    use crate::scene::Scene;
 
     #[test]
     fn two_rows_by_cases() {
@@ -484,6 +486,55 @@ mod tests {
         }
         assert_eq!(pushes(joint, &[1.0, 1.0], 1e-14).unwrap()[..2], [0.0, 0.0]);
         assert_eq!(pushes(joint, &[-1.0, 1.0], 1e-14).unwrap()[..2], [1.0, 0.0]);
+    }
+
+    /// Gaps that have just opened go on with digits of their own, but as the motion does.
+    #[test]
+    fn an_opened_gap_is_small_and_moves_as_the_motion_whatever_changes_on_the_way() {
+        let keys = [
+            ("solver.kind", "event"),
+            ("bladed_disk.radial_coupling", "0.2"),
+            ("contact.friction", "0.1"),
+            ("contact.restitution", "0.6"),
+        ];
+        let turns: [fn(&mut LinearEvents); 4] = [
+            |_| (),
+            |motion| motion.set_speed(460.0, 0.0),
+            |motion| motion.scale_rate(1.01),
+            |motion| motion.fire(),
+        ];
+        let mut looked = 0;
+        for pulse in ["2e4", "5e4", "1e5", "2e5"] {
+            let scene = Scene::base().with(&[&keys[..], &[("operation.pulse_n", pulse)]].concat());
+            let start = LinearEvents::new(&scene.unwrap());
+            let mut whole = start.clone();
+            whole.advance(6e-3).unwrap();
+            let hits = whole.contacts().impacts.iter().take(12).map(|hit| hit.t_s);
+            for (t, turn) in hits.flat_map(|t| turns.map(|turn| (t, turn))) {
+                let mut motion = start.clone();
+                motion.advance(t + 1e-10).unwrap();
+                turn(&mut motion);
+                for part in 0..6 {
+                    motion.advance(t + 1e-10 + 4e-6 * f64::from(part)).unwrap();
+                    let (parameters, point) = (&motion.parameters, motion.stretch.from());
+                    let size = point.dz.norm() + parameters.arm().abs() * point.da.norm();
+                    for gap in &motion.opened {
+                        let rate = parameters.along(gap.row, point.dz, point.da);
+                        assert!(
+                            (gap.rate - rate).abs() < 1e-9 * size,
+                            "{t} {part}: {gap:?} {rate}"
+                        );
+                        assert!(gap.gap < JUST_OPENED * parameters.clearance(), "{t}: {gap:?}");
+                        looked += 1;
+                    }
+                    let mut rows: Vec<usize> = motion.opened.iter().map(|gap| gap.row).collect();
+                    rows.extend(&motion.held.rows);
+                    rows.sort_unstable();
+                    assert!(rows.windows(2).all(|pair| pair[0] != pair[1]), "{t}: {rows:?}");
+                }
+            }
+        }
+        assert!(looked > 100, "{looked}");
     }
 
     #[test]

@@ -11,7 +11,7 @@ use super::full_at_once::Seen;
 use super::ring::{Ring, springs};
 use super::shapes::Room;
 use super::{Columns, Disk, RowTable};
-use crate::model::{Machine, gcd};
+use crate::model::Machine;
 use crate::motion::Plane;
 use crate::motion::explicit::{Coordinate, Driven, Oscillator};
 use crate::scene::Scene;
@@ -29,8 +29,6 @@ pub struct FullBlades {
     pub(super) increments: Vec<f64>,
     /// Increments of the step before, which only motions beyond the paper ask for.
     before: Vec<f64>,
-    /// The diameters that the excitation drove in the last step, and its torques \[N m\].
-    torque: Option<(usize, [f64; 2])>,
     pub(super) room: Room,
     pub(super) seen: Seen,
 }
@@ -87,36 +85,16 @@ impl Rows {
 }
 
 impl Disk for FullBlades {
-    fn at_rest(scene: &Scene, machine: &Machine, driven: Driven<'_>) -> Self {
-        let alike = Ring::most_alike(scene, machine);
-        let mut blades = Self::resting(scene, machine, alike);
-        if let Some((k, torques)) = blades.driving(driven) {
-            let scale = blades.ring.shapes.scale(k);
-            for (place, torque) in blades.ring.pair(k).into_iter().zip(torques) {
-                let begun =
-                    blades.ring.oscillators[k].begin(blades.coordinate_at(place), scale * torque);
-                blades.increments[place] = begun.increment;
-            }
-        }
-        blades
+    fn at_rest(scene: &Scene, machine: &Machine, _: Driven<'_>) -> Self {
+        Self::resting(scene, machine, Ring::alike(scene, machine))
     }
     fn with_parameters(&self, scene: &Scene, machine: &Machine) -> Self {
-        let old = &*self.ring;
-        // What was excited apart stays so.
-        let alike = gcd(old.alike, Ring::most_alike(scene, machine));
-        let mut new = Self::resting(scene, machine, alike);
-        let finer = (old.alike / alike) as usize;
-        for k in 0..old.oscillators.len() {
-            let factor = old.shapes.scale(k) / new.ring.shapes.scale(k * finer);
-            for (from, to) in old.pair(k).into_iter().zip(new.ring.pair(k * finer)) {
-                new.x[to] = factor * self.x[from];
-                new.increments[to] = factor * self.increments[from];
-                if let Some(before) = new.before.get_mut(to) {
-                    *before = factor * self.before[from];
-                }
-            }
+        Self {
+            x: self.x.clone(),
+            increments: self.increments.clone(),
+            before: self.before.clone(),
+            ..Self::at_rest(scene, machine, None)
         }
-        new
     }
     fn coordinates(&self) -> usize {
         let members = self.ring.shapes.count();
@@ -125,22 +103,13 @@ impl Disk for FullBlades {
     fn table(&self) -> &RowTable {
         &self.rows.table
     }
-    fn predict(&mut self, driven: Driven<'_>) -> f64 {
-        self.torque = self.driving(driven);
+    fn predict(&mut self, _: Driven<'_>) -> f64 {
         let pulled = self.pull();
         self.seen.steps = self.seen.steps.saturating_add(1);
         if !self.before.is_empty() {
             self.before.copy_from_slice(&self.increments);
         }
-        let driven = self.torque.map(|(k, torques)| {
-            let before = self.ring.pair(k).map(|place| self.coordinate_at(place));
-            (k, torques, before)
-        });
-        let Self { ring, x, increments, .. } = self;
-        let mut change = ring.step(x, increments);
-        if let Some((k, torques, before)) = driven {
-            change += ring.drive(k, torques, before, x, increments);
-        }
+        let mut change = self.ring.step(&mut self.x, &mut self.increments);
         self.seen.slack += change;
         if pulled {
             change += self.turn_all();
@@ -180,29 +149,22 @@ impl Disk for FullBlades {
             self.see_all();
         }
         let Self { ring, seen, x, .. } = &*self;
-        for (angle, row) in rows.angle.iter_mut().zip(&rows.index) {
-            *angle = self.mean(*row, |member| match seen.are_of_now() {
+        rows.put_angles(|row| {
+            self.mean(row, |member| match seen.are_of_now() {
                 true => seen.angles[member],
                 false => ring.shapes.at(member, x),
-            });
-        }
+            })
+        });
     }
     fn push(&mut self, rows: &Columns, _: [f64; 2]) -> f64 {
         if self.are_many(rows) {
-            self.put(rows.each(&rows.torque));
+            self.put(rows.each(|four| four.torque));
             return self.turn_all();
         }
-        let mut change = 0.0;
-        for (row, _, torque) in rows.each(&rows.torque) {
-            if torque != 0.0 {
-                self.correct(row, torque);
-                change += self.compliance(row, row) * torque.abs();
-            }
-        }
-        change
+        self.push_each(rows)
     }
     fn swept(&mut self, rows: &Columns) -> f64 {
-        self.put(rows.each(&rows.push));
+        self.put(rows.each(|four| four.push));
         let Self { ring, increments, before, room, .. } = self;
         let (mut swept, moved) = (0.0, |place: usize| 0.5 * (increments[place] + before[place]));
         ring.shapes.feel(room, |k, felt| {
@@ -212,7 +174,7 @@ impl Disk for FullBlades {
         swept
     }
     fn begin(&mut self, rows: &Columns, _: [f64; 2]) {
-        self.put(rows.each(&rows.torque));
+        self.put(rows.each(|four| four.torque));
         let Self { ring, x, increments, room, .. } = self;
         ring.shapes.feel(room, |k, felt| {
             for (place, felt) in ring.pair(k).into_iter().zip(felt) {
@@ -254,14 +216,11 @@ impl Disk for FullBlades {
         }
         f64::min(sum, square.sqrt())
     }
-    fn can_fly(&self, steps: u64, largest: f64) -> bool {
-        // No angle on the way needs a look.
-        let least =
-            (self.ring.shapes.count() as u64).clamp(SHORTEST_BLOCK, SHORTEST_BLOCK_OF_BLADES);
-        steps >= least && self.reach() <= largest
+    fn shortest_block(&self) -> u64 {
+        (self.ring.shapes.count() as u64).clamp(SHORTEST_BLOCK, SHORTEST_BLOCK_OF_BLADES)
     }
-    fn peak(&self, _: u64, least: f64) -> f64 {
-        least
+    fn peak(&self, steps: u64, least: f64) -> f64 {
+        if self.reach() <= least { least } else { self.clone().fly_looking(steps, least) }
     }
     fn skip(&mut self, steps: u64) {
         for (k, oscillator) in self.ring.oscillators.iter().enumerate() {
@@ -298,12 +257,7 @@ impl Disk for FullBlades {
     fn flows(&self) -> [f64; 2] {
         let moved = self.increments.iter().zip(&self.before).map(|(now, before)| now + before);
         let loss = moved.zip(&self.rows.losses).map(|(moved, loss)| loss * moved * moved).sum();
-        let work = self.torque.map_or(0.0, |(k, torques)| {
-            let scale = 0.5 * self.ring.shapes.scale(k);
-            let pair = self.ring.pair(k).into_iter().zip(torques);
-            pair.map(|(at, torque)| scale * torque * (self.increments[at] + self.before[at])).sum()
-        });
-        [loss, work]
+        [loss, 0.0]
     }
 }
 
@@ -317,7 +271,6 @@ impl FullBlades {
             x: vec![0.0; coordinates],
             increments: vec![0.0; coordinates],
             before: vec![0.0; if scene.goes_beyond() { coordinates } else { 0 }],
-            torque: None,
             room: ring.shapes.room(),
             seen: Seen::nothing(members),
             ring: Arc::new(ring),
@@ -336,13 +289,6 @@ impl FullBlades {
         (0..members).map(|member| value(row as usize + member * rows)).sum::<f64>() / members as f64
     }
 
-    /// The diameters that an excitation drives, in those of the ring, and its torques.
-    fn driving(&self, driven: Driven<'_>) -> Option<(usize, [f64; 2])> {
-        let (excitation, phase) = driven?;
-        let k = self.ring.driven(excitation);
-        Some((k, excitation.torque_on(k as u32 * self.ring.alike, phase)))
-    }
-
     /// Corrects the step by a torque on one member (from 0); a bound on what it turns.
     fn turn(&mut self, member: u32, torque: f64) -> f64 {
         let Self { ring, x, increments, .. } = self;
@@ -352,7 +298,7 @@ impl FullBlades {
         change
     }
 
-    /// Twice the energy in the extra springs between the last two steps \[J\].
+    /// Returns twice the energy in the extra springs between the last two steps \[J\].
     fn twice_in_springs(&self) -> f64 {
         if self.rows.springs.is_empty() {
             return 0.0;
@@ -368,16 +314,13 @@ impl FullBlades {
 pub(super) mod tests {
     use super::*;
     use crate::motion::Solver;
-    use crate::motion::explicit::{EngineOrderTorque, Explicit};
+    use crate::motion::explicit::Explicit;
 
-    /// Blades of the paper, `count` of them, excited by an order or not.
-    pub(in crate::motion) fn scene(count: u32, order: Option<u32>) -> Scene {
+    /// Blades of the paper, `count` of them.
+    pub(in crate::motion) fn scene(count: u32) -> Scene {
         let mut scene = Scene::base();
         scene.bladed_disk.blades = count;
         scene.solver.step_s = 1e-4;
-        if let Some(order) = order {
-            (scene.excitation.amplitude_nm, scene.excitation.order) = (0.3, order);
-        }
         scene
     }
 
@@ -396,21 +339,17 @@ pub(super) mod tests {
 
     #[test]
     fn a_step_is_that_of_one_oscillator_for_each_mode() {
-        for (count, order) in [(22, None), (22, Some(5)), (131, Some(19)), (5, Some(0))] {
-            let scene = scene(count, order);
-            let torque = EngineOrderTorque::of(&scene);
-            let mut blades = at_rest(&scene);
+        for count in [5, 22, 131] {
+            let mut blades = at_rest(&scene(count));
             blades.correct(1, 3.0);
             blades.correct(3, -2.0);
             let ring = blades.ring.clone();
-            for step in 0..100 {
-                let (phase, before) = (0.05 * f64::from(step), blades.clone());
-                let change = blades.predict(torque.as_ref().map(|torque| (torque, phase)));
+            for _ in 0..100 {
+                let before = blades.clone();
+                let change = blades.predict(None);
                 for (k, oscillator) in ring.oscillators.iter().enumerate() {
-                    let force = torque.map_or([0.0; 2], |torque| torque.torque_on(k as u32, phase));
-                    for (place, force) in ring.pair(k).into_iter().zip(force) {
-                        let force = ring.shapes.scale(k) * force;
-                        let next = oscillator.step(before.coordinate_at(place), force);
+                    for place in ring.pair(k) {
+                        let next = oscillator.step(before.coordinate_at(place), 0.0);
                         assert_eq!(blades.coordinate_at(place), next, "{count} {k}");
                     }
                 }
@@ -424,8 +363,7 @@ pub(super) mod tests {
     #[test]
     fn a_push_turns_every_blade_by_its_compliance() {
         for count in [1, 2, 4, 22, 140] {
-            let scene = scene(count, None);
-            let mut blades = at_rest(&scene);
+            let mut blades = at_rest(&scene(count));
             let pushed = count / 2;
             blades.correct(pushed, 2.0);
             let own = blades.compliance(pushed, pushed);
@@ -439,27 +377,17 @@ pub(super) mod tests {
 
     #[test]
     fn blades_that_nothing_tells_apart_are_one() {
-        for (blades, diameters, order, alike) in [
-            (66, 3, None, 3),
-            (66, 3, Some(5), 1),
-            (66, 3, Some(63), 3),
-            (88, 4, Some(6), 2),
-            (22, 0, None, 22),
-            (22, 11, Some(0), 11),
-        ] {
-            let mut scene = scene(blades, order);
+        for (blades, diameters, alike) in [(66, 3, 3), (88, 4, 4), (22, 0, 22), (22, 11, 11)] {
+            let mut scene = scene(blades);
             scene.operation.nodal_diameters = diameters;
             let machine = scene.machine();
-            let one = at_rest(&scene);
-            assert_eq!(one.ring.alike, alike, "{blades} {diameters} {order:?}");
+            let mut one = at_rest(&scene);
+            assert_eq!(one.ring.alike, alike, "{blades} {diameters}");
             // Each on its own, and the same torque on all of a member.
             let mut each = FullBlades::resting(&scene, &machine, 1);
-            let mut one = one;
-            let torque = EngineOrderTorque::of(&scene);
             for step in 0..200 {
-                let excitation = torque.as_ref().map(|torque| (torque, 0.05 * f64::from(step)));
-                one.predict(excitation);
-                each.predict(excitation);
+                one.predict(None);
+                each.predict(None);
                 let side = step as u32 % machine.polygon.sides;
                 for row in one.table().of_side(side).to_vec() {
                     one.correct(row, 1.0);
@@ -482,16 +410,6 @@ pub(super) mod tests {
             for (found, expected) in a.zip(b) {
                 assert!((found - expected).abs() < 1e-12 * size * 1e3, "{found} {expected}");
             }
-            // Told apart from now on, they go on from where they are.
-            scene.excitation.amplitude_nm = 0.3;
-            scene.excitation.order = 1;
-            let apart = one.with_parameters(&scene, &machine);
-            assert_eq!(apart.ring.alike, 1);
-            for (a, b) in apart.every_angle().iter().zip(one.every_angle()) {
-                assert!((a - b).abs() < 1e-13 * size, "{blades} {diameters}: {a} {b}");
-            }
-            scene.excitation.amplitude_nm = 0.0;
-            assert_eq!(apart.with_parameters(&scene, &machine).ring.alike, 1);
         }
     }
 

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use super::{Columns, Disk, HeldModes, RowTable, dot};
+use super::{Columns, Disk, HeldModes, RowTable, total};
 use crate::model::{ContactPolygon, Machine, gcd};
 use crate::motion::Plane;
 use crate::motion::explicit::{Coordinate, Driven, Oscillator};
@@ -160,7 +160,13 @@ impl Disk for ModalBlades {
         self.modes.iter_mut().for_each(|mode| mode.x *= part);
     }
     fn swept(&mut self, rows: &Columns) -> f64 {
-        let [c, s] = rows.shape.each_ref().map(|shape| dot(shape, &rows.push));
+        let mut felt = [[0.0; 4]; 2];
+        for four in &rows.fours {
+            for (felt, shape) in felt.iter_mut().zip(&four.shape) {
+                (0..4).for_each(|lane| felt[lane] += shape[lane] * four.push[lane]);
+            }
+        }
+        let [c, s] = felt.map(total);
         let moved = |k: usize| 0.5 * (self.modes[k].increment + self.before[k]);
         c * moved(0) + s * moved(1)
     }
@@ -253,39 +259,39 @@ impl Disk for ModalBlades {
 }
 
 impl ModalBlades {
-    /// Angle of blades of these shapes \[rad\].
+    /// Returns the angle of blades of these shapes \[rad\].
     fn at(&self, (c, s): (f64, f64)) -> f64 {
         c * self.modes[0].x + s * self.modes[1].x
     }
 
-    /// What the excitation does to the modes \[N m\].
+    /// Returns the torque of the excitation on the modes \[N m\].
     fn torques(&self, driven: Driven<'_>) -> [f64; 2] {
         let Some((excitation, phase)) = driven else { return [0.0; 2] };
         let [c, s] = excitation.torque_on(self.rows.diameters, phase);
         [c, if self.has_sine_mode { s } else { 0.0 }]
     }
 
-    /// The oscillator that both modes are.
+    /// Returns the oscillator of both modes.
     pub fn oscillator(&self) -> &Oscillator {
         &self.oscillator
     }
 
-    /// Increments of the modes in the step before the last \[rad\].
+    /// Returns the increments of the modes in the step before the last \[rad\].
     pub fn before(&self) -> [f64; 2] {
         self.before
     }
 
-    /// `(p_c, p_s)` of a side, where the disk has the diameters of the casing wave.
+    /// Returns `(p_c, p_s)` of a side, where the disk has the diameters of the casing wave.
     pub fn shape(&self, side: u32) -> (f64, f64) {
         self.rows.phases.direction(side)
     }
 
-    /// The largest angle of any blade at these mode displacements \[rad\].
+    /// Returns the largest angle of any blade at these mode displacements \[rad\].
     pub fn largest(&self, modes: [f64; 2]) -> f64 {
         self.largest_and_where(modes).0
     }
 
-    /// The same, and the phase of the blades that have it.
+    /// Returns the same, and the phase of the blades that have it.
     fn largest_and_where(&self, [cosine, sine]: [f64; 2]) -> (f64, u32) {
         let mut widest = self.widest;
         if cosine.is_finite() && sine.is_finite() {

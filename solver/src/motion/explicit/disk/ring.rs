@@ -1,15 +1,14 @@
 //! The bladed disk as a ring of equal blades in its Fourier modes, where the
 //! circulant matrices of Eqs. (2)-(3) are diagonal: what does not move.
 //!
-//! Blades `N/d` apart do the same for ever if `d` divides the number of blades,
-//! the nodal diameters and the order of the excitation: nothing tells them
-//! apart. So `d` such blades are one member of a ring of `N/d`, with the inertia
+//! Blades `N/d` apart do the same for ever if `d` divides the number of blades and
+//! the nodal diameters: nothing tells them apart. So `d` such blades are one member of a ring of `N/d`, with the inertia
 //! of all of them, and a push on it is shared evenly.
 //! A mistuned disk has springs of its own beside (section 10).
 
 use super::shapes::{LANES, Shapes};
-use crate::model::{Machine, blade_frequency, gcd};
-use crate::motion::explicit::{Coordinate, EngineOrderTorque, Oscillator};
+use crate::model::{Machine, blade_frequency};
+use crate::motion::explicit::Oscillator;
 use crate::numeric::normal::normals;
 use crate::scene::Scene;
 
@@ -42,16 +41,13 @@ pub(super) struct Ring {
 }
 
 impl Ring {
-    /// How many blades of a scene are one member, at most.
-    pub fn most_alike(scene: &Scene, machine: &Machine) -> u32 {
-        if scene.bladed_disk.mistuning != 0.0 || machine.is_uneven() {
-            return 1;
-        }
-        let group = machine.polygon.blades_per_side;
-        EngineOrderTorque::of(scene).map_or(group, |torque| gcd(group, torque.diameters()))
+    /// Returns how many blades of a scene are one member.
+    pub fn alike(scene: &Scene, machine: &Machine) -> u32 {
+        let alone = scene.bladed_disk.mistuning != 0.0 || machine.is_uneven();
+        if alone { 1 } else { machine.polygon.blades_per_side }
     }
 
-    /// The ring of a scene with `alike` blades as one member.
+    /// Creates the ring of a scene with `alike` blades as one member.
     pub fn new(scene: &Scene, machine: &Machine, alike: u32) -> Self {
         let disk = &scene.disk_in_use();
         let count = disk.blades / alike;
@@ -95,7 +91,7 @@ impl Ring {
         }
     }
 
-    /// Blades whose frequencies squared are this much above those at rest \[rad^2/s^2\].
+    /// Sets the increase of the squared blade frequencies above those at rest \[rad^2/s^2\].
     pub fn stiffen(&mut self, added: f64) {
         let width = self.shapes.width();
         for (k, (oscillator, still)) in self.oscillators.iter_mut().zip(&self.still).enumerate() {
@@ -104,13 +100,12 @@ impl Ring {
         }
     }
 
-    /// How many coordinates a list of them has room for.
+    /// Returns the length of a list of coordinates.
     pub fn len(&self) -> usize {
         self.ratio.len()
     }
 
-    /// One free step of every coordinate; a bound on what it does to any angle
-    /// \[rad\].
+    /// Takes one free step of every coordinate. Returns a bound on the change of any angle \[rad\].
     pub fn step(&self, x: &mut [f64], increments: &mut [f64]) -> f64 {
         let mut sums = [0.0; LANES];
         let moving = x.as_chunks_mut::<LANES>().0.iter_mut();
@@ -127,37 +122,13 @@ impl Ring {
         self.largest_shape * sums.iter().sum::<f64>()
     }
 
-    /// Replaces the free step of the modes of `k` diameters, which were at `before`, by that
-    /// under the torques on them; a bound on what it does to any angle \[rad\].
-    pub fn drive(
-        &self,
-        k: usize,
-        torques: [f64; 2],
-        before: [Coordinate; 2],
-        x: &mut [f64],
-        increments: &mut [f64],
-    ) -> f64 {
-        let mut change = 0.0;
-        for (place, (torque, at)) in self.pair(k).into_iter().zip(torques.into_iter().zip(before)) {
-            let driven = self.oscillators[k].step(at, self.shapes.scale(k) * torque);
-            (x[place], increments[place]) = (driven.x, driven.increment);
-            change += driven.increment.abs();
-        }
-        self.largest_shape * change
-    }
-
-    /// The diameters that an excitation drives, in those of the ring.
-    pub fn driven(&self, torque: &EngineOrderTorque) -> usize {
-        (torque.diameters() / self.alike) as usize
-    }
-
-    /// Places of the cosine and sine coordinates of `k` diameters of the ring.
+    /// Returns the places of the cosine and sine coordinates of `k` diameters of the ring.
     pub fn pair(&self, k: usize) -> [usize; 2] {
         [k, self.shapes.width() + k]
     }
 
-    /// What a torque on the member with this row of shapes does to positions and
-    /// increments in a step.
+    /// Adds the effect of a torque on the member with this row of shapes to positions and
+    /// increments of a step.
     pub fn correct(&self, row: &[f64], torque: f64, x: &mut [f64], increments: &mut [f64]) {
         let moving = x.as_chunks_mut::<LANES>().0.iter_mut();
         let moving = moving.zip(increments.as_chunks_mut::<LANES>().0);
@@ -172,8 +143,7 @@ impl Ring {
         }
     }
 
-    /// Coordinates of `alpha_c` and `alpha_s`: the diameters, the place in the
-    /// list and the factor.
+    /// Returns the coordinates of `alpha_c` and `alpha_s`: diameters, place in the list and factor.
     pub fn shown(&self) -> [(usize, usize, f64); 2] {
         self.shown.map(|(place, factor)| (place % self.shapes.width(), place, factor))
     }
@@ -196,7 +166,7 @@ fn shown(machine: &Machine, shapes: &Shapes, alike: u32) -> [(usize, f64); 2] {
     [(folded, scale), (shapes.width() + folded, sign * scale)]
 }
 
-/// Stiffness of each blade beyond `k_b`, `sd x_i k_b` with `x_i` standard normal less
+/// Returns the stiffness of each blade beyond `k_b`, `sd x_i k_b` with `x_i` standard normal less
 /// their mean, so that `k_b` is the mean stiffness \[N m/rad\]; none for a tuned disk.
 pub(super) fn springs(scene: &Scene) -> Vec<f64> {
     let disk = &scene.disk_in_use();

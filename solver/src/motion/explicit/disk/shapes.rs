@@ -58,7 +58,7 @@ pub(super) struct Room {
 }
 
 impl Shapes {
-    /// Of a ring of `count >= 1` blades.
+    /// Creates the shapes of a ring of `count >= 1` blades.
     pub fn new(count: u32) -> Self {
         let blades = f64::from(count);
         let turn: Vec<_> = (0..count).map(|blade| fraction_of_turn(blade, count)).collect();
@@ -80,7 +80,7 @@ impl Shapes {
         shapes
     }
 
-    /// Both shapes of every mode at a blade (from 0), in the order of
+    /// Returns both shapes of every mode at a blade (from 0), in the order of
     /// coordinates.
     pub fn row(&self, blade: usize) -> Vec<f64> {
         let mut row = vec![0.0; 2 * self.width];
@@ -91,17 +91,17 @@ impl Shapes {
         row
     }
 
-    /// How many blades there are.
+    /// Returns how many blades there are.
     pub fn count(&self) -> usize {
         self.turn.len()
     }
 
-    /// Length of one half of a list of coordinates.
+    /// Returns the length of one half of a list of coordinates.
     pub fn width(&self) -> usize {
         self.width
     }
 
-    /// Factor of the shapes of `k` diameters.
+    /// Returns the factor of the shapes of `k` diameters.
     pub fn scale(&self, k: usize) -> f64 {
         self.scales[k]
     }
@@ -111,7 +111,7 @@ impl Shapes {
         &self.scales
     }
 
-    /// Both shapes at a blade (from 0), of each number of diameters.
+    /// Returns both shapes at a blade (from 0), of each number of diameters.
     fn along(&self, blade: usize) -> impl Iterator<Item = (f64, f64)> {
         let mut at = 0;
         self.scales.iter().map(move |scale| {
@@ -137,12 +137,12 @@ impl Shapes {
         self.with_row(blade, |row| product(row, coordinates))
     }
 
-    /// How many blades cost less one by one than all of them at once.
+    /// Returns how many blades cost less one by one than all of them at once.
     pub fn few(&self) -> usize {
         FEW_BLADES * (usize::BITS - self.count().leading_zeros()) as usize
     }
 
-    /// Room for `all_into` and `feel`.
+    /// Creates the room for `all_into` and `feel`.
     pub fn room(&self) -> Room {
         let Transforms { to_blades, to_modes } = &self.transforms;
         let scratch = to_blades.get_scratch_len().max(to_modes.get_scratch_len());
@@ -193,7 +193,7 @@ impl Shapes {
     }
 }
 
-/// The value of what has these coordinates where the shapes are those of `row`.
+/// Returns the value of what has these coordinates where the shapes are those of `row`.
 fn product(row: &[f64], coordinates: &[f64]) -> f64 {
     let mut sums = [0.0; LANES];
     let (shapes, values) = (row.as_chunks::<LANES>().0, coordinates.as_chunks::<LANES>().0);

@@ -31,43 +31,47 @@ impl RowTable {
         self.side.len()
     }
 
-    /// How many rows each side has.
+    /// Returns how many rows each side has.
     pub fn rows_per_side(&self) -> usize {
         self.rows_per_side
     }
 
-    /// The rows of a side.
+    /// Returns the rows of a side.
     pub fn of_side(&self, side: u32) -> &[u32] {
         let first = side as usize * self.rows_per_side;
         &self.of_sides[first..first + self.rows_per_side]
     }
 }
 
-/// Some rows as columns of numbers, one entry a row.
+/// Some rows with their numbers, four rows side by side. The last row fills up the last four,
+/// without stiffness.
 #[derive(Clone, Debug, Default)]
 pub(in crate::motion) struct Columns {
     pub index: Vec<u32>,
     pub side: Vec<u32>,
+    pub fours: Vec<Four>,
+}
+
+/// One number of each of four rows.
+pub(in crate::motion) type Lanes = [f64; 4];
+
+/// Four rows side by side, which one pass of vector instructions takes.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::motion) struct Four {
     /// Direction at rest, `cos psi` and `sin psi`.
-    pub cosine: Vec<f64>,
-    pub sine: Vec<f64>,
-    /// `Disk::shape_of`.
-    pub shape: [Vec<f64>; 2],
+    pub cosine: Lanes,
+    pub sine: Lanes,
+    /// `Disk::shape_of`; where not only two modes move, the angle of the row \[rad\] and zero.
+    pub shape: [Lanes; 2],
     /// Stiffness of the lining under all blades of a row \[N/m\].
-    pub stiffness: Vec<f64>,
-    /// Angle of each row \[rad\], unless two modes are all that moves.
-    pub angle: Vec<f64>,
-    /// Direction with the phase of the blades.
-    pub normal: [Vec<f64>; 2],
-    /// Depth in the lining \[m\].
-    pub depth: Vec<f64>,
+    pub stiffness: Lanes,
     /// Push on the blades of a row and its torque in the latest step, and the push in the step
     /// before \[N, N m\].
-    pub push: Vec<f64>,
-    pub torque: Vec<f64>,
-    pub before: Vec<f64>,
+    pub push: Lanes,
+    pub torque: Lanes,
+    pub before: Lanes,
     /// Sum of the pushes since it was given to the record \[N\].
-    pub impulse: Vec<f64>,
+    pub impulse: Lanes,
 }
 
 impl Columns {
@@ -81,63 +85,42 @@ impl Columns {
         shape: impl Fn(u32) -> (f64, f64),
     ) -> Self {
         let side: Vec<u32> = rows.iter().map(|&row| table.side[row as usize]).collect();
-        let (cosine, sine) = side.iter().map(|&side| direction(side)).unzip();
-        let shapes: (Vec<f64>, Vec<f64>) = rows.iter().map(|&row| shape(row)).unzip();
-        let [zeros, each] = [0.0, f64::from(table.blades_per_row) * stiffness_n_per_m]
-            .map(|value| vec![value; rows.len()]);
-        Self {
-            index: rows.to_vec(),
-            side,
-            cosine,
-            sine,
-            shape: shapes.into(),
-            stiffness: each,
-            angle: zeros.clone(),
-            normal: [zeros.clone(), zeros.clone()],
-            depth: zeros.clone(),
-            push: zeros.clone(),
-            torque: zeros.clone(),
-            before: zeros.clone(),
-            impulse: zeros,
+        let each = f64::from(table.blades_per_row) * stiffness_n_per_m;
+        let mut fours = vec![Four::default(); rows.len().div_ceil(4)];
+        for place in 0..4 * fours.len() {
+            let (four, lane) = (&mut fours[place / 4], place % 4);
+            let row = place.min(rows.len() - 1);
+            (four.cosine[lane], four.sine[lane]) = direction(side[row]);
+            (four.shape[0][lane], four.shape[1][lane]) = shape(rows[row]);
+            four.stiffness[lane] = if row == place { each } else { 0.0 };
+        }
+        Self { index: rows.to_vec(), side, fours }
+    }
+
+    /// Takes the angle of each row from `angle`.
+    pub fn put_angles(&mut self, mut angle: impl FnMut(u32) -> f64) {
+        let mut last = 0.0;
+        for (four, rows) in self.fours.iter_mut().zip(self.index.chunks(4)) {
+            for (lane, place) in four.shape[0].iter_mut().enumerate() {
+                last = rows.get(lane).map_or(last, |row| angle(*row));
+                *place = last;
+            }
         }
     }
 
-    /// Returns index and side of each row with its entry in a column.
-    pub fn each<'a>(
-        &'a self,
-        column: &'a [f64],
-    ) -> impl Iterator<Item = (u32, u32, f64)> + Clone + 'a {
-        let rows = self.index.iter().zip(&self.side).zip(column);
-        rows.map(|((&index, &side), &value)| (index, side, value))
+    /// Returns index and side of each row with one of its numbers.
+    pub fn each<T: Copy>(
+        &self,
+        value: impl Fn(&Four) -> [T; 4] + Clone,
+    ) -> impl Iterator<Item = (u32, u32, T)> + Clone {
+        let rows = self.index.iter().zip(&self.side);
+        rows.zip(self.fours.iter().flat_map(value)).map(|((&row, &side), value)| (row, side, value))
     }
 }
 
-/// Returns the sum of the products of two columns, four sums side by side.
-pub(in crate::motion) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; 4];
-    let ((fours, left), (others, more)) = (a.as_chunks::<4>(), b.as_chunks::<4>());
-    for (a, b) in fours.iter().zip(others) {
-        for lane in 0..4 {
-            sums[lane] += a[lane] * b[lane];
-        }
-    }
-    for (sum, (a, b)) in sums.iter_mut().zip(left.iter().zip(more)) {
-        *sum += a * b;
-    }
-    (sums[0] + sums[1]) + (sums[2] + sums[3])
-}
-
-/// Returns the sum of a column, added up as `dot` does.
-pub(in crate::motion) fn total(column: &[f64]) -> f64 {
-    let mut sums = [0.0; 4];
-    let (fours, left) = column.as_chunks::<4>();
-    for four in fours {
-        for lane in 0..4 {
-            sums[lane] += four[lane];
-        }
-    }
-    sums.iter_mut().zip(left).for_each(|(sum, x)| *sum += x);
-    (sums[0] + sums[1]) + (sums[2] + sums[3])
+/// Returns the sum of four numbers.
+pub(in crate::motion) fn total([a, b, c, d]: Lanes) -> f64 {
+    (a + b) + (c + d)
 }
 
 #[cfg(test)]

@@ -44,7 +44,7 @@ impl SideStep {
 }
 
 impl<B: Disk> Explicit<B> {
-    /// The side that has closed alone in the two latest steps, if nothing but the blades
+    /// Returns the side that has closed alone in the two latest steps, if nothing but the blades
     /// acts on the wave.
     fn steady_side(&self) -> Option<u32> {
         let ActiveSet::Side(side) = self.record.log.active_set else { return None };
@@ -52,7 +52,7 @@ impl<B: Disk> Explicit<B> {
         (alone && self.drive.is_steady(self.n) && self.n >= self.leaps.slide_tried).then_some(side)
     }
 
-    /// Whether the wave slides along a side of blades that move; it begins to, if it can.
+    /// Returns whether the wave slides along a side of blades that move; it begins to, if it can.
     pub(in crate::motion::explicit) fn is_sliding(&mut self) -> bool {
         if self.leaps.sliding.is_none()
             && self.scene.solver.shortcuts.slide
@@ -148,7 +148,7 @@ impl<B: Disk> Explicit<B> {
         }
     }
 
-    /// Coordinates of a wave that slides.
+    /// Returns the coordinates of a wave that slides.
     pub(in crate::motion::explicit) fn slid(&self, sliding: &Sliding) -> ([Coordinate; 2], B) {
         let mut blades = self.blades.clone();
         if let Some(moving) = self.blades.held_modes().and_then(|blades| blades.moving) {
@@ -164,14 +164,14 @@ impl<B: Disk> Explicit<B> {
         SideStep::new(&self.casing, turn)
     }
 
-    /// `zeta` and `zeta[n] - exp(-i nu h) zeta[n-1]` on a side.
+    /// Returns `zeta` and `zeta[n] - exp(-i nu h) zeta[n-1]` on a side.
     fn seen_from(&self, side: u32) -> [Plane; 2] {
         let back = self.standing_side(side, self.n).conj();
         let [c, s] = self.u;
         [Plane::new(c.x, s.x) * back, Plane::new(c.increment, s.increment) * back]
     }
 
-    /// The coordinates of which `seen_from` gives these at step `n`.
+    /// Returns the coordinates of which `seen_from` gives these at step `n`.
     fn standing(&self, side: u32, n: u64, seen: [Plane; 2]) -> [Coordinate; 2] {
         let [place, moved] = seen.map(|seen| seen * self.standing_side(side, n));
         [
@@ -180,7 +180,7 @@ impl<B: Disk> Explicit<B> {
         ]
     }
 
-    /// `exp(i (n_d theta + psi))` of a side at step `n`: its inward normal in the
+    /// Returns `exp(i (n_d theta + psi))` of a side at step `n`: its inward normal in the
     /// standing frame.
     fn standing_side(&self, side: u32, n: u64) -> Plane {
         let (c, s) = self.drive.look_at_turn(n);

@@ -36,7 +36,7 @@ impl Block {
 }
 
 impl<B: Disk> Explicit<B> {
-    /// Whether a block is open; begins one if it can be long enough to be worth it.
+    /// Returns whether a block is open; begins one if it can be long enough to be worth it.
     pub(in crate::motion::explicit) fn open_block(&mut self) -> bool {
         if !self.leaps.block.is_open() {
             let lasts = !self.goes_beyond || self.leaps.same_sides >= HELD_AFTER;
@@ -94,7 +94,7 @@ impl<B: Disk> Explicit<B> {
         self.leaps.block = Block::default();
     }
 
-    /// The largest angle of any blade so far, the open block included \[rad\].
+    /// Returns the largest angle of any blade so far, the open block included \[rad\].
     pub(in crate::motion::explicit) fn largest_angle(&self) -> f64 {
         let (used, least) = (self.leaps.block.used, self.watch.largest());
         match &self.leaps.held {
@@ -104,7 +104,7 @@ impl<B: Disk> Explicit<B> {
         }
     }
 
-    /// Coordinates at the latest step, inside a block or not.
+    /// Returns the coordinates at the latest step, inside a block or not.
     pub(in crate::motion::explicit) fn materialized(&self) -> ([Coordinate; 2], B) {
         if let Some(sliding) = &self.leaps.sliding {
             return self.slid(sliding);
@@ -119,7 +119,7 @@ impl<B: Disk> Explicit<B> {
 }
 
 impl<B: Disk> Explicit<B> {
-    /// Whether no contact can ever come again: the casing, whatever the blades
+    /// Returns whether no contact can ever come again: the casing, whatever the blades
     /// do, never reaches one.
     pub(in crate::motion::explicit) fn no_contact_to_come(&self) -> bool {
         if !self.scene.solver.shortcuts.proofs

@@ -70,7 +70,7 @@ struct Sides {
 }
 
 impl CornerStep {
-    /// For a wave that turns by `turn` a step against the standing frame.
+    /// Creates the step of a wave that turns by `turn` per step against the standing frame.
     pub fn new(
         machine: &Machine,
         tips: TipLaw,
@@ -99,17 +99,17 @@ impl CornerStep {
         self.sides
     }
 
-    /// Sine of the angle between the sides.
+    /// Returns the sine of the angle between the sides.
     pub fn sine(&self) -> f64 {
         (self.directions[0].conj() * self.directions[1]).im
     }
 
-    /// The blades that move, if any.
+    /// Returns the blades that move, if any.
     pub fn blades(&self) -> Option<&ModalBlades> {
         self.blades.as_ref()
     }
 
-    /// Angle of the blades of both sides at these displacements of the modes.
+    /// Returns the angle of the blades of both sides at these displacements of the modes.
     pub fn angles(&self, displacements: [f64; 2]) -> [f64; 2] {
         let Some(blades) = &self.blades else { return [0.0; 2] };
         self.sides.map(|side| {
@@ -156,14 +156,14 @@ impl CornerStep {
         (corner + raised, moved + raised_by, [a, b])
     }
 
-    /// Whether a step leaves the gaps it begins with, but for next to nothing of those
+    /// Returns whether a step leaves the gaps it begins with, but for next to nothing of those
     /// predicted at rest.
     pub fn is_closed_by(&self, step: &Stepped, at_rest: [f64; 2]) -> bool {
         let part = HELD_LEFT.max(HELD_ROUNDINGS * f64::EPSILON / self.sine().powi(2));
         (0..2).all(|k| (step.left[k] - self.open[k]).abs() <= part * at_rest[k].abs())
     }
 
-    /// The casing in the corner of these modes, and what it moved in its last
+    /// Returns the casing in the corner of these modes, and what it moved in its last
     /// step, both in the frame of the blades now.
     pub fn casing(&self, modes: Modes) -> (Plane, Plane) {
         let (place, moved, _) = self.stand(self.sides_at(modes));
@@ -171,12 +171,12 @@ impl CornerStep {
         (place, moved + self.turned * (place - moved))
     }
 
-    /// `exp(-i nu h)`.
+    /// Returns `exp(-i nu h)`.
     pub fn turn(&self) -> Plane {
         Plane::new(1.0, 0.0) - self.turned
     }
 
-    /// One step from these modes. `None` where the rows are dependent.
+    /// Takes one step from these modes. `None` where the rows are dependent.
     pub fn from(&self, modes: Modes) -> Option<Stepped> {
         let sides = self.sides_at(modes);
         let (place, moved, normals) = self.stand(sides);
@@ -272,7 +272,7 @@ impl CornerStep {
         [work, casing, blades, heat]
     }
 
-    /// The smallest gap of the sides that are not held, for modes at these displacements.
+    /// Returns the smallest gap of the sides that are not held, for modes at these displacements.
     pub fn nearest_other(&self, machine: &Machine, modes: Modes) -> f64 {
         let (place, ..) = self.stand(self.sides_at(modes));
         let others = (0..machine.polygon.sides).filter(|side| !self.sides.contains(side));

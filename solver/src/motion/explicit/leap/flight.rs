@@ -7,7 +7,7 @@ use crate::motion::explicit::disk::{Disk, HeldModes};
 use crate::motion::explicit::lining::Lining;
 use crate::motion::explicit::{Coordinate, Explicit};
 use crate::motion::{ActiveSet, EnergyAccount};
-use crate::tolerances::{BREAK_STEPS, SHORTEST_BLOCK};
+use crate::tolerances::{BREAK_STEPS, LARGEST_BLADE_ANGLE, SHORTEST_BLOCK};
 
 impl<B: Disk> Explicit<B> {
     /// Begins a block of steps that cannot touch, if there are enough to be worth it.
@@ -27,7 +27,7 @@ impl<B: Disk> Explicit<B> {
         self.leaps.block = Block::new(length);
     }
 
-    /// Steps that cannot touch; none where they are too few to be worth a block.
+    /// Returns the steps that cannot touch; none where they are too few to be worth a block.
     fn flight(&mut self) -> u64 {
         // Beyond it, every side is open and above its target.
         let room = self.tips.least - self.highest_target();
@@ -39,10 +39,13 @@ impl<B: Disk> Explicit<B> {
         let (distance, (farthest, longest)) = (distance2.sqrt(), self.casing.reach_of(self.u));
         let length =
             if farthest < room { ENDLESS } else { ((room - distance) / longest).max(0.0) as u64 };
-        if self.blades.can_fly(length, self.watch.largest()) { length } else { 0 }
+        // Blades that may swing too far are followed step by step.
+        let flies =
+            length >= self.blades.shortest_block() && self.blades.reach() <= LARGEST_BLADE_ANGLE;
+        if flies { length } else { 0 }
     }
 
-    /// Whether nothing but their own springs will move casing and blades in flight.
+    /// Returns whether nothing but their own springs will move casing and blades in flight.
     fn is_free(&self) -> bool {
         let free = !self.drive.pulse_to_come(self.n) && self.drive.excitation.is_none();
         let beyond = || {
@@ -52,13 +55,13 @@ impl<B: Disk> Explicit<B> {
         self.scene.solver.shortcuts.flight && free && (!self.goes_beyond || beyond())
     }
 
-    /// A bound on how far tips can still rise in free motion \[m\].
+    /// Returns a bound on how far tips can still rise in free motion \[m\].
     pub(in crate::motion::explicit) fn rise_to_come(&self, blades: &B) -> f64 {
         let rise = self.tips.rise.abs();
         if rise == 0.0 { 0.0 } else { rise * blades.reach() }
     }
 
-    /// Casing and blades after so many steps of free flight.
+    /// Returns the casing and blades after so many steps of free flight.
     pub(super) fn flown(&self, steps: u64) -> ([Coordinate; 2], B) {
         let mut blades = self.blades.clone();
         blades.skip(steps);
@@ -110,5 +113,23 @@ impl<B: Disk> Explicit<B> {
         (self.u, self.blades) = (u, ahead);
         let bound = self.blades.look(largest).1;
         self.watch.skipped(largest, bound);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::motion::explicit::{Explicit, ModalBlades};
+    use crate::scene::Scene;
+
+    #[test]
+    fn a_flight_of_one_step_keeps_the_dip_before_it_and_a_longer_one_none() {
+        let scene = Scene::base().with(&[("contact.restitution", "0.5")]).unwrap();
+        let mut motion = Explicit::<ModalBlades>::new(&scene);
+        motion.beyond.dips = [1e-9, 2e-9];
+        for (steps, dips) in [(1, [0.0, 1e-9]), (2, [0.0; 2]), (9, [0.0; 2])] {
+            let mut flown = motion.clone();
+            flown.take_flight(steps);
+            assert_eq!(flown.beyond.dips, dips, "{steps}");
+        }
     }
 }

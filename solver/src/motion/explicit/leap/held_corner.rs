@@ -59,12 +59,12 @@ impl HeldCorner {
         [(first, a), (second, b)]
     }
 
-    /// Blade modes after `steps` steps.
+    /// Returns the blade modes after `steps` steps.
     fn modes(&self, steps: u64) -> Modes {
         self.rest + self.deviations.after(steps)
     }
 
-    /// Multipliers of the step that led to `steps` steps from the start, each with its
+    /// Returns the multipliers of the step that led to `steps` steps from the start, each with its
     /// side \[N\].
     pub fn pushes_by_side(&self, steps: u64) -> [(u32, f64); 2] {
         // The step itself knows them to the last digit, at any vibration.
@@ -72,7 +72,7 @@ impl HeldCorner {
         self.by_side(step.map_or(self.multipliers, |step| step.multipliers))
     }
 
-    /// Sums of the multipliers of the steps after `before`, up to `steps` \[N\].
+    /// Returns the sums of the multipliers of the steps after `before`, up to `steps` \[N\].
     pub fn sums(&self, before: u64, steps: u64) -> [f64; 2] {
         let [a, b, ..] = self.deviations.sums(before, steps);
         [a, b]
@@ -85,18 +85,18 @@ impl HeldCorner {
         self.counts.then(sums).map(|[_, _, flows @ ..]| flows)
     }
 
-    /// Deepest penetration that its steps leave \[m\].
+    /// Returns the deepest penetration that its steps leave \[m\].
     pub fn deepest(&self) -> f64 {
         self.step.open.iter().fold(0.0, |deepest, gap| deepest.max(-gap))
     }
 
-    /// Amplitude of the blade modes after `steps` steps \[rad\].
+    /// Returns the amplitude of the blade modes after `steps` steps \[rad\].
     pub fn amplitude(&self, steps: u64) -> f64 {
         let modes = self.modes(steps);
         modes[0].hypot(modes[1])
     }
 
-    /// Whether the steps leave the gaps they begin with, but for next to nothing of those
+    /// Returns whether the steps leave the gaps they begin with, but for next to nothing of those
     /// predicted, at rest and as far from it as the modes swing.
     fn closes(&self, at_rest: &Stepped) -> Option<bool> {
         let closed = |step: &Stepped| self.step.is_closed_by(step, at_rest.gaps);
@@ -113,7 +113,7 @@ impl HeldCorner {
         Some(all)
     }
 
-    /// The largest blade angle over the first `steps` steps, `least` where none
+    /// Returns the largest blade angle over the first `steps` steps, `least` where none
     /// is larger \[rad\].
     pub fn largest_angle(&self, steps: u64, least: f64) -> f64 {
         let Some(blades) = self.step.blades() else { return least };
@@ -146,7 +146,7 @@ impl HeldCorner {
     }
 }
 
-/// The largest value between two steps of a function with one top.
+/// Returns the largest value between two steps of a function with one top.
 fn top([mut low, mut high]: [u64; 2], value: impl Fn(u64) -> f64) -> f64 {
     while high > low + 2 {
         let third = (high - low) / 3;
@@ -169,14 +169,14 @@ impl<B: Disk> Explicit<B> {
         self.make_map(sides)
     }
 
-    /// The corner in contact in this step, if neither pulse nor ramp nor
+    /// Returns the corner in contact in this step, if neither pulse nor ramp nor
     /// excitation acts on it.
     fn steady_corner(&self) -> Option<[u32; 2]> {
         let ActiveSet::Corner(a, b) = self.record.log.active_set else { return None };
         (self.drive.is_steady(self.n) && self.record.last_touch == self.n).then_some([a, b])
     }
 
-    /// The same, if it has lasted for `HELD_AFTER` steps, and as many since this one.
+    /// Returns the same, if it has lasted for `HELD_AFTER` steps, and as many since this one.
     #[inline]
     pub(super) fn steady_corner_since(&self, step: u64) -> Option<[u32; 2]> {
         let sides = self.steady_corner()?;
@@ -242,8 +242,8 @@ impl<B: Disk> Explicit<B> {
         held.closes(&at_rest)?.then(|| Box::new(held))
     }
 
-    /// The modes of blades whose rows are sides, where the casing is rigid and gives nothing
-    /// back.
+    /// Returns the modes of blades whose rows are sides, where the casing is rigid and gives
+    /// nothing back.
     pub(super) fn modes_of_sides(&self) -> Option<HeldModes<'_>> {
         let plain = || {
             let by_side = self.blades.wave().is_some();
@@ -253,8 +253,8 @@ impl<B: Disk> Explicit<B> {
         if !self.goes_beyond || plain() { self.blades.held_modes() } else { None }
     }
 
-    /// Whether predicted gaps and multipliers never come near a change of sign, and no blade
-    /// of another side near the casing: neither at rest nor by a swing about it.
+    /// Returns whether predicted gaps and multipliers never come near a change of sign, and no
+    /// blade of another side near the casing: neither at rest nor by a swing about it.
     fn is_kept(&self, step: &CornerStep, at: &Resting, swing: (f64, f64)) -> bool {
         let far = !self.goes_beyond || self.is_far_from_others(step, at, swing.0);
         far && (0..4).all(|k| {
@@ -264,10 +264,10 @@ impl<B: Disk> Explicit<B> {
         })
     }
 
-    /// Whether no swing by this angle brings a blade of another side near the casing. The two
-    /// sides that are closed hold the polygon of the tips at its corner; only the phases of
-    /// their blades and of the other side move it, across the corner by up to three times as
-    /// much as along a normal.
+    /// Returns whether no swing by this angle brings a blade of another side near the casing. The
+    /// two sides that are closed hold the polygon of the tips at its corner; only the phases of
+    /// their blades and of the other side move it, across the corner by up to three times as much
+    /// as along a normal.
     fn is_far_from_others(&self, step: &CornerStep, at: &Resting, angle: f64) -> bool {
         let (place, _) = step.casing(at.rest);
         let turn = self.machine.nodal_diameters * angle;
@@ -275,7 +275,7 @@ impl<B: Disk> Explicit<B> {
         moves <= ROOM_TO_CHANGE * step.nearest_other(&self.machine, at.rest)
     }
 
-    /// Coordinates `steps` steps into the held corner.
+    /// Returns the coordinates `steps` steps into the held corner.
     pub(in crate::motion::explicit) fn held_at(
         &self,
         held: &HeldCorner,
@@ -294,7 +294,7 @@ impl<B: Disk> Explicit<B> {
         (u, blades)
     }
 
-    /// Increments of the casing in the step before the last of `steps` \[m\].
+    /// Returns the increments of the casing in the step before the last of `steps` \[m\].
     pub(in crate::motion::explicit) fn held_before(
         &self,
         held: &HeldCorner,
@@ -307,7 +307,7 @@ impl<B: Disk> Explicit<B> {
     }
 }
 
-/// How far a map lets a deviation grow at most, in the energy of free modes that turn by
+/// Returns how far a map lets a deviation grow at most, in the energy of free modes that turn by
 /// `turn` in a step; none where it may grow on and on, or far.
 fn growth_of(leap: &Leap<4>, turn: f64) -> Option<f64> {
     let scale = Modes::new(1.0, 1.0, turn, turn);
@@ -336,20 +336,20 @@ struct Resting {
 }
 
 impl Resting {
-    /// A push (0, 1 \[N\]) or a predicted gap (2, 3 \[m\]).
+    /// Returns a push (0, 1 \[N\]) or a predicted gap (2, 3 \[m\]).
     fn value(&self, k: usize) -> f64 {
         let Stepped { multipliers: [a, b], gaps: [first, second], .. } = self.at_rest;
         [a, b, first, second][k]
     }
 
-    /// How far a swing moves a push (0, 1 \[N\]) or a predicted gap (2, 3 \[m\]) at most.
+    /// Returns how far a swing moves a push (0, 1 \[N\]) or a predicted gap (2, 3 \[m\]) at most.
     fn moves(&self, k: usize, swing: (f64, f64)) -> f64 {
         let ((angle, increment), slope) = (swing, self.slopes[k]);
         angle * slope[0].hypot(slope[1]) + increment * slope[2].hypot(slope[3])
     }
 }
 
-/// The rest nearest to `now`. Where steps leave more than next to nothing of their gaps,
+/// Returns the rest nearest to `now`. Where steps leave more than next to nothing of their gaps,
 /// the corner of the step gets the gaps that they leave there.
 fn rest_in(step: &mut CornerStep, now: Modes) -> Option<Resting> {
     let mut rest = now;
@@ -377,7 +377,7 @@ fn rest_in(step: &mut CornerStep, now: Modes) -> Option<Resting> {
     None
 }
 
-/// The map of the deviation from `at`, minus one, and the gradients of multipliers
+/// Returns the map of the deviation from `at`, minus one, and the gradients of multipliers
 /// and predicted gaps, by central differences.
 fn slopes(step: &CornerStep, at: Modes) -> Option<(StepMap, [Modes; 4])> {
     let mut map = StepMap::zeros();

@@ -38,22 +38,22 @@ pub(super) struct Leaps {
 }
 
 impl Leaps {
-    /// Whether a lock is held.
+    /// Returns whether a lock is held.
     pub fn holds_corner(&self) -> bool {
         self.held.is_some()
     }
 
-    /// Whether the coordinates are those of an earlier step.
+    /// Returns whether the coordinates are those of an earlier step.
     pub fn are_ahead(&self) -> bool {
         self.block.used() > 0 || self.sliding.is_some()
     }
 
-    /// Steps of all blocks.
+    /// Returns the steps of all blocks.
     pub fn skipped(&self) -> u64 {
         self.skipped + self.block.used()
     }
 
-    /// The multipliers by side inside an open block or slide, if there is one.
+    /// Returns the multipliers by side inside an open block or slide, if there is one.
     pub fn multipliers(&self) -> Option<Vec<(u32, f64)>> {
         let of_slide = |sliding: &Sliding| vec![(sliding.side, sliding.multiplier)];
         let of_block = || {
@@ -80,7 +80,7 @@ impl<B: Disk> Explicit<B> {
         }
     }
 
-    /// The latest step, that of an open block included.
+    /// Returns the latest step, that of an open block included.
     pub(super) fn latest_step(&self) -> u64 {
         self.n + self.leaps.block.used()
     }

@@ -148,7 +148,7 @@ impl Rules {
         })
     }
 
-    /// The largest angle of any blade, for a side's blades at `along`.
+    /// Returns the largest angle of any blade, for a side's blades at `along`.
     fn largest(&self, along: f64, across: f64, blades: &ModalBlades, side: u32) -> f64 {
         if across.abs() <= self.spread * along.abs() {
             return along.abs();
@@ -206,18 +206,18 @@ impl Sliding {
         })
     }
 
-    /// The amplitude of the blade modes \[rad\].
+    /// Returns the amplitude of the blade modes \[rad\].
     pub fn amplitude(&self) -> f64 {
         self.along.x.hypot(self.across.x)
     }
 
-    /// `zeta`, and `zeta[n] - w zeta[n-1]`.
+    /// Returns `zeta`, and `zeta[n] - w zeta[n-1]`.
     pub fn casing(&self) -> [Plane; 2] {
         let zeta = self.place - self.rules.clearance;
         [zeta, self.change + self.rules.step.turned * (zeta - self.change)]
     }
 
-    /// The blade modes, and their increments of the step before the last.
+    /// Returns the blade modes, and their increments of the step before the last.
     pub fn modes(&self, blades: &ModalBlades) -> ([Coordinate; 2], [f64; 2]) {
         let (c, s) = blades.shape(self.side);
         let combine = |p: f64, q: f64| Coordinate {
@@ -385,8 +385,8 @@ impl Sliding {
     }
 }
 
-/// Sine and versine of the phase of a side, to round-off. In the paper's model its cube is
-/// round-off.
+/// Returns the sine and versine of the phase of a side, to round-off. In the paper's model its cube
+/// is round-off.
 #[inline(always)]
 fn phase<const BEYOND: bool>(turn: f64) -> (f64, f64) {
     let q = turn * turn;

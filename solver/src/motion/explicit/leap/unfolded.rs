@@ -23,7 +23,7 @@ const CUBIC: usize = 34;
 pub(super) trait Deviations: Debug + Send + Sync {
     /// After so many steps.
     fn after(&self, steps: u64) -> Modes;
-    /// Sums of the values of the steps after `before`, up to `steps`.
+    /// Returns the sums of the values of the steps after `before`, up to `steps`.
     fn sums(&self, before: u64, steps: u64) -> [f64; VALUES];
 }
 
@@ -189,7 +189,7 @@ impl Products {
         added
     }
 
-    /// A product times a sum of products, up to the degree.
+    /// Returns a product times a sum of products, up to the degree.
     fn times<const N: usize>(&self, by: [u8; 4], sum: &SVector<f64, N>) -> SVector<f64, N> {
         let mut result = SVector::<f64, N>::zeros();
         for (exponent, value) in self.exponents[1..].iter().zip(sum) {

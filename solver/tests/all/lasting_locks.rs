@@ -1,0 +1,164 @@
+//! Where a lock holds: both blades push, and no motion that keeps it grows. One answer for every
+//! question about it.
+
+use rubscope_solver::harmonic::{
+    Form, flutters, lock_growth, lock_window, lock_windows, locked_motion,
+};
+use rubscope_solver::scene::Scene;
+use rubscope_solver::study::margins::{LimitName, Margins};
+
+fn scene(changes: &[(&str, &str)]) -> Scene {
+    let mut scene = Scene::base();
+    changes.iter().for_each(|(path, value)| scene.set(path, value).unwrap());
+    scene
+}
+
+/// A lock that grows at every speed.
+const GROWS: [(&str, &str); 6] = [
+    ("solver.contact", "unilateral"),
+    ("bladed_disk.radial_coupling", "-0.15"),
+    ("contact.friction", "0.4"),
+    ("casing.tangential_ratio", "0.2"),
+    ("bladed_disk.damping_ratio", "0.001"),
+    ("operation.speed_rad_s", "800"),
+];
+
+#[test]
+fn flutter_from_rest_on_is_found_and_no_lock_holds_there() {
+    for stiffening in ["0", "1e-9", "0.01"] {
+        let mut scene = scene(&GROWS);
+        scene.set("bladed_disk.centrifugal_stiffening", stiffening).unwrap();
+        let machine = scene.machine();
+        let found = flutters(&machine, 1.0);
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert_eq!((found[0].from, found[0].to), (0.0, None));
+        // Both blades push from 510 rad/s on.
+        assert!((machine.lock_windows(1.0)[0].from - 511.0).abs() < 2.0);
+        assert_eq!(lock_windows(&machine, 1.0), []);
+        let margins = Margins::of(&scene.checked().unwrap());
+        let lock = margins.limit(LimitName::OmegaLock).unwrap();
+        assert_eq!(lock.value, None);
+        assert!(lock.note.as_ref().unwrap().contains("flutters"), "{lock:?}");
+        let flutter = margins.limit(LimitName::FlutterSpeed).unwrap();
+        assert_eq!((flutter.value, flutter.margin), (Some(0.0), None));
+        assert_eq!(flutter.note.as_deref(), Some("at every speed"));
+        let push = margins.limit(LimitName::PushA).unwrap();
+        assert!(push.note.as_ref().unwrap().contains("does not last"), "{push:?}");
+    }
+}
+
+/// Rates of an independent code: 9.0 1/s at 800 rad/s, 19.7 at 1500.
+#[test]
+fn growth_of_a_lock_that_pushes_hold() {
+    let machine = scene(&GROWS).machine();
+    for (speed, expected) in [(800.0, 9.0), (1500.0, 19.7)] {
+        let growth = lock_growth(&machine, speed).unwrap();
+        assert!((growth - expected).abs() < 0.1, "{growth}");
+    }
+    // No lock is held by pushes here, and this one lasts.
+    assert_eq!(lock_growth(&machine, 150.0), None);
+    assert_eq!(lock_growth(&Scene::base().machine(), 500.0), None);
+}
+
+#[test]
+fn stiffening_of_nothing_changes_no_range_of_flutter() {
+    let ranges = |stiffening: &str| {
+        let mut scene = Scene::builtin("rub").unwrap();
+        for (path, value) in [
+            ("contact.friction", "0.3"),
+            ("casing.tangential_ratio", "0.3333"),
+            ("bladed_disk.damping_ratio", "0.002"),
+            ("bladed_disk.centrifugal_stiffening", stiffening),
+        ] {
+            scene.set(path, value).unwrap();
+        }
+        flutters(&scene.machine(), 1.0)
+    };
+    let (none, little) = (ranges("0"), ranges("1e-6"));
+    assert_eq!((none.len(), little.len()), (2, 2), "{none:?} {little:?}");
+    assert_eq!((none[0].from, little[0].from), (0.0, 0.0));
+    assert!((none[0].to.unwrap() - 57.76).abs() < 5e-3, "{none:?}");
+    assert!((none[1].from - 301.064).abs() < 5e-4 && none[1].to.is_none(), "{none:?}");
+    for (one, other) in none.iter().zip(&little) {
+        assert!((one.from - other.from).abs() < 1e-3 && one.to.is_some() == other.to.is_some());
+    }
+}
+
+#[test]
+fn a_window_of_a_lock_is_where_its_motion_is_stable() {
+    let (mut held, mut lost) = (0, 0);
+    for kappa in ["-0.15", "0.1", "0.3", "0.5"] {
+        for friction in ["0", "0.1", "0.4"] {
+            for blades in ["0.0005", "0.02"] {
+                for stiffening in ["0", "0.2"] {
+                    let machine = scene(&[
+                        ("bladed_disk.radial_coupling", kappa),
+                        ("contact.friction", friction),
+                        ("casing.tangential_ratio", "0.3"),
+                        ("bladed_disk.damping_ratio", blades),
+                        ("bladed_disk.centrifugal_stiffening", stiffening),
+                    ])
+                    .machine();
+                    let speeds: Vec<f64> = (1..40).map(|n| 31.7 * f64::from(n)).collect();
+                    let windows = lock_windows(&machine, 1.0);
+                    assert_eq!(windows.first().copied(), lock_window(&machine, 1.0));
+                    let sweep = locked_motion(&machine, Form::Modal, true, None, &speeds).unwrap();
+                    for point in sweep.points {
+                        let has = |part: f64| {
+                            windows.iter().any(|window| window.has(point.speed_rad_s * part))
+                        };
+                        // Both forms differ by the small slope of the gap beside a limit.
+                        if has(0.998) != has(1.002) {
+                            continue;
+                        }
+                        assert_eq!(has(1.0), point.stable, "{point:?} {windows:?}");
+                        *(if point.stable { &mut held } else { &mut lost }) += 1;
+                    }
+                }
+            }
+        }
+    }
+    assert!(held > 100 && lost > 100, "{held} {lost}");
+}
+
+#[test]
+fn no_sensitivity_and_no_margin_is_a_number_that_says_nothing() {
+    for pulse in ["1", "1e7"] {
+        let mut scene = scene(&GROWS);
+        scene.set("operation.pulse_n", pulse).unwrap();
+        let margins = Margins::of(&scene.checked().unwrap());
+        let json = serde_json::to_value(&margins).unwrap();
+        for limit in json["limits"].as_array().unwrap() {
+            let far = |value: &serde_json::Value, most: f64| {
+                value.as_f64().is_some_and(|value| value.abs() > most)
+            };
+            assert!(!far(&limit["margin"], 99.0), "{limit}");
+            let by = limit["sensitivities"].as_object().unwrap();
+            assert!(by.values().all(|by| !far(by, 100.0)), "{limit}");
+        }
+    }
+}
+
+/// Blades of the rigid model do not bend under the loads of a lock: they are those of the closed
+/// form.
+#[test]
+fn loads_of_a_lock_of_rigid_blades_are_those_of_blades_that_do_not_bend() {
+    let loads = |model: &str| {
+        let scene = scene(&[
+            ("solver.model", model),
+            ("casing.damping_ratio", "0.3"),
+            ("operation.speed_rad_s", "2000"),
+        ]);
+        let margins = Margins::of(&scene.checked().unwrap());
+        let value = |name| margins.limit(name).unwrap().value.unwrap();
+        let by = |path| margins.limit(LimitName::PushA).unwrap().sensitivities.by(path);
+        let closed = scene.machine().locked_multipliers(2000.0).unwrap();
+        let stiffness = by("bladed_disk.stiffness_nm_per_rad").unwrap();
+        ([value(LimitName::PushA), value(LimitName::PushB)], closed.map(|force| -force), stiffness)
+    };
+    let ([a, b], closed, by) = loads("rigid");
+    assert!((a - closed[0]).abs() < 1e-12 * a && (b - closed[1]).abs() < 1e-12 * b, "{a} {b}");
+    assert_eq!(by, 0.0);
+    let ([bent, _], ..) = loads("modal");
+    assert!((bent - a).abs() > 1e-9 * a, "{bent} {a}");
+}

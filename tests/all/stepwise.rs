@@ -1,0 +1,80 @@
+//! What the explorer has in tests in place of a terminal and of the thread of its solver: a host
+//! that writes files at once, and an engine that is driven by hand, so that a screen is the same
+//! on every machine.
+
+use std::io::Result;
+use std::time::Duration;
+
+use rubscope::tui::engine::{Engine, Limit, Order, Pace, Snapshot};
+use rubscope::tui::files::{FileJob, FileResult};
+use rubscope::tui::host::Host;
+use rubscope::tui::worker::Playback;
+
+/// A host without a terminal; files are written at once.
+#[derive(Debug, Default)]
+pub struct NoHost;
+
+impl Host for NoHost {
+    fn suspend(&mut self, _: bool) -> Result<bool> {
+        Ok(true)
+    }
+    fn resume(&mut self) -> Result<()> {
+        Ok(())
+    }
+    fn copy(&mut self, _: &str) -> Result<()> {
+        Ok(())
+    }
+    fn write(&mut self, job: FileJob) -> Option<FileResult> {
+        Some(job.run())
+    }
+}
+
+/// Cells of a map: blocks of eight by eight.
+const MAP_CELLS: usize = 66;
+
+/// The engine driven by hand.
+#[derive(Debug)]
+pub struct Stepwise {
+    /// Motion between two snapshots \[s\].
+    pub stride: f64,
+    order: Option<Order>,
+    playback: Option<Playback>,
+    fresh: bool,
+}
+
+impl Stepwise {
+    /// Creates an engine that plays `stride` seconds of motion between two snapshots.
+    pub fn new(stride: f64) -> Self {
+        Self { stride, order: None, playback: None, fresh: false }
+    }
+}
+
+impl Engine for Stepwise {
+    fn order(&mut self, order: &Order) {
+        self.order = Some(order.clone());
+        self.fresh = true;
+    }
+
+    fn take(&mut self) -> Option<Snapshot> {
+        let order = self.order.as_ref()?;
+        let start = || Playback::with_time_limit(order.clone(), Duration::MAX);
+        let playback = self.playback.get_or_insert_with(start);
+        playback.bound_maps(MAP_CELLS);
+        playback.apply(order);
+        while playback.is_computing() {
+            playback.compute();
+        }
+        if order.playing {
+            playback.play(self.stride);
+        } else if !self.fresh {
+            return None;
+        }
+        self.fresh = false;
+        let mut snapshot = playback.snapshot();
+        let pace = &mut snapshot.results.pace;
+        let step_s = pace.step_s.map(|_| 42e-9);
+        let reached = Some(order.rate);
+        *pace = Pace { step_s, run_s: Some(42e-3), limit: Limit::None, reached, ..*pace };
+        Some(snapshot)
+    }
+}
