@@ -179,7 +179,8 @@ fn the_table_has_every_number() {
     let json = serde_json::to_value(&margins).unwrap();
     for (place, (row, limit)) in rows.iter().zip(&margins.limits).enumerate() {
         let word = |name: &str| json["limits"][place][name].as_str().unwrap_or("").to_string();
-        assert_eq!([&row[0], &row[1]], [word("name"), word("quantity")]);
+        let lobes = limit.lobes.map_or(String::new(), |lobes| format!(" m={lobes}"));
+        assert_eq!([&row[0], &row[1]], [word("name") + &lobes, word("quantity")]);
         let number = |column: usize| row[column].parse::<f64>().ok();
         let margin = limit.margin.filter(|margin| *margin <= MOST_TIMES);
         assert_eq!([number(2), number(3), number(4)], [limit.value, limit.present, margin]);
