@@ -15,8 +15,8 @@ use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use rubscope_solver::harmonic::{Form, locked_motion};
 use rubscope_solver::motion::{
-    ExactEvents, Motion, Sample, Sampling, Script, run_to_end, run_to_verdict,
-    run_with_sensitivity, to_the_end,
+    ExactEvents, Motion, Sample, Sampling, Script, run_to_end, run_to_verdict, run_with_certainty,
+    to_the_end,
 };
 use rubscope_solver::scene::{CheckedScene, Scene};
 
@@ -152,7 +152,7 @@ fn map(criterion: &mut Criterion) {
         bencher.iter(|| run_to_verdict(black_box(&cell), &to_the_end));
     });
     group.bench_function("a cell with certainty", |bencher| {
-        bencher.iter(|| run_with_sensitivity(black_box(&cell), &to_the_end));
+        bencher.iter(|| run_with_certainty(black_box(&cell), &to_the_end));
     });
     group.finish();
 }

@@ -93,6 +93,17 @@ pub(crate) const LOCK_MOMENT: f64 = 0.1;
 /// Part of its tolerance at which the event solver is tried again.
 pub(crate) const FINER: f64 = 0.1;
 
+/// Part of its step with which a run by steps is tried again. Nearer to one: fewer verdicts
+/// that depend on the step are found. Smaller: it costs more than the run itself.
+pub(crate) const OTHER_STEP: f64 = 0.5;
+
+/// Most steps of a run that failed with which a shorter step is tried. Speed only.
+pub(crate) const STEPS_TO_TRY: f64 = 1e6;
+
+/// Part by which two steps may differ in the largest blade angle for the longer one to hold.
+/// Larger: one is named that misses impacts.
+pub(crate) const STEP_AGREES: f64 = 0.1;
+
 /// Looks at a run on its way, against which a changed run is held. Fewer: it goes on longer
 /// beside the first one. More: a short run costs more to look at than to solve.
 pub(crate) const COURSE_LOOKS: usize = 128;

@@ -80,14 +80,16 @@ impl RunCommand {
         let mut shown = LongRun::of(&scene, changed_runs);
         let started = Instant::now();
         let mut sink = |sample: &Sample| history.push(sample);
-        let mut report = run_to_end_watched(&scene, &acts, sampling, &mut sink, &mut shown);
+        let ask = changed_runs > 0;
+        let mut report = run_to_end_watched(&scene, &acts, sampling, &mut sink, &mut shown, ask);
         let mut wall = Wall { run_s: started.elapsed().as_secs_f64(), certainty_s: None };
-        if changed_runs > 0 {
+        if ask {
             sign::doing("changed runs find out which digits hold");
             let started = Instant::now();
             report.ask_changed_runs(&acts, &to_the_end);
             wall.certainty_s = Some(started.elapsed().as_secs_f64());
         }
+        report.ask_events(&acts, &to_the_end);
         let changes = Some(&script).filter(|script| !script.is_empty());
         let command = self.command(&scene);
         if self.json {

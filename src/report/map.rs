@@ -46,6 +46,8 @@ impl Serialize for MapJson<'_> {
         }
         object.serialize_entry("verdict", &Rows { map, value: |cell| cell.verdict })?;
         object.serialize_entry("sensitive", &Rows { map, value: |cell| cell.sensitive })?;
+        let value = |cell: Cell| cell.depends_on_step;
+        object.serialize_entry("depends_on_step", &Rows { map, value })?;
         object.serialize_entry("wall_s", &with_time.then_some(map.wall_s))?;
         object.serialize_entry("runs", &map.runs)?;
         object.serialize_entry("adaptive", &map.adaptive)?;
@@ -116,9 +118,10 @@ pub fn write_csv(map: &Map, out: &mut dyn Write) -> Result<()> {
             y.value(row).to_string().into(),
             cell.map_or_else(String::new, |cell| cell.verdict.to_string()).into(),
             cell.map_or(table::TableCell::Empty, |cell| cell.sensitive.into()),
+            cell.map_or(table::TableCell::Empty, |cell| cell.depends_on_step.into()),
         ]
     });
-    table::write_csv([first, second, "verdict", "sensitive"], rows, out)
+    table::write_csv([first, second, "verdict", "sensitive", "depends_on_step"], rows, out)
 }
 
 /// Returns the map as a figure, with these curves.
@@ -145,7 +148,7 @@ pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
             Series::new(verdict.as_ref(), Style::Cells(*verdict), cells)
         })
         .collect();
-    series.push(Series::new("sensitive", Style::Dots, places(&|cell| cell.sensitive)));
+    series.push(Series::new("doubtful", Style::Dots, places(&Cell::is_doubtful)));
     let inside =
         |axis: &Axis, value| (-0.5..=f64::from(axis.count) - 0.5).contains(&axis.place(value));
     for (curve, colour) in curves.iter().zip([5, 2, 1]) {
@@ -168,11 +171,11 @@ pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
 }
 
 /// Returns the character of a cell: a mark for the verdict, or a letter if the cell is
-/// sensitive.
+/// sensitive or depends on the step.
 #[must_use]
 pub fn mark(cell: Option<Cell>) -> char {
     let Some(cell) = cell else { return ' ' };
-    match (cell.verdict, cell.sensitive) {
+    match (cell.verdict, cell.is_doubtful()) {
         (Verdict::Decay, false) => '.',
         (Verdict::Bounce, false) => 'o',
         (Verdict::Slip, false) => '~',
@@ -264,23 +267,31 @@ pub fn means(verdict: Verdict) -> &'static str {
 }
 
 fn write_legend(map: &Map, out: &mut dyn Write) -> Result<()> {
-    let (census, sensitive) = map.census();
+    let (census, [sensitive, by_step]) = map.census();
     let cells = map.cells.len();
     for (verdict, count) in census.into_iter().filter(|&(_, count)| count > 0) {
-        let plain = mark(Some(Cell { verdict, sensitive: false }));
+        let plain = mark(Some(Cell::of(verdict)));
         let means = means(verdict);
         writeln!(out, "{plain}  {verdict}, {means}: {count} of {cells} cells")?;
     }
+    if sensitive + by_step == 0 {
+        return Ok(());
+    }
+    let doubtful = |verdict| Cell { sensitive: true, ..Cell::of(verdict) };
+    let letters = Verdict::ALL.map(|verdict| mark(Some(doubtful(verdict))));
+    let letters = letters.map(String::from).join(" ");
+    let cells = |count: usize, what: &str| match count {
+        1 => format!("the {what} cell"),
+        _ => format!("the {count} {what} cells"),
+    };
     if sensitive > 0 {
-        let marked = if sensitive == 1 {
-            "the sensitive cell"
-        } else {
-            &format!("the {sensitive} sensitive cells")
-        };
-        let letters = Verdict::ALL.map(|verdict| mark(Some(Cell { verdict, sensitive: true })));
-        let letters = letters.map(String::from).join(" ");
+        let marked = cells(sensitive, "sensitive");
         writeln!(out, "A letter ({letters}) marks {marked}, where a change of 1e-9")?;
         writeln!(out, "{OF_WHAT} changes the verdict or the number of impacts.")?;
+    }
+    if by_step > 0 {
+        let marked = cells(by_step, "doubtful");
+        writeln!(out, "A letter ({letters}) marks {marked}, where another step ends otherwise.")?;
     }
     Ok(())
 }

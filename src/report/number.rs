@@ -267,9 +267,11 @@ impl Digits {
     /// Returns what was not told, if there is such.
     pub fn note(&self) -> Option<&'static str> {
         if self.none.get() {
-            Some("No digit holds of what is \"about\": a change of 1e-9 moves it by as much.")
+            Some(
+                "No digit holds of what is \"about\": a tiny change or another step moves it by as much.",
+            )
         } else if self.left_out.get() {
-            Some("Digits that a change of 1e-9 moves are left out.")
+            Some("Digits that a tiny change or another step moves are left out.")
         } else {
             None
         }

@@ -117,8 +117,9 @@ pub fn write(map: &Map, shard: Shard, out: &mut dyn Write) -> Result<()> {
     let origin = serde_json::to_string(&Origin::of(plan, shard))?;
     writeln!(out, "{PROGRAM}{VERSION}{COMMAND}{origin}\n{}", columns(plan))?;
     for (index, cell) in map.cells.iter().enumerate() {
-        if let Some(Cell { verdict, sensitive }) = cell {
-            writeln!(out, "{}{verdict},{sensitive}", start_of_row(plan, index))?;
+        if let Some(Cell { verdict, sensitive, depends_on_step }) = cell {
+            let start = start_of_row(plan, index);
+            writeln!(out, "{start}{verdict},{sensitive},{depends_on_step}")?;
         }
     }
     Ok(())
@@ -126,7 +127,7 @@ pub fn write(map: &Map, shard: Shard, out: &mut dyn Write) -> Result<()> {
 
 fn columns(plan: &MapPlan) -> String {
     let [x, y] = names(plan);
-    format!("cell,{x},{y},verdict,sensitive")
+    format!("cell,{x},{y},verdict,sensitive,depends_on_step")
 }
 
 /// Returns the columns of a row that do not depend on the result.
@@ -264,9 +265,11 @@ impl<R: BufRead> Lines<R> {
 fn parse_row(line: &str, plan: &MapPlan) -> Option<(usize, Cell)> {
     let (index, _) = line.split_once(',')?;
     let index = index.parse().ok().filter(|index| *index < plan.len())?;
-    let (verdict, sensitive) = line.strip_prefix(&start_of_row(plan, index))?.split_once(',')?;
-    let cell = Cell { verdict: verdict.parse().ok()?, sensitive: sensitive.parse().ok()? };
-    Some((index, cell))
+    let mut columns = line.strip_prefix(&start_of_row(plan, index))?.split(',');
+    let verdict = columns.next()?.parse().ok()?;
+    let mut fact = || columns.next()?.parse().ok();
+    let cell = Cell { verdict, sensitive: fact()?, depends_on_step: fact()? };
+    columns.next().is_none().then_some((index, cell))
 }
 
 #[cfg(test)]

@@ -49,8 +49,13 @@ pub enum Doubt {
     Pulls(u64, Option<Verdict>),
     /// The lock is unstable at a constant speed, and grows at this rate \[1/s\].
     Grows(f64),
-    /// A change that no measurement could see changes the outcome.
-    Sensitive,
+    /// A change that no measurement could see makes another end, or only other impacts.
+    Sensitive {
+        /// Whether the end is another.
+        ends: bool,
+    },
+    /// Another step makes another end.
+    Step,
     /// Another verdict of the event solver, for this reason.
     Differs(Verdict, Cause),
 }
@@ -140,7 +145,9 @@ impl Facts {
         let grows = growth_of(report).map(Doubt::Grows);
         let pulls = report.checks.tensile_steps;
         let pulls = (pulls > 0).then_some(Doubt::Pulls(pulls, None));
-        let sensitive = (outcome.sensitive == Some(true)).then_some(Doubt::Sensitive);
+        let ends = outcome.ends_otherwise == Some(true);
+        let sensitive = (outcome.sensitive == Some(true)).then_some(Doubt::Sensitive { ends });
+        let step = (outcome.depends_on_step == Some(true)).then_some(Doubt::Step);
         Self {
             verdict: outcome.verdict,
             blades: blades(false),
@@ -151,7 +158,7 @@ impl Facts {
             damped: scene.casing_in_use().damping_ratio > 0.0,
             broken: report.broken.map(|(_, speed)| speed),
             failure: report.failure.clone(),
-            doubts: grows.into_iter().chain(pulls).chain(sensitive).collect(),
+            doubts: grows.into_iter().chain(pulls).chain(sensitive).chain(step).collect(),
         }
     }
 
@@ -364,10 +371,18 @@ impl Facts {
                     "It is unstable.".into(),
                 ]
             }
-            Doubt::Sensitive => plain(&[
-                "A tiny change of pulse or speed ends otherwise.",
-                "A tiny change ends otherwise.",
-                "Sensitive.",
+            Doubt::Sensitive { ends } => {
+                let does = if ends { "ends otherwise" } else { "gives other impacts" };
+                vec![
+                    format!("A tiny change of pulse or speed {does}."),
+                    format!("A tiny change {does}."),
+                    "Sensitive.".into(),
+                ]
+            }
+            Doubt::Step => plain(&[
+                "Another step ends otherwise: the step is too long.",
+                "Another step ends otherwise.",
+                "Step too long.",
             ]),
             Doubt::Differs(other, cause) => {
                 let why = match cause {

@@ -9,7 +9,7 @@ use super::number::{count, grouped, per_speed, rounded, short, speed, time};
 use super::sentence::{growth_of, rate};
 use rubscope_solver::harmonic::lock_window;
 use rubscope_solver::model::Machine;
-use rubscope_solver::motion::{Contact, RunReport, Verdict};
+use rubscope_solver::motion::{Basis, Contact, Proof, RunReport, Verdict};
 use rubscope_solver::scene::{ContactLaw, SolverKind};
 
 /// Quantities of which tiny changes change the outcome of a sensitive run.
@@ -53,13 +53,7 @@ pub fn write(report: &RunReport, wall: Wall, out: &mut dyn Write) -> Result<()> 
         let rate = rate(growth);
         writeln!(out, "Held, but this lock is unstable: it grows by {rate} and does not last.")?;
     }
-    if report.outcome.sensitive == Some(true) {
-        writeln!(
-            out,
-            "Sensitive: a change of 1e-9 {OF_WHAT} changes this outcome; do not rely on it."
-        )?;
-    }
-    if let Some(line) = warning(report) {
+    for line in doubts(report) {
         writeln!(out, "{line}")?;
     }
     writeln!(out)?;
@@ -131,15 +125,60 @@ fn meaning(report: &RunReport) -> &'static str {
     }
 }
 
-/// Returns a warning if the bilateral law pulled.
-fn warning(report: &RunReport) -> Option<String> {
-    let pulls = report.checks.tensile_steps;
-    (report.solver.contact == ContactLaw::Bilateral && pulls > 0).then(|| {
-        format!(
+/// Returns what makes the verdict doubtful, one line each.
+fn doubts(report: &RunReport) -> Vec<String> {
+    let (outcome, pulls) = (&report.outcome, report.checks.tensile_steps);
+    let mut doubts = Vec::new();
+    if outcome.ends_otherwise == Some(true) {
+        doubts.push(format!(
+            "Sensitive: a change of 1e-9 {OF_WHAT} ends otherwise; do not rely on this outcome."
+        ));
+    } else if outcome.sensitive == Some(true) {
+        doubts.push(format!(
+            "Sensitive: a change of 1e-9 {OF_WHAT} gives other impacts; the verdict stays."
+        ));
+    }
+    if outcome.depends_on_step == Some(true) {
+        doubts.push(
+            "Depends on the step: half of it ends otherwise; do not rely on this outcome.".into(),
+        );
+    }
+    if let Some(verdict) = outcome.by_events {
+        doubts.push(format!("The event solver, which has no step, says {verdict}."));
+    }
+    // Events have no steps, and a run that takes each has been told so.
+    if !doubts.is_empty() && report.solver.steps_skipped.is_some_and(|skipped| skipped > 0) {
+        doubts.push("To audit this run, take each of its steps: rubscope run --plain.".into());
+    }
+    if report.solver.contact == ContactLaw::Bilateral && pulls > 0 {
+        doubts.push(format!(
             "Warning: the bilateral law pulled in {}, where a real contact would open; compare with --contact unilateral.",
             count(pulls, "step")
-        )
-    })
+        ));
+    }
+    doubts
+}
+
+/// Returns what the verdict rests on.
+fn basis(basis: Basis) -> String {
+    match basis {
+        Basis::Proved { by, since_s } => {
+            let since = time(since_s);
+            let why = match by {
+                Proof::NoContact => format!("nothing touches since {since}, and nothing can"),
+                Proof::HeldCorner => {
+                    format!("no force of the blades that hold since {since} can change its sign")
+                }
+                Proof::LinearRest => {
+                    format!("all blades press since {since}, where a wave this small dies")
+                }
+            };
+            format!("The verdict is proved: {why}.")
+        }
+        Basis::Judged { from_s, to_s } => {
+            format!("The verdict is judged by the motion from {} to {}.", time(from_s), time(to_s))
+        }
+    }
 }
 
 fn motion(report: &RunReport, machine: &Machine, out: &mut dyn Write) -> Result<()> {
@@ -172,6 +211,13 @@ fn motion(report: &RunReport, machine: &Machine, out: &mut dyn Write) -> Result<
     }
     if let Some(note) = digits.note() {
         writeln!(out, "{note}")?;
+    }
+    if let Some(rests_on) = outcome.basis {
+        writeln!(out, "{}", basis(rests_on))?;
+    }
+    if let Some(rate) = outcome.decay_rate_per_s.filter(|rate| *rate != 0.0) {
+        let does = if rate < 0.0 { "grows" } else { "dies" };
+        writeln!(out, "The wave {does} at {} 1/s.", short(rate.abs()))?;
     }
     writeln!(out, "{}", speeds(report, machine))?;
     if let Some(dangerous) = machine.coincidence_felt_at(report.end_speed_rad_s) {

@@ -13,7 +13,9 @@ use super::views::locked::curves::LockedCurves;
 use super::views::map::plan::{CellRun, LiveMap, MapChoice};
 use super::views::margins::live::LiveMargins;
 use super::views::spectrum::lines::Spectrum;
-use rubscope_solver::motion::{ActiveSet, Checks, Failure, Hold, Motion, State, Verdict};
+use rubscope_solver::motion::{
+    ActiveSet, Certainty, Checks, Failure, Hold, Motion, State, Verdict,
+};
 use rubscope_solver::scene::CheckedScene;
 use rubscope_solver::study::MapPlan;
 use rubscope_solver::study::precision::Precision;
@@ -231,10 +233,8 @@ pub enum Sensitive {
     /// Not known yet, or not requested.
     #[default]
     Unknown,
-    /// The outcome stays the same.
-    No,
-    /// The outcome changes.
-    Yes,
+    /// What changed runs say.
+    Known(Certainty),
     /// Given up: it takes too long.
     GivenUp,
 }
@@ -256,6 +256,16 @@ pub struct Found {
     pub map: Option<Arc<LiveMap>>,
     /// Speed against error; rows arrive one by one.
     pub precision: Option<Arc<Precision>>,
+}
+
+impl Sensitive {
+    /// Returns what changed runs say, as far as it is known.
+    pub fn known(self) -> Certainty {
+        match self {
+            Self::Known(certainty) => certainty,
+            Self::Unknown | Self::GivenUp => Certainty::default(),
+        }
+    }
 }
 
 /// Results for one generation of the knobs.

@@ -58,7 +58,8 @@ fn rows_of_the_text_are_the_limits() {
         let text = text(&margins);
         assert!(text.starts_with(&margins.scene.title), "{text}");
         for limit in &margins.limits {
-            let start = format!("{} ", limit.name);
+            let lobes = limit.lobes.map_or(String::new(), |lobes| format!("m={lobes} "));
+            let start = format!("{} {lobes}", limit.name);
             let row = text.lines().find(|line| line.starts_with(&start)).unwrap();
             let cells = cells(row);
             let Some(value) = limit.value else {

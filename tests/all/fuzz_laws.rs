@@ -241,7 +241,11 @@ fn part_seeds() -> Vec<Vec<u8>> {
         // Invented cells: a run is not what is tested.
         for index in (0..map.cells.len()).step_by(step) {
             let verdict = rubscope_solver::motion::Verdict::ALL[index % 6];
-            let cell = Cell { verdict, sensitive: plan.sensitivity && index % 2 == 1 };
+            let cell = Cell {
+                verdict,
+                sensitive: plan.sensitivity && index % 2 == 1,
+                depends_on_step: plan.sensitivity && index % 4 == 2,
+            };
             map.cells.set(index, Some(cell));
         }
         let mut bytes = Vec::new();

@@ -64,7 +64,7 @@ fn sensitive(scene: &CheckedScene) -> [bool; 4] {
     [pulse(1.0 - 1e-9), faster, pulse(1.0 + 1e-9), noisy(scene)].map(|other| {
         let counted = !plain.rested && !other.rested;
         let moved = plain.locked_s.zip(other.locked_s).map_or(0.0, |(one, two)| one - two);
-        plain.verdict != other.verdict
+        (plain.verdict, plain.held) != (other.verdict, other.held)
             || (counted && plain.impact_count != other.impact_count)
             || moved.abs() > 0.1 * TAU / scene.machine().omega_c
     })

@@ -65,8 +65,8 @@ fn a_part_is_a_table_below_a_line_that_tells_its_origin() {
     let origin: serde_json::Value = serde_json::from_str(origin).unwrap();
     assert_eq!(origin["x"]["path"], "operation.speed_rad_s");
     assert!(origin["scene"].as_str().unwrap().contains("contact = \"bilateral\""));
-    assert_eq!(lines[1], "cell,speed_rad_s,pulse_n,verdict,sensitive");
-    assert_eq!((lines[2], lines.len()), ("1,260,0,decay,false", 2 + 117));
+    assert_eq!(lines[1], "cell,speed_rad_s,pulse_n,verdict,sensitive,depends_on_step");
+    assert_eq!((lines[2], lines.len()), ("1,260,0,decay,false,false", 2 + 117));
 }
 
 #[test]

@@ -67,6 +67,18 @@ pub struct Machine<T = f64> {
 /// Factor on stiffness and mass of blades that no force bends. Larger: squares overflow.
 const STIFF_BLADES: f64 = 1e120;
 
+impl Machine {
+    /// Returns the size of the forces that add up to the pushes of two sides which hold the
+    /// casing in a corner at this wave frequency \[N\].
+    #[must_use]
+    pub fn push_scale(&self, nu: f64) -> f64 {
+        let fastest = self.omega_c.max(nu.abs());
+        let spread =
+            if self.polygon.has_corners() { (2.0 * self.polygon.delta).sin() } else { 1.0 };
+        self.casing_mass * fastest * fastest * self.clearance().abs() / spread
+    }
+}
+
 impl<T: Number> Machine<T> {
     /// Derives the model of a rotor at rest. The parameters must be checked before (`scene`).
     #[must_use]

@@ -11,13 +11,13 @@ use super::{Motion, Plane, Verdict};
 use crate::tolerances::{COURSE_ALIKE, COURSE_APART, COURSE_LOOKS, COURSE_WINDOW};
 
 /// Casing, blades and impacts of one run, at equal intervals from its start to its end.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Course {
     end: f64,
     seen: Vec<Seen>,
 }
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct Seen {
     /// Waves of casing \[m\] and blades \[rad\].
     waves: [Plane; 2],
@@ -115,6 +115,8 @@ pub(super) struct Beside<'a> {
     /// How far apart both were at each look since `from`, as parts of their waves.
     apart: Vec<f64>,
     agrees: bool,
+    /// Whether the run goes on where it is known to agree.
+    goes_on: bool,
 }
 
 impl<'a> Beside<'a> {
@@ -122,7 +124,13 @@ impl<'a> Beside<'a> {
     pub fn of(course: &'a Course, reached: VerdictReached) -> Option<Self> {
         let slides = matches!(reached.verdict, Verdict::Slip | Verdict::Whirl);
         let (from, sizes) = course.kept().filter(|_| slides)?;
-        Some(Self { course, from, sizes, looks: 0, apart: Vec::new(), agrees: false })
+        let (apart, agrees) = (Vec::new(), false);
+        Some(Self { course, from, sizes, looks: 0, apart, agrees, goes_on: false })
+    }
+
+    /// Lets the run go on where it is known to agree.
+    pub fn going_on(self) -> Self {
+        Self { goes_on: true, ..self }
     }
 
     /// Whether it stays beside that run to the end.
@@ -149,7 +157,7 @@ impl<'a> Beside<'a> {
 
 impl Looker for Beside<'_> {
     fn due(&self) -> f64 {
-        instant(self.looks, self.course.end)
+        if self.agrees { f64::INFINITY } else { instant(self.looks, self.course.end) }
     }
 
     fn see(&mut self, motion: &Motion) -> bool {
@@ -164,7 +172,7 @@ impl Looker for Beside<'_> {
         let parts = parts.sum();
         self.apart.push(if here.impacts == there.impacts { parts } else { f64::INFINITY });
         self.agrees = self.in_the_end() < COURSE_APART;
-        !self.agrees
+        self.goes_on || !self.agrees
     }
 }
 
@@ -205,7 +213,8 @@ mod tests {
         let beside = |apart: Vec<f64>| {
             let looks = apart.len();
             let (from, sizes) = (0, [1.0, 0.0]);
-            Beside { course: &course, from, sizes, looks, apart, agrees: false }.in_the_end()
+            Beside { course: &course, from, sizes, looks, apart, agrees: false, goes_on: false }
+                .in_the_end()
         };
         let grows = |factor: f64, windows: usize| {
             let at = |look: usize| 1e-9 * factor.powi((look / COURSE_WINDOW) as i32);

@@ -34,9 +34,9 @@ pub use run::{
     simulate_with, verdict_of,
 };
 pub use script::{Change, Script};
-pub use sensitivity::{CHANGED_RUNS, Spread, is_sensitive, run_with_sensitivity};
+pub use sensitivity::{CHANGED_RUNS, Certainty, Spread, certainty, run_with_certainty};
 pub use solver::{GoOn, Motion, Solver, to_the_end};
-pub use verdict::{Checks, Contact, Outcome, Verdict};
+pub use verdict::{Basis, Checks, Contact, LinearRest, Outcome, Proof, Verdict};
 
 /// A point or vector of the plane of the two casing coordinates.
 type Plane = nalgebra::Complex<f64>;

@@ -9,8 +9,8 @@ use super::script::{Script, Scripted};
 use super::sensitivity::sign;
 use super::wave::WaveTracker;
 use super::{
-    ActiveSet, Checks, Contact, ContactLog, EnergyAccount, Failure, FailureReason, GoOn, Hold,
-    Motion, Outcome, State, Verdict, to_the_end,
+    ActiveSet, Basis, Checks, Contact, ContactLog, Course, EnergyAccount, Failure, FailureReason,
+    GoOn, Hold, Motion, Outcome, Proof, State, Verdict, to_the_end,
 };
 use crate::model::Machine;
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, SolverKind};
@@ -130,6 +130,9 @@ pub struct RunReport {
     /// What another run must agree with if this one is not sensitive.
     #[serde(skip)]
     pub reached: VerdictReached,
+    /// The way of this run, against which changed ones are held; unseen where it was not asked.
+    #[serde(skip)]
+    pub(super) course: Course,
 }
 
 /// How a run lasts, without its history.
@@ -144,6 +147,8 @@ pub struct VerdictReached {
     pub rested: bool,
     /// Since when the wave is locked \[s\].
     pub locked_s: Option<f64>,
+    /// The sides that hold it.
+    pub held: ActiveSet,
 }
 
 impl VerdictReached {
@@ -157,6 +162,7 @@ impl VerdictReached {
             impact_count: log.impact_count,
             rested: locked || log.corner_time() >= period,
             locked_s: locked.then_some(log.since),
+            held: if locked { log.active_set } else { ActiveSet::Nothing },
         }
     }
 }
@@ -297,6 +303,33 @@ pub fn judge_end(motion: &Motion, checks: &Checks, window: f64) -> (Verdict, Opt
     }
 }
 
+/// Returns what the verdict on a motion rests on; none where it stopped early.
+fn basis(motion: &Motion, verdict: Verdict, window: f64) -> Option<Basis> {
+    let (log, to_s) = (motion.contacts(), motion.t_s());
+    let (by, since_s) = match verdict {
+        Verdict::Failed | Verdict::Divergent => return None,
+        _ if motion.final_verdict() != Some(verdict) => {
+            return Some(Basis::Judged { from_s: (to_s - window).max(0.0), to_s });
+        }
+        Verdict::Locked | Verdict::Adhesive => (Proof::HeldCorner, log.since),
+        _ => match motion.linear_rest() {
+            Some(rest) => (Proof::LinearRest, rest.since_s),
+            None => (Proof::NoContact, log.last_contact.unwrap_or(0.0)),
+        },
+    };
+    Some(Basis::Proved { by, since_s })
+}
+
+/// Returns the rate at which the wave of a motion dies about its linear rest \[1/s\].
+fn decay_rate(motion: &Motion, verdict: Verdict) -> Option<f64> {
+    if matches!(verdict, Verdict::Failed | Verdict::Divergent) {
+        return None;
+    }
+    let machine = motion.machine();
+    let free = || motion.over().then_some(machine.casing_damping_ratio * machine.omega_c);
+    motion.linear_rest().map(|rest| rest.rate_per_s).or_else(free)
+}
+
 /// Runs a scene to its end.
 #[must_use]
 pub fn simulate(scene: &CheckedScene) -> RunReport {
@@ -310,7 +343,7 @@ pub fn simulate_with(
     sampling: Sampling,
     sink: &mut dyn FnMut(&Sample),
 ) -> RunReport {
-    let mut report = run_to_end(scene, script, sampling, sink);
+    let mut report = run_to_end_watched(scene, script, sampling, sink, &mut Unwatched, true);
     report.ask_changed_runs(script, &to_the_end);
     report
 }
@@ -323,7 +356,7 @@ pub fn run_to_end(
     sampling: Sampling,
     sink: &mut dyn FnMut(&Sample),
 ) -> RunReport {
-    run_to_end_watched(scene, script, sampling, sink, &mut Unwatched)
+    run_to_end_watched(scene, script, sampling, sink, &mut Unwatched, false)
 }
 
 /// Looks at a run on the way, when it wants to. The run is the same.
@@ -345,17 +378,20 @@ impl Watch for Unwatched {
     fn look(&mut self, _: &Motion) {}
 }
 
-/// As `run_to_end`, and looked at on the way.
+/// As `run_to_end`, and looked at on the way; `will_ask` keeps what changed runs are held
+/// against.
 pub fn run_to_end_watched(
     scene: &CheckedScene,
     script: &Script,
     sampling: Sampling,
     sink: &mut dyn FnMut(&Sample),
     watch: &mut dyn Watch,
+    will_ask: bool,
 ) -> RunReport {
     let mut scripted = Scripted::new(Motion::new(scene), script);
     let end = scene.solver.end_s;
     let mut wave = WaveTracker::over(scene, script);
+    let mut course = Course::over(end);
     let mut sample = 0_u32;
     loop {
         let sample_time = match sampling.intervals {
@@ -363,7 +399,8 @@ pub fn run_to_end_watched(
             n if sample > n => f64::INFINITY,
             n => end * (f64::from(sample) / f64::from(n)),
         };
-        let until = sample_time.min(wave.next_look()).min(end);
+        let course_due = if will_ask { course.due() } else { f64::INFINITY };
+        let until = sample_time.min(wave.next_look()).min(course_due).min(end);
         let advanced = loop {
             match scripted.advance_while(until, &|| watch.goes_on()) {
                 Ok(false) => watch.look(&scripted.motion),
@@ -380,6 +417,9 @@ pub fn run_to_end_watched(
                 && scripted.motion.final_verdict().is_some();
             if decided { wave.stop() } else { wave.look(scripted.motion.state()) }
         }
+        if until >= course_due {
+            course.see(&scripted.motion);
+        }
         if until >= sample_time {
             sink(&take_sample(&mut scripted.motion, sampling.gaps));
             sample += 1;
@@ -389,7 +429,7 @@ pub fn run_to_end_watched(
             break;
         }
     }
-    report(scene, &scripted.motion, &wave)
+    report(scene, &scripted.motion, &wave, course)
 }
 
 fn take_sample(motion: &mut Motion, gaps: bool) -> Sample {
@@ -404,7 +444,12 @@ fn take_sample(motion: &mut Motion, gaps: bool) -> Sample {
 }
 
 /// What there is to say of a motion at the end of its run.
-pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) -> RunReport {
+pub(super) fn report(
+    scene: &CheckedScene,
+    motion: &Motion,
+    wave: &WaveTracker,
+    course: Course,
+) -> RunReport {
     let machine = motion.machine();
     let polygon = &machine.polygon;
     let (log, state) = (motion.contacts(), motion.state());
@@ -422,7 +467,12 @@ pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) 
     };
     let outcome = Outcome {
         verdict,
+        basis: basis(motion, verdict, window),
+        decay_rate_per_s: decay_rate(motion, verdict),
         sensitive: None,
+        ends_otherwise: None,
+        depends_on_step: None,
+        by_events: None,
         spread: None,
         message: motion.stopped().or_else(|| failure.as_ref().map(ToString::to_string)),
         lock_time_s: locked.then_some(log.since),
@@ -471,6 +521,7 @@ pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) 
         broken: lock_that_broke(motion),
         failure,
         reached: VerdictReached::of(motion, verdict),
+        course,
     }
 }
 

@@ -1,5 +1,6 @@
-//! Can a verdict be trusted? It is asked four times more, with changes that no
-//! measurement could see (docs/theory.md, section 9). Each change has a separate run,
+//! Can a verdict be trusted? It is asked four times more, three times with changes that no
+//! measurement could see (docs/theory.md, section 9) and once by another step; by events,
+//! which have no step, with noise and a finer tolerance. Each change has a separate run,
 //! because two in one run may cancel. And how far these changes move the final numbers of
 //! a run: which of their digits hold (`Spread`).
 
@@ -10,88 +11,216 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::course::{Beside, Course};
-use super::run::{Looker, VerdictReached, report, run_looked_at, run_motion_to_verdict};
-use super::script::{Change, Script};
+use super::run::{
+    Looker, VerdictReached, report, run_looked_at, run_motion_to_verdict, run_to_verdict,
+};
+use super::script::{Change, Script, Scripted};
 use super::wave::WaveTracker;
 use super::{Contact, GoOn, Motion, RunReport, Verdict};
-use crate::scene::CheckedScene;
-use crate::tolerances::{FINER, LOCK_MOMENT, PERTURBATION};
+use crate::scene::{CheckedScene, ContactLaw, SolverKind};
+use crate::tolerances::{
+    FINER, LARGEST_BLADE_ANGLE, LOCK_MOMENT, OTHER_STEP, PERTURBATION, STEP_AGREES, STEPS_TO_TRY,
+};
+
+/// What changed runs say of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Certainty {
+    /// Whether a tiny change makes another verdict, other blades that hold, another number
+    /// of impacts or another time of the lock.
+    pub sensitive: bool,
+    /// Whether a tiny change makes another verdict, or other blades that hold.
+    pub ends_otherwise: bool,
+    /// Whether another step makes another verdict, or other blades that hold; none where
+    /// there are no steps, or where it was not asked of a sensitive run.
+    pub depends_on_step: Option<bool>,
+}
+
+/// How two runs that should be the same differ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Difference {
+    Nothing,
+    /// Other impacts, or another time of the lock.
+    Impacts,
+    /// Another verdict, or other blades that hold.
+    End,
+}
 
 impl VerdictReached {
-    /// Whether two runs that should be the same are not, where `moment` \[s\] is
-    /// how much later a wave may lock.
-    pub(crate) fn differs_from(self, other: Self, moment: f64) -> bool {
+    /// How two runs that should be the same differ, where `moment` \[s\] is how much later a
+    /// wave may lock.
+    fn difference(self, other: Self, moment: f64) -> Difference {
         let counted = !self.rested && !other.rested;
         let late = |(one, two): (f64, f64)| (one - two).abs() > moment;
-        self.verdict != other.verdict
-            || (counted && self.impact_count != other.impact_count)
+        if self.verdict != other.verdict || self.held != other.held {
+            Difference::End
+        } else if (counted && self.impact_count != other.impact_count)
             || self.locked_s.zip(other.locked_s).is_some_and(late)
+        {
+            Difference::Impacts
+        } else {
+            Difference::Nothing
+        }
+    }
+
+    /// Whether two runs that should be the same are not.
+    pub(crate) fn differs_from(self, other: Self, moment: f64) -> bool {
+        self.difference(other, moment) != Difference::Nothing
     }
 }
 
-/// As `run_to_verdict`, and whether the run is sensitive.
+/// As `run_to_verdict`, and what changed runs say of it, up to the first that differs.
 #[must_use]
-pub fn run_with_sensitivity(
+pub fn run_with_certainty(
     scene: &CheckedScene,
     go_on: GoOn<'_>,
-) -> Option<(VerdictReached, bool)> {
+) -> Option<(VerdictReached, Certainty)> {
     let mut course = Course::over(scene.solver.end_s);
     let reached = run_looked_at(scene, &mut [&mut course], go_on)?;
-    let sensitive = is_sensitive(scene, reached, &course, go_on)?;
-    Some((reached, sensitive))
+    let certainty = certainty(scene, reached, &course, false, go_on)?;
+    Some((reached, certainty))
 }
 
-/// Whether a tiny change makes another verdict, or another number of impacts, of
-/// a checked scene that settled so and went this way; none where `go_on` said no on
-/// the way. Idle threads of the pool that asks take some of the runs, the first
-/// that disagrees ends the others, and one that goes beside the course ends there.
+/// What changed runs say of a checked scene that settled so and went this way; none where
+/// `go_on` said no on the way. Idle threads of the pool that asks take some of the runs, and
+/// one that goes beside the course ends there. The first that makes a tiny change differ
+/// ends all others; with `thoroughly`, the first with another end does.
 #[must_use]
-pub fn is_sensitive(
+pub fn certainty(
     scene: &CheckedScene,
     reached: VerdictReached,
     course: &Course,
+    thoroughly: bool,
     go_on: GoOn<'_>,
-) -> Option<bool> {
+) -> Option<Certainty> {
     let script = Script::default();
     let moment = moment(scene);
+    let enough = if thoroughly { Difference::End } else { Difference::Impacts };
     let found = AtomicBool::new(false);
     let undecided = || !found.load(Ordering::Relaxed) && go_on();
-    let agrees_to_the_end = |change: &TinyChange| {
-        let mut beside = Beside::of(course, reached);
+    let difference = |change: &TinyChange| {
+        if !undecided() {
+            return (*change, None);
+        }
+        let mut beside = Beside::of(course, reached).filter(|_| *change != TinyChange::Step);
         let mut lookers: Vec<&mut dyn Looker> = Vec::new();
         lookers.extend(beside.iter_mut().map(|beside| beside as &mut dyn Looker));
         let Some((motion, verdict)) = change.run(scene, &script, &mut lookers, &undecided) else {
-            return beside.is_some_and(|beside| beside.agrees());
+            let agrees = beside.is_some_and(|beside| beside.agrees());
+            return (*change, agrees.then_some(Difference::Nothing));
         };
-        let differs = VerdictReached::of(&motion, verdict).differs_from(reached, moment);
-        found.fetch_or(differs, Ordering::Relaxed);
-        !differs
+        let differs = VerdictReached::of(&motion, verdict).difference(reached, moment);
+        found.fetch_or(*change != TinyChange::Step && differs >= enough, Ordering::Relaxed);
+        (*change, Some(differs))
     };
-    let all_agree = match rayon::current_thread_index() {
-        Some(_) => TinyChange::ALL.par_iter().with_max_len(1).all(agrees_to_the_end),
-        None => TinyChange::ALL.iter().all(agrees_to_the_end),
+    let all = TinyChange::all(scene);
+    let told: Vec<_> = match rayon::current_thread_index() {
+        Some(_) => all.par_iter().with_max_len(1).map(difference).collect(),
+        None => all.iter().map(difference).collect(),
     };
     // A run that was told to stop has said nothing.
-    if found.load(Ordering::Relaxed) { Some(true) } else { all_agree.then_some(false) }
+    if found.load(Ordering::Relaxed) {
+        let ends_otherwise = told.iter().any(|(_, told)| *told == Some(Difference::End));
+        return Some(Certainty { sensitive: true, ends_otherwise, depends_on_step: None });
+    }
+    let told = told.into_iter().map(|(change, told)| Some((change, told?)));
+    Some(Certainty::of(told.collect::<Option<Vec<_>>>()?.into_iter()))
+}
+
+impl Certainty {
+    /// Of how the changed runs differ.
+    fn of(told: impl Iterator<Item = (TinyChange, Difference)>) -> Self {
+        let mut certainty = Self::default();
+        for (change, difference) in told {
+            if change == TinyChange::Step {
+                certainty.depends_on_step = Some(difference == Difference::End);
+            } else {
+                certainty.sensitive |= difference != Difference::Nothing;
+                certainty.ends_otherwise |= difference == Difference::End;
+            }
+        }
+        certainty
+    }
 }
 
 impl RunReport {
     /// Finds out by changed runs, all of them to the end and side by side, whether this
-    /// run through a script is sensitive and how far its final numbers move; nothing is
-    /// known where `go_on` said no on the way.
+    /// run through a script is sensitive or depends on its step, and how far its final
+    /// numbers move; nothing is known where `go_on` said no on the way. A run that failed is
+    /// tried with shorter steps.
     pub fn ask_changed_runs(&mut self, script: &Script, go_on: GoOn<'_>) {
-        let run = |change: &TinyChange| change.run_to_end(&self.scene, script, go_on);
-        let changed: Option<Vec<_>> = TinyChange::ALL.par_iter().with_max_len(1).map(run).collect();
+        let run = |change: &TinyChange| {
+            let mut beside = Beside::of(&self.course, self.reached)
+                .filter(|_| *change != TinyChange::Step)
+                .map(Beside::going_on);
+            let other = change.run_to_end(&self.scene, script, beside.as_mut(), go_on)?;
+            let agrees = beside.is_some_and(|beside| beside.agrees());
+            Some((*change, other, agrees))
+        };
+        let all = TinyChange::all(&self.scene);
+        let changed: Option<Vec<_>> = all.par_iter().with_max_len(1).map(run).collect();
         let Some(changed) = changed else { return };
         let moment = moment(&self.scene);
-        let differs = |other: &RunReport| other.reached.differs_from(self.reached, moment);
-        self.outcome.sensitive = Some(changed.iter().any(differs));
+        let told = changed.iter().map(|(change, other, agrees)| match agrees {
+            true => (*change, Difference::Nothing),
+            false => (*change, other.reached.difference(self.reached, moment)),
+        });
+        let certainty = Certainty::of(told);
+        let changed: Vec<_> = changed.into_iter().map(|(_, other, _)| other).collect();
         self.outcome.spread = Some(Spread::of(self, &changed));
+        self.outcome.sensitive = Some(certainty.sensitive);
+        self.outcome.ends_otherwise = Some(certainty.ends_otherwise);
+        self.outcome.depends_on_step = certainty.depends_on_step;
+        if let Some((step, angle)) = self.step_that_holds(script, go_on)
+            && let Some(message) = &mut self.outcome.message
+        {
+            *message += &format!(
+                "; the step is too long: with {step:e} s the largest blade angle by then is \
+                 {angle:.3e} rad"
+            );
+        }
+    }
+
+    /// Finds the verdict of the event solver, where this run is by steps of rigid contact
+    /// that only pushes and nothing is changed on the way; kept where it is another.
+    pub fn ask_events(&mut self, script: &Script, go_on: GoOn<'_>) {
+        let by_steps = self.solver.kind == SolverKind::Explicit;
+        let pushes = by_steps && self.solver.contact == ContactLaw::Unilateral;
+        if !pushes || !script.changes().is_empty() {
+            return;
+        }
+        let Ok(scene) = self.scene.as_reference().checked() else { return };
+        let other = run_to_verdict(&scene, go_on).map(|reached| reached.verdict);
+        self.outcome.by_events = other.filter(|other| *other != self.outcome.verdict);
+    }
+
+    /// The longest of ever halved steps with which a run that failed goes on for as long
+    /// again \[s\], and the largest blade angle then \[rad\], which half of it finds, too.
+    fn step_that_holds(&self, script: &Script, go_on: GoOn<'_>) -> Option<(f64, f64)> {
+        let failed = self.failure.as_ref()?.t_s;
+        let until = (2.0 * failed).min(self.scene.solver.end_s);
+        let mut step = TinyChange::Step.changed(&self.scene);
+        let mut before: Option<(f64, f64)> = None;
+        if !TinyChange::all(&self.scene).contains(&TinyChange::Step) {
+            return None;
+        }
+        while until / step.solver.step_s < STEPS_TO_TRY && go_on() {
+            let mut scripted = Scripted::new(Motion::new(&step), script);
+            let goes_on = scripted.advance_while(until, go_on).is_ok();
+            let angle = scripted.motion.checks().max_blade_angle_rad;
+            let holds = goes_on && angle <= LARGEST_BLADE_ANGLE;
+            let alike = |before: &(f64, f64)| (before.1 - angle).abs() <= STEP_AGREES * angle;
+            if let Some(found) = before.filter(|before| holds && alike(before)) {
+                return Some(found);
+            }
+            before = holds.then_some((step.solver.step_s, angle));
+            step = TinyChange::Step.changed(&step);
+        }
+        None
     }
 }
 
 /// How many changed runs find out whether a run is sensitive.
-pub const CHANGED_RUNS: usize = TinyChange::ALL.len();
+pub const CHANGED_RUNS: usize = 4;
 
 /// How much later a wave may lock \[s\].
 fn moment(scene: &CheckedScene) -> f64 {
@@ -107,13 +236,22 @@ enum TinyChange {
     Faster,
     /// A stronger pulse.
     Stronger,
-    /// The noise.
+    /// Noise and a finer tolerance, by events.
     Noise,
+    /// Another step.
+    Step,
 }
 
 impl TinyChange {
-    /// All of them, first the one that finds most, then what finds most of the rest.
-    const ALL: [Self; 4] = [Self::Weaker, Self::Faster, Self::Stronger, Self::Noise];
+    /// All of them for the solver of a scene, first the one that finds most, then what finds
+    /// most of the rest.
+    fn all(scene: &CheckedScene) -> [Self; CHANGED_RUNS] {
+        let last = match scene.solver.kind {
+            SolverKind::Explicit => Self::Step,
+            SolverKind::Event => Self::Noise,
+        };
+        [Self::Weaker, Self::Faster, Self::Stronger, last]
+    }
 
     /// Runs a scene with this change until its verdict is settled.
     fn run(
@@ -137,13 +275,16 @@ impl TinyChange {
         self,
         scene: &CheckedScene,
         script: &Script,
+        beside: Option<&mut Beside<'_>>,
         go_on: GoOn<'_>,
     ) -> Option<RunReport> {
         let mut wave = WaveTracker::over(scene, script);
-        let (mut motion, _) = self.run(scene, script, &mut [&mut wave], go_on)?;
+        let mut lookers: Vec<&mut dyn Looker> = vec![&mut wave];
+        lookers.extend(beside.map(|beside| beside as &mut dyn Looker));
+        let (mut motion, _) = self.run(scene, script, &mut lookers, go_on)?;
         // What is settled before the end goes on to it; a failure stays where it is.
         let arrived = motion.advance_while(scene.solver.end_s, go_on).unwrap_or(true);
-        arrived.then(|| report(scene, &motion, &wave))
+        arrived.then(|| report(scene, &motion, &wave, Course::over(scene.solver.end_s)))
     }
 
     /// The scene with this change.
@@ -153,6 +294,7 @@ impl TinyChange {
             Self::Weaker => perturbed(scene, 1.0 - PERTURBATION),
             Self::Stronger => perturbed(scene, MORE),
             Self::Faster => scene.perturbed(|scene| scene.operation.speed_rad_s *= MORE),
+            Self::Step => scene.perturbed(|scene| scene.solver.step_s *= OTHER_STEP),
         }
     }
 
@@ -279,7 +421,9 @@ mod tests {
             let scene = scene.checked().unwrap();
             let mut course = Course::over(scene.solver.end_s);
             let reached = run_looked_at(&scene, &mut [&mut course], &|| true).unwrap();
-            let told = |course: &Course| is_sensitive(&scene, reached, course, &|| true).unwrap();
+            let told = |course: &Course| {
+                certainty(&scene, reached, course, false, &|| true).unwrap().sensitive
+            };
             let (early, late) = (told(&course), told(&Course::over(scene.solver.end_s)));
             assert_eq!(early, late, "{name} {n}");
             settled += usize::from(Beside::of(&course, reached).is_some());
@@ -293,7 +437,7 @@ mod tests {
         let scene = Scene::base().as_reference().checked().unwrap();
         let reached = run_to_verdict(&scene, &|| true).unwrap();
         let course = Course::over(scene.solver.end_s);
-        assert_eq!(is_sensitive(&scene, reached, &course, &|| false), None);
-        assert_eq!(run_with_sensitivity(&scene, &|| false), None);
+        assert_eq!(certainty(&scene, reached, &course, false, &|| false), None);
+        assert_eq!(run_with_certainty(&scene, &|| false), None);
     }
 }

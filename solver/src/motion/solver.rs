@@ -7,8 +7,8 @@ use std::ops::{Deref, DerefMut};
 use super::explicit::{Explicit, FullBlades, ModalBlades, RigidBlades};
 use super::verdict::judge;
 use super::{
-    Checks, ContactLog, EnergyAccount, ExactEvents, Failure, FailureReason, LinearEvents, Plane,
-    Pulse, Rotor, State, Verdict,
+    Checks, ContactLog, EnergyAccount, ExactEvents, Failure, FailureReason, LinearEvents,
+    LinearRest, Plane, Pulse, Rotor, State, Verdict,
 };
 use crate::model::Machine;
 use crate::scene::{CheckedScene, ModelSize, SolverKind};
@@ -96,6 +96,12 @@ pub trait Solver: Debug + Send + Sync {
     /// The verdict, once nothing to come can change it: no contact can come
     /// again, or a corner can never let go.
     fn final_verdict(&self) -> Option<Verdict>;
+
+    /// The linear motion about rest, where all blades press a lining at constant speed
+    /// and it is known.
+    fn linear_rest(&self) -> Option<LinearRest> {
+        None
+    }
 
     /// The verdict over the last `window` seconds.
     fn lasting(&self, window: f64) -> Verdict {

@@ -87,14 +87,69 @@ pub struct Contact {
     pub multiplier_n: f64,
 }
 
+/// What a verdict rests on.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "lowercase")]
+pub enum Basis {
+    /// Nothing to come can change it.
+    Proved {
+        /// The reason.
+        by: Proof,
+        /// Since when the contact is as the reason says \[s\].
+        since_s: f64,
+    },
+    /// The motion over the last part of the run.
+    Judged {
+        /// Begin of that part \[s\].
+        from_s: f64,
+        /// End of that part \[s\].
+        to_s: f64,
+    },
+}
+
+/// Why nothing to come can change a verdict.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Proof {
+    /// The casing cannot reach a blade any more.
+    NoContact,
+    /// The forces of the blades that hold the wave cannot change their signs.
+    HeldCorner,
+    /// All blades press a lining, and a wave this small dies there.
+    LinearRest,
+}
+
+/// The linear motion about rest of casing and blades that all press a lining.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinearRest {
+    /// Rate at which the slowest wave that moves the tips in the lining dies; negative
+    /// where it grows, 0 where it does neither beyond round-off \[1/s\].
+    pub rate_per_s: f64,
+    /// Since when all blades press \[s\].
+    pub since_s: f64,
+}
+
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Outcome {
     /// How the motion lasts.
     pub verdict: Verdict,
+    /// What the verdict rests on; none of a run that stopped early.
+    pub basis: Option<Basis>,
+    /// Rate at which the wave dies about a linear rest, free or pressed into a lining by
+    /// all blades; negative where it grows; none elsewhere \[1/s\].
+    pub decay_rate_per_s: Option<f64>,
     /// Whether a tiny change of what drives the run, or of its rate on the way,
-    /// changes the verdict or the impact count; none where it was not asked.
+    /// changes the verdict, the blades that hold, the impact count or the time of the
+    /// lock; none where it was not asked.
     pub sensitive: Option<bool>,
+    /// Whether it changes the verdict, or the blades that hold.
+    pub ends_otherwise: Option<bool>,
+    /// Whether another step changes them; none where there are no steps, too.
+    pub depends_on_step: Option<bool>,
+    /// Verdict of the event solver, where that of a run by steps is another.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub by_events: Option<Verdict>,
     /// How far such changes move the final numbers; none where it was not asked.
     pub spread: Option<Spread>,
     /// Why the run failed.

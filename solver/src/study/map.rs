@@ -16,7 +16,7 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use super::Axis;
-use crate::motion::{GoOn, Verdict, run_to_verdict, run_with_sensitivity};
+use crate::motion::{Certainty, GoOn, Verdict, run_to_verdict, run_with_certainty};
 use crate::scene::{CheckedScene, Scene, SceneError};
 
 /// Most cells of one map, about 4000 x 4000: a byte each in memory, and days of runs.
@@ -114,14 +114,16 @@ impl MapPlan {
     #[must_use]
     pub fn compute(&self, index: usize, go_on: GoOn<'_>) -> Option<Cell> {
         let Ok(scene) = self.scene_of(index) else {
-            return Some(Cell { verdict: Verdict::Failed, sensitive: false });
+            return Some(Cell::of(Verdict::Failed));
         };
-        let (reached, sensitive) = if self.sensitivity {
-            run_with_sensitivity(&scene, go_on)?
+        let (reached, certainty) = if self.sensitivity {
+            run_with_certainty(&scene, go_on)?
         } else {
-            (run_to_verdict(&scene, go_on)?, false)
+            (run_to_verdict(&scene, go_on)?, Certainty::default())
         };
-        Some(Cell { verdict: reached.verdict, sensitive })
+        let Certainty { sensitive, depends_on_step, .. } = certainty;
+        let depends_on_step = depends_on_step == Some(true);
+        Some(Cell { verdict: reached.verdict, sensitive, depends_on_step })
     }
 }
 
@@ -169,13 +171,15 @@ impl Map {
         *self.cells.get(self.plan.index(column, row))?
     }
 
-    /// Returns how many cells have each verdict, and how many are sensitive.
+    /// Returns how many cells have each verdict, how many are sensitive, and how many depend
+    /// on the step.
     #[must_use]
-    pub fn census(&self) -> ([(Verdict, usize); Verdict::ALL.len()], usize) {
+    pub fn census(&self) -> ([(Verdict, usize); Verdict::ALL.len()], [usize; 2]) {
         let cells = || self.cells.iter().flatten();
         let count = Verdict::ALL
             .map(|verdict| (verdict, cells().filter(|cell| cell.verdict == verdict).count()));
-        (count, cells().filter(|cell| cell.sensitive).count())
+        let having = |fact: fn(&Cell) -> bool| cells().filter(|cell| fact(cell)).count();
+        (count, [having(|cell| cell.sensitive), having(|cell| cell.depends_on_step)])
     }
 }
 
@@ -186,17 +190,34 @@ pub struct Cell {
     pub verdict: Verdict,
     /// Whether a tiny change of the run changes it.
     pub sensitive: bool,
+    /// Whether another step changes it; not asked where it is sensitive.
+    pub depends_on_step: bool,
+}
+
+impl Cell {
+    /// Creates a cell of this verdict without a doubt.
+    #[must_use]
+    pub const fn of(verdict: Verdict) -> Self {
+        Self { verdict, sensitive: false, depends_on_step: false }
+    }
+
+    /// Returns whether the verdict is doubtful.
+    #[must_use]
+    pub const fn is_doubtful(self) -> bool {
+        self.sensitive || self.depends_on_step
+    }
 }
 
 /// What a byte means: nothing computed, then each verdict, first plain, then
-/// sensitive.
-static MEANING: [Option<Cell>; 1 + 2 * KINDS] = {
-    let mut meaning = [None; 1 + 2 * KINDS];
+/// sensitive, then dependent on the step.
+static MEANING: [Option<Cell>; 1 + 3 * KINDS] = {
+    let mut meaning = [None; 1 + 3 * KINDS];
     let mut kind = 0;
     while kind < KINDS {
-        let verdict = Verdict::ALL[kind];
-        meaning[1 + kind] = Some(Cell { verdict, sensitive: false });
-        meaning[1 + KINDS + kind] = Some(Cell { verdict, sensitive: true });
+        let cell = Cell::of(Verdict::ALL[kind]);
+        meaning[1 + kind] = Some(cell);
+        meaning[1 + KINDS + kind] = Some(Cell { sensitive: true, ..cell });
+        meaning[1 + 2 * KINDS + kind] = Some(Cell { depends_on_step: true, ..cell });
         kind += 1;
     }
     meaning
@@ -396,7 +417,7 @@ mod cells_tests {
         }
         assert!(cells.iter().zip(&MEANING).all(|(cell, meaning)| cell == meaning));
         assert_eq!((cells[MEANING.len()], cells.get(MEANING.len() + 1)), (None, None));
-        assert_eq!(cells.iter().flatten().count(), 2 * KINDS);
+        assert_eq!(cells.iter().flatten().count(), 3 * KINDS);
         assert_eq!(cells.clone(), cells);
         cells.set(3, None);
         assert!(cells[3].is_none());

@@ -127,6 +127,12 @@ pub(crate) const LIGHT_BLADES: f64 = 1e-3;
 /// stay. Twice the bound is kept in hand.
 pub(crate) const ROOM_TO_CHANGE: f64 = 0.5;
 
+/// Part of the forces that add up to a push of a held corner (`Machine::push_scale`) above
+/// which its sign is certain. At such a push of the paper's machine, a step of 1e-7 s predicts
+/// a gap of 1e-15 of the clearance: a few roundings. Smaller: next to the limit of a lock round-off decides
+/// the sign, and a longer run contradicts the proof.
+pub(crate) const CERTAIN_PUSH: f64 = 1e-8;
+
 /// Looks at a function for its largest value, at most.
 pub(crate) const PEAK_LOOKS: f64 = 10_000.0;
 

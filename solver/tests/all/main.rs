@@ -15,7 +15,7 @@
 //! | sizes of the disk agree | `full_disk` | `explicit_lining` | | | |
 //! | live changes | `live_changes` `live_random` | `motion_laws` | `live_event` | `event_linear_laws` | |
 //! | hard cases, any input | `explicit_hard` `fuzz_cases` | `motion_laws` | `event_hard` | `event_linear_laws` | `hbm_lining_states` `hbm_branches` |
-//! | verdicts, digits, flags | `verdicts` `digits` `map_flags` | `explicit_lining` | `verdicts` `digits` | `event_linear` | |
+//! | verdicts, digits, flags | `verdicts` `certainty` `digits` `map_flags` | `explicit_lining` | `verdicts` `digits` | `event_linear` | |
 //! | the paper's bits | `scene_defaults` | | `scene_defaults` | | |
 
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test states what must hold")]
@@ -26,6 +26,7 @@ use rubscope_solver::scene::CheckedScene;
 
 mod bounds;
 mod cases;
+mod certainty;
 mod event_cases;
 mod event_hard;
 mod event_laws;

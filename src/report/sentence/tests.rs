@@ -59,7 +59,9 @@ fn assert_reads_well(facts: &Facts) {
 
 #[test]
 fn a_sentence_is_the_one_of_every_width_down_to_its_own() {
-    for doubts in [vec![], vec![Doubt::Pulls(7, Some(Verdict::Decay)), Doubt::Sensitive]] {
+    for doubts in
+        [vec![], vec![Doubt::Pulls(7, Some(Verdict::Decay)), Doubt::Sensitive { ends: true }]]
+    {
         for verdict in Verdict::ALL {
             let facts = Facts { doubts: doubts.clone(), ..facts(verdict) };
             for width in WIDTHS {
@@ -89,7 +91,12 @@ fn assert_is_whole(told: &Sentence, width: usize) {
 fn every_verdict_law_failure_and_doubt_has_a_whole_sentence_at_every_width() {
     let blades: [&[u32]; 5] =
         [&[], &[7], &[1012, 1019], &[1001, 1006, 1012, 1017], &[1, 2, 3, 4, 5, 6]];
-    let mut doubts = vec![None, Some(Doubt::Sensitive)];
+    let mut doubts = vec![
+        None,
+        Some(Doubt::Sensitive { ends: true }),
+        Some(Doubt::Sensitive { ends: false }),
+        Some(Doubt::Step),
+    ];
     for other in Verdict::ALL {
         doubts.extend([1, 1_000_000].map(|steps| Some(Doubt::Pulls(steps, Some(other)))));
         doubts.extend([Cause::Step, Cause::Angles].map(|cause| Some(Doubt::Differs(other, cause))));
@@ -97,7 +104,7 @@ fn every_verdict_law_failure_and_doubt_has_a_whole_sentence_at_every_width() {
     doubts.push(Some(Doubt::Pulls(2, None)));
     let mut doubts: Vec<Vec<Doubt>> =
         doubts.into_iter().map(|doubt| doubt.into_iter().collect()).collect();
-    doubts.push(vec![Doubt::Pulls(7, Some(Verdict::Decay)), Doubt::Sensitive]);
+    doubts.push(vec![Doubt::Pulls(7, Some(Verdict::Decay)), Doubt::Sensitive { ends: true }]);
     let mut stopped: Vec<Option<FailureReason>> = failures().into_iter().map(Some).collect();
     stopped.push(None);
     for verdict in Verdict::ALL {
@@ -143,7 +150,7 @@ fn every_built_in_scene_ends_in_a_whole_sentence() {
 #[test]
 fn a_run_that_pulls_is_called_sensitive_too_where_it_is() {
     let both = Facts {
-        doubts: vec![Doubt::Pulls(2, Some(Verdict::Decay)), Doubt::Sensitive],
+        doubts: vec![Doubt::Pulls(2, Some(Verdict::Decay)), Doubt::Sensitive { ends: true }],
         ..facts(Verdict::Locked)
     };
     let doubt = |width| both.sentence(width).doubt.unwrap();

@@ -390,7 +390,7 @@ mod tests {
         run.latest.results.found.spectrum = Some(Arc::default());
         for change in [Run::change, Run::fire, |run: &mut Run| run.restart(&run.started.clone())] {
             run.latest.results.reference = None;
-            run.latest.results.sensitive = Sensitive::Yes;
+            run.latest.results.sensitive = Sensitive::GivenUp;
             change(&mut run);
             assert_eq!(run.latest.results.sensitive, Sensitive::Unknown);
             assert!(run.latest.results.found.spectrum.is_some());

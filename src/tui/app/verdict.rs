@@ -4,7 +4,7 @@
 use crate::report::sentence::{Cause, Doubt, Facts, Sentence, growth};
 use crate::tui::app::App;
 use crate::tui::axis::readable;
-use crate::tui::engine::{Answer, FORECAST_LIMIT, FullRun, FullRunState, Sensitive};
+use crate::tui::engine::{Answer, FORECAST_LIMIT, FullRun, FullRunState};
 use crate::tui::knobs::KNOBS;
 use crate::tui::text::few;
 use crate::tui::trace::{Happening, Mark};
@@ -110,8 +110,12 @@ impl App {
         if pulls > 0 {
             doubts.push(Doubt::Pulls(pulls, other));
         }
-        if self.results().sensitive == Sensitive::Yes {
-            doubts.push(Doubt::Sensitive);
+        let certainty = self.results().sensitive.known();
+        if certainty.sensitive {
+            doubts.push(Doubt::Sensitive { ends: certainty.ends_otherwise });
+        }
+        if certainty.depends_on_step == Some(true) {
+            doubts.push(Doubt::Step);
         }
         if let Some(other) = other.filter(|other| *other != run.verdict && doubts.is_empty()) {
             let beyond = self.scene.has_other_tips();

@@ -163,7 +163,7 @@ mod tests {
                 seen.insert(knob.path);
             }
         }
-        assert_eq!(seen.len(), 19, "{seen:?}");
+        assert_eq!(seen.len(), 23, "{seen:?}");
     }
 
     #[test]

@@ -287,7 +287,7 @@ fn end(app: &App) -> Part {
     };
     // Of a whirl or a slip, only the latest change of sides is known; where a tiny change
     // decides, no instant is known at all.
-    let known = app.results().sensitive != Sensitive::Yes;
+    let known = !app.results().sensitive.known().sensitive;
     let held = run.since.filter(|_| known && run.verdict.is_held());
     let held = held.map(|t| format!("{} since {}", run.verdict, readable(t, "s")));
     let broken = run.broken.filter(|_| known && run.since.is_none());

@@ -12,7 +12,7 @@ use crate::tui::trace::Mark;
 use crate::tui::worker::background::{Background, on_spare_cores};
 use crate::tui::worker::full_run::{FullRunJob, SLICE};
 use crate::tui::worker::studies::Studies;
-use rubscope_solver::motion::{Course, Motion, VerdictReached, is_sensitive};
+use rubscope_solver::motion::{Certainty, Course, Motion, VerdictReached, certainty};
 use rubscope_solver::scene::{CheckedScene, ContactLaw, Scene, SolverKind};
 
 /// The computations for one motion.
@@ -21,7 +21,7 @@ pub struct Forecasts {
     full_run: FullRunJob,
     reference: Option<FullRunJob>,
     sensitive: Option<Sensitive>,
-    sensitivity: Option<Background<bool>>,
+    sensitivity: Option<Background<Certainty>>,
     studies: Studies,
     answers: Answers,
 }
@@ -132,8 +132,7 @@ impl Forecasts {
             self.sensitive = match &mut self.sensitivity {
                 Some(job) => {
                     let known = job.receive(SLICE);
-                    let known = known.map(|yes| if yes { Sensitive::Yes } else { Sensitive::No });
-                    known.or(job.is_done().then_some(Sensitive::GivenUp))
+                    known.map(Sensitive::Known).or(job.is_done().then_some(Sensitive::GivenUp))
                 }
                 // The run itself took too long.
                 None => Some(Sensitive::GivenUp),
@@ -182,15 +181,15 @@ fn reference(scene: &Scene) -> Option<FullRunJob> {
 fn sensitivity(
     scene: &CheckedScene,
     (reached, course): (VerdictReached, Course),
-) -> Background<bool> {
+) -> Background<Certainty> {
     let scene = scene.clone();
     Background::start(move |to, go_on| {
         let began = Instant::now();
         let go_on = || go_on() && began.elapsed() < FORECAST_LIMIT;
-        let found = on_spare_cores(|| is_sensitive(&scene, reached, &course, &go_on));
-        if let Some(sensitive) = found {
+        let found = on_spare_cores(|| certainty(&scene, reached, &course, true, &go_on));
+        if let Some(certainty) = found {
             // Without a receiver nobody asks any more.
-            let _ = to.send(sensitive);
+            let _ = to.send(certainty);
         }
     })
 }

@@ -247,7 +247,10 @@ fn every_verdict_has_its_word_and_its_signs_in_the_tables_and_legends() {
         let word = verdict.as_ref();
         assert!(words.contains(&format!("`{word}`")), "{words}");
         let [plain, letter] = [false, true].map(|sensitive| {
-            format!("`{}`", rubscope::report::map::mark(Some(Cell { verdict, sensitive })))
+            format!(
+                "`{}`",
+                rubscope::report::map::mark(Some(Cell { sensitive, ..Cell::of(verdict) }))
+            )
         });
         assert!(signs.contains(&vec![plain, word.to_string(), letter]), "{word}: {signs:?}");
         assert!([&accuracy, &readme].iter().all(|table| table.iter().any(|row| row[0] == word)));
@@ -255,8 +258,9 @@ fn every_verdict_has_its_word_and_its_signs_in_the_tables_and_legends() {
     // The legend of a map with a sensitive cell has all letters.
     let map = ["map", "--solver", "event", "--speed", "500:500:1", "--pulse", "2e5:2e5:1"];
     let printed = String::from_utf8(rubscope(&map).stdout).unwrap();
-    let letters = Verdict::ALL
-        .map(|verdict| rubscope::report::map::mark(Some(Cell { verdict, sensitive: true })));
+    let letters = Verdict::ALL.map(|verdict| {
+        rubscope::report::map::mark(Some(Cell { sensitive: true, ..Cell::of(verdict) }))
+    });
     let told = format!("A letter ({}) marks", letters.map(String::from).join(" "));
     assert!(printed.contains(&told), "{printed}");
 }

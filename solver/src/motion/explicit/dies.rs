@@ -126,20 +126,18 @@ pub(super) struct Dies {
 #[derive(Clone, Debug)]
 pub(super) struct Rest {
     dies: Option<Dies>,
-    /// Whether every wave that is small enough dies.
-    attracts: bool,
+    /// The rate at which the slowest wave dies, of those that move the tips in the lining;
+    /// negative where it grows, 0 where it does neither beyond round-off \[1/s\].
+    pub rate: f64,
+    /// A wave up to here leaves all pushes linear in the gaps \[m\].
+    pub room: f64,
 }
 
 impl<B: Disk> Explicit<B> {
     /// Whether every wave to come dies: all blades press a lining and stay so.
     pub(super) fn dies(&self) -> bool {
-        let Some(lining) = self.lining.as_ref().filter(|lining| lining.all_press()) else {
-            return false;
-        };
-        let Some(modes) = self.blades.held_modes().filter(|_| self.drive.is_steady(self.n)) else {
-            return false;
-        };
-        let Some(dies) = &lining.rest.get_or_init(|| self.rest()).dies else { return false };
+        let Some(dies) = self.rest().and_then(|rest| rest.dies.as_ref()) else { return false };
+        let Some(modes) = self.blades.held_modes() else { return false };
         let (c, s) = self.drive.look_at_turn(self.n);
         let back = Plane::new(c, -s);
         let [[x, y], [a, b]] = [self.u, modes.modes];
@@ -152,16 +150,12 @@ impl<B: Disk> Explicit<B> {
         dies.holds(&state)
     }
 
-    /// Whether all blades press a lining, and no wave dies there: nothing damps it, or it
-    /// grows.
-    pub(super) fn no_wave_dies(&self) -> bool {
-        let pressed = self.lining.as_ref().filter(|lining| lining.all_press());
+    /// The linear motion about rest, where all blades press a lining at constant speed and
+    /// it is known.
+    pub(super) fn rest(&self) -> Option<&Rest> {
+        let lining = self.lining.as_ref().filter(|lining| lining.all_press())?;
         let steady = self.drive.is_steady(self.n) && self.blades.held_modes().is_some();
-        pressed.is_some_and(|lining| steady && !lining.rest.get_or_init(|| self.rest()).attracts)
-    }
-
-    fn rest(&self) -> Rest {
-        self.pressed_rest().unwrap_or(Rest { dies: None, attracts: true })
+        steady.then(|| lining.rest.get_or_init(|| self.pressed_rest()))?.as_ref()
     }
 
     /// None where rest is no equilibrium of one linear step.
@@ -216,12 +210,23 @@ impl Rest {
             let at = units.state(&DVector::from_fn(size, |n, _| f64::from(u8::from(n == k))));
             matrix.set_column(k, &units.states(&step.change(&at), size));
         }
-        let kept = DIES_ROUNDINGS * f64::EPSILON;
-        let shrinks = |root: &Complex<f64>| 2.0 * root.re + root.norm_sqr() < -kept;
-        let attracts = matrix.clone().complex_eigenvalues().iter().all(shrinks);
-        let dies = Dies::of(step, &matrix, units, [length, rate], outrun).filter(|_| attracts);
-        Some(Self { dies, attracts })
+        let dies = Dies::of(step, &matrix, units, [length, rate], outrun);
+        let dies = dies.filter(|_| decay_rate(&matrix, length) > 0.0);
+        // A lining does not feel the blades of tips without a slope, to first order.
+        let felt = if tips.rise == 0.0 { 4 } else { size };
+        let rate = decay_rate(&matrix.view((0, 0), (felt, felt)).into_owned(), length);
+        Some(Self { dies, rate, room })
     }
+}
+
+/// The rate at which the slowest state of a step `1 + change` of this length \[s\] dies, 0
+/// within its round-off \[1/s\].
+fn decay_rate(change: &DMatrix<f64>, length: f64) -> f64 {
+    let grows = |root: &Complex<f64>| 2.0 * root.re + root.norm_sqr();
+    let roots = change.clone().complex_eigenvalues();
+    let most = roots.iter().map(grows).fold(f64::NEG_INFINITY, f64::max);
+    let beyond = most.abs() > DIES_ROUNDINGS * f64::EPSILON;
+    if beyond { -0.5 * most.ln_1p() / length } else { 0.0 }
 }
 
 impl Dies {
@@ -395,7 +400,7 @@ mod tests {
     impl<B: Disk> Explicit<B> {
         /// The wave now, as a part of the largest that dies.
         fn size_of_wave(&self) -> Option<f64> {
-            let dies = self.lining.as_ref()?.rest.get()?.dies.clone()?;
+            let dies = self.lining.as_ref()?.rest.get()?.as_ref()?.dies.clone()?;
             let modes = self.blades.held_modes()?.modes;
             let (c, s) = self.drive.look_at_turn(self.n);
             let back = Plane::new(c, -s);

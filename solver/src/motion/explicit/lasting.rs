@@ -1,6 +1,7 @@
 //! How a motion beyond the paper lasts: what the verdict needs of the last part of the
 //! run, kept as it goes (docs/theory.md, section 10).
 
+use super::dies::Rest;
 use crate::motion::verdict::Trend;
 use crate::motion::{ActiveSet, ContactLog, Plane, Verdict};
 use crate::tolerances::{
@@ -117,12 +118,22 @@ impl Lasting {
     /// Whether the casing moves about its rest by more than round-off, where a clearance
     /// has this size \[m\].
     fn moves(&self, size: f64) -> bool {
-        self.now.wave().max(self.before.wave()) > WAVE_ROUND_OFF * size
+        self.largest_wave() > WAVE_ROUND_OFF * size
+    }
+
+    /// The largest wave of the last stretches \[m\].
+    fn largest_wave(&self) -> f64 {
+        self.now.wave().max(self.before.wave())
     }
 
     /// Forgets what was before a change on the way.
     pub fn forget(&mut self) {
         self.trends.iter_mut().for_each(Trend::forget);
+    }
+
+    /// Since when every row has touched \[s\].
+    pub fn all_since(&self) -> Option<f64> {
+        self.all_since
     }
 
     /// The swing that lasts, as it goes \[m\].
@@ -131,15 +142,16 @@ impl Lasting {
     }
 
     /// The verdict over the last `window` seconds, of a machine with this clearance, on
-    /// a lining or not; `no_wave_dies` there tells apart what falls and what turns slowly.
-    pub fn verdict(
+    /// a lining or not. Where its motion about rest is linear and known, the rate of that
+    /// decides, whatever the wave did in so short a time.
+    pub fn verdict<'a>(
         &self,
         log: &ContactLog,
         now: f64,
         window: f64,
         clearance: f64,
         lining: bool,
-        no_wave_dies: impl FnOnce() -> bool,
+        rest: impl FnOnce() -> Option<&'a Rest>,
     ) -> Verdict {
         let start = now - window;
         let lasted = |since: Option<f64>| since.is_some_and(|t| t <= start);
@@ -168,7 +180,13 @@ impl Lasting {
             ActiveSet::Nothing => false,
         };
         if lining && lasted(self.all_since) {
-            match (dies && !(self.moves(size) && no_wave_dies()), whirls) {
+            let moves = self.moves(size);
+            let dies = match rest().filter(|_| moves) {
+                Some(rest) if rest.rate <= 0.0 => false,
+                Some(rest) => dies || self.largest_wave() < rest.room,
+                None => dies,
+            };
+            match (dies, whirls) {
                 (true, _) => Verdict::Decay,
                 (false, true) => Verdict::Whirl,
                 (false, false) => Verdict::Slip,

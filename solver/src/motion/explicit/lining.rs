@@ -29,8 +29,9 @@ pub(super) struct Lining {
     /// Stored at the step before, where that is not what the pushes before say \[J\].
     held_before: Option<f64>,
     touching: Touching,
-    /// Which waves die at this speed, once asked.
-    pub rest: OnceLock<Rest>,
+    /// What waves do at this speed, once asked; none where rest is no equilibrium of one
+    /// linear step.
+    pub rest: OnceLock<Option<Rest>>,
 }
 
 /// Sums over the rows of a step.

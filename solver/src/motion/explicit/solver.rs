@@ -7,8 +7,8 @@ use super::{Coordinate, Explicit};
 use crate::model::Machine;
 use crate::motion::verdict::judge;
 use crate::motion::{
-    ActiveSet, Checks, ContactLog, EnergyAccount, Failure, GoOn, Plane, Pulse, Rotor, Solver,
-    State, Verdict,
+    ActiveSet, Checks, ContactLog, EnergyAccount, Failure, GoOn, LinearRest, Plane, Pulse, Rotor,
+    Solver, State, Verdict,
 };
 use crate::scene::CheckedScene;
 use crate::tolerances::{LARGEST_BLADE_ANGLE, STEP_ROUND_OFF, UPDATES_UNASKED};
@@ -108,8 +108,13 @@ impl<B: Disk> Solver for Explicit<B> {
         }
         let (lasting, clearance) = (&self.beyond.lasting, self.machine.clearance());
         let lining = self.lining.is_some();
-        let verdict = lasting.verdict(log, now, window, clearance, lining, || self.no_wave_dies());
+        let verdict = lasting.verdict(log, now, window, clearance, lining, || self.rest());
         verdict.unless_forced(&self.machine, log, now - window)
+    }
+
+    fn linear_rest(&self) -> Option<LinearRest> {
+        let (rest, since_s) = (self.rest()?, self.beyond.lasting.all_since()?);
+        Some(LinearRest { rate_per_s: rest.rate, since_s })
     }
 
     fn swing(&self) -> f64 {

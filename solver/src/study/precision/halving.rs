@@ -179,6 +179,7 @@ fn falling(runs: &[Halved], changes: &[f64]) -> Option<(Option<f64>, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::motion::ActiveSet;
     use crate::motion::Verdict;
 
     /// Runs at seven halvings of a step of one second, whose ends are these, with as many
@@ -192,6 +193,7 @@ mod tests {
                     impact_count: impacts(n),
                     rested: false,
                     locked_s: None,
+                    held: ActiveSet::Nothing,
                 };
                 Halved { step_s, u: [end(step_s), 0.0], reached: Some(reached) }
             })

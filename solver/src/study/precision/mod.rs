@@ -18,7 +18,7 @@ use strum::IntoStaticStr;
 
 pub use ways::{Effort, Way, ways};
 
-use crate::motion::{Course, GoOn, Motion, State, Verdict, VerdictReached, is_sensitive};
+use crate::motion::{Course, GoOn, Motion, State, Verdict, VerdictReached, certainty};
 use crate::scene::{Scene, SceneError};
 use crate::tolerances;
 use track::Track;
@@ -296,7 +296,8 @@ fn described(
     }
     let reached = VerdictReached::of(&track.end, track.verdict);
     let unseen = Course::over(scene.solver.end_s);
-    reference.sensitive = is_sensitive(&track.way.of(scene)?, reached, &unseen, go_on);
+    let certainty = certainty(&track.way.of(scene)?, reached, &unseen, false, go_on);
+    reference.sensitive = certainty.map(|certainty| certainty.sensitive);
     Ok(reference.sensitive.map(|_| reference))
 }
 

@@ -268,7 +268,7 @@ const PULLS: char = '▒';
 
 /// Returns the sign of a verdict in the legend, as it is on the map.
 pub fn sign(look: &Appearance, verdict: Verdict) -> (char, Style) {
-    let cell = Some(Cell { verdict, sensitive: false });
+    let cell = Some(Cell::of(verdict));
     match (letters(look), colour(look, verdict)) {
         (true, _) => (mark(cell), style(look, cell)),
         (false, None) => ('░', look.style(Role::Quiet)),

@@ -430,7 +430,7 @@ mod tests {
             (plan.x.count, plan.y.count) = (x, y);
             let (mut order, first) = coarse_first(&plan);
             let mut live = LiveMap::of(plan.clone());
-            let cell = Some(Cell { verdict: Verdict::Decay, sensitive: false });
+            let cell = Some(Cell::of(Verdict::Decay));
             order.iter().take(first).for_each(|&index| live.map.cells.set(index, cell));
             live.tried = first;
             // They cover the whole map.

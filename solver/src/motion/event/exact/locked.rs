@@ -268,9 +268,9 @@ impl CornerSeries {
         parameters.clearance * parameters.half_angle(self.a, &self.tips(parameters, s)).tan()
     }
 
-    /// Whether, at constant speed, no push can vanish any more: what is left of
-    /// the blades' vibration about their rest moves the pushes by less than half
-    /// of what they are.
+    /// Whether, at constant speed, no push can vanish any more: what bends the blades at
+    /// rest, and what is left of their vibration about it, moves the pushes by less than
+    /// half of what they are.
     pub(super) fn for_good(&self, parameters: &Parameters, blades: &Blades, s: f64) -> bool {
         let (sin, cos) = parameters.machine.polygon.delta.sin_cos();
         let rest = pushes(parameters, self.a, 0.0);
@@ -286,10 +286,10 @@ impl CornerSeries {
             + parameters.omega
             + blades.omega
             + 2.0 * (parameters.damping + blades.propagator.damping);
-        let turned = blades.diameters * blades.amplitude(&left);
+        let turned = blades.diameters * (blades.amplitude(&left) + rest.norm());
         let change = 2.0 * turned * rates * rates * parameters.clearance / (sin * cos);
         let light = blades.ratio * parameters.half_side * parameters.half_side < LIGHT_BLADES;
-        light && change < ROOM_TO_CHANGE * least
+        light && least > parameters.certain_push() && change < ROOM_TO_CHANGE * least
     }
 
     /// Returns whether a push is nothing but round-off.

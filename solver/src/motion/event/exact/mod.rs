@@ -198,7 +198,8 @@ impl Solver for ExactEvents {
             && self.parameters.drive.steady()
         {
             let pushes = locked::pushes(&self.parameters, a, 0.0);
-            pushes.iter().all(|&push| push > 0.0).then_some(Verdict::Locked)
+            let least = self.parameters.certain_push();
+            pushes.iter().all(|&push| push > least).then_some(Verdict::Locked)
         } else if let Mode::Held(held) = &self.mode
             && let Some(blades) = &self.parameters.blades
             && self.parameters.drive.steady()

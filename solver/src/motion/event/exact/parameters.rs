@@ -15,7 +15,9 @@ use crate::model::Machine;
 use crate::motion::Plane;
 use crate::motion::propagator::Propagator;
 use crate::scene::{ModelSize, Scene};
-use crate::tolerances::{self, CLEARANCES_A_RADIAN, FOLLOWING_GAP, FOLLOWING_RATES, ROUND_OFF};
+use crate::tolerances::{
+    self, CERTAIN_PUSH, CLEARANCES_A_RADIAN, FOLLOWING_GAP, FOLLOWING_RATES, ROUND_OFF,
+};
 
 /// The machine in the units the solver works with: everything per unit mass.
 #[derive(Clone, Debug)]
@@ -136,6 +138,11 @@ impl Parameters {
         let square = (self.omega * self.omega).max(self.drive.nu * self.drive.nu);
         let spread = if self.corners { self.turn.im.abs() } else { 1.0 };
         ROUND_OFF * (square * self.clearance + self.drive.pulse.abs()) / spread
+    }
+
+    /// Returns the push of a corner above which its sign is certain \[m/s^2\].
+    pub(super) fn certain_push(&self) -> f64 {
+        CERTAIN_PUSH * self.machine.push_scale(self.drive.nu) / self.mass
     }
 
     /// Returns the pulse times `exp(i beta)` of a side, the direction that opens its gap,

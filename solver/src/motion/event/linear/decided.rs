@@ -10,7 +10,7 @@ use super::parameters::{Parameters, Point};
 use super::stretch::Held;
 use crate::motion::Plane;
 use crate::numeric::lyapunov::lyapunov;
-use crate::tolerances::LARGEST_BLADE_ANGLE;
+use crate::tolerances::{CERTAIN_PUSH, LARGEST_BLADE_ANGLE};
 
 /// What is known for good of the motion that holds some rows.
 #[derive(Clone, Debug)]
@@ -89,7 +89,7 @@ impl Rest {
         let per_unit = |row: &DVector<f64>| row.dot(&(&inverse * row)).max(0.0).sqrt();
         let pushes = slope(parameters, held, &point, 1.0).1;
         let mut rooms = Vec::new();
-        for (k, push) in pushes.into_iter().take(held.rows.len()).enumerate() {
+        for (k, &push) in pushes.iter().take(held.rows.len()).enumerate() {
             let row = DVector::from_fn(size, |n, _| {
                 slope(parameters, held, &scales.point(&unit(n)), 0.0).1[k]
             });
@@ -107,7 +107,10 @@ impl Rest {
         let bent = parameters.largest_angle(point.a);
         let turn = DVector::from_fn(size, |n, _| if n == 4 || n == 5 { scales.a } else { 0.0 });
         rooms.push((LARGEST_BLADE_ANGLE - bent, 2.0 * per_unit(&turn)));
-        let holds = rooms.iter().all(|&(room, _)| room > 0.0);
+        let machine = &parameters.machine;
+        let least = CERTAIN_PUSH * machine.push_scale(parameters.nu) / machine.casing_mass;
+        let certain = pushes.iter().take(held.rows.len()).all(|&push| push > least);
+        let holds = certain && rooms.iter().all(|&(room, _)| room > 0.0);
         holds.then_some(Self { point, bound, rooms })
     }
 

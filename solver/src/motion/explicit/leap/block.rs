@@ -7,7 +7,7 @@ use super::held_corner::HeldCorner;
 use crate::motion::explicit::disk::Disk;
 use crate::motion::explicit::{Coordinate, Explicit};
 use crate::motion::{EnergyAccount, Verdict};
-use crate::tolerances::{HELD_AFTER, LIGHT_BLADES, ROOM_TO_CHANGE};
+use crate::tolerances::{CERTAIN_PUSH, HELD_AFTER, LIGHT_BLADES, ROOM_TO_CHANGE};
 
 /// A block without end: no contact can ever come again.
 pub(in crate::motion::explicit) const ENDLESS: u64 = u64::MAX;
@@ -196,7 +196,7 @@ impl<B: Disk> Explicit<B> {
         } else if self.no_contact_to_come() {
             Some(Verdict::Decay)
         } else if let Some(held) = &self.leaps.held {
-            Some(locked(held.pulls))
+            held.is_certain.then(|| locked(held.pulls))
         } else if self.goes_beyond || self.blades.held_modes().is_some() {
             self.dies().then_some(Verdict::Decay)
         } else {
@@ -233,7 +233,8 @@ impl<B: Disk> Explicit<B> {
         let light = moment_arm * moment_arm * self.blades.compliance(0, 0)
             < LIGHT_BLADES * self.casing.compliance;
         let least = if self.law.pulls() { least.min(a.abs()).min(b.abs()) } else { least };
-        (light && change < ROOM_TO_CHANGE * least).then(|| locked(a > 0.0 || b > 0.0))
+        let certain = light && least > CERTAIN_PUSH * machine.push_scale(nu);
+        (certain && change < ROOM_TO_CHANGE * least).then(|| locked(a > 0.0 || b > 0.0))
     }
 }
 

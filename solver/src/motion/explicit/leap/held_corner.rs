@@ -27,8 +27,8 @@ use crate::motion::explicit::disk::{Disk, HeldModes};
 use crate::motion::explicit::oscillator::{LARGEST, Leap};
 use crate::motion::explicit::{Coordinate, Explicit};
 use crate::tolerances::{
-    ANGLE_LOOK, HELD_AFTER, HELD_AGAIN, HELD_CORRECTIONS, HELD_PROBE, MOST_GROWTH, ROOM_TO_CHANGE,
-    SMALL_TURNS,
+    ANGLE_LOOK, CERTAIN_PUSH, HELD_AFTER, HELD_AGAIN, HELD_CORRECTIONS, HELD_PROBE, MOST_GROWTH,
+    ROOM_TO_CHANGE, SMALL_TURNS,
 };
 
 type StepMap = SMatrix<f64, 4, 4>;
@@ -39,6 +39,8 @@ pub(in crate::motion::explicit) struct HeldCorner {
     step: CornerStep,
     /// Whether a multiplier pulls.
     pub pulls: bool,
+    /// Whether the signs of both multipliers are certain.
+    pub is_certain: bool,
     /// Blade modes at rest, and multipliers there \[N\].
     rest: Modes,
     multipliers: [f64; 2],
@@ -238,7 +240,19 @@ impl<B: Disk> Explicit<B> {
         };
         let pulls = a > 0.0 || b > 0.0;
         let multipliers = [a, b];
-        let held = HeldCorner { step, pulls, rest, multipliers, deviations, counts, swing, growth };
+        let least = CERTAIN_PUSH * machine.push_scale(machine.nu(speed));
+        let is_certain = multipliers.iter().all(|push| push.abs() > least);
+        let held = HeldCorner {
+            step,
+            pulls,
+            is_certain,
+            rest,
+            multipliers,
+            deviations,
+            counts,
+            swing,
+            growth,
+        };
         held.closes(&at_rest)?.then(|| Box::new(held))
     }
 
@@ -456,6 +470,7 @@ mod tests {
                 let held = HeldCorner {
                     step: step.clone(),
                     pulls: false,
+                    is_certain: true,
                     rest,
                     multipliers: [0.0; 2],
                     deviations: Arc::new(Unfolded::linear(
