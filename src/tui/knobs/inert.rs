@@ -102,6 +102,10 @@ pub fn centred(scene: &Scene) -> Option<&'static str> {
     (scene.bladed_disk.orbit_m == 0.0).then_some("the orbit is 0")
 }
 
+pub fn without_lobes(scene: &Scene) -> Option<&'static str> {
+    (scene.casing.lobes == 0).then_some("there are no lobes")
+}
+
 pub fn round(scene: &Scene) -> Option<&'static str> {
     (scene.casing.out_of_round_m == 0.0).then_some("the casing is round")
 }
@@ -163,7 +167,7 @@ mod tests {
                 seen.insert(knob.path);
             }
         }
-        assert_eq!(seen.len(), 23, "{seen:?}");
+        assert_eq!(seen.len(), 24, "{seen:?}");
     }
 
     #[test]
