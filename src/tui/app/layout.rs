@@ -27,13 +27,8 @@ impl Layout {
     /// Creates the layout with the charts that a scene names first.
     pub fn of(scene: &Scene) -> Self {
         let views = ViewId::all().collect();
-        let mut layout = Self {
-            views,
-            beside: MOST_BESIDE,
-            survey: false,
-            full_screen: false,
-            size: (80, 24),
-        };
+        let mut layout =
+            Self { views, beside: MOST_BESIDE, survey: false, full_screen: false, size: (80, 24) };
         layout.open(scene);
         layout
     }
