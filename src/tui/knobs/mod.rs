@@ -12,7 +12,6 @@ pub use naming::{Fit, best, called, fit, plain};
 use number::CLEARANCE;
 use number::{decades, mantissas};
 use range::Bar;
-pub use range::{KnobRange, meaning};
 pub use table::KNOBS;
 
 use crate::report::number::{exact, from_shown, in_shown_unit, rounded, with_typed_unit};
