@@ -52,13 +52,8 @@ pub fn write(report: &RunReport, wall: Wall, out: &mut dyn Write) -> Result<()> 
         let rate = rate(growth);
         writeln!(out, "Held, but this lock is unstable: it grows by {rate} and does not last.")?;
     }
-    let doubts = doubts(report);
-    for line in &doubts {
+    for line in doubts(report) {
         writeln!(out, "{line}")?;
-    }
-    // Events have no steps, and a run that takes each has been told so.
-    if !doubts.is_empty() && report.solver.steps_skipped.is_some_and(|skipped| skipped > 0) {
-        writeln!(out, "To audit this run, take each of its steps: rubscope run --plain.")?;
     }
     writeln!(out)?;
     motion(report, &machine, out)?;
@@ -145,6 +140,10 @@ fn doubts(report: &RunReport) -> Vec<String> {
     }
     if let Some(verdict) = outcome.by_events {
         doubts.push(format!("The event solver, which has no step, says {verdict}."));
+    }
+    // Events have no steps, and a run that takes each has been told so.
+    if !doubts.is_empty() && report.solver.steps_skipped.is_some_and(|skipped| skipped > 0) {
+        doubts.push("To audit this run, take each of its steps: rubscope run --plain.".into());
     }
     if report.solver.contact == ContactLaw::Bilateral && pulls > 0 {
         doubts.push(format!(

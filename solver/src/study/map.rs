@@ -417,7 +417,7 @@ mod cells_tests {
         }
         assert!(cells.iter().zip(&MEANING).all(|(cell, meaning)| cell == meaning));
         assert_eq!((cells[MEANING.len()], cells.get(MEANING.len() + 1)), (None, None));
-        assert_eq!(cells.iter().flatten().count(), 2 * KINDS);
+        assert_eq!(cells.iter().flatten().count(), 3 * KINDS);
         assert_eq!(cells.clone(), cells);
         cells.set(3, None);
         assert!(cells[3].is_none());

@@ -68,6 +68,7 @@ fn every_field_of_the_reports_is_in_the_documents() {
             vec![
                 "run --json --at 0.01:operation.pulse_n=10 --at 0.02:pulse --end 0.03",
                 "run --json --end 0.001 --no-sensitivity",
+                "run --contact unilateral --pulse 5e4 --step 1e-6 --json",
                 "run --nd 11 --speed 100 --pulse 20000 --solver event --contact unilateral --model rigid --end 0.02 --json",
                 "run --contact unilateral --set contact.restitution=0.3 --end 0.002 --json",
                 "run --solver event --set bladed_disk.stiffness_nm_per_rad=1e12 --json",

