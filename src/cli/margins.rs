@@ -9,7 +9,7 @@ use super::options::SceneOptions;
 use super::status::{self, Refusal, Status};
 use super::{Done, gone, output};
 use crate::report::number::with_typed_unit;
-use crate::report::{CommandLine, Provenance, json, margins as report, svg};
+use crate::report::{CommandLine, Provenance, json, margins as report};
 use rubscope_solver::motion::to_the_end;
 use rubscope_solver::scene::{CheckedScene, Quantity};
 use rubscope_solver::study::margins::{LimitName, Margins, Target, TargetError};
@@ -25,7 +25,7 @@ pub struct MarginsCommand {
     /// Print everything as JSON (rubscope.margins/1)
     #[arg(long)]
     json: bool,
-    /// Write the limits to FILE: .csv, or .svg for a page
+    /// Write the limits to FILE: .csv, or .svg for a page of the text
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Find the value of a parameter that puts a limit there, such as omega_lock=450
@@ -76,7 +76,7 @@ impl MarginsCommand {
             if format == Some("svg") {
                 let command = command.option("--out", "margins.svg");
                 let origin = Provenance { command, scene: scene.clone().into_scene() };
-                output::save(path, &rows, out, |out| svg::write_margins(margins, &origin, out))?;
+                output::save(path, &rows, out, |out| report::write_page(margins, &origin, out))?;
             } else {
                 output::save(path, &rows, out, |out| report::table(margins).write_csv(out))?;
             }

@@ -31,12 +31,6 @@ pub fn symbol(path: &str) -> String {
     key.what.rsplit(' ').next().unwrap_or(path).to_string()
 }
 
-/// Symbols in Greek letters and with the signs of print: `Ω_c`, `ζ_c`, `−0.5`.
-#[must_use]
-pub fn in_print(text: &str) -> String {
-    greek(text).replace('-', "−")
-}
-
 /// Symbols in Greek letters.
 #[must_use]
 pub fn greek(text: &str) -> String {
@@ -85,7 +79,6 @@ mod tests {
         assert_eq!(symbol("initial.v_s_m_s"), "u_s'(0)");
         assert_eq!(symbol("bladed_disk.blades"), "N");
         assert_eq!(symbol("operation.nodal_diameters"), "n_d");
-        assert_eq!(in_print("Omega -0.5 zeta_c g0"), "Ω −0.5 ζ_c g_0");
         assert_eq!(greek("speed Omega, mu kappa(tau) eps much"), "speed Ω, μ κ(τ) ε much");
     }
 }

@@ -125,22 +125,21 @@ fn the_selected_knob_is_in_sight_at_every_size() {
 fn bars_show_the_value_and_its_limits_in_every_alphabet() {
     let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
     let text = column(&session);
-    assert!(text.contains("▕▒▒▒▒▒▒▒▒▒▒ca▒▒xL▒▒█▁▁▁▁▏"), "{text}");
+    assert!(text.contains("▕▒▒▒▒▒▒▒▒▒▒┃┃▒▒┃┃▒▒█▁▁▁▁▏"), "{text}");
     assert_eq!(text.matches('▕').count(), 1, "only the selected knob has a bar: {text}");
     session.press("j");
     let text = column(&session);
-    assert!(text.contains("t▒▒▒▒▒▒▒▒▒█"), "{text}");
+    assert!(text.contains("┃▒▒▒▒▒▒▒▒▒█"), "{text}");
     session.press("k");
-    // Past the limit the letter stands in the part that is not filled.
+    // A limit beyond the value has its tick in the part that is not filled.
     session.press("\n350\n");
     let text = column(&session);
-    assert!(text.contains("ca█▁xL"), "{text}");
-    // Two in one cell: the more important one is seen.
-    session.press("f");
-    assert!(session.text().contains("▒c▒▒▒█▁▁x▁L▁"), "{}", session.text());
+    assert!(text.contains("┃┃█▁┃┃") && text.contains("Now just below the"), "{text}");
+    session.press("\n430\n");
+    assert!(column(&session).contains("Now just above Ω_lock."), "{}", column(&session));
     let session = Session::open(80, 24, scene(), Theme::Mono, Marker::Ascii);
     let text = column(&session);
-    assert!(text.contains("[==========ca==xL==#....]"), "{text}");
+    assert!(text.contains("[==========||==||==#....]"), "{text}");
 }
 
 #[test]

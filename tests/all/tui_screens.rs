@@ -164,19 +164,6 @@ fn both_laws_side_by_side_and_a_pinned_baseline() {
     assert!(text.contains(" DECAY ") && text.contains("pinned: LOCKED"), "{text}");
 }
 
-#[test]
-fn the_gaps_against_time_need_no_colour() {
-    for (name, marker) in [("heat", Marker::Braille), ("ascii_heat", Marker::Ascii)] {
-        let mut session = Session::open(80, 24, scene(), Theme::Mono, marker);
-        session.press("wf ");
-        let text = session.text();
-        assert!(marker != Marker::Ascii || text.is_ascii(), "{text}");
-        insta::assert_snapshot!(name, text);
-        session.press("w");
-        assert!(session.text().contains("gaps of this instant"), "{}", session.text());
-    }
-}
-
 /// Red is trouble: on the first screen one sentence has it.
 #[test]
 fn the_first_screen_has_at_most_two_red_places() {

@@ -7,9 +7,11 @@ use std::io::{Result, Write};
 
 use serde_json::json;
 
+use super::command::{PROGRAM, VERSION};
 use super::line::wrapped;
 use super::symbols::symbol;
 use super::table::{Heading, Table, TableCell, WIDTH};
+use super::{Provenance, svg};
 use rubscope_solver::study::margins::{LimitName, Margins, acting};
 
 /// Number of parameters that are listed with each limit.
@@ -37,7 +39,10 @@ pub fn titled(margins: &Margins, title: fn(LimitName) -> String) -> Table {
             TableCell::Told(value, words::value(value, 6, limit.quantity))
         });
         let own = [
-            TableCell::Word(title(limit.name)),
+            TableCell::Word(match limit.lobes {
+                Some(lobes) => format!("{} m={lobes}", title(limit.name)),
+                None => title(limit.name),
+            }),
             quantity,
             value,
             limit.present.into(),
@@ -77,6 +82,24 @@ fn notes(margins: &Margins) -> Vec<(String, String)> {
 /// # Errors
 /// An error of the writer.
 pub fn write(margins: &Margins, out: &mut dyn Write) -> Result<()> {
+    write_limits(margins, out)?;
+    writeln!(out)?;
+    tell(&words::cost(margins), out)
+}
+
+/// Writes the same as a page, with the command that gives it.
+///
+/// # Errors
+/// An error of the writer.
+pub fn write_page(margins: &Margins, origin: &Provenance, out: &mut dyn Write) -> Result<()> {
+    let mut text = Vec::new();
+    write_limits(margins, &mut text)?;
+    writeln!(text, "\n{PROGRAM} {VERSION}: {}", origin.command)?;
+    svg::write_text(&String::from_utf8_lossy(&text), origin, out)
+}
+
+/// Writes what is the same at every time.
+fn write_limits(margins: &Margins, out: &mut dyn Write) -> Result<()> {
     tell(&margins.scene.title, out)?;
     tell(&words::conditions(margins), out)?;
     words::note(margins).iter().try_for_each(|note| tell(note, out))?;
@@ -90,8 +113,7 @@ pub fn write(margins: &Margins, out: &mut dyn Write) -> Result<()> {
             writeln!(out, "Check it: {command}")?;
         }
     }
-    writeln!(out)?;
-    tell(&words::cost(margins), out)
+    Ok(())
 }
 
 /// Writes a text in lines that are not too wide.

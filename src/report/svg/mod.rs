@@ -1,6 +1,5 @@
-//! A figure as SVG: title and conditions, panels in rows, and a caption.
+//! A figure as SVG: title and conditions, panels in rows, and a caption; and plain text as a page.
 
-mod margins;
 mod panel;
 mod paper;
 
@@ -10,10 +9,9 @@ use plotters::prelude::*;
 
 use super::Provenance;
 use super::line::{harmless, wrapped};
-use paper::{Drawn, FINE, TEXT, UNDERSCORE, letters_in, write_at};
+use super::table;
+use paper::{Drawn, FINE, TEXT, letters_in, write_at};
 use rubscope_solver::study::figures::Figure;
-
-pub use margins::write_margins;
 
 /// Width of a figure with one panel in a row, and of each panel more \[px\].
 const WIDTH: u32 = 960;
@@ -26,6 +24,8 @@ const TITLE: i32 = 21;
 const LINE: u32 = 19;
 /// Left of the text.
 const LEFT: i32 = 20;
+/// Width and height of a letter on a page of text \[px\].
+const LETTER: [usize; 2] = [9, 19];
 
 /// Writes a figure, with where it comes from as its description.
 ///
@@ -35,6 +35,34 @@ pub fn write(figure: &Figure, origin: &Provenance, out: &mut dyn Write) -> Resul
     let mut text = String::new();
     draw(figure, &describe(origin), &mut text).map_err(|error| Error::other(error.to_string()))?;
     out.write_all(text.as_bytes())
+}
+
+/// Writes lines of text as a page, in letters of equal width, with where it comes from as its
+/// description. Only lines that are too long are broken.
+///
+/// # Errors
+/// An error of the writer.
+pub fn write_text(text: &str, origin: &Provenance, out: &mut dyn Write) -> Result<()> {
+    let lines = text.lines().flat_map(|line| match line.chars().count() <= table::WIDTH {
+        true => vec![line.to_string()],
+        false => wrapped(line, table::WIDTH),
+    });
+    let lines: Vec<String> =
+        lines.map(|line| escaped(&line.chars().map(harmless).collect::<String>())).collect();
+    let [across, down] = LETTER;
+    let (width, height) = (across * (table::WIDTH + 4), down * (lines.len() + 2));
+    writeln!(
+        out,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+         viewBox=\"0 0 {width} {height}\" font-family=\"monospace\" font-size=\"{TEXT}\">\n\
+         {}<rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>",
+        describe(origin)
+    )?;
+    for (row, line) in (2..).zip(&lines) {
+        let (x, y) = (2 * across, row * down);
+        writeln!(out, "<text x=\"{x}\" y=\"{y}\" xml:space=\"preserve\">{line}</text>")?;
+    }
+    writeln!(out, "</svg>")
 }
 
 /// Returns where a picture comes from, as an element of SVG.
@@ -107,7 +135,7 @@ const STYLE: &str = "<style>rect{shape-rendering:crispEdges}</style>";
 fn finish(text: &mut String, [width, height]: [u32; 2], description: &str) {
     let fine = format!("width=\"{}\" height=\"{}\"", FINE * width, FINE * height);
     *text = text.replacen(&fine, &format!("width=\"{width}\" height=\"{height}\""), 1);
-    *text = with_subscripts(text).replace(UNDERSCORE, "_");
+    *text = with_subscripts(text);
     let start = text.find('>').map_or(0, |end| end + 1);
     text.insert_str(start, &format!("\n{}", description.trim_end()));
 }

@@ -39,24 +39,12 @@ pub fn font(size: i32) -> (&'static str, i32) {
     ("sans-serif", px(size))
 }
 
-pub fn write_at(area: &Area, text: &str, at: (i32, i32), size: i32) -> Drawn<()> {
-    write_from(area, text, at, size, HPos::Left)
-}
-
-/// Returns the text with its left end, its middle or its right end there.
-pub fn write_from(area: &Area, text: &str, (x, y): (i32, i32), size: i32, end: HPos) -> Drawn<()> {
+/// Writes a text with its left upper corner there.
+pub fn write_at(area: &Area, text: &str, (x, y): (i32, i32), size: i32) -> Drawn<()> {
     // Text of a scene is plain, that of a caller of the library need not be.
     let text: String = text.chars().filter(|c| is_plain(*c)).collect();
-    let style = font(size).into_text_style(area).pos(Pos::new(end, VPos::Top));
+    let style = font(size).into_text_style(area).pos(Pos::new(HPos::Left, VPos::Top));
     Ok(area.draw_text(&text, &style, (px(x), px(y)))?)
-}
-
-/// Stands for an underscore that is one, in a name as it is typed.
-pub const UNDERSCORE: char = '\u{e000}';
-
-/// Returns the text whose underscores are no subscripts.
-pub fn typed(text: &str) -> String {
-    text.replace('_', UNDERSCORE.encode_utf8(&mut [0; 4]))
 }
 
 /// Returns how many letters of a size fit into a width.
@@ -104,6 +92,7 @@ fn colour_of(verdict: Verdict) -> RGBColor {
         Verdict::Bounce => RGBColor(190, 210, 235),
         Verdict::Slip => RGBColor(235, 165, 40),
         Verdict::Whirl => RGBColor(80, 175, 120),
+        Verdict::Forced => RGBColor(130, 110, 60),
         Verdict::Divergent => RGBColor(105, 50, 130),
         Verdict::Locked => RGBColor(25, 50, 110),
         Verdict::Adhesive => RGBColor(200, 65, 80),

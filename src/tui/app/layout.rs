@@ -15,8 +15,6 @@ pub struct Layout {
     views: Vec<ViewId>,
     /// Number of charts next to the large one.
     pub beside: usize,
-    /// Whether the gaps are drawn against time.
-    pub heat: bool,
     /// Whether the margins are those of all diameters.
     pub survey: bool,
     /// Whether the large chart has the whole screen.
@@ -29,14 +27,8 @@ impl Layout {
     /// Creates the layout with the charts that a scene names first.
     pub fn of(scene: &Scene) -> Self {
         let views = ViewId::all().collect();
-        let mut layout = Self {
-            views,
-            beside: MOST_BESIDE,
-            heat: false,
-            survey: false,
-            full_screen: false,
-            size: (80, 24),
-        };
+        let mut layout =
+            Self { views, beside: MOST_BESIDE, survey: false, full_screen: false, size: (80, 24) };
         layout.open(scene);
         layout
     }
@@ -91,12 +83,6 @@ impl Layout {
     pub fn turn_survey(&mut self, on: bool) -> String {
         self.survey = on;
         format!("margins of {}", if on { "all diameters" } else { "n_d alone" })
-    }
-
-    /// Shows the gaps against time, or those of one instant; returns the message.
-    pub fn turn_gaps(&mut self) -> String {
-        self.heat = !self.heat;
-        format!("gaps {}", if self.heat { "against time" } else { "of this instant" })
     }
 
     /// Its keys.

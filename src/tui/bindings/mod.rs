@@ -59,7 +59,6 @@ pub enum Action {
     LessonBack,
     Answer(usize),
     Scenes,
-    Heat,
     Survey,
     SpeedUnit,
     Charts,
@@ -262,7 +261,6 @@ impl Action {
             Self::NextView
             | Self::PreviousView
             | Self::View(_)
-            | Self::Heat
             | Self::Survey
             | Self::Charts
             | Self::FullScreen

@@ -131,12 +131,6 @@ const BEFORE_VIEWS: &[Binding] = &[
     ),
     bind!(
         Main,
-        [letter('w')],
-        Action::Heat,
-        "gaps against time as shades, or those of one instant"
-    ),
-    bind!(
-        Main,
         [letter('D')],
         Action::Survey,
         "margins of all diameters: the survey, or those of n_d alone"

@@ -4,7 +4,7 @@
 
 use crate::report::number::rounded;
 use crate::tui::knobs::{Knob, Turn};
-use rubscope_solver::model::{Initial, Machine};
+use rubscope_solver::model::Machine;
 use rubscope_solver::scene::{Allowed, ContactLaw, Scene, Value};
 
 /// The usual range of a knob, or of a limit, on which its bar is drawn. Values may be
@@ -17,8 +17,8 @@ pub struct KnobRange {
     log: bool,
     /// Minus one where the bar shows magnitudes of negative values.
     sign: f64,
-    /// Limits on it, the most important last: a letter and a place, 0 to 1.
-    pub marks: Vec<(char, f64)>,
+    /// Limits on it: their names and places, 0 to 1.
+    pub marks: Vec<(&'static str, f64)>,
 }
 
 impl KnobRange {
@@ -36,12 +36,12 @@ impl KnobRange {
         Self { sign: if value < 0.0 { -1.0 } else { 1.0 }, ..self }
     }
 
-    fn marked(mut self, marks: &[(char, Option<f64>)]) -> Self {
+    fn marked(mut self, marks: &[(&'static str, Option<f64>)]) -> Self {
         let inside = |at: f64| at.is_finite() && at > self.low && at < self.high;
-        let marks = marks.iter().filter_map(|(letter, at)| Some((*letter, (*at)?)));
+        let marks = marks.iter().filter_map(|(name, at)| Some((*name, (*at)?)));
         let marks: Vec<_> = marks.filter(|(_, at)| inside(*at)).collect();
         self.marks =
-            marks.into_iter().map(|(letter, at)| (letter, self.part(self.sign * at))).collect();
+            marks.into_iter().map(|(name, at)| (name, self.part(self.sign * at))).collect();
         self
     }
 
@@ -67,6 +67,20 @@ impl KnobRange {
         (!self.log || value != 0.0).then(|| self.part(value))
     }
 
+    /// Returns where a value stands beside the nearest limit, if one is near: `just above Ω_lock`.
+    pub fn beside(&self, value: f64) -> Option<String> {
+        let here = self.place(value)?;
+        let near = self.marks.iter().map(|(name, at)| (name, here - at));
+        let (name, apart) = near.min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+        let side = match apart {
+            apart if apart.abs() > NEAR => return None,
+            0.0 => "at",
+            apart if apart > 0.0 => "just above",
+            _ => "just below",
+        };
+        Some(format!("{side} {name}"))
+    }
+
     /// Returns the value at a place of the bar.
     pub fn at(&self, part: f64) -> f64 {
         let part = part.clamp(0.0, 1.0);
@@ -78,6 +92,8 @@ impl KnobRange {
     }
 }
 
+/// How near to a limit a value stands beside it, as a part of the bar.
+const NEAR: f64 = 0.1;
 /// Factor below and above the value of the opened scene.
 const AROUND: f64 = 10.0;
 
@@ -90,25 +106,6 @@ pub enum Bar {
     From(f64, f64),
     /// Range that follows from the scene.
     Of(fn(&Case) -> KnobRange),
-}
-
-/// The letters on bars, and what they mean.
-const LETTERS: [(char, &str); 10] = [
-    ('a', "adhesive limit"),
-    ('e', "lock ends"),
-    ('x', "coincidence"),
-    ('c', "Ω_c"),
-    ('L', "Ω_lock"),
-    ('t', "a blade touches"),
-    ('n', "as the casing"),
-    ('0', "zero"),
-    ('d', "blades dig in below"),
-    ('r', "a ring: 1/n_d"),
-];
-
-/// Returns what a letter on a bar means.
-pub fn meaning(letter: char) -> &'static str {
-    LETTERS.iter().find(|(known, _)| *known == letter).map_or("", |(_, meaning)| meaning)
 }
 
 /// Data from which the range of a bar follows.
@@ -148,9 +145,13 @@ impl Case<'_> {
 
 /// The ranges that follow from the scene.
 pub mod bars {
-    use super::{AROUND, Case, KnobRange, touching_pulse};
+    use super::{AROUND, Case, KnobRange};
     use rubscope_solver::harmonic::lock_window;
+    use rubscope_solver::study::margins::grazing_pulse;
+    use std::f64::consts::TAU;
 
+    /// Periods of the casing in which the first touch is looked for.
+    const PERIODS: f64 = 20.0;
     /// End of the bar of the speed over the greatest threshold.
     const BEYOND: f64 = 1.5;
 
@@ -161,13 +162,12 @@ pub mod bars {
         let limits = [machine.critical_speed(), lock, machine.dangerous_speed()];
         let most = limits.into_iter().flatten().fold(0.0, f64::max);
         let most = if most > 0.0 { most } else { machine.omega_c };
-        // The most important one last: it covers the others in its cell.
         KnobRange::linear(0.0, BEYOND * most).signed(case.value).marked(&[
-            ('a', machine.adhesive_speed()),
-            ('e', window.and_then(|window| window.to)),
-            ('x', limits[2]),
-            ('c', limits[0]),
-            ('L', limits[1]),
+            ("the adhesive limit", machine.adhesive_speed()),
+            ("the end of the lock", window.and_then(|window| window.to)),
+            ("the coincidence", limits[2]),
+            ("Ω_c", limits[0]),
+            ("Ω_lock", limits[1]),
         ])
     }
 
@@ -180,10 +180,13 @@ pub mod bars {
     }
 
     pub fn pulse(case: &Case) -> KnobRange {
-        let touch = touching_pulse(case.scene, case.machine);
-        let middle = touch.unwrap_or_else(|| case.usual());
+        let mut scene = case.scene.clone();
+        // Later a blade can only pass a little nearer.
+        scene.solver.end_s = scene.solver.end_s.min(PERIODS * TAU / case.machine.omega_c);
+        let touch = grazing_pulse(&scene, f64::MAX.copysign(case.value));
+        let middle = touch.map_or_else(|| case.usual(), f64::abs);
         let range = KnobRange::log(middle / 30.0, middle * 3000.0);
-        range.signed(case.value).marked(&[('t', touch)])
+        range.signed(case.value).marked(&[("the first touch", touch.map(f64::abs))])
     }
 
     pub fn casing_diameters(case: &Case) -> KnobRange {
@@ -192,7 +195,8 @@ pub mod bars {
 
     pub fn disk_diameters(case: &Case) -> KnobRange {
         let own = Some(case.machine.nodal_diameters).filter(|own| *own > 0.0);
-        KnobRange::linear(0.0, (case.blades() / 2.0).floor().max(2.0)).marked(&[('n', own)])
+        KnobRange::linear(0.0, (case.blades() / 2.0).floor().max(2.0))
+            .marked(&[("that of the casing", own)])
     }
 
     pub fn order(case: &Case) -> KnobRange {
@@ -214,7 +218,7 @@ pub mod bars {
     pub fn clearance(case: &Case) -> KnobRange {
         let most = 0.5 * AROUND * case.usual();
         match case.has_lining() {
-            true => KnobRange::linear(-most, most).marked(&[('0', Some(0.0))]),
+            true => KnobRange::linear(-most, most).marked(&[("zero", Some(0.0))]),
             false => case.around(),
         }
     }
@@ -231,12 +235,13 @@ pub mod bars {
     pub fn slope(case: &Case) -> KnobRange {
         // Between 0 and -mu the blades dig in.
         let dig = Some(-case.scene.contact.friction).filter(|dig| *dig < 0.0);
-        KnobRange::linear(-1.0, 1.0).marked(&[('d', dig), ('0', Some(0.0))])
+        KnobRange::linear(-1.0, 1.0).marked(&[("where blades dig in", dig), ("zero", Some(0.0))])
     }
 
     pub fn tangential(case: &Case) -> KnobRange {
         // A ring that does not stretch.
-        KnobRange::linear(0.0, 1.0).marked(&[('r', Some(1.0 / case.machine.nodal_diameters))])
+        KnobRange::linear(0.0, 1.0)
+            .marked(&[("a ring: 1/n_d", Some(1.0 / case.machine.nodal_diameters))])
     }
 }
 
@@ -278,43 +283,10 @@ impl Knob {
     }
 }
 
-/// Returns the force at which the free casing, at rest before the pulse, reaches the clearance
-/// \[N\]. That is the least pulse that can make contact; the blades may need up to `1/cos delta`
-/// times as much, until one passes the largest displacement. None where something else moves the
-/// casing too, or where it does not swing.
-pub fn touching_pulse(scene: &Scene, machine: &Machine) -> Option<f64> {
-    let (zeta, omega) = (machine.casing_damping_ratio, machine.omega_c);
-    let (length, mass) = (scene.operation.pulse_s, machine.casing_mass);
-    let at_rest = scene.initial == Initial::default();
-    if !at_rest || !machine.polygon.has_corners() || zeta >= 1.0 || length <= 0.0 {
-        return None;
-    }
-    let damped = omega * (1.0 - zeta * zeta).sqrt();
-    let decay = zeta * omega;
-    // The displacement under a force of 1 N is greatest after half a swing, or
-    // where the pulse ends before, in the free swing that follows.
-    let still = 1.0 / (mass * omega * omega);
-    let most = if damped * length >= std::f64::consts::PI {
-        still * (1.0 + (-decay * std::f64::consts::PI / damped).exp())
-    } else {
-        let (sin, cos) = (damped * length).sin_cos();
-        let fade = (-decay * length).exp();
-        let place = still * (1.0 - fade * (cos + decay / damped * sin));
-        let speed = fade * sin / (mass * damped);
-        // Free: u = e^{-decay t} (place cos + b sin), at rest where its rate is 0.
-        let b = (speed + decay * place) / damped;
-        let angle = (damped * b - decay * place).atan2(damped * place + decay * b);
-        (-decay * angle / damped).exp() * (place * angle.cos() + b * angle.sin())
-    };
-    let force = machine.clearance() / most;
-    (force.is_finite() && force > 0.0).then_some(force)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::tui::knobs::{KNOBS, knob_of};
-    use rubscope_solver::study::margins::grazing_pulse;
 
     fn range(path: &str, scene: &Scene) -> Option<KnobRange> {
         knob_of(path).unwrap().range(scene, scene, &scene.machine())
@@ -333,8 +305,8 @@ mod tests {
                     let there = range.part(range.at(part));
                     assert!((there - part).abs() < 1e-9, "{name} {} {part} {there}", knob.label);
                 }
-                for (letter, at) in &range.marks {
-                    assert!((0.0..=1.0).contains(at) && !meaning(*letter).is_empty(), "{letter}");
+                for (name, at) in &range.marks {
+                    assert!((0.0..=1.0).contains(at), "{name}");
                 }
             }
         }
@@ -344,15 +316,20 @@ mod tests {
     fn the_speed_shows_its_limits_whichever_way_it_turns() {
         let mut scene = Scene::builtin("paper-nd3").unwrap();
         let forward = range("operation.speed_rad_s", &scene).unwrap();
-        let letters: String = forward.marks.iter().map(|(letter, _)| *letter).collect();
-        // A later one covers an earlier one.
-        assert_eq!(letters, "axcL");
+        let names: Vec<&str> = forward.marks.iter().map(|(name, _)| *name).collect();
+        assert_eq!(names, ["the adhesive limit", "the coincidence", "Ω_c", "Ω_lock"]);
         for (mark, speed) in forward.marks.iter().zip([294.990, 388.311, 292.878, 411.928]) {
             assert!((forward.at(mark.1) - speed).abs() < 1e-2, "{mark:?} {speed}");
         }
         scene.operation.speed_rad_s = -430.0;
         let back = range("operation.speed_rad_s", &scene).unwrap();
         assert_eq!(back.marks, forward.marks);
+        for (range, sign) in [(&forward, 1.0), (&back, -1.0)] {
+            let beside = |speed: f64| range.beside(sign * speed);
+            assert_eq!(beside(430.0).as_deref(), Some("just above Ω_lock"));
+            assert_eq!(beside(405.0).as_deref(), Some("just below Ω_lock"));
+            assert_eq!((beside(100.0), beside(500.0)), (None, None));
+        }
         assert!((back.at(back.part(-430.0)) + 430.0).abs() < 1e-9);
     }
 
@@ -361,7 +338,7 @@ mod tests {
         let mut scene = Scene::builtin("paper-nd3").unwrap();
         scene.bladed_disk.radial_coupling = 0.3;
         let bar = range("operation.speed_rad_s", &scene).unwrap();
-        let end = bar.marks.iter().find(|(letter, _)| *letter == 'e').unwrap();
+        let end = bar.marks.iter().find(|(name, _)| *name == "the end of the lock").unwrap();
         assert!((bar.at(end.1) - 566.259).abs() < 1e-2, "{end:?}");
     }
 
@@ -377,34 +354,19 @@ mod tests {
     }
 
     #[test]
-    fn it_is_the_least_pulse_that_makes_contact_but_for_the_angle_between_blades() {
-        for (name, pulse_s, zeta) in [
-            ("paper-nd3", 50e-6, 0.05),
-            ("paper-nd3", 50e-6, 0.0),
-            ("paper-nd4", 1e-3, 0.02),
-            ("paper-nd3", 4e-3, 0.05),
-        ] {
-            let mut scene = Scene::builtin(name).unwrap();
-            (scene.operation.pulse_s, scene.casing.damping_ratio) = (pulse_s, zeta);
-            let machine = scene.machine();
-            let closed = touching_pulse(&scene, &machine).unwrap();
-            let found = grazing_pulse(&scene, 1e6).unwrap();
-            let most = closed / machine.polygon.delta.cos() * (1.0 + 1e-9);
-            assert!((closed * (1.0 - 1e-9)..=most).contains(&found), "{closed} {found}");
-        }
-    }
-
-    #[test]
-    fn there_is_none_where_the_casing_moves_already_or_does_not_swing() {
+    fn the_pulse_shows_the_first_touch_where_the_casing_begins_at_rest() {
         let scene = Scene::builtin("paper-nd3").unwrap();
         let of = |change: fn(&mut Scene)| {
             let mut scene = scene.clone();
             change(&mut scene);
-            touching_pulse(&scene, &scene.machine())
+            let range = range("operation.pulse_n", &scene).unwrap();
+            range.marks.first().map(|(_, part)| range.at(*part))
         };
-        assert!(of(|_| ()).is_some());
+        assert!((of(|_| ()).unwrap() - 3795.0).abs() < 1.0);
+        assert!((of(|scene| scene.operation.pulse_n = -1e3).unwrap() + 3795.0).abs() < 1.0);
         assert_eq!(of(|scene| scene.operation.pulse_s = 0.0), None);
         assert_eq!(of(|scene| scene.initial.v_c_m_s = 0.1), None);
-        assert_eq!(of(|scene| scene.casing.damping_ratio = 1.5), None);
+        let undamped = of(|scene| (scene.casing.damping_ratio, scene.solver.end_s) = (0.0, 10.0));
+        assert!(undamped.unwrap() < 3795.0, "{undamped:?}");
     }
 }

@@ -9,7 +9,7 @@ use ratatui::style::Modifier;
 
 use crate::report::line::capital;
 use crate::tui::app::{App, InputMode, Target};
-use crate::tui::knobs::{Group, KNOBS, Knob, KnobRange, meaning};
+use crate::tui::knobs::{Group, KNOBS, Knob};
 use crate::tui::text::{columns, first_lines, pieces, print, shorten, wrap};
 use crate::tui::theme::Role;
 use rubscope_solver::scene::Allowed;
@@ -47,8 +47,7 @@ pub fn panel(app: &App, buffer: &mut Buffer, area: Rect) {
     }
     let used = u16::try_from(lines.len()).unwrap_or(area.height);
     let width = usize::from(area.width);
-    let cells = bar_cells(Rect { height: 1, ..area });
-    let (notes, roles): (Vec<_>, Vec<_>) = notes(app, width, cells).into_iter().unzip();
+    let (notes, roles): (Vec<_>, Vec<_>) = notes(app, width).into_iter().unzip();
     let room = usize::from(area.height.saturating_sub(used));
     let notes = first_lines(notes, width, room, look.ellipsis());
     for (row, (text, role)) in (used..area.height).zip(notes.iter().zip(roles)) {
@@ -138,8 +137,8 @@ fn knob(app: &App, buffer: &mut Buffer, row: Rect, knob: &Knob, selected: bool) 
     print(buffer, row, 0, &format!("{label}{}{shown}", " ".repeat(pad)), style);
 }
 
-/// Returns what the selected knob does, its allowed values, and the letters on its bar.
-fn notes(app: &App, width: usize, cells: Rect) -> Vec<(String, Role)> {
+/// Returns what the selected knob does, its allowed values, and the limit where it stands.
+fn notes(app: &App, width: usize) -> Vec<(String, Role)> {
     let Some(knob) = app.selected() else { return Vec::new() };
     let of = |text: &str, role: Role| {
         let lines = wrap(&app.appearance.spell(text), width).into_iter();
@@ -150,7 +149,9 @@ fn notes(app: &App, width: usize, cells: Rect) -> Vec<(String, Role)> {
         None => Vec::new(),
     };
     lines.extend(of(&sentence(knob), Role::Quiet));
-    lines.extend(legend(app, cells, knob).iter().flat_map(|legend| of(legend, Role::Quiet)));
+    let range = knob.range(&app.scene, &app.files.opened, &app.machine);
+    let beside = range.zip(knob.number(&app.scene)).and_then(|(range, value)| range.beside(value));
+    lines.extend(beside.iter().flat_map(|beside| of(&format!("Now {beside}."), Role::Focus)));
     lines
 }
 
@@ -158,8 +159,9 @@ fn notes(app: &App, width: usize, cells: Rect) -> Vec<(String, Role)> {
 fn sentence(knob: &Knob) -> String {
     let text = capital(knob.does);
     match knob.allowed() {
-        // Their words are in it.
+        // Their words are in it, and nobody comes to these ends.
         Allowed::OneOf(_) => format!("{text}."),
+        Allowed::Real { min, max, .. } if min == -max && max >= 1e6 => format!("{text}."),
         _ => format!("{text}; {}.", knob.range_words()),
     }
 }
@@ -221,12 +223,16 @@ pub enum ColumnLine {
     Bar(usize),
 }
 
-/// Rows kept free for the note on the selected knob.
+/// Most rows kept free for the note on the selected knob.
 pub const NOTES: u16 = 5;
+/// Columns of a note.
+const NOTE_WIDTH: usize = 26;
 
 /// Returns the lines of the column in an area of this height, with the selected knob in sight.
 pub fn lines(app: &App, height: u16) -> Vec<ColumnLine> {
-    let rows = usize::from(height - NOTES.min(height / 2));
+    let note = app.selected().map_or(0, |knob| wrap(&sentence(knob), NOTE_WIDTH).len());
+    let rows =
+        usize::from(height - NOTES.min(height / 2)) + usize::from(NOTES).saturating_sub(note);
     let chosen = app.selected().map_or(Group::Operation, |knob| knob.group);
     let with = |open: &[Group], telling: bool| all(app, open, telling);
     let ways = [(&[Group::Operation, chosen][..], true), (&[Group::Operation, chosen], false)];
@@ -296,7 +302,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, cells: Rect, knob: &Knob) {
     let here = value.map(|part| cell(cells, part));
     let quiet = look.style(Role::Quiet);
     let [left, right] = look.either(["▕", "▏"], ["[", "]"]);
-    let [full, now, empty] = look.either(["▒", "█", "▁"], ["=", "#", "."]);
+    let [full, now, empty, tick] = look.either(["▒", "█", "▁", "┃"], ["=", "#", ".", "|"]);
     let last = cells.bottom().saturating_sub(1);
     for y in cells.y..cells.bottom() {
         let mut put = |x: u16, sign: &str, style| {
@@ -315,30 +321,11 @@ pub fn draw(app: &App, buffer: &mut Buffer, cells: Rect, knob: &Knob) {
                 _ => put(x, if y == last { empty } else { " " }, quiet),
             }
         }
-        for (letter, x) in letters(&range, cells).filter(|_| y == last) {
-            let style = look.style(Role::Text).add_modifier(Modifier::BOLD);
-            let style =
-                if here == Some(x) { style.add_modifier(Modifier::REVERSED) } else { style };
-            put(x, letter.encode_utf8(&mut [0; 4]), style);
+        let marks = range.marks.iter().map(|(_, part)| cell(cells, *part));
+        for x in marks.filter(|x| y == last && here != Some(*x)) {
+            put(x, tick, look.style(Role::Text));
         }
     }
-}
-
-/// Returns the letters that are drawn, and their columns: of those in one cell the last.
-fn letters(range: &KnobRange, cells: Rect) -> impl Iterator<Item = (char, u16)> {
-    let places = range.marks.iter().map(move |(letter, part)| (*letter, cell(cells, *part)));
-    let hidden = move |place: usize, x: u16| {
-        range.marks.iter().skip(place + 1).any(|(_, part)| cell(cells, *part) == x)
-    };
-    places.enumerate().filter(move |(place, (_, x))| !hidden(*place, *x)).map(|(_, mark)| mark)
-}
-
-/// Returns what the letters on the bar of a knob mean, those that are drawn: `On its bar: c Ω_c.`
-pub fn legend(app: &App, cells: Rect, knob: &Knob) -> Option<String> {
-    let range = knob.range(&app.scene, &app.files.opened, &app.machine)?;
-    let named: Vec<String> =
-        letters(&range, cells).map(|(letter, _)| format!("{letter} {}", meaning(letter))).collect();
-    (!named.is_empty() && cells.width > 0).then(|| format!("On its bar: {}.", named.join(", ")))
 }
 
 /// Returns the column of a part, 0 to 1, of a bar.
@@ -351,24 +338,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_letters_that_are_drawn_on_a_bar_are_told_and_no_others() {
-        let scene = rubscope_solver::scene::Scene::base().checked().unwrap();
-        let app = App::new(scene, crate::tui::Theme::Mono, crate::tui::Marker::Braille);
-        let legend_of = |width| legend(&app, Rect::new(0, 0, width, 1), &KNOBS[0]).unwrap();
-        let wide = legend_of(200);
-        for meaning in ["a adhesive limit", "x coincidence", "c Ω_c", "L Ω_lock"] {
-            assert!(wide.contains(meaning), "{wide}");
-        }
-        // In one cell only the last can be seen.
-        assert_eq!(legend_of(1), "On its bar: L Ω_lock.");
-    }
-
-    #[test]
     fn every_note_on_a_knob_fits_below_the_knobs() {
         for knob in KNOBS {
-            let lines = wrap(&sentence(knob), 26);
+            let lines = wrap(&sentence(knob), NOTE_WIDTH);
             assert!(lines.len() <= usize::from(NOTES), "{lines:#?}");
-            assert!(sentence(knob).contains(knob.unit()));
+            let range = knob.range_words();
+            let told = range.starts_with("one of") || sentence(knob).contains(&range);
+            assert!(told || range.contains("-1e"), "{}", knob.label);
             if let Allowed::OneOf(words) = knob.allowed() {
                 assert!(words.iter().all(|word| sentence(knob).contains(word)));
             }

@@ -258,7 +258,6 @@ impl App {
             Action::LessonBack => self.lesson_back(),
             Action::Answer(place) => self.answer(place),
             Action::LeaveLesson => self.leave_lesson(),
-            Action::Heat => self.turn_gaps(),
             Action::Survey => self.turn_survey(),
             Action::PageBack => self.pan(true),
             Action::PageForward => self.pan(false),

@@ -60,10 +60,7 @@ impl App {
         self.show(ViewId::Gaps);
         self.reading.on = true;
         let (part, here) = ((f64::from(blade) - 0.5) / f64::from(all), self.panel().here(self));
-        self.put_beside(match self.layout.heat {
-            true => Cursor { up: part, ..here },
-            false => Cursor { across: part, ..here },
-        });
+        self.put_beside(Cursor { across: part, ..here });
         let gap = self.shown().and_then(|moment| moment.gaps.get(blade as usize - 1).copied());
         self.status = gap.map(|gap| format!("blade {blade}: gap {}", self.gap_words(gap)));
         Ok(())
@@ -110,21 +107,6 @@ impl App {
         match right {
             0 => self.put_beside(Cursor { across, up }),
             _ => self.put_cursor(Cursor { across, up }),
-        }
-    }
-
-    /// Shows the gaps against time, or those of one instant; the blade that is read stays.
-    pub(super) fn turn_gaps(&mut self) {
-        let cursor = self.cursor_in(ViewId::Gaps);
-        let blade = cursor.map(|cursor| if self.layout.heat { cursor.up } else { cursor.across });
-        self.status = Some(self.layout.turn_gaps());
-        self.show(ViewId::Gaps);
-        if let Some(blade) = blade {
-            let here = self.panel().here(self);
-            self.put_beside(match self.layout.heat {
-                true => Cursor { up: blade, ..here },
-                false => Cursor { across: blade, ..here },
-            });
         }
     }
 
@@ -206,15 +188,11 @@ mod tests {
     }
 
     #[test]
-    fn a_blade_is_read_by_its_number_in_both_pictures_of_the_gaps() {
+    fn a_blade_is_read_by_its_number() {
         let mut app = on_screen();
-        for heat in [false, true] {
-            app.layout.heat = heat;
-            app.go_to_blade(7).unwrap();
-            let cursor = app.cursor_in(ViewId::Gaps).unwrap();
-            let part = if heat { cursor.up } else { cursor.across };
-            assert_eq!((cell_of(part, 22), app.reading.on), (6, true));
-        }
+        app.go_to_blade(7).unwrap();
+        let cursor = app.cursor_in(ViewId::Gaps).unwrap();
+        assert_eq!((cell_of(cursor.across, 22), app.reading.on), (6, true));
         for blade in [0, 23] {
             app.choose_command(&PaletteState { typed: format!("blade {blade}"), place: 0 });
             let refused = format!("blade {blade}: from 1 to 22");

@@ -36,7 +36,7 @@ const VIEWS: [(ViewId, &str); CHARTS.len()] = [
     (ViewId::Spectrum, "spectrum and Campbell lines"),
     (ViewId::Precision, "speed against error"),
     (ViewId::Margins, "margins: how far from every limit, and what moves it"),
-    (ViewId::Coincidence, "coincidence: how large a wave becomes, and why"),
+    (ViewId::Coincidence, "coincidence: how large a wave becomes"),
 ];
 
 impl ViewId {

@@ -2,10 +2,8 @@
 //! small wave grows and how large it becomes, in closed form (docs/theory.md,
 //! section 10).
 
-use std::f64::consts::TAU;
-
 use crate::tui::axis::nice_step;
-use rubscope_solver::harmonic::{CoincidencePoint, Joint, coincidence, shifted_coincidence};
+use rubscope_solver::harmonic::{CoincidencePoint, coincidence, shifted_coincidence};
 use rubscope_solver::model::{Initial, Machine};
 use rubscope_solver::scene::{ModelSize, Scene, SolverChoice, View};
 
@@ -115,26 +113,4 @@ pub fn points(scene: &Scene, speeds: &[f64]) -> Vec<CoincidencePoint> {
     // A speed without an answer leaves a hole.
     let at = |speed: &f64| coincidence(&scene, &[*speed]).ok()?.first().copied();
     speeds.iter().filter_map(at).collect()
-}
-
-/// Frequencies along the compliance, denser where it turns fast \[rad/s\].
-pub fn frequencies(joint: &Joint) -> Vec<f64> {
-    const COUNT: u32 = 240;
-    let machine = &*joint.machine;
-    let most = 1.5 * (joint.nu.abs() + machine.omega_bd).max(machine.omega_c);
-    let mut found = even(-most, most, 2 * COUNT);
-    let widths = [
-        (machine.omega_c, machine.casing_damping_ratio * machine.omega_c),
-        (machine.omega_bd, machine.blade_damping_ratio * machine.omega_bd),
-    ];
-    let [(casing, c), (blades, b)] = widths;
-    let resonances = [(casing, c), (-casing, c), (joint.nu + blades, b), (joint.nu - blades, b)];
-    for (place, width) in resonances {
-        // Equal arcs of the circle that a resonance is.
-        let arc = |k: u32| (0.5 * TAU * ((f64::from(k) + 0.5) / f64::from(COUNT) - 0.5)).tan();
-        found.extend((0..COUNT).map(|k| place + width * arc(k)));
-    }
-    found.retain(|w| w.abs() <= most);
-    found.sort_by(f64::total_cmp);
-    found
 }

@@ -43,7 +43,7 @@ impl ViewPanel for FrameView {
 }
 
 /// Returns a square of half side `reach` fitted into an area of cells twice as high as wide.
-pub fn square(area: Rect, reach: f64) -> (ChartAxis, ChartAxis) {
+fn square(area: Rect, reach: f64) -> (ChartAxis, ChartAxis) {
     // The labels take about six columns and two rows.
     let (width, height) = (
         f64::from(area.width.saturating_sub(6).max(1)),
