@@ -244,6 +244,7 @@ pub const KNOBS: &[Knob] = &[
         Decades(1e-9),
         "depth over which the stiffness of the lining sets in, for the smooth law",
     )
+    .usual(1e-6)
     .unless(inert::lining),
     knob(
         Beyond,
@@ -297,7 +298,7 @@ pub const KNOBS: &[Knob] = &[
         Decades(1e-14),
         "clearance lost as blades grow with the speed, c Ω²; 0 in the paper",
     )
-    .usual(1e-10),
+    .bar(Of(bars::growth)),
     knob(
         Start,
         "start u_c",
