@@ -209,6 +209,7 @@ fn as_json(step: &RequestedStep) -> serde_json::Value {
                 Ok(Value::Real(x)) => serde_json::json!(x),
                 Ok(Value::Whole(n)) => serde_json::json!(n),
                 Ok(Value::Text(word)) => serde_json::json!(word),
+                Ok(Value::Numbers(list)) => serde_json::json!(list),
                 Ok(Value::Words(_)) | Err(_) => serde_json::json!(value),
             };
             serde_json::json!({ "t_s": t_s, "path": path, "value": value })

@@ -7,9 +7,11 @@ use std::io::{Result, Write};
 use super::line::{capital, wrapped};
 use super::margins::words;
 use super::number::{count, rounded, short, speed, with_unit};
+use super::survey;
 use super::table::WIDTH;
 use rubscope_solver::scene::{CheckedScene, ModelSize};
 use rubscope_solver::study::margins::{LimitName, Margins, Quantity};
+use rubscope_solver::study::survey::Scattered;
 
 /// Writes the sentences, a paragraph for each matter.
 ///
@@ -19,6 +21,7 @@ pub fn write(scene: &CheckedScene, out: &mut dyn Write) -> Result<()> {
     let margins = Margins::of(scene);
     let mut paragraphs =
         vec![scene.title.clone(), machine(scene), frequencies(scene), limits(&margins)];
+    paragraphs.extend(Scattered::of(scene).as_ref().map(survey::of_scatter));
     paragraphs.extend(unknown(scene));
     let doubts = margins.doubts();
     if doubts.is_empty() {

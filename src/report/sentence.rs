@@ -203,6 +203,11 @@ impl Facts {
                 "The contact swings the blades.",
                 "The blades swing.",
             ]),
+            Verdict::Forced => plain(&[
+                "One blade or group presses without a break and drags the wave.",
+                "One blade drags the casing's wave.",
+                "One blade drags it.",
+            ]),
             Verdict::Bounce => self.bounced(),
             Verdict::Decay => self.decayed(),
             Verdict::Divergent => {
@@ -226,6 +231,7 @@ impl Facts {
             Verdict::Bounce => Some("blades and casing bounce"),
             Verdict::Slip => Some("the wave slips along"),
             Verdict::Whirl => Some("the contact runs round"),
+            Verdict::Forced => Some("one blade drags the wave"),
             _ => None,
         }
     }
@@ -427,6 +433,7 @@ fn would(verdict: Verdict) -> Option<&'static str> {
         Verdict::Bounce => Some("bounce"),
         Verdict::Slip => Some("slip"),
         Verdict::Whirl => Some("whirl"),
+        Verdict::Forced => Some("drag"),
         Verdict::Locked | Verdict::Adhesive => Some("hold"),
         Verdict::Divergent => Some("diverge"),
         Verdict::Failed => None,

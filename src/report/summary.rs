@@ -34,7 +34,8 @@ pub fn write(report: &RunReport, wall: Wall, out: &mut dyn Write) -> Result<()> 
         writeln!(out, "{}", report.scene.title)?;
     }
     writeln!(out, "{}", how(report))?;
-    if let Some(note) = report.scene.modes_note() {
+    let scene = &report.scene;
+    for note in scene.modes_note().into_iter().chain(scene.start_note()) {
         writeln!(out, "{}.", capital(&note))?;
     }
     if let Some(note) = report.scene.share_note() {
@@ -107,6 +108,10 @@ fn meaning(report: &RunReport) -> &'static str {
         Verdict::Slip => "The contact is permanent, but the wave slips along the blades.",
         Verdict::Whirl => {
             "The contact is permanent, passes from blade to blade and keeps the blades swinging."
+        }
+        Verdict::Forced => {
+            "One blade or group of blades presses without a break and drags the wave; no corner \
+             is held."
         }
         Verdict::Divergent => {
             "Nothing bounds the growth of the motion; what follows is the last state."
@@ -399,6 +404,7 @@ mod tests {
             (Verdict::Bounce, "again and again"),
             (Verdict::Slip, "slips along the blades"),
             (Verdict::Whirl, "keeps the blades swinging"),
+            (Verdict::Forced, "drags the wave"),
             (Verdict::Divergent, "Nothing bounds the growth"),
             (Verdict::Locked, "all of them push"),
             (Verdict::Adhesive, "a pull holds it, which a real contact cannot do"),

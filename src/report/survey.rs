@@ -12,7 +12,7 @@ use super::symbols::symbol;
 use super::table::{Heading, Table, TableCell, WIDTH};
 use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
 use rubscope_solver::study::margins::{LimitName, Quantity as Kind};
-use rubscope_solver::study::survey::{Survey, SurveyLimit, SurveyRow};
+use rubscope_solver::study::survey::{Scattered, Survey, SurveyLimit, SurveyRow};
 
 /// Most rows of the text where every number of diameters has one.
 const ROWS: usize = 64;
@@ -20,7 +20,7 @@ const ROWS: usize = 64;
 const NEAREST: usize = 16;
 
 /// The limits with their letter on a chart and their heading, the most important first.
-pub const LIMITS: [(LimitName, char, &str); 9] = [
+pub const LIMITS: [(LimitName, char, &str); 10] = [
     (LimitName::OmegaC, 'c', "Omega_c"),
     (LimitName::OmegaLock, 'L', "Omega_lock"),
     (LimitName::Coincidence, 'x', "sum (31)"),
@@ -30,6 +30,7 @@ pub const LIMITS: [(LimitName, char, &str); 9] = [
     (LimitName::OmegaAdhesive, 'a', "adhesive"),
     (LimitName::CoincidenceDifference, 'd', "diff (30)"),
     (LimitName::LockFold, 'g', "gives way"),
+    (LimitName::FirstTouch, 't', "touches"),
 ];
 
 /// Returns the limits that any number of diameters has.
@@ -91,12 +92,28 @@ pub fn write(survey: &Survey, out: &mut dyn Write) -> Result<()> {
         ))?;
     }
     survey.note.iter().try_for_each(|note| tell(&format!("The limits are {note}.")))?;
+    survey.scattered.iter().try_for_each(|scattered| tell(&of_scatter(scattered)))?;
+    if survey.rows.len() > 1 {
+        tell("One nodal diameter also moves the shaft, which this model does not have.")?;
+    }
     writeln!(out)?;
     shown(survey).write_text(out)?;
     writeln!(out)?;
     nearest(survey, out)?;
     writeln!(out)?;
     writeln!(out, "Computed in {}.", time(rounded(survey.wall_s, 2)))
+}
+
+/// What the limits are of, and what tips that differ do to the lock.
+#[must_use]
+pub fn of_scatter(scattered: &Scattered) -> String {
+    format!(
+        "The limits are those of equal tips and a round casing, which lock last: tips that differ \
+         by 1 % of the clearance lock from {} on, the mean of {} rotors, and not from {}.",
+        speed(rounded(scattered.mean_rad_s, 4)),
+        scattered.rotors,
+        speed(rounded(scattered.equal_rad_s, 4))
+    )
 }
 
 /// The numbers of diameters without a mode in the scene.

@@ -58,7 +58,8 @@ fn rows_of_the_text_are_the_limits() {
         let text = text(&margins);
         assert!(text.starts_with(&margins.scene.title), "{text}");
         for limit in &margins.limits {
-            let start = format!("{} ", limit.name);
+            let lobes = limit.lobes.map_or(String::new(), |lobes| format!("m={lobes} "));
+            let start = format!("{} {lobes}", limit.name);
             let row = text.lines().find(|line| line.starts_with(&start)).unwrap();
             let cells = cells(row);
             let Some(value) = limit.value else {
@@ -179,7 +180,8 @@ fn the_table_has_every_number() {
     let json = serde_json::to_value(&margins).unwrap();
     for (place, (row, limit)) in rows.iter().zip(&margins.limits).enumerate() {
         let word = |name: &str| json["limits"][place][name].as_str().unwrap_or("").to_string();
-        assert_eq!([&row[0], &row[1]], [word("name"), word("quantity")]);
+        let lobes = limit.lobes.map_or(String::new(), |lobes| format!(" m={lobes}"));
+        assert_eq!([&row[0], &row[1]], [word("name") + &lobes, word("quantity")]);
         let number = |column: usize| row[column].parse::<f64>().ok();
         let margin = limit.margin.filter(|margin| *margin <= MOST_TIMES);
         assert_eq!([number(2), number(3), number(4)], [limit.value, limit.present, margin]);

@@ -41,7 +41,7 @@ pub fn words() -> Vec<String> {
             }
             Allowed::Real { min, max, .. } => words.extend([min, max].map(|x| format!("{x:e}"))),
             Allowed::Whole { min, max } => words.extend([min, max].map(|n| n.to_string())),
-            Allowed::Text { .. } | Allowed::Modes(_) => {}
+            Allowed::Text { .. } | Allowed::Modes(_) | Allowed::Numbers { .. } => {}
         }
     }
     let odd = [

@@ -60,6 +60,10 @@ fn the_json_has_every_limit_with_every_parameter() {
             "push_b",
             "torque",
             "power",
+            "roundness",
+            "roundness",
+            "roundness",
+            "roundness",
         ]
     );
     let lock = &limits[2];

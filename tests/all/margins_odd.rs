@@ -5,7 +5,7 @@ use rubscope_solver::harmonic::lock_fold_speed;
 use rubscope_solver::motion::{Motion, run_to_verdict, to_the_end};
 use rubscope_solver::scene::CheckedScene;
 use rubscope_solver::study::margins::{
-    CLEARANCE, LimitName, Margins, Side, Target, first_touch, grazing_pulse,
+    CLEARANCE, Limit, LimitName, Margins, Side, Target, first_touch, grazing_pulse,
 };
 
 use crate::cli_margins::{scene, text};
@@ -37,7 +37,11 @@ fn soft_blades_have_an_end_of_the_branch_with_exact_derivatives() {
             if limit.name == LimitName::TouchingPulse {
                 continue;
             }
-            let value = |scene: &CheckedScene| of(scene, limit.name).value.unwrap();
+            let value = |scene: &CheckedScene| {
+                let all = Margins::of(scene).limits;
+                let same = |other: &&Limit| (other.name, other.lobes) == (limit.name, limit.lobes);
+                all.iter().find(same).unwrap().value.unwrap()
+            };
             for (path, by) in &limit.sensitivities.0 {
                 if [LENGTH, RADIUS].contains(path) {
                     continue;

@@ -1,6 +1,7 @@
 //! Runs the numbers in the scene notes and in docs/accuracy.md that no other test checks.
 
 use crate::scene_support::{half_n, near_critical};
+use rubscope_solver::harmonic::Lining;
 use rubscope_solver::motion::{ActiveSet, Motion, RunReport, Verdict, simulate};
 use rubscope_solver::scene::Scene;
 
@@ -122,6 +123,47 @@ fn every_number_of_the_other_notes_is_what_the_program_finds() {
     says("adhesive", "with one tensile multiplier");
     let held = run("adhesive", &[("solver.end_s", "0.02")]).outcome;
     assert_eq!(held.contacts.iter().filter(|contact| contact.multiplier_n > 0.0).count(), 1);
+}
+
+#[test]
+fn imperfect_machines_do_what_their_notes_say() {
+    says("long-tip", "drags the wave along with 2.3 N: forced, not locked");
+    says("long-tip", "From 292.1 rad/s on");
+    says("long-tip", "that blades 1 and 3 form, and both hold the wave for good");
+    says("long-tip", "equal tips would need 411.9 rad/s");
+    let dragged = run("long-tip", &[("operation.speed_ramp_rad_s2", "0")]).outcome;
+    assert_eq!(dragged.verdict, Verdict::Forced);
+    assert!((dragged.contacts[0].multiplier_n + 2.3).abs() < 5e-3, "{dragged:?}");
+    let locked = run("long-tip", &[]).outcome;
+    assert_eq!(locked.verdict, Verdict::Locked);
+    let blades: Vec<u32> = locked.contacts.iter().flat_map(|x| x.blades.clone()).collect();
+    assert_eq!(blades, [1, 3]);
+    let lock = |longest: &str| {
+        let machine = scene("long-tip", &[("bladed_disk.longest_tip_m", longest)]).machine();
+        machine.lock_speed().unwrap()
+    };
+    assert!((lock("105e-6") - 292.1).abs() < 0.06 && (lock("0") - 411.9).abs() < 0.06);
+
+    says("oval", "at 8.91 per second, as if all blades pressed a lining of 0.39 of the stiffness");
+    says("oval", "With a lining of 40 kN/m it decays, at 6.3 per second");
+    says("oval", "With two lobes it grows, too");
+    let growth = |changes: &[(&str, &str)]| {
+        let scene = scene("oval", changes);
+        let machine = scene.machine();
+        let lining = Lining::of(&machine, &scene.contact).unwrap();
+        let all = 11.0 * scene.contact.stiffness_n_per_m;
+        assert!((lining.stiffness_at_rest() / all - 0.39).abs() < 5e-3);
+        lining.rest(420.0).worst().growth_1_s
+    };
+    assert!((growth(&[]) - 8.91).abs() < 5e-3);
+    assert!((growth(&[("contact.stiffness_n_per_m", "40e3")]) + 6.3).abs() < 0.05);
+    for lobes in ["4", "2"] {
+        let mut motion = Motion::new(&scene("oval", &[("casing.lobes", lobes)]).checked().unwrap());
+        motion.advance(0.5).unwrap();
+        let before = motion.state().amplitude();
+        motion.advance(1.0).unwrap();
+        assert!(motion.state().amplitude() > 20.0 * before, "{lobes}");
+    }
 }
 
 #[test]

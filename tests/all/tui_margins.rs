@@ -135,7 +135,7 @@ fn enter_on_a_knob_selects_it_and_enter_elsewhere_types_a_value() {
     assert_eq!(selected(&session), "casing.damping_ratio");
     assert!(session.text().contains("damping ζ_c selected"), "{}", session.text());
     // The last row is a load: Enter selects what moves it most, from a folded group.
-    session.press("hhhJJJ\n");
+    session.press("hhhJJJkkkk\n");
     assert_eq!(selected(&session), "clearance");
     session.press("i\n150u\n");
     assert!((session.app.machine.clearance() - 150e-6).abs() < 1e-12);
@@ -185,7 +185,7 @@ fn the_columns_and_rows_that_have_no_room_are_said_or_left_out() {
     assert!(session.text().contains("↓"), "{}", session.text());
     session.press("i");
     session.press(&"j".repeat(20));
-    assert_eq!(cell(&session), [0, 9]);
+    assert_eq!(cell(&session), [0, 13]);
     assert!(session.text().contains("↑"), "{}", session.text());
     assert!(line(&session, "power").contains(" W"), "{}", session.text());
 }

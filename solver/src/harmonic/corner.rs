@@ -5,7 +5,7 @@
 
 use super::stability::ClosedSide;
 use super::{HarmonicError, error};
-use crate::model::ContactPolygon;
+use crate::model::{ContactPolygon, Machine, Number};
 
 /// The paper's pair of blades.
 pub const PAPER_PAIR: [u32; 2] = [6, 21];
@@ -28,6 +28,38 @@ impl Corner {
         error::refuse_no_corner(polygon)?;
         let a = a % polygon.sides;
         Ok(Self { a, b: polygon.next(a) })
+    }
+
+    /// Returns the corner that holds a wave of a machine: of equal tips the default one, of
+    /// others that which does at the lowest speed, or one of these blades.
+    ///
+    /// # Errors
+    /// The polygon has no corners, no corner of the tips is ever held, or the blades are those
+    /// of no corner.
+    pub fn of<T: Number>(
+        machine: &Machine<T>,
+        speed: f64,
+        blades: Option<[u32; 2]>,
+    ) -> Result<Self, HarmonicError> {
+        let polygon = &machine.polygon;
+        if !machine.has_unequal_tips() {
+            return blades
+                .map_or_else(|| Self::paper(polygon), |pair| Self::of_blades(polygon, pair));
+        }
+        error::refuse_no_corner(polygon)?;
+        let Some([first, second]) = blades else {
+            let lowest = machine.lowest_corner(speed).map(|(corner, _)| corner.sides);
+            return lowest.map(|[a, b]| Self { a, b }).ok_or_else(error::no_corner_of_tips);
+        };
+        let pair = [first, second].map(|blade| polygon.side_of_blade(blade));
+        let corners = machine.tip_corners();
+        let of_pair = corners.iter().find(|corner| pair.iter().all(|x| corner.sides.contains(x)));
+        of_pair.map(|corner| Self { a: corner.sides[0], b: corner.sides[1] }).ok_or_else(|| {
+            let name = |side: u32| polygon.blades_of_side(side)[0].to_string();
+            let pairs = corners.iter().map(|corner| corner.sides.map(name).join(","));
+            let allowed = format!("one of {}", pairs.collect::<Vec<_>>().join(" or "));
+            HarmonicError::Blades { first, second, allowed }
+        })
     }
 
     /// Returns the default corner: that of the paper's blades 6 and 21 where these are
@@ -136,7 +168,7 @@ impl Configuration {
     pub fn gap(&self, polygon: &ContactPolygon, side: u32) -> f64 {
         let (c, s) = self.direction(polygon, side);
         let rise = self.slope * self.turn_of(polygon.direction(side));
-        1.0 + self.z.0 * c + self.z.1 * s - rise
+        polygon.relative_apothem(side) + self.z.0 * c + self.z.1 * s - rise
     }
 
     /// Returns the smallest gap over `g0` of the sides not in `contacts`; infinite if there
@@ -156,7 +188,8 @@ impl Configuration {
             phase: polygon.direction(side),
             direction,
             // The gap is closed.
-            along: self.slope * self.turn_of(polygon.direction(side)) - 1.0,
+            along: self.slope * self.turn_of(polygon.direction(side))
+                - polygon.relative_apothem(side),
             arm: across - self.slope,
             moment: across - self.lever,
             multiplier,

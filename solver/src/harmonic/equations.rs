@@ -90,6 +90,8 @@ pub(super) struct Equations<T = f64> {
     delta: f64,
     /// `(cos psi, sin psi)` of both sides.
     phases: [(f64, f64); 2],
+    /// Apothems of both sides.
+    apothems: [T; 2],
     form: Form,
     wave: Wave<T>,
     /// `mu_c`.
@@ -121,17 +123,22 @@ impl<T: Number> Equations<T> {
         let reach = machine.blade_length / (machine.clearance() * machine.nodal_diameters);
         let lever = (machine.radial_coupling + machine.friction_at(speed)) * reach;
         let each = 1.0 / f64::from(polygon.blades_per_side);
+        let apart = (corner.b + polygon.sides - corner.a) % polygon.sides;
+        let delta = polygon.delta * f64::from(apart);
         let [own, other] = match form {
             // Rows 1-2 of (27) as printed have -2 times the torque of (19).
             Form::Printed => [-2.0 * each, 0.0],
             Form::Blade => [each, 0.0],
-            Form::Modal => [scales.share, scales.share * (2.0 * polygon.delta).cos()],
+            Form::Modal => [scales.share, scales.share * (2.0 * delta).cos()],
         };
+        let apothem = |side| machine.apothem(side) / machine.clearance();
+        let equal = !machine.has_unequal_tips();
         // Angles stay of order one where the torque of tips is the larger part.
         let unit = lever.abs() + 1.0;
         let [own, other] = [own, other].map(|share| unit.recip() * share);
         Self {
-            delta: polygon.delta,
+            delta,
+            apothems: corner.sides().map(|side| if equal { T::one() } else { apothem(side) }),
             phases: corner.sides().map(|side| polygon.direction(side)),
             form,
             wave,
@@ -149,6 +156,7 @@ impl<T: Number> Equations<T> {
         Equations {
             delta: self.delta,
             phases: self.phases,
+            apothems: self.apothems.map(&number),
             form: self.form,
             wave: Wave { stiffness: number(self.wave.stiffness), drag: number(self.wave.drag) },
             friction: number(self.friction),
@@ -184,7 +192,7 @@ impl<T: Number> Equations<T> {
         for (i, (push, alpha)) in [(push_a, alpha_a), (push_b, alpha_b)].into_iter().enumerate() {
             let touch = self.touch(i, unknowns);
             let (c, s) = touch.direction;
-            gaps[i] = touch.along + 1.0 - self.slope * self.softness * alpha;
+            gaps[i] = touch.along + self.apothems[i] - self.slope * self.softness * alpha;
             casing[0] -= push * (c - self.friction * s);
             casing[1] -= push * (s + self.friction * c);
             let torque = push * (touch.across - self.lever);
@@ -260,7 +268,7 @@ impl Equations {
     /// Returns the lock that rigid blades grow into as they soften; `None` if its branch folds
     /// before they are this soft, or where nothing resists.
     pub fn locked(&self) -> Option<Unknowns> {
-        let paper = self.has_paper_tips();
+        let paper = self.has_paper_tips() && self.apothems == [1.0; 2];
         let start = match self.form {
             _ if !paper => self.linearised()?,
             Form::Modal => {
@@ -317,7 +325,11 @@ impl Equations {
         let [(c_a, s_a), (c_b, s_b)] = self.phases;
         let middle = Complex::new(c_a + c_b, s_a + s_b);
         // `w`, the corner of the polygon; |middle| = 2 cos(delta).
-        let w = middle * (-2.0 / middle.norm_sqr());
+        let mut w = middle * (-2.0 / middle.norm_sqr());
+        if self.apothems != [1.0; 2] {
+            let ([a, b], sine) = (self.apothems, c_a * s_b - s_a * c_b);
+            w = Complex::new(b * s_a - a * s_b, a * c_b - b * c_a) / sine;
+        }
         let turned = Complex::new(1.0, self.friction);
         let casing = Complex::new(self.wave.stiffness, self.wave.drag);
         // a = -bent p in the unit of angles.

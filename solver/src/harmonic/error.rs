@@ -94,6 +94,13 @@ impl HarmonicError {
     }
 }
 
+/// Refuses tips among which no corner is ever held, or of which that is not known.
+pub(super) fn no_corner_of_tips() -> HarmonicError {
+    let allowed = "tips of which two hold the wave at some speed, with rigid contact and a \
+                   clearance that does not change with the speed";
+    HarmonicError::refused("bladed_disk", "tips of their own lengths", allowed)
+}
+
 /// Refuses tips that are inclined or rub, where only the paper's are taken.
 pub(super) fn refuse_tips(machine: &Machine, allowed: &str) -> Result<(), HarmonicError> {
     let (key, value) = if machine.radial_coupling != 0.0 {

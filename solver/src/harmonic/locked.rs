@@ -95,9 +95,16 @@ impl Locked {
         form: Form,
         damped: bool,
     ) -> Result<Self, HarmonicError> {
-        let corner = Corner::after(&machine.polygon, corner.a)?;
+        let corner = match machine.has_unequal_tips() {
+            true => corner,
+            false => Corner::after(&machine.polygon, corner.a)?,
+        };
         error::refuse_other_diameters(machine)?;
         error::refuse_preload(&machine.at(0.0))?;
+        if form != Form::Modal && machine.has_unequal_tips() {
+            let allowed = "modal with tips of their own lengths";
+            return Err(HarmonicError::refused("form", form, allowed));
+        }
         if form != Form::Modal {
             let allowed = format!("0 with the form {form}; the form modal has it");
             error::refuse_tips(machine, &allowed)?;
@@ -224,10 +231,7 @@ pub fn locked_motion(
     blades: Option<[u32; 2]>,
     speeds: &[f64],
 ) -> Result<Sweep, HarmonicError> {
-    let corner = match blades {
-        Some(pair) => Corner::of_blades(&machine.polygon, pair)?,
-        None => Corner::paper(&machine.polygon)?,
-    };
+    let corner = Corner::of(machine, speeds.last().copied().unwrap_or(1.0), blades)?;
     Locked::new(machine, corner, form, damped)?.sweep(speeds)
 }
 
@@ -259,7 +263,7 @@ pub fn lock_loads<T: Number>(machine: &Machine<T>, speed: T) -> Option<LockLoads
     if machine.lining.is_some() {
         return lining::lock_loads(machine, speed);
     }
-    let corner = Corner::paper(&machine.polygon).ok()?;
+    let corner = Corner::of(machine, speed.re(), None).ok()?;
     let wave = Wave::at(machine, speed, true);
     let equations = Equations::new(machine, corner, Form::Modal, wave, speed);
     let unknowns = equations.locked_with_derivatives()?;

@@ -25,6 +25,7 @@ mod joint;
 mod lining;
 mod locked;
 mod round_whirl;
+mod roundness;
 mod slip;
 mod stability;
 
@@ -43,8 +44,8 @@ pub use joint::{
     undamped_flutter_speed,
 };
 pub use lining::{
-    Cycle, GroupPush, GrowthThreshold, HopfPoint, LeastStiffness, Lining, LiningState, Rest,
-    RestRoot, ShiftedCoincidence, Whirl, growth_threshold, least_lock_stiffness,
+    Cycle, Forced, GroupPush, GrowthThreshold, HopfPoint, LeastStiffness, Lining, LiningState,
+    Rest, RestRoot, ShiftedCoincidence, Whirl, growth_threshold, least_lock_stiffness,
 };
 pub use locked::{
     LockLoads, Locked, LockedPoint, Sweep, lock_fold_speed, lock_loads, locked_motion,
@@ -53,6 +54,7 @@ pub use round_whirl::{
     RoundWhirl, RoundWhirlLoads, WhirlOnset, round_whirls, whirl_beginnings, whirl_onset,
     whirl_onsets,
 };
+pub use roundness::roundness;
 pub use slip::{
     Crossing, NoSlip, SlipLimit, SlipOrbit, SlipPoint, SlipRegion, slip_limits, slip_map, slip_over,
 };

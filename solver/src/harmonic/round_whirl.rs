@@ -392,30 +392,8 @@ mod tests {
 
     /// Table 1 with tips of this slope, which carries the derivative.
     fn inclined(kappa: Dual64) -> Machine<Dual64> {
-        let (disk, casing) = (BladedDisk::default(), Casing::default());
-        let disk = BladedDisk {
-            blades: disk.blades,
-            blade_length_m: disk.blade_length_m.into(),
-            inertia_kg_m2: disk.inertia_kg_m2.into(),
-            stiffness_nm_per_rad: disk.stiffness_nm_per_rad.into(),
-            coupling_nm_per_rad: disk.coupling_nm_per_rad.into(),
-            damping_ratio: disk.damping_ratio.into(),
-            centrifugal_stiffening: disk.centrifugal_stiffening.into(),
-            radial_coupling: kappa,
-            nodal_diameters: 0,
-            mistuning: disk.mistuning.into(),
-            mistuning_seed: 1,
-            modes: Vec::new(),
-        };
-        let casing = Casing {
-            radius_m: casing.radius_m.into(),
-            modal_mass_kg: casing.modal_mass_kg.into(),
-            modal_stiffness_n_per_m: casing.modal_stiffness_n_per_m.into(),
-            damping_ratio: casing.damping_ratio.into(),
-            tangential_ratio: casing.tangential_ratio.into(),
-            clearance_loss_m_s2: casing.clearance_loss_m_s2.into(),
-            modes: Vec::new(),
-        };
+        let disk = BladedDisk { radial_coupling: kappa, ..BladedDisk::default().to() };
+        let casing = Casing::default().to();
         Machine::new(&disk, &casing, 3).with_friction(Dual64::from(0.05))
     }
 

@@ -68,12 +68,35 @@ impl<T: Number> Machine<T> {
         if self.clearance_at_rest().re() <= 0.0 {
             return Vec::new();
         }
+        if self.out_of_round().re() != 0.0 {
+            return self.lock_out_of_round().into_iter().collect();
+        }
+        if self.has_unequal_tips() {
+            return self.lowest_corner(toward).map_or_else(Vec::new, |(_, windows)| windows);
+        }
         if !self.casing_feels_tips() && self.lining.is_none() {
-            let from = self.threshold(1.0 / slope);
+            let from = self.threshold(T::from(1.0 / slope));
             let window = from.map(|from| LockWindow { from, to: None });
             return self.with_clearance(window.into_iter().collect());
         }
-        self.with_clearance(self.windows(slope, toward))
+        let slope = T::from(slope);
+        self.with_clearance(self.windows([(slope, T::one()), (slope, -T::one())], toward))
+    }
+
+    /// The window of a lock in a casing whose lobes are as many as the nodal diameters, which
+    /// are a static force `k_c e` on it. None for other lobes, whose largest height is known
+    /// instead, and beside unequal tips.
+    fn lock_out_of_round(&self) -> Option<LockWindow<T>> {
+        let lobes = self.tips.as_ref().map_or(0, |tips| tips.lobes);
+        let alone = !self.has_unequal_tips() && !self.casing_feels_tips() && self.lining.is_none();
+        if lobes != self.polygon.nodal_diameters || !alone || self.changes_with_speed() {
+            return None;
+        }
+        let slope = 1.0 / self.polygon.delta.tan();
+        let x = self.casing_damping_ratio * slope;
+        let root = (x * x + 1.0 + self.out_of_round() / self.clearance * slope).sqrt();
+        let critical = self.critical_speed().filter(|_| self.polygon.has_corners())?;
+        Some(LockWindow { from: critical * (x + root), to: None })
     }
 
     /// These windows, as far as there is a clearance.
@@ -95,12 +118,18 @@ impl<T: Number> Machine<T> {
         if self.lining.is_some() || self.clearance_at_rest().re() <= 0.0 {
             return None;
         }
+        if self.is_uneven() {
+            let (corner, _) = self.lowest_corner(1.0).filter(|_| !self.casing_feels_tips())?;
+            let slope = (-corner.gamma + corner.beta).tan();
+            return self.threshold(slope).filter(|_| self.out_of_round().re() == 0.0);
+        }
         let slope = 1.0 / self.polygon.delta.tan();
         let windows = if !self.tips_incline_or_rub() {
-            let from = self.threshold(self.polygon.delta.tan());
+            let from = self.threshold(T::from(self.polygon.delta.tan()));
             from.map(|from| LockWindow { from, to: None }).into_iter().collect()
         } else if self.friction.re() == 0.0 {
-            self.windows(slope, 1.0)
+            let slope = T::from(slope);
+            self.windows([(slope, T::one()), (slope, -T::one())], 1.0)
         } else {
             Vec::new()
         };
@@ -113,21 +142,22 @@ impl<T: Number> Machine<T> {
         self.casing_damping.re() == 0.0 && !self.casing_feels_tips() && self.lining.is_none()
     }
 
-    fn threshold(&self, slope: f64) -> Option<T> {
+    fn threshold(&self, slope: T) -> Option<T> {
         let x = self.casing_damping_ratio * slope;
         let factor = x + (x * x + 1.0).sqrt();
         let critical = self.critical_speed()?;
         self.polygon.has_corners().then(|| critical * factor)
     }
 
-    /// The windows in which `|tan arg(-1/H)|` is not above a slope.
-    fn windows(&self, slope: f64, toward: f64) -> Vec<LockWindow<T>> {
+    /// The windows in which `slope Re(1/H) + sign Im(1/H) <= 0` for both sides; of equal tips,
+    /// `|tan arg(-1/H)|` is not above a slope.
+    pub(super) fn windows(&self, sides: [(T, T); 2], toward: f64) -> Vec<LockWindow<T>> {
         let Some(critical) = self.critical_speed() else { return Vec::new() };
         if !self.polygon.has_corners() || self.has_other_diameters() {
             return Vec::new();
         }
         let balance = Balance {
-            slope,
+            sides,
             damping: self.casing_damping_ratio * 2.0,
             // In a mirrored machine both the drag and the friction change their sign.
             friction: self.casing_friction_at(T::one()),
@@ -139,7 +169,7 @@ impl<T: Number> Machine<T> {
                 self.casing_stiffness / (group * (2.0 * self.polygon.delta).sin())
             }),
         };
-        let speed = |(x, sign): (f64, f64)| balance.derived(x, sign) * critical;
+        let speed = |(x, side): (f64, usize)| balance.derived(x, side) * critical;
         let mut windows: Vec<LockWindow<T>> = Vec::new();
         // Whether the interval before this end has a lock.
         let mut inside = false;
@@ -148,7 +178,7 @@ impl<T: Number> Machine<T> {
         for place in 0..=ends.len() {
             let end = ends.get(place).copied();
             let from = below.map_or(0.0, |(x, _)| x);
-            let middle = end.map_or(2.0 * from + 1.0, |(x, _): (f64, f64)| 0.5 * (from + x));
+            let middle = end.map_or(2.0 * from + 1.0, |(x, _): (f64, usize)| 0.5 * (from + x));
             let holds = balance.holds(middle);
             if holds && !inside {
                 windows.push(LockWindow { from: below.map_or(T::zero(), speed), to: None });
@@ -168,6 +198,10 @@ impl<T: Number> Machine<T> {
     pub fn locked_amplitude(&self) -> Option<T> {
         let corners = self.polygon.has_corners() && self.clearance().re() > 0.0;
         let still = self.radial_coupling.re() == 0.0 && self.lining.is_none();
+        if self.has_unequal_tips() {
+            let found = self.lowest_corner(1.0).filter(|_| still && corners);
+            return found.map(|(corner, _)| corner.distance);
+        }
         (corners && still).then(|| self.clearance() / self.polygon.delta.cos())
     }
 
@@ -193,6 +227,12 @@ impl<T: Number> Machine<T> {
             }
             [stiff, drag] = here.with_tips(stiff, drag, speed);
         }
+        if here.has_unequal_tips() {
+            let (corner, _) = here.lowest_corner(speed.re())?;
+            let scale = corner.distance / corner.beta.sin();
+            let [b, a] = corner.conditions().map(|(own, sign)| (own * stiff + sign * drag) * scale);
+            return Some([a, b]);
+        }
         let (stiff, drag) = (stiff / cos, drag / sin);
         let scale = here.clearance() / (2.0 * cos);
         Some([scale * (stiff - drag), scale * (stiff + drag)])
@@ -209,10 +249,11 @@ impl<T: Number> Machine<T> {
     }
 }
 
-/// Where both push: `slope Re +- Im <= 0` of `1/H`, in units of the casing and `omega_c`;
+/// Where both push: `slope Re + sign Im <= 0` of `1/H`, in units of the casing and `omega_c`;
 /// on a lining with a term of its compliance.
 struct Balance<T> {
-    slope: f64,
+    /// Slope and sign of each side.
+    sides: [(T, T); 2],
     damping: T,
     friction: T,
     /// At rest.
@@ -224,7 +265,8 @@ struct Balance<T> {
 
 impl<T: Number> Balance<T> {
     /// `slope Re + sign Im` at a frequency, and its slope there.
-    fn at(&self, x: T, sign: f64) -> (T, T) {
+    fn at(&self, x: T, side: usize) -> (T, T) {
+        let (slope, sign) = self.sides[side];
         let (stiff, drag) = (-(x * x) + 1.0, self.damping * x);
         let (stiff_slope, drag_slope) = (x * -2.0, self.damping);
         let square = stiff * stiff + drag * drag;
@@ -240,21 +282,21 @@ impl<T: Number> Balance<T> {
             + self.friction * drag_slope;
         let across_slope = drag_slope - self.friction * stiff_slope;
         (
-            along * self.slope + across * sign + self.lining * square,
-            along_slope * self.slope + across_slope * sign + self.lining * square_slope,
+            along * slope + across * sign + self.lining * square,
+            along_slope * slope + across_slope * sign + self.lining * square_slope,
         )
     }
 
     /// Whether both push at a frequency.
     fn holds(&self, x: f64) -> bool {
-        [1.0, -1.0].iter().all(|&sign| self.at(T::from(x), sign).0.re() <= 0.0)
+        [0, 1].iter().all(|&side| self.at(T::from(x), side).0.re() <= 0.0)
     }
 
     /// A root with its derivatives: each step of Newton's method adds an order.
-    fn derived(&self, root: f64, sign: f64) -> T {
+    fn derived(&self, root: f64, side: usize) -> T {
         let mut x = T::from(root);
         for _ in 0..2 {
-            let (value, slope) = self.at(x, sign);
+            let (value, slope) = self.at(x, side);
             let step = value / slope;
             if step.re().is_finite() {
                 x -= step;
@@ -263,12 +305,12 @@ impl<T: Number> Balance<T> {
         x
     }
 
-    /// Every positive frequency where one of the two pushes vanishes, with its sign.
-    fn ends(&self) -> Vec<(f64, f64)> {
+    /// Every positive frequency where one of the two pushes vanishes, with its side.
+    fn ends(&self) -> Vec<(f64, usize)> {
         let (damping, friction, coupling) =
             (self.damping.re(), self.friction.re(), self.coupling.re());
         let stiffening = self.stiffening.re();
-        let on = |sign: f64| {
+        let on = |(own, sign): (f64, f64)| {
             move |from: Point, to: Point| -> Coefficients {
                 let quadratic =
                     |of: &dyn Fn(Point, Point) -> f64| Coefficients::quadratic(from, to, of);
@@ -277,24 +319,24 @@ impl<T: Number> Balance<T> {
                 let drag = quadratic(&|u, v| 0.5 * damping * (u.p * v.q + v.p * u.q));
                 let square = sum(1.0, &product(&stiff, &stiff), 1.0, &product(&drag, &drag));
                 let alone = sum(
-                    self.slope - sign * friction,
+                    own - sign * friction,
                     &product(&stiff, &one),
-                    self.slope * friction + sign,
+                    own * friction + sign,
                     &product(&drag, &one),
                 );
                 if stiffening == 0.0 {
-                    return sum(1.0, &alone, self.slope * coupling + self.lining.re(), &square);
+                    return sum(1.0, &alone, own * coupling + self.lining.re(), &square);
                 }
                 let stiffer = quadratic(&|u, v| u.q * v.q + stiffening * u.p * v.p);
                 let rigid = sum(1.0, &alone, self.lining.re(), &square);
                 let tips = product(&one, &square);
-                sum(1.0, &product(&stiffer, &rigid), self.slope * coupling, &tips)
+                sum(1.0, &product(&stiffer, &rigid), own * coupling, &tips)
             }
         };
         let mut ends = Vec::new();
-        for sign in [1.0, -1.0] {
-            let roots = real_roots(&on(sign), &[0.0, 1.0]);
-            ends.extend(roots.into_iter().filter(|x| *x > 0.0).map(|x| (x, sign)));
+        for (side, (own, sign)) in self.sides.iter().enumerate() {
+            let roots = real_roots(&on((own.re(), sign.re())), &[0.0, 1.0]);
+            ends.extend(roots.into_iter().filter(|x| *x > 0.0).map(|x| (x, side)));
         }
         ends.sort_by(|a, b| a.0.total_cmp(&b.0));
         ends

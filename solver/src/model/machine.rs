@@ -3,9 +3,10 @@
 //! structures (docs/theory.md, section 4). Where it changes with the speed: `spin`.
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 use super::spin::Spin;
-use super::{BladedDisk, Casing, ContactPolygon, LiningLaw, Number};
+use super::{BladedDisk, Casing, ContactPolygon, LiningLaw, Number, Tips};
 
 /// The four-coordinate model of one machine at one number of nodal diameters.
 ///
@@ -59,6 +60,8 @@ pub struct Machine<T = f64> {
     pub lining: Option<LiningLaw<T>>,
     /// How it changes with the speed, if it does.
     pub(super) spin: Option<Spin<T>>,
+    /// What tells tips and places of the casing apart, if anything does.
+    pub(crate) tips: Option<Arc<Tips<T>>>,
 }
 
 /// Factor on stiffness and mass of blades that no force bends. Larger: squares overflow.
@@ -113,7 +116,13 @@ impl<T: Number> Machine<T> {
             friction: T::from(0.0),
             lining: None,
             spin: None,
+            tips: None,
         };
+        machine.tips = Tips::of(disk, casing, &machine.polygon).map(Arc::new);
+        if machine.has_unequal_tips() {
+            let longer = (0..machine.polygon.sides).map(|side| machine.longest_of_side(side).re());
+            machine.polygon.longer = longer.collect();
+        }
         machine.spin = Spin::of(disk, casing, &machine);
         machine
     }
@@ -227,6 +236,7 @@ impl<T: Number> Machine<T> {
                 smoothing_m: of(lining.smoothing_m),
             }),
             spin: self.spin.map(|spin| spin.map(&of)),
+            tips: self.tips.as_ref().map(|tips| Arc::new(tips.map(&of))),
         }
     }
 

@@ -9,6 +9,8 @@ mod number;
 mod parameters;
 mod polygon;
 mod spin;
+mod tip_corner;
+mod tips;
 
 pub use lining::LiningLaw;
 pub use lock::LockWindow;
@@ -20,3 +22,5 @@ pub use parameters::{
 pub(crate) use parameters::{frequency_of, of_neighbours};
 pub use polygon::ContactPolygon;
 pub(crate) use polygon::{fraction_of_turn, gcd};
+pub use tip_corner::TipCorner;
+pub(crate) use tips::Tips;

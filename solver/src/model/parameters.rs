@@ -138,6 +138,18 @@ pub struct BladedDisk<T = f64> {
     pub mistuning: T,
     /// Number of the draw of the stiffnesses.
     pub mistuning_seed: u32,
+    /// How much longer the tip of each blade is, one number a blade or none \[m\].
+    pub tips_m: Vec<f64>,
+    /// Standard deviation of the lengths of single blades \[m\].
+    pub tip_scatter_m: T,
+    /// Number of the draw of those lengths.
+    pub tip_seed: u32,
+    /// How much longer blade 1 is \[m\].
+    pub longest_tip_m: T,
+    /// How far the rotor is off its centre \[m\].
+    pub orbit_m: T,
+    /// The direction of the orbit in the frame of the rotor \[rad\].
+    pub orbit_angle_rad: T,
     /// Modes with values of their own, by their diameters.
     #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "disk_modes")]
     pub modes: Vec<Mode>,
@@ -167,8 +179,34 @@ impl BladedDisk {
             inertia_kg_m2,
             stiffness_nm_per_rad: by_frequency.unwrap_or_else(stiffness),
             damping_ratio: of(ModePart::Damping, self.damping_ratio),
+            tips_m: self.tips_m.clone(),
             modes: Vec::new(),
             ..*self
+        }
+    }
+
+    /// Returns it in other numbers, without its modes.
+    #[must_use]
+    pub fn to<T: From<f64>>(&self) -> BladedDisk<T> {
+        BladedDisk {
+            blades: self.blades,
+            blade_length_m: self.blade_length_m.into(),
+            inertia_kg_m2: self.inertia_kg_m2.into(),
+            stiffness_nm_per_rad: self.stiffness_nm_per_rad.into(),
+            coupling_nm_per_rad: self.coupling_nm_per_rad.into(),
+            damping_ratio: self.damping_ratio.into(),
+            centrifugal_stiffening: self.centrifugal_stiffening.into(),
+            radial_coupling: self.radial_coupling.into(),
+            nodal_diameters: self.nodal_diameters,
+            mistuning: self.mistuning.into(),
+            mistuning_seed: self.mistuning_seed,
+            tips_m: self.tips_m.clone(),
+            tip_scatter_m: self.tip_scatter_m.into(),
+            tip_seed: self.tip_seed,
+            longest_tip_m: self.longest_tip_m.into(),
+            orbit_m: self.orbit_m.into(),
+            orbit_angle_rad: self.orbit_angle_rad.into(),
+            modes: Vec::new(),
         }
     }
 
@@ -198,6 +236,12 @@ impl Default for BladedDisk {
             nodal_diameters: 0,
             mistuning: 0.0,
             mistuning_seed: 1,
+            tips_m: Vec::new(),
+            tip_scatter_m: 0.0,
+            tip_seed: 1,
+            longest_tip_m: 0.0,
+            orbit_m: 0.0,
+            orbit_angle_rad: 0.0,
             modes: Vec::new(),
         }
     }
@@ -220,6 +264,12 @@ pub struct Casing<T = f64> {
     /// What blades and disk lose of the clearance as they grow, `c`: at a speed it is
     /// `R_c - l_b - c Omega^2` \[m s^2\].
     pub clearance_loss_m_s2: T,
+    /// Number of lobes `m` of a casing that is out of round.
+    pub lobes: u32,
+    /// Height `e` of the lobes \[m\].
+    pub out_of_round_m: T,
+    /// Phase `psi` of the lobes: the shape is `e cos(m phi - psi)` \[rad\].
+    pub out_of_round_angle_rad: T,
     /// Modes with values of their own, by their diameters.
     #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "casing_modes")]
     pub modes: Vec<Mode>,
@@ -244,6 +294,23 @@ impl Casing {
         }
     }
 
+    /// Returns it in other numbers, without its modes.
+    #[must_use]
+    pub fn to<T: From<f64>>(&self) -> Casing<T> {
+        Casing {
+            radius_m: self.radius_m.into(),
+            modal_mass_kg: self.modal_mass_kg.into(),
+            modal_stiffness_n_per_m: self.modal_stiffness_n_per_m.into(),
+            damping_ratio: self.damping_ratio.into(),
+            tangential_ratio: self.tangential_ratio.into(),
+            clearance_loss_m_s2: self.clearance_loss_m_s2.into(),
+            lobes: self.lobes,
+            out_of_round_m: self.out_of_round_m.into(),
+            out_of_round_angle_rad: self.out_of_round_angle_rad.into(),
+            modes: Vec::new(),
+        }
+    }
+
     /// Returns a value of that mode, or its own where the mode has none.
     pub fn part_at(&mut self, diameters: u32, part: ModePart) -> &mut f64 {
         let own = match part {
@@ -265,6 +332,9 @@ impl Default for Casing {
             damping_ratio: 0.05,
             tangential_ratio: 0.0,
             clearance_loss_m_s2: 0.0,
+            lobes: 0,
+            out_of_round_m: 0.0,
+            out_of_round_angle_rad: 0.0,
             modes: Vec::new(),
         }
     }

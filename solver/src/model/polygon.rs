@@ -21,6 +21,8 @@ pub struct ContactPolygon {
     pub clearance: f64,
     /// Half the angle between neighbouring sides, `delta = pi/N'` \[rad\].
     pub delta: f64,
+    /// How much the longest tip of each side is longer; empty where none is \[m\].
+    pub(super) longer: Vec<f64>,
     /// `(cos psi_k, sin psi_k)` of every side.
     directions: Directions,
 }
@@ -52,6 +54,7 @@ impl ContactPolygon {
             blades_per_side,
             clearance,
             delta: PI / f64::from(sides),
+            longer: Vec::new(),
             directions: Directions::default(),
         }
     }
@@ -61,6 +64,12 @@ impl ContactPolygon {
     #[must_use]
     pub fn has_corners(&self) -> bool {
         self.sides >= 3
+    }
+
+    /// Apothem of a side over the clearance, 1 where tips are equal.
+    #[must_use]
+    pub fn relative_apothem(&self, side: u32) -> f64 {
+        self.longer.get(side as usize).map_or(1.0, |longer| 1.0 - longer / self.clearance)
     }
 
     /// Distance from the middle of a side to its corner, `g0 tan delta` \[m\];

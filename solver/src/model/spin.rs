@@ -123,6 +123,15 @@ impl<T: Number> Machine<T> {
         self.spin.map_or(self.clearance, |spin| spin.clearance)
     }
 
+    /// The speed at which the longest blade that grows reaches the innermost place of a casing at
+    /// rest, `sqrt((g0 - e - max b)/c)`; none where it never does, or does at rest \[rad/s\].
+    #[must_use]
+    pub fn touching_speed(&self) -> Option<T> {
+        let left = self.clearance_at_rest() - self.most_uneven();
+        let loss = self.clearance_loss();
+        (left.re() > 0.0 && loss.re() > 0.0).then(|| (left / loss).sqrt())
+    }
+
     /// The speed at which the clearance is lost, as a magnitude; none where it never is,
     /// or is not there at rest \[rad/s\].
     #[must_use]

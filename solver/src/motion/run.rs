@@ -460,7 +460,9 @@ pub(super) fn report(
     let wave_speed_rad_s = match verdict {
         Verdict::Failed | Verdict::Divergent | Verdict::Decay => None,
         // It turns with the blades.
-        Verdict::Locked | Verdict::Adhesive => Some(motion.rotor().mean_speed(state.t_s, window)),
+        Verdict::Locked | Verdict::Adhesive | Verdict::Forced => {
+            Some(motion.rotor().mean_speed(state.t_s, window))
+        }
         Verdict::Slip | Verdict::Whirl | Verdict::Bounce => wave.speed(machine),
     };
     let outcome = Outcome {

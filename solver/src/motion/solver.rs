@@ -66,13 +66,14 @@ pub trait Solver: Debug + Send + Sync {
         let (machine, state) = (self.machine(), self.state());
         let (polygon, diameters) = (&machine.polygon, machine.nodal_diameters);
         // In the frame of the blades only their small angles differ from blade to blade.
-        let z = Plane::new(state.u[0], state.u[1])
-            * Plane::cis(-diameters * self.rotor().angle(state.t_s));
+        let theta = self.rotor().angle(state.t_s);
+        let z = Plane::new(state.u[0], state.u[1]) * Plane::cis(-diameters * theta);
         let rise = machine.radial_coupling * machine.blade_length;
         let gap = |(blade, angle): (u32, f64)| {
             let (c, s) = polygon.direction(polygon.side_of_blade(blade));
             let normal = Plane::new(c, s) * Plane::cis(diameters * angle);
-            machine.clearance() + (z * normal.conj()).re - rise * angle
+            let beside = machine.uneven_at(blade - 1, theta + angle);
+            machine.clearance() + beside + (z * normal.conj()).re - rise * angle
         };
         (1..=polygon.blades).zip(self.blade_angles()).map(gap).collect()
     }
@@ -105,10 +106,12 @@ pub trait Solver: Debug + Send + Sync {
     /// The verdict over the last `window` seconds.
     fn lasting(&self, window: f64) -> Verdict {
         let clearance = self.machine().clearance().abs();
-        match judge(self.contacts(), self.t_s(), window) {
+        let (contacts, now) = (self.contacts(), self.t_s());
+        let verdict = match judge(contacts, now, window) {
             Verdict::Slip if self.swing() > WHIRL_SWING * clearance => Verdict::Whirl,
             other => other,
-        }
+        };
+        verdict.unless_forced(self.machine(), contacts, now - window)
     }
 
     /// How far blade tips swing outward over the last part of the run,

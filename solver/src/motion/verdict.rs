@@ -8,6 +8,7 @@ use serde::Serialize;
 use strum::{AsRefStr, Display, EnumString};
 
 use super::{ActiveSet, ContactLog, Spread};
+use crate::model::Machine;
 
 /// How a motion lasts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Display, EnumString, AsRefStr)]
@@ -27,6 +28,9 @@ pub enum Verdict {
     /// `|kappa| l_b |a|` is above a quarter of the clearance (of the interference). In
     /// the model of single blades `a` is the largest angle about the mean of all blades.
     Whirl,
+    /// One blade or one group of tips of their own lengths presses without a break, and no
+    /// corner is held: the wave is dragged along.
+    Forced,
     /// Permanent contact of the same sides, not all there are, all pushing.
     Locked,
     /// Permanent contact of the same sides, some of them pulling.
@@ -39,11 +43,12 @@ pub enum Verdict {
 
 impl Verdict {
     /// Every verdict, in the order of the documentation.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Decay,
         Self::Bounce,
         Self::Slip,
         Self::Whirl,
+        Self::Forced,
         Self::Locked,
         Self::Adhesive,
         Self::Divergent,
@@ -59,7 +64,17 @@ impl Verdict {
     /// Whether the contact at the end has no break: it has a time since when.
     #[must_use]
     pub fn keeps_contact(self) -> bool {
-        self.is_held() || matches!(self, Self::Slip | Self::Whirl)
+        self.is_held() || matches!(self, Self::Slip | Self::Whirl | Self::Forced)
+    }
+
+    /// This verdict of a motion since `start`, or forced where one side of a machine has
+    /// touched alone since then, whose tip or whose lobe leaves a casing at rest no clearance.
+    #[must_use]
+    pub(super) fn unless_forced(self, machine: &Machine, log: &ContactLog, start: f64) -> Self {
+        let ActiveSet::Side(side) = log.active_set else { return self };
+        let beyond = machine.is_uneven() && machine.apothem(side) < machine.out_of_round();
+        let lasts = log.since <= start && self.keeps_contact();
+        if beyond && lasts { Self::Forced } else { self }
     }
 }
 

@@ -6,6 +6,7 @@ pub(crate) mod eigen;
 pub(crate) mod elimination;
 pub(crate) mod lyapunov;
 pub(crate) mod maximum;
+pub(crate) mod normal;
 pub(crate) mod quadrature;
 pub(crate) mod real_roots;
 pub mod rounding;

@@ -12,6 +12,15 @@ impl Scene {
         self.has_other_tips() || self.changes_with_speed()
     }
 
+    /// Returns whether tips have lengths of their own, or the casing is out of round.
+    #[must_use]
+    pub fn is_uneven(&self) -> bool {
+        let disk = &self.bladed_disk;
+        let numbers = [disk.tip_scatter_m, disk.longest_tip_m, disk.orbit_m];
+        let all = disk.tips_m.iter().chain(&numbers);
+        all.chain(&[self.casing.out_of_round_m]).any(|number| *number != 0.0)
+    }
+
     /// Returns whether the machine changes with the rotor speed in a run.
     #[must_use]
     pub fn changes_with_speed(&self) -> bool {
@@ -27,6 +36,7 @@ impl Scene {
         let model = self.solver.model;
         let tips = disk.radial_coupling != 0.0 || surface.friction != 0.0;
         self.solver.contact == ContactLaw::Smooth
+            || self.is_uneven()
             || surface.restitution != 0.0
             || surface.friction * self.casing.tangential_ratio != 0.0
             || (model != ModelSize::Rigid && tips)
@@ -121,6 +131,44 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     digging_in(scene)?;
     opening(scene)?;
     by_events(scene)
+}
+
+/// Refuses a list that is not of all blades, and tips or lobes that leave rigid contact no
+/// room.
+pub(super) fn tips(scene: &Scene) -> Result<(), SceneError> {
+    let (disk, casing) = (&scene.bladed_disk, &scene.casing);
+    let (given, blades) = (disk.tips_m.len(), disk.blades as usize);
+    if given != 0 && given != blades {
+        let allowed = format!("none, or one for each of bladed_disk.blades = {blades}");
+        return Err(SceneError::refused(keys::TIPS, format!("{given} numbers"), allowed));
+    }
+    let e = casing.out_of_round_m;
+    if e != 0.0 && casing.lobes == 0 {
+        let allowed = "1 or more with casing.out_of_round_m; another clearance is that of \
+                       casing.radius_m";
+        return Err(SceneError::refused(keys::LOBES, 0, allowed));
+    }
+    if e != 0.0 && scene.solver.kind == SolverKind::Event {
+        let allowed = "0 with solver.kind = \"event\": a side that moves has no closed form";
+        return Err(SceneError::refused(keys::OUT_OF_ROUND, format!("{e:e}"), allowed));
+    }
+    let machine = scene.machine();
+    let rigid = scene.solver.contact != ContactLaw::Smooth;
+    if !(rigid && scene.is_uneven()) || machine.at(scene.fastest_rad_s()).has_room() {
+        return Ok(());
+    }
+    let allowed = "less: no place of the casing leaves every gap open; solver.contact = \
+                   \"smooth\" takes it";
+    let (key, value) = [
+        (keys::OUT_OF_ROUND, e),
+        (keys::ORBIT, disk.orbit_m),
+        (keys::LONGEST_TIP, disk.longest_tip_m),
+        (keys::TIP_SCATTER, disk.tip_scatter_m),
+        (keys::TIPS, disk.tips_m.iter().copied().fold(0.0, f64::max)),
+    ]
+    .into_iter()
+    .fold(("", 0.0), |most, next| if next.1 > most.1 { next } else { most });
+    Err(SceneError::refused(key, format!("{value:e}"), allowed))
 }
 
 /// Refuses rigid contact of blades in other diameters than those of the casing.

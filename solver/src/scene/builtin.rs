@@ -38,6 +38,8 @@ pub const BUILTIN: &[Builtin] = builtin![
     "digs-in",
     "friction-lock",
     "soft-lining",
+    "long-tip",
+    "oval",
 ];
 
 impl Scene {

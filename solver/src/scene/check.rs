@@ -23,6 +23,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     clearance(scene)?;
     growth(scene)?;
     frequencies(scene)?;
+    beyond::tips(scene)?;
     initial_state(scene)?;
     excitation(scene)?;
     beyond::check(scene)?;
@@ -88,9 +89,17 @@ fn initial_state(scene: &Scene) -> Result<(), SceneError> {
         return Ok(());
     }
     let machine = scene.machine();
-    let (x, y) = (scene.initial.u_c_m, scene.initial.u_s_m);
-    let side = machine.polygon.nearest_side(x, y);
-    let gap = machine.polygon.gap(side, x, y);
+    let (x, y) = scene.start();
+    let gap = if machine.is_uneven() {
+        let polygon = &machine.polygon;
+        let gap = |blade: u32| {
+            let side = polygon.side_of_blade(blade + 1);
+            polygon.gap(side, x, y) + machine.uneven_at(blade, 0.0)
+        };
+        (0..polygon.blades).map(gap).fold(f64::INFINITY, f64::min)
+    } else {
+        machine.polygon.gap(machine.polygon.nearest_side(x, y), x, y)
+    };
     // A point on a side, given by computed coordinates, may be outside by round-off.
     if gap >= -1e-12 * machine.clearance() {
         return Ok(());

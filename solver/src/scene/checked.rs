@@ -35,8 +35,11 @@ impl Scene {
             scene: &'a Scene,
             #[serde(skip_serializing_if = "Option::is_none")]
             modes_note: Option<String>,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            start_note: Option<String>,
         }
-        Reported { scene: self, modes_note: self.modes_note() }
+        let (modes_note, start_note) = (self.modes_note(), self.start_note());
+        Reported { scene: self, modes_note, start_note }
     }
 }
 

@@ -154,6 +154,7 @@ fn as_toml(value: &Value) -> Toml {
         Value::Whole(n) => Toml::Integer(i64::try_from(*n).unwrap_or(i64::MAX)),
         Value::Text(text) => Toml::String(text.clone()),
         Value::Words(words) => Toml::Array(words.iter().cloned().map(Toml::String).collect()),
+        Value::Numbers(list) => Toml::Array(list.iter().copied().map(Toml::Float).collect()),
     }
 }
 
@@ -179,6 +180,11 @@ fn read(scene: &mut Scene, path: &str, toml: &Toml) -> Result<(), SceneError> {
             Some(Value::Text(text.clone()))
         }
         (Toml::Array(_), Allowed::Modes(_)) => Some(Value::Text(toml.to_string())),
+        (Toml::Array(items), Allowed::Numbers { .. }) => items
+            .iter()
+            .map(|item| item.as_float().or(item.as_integer().map(|n| n as f64)))
+            .collect::<Option<_>>()
+            .map(Value::Numbers),
         (Toml::Array(items), Allowed::SomeOf(_)) => items
             .iter()
             .map(|item| item.as_str().map(String::from))

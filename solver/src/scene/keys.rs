@@ -19,6 +19,8 @@ pub enum Value {
     Text(String),
     /// A list of words.
     Words(Vec<String>),
+    /// A list of numbers.
+    Numbers(Vec<f64>),
 }
 
 impl std::fmt::Display for Value {
@@ -29,6 +31,7 @@ impl std::fmt::Display for Value {
             Self::Whole(n) => write!(out, "{n}"),
             Self::Text(text) => write!(out, "{text:?}"),
             Self::Words(words) => write!(out, "{words:?}"),
+            Self::Numbers(numbers) => write!(out, "{numbers:?}"),
         }
     }
 }
@@ -63,6 +66,13 @@ pub enum Allowed {
     },
     /// A list of the modes of a structure, as text.
     Modes(&'static Structure),
+    /// A list of so many numbers at most, each up to `size` in magnitude.
+    Numbers {
+        /// Largest magnitude.
+        size: f64,
+        /// Most numbers.
+        most: usize,
+    },
 }
 
 impl std::fmt::Display for Allowed {
@@ -79,6 +89,9 @@ impl std::fmt::Display for Allowed {
             Self::SomeOf(words) => write!(out, "a list of {}, each once", words.join(", ")),
             Self::Text { most } => write!(out, "a line of text of up to {most} characters"),
             Self::Modes(structure) => write!(out, "a list of modes, each {}", structure.form()),
+            Self::Numbers { size, most } => {
+                write!(out, "a list of up to {most} numbers from -{size} to {size}")
+            }
         }
     }
 }
@@ -146,6 +159,9 @@ impl Key {
                     && list.iter().all(|word| words.contains(&word.as_str()))
                     && list.iter().enumerate().all(distinct)
             }
+            (Value::Numbers(list), Allowed::Numbers { size, most }) => {
+                list.len() <= most && list.iter().all(|x| x.abs() <= size)
+            }
             (Value::Text(text), Allowed::Modes(structure)) => return structure.check(text),
             (Value::Text(text), Allowed::Text { most }) => {
                 let length = text.chars().count();
@@ -178,14 +194,22 @@ impl Key {
     pub fn parse(&self, text: &str) -> Result<Value, SceneError> {
         let refused = || SceneError::refused(self.path, text, self.allowed.to_string());
         let trimmed = text.trim();
-        Ok(match self.allowed {
-            Allowed::Real { .. } => Value::Real(self.quantity().read(trimmed).map_err(|why| {
-                let (key, value) = (self.path.to_string(), trimmed.to_string());
+        let number = |text: &str| {
+            self.quantity().read(text).map_err(|why| {
+                let (key, value) = (self.path.to_string(), text.to_string());
                 match why {
                     UnitError::NoNumber => refused(),
                     why => SceneError::Unit { key, value, why },
                 }
-            })?),
+            })
+        };
+        Ok(match self.allowed {
+            Allowed::Real { .. } => Value::Real(number(trimmed)?),
+            Allowed::Numbers { .. } => {
+                let list = trimmed.trim_start_matches('[').trim_end_matches(']').trim();
+                let items = list.split(',').filter(|_| !list.is_empty());
+                Value::Numbers(items.map(|item| number(item.trim())).collect::<Result<_, _>>()?)
+            }
             Allowed::Whole { .. } => Value::Whole(trimmed.parse().map_err(|_| refused())?),
             Allowed::OneOf(_) | Allowed::Modes(_) => Value::Text(trimmed.to_string()),
             Allowed::Text { .. } => Value::Text(text.to_string()),
@@ -314,6 +338,16 @@ macro_rules! word {
             get: |scene| Value::Text(scene.$($field).+.to_string()),
             set: |scene, value| if let Value::Text(text) = value
                 && let Ok(choice) = text.parse::<$type>() { scene.$($field).+ = choice },
+        }
+    };
+}
+macro_rules! numbers {
+    ($path:expr, $live:ident, $unit:literal, $what:literal, $size:literal, $($field:ident).+) => {
+        Key {
+            path: $path, unit: $unit, what: $what, live: Live::$live,
+            allowed: Allowed::Numbers { size: $size, most: 4096 },
+            get: |scene| Value::Numbers(scene.$($field).+.clone()),
+            set: |scene, value| if let Value::Numbers(list) = value { scene.$($field).+ = list },
         }
     };
 }
@@ -447,6 +481,12 @@ keys! {
     DISK_DIAMETERS "bladed_disk.nodal_diameters" = whole(Never, "nodal diameters of the disk, 0 as the casing, n_b", 0..4096, bladed_disk.nodal_diameters);
     MISTUNING "bladed_disk.mistuning" = real(Never, "-", "standard deviation of single k_b (full model), sd", false 0.0..0.2, bladed_disk.mistuning);
     MISTUNING_SEED "bladed_disk.mistuning_seed" = whole(Never, "draw of the single k_b, seed", 0..1_000_000, bladed_disk.mistuning_seed);
+    TIPS "bladed_disk.tips_m" = numbers(Steps, "m", "how much longer the tip of each blade is, one number a blade", 1.0, bladed_disk.tips_m);
+    TIP_SCATTER "bladed_disk.tip_scatter_m" = real(Steps, "m", "standard deviation of single blade lengths", false 0.0..1.0, bladed_disk.tip_scatter_m);
+    TIP_SEED "bladed_disk.tip_seed" = whole(Steps, "draw of the single blade lengths, seed", 0..1_000_000, bladed_disk.tip_seed);
+    LONGEST_TIP "bladed_disk.longest_tip_m" = real(Steps, "m", "how much longer blade 1 is, b_1", false -1.0..1.0, bladed_disk.longest_tip_m);
+    ORBIT "bladed_disk.orbit_m" = real(Steps, "m", "how far the rotor is off its centre, r", false 0.0..1.0, bladed_disk.orbit_m);
+    ORBIT_ANGLE "bladed_disk.orbit_angle_rad" = real(Steps, "rad", "direction of that in the rotor, chi", false -100.0..100.0, bladed_disk.orbit_angle_rad);
     DISK_MODES "bladed_disk.modes" = modes(Aside, "modes of the disk by their diameters", DISK, bladed_disk);
     CASING_RADIUS "casing.radius_m" = real(Never, "m", "casing radius R_c", true 0.0..1e3, casing.radius_m);
     CASING_MASS "casing.modal_mass_kg" = moded(Steps, "kg", "casing modal mass m_c", true 0.0..1e9, casing_in_use.modal_mass_kg, casing_part Mass);
@@ -454,6 +494,9 @@ keys! {
     CASING_DAMPING "casing.damping_ratio" = moded(Steps, "-", "casing damping zeta_c", false 0.0..10.0, casing_in_use.damping_ratio, casing_part Damping);
     TANGENTIAL_RATIO "casing.tangential_ratio" = real(Steps, "-", "tangential over radial casing amplitude tau", false 0.0..10.0, casing.tangential_ratio);
     CLEARANCE_LOSS "casing.clearance_loss_m_s2" = real(Steps, "m s^2", "clearance lost with speed, g0 - c Omega^2, c", false 0.0..1.0, casing.clearance_loss_m_s2);
+    LOBES "casing.lobes" = whole(Steps, "lobes of a casing out of round, m", 0..4096, casing.lobes);
+    OUT_OF_ROUND "casing.out_of_round_m" = real(Steps, "m", "height of the lobes, e", false 0.0..1.0, casing.out_of_round_m);
+    OUT_OF_ROUND_ANGLE "casing.out_of_round_angle_rad" = real(Steps, "rad", "phase of the lobes, psi", false -100.0..100.0, casing.out_of_round_angle_rad);
     CASING_MODES "casing.modes" = modes(Aside, "modes of the casing by their diameters", CASING, casing);
     FRICTION "contact.friction" = real(Steps, "-", "friction coefficient mu", false 0.0..5.0, contact.friction);
     RESTITUTION "contact.restitution" = real(Steps, "-", "coefficient of restitution e", false 0.0..0.95, contact.restitution);

@@ -192,6 +192,32 @@ impl Scene {
         machine
     }
 
+    /// Where the casing starts: at its initial place, or, where none is given and tips leave
+    /// the centre outside of rigid contact, at the open place nearest to it \[m\].
+    #[must_use]
+    pub fn start(&self) -> (f64, f64) {
+        let Initial { u_c_m, u_s_m, v_c_m_s, v_s_m_s } = self.initial;
+        let machine = self.machine();
+        let given = [u_c_m, u_s_m, v_c_m_s, v_s_m_s].iter().any(|value| *value != 0.0);
+        let lined = self.solver.contact == ContactLaw::Smooth;
+        if given || lined || !machine.is_uneven() {
+            return (u_c_m, u_s_m);
+        }
+        machine.nearest_open((0.0, 0.0), 0.0, |_| 0.0).unwrap_or_default()
+    }
+
+    /// Where the casing starts, if not at its initial place.
+    #[must_use]
+    pub fn start_note(&self) -> Option<String> {
+        let (x, y) = self.start();
+        ((x, y) != (self.initial.u_c_m, self.initial.u_s_m)).then(|| {
+            format!(
+                "tips leave the centre outside, so the casing begins at rest at the nearest open \
+                 place, u_c = {x:.6e} m and u_s = {y:.6e} m"
+            )
+        })
+    }
+
     /// The lining under a blade, with the smooth law.
     #[must_use]
     pub fn lining(&self) -> Option<LiningLaw> {

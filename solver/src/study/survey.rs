@@ -12,6 +12,7 @@ use strum::IntoEnumIterator;
 use thiserror::Error;
 
 use super::margins::{LimitName, Parameter, shown_margin, speed_sensitivities, speeds};
+use crate::harmonic::lock_window;
 use crate::scene::units::{self, RangeError, UnitError};
 use crate::scene::{CheckedScene, Scene};
 
@@ -76,10 +77,47 @@ pub struct Survey {
     /// What the limits are of, where the scene asks for more than they have.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
+    /// What tips of their own lengths do to the lock of the scene, where it has one.
+    pub scattered: Option<Scattered>,
     /// One row for each number of diameters, from 0.
     pub rows: Vec<SurveyRow>,
     /// Wall time \[s\].
     pub wall_s: f64,
+}
+
+/// Locks of rotors whose tips differ by chance.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Scattered {
+    /// Standard deviation of the tips, 1 % of the clearance \[m\].
+    pub tip_scatter_m: f64,
+    /// How many rotors were drawn.
+    pub rotors: u32,
+    /// `Omega_lock` of equal tips, the last of all \[rad/s\].
+    pub equal_rad_s: f64,
+    /// The mean of the lowest speeds at which a corner of those rotors is held \[rad/s\].
+    pub mean_rad_s: f64,
+}
+
+impl Scattered {
+    /// Draws rotors for a scene; none where its equal tips have no lock, or one on a lining.
+    #[must_use]
+    pub fn of(scene: &Scene) -> Option<Self> {
+        const ROTORS: u32 = 200;
+        let lock = |tip_scatter_m: f64, tip_seed: u32| {
+            let mut rotor = scene.clone();
+            (rotor.bladed_disk.tips_m, rotor.casing.out_of_round_m) = (Vec::new(), 0.0);
+            (rotor.bladed_disk.longest_tip_m, rotor.bladed_disk.orbit_m) = (0.0, 0.0);
+            (rotor.bladed_disk.tip_scatter_m, rotor.bladed_disk.tip_seed) =
+                (tip_scatter_m, tip_seed);
+            let window = lock_window(&rotor.machine(), scene.operation.speed_rad_s);
+            window.map(|window| window.from)
+        };
+        let (equal_rad_s, tip_scatter_m) = (lock(0.0, 1)?, 0.01 * scene.clearance());
+        let draws = (1..=ROTORS).into_par_iter().map(|seed| lock(tip_scatter_m, seed));
+        let found: Vec<f64> = draws.collect::<Option<_>>()?;
+        let mean_rad_s = found.iter().sum::<f64>() / f64::from(ROTORS);
+        Some(Self { tip_scatter_m, rotors: ROTORS, equal_rad_s, mean_rad_s })
+    }
 }
 
 /// One number of diameters.
@@ -137,6 +175,7 @@ impl Survey {
             range_rad_s: range,
             by: by.map(|parameter| parameter.path),
             note: scene.tuned_note(),
+            scattered: Scattered::of(scene),
             rows: rows.collect(),
             wall_s: start.elapsed().as_secs_f64(),
         }

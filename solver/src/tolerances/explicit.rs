@@ -145,3 +145,7 @@ pub(crate) const DIES_SMALLER: f64 = 0.95;
 /// Times that displacements shrink where a clearance is smaller all at once: each leaves
 /// what is of second order in blade angles.
 pub(crate) const GIVE_WAY: usize = 4;
+
+/// Part of the deepest gap of a step that the pushes of two rows may leave of a third: the
+/// round-off of three sides that meet in one place.
+pub(crate) const CLOSED_PART: f64 = 1e-9;

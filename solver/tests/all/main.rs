@@ -40,6 +40,7 @@ mod explicit_lining;
 mod explicit_tip_locks;
 mod explicit_tips;
 mod full_disk;
+mod imperfect;
 mod lasting_locks;
 mod live_changes;
 mod live_event;

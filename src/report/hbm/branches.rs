@@ -6,7 +6,10 @@ use serde_json::json;
 
 use super::{Answer, LockBeside, Parts, Request, Rows, View};
 use crate::report::table::{Column, Table, TableCell};
-use rubscope_solver::harmonic::{Branches, Equilibrium, HarmonicError, Kind, Threshold};
+use rubscope_solver::harmonic::{
+    Branches, Corner, Equilibrium, Form, HarmonicError, Kind, Locked, LockedPoint, Threshold,
+};
+use rubscope_solver::model::{LockWindow, TipCorner};
 
 /// View: every equilibrium.
 pub const BRANCHES: View = View {
@@ -22,6 +25,9 @@ pub const BRANCHES: View = View {
 
 fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let Request { machine, speeds, damped, .. } = request;
+    if machine.has_unequal_tips() {
+        return corners(request);
+    }
     let branches = Rc::new(Branches::over(machine, speeds, *damped)?);
     let of = Rc::clone(&branches);
     let rows = Rows::new([branches.speeds(), branches.count], move |place| of.states_at(place));
@@ -38,6 +44,54 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     ];
     Ok(Answer::of(Parts::default().with_parts("branches", json), tables))
 }
+
+/// A corner of unequal tips that is held at some speeds, at one of them.
+type CornerRow = (f64, TipCorner, LockWindow, LockedPoint);
+
+/// Returns every corner of unequal tips: where it is held, and what it takes at each speed.
+fn corners(request: &Request<'_>) -> Result<Answer, HarmonicError> {
+    let Request { machine, speeds, damped, .. } = request;
+    let polygon = machine.polygon.clone();
+    let mut found: Vec<CornerRow> = Vec::new();
+    for corner in machine.tip_corners() {
+        for window in machine.windows_of(&corner, request.fastest()) {
+            let [a, b] = corner.sides;
+            let locked = Locked::new(machine, Corner { a, b }, Form::Modal, *damped)?;
+            let points = locked.sweep(speeds)?.points;
+            found
+                .extend(points.into_iter().map(|point| (point.speed_rad_s, corner, window, point)));
+        }
+    }
+    let json = json!(
+        found
+            .iter()
+            .map(|(_, corner, window, point)| {
+                let blades = corner.sides.map(|side| polygon.blades_of_side(side));
+                json!({
+                    "blades": blades, "gamma_rad": corner.gamma, "beta_rad": corner.beta,
+                    "from_rad_s": window.from, "to_rad_s": window.to, "point": point,
+                })
+            })
+            .collect::<Vec<_>>()
+    );
+    let title = "Every corner of these tips that is held at some speed:".to_string();
+    let rows = Rows::of(found);
+    let json = Parts::default().with_parts("branches", Parts::default().with("corners", json));
+    Ok(Answer::of(json, vec![(title, rows.table(CORNERS))]))
+}
+
+/// Columns of corners of unequal tips.
+const CORNERS: &[Column<'_, CornerRow>] = &[
+    ("speed_rad_s", |row| row.0.into()),
+    ("side_a", |row| f64::from(row.1.sides[0]).into()),
+    ("side_b", |row| f64::from(row.1.sides[1]).into()),
+    ("held_from_rad_s", |row| row.2.from.into()),
+    ("held_to_rad_s", |row| row.2.to.into()),
+    ("multiplier_a_n", |row| row.3.multipliers_n[0].into()),
+    ("multiplier_b_n", |row| row.3.multipliers_n[1].into()),
+    ("amplitude_m", |row| row.3.amplitude_m.into()),
+    ("character", |row| row.3.character.as_ref().into()),
+];
 
 /// Columns of the speeds where branches appear, vanish or change.
 const THRESHOLDS: &[Column<'_, Threshold>] = &[

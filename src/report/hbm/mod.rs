@@ -8,6 +8,7 @@ mod campbell;
 mod coincidence;
 mod compliance;
 mod excitation;
+mod forced;
 mod heading;
 mod locked;
 mod rows;
@@ -27,13 +28,14 @@ use rubscope_solver::model::{LockWindow, Machine};
 use rubscope_solver::scene::{Quantity, Scene, keys};
 
 /// The views with an option, in the order of the help.
-pub const VIEWS: [&View; 8] = [
+pub const VIEWS: [&View; 9] = [
     &branches::BRANCHES,
     &slip::SLIP,
     &campbell::CAMPBELL,
     &excitation::EXCITATION,
     &smooth::SMOOTH,
     &coincidence::COINCIDENCE,
+    &forced::FORCED,
     &whirl::WHIRL,
     &compliance::COMPLIANCE,
 ];
@@ -123,6 +125,7 @@ impl Request<'_> {
     /// # Errors
     /// The first key that has no meaning for the view, by its name.
     pub fn answer(&mut self, view: &View) -> Result<Answer, HarmonicError> {
+        self.knows_tips(view)?;
         if let LockBeside::Rigid(tolerates) = view.lock {
             self.machine = self.scene.machine().with_lining(None);
             let Self { form, damped, pair, speeds, .. } = *self;
@@ -138,6 +141,25 @@ impl Request<'_> {
         }
         let answer = (view.answer)(self)?;
         Ok(Answer { json: self.json().and(answer.json), ..answer })
+    }
+
+    /// Refuses tips of their own lengths and a casing out of round where a view does not know
+    /// them.
+    fn knows_tips(&self, view: &View) -> Result<(), HarmonicError> {
+        let (machine, height) = (&self.machine, self.scene.casing.out_of_round_m);
+        let refuse = |key, given: String| {
+            let option =
+                if view.option.is_empty() { "hbm".into() } else { format!("--{}", view.option) };
+            Err(refused(key, given, format!("none with {option}, which is not derived for it")))
+        };
+        if machine.has_unequal_tips() && !["", "branches", "campbell"].contains(&view.option) {
+            return refuse("bladed_disk.tips_m", "tips of their own lengths".to_string());
+        }
+        let round = ["forced", "coincidence", "campbell", "compliance"];
+        if height != 0.0 && !round.contains(&view.option) {
+            return refuse(keys::OUT_OF_ROUND, format!("{height:e}"));
+        }
+        Ok(())
     }
 
     /// Returns the fields of every view.

@@ -39,7 +39,10 @@ pub fn titled(margins: &Margins, title: fn(LimitName) -> String) -> Table {
             TableCell::Told(value, words::value(value, 6, limit.quantity))
         });
         let own = [
-            TableCell::Word(title(limit.name)),
+            TableCell::Word(match limit.lobes {
+                Some(lobes) => format!("{} m={lobes}", title(limit.name)),
+                None => title(limit.name),
+            }),
             quantity,
             value,
             limit.present.into(),

@@ -94,6 +94,22 @@ pub fn order(scene: &Scene) -> Option<&'static str> {
     torque(scene).or(none)
 }
 
+pub fn equal_tips(scene: &Scene) -> Option<&'static str> {
+    (scene.bladed_disk.tip_scatter_m == 0.0).then_some("the tip scatter is 0")
+}
+
+pub fn centred(scene: &Scene) -> Option<&'static str> {
+    (scene.bladed_disk.orbit_m == 0.0).then_some("the orbit is 0")
+}
+
+pub fn without_lobes(scene: &Scene) -> Option<&'static str> {
+    (scene.casing.lobes == 0).then_some("there are no lobes")
+}
+
+pub fn round(scene: &Scene) -> Option<&'static str> {
+    (scene.casing.out_of_round_m == 0.0).then_some("the casing is round")
+}
+
 /// The paper's values.
 static PAPER: LazyLock<Scene> = LazyLock::new(Scene::base);
 
@@ -151,7 +167,7 @@ mod tests {
                 seen.insert(knob.path);
             }
         }
-        assert_eq!(seen.len(), 19, "{seen:?}");
+        assert_eq!(seen.len(), 24, "{seen:?}");
     }
 
     #[test]

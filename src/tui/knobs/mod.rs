@@ -52,18 +52,28 @@ pub enum Group {
     Machine,
     /// Extensions of the model of the paper: coupled tips, friction, linings.
     Beyond,
+    /// Tips of their own lengths, and a casing out of round.
+    Tips,
     /// State at t = 0, and the excitation.
     Start,
 }
 
 impl Group {
     /// Every group, in the order of the panel.
-    pub const ALL: [Self; 6] =
-        [Self::Operation, Self::Time, Self::Model, Self::Machine, Self::Beyond, Self::Start];
+    pub const ALL: [Self; 7] = [
+        Self::Operation,
+        Self::Time,
+        Self::Model,
+        Self::Machine,
+        Self::Beyond,
+        Self::Tips,
+        Self::Start,
+    ];
 
     /// Returns its heading.
     pub fn name(self) -> &'static str {
-        ["operation", "time", "model", "machine", "beyond the paper", "start"][self as usize]
+        ["operation", "time", "model", "machine", "beyond the paper", "tips and shape", "start"]
+            [self as usize]
     }
 
     /// Returns the places of its knobs in the table.

@@ -159,8 +159,9 @@ fn notes(app: &App, width: usize) -> Vec<(String, Role)> {
 fn sentence(knob: &Knob) -> String {
     let text = capital(knob.does);
     match knob.allowed() {
-        // Their words are in it.
+        // Their words are in it, and nobody comes to these ends.
         Allowed::OneOf(_) => format!("{text}."),
+        Allowed::Real { min, max, .. } if min == -max && max >= 1e6 => format!("{text}."),
         _ => format!("{text}; {}.", knob.range_words()),
     }
 }
@@ -222,12 +223,16 @@ pub enum ColumnLine {
     Bar(usize),
 }
 
-/// Rows kept free for the note on the selected knob.
+/// Most rows kept free for the note on the selected knob.
 pub const NOTES: u16 = 5;
+/// Columns of a note.
+const NOTE_WIDTH: usize = 26;
 
 /// Returns the lines of the column in an area of this height, with the selected knob in sight.
 pub fn lines(app: &App, height: u16) -> Vec<ColumnLine> {
-    let rows = usize::from(height - NOTES.min(height / 2));
+    let note = app.selected().map_or(0, |knob| wrap(&sentence(knob), NOTE_WIDTH).len());
+    let rows =
+        usize::from(height - NOTES.min(height / 2)) + usize::from(NOTES).saturating_sub(note);
     let chosen = app.selected().map_or(Group::Operation, |knob| knob.group);
     let with = |open: &[Group], telling: bool| all(app, open, telling);
     let ways = [(&[Group::Operation, chosen][..], true), (&[Group::Operation, chosen], false)];
@@ -335,9 +340,11 @@ mod tests {
     #[test]
     fn every_note_on_a_knob_fits_below_the_knobs() {
         for knob in KNOBS {
-            let lines = wrap(&sentence(knob), 26);
+            let lines = wrap(&sentence(knob), NOTE_WIDTH);
             assert!(lines.len() <= usize::from(NOTES), "{lines:#?}");
-            assert!(sentence(knob).contains(knob.unit()));
+            let range = knob.range_words();
+            let told = range.starts_with("one of") || sentence(knob).contains(&range);
+            assert!(told || range.contains("-1e"), "{}", knob.label);
             if let Allowed::OneOf(words) = knob.allowed() {
                 assert!(words.iter().all(|word| sentence(knob).contains(word)));
             }

@@ -88,9 +88,15 @@ impl<'a> Lining<'a> {
     }
 
     /// Returns the stiffness of all blades against a small wave at rest: `S0 = N k_p/2`, zero
-    /// with a clearance \[N/m\].
+    /// with a clearance. Where lobes of the casing are higher than that, blades rub on arcs, the
+    /// part `acos(g0/e)/pi` of the circumference \[N/m\].
     #[must_use]
     pub fn stiffness_at_rest(&self) -> f64 {
+        let (gap, height) = (self.machine.clearance(), self.machine.out_of_round());
+        if height > gap.abs() {
+            let all = 0.5 * f64::from(self.machine.polygon.blades) * self.stiffness_n_per_m;
+            return all * (gap / height).acos() / PI;
+        }
         0.5 * f64::from(self.machine.polygon.blades) * self.slope(self.machine.clearance())
     }
 

@@ -9,11 +9,13 @@
 //!   one: `states`
 
 mod cycle;
+mod forced;
 mod law;
 mod rest;
 mod states;
 
 pub use cycle::{Cycle, Whirl};
+pub use forced::Forced;
 pub use law::Lining;
 pub use rest::{GrowthThreshold, HopfPoint, ShiftedCoincidence, growth_threshold};
 pub use rest::{Rest, RestRoot};

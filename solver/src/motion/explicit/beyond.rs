@@ -7,6 +7,7 @@ use super::lasting::{Lasting, mark};
 use super::lining::Lining;
 use super::record::Account;
 use super::rows::{Found, TipLaw};
+use super::uneven::Uneven;
 use super::{Coordinate, Explicit};
 use crate::model::Machine;
 use crate::motion::{ActiveSet, FailureReason};
@@ -33,6 +34,8 @@ pub(super) struct Beyond {
     /// Loss of clearance in the latest step and in the one before \[m\].
     pub closed: [f64; 2],
     pub account: Account,
+    /// Tips of their own, and a casing out of round.
+    pub uneven: Option<Uneven>,
     /// Whether the tips rub as those of a rotor that turns backward.
     backward: bool,
     /// Step of the next look at the swing of rigid tips, and the steps between two.
@@ -53,6 +56,7 @@ impl Beyond {
             lasting: Lasting::new(scene.solver.end_s),
             closed: [0.0; 2],
             account: Account::default(),
+            uneven: None,
             backward: speed < 0.0,
             next_look: 0,
             steps_unseen: steps_unseen(scene),
@@ -129,7 +133,7 @@ impl<B: Disk> Explicit<B> {
     fn touch(&mut self, tips: &TipLaw) -> Result<bool, FailureReason> {
         let (distance2, bound) = (self.distance2(), self.blades.bound());
         // Beyond it, even the nearest side is open, and above its target.
-        let room = tips.clearance - tips.rise.abs() * bound - self.highest_target();
+        let room = tips.least - tips.rise.abs() * bound - self.highest_target();
         if room > 0.0 && distance2 < room * room {
             self.leave_lining();
             self.part();
@@ -255,7 +259,7 @@ impl<B: Disk> Explicit<B> {
 
     /// Returns whether the energies of casing and blades are too small for another contact.
     pub(super) fn rests(&self) -> bool {
-        let clearance = self.machine.clearance();
+        let clearance = self.tips.least;
         if clearance <= 0.0 || self.drive.excitation.is_some() || self.follows_speed() {
             return false;
         }

@@ -217,6 +217,9 @@ impl<B: Disk> Explicit<B> {
         self.rows.clear();
         self.gaps.clear();
         let mut deepest = 0.0_f64;
+        // Of blades that turn alike only the deepest of a side can hold.
+        let alone = self.blades.table().rows_per_side() > 1
+            && (self.tips.rise == 0.0 || self.blades.wave().is_some());
         for place in 0..self.beyond.candidates.len() {
             let row = self.row_at(self.beyond.candidates[place], z, tips);
             let mut gap = row.place.gap;
@@ -224,6 +227,13 @@ impl<B: Disk> Explicit<B> {
                 gap += restitution * self.gap_before(&row, tips);
             }
             deepest = deepest.max(-gap);
+            let same = |known: &Row| known.side == row.side;
+            if let Some(known) = alone.then(|| self.rows.iter().position(same)).flatten() {
+                if gap < self.gaps[known] {
+                    (self.rows[known], self.gaps[known]) = (row, gap);
+                }
+                continue;
+            }
             self.rows.push(row);
             self.gaps.push(gap);
         }
@@ -255,7 +265,7 @@ impl<B: Disk> Explicit<B> {
         let u = Plane::new(self.u[0].x - c, self.u[1].x - s);
         let z = u * self.turn_before().conj();
         let angle = self.blades.angle_before(row.index);
-        let gap = tips.place(self.machine.polygon.direction(row.side), z, angle).gap;
+        let gap = self.place_of((row.index, row.side), z, tips, angle, 2).gap;
         gap + self.lost_clearance()
     }
 
@@ -277,9 +287,8 @@ impl<B: Disk> Explicit<B> {
         let mut dip = 0.0_f64;
         for place in 0..self.rows.len() {
             let row = self.rows[place];
-            let direction = self.machine.polygon.direction(row.side);
             let angle = self.blades.angle(row.index);
-            let gap = tips.place(direction, z, angle).gap;
+            let gap = self.place_of((row.index, row.side), z, tips, angle, 0).gap;
             dip = dip.max(-gap);
             if row.lambda != 0.0 && !self.beyond.account.forgone {
                 let closed = 0.5 * (gap - self.gap_before(&row, tips));

@@ -160,6 +160,9 @@ impl<B: Disk> Explicit<B> {
 
     /// None where rest is no equilibrium of one linear step.
     fn pressed_rest(&self) -> Option<Rest> {
+        if self.machine.is_uneven() {
+            return None;
+        }
         let moving = self.blades.held_modes()?.moving;
         let (table, machine) = (self.blades.table(), &self.machine);
         let plane = |(c, s): (f64, f64)| Plane::new(c, s);

@@ -13,6 +13,7 @@ use super::disk::{Columns, Disk, Four, Lanes, total};
 use super::lasting::mark;
 use super::record::Record;
 use super::rows::TipLaw;
+use super::uneven::Uneven;
 use crate::model::LiningLaw;
 use crate::motion::{ActiveSet, Plane};
 use crate::tolerances::{LINING_MARGIN, SERIES_PHASE, SHORT_SERIES_PHASE};
@@ -157,19 +158,35 @@ impl Lining {
 
     /// Computes the pushes of all rows, with the casing at `z` in the frame of the blades and
     /// the modes at these angles; no phase exceeds `most`.
-    fn press(&mut self, z: Plane, tips: &TipLaw, modes: [f64; 2], most: f64) {
+    fn press(
+        &mut self,
+        z: Plane,
+        tips: &TipLaw,
+        modes: [f64; 2],
+        most: f64,
+        uneven: Option<&Uneven>,
+    ) {
+        if let Some(uneven) = uneven {
+            let short = |blade, angle| uneven.short(blade, angle);
+            self.sums = self.press_by(z, tips, modes, short, |phase| {
+                if tips.diameters == 0.0 { (0.0, 1.0) } else { phase.sin_cos() }
+            });
+            return;
+        }
+        // Less zero is the same number.
+        let even = |_, _| [0.0; 2];
         // The shortest series of sine and cosine that is exact.
         self.sums = if tips.diameters == 0.0 {
-            self.press_by(z, tips, modes, |_| (0.0, 1.0))
+            self.press_by(z, tips, modes, even, |_| (0.0, 1.0))
         } else if most < SHORT_SERIES_PHASE {
-            self.press_by(z, tips, modes, |phase| {
+            self.press_by(z, tips, modes, even, |phase| {
                 let q = phase * phase;
                 // Short chains of operations.
                 let cos = (1.0 - q * 0.5) + (q * q) * (1.0 / 24.0);
                 (phase - (phase * (1.0 / 6.0)) * q, cos)
             })
         } else if most < SERIES_PHASE {
-            self.press_by(z, tips, modes, |phase| {
+            self.press_by(z, tips, modes, even, |phase| {
                 let q = phase * phase;
                 let fifth = 1.0 - q * (1.0 / 20.0) * (1.0 - q * (1.0 / 42.0));
                 let fourth = 1.0 - q * (1.0 / 30.0) * (1.0 - q * (1.0 / 56.0));
@@ -177,17 +194,19 @@ impl Lining {
                 (phase - phase * (q * (1.0 / 6.0) * fifth), cos)
             })
         } else {
-            self.press_by(z, tips, modes, f64::sin_cos)
+            self.press_by(z, tips, modes, even, f64::sin_cos)
         };
     }
 
-    /// Does the same by this sine and cosine.
+    /// Does the same by this sine and cosine, of rows short of the clearance by so much, with
+    /// levers that are.
     #[inline(always)]
     fn press_by(
         &mut self,
         z: Plane,
         tips: &TipLaw,
         modes: [f64; 2],
+        short: impl Fn(u32, f64) -> [f64; 2],
         sin_cos: impl Fn(f64) -> (f64, f64),
     ) -> Sums {
         let eps = self.law.smoothing_m;
@@ -200,7 +219,8 @@ impl Lining {
         let [mut x, mut y, mut pushes, mut turning, mut deepest] = [Lanes::default(); 5];
         let ([mut felt_c, mut felt_s], mut changed) = ([Lanes::default(); 2], [0_u64; 4]);
         let presses = |push: f64| if push > 0.0 { u64::MAX } else { 0 };
-        for four in &mut self.near.fours {
+        let Columns { index, fours, .. } = &mut self.near;
+        for (place, four) in fours.iter_mut().enumerate() {
             // No lane branches or looks at another: one vector instruction takes all.
             for k in 0..4 {
                 let phase = four.shape[0][k] * c + four.shape[1][k] * s;
@@ -209,12 +229,14 @@ impl Lining {
                 let along = four.sine[k] * cos + four.cosine[k] * sin;
                 let inward = across * z.re + along * z.im;
                 let arm = across * z.im - along * z.re;
-                let deep = phase * rise - (inward + clearance);
+                let blade = index.get(4 * place + k).copied().unwrap_or(u32::MAX);
+                let [short, steep] = short(blade, phase / scale);
+                let deep = phase * rise - (inward + clearance - short);
                 let deep = if deep > 0.0 { deep } else { 0.0 };
                 let parabola = if deep < eps { deep } else { eps };
                 let depth = parabola * parabola * by_depth + (deep - parabola);
                 let (push, before) = (depth * four.stiffness[k], four.push[k]);
-                let torque = push * (arm * diameters - pushed);
+                let torque = push * (arm * diameters - steep - pushed);
                 (four.push[k], four.before[k], four.torque[k]) = (push, before, torque);
                 four.impulse[k] += push;
                 x[k] += push * across;
@@ -337,12 +359,14 @@ impl<B: Disk> Explicit<B> {
         }
         let anew = self.find_near(z, tips, bound);
         let n = self.n;
-        let Self { lining: Some(lining), blades, record, .. } = self else { return };
+        let Self { lining: Some(lining), blades, record, beyond, .. } = self else { return };
         let modes = blades.modes();
         if modes.is_none() {
             blades.angles(&mut lining.near);
         }
-        lining.press(z, tips, modes.unwrap_or([1.0, 0.0]), tips.diameters * bound);
+        let uneven = beyond.uneven.as_ref();
+        let modes = modes.unwrap_or([1.0, 0.0]);
+        lining.press(z, tips, modes, tips.diameters * bound, uneven);
         if anew || lining.sums.changed {
             lining.keep_change(record, n, blades.table().count());
         }
@@ -399,15 +423,19 @@ impl<B: Disk> Explicit<B> {
         let back = Plane::cis(tips.diameters * self.drive.speed(0) * self.drive.step);
         let z = Plane::new(self.u[0].x - self.u[0].increment, self.u[1].x - self.u[1].increment);
         let lost = self.beyond.closed[0];
-        let Self { lining: Some(lining), blades, machine, .. } = self else { return };
-        let each = f64::from(blades.table().blades_per_row);
-        let mut energy = 0.0;
-        for (row, side, _) in lining.pressed() {
-            let direction = machine.polygon.direction(side);
-            let gap = tips.place(direction, z * back, blades.angle_before(row)).gap + lost;
-            energy += each * lining.law.energy(gap);
+        let each = f64::from(self.blades.table().blades_per_row);
+        let pressed: Vec<(u32, u32)> = match &self.lining {
+            Some(lining) => lining.pressed().map(|(row, side, _)| (row, side)).collect(),
+            None => Vec::new(),
+        };
+        let mut gaps = Vec::with_capacity(pressed.len());
+        for (row, side) in pressed {
+            let angle = self.blades.angle_before(row);
+            gaps.push(self.place_of((row, side), z * back, &tips, angle, 1).gap + lost);
         }
-        lining.held_before = Some(energy);
+        let Some(lining) = &mut self.lining else { return };
+        let energies = gaps.into_iter().map(|gap| each * lining.law.energy(gap));
+        lining.held_before = Some(energies.fold(0.0, |sum, energy| sum + energy));
         self.keep_pressed();
     }
 

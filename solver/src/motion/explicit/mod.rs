@@ -29,6 +29,7 @@ mod record;
 mod rows;
 mod solver;
 mod spin;
+mod uneven;
 
 pub(super) use disk::{FullBlades, ModalBlades, RigidBlades};
 pub(super) use oscillator::{Coordinate, Oscillator};
@@ -132,6 +133,9 @@ impl<B: Disk> Explicit<B> {
     /// of that frame.
     fn in_blade_frame(&mut self) -> (Plane, Plane) {
         let (c, s) = self.drive.turn(self.n);
+        if let Some(uneven) = &mut self.beyond.uneven {
+            uneven.turn_to(self.n, &self.drive.rotor, self.drive.step);
+        }
         let turn = Plane::new(c, s);
         (Plane::new(self.u[0].x, self.u[1].x) * turn.conj(), turn)
     }

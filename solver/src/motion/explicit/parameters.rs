@@ -36,10 +36,10 @@ impl<B: Disk> Explicit<B> {
         let drive = Drive::of(scene);
         let blades = blades(&machine, drive.driven(0).filter(|_| scene.goes_beyond()));
         let casing = Oscillator::of_casing(&machine, drive.step);
-        let (initial, speed) = (&scene.initial, drive.speed(0));
+        let (initial, speed, start) = (&scene.initial, drive.speed(0), scene.start());
         let u = [
-            casing.start(initial.u_c_m, initial.v_c_m_s, drive.force(0)),
-            casing.start(initial.u_s_m, initial.v_s_m_s, 0.0),
+            casing.start(start.0, initial.v_c_m_s, drive.force(0)),
+            casing.start(start.1, initial.v_s_m_s, 0.0),
         ];
         let mut motion = Self {
             scene: Arc::new(scene.clone()),
@@ -66,6 +66,7 @@ impl<B: Disk> Explicit<B> {
         };
         motion.neighbours_matter = motion.neighbours_matter();
         if motion.goes_beyond {
+            motion.take_shape();
             motion.begin_closing();
             motion.press_start();
             motion.beyond.account.start = motion.stored();
@@ -95,6 +96,7 @@ impl<B: Disk> Explicit<B> {
         self.tips = TipLaw::at(&self.machine, speed);
         if self.goes_beyond {
             self.beyond.set_parameters(scene, &self.machine, speed);
+            self.take_shape();
             self.begin_closing();
             self.give_way();
             self.press_again();

@@ -6,6 +6,7 @@ use super::disk::Disk;
 use super::rows::{Row, TipLaw};
 use crate::contact::{Several, StepLaw, single};
 use crate::motion::{FailureReason, Plane};
+use crate::tolerances::CLOSED_PART;
 
 /// Returns the entry of `W`: how far a unit multiplier of `b` closes the gap of `a` \[m/N\].
 #[inline(always)]
@@ -63,9 +64,12 @@ pub(super) fn solve<B: Disk>(
         _ => {
             if !close_few(law, entry, rows, gaps) {
                 several.fill(gaps, |i, j| entry(&rows[i], &rows[j]));
-                let lambda = law.several(several).ok_or(FailureReason::Singular { rows: count })?;
-                for (row, value) in rows.iter_mut().zip(lambda) {
-                    row.lambda = *value;
+                if let Some(lambda) = law.several(several) {
+                    for (row, value) in rows.iter_mut().zip(lambda) {
+                        row.lambda = *value;
+                    }
+                } else if tips.rise != 0.0 || !close_pair(law, entry, rows, gaps) {
+                    return Err(FailureReason::Singular { rows: count });
                 }
             }
         }
@@ -105,6 +109,36 @@ fn close_few(
     rows.iter_mut().for_each(|row| row.lambda = 0.0);
     (rows[b].lambda, rows[a].lambda) = (lambda[1], lambda[0]);
     true
+}
+
+/// Closes two rows, or one, by a law that only pushes so that all others are open: where three
+/// sides that have no slope meet, the casing alone does not tell their pushes apart.
+fn close_pair(
+    law: &dyn StepLaw,
+    entry: impl Fn(&Row, &Row) -> f64,
+    rows: &mut [Row],
+    gaps: &[f64],
+) -> bool {
+    let deepest = gaps.iter().fold(0.0_f64, |deepest, gap| deepest.max(-gap));
+    for (a, b) in (0..rows.len()).flat_map(|b| (0..=b).map(move |a| (a, b))) {
+        let across = |i: usize, j: usize| entry(&rows[i], &rows[j]);
+        let found = match a == b {
+            true => Some([single(across(a, a), gaps[a]), 0.0]),
+            false => {
+                let w = [[across(a, a), across(a, b)], [across(b, a), across(b, b)]];
+                law.pair(w, [gaps[a], gaps[b]])
+            }
+        };
+        let pushes = |lambda: &[f64; 2]| lambda.iter().all(|value| *value <= 0.0);
+        let Some(lambda) = found.filter(|lambda| !law.pulls() && pushes(lambda)) else { continue };
+        let left = |k: usize| gaps[k] - across(k, a) * lambda[0] - across(k, b) * lambda[1];
+        if (0..rows.len()).all(|k| left(k) >= -CLOSED_PART * deepest) {
+            rows.iter_mut().for_each(|row| row.lambda = 0.0);
+            (rows[b].lambda, rows[a].lambda) = (lambda[1], lambda[0]);
+            return true;
+        }
+    }
+    false
 }
 
 #[cfg(test)]

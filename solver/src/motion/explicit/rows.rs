@@ -18,6 +18,8 @@ use crate::tolerances::{SERIES_PHASE, SMALL_PHASE};
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::motion) struct TipLaw {
     pub clearance: f64,
+    /// The smallest gap of a casing at rest: less by the longest tip and the highest lobe.
+    pub least: f64,
     pub diameters: f64,
     /// `kappa l_b` \[m\].
     pub rise: f64,
@@ -34,6 +36,7 @@ impl TipLaw {
         let friction = machine.friction_at(speed);
         Self {
             clearance: machine.clearance(),
+            least: machine.least_clearance(),
             diameters: machine.nodal_diameters,
             rise: machine.radial_coupling * machine.blade_length,
             pushed: (machine.radial_coupling + friction) * machine.blade_length,
@@ -138,7 +141,6 @@ impl<B: Disk> Explicit<B> {
         // A blade angle moves a gap by at most |z| n_d alpha beside its slope.
         let look = reach + tips.diameters * bound * (z.re.abs() + z.im.abs());
         let wave = if tips.rise == 0.0 { Some(Plane::default()) } else { self.blades.wave() };
-        let wave = wave.filter(|_| self.blades.table().is_by_side());
         let w = wave.map(|wave| z - wave * tips.rise);
         // No gap changes by more than the polygon moves and the casing comes nearer.
         let covers = |w: Plane, found: Found| {
@@ -152,17 +154,22 @@ impl<B: Disk> Explicit<B> {
         self.beyond.candidates.clear();
         let margin = w.map_or(0.0, |w| margin * (tips.clearance.abs() + w.norm()));
         let look = look + margin;
+        let (least, most) = (tips.clearance - tips.least, self.machine.out_of_round());
         self.beyond.found = w.map(|place| Found { place, reach: look, clearance: tips.clearance });
         match w {
-            Some(w) => self.walk(w, look, false, |this, side| {
-                let row = this.blades.table().of_side(side)[0];
-                this.beyond.candidates.push(row);
+            Some(w) => self.walk(w, look + least, false, |this, side| {
+                let open = this.machine.polygon.gap(side, w.re, w.im) - most;
+                let tips = &this.machine.tips;
+                let is_near =
+                    |row: &u32| tips.as_ref().is_none_or(|tips| open - tips.longer(*row) < look);
+                let rows = this.blades.table().of_side(side).iter();
+                this.beyond.candidates.extend(rows.copied().filter(is_near));
                 false
             }),
             None => {
                 let polygon = &self.machine.polygon;
                 let (table, angles, slack) = self.blades.estimates();
-                let look = look + tips.rise.abs() * slack;
+                let look = look + least + tips.rise.abs() * slack;
                 for (row, (angle, &side)) in angles.iter().zip(&table.side).enumerate() {
                     if polygon.gap(side, z.re, z.im) - tips.rise * angle < look {
                         self.beyond.candidates.push(row as u32);
@@ -226,7 +233,7 @@ impl<B: Disk> Explicit<B> {
     pub(super) fn row_at(&mut self, index: u32, z: Plane, tips: &TipLaw) -> Row {
         let side = self.blades.table().side[index as usize];
         let angle = self.blades.angle(index);
-        let place = tips.place(self.machine.polygon.direction(side), z, angle);
+        let place = self.place_of((index, side), z, tips, angle, 0);
         Row { index, side, angle, place, lambda: 0.0 }
     }
 }

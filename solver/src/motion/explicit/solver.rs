@@ -108,7 +108,8 @@ impl<B: Disk> Solver for Explicit<B> {
         }
         let (lasting, clearance) = (&self.beyond.lasting, self.machine.clearance());
         let lining = self.lining.is_some();
-        lasting.verdict(log, now, window, clearance, lining, || self.rest())
+        let verdict = lasting.verdict(log, now, window, clearance, lining, || self.rest());
+        verdict.unless_forced(&self.machine, log, now - window)
     }
 
     fn linear_rest(&self) -> Option<LinearRest> {
@@ -188,6 +189,7 @@ impl<B: Disk> Solver for Explicit<B> {
         self.interrupt();
         self.beyond.lasting.forget();
         self.drive.set_speed(self.n, speed, ramp);
+        self.take_shape();
         self.take_speed();
     }
 

@@ -29,15 +29,17 @@ impl<B: Disk> Explicit<B> {
         let work = self.blades.stiffen(self.machine.stiffened_by());
         self.beyond.account.sums.rotor_work_j += work;
         let (before, speed) = (self.tips.clearance, self.drive.speed(self.n + 1));
+        let short = before - self.tips.least;
         self.machine.turn_at(speed);
         self.tips.clearance = self.machine.clearance();
+        self.tips.least = self.tips.clearance - short;
         let closed = &mut self.beyond.closed;
         *closed = [before - self.tips.clearance, closed[0]];
         self.has_room(speed)
     }
 
     fn has_room(&self, speed_rad_s: f64) -> Result<(), FailureReason> {
-        let has = self.lining.is_some() || self.tips.clearance > 0.0;
+        let has = self.lining.is_some() || self.tips.least > 0.0 || self.machine.has_room();
         if has { Ok(()) } else { Err(FailureReason::Closed { speed_rad_s }) }
     }
 
@@ -97,8 +99,11 @@ impl<B: Disk> Explicit<B> {
     /// displacements shrink by one part, as those of a lock do; rates stay.
     pub(super) fn give_way(&mut self) {
         let rigid = self.lining.is_none() && self.tips.clearance > 0.0;
-        if !(rigid && self.machine.changes_with_speed()) {
+        if !(rigid && (self.machine.changes_with_speed() || self.machine.is_uneven())) {
             return;
+        }
+        if self.tips.least <= 0.0 {
+            return self.give_way_to_tips();
         }
         // The phases of the gaps are not quite in proportion.
         for _ in 0..GIVE_WAY {
@@ -110,7 +115,7 @@ impl<B: Disk> Explicit<B> {
             if deepest <= 0.0 {
                 return;
             }
-            let part = tips.clearance / (tips.clearance + deepest);
+            let part = self.tips.least / (self.tips.least + deepest);
             self.u.iter_mut().for_each(|at| at.x *= part);
             self.blades.shrink(part);
         }

@@ -3,10 +3,11 @@
 
 use num_dual::Dual64;
 
-use super::limit::{Limit, LimitName, Sensitivities};
+use super::limit::{Limit, LimitName, Quantity, Sensitivities};
 use super::parameters::{Parameter, Parameters, acting, sensitivity};
 use crate::harmonic::{
-    flutters, lock_fold_speed, lock_growth, lock_loads, lock_windows, whirl_beginnings, whirl_onset,
+    flutters, lock_fold_speed, lock_growth, lock_loads, lock_windows, roundness, whirl_beginnings,
+    whirl_onset,
 };
 use crate::model::{Machine, Number};
 use crate::numeric::rounding::rounded;
@@ -17,10 +18,10 @@ use crate::scene::{CheckedScene, ModelSize, Scene};
 const FAR: f64 = 10.0;
 
 /// How many of the closed forms are speeds; they come first.
-const SPEEDS: usize = 9;
+const SPEEDS: usize = 10;
 
 /// The closed forms, in the order in which they are shown.
-pub(super) const CLOSED: [LimitName; 13] = [
+pub(super) const CLOSED: [LimitName; 15] = [
     LimitName::OmegaC,
     LimitName::OmegaAdhesive,
     LimitName::OmegaLock,
@@ -30,15 +31,28 @@ pub(super) const CLOSED: [LimitName; 13] = [
     LimitName::CoincidenceDifference,
     LimitName::WhirlOnset,
     LimitName::FlutterSpeed,
+    LimitName::FirstTouch,
     LimitName::PushA,
     LimitName::PushB,
     LimitName::Torque,
     LimitName::Power,
+    LimitName::Roundness,
 ];
 
 /// Those that few machines have, shown where they are.
-const SELDOM: [LimitName; 4] =
-    [LimitName::LockEnds, LimitName::LockFold, LimitName::WhirlOnset, LimitName::FlutterSpeed];
+const SELDOM: [LimitName; 6] = [
+    LimitName::LockEnds,
+    LimitName::LockFold,
+    LimitName::WhirlOnset,
+    LimitName::FlutterSpeed,
+    LimitName::FirstTouch,
+    LimitName::Roundness,
+];
+
+/// The numbers of lobes of which the roundness of a lock is told.
+fn lobes_of(diameters: u32) -> impl Iterator<Item = u32> {
+    (1..=4).chain((diameters > 4).then_some(diameters))
+}
 
 /// Returns the first of every closed form of these parameters, in the order of `CLOSED`; none
 /// where the machine has no such limit.
@@ -63,7 +77,9 @@ fn every<T: Number>(parameters: &Parameters<T>) -> [Vec<T>; CLOSED.len()] {
         of(|loads| loads.torque_nm),
         of(|loads| loads.power_w),
     ];
-    let mut all = speed_values(&machine, speed).into_iter().chain(of_lock);
+    let lobes = lobes_of(parameters.operation.nodal_diameters);
+    let round = lobes.map_while(|lobes| roundness(&machine, speed, lobes)).collect();
+    let mut all = speed_values(&machine, speed).into_iter().chain(of_lock).chain([round]);
     std::array::from_fn(|_| all.next().unwrap_or_default())
 }
 
@@ -89,6 +105,7 @@ fn speed_values<T: Number>(machine: &Machine<T>, speed: T) -> [Vec<T>; SPEEDS] {
         machine.coincidence_differences(),
         whirls.into_iter().map(|onset| onset * sense).collect(),
         fluttering.into_iter().map(|flutter| flutter.from).collect(),
+        one(machine.touching_speed()),
     ]
 }
 
@@ -149,8 +166,11 @@ pub(super) fn limits(scene: &CheckedScene) -> Vec<Limit> {
     keep_known(scene, &mut found);
     let derived: Vec<[Vec<Dual64>; CLOSED.len()]> =
         acting(scene).map(|parameter| every(&parameter.seeded(scene))).collect();
-    let present =
-        |name: LimitName| name.quantity().path().map(|_| scene.operation.speed_rad_s.abs());
+    let present = |name: LimitName| match name.quantity() {
+        Quantity::Height => Some(scene.casing.out_of_round_m),
+        quantity => quantity.path().map(|_| scene.operation.speed_rad_s.abs()),
+    };
+    let lobes: Vec<u32> = lobes_of(scene.operation.nodal_diameters).collect();
     let limits = CLOSED.into_iter().enumerate().flat_map(|(place, name)| {
         let mut limits = Vec::new();
         for (which, &value) in found[place].iter().enumerate() {
@@ -161,6 +181,9 @@ pub(super) fn limits(scene: &CheckedScene) -> Vec<Limit> {
             });
             limit.sensitivities = Sensitivities(by.collect());
             limit.note = note(scene, name, value);
+            if name == LimitName::Roundness {
+                limit.lobes = lobes.get(which).copied();
+            }
             limits.push(limit);
         }
         if limits.is_empty() {
@@ -266,6 +289,9 @@ fn why_none(scene: &CheckedScene, name: LimitName) -> String {
             (Some(_), _) if hard.is_some() => {
                 "two groups alone hold no stable lock on the lining at this speed; others \
                  may: its steady states"
+            }
+            _ if machine.is_uneven() => {
+                "not known of these tips and this shape of the casing: runs have it"
             }
             (None, LimitName::OmegaLock) if hard.is_some() => {
                 "a lock flutters at every speed at which both blades push"

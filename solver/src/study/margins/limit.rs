@@ -1,6 +1,6 @@
 //! One limit: what it is (`LIMITS`), its value, where the scene stands, and what moves it.
 
-use crate::scene::keys::{PULSE, SPEED};
+use crate::scene::keys::{OUT_OF_ROUND, PULSE, SPEED};
 use serde::{Deserialize, Serialize};
 use strum::{AsRefStr, Display, EnumIter, EnumString, VariantNames};
 
@@ -42,6 +42,8 @@ pub enum LimitName {
     WhirlOnset,
     /// The speed from which a lock of inclined tips flutters; 0 where it does from rest on.
     FlutterSpeed,
+    /// The speed at which growing blades first touch a casing at rest.
+    FirstTouch,
     /// The smallest pulse that touches.
     TouchingPulse,
     /// Push of the group a of the lock.
@@ -52,6 +54,8 @@ pub enum LimitName {
     Torque,
     /// Its power.
     Power,
+    /// The largest height of lobes of the casing with which the lock lasts.
+    Roundness,
 }
 
 /// What a limit is a value of.
@@ -72,6 +76,9 @@ pub enum Quantity {
     /// Power.
     #[serde(rename = "power_w")]
     Power,
+    /// Height.
+    #[serde(rename = "height_m")]
+    Height,
 }
 
 /// On which side of a limit the scene stands.
@@ -91,6 +98,9 @@ pub enum Side {
 pub struct Limit {
     /// Which.
     pub name: LimitName,
+    /// Lobes of the casing that it is of.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lobes: Option<u32>,
     /// What it is a value of.
     pub quantity: Quantity,
     /// Its value in SI units; none where there is no such limit.
@@ -169,6 +179,7 @@ impl Limit {
         let margin = present.zip(value).map(|(present, value)| present / value - 1.0);
         Self {
             name,
+            lobes: None,
             quantity: name.quantity(),
             value,
             present,
@@ -252,7 +263,7 @@ const fn entry(
 
 /// Every limit, in the order of the names.
 #[rustfmt::skip]
-const LIMITS: [Entry; 14] = {
+const LIMITS: [Entry; 16] = {
     use LimitName::*;
     use Quantity::{Pulse, Push, Speed};
     [
@@ -265,11 +276,13 @@ const LIMITS: [Entry; 14] = {
         entry(LockFold, Speed, "Ω_fold", ["blades give way", "give way"], "above it soft blades give way, and no lock is left"),
         entry(WhirlOnset, Speed, "Ω_whirl", ["whirl begins", "whirl"], "above it blades and casing whirl, on a rim of many blades"),
         entry(FlutterSpeed, Speed, "Ω_flutter", ["lock flutters", "flutter"], "from it on a lock of inclined tips flutters"),
+        entry(FirstTouch, Speed, "Ω_touch", ["first touch"; 2], "at it blades that grow touch a casing at rest"),
         entry(TouchingPulse, Pulse, "F_touches", ["F that touches", "F touches"], "smallest pulse that touches"),
         entry(PushA, Push, "−λ_a", ["push of group a", "push a"], "push of group a in the lock"),
         entry(PushB, Push, "−λ_b", ["push of group b", "push b"], "push of group b in the lock"),
         entry(Torque, Quantity::Torque, "T", ["torque"; 2], "torque that holds the lock"),
         entry(Power, Quantity::Power, "P", ["power"; 2], "power that the lock takes"),
+        entry(Roundness, Quantity::Height, "e_max", ["out of round", "e_max"], "largest height of lobes with which the lock lasts"),
     ]
 };
 
@@ -291,6 +304,7 @@ impl Quantity {
             Self::Pulse | Self::Push => "N",
             Self::Torque => "N m",
             Self::Power => "W",
+            Self::Height => "m",
         }
     }
 
@@ -300,6 +314,7 @@ impl Quantity {
         match self {
             Self::Speed => Some(SPEED),
             Self::Pulse => Some(PULSE),
+            Self::Height => Some(OUT_OF_ROUND),
             _ => None,
         }
     }

@@ -80,6 +80,9 @@ pub const PARAMETERS: &[Parameter] = &[
     at!(keys::BLADE_DAMPING, disk.damping_ratio),
     at!(keys::STIFFENING, disk.centrifugal_stiffening),
     at!(keys::RADIAL_COUPLING, disk.radial_coupling),
+    at!(keys::TIP_SCATTER, disk.tip_scatter_m),
+    at!(keys::LONGEST_TIP, disk.longest_tip_m),
+    at!(keys::ORBIT, disk.orbit_m),
     at!(RADIUS, casing.radius_m),
     at!(keys::CASING_MASS, casing.modal_mass_kg),
     at!(keys::CASING_STIFFNESS, casing.modal_stiffness_n_per_m),
@@ -90,6 +93,7 @@ pub const PARAMETERS: &[Parameter] = &[
     at!(keys::CASING_DAMPING, casing.damping_ratio),
     at!(keys::TANGENTIAL_RATIO, casing.tangential_ratio),
     at!(keys::CLEARANCE_LOSS, casing.clearance_loss_m_s2),
+    at!(keys::OUT_OF_ROUND, casing.out_of_round_m),
     at!(keys::FRICTION, friction),
     at!(STIFFNESS, stiffness),
     at!(SMOOTHING, smoothing),
@@ -99,15 +103,23 @@ pub const PARAMETERS: &[Parameter] = &[
     at!(keys::PULSE_TIME, operation.pulse_s),
 ];
 
+/// Those that act only where they are not zero: most machines do not have them.
+const SELDOM: [&str; 6] = [
+    keys::STIFFENING,
+    keys::CLEARANCE_LOSS,
+    keys::TIP_SCATTER,
+    keys::LONGEST_TIP,
+    keys::ORBIT,
+    keys::OUT_OF_ROUND,
+];
+
 /// Those that act in a scene: one without a lining has none of its numbers, and a machine
 /// that stays the same at every speed none that would change it. A mode has its frequency or
 /// its stiffness, whichever the scene gives.
 pub fn acting(scene: &Scene) -> impl Iterator<Item = &'static Parameter> {
     let lined = scene.solver.contact == ContactLaw::Smooth;
-    let changes = |parameter: &Parameter| {
-        ![keys::STIFFENING, keys::CLEARANCE_LOSS].contains(&parameter.path)
-            || parameter.of(scene) != 0.0
-    };
+    let changes =
+        |parameter: &Parameter| !SELDOM.contains(&parameter.path) || parameter.of(scene) != 0.0;
     let given = scene.frequencies_in_use();
     let is_given = move |parameter: &Parameter| {
         let mut pairs = FREQUENCIES.iter().zip(given);
@@ -252,32 +264,14 @@ impl<T: Number> Parameters<T> {
         let operation = &scene.operation;
         Self {
             disk: BladedDisk {
-                blades: disk.blades,
-                blade_length_m: disk.blade_length_m.into(),
-                inertia_kg_m2: disk.inertia_kg_m2.into(),
-                stiffness_nm_per_rad: disk.stiffness_nm_per_rad.into(),
-                coupling_nm_per_rad: disk.coupling_nm_per_rad.into(),
-                damping_ratio: disk.damping_ratio.into(),
-                centrifugal_stiffening: disk.centrifugal_stiffening.into(),
                 // Rigid blades do not move their tips outward, as in `Scene::machine`.
                 radial_coupling: match scene.solver.model {
                     ModelSize::Rigid => T::from(0.0),
                     _ => disk.radial_coupling.into(),
                 },
-                nodal_diameters: disk.nodal_diameters,
-                mistuning: disk.mistuning.into(),
-                mistuning_seed: disk.mistuning_seed,
-                modes: Vec::new(),
+                ..disk.to()
             },
-            casing: Casing {
-                radius_m: casing.radius_m.into(),
-                modal_mass_kg: casing.modal_mass_kg.into(),
-                modal_stiffness_n_per_m: casing.modal_stiffness_n_per_m.into(),
-                damping_ratio: casing.damping_ratio.into(),
-                tangential_ratio: casing.tangential_ratio.into(),
-                clearance_loss_m_s2: casing.clearance_loss_m_s2.into(),
-                modes: Vec::new(),
-            },
+            casing: casing.to(),
             friction: scene.contact.friction.into(),
             stiffness: scene.contact.stiffness_n_per_m.into(),
             smoothing: scene.contact.smoothing_m.into(),

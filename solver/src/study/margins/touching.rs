@@ -52,6 +52,7 @@ fn starts_at_rest(scene: &Scene) -> bool {
     scene.solver.model = ModelSize::Rigid;
     scene.excitation = Excitation::default();
     scene.machine().clearance() > 0.0
+        && !scene.is_uneven()
         && scene.initial == Initial::default()
         && scene.checked().is_ok()
 }

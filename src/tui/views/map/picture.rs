@@ -32,6 +32,7 @@ pub fn colour(look: &Appearance, verdict: Verdict) -> Option<Color> {
         Verdict::Adhesive => [Color::LightRed, Color::Red, Color::LightYellow, Color::Red],
         Verdict::Slip => [Color::LightMagenta, Color::Magenta, Color::White, Color::Black],
         Verdict::Whirl => [Color::LightYellow, Color::Yellow, Color::LightRed, Color::Yellow],
+        Verdict::Forced => [Color::LightGreen, Color::Green, Color::Gray, Color::DarkGray],
         Verdict::Divergent => [Color::Red, Color::LightRed, Color::Red, Color::LightRed],
         Verdict::Bounce => [Color::LightCyan, Color::Cyan, Color::Cyan, Color::Cyan],
         Verdict::Failed => [Color::White, Color::Black, Color::Magenta, Color::Magenta],

@@ -300,12 +300,17 @@ mod tests {
                         // scene can be too far out for some cells: it says so.
                         Err(why) if rigid && why.contains("do not move") => continue,
                         Err(why) if why.starts_with("initial.") => {
-                            assert!(scene.initial != Scene::base().initial, "{why}");
+                            let given = scene.initial != Scene::base().initial;
+                            assert!(given || scene.is_uneven(), "{why}");
                             continue;
                         }
                         // Each law and model leaves out some of what goes beyond the
                         // paper, and the event solver its ramps.
-                        Err(why) if knob.group == Group::Beyond => {
+                        // Tips and lobes must leave the casing a place, and lobes have a
+                        // number.
+                        Err(why) if why.contains("leaves every gap open") => continue,
+                        Err(why) if why.starts_with("casing.lobes = 0") => continue,
+                        Err(why) if [Group::Beyond, Group::Tips].contains(&knob.group) => {
                             assert!(why.contains("solver."), "{} {why}", knob.path);
                             continue;
                         }

@@ -141,7 +141,7 @@ fn slope(
     let rate = parameters.machine.omega_c;
     let (z, a) = parameters.free(point, Plane::default());
     let pushes = held.pushes(&held.each(|row| {
-        let gap = full * parameters.clearance() + parameters.along(row, point.z, point.a);
+        let gap = full * parameters.apothem(row) + parameters.along(row, point.z, point.a);
         let opening = parameters.along(row, point.dz, point.da);
         parameters.along(row, z, a) + rate * (2.0 * opening + rate * gap)
     }));

@@ -78,8 +78,8 @@ impl LinearEvents {
     #[must_use]
     pub fn new(scene: &CheckedScene) -> Self {
         let parameters = Parameters::new(scene);
-        let initial = &scene.initial;
-        let z = Plane::new(initial.u_c_m, initial.u_s_m);
+        let (initial, start) = (&scene.initial, scene.start());
+        let z = Plane::new(start.0, start.1);
         let carried = Plane::i() * z * parameters.nu;
         let dz = Plane::new(initial.v_c_m_s, initial.v_s_m_s) - carried;
         Self::from_point(scene, parameters, Point { z, dz, ..Point::default() })
@@ -184,7 +184,8 @@ impl Solver for LinearEvents {
         let gap = |(blade, angle): (u32, f64)| {
             let (cos, sin) = polygon.direction(polygon.side_of_blade(blade));
             let open = parameters.clearance() + cos * point.z.re + sin * point.z.im;
-            open - parameters.arm() * angle
+            let beside = parameters.machine.uneven_at(blade - 1, 0.0);
+            open + beside - parameters.arm() * angle
         };
         (1..=polygon.blades).zip(self.blade_angles()).map(gap).collect()
     }

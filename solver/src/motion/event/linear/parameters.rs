@@ -62,6 +62,8 @@ pub(super) struct Parameters {
     pub blades: Option<Blades>,
     /// Direction `exp(i psi)` in which a push of each row moves casing and blade modes.
     pub rows: Vec<Plane>,
+    /// How much the longest tip of each row is longer \[m\].
+    longer: Vec<f64>,
     pub restitution: f64,
     /// Casing radius \[m\].
     pub radius: f64,
@@ -90,6 +92,7 @@ impl Parameters {
         });
         let mut parameters = Self {
             rows: (0..machine.polygon.sides).map(direction).collect(),
+            longer: (0..machine.polygon.sides).map(|side| machine.longest_of_side(side)).collect(),
             casing: Propagator::new(machine.casing_damping_ratio * omega, omega * omega),
             blades,
             speed: 0.0,
@@ -137,6 +140,16 @@ impl Parameters {
         self.machine.clearance()
     }
 
+    /// Returns the smallest gap of a casing at rest \[m\].
+    pub(super) fn least_clearance(&self) -> f64 {
+        self.clearance() - self.longer.iter().copied().reduce(f64::max).unwrap_or(0.0)
+    }
+
+    /// Returns the gap of a row of a casing at rest \[m\].
+    pub(super) fn apothem(&self, row: usize) -> f64 {
+        self.clearance() - self.longer.get(row).copied().unwrap_or(0.0)
+    }
+
     /// Returns `kappa l_b`, or 0 where the blades do not move \[m\].
     pub(super) fn arm(&self) -> f64 {
         self.blades.map_or(0.0, |blades| blades.arm)
@@ -158,7 +171,7 @@ impl Parameters {
 
     /// Returns the gap of a row \[m\].
     pub(super) fn gap(&self, row: usize, point: &Point) -> f64 {
-        self.clearance() + self.along(row, point.z, point.a)
+        self.apothem(row) + self.along(row, point.z, point.a)
     }
 
     /// Returns the accelerations of casing and blades without contact forces.

@@ -325,7 +325,7 @@ impl Stretch {
         for (term, ((z_re, z_im), (a_re, a_im))) in terms.iter_mut().zip(parts) {
             *term = along(direction, arm, Plane::new(*z_re, *z_im), Plane::new(*a_re, *a_im));
         }
-        terms[0] += parameters.clearance();
+        terms[0] += parameters.apothem(row);
         terms
     }
 }
@@ -449,7 +449,7 @@ pub(super) fn seek(
     }
     let [travel, reach] = stretch.travel;
     let g0 = parameters.clearance();
-    if reach + travel >= g0 {
+    if reach + travel >= parameters.least_clearance() {
         let noise = parameters.tolerance * (g0 + reach + travel);
         let open = |row: &usize| !held.rows.contains(row) && opened.iter().all(|l| l.row != *row);
         let from = stretch.from();

@@ -63,7 +63,7 @@ impl LinearEvents {
         let parameters = &self.parameters;
         let point = self.held.closed(parameters, &point);
         let gaps = self.held.rows.is_empty() && !pulses;
-        if gaps && parameters.swing(&point) < parameters.clearance() * (1.0 - AS_ZERO) {
+        if gaps && parameters.swing(&point) < parameters.least_clearance() * (1.0 - AS_ZERO) {
             self.stretch = Stretch::to_the_end(point);
             self.opened.clear();
             self.next = (f64::INFINITY, Ending::StretchEnd);
@@ -161,7 +161,7 @@ impl LinearEvents {
             self.energies.book(parameters, &self.held, &self.stretch, s);
             self.run.widest = self.widest_until(s);
             let [travel, reach] = self.stretch.travel;
-            if reach + travel >= parameters.clearance() {
+            if reach + travel >= parameters.least_clearance() {
                 let known = |row: usize| self.opened.iter().any(|gap| gap.row == row);
                 let gaps = (0..parameters.rows.len()).filter(|&row| !known(row));
                 let least = gaps.map(|row| parameters.gap(row, &point)).fold(0.0, f64::min);
@@ -264,12 +264,11 @@ impl LinearEvents {
         parameters.machine.turn_at(speed);
         parameters.stiffen();
         let stiffened = parameters.energy(point);
-        let open = (0..parameters.rows.len())
-            .map(|row| parameters.gap(row, point))
-            .fold(f64::INFINITY, f64::min);
-        let clearance = parameters.clearance();
-        if open < 0.0 && clearance > 0.0 {
-            let part = clearance / (clearance - open);
+        let part = (0..parameters.rows.len())
+            .map(|row| (parameters.gap(row, point), parameters.apothem(row)))
+            .filter(|(open, apothem)| *open < 0.0 && *apothem > 0.0)
+            .fold(1.0, |part: f64, (open, apothem)| part.min(apothem / (apothem - open)));
+        if part < 1.0 {
             point.dz += Plane::i() * point.z * ((1.0 - part) * turned);
             (point.z, point.a) = (point.z * part, point.a * part);
         }

@@ -55,7 +55,8 @@ pub(super) struct Rows {
 
 impl Rows {
     fn new(scene: &Scene, machine: &Machine, ring: &Ring) -> Self {
-        let by_side = scene.goes_beyond() && machine.radial_coupling == 0.0;
+        let alone = machine.radial_coupling != 0.0 || machine.is_uneven();
+        let by_side = scene.goes_beyond() && !alone;
         let alike = if by_side { machine.polygon.blades_per_side } else { ring.alike };
         let table = RowTable::new(machine, alike);
         let members = alike / ring.alike;

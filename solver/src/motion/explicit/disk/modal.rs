@@ -50,6 +50,7 @@ impl Rows {
         let follows = diameters == polygon.nodal_diameters;
         let group = polygon.blades_per_side;
         let alike = if machine.radial_coupling == 0.0 { group } else { gcd(group, diameters) };
+        let alike = if machine.is_uneven() { 1 } else { alike };
         let table = RowTable::new(machine, alike);
         let phases = ContactPolygon::new(polygon.blades, diameters, 1.0);
         let shape = |row: usize| {

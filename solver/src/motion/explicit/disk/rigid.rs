@@ -8,7 +8,7 @@ use crate::motion::Plane;
 use crate::motion::explicit::{Coordinate, Driven};
 use crate::scene::Scene;
 
-/// No blade coordinate; a row is a side.
+/// No blade coordinate; a row is a side, or a blade where tips have lengths of their own.
 #[derive(Clone, Debug)]
 pub struct RigidBlades {
     table: Arc<RowTable>,
@@ -18,11 +18,12 @@ pub struct RigidBlades {
 impl Disk for RigidBlades {
     fn at_rest(_: &Scene, machine: &Machine, _: Driven<'_>) -> Self {
         let polygon = &machine.polygon;
-        let table = RowTable::new(machine, polygon.blades_per_side);
+        let alike = if machine.is_uneven() { 1 } else { polygon.blades_per_side };
+        let table = RowTable::new(machine, alike);
         Self { table: Arc::new(table), blades: polygon.blades as usize }
     }
-    fn with_parameters(&self, _: &Scene, _: &Machine) -> Self {
-        self.clone()
+    fn with_parameters(&self, scene: &Scene, machine: &Machine) -> Self {
+        Self::at_rest(scene, machine, None)
     }
     fn coordinates(&self) -> usize {
         2

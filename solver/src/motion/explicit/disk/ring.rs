@@ -6,11 +6,10 @@
 //! of all of them, and a push on it is shared evenly.
 //! A mistuned disk has springs of its own beside (section 10).
 
-use std::f64::consts::TAU;
-
 use super::shapes::{LANES, Shapes};
 use crate::model::{Machine, blade_frequency};
 use crate::motion::explicit::Oscillator;
+use crate::numeric::normal::normals;
 use crate::scene::Scene;
 
 /// Members, modes and rows of a ring. A list of coefficients is laid out as the
@@ -44,7 +43,8 @@ pub(super) struct Ring {
 impl Ring {
     /// Returns how many blades of a scene are one member.
     pub fn alike(scene: &Scene, machine: &Machine) -> u32 {
-        if scene.bladed_disk.mistuning != 0.0 { 1 } else { machine.polygon.blades_per_side }
+        let alone = scene.bladed_disk.mistuning != 0.0 || machine.is_uneven();
+        if alone { 1 } else { machine.polygon.blades_per_side }
     }
 
     /// Creates the ring of a scene with `alike` blades as one member.
@@ -173,13 +173,7 @@ pub(super) fn springs(scene: &Scene) -> Vec<f64> {
     if disk.mistuning == 0.0 {
         return Vec::new();
     }
-    let mut draw = fastrand::Rng::with_seed(u64::from(disk.mistuning_seed));
-    let mut normal = || {
-        // Box and Muller, from a number above 0 and one below 1.
-        let (radius, angle) = ((-2.0 * (1.0 - draw.f64()).ln()).sqrt(), TAU * draw.f64());
-        radius * angle.cos()
-    };
-    let drawn: Vec<f64> = (0..disk.blades).map(|_| normal()).collect();
+    let drawn = normals(disk.mistuning_seed, disk.blades);
     let mean = drawn.iter().sum::<f64>() / f64::from(disk.blades);
     // A spring may be soft, and none pushes away.
     let softest = drawn.iter().fold(0.0, |most: f64, x| most.max(mean - x));

@@ -31,9 +31,9 @@ impl RowTable {
         self.side.len()
     }
 
-    /// Returns whether a side is one row.
-    pub fn is_by_side(&self) -> bool {
-        self.rows_per_side == 1
+    /// Returns how many rows each side has.
+    pub fn rows_per_side(&self) -> usize {
+        self.rows_per_side
     }
 
     /// Returns the rows of a side.

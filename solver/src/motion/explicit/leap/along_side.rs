@@ -69,7 +69,8 @@ impl<B: Disk> Explicit<B> {
     fn begin_sliding(&self, side: u32) -> Option<Sliding> {
         let HeldModes { modes, moving } = self.modes_of_sides()?;
         let moving = moving?;
-        if self.neighbours_matter || !self.machine.polygon.has_corners() {
+        if self.neighbours_matter || self.machine.is_uneven() || !self.machine.polygon.has_corners()
+        {
             return None;
         }
         let tips = self.goes_beyond.then(|| self.sliding_tips());

@@ -39,6 +39,8 @@ pub(in crate::motion::explicit) struct CornerStep {
     blades: Option<ModalBlades>,
     /// `q` above.
     turned: Plane,
+    /// How much the tips of both sides are longer \[m\].
+    longer: [f64; 2],
     /// Gaps of both sides in every corner, as each step leaves them \[m\].
     pub open: [f64; 2],
 }
@@ -88,6 +90,7 @@ impl CornerStep {
             casing: casing.clone(),
             blades: blades.cloned(),
             turned: Plane::new(2.0 * half * half, turn.sin()),
+            longer: sides.map(|side| machine.longest_of_side(side)),
             open: [0.0; 2],
         }
     }
@@ -133,7 +136,7 @@ impl CornerStep {
         // i ((g0 - p) b - (g0 - q) a)/Im(conj(a) b).
         let scale = -clearance / spread;
         let corner = Plane::new(scale * (b.im - a.im), scale * (a.re - b.re));
-        let [p, q] = [0, 1].map(|k| self.open[k] + rise * angles[k]);
+        let [p, q] = [0, 1].map(|k| self.open[k] + self.longer[k] + rise * angles[k]);
         let raised = Plane::new(p * b.im - q * a.im, q * a.re - p * b.re) / spread;
         // Its change, taken apart from its value before: of s/D it is
         // (ds - now dD)/(D - dD).
@@ -198,7 +201,7 @@ impl CornerStep {
                 let turn = diameters * bends[k];
                 let half = (0.5 * turn).sin();
                 let along = (place * normals[k].conj()).im;
-                let reach = clearance - self.open[k] - rise * sides.angles[k];
+                let reach = clearance - self.open[k] - self.longer[k] - rise * sides.angles[k];
                 let turned = 2.0 * reach * half * half + along * turn.sin();
                 let gone = (shift * (normals[k] * Plane::cis(turn)).conj()).re + turned;
                 self.open[k] + (gone - rise * bends[k])
@@ -279,6 +282,7 @@ impl CornerStep {
                 c * modes[0] + s * modes[1]
             });
             self.tips.place(machine.polygon.direction(side), place, angle).gap
+                - machine.longest_of_side(side)
         };
         others.map(gap).fold(f64::INFINITY, f64::min)
     }

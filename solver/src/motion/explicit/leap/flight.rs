@@ -30,7 +30,7 @@ impl<B: Disk> Explicit<B> {
     /// Returns the steps that cannot touch; none where they are too few to be worth a block.
     fn flight(&mut self) -> u64 {
         // Beyond it, every side is open and above its target.
-        let room = self.machine.clearance() - self.highest_target();
+        let room = self.tips.least - self.highest_target();
         let distance2 = self.distance2();
         if room <= 0.0 || distance2 >= room * room || !self.is_free() {
             return 0;

@@ -163,7 +163,7 @@ impl<B: Disk> Explicit<B> {
     /// trusted for all later steps.
     #[inline]
     pub(in crate::motion::explicit) fn hold_corner(&mut self) -> Option<Box<HeldCorner>> {
-        if !self.scene.solver.shortcuts.lock {
+        if !self.scene.solver.shortcuts.lock || self.sides_move() {
             return None;
         }
         let sides = self.steady_corner_since(self.leaps.hold_tried)?;
@@ -260,7 +260,7 @@ impl<B: Disk> Explicit<B> {
     /// nothing back.
     pub(super) fn modes_of_sides(&self) -> Option<HeldModes<'_>> {
         let plain = || {
-            let by_side = self.blades.wave().is_some() && self.blades.table().is_by_side();
+            let by_side = self.blades.wave().is_some();
             let rigid = self.lining.is_none() && self.scene.contact.restitution == 0.0;
             by_side && rigid && self.beyond.long_steps == 0
         };

@@ -1,0 +1,73 @@
+//! How round a casing must be for a lock to last (docs/theory.md, section 11). Lobes
+//! `e cos(m phi - psi)` move the corner that is held: both gaps stay closed, so that
+//! `z = z_0 + z_1 exp(i m Omega t) + z_2 exp(-i m Omega t)`, which takes the forces
+//! `L_c(nu + m Omega) z_1` and `L_c(nu - m Omega) z_2`. The lock is unbroken as long as no push
+//! vanishes and no other side reaches the corner.
+
+use nalgebra::Complex;
+
+use super::Corner;
+use crate::model::{Machine, Number};
+
+/// Returns the largest height of `lobes` lobes with which the lock of a machine lasts at a
+/// speed \[m\]; none where it has no lock there, and where this is not known: with blades that
+/// share a side, inclined tips, friction on the casing and on a lining.
+#[must_use]
+pub fn roundness<T: Number>(machine: &Machine<T>, speed: T, lobes: u32) -> Option<T> {
+    let machine = &*machine.at(speed);
+    let polygon = &machine.polygon;
+    let known = machine.lining.is_none() && !machine.casing_feels_tips();
+    if !known || polygon.blades_per_side != 1 || speed.re() == 0.0 {
+        return None;
+    }
+    let corner = Corner::of(machine, speed.re(), None).ok()?;
+    let pushes = machine.locked_multipliers(speed)?.map(|lambda| -lambda);
+    let one = |(c, s): (f64, f64)| Complex::new(T::from(c), T::from(s));
+    let normal = |side: u32| one(polygon.direction(side));
+    // exp(i m Phi) of the blade of a side.
+    let lobe = |side: u32| {
+        let blade = polygon.blades_of_side(side).first().map_or(0, |blade| blade - 1);
+        let part = u64::from(lobes) * u64::from(blade) % u64::from(polygon.blades);
+        one(crate::model::fraction_of_turn(part as u32, polygon.blades))
+    };
+    let [a, b] = corner.sides().map(normal);
+    let [at_a, at_b] = corner.sides().map(lobe);
+    let scale = |x: Complex<T>, by: T| Complex::new(x.re * by, x.im * by);
+    // 1/(2 i sin beta), beta the angle between both sides.
+    let sine = (a.conj() * b).im;
+    let over = Complex::new(T::zero(), -(sine * 2.0).recip());
+    // z_1 and conj(z_2) for e = 1: z_1 conj(d) + conj(z_2) d = -exp(i m Phi) of both sides.
+    let first = (at_b * a - at_a * b) * over;
+    let second = (at_a * b.conj() - at_b * a.conj()) * over;
+    let stiffness = |omega: T| {
+        let real = machine.casing_stiffness - omega * omega * machine.casing_mass;
+        Complex::new(real, omega * machine.casing_damping)
+    };
+    let (nu, turn) = (machine.nu(speed), speed * f64::from(lobes));
+    let force = scale(stiffness(nu + turn) * first, T::from(2.0));
+    let back = scale((stiffness(nu - turn) * second.conj()).conj(), T::from(2.0));
+    // sum p d = force, sum p conj(d) = back.
+    let of_a = (back * b - force * b.conj()) * over;
+    let of_b = (force * a.conj() - back * a) * over;
+    let size = |x: Complex<T>| (x.re * x.re + x.im * x.im).sqrt();
+    let by_push = pushes.into_iter().zip([of_a, of_b].map(size)).map(|(push, by)| push / by);
+    let distance = machine.locked_amplitude()?;
+    let bisector = place(machine, corner);
+    let by_gap = (0..polygon.sides).filter(|side| !corner.sides().contains(side)).map(|side| {
+        let d = normal(side);
+        let open = machine.apothem(side) + (bisector * d.conj()).re;
+        open / size(first * d.conj() + second * d + lobe(side))
+    });
+    let most = by_push
+        .chain(by_gap)
+        .reduce(|least, next| if next.re() < least.re() { next } else { least })?;
+    (most.re() > 0.0 && most.re() < distance.re()).then_some(most)
+}
+
+/// Returns the place of the corner of two sides \[m\].
+fn place<T: Number>(machine: &Machine<T>, corner: Corner) -> Complex<T> {
+    let [(x, y), (u, v)] = corner.sides().map(|side| machine.polygon.direction(side));
+    let [a, b] = corner.sides().map(|side| machine.apothem(side));
+    let sine = x * v - y * u;
+    Complex::new((b * y - a * v) / sine, (a * u - b * x) / sine)
+}

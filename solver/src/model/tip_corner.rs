@@ -1,0 +1,118 @@
+//! Corners of unequal tips (docs/theory.md, section 11): which sides of the polygon are left,
+//! where neighbours of them meet, and at which speeds such a corner is held. With `gamma` from
+//! the outward normal of the side `a` to the corner and `beta` to that of `b`, both sides push
+//! where `gamma - beta <= theta <= gamma`, `theta = arg(-1/H)` mirrored.
+
+use super::{LockWindow, Machine, Number};
+
+/// A corner between two sides that nothing cuts off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TipCorner<T = f64> {
+    /// The sides `a` and `b`, in increasing phase.
+    pub sides: [u32; 2],
+    /// Angle from the normal of `a` to the corner \[rad\].
+    pub gamma: T,
+    /// Angle between both normals \[rad\].
+    pub beta: f64,
+    /// Distance of the corner from the centre \[m\].
+    pub distance: T,
+}
+
+impl<T: Number> TipCorner<T> {
+    /// Slope and sign of the two conditions `slope Re(1/H) + sign Im(1/H) <= 0` under which the
+    /// sides `b` and `a` push.
+    pub(super) fn conditions(&self) -> [(T, T); 2] {
+        let rest = -self.gamma + self.beta;
+        [(self.gamma.sin(), self.gamma.cos()), (rest.sin(), -rest.cos())]
+    }
+
+    /// The speeds, in `omega_c/n_d`, at which both sides push on a casing of this damping
+    /// ratio without friction, for a rotor that turns forward or backward.
+    pub(super) fn window(&self, damping: T, toward: f64) -> Option<LockWindow<T>> {
+        let gamma = if toward < 0.0 { -self.gamma + self.beta } else { self.gamma };
+        let at = |angle: T| {
+            let x = damping / angle.tan();
+            x + (x * x + 1.0).sqrt()
+        };
+        let beyond = gamma - self.beta;
+        let to = (beyond.re() > 0.0).then(|| at(beyond));
+        (gamma.re() > 0.0).then(|| LockWindow { from: at(gamma), to })
+    }
+}
+
+impl<T: Number> Machine<T> {
+    /// Every corner of two sides that no other cuts off, at the clearance of now.
+    #[must_use]
+    pub fn tip_corners(&self) -> Vec<TipCorner<T>> {
+        let sides = self.polygon.sides;
+        let apothems: Vec<f64> = (0..sides).map(|side| self.apothem(side).re()).collect();
+        let least = apothems.iter().copied().fold(f64::INFINITY, f64::min);
+        let mut corners = Vec::new();
+        for (a, height) in (0..sides).zip(&apothems) {
+            // How far along the side others let it reach, from the foot of its normal.
+            let reach = |backward: bool| {
+                let (mut end, mut cutting) = (f64::INFINITY, a);
+                for k in 1..sides.div_ceil(2) {
+                    let (sin, cos) = (2.0 * self.polygon.delta * f64::from(k)).sin_cos();
+                    if least > 0.0 && (least - height * cos) / sin > end {
+                        break;
+                    }
+                    let other = (a + if backward { sides - k } else { k }) % sides;
+                    let cut = (apothems[other as usize] - height * cos) / sin;
+                    if cut < end {
+                        (end, cutting) = (cut, other);
+                    }
+                }
+                (end, cutting)
+            };
+            let ((high, b), (low, _)) = (reach(false), reach(true));
+            if -low < high && b != a {
+                corners.push(self.tip_corner([a, b]));
+            }
+        }
+        corners
+    }
+
+    fn tip_corner(&self, sides: [u32; 2]) -> TipCorner<T> {
+        let [a, b] = sides.map(|side| self.apothem(side));
+        let polygon = &self.polygon;
+        let steps = (sides[1] + polygon.sides - sides[0]) % polygon.sides;
+        let beta = 2.0 * polygon.delta * f64::from(steps);
+        let (sin, cos) = beta.sin_cos();
+        let along = (b - a * cos) / sin;
+        TipCorner { sides, gamma: along.atan2(a), beta, distance: (a * a + along * along).sqrt() }
+    }
+
+    /// The corner that is held at the lowest speed, for a rotor that turns in the sense of
+    /// `toward`, with those speeds; none where no corner is, and where that is not known: on a
+    /// lining, and with a clearance that closes with the speed.
+    #[must_use]
+    pub fn lowest_corner(&self, toward: f64) -> Option<(TipCorner<T>, Vec<LockWindow<T>>)> {
+        if !self.polygon.has_corners() || self.lining.is_some() || self.clearance_loss().re() != 0.0
+        {
+            return None;
+        }
+        let with_windows = |corner: TipCorner<T>| {
+            let windows = self.windows_of(&corner, toward);
+            let from = windows.first()?.from.re();
+            Some((from, corner, windows))
+        };
+        let found = self.tip_corners().into_iter().filter_map(with_windows);
+        let lowest = found.min_by(|one, other| one.0.total_cmp(&other.0))?;
+        Some((lowest.1, lowest.2))
+    }
+
+    /// The windows of speeds at which a corner is held.
+    #[must_use]
+    pub fn windows_of(&self, corner: &TipCorner<T>, toward: f64) -> Vec<LockWindow<T>> {
+        if self.casing_feels_tips() {
+            return self.windows(corner.conditions(), toward);
+        }
+        let scaled = || {
+            let critical = self.critical_speed()?;
+            let LockWindow { from, to } = corner.window(self.casing_damping_ratio, toward)?;
+            Some(LockWindow { from: critical * from, to: to.map(|to| critical * to) })
+        };
+        scaled().into_iter().collect()
+    }
+}

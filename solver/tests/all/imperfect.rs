@@ -1,0 +1,436 @@
+//! Tips of their own lengths and a casing out of round: closed forms to their digits, and runs.
+//! The numbers are those of two other codes (docs/theory.md, section 11).
+
+use std::f64::consts::TAU;
+
+use nalgebra::Complex;
+use rubscope_solver::harmonic::{Lining, lock_loads, roundness};
+use rubscope_solver::motion::{ActiveSet, Motion, RunReport, Verdict};
+use rubscope_solver::scene::{CheckedScene, ModelSize, Scene, Shortcuts};
+use rubscope_solver::study::margins::{LimitName, Margins};
+use rubscope_solver::study::survey::Scattered;
+
+const LONGEST: &str = "bladed_disk.longest_tip_m";
+const SPEED: &str = "operation.speed_rad_s";
+
+/// The paper's machine with rigid contact that only pushes, no pulse, and these keys.
+fn scene(keys: &[(&str, &str)]) -> CheckedScene {
+    let all = [&[("operation.pulse_n", "0")], keys].concat();
+    Scene::base().with(&all).unwrap()
+}
+
+fn close(value: f64, expected: f64, part: f64) {
+    assert!((value / expected - 1.0).abs() < part, "{value} is not {expected}");
+}
+
+fn lock_speed(keys: &[(&str, &str)]) -> f64 {
+    scene(keys).machine().lock_speed().unwrap()
+}
+
+fn run(keys: &[(&str, &str)]) -> RunReport {
+    crate::run_once(&scene(keys))
+}
+
+#[test]
+fn a_corner_of_unequal_tips_is_held_from_its_own_speed_on() {
+    close(lock_speed(&[]), 411.933_517, 1e-9);
+    for (longest, expected) in [
+        ("2e-6", 368.335_596),
+        ("10e-6", 323.682_262),
+        ("50e-6", 301.405_405),
+        ("-2e-6", 368.895_736),
+        ("-10e-6", 346.966_972),
+        ("105e-6", 292.149_407),
+    ] {
+        close(lock_speed(&[(LONGEST, longest)]), expected, 2e-9);
+    }
+    close(lock_speed(&[("bladed_disk.orbit_m", "10e-6")]), 325.398_410, 2e-9);
+    for (x, expected) in [(1e-6, 370.142_665), (2e-6, 349.645_794), (5e-6, 328.412_582)] {
+        let tips: Vec<f64> = (1..=22_u32).map(|i| x * f64::from(i * i).sin()).collect();
+        close(lock_speed(&[("bladed_disk.tips_m", &format!("{tips:?}"))]), expected, 2e-9);
+    }
+    // Without damping it stays the critical speed.
+    let undamped = [("casing.damping_ratio", "0"), (LONGEST, "10e-6")];
+    let machine = scene(&undamped).machine();
+    close(machine.lock_speed().unwrap(), machine.critical_speed().unwrap(), 1e-14);
+}
+
+#[test]
+fn a_side_is_gone_where_its_neighbours_cut_it_off() {
+    // Shorter by g0 (1/cos 2 delta - 1) = 4.22171e-6 m.
+    for (shorter, corners) in [("-4.2217e-6", 22), ("-4.2218e-6", 21)] {
+        let machine = scene(&[(LONGEST, shorter)]).machine();
+        assert_eq!(machine.tip_corners().len(), corners, "{shorter}");
+    }
+}
+
+#[test]
+fn a_mirrored_rotor_locks_backward_as_it_does_forward() {
+    let tips: Vec<f64> = (1..=22_u32).map(|i| 3e-6 * f64::from(i * i).sin()).collect();
+    let mut mirrored = tips.clone();
+    mirrored[1..].reverse();
+    let at = |tips: &[f64], toward: f64| {
+        let machine = scene(&[("bladed_disk.tips_m", &format!("{tips:?}"))]).machine();
+        machine.lock_windows(toward)[0].from
+    };
+    close(at(&tips, 1.0), at(&mirrored, -1.0), 1e-12);
+    assert!((at(&tips, 1.0) - at(&tips, -1.0)).abs() > 1.0);
+}
+
+#[test]
+fn rotors_of_one_per_cent_lock_from_361_on_the_mean() {
+    let found = Scattered::of(&scene(&[])).unwrap();
+    close(found.equal_rad_s, 411.933_517, 1e-9);
+    // The mean of 200 draws, of a spread of 15 rad/s.
+    assert!((found.mean_rad_s - 361.0).abs() < 3.5, "{found:?}");
+    for (scatter, mean) in [(2e-6, 342.0), (5e-6, 325.0), (10e-6, 315.0)] {
+        let of_seed = |seed: u32| {
+            lock_speed(&[
+                ("bladed_disk.tip_scatter_m", &format!("{scatter:e}")),
+                ("bladed_disk.tip_seed", &seed.to_string()),
+            ])
+        };
+        let sum: f64 = (1..=200).map(of_seed).sum();
+        assert!((sum / 200.0 - mean).abs() < 3.5, "{} at {scatter}", sum / 200.0);
+    }
+}
+
+#[test]
+fn pushes_of_unequal_tips_are_those_of_their_corner() {
+    for (longest, speed, pushes, sides) in [
+        ("10e-6", 350.0, [47.413_772, 24.208_059], [1, 9]),
+        ("105e-6", 400.0, [33.892_310, 136.456_695], [1, 3]),
+    ] {
+        let scene = scene(&[(LONGEST, longest)]);
+        let machine = scene.machine();
+        let (corner, _) = machine.lowest_corner(1.0).unwrap();
+        assert_eq!(corner.sides, sides.map(|blade| machine.polygon.side_of_blade(blade)));
+        let loads = lock_loads(&machine, speed).unwrap();
+        let closed = machine.locked_multipliers(speed).unwrap();
+        for k in 0..2 {
+            // With blades that bend.
+            close(loads.pushes_n[k], pushes[k], 2e-6);
+            close(-closed[k], pushes[k], 2e-8);
+        }
+    }
+    let amplitude = scene(&[(LONGEST, "10e-6")]).machine().locked_amplitude().unwrap();
+    close(amplitude, 1.005_886e-4, 5e-7);
+}
+
+/// A scene that starts in the corner of its tips that is held at the lowest speed, where lobes
+/// of this height move it (1e-9 of the apothems inside); refused where that closes a gap.
+fn held_with(keys: &[(&str, &str)], lobes: u32, height: f64) -> Option<(CheckedScene, ActiveSet)> {
+    let mut start = scene(keys).into_scene();
+    start.solver.model = ModelSize::Rigid;
+    let (machine, speed) = (start.machine(), start.operation.speed_rad_s);
+    let polygon = &machine.polygon;
+    let sides = machine.lowest_corner(speed).map_or([15, 16], |(corner, _)| corner.sides);
+    let [a, b] = sides.map(|side| {
+        let (c, s) = polygon.direction(side);
+        Complex::new(c, s)
+    });
+    let [first, second] = sides.map(|side| machine.apothem(side) * (1.0 - 1e-9));
+    let lobe = |side| {
+        let blade = polygon.blades_of_side(side)[0] - 1;
+        Complex::cis(TAU * f64::from(lobes * blade) / f64::from(polygon.blades)) * height
+    };
+    let [at_a, at_b] = sides.map(lobe);
+    let sine = (a.conj() * b).im;
+    let corner = Complex::new(0.0, -1.0 / sine) * (a * second - b * first);
+    // z_1 conj(d) + conj(z_2) d = -e exp(i m Phi) of both sides.
+    let over = Complex::new(0.0, -0.5 / sine);
+    let z1 = (at_b * a - at_a * b) * over;
+    let z2 = ((at_a * b.conj() - at_b * a.conj()) * over).conj();
+    let z = corner + z1 + z2;
+    let turning = Complex::new(0.0, f64::from(lobes) * speed) * (z1 - z2);
+    let v = Complex::new(0.0, machine.nu(speed)) * z + turning;
+    let initial = &mut start.initial;
+    (initial.u_c_m, initial.u_s_m, initial.v_c_m_s, initial.v_s_m_s) = (z.re, z.im, v.re, v.im);
+    if height != 0.0 {
+        (start.casing.lobes, start.casing.out_of_round_m) = (lobes, height);
+    }
+    Some((start.checked().ok()?, ActiveSet::of(&sides)))
+}
+
+/// Whether the corner of a scene's tips is held for 0.3 s.
+fn holds(keys: &[(&str, &str)], speed: f64, solver: &str) -> bool {
+    let speed = speed.to_string();
+    let base = [(SPEED, &*speed), ("solver.kind", solver), ("solver.step_s", "2e-7")];
+    let (scene, sides) = held_with(&[keys, &base].concat(), 0, 0.0).unwrap();
+    let mut motion = Motion::new(&scene);
+    motion.advance(0.3).unwrap();
+    motion.contacts().active_set == sides
+}
+
+#[test]
+fn runs_hold_a_corner_above_its_speed_and_lose_it_below() {
+    for keys in [
+        &[(LONGEST, "10e-6")][..],
+        &[(LONGEST, "-10e-6")],
+        &[("bladed_disk.orbit_m", "10e-6")],
+        &[("bladed_disk.tip_scatter_m", "5e-6"), ("bladed_disk.tip_seed", "3")],
+        &[("bladed_disk.tip_scatter_m", "5e-6"), ("bladed_disk.tip_seed", "4")],
+    ] {
+        let lock = lock_speed(keys);
+        for solver in ["explicit", "event"] {
+            assert!(holds(keys, lock + 0.5, solver), "{keys:?} {solver}");
+            assert!(!holds(keys, lock - 0.5, solver), "{keys:?} {solver}");
+        }
+    }
+}
+
+#[test]
+fn one_tip_beyond_the_clearance_drags_the_wave_and_then_locks_it() {
+    let keys = |speed, step| {
+        [(LONGEST, "105e-6"), (SPEED, speed), ("solver.step_s", step), ("solver.end_s", "0.5")]
+    };
+    for (speed, push) in [("100", 6.830_188), ("250", 2.302_279), ("280", 1.484_366)] {
+        let report = run(&keys(speed, "1e-6"));
+        assert_eq!(report.outcome.verdict, Verdict::Forced, "{speed}");
+        let [contact] = &report.outcome.contacts[..] else { panic!("{speed}") };
+        assert_eq!(contact.blades, [1]);
+        // The scheme adds nu h to the angle of the push.
+        close(-contact.multiplier_n, push, 2e-3);
+        let event = run(&[&keys(speed, "1e-6")[..], &[("solver.kind", "event")]].concat());
+        assert_eq!(event.outcome.verdict, Verdict::Forced, "{speed}");
+        close(-event.outcome.contacts[0].multiplier_n, push, 3e-7);
+    }
+    let report = run(&[&keys("400", "1e-6")[..], &[("solver.kind", "event")]].concat());
+    assert_eq!(report.outcome.verdict, Verdict::Locked);
+    let pushes: Vec<f64> = report.outcome.contacts.iter().map(|x| -x.multiplier_n).collect();
+    close(pushes[0], 33.892_310, 3e-8);
+    close(pushes[1], 136.456_695, 3e-8);
+    // 291.7 one blade, 292.6 two.
+    for (speed, verdict) in [("291.7", Verdict::Forced), ("292.6", Verdict::Locked)] {
+        let end = [("solver.end_s", "3"), ("solver.kind", "event")];
+        let report = run(&[&keys(speed, "1e-6")[..2], &end].concat());
+        assert_eq!(report.outcome.verdict, verdict, "{speed}");
+    }
+}
+
+#[test]
+fn leaps_of_a_corner_of_unequal_tips_are_plain_steps() {
+    for (model, blades) in [("rigid", "22"), ("modal", "22"), ("modal", "24")] {
+        let keys = [
+            (LONGEST, "105e-6"),
+            ("bladed_disk.blades", blades),
+            ("bladed_disk.tip_scatter_m", "1e-6"),
+            ("operation.nodal_diameters", if blades == "24" { "2" } else { "3" }),
+            ("casing.modal_stiffness_n_per_m", if blades == "24" { "7e5" } else { "1.544e6" }),
+            (SPEED, "400"),
+            ("solver.model", model),
+            ("solver.step_s", "1e-6"),
+            ("solver.end_s", "0.05"),
+        ];
+        let leaping = crate::run_once(&scene(&keys));
+        let plain = crate::run_once(&scene(&keys).with_shortcuts(Shortcuts::NONE));
+        assert!(leaping.solver.steps_skipped > Some(10_000), "{model} {:?}", leaping.solver);
+        assert_eq!(plain.solver.steps_skipped, Some(0));
+        let [one, other] = [&leaping, &plain].map(|report| &report.r#final);
+        let apart = (one.u_c_m - other.u_c_m).hypot(one.u_s_m - other.u_s_m);
+        assert!(apart < 1e-13, "{model} {apart:e}");
+        assert_eq!(leaping.impact_count, plain.impact_count);
+        for (one, other) in leaping.outcome.contacts.iter().zip(&plain.outcome.contacts) {
+            close(one.multiplier_n, other.multiplier_n, 1e-8);
+        }
+    }
+}
+
+#[test]
+fn a_run_up_without_a_pulse_is_dragged_and_then_locked() {
+    let scene = Scene::builtin("long-tip").unwrap().checked().unwrap();
+    let mut motion = Motion::new(&scene);
+    motion.advance(0.4).unwrap();
+    assert!(matches!(motion.contacts().active_set, ActiveSet::Side(0)));
+    motion.advance(1.0).unwrap();
+    let polygon = &motion.machine().polygon;
+    let pair = [1, 3].map(|blade| polygon.side_of_blade(blade));
+    assert_eq!(motion.contacts().active_set, ActiveSet::of(&pair));
+    let held_from = 250.0 + 100.0 * motion.contacts().since;
+    assert!((held_from - 294.0).abs() < 0.2, "{held_from}");
+}
+
+#[test]
+fn a_casing_must_be_round_to_these_heights() {
+    let machine = scene(&[]).machine();
+    for (lobes, expected) in
+        [(1, 7.279_34e-7), (2, 5.492_76e-7), (3, 1.045_454e-5), (4, 2.439_28e-7)]
+    {
+        close(roundness(&machine, 500.0, lobes).unwrap(), expected, 2e-6);
+    }
+    let [_, b] = machine.locked_multipliers(500.0).unwrap();
+    let closed = -b * (2.0 * machine.polygon.delta).sin() / machine.casing_stiffness;
+    close(roundness(&machine, 500.0, 3).unwrap(), closed, 1e-12);
+    let long = scene(&[(LONGEST, "10e-6")]).machine();
+    for (lobes, expected) in
+        [(1, 6.904_44e-7), (2, 5.880_36e-7), (3, 3.787_513e-5), (4, 8.615_82e-7)]
+    {
+        close(roundness(&long, 500.0, lobes).unwrap(), expected, 2e-6);
+    }
+    // As many lobes as diameters are a static force on the casing.
+    for (height, expected) in [("2e-6", 430.610_955), ("5e-6", 456.789_050)] {
+        let keys = [("casing.lobes", "3"), ("casing.out_of_round_m", height)];
+        close(lock_speed(&keys), expected, 2e-9);
+    }
+    let margins = Margins::of(&scene(&[(SPEED, "500")]));
+    let told: Vec<_> = margins.limits.iter().filter(|x| x.name == LimitName::Roundness).collect();
+    assert_eq!(told.iter().map(|x| x.lobes.unwrap()).collect::<Vec<_>>(), [1, 2, 3, 4]);
+    // P_b of (K + i D) z is in proportion to k_c, the mass and the clearance together.
+    close(told[2].sensitivities.by("clearance").unwrap(), 1.0, 1e-9);
+}
+
+#[test]
+fn a_lock_lasts_in_a_casing_rounder_than_that_and_breaks_in_another() {
+    for longest in ["0", "10e-6"] {
+        let keys = [(LONGEST, longest), (SPEED, "500"), ("solver.step_s", "2e-7")];
+        for lobes in 1..=4 {
+            let most = roundness(&scene(&keys).machine(), 500.0, lobes).unwrap();
+            for (part, lasts) in [(0.96, true), (1.04, false)] {
+                let held = held_with(&keys, lobes, part * most).map(|(scene, sides)| {
+                    let mut motion = Motion::new(&scene);
+                    motion.advance(0.2).unwrap();
+                    let log = motion.contacts();
+                    log.active_set == sides && log.since < 1e-5
+                });
+                assert_eq!(held.unwrap_or(false), lasts, "{longest} {lobes} {part}");
+            }
+        }
+    }
+}
+
+/// Inclined blades that all rub a lining.
+fn rubbing(keys: &[(&str, &str)]) -> CheckedScene {
+    let base = [
+        ("solver.contact", "smooth"),
+        ("solver.step_s", "5e-6"),
+        ("bladed_disk.radial_coupling", "0.5"),
+        ("contact.stiffness_n_per_m", "27e3"),
+        ("casing.radius_m", "0.49988"),
+    ];
+    scene(&[&base, keys].concat())
+}
+
+#[test]
+fn lobes_drive_the_wave_of_their_order_and_no_other() {
+    let scene = rubbing(&[]);
+    let machine = scene.machine();
+    let lining = Lining::of(&machine, &scene.contact).unwrap();
+    for (lobes, speed, z, a) in [
+        (3, 90.0, 5.201_085e-7, 7.980_195e-6),
+        (19, 15.5, 1.080_543e-6, 1.875_147e-5),
+        (25, 12.0, 1.309_635e-6, 1.900_569e-5),
+    ] {
+        let forced = lining.forced(speed, lobes, 5e-6);
+        close(forced.amplitude_m, z, 5e-7);
+        close(forced.blade_angle_rad, a, 5e-7);
+        assert!(forced.all_press);
+    }
+    let forced = lining.forced(90.0, 4, 5e-6);
+    assert_eq!((forced.amplitude_m, forced.blade_angle_rad), (0.0, 0.0));
+    // The peak of three lobes.
+    let height = |speed: f64| lining.forced(speed, 3, 5e-6).blade_angle_rad;
+    let undamped = 99.312_113;
+    assert!(height(undamped) > height(undamped - 2.0) && height(undamped) > height(undamped + 2.0));
+}
+
+#[test]
+fn steps_of_a_casing_out_of_round_come_to_the_wave_that_its_lobes_drive() {
+    let keys = [
+        (SPEED, "90"),
+        ("casing.lobes", "3"),
+        ("casing.out_of_round_m", "5e-6"),
+        ("solver.end_s", "2"),
+    ];
+    let scene = rubbing(&keys);
+    let report = crate::run_once(&scene);
+    let machine = scene.machine();
+    let lining = Lining::of(&machine, &scene.contact).unwrap();
+    let forced = lining.forced(90.0, 3, 5e-6);
+    // Levers of the paper's size, which the linear balance leaves out, and phases.
+    close(report.outcome.amplitude_m, forced.amplitude_m, 2e-3);
+    assert!(report.checks.energy_residual_j.unwrap().abs() < 1e-6, "{:?}", report.checks);
+}
+
+#[test]
+fn a_rub_on_arcs_makes_the_coincidence_grow_by_itself() {
+    let on_arcs = [
+        ("contact.stiffness_n_per_m", "70e3"),
+        ("casing.radius_m", "0.49992"),
+        ("casing.lobes", "4"),
+        ("casing.out_of_round_m", "60e-6"),
+    ];
+    let growth = |keys: &[(&str, &str)], speed: f64| {
+        let scene = rubbing(&[&on_arcs, keys].concat());
+        let machine = scene.machine();
+        Lining::of(&machine, &scene.contact).unwrap().rest(speed).worst().growth_1_s
+    };
+    for (speed, expected) in [(410.0, 6.883_084), (420.0, 8.911_355), (430.0, 6.041_162)] {
+        close(growth(&[], speed), expected, 2e-7);
+    }
+    let softer = growth(&[("contact.stiffness_n_per_m", "40e3")], 410.0);
+    assert!((softer + 2.84).abs() < 5e-3, "{softer}");
+    // In time, from a small wave on.
+    let seen = |speed, keys: &[(&str, &str)]| {
+        let base = [(SPEED, speed), ("initial.u_c_m", "1e-9"), ("contact.smoothing_m", "1e-7")];
+        let scene = rubbing(&[&on_arcs[..], &base, keys].concat());
+        let mut motion = Motion::new(&scene);
+        let mut mean = |from: f64| {
+            let sum: f64 = (0..200_u32)
+                .map(|k| {
+                    motion.advance(from + 1e-3 * f64::from(k)).unwrap();
+                    motion.state().amplitude().powi(2)
+                })
+                .sum();
+            sum.sqrt()
+        };
+        let (before, after) = (mean(0.4), mean(0.8));
+        (after / before).ln() / 0.4
+    };
+    let found = seen("420", &[]);
+    assert!((found - 8.911).abs() < 0.15, "{found}");
+    let softer = seen("410", &[("contact.stiffness_n_per_m", "40e3")]);
+    assert!((softer + 2.75).abs() < 0.2, "{softer}");
+}
+
+#[test]
+fn the_longest_tip_touches_first_as_blades_grow() {
+    let keys = [
+        ("casing.clearance_loss_m_s2", "1e-10"),
+        ("casing.lobes", "2"),
+        ("casing.out_of_round_m", "60e-6"),
+        (LONGEST, "20e-6"),
+        (SPEED, "300"),
+    ];
+    close(scene(&keys).machine().touching_speed().unwrap(), 447.213_595, 2e-9);
+}
+
+#[test]
+fn what_leaves_no_room_or_is_no_list_is_refused_by_name() {
+    for (keys, start) in [
+        (&[("bladed_disk.orbit_m", "130e-6")][..], "bladed_disk.orbit_m = 1.3e-4: allowed is less"),
+        (&[("bladed_disk.tips_m", "1e-6,2e-6")], "bladed_disk.tips_m = 2 numbers: allowed is none"),
+        (
+            &[("casing.lobes", "2"), ("casing.out_of_round_m", "150e-6")],
+            "casing.out_of_round_m = 1.5e-4: allowed is less",
+        ),
+        (&[("casing.out_of_round_m", "1e-6")], "casing.lobes = 0: allowed is 1 or more"),
+        (
+            &[("casing.lobes", "2"), ("casing.out_of_round_m", "1e-6"), ("solver.kind", "event")],
+            "casing.out_of_round_m = 1e-6: allowed is 0 with solver.kind",
+        ),
+        (
+            &[
+                ("bladed_disk.orbit_m", "1e-6"),
+                ("solver.kind", "event"),
+                ("operation.speed_ramp_rad_s2", "1"),
+            ],
+            "operation.speed_ramp_rad_s2 = 1: allowed is 0",
+        ),
+    ] {
+        let message = Scene::base().with(keys).unwrap_err().to_string();
+        assert!(message.starts_with(start) && message.lines().count() == 1, "{message}");
+    }
+    // As many lobes as diameters the mode opens itself.
+    let open = [("casing.lobes", "3"), ("casing.out_of_round_m", "150e-6")];
+    assert!(Scene::base().with(&open).is_ok());
+}

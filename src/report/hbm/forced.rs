@@ -1,0 +1,53 @@
+//! The wave that a casing out of round drives where all blades rub it.
+
+use serde_json::json;
+
+use super::{Answer, LockBeside, Parts, Request, Rows, View, refused};
+use crate::report::table::Column;
+use rubscope_solver::harmonic::{Forced, HarmonicError, Lining};
+use rubscope_solver::scene::{ContactLaw, keys};
+
+/// View: the wave that a casing out of round drives.
+pub const FORCED: View = View {
+    option: "forced",
+    help: "View: the wave that a casing out of round drives where all blades rub its lining",
+    range: None,
+    always_damped: true,
+    one_speed: false,
+    lock: LockBeside::OfScene,
+    answer,
+};
+
+fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
+    let Request { scene, machine, speeds, .. } = request;
+    let (height, lobes) = (scene.casing.out_of_round_m, scene.casing.lobes);
+    if scene.solver.contact != ContactLaw::Smooth {
+        let allowed = "\"smooth\" with --forced: blades that all rub press a lining";
+        return Err(refused(keys::LAW, scene.solver.contact, allowed.to_string()));
+    }
+    if height == 0.0 {
+        let allowed = "above 0 with --forced: a round casing drives nothing";
+        return Err(refused(keys::OUT_OF_ROUND, height, allowed.to_string()));
+    }
+    let lining = Lining::of(machine, &scene.contact)?;
+    let forced = speeds.iter().map(|speed| lining.forced(*speed, lobes, height)).collect();
+    let points = Rows::of(forced);
+    let json = Parts::default().with("lobes", lobes).with("out_of_round_m", height).with_rows(
+        "points",
+        &points,
+        |point| json!(point),
+    );
+    let title = format!("{lobes} lobes of {height:e} m drive, where all blades press:");
+    let json = Parts::default().with_parts("forced", json);
+    Ok(Answer::of(json, vec![(title, points.table(POINTS))]))
+}
+
+/// Columns of a driven wave.
+const POINTS: &[Column<'_, Forced>] = &[
+    ("speed_rad_s", |point| point.speed_rad_s.into()),
+    ("s_rad_s", |point| point.s_rad_s.into()),
+    ("omega_rad_s", |point| point.omega_rad_s.into()),
+    ("amplitude_m", |point| point.amplitude_m.into()),
+    ("blade_angle_rad", |point| point.blade_angle_rad.into()),
+    ("all_press", |point| point.all_press.into()),
+];
