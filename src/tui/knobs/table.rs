@@ -306,7 +306,7 @@ pub const KNOBS: &[Knob] = &[
     knob(Tips, "orbit χ", keys::ORBIT_ANGLE, Linear(0.1, 1.0), "direction of that in the frame of the rotor").bar(From(-3.2, 3.2)).unless(inert::centred),
     knob(Tips, "lobes", keys::LOBES, Whole(1, 5), "lobes of a casing that is out of round; 0 for none").unless(inert::round),
     knob(Tips, "out of round", keys::OUT_OF_ROUND, Decades(1e-9), "height of those lobes; 0 for a round casing").usual(1e-6).unless(inert::without_lobes),
-    knob(Tips, "lobes ψ", keys::OUT_OF_ROUND_ANGLE, Linear(0.1, 1.0), "phase of those lobes").bar(From(-3.2, 3.2)).unless(inert::round),
+    knob(Tips, "shape ψ", keys::OUT_OF_ROUND_ANGLE, Linear(0.1, 1.0), "phase of those lobes").bar(From(-3.2, 3.2)).unless(inert::round),
     knob(
         Start,
         "start u_c",
