@@ -1,8 +1,6 @@
 //! The record of a run as bins with the least and the greatest value of each
 //! channel, so that a contact peak of one step is visible at any zoom.
 
-use rubscope_solver::motion::ActiveSet;
-
 /// The recorded quantities, in the order of `Bin::low`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Channel {
@@ -46,15 +44,12 @@ pub struct Bin {
     pub high: [f64; CHANNELS],
     /// First and last instant of contact \[s\].
     pub contact: Option<(f64, f64)>,
-    /// The sides that touched.
-    pub touched: ActiveSet,
 }
 
 impl Bin {
     /// Creates a bin of one sample.
     pub fn of(t: f64, values: [f64; CHANNELS]) -> Self {
-        let touched = ActiveSet::Nothing;
-        Self { from: t, to: t, low: values, high: values, contact: None, touched }
+        Self { from: t, to: t, low: values, high: values, contact: None }
     }
 
     /// Returns the least and greatest value of a channel.
@@ -78,7 +73,6 @@ impl Bin {
             *high = high.max(*new_high);
         }
         self.contact = hull(self.contact, later.contact);
-        self.touched = self.touched.and(later.touched);
     }
 }
 
@@ -214,9 +208,6 @@ pub fn interpolated(bins: &[Bin], length: f64, (from, to): (f64, f64)) -> Vec<Bi
                 .contact
                 .map(|(first, last)| (first.max(piece.from), last.min(piece.to)))
                 .filter(|(first, last)| first <= last);
-            if piece.contact.is_some() {
-                piece.touched = bin.touched;
-            }
             out.push(piece);
             place += 1.0;
         }

@@ -1,4 +1,4 @@
-//! How round a casing must be for a lock to last (docs/theory.md, section 10). Lobes
+//! How round a casing must be for a lock to last (docs/theory.md, section 11). Lobes
 //! `e cos(m phi - psi)` move the corner that is held: both gaps stay closed, so that
 //! `z = z_0 + z_1 exp(i m Omega t) + z_2 exp(-i m Omega t)`, which takes the forces
 //! `L_c(nu + m Omega) z_1` and `L_c(nu - m Omega) z_2`. The lock is unbroken as long as no push

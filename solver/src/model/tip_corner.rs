@@ -1,4 +1,4 @@
-//! Corners of unequal tips (docs/theory.md, section 10): which sides of the polygon are left,
+//! Corners of unequal tips (docs/theory.md, section 11): which sides of the polygon are left,
 //! where neighbours of them meet, and at which speeds such a corner is held. With `gamma` from
 //! the outward normal of the side `a` to the corner and `beta` to that of `b`, both sides push
 //! where `gamma - beta <= theta <= gamma`, `theta = arg(-1/H)` mirrored.

@@ -1,4 +1,4 @@
-//! Tips of their own and a casing that is out of round (docs/theory.md, section 10): what each
+//! Tips of their own and a casing that is out of round (docs/theory.md, section 11): what each
 //! gap has beside the clearance, `-b_i + e cos(m phi_i - psi)`, and where the casing has room
 //! among the tips, which are sides of a polygon with apothems `h_i = g0 - b_i`.
 

@@ -48,17 +48,6 @@ impl ActiveSet {
         }
     }
 
-    /// With the sides of another.
-    #[must_use]
-    pub fn and(self, other: Self) -> Self {
-        match other {
-            Self::Nothing => self,
-            Self::Side(a) => self.with(a),
-            Self::Corner(a, b) => self.with(a).with(b),
-            Self::Many => Self::Many,
-        }
-    }
-
     /// The sides in contact; of many, none is known.
     pub fn sides(self) -> impl Iterator<Item = u32> {
         let sides = match self {
@@ -262,9 +251,6 @@ mod tests {
             assert_eq!(ActiveSet::of(sides).sides().collect::<Vec<_>>(), sides);
         }
         assert_eq!(ActiveSet::Many.sides().count(), 0);
-        assert_eq!(ActiveSet::Nothing.and(ActiveSet::Corner(1, 2)), ActiveSet::Corner(1, 2));
-        assert_eq!(ActiveSet::Side(2).and(ActiveSet::Corner(1, 2)), ActiveSet::Corner(1, 2));
-        assert_eq!(ActiveSet::Side(3).and(ActiveSet::Corner(1, 2)), ActiveSet::Many);
     }
 
     #[test]

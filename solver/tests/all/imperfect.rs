@@ -1,5 +1,5 @@
 //! Tips of their own lengths and a casing out of round: closed forms to their digits, and runs.
-//! The numbers are those of two other codes (docs/theory.md, section 10).
+//! The numbers are those of two other codes (docs/theory.md, section 11).
 
 use std::f64::consts::TAU;
 

@@ -57,8 +57,6 @@ pub struct Lessons {
     pub done: LessonsDone,
 }
 
-impl Lessons {}
-
 impl App {
     /// Returns the current lesson.
     pub fn current_lesson(&self) -> Option<(&'static Lesson, &LessonProgress)> {

@@ -70,10 +70,6 @@ impl Recorder {
         bin.to = state.t_s;
         let log = motion.contacts();
         bin.contact = self.contact(log, bin.from, bin.to);
-        let impacts = usize::try_from(self.impacts).unwrap_or(usize::MAX);
-        let met = log.impacts.iter().skip(impacts).map(|impact| impact.side);
-        let pushed = forces.iter().map(|(side, _)| *side);
-        bin.touched = met.chain(pushed).fold(log.active_set, ActiveSet::with);
         (self.impacts, self.active_set) = (log.impact_count, log.active_set);
         self.average(&forces, bin.to - bin.from);
         self.last = Some(state.t_s);

@@ -1,4 +1,4 @@
-//! All blades rub a casing that is out of round (docs/theory.md, section 10): lobes of `m`
+//! All blades rub a casing that is out of round (docs/theory.md, section 11): lobes of `m`
 //! drive one wave where `m = +-n_d` modulo `N`, `p = -S0 e/(1 + S0 B(s))`, and none otherwise.
 
 use serde::Serialize;

@@ -1,4 +1,4 @@
-//! Tips of their own and a casing out of round, row by row (docs/theory.md, section 10): what a
+//! Tips of their own and a casing out of round, row by row (docs/theory.md, section 11): what a
 //! gap has beside the clearance, `s(phi_i) - b_i`, and the lever that gains `s'(phi_i)`. A row
 //! is one blade there. The shape turns against the rotor by one rotation a step.
 

@@ -163,7 +163,7 @@ mod tests {
         scene.bladed_disk.radial_coupling = 0.3;
         let curves = LockedCurves::of(&scene);
         let mark = |name| curves.marks.iter().find(|(_, known)| *known == name).unwrap().0;
-        // The window of docs/theory.md, section 12.
+        // The window of docs/theory.md, section 13.
         assert!((mark("Ω_lock") - 472.117).abs() < 1e-3, "{:?}", curves.marks);
         assert!((mark("lock ends") - 566.259).abs() < 1e-3, "{:?}", curves.marks);
         assert!(curves.fastest > 566.259);
