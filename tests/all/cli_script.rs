@@ -109,6 +109,7 @@ fn a_key_acts_live_just_where_the_motion_takes_it() {
         (Value::Text(word), Allowed::OneOf(words)) => {
             (*words.iter().find(|other| **other != word).unwrap()).to_string()
         }
+        (_, Allowed::Numbers { .. }) => "[1e-6]".to_string(),
         (_, Allowed::Modes(_)) => "[{ nodal_diameters = 7 }]".to_string(),
         _ => "map".to_string(),
     };

@@ -203,8 +203,8 @@ fn numbers(text: &str) -> Vec<(String, f64, f64)> {
 #[test]
 fn every_number_of_the_text_is_in_a_table() {
     let page = page();
-    let (text, tables) = page.split_once("\n## 12 ").unwrap();
-    let tables = tables.split_once("\n## 13 ").unwrap().0;
+    let (text, tables) = page.split_once("\n## 13 ").unwrap();
+    let tables = tables.split_once("\n## 14 ").unwrap().0;
     // Values in their unit, in milli, micro, kilo or mega; `half` a unit is that of
     // the text.
     let known: Vec<f64> = numbers(tables).into_iter().map(|(_, number, _)| number).collect();

@@ -88,8 +88,8 @@ fn the_help_scrolls_to_its_end_and_back_without_a_dead_key() {
         let mut session = open(size, Marker::Braille);
         session.press("?");
         let top = session.text();
-        session.press(&"⇟".repeat(200));
-        session.press(&"↓".repeat(500));
+        session.press(&"⇟".repeat(120));
+        session.press(&"↓".repeat(20));
         let end = session.text();
         let read = |text: &str| {
             text.lines().nth(2).unwrap().split_whitespace().last().unwrap().to_string()
@@ -100,7 +100,7 @@ fn the_help_scrolls_to_its_end_and_back_without_a_dead_key() {
         assert!(end.contains("close the list"), "{end}");
         session.press("↑");
         assert_ne!(session.text(), end);
-        session.press(&"⇞".repeat(200));
+        session.press(&"⇞".repeat(120));
         assert_eq!(
             session.text().lines().skip(2).collect::<Vec<_>>(),
             top.lines().skip(2).collect::<Vec<_>>()

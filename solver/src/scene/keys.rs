@@ -482,8 +482,8 @@ keys! {
     MISTUNING "bladed_disk.mistuning" = real(Never, "-", "standard deviation of single k_b (full model), sd", false 0.0..0.2, bladed_disk.mistuning);
     MISTUNING_SEED "bladed_disk.mistuning_seed" = whole(Never, "draw of the single k_b, seed", 0..1_000_000, bladed_disk.mistuning_seed);
     TIPS "bladed_disk.tips_m" = numbers(Steps, "m", "how much longer the tip of each blade is, one number a blade", 1.0, bladed_disk.tips_m);
-    TIP_SCATTER "bladed_disk.tip_scatter_m" = real(Steps, "m", "standard deviation of single blade lengths", false 0.0..1.0, bladed_disk.tip_scatter_m);
-    TIP_SEED "bladed_disk.tip_seed" = whole(Steps, "draw of the single blade lengths, seed", 0..1_000_000, bladed_disk.tip_seed);
+    TIP_SCATTER "bladed_disk.tip_scatter_m" = real(Steps, "m", "standard deviation of single blade lengths, sigma_b", false 0.0..1.0, bladed_disk.tip_scatter_m);
+    TIP_SEED "bladed_disk.tip_seed" = whole(Steps, "draw of the single blade lengths, seed_b", 0..1_000_000, bladed_disk.tip_seed);
     LONGEST_TIP "bladed_disk.longest_tip_m" = real(Steps, "m", "how much longer blade 1 is, b_1", false -1.0..1.0, bladed_disk.longest_tip_m);
     ORBIT "bladed_disk.orbit_m" = real(Steps, "m", "how far the rotor is off its centre, r", false 0.0..1.0, bladed_disk.orbit_m);
     ORBIT_ANGLE "bladed_disk.orbit_angle_rad" = real(Steps, "rad", "direction of that in the rotor, chi", false -100.0..100.0, bladed_disk.orbit_angle_rad);
@@ -495,7 +495,7 @@ keys! {
     TANGENTIAL_RATIO "casing.tangential_ratio" = real(Steps, "-", "tangential over radial casing amplitude tau", false 0.0..10.0, casing.tangential_ratio);
     CLEARANCE_LOSS "casing.clearance_loss_m_s2" = real(Steps, "m s^2", "clearance lost with speed, g0 - c Omega^2, c", false 0.0..1.0, casing.clearance_loss_m_s2);
     LOBES "casing.lobes" = whole(Steps, "lobes of a casing out of round, m", 0..4096, casing.lobes);
-    OUT_OF_ROUND "casing.out_of_round_m" = real(Steps, "m", "height of the lobes, e", false 0.0..1.0, casing.out_of_round_m);
+    OUT_OF_ROUND "casing.out_of_round_m" = real(Steps, "m", "height of the lobes, e_m", false 0.0..1.0, casing.out_of_round_m);
     OUT_OF_ROUND_ANGLE "casing.out_of_round_angle_rad" = real(Steps, "rad", "phase of the lobes, psi", false -100.0..100.0, casing.out_of_round_angle_rad);
     CASING_MODES "casing.modes" = modes(Aside, "modes of the casing by their diameters", CASING, casing);
     FRICTION "contact.friction" = real(Steps, "-", "friction coefficient mu", false 0.0..5.0, contact.friction);

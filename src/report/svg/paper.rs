@@ -92,7 +92,7 @@ fn colour_of(verdict: Verdict) -> RGBColor {
         Verdict::Bounce => RGBColor(190, 210, 235),
         Verdict::Slip => RGBColor(235, 165, 40),
         Verdict::Whirl => RGBColor(80, 175, 120),
-        Verdict::Forced => RGBColor(130, 110, 60),
+        Verdict::Forced => RGBColor(62, 10, 0),
         Verdict::Divergent => RGBColor(105, 50, 130),
         Verdict::Locked => RGBColor(25, 50, 110),
         Verdict::Adhesive => RGBColor(200, 65, 80),

@@ -45,6 +45,13 @@ impl KnobRange {
         self
     }
 
+    /// Returns both ends, the lower value first, without this part at each of them, and whether
+    /// equal factors have equal widths.
+    pub fn ends(&self, without: f64) -> (f64, f64, bool) {
+        let (low, high) = (self.at(without), self.at(1.0 - without));
+        (low.min(high), high.max(low), self.log && self.sign > 0.0)
+    }
+
     /// Returns whether there are places on it.
     pub fn is_sound(&self) -> bool {
         let ends = self.low.is_finite() && self.high.is_finite() && self.high > self.low;
@@ -113,8 +120,9 @@ pub enum Bar {
 pub struct Case<'a> {
     knob: &'a Knob,
     value: f64,
+    /// The value in the scene as it was opened.
+    opened: f64,
     scene: &'a Scene,
-    opened: &'a Scene,
     machine: &'a Machine,
 }
 
@@ -133,13 +141,15 @@ impl Case<'_> {
 
     /// Returns the magnitude in the opened scene, or what is usual where it is 0 there.
     fn usual(&self) -> f64 {
-        let value = self.knob.number(self.opened).unwrap_or(0.0).abs();
-        if value > 0.0 { value } else { self.knob.usual }
+        if self.opened == 0.0 { self.knob.usual } else { self.opened.abs() }
     }
 
     fn around(&self) -> KnobRange {
         let usual = self.usual();
-        KnobRange::log(usual / AROUND, usual * AROUND).signed(self.value)
+        match self.knob.turn {
+            Turn::Whole(..) => KnobRange::linear((0.5 * usual).floor(), 2.0 * usual),
+            _ => KnobRange::log(usual / AROUND, usual * AROUND).signed(self.value),
+        }
     }
 }
 
@@ -147,9 +157,13 @@ impl Case<'_> {
 pub mod bars {
     use super::{AROUND, Case, KnobRange};
     use rubscope_solver::harmonic::lock_window;
+    use rubscope_solver::model::Initial;
     use rubscope_solver::study::margins::grazing_pulse;
     use std::f64::consts::TAU;
 
+    /// The part of an interference on a bar, of the clearance on it: a clearance of zero is
+    /// between the cells of a map.
+    const PRESSED: f64 = 0.9;
     /// Periods of the casing in which the first touch is looked for.
     const PERIODS: f64 = 20.0;
     /// End of the bar of the speed over the greatest threshold.
@@ -172,10 +186,8 @@ pub mod bars {
     }
 
     pub fn ramp(case: &Case) -> KnobRange {
-        let opened = &case.opened;
-        let value = opened.operation.speed_ramp_rad_s2.abs();
-        let turn = opened.operation.speed_rad_s.abs().max(1.0) / opened.solver.end_s;
-        let usual = if value > 0.0 { value } else { turn };
+        let turn = case.scene.operation.speed_rad_s.abs().max(1.0) / case.scene.solver.end_s;
+        let usual = if case.opened == 0.0 { turn } else { case.opened.abs() };
         KnobRange::log(usual / AROUND, usual * AROUND).signed(case.value)
     }
 
@@ -205,26 +217,35 @@ pub mod bars {
 
     pub fn blade_length(case: &Case) -> KnobRange {
         let (radius, room) = (case.scene.casing.radius_m, 4.0 * case.clearance());
-        let most = if case.has_lining() { radius + room } else { radius };
+        let most = if case.has_lining() { radius + PRESSED * room } else { radius };
         KnobRange::linear(radius - room, most)
     }
 
     pub fn casing_radius(case: &Case) -> KnobRange {
         let (length, room) = (case.scene.bladed_disk.blade_length_m, 4.0 * case.clearance());
-        let least = if case.has_lining() { length - room } else { length };
+        let least = if case.has_lining() { length - PRESSED * room } else { length };
         KnobRange::linear(least, length + room)
     }
 
     pub fn clearance(case: &Case) -> KnobRange {
         let most = 0.5 * AROUND * case.usual();
         match case.has_lining() {
-            true => KnobRange::linear(-most, most).marked(&[("zero", Some(0.0))]),
+            true => KnobRange::linear(-PRESSED * most, most).marked(&[("zero", Some(0.0))]),
             false => case.around(),
         }
     }
 
     pub fn position(case: &Case) -> KnobRange {
-        KnobRange::linear(-case.clearance(), case.clearance())
+        let Initial { u_c_m, u_s_m, .. } = case.scene.initial;
+        let across = u_c_m * u_c_m + u_s_m * u_s_m - case.value * case.value;
+        let most = (case.clearance().powi(2) - across).max(0.0).sqrt().max(case.value.abs());
+        KnobRange::linear(-most, most)
+    }
+
+    pub fn growth(case: &Case) -> KnobRange {
+        let usual = 0.1 * case.clearance() / case.scene.fastest_rad_s().max(1.0).powi(2);
+        let usual = if case.opened == 0.0 { usual } else { case.opened };
+        KnobRange::log(0.1 * usual, usual)
     }
 
     pub fn velocity(case: &Case) -> KnobRange {
@@ -250,7 +271,12 @@ impl Knob {
     /// the machine and on the scene as it was opened, not on the value: a bar whose scale moves
     /// cannot be read.
     pub fn range(&self, scene: &Scene, opened: &Scene, machine: &Machine) -> Option<KnobRange> {
-        let case = Case { knob: self, value: self.number(scene)?, scene, opened, machine };
+        self.range_around(self.number(opened)?, scene, machine)
+    }
+
+    /// Same as [`Self::range`], for this value in the opened scene.
+    pub fn range_around(&self, opened: f64, scene: &Scene, machine: &Machine) -> Option<KnobRange> {
+        let case = Case { knob: self, value: self.number(scene)?, opened, scene, machine };
         let range = match self.bar {
             Bar::Around => case.around(),
             Bar::From(low, high) => KnobRange::linear(low, high),

@@ -244,6 +244,7 @@ pub const KNOBS: &[Knob] = &[
         Decades(1e-9),
         "depth over which the stiffness of the lining sets in, for the smooth law",
     )
+    .usual(1e-6)
     .unless(inert::lining),
     knob(
         Beyond,
@@ -297,13 +298,13 @@ pub const KNOBS: &[Knob] = &[
         Decades(1e-14),
         "clearance lost as blades grow with the speed, c Ω²; 0 in the paper",
     )
-    .usual(1e-10),
+    .bar(Of(bars::growth)),
     knob(Tips, "longest tip", keys::LONGEST_TIP, Linear(1e-6, 1e-5), "how much longer blade 1 is than the others; beyond the clearance it drags the wave").bar(From(-2e-4, 2e-4)),
     knob(Tips, "tip scatter", keys::TIP_SCATTER, Decades(1e-9), "standard deviation of the lengths of single blades; 0 for equal tips").usual(1e-6),
     knob(Tips, "tip seed", keys::TIP_SEED, Whole(1, 10), "number of the draw of those lengths").unless(inert::equal_tips),
     knob(Tips, "orbit r", keys::ORBIT, Decades(1e-9), "how far the rotor is off its centre").usual(1e-5),
     knob(Tips, "orbit χ", keys::ORBIT_ANGLE, Linear(0.1, 1.0), "direction of that in the frame of the rotor").bar(From(-3.2, 3.2)).unless(inert::centred),
-    knob(Tips, "lobes m", keys::LOBES, Whole(1, 5), "lobes of a casing that is out of round; 0 for none").unless(inert::round),
+    knob(Tips, "lobes", keys::LOBES, Whole(1, 5), "lobes of a casing that is out of round; 0 for none").unless(inert::round),
     knob(Tips, "out of round", keys::OUT_OF_ROUND, Decades(1e-9), "height of those lobes; 0 for a round casing").usual(1e-6).unless(inert::without_lobes),
     knob(Tips, "lobes ψ", keys::OUT_OF_ROUND_ANGLE, Linear(0.1, 1.0), "phase of those lobes").bar(From(-3.2, 3.2)).unless(inert::round),
     knob(

@@ -326,9 +326,28 @@ impl<B: Disk> Explicit<B> {
 #[cfg(test)]
 mod tests {
     use super::MOST_LONG_STEPS;
+    use crate::motion::explicit::rows::{Place, Row};
     use crate::motion::explicit::{Explicit, RigidBlades};
     use crate::motion::{Plane, Solver};
     use crate::scene::{ModelSize, Scene};
+
+    #[test]
+    fn a_push_takes_its_torque_times_the_angle_turned_from_the_rotor() {
+        let mut scene = Scene::base();
+        scene.operation.speed_ramp_rad_s2 = -2e5;
+        let mut motion = Explicit::<RigidBlades>::new(&scene.checked().unwrap());
+        let place = Place { moment_arm: 1e-3, ..Place::default() };
+        let row = Row { lambda: -1e4, place, ..Row::default() };
+        for n in [2, 10, 900] {
+            motion.n = n;
+            let before = motion.beyond.account.sums.rotor_work_j;
+            motion.count_push(&row, Plane::new(1.0, 0.0), &Default::default());
+            let work = motion.beyond.account.sums.rotor_work_j - before;
+            let angle = |n: u64| motion.drive.rotor.angle(motion.drive.time_of(n));
+            let turned = 0.5 * (angle(n) - angle(n - 2));
+            assert!((work / (-10.0 * turned) - 1.0).abs() < 1e-9, "{n}: {work} {turned}");
+        }
+    }
 
     #[test]
     fn long_steps_fail_where_more_than_the_most_follow_each_other() {

@@ -241,7 +241,30 @@ impl<B: Disk> Explicit<B> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::motion::explicit::RigidBlades;
     use crate::scene::Scene;
+
+    #[test]
+    fn candidates_hold_every_near_side_as_the_casing_comes_nearer() {
+        let mut motion = Explicit::<RigidBlades>::new(&Scene::base().checked().unwrap());
+        let (mut tips, clearance) = (motion.tips, motion.machine.clearance());
+        let (reach, mut again) = (0.1 * clearance, 0);
+        for z in [Plane::default(), Plane::new(-0.2 * clearance, 0.1 * clearance)] {
+            for part in (1..=20).rev() {
+                tips.clearance = 0.05 * f64::from(part) * clearance;
+                motion.machine.polygon.clearance = tips.clearance;
+                again += u32::from(motion.find_candidates(z, &tips, 0.0, reach, 0.5));
+                let found = motion.beyond.candidates.iter();
+                let sides: Vec<u32> =
+                    found.map(|&row| motion.blades.table().side[row as usize]).collect();
+                let polygon = &motion.machine.polygon;
+                let near = (0..polygon.sides).filter(|&side| polygon.gap(side, z.re, z.im) < reach);
+                let missed: Vec<u32> = near.filter(|side| !sides.contains(side)).collect();
+                assert!(missed.is_empty(), "{z} {part}: {missed:?}");
+            }
+        }
+        assert!(again < 40, "{again}");
+    }
 
     #[test]
     fn a_row_is_the_derivative_of_its_gap() {

@@ -2,7 +2,6 @@
 //! solver and model or under the other law. It is computed in coarse blocks first, then in finer
 //! ones in a fixed order.
 
-use crate::tui::axis::nice_step;
 use crate::tui::knobs::{KNOBS, Knob, knob_of};
 use crate::tui::views::locked::curves::speed_range;
 use rubscope_solver::motion::Verdict;
@@ -13,8 +12,6 @@ use rubscope_solver::study::{Axis, Cell, Map, MapPlan};
 /// Most cells across and up. Usual ranges give round values: 7.5 rad/s for 600,
 /// a tenth of a decade for four.
 const CELLS: [u32; 2] = [81, 41];
-/// Allowed values of a key without a knob.
-const ANY: Allowed = Allowed::Real { min: f64::MIN, max: f64::MAX, above: false };
 /// The key of the torque on the blades.
 const TORQUE: &str = keys::EXCITATION;
 /// The key of the friction of blades and casing.
@@ -23,8 +20,8 @@ const FRICTION: &str = keys::FRICTION;
 const SLOWEST: f64 = 0.1;
 /// Pulses of the map \[N\].
 const PULSES: [f64; 2] = [1e3, 1e7];
-/// The greatest damping of a map, unless the present one is greater.
-const DAMPING: f64 = 0.2;
+/// The part of a bar that is left out at each end where a scene is refused there.
+const REFUSED: f64 = 0.025;
 
 /// Choices for the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,15 +77,18 @@ impl MapChoice {
         // Friction has no direction while the rotor stands.
         let slides = scene.contact.friction != 0.0
             || [self.x, self.y].iter().any(|axis| axis.path == FRICTION);
-        let x = self.x.over(&scene, CELLS[0], slides)?;
-        let y = self.y.over(&scene, CELLS[1], slides)?;
-        for axis in [&x, &y] {
-            // The map stays the same while the knobs that it sweeps are turned.
-            axis.apply(&mut scene, 0).map_err(|error| error.to_string())?;
-        }
-        let plan = MapPlan { scene, x, y, sensitivity: false };
-        plan.check().map_err(|error| error.to_string())?;
-        Ok(plan)
+        let plan = |without: f64| {
+            let x = self.x.over(&scene, CELLS[0], slides, without)?;
+            let y = self.y.over(&scene, CELLS[1], slides, without)?;
+            let mut scene = scene.clone();
+            for axis in [&x, &y] {
+                // The map stays the same while the knobs that it sweeps are turned.
+                axis.apply(&mut scene, 0).map_err(|error| error.to_string())?;
+            }
+            let plan = MapPlan { scene, x, y, sensitivity: false };
+            plan.check().map(|()| plan).map_err(|error| error.to_string())
+        };
+        plan(0.0).or_else(|_| plan(REFUSED))
     }
 }
 
@@ -98,91 +98,44 @@ pub fn numeric() -> impl Iterator<Item = &'static Knob> {
     KNOBS.iter().filter(move |knob| is_number(knob.allowed()))
 }
 
-/// A range of values of a key.
-struct Range {
-    from: f64,
-    to: f64,
-    log: bool,
-}
-
-const fn even(from: f64, to: f64) -> Range {
-    Range { from, to, log: false }
-}
-
 impl MapAxis {
-    fn over(&self, scene: &Scene, most: u32, slides: bool) -> Result<Axis, String> {
-        let allowed = knob_of(self.path).map_or(ANY, Knob::allowed);
-        let Range { mut from, mut to, log } = self.range(scene, allowed);
-        if slides && self.path == keys::SPEED {
-            (from, to) = if to > 0.0 { (SLOWEST * to, to) } else { (from, SLOWEST * from) };
+    /// Returns the axis over the bar of the knob, without a part at each end.
+    fn over(&self, scene: &Scene, most: u32, slides: bool, without: f64) -> Result<Axis, String> {
+        let knob = knob_of(self.path).ok_or_else(|| format!("{} is no knob", self.path))?;
+        let bar = knob.range_around(self.anchor, scene, &scene.machine());
+        let (mut from, mut to, mut log) =
+            bar.ok_or_else(|| format!("{} has no range", knob.label))?.ends(without);
+        match self.path {
+            keys::SPEED => {
+                (from, to) = speeds(scene);
+                if slides {
+                    (from, to) = if to > 0.0 { (SLOWEST * to, to) } else { (from, SLOWEST * from) };
+                }
+            }
+            // From below the pulse that was opened, if that is a small one.
+            keys::PULSE => {
+                let below = 10f64.powf((0.5 * self.anchor.abs()).log10().floor());
+                from = if self.anchor == 0.0 { PULSES[0] } else { below.min(PULSES[0]) };
+                (to, log) = (PULSES[1], true);
+            }
+            keys::STEP => to = to.min(0.9 * scene.stable_step()),
+            _ => {}
         }
-        let count = match allowed {
+        let count = match knob.allowed() {
             // Each whole number once.
-            Allowed::Whole { .. } => ((to - from).max(0.0) as u32).saturating_add(1).min(most),
+            Allowed::Whole { .. } => {
+                (from, to) = (from.ceil(), to.floor());
+                ((to - from).max(0.0) as u32).saturating_add(1).min(most)
+            }
             _ => most,
         };
         Axis::new(self.path, from, to, count, log).map_err(|error| error.to_string())
-    }
-
-    fn range(&self, scene: &Scene, allowed: Allowed) -> Range {
-        let anchor = self.anchor;
-        let clearance = scene.clearance().abs();
-        let lining = scene.solver.contact == ContactLaw::Smooth;
-        match self.path {
-            keys::SPEED => speeds(scene),
-            // From below the pulse that was opened, if that is a small one.
-            keys::PULSE => {
-                let below = 10f64.powf((0.5 * anchor.abs()).log10().floor());
-                let from = if anchor == 0.0 { PULSES[0] } else { below.min(PULSES[0]) };
-                Range { from, to: PULSES[1], log: true }
-            }
-            keys::CASING_DAMPING | keys::BLADE_DAMPING if anchor <= DAMPING => even(0.0, DAMPING),
-            keys::DIAMETERS => even(1.0, f64::from(scene.bladed_disk.blades / 2).max(1.0)),
-            keys::DISK_DIAMETERS => even(1.0, f64::from(scene.bladed_disk.blades / 2).max(1.0)),
-            keys::CLEARANCE if lining => even(-2.0 * clearance, 1.9 * clearance),
-            keys::CLEARANCE => even(0.1 * clearance, 4.0 * clearance),
-            // A lining may be pressed at rest, but not to a clearance of zero: that is
-            // between two cells.
-            keys::CASING_RADIUS if lining => {
-                let length = scene.bladed_disk.blade_length_m;
-                even(length - 2.0 * clearance, length + 1.9 * clearance)
-            }
-            keys::BLADE_LENGTH if lining => {
-                let radius = scene.casing.radius_m;
-                even(radius - 1.9 * clearance, radius + 2.0 * clearance)
-            }
-            // The clearance from a tenth to four times the present one.
-            keys::CASING_RADIUS => {
-                let length = scene.bladed_disk.blade_length_m;
-                even(length + 0.1 * clearance, length + 4.0 * clearance)
-            }
-            keys::BLADE_LENGTH => {
-                let radius = scene.casing.radius_m;
-                even((radius - 4.0 * clearance).max(0.5 * radius), radius - 0.1 * clearance)
-            }
-            // Every gap is open as long as the casing is within the clearance.
-            keys::INITIAL_U_C | keys::INITIAL_U_S => {
-                let initial = &scene.initial;
-                let (own, other) = match self.path {
-                    keys::INITIAL_U_C => (anchor, initial.u_s_m),
-                    _ => (anchor, initial.u_c_m),
-                };
-                let most = (0.95 * clearance).powi(2) - other.powi(2);
-                let most = most.max(0.0).sqrt().max(own.abs());
-                even(-most, most)
-            }
-            keys::STEP => {
-                let most = (10.0 * anchor).min(0.9 * scene.stable_step());
-                within(allowed, Range { from: 0.01 * most, to: most, log: true })
-            }
-            _ => within(allowed, around(allowed, anchor, usual(self.path, scene, clearance))),
-        }
     }
 }
 
 /// Returns the range from rest to above every threshold, and to the present speed if it is far
 /// outside, in the present direction of rotation.
-fn speeds(scene: &Scene) -> Range {
+fn speeds(scene: &Scene) -> (f64, f64) {
     let mut scene = scene.clone();
     let speed = scene.operation.speed_rad_s;
     let machine = scene.machine();
@@ -191,45 +144,7 @@ fn speeds(scene: &Scene) -> Range {
     let usual = speed_range(&scene);
     scene.operation.speed_rad_s = speed;
     let fastest = if speed.abs() > usual { speed_range(&scene) } else { usual };
-    if speed < 0.0 { even(-fastest, 0.0) } else { even(0.0, fastest) }
-}
-
-/// Returns a size to begin with for a key that is zero.
-fn usual(path: &str, scene: &Scene, clearance: f64) -> f64 {
-    match path {
-        keys::INITIAL_V_C | keys::INITIAL_V_S => clearance * scene.machine().omega_c,
-        keys::SPEED_RAMP => 1e3,
-        keys::PULSE_TIME => 1e-4,
-        keys::RADIAL_COUPLING | FRICTION => 0.25,
-        keys::RESTITUTION | keys::TANGENTIAL_RATIO => 0.5,
-        keys::MISTUNING => 0.025,
-        keys::MISTUNING_SEED => 10.0,
-        keys::LINING_SMOOTHING => 1e-6,
-        keys::CLEARANCE_LOSS => 0.1 * clearance / scene.fastest_rad_s().max(1.0).powi(2),
-        keys::BLADE_COUPLING => scene.disk_in_use().stiffness_nm_per_rad,
-        _ => 1.0,
-    }
-}
-
-/// Returns a decade to either side of a positive value, both signs of a signed one.
-fn around(allowed: Allowed, value: f64, usual: f64) -> Range {
-    let size = if value == 0.0 { usual } else { value.abs() };
-    let round = nice_step(2.0 * size, 1).unwrap_or(2.0 * size);
-    match allowed {
-        Allowed::Whole { min, .. } => even((0.5 * size).floor().max(min as f64), 2.0 * size),
-        Allowed::Real { min, .. } if min < 0.0 => even(-round, round),
-        _ if value == 0.0 => even(0.0, round),
-        _ => Range { from: 0.1 * size, to: 10.0 * size, log: true },
-    }
-}
-
-fn within(allowed: Allowed, Range { from, to, log }: Range) -> Range {
-    let (min, max) = match allowed {
-        Allowed::Real { min, max, .. } => (min, max),
-        Allowed::Whole { min, max } => (min as f64, max as f64),
-        _ => (from, to),
-    };
-    Range { from: from.max(min), to: to.min(max), log }
+    if speed < 0.0 { (-fastest, 0.0) } else { (0.0, fastest) }
 }
 
 /// Sides of the blocks that one cell stands for, coarse to fine.

@@ -295,7 +295,10 @@ impl Mode {
         };
         let [dissipated, work] = match self {
             Self::Free(free) => [dissipated(parameters, free, s), 0.0],
-            Self::Slide(slide) => slide.energies(parameters, s),
+            Self::Slide(slide) => quadrature(s, 2.0 * slide.fastest(), |t| {
+                let Along { y, rate, push } = slide.at(parameters, t);
+                power(t, y, rate, push)
+            }),
             Self::Driven(series) => quadrature(s, 2.0 / series.length, |t| {
                 let Along { y, rate, push } = series.at(t);
                 if parameters.blades.is_some() {

@@ -17,27 +17,7 @@ use crate::motion::event::series::{
     slope, values,
 };
 use crate::motion::propagator::Propagator;
-use crate::numeric::quadrature::GAUSS_8;
-use crate::tolerances::{
-    LONGEST_LOOK, MOST_HALVINGS, MOST_PANELS, SERIES_END, SIDE_GROWTH, SIDE_LOOK,
-};
-
-/// Pairs of terms of a panel: at one radian the first one dropped is `1/20!`.
-const PANEL_TERMS: usize = 10;
-
-/// What the recurrence of a panel's terms divides by: for the pair `n = 2k`, `n + 1`
-/// the factors `1/(n+1)`, `1/(n (n+1))`, and those of the next term.
-const OVER: [[f64; 4]; PANEL_TERMS] = {
-    let mut over = [[1.0, 0.0, 0.0, 0.0]; PANEL_TERMS];
-    let mut k = 1;
-    while k < PANEL_TERMS {
-        let n = 2.0 * k as f64;
-        over[k] = [1.0 / (n + 1.0), 1.0 / (n * (n + 1.0)), 1.0 / (n + 2.0), 0.0];
-        over[k][3] = over[k][2] / (n + 1.0);
-        k += 1;
-    }
-    over
-};
+use crate::tolerances::{LONGEST_LOOK, MOST_HALVINGS, SIDE_GROWTH, SIDE_LOOK};
 
 /// Sliding on `side` from `y` with rate `rate`.
 #[derive(Clone, Copy, Debug)]
@@ -50,52 +30,6 @@ pub(super) struct Slide {
     propagator: Propagator,
     /// Acceleration at rest at the start \[m/s^2\].
     pull: f64,
-}
-
-/// Integrals over a time.
-#[derive(Clone, Copy, Debug, Default)]
-struct Moments {
-    /// Of the rate \[m\].
-    displacement: f64,
-    /// Of the place \[m s\].
-    place: f64,
-    /// Of its square \[m^2 s\].
-    square: f64,
-    /// Of the square of the rate \[m^2/s\].
-    speed: f64,
-}
-
-impl Moments {
-    /// Adds a panel of this half length, from the even and odd terms of its power
-    /// series; the squares only where something is damped.
-    fn add(&mut self, terms: &[[f64; 2]], half: f64, damped: bool) {
-        for ([even, odd], over) in terms.iter().zip(&OVER) {
-            self.displacement += 2.0 * odd;
-            self.place += 2.0 * half * even * over[0];
-        }
-        if !damped {
-            return;
-        }
-        // By Gauss quadrature, four pairs of nodes side by side: even and odd part
-        // of the place, and of its rate but for a factor.
-        let squares = GAUSS_8.map(|(node, _)| node * node);
-        let (mut value, mut slope) = ([[0.0; 4]; 2], [[0.0; 4]; 2]);
-        for pair in terms.iter().rev() {
-            for k in [0, 1] {
-                for n in 0..4 {
-                    slope[k][n] = slope[k][n] * squares[n] + value[k][n];
-                    value[k][n] = value[k][n] * squares[n] + pair[k];
-                }
-            }
-        }
-        for (n, (node, weight)) in GAUSS_8.into_iter().enumerate() {
-            let (even, odd) = (value[0][n], value[1][n] * node);
-            let (even_rate, odd_rate) =
-                (2.0 * slope[0][n] * node, value[1][n] + 2.0 * slope[1][n] * squares[n]);
-            self.square += 2.0 * weight * half * (even * even + odd * odd);
-            self.speed += 2.0 * weight / half * (even_rate * even_rate + odd_rate * odd_rate);
-        }
-    }
 }
 
 /// Position, rate and push at one instant.
@@ -137,58 +71,6 @@ impl Slide {
         let (displacement, rate) = self.moved(s);
         let y = self.y + displacement;
         Along { y, rate, push: parameters.push(parameters.drive.nu, 0.0, y, rate, 0.0) }
-    }
-
-    /// What the casing dissipates in the first `s` seconds, and the work of the
-    /// rotor, per unit casing mass.
-    pub(super) fn energies(&self, parameters: &Parameters, s: f64) -> [f64; 2] {
-        let (nu, g0, c) = (parameters.drive.nu, parameters.clearance, self.propagator.damping);
-        let Moments { displacement, place, square, speed } = self.moments(s);
-        let end = self.y + displacement;
-        // Of c |u'|^2 with u' = y' - nu g0 along the side and nu y across it.
-        let along = speed - 2.0 * nu * g0 * displacement + nu * nu * g0 * g0 * s;
-        let dissipated = 2.0 * c * (along + nu * nu * square);
-        // A push p takes the power -p nu y from the rotor.
-        let centred = parameters.push(nu, 0.0, 0.0, 0.0, 0.0);
-        let coriolis = nu * displacement * (end + self.y);
-        let work = -nu * (centred * place - coriolis - 2.0 * c * nu * square);
-        [dissipated, work]
-    }
-
-    /// Integrals over the first `s` seconds, of the Taylor series about the middle of
-    /// panels so short that it ends in round-off.
-    fn moments(&self, s: f64) -> Moments {
-        let (stiffness, c) = (self.propagator.stiffness, self.propagator.damping);
-        let panels = (0.5 * self.fastest() * s).ceil().clamp(1.0, MOST_PANELS);
-        let half = 0.5 * s / panels;
-        let (drag, spring) = (2.0 * c * half, stiffness * half * half);
-        let size = self.fastest() * half;
-        let mut sums = Moments::default();
-        let mut panel = 0.0;
-        while panel < panels {
-            let (displacement, rate) = self.moved((2.0 * panel + 1.0) * half);
-            let bend = (self.pull - stiffness * displacement - 2.0 * c * rate) * half * half;
-            // Even and odd terms apart: nodes come in pairs of both signs.
-            let mut terms = [[0.0; 2]; PANEL_TERMS];
-            terms[0] = [self.y + displacement, rate * half];
-            let (mut before, mut term) = (terms[0][1], 0.5 * bend);
-            // A bound on the terms, against the first.
-            let (mut bound, mut used) = (size * size, 1);
-            for (pair, over) in terms.iter_mut().zip(&OVER).skip(1) {
-                let next = -(drag * term * over[0] + spring * before * over[1]);
-                *pair = [term, next];
-                term = -(drag * next * over[2] + spring * term * over[3]);
-                before = next;
-                bound *= size * size * over[1];
-                used += 1;
-                if bound < SERIES_END {
-                    break;
-                }
-            }
-            sums.add(terms.get(..used).unwrap_or(&terms), half, c > 0.0);
-            panel += 1.0;
-        }
-        sums
     }
 
     /// Returns the fastest rate of the motion along the side \[1/s\].
@@ -523,42 +405,4 @@ fn tangent(angle: &Terms) -> Terms {
         result[n + 1] = product(&factor, &rate, n) / (n as f64 + 1.0);
     }
     result
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::numeric::quadrature::quadrature;
-    use crate::scene::Scene;
-
-    #[test]
-    fn energies_of_the_series_are_those_of_a_plain_quadrature() {
-        for (zeta, speed) in
-            [("0", "500"), ("0.01", "500"), ("0.3", "450"), ("0.05", "200"), ("0.7", "293")]
-        {
-            let changes = [("casing.damping_ratio", zeta), ("operation.speed_rad_s", speed)];
-            let scene = Scene::base().with(&changes).unwrap();
-            let mut parameters = Parameters::new(&scene);
-            parameters.drive.nu = 3.0 * scene.operation.speed_rad_s;
-            for (y, rate, s) in
-                [(-1.4e-5, 0.05, 8e-4), (3e-6, -0.02, 1e-9), (1e-6, 0.0, 5e-3), (1e-5, 0.01, 3e-5)]
-            {
-                let slide = Slide::new(&parameters, 4, y, rate);
-                let (drag, nu) = (2.0 * parameters.damping, parameters.drive.nu);
-                let mut size = 0.0_f64;
-                for k in 0..=100 {
-                    let Along { y, push, .. } = slide.at(&parameters, 0.01 * s * f64::from(k));
-                    size = size.max((nu * push * y * s).abs());
-                }
-                let [dissipated, work] = quadrature(s, 20.0 * slide.fastest(), |t| {
-                    let Along { y, rate, push } = slide.at(&parameters, t);
-                    let (across, along) = (nu * y, rate - nu * parameters.clearance);
-                    [drag * (along * along + across * across), -nu * push * y]
-                });
-                let found = slide.energies(&parameters, s);
-                assert!((found[0] - dissipated).abs() <= 1e-13 * dissipated, "{changes:?} {s}");
-                assert!((found[1] - work).abs() <= 1e-12 * size, "{changes:?} {s} {size}: {work}");
-            }
-        }
-    }
 }

@@ -488,6 +488,15 @@ mod tests {
         assert_eq!(pushes(joint, &[-1.0, 1.0], 1e-14).unwrap()[..2], [1.0, 0.0]);
     }
 
+    #[test]
+    fn of_gaps_that_have_just_opened_only_those_that_close_again_touch() {
+        let mut motion = LinearEvents::new(&Scene::base().checked().unwrap());
+        let opened = |row, rate| OpenedGap { row, gap: 0.0, rate, released: false };
+        motion.opened = vec![opened(1, 1e-3), opened(2, -1e-3), opened(3, 0.0)];
+        let met = motion.touching(motion.stretch.from(), 0);
+        assert_eq!(met, [(2, -1e-3), (3, 0.0)]);
+    }
+
     /// Gaps that have just opened go on with digits of their own, but as the motion does.
     #[test]
     fn an_opened_gap_is_small_and_moves_as_the_motion_whatever_changes_on_the_way() {

@@ -188,3 +188,37 @@ impl<B: Disk> Explicit<B> {
         Plane::new(c, s) * Plane::new(cos, sin)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::motion::explicit::{Explicit, ModalBlades};
+    use crate::motion::{ActiveSet, Solver};
+    use crate::scene::Scene;
+
+    #[test]
+    fn a_steady_side_has_closed_alone_in_the_two_latest_steps() {
+        let mut seen = [0, 0];
+        for pulse in [2e4, 5e4, 1e5, 2e5] {
+            let mut scene = Scene::base();
+            scene.solver.step_s = 1e-6;
+            scene.solver.shortcuts.slide = false;
+            scene.operation.pulse_n = pulse;
+            let mut motion = Explicit::<ModalBlades>::new(&scene.checked().unwrap());
+            let mut latest = [None; 2];
+            for n in 1..5000 {
+                motion.advance(1e-6 * f64::from(n)).unwrap();
+                let closed = match motion.record.log.active_set {
+                    ActiveSet::Side(side) if motion.record.last_touch == motion.n => Some(side),
+                    _ => None,
+                };
+                latest = [closed, latest[0]];
+                if let Some(side) = motion.steady_side() {
+                    assert_eq!(latest, [Some(side); 2], "{pulse} {n}");
+                    seen[0] += 1;
+                }
+                seen[1] += u32::from(latest[0].is_some() && latest[1].is_none());
+            }
+        }
+        assert!(seen[0] > 3 && seen[1] > 3, "{seen:?}");
+    }
+}

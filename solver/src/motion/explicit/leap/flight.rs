@@ -119,7 +119,25 @@ impl<B: Disk> Explicit<B> {
 #[cfg(test)]
 mod tests {
     use crate::motion::explicit::{Explicit, ModalBlades};
+    use crate::motion::{ActiveSet, Solver};
     use crate::scene::Scene;
+
+    #[test]
+    fn a_contact_that_ends_in_a_flight_is_over_when_plain_steps_say_so() {
+        let over = |flies: bool| {
+            let mut scene = Scene::base();
+            scene.operation.pulse_n = 0.0;
+            scene.solver.shortcuts.flight = flies;
+            let mut motion = Explicit::<ModalBlades>::new(&scene.checked().unwrap());
+            motion.record.touch(0, ActiveSet::Side(4), false);
+            motion.advance(motion.time_of(50)).unwrap();
+            (motion.contacts().active_set, motion.contacts().since, motion.steps_skipped())
+        };
+        let [flown, plain] = [over(true), over(false)];
+        assert_eq!((flown.0, flown.1), (plain.0, plain.1));
+        assert_eq!(plain.0, ActiveSet::Nothing);
+        assert!(flown.2 > plain.2, "{flown:?} {plain:?}");
+    }
 
     #[test]
     fn a_flight_of_one_step_keeps_the_dip_before_it_and_a_longer_one_none() {

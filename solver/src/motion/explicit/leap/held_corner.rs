@@ -423,11 +423,58 @@ fn as_coordinates(modes: Modes) -> [Coordinate; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::motion::Solver;
     use crate::motion::explicit::Oscillator;
     use crate::motion::explicit::disk::ModalBlades;
     use crate::motion::explicit::rows::TipLaw;
     use crate::scene::Scene;
     use crate::tolerances::HELD_LEFT;
+
+    #[test]
+    fn a_swing_that_changes_the_sign_of_a_push_or_a_gap_is_not_kept() {
+        let (mut step, rest) = corner();
+        let motion = Explicit::<ModalBlades>::new(&Scene::base().checked().unwrap());
+        let resting = rest_in(&mut step, rest).unwrap();
+        let turn = step.blades().unwrap().oscillator().turn();
+        let (mut kept, mut changed) = (0, 0);
+        for size in 0..80 {
+            let angle = 1e-9 * 1.4_f64.powi(size);
+            let keeps = motion.is_kept(&step, &resting, (angle, angle * turn));
+            let changes = (0..16).any(|phase| {
+                let (s, c) = (f64::from(phase) * std::f64::consts::PI / 8.0).sin_cos();
+                let swing = Modes::new(c, s, -turn * s, turn * c) * angle;
+                step.from(rest + swing).is_none_or(|Stepped { multipliers, gaps, .. }| {
+                    let values = multipliers.into_iter().chain(gaps).enumerate();
+                    values.into_iter().any(|(k, value)| value * resting.value(k) <= 0.0)
+                })
+            });
+            assert!(!(keeps && changes), "{angle}");
+            kept += u32::from(keeps);
+            changed += u32::from(changes);
+        }
+        assert!(kept > 10 && changed > 10, "{kept} {changed}");
+    }
+
+    #[test]
+    fn a_corner_is_steady_from_as_many_steps_after_a_change_on_as_after_its_start() {
+        let mut scene = Scene::builtin("adhesive").unwrap();
+        scene.solver.shortcuts.lock = false;
+        let mut motion = Explicit::<ModalBlades>::new(&scene.checked().unwrap());
+        for part in 1.. {
+            motion.advance(1e-4 * f64::from(part)).unwrap();
+            if motion.steady_corner_since(0).is_some() {
+                break;
+            }
+        }
+        let since = (motion.record.log.since / motion.drive.step) as u64;
+        for n in since + HELD_AFTER..motion.n {
+            assert!(motion.steady_corner_since(n - HELD_AFTER).is_some());
+        }
+        for steps in [0, 1, HELD_AFTER - 1, HELD_AFTER, HELD_AFTER + 1] {
+            let found = motion.steady_corner_since(motion.n - steps);
+            assert_eq!(found.is_some(), steps >= HELD_AFTER, "{steps}");
+        }
+    }
 
     /// A corner of the paper's blades, and their modes at rest in it.
     fn corner() -> (CornerStep, Modes) {
