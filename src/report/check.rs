@@ -21,7 +21,7 @@ pub fn write(scene: &CheckedScene, out: &mut dyn Write) -> Result<()> {
     let margins = Margins::of(scene);
     let mut paragraphs =
         vec![scene.title.clone(), machine(scene), frequencies(scene), limits(&margins)];
-    paragraphs.extend(Scattered::of(scene).as_ref().map(survey::of_scatter));
+    paragraphs.extend(Scattered::of(scene).map(|found| survey::of_scatter(scene, &found)));
     paragraphs.extend(unknown(scene));
     let doubts = margins.doubts();
     if doubts.is_empty() {

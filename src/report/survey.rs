@@ -10,6 +10,7 @@ use super::margins::words;
 use super::number::{count, per_speed, rounded, short, speed, speed_unit, time};
 use super::symbols::symbol;
 use super::table::{Heading, Table, TableCell, WIDTH};
+use rubscope_solver::scene::Scene;
 use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
 use rubscope_solver::study::margins::{LimitName, Quantity as Kind};
 use rubscope_solver::study::survey::{Scattered, Survey, SurveyLimit, SurveyRow};
@@ -92,7 +93,7 @@ pub fn write(survey: &Survey, out: &mut dyn Write) -> Result<()> {
         ))?;
     }
     survey.note.iter().try_for_each(|note| tell(&format!("The limits are {note}.")))?;
-    survey.scattered.iter().try_for_each(|scattered| tell(&of_scatter(scattered)))?;
+    survey.scattered.iter().try_for_each(|scattered| tell(&of_scatter(scene, scattered)))?;
     if survey.rows.len() > 1 {
         tell("One nodal diameter also moves the shaft, which this model does not have.")?;
     }
@@ -106,13 +107,16 @@ pub fn write(survey: &Survey, out: &mut dyn Write) -> Result<()> {
 
 /// What the limits are of, and what tips that differ do to the lock.
 #[must_use]
-pub fn of_scatter(scattered: &Scattered) -> String {
+pub fn of_scatter(scene: &Scene, scattered: &Scattered) -> String {
+    let [mean, equal] = [scattered.mean_rad_s, scattered.equal_rad_s].map(|x| speed(rounded(x, 4)));
+    let of = match scene.is_uneven() {
+        true => "the tips and the casing of the scene. Equal tips in a round one lock last",
+        false => "equal tips and a round casing, which lock last",
+    };
     format!(
-        "The limits are those of equal tips and a round casing, which lock last: tips that differ \
-         by 1 % of the clearance lock from {} on, the mean of {} rotors, and not from {}.",
-        speed(rounded(scattered.mean_rad_s, 4)),
-        scattered.rotors,
-        speed(rounded(scattered.equal_rad_s, 4))
+        "The limits are those of {of}: tips that differ by 1 % of the clearance lock from {mean} \
+         on, the mean of {} rotors, and not from {equal}.",
+        scattered.rotors
     )
 }
 

@@ -101,6 +101,7 @@ impl Appearance {
                 'ζ' => out.push_str("zeta"),
                 'α' => out.push_str("alpha"),
                 'β' => out.push_str("beta"),
+                'γ' => out.push_str("gamma"),
                 'δ' => out.push_str("delta"),
                 'θ' => out.push_str("theta"),
                 'ν' => out.push_str("nu"),

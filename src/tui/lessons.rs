@@ -215,6 +215,8 @@ const FILES: &[(&str, &str)] = lessons![
     "what-if",
     "coincidence",
     "friction",
+    "long-tip",
+    "roundness",
     "your-machine",
 ];
 

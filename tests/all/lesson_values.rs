@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 
 use rubscope::tui::App;
 use rubscope::tui::lessons::{LessonStep, Settings};
-use rubscope_solver::harmonic::{Form, Lining, locked_motion};
+use rubscope_solver::harmonic::{Form, Lining, locked_motion, roundness};
 use rubscope_solver::motion::{RunReport, Sampling, Script, run_to_end};
 use rubscope_solver::scene::{CheckedScene, Value, keys};
 use rubscope_solver::study::margins::Margins;
+use rubscope_solver::study::survey::Scattered;
 use serde::Deserialize;
 
 /// A number or a word of the text, and where it is from.
@@ -90,6 +91,19 @@ pub fn found(check: &Check, app: &App, runs: &mut Runs) -> Vec<f64> {
             // mu tau = tan delta.
             "friction_limit" => machine.polygon.delta.tan() / machine.tangential_ratio,
             "sides" => f64::from(machine.polygon.sides),
+            "clearance_m" => machine.clearance(),
+            "least_clearance_m" => machine.least_clearance(),
+            // A blade shorter by more has no side between its neighbours.
+            "cut_off_m" => {
+                machine.clearance() * ((2.0 * machine.polygon.delta).cos().recip() - 1.0)
+            }
+            "scattered_speed" => Scattered::of(&scene).unwrap().mean_rad_s,
+            "scattered_rotors" => f64::from(Scattered::of(&scene).unwrap().rotors),
+            "scattered_part" => Scattered::of(&scene).unwrap().tip_scatter_m / machine.clearance(),
+            // The part of the circumference on which lobes press.
+            "rub_part" => {
+                (machine.clearance() / machine.out_of_round()).acos() / std::f64::consts::PI
+            }
             "corner_factor" => (2.0 * machine.polygon.delta).cos(),
             _ => panic!("{name}"),
         }];
@@ -109,6 +123,13 @@ pub fn found(check: &Check, app: &App, runs: &mut Runs) -> Vec<f64> {
             _ => lining.cycles(speed).unwrap().iter().find(|one| one.stable).unwrap().blade_rad,
         }];
     }
+    if let Some(lobes) = check.hbm.as_ref().and_then(|name| name.strip_prefix("roundness_")) {
+        return vec![roundness(&machine, speed, lobes.parse().unwrap()).unwrap()];
+    }
+    if check.hbm.as_deref() == Some("growth_1_s") {
+        let lining = Lining::of(&machine, &scene.contact).unwrap();
+        return vec![lining.rest(speed).worst().growth_1_s];
+    }
     if let Some(name) = &check.hbm {
         let sweep = locked_motion(&machine, Form::Modal, true, None, &[speed]).unwrap();
         let place = ["multiplier_a_n", "multiplier_b_n"].iter().position(|known| known == name);
@@ -127,6 +148,10 @@ pub fn found(check: &Check, app: &App, runs: &mut Runs) -> Vec<f64> {
         "lag" => run.outcome.wave_speed_rad_s.into_iter().map(|wave| speed - wave).collect(),
         "final_m" => vec![run.r#final.u_c_m.hypot(run.r#final.u_s_m)],
         "end_speed" => vec![speed + scene.operation.speed_ramp_rad_s2 * scene.solver.end_s],
+        "held_speed" => {
+            let ramp = scene.operation.speed_ramp_rad_s2;
+            run.outcome.lock_time_s.into_iter().map(|since| speed + ramp * since).collect()
+        }
         "break_s" => vec![break_time(&scene)],
         "break_speed" => vec![speed + scene.operation.speed_ramp_rad_s2 * break_time(&scene)],
         "error_u_s" => {

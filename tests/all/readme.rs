@@ -189,4 +189,22 @@ fn the_first_minute_is_as_it_says() {
     assert!(session.text().contains("5 map"), "{}", session.text());
     session.press("\u{1b}g");
     assert!(session.text().contains("Lessons"), "{}", session.text());
+    session.press("\u{1b}:scene long-tip\n");
+    session.press("");
+    let (scene, start) = (&session.app.scene, header(&session));
+    assert!(start.contains("LOCKED") && start.contains("Blades 1 and 3"), "{start}");
+    assert_eq!(scene.operation.pulse_n, 0.0);
+    let beyond = scene.bladed_disk.longest_tip_m - scene.clearance();
+    assert!((beyond - 5e-6).abs() < 1e-12, "{beyond}");
+    let from = scene.operation.speed_rad_s;
+    let at = |t: f64| from + scene.operation.speed_ramp_rad_s2 * t;
+    assert_eq!((from, at(scene.solver.end_s)), (250.0, 350.0));
+    let held = at(crate::run_once(scene).outcome.lock_time_s.unwrap());
+    assert_eq!(held.round(), 294.0);
+    let page = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).unwrap();
+    for said in
+        ["`scene long-tip`", "5 um longer", "from 250 to 350 rad/s: LOCKED", "from 294 rad/s"]
+    {
+        assert!(page.contains(said), "{said}");
+    }
 }

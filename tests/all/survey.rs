@@ -271,3 +271,31 @@ fn thousands_of_blades_have_a_row_each() {
     let told = text("survey paper-nd3 --set bladed_disk.blades=4096 --range 1:2");
     assert!(told.contains(" more: --json or --out") && told.lines().count() < 100, "{told}");
 }
+
+#[test]
+fn the_limits_say_of_which_tips_they_are_and_what_scatter_does() {
+    let scattered = "tips that differ by 1 % of the clearance lock from 360.5 rad/s on, the mean of 200 \
+                     rotors, and not from 411.9 rad/s.";
+    for command in ["survey", "check"] {
+        let told = |scene| {
+            let text = text(&format!("{command} {scene}"));
+            text.split_whitespace().collect::<Vec<_>>().join(" ")
+        };
+        let of = |scene, tips| {
+            told(scene).contains(&format!("The limits are those of {tips}: {scattered}"))
+        };
+        assert!(
+            of("paper-nd3", "equal tips and a round casing, which lock last"),
+            "{}",
+            told("paper-nd3")
+        );
+        let own = "the tips and the casing of the scene. Equal tips in a round one lock last";
+        assert!(of("long-tip", own), "{}", told("long-tip"));
+        // Equal tips on a lining have another lock.
+        assert!(!told("oval").contains("differ by 1 %"), "{}", told("oval"));
+    }
+    // Of another machine it is another speed: twice the diameters turn at half of it.
+    let own = Survey::of(&scene("paper-nd3", &[("operation.nodal_diameters", "6")]), None, None);
+    let found = own.scattered.unwrap();
+    assert!(found.mean_rad_s < found.equal_rad_s && found.equal_rad_s < 200.0, "{found:?}");
+}

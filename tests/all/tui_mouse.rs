@@ -197,7 +197,7 @@ fn lists_are_chosen_from_and_scrolled() {
     mouse(&mut session, LEFT, second);
     session.press("");
     let text = session.text();
-    assert!(text.contains("Lesson 2 of 13") && text.contains("step 1 of"), "{text}");
+    assert!(text.contains("Lesson 2 of 15") && text.contains("step 1 of"), "{text}");
     session.press("G?");
     let before = session.text();
     mouse(&mut session, ScrollDown, (10, 10));

@@ -254,3 +254,53 @@ fn the_colours_of_the_light_and_the_weights_of_the_mono_theme() {
         insta::assert_snapshot!(format!("styles_{name}_80x24"), styles(&session));
     }
 }
+
+#[test]
+fn a_long_tip_and_the_corner_that_it_makes_are_seen_in_every_view() {
+    let mut scene = Scene::builtin("long-tip").unwrap();
+    (scene.operation.speed_rad_s, scene.operation.speed_ramp_rad_s2) = (400.0, 0.0);
+    scene.solver.end_s = 0.05;
+    let mut session = Session::open(120, 40, scene, Theme::Mono, Marker::Braille);
+    for _ in 0..40 {
+        session.press("");
+    }
+    // The polygon has the side of blade 1 beyond the centre, and those that it leaves.
+    let machine = &session.app.machine;
+    let apothems: Vec<f64> =
+        (0..machine.polygon.sides).map(|side| machine.apothem_at(side, 0.3)).collect();
+    let left = machine.polygon.sides_left(&apothems);
+    assert!(left.len() < 22 && left[0].side == 0, "{left:?}");
+    let pair = [left[0].side, left[0].next].map(|side| machine.polygon.blades_of_side(side)[0]);
+    assert_eq!(pair, [1, 3]);
+    let reach = session.app.usual_reach();
+    assert!(left.iter().all(|left| left.reach.iter().all(|end| end.abs() < reach)), "{left:?}");
+    session.press("3");
+    let text = session.text();
+    let rows: Vec<&str> = text.lines().filter(|row| row.contains("locked λ(Ω)")).collect();
+    assert!(rows[0].contains("λ_a blade 1") && rows[0].contains("λ_b blade 3"), "{text}");
+}
+
+#[test]
+fn an_oval_casing_lies_or_stands_as_its_lobes_do() {
+    let mut scene = Scene::builtin("oval").unwrap();
+    scene.view.charts = vec!["frame".into()];
+    // It hardly turns while it is looked at.
+    scene.operation.speed_rad_s = 0.1;
+    scene.solver.end_s = 0.05;
+    let mut width = |angle: f64| {
+        (scene.casing.lobes, scene.casing.out_of_round_angle_rad) = (2, angle);
+        let mut session = Session::open(80, 40, scene.clone(), Theme::Mono, Marker::Braille);
+        session.press("f");
+        let drawn = |letter: char| ('\u{2801}'..='\u{28ff}').contains(&letter);
+        // The wheel is on the left.
+        let columns = session.rows().into_iter().skip(4).flat_map(move |row| {
+            let places = row.chars().enumerate().take(40);
+            places.filter(move |(_, c)| drawn(*c)).map(|(x, _)| x).collect::<Vec<_>>()
+        });
+        let columns: Vec<usize> = columns.collect();
+        columns.iter().max().unwrap() - columns.iter().min().unwrap()
+    };
+    // A lobe of 60 um on both sides, or at the top and at the bottom.
+    let (lying, standing) = (width(0.0), width(std::f64::consts::PI));
+    assert!(lying > standing + 6, "{lying} {standing}");
+}

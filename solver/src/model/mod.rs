@@ -20,7 +20,7 @@ pub use parameters::{
     BladedDisk, Casing, ContactSurface, Excitation, Initial, Mode, ModePart, Operation,
 };
 pub(crate) use parameters::{frequency_of, of_neighbours};
-pub use polygon::ContactPolygon;
+pub use polygon::{ContactPolygon, SideLeft};
 pub(crate) use polygon::{fraction_of_turn, gcd};
 pub use tip_corner::TipCorner;
 pub(crate) use tips::Tips;

@@ -39,7 +39,46 @@ impl PartialEq for Directions {
     }
 }
 
+/// What others leave of a side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SideLeft {
+    /// Which side.
+    pub side: u32,
+    /// From where to where it reaches from the foot of its normal, in the sense of increasing
+    /// phase; infinite without corners \[m\].
+    pub reach: [f64; 2],
+    /// The side that it meets there, itself without corners.
+    pub next: u32,
+}
+
 impl ContactPolygon {
+    /// Returns the sides that no other cuts off, where they have these apothems \[m\].
+    #[must_use]
+    pub fn sides_left(&self, apothems: &[f64]) -> Vec<SideLeft> {
+        let sides = self.sides;
+        let least = apothems.iter().copied().fold(f64::INFINITY, f64::min);
+        let left = |(side, height): (u32, &f64)| {
+            let reach = |backward: bool| {
+                let (mut end, mut cutting) = (f64::INFINITY, side);
+                for k in 1..sides.div_ceil(2) {
+                    let (sin, cos) = (2.0 * self.delta * f64::from(k)).sin_cos();
+                    if least > 0.0 && (least - height * cos) / sin > end {
+                        break;
+                    }
+                    let other = (side + if backward { sides - k } else { k }) % sides;
+                    let cut = (apothems[other as usize] - height * cos) / sin;
+                    if cut < end {
+                        (end, cutting) = (cut, other);
+                    }
+                }
+                (end, cutting)
+            };
+            let ((high, next), (low, _)) = (reach(false), reach(true));
+            (-low < high).then_some(SideLeft { side, reach: [-low, high], next })
+        };
+        (0..sides).zip(apothems).filter_map(left).collect()
+    }
+
     /// The polygon of `blades >= 1` blades with `nodal_diameters` and
     /// `clearance` \[m\].
     #[must_use]

@@ -44,33 +44,11 @@ impl<T: Number> Machine<T> {
     /// Every corner of two sides that no other cuts off, at the clearance of now.
     #[must_use]
     pub fn tip_corners(&self) -> Vec<TipCorner<T>> {
-        let sides = self.polygon.sides;
-        let apothems: Vec<f64> = (0..sides).map(|side| self.apothem(side).re()).collect();
-        let least = apothems.iter().copied().fold(f64::INFINITY, f64::min);
-        let mut corners = Vec::new();
-        for (a, height) in (0..sides).zip(&apothems) {
-            // How far along the side others let it reach, from the foot of its normal.
-            let reach = |backward: bool| {
-                let (mut end, mut cutting) = (f64::INFINITY, a);
-                for k in 1..sides.div_ceil(2) {
-                    let (sin, cos) = (2.0 * self.polygon.delta * f64::from(k)).sin_cos();
-                    if least > 0.0 && (least - height * cos) / sin > end {
-                        break;
-                    }
-                    let other = (a + if backward { sides - k } else { k }) % sides;
-                    let cut = (apothems[other as usize] - height * cos) / sin;
-                    if cut < end {
-                        (end, cutting) = (cut, other);
-                    }
-                }
-                (end, cutting)
-            };
-            let ((high, b), (low, _)) = (reach(false), reach(true));
-            if -low < high && b != a {
-                corners.push(self.tip_corner([a, b]));
-            }
-        }
-        corners
+        let sides = 0..self.polygon.sides;
+        let left =
+            self.polygon.sides_left(&sides.map(|k| self.apothem(k).re()).collect::<Vec<_>>());
+        let met = left.into_iter().filter(|left| left.next != left.side);
+        met.map(|left| self.tip_corner([left.side, left.next])).collect()
     }
 
     fn tip_corner(&self, sides: [u32; 2]) -> TipCorner<T> {

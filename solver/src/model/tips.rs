@@ -146,9 +146,32 @@ impl Machine {
     /// turned by `theta`, `e cos(m (theta + Phi_i) - psi) - b_i` \[m\].
     #[must_use]
     pub fn uneven_at(&self, blade: u32, theta: f64) -> f64 {
-        let Some(tips) = &self.tips else { return 0.0 };
         let phi = theta + TAU * f64::from(blade) / f64::from(self.polygon.blades);
-        tips.out_of_round * (f64::from(tips.lobes) * phi - tips.angle).cos() - tips.longer(blade)
+        self.shape_at(phi) - self.longer(blade)
+    }
+
+    /// How much farther a casing at rest is at an angle in the standing frame,
+    /// `e cos(m phi - psi)` \[m\].
+    #[must_use]
+    pub fn shape_at(&self, phi: f64) -> f64 {
+        let shape =
+            |tips: &Tips| tips.out_of_round * (f64::from(tips.lobes) * phi - tips.angle).cos();
+        self.tips.as_deref().map_or(0.0, shape)
+    }
+
+    /// How much the tip of a blade is longer, which is numbered from 0 \[m\].
+    #[must_use]
+    pub fn longer(&self, blade: u32) -> f64 {
+        self.tips.as_ref().map_or(0.0, |tips| tips.longer(blade))
+    }
+
+    /// Apothem of a side where the rotor has turned by `theta`: that of its blade with the
+    /// least gap \[m\].
+    #[must_use]
+    pub fn apothem_at(&self, side: u32, theta: f64) -> f64 {
+        let blades = self.polygon.blades_of_side(side).into_iter();
+        let beside = blades.map(|blade| self.uneven_at(blade - 1, theta));
+        self.clearance + beside.reduce(f64::min).unwrap_or(0.0)
     }
 
     /// The place with every gap open that is nearest to another, in the frame of the blades

@@ -297,7 +297,7 @@ impl App {
         if !self.run.ranges.follow {
             return;
         }
-        let (clearance, usual) = (self.machine.clearance(), self.usual_reach());
+        let (roomiest, usual) = (self.roomiest(), self.usual_reach());
         let lining = self.has_lining();
         let Ranges { casing, blades, gaps, rim, .. } = &mut self.run.ranges;
         grow(casing, extremes(bins, CASING));
@@ -309,7 +309,7 @@ impl App {
         // smallest is as far below.
         let low = if lining { extremes(bins, [Channel::Gap; 2]) } else { None };
         let low = low.map_or(gaps.low, |(low, _)| low.min(gaps.low));
-        grow(gaps, most.map(|most| (low, clearance + most)));
+        grow(gaps, most.map(|most| (low, roomiest + most)));
     }
 
     /// Lets ranges shrink to the data of the old page when a new one starts.

@@ -223,7 +223,15 @@ impl App {
     pub fn usual_reach(&self) -> f64 {
         let polygon = &self.machine.polygon;
         let corner = if polygon.has_corners() { polygon.delta.cos() } else { 1.0 };
-        MARGIN * (polygon.clearance / corner).abs()
+        MARGIN * (self.roomiest() / corner).abs()
+    }
+
+    /// Returns the largest gap that a casing at rest can have \[m\].
+    pub fn roomiest(&self) -> f64 {
+        let machine = &self.machine;
+        let gaps =
+            (0..machine.polygon.blades).map(|blade| machine.clearance() - machine.longer(blade));
+        gaps.fold(f64::NEG_INFINITY, f64::max) + machine.out_of_round()
     }
 
     /// Returns whether the casing has a lining, which gives way.

@@ -17,6 +17,7 @@ use crate::tui::views::ViewId;
 use crate::tui::views::panel::{ViewArea, ViewPanel, read_before, title};
 use crate::tui::views::response::ResponseView;
 use crate::tui::worker::{in_blade_frame, rim_point};
+use rubscope_solver::model::SideLeft;
 use rubscope_solver::motion::ActiveSet;
 
 /// Least width at which the polygon is beside the wheel where nothing else is shown.
@@ -59,11 +60,14 @@ fn square(area: Rect, reach: f64) -> (ChartAxis, ChartAxis) {
 
 /// Returns the place under the reading cursor, and how far the nearest blade is from it where
 /// blades are rigid.
-fn reading(app: &App, x: ChartAxis, y: ChartAxis) -> Option<String> {
+fn reading(app: &App, x: ChartAxis, y: ChartAxis, apothems: &[f64]) -> Option<String> {
     let cursor = app.cursor_in(ViewId::Frame)?;
     let (x, y) = (x.at(cursor.across), y.at(cursor.up));
     let polygon = &app.machine.polygon;
-    let gaps = (0..polygon.sides).map(|side| (side, polygon.gap(side, x, y)));
+    let gaps = (0..).zip(apothems).map(|(side, apothem)| {
+        let (c, s) = polygon.direction(side);
+        (side, apothem + x * c + y * s)
+    });
     let (side, gap) = gaps.min_by(|a, b| a.1.total_cmp(&b.1))?;
     let to = if app.has_lining() && gap < 0.0 { "," } else { " to" };
     let (blade, gap) = (app.blades_of([side].into_iter()), app.gap_words(gap));
@@ -102,11 +106,21 @@ fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
         (format!("{point} now"), look.style(Role::Focus)),
         (app.contact_shown(), look.style(Role::Contact)),
     ];
-    if app.is_pressed() {
-        // A side is where its blade lifts off.
-        legend.insert(1, ("inside all rub".into(), look.style(Role::Text)));
+    let turned = app.shown().map_or(0.0, |moment| moment.angle);
+    let sides = 0..polygon.sides;
+    let apothems: Vec<f64> = sides.map(|side| app.machine.apothem_at(side, turned)).collect();
+    let mut left = polygon.sides_left(&apothems);
+    if left.is_empty() {
+        // No place has every gap open: a side is where its blade lifts off.
+        let inside = if app.is_pressed() { "inside all rub" } else { "some rub everywhere" };
+        legend.insert(1, (inside.into(), look.style(Role::Text)));
+        let whole = |(side, apothem): (u32, &f64)| {
+            let half = polygon.half_side() * (apothem / polygon.clearance);
+            SideLeft { side, next: side, reach: [-half, half] }
+        };
+        left = (0..).zip(&apothems).map(whole).collect();
     }
-    let read = reading(app, x, y);
+    let read = reading(app, x, y, &apothems);
     let name = read_before(look, &mut legend, read, "blade frame");
     let inside = title(app, buffer, at, name, &legend);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
@@ -115,14 +129,14 @@ fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let touched = Pen { style: look.style(Role::Contact), sign: '#', dashed: false };
     let touching = touching_sides(app);
     // An unbounded side is drawn as far as the chart reaches.
-    let half = polygon.half_side().abs().min(20.0 * polygon.clearance.abs());
+    let most = 20.0 * polygon.clearance.abs();
     for pass in [false, true] {
-        for side in (0..polygon.sides).filter(|side| touching(*side) == pass) {
-            let (cos, sin) = polygon.direction(side);
-            let end = |along: f64| {
-                (-polygon.clearance * cos - along * sin, -polygon.clearance * sin + along * cos)
-            };
-            plot.curve([end(-half), end(half)], if pass { &touched } else { &outline });
+        for SideLeft { side, reach, .. } in left.iter().filter(|left| touching(left.side) == pass) {
+            let (cos, sin) = polygon.direction(*side);
+            let apothem = apothems.get(*side as usize).copied().unwrap_or(polygon.clearance);
+            let end = |along: f64| (-apothem * cos - along * sin, -apothem * sin + along * cos);
+            let ends = reach.map(|along| end(along.clamp(-most, most)));
+            plot.curve(ends, if pass { &touched } else { &outline });
         }
     }
     let past = app.past_and_future(app.record()).0.iter();
@@ -158,7 +172,9 @@ fn wheel(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let machine = &app.machine;
     let polygon = &machine.polygon;
     // A wave that passes the clearance is less magnified, so that it stays on the chart.
-    let unit = polygon.clearance.abs().max(app.run.ranges.rim.high / MOST).max(f64::MIN_POSITIVE);
+    // So do the longest blade and the highest lobe.
+    let most = (app.run.ranges.rim.high / MOST).max(machine.most_uneven());
+    let unit = polygon.clearance.abs().max(most).max(f64::MIN_POSITIVE);
     let exaggeration = CLEARANCE * app.scene.bladed_disk.blade_length_m / unit;
     let reach = 1.0 + 2.1 * CLEARANCE;
     let (x, y) =
@@ -182,7 +198,8 @@ fn wheel(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let casing = (0..=OUTLINE).map(|k| {
         let angle = TAU * f64::from(k) / f64::from(OUTLINE);
         let (sin, cos) = (machine.nodal_diameters * angle).sin_cos();
-        let gap = (polygon.clearance + z[0] * cos + z[1] * sin) / unit;
+        let shape = machine.shape_at(moment.angle + angle);
+        let gap = (polygon.clearance + shape + z[0] * cos + z[1] * sin) / unit;
         let radius = 1.0 + CLEARANCE * gap;
         (radius * angle.cos(), radius * angle.sin())
     });
@@ -193,11 +210,12 @@ fn wheel(app: &App, buffer: &mut Buffer, at: ViewArea) {
         let (sin, cos) = angle_of(blade).sin_cos();
         let (b_sin, b_cos) = (machine.blade_diameters * angle_of(blade)).sin_cos();
         let [a_c, a_s] = moment.state.alpha;
+        let longer = CLEARANCE * machine.longer(blade - 1) / unit;
         let radius = match outward == 0.0 {
-            true => 1.0,
-            false => 1.0 + outward * (a_c * b_cos + a_s * b_sin),
+            true => 1.0 + longer,
+            false => 1.0 + longer + outward * (a_c * b_cos + a_s * b_sin),
         };
-        [radius * cos, radius * sin]
+        [radius.max(HUB) * cos, radius.max(HUB) * sin]
     };
     let spoke = |blade: u32, pen: &Pen, plot: &mut Plot| {
         let (sin, cos) = angle_of(blade).sin_cos();

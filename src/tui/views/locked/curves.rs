@@ -22,8 +22,8 @@ pub struct LockedCurves {
     /// Without damping, as in the paper; none for a machine without damping.
     pub undamped: Option<Sweep>,
     /// Mean multiplier of the whirl that lasts on a rim of many blades, below 0 for a
-    /// push \[N\], against speed \[rad/s\]. Empty for the paper's machine, and on a
-    /// lining.
+    /// push \[N\], against speed \[rad/s\]. Empty for the paper's machine, on a lining,
+    /// and of unequal tips or a casing out of round, of which it is not known.
     pub whirl: Vec<(f64, f64)>,
     /// The scales hold the values up to this speed: joined to the blades, the casing has
     /// a resonance of the lock further on \[rad/s\].
@@ -68,7 +68,7 @@ impl LockedCurves {
 fn whirl(scene: &Scene, machine: &Machine, speeds: &[f64]) -> Vec<(f64, f64)> {
     let open = machine.clearance_at_rest() > 0.0;
     let rigid = scene.solver.contact != ContactLaw::Smooth && open;
-    if !rigid || !is_coupled(scene) {
+    if !rigid || !is_coupled(scene) || machine.is_uneven() {
         return Vec::new();
     }
     let push = |speed: &f64| {

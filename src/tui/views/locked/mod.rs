@@ -100,14 +100,21 @@ fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let quiet = look.style(Role::Quiet);
     let curves = app.results().found.locked.as_deref();
     let roomy = at.large && at.area.height >= ROOMY;
-    let pair = curves.is_some_and(|curves| curves.undamped.is_some());
+    // Without damping equal tips push equally.
+    let uneven = app.machine.has_unequal_tips();
+    let pair = uneven || curves.is_some_and(|curves| curves.undamped.is_some());
     let point = look.either('◆', '@');
     let prefix = curves.and_then(|curves| Some(force_axis(curves, curves.damped.as_ref()?)));
     let prefix = prefix.map_or("", |y| y.scale.prefix);
     let mut legend = vec![(format!("{prefix}N over {}", speed_unit()), quiet)];
-    legend.push(entry(look, &look.first(), if pair { "λ_a" } else { "λ" }));
+    let corner = curves.and_then(|curves| Some(curves.damped.as_ref()?.corner.sides()));
+    let named = |name: &str, place: usize| {
+        let side = corner.filter(|_| uneven).map(|sides| [sides[place]].into_iter());
+        side.map_or(name.into(), |side| format!("{name} {}", app.blades_of(side)))
+    };
+    legend.push(entry(look, &look.first(), &named(if pair { "λ_a" } else { "λ" }, 0)));
     if pair {
-        legend.push(entry(look, &look.second(), "λ_b"));
+        legend.push(entry(look, &look.second(), &named("λ_b", 1)));
     }
     let points = running(app);
     let forces: Vec<String> = points.iter().take(2).map(|force| short(*force)).collect();
@@ -120,9 +127,9 @@ fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let mean = if at.area.width >= NAMED_FROM { "mean now " } else { "" };
     legend.push((format!("{point} {mean}{now}"), look.style(Role::Contact)));
     legend.push(("below 0 pushes".into(), quiet));
-    if app.has_lining() {
-        legend.push(("of a rigid casing".into(), quiet));
-    }
+    let round = app.machine.out_of_round() != 0.0;
+    let of = [(app.has_lining(), "of a rigid casing"), (round, "of a round casing")];
+    legend.extend(of.into_iter().filter(|of| of.0).map(|of| (of.1.into(), quiet)));
     legend.extend(app.tuned_note().map(|note| (note.into(), quiet)));
     if pair && roomy {
         legend.push(dots(look, "undamped"));
@@ -137,6 +144,8 @@ fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
             "all blades rub at rest: nothing locks; view 9 has what grows"
         } else if app.machine.has_other_diameters() {
             "the disk has other diameters than the casing: no pair of blades locks"
+        } else if uneven {
+            "a lock of these tips is not known here: runs have it"
         } else {
             "no corner between two blade groups: this wave never locks"
         };
@@ -152,12 +161,12 @@ fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
     plot.level(0.0, look.either('┈', '.'), quiet);
     uprights(&mut plot, app, curves);
     plot.curve(curves.whirl.iter().copied(), &going_round);
-    if let Some(undamped) = &curves.undamped {
-        if roomy {
-            let points = undamped.points.iter();
-            let points = points.map(|point| (point.speed_rad_s.abs(), point.multipliers_n[0]));
-            plot.dotted(points, x.low, 1.0, &look.quiet());
-        }
+    if let Some(undamped) = curves.undamped.as_ref().filter(|_| roomy) {
+        let points = undamped.points.iter();
+        let points = points.map(|point| (point.speed_rad_s.abs(), point.multipliers_n[0]));
+        plot.dotted(points, x.low, 1.0, &look.quiet());
+    }
+    if pair {
         curve(&mut plot, damped, 1, &look.second());
     }
     curve(&mut plot, damped, 0, &look.first());
