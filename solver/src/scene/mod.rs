@@ -213,7 +213,9 @@ impl Scene {
         ((x, y) != (self.initial.u_c_m, self.initial.u_s_m)).then(|| {
             format!(
                 "tips leave the centre outside, so the casing begins at rest at the nearest open \
-                 place, u_c = {x:.6e} m and u_s = {y:.6e} m"
+                 place, u_c = {:.4} um and u_s = {:.4} um",
+                1e6 * x,
+                1e6 * y
             )
         })
     }
