@@ -35,6 +35,7 @@ const GONE: &[Gone] = &[
     gone("margins", "lock_energy", "margins has torque and power that the rotor gives to the wave"),
     gone("figures", POSITIONAL, OWN),
     gone("figures", "--set", OWN),
+    gone("map", "--adaptive", "map runs every cell; --no-sensitivity and --shard take less time"),
     gone("map", "--resume", "map --shard K/COUNT computes a share; an interrupted one runs again"),
 ];
 

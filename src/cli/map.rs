@@ -51,9 +51,6 @@ pub struct MapCommand {
     /// Rows: PATH=FROM:TO:COUNT or PATH=log:FROM:TO:COUNT [default: the pulse]
     #[arg(long, value_name = "AXIS", conflicts_with = "pulse")]
     y: Option<String>,
-    /// Coarse cells first, then only next to another verdict, down to single cells
-    #[arg(long, conflicts_with = "shard")]
-    adaptive: bool,
     /// Do not look for sensitive cells: takes fewer runs
     #[arg(long)]
     no_sensitivity: bool,
@@ -166,13 +163,7 @@ impl MapCommand {
         let form = "{spinner} {bar:30} {pos}/{len} cells{rate}";
         let bar = sign::bar(indices.len() as u64, form);
         let count = |_, _| bar.inc(1);
-        builder.build()?.install(|| match self.adaptive {
-            true => map.fill_adaptively(&|| true, &count),
-            false => map.fill(indices, &|| true, &count),
-        });
-        if self.adaptive {
-            say_what_was_saved(map);
-        }
+        builder.build()?.install(|| map.fill(indices, &|| true, &count));
         Ok(())
     }
 }
@@ -257,15 +248,4 @@ fn write_file(map: &Map, format: &str, path: &Path) -> std::io::Result<Written> 
             svg::write(&report::figure(map, &overlay::curves(&map.plan)), &origin, out)
         }
     })
-}
-
-/// Reports the cost of an adaptive map, compared with all its cells.
-fn say_what_was_saved(map: &Map) {
-    let (runs, cells, stride) = (map.runs, map.cells.len() as u64, map.coarsest_stride());
-    let saved = cells.saturating_sub(runs);
-    let percent = 100 * saved / cells.max(1);
-    say(&format!(
-        "rubscope: {runs} runs for {cells} cells, {saved} ({percent} %) saved; started with 1 of \
-         {stride} columns and rows, every border between verdicts run to the cell"
-    ));
 }

@@ -50,7 +50,6 @@ impl Serialize for MapJson<'_> {
         object.serialize_entry("depends_on_step", &Rows { map, value })?;
         object.serialize_entry("wall_s", &with_time.then_some(map.wall_s))?;
         object.serialize_entry("runs", &map.runs)?;
-        object.serialize_entry("adaptive", &map.adaptive)?;
         object.end()
     }
 }
@@ -63,7 +62,6 @@ pub fn command(map: &Map) -> CommandLine {
         .option("--x", &plan.x)
         .option("--y", &plan.y)
         .flag("--no-sensitivity", !plan.sensitivity)
-        .flag("--adaptive", map.adaptive)
 }
 
 /// Values of the cells in rows; `null` for a cell that is not computed.

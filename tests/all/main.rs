@@ -42,7 +42,6 @@ mod hbm_whirl;
 mod house;
 mod lasting_locks;
 mod lesson_values;
-mod map_adaptive;
 mod map_cli;
 mod map_flags;
 mod map_hostile;

@@ -1,6 +1,6 @@
 //! What the map shows: no lock below the lock-in speed where contact can only
-//! push, the paper's zone with its adhesive part where it can pull, the same
-//! map on any number of threads, and what an adaptive map may miss.
+//! push, the paper's zone with its adhesive part where it can pull, and the same
+//! map on any number of threads.
 
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
@@ -125,53 +125,6 @@ fn one_thread_and_two_give_the_same_map() {
         pool.install(|| filled(plan.clone())).cells
     };
     assert_eq!(on(1), on(2));
-}
-
-/// A map with large zones: the bilateral one where it does not fail.
-fn zones() -> MapPlan {
-    let mut plan = plan("200:500:61", "3e4:2e5:35");
-    plan.scene.solver.kind = SolverKind::Explicit;
-    plan.scene.solver.contact = ContactLaw::Bilateral;
-    plan.scene.solver.step_s = 1e-6;
-    plan
-}
-
-#[test]
-fn an_adaptive_map_runs_every_cell_beside_another_verdict() {
-    let full = filled(zones());
-    let mut adaptive = Map::empty(zones());
-    let ran = std::sync::Mutex::new(vec![false; adaptive.cells.len()]);
-    adaptive.fill_adaptively(&|| true, &|index, cell| {
-        assert_eq!(Some(cell), full.cells[index]);
-        ran.lock().unwrap()[index] = true;
-    });
-    let ran = ran.into_inner().unwrap();
-    assert!(adaptive.is_complete());
-    let runs = ran.iter().filter(|ran| **ran).count();
-    assert_eq!(adaptive.runs as usize, runs);
-    assert!(3 * runs < 2 * ran.len(), "{runs} runs for {} cells", ran.len());
-    let (columns, rows) = (adaptive.plan.x.count, adaptive.plan.y.count);
-    let verdict = |column, row| adaptive.at(column, row).unwrap().verdict;
-    for (column, row) in (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row))) {
-        let right = column + 1 < columns && verdict(column + 1, row) != verdict(column, row);
-        let above = row + 1 < rows && verdict(column, row + 1) != verdict(column, row);
-        if right || above {
-            assert!(ran[(row * columns + column) as usize], "column {column}, row {row}");
-        }
-    }
-}
-
-#[test]
-fn a_stopped_adaptive_map_holds_runs_only_and_ends_as_one_that_was_not() {
-    let mut whole = Map::empty(zones());
-    whole.fill_adaptively(&|| true, &|_, _| {});
-    let mut stopped = Map::empty(zones());
-    let done = AtomicU64::new(0);
-    stopped.fill_adaptively(&|| done.load(Relaxed) < 200, &|_, _| _ = done.fetch_add(1, Relaxed));
-    assert!(!stopped.is_complete());
-    assert_eq!(stopped.cells.iter().flatten().count() as u64, stopped.runs);
-    stopped.fill_adaptively(&|| true, &|_, _| {});
-    assert_eq!((stopped.cells, stopped.runs), (whole.cells, whole.runs));
 }
 
 #[test]
