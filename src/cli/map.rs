@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 use super::options::{SceneOptions, Swept};
 use super::range::Range;
-use super::status::{self, Refusal, Status, say};
+use super::status::{self, Refusal, Status};
 use super::{Done, output, sign};
 use crate::file::{self, Written};
 use crate::report::part::{self, Shard};

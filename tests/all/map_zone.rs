@@ -3,7 +3,6 @@
 //! map on any number of threads.
 
 use std::f64::consts::TAU;
-use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 use rayon::prelude::*;
 use rubscope_solver::motion::{Verdict, run_to_verdict, to_the_end};
