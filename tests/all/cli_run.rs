@@ -179,7 +179,7 @@ fn reports_say_where_they_come_from() {
         &["hbm", "--speed", "300:500:3", "--damped", "--form", "printed", "--json"],
         &["hbm", "--speed", "-430", "--slip", "--json"],
         &["map", "--speed", "400:500:2", "--pulse", "1e4:2e4:2", "--end", "1e-3", "--json"],
-        &["map", "slip", "--speed", "430", "--adaptive", "--end", "1e-3", "--json"],
+        &["map", "slip", "--speed", "430", "--end", "1e-3", "--json"],
         &["map", "--set", "title=mine", "--set", "view.charts=map,gaps", "--end", "1e-3", "--json"],
         &["precision", "--end", "1e-3", "--repeat", "1", "--finest", "1e-6", "--json"],
         &["margins", "slip", "--end", "1e-2", "--json"],

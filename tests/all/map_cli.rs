@@ -137,17 +137,6 @@ fn the_text_map_fits_marks_the_two_speeds_and_explains_its_signs() {
     assert!(text.contains("Shown is one column of 4 and every row."), "{text}");
 }
 
-#[test]
-fn an_adaptive_map_says_what_it_saved() {
-    let map = "map --contact bilateral --model rigid --step 1e-6 --speed 0:500:51 \
-               --pulse 3e4:2e5:26 --no-sensitivity --adaptive";
-    let said = message(&rubscope(&words(map, &[])));
-    let numbers: Vec<u64> = said.split([' ', ',']).filter_map(|word| word.parse().ok()).collect();
-    let [runs, cells, saved, ..] = numbers[..] else { unreachable!("{said}") };
-    assert_eq!((cells, runs + saved), (1326, 1326), "{said}");
-    assert!(saved > 300, "{said}");
-}
-
 /// The line of the document, with the program in place of its name.
 #[test]
 fn the_parallel_line_of_the_document_gives_the_map_of_one_run() {

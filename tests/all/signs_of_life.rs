@@ -18,7 +18,7 @@ const COMMANDS: [&str; 7] = [
     "margins SCENE --target touching_pulse=1e4 --by casing.damping_ratio",
     "precision SCENE --repeat 1",
     "map SCENE --speed 300:500:30 --pulse 1e4:1e6:30 --out m.csv",
-    "map SCENE --speed 300:500:30 --pulse 1e4:1e6:30 --adaptive",
+    "map SCENE --speed 300:500:30 --pulse 1e4:1e6:30",
 ];
 
 /// Of these the line must be seen: in any build they take many seconds.

@@ -252,6 +252,7 @@ mod tests {
         for z in [Plane::default(), Plane::new(-0.2 * clearance, 0.1 * clearance)] {
             for part in (1..=20).rev() {
                 tips.clearance = 0.05 * f64::from(part) * clearance;
+                tips.least = tips.clearance;
                 motion.machine.polygon.clearance = tips.clearance;
                 again += u32::from(motion.find_candidates(z, &tips, 0.0, reach, 0.5));
                 let found = motion.beyond.candidates.iter();
