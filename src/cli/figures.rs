@@ -18,14 +18,13 @@ use rubscope_solver::study::figures::{Figure, Which};
 ///
 /// Every figure has the built-in scene that gives what the paper says of it
 /// (paper-figs-4-6, paper-fig-7, paper-fig-8, paper-nd3), and a caption that says what
-/// agrees and what differs. The figure "coincidence" is not of the paper, and drawn
-/// where --only names it.
+/// agrees and what differs.
 #[derive(Args, Debug)]
 pub struct FiguresCommand {
     /// Directory of the files; created if missing
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Only these figures, such as 4,9; or coincidence, which is not of the paper
+    /// Only these figures, such as 4,9
     #[arg(long, value_name = "FIGURES", value_delimiter = ',')]
     only: Vec<String>,
     /// Pictures without captions, which go beside them as text (.txt)
@@ -63,12 +62,11 @@ impl FiguresCommand {
         }
         let mut asked = Vec::new();
         for word in &self.only {
-            let allowed = "numbers from 4 to 10, or coincidence";
+            let allowed = "numbers from 4 to 10";
             let which = word.parse().map_err(|()| Refusal::of("--only", word, allowed))?;
             asked.push(which);
         }
-        let every = Which::of_paper().into_iter().chain([Which::Coincidence]);
-        Ok(every.filter(|which| asked.contains(which)).collect())
+        Ok(Which::of_paper().into_iter().filter(|which| asked.contains(which)).collect())
     }
 
     fn save(

@@ -25,6 +25,8 @@ const GONE: &[Gone] = &[
     gone("hbm", "--follow", STATES),
     gone("hbm", "--over", STATES),
     gone("hbm", "--harmonics", "hbm --slip gives the exact orbit of slip, without a series"),
+    gone("hbm", "--omegas", "hbm --compliance has the frequencies beyond every resonance"),
+    gone("hbm", "--zetas", "hbm --slip --zeta-casing VALUE says where slip exists at one damping"),
     gone("margins", "--tolerance", "margins --json has the sensitivity of every limit"),
     gone("margins", "lasting_pulse", PULSES),
     gone("margins", "lasting_pulse_unilateral", PULSES),

@@ -7,12 +7,12 @@ use clap::{Arg, ArgAction, ArgGroup, ArgMatches, Args, Command, FromArgMatches};
 use strum::VariantNames;
 
 use super::options::{SceneOptions, Swept};
-use super::range::{Range, linspace};
+use super::range::linspace;
 use super::status::{self, Refusal, Status, say};
 use super::words::Words;
 use super::{Done, output};
 use crate::report::hbm::{Heading, LOCKED, Request, VIEWS, View};
-use crate::report::number::{speed, with_typed_unit};
+use crate::report::number::speed;
 use crate::report::{CommandLine, json};
 use rubscope_solver::harmonic::{Form, HarmonicError, Sweep};
 use rubscope_solver::scene::Scene;
@@ -57,12 +57,9 @@ pub struct HbmCommand {
     out: Option<PathBuf>,
 }
 
-/// The view of the command line, with its second range as typed.
+/// The view of the command line.
 #[derive(Clone, Debug)]
-struct RequestedView {
-    view: &'static View,
-    range: Option<String>,
-}
+struct RequestedView(&'static View);
 
 impl Args for RequestedView {
     fn augment_args(command: Command) -> Command {
@@ -70,15 +67,10 @@ impl Args for RequestedView {
         VIEWS.into_iter().fold(command, |command, view| {
             let option = Arg::new(view.option).long(view.option).help(view.help);
             let option = option.action(ArgAction::SetTrue);
-            let command = command.arg(match view.always_damped {
+            command.arg(match view.always_damped {
                 true => option.conflicts_with("undamped"),
                 false => option,
-            });
-            let range = view.range.as_ref().map(|range| {
-                let option = Arg::new(range.option).long(range.option).help(range.help);
-                option.value_name("FROM:TO:COUNT").requires(view.option).allow_hyphen_values(true)
-            });
-            command.args(range)
+            })
         })
     }
 
@@ -90,10 +82,7 @@ impl Args for RequestedView {
 impl FromArgMatches for RequestedView {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
         let view = VIEWS.into_iter().find(|view| matches.get_flag(view.option));
-        let view = view.unwrap_or(&LOCKED);
-        let range = view.range.as_ref();
-        let range = range.and_then(|range| matches.get_one::<String>(range.option).cloned());
-        Ok(Self { view, range })
+        Ok(Self(view.unwrap_or(&LOCKED)))
     }
 
     fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
@@ -102,38 +91,10 @@ impl FromArgMatches for RequestedView {
     }
 }
 
-impl RequestedView {
-    /// Returns the values of the second range.
-    fn range(&self) -> Result<Option<Vec<f64>>, Refusal> {
-        let Some((range, text)) = self.view.range.as_ref().zip(self.range.as_ref()) else {
-            return Ok(None);
-        };
-        let name = format!("--{}", range.option);
-        let text = with_typed_unit(text, range.quantity);
-        Ok(Some(Range::parse(&name, &text, range.quantity)?.values()))
-    }
-
-    /// Adds its options to a command.
-    fn add_to(&self, command: CommandLine) -> CommandLine {
-        let Self { view, range } = self;
-        let command = match view.option {
-            "" => command,
-            option => command.flag(&format!("--{option}"), true),
-        };
-        match &view.range {
-            Some(option) => {
-                let range = range.as_ref().map(|text| with_typed_unit(text, option.quantity));
-                command.optional(&format!("--{}", option.option), range)
-            }
-            None => command,
-        }
-    }
-}
-
 impl HbmCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
         output::format(self.out.as_deref(), &["csv"])?;
-        let view = self.view.view;
+        let RequestedView(view) = self.view;
         let resolved = self.options.resolve(Swept { speed: true, pulse: false })?;
         let scene: &Scene = &resolved.scene;
         let speeds = match resolved.speeds {
@@ -141,12 +102,11 @@ impl HbmCommand {
             None if view.one_speed => vec![scene.operation.speed_rad_s],
             None => linspace(0.0, scene.operation.speed_rad_s, SPEEDS),
         };
-        let (form, pair, range) = (self.form()?, self.pair()?, self.view.range()?);
+        let (form, pair) = (self.form()?, self.pair()?);
         // The paper's own equations have no damping.
         let damped = self.damped || !(self.undamped || form == Form::Printed);
-        let (speeds, range, machine) = (&speeds[..], range.as_deref(), scene.machine());
-        let mut request =
-            Request { scene, speeds, form, damped, pair, range, machine, sweep: None };
+        let (speeds, machine) = (&speeds[..], scene.machine());
+        let mut request = Request { scene, speeds, form, damped, pair, machine, sweep: None };
         let answer = request.answer(view).map_err(refused)?;
         status::say_noted();
         if self.json {
@@ -182,7 +142,10 @@ impl HbmCommand {
             .flag("--undamped", self.undamped)
             .flag("--damped", self.damped && self.form == Form::Printed.to_string())
             .optional("--blades", self.blades.as_ref());
-        self.view.add_to(command)
+        match self.view.0.option {
+            "" => command,
+            option => command.flag(&format!("--{option}"), true),
+        }
     }
 
     fn form(&self) -> Result<Form, Refusal> {

@@ -4,7 +4,6 @@
 use std::path::Path;
 
 use rayon::prelude::*;
-use rubscope_solver::harmonic::coincidence;
 use rubscope_solver::motion::Verdict;
 use rubscope_solver::scene::{CheckedScene, Scene};
 use rubscope_solver::study::figures::{Figure, Panel, Which};
@@ -34,8 +33,13 @@ fn columns(directory: &Path, name: &str) -> Vec<(String, Vec<f64>)> {
     names.into_iter().enumerate().map(|(index, name)| (name, column(index))).collect()
 }
 
+/// A figure of the paper by its number.
+fn which(number: u32) -> Which {
+    number.to_string().parse().unwrap()
+}
+
 fn drawn(number: u32) -> Figure {
-    let which = Which::Paper(number);
+    let which = which(number);
     which.draw(&which.scene().unwrap()).unwrap()
 }
 
@@ -45,7 +49,7 @@ fn says(figure: &Figure, words: &str) -> bool {
 }
 
 fn with(number: u32, changes: &[(&str, &str)]) -> CheckedScene {
-    Which::Paper(number).scene().unwrap().into_scene().with(changes).unwrap()
+    which(number).scene().unwrap().into_scene().with(changes).unwrap()
 }
 
 #[test]
@@ -277,7 +281,7 @@ fn figure_7_locks_earlier_than_the_paper_at_most_steps_and_when_it_does_depends_
 
 #[test]
 fn figure_8_has_a_verdict_for_every_cell() {
-    let figure = Which::Paper(8).draw(&with(8, &[("solver.end_s", "1e-3")])).unwrap();
+    let figure = which(8).draw(&with(8, &[("solver.end_s", "1e-3")])).unwrap();
     let cells = |panel: &Panel| -> usize {
         let all = panel.series.iter().filter(|series| series.name != "threshold");
         all.map(|series| series.points.len()).sum()
@@ -377,40 +381,13 @@ fn every_figure_has_a_scene_and_its_number() {
     assert!(drawn(9).title.starts_with("Figure 9. ") && drawn(10).caption.len() == 3);
 }
 
-/// Not of the paper: the peak that the coincidence gives, and runs in time on it.
-#[test]
-fn the_coincidence_is_drawn_where_it_is_named() {
-    let directory = figures("coincidence", &[]);
-    let figure = Which::Coincidence.draw(&Which::Coincidence.scene().unwrap()).unwrap();
-    assert!(says(&figure, "Not a figure of the paper") && !figure.title.contains("Figure"));
-    let panel = &figure.panels[0];
-    let highest = |index: usize| {
-        let points = panel.series[index].points.iter();
-        points.fold((0.0, 0.0), |most, at| if at.1 > most.1 { *at } else { most })
-    };
-    let (damped, light) = (highest(0), highest(1));
-    assert!((damped.0 - 406.5).abs() < 1.0 && (damped.1 - 1.82e-4).abs() < 1e-6, "{damped:?}");
-    assert!((light.0 - 392.5).abs() < 0.3 && (light.1 - 1.313e-4).abs() < 2e-6, "{light:?}");
-    // The runs have full angles; the curve is linearised.
-    let scene = Which::Coincidence.scene().unwrap();
-    for (speed, amplitude) in &panel.series[2].points {
-        let point = coincidence(&scene, &[*speed]).unwrap()[0];
-        let curve = point.blade_amplitude_rad.unwrap();
-        assert!((amplitude / curve - 1.0).abs() < 0.01, "{speed}: {amplitude} {curve}");
-    }
-    assert!(panel.series[2].points.len() == 6 && panel.marks.len() == 3);
-    let svg = std::fs::read_to_string(file(directory.path(), "coincidence.svg")).unwrap();
-    assert!(svg.starts_with("<svg") && svg.contains("blade amplitude"));
-    assert!(file(directory.path(), "coincidence.csv").exists());
-}
-
 #[test]
 fn what_cannot_be_drawn_is_refused() {
     assert!(refusal(&["figures"]).contains("--out <DIR>"));
     let nowhere = ["figures", "--out", "unused", "--only"];
     assert_eq!(
         refusal(&[&nowhere[..], &["3"]].concat()),
-        "rubscope: --only = 3: allowed is numbers from 4 to 10, or coincidence"
+        "rubscope: --only = 3: allowed is numbers from 4 to 10"
     );
     let gone = "is gone: each figure has its own scene; run, hbm and map --out";
     for arguments in

@@ -56,5 +56,5 @@ pub use round_whirl::{
 };
 pub use roundness::roundness;
 pub use slip::{
-    Crossing, NoSlip, SlipLimit, SlipOrbit, SlipPoint, SlipRegion, slip_limits, slip_map, slip_over,
+    Crossing, NoSlip, SlipLimit, SlipOrbit, SlipPoint, slip_limits, slip_map, slip_over,
 };

@@ -159,17 +159,6 @@ pub struct SlipLimit {
     pub appears: bool,
 }
 
-/// Where there is slip at one damping ratio.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct SlipRegion {
-    /// Damping ratio of the casing.
-    pub casing_damping_ratio: f64,
-    /// Whether there is slip at the lowest speed.
-    pub exists_at_lowest: bool,
-    /// Speeds where slip appears and vanishes, in order.
-    pub limits: Vec<SlipLimit>,
-}
-
 /// Returns the speeds between the least and the largest of a list \[rad/s\] where slip
 /// appears or vanishes.
 ///

@@ -15,7 +15,6 @@ use rubscope_solver::model::{LockWindow, TipCorner};
 pub const BRANCHES: View = View {
     option: "branches",
     help: "View: every equilibrium, its stability, and the thresholds of each branch",
-    range: None,
     always_damped: false,
     one_speed: false,
     // Rest and side are there without corners, too.

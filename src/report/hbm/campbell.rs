@@ -10,7 +10,6 @@ use rubscope_solver::harmonic::{Campbell, Coincidence, HarmonicError, Line};
 pub const CAMPBELL: View = View {
     option: "campbell",
     help: "View: frequencies against speed, engine orders, and the coincidences (30)",
-    range: None,
     always_damped: false,
     one_speed: false,
     // Frequencies need no corner, no rigid contact and no balance of one harmonic.

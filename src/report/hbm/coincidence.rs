@@ -13,7 +13,6 @@ use rubscope_solver::harmonic::{
 pub const COINCIDENCE: View = View {
     option: "coincidence",
     help: "View: what the coincidences do: growth of rest and the wave that lasts, against speed",
-    range: None,
     always_damped: true,
     one_speed: false,
     lock: LockBeside::OfScene,

@@ -4,23 +4,17 @@
 use nalgebra::Complex;
 use serde_json::{Value, json};
 
-use super::{Answer, LockBeside, Parts, RangeOption, Request, Rows, View};
+use super::{Answer, LockBeside, Parts, Request, Rows, View};
 use crate::report::number::speed;
 use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{HarmonicError, Joint, RoundWhirl, RoundWhirlLoads, round_whirls};
-use rubscope_solver::scene::{Quantity, keys};
+use rubscope_solver::scene::keys;
 
 /// View: the joint compliance.
 pub const COMPLIANCE: View = View {
     option: "compliance",
     help: "View: the joint compliance B(omega), in JSON and CSV; a whirl is where it crosses the \
            negative real axis",
-    range: Some(RangeOption {
-        option: "omegas",
-        help: "With --compliance: casing frequencies of the table [default: beyond every \
-               resonance]",
-        quantity: Quantity::Speed,
-    }),
     always_damped: true,
     one_speed: true,
     // It is that of the structures, preloaded or not.
@@ -40,9 +34,8 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let joint = Joint::at(machine, request.fastest());
     let waves: Vec<Wave> =
         round_whirls(&joint).into_iter().map(|wave| (wave, wave.loads(&joint))).collect();
-    let omegas = request.range.map_or_else(|| beyond_resonance(&joint), <[f64]>::to_vec);
     let at = |omega: f64| (omega, omega - joint.nu, joint.compliance(omega));
-    let points: Rows<Point> = Rows::of(omegas.into_iter().map(at).collect());
+    let points: Rows<Point> = Rows::of(beyond_resonance(&joint).into_iter().map(at).collect());
     let json = Parts::default()
         .with("speed_rad_s", joint.nu / joint.machine.nodal_diameters)
         .with_rows("omega_rad_s", &points, |point| json!(point.0))

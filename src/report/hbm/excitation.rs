@@ -14,7 +14,6 @@ use rubscope_solver::scene::keys;
 pub const EXCITATION: View = View {
     option: "excitation",
     help: "View: response of the damped lock to the scene's engine-order excitation",
-    range: None,
     always_damped: true,
     one_speed: false,
     lock: LockBeside::Rigid(nothing),

@@ -11,7 +11,6 @@ use rubscope_solver::scene::{ContactLaw, keys};
 pub const FORCED: View = View {
     option: "forced",
     help: "View: the wave that a casing out of round drives where all blades rub its lining",
-    range: None,
     always_damped: true,
     one_speed: false,
     lock: LockBeside::OfScene,

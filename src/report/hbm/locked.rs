@@ -13,7 +13,6 @@ use rubscope_solver::model::ContactPolygon;
 pub const LOCKED: View = View {
     option: "",
     help: "",
-    range: None,
     always_damped: false,
     one_speed: false,
     lock: LockBeside::Rigid(nothing),

@@ -25,7 +25,7 @@ use super::number::{per_speed, short};
 use super::table::{MadeTable, Table};
 use rubscope_solver::harmonic::{Corner, Form, HarmonicError, Sweep, lock_window, locked_motion};
 use rubscope_solver::model::{LockWindow, Machine};
-use rubscope_solver::scene::{Quantity, Scene, keys};
+use rubscope_solver::scene::{Scene, keys};
 
 /// The views with an option, in the order of the help.
 pub const VIEWS: [&View; 9] = [
@@ -47,8 +47,6 @@ pub struct View {
     pub option: &'static str,
     /// Help of the option.
     pub help: &'static str,
-    /// An option for a second range of values.
-    pub range: Option<RangeOption>,
     /// Whether its numbers have the damping of the scene whatever is asked for.
     pub always_damped: bool,
     /// Whether it is of one speed.
@@ -57,17 +55,6 @@ pub struct View {
     pub lock: LockBeside,
     /// Computes it.
     pub answer: fn(&Request<'_>) -> Result<Answer, HarmonicError>,
-}
-
-/// The option for a second range of a view.
-#[derive(Debug)]
-pub struct RangeOption {
-    /// Its name, without dashes.
-    pub option: &'static str,
-    /// Its help.
-    pub help: &'static str,
-    /// The quantity of its values.
-    pub quantity: Quantity,
 }
 
 /// The lock of rigid contact beside a view.
@@ -93,8 +80,6 @@ pub struct Request<'a> {
     pub damped: bool,
     /// The two blades that hold the wave, if they are chosen.
     pub pair: Option<[u32; 2]>,
-    /// The values of the second range of the view, if they are given.
-    pub range: Option<&'a [f64]>,
     /// Machine of the scene, with rigid contact where the view has it.
     pub machine: Machine,
     /// The locked motion, where there is one and the view has rigid contact.

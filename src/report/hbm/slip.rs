@@ -2,23 +2,17 @@
 
 use serde_json::{Value, json};
 
-use super::{Answer, LockBeside, Parts, RangeOption, Request, Rows, View, nothing, refused};
+use super::{Answer, LockBeside, Parts, Request, Rows, View, nothing};
 use crate::report::number::speed;
-use crate::report::table::{Column, Table, TableCell};
+use crate::report::table::{Column, TableCell};
 use rubscope_solver::harmonic::{
-    HarmonicError, SlipLimit, SlipOrbit, SlipPoint, SlipRegion, slip_limits, slip_over,
+    HarmonicError, SlipLimit, SlipOrbit, SlipPoint, slip_limits, slip_over,
 };
-use rubscope_solver::scene::{Quantity, keys};
 
 /// View: lasting slip.
 pub const SLIP: View = View {
     option: "slip",
     help: "View: lasting slip, the fixed point of the map from corner to corner",
-    range: Some(RangeOption {
-        option: "zetas",
-        help: "With --slip: also the speeds where slip exists over damping ratios of the casing",
-        quantity: Quantity::Plain,
-    }),
     always_damped: true,
     one_speed: false,
     lock: LockBeside::Rigid(nothing),
@@ -32,17 +26,8 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let title = heading(&points, &limits);
     let limits: Vec<f64> = limits.iter().map(|limit| limit.speed_rad_s).collect();
     let points = Rows::of(points);
-    let mut json =
-        Parts::default().with_rows("slip", &points, value).with("slip_limits_rad_s", limits);
-    let mut tables = vec![(title, points.table(SLIPS))];
-    if let Some(zetas) = request.range {
-        let regions: Vec<SlipRegion> =
-            zetas.iter().map(|zeta| region(request, *zeta)).collect::<Result<_, _>>()?;
-        json = json.with("slip_region", &regions);
-        let title = "Where slip exists between these speeds:".to_string();
-        tables.push((title, Table::of(&regions, REGIONS).into()));
-    }
-    Ok(Answer::of(json, tables))
+    let json = Parts::default().with_rows("slip", &points, value).with("slip_limits_rad_s", limits);
+    Ok(Answer::of(json, vec![(title, points.table(SLIPS))]))
 }
 
 fn heading(points: &[SlipPoint], limits: &[SlipLimit]) -> String {
@@ -60,20 +45,6 @@ fn heading(points: &[SlipPoint], limits: &[SlipLimit]) -> String {
         (true, all) if all == points.len() => "Slip exists at all of these speeds.".to_string(),
         (true, _) => "Slip exists at some of these speeds.".to_string(),
     }
-}
-
-/// Finds where slip exists with a damping ratio of the casing.
-fn region(request: &Request<'_>, zeta: f64) -> Result<SlipRegion, HarmonicError> {
-    let mut damped = request.scene.clone();
-    damped
-        .set(keys::CASING_DAMPING, &zeta.to_string())
-        .map_err(|_| refused("--zetas", zeta, "damping ratios from 0 to 10".to_string()))?;
-    let (machine, [lowest, _]) = (damped.machine(), request.span());
-    Ok(SlipRegion {
-        casing_damping_ratio: zeta,
-        exists_at_lowest: slip_over(&machine, &[lowest])?.iter().any(SlipPoint::exists),
-        limits: slip_limits(&machine, request.speeds)?,
-    })
 }
 
 /// Returns slip at one speed as JSON, with `null` for each figure where there is none.
@@ -110,21 +81,4 @@ const SLIPS: &[Column<'_, SlipPoint>] = &[
 
 fn of_slip(point: &SlipPoint, figure: fn(SlipOrbit) -> f64) -> TableCell {
     point.outcome.ok().map(figure).into()
-}
-
-/// Columns of where there is slip.
-const REGIONS: &[Column<'_, SlipRegion>] = &[
-    ("casing_damping_ratio", |region| region.casing_damping_ratio.into()),
-    ("slip", |region| match (region.limits.is_empty(), region.exists_at_lowest) {
-        (true, true) => "everywhere".into(),
-        (true, false) => "nowhere".into(),
-        (false, _) => "in part".into(),
-    }),
-    ("appears_rad_s", |region| first(region, true)),
-    ("vanishes_rad_s", |region| first(region, false)),
-];
-
-fn first(region: &SlipRegion, appears: bool) -> TableCell {
-    let found = region.limits.iter().find(|limit| limit.appears == appears);
-    found.map(|limit| limit.speed_rad_s).into()
 }

@@ -17,7 +17,6 @@ pub const SMOOTH: View = View {
     option: "smooth",
     help: "View: steady states of blades on a lining (solver.contact = \"smooth\"): rest, the \
            waves it grows into, locks and which linings hold them",
-    range: None,
     always_damped: true,
     one_speed: false,
     lock: LockBeside::OfScene,

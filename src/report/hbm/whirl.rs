@@ -17,7 +17,6 @@ pub const WHIRL: View = View {
     option: "whirl",
     help: "View: whirl of inclined tips in the limit of many blades, where it begins, and where \
            a lock flutters",
-    range: None,
     always_damped: true,
     one_speed: false,
     lock: LockBeside::Rigid(nothing),

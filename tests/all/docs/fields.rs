@@ -108,7 +108,7 @@ fn every_field_of_the_reports_is_in_the_documents() {
     let inclined = "--set bladed_disk.radial_coupling=0.3 --speed";
     for (view, command) in [
         ("branches", "--branches".to_string()),
-        ("slip", "slip --slip --zetas 0.01:0.03:3 --speed 300:500:3".to_string()),
+        ("slip", "slip --slip --speed 300:500:3".to_string()),
         ("campbell", "--campbell --speed 0:500:2".to_string()),
         ("excitation", "--excitation --set excitation.amplitude_nm=10 --speed 500".to_string()),
         ("smooth", format!("--smooth {pressed} --speed 390:440:6")),
@@ -167,7 +167,6 @@ fn every_column_of_the_files_is_in_the_documents() {
         ("`hbm`", "hbm"),
         ("`hbm --branches`", "hbm --branches"),
         ("`hbm --slip`", "hbm slip --slip"),
-        ("`hbm --slip --zetas`", "hbm slip --slip --zetas 0.01:0.02:2"),
         ("`hbm --excitation`", "hbm --excitation --set excitation.amplitude_nm=10"),
         ("`hbm --smooth`, blades pressed in", pressed),
         ("`hbm --smooth`, a clearance", "hbm --smooth --contact smooth"),

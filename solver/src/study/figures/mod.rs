@@ -1,12 +1,10 @@
 //! The figures of the paper: Figs. 4 to 8 in the time domain, 9 and 10 in the
-//! frequency domain, as data that `report` can draw and write; and one of the
-//! coincidence, which the paper only names.
+//! frequency domain, as data that `report` can draw and write.
 //!
 //! Every figure has a scene of its own: the one that gives what the paper says, as far as one
 //! was found. Captions say what agrees, what differs, and what cannot be compared, because the
 //! paper prints neither its pulse nor the scales of its pictures in the text.
 
-mod coincidence;
 mod figure;
 mod harmonic;
 mod time;
