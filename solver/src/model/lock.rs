@@ -72,7 +72,7 @@ impl<T: Number> Machine<T> {
             return self.lock_out_of_round().into_iter().collect();
         }
         if self.has_unequal_tips() {
-            return self.lowest_corner(toward).map_or_else(Vec::new, |(_, windows)| windows);
+            return self.windows_of_tips(toward);
         }
         if !self.casing_feels_tips() && self.lining.is_none() {
             let from = self.threshold(T::from(1.0 / slope));
@@ -119,9 +119,12 @@ impl<T: Number> Machine<T> {
             return None;
         }
         if self.is_uneven() {
-            let (corner, _) = self.lowest_corner(1.0).filter(|_| !self.casing_feels_tips())?;
+            let (corner, windows) = self.lowest_corner(1.0)?;
             let slope = (-corner.gamma + corner.beta).tan();
-            return self.threshold(slope).filter(|_| self.out_of_round().re() == 0.0);
+            let known = !self.casing_feels_tips() && self.out_of_round().re() == 0.0;
+            // Where a lock of pushes begins below it, no pull holds one.
+            let below = |speed: &T| windows.first().is_none_or(|lock| speed.re() < lock.from.re());
+            return self.threshold(slope).filter(|speed| known && below(speed));
         }
         let slope = 1.0 / self.polygon.delta.tan();
         let windows = if !self.tips_incline_or_rub() {

@@ -3,6 +3,8 @@
 //! the outward normal of the side `a` to the corner and `beta` to that of `b`, both sides push
 //! where `gamma - beta <= theta <= gamma`, `theta = arg(-1/H)` mirrored.
 
+use std::f64::consts::{PI, TAU};
+
 use super::{LockWindow, Machine, Number};
 
 /// A corner between two sides that nothing cuts off.
@@ -34,9 +36,15 @@ impl<T: Number> TipCorner<T> {
             let x = damping / angle.tan();
             x + (x * x + 1.0).sqrt()
         };
+        if gamma.re() <= 0.0 {
+            // The drag of a slow wave is nearly opposite to the corner, which may be held at rest.
+            let turned = gamma - self.beta + TAU;
+            let held = turned.re() < PI;
+            return held.then(|| LockWindow { from: T::from(0.0), to: Some(at(turned)) });
+        }
         let beyond = gamma - self.beta;
         let to = (beyond.re() > 0.0).then(|| at(beyond));
-        (gamma.re() > 0.0).then(|| LockWindow { from: at(gamma), to })
+        Some(LockWindow { from: at(gamma), to })
     }
 }
 
@@ -66,8 +74,7 @@ impl<T: Number> Machine<T> {
     /// lining, and with a clearance that closes with the speed.
     #[must_use]
     pub fn lowest_corner(&self, toward: f64) -> Option<(TipCorner<T>, Vec<LockWindow<T>>)> {
-        if !self.polygon.has_corners() || self.lining.is_some() || self.clearance_loss().re() != 0.0
-        {
+        if !self.knows_tip_corners() {
             return None;
         }
         let with_windows = |corner: TipCorner<T>| {
@@ -78,6 +85,32 @@ impl<T: Number> Machine<T> {
         let found = self.tip_corners().into_iter().filter_map(with_windows);
         let lowest = found.min_by(|one, other| one.0.total_cmp(&other.0))?;
         Some((lowest.1, lowest.2))
+    }
+
+    /// Whether it is known at which speeds corners of unequal tips are held.
+    fn knows_tip_corners(&self) -> bool {
+        self.polygon.has_corners() && self.lining.is_none() && self.clearance_loss().re() == 0.0
+    }
+
+    /// The windows of speeds at which any corner of unequal tips is held, in order and apart.
+    pub(super) fn windows_of_tips(&self, toward: f64) -> Vec<LockWindow<T>> {
+        if !self.knows_tip_corners() {
+            return Vec::new();
+        }
+        let corners = self.tip_corners();
+        let mut all: Vec<_> =
+            corners.iter().flat_map(|corner| self.windows_of(corner, toward)).collect();
+        all.sort_by(|one, other| one.from.re().total_cmp(&other.from.re()));
+        let mut apart: Vec<LockWindow<T>> = Vec::new();
+        for window in all {
+            let end = |window: &LockWindow<T>| window.to.map_or(f64::INFINITY, |to| to.re());
+            match apart.last_mut().filter(|last| window.from.re() <= end(last)) {
+                Some(last) if end(&window) > end(last) => last.to = window.to,
+                Some(_) => {}
+                None => apart.push(window),
+            }
+        }
+        apart
     }
 
     /// The windows of speeds at which a corner is held.

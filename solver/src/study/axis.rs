@@ -150,9 +150,18 @@ impl Axis {
         Self::new(path, from, to, u32::try_from(count).unwrap_or(u32::MAX), log)
     }
 
-    /// Value number `index`, from 0; both ends are exact.
+    /// Value number `index`, from 0; both ends are exact, and those of a whole-numbered key
+    /// whole.
     #[must_use]
     pub fn value(&self, index: u32) -> f64 {
+        let key = keys::find(&self.path);
+        if key.is_ok_and(|key| matches!(key.allowed, Allowed::Whole { .. })) {
+            return self.value_between(index).round();
+        }
+        self.value_between(index)
+    }
+
+    fn value_between(&self, index: u32) -> f64 {
         if index == 0 {
             return self.from;
         }

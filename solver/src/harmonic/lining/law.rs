@@ -88,14 +88,18 @@ impl<'a> Lining<'a> {
     }
 
     /// Returns the stiffness of all blades against a small wave at rest: `S0 = N k_p/2`, zero
-    /// with a clearance. Where lobes of the casing are higher than that, blades rub on arcs, the
-    /// part `acos(g0/e)/pi` of the circumference \[N/m\].
+    /// with a clearance. Where lobes of the casing are higher than that, blades rub on arcs: the
+    /// part `acos(g0/e)/pi` of the circumference, less what the smoothing takes \[N/m\].
     #[must_use]
     pub fn stiffness_at_rest(&self) -> f64 {
         let (gap, height) = (self.machine.clearance(), self.machine.out_of_round());
         if height > gap.abs() {
             let all = 0.5 * f64::from(self.machine.polygon.blades) * self.stiffness_n_per_m;
-            return all * (gap / height).acos() / PI;
+            let end = |depth: f64| ((gap + depth) / height).clamp(-1.0, 1.0).acos();
+            let (rubs, whole) = (end(0.0), end(self.smoothing_m));
+            let rise = height * (rubs.sin() - whole.sin()) - gap * (rubs - whole);
+            let edge = if self.smoothing_m > 0.0 { rise / self.smoothing_m } else { 0.0 };
+            return all * (whole + edge) / PI;
         }
         0.5 * f64::from(self.machine.polygon.blades) * self.slope(self.machine.clearance())
     }

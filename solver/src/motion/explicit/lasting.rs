@@ -31,11 +31,26 @@ impl Stretch {
         a.hypot(b) + self.tips()
     }
 
+    /// Distance of the middle of that box from the centre \[m\].
+    fn centre(&self) -> f64 {
+        let [a, b, ..] = self.ends.map(|(low, high)| 0.5 * (low + high));
+        a.hypot(b)
+    }
+
     /// The same of the tips alone \[m\].
     fn tips(&self) -> f64 {
         let [_, _, c, d] = self.ends.map(half);
         c.hypot(d)
     }
+}
+
+/// What makes the contact of a casing at rest uneven.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Uneven {
+    /// Whether tips have their own lengths.
+    pub tips: bool,
+    /// Whether lobes of the casing rub where others do not.
+    pub lobes_rub: bool,
 }
 
 fn half((low, high): (f64, f64)) -> f64 {
@@ -151,6 +166,7 @@ impl Lasting {
         window: f64,
         clearance: f64,
         lining: bool,
+        uneven: Uneven,
         rest: impl FnOnce() -> Option<&'a Rest>,
     ) -> Verdict {
         let start = now - window;
@@ -179,6 +195,11 @@ impl Lasting {
             ActiveSet::Side(_) => lining,
             ActiveSet::Nothing => false,
         };
+        let still = !young && self.largest_wave() < WAVE_AT_REST * size;
+        if uneven.lobes_rub && still && self.now.wave() < self.before.wave() {
+            // Lobes press on arcs at rest, too.
+            return Verdict::Decay;
+        }
         if lining && lasted(self.all_since) {
             let moves = self.moves(size);
             let dies = match rest().filter(|_| moves) {
@@ -187,6 +208,10 @@ impl Lasting {
                 None => dies,
             };
             match (dies, whirls) {
+                // Longer tips drag the wave round with the rotor.
+                (true, _) if uneven.tips && stretch.centre() > WAVE_AT_REST * size => {
+                    Verdict::Forced
+                }
                 (true, _) => Verdict::Decay,
                 (false, true) => Verdict::Whirl,
                 (false, false) => Verdict::Slip,

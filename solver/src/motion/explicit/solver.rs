@@ -2,6 +2,7 @@
 //! the way.
 
 use super::disk::Disk;
+use super::lasting::Uneven;
 use super::rows::TipLaw;
 use super::{Coordinate, Explicit};
 use crate::model::Machine;
@@ -108,7 +109,11 @@ impl<B: Disk> Solver for Explicit<B> {
         }
         let (lasting, clearance) = (&self.beyond.lasting, self.machine.clearance());
         let lining = self.lining.is_some();
-        let verdict = lasting.verdict(log, now, window, clearance, lining, || self.rest());
+        let uneven = Uneven {
+            tips: self.machine.has_unequal_tips(),
+            lobes_rub: lining && self.machine.out_of_round() > clearance.abs(),
+        };
+        let verdict = lasting.verdict(log, now, window, clearance, lining, uneven, || self.rest());
         verdict.unless_forced(&self.machine, log, now - window)
     }
 

@@ -6,7 +6,7 @@ use ratatui::style::Style;
 use super::picture::{is_inside, sign};
 use super::plan::{CellRun, LiveMap};
 use crate::report::map::means;
-use crate::report::number::{count, grouped, in_shown_unit, rounded};
+use crate::report::number::{count, grouped, in_shown_unit, per_speed, rounded};
 use crate::tui::app::App;
 use crate::tui::axis::{number, readable};
 use crate::tui::knobs::{Knob, knob_of};
@@ -257,8 +257,8 @@ pub fn line_name(line: &Curve) -> String {
     let [on_x, on_y] = [|p: &(f64, f64)| p.0, |p: &(f64, f64)| p.1]
         .map(|of| line.points.iter().all(|point| of(point) == of(first)));
     match (on_x, on_y) {
-        (true, false) => format!("{name} {:.1}", first.0),
-        (false, true) => format!("{name} {:.1}", first.1),
+        (true, false) => format!("{name} {:.1}", per_speed(first.0)),
+        (false, true) => format!("{name} {:.1}", per_speed(first.1)),
         _ => name,
     }
 }
