@@ -44,11 +44,13 @@ impl Stretch {
     }
 }
 
-/// What makes the contact of a casing at rest uneven.
+/// What a verdict asks of the surfaces in contact.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Uneven {
+pub(super) struct Surface {
+    /// Whether the casing has a lining.
+    pub lining: bool,
     /// Whether tips have their own lengths.
-    pub tips: bool,
+    pub uneven_tips: bool,
     /// Whether lobes of the casing rub where others do not.
     pub lobes_rub: bool,
 }
@@ -156,8 +158,8 @@ impl Lasting {
         self.trends[0].falls_to(self.swing()).unwrap_or_else(|| self.swing())
     }
 
-    /// The verdict over the last `window` seconds, of a machine with this clearance, on
-    /// a lining or not. Where its motion about rest is linear and known, the rate of that
+    /// The verdict over the last `window` seconds, of a machine with this clearance and
+    /// surface. Where its motion about rest is linear and known, the rate of that
     /// decides, whatever the wave did in so short a time.
     pub fn verdict<'a>(
         &self,
@@ -165,10 +167,10 @@ impl Lasting {
         now: f64,
         window: f64,
         clearance: f64,
-        lining: bool,
-        uneven: Uneven,
+        surface: Surface,
         rest: impl FnOnce() -> Option<&'a Rest>,
     ) -> Verdict {
+        let Surface { lining, uneven_tips, lobes_rub } = surface;
         let start = now - window;
         let lasted = |since: Option<f64>| since.is_some_and(|t| t <= start);
         let size = clearance.abs();
@@ -196,7 +198,7 @@ impl Lasting {
             ActiveSet::Nothing => false,
         };
         let still = !young && self.largest_wave() < WAVE_AT_REST * size;
-        if uneven.lobes_rub && still && self.now.wave() < self.before.wave() {
+        if lobes_rub && still && self.now.wave() < self.before.wave() {
             // Lobes press on arcs at rest, too.
             return Verdict::Decay;
         }
@@ -209,7 +211,7 @@ impl Lasting {
             };
             match (dies, whirls) {
                 // Longer tips drag the wave round with the rotor.
-                (true, _) if uneven.tips && stretch.centre() > WAVE_AT_REST * size => {
+                (true, _) if uneven_tips && stretch.centre() > WAVE_AT_REST * size => {
                     Verdict::Forced
                 }
                 (true, _) => Verdict::Decay,

@@ -2,7 +2,7 @@
 //! the way.
 
 use super::disk::Disk;
-use super::lasting::Uneven;
+use super::lasting::Surface;
 use super::rows::TipLaw;
 use super::{Coordinate, Explicit};
 use crate::model::Machine;
@@ -109,11 +109,12 @@ impl<B: Disk> Solver for Explicit<B> {
         }
         let (lasting, clearance) = (&self.beyond.lasting, self.machine.clearance());
         let lining = self.lining.is_some();
-        let uneven = Uneven {
-            tips: self.machine.has_unequal_tips(),
+        let surface = Surface {
+            lining,
+            uneven_tips: self.machine.has_unequal_tips(),
             lobes_rub: lining && self.machine.out_of_round() > clearance.abs(),
         };
-        let verdict = lasting.verdict(log, now, window, clearance, lining, uneven, || self.rest());
+        let verdict = lasting.verdict(log, now, window, clearance, surface, || self.rest());
         verdict.unless_forced(&self.machine, log, now - window)
     }
 
