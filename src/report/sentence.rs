@@ -203,6 +203,11 @@ impl Facts {
                 "The contact swings the blades.",
                 "The blades swing.",
             ]),
+            Verdict::Forced if self.pressed => plain(&[
+                "All blades press the lining, and the longer ones drag the wave.",
+                "Longer blades drag the wave.",
+                "Blades drag it.",
+            ]),
             Verdict::Forced => plain(&[
                 "One blade or group presses without a break and drags the wave.",
                 "One blade drags the casing's wave.",

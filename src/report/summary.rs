@@ -109,6 +109,9 @@ fn meaning(report: &RunReport) -> &'static str {
         Verdict::Whirl => {
             "The contact is permanent, passes from blade to blade and keeps the blades swinging."
         }
+        Verdict::Forced if report.scene.clearance() < 0.0 => {
+            "All blades press the lining, and the longer ones drag the wave."
+        }
         Verdict::Forced => {
             "One blade or group of blades presses without a break and drags the wave; no corner \
              is held."
