@@ -106,6 +106,7 @@ fn every_field_of_the_reports_is_in_the_documents() {
         assert_eq!(told(&document, header), fields_of(&commands), "{header}");
     }
     let inclined = "--set bladed_disk.radial_coupling=0.3 --speed";
+    let lobed = format!("{pressed} --set casing.lobes=3 --set casing.out_of_round_m=5e-6 --speed");
     for (view, command) in [
         ("branches", "--branches".to_string()),
         ("slip", "slip --slip --speed 300:500:3".to_string()),
@@ -113,6 +114,7 @@ fn every_field_of_the_reports_is_in_the_documents() {
         ("excitation", "--excitation --set excitation.amplitude_nm=10 --speed 500".to_string()),
         ("smooth", format!("--smooth {pressed} --speed 390:440:6")),
         ("coincidence", format!("--coincidence {pressed} --speed 390:440:6")),
+        ("forced", format!("--forced {lobed} 90")),
         ("whirl", format!("--whirl {inclined} 300:450:2")),
         ("compliance", format!("--compliance {inclined} 450")),
     ] {
