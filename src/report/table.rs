@@ -30,8 +30,7 @@ pub enum TableCell {
 }
 
 /// Columns of speeds, which text has in the unit of speeds. CSV has them as they are.
-const SPEEDS: [&str; 5] =
-    ["speed_rad_s", "wave_speed_rad_s", "appears_rad_s", "vanishes_rad_s", "speed [rad/s]"];
+const SPEEDS: [&str; 3] = ["speed_rad_s", "wave_speed_rad_s", "speed [rad/s]"];
 
 /// The heading of a column.
 #[derive(Clone, Debug, PartialEq)]

@@ -60,8 +60,9 @@ impl<T: Number> Machine<T> {
     }
 
     /// Every window of speeds at which pushes alone balance a lock, in order, for a rotor that
-    /// turns in the sense of `toward`; whether it lasts, `harmonic::lock_windows` says. Empty where blades rub at rest, and where inclined tips have modes of
-    /// other diameters than the casing: no single wave then holds the pair.
+    /// turns in the sense of `toward`; `harmonic::lock_windows` keeps those that last. Empty
+    /// where blades rub at rest, and where inclined tips have modes of other diameters than the
+    /// casing: no single wave then holds the pair.
     #[must_use]
     pub fn lock_windows(&self, toward: f64) -> Vec<LockWindow<T>> {
         let slope = self.polygon.delta.tan();

@@ -31,16 +31,16 @@ impl Stretch {
         a.hypot(b) + self.tips()
     }
 
-    /// Distance of the middle of that box from the centre \[m\].
-    fn centre(&self) -> f64 {
-        let [a, b, ..] = self.ends.map(|(low, high)| 0.5 * (low + high));
-        a.hypot(b)
-    }
-
     /// The same of the tips alone \[m\].
     fn tips(&self) -> f64 {
         let [_, _, c, d] = self.ends.map(half);
         c.hypot(d)
+    }
+
+    /// Distance of the middle of the box of the wave from the centre \[m\].
+    fn centre(&self) -> f64 {
+        let [a, b, ..] = self.ends.map(|(low, high)| 0.5 * (low + high));
+        a.hypot(b)
     }
 }
 
