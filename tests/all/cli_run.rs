@@ -94,10 +94,22 @@ fn the_summary_tells_a_lock_and_a_pull_apart() {
     assert!(locked.status.success());
     let text = String::from_utf8(locked.stdout).unwrap();
     assert!(text.contains("Verdict: locked. "), "{text}");
-    assert!(text.contains("Warning: the bilateral law pulled in 2 steps"), "{text}");
+    assert!(text.contains("The bilateral law pulled in 2 steps"), "{text}");
+    let [state, history] = [
+        "Blades 12 and 19 hold the casing's wave; both push.",
+        "Contact that only pushes would not catch it: decay.",
+    ];
+    assert!(text.contains(&format!("Verdict: locked. {state}\n{history}\n")), "{text}");
+    let json = rubscope(&["run", "--end", "0.005", "--json"]).stdout;
+    let report: serde_json::Value = serde_json::from_slice(&json).unwrap();
+    let told = ["state", "history"].map(|name| report["outcome"][name].as_str().unwrap());
+    assert_eq!(told, [state, history]);
     let text = String::from_utf8(rubscope(&["run", "adhesive", "--end", "0.005"]).stdout).unwrap();
     assert!(text.contains("Verdict: adhesive. "), "{text}");
-    assert!(text.contains("a pull holds it, which a real contact cannot do"), "{text}");
+    assert!(
+        text.contains("Blade 19 pushes the wave and blade 12 pulls it: no real contact can."),
+        "{text}"
+    );
 }
 
 #[test]
