@@ -6,7 +6,7 @@ use std::io::Write;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::sentence::{Facts, growth_of};
+use super::sentence::Facts;
 use super::{CommandLine, Wall};
 use rubscope_solver::motion::RunReport;
 
@@ -59,10 +59,11 @@ pub fn write_run(
         solver.insert("certainty_s".to_string(), json!(wall.certainty_s));
     }
     if let Some(Value::Object(outcome)) = value.get_mut("outcome") {
-        let told = Facts::of(report).sentence(usize::MAX);
+        let facts = Facts::of(report);
+        let told = facts.sentence(usize::MAX);
         outcome.insert("state".to_string(), json!(told.what));
         outcome.insert("history".to_string(), json!(told.history));
-        if let Some(growth) = growth_of(report) {
+        if let Some(growth) = facts.growth {
             outcome.insert("growth_1_s".to_string(), json!(growth));
         }
     }

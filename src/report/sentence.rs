@@ -45,12 +45,12 @@ pub struct Facts {
     pub other: Option<Verdict>,
     /// What changed runs say.
     pub certainty: Certainty,
-    /// Rate at which the lock grows, which is unstable \[1/s\].
+    /// Rate at which the lock grows, which is unstable at a constant speed \[1/s\].
     pub growth: Option<f64>,
     /// Roundness of the casing that the lock needs, where it is much \[m\].
     pub round: Option<f64>,
     /// Whether the tips differ, so that the angles of the blades matter.
-    pub other_tips: bool,
+    pub angles: bool,
 }
 
 /// A verdict in words that fit in a width.
@@ -101,30 +101,25 @@ impl Sentence {
     }
 }
 
-/// Returns how fast a lock grows in which a run of a scene ended, of this machine at this speed
-/// \[1/s\]; none where it lasts, and where the speed changes.
-#[must_use]
-pub fn growth(verdict: Verdict, scene: &Scene, machine: &Machine, speed: f64) -> Option<f64> {
-    let steady = scene.operation.speed_ramp_rad_s2 == 0.0;
-    let bends = scene.solver.model != ModelSize::Rigid;
-    (verdict == Verdict::Locked && steady && bends).then(|| lock_growth(machine, speed))?
-}
-
-/// Returns the growth of the lock in which a run ended \[1/s\].
-pub(super) fn growth_of(report: &RunReport) -> Option<f64> {
-    growth(report.outcome.verdict, &report.scene, &report.end_machine, report.end_speed_rad_s)
-}
-
 impl Facts {
-    /// Creates what scene and machine say of a run that ended so at this speed; the rest is
-    /// empty.
+    /// Creates what scene and machine say of a run that ended so at this speed, with these groups
+    /// of blades in contact and their forces; the rest is empty.
     #[must_use]
-    pub fn at(verdict: Verdict, scene: &Scene, machine: &Machine, speed: f64) -> Self {
+    pub fn at(
+        verdict: Verdict,
+        (scene, machine, speed): (&Scene, &Machine, f64),
+        contacts: impl Iterator<Item = (Vec<u32>, f64)>,
+    ) -> Self {
+        let (pull, push): (Vec<_>, Vec<_>) = contacts.partition(|(_, force)| *force > 0.0);
+        let blades = |groups: Vec<(Vec<u32>, f64)>| groups.into_iter().flat_map(|group| group.0);
+        let pulling: Vec<u32> = blades(pull).collect();
         let locked = verdict == Verdict::Locked;
+        let steady = scene.operation.speed_ramp_rad_s2 == 0.0;
+        let may_grow = locked && steady && scene.solver.model != ModelSize::Rigid;
         Self {
             verdict,
-            blades: Vec::new(),
-            pulling: Vec::new(),
+            blades: pulling.iter().copied().chain(blades(push)).collect(),
+            pulling,
             touches: 0,
             law: scene.solver.contact,
             pressed: scene.clearance() < 0.0,
@@ -135,24 +130,20 @@ impl Facts {
             pulled: false,
             other: None,
             certainty: Certainty::default(),
-            growth: growth(verdict, scene, machine, speed),
+            growth: may_grow.then(|| lock_growth(machine, speed)).flatten(),
             round: locked.then(|| roundness_needed(machine, speed)).flatten(),
-            other_tips: scene.has_other_tips(),
+            angles: scene.has_other_tips(),
         }
     }
 
     /// Collects the facts of a run.
     #[must_use]
     pub fn of(report: &RunReport) -> Self {
-        let (outcome, scene) = (&report.outcome, &report.scene);
-        let blades = |pulling: bool| {
-            let groups = outcome.contacts.iter();
-            let groups = groups.filter(move |group| !pulling || group.multiplier_n > 0.0);
-            groups.flat_map(|group| group.blades.iter().copied()).collect()
-        };
+        let outcome = &report.outcome;
+        let end = (&*report.scene, &report.end_machine, report.end_speed_rad_s);
+        let contacts = outcome.contacts.iter();
+        let contacts = contacts.map(|group| (group.blades.clone(), group.multiplier_n));
         Self {
-            blades: blades(false),
-            pulling: blades(true),
             touches: report.impact_count,
             broken: report.broken.map(|(_, speed)| speed),
             caught: report.caught,
@@ -164,7 +155,7 @@ impl Facts {
                 ends_otherwise: outcome.ends_otherwise == Some(true),
                 depends_on_step: outcome.depends_on_step,
             },
-            ..Self::at(outcome.verdict, scene, &report.end_machine, report.end_speed_rad_s)
+            ..Self::at(outcome.verdict, end, contacts)
         }
     }
 
@@ -369,7 +360,7 @@ impl Facts {
             notes.push(self.differs(other));
         }
         let wrong = !notes.is_empty();
-        if self.pulled && self.verdict != Verdict::Adhesive {
+        if self.pulled && self.verdict != Verdict::Adhesive && self.other != Some(self.verdict) {
             notes.push(self.pushes_only());
         }
         if let Some((speed, up)) = self.caught.filter(|_| self.verdict == Verdict::Locked) {
@@ -377,10 +368,8 @@ impl Facts {
             notes.push(vec![format!("Caught in a {at}."), format!("{}.", capital(&at))]);
         }
         if sensitive {
-            let does = match self.certainty.ends_otherwise {
-                true => "ends otherwise",
-                false => "gives other impacts",
-            };
+            let ends = self.certainty.ends_otherwise;
+            let does = if ends { "ends otherwise" } else { "gives other impacts" };
             notes.push(vec![format!("A tiny change {does}."), "Sensitive.".into()]);
         }
         if let Some(round) = self.round.filter(|_| notes.is_empty()) {
@@ -392,35 +381,23 @@ impl Facts {
 
     /// Returns what contact that only pushes does, where this one pulled on the way.
     fn pushes_only(&self) -> Vec<String> {
-        let ends = match self.other.filter(|other| *other != Verdict::Failed) {
-            None => return plain(&["The contact pulled on the way.", "It pulled."]),
-            Some(other) if other == self.verdict => {
-                return plain(&[
-                    "Contact that only pushes ends so, too.",
-                    "Pushes only: the same.",
-                ]);
-            }
-            Some(_) if self.verdict == Verdict::Locked => "would not catch it",
-            Some(_) => "ends otherwise",
-        };
-        let other = self.other.as_ref().map_or("", AsRef::as_ref);
-        vec![
-            format!("Contact that only pushes {ends}: {other}."),
-            format!("Contact that only pushes: {other}."),
-            format!("Pushes only: {other}."),
-        ]
+        let locked = self.verdict == Verdict::Locked;
+        let ends = if locked { "would not catch it" } else { "ends otherwise" };
+        match self.other {
+            None | Some(Verdict::Failed) => plain(&["Contact pulled on the way."]),
+            Some(other) => vec![
+                format!("Contact that only pushes {ends}: {other}."),
+                format!("Contact that only pushes: {other}."),
+                format!("Pushes only: {other}."),
+            ],
+        }
     }
 
     /// Returns that the event solver finds another end.
     fn differs(&self, other: Verdict) -> Vec<String> {
-        let why = match self.other_tips {
-            true => "step or angles are too large",
-            false => "the step is too long",
-        };
-        let does = match other {
-            Verdict::Failed => "fails".into(),
-            other => format!("says {other}"),
-        };
+        let why = if self.angles { "step or angles are too large" } else { "the step is too long" };
+        let fails = other == Verdict::Failed;
+        let does = if fails { "fails".into() } else { format!("says {other}") };
         let mut forms = vec![
             format!("The exact solver {does}: {why}."),
             format!("The exact solver {does}."),

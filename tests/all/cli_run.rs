@@ -90,17 +90,16 @@ fn case_a_meets_blades_19_and_4() {
 
 #[test]
 fn the_summary_tells_a_lock_and_a_pull_apart() {
-    let locked = rubscope(&["run", "--end", "0.005"]);
+    let locked = rubscope(&["run"]);
     assert!(locked.status.success());
     let text = String::from_utf8(locked.stdout).unwrap();
-    assert!(text.contains("Verdict: locked. "), "{text}");
-    assert!(text.contains("The bilateral law pulled in 2 steps"), "{text}");
+    assert!(text.contains("Steps with a pulling multiplier: 2."), "{text}");
     let [state, history] = [
         "Blades 12 and 19 hold the casing's wave; both push.",
         "Contact that only pushes would not catch it: decay.",
     ];
     assert!(text.contains(&format!("Verdict: locked. {state}\n{history}\n")), "{text}");
-    let json = rubscope(&["run", "--end", "0.005", "--json"]).stdout;
+    let json = rubscope(&["run", "--json"]).stdout;
     let report: serde_json::Value = serde_json::from_slice(&json).unwrap();
     let told = ["state", "history"].map(|name| report["outcome"][name].as_str().unwrap());
     assert_eq!(told, [state, history]);

@@ -184,13 +184,9 @@ impl RunReport {
     /// steps of contact that only pushes, too, or that pulled, and nothing is changed on the way.
     /// Of a run that only pushes it is kept in the outcome where it is another.
     pub fn ask_events(&mut self, script: &Script, go_on: GoOn<'_>) {
-        let pushes = match self.solver.contact {
-            ContactLaw::Unilateral => self.solver.kind == SolverKind::Explicit,
-            ContactLaw::Bilateral => false,
-            ContactLaw::Smooth => return,
-        };
-        let pulled = self.checks.tensile_steps > 0;
-        if !(pushes || pulled) || !script.changes().is_empty() {
+        let by_steps = self.solver.kind == SolverKind::Explicit;
+        let pushes = by_steps && self.solver.contact == ContactLaw::Unilateral;
+        if !(pushes || self.checks.tensile_steps > 0) || !script.changes().is_empty() {
             return;
         }
         let Ok(scene) = self.scene.as_reference().checked() else { return };

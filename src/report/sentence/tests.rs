@@ -9,7 +9,7 @@ const WIDTHS: std::ops::RangeInclusive<usize> = 40..=200;
 fn facts(verdict: Verdict) -> Facts {
     let scene = Scene::base().checked().unwrap();
     let (machine, speed) = (scene.machine(), scene.operation.speed_rad_s);
-    let all = Facts::at(verdict, &scene, &machine, speed);
+    let all = Facts::at(verdict, (&scene, &machine, speed), std::iter::empty());
     let law = ContactLaw::Unilateral;
     Facts { blades: vec![19, 12], touches: 5, law, round: None, ..all }
 }
@@ -130,7 +130,7 @@ fn every_verdict_law_failure_and_history_has_whole_sentences_at_every_width() {
                                 .clone()
                                 .map(|reason| Failure { t_s: 1.234_5e-4, reason }),
                             other,
-                            other_tips: case == 1,
+                            angles: case == 1,
                             ..facts(verdict)
                         };
                         change(&mut facts);
@@ -194,8 +194,8 @@ fn the_state_comes_first_and_how_it_was_reached_second() {
     let locked = "LOCKED  Blades 12 and 19 hold the casing's wave; both push.";
     for (facts, history) in [
         (facts(Locked), ""),
-        (pulled(Locked, None), " The contact pulled on the way."),
-        (pulled(Locked, Some(Locked)), " Contact that only pushes ends so, too."),
+        (pulled(Locked, None), " Contact pulled on the way."),
+        (pulled(Locked, Some(Locked)), ""),
         (
             Facts { caught: Some((291.98, true)), ..facts(Locked) },
             " Caught in a run-up at 292 rad/s.",

@@ -82,13 +82,9 @@ impl App {
     /// Returns what the sentence of a run says.
     fn facts(&self, run: &FullRun) -> Facts {
         let polygon = &self.machine.polygon;
-        let blades = |pulling: bool| {
-            let groups = run.multipliers.iter().filter(move |(_, force)| !pulling || *force > 0.0);
-            groups.flat_map(|(side, _)| polygon.blades_of_side(*side)).collect()
-        };
+        let contacts = run.multipliers.iter();
+        let contacts = contacts.map(|(side, force)| (polygon.blades_of_side(*side), *force));
         Facts {
-            blades: blades(false),
-            pulling: blades(true),
             touches: run.impacts,
             broken: run.broken.map(|(_, speed)| speed),
             caught: run.caught,
@@ -96,7 +92,7 @@ impl App {
             pulled: run.checks.tensile_steps > 0,
             other: self.results().reference.as_ref().map(|other| other.verdict),
             certainty: self.results().sensitive.known(),
-            ..Facts::at(run.verdict, &self.scene, &self.machine, self.speed())
+            ..Facts::at(run.verdict, (&self.scene, &self.machine, self.speed()), contacts)
         }
     }
 

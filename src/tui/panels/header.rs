@@ -14,7 +14,6 @@ use crate::tui::text::{columns, pieces, print};
 use crate::tui::theme::{Role, Theme};
 use crate::tui::views::map::colour;
 use rubscope_solver::motion::Verdict;
-use rubscope_solver::scene::ContactLaw;
 
 type Parts = Vec<(String, Style)>;
 
@@ -134,7 +133,6 @@ fn second(app: &App, buffer: &mut Buffer, area: Rect) {
     let mut parts = vec![now(app), speed(app), end(app)];
     if !app.is_asked() {
         parts.extend(baseline(app));
-        parts.extend(other(app));
         parts.extend(unsure(app));
     }
     parts.extend(modes(app));
@@ -294,19 +292,6 @@ fn end(app: &App) -> Part {
         .map(|(hold, _)| format!("{}, locked until {}", run.verdict, readable(hold.ended, "s")));
     let longer = held.or(broken).map(|longer| at(5, longer));
     Part::new(longer.into_iter().chain([at(1, run.verdict.to_string())]).collect())
-}
-
-/// Returns what contact that only pushes does, by the event solver.
-fn other(app: &App) -> Option<Part> {
-    let own = app.full_run()?;
-    let other = app.results().reference.as_ref()?;
-    let quiet = app.appearance.style(Role::Quiet);
-    let text = match app.scene.solver.contact {
-        ContactLaw::Bilateral => format!("other law: {}", other.verdict),
-        _ if other.verdict == own.verdict => "event solver agrees".into(),
-        _ => format!("event solver: {}", other.verdict),
-    };
-    Some(Part::plain(6, text, quiet))
 }
 
 /// Returns a note where it is not known whether a tiny change changes the outcome.
