@@ -187,7 +187,7 @@ fn the_columns_and_rows_that_have_no_room_are_said_or_left_out() {
     session.press(&"j".repeat(20));
     assert_eq!(cell(&session), [0, 13]);
     assert!(session.text().contains("↑"), "{}", session.text());
-    assert!(line(&session, "power").contains(" W"), "{}", session.text());
+    assert!(line(&session, "e_max m=2").contains(" nm"), "{}", session.text());
 }
 
 #[test]
@@ -318,4 +318,34 @@ fn speeds_are_told_in_the_chosen_unit_and_a_missing_mode_is_told() {
     session.select("operation.nodal_diameters");
     session.press("\n5\n");
     assert!(session.text().contains("own mode: none known of n_d"), "{}", session.text());
+}
+
+#[test]
+fn the_view_begins_with_how_robust_the_run_is() {
+    for size in [(80, 24), (120, 40)] {
+        let mut session = Session::open(size.0, size.1, short(), Theme::Dark, Marker::Braille);
+        session.press(":");
+        session.press("robust\n");
+        session.press("");
+        let text = session.text();
+        let place = |words: &str| text.find(words).unwrap_or_else(|| panic!("no {words}\n{text}"));
+        let sentence = place("500 rad/s, bilateral law: locked;");
+        assert!(sentence < place("speed [rad/s]  adhesive at 412.1"), "{text}");
+        assert!(place("pulse [MN]") < place("Ω_c "), "{text}");
+        assert!(place("pulse [MN]") < place("500 rad/s, pushes only: slip;"), "{text}");
+    }
+}
+
+#[test]
+fn every_limit_stays_in_sight_below_it_over_the_whole_screen() {
+    let mut session = open((120, 40), short());
+    session.press("f");
+    let (live, _) = session.app.margins().unwrap();
+    assert!(live.margins.robust.is_some() && live.margins.pushes_only.is_some());
+    let text = session.text();
+    for limit in &live.margins.limits {
+        let start = format!("{} ", limit.name.titles()[1]);
+        let is_here = |row: &str| row.trim_start_matches([' ', '●']).starts_with(&start);
+        assert!(text.lines().any(is_here), "{start}\n{text}");
+    }
 }
