@@ -278,3 +278,25 @@ fn a_plain_run_takes_every_step_and_comes_to_the_same_end() {
     let refused = refusal(&["run", "slip", "--solver", "event", "--plain"]);
     assert!(refused.contains("--plain: of --solver explicit only"), "{refused}");
 }
+
+#[test]
+fn a_lock_says_at_which_speed_a_run_up_caught_it_and_how_round_the_casing_must_be() {
+    let told = |arguments: &[&str]| -> serde_json::Value {
+        let output = rubscope(&[arguments, &["--json"]].concat());
+        serde_json::from_slice(&output.stdout).unwrap()
+    };
+    let run = told(&["run", "long-tip", "--no-sensitivity"]);
+    let operation = &run["scene"]["operation"];
+    let [speed, ramp] = ["speed_rad_s", "speed_ramp_rad_s2"].map(|key| operation[key].as_f64());
+    let since = run["outcome"]["lock_time_s"].as_f64().unwrap();
+    let caught = speed.unwrap() + ramp.unwrap() * since;
+    assert!((caught - 294.1).abs() < 0.05, "{caught}");
+    assert_eq!(run["outcome"]["history"], "Caught in a run-up at 294.1 rad/s.");
+    let run = told(&["run", "rocking", "--no-sensitivity"]);
+    assert_eq!(run["outcome"]["history"], "It needs a casing round to 0.64 um.");
+    let margins = told(&["margins", "rocking", "--no-search"]);
+    let limits = margins["limits"].as_array().unwrap().iter();
+    let round = limits.filter(|limit| limit["name"] == "roundness");
+    let least = round.map(|limit| limit["value"].as_f64().unwrap()).fold(f64::INFINITY, f64::min);
+    assert!((least - 0.64e-6).abs() < 0.005e-6, "{least}");
+}

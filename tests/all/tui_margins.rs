@@ -331,7 +331,7 @@ fn the_view_begins_with_how_robust_the_run_is() {
         let place = |words: &str| text.find(words).unwrap_or_else(|| panic!("no {words}\n{text}"));
         let sentence = place("500 rad/s, bilateral law: locked;");
         assert!(sentence < place("speed [rad/s]  adhesive at 412.1"), "{text}");
-        assert!(place("pulse [MN]") < place("Ω_c "), "{text}");
+        assert!(place("pulse [MN]") < place("limit   "), "{text}");
         assert!(place("pulse [MN]") < place("500 rad/s, pushes only: slip;"), "{text}");
     }
 }

@@ -84,9 +84,12 @@ fn assert_is_whole(told: &Sentence, width: usize) {
     }
 }
 
-/// Every kind of history, each as a change of the facts of a run, and whether it is of a state
-/// that is wrong.
-fn histories() -> Vec<(bool, fn(&mut Facts))> {
+/// A change of the facts of a run.
+type Change = fn(&mut Facts);
+
+/// Every kind of history, each as a change of the facts of a run, and whether it is of a
+/// state that is wrong.
+fn histories() -> Vec<(bool, Change)> {
     vec![
         (false, |_| {}),
         (false, |facts| facts.certainty = ENDS),
