@@ -25,7 +25,7 @@ fn text(words: &[&str]) -> String {
 }
 
 /// A new scene in a folder, and what was said.
-fn made(folder: &Path) -> (String, String) {
+pub fn made(folder: &Path) -> (String, String) {
     let [table, file] = ["modes.csv", "mine.toml"].map(|name| folder.join(name));
     std::fs::write(&table, TABLE).unwrap();
     let [table, file] = [table, file].map(|path| path.to_str().unwrap().to_string());
@@ -98,7 +98,10 @@ fn what_cannot_be_made_is_refused_in_one_line() {
         (start.to_vec(), "new: --clearance is missing (Clearance of the blade tips"),
         ([&start[..], &more].concat(), "new: --disk is missing (Frequency of the bladed disk"),
         (whole.clone(), "new: --range is missing"),
-        ([&whole[..], &["--range", "9:3"]].concat(), "--range 9:3: allowed is FROM:TO, two speeds"),
+        (
+            [&whole[..], &["--range", "9:3"]].concat(),
+            "--range = 9:3: allowed is FROM:TO, two speeds",
+        ),
         (
             [&whole[..], &["--range", "3:9", "--casing", "5:1:1"]].concat(),
             "--casing = 5 nodal diameters twice: allowed is one mode for each",

@@ -164,6 +164,12 @@ impl<T> BladedDisk<T> {
 }
 
 impl BladedDisk {
+    /// Returns whether its blades stiffen with the speed.
+    #[must_use]
+    pub fn stiffens(&self) -> bool {
+        self.centrifugal_stiffening != 0.0
+    }
+
     /// Returns it with the values of its mode of these diameters, and without other modes.
     #[must_use]
     pub fn at(&self, diameters: u32) -> Self {
