@@ -38,7 +38,8 @@ pub struct NewCommand {
     #[arg(value_name = "FILE")]
     file: String,
     /// Modes as CSV: structure (casing or disk), nodal_diameters, frequency_hz, modal_mass_kg
-    /// and, if known, damping_ratio, named in the first line
+    /// and, if known, damping_ratio, speed_rpm and centrifugal_stiffening, named in the first
+    /// line
     #[arg(long, value_name = "FILE")]
     modes: Option<PathBuf>,
     /// Number of blades

@@ -10,7 +10,7 @@ use super::status::{self, Refusal, Status};
 use super::{Done, output};
 use crate::report::number::with_typed_unit;
 use crate::report::{CommandLine, Provenance, json, survey as report, svg};
-use rubscope_solver::scene::{CheckedScene, Quantity};
+use rubscope_solver::scene::Quantity;
 use rubscope_solver::study::margins::{TargetError, parameter};
 use rubscope_solver::study::survey::{Survey, speed_range};
 
@@ -52,43 +52,32 @@ impl SurveyCommand {
         };
         status::say_noted();
         let survey = Survey::of(&scene, range, by);
-        self.deliver(&survey, &scene, format, out)?;
+        let command = CommandLine::new("survey", &scene)
+            .optional("--range", self.range())
+            .optional("--by", self.by.as_ref())
+            .flag("--all", self.all);
+        if self.json {
+            json::write_as("rubscope.survey/1", &command, &survey, out)?;
+        }
+        if let Some(path) = &self.out {
+            let rows = format!("{} numbers of diameters", survey.rows.len());
+            if format == Some("svg") {
+                let command = command.option("--out", "survey.svg");
+                let origin = Provenance { command, scene: scene.into_scene() };
+                let figure = report::figure(&survey, self.all);
+                output::save(path, &rows, out, |out| svg::write(&figure, &origin, out))?;
+            } else {
+                output::save(path, &rows, out, |out| report::table(&survey).write_csv(out))?;
+            }
+        }
+        if !self.json {
+            report::write(&survey, self.all, out)?;
+        }
         Ok(Status::Done)
     }
 
     /// The range with its units.
     fn range(&self) -> Option<String> {
         self.range.as_ref().map(|text| with_typed_unit(text, Quantity::Speed))
-    }
-
-    fn deliver(
-        &self,
-        survey: &Survey,
-        scene: &CheckedScene,
-        format: Option<&str>,
-        out: &mut dyn Write,
-    ) -> anyhow::Result<()> {
-        let command = CommandLine::new("survey", scene)
-            .optional("--range", self.range())
-            .optional("--by", self.by.as_ref())
-            .flag("--all", self.all);
-        if self.json {
-            json::write_as("rubscope.survey/1", &command, survey, out)?;
-        }
-        if let Some(path) = &self.out {
-            let rows = format!("{} numbers of diameters", survey.rows.len());
-            if format == Some("svg") {
-                let command = command.option("--out", "survey.svg");
-                let origin = Provenance { command, scene: scene.clone().into_scene() };
-                let figure = report::figure(survey, self.all);
-                output::save(path, &rows, out, |out| svg::write(&figure, &origin, out))?;
-            } else {
-                output::save(path, &rows, out, |out| report::table(survey).write_csv(out))?;
-            }
-        }
-        if !self.json {
-            report::write(survey, self.all, out)?;
-        }
-        Ok(())
     }
 }

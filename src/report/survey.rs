@@ -22,17 +22,14 @@ const BAR: usize = 20;
 /// Most numbers of diameters that the answer lists.
 const LISTED: usize = 8;
 
-/// The limits with their heading, the most important first.
-const LIMITS: [(LimitName, &str); 9] = [
+/// The limits that are shown with their heading, the most important first.
+const LIMITS: [(LimitName, &str); 6] = [
     (LimitName::OmegaLock, "Omega_lock"),
     (LimitName::LockEnds, "ends"),
     (LimitName::Coincidence, "sum (31)"),
     (LimitName::WhirlOnset, "whirl"),
     (LimitName::FlutterSpeed, "flutter"),
     (LimitName::OmegaC, "Omega_c"),
-    (LimitName::CoincidenceDifference, "diff (30)"),
-    (LimitName::LockFold, "gives way"),
-    (LimitName::FirstTouch, "touches"),
 ];
 
 /// Returns the limits that any of these numbers of diameters has.
@@ -46,16 +43,8 @@ fn present<'a>(
 /// Every limit, one row each; a number of diameters without any has one row, too.
 #[must_use]
 pub fn table(survey: &Survey) -> Table {
-    let mut table = Table::new([
-        "nodal_diameters",
-        "omega_c_rad_s",
-        "omega_bd_rad_s",
-        "name",
-        "value_rad_s",
-        "margin",
-        "in_range",
-        "by",
-    ]);
+    let names = "nodal_diameters,omega_c_rad_s,omega_bd_rad_s,name,value_rad_s,margin,in_range,by";
+    let mut table = Table::new(names.split(','));
     for row in &survey.rows {
         let own = [
             f64::from(row.nodal_diameters).into(),
@@ -93,11 +82,11 @@ pub fn write(survey: &Survey, all: bool, out: &mut dyn Write) -> Result<()> {
     tell(&(head(survey) + marks))?;
     survey.note.iter().try_for_each(|note| tell(&format!("The limits are {note}.")))?;
     survey.scattered.iter().try_for_each(|scattered| tell(&of_scatter(scene, scattered)))?;
-    if survey.rows.len() > 1 {
+    let shown = survey.shown(all);
+    if shown.iter().any(|row| row.nodal_diameters == 1) {
         tell("One nodal diameter also moves the shaft, which this model does not have.")?;
     }
     writeln!(out)?;
-    let shown = survey.shown(all);
     let mut table = rows(survey, &shown[..shown.len().min(ROWS)]);
     let others = survey.rows.len() - shown.len();
     if shown.len() > ROWS {
@@ -201,7 +190,8 @@ fn bar(survey: &Survey, row: &SurveyRow) -> String {
 /// What the limits are of, and what tips that differ do to the lock.
 #[must_use]
 pub fn of_scatter(scene: &Scene, scattered: &Scattered) -> String {
-    let [mean, equal] = [scattered.mean_rad_s, scattered.equal_rad_s].map(|x| speed(rounded(x, 4)));
+    let speeds = [scattered.mean_rad_s, scattered.equal_rad_s];
+    let [mean, equal] = speeds.map(|omega| format!("{} {}", told(omega), speed_unit()));
     let of = match scene.is_uneven() {
         true => "the tips and the casing of the scene. Equal tips in a round one lock last",
         false => "equal tips and a round casing, which lock last",
@@ -279,14 +269,11 @@ pub fn figure(survey: &Survey, all: bool) -> Figure {
     let casing: fn(&SurveyRow) -> f64 = |row| row.omega_c_rad_s;
     let disk: fn(&SurveyRow) -> f64 = |row| row.omega_bd_rad_s;
     let of_disk = format!("disk ω_bd{}", at_speed(survey));
-    for (label, name, number, radius, of) in
-        [("casing ω_c", "omega_c", 0, 4, casing), (&of_disk, "omega_bd", 1, 3, disk)]
-    {
+    for (label, number, radius, of) in [("casing ω_c", 0, 4, casing), (&of_disk, 1, 3, disk)] {
         // A disc of the colour of this number.
-        let known = Series::new(label, Style::Discs(7 * number, radius), over(of, true));
+        frequencies.push(Series::new(label, Style::Discs(7 * number, radius), over(of, true)));
         let assumed = format!("{label}, assumed");
-        let assumed = Series::new(assumed, Style::Rings(number, radius), over(of, false));
-        frequencies.extend([known.named(name), assumed.named(format!("{name}_assumed"))]);
+        frequencies.push(Series::new(assumed, Style::Rings(number, radius), over(of, false)));
     }
     let last = rows.iter().map(|row| at(row)).fold(0.0, f64::max);
     let most =
@@ -302,34 +289,30 @@ pub fn figure(survey: &Survey, all: bool) -> Figure {
         let locks = row.locks_in_range.iter().flatten();
         locks.flat_map(move |span| span.map(|end| (at(row), end.clamp(-reach, reach))))
     });
-    let mut limits = vec![Series::new("can lock", Style::Bars(0), spans).named("locks")];
+    let mut limits = vec![Series::new("can lock", Style::Bars(0), spans)];
     let ends = [("now", now, Style::Line(INK)), ("from", from, Style::Dotted(INK))];
     let ends = ends.into_iter().chain([("to", to, Style::Dashed(INK))]);
     for (name, end, style) in ends.take(if survey.range_rad_s.is_some() { 3 } else { 1 }) {
         let label = format!("n_d Ω at {}", speed(end.abs()));
-        frequencies.push(Series::new(label, style, turning(end.abs())).named(name));
+        frequencies.push(Series::new(label, style, turning(end.abs())));
         let level = [(0.0, end), (last, end)];
-        limits.push(Series::new(format!("{name} {}", speed(end)), style, level).named(name));
+        limits.push(Series::new(format!("{name} {}", speed(end)), style, level));
     }
     let mut outside = 0;
     for (colour, (name, _)) in present(&rows).enumerate() {
-        let points = rows
-            .iter()
-            .filter_map(|row| Some((at(row), row.limit(*name, survey.is_forward())?.value)));
-        let (points, beyond): (Vec<_>, Vec<_>) =
-            points.partition(|(_, value)| value.abs() <= reach);
+        let value = |row: &&SurveyRow| Some(row.limit(*name, survey.is_forward())?.value);
+        let points = rows.iter().filter_map(|row| Some((at(row), value(row)?)));
+        let (points, beyond): (Vec<_>, Vec<_>) = points.partition(|point| point.1.abs() <= reach);
         outside += beyond.len();
-        if !points.is_empty() {
-            limits.push(
-                Series::new(name.symbol(), Style::Discs(colour, 4), points).named(name.to_string()),
-            );
-        }
+        limits.push(Series::new(name.symbol(), Style::Discs(colour, 4), points));
     }
     let diameters = || Quantity::new("nodal_diameters", "nodal diameters n_d", 1.0);
     let frequency = Quantity::new("omega_rad_s", "frequency [Hz]", 1.0 / TAU);
+    let label = Cow::Owned(format!("rotor speed Ω [{}]", speed_unit()));
+    let speeds = Quantity { label, factor: per_speed(1.0), ..Quantity::SPEED };
     let panels = vec![
         Panel::new("(a) frequencies", diameters(), frequency, frequencies),
-        Panel::new("(b) limits", diameters(), speed_axis(), limits),
+        Panel::new("(b) limits", diameters(), speeds, limits),
     ];
     let beyond = match outside {
         0 => String::new(),
@@ -337,9 +320,4 @@ pub fn figure(survey: &Survey, all: bool) -> Figure {
     };
     let note = format!("{} {}{beyond}", answer(survey, all), head(survey));
     Figure::new(survey.scene.title.clone(), note, panels)
-}
-
-fn speed_axis() -> Quantity {
-    let label = Cow::Owned(format!("rotor speed Ω [{}]", speed_unit()));
-    Quantity { column: "speed_rad_s".into(), label, factor: per_speed(1.0), log: false }
 }

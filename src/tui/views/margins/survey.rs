@@ -46,18 +46,18 @@ fn table(
     let look = &app.appearance;
     let (rows, width) = (survey.shown(false), usize::from(area.width));
     let (home, now) = (own(app, &rows), app.scene.operation.speed_rad_s);
-    let text = match cell.and_then(|place| rows.get(place)) {
-        Some(row) => {
-            let known = if row.modes_known { "" } else { ", no mode of its own" };
-            format!("n_d {}{known}: Enter takes these diameters", row.nodal_diameters)
-        }
-        None => answer(survey, false),
-    };
-    let told = if area.height >= TOLD_FROM { wrap(&look.spell(&text), width) } else { Vec::new() };
-    let mut below = area;
-    for line in told.iter().take(MOST_TOLD) {
-        print(buffer, below, 0, line, look.style(Role::Focus));
-        below = Rect { y: below.y + 1, height: below.height - 1, ..below };
+    let lines = |text: &str| wrap(&look.spell(text), width);
+    let mut told = lines(&answer(survey, false));
+    told.truncate(if area.height >= TOLD_FROM { MOST_TOLD } else { 0 });
+    // The table stays where it is while rows are read.
+    let height = u16::try_from(told.len()).unwrap_or(0);
+    let below = Rect { y: area.y + height, height: area.height - height, ..area };
+    if let Some(row) = cell.and_then(|place| rows.get(place)) {
+        let known = if row.modes_known { "" } else { ", no mode of its own" };
+        told = lines(&format!("n_d {}{known}: Enter takes these diameters", row.nodal_diameters));
+    }
+    for (row, line) in (0..height).zip(&told) {
+        print(buffer, area, row, line, look.style(Role::Focus));
     }
     let drawn = Rows {
         table: &rows_of(survey, &rows),
