@@ -184,6 +184,9 @@ impl ModalData {
     }
 }
 
+/// A mode of a table, with each frequency and its speed \[Hz, rad/s\].
+type Measured = (Family, Vec<(f64, f64)>);
+
 /// Reads the modes of a table: a line of names, then a line for each mode. Names are
 /// `structure` (casing or disk), `nodal_diameters`, `frequency_hz`, `modal_mass_kg`, and
 /// `damping_ratio` if there is one, also as `Frequency [Hz]`. A line of the disk may have the
@@ -222,7 +225,7 @@ pub fn read_modes(text: &str) -> Result<[Vec<Family>; 2], SceneError> {
         let allowed = format!("{STRUCTURE}, {}, each once", COLUMNS.join(", "));
         return Err(SceneError::refused("the first line", names.join(","), allowed));
     }
-    let mut found: [Vec<(Family, Vec<(f64, f64)>)>; 2] = Default::default();
+    let mut found: [Vec<Measured>; 2] = Default::default();
     for record in records {
         let (line, record) = record?;
         if record.len() != names.len() {
@@ -259,7 +262,7 @@ pub fn read_modes(text: &str) -> Result<[Vec<Family>; 2], SceneError> {
             speed = read.transpose()?.map(|speed| (mode.frequency_hz, speed));
         }
         let modes = &mut found[structure];
-        let same = |(known, _): &&mut (Family, _)| known.nodal_diameters == mode.nodal_diameters;
+        let same = |(known, _): &&mut Measured| known.nodal_diameters == mode.nodal_diameters;
         match (modes.iter_mut().find(same), speed) {
             (None, speed) => modes.push((mode, speed.into_iter().collect())),
             (Some((known, speeds)), Some(speed)) if speeds.len() == 1 => {
