@@ -451,7 +451,6 @@ pub(super) fn report(
     course: Course,
 ) -> RunReport {
     let machine = motion.machine();
-    let polygon = &machine.polygon;
     let (log, state) = (motion.contacts(), motion.state());
     let window = LAST_PART * scene.solver.end_s;
     let checks = motion.checks();
@@ -480,7 +479,7 @@ pub(super) fn report(
             .multipliers()
             .into_iter()
             .map(|(side, multiplier_n)| Contact {
-                blades: polygon.blades_of_side(side),
+                blades: machine.first_of_side(side),
                 multiplier_n,
             })
             .collect(),
@@ -503,7 +502,7 @@ pub(super) fn report(
         impacts: log
             .impacts
             .iter()
-            .map(|hit| ImpactReport { t_s: hit.t_s, blades: polygon.blades_of_side(hit.side) })
+            .map(|hit| ImpactReport { t_s: hit.t_s, blades: machine.first_of_side(hit.side) })
             .collect(),
         impact_count: log.impact_count,
         impacts_accumulate_at_s: accumulation(scene, log, machine),
