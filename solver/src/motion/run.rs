@@ -419,7 +419,6 @@ fn take_sample(motion: &mut Motion, gaps: bool) -> Sample {
 /// What there is to say of a motion at the end of its run.
 pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) -> RunReport {
     let machine = motion.machine();
-    let polygon = &machine.polygon;
     let (log, state) = (motion.contacts(), motion.state());
     let window = LAST_PART * scene.solver.end_s;
     let checks = motion.checks();
@@ -448,7 +447,7 @@ pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) 
             .multipliers()
             .into_iter()
             .map(|(side, multiplier_n)| Contact {
-                blades: polygon.blades_of_side(side),
+                blades: machine.first_of_side(side),
                 multiplier_n,
             })
             .collect(),
@@ -471,7 +470,7 @@ pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) 
         impacts: log
             .impacts
             .iter()
-            .map(|hit| ImpactReport { t_s: hit.t_s, blades: polygon.blades_of_side(hit.side) })
+            .map(|hit| ImpactReport { t_s: hit.t_s, blades: machine.first_of_side(hit.side) })
             .collect(),
         impact_count: log.impact_count,
         impacts_accumulate_at_s: accumulation(scene, log, machine),
