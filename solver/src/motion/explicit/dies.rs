@@ -6,6 +6,9 @@
 //! `|x|^2 = x^T Q x` of a `Q` for which the linear step shrinks `|x|` by a part `s`, and
 //! `|r| <= c |x|^2` there, a wave of `c |x| < s` shrinks in every step. So it stays where it
 //! was linear, if no blade leaves that within `|x|`, and dies.
+//!
+//! A wave is a sum of motions that turn and die each at its rate. However they meet, a blade is
+//! pressed by no more than the sum of their sizes: a beat stays linear where this sum does.
 
 use nalgebra::{Complex, DMatrix, DVector, SymmetricEigen};
 
@@ -15,8 +18,11 @@ use super::oscillator::Oscillator;
 use super::rows::TipLaw;
 use crate::model::LiningLaw;
 use crate::motion::Plane;
+use crate::numeric::eigen::eigenvalues;
 use crate::numeric::lyapunov::lyapunov;
-use crate::tolerances::{DIES_LOOKS, DIES_ROUNDINGS, DIES_SMALLER, LARGEST_BLADE_ANGLE};
+use crate::tolerances::{
+    DIES_LOOKS, DIES_ROUNDINGS, DIES_SMALLER, DIES_STEPS, LARGEST_BLADE_ANGLE,
+};
 
 /// A row that presses: its direction, its shape in the modes of the blades, and its blades.
 #[derive(Clone, Copy, Debug)]
@@ -130,24 +136,43 @@ pub(super) struct Rest {
     /// negative where it grows, 0 where it does neither beyond round-off \[1/s\].
     pub rate: f64,
     /// A wave up to here leaves all pushes linear in the gaps \[m\].
-    pub room: f64,
+    room: f64,
+    /// The motions of which it is a sum: the rate at which each dies \[1/s\], and what, by a
+    /// state, is the most that it presses a blade \[m\].
+    parts: Vec<(f64, DVector<Complex<f64>>)>,
+    units: Units,
 }
 
 impl<B: Disk> Explicit<B> {
     /// Whether every wave to come dies: all blades press a lining and stay so.
     pub(super) fn dies(&self) -> bool {
-        let Some(dies) = self.rest().and_then(|rest| rest.dies.as_ref()) else { return false };
-        let Some(modes) = self.blades.held_modes() else { return false };
+        let dies = self.rest().and_then(|rest| rest.dies.as_ref());
+        dies.zip(self.wave()).is_some_and(|(dies, wave)| dies.holds(&wave))
+    }
+
+    /// Whether the wave leaves all pushes linear from now on, or `after` it went on \[s\] as if
+    /// they were; none where the motion about rest is not known.
+    pub(super) fn stays_linear(&self, after: f64) -> Option<bool> {
+        let (rest, wave) = (self.rest()?, self.wave()?);
+        let x = rest.units.states(&wave, 8).map(Complex::from);
+        let part = |(rate, of): &(f64, DVector<Complex<f64>>)| {
+            of.dotc(&x.rows(0, of.len())).norm() * (-rate * after).exp()
+        };
+        Some(rest.parts.iter().map(part).sum::<f64>() < rest.room)
+    }
+
+    /// The wave now, in the frame of the blades.
+    fn wave(&self) -> Option<State> {
+        let modes = self.blades.held_modes()?;
         let (c, s) = self.drive.look_at_turn(self.n);
         let back = Plane::new(c, -s);
         let [[x, y], [a, b]] = [self.u, modes.modes];
-        let state = State {
+        Some(State {
             z: Plane::new(x.x, y.x) * back,
             dz: Plane::new(x.increment, y.increment) * back,
             a: Plane::new(a.x, b.x),
             da: Plane::new(a.increment, b.increment),
-        };
-        dies.holds(&state)
+        })
     }
 
     /// The linear motion about rest, where all blades press a lining at constant speed and
@@ -199,7 +224,8 @@ impl Rest {
         let Step { tips, law, rows, .. } = *step;
         let room = -tips.clearance - law.smoothing_m;
         let has_corners = rows.len() >= 3;
-        if room <= 0.0 || !has_corners || !is_even(rows) {
+        // Where the rotor stands, waves of both senses are one motion.
+        if room <= 0.0 || !has_corners || !is_even(rows) || step.turn == 0.0 {
             return None;
         }
         let size = if step.blades.is_some() { 8 } else { 4 };
@@ -210,23 +236,43 @@ impl Rest {
             let at = units.state(&DVector::from_fn(size, |n, _| f64::from(u8::from(n == k))));
             matrix.set_column(k, &units.states(&step.change(&at), size));
         }
+        let slowest = |parts: &[(f64, _)]| parts.iter().map(|(rate, _)| *rate).reduce(f64::min);
+        let all = parts(step, &matrix, &units, length)?;
         let dies = Dies::of(step, &matrix, units, [length, rate], outrun);
-        let dies = dies.filter(|_| decay_rate(&matrix, length) > 0.0);
+        let dies = dies.filter(|_| slowest(&all) > Some(0.0));
         // A lining does not feel the blades of tips without a slope, to first order.
-        let felt = if tips.rise == 0.0 { 4 } else { size };
-        let rate = decay_rate(&matrix.view((0, 0), (felt, felt)).into_owned(), length);
-        Some(Self { dies, rate, room })
+        let felt = matrix.view((0, 0), (4, 4)).into_owned();
+        let parts = if tips.rise == 0.0 { parts(step, &felt, &units, length)? } else { all };
+        Some(Self { dies, rate: slowest(&parts)?, room, parts, units })
     }
 }
 
-/// The rate at which the slowest state of a step `1 + change` of this length \[s\] dies, 0
-/// within its round-off \[1/s\].
-fn decay_rate(change: &DMatrix<f64>, length: f64) -> f64 {
-    let grows = |root: &Complex<f64>| 2.0 * root.re + root.norm_sqr();
-    let roots = change.clone().complex_eigenvalues();
-    let most = roots.iter().map(grows).fold(f64::NEG_INFINITY, f64::max);
-    let beyond = most.abs() > DIES_ROUNDINGS * f64::EPSILON;
-    if beyond { -0.5 * most.ln_1p() / length } else { 0.0 }
+/// The motions of a step `1 + change` of this length \[s\]: the rate at which each dies, 0 within
+/// its round-off \[1/s\], and the most that it presses a blade, by a state \[m\].
+fn parts(
+    step: &Step<'_>,
+    change: &DMatrix<f64>,
+    units: &Units,
+    length: f64,
+) -> Option<Vec<(f64, DVector<Complex<f64>>)>> {
+    let size = change.nrows();
+    let part = |root: Complex<f64>| {
+        let grows = 2.0 * root.re + root.norm_sqr();
+        let beyond = grows.abs() > DIES_ROUNDINGS * f64::EPSILON;
+        let rate = if beyond { -0.5 * grows.ln_1p() / length } else { 0.0 };
+        let from = change.map(Complex::from) - DMatrix::identity(size, size) * root;
+        let svd = from.try_svd(true, true, f64::EPSILON, DIES_STEPS)?;
+        let (of, shape) = (svd.u?.column(size - 1).into_owned(), svd.v_t?.row(size - 1).adjoint());
+        let states = [shape.map(|x| x.re), shape.map(|x| x.im)].map(|x| units.state(&x));
+        let pressed = |row: &Pressed| {
+            let [re, im] = [0, 1].map(|k| step.pressed(row, &states[k]));
+            re.hypot(im)
+        };
+        let most = step.rows.iter().map(pressed).fold(0.0, f64::max);
+        let along = of.dotc(&shape).norm();
+        Some((rate, of * Complex::from(most / along)))
+    };
+    eigenvalues(change.clone())?.into_iter().map(part).collect()
 }
 
 impl Dies {
@@ -401,15 +447,7 @@ mod tests {
         /// The wave now, as a part of the largest that dies.
         fn size_of_wave(&self) -> Option<f64> {
             let dies = self.lining.as_ref()?.rest.get()?.as_ref()?.dies.clone()?;
-            let modes = self.blades.held_modes()?.modes;
-            let (c, s) = self.drive.look_at_turn(self.n);
-            let back = Plane::new(c, -s);
-            let state = State {
-                z: Plane::new(self.u[0].x, self.u[1].x) * back,
-                dz: Plane::new(self.u[0].increment, self.u[1].increment) * back,
-                a: Plane::new(modes[0].x, modes[1].x),
-                da: Plane::new(modes[0].increment, modes[1].increment),
-            };
+            let state = self.wave()?;
             let x = dies.units.states(&state, dies.bound.nrows());
             Some(x.dot(&(&dies.bound * &x)).sqrt() / dies.largest)
         }
@@ -420,6 +458,35 @@ mod tests {
         let (modal, rigid) =
             (proved::<ModalBlades>(500, "modal"), proved::<RigidBlades>(60, "rigid"));
         assert!(modal > 120 && rigid > 15, "{modal} {rigid}");
+    }
+
+    #[test]
+    fn no_beat_of_a_linear_motion_is_above_the_sum_of_its_parts() {
+        for (blades, disk, friction) in [("12", "1e-7", "0"), ("22", "1e-3", "0.2")] {
+            let scene = Scene::builtin("coincidence").unwrap().with(&[
+                ("bladed_disk.blades", blades),
+                ("bladed_disk.damping_ratio", disk),
+                ("casing.damping_ratio", "1e-7"),
+                ("casing.radius_m", "0.499898"),
+                ("contact.smoothing_m", "1e-8"),
+                ("contact.friction", friction),
+                ("operation.speed_rad_s", "300"),
+                ("operation.pulse_n", "20"),
+            ]);
+            let mut motion = after::<ModalBlades>(&scene.unwrap(), 1e-3);
+            let parts = &motion.rest().unwrap().clone().parts;
+            let x = motion.rest().unwrap().units.states(&motion.wave().unwrap(), 8);
+            let sizes = parts.iter().map(|(_, of)| of.dotc(&x.map(Complex::from)).norm());
+            let (sum, clearance) = (sizes.sum::<f64>(), motion.machine.clearance());
+            let mut largest = 0.0_f64;
+            for k in 0..100_000 {
+                motion.advance(1e-3 + 5e-6 * f64::from(k)).unwrap();
+                let gaps = motion.blade_gaps();
+                largest = gaps.iter().fold(largest, |most, gap| most.max((gap - clearance).abs()));
+            }
+            let part = largest / sum;
+            assert!(0.9 < part && part < 1.002, "{blades} {part}");
+        }
     }
 
     /// The motion of a scene at an instant.
