@@ -2,15 +2,14 @@
 //!
 //! Where every blade presses by more than the smoothing, pushes are linear in the gaps, and
 //! all there is beyond a linear step are products with the blade phase `n_d alpha`. In the
-//! frame of the blades, at constant speed, a step is `x[n+1] = x[n] + D x[n] + r(x[n])`. With
-//! `|x|^2 = x^T Q x` of a `Q` for which the linear step shrinks `|x|` by a part `s`, and
-//! `|r| <= c |x|^2` there, a wave of `c |x| < s` shrinks in every step. So it stays where it
-//! was linear, if no blade leaves that within `|x|`, and dies.
+//! frame of the blades, at constant speed, a step is `x[n+1] = x[n] + D x[n] + r(x[n])`.
 //!
 //! A wave is a sum of motions that turn and die each at its rate. However they meet, a blade is
-//! pressed by no more than the sum of their sizes: a beat stays linear where this sum does.
+//! pressed by no more than the sum of their sizes: a beat stays linear where this sum does. With
+//! `|x|` the sum of the sizes, a linear step shrinks it by a part `s`, and `|r| <= c |x|^2`. A
+//! wave of `c |x| < s` shrinks in every step, so it dies, if no blade leaves the linear within it.
 
-use nalgebra::{Complex, DMatrix, DVector, SymmetricEigen};
+use nalgebra::{Complex, DMatrix, DVector};
 
 use super::Explicit;
 use super::disk::Disk;
@@ -19,7 +18,6 @@ use super::rows::TipLaw;
 use crate::model::LiningLaw;
 use crate::motion::Plane;
 use crate::numeric::eigen::eigenvalues;
-use crate::numeric::lyapunov::lyapunov;
 use crate::tolerances::{
     DIES_LOOKS, DIES_ROUNDINGS, DIES_SMALLER, DIES_STEPS, LARGEST_BLADE_ANGLE,
 };
@@ -119,50 +117,65 @@ impl Step<'_> {
     }
 }
 
-/// What is known for good of a wave on a lining at one speed.
+/// A motion of the linear step that turns and dies by itself.
 #[derive(Clone, Debug)]
-pub(super) struct Dies {
-    units: Units,
-    bound: DMatrix<f64>,
-    /// The largest wave, by `sqrt(x^T Q x)`, that dies for certain.
-    largest: f64,
+struct Part {
+    /// The rate at which it dies, 0 within the round-off of a step \[1/s\].
+    rate: f64,
+    /// Its size in a state is the size of the product with this.
+    of: DVector<Complex<f64>>,
+    /// What it presses a blade at most \[m\], and the sizes of `z`, `dz` and `a`, by its own.
+    pressed: f64,
+    sizes: [f64; 3],
+}
+
+impl Part {
+    /// Its size in a state.
+    fn size(&self, x: &DVector<f64>) -> f64 {
+        let (x, of) = (x.iter(), self.of.iter());
+        x.zip(of).map(|(x, of)| of.conj() * *x).sum::<Complex<f64>>().norm()
+    }
 }
 
 /// What is known of the linear motion about rest.
 #[derive(Clone, Debug)]
 pub(super) struct Rest {
-    dies: Option<Dies>,
+    units: Units,
+    /// The motions of which a wave is a sum, and those of them that a lining feels.
+    parts: Vec<Part>,
+    felt: Vec<Part>,
+    /// The largest wave, as a sum of sizes, that dies for certain.
+    largest: f64,
     /// The rate at which the slowest wave dies, of those that move the tips in the lining;
     /// negative where it grows, 0 where it does neither beyond round-off \[1/s\].
     pub rate: f64,
     /// A wave up to here leaves all pushes linear in the gaps \[m\].
     room: f64,
-    /// The motions of which it is a sum: the rate at which each dies \[1/s\], and what, by a
-    /// state, is the most that it presses a blade \[m\].
-    parts: Vec<(f64, DVector<Complex<f64>>)>,
-    units: Units,
 }
 
 impl<B: Disk> Explicit<B> {
     /// Whether every wave to come dies: all blades press a lining and stay so.
     pub(super) fn dies(&self) -> bool {
-        let dies = self.rest().and_then(|rest| rest.dies.as_ref());
-        dies.zip(self.wave()).is_some_and(|(dies, wave)| dies.holds(&wave))
+        self.rest().is_some_and(|rest| self.wave(rest).is_some_and(|wave| wave < rest.largest))
     }
 
     /// Whether the wave leaves all pushes linear from now on, or `after` it went on \[s\] as if
     /// they were; none where the motion about rest is not known.
     pub(super) fn stays_linear(&self, after: f64) -> Option<bool> {
-        let (rest, wave) = (self.rest()?, self.wave()?);
-        let x = rest.units.states(&wave, 8).map(Complex::from);
-        let part = |(rate, of): &(f64, DVector<Complex<f64>>)| {
-            of.dotc(&x.rows(0, of.len())).norm() * (-rate * after).exp()
-        };
-        Some(rest.parts.iter().map(part).sum::<f64>() < rest.room)
+        let (rest, x) = (self.rest()?, self.wave_state()?);
+        let x = rest.units.states(&x, UNKNOWNS);
+        let part = |part: &Part| part.size(&x) * part.pressed * (-part.rate * after).exp();
+        Some(rest.felt.iter().map(part).sum::<f64>() < rest.room)
+    }
+
+    /// The wave now, as a sum of sizes.
+    fn wave(&self, rest: &Rest) -> Option<f64> {
+        let x = rest.units.states(&self.wave_state()?, UNKNOWNS);
+        Some(rest.parts.iter().map(|part| part.size(&x)).sum())
     }
 
     /// The wave now, in the frame of the blades.
-    fn wave(&self) -> Option<State> {
+    fn wave_state(&self) -> Option<State> {
         let modes = self.blades.held_modes()?;
         let (c, s) = self.drive.look_at_turn(self.n);
         let back = Plane::new(c, -s);
@@ -228,7 +241,7 @@ impl Rest {
         if room <= 0.0 || !has_corners || !is_even(rows) || step.turn == 0.0 {
             return None;
         }
-        let size = if step.blades.is_some() { 8 } else { 4 };
+        let size = if step.blades.is_some() { UNKNOWNS } else { UNKNOWNS / 2 };
         let (unit, turned) = (-tips.clearance, -tips.clearance / blade);
         let units = Units([unit, unit * length * rate, turned, turned * length * rate]);
         let mut matrix = DMatrix::zeros(size, size);
@@ -236,106 +249,80 @@ impl Rest {
             let at = units.state(&DVector::from_fn(size, |n, _| f64::from(u8::from(n == k))));
             matrix.set_column(k, &units.states(&step.change(&at), size));
         }
-        let slowest = |parts: &[(f64, _)]| parts.iter().map(|(rate, _)| *rate).reduce(f64::min);
-        let all = parts(step, &matrix, &units, length)?;
-        let dies = Dies::of(step, &matrix, units, [length, rate], outrun);
-        let dies = dies.filter(|_| slowest(&all) > Some(0.0));
+        let parts = step.parts(&matrix, &units, length)?;
         // A lining does not feel the blades of tips without a slope, to first order.
-        let felt = matrix.view((0, 0), (4, 4)).into_owned();
-        let parts = if tips.rise == 0.0 { parts(step, &felt, &units, length)? } else { all };
-        Some(Self { dies, rate: slowest(&parts)?, room, parts, units })
+        let felt = match tips.rise == 0.0 && size == UNKNOWNS {
+            true => step.parts(&matrix.view((0, 0), (4, 4)).into_owned(), &units, length)?,
+            false => parts.clone(),
+        };
+        let largest = step.largest(&parts, &units, length, outrun).unwrap_or(0.0);
+        Some(Self { units, parts, largest, rate: slowest(&felt), felt, room })
     }
 }
 
-/// The motions of a step `1 + change` of this length \[s\]: the rate at which each dies, 0 within
-/// its round-off \[1/s\], and the most that it presses a blade, by a state \[m\].
-fn parts(
-    step: &Step<'_>,
-    change: &DMatrix<f64>,
-    units: &Units,
-    length: f64,
-) -> Option<Vec<(f64, DVector<Complex<f64>>)>> {
-    let size = change.nrows();
-    let part = |root: Complex<f64>| {
-        let grows = 2.0 * root.re + root.norm_sqr();
-        let beyond = grows.abs() > DIES_ROUNDINGS * f64::EPSILON;
-        let rate = if beyond { -0.5 * grows.ln_1p() / length } else { 0.0 };
-        let from = change.map(Complex::from) - DMatrix::identity(size, size) * root;
-        let svd = from.try_svd(true, true, f64::EPSILON, DIES_STEPS)?;
-        let (of, shape) = (svd.u?.column(size - 1).into_owned(), svd.v_t?.row(size - 1).adjoint());
-        let states = [shape.map(|x| x.re), shape.map(|x| x.im)].map(|x| units.state(&x));
-        let pressed = |row: &Pressed| {
-            let [re, im] = [0, 1].map(|k| step.pressed(row, &states[k]));
-            re.hypot(im)
-        };
-        let most = step.rows.iter().map(pressed).fold(0.0, f64::max);
-        let along = of.dotc(&shape).norm();
-        Some((rate, of * Complex::from(most / along)))
-    };
-    eigenvalues(change.clone())?.into_iter().map(part).collect()
+/// The numbers of a state: casing, its increment, blades and theirs, each in two directions.
+const UNKNOWNS: usize = 8;
+
+/// The rate at which the slowest of these motions dies \[1/s\].
+fn slowest(parts: &[Part]) -> f64 {
+    parts.iter().map(|part| part.rate).fold(f64::INFINITY, f64::min)
 }
 
-impl Dies {
-    /// Of a wave under these steps, `matrix` less one, of a length \[s\] and with this rate of
-    /// the motion \[rad/s\].
-    fn of(
-        step: &Step<'_>,
-        matrix: &DMatrix<f64>,
-        units: Units,
-        [length, rate]: [f64; 2],
-        outrun: [f64; 2],
-    ) -> Option<Self> {
-        let Step { tips, law, rows, .. } = *step;
-        let (size, room) = (matrix.nrows(), -tips.clearance - law.smoothing_m);
-        // With M = 2/(h rate) D (2 + D)^-1, each step takes h rate/4 |(2 + D) x|^2 of x^T Q x.
-        let two = DMatrix::<f64>::identity(size, size) * 2.0;
-        let across = (&two + matrix).try_inverse()?;
-        let bound = lyapunov(&(matrix * across * (2.0 / (length * rate))))?;
-        let inverse = bound.clone().cholesky()?.inverse();
-        let steepest = SymmetricEigen::new(bound.clone()).eigenvalues.max();
-        let kept = (2.0 - matrix.norm()).max(0.0);
-        let shrinks = 0.125 * length * rate * kept * kept / steepest;
+impl Step<'_> {
+    /// The motions of a step `1 + change` of this length \[s\].
+    fn parts(&self, change: &DMatrix<f64>, units: &Units, length: f64) -> Option<Vec<Part>> {
+        let size = change.nrows();
+        let part = |root: Complex<f64>| {
+            let grows = 2.0 * root.re + root.norm_sqr();
+            let beyond = grows.abs() > DIES_ROUNDINGS * f64::EPSILON;
+            let from = change.map(Complex::from) - DMatrix::identity(size, size) * root;
+            let svd = from.try_svd(true, true, f64::EPSILON, DIES_STEPS)?;
+            let of = svd.u?.column(size - 1).into_owned();
+            let shape = svd.v_t?.row(size - 1).adjoint();
+            let [re, im] = [shape.map(|x| x.re), shape.map(|x| x.im)].map(|x| units.state(&x));
+            let pressed = |row| self.pressed(row, &re).hypot(self.pressed(row, &im));
+            let sizes = [(re.z, im.z), (re.dz, im.dz), (re.a, im.a)];
+            Some(Part {
+                rate: if beyond { -0.5 * grows.ln_1p() / length } else { 0.0 },
+                pressed: self.rows.iter().map(pressed).fold(0.0, f64::max),
+                sizes: sizes.map(|(re, im)| re.norm().hypot(im.norm())),
+                of: &of / Complex::from(of.dotc(&shape).norm()),
+            })
+        };
+        eigenvalues(change.clone())?.into_iter().map(part).collect()
+    }
+
+    /// The largest sum of sizes of these motions that dies for certain, of steps of this length
+    /// \[s\]; `outrun` as in `Rest::of`.
+    fn largest(&self, parts: &[Part], units: &Units, length: f64, outrun: [f64; 2]) -> Option<f64> {
+        let Step { tips, law, rows, .. } = *self;
+        let room = -tips.clearance - law.smoothing_m;
+        let shrinks = -(-slowest(parts) * length).exp_m1();
         // Without damping the step keeps a wave, but for the round-off of its map.
-        let uneven = steepest * SymmetricEigen::new(inverse.clone()).eigenvalues.max();
+        let uneven: f64 = parts.iter().map(|part| part.of.norm()).sum();
         if shrinks.is_nan() || shrinks <= DIES_ROUNDINGS * f64::EPSILON * uneven {
             return None;
         }
-        let per_unit = |row: &DVector<f64>| row.dot(&(&inverse * row)).max(0.0).sqrt();
-        // The largest of one part of the state in a wave of unit size.
-        let part = |place: usize| {
-            let both = [0, 1].map(|k| {
-                let at = DVector::from_fn(size, |n, _| f64::from(u8::from(n == 2 * place + k)));
-                per_unit(&at)
-            });
-            if 2 * place < size { units.0[place] * both[0].hypot(both[1]) } else { 0.0 }
-        };
-        let [z, dz, a] = [part(0), part(1), part(2)];
-        let more = |row: &Pressed| {
-            let each = |n: usize| {
-                let at = units.state(&DVector::from_fn(size, |k, _| f64::from(u8::from(n == k))));
-                step.pressed(row, &at)
-            };
-            per_unit(&DVector::from_fn(size, |n, _| each(n)))
-        };
-        let pressed = rows.iter().map(more).fold(0.0, f64::max);
-        // The size of what a unit of force, or torque, adds to a state.
-        let added = |place: usize, compliance: f64| {
-            let along = [Plane::new(1.0, 0.0), Plane::i()].map(|one| {
-                let mut state = State::default();
-                match place {
-                    0 => (state.z, state.dz) = (one * compliance, one * compliance),
-                    _ => (state.a, state.da) = (one * compliance, one * compliance),
-                }
-                let x = units.states(&state, size);
-                x.dot(&(&bound * &x)).max(0.0).sqrt()
-            });
-            along[0].hypot(along[1])
-        };
-        let felt = [
-            added(0, step.casing.compliance) * Plane::new(1.0, tips.casing_friction).norm(),
-            step.blades.map_or(0.0, |blades| added(2, blades.compliance)),
+        let most = |of: fn(&Part) -> f64| parts.iter().map(of).fold(0.0, f64::max);
+        let [z, dz, a, pressed] = [
+            most(|part| part.sizes[0]),
+            most(|part| part.sizes[1]),
+            most(|part| part.sizes[2]),
+            most(|part| part.pressed),
         ];
-        let rest: f64 = rows.iter().map(|row| step.preload(row)).sum();
+        // What a unit of force, or of torque, adds to the sum.
+        let added = |state: fn(Plane) -> State, compliance: f64| -> f64 {
+            let along = [Plane::new(compliance, 0.0), Plane::i() * compliance]
+                .map(|one| units.states(&state(one), UNKNOWNS));
+            parts.iter().map(|part| part.size(&along[0]).hypot(part.size(&along[1]))).sum()
+        };
+        let casing = |one| State { z: one, dz: one, ..State::default() };
+        let blades = |one| State { a: one, da: one, ..State::default() };
+        let felt = [
+            added(casing, self.casing.compliance) * Plane::new(1.0, tips.casing_friction).norm(),
+            self.blades.map_or(0.0, |of| added(blades, of.compliance)),
+        ];
+        let rest: f64 = rows.iter().map(|row| self.preload(row)).sum();
         let stiffness: f64 = rows.iter().map(|row| row.blades * law.stiffness_n_per_m).sum();
         // What is left out of the pushes of a wave of this size, and whether all of it holds.
         let holds = |wave: f64| {
@@ -352,14 +339,7 @@ impl Dies {
                 && felt[0] * force + felt[1] * torque < shrinks * wave
         };
         let mut sizes = (0..DIES_LOOKS).map(|k| room / pressed * DIES_SMALLER.powi(k));
-        let largest = sizes.find(|&wave| holds(wave))?;
-        Some(Self { units, bound, largest })
-    }
-
-    /// Whether a wave in this state dies.
-    fn holds(&self, state: &State) -> bool {
-        let x = self.units.states(state, self.bound.nrows());
-        x.dot(&(&self.bound * &x)) < self.largest * self.largest
+        sizes.find(|&wave| holds(wave))
     }
 }
 
@@ -446,10 +426,8 @@ mod tests {
     impl<B: Disk> Explicit<B> {
         /// The wave now, as a part of the largest that dies.
         fn size_of_wave(&self) -> Option<f64> {
-            let dies = self.lining.as_ref()?.rest.get()?.as_ref()?.dies.clone()?;
-            let state = self.wave()?;
-            let x = dies.units.states(&state, dies.bound.nrows());
-            Some(x.dot(&(&dies.bound * &x)).sqrt() / dies.largest)
+            let rest = self.rest()?;
+            Some(self.wave(rest)? / rest.largest)
         }
     }
 
@@ -474,10 +452,10 @@ mod tests {
                 ("operation.pulse_n", "20"),
             ]);
             let mut motion = after::<ModalBlades>(&scene.unwrap(), 1e-3);
-            let parts = &motion.rest().unwrap().clone().parts;
-            let x = motion.rest().unwrap().units.states(&motion.wave().unwrap(), 8);
-            let sizes = parts.iter().map(|(_, of)| of.dotc(&x.map(Complex::from)).norm());
-            let (sum, clearance) = (sizes.sum::<f64>(), motion.machine.clearance());
+            let rest = motion.rest().unwrap().clone();
+            let x = rest.units.states(&motion.wave_state().unwrap(), UNKNOWNS);
+            let sum: f64 = rest.felt.iter().map(|part| part.size(&x) * part.pressed).sum();
+            let clearance = motion.machine.clearance();
             let mut largest = 0.0_f64;
             for k in 0..100_000 {
                 motion.advance(1e-3 + 5e-6 * f64::from(k)).unwrap();
