@@ -17,6 +17,7 @@ use super::oscillator::Oscillator;
 use super::rows::TipLaw;
 use crate::model::LiningLaw;
 use crate::motion::Plane;
+use crate::motion::point::{Point, Units, one_of};
 use crate::numeric::eigen::eigenvalues;
 use crate::tolerances::{
     DIES_LOOKS, DIES_ROUNDINGS, DIES_SMALLER, DIES_STEPS, LARGEST_BLADE_ANGLE,
@@ -41,36 +42,6 @@ struct Step<'a> {
     turn: f64,
 }
 
-/// Casing, its increment, blades and theirs, in the frame of the blades.
-#[derive(Clone, Copy, Debug, Default)]
-struct State {
-    z: Plane,
-    dz: Plane,
-    a: Plane,
-    da: Plane,
-}
-
-/// The units of the four parts of a state, so that all are of one size.
-#[derive(Clone, Copy, Debug)]
-struct Units([f64; 4]);
-
-impl Units {
-    fn states(&self, state: &State, size: usize) -> DVector<f64> {
-        let parts = [state.z, state.dz, state.a, state.da];
-        let each =
-            parts.iter().zip(self.0).flat_map(|(part, unit)| [part.re, part.im].map(|x| x / unit));
-        DVector::from_iterator(size, each.take(size))
-    }
-
-    fn state(&self, x: &DVector<f64>) -> State {
-        let at = |part: usize| {
-            let place = |k: usize| x.get(2 * part + k).copied().unwrap_or(0.0);
-            Plane::new(place(0), place(1)) * self.0[part]
-        };
-        State { z: at(0), dz: at(1), a: at(2), da: at(3) }
-    }
-}
-
 impl Step<'_> {
     /// Push of a row at rest \[N\].
     fn preload(&self, row: &Pressed) -> f64 {
@@ -79,13 +50,13 @@ impl Step<'_> {
     }
 
     /// How much a row is pressed in beyond rest, to first order \[m\].
-    fn pressed(&self, row: &Pressed, state: &State) -> f64 {
+    fn pressed(&self, row: &Pressed, state: &Point) -> f64 {
         let angle = (state.a * row.shape.conj()).re;
         self.tips.rise * angle - (state.z * row.normal.conj()).re
     }
 
     /// Force on the casing and torque on the blades, to first order.
-    fn pushes(&self, state: &State) -> (Plane, Plane) {
+    fn pushes(&self, state: &Point) -> (Plane, Plane) {
         let TipLaw { diameters, pushed, .. } = self.tips;
         let (mut force, mut torque) = (Plane::default(), Plane::default());
         for row in self.rows {
@@ -100,7 +71,7 @@ impl Step<'_> {
     }
 
     /// What one step adds, to first order, without losing digits of a short step.
-    fn change(&self, state: &State) -> State {
+    fn change(&self, state: &Point) -> Point {
         let (force, torque) = self.pushes(state);
         let half = (0.5 * self.turn).sin();
         // exp(-i turn) - 1
@@ -113,7 +84,7 @@ impl Step<'_> {
             torque * blades.compliance - state.a * blades.pull - state.da * blades.loss
         });
         let a = if self.blades.is_some() { state.da + da } else { Plane::default() };
-        State { z, dz, a, da }
+        Point { z, dz, a, da }
     }
 }
 
@@ -175,12 +146,12 @@ impl<B: Disk> Explicit<B> {
     }
 
     /// The wave now, in the frame of the blades.
-    fn wave_state(&self) -> Option<State> {
+    fn wave_state(&self) -> Option<Point> {
         let modes = self.blades.held_modes()?;
         let (c, s) = self.drive.look_at_turn(self.n);
         let back = Plane::new(c, -s);
         let [[x, y], [a, b]] = [self.u, modes.modes];
-        Some(State {
+        Some(Point {
             z: Plane::new(x.x, y.x) * back,
             dz: Plane::new(x.increment, y.increment) * back,
             a: Plane::new(a.x, b.x),
@@ -242,11 +213,10 @@ impl Rest {
             return None;
         }
         let size = if step.blades.is_some() { UNKNOWNS } else { UNKNOWNS / 2 };
-        let (unit, turned) = (-tips.clearance, -tips.clearance / blade);
-        let units = Units([unit, unit * length * rate, turned, turned * length * rate]);
+        let units = Units::of(-tips.clearance, blade, length * rate);
         let mut matrix = DMatrix::zeros(size, size);
         for k in 0..size {
-            let at = units.state(&DVector::from_fn(size, |n, _| f64::from(u8::from(n == k))));
+            let at = units.point(&one_of(size, k));
             matrix.set_column(k, &units.states(&step.change(&at), size));
         }
         let parts = step.parts(&matrix, &units, length)?;
@@ -279,7 +249,7 @@ impl Step<'_> {
             let svd = from.try_svd(true, true, f64::EPSILON, DIES_STEPS)?;
             let of = svd.u?.column(size - 1).into_owned();
             let shape = svd.v_t?.row(size - 1).adjoint();
-            let [re, im] = [shape.map(|x| x.re), shape.map(|x| x.im)].map(|x| units.state(&x));
+            let [re, im] = [shape.map(|x| x.re), shape.map(|x| x.im)].map(|x| units.point(&x));
             let pressed = |row| self.pressed(row, &re).hypot(self.pressed(row, &im));
             let sizes = [(re.z, im.z), (re.dz, im.dz), (re.a, im.a)];
             Some(Part {
@@ -311,13 +281,13 @@ impl Step<'_> {
             most(|part| part.pressed),
         ];
         // What a unit of force, or of torque, adds to the sum.
-        let added = |state: fn(Plane) -> State, compliance: f64| -> f64 {
+        let added = |state: fn(Plane) -> Point, compliance: f64| -> f64 {
             let along = [Plane::new(compliance, 0.0), Plane::i() * compliance]
                 .map(|one| units.states(&state(one), UNKNOWNS));
             parts.iter().map(|part| part.size(&along[0]).hypot(part.size(&along[1]))).sum()
         };
-        let casing = |one| State { z: one, dz: one, ..State::default() };
-        let blades = |one| State { a: one, da: one, ..State::default() };
+        let casing = |one| Point { z: one, dz: one, ..Point::default() };
+        let blades = |one| Point { a: one, da: one, ..Point::default() };
         let felt = [
             added(casing, self.casing.compliance) * Plane::new(1.0, tips.casing_friction).norm(),
             self.blades.map_or(0.0, |of| added(blades, of.compliance)),
