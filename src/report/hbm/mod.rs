@@ -6,7 +6,6 @@ use std::rc::Rc;
 mod branches;
 mod campbell;
 mod coincidence;
-mod compliance;
 mod excitation;
 mod forced;
 mod heading;
@@ -28,7 +27,7 @@ use rubscope_solver::model::{LockWindow, Machine};
 use rubscope_solver::scene::{Scene, keys};
 
 /// The views with an option, in the order of the help.
-pub const VIEWS: [&View; 9] = [
+pub const VIEWS: [&View; 8] = [
     &branches::BRANCHES,
     &slip::SLIP,
     &campbell::CAMPBELL,
@@ -37,7 +36,6 @@ pub const VIEWS: [&View; 9] = [
     &coincidence::COINCIDENCE,
     &forced::FORCED,
     &whirl::WHIRL,
-    &compliance::COMPLIANCE,
 ];
 
 /// A view of the steady states of a scene.
@@ -49,8 +47,6 @@ pub struct View {
     pub help: &'static str,
     /// Whether its numbers have the damping of the scene whatever is asked for.
     pub always_damped: bool,
-    /// Whether it is of one speed.
-    pub one_speed: bool,
     /// Which lock stands beside it in JSON.
     pub lock: LockBeside,
     /// Computes it.
@@ -140,7 +136,7 @@ impl Request<'_> {
         if machine.has_unequal_tips() && !["", "branches", "campbell"].contains(&view.option) {
             return refuse("bladed_disk.tips_m", "tips of their own lengths".to_string());
         }
-        let round = ["forced", "coincidence", "campbell", "compliance"];
+        let round = ["forced", "coincidence", "campbell"];
         if height != 0.0 && !round.contains(&view.option) {
             return refuse(keys::OUT_OF_ROUND, format!("{height:e}"));
         }

@@ -116,7 +116,6 @@ fn every_field_of_the_reports_is_in_the_documents() {
         ("coincidence", format!("--coincidence {pressed} --speed 390:440:6")),
         ("forced", format!("--forced {lobed} 90")),
         ("whirl", format!("--whirl {inclined} 300:450:2")),
-        ("compliance", format!("--compliance {inclined} 450")),
     ] {
         let all = fields_of(&[&format!("hbm {command} --json")]);
         let base = told(&document, "| field of `rubscope.hbm/1` | what it is |");
@@ -174,7 +173,6 @@ fn every_column_of_the_files_is_in_the_documents() {
         ("`hbm --smooth`, a clearance", "hbm --smooth --contact smooth"),
         ("`hbm --coincidence`", "hbm --coincidence --speed 300:500:3"),
         ("`hbm --whirl`", "hbm --whirl --speed 400:500:2"),
-        ("`hbm --compliance`", "hbm --compliance --set bladed_disk.radial_coupling=0.3"),
         ("`precision`", "precision grazing --finest 1e-6 --repeat 1"),
     ] {
         let rows = document.table("| file of | columns |");
