@@ -24,7 +24,7 @@ use super::number::{per_speed, short};
 use super::table::{MadeTable, Table};
 use rubscope_solver::harmonic::{Corner, Form, HarmonicError, Sweep, lock_window, locked_motion};
 use rubscope_solver::model::{LockWindow, Machine};
-use rubscope_solver::scene::{Scene, keys};
+use rubscope_solver::scene::{ModelSize, Scene, keys};
 
 /// The views with an option, in the order of the help.
 pub const VIEWS: [&View; 8] = [
@@ -108,7 +108,12 @@ impl Request<'_> {
     pub fn answer(&mut self, view: &View) -> Result<Answer, HarmonicError> {
         self.knows_tips(view)?;
         if let LockBeside::Rigid(tolerates) = view.lock {
-            self.machine = self.scene.machine().with_lining(None);
+            let machine = self.scene.machine().with_lining(None);
+            // Blades of the rigid model do not bend under the loads.
+            self.machine = match self.scene.solver.model {
+                ModelSize::Rigid => machine.with_stiff_blades(),
+                ModelSize::Modal | ModelSize::Full => machine,
+            };
             let Self { form, damped, pair, speeds, .. } = *self;
             let found = match self.scene.clearance() {
                 ..=0.0 => Err(no_clearance(self.scene)),
