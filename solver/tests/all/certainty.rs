@@ -75,6 +75,24 @@ fn a_proved_lock_near_its_limit_holds_in_longer_runs() {
     assert!(proved[1] > 8, "{proved:?}");
 }
 
+/// Soft blades swing far enough to change a push: what holds now may not hold for good.
+#[test]
+fn a_corner_of_blades_one_by_one_is_proved_only_where_they_bend_little() {
+    for (stiffness, proved) in [("15000", true), ("100", true), ("10", false), ("1", false)] {
+        let report = run_once(&scene(
+            "paper-nd3",
+            &[
+                ("solver.model", "full"),
+                ("solver.end_s", "0.002"),
+                ("bladed_disk.stiffness_nm_per_rad", stiffness),
+                ("bladed_disk.coupling_nm_per_rad", "0"),
+            ],
+        ));
+        assert_eq!(report.outcome.verdict, Verdict::Locked, "{stiffness}");
+        assert_eq!(is_proved(&report), proved, "{stiffness}: {:?}", report.outcome.basis);
+    }
+}
+
 #[test]
 fn tips_without_a_slope_do_not_make_a_wave_slip_on_a_pressed_lining() {
     for end in ["0.1", "0.2", "0.6"] {
