@@ -40,6 +40,7 @@ impl SurveyCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
         let format = output::format(self.out.as_deref(), &["csv", "svg"])?;
         let scene = self.options.scene()?;
+        self.options.note_assumed(&scene);
         let range = self.range().as_deref().map(speed_range).transpose();
         let range = range.map_err(|error| Refusal::because(format!("--{error}")))?;
         let by = match &self.by {
