@@ -189,22 +189,16 @@ impl<B: Disk> Explicit<B> {
             rows: &rows,
             turn: machine.nu(self.drive.speed(self.n)) * self.drive.step,
         };
-        let tip_speed = self.tip_speed();
-        let rate = machine.omega_c.max(machine.omega_bd);
-        Rest::of(
-            &step,
-            self.drive.step,
-            rate,
-            machine.blade_length,
-            [machine.tangential_ratio, tip_speed],
-        )
+        let turn = machine.omega_c.max(machine.omega_bd) * self.drive.step;
+        let units = Units::of(-self.tips.clearance, machine.blade_length, turn);
+        Rest::of(&step, self.drive.step, units, [machine.tangential_ratio, self.tip_speed()])
     }
 }
 
 impl Rest {
-    /// Of steps this long \[s\] with this rate of the motion \[rad/s\]; `outrun` are the
-    /// casing's way along the tips by its own, and the speed of these \[m/s\].
-    fn of(step: &Step<'_>, length: f64, rate: f64, blade: f64, outrun: [f64; 2]) -> Option<Self> {
+    /// Of steps this long \[s\], in these units; `outrun` are the casing's way along the tips by
+    /// its own, and the speed of these \[m/s\].
+    fn of(step: &Step<'_>, length: f64, units: Units, outrun: [f64; 2]) -> Option<Self> {
         let Step { tips, law, rows, .. } = *step;
         let room = -tips.clearance - law.smoothing_m;
         let has_corners = rows.len() >= 3;
@@ -213,12 +207,8 @@ impl Rest {
             return None;
         }
         let size = if step.blades.is_some() { UNKNOWNS } else { UNKNOWNS / 2 };
-        let units = Units::of(-tips.clearance, blade, length * rate);
-        let mut matrix = DMatrix::zeros(size, size);
-        for k in 0..size {
-            let at = units.point(&one_of(size, k));
-            matrix.set_column(k, &units.states(&step.change(&at), size));
-        }
+        let column = |k| units.states(&step.change(&units.point(&one_of(size, k))), size);
+        let matrix = DMatrix::from_columns(&(0..size).map(column).collect::<Vec<_>>());
         let parts = step.parts(&matrix, &units, length)?;
         // A lining does not feel the blades of tips without a slope, to first order.
         let felt = match tips.rise == 0.0 && size == UNKNOWNS {

@@ -39,12 +39,9 @@ impl Rest {
         let size = if parameters.arm() == 0.0 { 4 } else { 8 };
         let none = Point::default();
         let offset = units.states(&slope(parameters, held, &none, 1.0).0, size) / rate;
-        let mut matrix = DMatrix::zeros(size, size);
         let unit = |n: usize| units.point(&one_of(size, n));
-        for n in 0..size {
-            let change = slope(parameters, held, &unit(n), 0.0).0;
-            matrix.set_column(n, &(units.states(&change, size) / rate));
-        }
+        let change = |n| units.states(&slope(parameters, held, &unit(n), 0.0).0, size) / rate;
+        let matrix = DMatrix::from_columns(&(0..size).map(change).collect::<Vec<_>>());
         let states = matrix.clone().lu().solve(&-offset)?;
         let bound = lyapunov(&matrix)?;
         let inverse = bound.clone().cholesky()?.inverse();
