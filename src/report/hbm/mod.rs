@@ -108,17 +108,19 @@ impl Request<'_> {
         if let LockBeside::Rigid(tolerates) = view.lock {
             let machine = self.scene.machine().with_lining(None);
             // Blades of the rigid model do not bend under the loads.
-            self.machine = match self.scene.solver.model {
-                ModelSize::Rigid => machine.with_stiff_blades(),
-                ModelSize::Modal | ModelSize::Full => machine,
-            };
+            let rigid = self.scene.solver.model == ModelSize::Rigid;
+            self.machine = if rigid { machine.with_stiff_blades() } else { machine };
             let Self { form, damped, speeds, .. } = *self;
             let found = match self.scene.clearance() {
                 ..=0.0 => Err(no_clearance(self.scene)),
                 _ => locked_motion(&self.machine, form, damped, speeds),
             };
             match found {
-                Ok(sweep) => self.sweep = Some(Rc::new(sweep)),
+                Ok(mut sweep) => {
+                    let points = sweep.points.iter_mut().filter(|_| rigid);
+                    points.for_each(|point| point.alpha_rad = [0.0; 2]);
+                    self.sweep = Some(Rc::new(sweep));
+                }
                 Err(error) if tolerates(&error) => {}
                 Err(error) => return Err(error),
             }
