@@ -29,7 +29,7 @@ impl Host for NoHost {
     }
 }
 
-/// Cells of a map: blocks of eight by eight.
+/// Cells of a map: all blocks of eight by eight, and some finer ones.
 const MAP_CELLS: usize = 66;
 
 /// The engine driven by hand.

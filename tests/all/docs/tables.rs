@@ -35,7 +35,7 @@ fn code(text: impl std::fmt::Display) -> String {
 }
 
 /// Where keys act, in words.
-const CONTEXTS: [(Context, &str); 10] = [
+const CONTEXTS: [(Context, &str); 12] = [
     (Context::Reading, "While the arrows read a chart (`i`); all other keys as above"),
     (Context::Typing, "While a value or a file name is typed"),
     (Context::Help, "In the help"),
@@ -45,6 +45,8 @@ const CONTEXTS: [(Context, &str); 10] = [
     (Context::Lessons, "In the list of lessons"),
     (Context::Question, "While a lesson waits for an answer; all other keys as above"),
     (Context::Scenes, "In the list of scenes"),
+    (Context::Field, "In every prompt"),
+    (Context::List, "In every list"),
     (Context::Dialogue, "In all of these but a chart and a lesson"),
 ];
 
