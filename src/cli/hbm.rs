@@ -14,7 +14,7 @@ use super::{Done, output};
 use crate::report::hbm::{Heading, LOCKED, Request, VIEWS, View};
 use crate::report::number::speed;
 use crate::report::{CommandLine, json};
-use rubscope_solver::harmonic::{Form, HarmonicError, Sweep};
+use rubscope_solver::harmonic::{Form, Sweep};
 use rubscope_solver::scene::Scene;
 
 /// Default number of speeds of a sweep.
@@ -44,9 +44,6 @@ pub struct HbmCommand {
     /// Keep the damping, as without this option; with --form printed too
     #[arg(long, hide = true, conflicts_with = "undamped")]
     damped: bool,
-    /// The two blades that hold the wave, phase neighbours [default: 6,21 where they are]
-    #[arg(long, value_name = "I,J", allow_hyphen_values = true)]
-    blades: Option<String>,
     #[command(flatten)]
     view: RequestedView,
     /// Print everything as JSON (rubscope.hbm/1)
@@ -99,15 +96,14 @@ impl HbmCommand {
         let scene: &Scene = &resolved.scene;
         let speeds = match resolved.speeds {
             Some(range) => range.values(),
-            None if view.one_speed => vec![scene.operation.speed_rad_s],
             None => linspace(0.0, scene.operation.speed_rad_s, SPEEDS),
         };
-        let (form, pair) = (self.form()?, self.pair()?);
+        let form = self.form()?;
         // The paper's own equations have no damping.
         let damped = self.damped || !(self.undamped || form == Form::Printed);
         let (speeds, machine) = (&speeds[..], scene.machine());
-        let mut request = Request { scene, speeds, form, damped, pair, machine, sweep: None };
-        let answer = request.answer(view).map_err(refused)?;
+        let mut request = Request { scene, speeds, form, damped, machine, sweep: None };
+        let answer = request.answer(view).map_err(|error| Refusal::because(error.to_string()))?;
         status::say_noted();
         if self.json {
             json::write_as("rubscope.hbm/1", &self.command(scene), &answer.json, out)?;
@@ -140,8 +136,7 @@ impl HbmCommand {
             .optional("--speed", self.options.speed())
             .option("--form", &self.form)
             .flag("--undamped", self.undamped)
-            .flag("--damped", self.damped && self.form == Form::Printed.to_string())
-            .optional("--blades", self.blades.as_ref());
+            .flag("--damped", self.damped && self.form == Form::Printed.to_string());
         match self.view.0.option {
             "" => command,
             option => command.flag(&format!("--{option}"), true),
@@ -152,25 +147,6 @@ impl HbmCommand {
         let allowed = || format!("one of {}", Form::VARIANTS.join(", "));
         self.form.parse().map_err(|_| Refusal::of("--form", &self.form, allowed()))
     }
-
-    fn pair(&self) -> Result<Option<[u32; 2]>, Refusal> {
-        let Some(text) = &self.blades else { return Ok(None) };
-        let mut numbers = text.split(',').map(|number| number.trim().parse::<u32>());
-        match (numbers.next(), numbers.next(), numbers.next()) {
-            (Some(Ok(first)), Some(Ok(second)), None) => Ok(Some([first, second])),
-            _ => Err(Refusal::of("--blades", text, "I,J, the numbers of two blades")),
-        }
-    }
-}
-
-/// Turns an input that has no meaning into refused input: it is not a failure.
-fn refused(error: HarmonicError) -> Refusal {
-    let message = error.to_string();
-    // The option as typed, where the library names the argument.
-    Refusal::because(match error {
-        HarmonicError::Blades { .. } => format!("--{message}"),
-        _ => message,
-    })
 }
 
 fn warn_missing(sweep: &Sweep) {

@@ -123,7 +123,7 @@ fn a_refusal_stands_alone_and_what_was_changed_is_said_when_the_command_goes_on(
             &["map"],
             &["--x", "operation.speed_rad_s=0:500:90000", "--y", "operation.pulse_n=0:1:9000"],
         ),
-        (&["hbm"], &["--form", "printed", "--blades", "1,99"]),
+        (&["hbm"], &["--excitation"]),
         (&["precision"], &["--finest", "0"]),
         (&[], &[]),
     ] {
@@ -254,7 +254,6 @@ fn many_speeds_take_little_memory() {
         &["--coincidence", "--json"],
         &["--whirl", "--json"],
         &driven,
-        &["--compliance", "--json"],
     ] {
         for out in [&[][..], &file] {
             // With 40 MB of data and no more: a program that wants more is aborted.

@@ -23,7 +23,7 @@ fn number(value: &Value) -> f64 {
 
 #[test]
 fn json_of_the_papers_sweep() {
-    let report = json(&["--undamped", "--speed", "0:500:501", "--blades", "6,21"]);
+    let report = json(&["--undamped", "--speed", "0:500:501"]);
     assert_eq!(report["schema"], "rubscope.hbm/1");
     assert!((number(&report["omega_c_rad_s"]) - 292.878).abs() < 1e-3);
     assert!((number(&report["omega_lock_rad_s"]) - 411.93).abs() < 5e-3);
@@ -98,7 +98,7 @@ fn the_papers_form_says_that_it_has_no_damping() {
 #[test]
 fn views_that_are_always_damped_do_not_drop_it() {
     let tips = ["--set", "bladed_disk.radial_coupling=0.1"];
-    for view in ["--slip", "--excitation", "--whirl", "--compliance", "--smooth"] {
+    for view in ["--slip", "--excitation", "--whirl", "--smooth"] {
         let output = ended(hbm(&tips).args([view, "--undamped"]), 2);
         let said = String::from_utf8(output.stderr).unwrap();
         assert!(said.contains("'--undamped'") && said.contains(view), "{said}");
@@ -223,9 +223,8 @@ fn what_has_no_meaning_ends_with_status_2_and_one_line() {
         (vec!["--nd", "0"], "rubscope: operation.nodal_diameters = 0: allowed is"),
         (vec!["--nd", "11", "--slip"], "rubscope: operation.nodal_diameters = 11: allowed is"),
         (vec!["--nd", "0", "--campbell"], "rubscope: operation.nodal_diameters = 0: allowed is"),
-        (vec!["--blades", "6,7"], "rubscope: --blades = 6,7: allowed is a pair of phase"),
-        (vec!["--blades", "6,99"], "rubscope: --blades = 6,99: allowed is two blades from 1"),
-        (vec!["--blades", "six"], "rubscope: --blades = six: allowed is I,J"),
+        (vec!["--blades", "6,7"], "rubscope: hbm --blades is gone: hbm has the numbers of every"),
+        (vec!["--compliance"], "rubscope: hbm --compliance is gone: hbm --whirl has the wave"),
         (vec!["--form", "round"], "rubscope: --form = round: allowed is one of printed"),
         (vec!["--excitation"], "rubscope: excitation.amplitude_nm = 0: allowed is above 0"),
         (vec!["--harmonics", "4"], "rubscope: hbm --harmonics is gone: hbm --slip gives"),
@@ -285,27 +284,43 @@ fn whirl_has_its_onset_and_its_limits() {
 }
 
 #[test]
-fn the_compliance_crosses_the_negative_axis_where_the_waves_are() {
-    let report = json(&[&INCLINED[..], &["--compliance", "--speed", "450"]].concat());
-    let [omega, re, im] = ["omega_rad_s", "re_m_per_n", "im_m_per_n"].map(|name| {
-        let list = report["compliance"][name].as_array().unwrap();
-        list.iter().map(number).collect::<Vec<f64>>()
-    });
-    let [first, last] = [omega[0], omega[omega.len() - 1]];
-    // 1.5 times the fastest resonance, both ways.
-    assert!(omega.len() == 201 && first == -last && last > 1.5 * 1350.0, "{first} {last}");
-    let waves = report["compliance"]["waves"].as_array().unwrap();
-    assert_eq!(waves.len(), 2);
-    for wave in waves {
-        let at = number(&wave["omega_rad_s"]);
-        let place = omega.windows(2).position(|pair| pair[0] <= at && at < pair[1]).unwrap();
-        // Between two frequencies of the table it may go round a resonance, too.
-        assert!(im[place] * im[place + 1] < 0.0 && re[place].min(re[place + 1]) < 0.0, "{at}");
+fn rigid_blades_do_not_bend_under_a_lock() {
+    let soft = ["bladed_disk.stiffness_nm_per_rad=10", "bladed_disk.coupling_nm_per_rad=0"];
+    let soft = ["--set", soft[0], "--set", soft[1], "--speed", "500"];
+    let groups = |model: &str| {
+        let report = json(&[&soft[..], &["--model", model]].concat());
+        let groups = report["points"][0]["groups"].as_array().unwrap().clone();
+        groups.iter().map(|g| [number(&g["multiplier_n"]), number(&g["alpha_rad"])]).collect()
+    };
+    let [rigid, modal]: [Vec<[f64; 2]>; 2] = ["rigid", "modal"].map(groups);
+    for (rigid, modal) in rigid.iter().zip(modal) {
+        assert!(rigid[1] == 0.0 && modal[1].abs() > 6e-5, "{rigid:?} {modal:?}");
+        assert!((rigid[0] / modal[0] - 1.0).abs() > 1e-5, "{rigid:?} {modal:?}");
     }
-    let asked = ["--compliance", "--speed", "450"];
-    let text = ended(&mut hbm(&[&INCLINED[..], &asked].concat()), 0);
-    let text = String::from_utf8(text.stdout).unwrap();
-    assert!(text.contains("attracts") && text.contains("threshold"), "{text}");
+    // As of the event solver, whose rigid blades have no angle.
+    assert!((rigid[0][0] + 244.415_92).abs() < 1e-5 && (rigid[1][0] + 57.294_78).abs() < 1e-5);
+}
+
+#[test]
+fn corners_of_unequal_tips_are_named_by_their_blades() {
+    let asked = ["long-tip", "--branches", "--speed", "300"];
+    let text = String::from_utf8(ended(&mut hbm(&asked), 0).stdout).unwrap();
+    assert!(text.contains("blade_a  blade_b"), "{text}");
+    let rows: Vec<Vec<&str>> = text.lines().map(|row| row.split_whitespace().collect()).collect();
+    let first = rows.iter().find(|row| row.first() == Some(&"300")).unwrap();
+    assert_eq!(first[1..4], ["1", "3", "292.149"]);
+}
+
+#[test]
+fn lobes_that_drive_no_wave_say_so() {
+    let title = |scene: &[&str]| {
+        let text = ended(&mut hbm(&[scene, &["--forced", "--speed", "90"]].concat()), 0).stdout;
+        String::from_utf8(text).unwrap()
+    };
+    let still = "4 lobes drive no wave of 3 nodal diameters, whatever the speed:";
+    assert!(title(&["oval"]).contains(still), "{}", title(&["oval"]));
+    let three = title(&["oval", "--set", "casing.lobes=3"]);
+    assert!(three.contains("3 lobes of 6e-5 m drive, where all blades press:"), "{three}");
 }
 
 #[test]

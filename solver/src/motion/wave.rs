@@ -2,8 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::script::{Change, Script};
 use super::State;
+use super::script::{Change, Script};
 use crate::model::Machine;
 use crate::scene::CheckedScene;
 use crate::tolerances::{LAST_PART, WAVE_LOOKS, WAVE_LOOKS_A_TURN};

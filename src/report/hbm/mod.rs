@@ -6,7 +6,6 @@ use std::rc::Rc;
 mod branches;
 mod campbell;
 mod coincidence;
-mod compliance;
 mod excitation;
 mod forced;
 mod heading;
@@ -25,10 +24,10 @@ use super::number::{per_speed, short};
 use super::table::{MadeTable, Table};
 use rubscope_solver::harmonic::{Corner, Form, HarmonicError, Sweep, lock_window, locked_motion};
 use rubscope_solver::model::{LockWindow, Machine};
-use rubscope_solver::scene::{Scene, keys};
+use rubscope_solver::scene::{ModelSize, Scene, keys};
 
 /// The views with an option, in the order of the help.
-pub const VIEWS: [&View; 9] = [
+pub const VIEWS: [&View; 8] = [
     &branches::BRANCHES,
     &slip::SLIP,
     &campbell::CAMPBELL,
@@ -37,7 +36,6 @@ pub const VIEWS: [&View; 9] = [
     &coincidence::COINCIDENCE,
     &forced::FORCED,
     &whirl::WHIRL,
-    &compliance::COMPLIANCE,
 ];
 
 /// A view of the steady states of a scene.
@@ -49,8 +47,6 @@ pub struct View {
     pub help: &'static str,
     /// Whether its numbers have the damping of the scene whatever is asked for.
     pub always_damped: bool,
-    /// Whether it is of one speed.
-    pub one_speed: bool,
     /// Which lock stands beside it in JSON.
     pub lock: LockBeside,
     /// Computes it.
@@ -78,8 +74,6 @@ pub struct Request<'a> {
     pub form: Form,
     /// Whether the equations have the damping of the scene.
     pub damped: bool,
-    /// The two blades that hold the wave, if they are chosen.
-    pub pair: Option<[u32; 2]>,
     /// Machine of the scene, with rigid contact where the view has it.
     pub machine: Machine,
     /// The locked motion, where there is one and the view has rigid contact.
@@ -102,7 +96,7 @@ impl Request<'_> {
 
     fn corner(&self) -> Result<Corner, HarmonicError> {
         let polygon = &self.machine.polygon;
-        self.pair.map_or_else(|| Corner::paper(polygon), |pair| Corner::of_blades(polygon, pair))
+        Corner::paper(polygon)
     }
 
     /// Computes a view, with the fields that all views have before its own.
@@ -112,14 +106,21 @@ impl Request<'_> {
     pub fn answer(&mut self, view: &View) -> Result<Answer, HarmonicError> {
         self.knows_tips(view)?;
         if let LockBeside::Rigid(tolerates) = view.lock {
-            self.machine = self.scene.machine().with_lining(None);
-            let Self { form, damped, pair, speeds, .. } = *self;
+            let machine = self.scene.machine().with_lining(None);
+            // Blades of the rigid model do not bend under the loads.
+            let rigid = self.scene.solver.model == ModelSize::Rigid;
+            self.machine = if rigid { machine.with_stiff_blades() } else { machine };
+            let Self { form, damped, speeds, .. } = *self;
             let found = match self.scene.clearance() {
                 ..=0.0 => Err(no_clearance(self.scene)),
-                _ => locked_motion(&self.machine, form, damped, pair, speeds),
+                _ => locked_motion(&self.machine, form, damped, speeds),
             };
             match found {
-                Ok(sweep) => self.sweep = Some(Rc::new(sweep)),
+                Ok(mut sweep) => {
+                    let points = sweep.points.iter_mut().filter(|_| rigid);
+                    points.for_each(|point| point.alpha_rad = [0.0; 2]);
+                    self.sweep = Some(Rc::new(sweep));
+                }
                 Err(error) if tolerates(&error) => {}
                 Err(error) => return Err(error),
             }
@@ -142,7 +143,7 @@ impl Request<'_> {
             let (key, length) = given.unwrap_or((keys::TIPS, 0.0));
             return refuse(key, format!("{length:e}"));
         }
-        let round = ["forced", "coincidence", "campbell", "compliance"];
+        let round = ["forced", "coincidence", "campbell"];
         if height != 0.0 && !round.contains(&view.option) {
             return refuse(keys::OUT_OF_ROUND, format!("{height:e}"));
         }
