@@ -135,7 +135,8 @@ fn harmonic(criterion: &mut Criterion) {
         ("500 speeds, modal", Form::Modal),
     ] {
         group.bench_function(name, |bencher| {
-            bencher.iter(|| locked_motion(&machine, form, false, black_box(&speeds)).unwrap());
+            bencher
+                .iter(|| locked_motion(&machine, form, false, None, black_box(&speeds)).unwrap());
         });
     }
     group.finish();

@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 pub fn show(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let machine = Scene::builtin("paper-nd3")?.machine();
     let speeds: Vec<f64> = (0..=20).map(|step| 25.0 * f64::from(step)).collect();
-    let sweep = locked_motion(&machine, Form::Modal, true, &speeds)?;
+    let sweep = locked_motion(&machine, Form::Modal, true, None, &speeds)?;
     writeln!(out, "speed_rad_s,lambda_a_n,lambda_b_n,only_pushes")?;
     for point in &sweep.points {
         let [a, b] = point.multipliers_n;

@@ -23,11 +23,6 @@ const GONE: &[Gone] = &[
     gone("hbm", "--follow", STATES),
     gone("hbm", "--over", STATES),
     gone("hbm", "--harmonics", "hbm --slip gives the exact orbit of slip, without a series"),
-    gone(
-        "hbm",
-        "--blades",
-        "hbm has the numbers of every pair of equal tips; --branches of others",
-    ),
     gone("hbm", "--compliance", WAVES),
     gone("hbm", "--omegas", WAVES),
     gone("hbm", "--zetas", "hbm --slip --zeta-casing VALUE says where slip exists at one damping"),

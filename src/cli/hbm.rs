@@ -14,7 +14,7 @@ use super::{Done, output};
 use crate::report::hbm::{Heading, LOCKED, Request, VIEWS, View};
 use crate::report::number::speed;
 use crate::report::{CommandLine, json};
-use rubscope_solver::harmonic::{Form, Sweep};
+use rubscope_solver::harmonic::{Form, HarmonicError, Sweep};
 use rubscope_solver::scene::Scene;
 
 /// Default number of speeds of a sweep.
@@ -44,6 +44,9 @@ pub struct HbmCommand {
     /// Keep the damping, as without this option; with --form printed too
     #[arg(long, hide = true, conflicts_with = "undamped")]
     damped: bool,
+    /// The two blades that hold the wave, phase neighbours [default: 6,21 where they are]
+    #[arg(long, value_name = "I,J", allow_hyphen_values = true)]
+    blades: Option<String>,
     #[command(flatten)]
     view: RequestedView,
     /// Print everything as JSON (rubscope.hbm/1)
@@ -98,12 +101,12 @@ impl HbmCommand {
             Some(range) => range.values(),
             None => linspace(0.0, scene.operation.speed_rad_s, SPEEDS),
         };
-        let form = self.form()?;
+        let (form, pair) = (self.form()?, self.pair()?);
         // The paper's own equations have no damping.
         let damped = self.damped || !(self.undamped || form == Form::Printed);
         let (speeds, machine) = (&speeds[..], scene.machine());
-        let mut request = Request { scene, speeds, form, damped, machine, sweep: None };
-        let answer = request.answer(view).map_err(|error| Refusal::because(error.to_string()))?;
+        let mut request = Request { scene, speeds, form, damped, pair, machine, sweep: None };
+        let answer = request.answer(view).map_err(refused)?;
         status::say_noted();
         if self.json {
             json::write_as("rubscope.hbm/1", &self.command(scene), &answer.json, out)?;
@@ -136,7 +139,8 @@ impl HbmCommand {
             .optional("--speed", self.options.speed())
             .option("--form", &self.form)
             .flag("--undamped", self.undamped)
-            .flag("--damped", self.damped && self.form == Form::Printed.to_string());
+            .flag("--damped", self.damped && self.form == Form::Printed.to_string())
+            .optional("--blades", self.blades.as_ref());
         match self.view.0.option {
             "" => command,
             option => command.flag(&format!("--{option}"), true),
@@ -147,6 +151,25 @@ impl HbmCommand {
         let allowed = || format!("one of {}", Form::VARIANTS.join(", "));
         self.form.parse().map_err(|_| Refusal::of("--form", &self.form, allowed()))
     }
+
+    fn pair(&self) -> Result<Option<[u32; 2]>, Refusal> {
+        let Some(text) = &self.blades else { return Ok(None) };
+        let mut numbers = text.split(',').map(|number| number.trim().parse::<u32>());
+        match (numbers.next(), numbers.next(), numbers.next()) {
+            (Some(Ok(first)), Some(Ok(second)), None) => Ok(Some([first, second])),
+            _ => Err(Refusal::of("--blades", text, "I,J, the numbers of two blades")),
+        }
+    }
+}
+
+/// Turns an input that has no meaning into refused input: it is not a failure.
+fn refused(error: HarmonicError) -> Refusal {
+    let message = error.to_string();
+    // The option as typed, where the library names the argument.
+    Refusal::because(match error {
+        HarmonicError::Blades { .. } => format!("--{message}"),
+        _ => message,
+    })
 }
 
 fn warn_missing(sweep: &Sweep) {

@@ -123,7 +123,7 @@ fn a_refusal_stands_alone_and_what_was_changed_is_said_when_the_command_goes_on(
             &["map"],
             &["--x", "operation.speed_rad_s=0:500:90000", "--y", "operation.pulse_n=0:1:9000"],
         ),
-        (&["hbm"], &["--excitation"]),
+        (&["hbm"], &["--form", "printed", "--blades", "1,99"]),
         (&["precision"], &["--finest", "0"]),
         (&[], &[]),
     ] {

@@ -23,7 +23,7 @@ fn number(value: &Value) -> f64 {
 
 #[test]
 fn json_of_the_papers_sweep() {
-    let report = json(&["--undamped", "--speed", "0:500:501"]);
+    let report = json(&["--undamped", "--speed", "0:500:501", "--blades", "6,21"]);
     assert_eq!(report["schema"], "rubscope.hbm/1");
     assert!((number(&report["omega_c_rad_s"]) - 292.878).abs() < 1e-3);
     assert!((number(&report["omega_lock_rad_s"]) - 411.93).abs() < 5e-3);
@@ -223,8 +223,9 @@ fn what_has_no_meaning_ends_with_status_2_and_one_line() {
         (vec!["--nd", "0"], "rubscope: operation.nodal_diameters = 0: allowed is"),
         (vec!["--nd", "11", "--slip"], "rubscope: operation.nodal_diameters = 11: allowed is"),
         (vec!["--nd", "0", "--campbell"], "rubscope: operation.nodal_diameters = 0: allowed is"),
-        (vec!["--blades", "6,7"], "rubscope: hbm --blades is gone: hbm has the numbers of every"),
-        (vec!["--compliance"], "rubscope: hbm --compliance is gone: hbm --whirl has the wave"),
+        (vec!["--blades", "6,7"], "rubscope: --blades = 6,7: allowed is a pair of phase"),
+        (vec!["--blades", "6,99"], "rubscope: --blades = 6,99: allowed is two blades from 1"),
+        (vec!["--blades", "six"], "rubscope: --blades = six: allowed is I,J"),
         (vec!["--form", "round"], "rubscope: --form = round: allowed is one of printed"),
         (vec!["--excitation"], "rubscope: excitation.amplitude_nm = 0: allowed is above 0"),
         (vec!["--harmonics", "4"], "rubscope: hbm --harmonics is gone: hbm --slip gives"),

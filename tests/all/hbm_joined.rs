@@ -56,7 +56,7 @@ fn the_exact_pair_of_the_theory() {
     ] {
         let machine = machine([kappa, 0.0, 0.0]);
         let loads = lock_loads(&machine, 500.0).unwrap();
-        let sweep = locked_motion(&machine, Form::Modal, true, &[500.0]).unwrap();
+        let sweep = locked_motion(&machine, Form::Modal, true, None, &[500.0]).unwrap();
         let point = sweep.points[0];
         assert!(point.admissible && point.stable && point.residual < 1e-12, "{point:?}");
         for i in [0, 1] {
@@ -73,7 +73,7 @@ fn the_exact_pair_of_the_theory() {
 fn the_torque_is_that_of_the_moment_arms() {
     for tips in [[0.0; 3], [0.1, 0.0, 0.0], [0.1, 0.15, 0.02], [0.0, 0.15, 0.05]] {
         let machine = machine(tips);
-        let sweep = locked_motion(&machine, Form::Modal, true, &[480.0]).unwrap();
+        let sweep = locked_motion(&machine, Form::Modal, true, None, &[480.0]).unwrap();
         let point = sweep.points[0];
         let mut torque = 0.0;
         for (i, side) in sweep.corner.sides().into_iter().enumerate() {
@@ -92,7 +92,7 @@ fn the_torque_is_that_of_the_moment_arms() {
 fn tips_that_rub_cannot_pull() {
     for (tips, expected) in [([0.0; 3], Character::Adhesive), ([0.0, 0.15, 0.0], Character::Pulls)]
     {
-        let sweep = locked_motion(&machine(tips), Form::Modal, true, &[350.0]).unwrap();
+        let sweep = locked_motion(&machine(tips), Form::Modal, true, None, &[350.0]).unwrap();
         assert_eq!(sweep.points[0].character, expected, "{tips:?}");
     }
 }
@@ -105,7 +105,7 @@ fn an_undamped_lock_grows_where_its_roots_do() {
     for tips in [[0.3, 0.0, 0.0], [0.2, 0.1, 0.02], [0.05, 0.1, 0.05], [-0.05, 0.2, 0.05]] {
         let machine = machine(tips).undamped();
         for speed in [430.0, 500.0, 560.0, 720.0, 800.0] {
-            let point = locked_motion(&machine, Form::Modal, false, &[speed]).unwrap();
+            let point = locked_motion(&machine, Form::Modal, false, None, &[speed]).unwrap();
             let point = point.points[0];
             if !point.admissible {
                 continue;
@@ -212,13 +212,13 @@ fn what_is_of_the_papers_tips_alone_is_refused_by_name() {
         "contact.friction"
     );
     for form in [Form::Printed, Form::Blade] {
-        let error = locked_motion(&joined, form, true, &[500.0]).unwrap_err();
+        let error = locked_motion(&joined, form, true, None, &[500.0]).unwrap_err();
         assert_eq!(key(error), "bladed_disk.radial_coupling");
     }
     let mut other = scene([0.3, 0.0, 0.0]);
     other.bladed_disk.nodal_diameters = 4;
     let other = other.machine();
-    let error = locked_motion(&other, Form::Modal, true, &[500.0]).unwrap_err();
+    let error = locked_motion(&other, Form::Modal, true, None, &[500.0]).unwrap_err();
     assert_eq!(key(error), "bladed_disk.nodal_diameters");
     assert_eq!((other.lock_speed(), other.locked_multipliers(500.0)), (None, None));
     assert_eq!(lock_loads(&other, 500.0), None);
@@ -231,7 +231,7 @@ fn tips_hardly_inclined_are_those_of_the_paper() {
     for damped in [true, false] {
         for speed in [0.0, 250.0, 320.0, 500.0, -430.0, 2000.0] {
             let of = |machine: &Machine| {
-                locked_motion(machine, Form::Modal, damped, &[speed]).unwrap().points[0]
+                locked_motion(machine, Form::Modal, damped, None, &[speed]).unwrap().points[0]
             };
             let (paper, nearly) = (of(&paper), of(&nearly));
             for i in [0, 1] {
@@ -297,7 +297,7 @@ proptest! {
         let speed = if backward { -speed } else { speed };
         let closed = machine.locked_multipliers(speed).unwrap();
         let size = closed[0].abs().max(closed[1].abs());
-        let sweep = locked_motion(&machine, Form::Modal, true, &[speed]).unwrap();
+        let sweep = locked_motion(&machine, Form::Modal, true, None, &[speed]).unwrap();
         if let Some(point) = sweep.points.first() {
             for (exact, closed) in point.multipliers_n.iter().zip(closed) {
                 prop_assert!((exact - closed).abs() <= 1e-2 * size, "{exact} {closed}");

@@ -13,7 +13,7 @@ fn machine(nodal_diameters: u32, zeta_c: f64) -> Machine {
 }
 
 fn at(machine: &Machine, form: Form, damped: bool, speed: f64) -> LockedPoint {
-    locked_motion(machine, form, damped, &[speed]).unwrap().points[0]
+    locked_motion(machine, form, damped, None, &[speed]).unwrap().points[0]
 }
 
 fn close(value: f64, expected: f64, tolerance: f64) {
@@ -26,7 +26,7 @@ fn the_papers_figures_9_and_10() {
     let speeds: Vec<f64> = (0..=500).map(f64::from).collect();
     let critical = machine.critical_speed().unwrap();
     for form in Form::ALL {
-        let sweep = locked_motion(&machine, form, false, &speeds).unwrap();
+        let sweep = locked_motion(&machine, form, false, Some([6, 21]), &speeds).unwrap();
         assert_eq!((sweep.points.len(), sweep.missing.len()), (501, 0));
         for point in &sweep.points {
             // Blade angles of 1e-6 rad move the corner by 1e-6 of its half side,
@@ -230,13 +230,15 @@ fn what_has_no_meaning_is_refused_in_one_line_that_names_the_key() {
         (0, "operation.nodal_diameters = 0: allowed is one with N'"),
         (11, "operation.nodal_diameters = 11: allowed is one with N'"),
     ] {
-        let refused = locked_motion(&machine(diameters, 0.05), Form::Modal, false, &[500.0]);
+        let refused = locked_motion(&machine(diameters, 0.05), Form::Modal, false, None, &[500.0]);
         let message = refused.unwrap_err().to_string();
         assert!(message.starts_with(start), "{message}");
         assert_eq!(message.lines().count(), 1);
     }
     let machine = machine(3, 0.05);
-    assert!(locked_motion(&machine, Form::Modal, false, &[f64::NAN]).is_err());
+    let message = locked_motion(&machine, Form::Modal, false, Some([6, 7]), &[500.0]).unwrap_err();
+    assert!(message.to_string().starts_with("blades = 6,7: allowed is a pair of phase"));
+    assert!(locked_motion(&machine, Form::Modal, false, None, &[f64::NAN]).is_err());
 }
 
 /// Blades that turn the wave by 0.8 rad: from the rigid corner, Newton's method
@@ -264,7 +266,7 @@ fn soft_blades_of_the_printed_form_are_followed_and_not_met_by_chance() {
     let critical = machine.critical_speed().unwrap();
     let speeds: Vec<f64> =
         (-5..=5).map(|k| (2.894_076_755_376_282_5 + 1e-3 * f64::from(k)) * critical).collect();
-    let sweep = locked_motion(&machine, Form::Printed, true, &speeds).unwrap();
+    let sweep = locked_motion(&machine, Form::Printed, true, None, &speeds).unwrap();
     assert!(sweep.missing.is_empty(), "missed {:?}", sweep.missing);
     assert!(sweep.points.iter().all(|point| point.residual < 1e-14));
     // One branch: by equal steps of the speed, equal steps of the multipliers.
@@ -274,9 +276,9 @@ fn soft_blades_of_the_printed_form_are_followed_and_not_met_by_chance() {
     }
     // The order of the speeds and earlier results do not matter.
     let mut down: Vec<f64> = (0..=300).map(|k| 0.01 * f64::from(k) * critical).collect();
-    let up = locked_motion(&machine, Form::Printed, true, &down).unwrap();
+    let up = locked_motion(&machine, Form::Printed, true, None, &down).unwrap();
     down.reverse();
-    let down = locked_motion(&machine, Form::Printed, true, &down).unwrap();
+    let down = locked_motion(&machine, Form::Printed, true, None, &down).unwrap();
     assert!(up.points.iter().eq(down.points.iter().rev()));
     assert!((20..301).contains(&up.points.len()), "{}", up.points.len());
 }
@@ -316,7 +318,7 @@ fn beyond_its_fold_a_speed_has_no_locked_motion() {
     let machine = soft();
     let fold = lock_fold_speed(&machine).unwrap();
     let speeds = [0.5 * fold, 0.999 * fold, 1.001 * fold, 3.0 * fold];
-    let sweep = locked_motion(&machine, Form::Modal, false, &speeds).unwrap();
+    let sweep = locked_motion(&machine, Form::Modal, false, None, &speeds).unwrap();
     assert_eq!((sweep.points.len(), sweep.missing.as_slice()), (2, &speeds[2..]));
     assert!(sweep.points.iter().all(|point| point.residual < 1e-12));
     // The paper's blades fold far beyond any rotor.

@@ -131,7 +131,7 @@ pub fn found(check: &Check, app: &App, runs: &mut Runs) -> Vec<f64> {
         return vec![lining.rest(speed).worst().growth_1_s];
     }
     if let Some(name) = &check.hbm {
-        let sweep = locked_motion(&machine, Form::Modal, true, &[speed]).unwrap();
+        let sweep = locked_motion(&machine, Form::Modal, true, None, &[speed]).unwrap();
         let place = ["multiplier_a_n", "multiplier_b_n"].iter().position(|known| known == name);
         return vec![sweep.points[0].multipliers_n[place.unwrap()]];
     }

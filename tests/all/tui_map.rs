@@ -310,7 +310,7 @@ fn view_3_reads_the_locked_motion_exactly_at_any_speed() {
     session.press("←←←←←←←");
     let machine = session.app.scene.machine();
     let at = session.app.reading.cursor.unwrap().across * 600.0;
-    let sweep = locked_motion(&machine, Form::Modal, true, &[at]).unwrap();
+    let sweep = locked_motion(&machine, Form::Modal, true, None, &[at]).unwrap();
     let point = sweep.points[0];
     let text = session.text();
     assert!((at - 458.0).abs() < 1e-9, "{at}");
@@ -339,7 +339,7 @@ fn view_3_of_a_rotor_that_turns_the_other_way_says_so() {
     assert!(text.contains("at -430.0 rad/s"), "{text}");
     // Its groups are those of the other way, exchanged.
     let machine = session.app.scene.machine();
-    let sweep = locked_motion(&machine, Form::Modal, true, &[430.0, -430.0]).unwrap();
+    let sweep = locked_motion(&machine, Form::Modal, true, None, &[430.0, -430.0]).unwrap();
     let [one, other] = [sweep.points[0], sweep.points[1]].map(|point| point.multipliers_n);
     for (force, swapped) in one.into_iter().zip([other[1], other[0]]) {
         assert!((force - swapped).abs() < 1e-9 * force.abs(), "{one:?} {other:?}");

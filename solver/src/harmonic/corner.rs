@@ -31,18 +31,35 @@ impl Corner {
     }
 
     /// Returns the corner that holds a wave of a machine: of equal tips the default one, of
-    /// others that which does at the lowest speed.
+    /// others that which does at the lowest speed, or one of these blades.
     ///
     /// # Errors
-    /// The polygon has no corners, or no corner of the tips is ever held.
-    pub fn of<T: Number>(machine: &Machine<T>, speed: f64) -> Result<Self, HarmonicError> {
+    /// The polygon has no corners, no corner of the tips is ever held, or the blades are those
+    /// of no corner.
+    pub fn of<T: Number>(
+        machine: &Machine<T>,
+        speed: f64,
+        blades: Option<[u32; 2]>,
+    ) -> Result<Self, HarmonicError> {
         let polygon = &machine.polygon;
         if !machine.has_unequal_tips() {
-            return Self::paper(polygon);
+            return blades
+                .map_or_else(|| Self::paper(polygon), |pair| Self::of_blades(polygon, pair));
         }
         error::refuse_no_corner(polygon)?;
-        let lowest = machine.lowest_corner(speed).map(|(corner, _)| corner.sides);
-        lowest.map(|[a, b]| Self { a, b }).ok_or_else(error::no_corner_of_tips)
+        let Some([first, second]) = blades else {
+            let lowest = machine.lowest_corner(speed).map(|(corner, _)| corner.sides);
+            return lowest.map(|[a, b]| Self { a, b }).ok_or_else(error::no_corner_of_tips);
+        };
+        let pair = [first, second].map(|blade| polygon.side_of_blade(blade));
+        let corners = machine.tip_corners();
+        let of_pair = corners.iter().find(|corner| pair.iter().all(|x| corner.sides.contains(x)));
+        of_pair.map(|corner| Self { a: corner.sides[0], b: corner.sides[1] }).ok_or_else(|| {
+            let name = |side: u32| polygon.blades_of_side(side)[0].to_string();
+            let pairs = corners.iter().map(|corner| corner.sides.map(name).join(","));
+            let allowed = format!("one of {}", pairs.collect::<Vec<_>>().join(" or "));
+            HarmonicError::Blades { first, second, allowed }
+        })
     }
 
     /// Returns the default corner: that of the paper's blades 6 and 21 where these are
@@ -60,6 +77,43 @@ impl Corner {
         }
         let nearest = (f64::from(polygon.sides) * 15.0 / 22.0).round();
         Self::after(polygon, nearest as u32)
+    }
+
+    /// Returns the corner between the groups of two blades, numbered from 1, given in
+    /// either order.
+    ///
+    /// # Errors
+    /// A blade that does not exist, or two whose groups are not neighbours in
+    /// phase; the message names the neighbours.
+    pub fn of_blades(
+        polygon: &ContactPolygon,
+        [first, second]: [u32; 2],
+    ) -> Result<Self, HarmonicError> {
+        error::refuse_no_corner(polygon)?;
+        let refused = |allowed| Err(HarmonicError::Blades { first, second, allowed });
+        if ![first, second].iter().all(|blade| (1..=polygon.blades).contains(blade)) {
+            return refused(format!("two blades from 1 to {}", polygon.blades));
+        }
+        let (a, b) = (polygon.side_of_blade(first), polygon.side_of_blade(second));
+        if polygon.next(a) == b {
+            Ok(Self { a, b })
+        } else if polygon.next(b) == a {
+            Ok(Self { a: b, b: a })
+        } else {
+            let list = |side| {
+                polygon
+                    .blades_of_side(side)
+                    .iter()
+                    .map(u32::to_string)
+                    .collect::<Vec<_>>()
+                    .join(" or ")
+            };
+            refused(format!(
+                "a pair of phase neighbours; those of blade {first} are {} and {}",
+                list(polygon.previous(a)),
+                list(polygon.next(a))
+            ))
+        }
     }
 
     /// Returns the two sides, `[a, b]`.
@@ -148,10 +202,27 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_paper_pair_is_a_corner_and_what_has_none_is_refused_by_name() {
+    fn the_paper_pair_in_either_order_and_the_22_corners() {
         let polygon = ContactPolygon::new(22, 3, 1e-4);
-        assert_eq!(Corner::paper(&polygon), Ok(Corner { a: 15, b: 16 }));
-        assert_eq!(PAPER_PAIR.map(|blade| polygon.side_of_blade(blade)), [15, 16]);
+        let paper = Corner::paper(&polygon).unwrap();
+        assert_eq!(paper, Corner { a: 15, b: 16 });
+        assert_eq!(Corner::of_blades(&polygon, [6, 21]), Ok(paper));
+        assert_eq!(Corner::of_blades(&polygon, [21, 6]), Ok(paper));
+        let pairs = (1..=22)
+            .flat_map(|i| (i + 1..=22).map(move |j| [i, j]))
+            .filter(|&pair| Corner::of_blades(&polygon, pair).is_ok());
+        assert_eq!(pairs.count(), 22);
+    }
+
+    #[test]
+    fn what_is_not_a_corner_is_refused_by_name() {
+        let polygon = ContactPolygon::new(22, 3, 1e-4);
+        let message = Corner::of_blades(&polygon, [6, 7]).unwrap_err().to_string();
+        assert!(message.starts_with("blades = 6,7: allowed is a pair of phase"), "{message}");
+        assert!(message.ends_with("those of blade 6 are 13 and 21"), "{message}");
+        let message = Corner::of_blades(&polygon, [6, 23]).unwrap_err().to_string();
+        assert_eq!(message, "blades = 6,23: allowed is two blades from 1 to 22");
+        assert!(Corner::of_blades(&polygon, [6, 6]).is_err());
         for diameters in [0, 11, 22] {
             let polygon = ContactPolygon::new(22, diameters, 1e-4);
             let message = Corner::paper(&polygon).unwrap_err().to_string();

@@ -28,6 +28,16 @@ pub enum HarmonicError {
          travelling wave and no critical speed"
     )]
     NoWave,
+    /// Two blades that cannot hold the wave between them.
+    #[error("blades = {first},{second}: allowed is {allowed}")]
+    Blades {
+        /// The first blade as given.
+        first: u32,
+        /// The second blade as given.
+        second: u32,
+        /// What would be accepted.
+        allowed: String,
+    },
     /// A speed that is not a finite number.
     #[error("speed = {0}: allowed is a finite number of rad/s")]
     Speed(f64),

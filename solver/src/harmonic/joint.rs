@@ -239,7 +239,7 @@ pub fn lock_windows<T: Number>(machine: &Machine<T>, toward: f64) -> Vec<LockWin
 /// lining \[1/s\]; none where it lasts, or where pushes hold none.
 #[must_use]
 pub fn lock_growth(machine: &Machine, speed: f64) -> Option<f64> {
-    let corner = Corner::of(machine, speed).ok().filter(|_| machine.lining.is_none())?;
+    let corner = Corner::of(machine, speed, None).ok().filter(|_| machine.lining.is_none())?;
     let locked = Locked::new(machine, corner, Form::Modal, true).ok()?;
     let point = locked.at(speed).ok()?;
     point.growth_1_s.filter(|_| point.admissible)

@@ -205,7 +205,7 @@ impl Locked {
 }
 
 /// Computes the locked motion of a machine over speeds \[rad/s\], held between the
-/// groups of two blades (of equal tips the paper's, see [`Corner::paper`]).
+/// groups of two blades (the paper's where `None`, see [`Corner::paper`]).
 ///
 /// ```
 /// use rubscope_solver::harmonic::{Form, locked_motion};
@@ -213,7 +213,7 @@ impl Locked {
 ///
 /// let machine = Scene::builtin("paper-nd3")?.machine();
 /// let speeds: Vec<f64> = (0..=500).map(f64::from).collect();
-/// let sweep = locked_motion(&machine, Form::Modal, false, &speeds)?;
+/// let sweep = locked_motion(&machine, Form::Modal, false, Some([6, 21]), &speeds)?;
 /// let last = sweep.points[500];
 /// assert!((last.multipliers_n[0] - -150.85535).abs() < 1e-4);
 /// assert!(last.admissible && last.stable);
@@ -222,14 +222,16 @@ impl Locked {
 /// ```
 ///
 /// # Errors
-/// A polygon without corners, or a speed that is not finite.
+/// A polygon without corners, blades that are not phase neighbours, or a speed
+/// that is not finite.
 pub fn locked_motion(
     machine: &Machine,
     form: Form,
     damped: bool,
+    blades: Option<[u32; 2]>,
     speeds: &[f64],
 ) -> Result<Sweep, HarmonicError> {
-    let corner = Corner::of(machine, speeds.last().copied().unwrap_or(1.0))?;
+    let corner = Corner::of(machine, speeds.last().copied().unwrap_or(1.0), blades)?;
     Locked::new(machine, corner, form, damped)?.sweep(speeds)
 }
 
@@ -261,7 +263,7 @@ pub fn lock_loads<T: Number>(machine: &Machine<T>, speed: T) -> Option<LockLoads
     if machine.lining.is_some() {
         return lining::lock_loads(machine, speed);
     }
-    let corner = Corner::of(machine, speed.re()).ok()?;
+    let corner = Corner::of(machine, speed.re(), None).ok()?;
     let wave = Wave::at(machine, speed, true);
     let equations = Equations::new(machine, corner, Form::Modal, wave, speed);
     let unknowns = equations.locked_with_derivatives()?;
@@ -355,7 +357,7 @@ mod tests {
         ] {
             let machine = machine(set);
             for speed in [320.0, 500.0, -430.0] {
-                let sweep = locked_motion(&machine, Form::Modal, true, &[speed]).unwrap();
+                let sweep = locked_motion(&machine, Form::Modal, true, None, &[speed]).unwrap();
                 let point = sweep.points[0];
                 let loads = lock_loads(&machine, speed).unwrap();
                 for i in [0, 1] {

@@ -35,7 +35,7 @@ pub fn roundness<T: Number>(machine: &Machine<T>, speed: T, lobes: u32) -> Optio
     if !known || polygon.blades_per_side != 1 || speed.re() == 0.0 {
         return None;
     }
-    let corner = Corner::of(machine, speed.re()).ok()?;
+    let corner = Corner::of(machine, speed.re(), None).ok()?;
     let pushes = machine.locked_multipliers(speed)?.map(|lambda| -lambda);
     let one = |(c, s): (f64, f64)| Complex::new(T::from(c), T::from(s));
     let normal = |side: u32| one(polygon.direction(side));

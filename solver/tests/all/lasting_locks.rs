@@ -102,7 +102,7 @@ fn a_window_of_a_lock_is_where_its_motion_is_stable() {
                     let speeds: Vec<f64> = (1..40).map(|n| 31.7 * f64::from(n)).collect();
                     let windows = lock_windows(&machine, 1.0);
                     assert_eq!(windows.first().copied(), lock_window(&machine, 1.0));
-                    let sweep = locked_motion(&machine, Form::Modal, true, &speeds).unwrap();
+                    let sweep = locked_motion(&machine, Form::Modal, true, None, &speeds).unwrap();
                     for point in sweep.points {
                         let has = |part: f64| {
                             windows.iter().any(|window| window.has(point.speed_rad_s * part))

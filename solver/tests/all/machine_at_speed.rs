@@ -256,11 +256,11 @@ fn a_sweep_asks_the_machine_of_each_speed() {
             of.casing.damping_ratio = 0.01;
         }
         let machine = of.machine();
-        let lock = locked_motion(&machine, Form::Modal, true, &speeds).unwrap();
+        let lock = locked_motion(&machine, Form::Modal, true, None, &speeds).unwrap();
         let waves = coincidence(&of, &speeds).unwrap();
         for (place, &speed) in speeds.iter().enumerate() {
             let still = frozen(&of, speed).machine();
-            let expected = locked_motion(&still, Form::Modal, true, &[speed]).unwrap();
+            let expected = locked_motion(&still, Form::Modal, true, None, &[speed]).unwrap();
             let (found, expected) = (lock.points[place], expected.points[0]);
             for (a, b) in found.multipliers_n.iter().zip(expected.multipliers_n) {
                 close(*a, b, 1e-9);
@@ -290,7 +290,7 @@ fn a_sweep_asks_the_machine_of_each_speed() {
 #[test]
 fn where_blades_have_grown_into_the_casing_nothing_is_locked() {
     let machine = machine(&[(LOSS, 5e-10), (SPEED, 300.0)]);
-    let sweep = locked_motion(&machine, Form::Modal, true, &[430.0, 460.0]).unwrap();
+    let sweep = locked_motion(&machine, Form::Modal, true, None, &[430.0, 460.0]).unwrap();
     assert_eq!((sweep.points.len(), sweep.missing), (1, vec![460.0]));
     assert!(lock_loads(&machine, 460.0).is_none());
     assert!(slip_over(&machine, &[460.0]).unwrap()[0].outcome.is_err());

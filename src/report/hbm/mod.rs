@@ -74,6 +74,8 @@ pub struct Request<'a> {
     pub form: Form,
     /// Whether the equations have the damping of the scene.
     pub damped: bool,
+    /// The two blades that hold the wave, if they are chosen.
+    pub pair: Option<[u32; 2]>,
     /// Machine of the scene, with rigid contact where the view has it.
     pub machine: Machine,
     /// The locked motion, where there is one and the view has rigid contact.
@@ -96,7 +98,7 @@ impl Request<'_> {
 
     fn corner(&self) -> Result<Corner, HarmonicError> {
         let polygon = &self.machine.polygon;
-        Corner::paper(polygon)
+        self.pair.map_or_else(|| Corner::paper(polygon), |pair| Corner::of_blades(polygon, pair))
     }
 
     /// Computes a view, with the fields that all views have before its own.
@@ -110,10 +112,10 @@ impl Request<'_> {
             // Blades of the rigid model do not bend under the loads.
             let rigid = self.scene.solver.model == ModelSize::Rigid;
             self.machine = if rigid { machine.with_stiff_blades() } else { machine };
-            let Self { form, damped, speeds, .. } = *self;
+            let Self { form, damped, pair, speeds, .. } = *self;
             let found = match self.scene.clearance() {
                 ..=0.0 => Err(no_clearance(self.scene)),
-                _ => locked_motion(&self.machine, form, damped, speeds),
+                _ => locked_motion(&self.machine, form, damped, pair, speeds),
             };
             match found {
                 Ok(mut sweep) => {

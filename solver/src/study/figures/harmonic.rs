@@ -19,7 +19,7 @@ fn sweep(scene: &Scene, form: Form, damped: bool) -> Result<Sweep, HarmonicError
     let top = scene.operation.speed_rad_s;
     let speeds: Vec<f64> =
         (0..SPEEDS).map(|n| top * f64::from(n) / f64::from(SPEEDS - 1)).collect();
-    locked_motion(&scene.machine(), form, damped, &speeds)
+    locked_motion(&scene.machine(), form, damped, None, &speeds)
 }
 
 fn series(label: &str, style: Style, sweep: &Sweep, of: impl Fn(&LockedPoint) -> f64) -> Series {

@@ -43,7 +43,7 @@ impl LockedCurves {
         let speeds: Vec<f64> = (0..POINTS).map(|k| sense * f64::from(k) * step).collect();
         let open = machine.clearance_at_rest() > 0.0;
         let curve = |damped| {
-            open.then(|| locked_motion(&machine, Form::Modal, damped, &speeds).ok()).flatten()
+            open.then(|| locked_motion(&machine, Form::Modal, damped, None, &speeds).ok()).flatten()
         };
         let has_damping = machine.casing_damping > 0.0 || machine.tips_incline_or_rub();
         Self {

@@ -309,7 +309,7 @@ pub fn cursor_speed(app: &App, curves: &LockedCurves) -> Option<f64> {
 pub fn reading(app: &App, speed: f64) -> String {
     let speed = speed.copysign(app.speed());
     let at = format!("at {}: ", readable(speed, "rad/s"));
-    let sweep = locked_motion(&app.machine, Form::Modal, true, &[speed]);
+    let sweep = locked_motion(&app.machine, Form::Modal, true, None, &[speed]);
     let Some(point) = sweep.ok().and_then(|sweep| sweep.points.first().copied()) else {
         return at + "no locked motion";
     };
