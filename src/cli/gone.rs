@@ -23,8 +23,7 @@ const GONE: &[Gone] = &[
     gone("hbm", "--follow", STATES),
     gone("hbm", "--over", STATES),
     gone("hbm", "--harmonics", "hbm --slip gives the exact orbit of slip, without a series"),
-    gone("hbm", "--compliance", WAVES),
-    gone("hbm", "--omegas", WAVES),
+    gone("hbm", "--omegas", "hbm --compliance has the frequencies beyond every resonance"),
     gone("hbm", "--zetas", "hbm --slip --zeta-casing VALUE says where slip exists at one damping"),
     gone("margins", "--tolerance", "margins --json has the sensitivity of every limit"),
     gone("margins", "lasting_pulse", PULSES),
@@ -40,10 +39,6 @@ const GONE: &[Gone] = &[
 
 /// What answers `hbm --follow`.
 const STATES: &str = "hbm --smooth gives the steady states on a lining at each speed";
-
-/// What answers `hbm --compliance`.
-const WAVES: &str =
-    "hbm --whirl has the wave that lasts at each speed, with its stiffness and push";
 
 /// What draws a scene of one's own.
 const OWN: &str = "each figure has its own scene; run, hbm and map --out draw any other";

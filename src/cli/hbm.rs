@@ -99,6 +99,7 @@ impl HbmCommand {
         let scene: &Scene = &resolved.scene;
         let speeds = match resolved.speeds {
             Some(range) => range.values(),
+            None if view.one_speed => vec![scene.operation.speed_rad_s],
             None => linspace(0.0, scene.operation.speed_rad_s, SPEEDS),
         };
         let (form, pair) = (self.form()?, self.pair()?);

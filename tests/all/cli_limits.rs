@@ -254,6 +254,7 @@ fn many_speeds_take_little_memory() {
         &["--coincidence", "--json"],
         &["--whirl", "--json"],
         &driven,
+        &["--compliance", "--json"],
     ] {
         for out in [&[][..], &file] {
             // With 40 MB of data and no more: a program that wants more is aborted.

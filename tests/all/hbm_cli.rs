@@ -98,7 +98,7 @@ fn the_papers_form_says_that_it_has_no_damping() {
 #[test]
 fn views_that_are_always_damped_do_not_drop_it() {
     let tips = ["--set", "bladed_disk.radial_coupling=0.1"];
-    for view in ["--slip", "--excitation", "--whirl", "--smooth"] {
+    for view in ["--slip", "--excitation", "--whirl", "--compliance", "--smooth"] {
         let output = ended(hbm(&tips).args([view, "--undamped"]), 2);
         let said = String::from_utf8(output.stderr).unwrap();
         assert!(said.contains("'--undamped'") && said.contains(view), "{said}");
@@ -322,6 +322,30 @@ fn lobes_that_drive_no_wave_say_so() {
     assert!(title(&["oval"]).contains(still), "{}", title(&["oval"]));
     let three = title(&["oval", "--set", "casing.lobes=3"]);
     assert!(three.contains("3 lobes of 6e-5 m drive, where all blades press:"), "{three}");
+}
+
+#[test]
+fn the_compliance_crosses_the_negative_axis_where_the_waves_are() {
+    let report = json(&[&INCLINED[..], &["--compliance", "--speed", "450"]].concat());
+    let [omega, re, im] = ["omega_rad_s", "re_m_per_n", "im_m_per_n"].map(|name| {
+        let list = report["compliance"][name].as_array().unwrap();
+        list.iter().map(number).collect::<Vec<f64>>()
+    });
+    let [first, last] = [omega[0], omega[omega.len() - 1]];
+    // 1.5 times the fastest resonance, both ways.
+    assert!(omega.len() == 201 && first == -last && last > 1.5 * 1350.0, "{first} {last}");
+    let waves = report["compliance"]["waves"].as_array().unwrap();
+    assert_eq!(waves.len(), 2);
+    for wave in waves {
+        let at = number(&wave["omega_rad_s"]);
+        let place = omega.windows(2).position(|pair| pair[0] <= at && at < pair[1]).unwrap();
+        // Between two frequencies of the table it may go round a resonance, too.
+        assert!(im[place] * im[place + 1] < 0.0 && re[place].min(re[place + 1]) < 0.0, "{at}");
+    }
+    let asked = ["--compliance", "--speed", "450"];
+    let text = ended(&mut hbm(&[&INCLINED[..], &asked].concat()), 0);
+    let text = String::from_utf8(text.stdout).unwrap();
+    assert!(text.contains("attracts") && text.contains("threshold"), "{text}");
 }
 
 #[test]

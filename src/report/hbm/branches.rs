@@ -16,6 +16,7 @@ pub const BRANCHES: View = View {
     option: "branches",
     help: "View: every equilibrium, its stability, and the thresholds of each branch",
     always_damped: false,
+    one_speed: false,
     // Rest and side are there without corners, too.
     lock: LockBeside::Rigid(|error| matches!(error, HarmonicError::NoCorner { .. })),
     answer,

@@ -11,6 +11,7 @@ pub const CAMPBELL: View = View {
     option: "campbell",
     help: "View: frequencies against speed, engine orders, and the coincidences (30)",
     always_damped: false,
+    one_speed: false,
     // Frequencies need no corner, no rigid contact and no balance of one harmonic.
     lock: LockBeside::Rigid(|error| {
         matches!(error, HarmonicError::NoCorner { .. } | HarmonicError::Refused { .. })

@@ -14,6 +14,7 @@ pub const COINCIDENCE: View = View {
     option: "coincidence",
     help: "View: what the coincidences do: growth of rest and the wave that lasts, against speed",
     always_damped: true,
+    one_speed: false,
     lock: LockBeside::OfScene,
     answer,
 };

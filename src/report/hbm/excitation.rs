@@ -15,6 +15,7 @@ pub const EXCITATION: View = View {
     option: "excitation",
     help: "View: response of the damped lock to the scene's engine-order excitation",
     always_damped: true,
+    one_speed: false,
     lock: LockBeside::Rigid(nothing),
     answer,
 };

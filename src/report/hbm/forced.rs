@@ -13,6 +13,7 @@ pub const FORCED: View = View {
     option: "forced",
     help: "View: the wave that a casing out of round drives where all blades rub its lining",
     always_damped: true,
+    one_speed: false,
     lock: LockBeside::OfScene,
     answer,
 };

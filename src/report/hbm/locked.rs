@@ -10,8 +10,14 @@ use rubscope_solver::harmonic::{HarmonicError, LockedPoint, Sweep};
 use rubscope_solver::model::ContactPolygon;
 
 /// The view without an option.
-pub const LOCKED: View =
-    View { option: "", help: "", always_damped: false, lock: LockBeside::Rigid(nothing), answer };
+pub const LOCKED: View = View {
+    option: "",
+    help: "",
+    always_damped: false,
+    one_speed: false,
+    lock: LockBeside::Rigid(nothing),
+    answer,
+};
 
 /// Makes the two tables of the locked motion: a short one to read, every number for files.
 fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {

@@ -6,6 +6,7 @@ use std::rc::Rc;
 mod branches;
 mod campbell;
 mod coincidence;
+mod compliance;
 mod excitation;
 mod forced;
 mod heading;
@@ -27,7 +28,7 @@ use rubscope_solver::model::{LockWindow, Machine};
 use rubscope_solver::scene::{ModelSize, Scene, keys};
 
 /// The views with an option, in the order of the help.
-pub const VIEWS: [&View; 8] = [
+pub const VIEWS: [&View; 9] = [
     &branches::BRANCHES,
     &slip::SLIP,
     &campbell::CAMPBELL,
@@ -36,6 +37,7 @@ pub const VIEWS: [&View; 8] = [
     &coincidence::COINCIDENCE,
     &forced::FORCED,
     &whirl::WHIRL,
+    &compliance::COMPLIANCE,
 ];
 
 /// A view of the steady states of a scene.
@@ -47,6 +49,8 @@ pub struct View {
     pub help: &'static str,
     /// Whether its numbers have the damping of the scene whatever is asked for.
     pub always_damped: bool,
+    /// Whether it is of one speed.
+    pub one_speed: bool,
     /// Which lock stands beside it in JSON.
     pub lock: LockBeside,
     /// Computes it.
@@ -145,7 +149,7 @@ impl Request<'_> {
             let (key, length) = given.unwrap_or((keys::TIPS, 0.0));
             return refuse(key, format!("{length:e}"));
         }
-        let round = ["forced", "coincidence", "campbell"];
+        let round = ["forced", "coincidence", "campbell", "compliance"];
         if height != 0.0 && !round.contains(&view.option) {
             return refuse(keys::OUT_OF_ROUND, format!("{height:e}"));
         }

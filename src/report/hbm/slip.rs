@@ -14,6 +14,7 @@ pub const SLIP: View = View {
     option: "slip",
     help: "View: lasting slip, the fixed point of the map from corner to corner",
     always_damped: true,
+    one_speed: false,
     lock: LockBeside::Rigid(nothing),
     answer,
 };

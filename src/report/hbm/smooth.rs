@@ -18,6 +18,7 @@ pub const SMOOTH: View = View {
     help: "View: steady states of blades on a lining (solver.contact = \"smooth\"): rest, the \
            waves it grows into, locks and which linings hold them",
     always_damped: true,
+    one_speed: false,
     lock: LockBeside::OfScene,
     answer,
 };

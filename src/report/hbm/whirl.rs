@@ -18,6 +18,7 @@ pub const WHIRL: View = View {
     help: "View: whirl of inclined tips in the limit of many blades, where it begins, and where \
            a lock flutters",
     always_damped: true,
+    one_speed: false,
     lock: LockBeside::Rigid(nothing),
     answer,
 };

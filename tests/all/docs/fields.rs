@@ -118,6 +118,7 @@ fn every_field_of_the_reports_is_in_the_documents() {
         ("coincidence", format!("--coincidence {pressed} --speed 390:440:6")),
         ("forced", format!("--forced {lobed} 90")),
         ("whirl", format!("--whirl {inclined} 300:450:2")),
+        ("compliance", format!("--compliance {inclined} 450")),
     ] {
         let commands = format!("hbm {command} --json");
         let all = fields_of(&commands.split(';').collect::<Vec<_>>());
@@ -176,6 +177,7 @@ fn every_column_of_the_files_is_in_the_documents() {
         ("`hbm --smooth`, a clearance", "hbm --smooth --contact smooth"),
         ("`hbm --coincidence`", "hbm --coincidence --speed 300:500:3"),
         ("`hbm --whirl`", "hbm --whirl --speed 400:500:2"),
+        ("`hbm --compliance`", "hbm --compliance --set bladed_disk.radial_coupling=0.3"),
         ("`precision`", "precision grazing --finest 1e-6 --repeat 1"),
     ] {
         let rows = document.table("| file of | columns |");

@@ -1,0 +1,125 @@
+//! The joint compliance `B(omega)`: over frequencies for files, and the whirls, where it
+//! crosses the negative real axis.
+
+use nalgebra::Complex;
+use serde_json::{Value, json};
+
+use super::{Answer, LockBeside, Parts, Request, Rows, View};
+use crate::report::number::speed;
+use crate::report::table::{Column, Table, TableCell};
+use rubscope_solver::harmonic::{HarmonicError, Joint, RoundWhirl, RoundWhirlLoads, round_whirls};
+use rubscope_solver::scene::keys;
+
+/// View: the joint compliance.
+pub const COMPLIANCE: View = View {
+    option: "compliance",
+    help: "View: the joint compliance B(omega), in JSON and CSV; a whirl is where it crosses the \
+           negative real axis",
+    always_damped: true,
+    one_speed: true,
+    // It is that of the structures, preloaded or not.
+    lock: LockBeside::Rigid(|error| {
+        matches!(error, HarmonicError::Refused { key: keys::CASING_RADIUS, .. })
+    }),
+    answer,
+};
+
+/// Frequencies of the table.
+const FREQUENCIES: usize = 201;
+/// How far beyond the fastest resonance they go.
+const BEYOND: f64 = 1.5;
+
+fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
+    let machine = &request.machine;
+    let joint = Joint::at(machine, request.fastest());
+    let waves: Vec<Wave> =
+        round_whirls(&joint).into_iter().map(|wave| (wave, wave.loads(&joint))).collect();
+    let at = |omega: f64| (omega, omega - joint.nu, joint.compliance(omega));
+    let points: Rows<Point> = Rows::of(beyond_resonance(&joint).into_iter().map(at).collect());
+    let json = Parts::default()
+        .with("speed_rad_s", joint.nu / joint.machine.nodal_diameters)
+        .with_rows("omega_rad_s", &points, |point| json!(point.0))
+        .with_rows("re_m_per_n", &points, |point| json!(finite(point.2.re)))
+        .with_rows("im_m_per_n", &points, |point| json!(finite(point.2.im)))
+        .with("waves", waves.iter().map(value).collect::<Vec<_>>());
+    let shown = format!("at {}", speed(request.fastest()));
+    let crossings = if waves.is_empty() {
+        format!("B(omega) does not cross the negative real axis {shown}: nothing whirls.")
+    } else {
+        format!("Where B(omega) crosses the negative real axis {shown}:")
+    };
+    // On a lining that blades press at rest the amplitude decides.
+    let columns = if joint.machine.clearance() <= 0.0 { PRESSED } else { WAVES };
+    let tables = vec![(crossings, Table::of(&waves, columns).into())];
+    let json = Parts::default().with_parts("compliance", json);
+    Ok(Answer { json, tables, file: points.table(POINTS) })
+}
+
+/// A wave that blades and casing carry round together.
+type Wave = (RoundWhirl, RoundWhirlLoads);
+
+/// Frequency of the casing and of the blades \[rad/s\], and the compliance \[m/N\].
+type Point = (f64, f64, Complex<f64>);
+
+/// Returns evenly spaced frequencies that go beyond every resonance \[rad/s\].
+fn beyond_resonance(joint: &Joint) -> Vec<f64> {
+    let machine = &joint.machine;
+    let reach = BEYOND * machine.omega_c.max(joint.nu.abs() + machine.omega_bd);
+    let part = |n: usize| n as f64 / (FREQUENCIES - 1) as f64;
+    (0..FREQUENCIES).map(|n| reach * part(n) - reach * (1.0 - part(n))).collect()
+}
+
+fn finite(value: f64) -> Option<f64> {
+    Some(value).filter(|value| value.is_finite())
+}
+
+/// Returns a wave as JSON, with loads where there is a clearance.
+fn value((wave, loads): &Wave) -> Value {
+    let over = loads.casing_m >= 0.0;
+    let loaded = |load: f64| over.then_some(load);
+    json!({
+        "omega_rad_s": wave.omega_rad_s,
+        "s_rad_s": wave.s_rad_s,
+        "attracts": over.then_some(wave.attracts),
+        "growth_per_s": over.then_some(wave.growth_per_s),
+        "stiffness_n_per_m": wave.stiffness_n_per_m,
+        "push_n": loaded(loads.push_n),
+        "casing_m": loaded(loads.casing_m),
+        "blade_rad": loaded(loads.blade_rad),
+        "casing_w": loaded(loads.casing_w),
+        "blades_w": loaded(loads.blades_w),
+        "friction_w": loaded(loads.friction_w),
+    })
+}
+
+/// Columns of the waves over a clearance.
+const WAVES: &[Column<'_, Wave>] =
+    &waves(|wave| if wave.0.attracts { "attracts" } else { "threshold" }.into());
+
+/// Columns of the waves on a lining under preload.
+const PRESSED: &[Column<'_, Wave>] = &waves(|_| "see --smooth".into());
+
+const fn waves(state: fn(&Wave) -> TableCell) -> [Column<'static, Wave>; 7] {
+    [
+        ("omega_rad_s", |wave| wave.0.omega_rad_s.into()),
+        ("s_rad_s", |wave| wave.0.s_rad_s.into()),
+        ("state", state),
+        ("stiffness_n_per_m", |wave| wave.0.stiffness_n_per_m.into()),
+        ("push_n", |wave| loaded(wave.1.push_n)),
+        ("casing_m", |wave| loaded(wave.1.casing_m)),
+        ("blade_rad", |wave| loaded(wave.1.blade_rad)),
+    ]
+}
+
+/// Returns a load of a wave as large as the clearance; none without a clearance.
+fn loaded(load: f64) -> TableCell {
+    Some(load).filter(|load| *load >= 0.0).into()
+}
+
+/// Columns of the joint compliance.
+const POINTS: &[Column<'_, Point>] = &[
+    ("omega_rad_s", |point| point.0.into()),
+    ("s_rad_s", |point| point.1.into()),
+    ("re_m_per_n", |point| finite(point.2.re).into()),
+    ("im_m_per_n", |point| finite(point.2.im).into()),
+];
