@@ -157,7 +157,7 @@ impl Lines {
         };
         let (before, lesson) = (self.app.scene.clone(), self.app.lessons.progress.clone());
         let shown = shown(&found);
-        // Nobody sees a cursor: an instant is gone to, and not read.
+        // Nobody sees a cursor.
         self.app.stop_reading();
         self.app.status = None;
         match self.obey(found, out)? {
@@ -189,7 +189,8 @@ impl Lines {
         self.app.layout.size = PICTURE;
         let effect = self.app.obey(found.command);
         self.app.layout.size = (WIDTH, ROWS);
-        // It moves where it is sent.
+        // It moves where it is sent: to the cursor.
+        self.app.depart();
         self.app.play.playing = false;
         match effect {
             Err(refused) => {
@@ -327,7 +328,7 @@ mod tests {
         assert_eq!(text.matches("NOW").count(), 4, "{text}");
         for changed in [
             "changed: speed Ω 500 rad/s -> 450 rad/s",
-            "done: on to 300",
+            "done: paused at 300",
             "changed: speed Ω 450 rad/s -> 500 rad/s",
         ] {
             assert!(text.contains(changed), "{text}");
@@ -339,7 +340,7 @@ mod tests {
     #[test]
     fn an_instant_is_gone_to_after_a_blade_was_read() {
         let text = answers(b"blade 7\nt 0.3 ms\nrestart\n");
-        assert!(text.contains("done: on to 300") && text.contains("done: restarted"), "{text}");
+        assert!(text.contains("done: paused at 300") && text.contains("done: restarted"), "{text}");
     }
 
     #[test]

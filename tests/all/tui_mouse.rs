@@ -180,13 +180,13 @@ fn the_wheel_zooms_time_and_nothing_else() {
     session.press("1");
     let (left, row) = find(&session, "0┤");
     mouse(&mut session, ScrollUp, (left + 9, row));
+    mouse(&mut session, ScrollUp, (left + 9, row));
+    assert_eq!(session.app.play.zoom, 2);
+    mouse(&mut session, ScrollDown, (left + 9, row));
     assert_eq!(session.app.play.zoom, 1);
-    mouse(&mut session, ScrollDown, (left + 9, row));
-    mouse(&mut session, ScrollDown, (left + 9, row));
-    assert_eq!(session.app.play.zoom, -1);
     session.press("3f");
     assert_eq!(mouse(&mut session, ScrollUp, (40, 12)), MouseOutcome::Nothing);
-    assert_eq!(session.app.play.zoom, -1);
+    assert_eq!(session.app.play.zoom, 1);
 }
 
 #[test]

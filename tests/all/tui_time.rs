@@ -154,8 +154,7 @@ fn the_reading_cursor_reads_every_chart() {
     session.press_each("i");
     assert!(session.text().contains(" to blade "), "{}", session.text());
     // View 2: the gap of one blade, as the motion has it.
-    session.press_each("2i");
-    session.press_each("lll");
+    session.press_each("2lll");
     let gap = session.app.shown().unwrap().gaps[3];
     let wanted = format!("blade 4: {:.2}", 1e6 * gap);
     assert!(session.text().contains(&wanted[..13]), "{wanted}\n{}", session.text());

@@ -3,6 +3,7 @@
 use super::Effect;
 use crate::report::line::clean;
 use crate::tui::app::{App, HelpState, InputMode, PaletteState};
+use crate::tui::axis::instant;
 use crate::tui::bindings::Action;
 use crate::tui::commands::{self, Command};
 use crate::tui::panels;
@@ -72,6 +73,7 @@ impl App {
             Command::GoTo(t) => {
                 self.has_instant(t)?;
                 self.go_to(t);
+                self.status = Some(format!("paused at {}", instant(t)));
             }
             Command::Blade(blade) => self.go_to_blade(blade)?,
             Command::Axes(paths) => self.put_axes(paths),

@@ -82,7 +82,6 @@ impl App {
     /// Gives the user's own state back, as it was before a lesson.
     pub(super) fn give_back(&mut self, own: Past) {
         self.knobs.remember(self.past());
-        self.play.set_tempo(own.tempo);
         self.come_back(own);
     }
 
@@ -105,6 +104,7 @@ impl App {
             self.present(false);
         }
         self.knobs.live = past.live;
+        self.play.set_tempo(past.tempo);
         if self.layout.set_views(past.views) {
             self.keep_instant();
         }

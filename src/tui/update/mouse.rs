@@ -8,6 +8,7 @@ use super::Effect;
 use crate::tui::app::{App, Cursor, Grip, InputMode, Target};
 use crate::tui::bindings::Action;
 use crate::tui::knobs::KNOBS;
+use crate::tui::views::id::ViewId;
 
 /// Effect of a mouse event.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -146,7 +147,7 @@ impl App {
                 self.knobs.select(knob);
                 self.acted(Action::Turn { up, coarse })
             }
-            Some(Target::Chart(_)) if self.panel().is_over_time(self) => {
+            Some(Target::Chart(_)) if self.is_large(ViewId::Response) => {
                 self.acted(if up { Action::ZoomIn } else { Action::ZoomOut })
             }
             _ => MouseOutcome::Nothing,

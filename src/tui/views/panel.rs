@@ -27,11 +27,6 @@ pub trait ViewPanel: Sync {
     /// There is nothing to export; the reason as text.
     fn csv(&self, app: &App) -> Result<String, String>;
 
-    /// Returns whether it is drawn over the page of time.
-    fn is_over_time(&self, _: &App) -> bool {
-        false
-    }
-
     /// Cells across and up that the reading cursor goes through one by one; 0
     /// where it moves freely.
     fn grid(&self, _: &App) -> [u32; 2] {

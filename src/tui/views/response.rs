@@ -56,10 +56,6 @@ impl ViewPanel for ResponseView {
         }
     }
 
-    fn is_over_time(&self, _: &App) -> bool {
-        true
-    }
-
     fn here(&self, app: &App) -> Cursor {
         Cursor { across: app.part_of_page(), up: 0.5 }
     }
@@ -269,7 +265,7 @@ fn reading(app: &App, what: &Page, width: usize) -> Option<String> {
 /// Draws the run to come in dots. They are those of the whole page, so that they do not move while
 /// the motion comes to them.
 fn ghost(app: &App, plot: &mut Plot, what: &Page) {
-    let (look, ahead) = (&app.appearance, app.now());
+    let (look, ahead) = (&app.appearance, app.known_s());
     let machine = &app.machine;
     let fastest = machine.omega_c.max(machine.omega_bd).max(machine.nu(app.speed().abs()));
     // Of a wave that turns within a bin the envelope is drawn.

@@ -139,7 +139,7 @@ fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
             plot.curve(ends, if pass { &touched } else { &outline });
         }
     }
-    let past = app.past_and_future(app.record()).0.iter();
+    let past = app.record().iter().take_while(|bin| bin.from < app.now());
     let trail = past.map(|bin| (bin.middle(Channel::RimX), bin.middle(Channel::RimY)));
     plot.curve(trail, &look.first());
     plot.ink();
