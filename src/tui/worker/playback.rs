@@ -312,7 +312,7 @@ impl Playback {
             return self.play_comparison(self.time_limit);
         }
         self.reading.go_on(self.time_limit.min(SLICE));
-        if self.forecasts.compute_older() || self.arrive() || self.compute_page() {
+        if self.forecasts.compute_older(&self.order) || self.arrive() || self.compute_page() {
             return;
         }
         let comparison = self.comparison.as_mut().map(|comparison| &mut comparison.full_run);
