@@ -53,7 +53,7 @@ fn the_first_line_says_what_is_now_and_what_will_be() {
 fn the_reading_cursor_reads_the_run_and_not_a_bin() {
     let mut session = open(scene("paper-nd3"), 3e-3);
     session.press_each("1fi←←←←←←←←←");
-    let t = session.app.cursor_time().unwrap();
+    let t = session.app.reading.at_s.unwrap();
     let mut motion = Motion::new(&session.app.scene);
     motion.advance(t).unwrap();
     let ([u_c, u_s], [alpha_c, _]) = (motion.state().u, motion.state().alpha);

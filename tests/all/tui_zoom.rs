@@ -167,7 +167,7 @@ fn a_turned_knob_forgets_the_page_of_the_run_before() {
 fn the_gap_of_a_blade_at_an_instant_is_read_in_every_chart() {
     let mut session = open("rocking");
     session.press_each(":t 0.3 ms\n");
-    assert_eq!((session.app.cursor_time(), session.app.play.playing), (Some(3e-4), false));
+    assert_eq!((session.app.reading.at_s, session.app.play.playing), (Some(3e-4), false));
     assert_eq!(session.app.status.as_deref(), Some("paused at 300.000 µs"));
     assert!(session.rows()[1].starts_with("NOW 300.0 µs touching 12 ‖"), "{}", session.text());
     let mut motion = Motion::new(&session.app.scene);
@@ -183,13 +183,13 @@ fn the_gap_of_a_blade_at_an_instant_is_read_in_every_chart() {
     let row = format!("0.0003,7,{}", motion.blade_gaps()[6]);
     assert!(file.starts_with("t_s,blade,gap_m\n") && file.contains(&row), "{row}\n{file}");
     session.press_each("41");
-    assert_eq!(session.app.cursor_time(), Some(3e-4));
+    assert_eq!(session.app.reading.at_s, Some(3e-4));
     // The cursor goes on from there, and the end of reading is the end of it.
     session.press_each("l");
     let page = session.app.page_s();
-    assert!((session.app.cursor_time().unwrap() - 3e-4 - 0.01 * page).abs() < 1e-12);
+    assert!((session.app.reading.at_s.unwrap() - 3e-4 - 0.01 * page).abs() < 1e-12);
     session.press_each("\u{1b}2");
-    assert_eq!((session.app.cursor_time(), session.app.reading.cursor), (None, None));
+    assert_eq!((session.app.reading.at_s, session.app.reading.cursor), (None, None));
 }
 
 #[test]
@@ -220,7 +220,7 @@ fn the_end_of_the_run_and_any_instant_are_one_command_away() {
             );
             check(&session.app);
         }
-        assert!(session.app.play.playing && session.app.cursor_time().is_none());
+        assert!(session.app.play.playing && session.app.reading.at_s.is_none());
     }
     let mut session = open("rocking");
     session.press_each(":t 9\n");
@@ -293,14 +293,14 @@ fn steps_and_jumps_go_on_from_the_cursor() {
         let next = marks.iter().find(|mark| mark.t_s > from).unwrap().t_s;
         assert!((session.app.now() - next).abs() < 1e-12, "{} {next}", session.app.now());
         let said = session.app.status.clone().unwrap_or_default();
-        assert!(said.contains(" ms: touching ") && session.app.cursor_time().is_none(), "{said}");
+        assert!(said.contains(" ms: touching ") && session.app.reading.at_s.is_none(), "{said}");
         session.press_each(".");
         assert!(session.app.now() > next && !session.app.play.playing);
     }
     // A pulse acts on the motion, wherever the cursor is, and says when.
     session.press_each(":t 9 ms\np");
     let said = session.app.status.clone().unwrap();
-    assert!(said.contains(" fired at 2.74") && session.app.cursor_time().is_none(), "{said}");
+    assert!(said.contains(" fired at 2.74") && session.app.reading.at_s.is_none(), "{said}");
 }
 
 #[test]

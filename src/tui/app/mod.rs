@@ -18,7 +18,7 @@ pub use files::{SceneEntry, Writing};
 pub use knobs::Past;
 pub use lesson::{LessonProgress, StepProgress};
 pub use mouse::{Grip, Target};
-pub use reading::{Cursor, STEP, cell_of};
+pub use reading::{Cursor, Reading, STEP, cell_of};
 
 use dialogue::Dialogue;
 use files::Files;
@@ -27,7 +27,6 @@ use layout::Layout;
 use lesson::Lessons;
 use mouse::Mouse;
 use play::Play;
-use reading::Reading;
 use run::Run;
 
 use super::appearance::Appearance;
@@ -149,7 +148,7 @@ impl App {
             page: self.page(),
             compare: self.run.compare,
             slow_at_events: self.play.slow_at_events,
-            cursor_s: self.cursor_time(),
+            cursor_s: self.reading.at_s,
             open: ViewId::all().filter(|view| self.is_open(*view)).collect(),
             map: self.map,
             cell: self.map_cell(),
@@ -164,7 +163,7 @@ impl App {
     /// Returns the motion that every panel shows: at the cursor, or as it plays.
     pub fn shown(&self) -> Option<&Moment> {
         let reading = self.results().reading.as_deref();
-        let reading = reading.filter(|_| self.cursor_time().is_some());
+        let reading = reading.filter(|_| self.reading.at_s.is_some());
         reading.or(self.moment())
     }
 

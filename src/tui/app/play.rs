@@ -211,7 +211,7 @@ impl App {
 
     /// Returns the instant that is shown: that of the cursor, or how far the motion is \[s\].
     pub fn now(&self) -> f64 {
-        self.cursor_time().unwrap_or(self.played_s())
+        self.reading.at_s.unwrap_or(self.played_s())
     }
 
     /// Returns how far the motion is \[s\].
@@ -287,14 +287,14 @@ impl App {
     /// Changes the length of the page. The cursor, or where time is paused, is in its middle, and
     /// no page leaves the run.
     pub fn zoom(&mut self, action: Action) {
-        let middle = self.cursor_time().or(self.play.middle_s);
+        let middle = self.reading.at_s.or(self.play.middle_s);
         let middle = middle.or((!self.play.playing).then(|| self.played_s()));
         let whole = page_length(self.rate(), self.play.zoom) >= self.end_s();
         (self.play.zoom, self.play.middle_s) = match action {
             Action::ZoomIn => ((self.play.zoom + 1).min(MOST_ZOOM), middle),
             Action::ZoomOut if whole => return,
             Action::ZoomOut => ((self.play.zoom - 1).max(-MOST_ZOOM), middle),
-            _ => (0, self.cursor_time()),
+            _ => (0, self.reading.at_s),
         };
     }
 

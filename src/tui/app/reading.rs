@@ -19,7 +19,7 @@ pub struct Cursor {
 pub const STEP: f64 = 0.01;
 
 /// Instant that is shown, and place that is read in the large chart.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reading {
     /// The place.
     pub cursor: Option<Cursor>,
@@ -29,22 +29,10 @@ pub struct Reading {
     pub at_s: Option<f64>,
 }
 
-impl Reading {
-    /// Returns whether there is something to leave.
-    pub fn is_open(&self) -> bool {
-        self.on || self.cursor.is_some() || self.at_s.is_some()
-    }
-}
-
 impl App {
     /// Returns the cursor in a view, while that is the large chart.
     pub fn cursor_in(&self, view: ViewId) -> Option<Cursor> {
         self.reading.cursor.filter(|_| self.is_large(view))
-    }
-
-    /// Returns the instant of the cursor \[s\].
-    pub fn cursor_time(&self) -> Option<f64> {
-        self.reading.at_s
     }
 
     /// Removes the cursor: the motion is shown as it plays, and its page.

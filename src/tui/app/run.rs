@@ -192,7 +192,7 @@ impl App {
     pub fn restart(&mut self) {
         self.run.restart(&self.scene);
         self.play.restart(begin_s(&self.scene));
-        self.play.middle_s = self.play.middle_s.filter(|_| self.cursor_time().is_some());
+        self.play.middle_s = self.play.middle_s.filter(|_| self.reading.at_s.is_some());
     }
 
     /// Pins the run behind the next ones, or removes what is pinned.

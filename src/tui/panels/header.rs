@@ -327,7 +327,7 @@ fn baseline(app: &App) -> Option<Part> {
 /// Returns what keys do otherwise than usual: pages of time, and knobs that act at once.
 fn modes(app: &App) -> Vec<Part> {
     let focus = app.appearance.style(Role::Focus);
-    let ((from, to), now) = (app.page(), app.now());
+    let ((from, to), now) = (app.page(), app.now().min(app.end_s()));
     let word = if now > to { "back" } else { "ahead" };
     let pages = ((now - from) / (to - from) - 1e-9).floor().abs();
     let pages = (now < from || now > to).then(|| format!("{pages} {word}"));

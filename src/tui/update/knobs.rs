@@ -115,9 +115,6 @@ impl App {
         }
         (self.files.opened, self.files.source) = (past.opened, past.source);
         self.lessons.progress = past.lesson;
-        if self.lessons.progress.is_some() {
-            self.present(false);
-        }
         self.knobs.live = past.live;
         self.play.set_tempo(past.tempo);
         if self.layout.set_views(past.views) {

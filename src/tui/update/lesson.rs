@@ -77,8 +77,6 @@ impl App {
         // A step begins to play, wherever a cursor has paused.
         self.play.playing |= self.reading.at_s.is_some();
         self.stop_reading();
-        // A screen for a projector has no room for a lesson.
-        self.present(false);
         let begun = self.lessons.progress.clone().filter(|progress| progress.lesson == place);
         let begun = begun.unwrap_or_else(|| LessonProgress {
             lesson: place,

@@ -16,7 +16,7 @@ use std::path::PathBuf;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-use super::app::{App, HelpState, InputMode, Purpose};
+use super::app::{App, HelpState, InputMode, Purpose, Reading};
 use crate::report::line::{self, clean};
 use crate::tui::axis::instant;
 use crate::tui::bindings::{Action, Chord, lookup};
@@ -197,7 +197,7 @@ impl App {
         self.knobs.refusal = None;
         if !self.dialogue.is_closed() {
             self.dialogue.close();
-        } else if self.reading.is_open() || self.play.middle_s.is_some() {
+        } else if self.reading != Reading::default() || self.play.middle_s.is_some() {
             self.stop_reading();
         } else if self.appearance.wide {
             self.present(false);
@@ -287,10 +287,6 @@ impl App {
 
     /// Changes to the screen for a projector, or to the usual one.
     pub(super) fn present(&mut self, on: bool) {
-        if on && self.lessons.progress.is_some() {
-            self.status = Some("a lesson needs the usual screen; G leaves it".into());
-            return;
-        }
         self.appearance.wide = on;
         self.status = on.then(|| "P or Esc: back to the usual screen".into());
     }

@@ -99,7 +99,10 @@ impl App {
             }
             Target::View(view) => self.show(view),
             Target::Chart(_) if again && self.reading.cursor.is_some() => self.open_cursor(),
-            Target::Chart(parts) => self.point(Cursor::at(at, area, parts)),
+            Target::Chart(parts) => {
+                self.reading.on = true;
+                self.put_cursor(Cursor::at(at, area, parts));
+            }
             Target::Key(_) | Target::Lesson(_) => {}
         }
         MouseOutcome::Acted(Effect::None)

@@ -1,7 +1,7 @@
 //! Moving the reading cursor, in the chart and in time.
 
 use crate::tui::app::{App, Cursor, STEP, cell_of};
-use crate::tui::axis::{instant, readable};
+use crate::tui::axis::instant;
 use crate::tui::views::Opening;
 use crate::tui::views::id::ViewId;
 
@@ -16,12 +16,6 @@ impl App {
         if self.layout.show(view) {
             self.keep_instant();
         }
-    }
-
-    /// Starts reading at the pointer.
-    pub(super) fn point(&mut self, cursor: Cursor) {
-        self.reading.on = true;
-        self.put_cursor(cursor);
     }
 
     /// Puts the cursor at an instant, and pauses there: every panel shows it. The page stays
@@ -67,7 +61,7 @@ impl App {
 
     /// Keeps the instant that is read after a change of the large chart.
     pub(super) fn keep_instant(&mut self) {
-        match self.cursor_time() {
+        match self.reading.at_s {
             Some(_) => self.reading.cursor = self.reading.cursor.map(|_| self.panel().here(self)),
             None => self.stop_reading(),
         }
@@ -121,22 +115,9 @@ impl App {
         }
     }
 
-    /// Checks that the run has this instant.
-    ///
-    /// # Errors
-    /// It has not, in words.
-    pub(super) fn has_instant(&self, t: f64) -> Result<(), String> {
-        let end = self.end_s();
-        if (0.0..=end).contains(&t) {
-            return Ok(());
-        }
-        let [t, end] = [t, end].map(|t| readable(t, "s"));
-        Err(format!("t = {t}: from 0 to {end}, the end of the run"))
-    }
-
     /// Makes the motion go on from the cursor, beginning again where that is behind.
     pub fn depart(&mut self) {
-        let Some(t) = self.cursor_time() else { return };
+        let Some(t) = self.reading.at_s else { return };
         self.stop_reading();
         if t < self.played_s() {
             self.restart();
@@ -149,7 +130,6 @@ impl App {
     pub(super) fn pan(&mut self, back: bool) {
         let by = if back { -self.page_s() } else { self.page_s() };
         self.play.middle_s = Some(self.middle_s() + by);
-        self.play.middle_s = Some(self.middle_s());
         let (from, to) = self.page();
         if self.reading.at_s.is_none() && (from..to).contains(&self.played_s()) {
             self.play.middle_s = None;
@@ -166,11 +146,12 @@ mod tests {
     fn an_instant_that_is_read_stays_from_view_to_view() {
         let mut app = on_screen();
         app.walk(ViewId::Response);
-        app.point(Cursor { across: 0.25, up: 0.5 });
+        app.reading.on = true;
+        app.put_cursor(Cursor { across: 0.25, up: 0.5 });
         let read = Some(5e-3);
         for view in ViewId::all().chain([ViewId::Gaps, ViewId::Response]) {
             app.walk(view);
-            assert_eq!(app.cursor_time(), read, "{}", view.word());
+            assert_eq!(app.reading.at_s, read, "{}", view.word());
             assert_eq!(app.order().cursor_s, read);
         }
         assert_eq!(app.cursor_in(ViewId::Response), Some(Cursor { across: 0.25, up: 0.5 }));
@@ -179,11 +160,11 @@ mod tests {
         app.play.middle_s = None;
         assert!(app.page().1 < 5e-3);
         app.move_cursor(0, 1, false);
-        assert_eq!(app.cursor_time(), read);
+        assert_eq!(app.reading.at_s, read);
         app.move_cursor(-1, 0, false);
-        assert!(app.cursor_time().is_some_and(|t| t < app.page().1));
+        assert!(app.reading.at_s.is_some_and(|t| t < app.page().1));
         app.stop_reading();
-        assert_eq!((app.cursor_time(), app.reading.is_open()), (None, false));
+        assert_eq!((app.reading.at_s, app.reading.on), (None, false));
     }
 
     #[test]

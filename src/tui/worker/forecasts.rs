@@ -111,7 +111,8 @@ impl Forecasts {
     /// Computes a slice of a run that was begun before the last change, or of the present one
     /// that may be quicker; false where there is none.
     pub fn compute_older(&mut self, order: &Order) -> bool {
-        if !self.answers.is_slow() || self.full_run.wall() >= QUICK {
+        let is_slow = self.answers.older.as_ref().is_some_and(|(_, run)| run.wall() >= HELD);
+        if !is_slow || self.full_run.wall() >= QUICK {
             return self.answers.compute();
         }
         self.full_run.compute();
@@ -236,11 +237,6 @@ impl Answers {
     /// Returns whether an older run goes on.
     pub fn is_computing(&self) -> bool {
         self.older.is_some()
-    }
-
-    /// Returns whether an older run goes on that takes long.
-    fn is_slow(&self) -> bool {
-        self.older.as_ref().is_some_and(|(_, run)| run.wall() >= HELD)
     }
 
     /// Computes a slice of the older run; false where none goes on.

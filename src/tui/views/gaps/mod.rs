@@ -101,7 +101,7 @@ fn reading(app: &App) -> Option<String> {
         let gap = moment.gaps.get(blade as usize)?;
         Some(format!("blade {}: {}", blade + 1, app.gap_words(*gap)))
     });
-    let at = app.cursor_time().map(|_| format!("at {}", instant(moment.state.t_s)));
+    let at = app.reading.at_s.map(|_| format!("at {}", instant(moment.state.t_s)));
     let parts: Vec<String> = blade.into_iter().chain(at).collect();
     (!parts.is_empty()).then(|| parts.join(" "))
 }

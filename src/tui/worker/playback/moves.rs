@@ -25,10 +25,6 @@ impl Playback {
         *steps += order.steps.saturating_sub(before.steps).min(1000);
         *jumps += order.jumps.saturating_sub(before.jumps).min(10);
         self.met.0 = before.jumps;
-        self.pay();
-    }
-
-    fn pay(&mut self) {
         if self.going.is_some() {
             return;
         }
@@ -109,7 +105,7 @@ impl Playback {
             theirs.go_to(until);
         }
         self.play_comparison(self.time_limit);
-        self.pay();
+        self.owe(&self.order.clone());
         self.want_page();
         true
     }
