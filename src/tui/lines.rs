@@ -391,9 +391,9 @@ mod tests {
 
     #[test]
     fn a_lesson_asks_and_takes_the_answer() {
-        let text = answers(b"lesson lock\nanswer b\ng\nG\nquit\nspeed 450\n");
+        let text = answers(b"lesson lock\nanswer c\ng\nG\nquit\nspeed 450\n");
         assert!(text.contains("[a]") && text.contains("Lesson 2 of 15"), "{text}");
-        assert!(text.contains("Your answer b is right: in a corner of two walls."), "{text}");
+        assert!(text.contains("Your answer c is right: in a corner of two walls."), "{text}");
         assert!(!text.contains("450"), "{text}");
     }
 
