@@ -11,6 +11,7 @@ use ratatui::{buffer::Buffer, layout::Rect};
 use super::panel::{Opening, ViewArea, ViewPanel, not_yet, table_csv, title};
 use crate::report::margins;
 use crate::report::survey::rows as report_rows;
+use crate::report::table::Table;
 use crate::tui::app::{App, Cursor};
 use crate::tui::text::{first_lines, print, wrap};
 use crate::tui::theme::Role;
@@ -120,8 +121,13 @@ impl ViewPanel for MarginsView {
             }
             _ => margins::titled(&live.margins, |name| name.titles()[1].to_string()),
         };
-        let lines = table.lines(width, 1);
-        Some(lines.iter().map(|cells| cells.join(" ").trim_end().to_string()).collect())
+        let told = |table: &Table| table.lines(width, 1).into_iter().map(|cells| cells.join(" "));
+        let asked = margins::robust::asked(&live.margins).filter(|_| !app.layout.is_surveyed());
+        let head = asked.flat_map(|found| {
+            let sentence = margins::robust::sentence(found, &live.margins.scene);
+            std::iter::once(sentence).chain(told(&margins::robust::table(found)))
+        });
+        Some(head.chain(told(&table)).map(|line| line.trim_end().to_string()).collect())
     }
 }
 
