@@ -59,6 +59,7 @@ fn told(document: &Document, header: &str) -> BTreeSet<String> {
 #[test]
 fn every_field_of_the_reports_is_in_the_documents() {
     let document = read("docs/formats.md");
+    let common = told(&document, "| field of every report | what it is |");
     let map = "map slip --speed 300:500:2 --pulse 2e4:5e4:2 --json";
     let pressed = "--contact smooth --set casing.radius_m=0.49988 --set bladed_disk.radial_coupling=0.5 --set contact.stiffness_n_per_m=27e3";
     let soft = "--set bladed_disk.stiffness_nm_per_rad=1e-3 --speed";
@@ -103,7 +104,7 @@ fn every_field_of_the_reports_is_in_the_documents() {
         ),
     ] {
         let commands: Vec<&str> = commands.to_vec();
-        assert_eq!(told(&document, header), fields_of(&commands), "{header}");
+        assert_eq!(&told(&document, header) | &common, fields_of(&commands), "{header}");
     }
     let inclined = "--set bladed_disk.radial_coupling=0.3 --speed";
     let lobed = format!("{pressed} --set casing.lobes=3 --set casing.out_of_round_m=5e-6 --speed");
@@ -120,7 +121,7 @@ fn every_field_of_the_reports_is_in_the_documents() {
     ] {
         let all = fields_of(&[&format!("hbm {command} --json")]);
         let base = told(&document, "| field of `rubscope.hbm/1` | what it is |");
-        let own: BTreeSet<String> = all.difference(&base).cloned().collect();
+        let own = &(&all - &base) - &common;
         let header = format!("| field added by `--{view}` | what it is |");
         assert_eq!(told(&document, &header), own, "{header}");
     }

@@ -24,20 +24,13 @@ pub fn sheet() -> String {
     };
     for (place, lesson) in all().iter().enumerate() {
         paragraph(&format!("## {}. {}", place + 1, lesson.title), "");
-        let about = format!(
-            "{} minutes. Needs {}. On the screen: `rubscope`, then `:lesson {}`.",
-            lesson.minutes(),
-            lesson.needs,
-            place + 1
-        );
-        paragraph(&about, "");
         for (number, step) in (1..).zip(&lesson.steps) {
             paragraph(&format!("**{}.{number}** {}", place + 1, step.text), "");
             if let Some(question) = &step.question {
                 paragraph(question, "");
                 let answers = LETTERS.iter().zip(&step.answers);
-                let answers = answers.map(|(letter, text)| format!("- [ ] {letter}: {text}\n"));
-                paragraph(answers.collect::<String>().trim_end_matches('\n'), "- ");
+                let answers = answers.map(|(letter, text)| format!("**{letter}** {text}"));
+                paragraph(&answers.collect::<Vec<_>>().join("; "), "");
             }
             if let Some(task) = &step.task {
                 paragraph(&format!("*To do:* {task}"), "");
