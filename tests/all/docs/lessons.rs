@@ -32,9 +32,6 @@ pub fn sheet() -> String {
                 let answers = answers.map(|(letter, text)| format!("**{letter}** {text}"));
                 paragraph(&answers.collect::<Vec<_>>().join("; "), "");
             }
-            if let Some(task) = &step.task {
-                paragraph(&format!("*To do:* {task}"), "");
-            }
         }
     }
     paragraph("## Answers", "");
