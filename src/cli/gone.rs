@@ -48,7 +48,7 @@ const STATES: &str = "hbm --smooth gives the steady states on a lining at each s
 const OWN: &str = "each figure has its own scene; run, hbm and map --out draw any other";
 
 /// What answers which pulses last.
-const PULSES: &str = "map --pulse FROM:TO:COUNT shows which pulses last";
+const PULSES: &str = "margins has the nearest pulse with another verdict; map shows which last";
 
 const fn gone(command: &'static str, name: &'static str, instead: &'static str) -> Gone {
     Gone { command, name, instead }

@@ -7,15 +7,16 @@ use clap::Args;
 
 use super::options::SceneOptions;
 use super::status::{self, Refusal, Status};
-use super::{Done, gone, output};
+use super::{Done, gone, output, sign};
 use crate::report::number::with_typed_unit;
 use crate::report::{CommandLine, Provenance, json, margins as report};
 use rubscope_solver::motion::to_the_end;
 use rubscope_solver::scene::{CheckedScene, Quantity};
 use rubscope_solver::study::margins::{LimitName, Margins, Target, TargetError};
 
-/// Find how far a scene is from every limit, and what moves each limit most.
+/// Find how far a run is from another verdict and from every limit, and what moves each limit most.
 ///
+/// First the nearest changes of its verdict that are found, by speed, pulse, damping and clearance.
 /// Speeds, pulses and the loads of the locked motion, each with its change in per cent
 /// by one per cent of every parameter of the scene.
 #[derive(Args, Debug)]
@@ -34,9 +35,9 @@ pub struct MarginsCommand {
     /// The parameter for --target, such as casing.damping_ratio
     #[arg(long, value_name = "PATH", requires = "target")]
     by: Option<String>,
-    /// Leave out what is found by many runs: nothing now, so it changes nothing
-    #[arg(long = "no-search", hide = true)]
-    _no_search: bool,
+    /// Leave out the nearest changes of the verdict, which are found by many runs
+    #[arg(long)]
+    no_search: bool,
 }
 
 impl MarginsCommand {
@@ -56,6 +57,12 @@ impl MarginsCommand {
         status::say_noted();
         let mut margins = Margins::of(&scene);
         margins.target = target.and_then(|target| target.solve(&scene, &to_the_end));
+        if !self.no_search {
+            let rows = Margins::rows_asked(&scene) as u64;
+            let bar = sign::bar(rows, "{spinner} {bar:30} {pos}/{len} {msg} {elapsed}");
+            bar.set_message("nearest changes of the verdict");
+            margins.ask_runs(&to_the_end, &mut |_| bar.inc(1));
+        }
         self.deliver(&margins, &scene, format, out)?;
         Ok(Status::Done)
     }
@@ -106,5 +113,6 @@ impl MarginsCommand {
         CommandLine::new("margins", scene)
             .optional("--target", self.target())
             .optional("--by", self.by.as_ref())
+            .flag("--no-search", self.no_search)
     }
 }

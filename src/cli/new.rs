@@ -38,7 +38,8 @@ pub struct NewCommand {
     #[arg(value_name = "FILE")]
     file: String,
     /// Modes as CSV: structure (casing or disk), nodal_diameters, frequency_hz, modal_mass_kg
-    /// and, if known, damping_ratio, named in the first line
+    /// and, if known, damping_ratio, speed_rpm and centrifugal_stiffening, named in the first
+    /// line
     #[arg(long, value_name = "FILE")]
     modes: Option<PathBuf>,
     /// Number of blades
@@ -104,7 +105,7 @@ impl NewCommand {
             .with_context(|| format!("cannot write {shown}"))?;
         writeln!(out, "Wrote {shown}.")?;
         writeln!(out)?;
-        report::write(&Survey::of(&scene, Some(data.range_rad_s), None), out)?;
+        report::write(&Survey::of(&scene, Some(data.range_rad_s), None), false, out)?;
         Ok(Status::Done)
     }
 
@@ -190,10 +191,8 @@ impl NewCommand {
             ratio("--disk-damping", &self.disk_damping, what[1], keys::BLADE_DAMPING)?,
         ];
         let what = "Speeds of the machine, FROM:TO, such as 6000rpm:11000rpm";
-        let read = |text: &str| {
-            let range = speed_range(&with_typed_unit(text, Quantity::Speed));
-            range.map_err(|error| Refusal::because(format!("--{error}")).into())
-        };
+        let read =
+            |text: &str| Ok(speed_range("--range", &with_typed_unit(text, Quantity::Speed))?);
         let range_rad_s = asking.value("--range", self.range.as_ref(), what, None, &read)?;
         let speed = |text: &String| number("--speed", text, keys::SPEED);
         let speed_rad_s = self.speed.as_ref().map(speed).transpose()?;

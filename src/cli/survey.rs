@@ -1,4 +1,4 @@
-//! `rubscope survey`: the limits of every number of diameters, and which lie in a range.
+//! `rubscope survey`: which numbers of diameters can lock at the speeds of a machine.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -10,11 +10,11 @@ use super::status::{self, Refusal, Status};
 use super::{Done, output};
 use crate::report::number::with_typed_unit;
 use crate::report::{CommandLine, Provenance, json, survey as report, svg};
-use rubscope_solver::scene::{CheckedScene, Quantity};
+use rubscope_solver::scene::Quantity;
 use rubscope_solver::study::margins::{TargetError, parameter};
 use rubscope_solver::study::survey::{Survey, speed_range};
 
-/// Find the limits of every number of diameters, and which of them lie in a range of speeds.
+/// Find which numbers of diameters can lock in a range of speeds, and their limits.
 ///
 /// Frequencies of casing and disk, critical and lock speeds, coincidences, whirl and
 /// flutter, each by the modes that the scene has for that number of diameters.
@@ -28,6 +28,9 @@ pub struct SurveyCommand {
     /// Also how much 1 % of this parameter moves each limit, such as casing.modal_mass_kg
     #[arg(long, value_name = "PATH")]
     by: Option<String>,
+    /// Show numbers of diameters without modes of their own, too
+    #[arg(long)]
+    all: bool,
     /// Print everything as JSON (rubscope.survey/1)
     #[arg(long)]
     json: bool,
@@ -40,8 +43,7 @@ impl SurveyCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
         let format = output::format(self.out.as_deref(), &["csv", "svg"])?;
         let scene = self.options.scene()?;
-        let range = self.range().as_deref().map(speed_range).transpose();
-        let range = range.map_err(|error| Refusal::because(format!("--{error}")))?;
+        let range = self.range().map(|text| speed_range("--range", &text)).transpose()?;
         let by = match &self.by {
             Some(path) => Some(parameter(path.trim()).ok_or_else(|| {
                 Refusal::because(TargetError::Parameter { path: path.clone() }.to_string())
@@ -50,42 +52,32 @@ impl SurveyCommand {
         };
         status::say_noted();
         let survey = Survey::of(&scene, range, by);
-        self.deliver(&survey, &scene, format, out)?;
+        let command = CommandLine::new("survey", &scene)
+            .optional("--range", self.range())
+            .optional("--by", self.by.as_ref())
+            .flag("--all", self.all);
+        if self.json {
+            json::write_as("rubscope.survey/1", &command, &survey, out)?;
+        }
+        if let Some(path) = &self.out {
+            let rows = format!("{} numbers of diameters", survey.rows.len());
+            if format == Some("svg") {
+                let command = command.option("--out", "survey.svg");
+                let origin = Provenance { command, scene: scene.into_scene() };
+                let figure = report::figure(&survey, self.all);
+                output::save(path, &rows, out, |out| svg::write(&figure, &origin, out))?;
+            } else {
+                output::save(path, &rows, out, |out| report::table(&survey).write_csv(out))?;
+            }
+        }
+        if !self.json {
+            report::write(&survey, self.all, out)?;
+        }
         Ok(Status::Done)
     }
 
     /// The range with its units.
     fn range(&self) -> Option<String> {
         self.range.as_ref().map(|text| with_typed_unit(text, Quantity::Speed))
-    }
-
-    fn deliver(
-        &self,
-        survey: &Survey,
-        scene: &CheckedScene,
-        format: Option<&str>,
-        out: &mut dyn Write,
-    ) -> anyhow::Result<()> {
-        let command = CommandLine::new("survey", scene)
-            .optional("--range", self.range())
-            .optional("--by", self.by.as_ref());
-        if self.json {
-            json::write_as("rubscope.survey/1", &command, survey, out)?;
-        }
-        if let Some(path) = &self.out {
-            let rows = format!("{} numbers of diameters", survey.rows.len());
-            if format == Some("svg") {
-                let command = command.option("--out", "survey.svg");
-                let origin = Provenance { command, scene: scene.clone().into_scene() };
-                let figure = report::figure(survey);
-                output::save(path, &rows, out, |out| svg::write(&figure, &origin, out))?;
-            } else {
-                output::save(path, &rows, out, |out| report::table(survey).write_csv(out))?;
-            }
-        }
-        if !self.json {
-            report::write(survey, out)?;
-        }
-        Ok(())
     }
 }

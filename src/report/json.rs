@@ -6,7 +6,7 @@ use std::io::Write;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::sentence::growth_of;
+use super::sentence::Facts;
 use super::{CommandLine, Wall};
 use rubscope_solver::motion::RunReport;
 
@@ -58,10 +58,14 @@ pub fn write_run(
         solver.insert("wall_s".to_string(), json!(wall.run_s));
         solver.insert("certainty_s".to_string(), json!(wall.certainty_s));
     }
-    if let (Some(growth), Some(Value::Object(outcome))) =
-        (growth_of(report), value.get_mut("outcome"))
-    {
-        outcome.insert("growth_1_s".to_string(), json!(growth));
+    if let Some(Value::Object(outcome)) = value.get_mut("outcome") {
+        let facts = Facts::of(report);
+        let told = facts.sentence(usize::MAX);
+        outcome.insert("state".to_string(), json!(told.what));
+        outcome.insert("history".to_string(), json!(told.history));
+        if let Some(growth) = facts.growth {
+            outcome.insert("growth_1_s".to_string(), json!(growth));
+        }
     }
     if let (Some(note), Some(report)) = (report.scene.share_note(), value.as_object_mut()) {
         report.insert("notes".to_string(), json!([note]));

@@ -56,10 +56,15 @@ pub fn time(seconds: f64) -> String {
 /// it; in letters of ASCII.
 #[must_use]
 pub fn with_unit(x: f64, digits: usize, unit: &str) -> String {
-    let (x, unit) = in_shown_unit(x, unit);
-    let scale = SiScale::before(unit, x);
-    let shown = short(rounded(x / scale.factor, digits));
-    format!("{shown} {}{unit}", scale.in_ascii()).trim_end().to_string()
+    scaled(x, x, digits, unit).join(" ").trim_end().to_string()
+}
+
+/// Returns a number and its unit as [`with_unit`] does, with the prefix that suits `of`.
+#[must_use]
+pub fn scaled(x: f64, of: f64, digits: usize, unit: &str) -> [String; 2] {
+    let ((x, _), (of, unit)) = (in_shown_unit(x, unit), in_shown_unit(of, unit));
+    let scale = SiScale::before(unit, of);
+    [short(rounded(x / scale.factor, digits)), format!("{}{unit}", scale.in_ascii())]
 }
 
 thread_local! {

@@ -1,14 +1,14 @@
-//! What a run does, in one sentence of plain words, and what makes it doubtful in a
+//! What the motion of a run is, in one sentence of plain words, and how it came there in a
 //! second one. Every sentence has shorter forms: what is told is the longest that has
 //! room whole, so nothing is ever cut.
 
 use std::fmt;
 
 use super::line::capital;
-use super::number::{count, grouped, with_unit};
-use rubscope_solver::harmonic::lock_growth;
+use super::number::{grouped, rounded, short, with_unit};
+use rubscope_solver::harmonic::{lock_growth, roundness_needed};
 use rubscope_solver::model::Machine;
-use rubscope_solver::motion::{Failure, FailureReason, RunReport, Verdict};
+use rubscope_solver::motion::{Certainty, Failure, FailureReason, RunReport, Verdict};
 use rubscope_solver::scene::{ContactLaw, ModelSize, Scene};
 
 /// Between the word of the verdict and its sentence, and between two sentences.
@@ -16,7 +16,7 @@ const APART: [&str; 2] = ["  ", " "];
 /// Most blades that are named one by one.
 const NAMED: usize = 4;
 
-/// Facts of a run from which its sentence is made.
+/// Facts of a run from which its sentences are made.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Facts {
     /// Verdict of the run.
@@ -35,38 +35,22 @@ pub struct Facts {
     pub damped: bool,
     /// Rotor speed at which a lock separated during the run \[rad/s\].
     pub broken: Option<f64>,
+    /// Rotor speed at which a run-up (true) or run-down came to its last contact \[rad/s\].
+    pub caught: Option<(f64, bool)>,
     /// Why the run stopped early.
     pub failure: Option<Failure>,
-    /// Reasons to doubt the verdict, the most serious first.
-    pub doubts: Vec<Doubt>,
-}
-
-/// Reason to doubt a verdict.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Doubt {
-    /// The contact pulled in so many steps, which no real one can; and what a contact that
-    /// only pushes does, where that is known.
-    Pulls(u64, Option<Verdict>),
-    /// The lock is unstable at a constant speed, and grows at this rate \[1/s\].
-    Grows(f64),
-    /// A change that no measurement could see makes another end, or only other impacts.
-    Sensitive {
-        /// Whether the end is another.
-        ends: bool,
-    },
-    /// Another step makes another end.
-    Step,
-    /// Another verdict of the event solver, for this reason.
-    Differs(Verdict, Cause),
-}
-
-/// Cause of a difference between two solvers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Cause {
-    /// The step is too long.
-    Step,
-    /// The step is too long, or the angles that the solver leaves out are not small.
-    Angles,
+    /// Whether contact pulled on the way.
+    pub pulled: bool,
+    /// Verdict of the event solver, whose contact only pushes, where it is known.
+    pub other: Option<Verdict>,
+    /// What changed runs say.
+    pub certainty: Certainty,
+    /// Rate at which the lock grows, which is unstable at a constant speed \[1/s\].
+    pub growth: Option<f64>,
+    /// Roundness of the casing that the lock needs, where it is much \[m\].
+    pub round: Option<f64>,
+    /// Whether the tips differ, so that the angles of the blades matter.
+    pub angles: bool,
 }
 
 /// A verdict in words that fit in a width.
@@ -74,10 +58,12 @@ pub enum Cause {
 pub struct Sentence {
     /// One word in capitals.
     pub word: String,
-    /// Sentence on what happens.
+    /// Sentence on what the motion is.
     pub what: String,
-    /// Sentence on what makes it doubtful, if there is one and it has room.
-    pub doubt: Option<String>,
+    /// Sentence on how it came there, if there is one and it has room.
+    pub history: Option<String>,
+    /// Whether this says that the state itself is wrong.
+    pub wrong: bool,
 }
 
 impl fmt::Display for Sentence {
@@ -87,97 +73,108 @@ impl fmt::Display for Sentence {
         if !self.what.is_empty() {
             write!(f, "{after_word}{}", self.what)?;
         }
-        self.doubt.iter().try_for_each(|doubt| write!(f, "{between}{doubt}"))
+        self.history.iter().try_for_each(|history| write!(f, "{between}{history}"))
     }
 }
 
 impl Sentence {
     /// Creates the word with the longest of these forms that fit in so many columns, each list from
-    /// long to short. A doubt in few words goes before a longer sentence.
+    /// long to short. A history in few words goes before a longer sentence.
     #[must_use]
-    pub fn of(word: &str, forms: &[String], doubts: &[String], width: usize) -> Self {
-        let sentence = |what: &str, doubt: Option<&String>| Self {
+    pub fn of(word: &str, forms: &[String], histories: &[String], width: usize) -> Self {
+        let sentence = |what: &str, history: Option<&String>| Self {
             word: word.to_string(),
             what: what.to_string(),
-            doubt: doubt.cloned(),
+            history: history.cloned(),
+            wrong: false,
         };
         let fits = |sentence: &Self| sentence.to_string().chars().count() <= width;
         // Both get shorter in turn, the sentence first.
-        let pairs = (0..forms.len() + doubts.len()).flat_map(|shorter| {
-            let pair = move |place: usize| Some((forms.get(shorter - place)?, doubts.get(place)?));
+        let pairs = (0..forms.len() + histories.len()).flat_map(|shorter| {
+            let pair =
+                move |place: usize| Some((forms.get(shorter - place)?, histories.get(place)?));
             (0..=shorter).filter_map(pair)
         });
-        let doubted = pairs.map(|(what, doubt)| sentence(what, Some(doubt)));
+        let both = pairs.map(|(what, history)| sentence(what, Some(history)));
         let alone = forms.iter().map(|what| sentence(what, None));
-        doubted.chain(alone).find(fits).unwrap_or_else(|| sentence("", None))
+        both.chain(alone).find(fits).unwrap_or_else(|| sentence("", None))
     }
-}
-
-/// Returns how fast a lock grows in which a run of a scene ended, of this machine at this speed
-/// \[1/s\]; none where it lasts, and where the speed changes.
-#[must_use]
-pub fn growth(verdict: Verdict, scene: &Scene, machine: &Machine, speed: f64) -> Option<f64> {
-    let steady = scene.operation.speed_ramp_rad_s2 == 0.0;
-    let bends = scene.solver.model != ModelSize::Rigid;
-    (verdict == Verdict::Locked && steady && bends).then(|| lock_growth(machine, speed))?
-}
-
-/// Returns the rate of [`growth`] in words.
-pub(super) fn rate(growth: f64) -> String {
-    with_unit(growth, 3, "1/s")
-}
-
-/// Returns the growth of the lock in which a run ended \[1/s\].
-pub(super) fn growth_of(report: &RunReport) -> Option<f64> {
-    growth(report.outcome.verdict, &report.scene, &report.end_machine, report.end_speed_rad_s)
 }
 
 impl Facts {
-    /// Collects the facts of a run. What unilateral contact would do is not known of it.
+    /// Creates what scene and machine say of a run that ended so at this speed, with these groups
+    /// of blades in contact and their forces; the rest is empty.
     #[must_use]
-    pub fn of(report: &RunReport) -> Self {
-        let (outcome, scene) = (&report.outcome, &report.scene);
-        let blades = |pulling: bool| {
-            let groups = outcome.contacts.iter();
-            let groups = groups.filter(move |group| !pulling || group.multiplier_n > 0.0);
-            groups.flat_map(|group| group.blades.iter().copied()).collect()
-        };
-        let grows = growth_of(report).map(Doubt::Grows);
-        let pulls = report.checks.tensile_steps;
-        let pulls = (pulls > 0).then_some(Doubt::Pulls(pulls, None));
-        let ends = outcome.ends_otherwise == Some(true);
-        let sensitive = (outcome.sensitive == Some(true)).then_some(Doubt::Sensitive { ends });
-        let step = (outcome.depends_on_step == Some(true)).then_some(Doubt::Step);
+    pub fn at(
+        verdict: Verdict,
+        (scene, machine, speed): (&Scene, &Machine, f64),
+        contacts: impl Iterator<Item = (Vec<u32>, f64)>,
+    ) -> Self {
+        let (pull, push): (Vec<_>, Vec<_>) = contacts.partition(|(_, force)| *force > 0.0);
+        let blades = |groups: Vec<(Vec<u32>, f64)>| groups.into_iter().flat_map(|group| group.0);
+        let pulling: Vec<u32> = blades(pull).collect();
+        let locked = verdict == Verdict::Locked;
+        let steady = scene.operation.speed_ramp_rad_s2 == 0.0;
+        let may_grow = locked && steady && scene.solver.model != ModelSize::Rigid;
         Self {
-            verdict: outcome.verdict,
-            blades: blades(false),
-            pulling: blades(true),
-            touches: report.impact_count,
-            law: report.solver.contact,
+            verdict,
+            blades: pulling.iter().copied().chain(blades(push)).collect(),
+            pulling,
+            touches: 0,
+            law: scene.solver.contact,
             pressed: scene.clearance() < 0.0,
-            damped: scene.casing_in_use().damping_ratio > 0.0,
-            broken: report.broken.map(|(_, speed)| speed),
-            failure: report.failure.clone(),
-            doubts: grows.into_iter().chain(pulls).chain(sensitive).chain(step).collect(),
+            damped: machine.casing_damping_ratio > 0.0,
+            broken: None,
+            caught: None,
+            failure: None,
+            pulled: false,
+            other: None,
+            certainty: Certainty::default(),
+            growth: may_grow.then(|| lock_growth(machine, speed)).flatten(),
+            round: locked.then(|| roundness_needed(machine, speed)).flatten(),
+            angles: scene.has_other_tips(),
         }
     }
 
-    /// Returns the sentence in at most so many columns; from 40 on there is always one.
+    /// Collects the facts of a run.
+    #[must_use]
+    pub fn of(report: &RunReport) -> Self {
+        let outcome = &report.outcome;
+        let end = (&*report.scene, &report.end_machine, report.end_speed_rad_s);
+        let contacts = outcome.contacts.iter();
+        let contacts = contacts.map(|group| (group.blades.clone(), group.multiplier_n));
+        Self {
+            touches: report.impact_count,
+            broken: report.broken.map(|(_, speed)| speed),
+            caught: report.caught,
+            failure: report.failure.clone(),
+            pulled: report.checks.tensile_steps > 0,
+            other: report.pushes_only,
+            certainty: Certainty {
+                sensitive: outcome.sensitive == Some(true),
+                ends_otherwise: outcome.ends_otherwise == Some(true),
+                depends_on_step: outcome.depends_on_step,
+            },
+            ..Self::at(outcome.verdict, end, contacts)
+        }
+    }
+
+    /// Returns the sentences in at most so many columns; from 40 on there is always one.
     #[must_use]
     pub fn sentence(&self, width: usize) -> Sentence {
         let (word, forms) = (self.verdict.as_ref().to_uppercase(), self.forms());
-        let doubts: Vec<Vec<String>> = self.doubts.iter().map(|one| self.doubt(*one)).collect();
-        // All of them where there is room, the later ones in fewer words; else the worst.
-        let all = doubts.iter().cloned().reduce(|worse, next| joined(&worse, &next));
-        let tried = [all.unwrap_or_default(), doubts.into_iter().next().unwrap_or_default()];
-        let [all, worst] = tried.map(|doubt| Sentence::of(&word, &forms, &doubt, width));
-        if all.doubt.is_some() { all } else { worst }
+        let (notes, wrong) = self.notes();
+        // All of them where there is room, the later ones in fewer words; else the first.
+        let all = notes.iter().cloned().reduce(|first, next| joined(&first, &next));
+        let tried = [all.unwrap_or_default(), notes.into_iter().next().unwrap_or_default()];
+        let [all, first] = tried.map(|note| Sentence::of(&word, &forms, &note, width));
+        Sentence { wrong, ..if all.history.is_some() { all } else { first } }
     }
 
-    /// Returns what happens, from the longest form to the shortest.
+    /// Returns what the motion is, from the longest form to the shortest.
     fn forms(&self) -> Vec<String> {
         if let (Some(speed), Some(after)) = (self.broken, self.after_a_lock()) {
-            let at = with_unit(speed, 4, "rad/s");
+            let at = rad_s(speed);
             return vec![
                 format!("The lock breaks at {at}; then {after}."),
                 format!("The lock breaks at {at}."),
@@ -247,23 +244,20 @@ impl Facts {
     }
 
     fn held(&self) -> Vec<String> {
-        let [hold, carry] = match self.blades.len() {
-            1 => ["holds", "carries"],
-            _ => ["hold", "carry"],
+        let [hold, push] = match self.blades.len() {
+            1 => ["holds", "it pushes"],
+            2 => ["hold", "both push"],
+            _ => ["hold", "all push"],
         };
-        let who = named(&self.blades, true);
-        let mut forms = vec![
-            format!("{who} {hold} the casing's wave and {carry} it round."),
-            format!("{who} {hold} the casing's wave."),
-            format!("{who} {hold} the wave."),
-            format!("{} {hold} the wave.", named(&self.blades, false)),
-            format!("{} {hold} it.", counted(&self.blades)),
-        ];
-        // Four names have no room in twelve words.
-        if self.blades.len() == NAMED {
-            forms.remove(0);
-        }
-        forms
+        let [who, few] = [true, false].map(|noun| named(&self.blades, noun));
+        let fewest = counted(&self.blades);
+        vec![
+            format!("{who} {hold} the casing's wave; {push}."),
+            format!("{who} {hold} the wave; {push}."),
+            format!("{few} {hold} the wave; {push}."),
+            format!("{fewest} {hold} it; {push}."),
+            format!("{fewest} {hold} it."),
+        ]
     }
 
     fn pulled(&self) -> Vec<String> {
@@ -272,15 +266,19 @@ impl Facts {
             [blade] => format!("blade {blade} pulls"),
             several => format!("{} blades pull", several.len()),
         };
-        let hold = if self.blades.len() == 1 { "holds" } else { "hold" };
         let mut forms = vec![
-            format!("{} {hold} the wave, but {pulls}.", named(&self.blades, true)),
-            format!("The wave is held, but {pulls}."),
+            format!("{}: no real contact can.", capital(&pulls)),
             "A pull holds the wave.".into(),
             "A pull holds it.".into(),
         ];
-        if self.blades.len() == NAMED {
-            forms.remove(0);
+        let pushing = self.blades.iter().find(|blade| !self.pulling.contains(blade));
+        if let (Some(push), [_, _], [_]) = (pushing, &*self.blades, &*self.pulling) {
+            for [wave, it] in [["", ""], [" the wave", " it"]] {
+                forms.insert(
+                    0,
+                    format!("Blade {push} pushes{wave} and {pulls}{it}: no real contact can."),
+                );
+            }
         }
         forms
     }
@@ -342,81 +340,96 @@ impl Facts {
         ]
     }
 
-    /// Returns a doubt, from the longest form to the shortest.
-    fn doubt(&self, doubt: Doubt) -> Vec<String> {
-        match doubt {
-            Doubt::Pulls(steps, otherwise) => {
-                let other = otherwise.filter(|other| *other != self.verdict).and_then(would);
-                let verb = if steps == 1 { "pulls" } else { "pull" };
-                let pulls = format!("{} {verb}", count(steps, "step"));
-                match other {
-                    _ if self.verdict == Verdict::Adhesive => plain(&[
-                        "A real contact cannot pull: it would let go.",
-                        "A real contact cannot pull.",
-                        "No real contact.",
-                    ]),
-                    Some(other) => vec![
-                        format!("A real contact would {other}: {pulls}."),
-                        format!("A real contact would {other}."),
-                        format!("But {pulls}."),
-                        "But it pulls.".into(),
-                    ],
-                    None => vec![
-                        format!("{pulls}, which no real contact can."),
-                        format!("But {pulls}."),
-                        "But it pulls.".into(),
-                    ],
-                }
-            }
-            Doubt::Grows(growth) => {
-                let grows = format!("it grows by {}", rate(growth));
-                vec![
-                    format!("But this lock is unstable: {grows}."),
-                    format!("{}.", capital(&grows)),
-                    "It is unstable.".into(),
-                ]
-            }
-            Doubt::Sensitive { ends } => {
-                let does = if ends { "ends otherwise" } else { "gives other impacts" };
-                vec![
-                    format!("A tiny change of pulse or speed {does}."),
-                    format!("A tiny change {does}."),
-                    "Sensitive.".into(),
-                ]
-            }
-            Doubt::Step => plain(&[
+    /// Returns how the motion came there, each note from the longest form to the shortest, the
+    /// most serious first; and whether the first says that the state itself is wrong.
+    fn notes(&self) -> (Vec<Vec<String>>, bool) {
+        let mut notes: Vec<Vec<String>> = self.growth.map(grows).into_iter().collect();
+        let sensitive = self.certainty.sensitive;
+        if self.certainty.depends_on_step == Some(true) {
+            notes.push(plain(&[
                 "Another step ends otherwise: the step is too long.",
                 "Another step ends otherwise.",
                 "Step too long.",
-            ]),
-            Doubt::Differs(other, cause) => {
-                let why = match cause {
-                    Cause::Step => "the step is too long",
-                    Cause::Angles => "step or angles are too large",
-                };
-                let does = match other {
-                    Verdict::Failed => "fails".into(),
-                    other => format!("says {other}"),
-                };
-                let mut forms = vec![
-                    format!("The exact solver {does}: {why}."),
-                    format!("The exact solver {does}."),
-                    format!("Exact: {other}."),
-                ];
-                // A run that stops has said why.
-                if self.verdict == Verdict::Failed {
-                    forms.remove(0);
-                }
-                forms
-            }
+            ]));
         }
+        if let Some(other) = self.other.filter(|other| *other != self.verdict)
+            && !self.pulled
+            && !sensitive
+            && notes.is_empty()
+        {
+            notes.push(self.differs(other));
+        }
+        let wrong = !notes.is_empty();
+        if self.pulled && self.verdict != Verdict::Adhesive && self.other != Some(self.verdict) {
+            notes.push(self.pushes_only());
+        }
+        if let Some((speed, up)) = self.caught.filter(|_| self.verdict == Verdict::Locked) {
+            let at = format!("{} at {}", if up { "run-up" } else { "run-down" }, rad_s(speed));
+            notes.push(vec![format!("Caught in a {at}."), format!("{}.", capital(&at))]);
+        }
+        if sensitive {
+            let ends = self.certainty.ends_otherwise;
+            let does = if ends { "ends otherwise" } else { "gives other impacts" };
+            notes.push(vec![format!("A tiny change {does}."), "Sensitive.".into()]);
+        }
+        if let Some(round) = self.round.filter(|_| notes.is_empty()) {
+            let round = format!("{} um", short(rounded(1e6 * round, 2)));
+            notes.push(vec![format!("It needs a casing round to {round}.")]);
+        }
+        (notes, wrong)
+    }
+
+    /// Returns what contact that only pushes does, where this one pulled on the way.
+    fn pushes_only(&self) -> Vec<String> {
+        let locked = self.verdict == Verdict::Locked;
+        let ends = if locked { "would not catch it" } else { "ends otherwise" };
+        match self.other {
+            None | Some(Verdict::Failed) => plain(&["Contact pulled on the way."]),
+            Some(other) => vec![
+                format!("Contact that only pushes {ends}: {other}."),
+                format!("Contact that only pushes: {other}."),
+                format!("Pushes only: {other}."),
+            ],
+        }
+    }
+
+    /// Returns that the event solver finds another end.
+    fn differs(&self, other: Verdict) -> Vec<String> {
+        let why = if self.angles { "step or angles are too large" } else { "the step is too long" };
+        let fails = other == Verdict::Failed;
+        let does = if fails { "fails".into() } else { format!("says {other}") };
+        let mut forms = vec![
+            format!("The exact solver {does}: {why}."),
+            format!("The exact solver {does}."),
+            format!("Exact: {other}."),
+        ];
+        // A run that stops has said why.
+        if self.verdict == Verdict::Failed {
+            forms.remove(0);
+        }
+        forms
     }
 }
 
-/// Returns two doubts one after the other, from long to short: the second gets shorter first.
-fn joined(worse: &[String], next: &[String]) -> Vec<String> {
-    let shorter = worse.iter().skip(1).zip(next.last().into_iter().cycle());
-    let pairs = worse.iter().take(1).flat_map(|first| next.iter().map(move |next| (first, next)));
+/// Returns that a lock is unstable.
+fn grows(growth: f64) -> Vec<String> {
+    let grows = format!("it grows by {}", with_unit(growth, 3, "1/s"));
+    vec![
+        format!("But this lock is unstable: {grows}."),
+        format!("{}.", capital(&grows)),
+        "It is unstable.".into(),
+    ]
+}
+
+/// Returns a speed in the digits of a sentence.
+fn rad_s(speed: f64) -> String {
+    with_unit(speed, 4, "rad/s")
+}
+
+/// Returns two notes one after the other, from long to short: the second gets shorter first.
+fn joined(first: &[String], next: &[String]) -> Vec<String> {
+    let shorter = first.iter().skip(1).zip(next.last().into_iter().cycle());
+    let pairs = first.iter().take(1).flat_map(|first| next.iter().map(move |next| (first, next)));
     let [_, between] = APART;
     pairs.chain(shorter).map(|(first, next)| format!("{first}{between}{next}")).collect()
 }
@@ -429,20 +442,6 @@ fn touches(count: u64) -> String {
 /// Returns constant forms.
 fn plain(forms: &[&str]) -> Vec<String> {
     forms.iter().map(ToString::to_string).collect()
-}
-
-/// Returns what a real contact would do.
-fn would(verdict: Verdict) -> Option<&'static str> {
-    match verdict {
-        Verdict::Decay => Some("let go"),
-        Verdict::Bounce => Some("bounce"),
-        Verdict::Slip => Some("slip"),
-        Verdict::Whirl => Some("whirl"),
-        Verdict::Forced => Some("drag"),
-        Verdict::Locked | Verdict::Adhesive => Some("hold"),
-        Verdict::Divergent => Some("diverge"),
-        Verdict::Failed => None,
-    }
 }
 
 /// Names blades: `Blades 12 and 19`, or without the noun `12 and 19`; many are counted.

@@ -6,10 +6,10 @@ use super::Wall;
 use super::line::capital;
 use super::number::Digits;
 use super::number::{count, grouped, per_speed, rounded, short, speed, time};
-use super::sentence::{growth_of, rate};
+use super::sentence::Facts;
 use rubscope_solver::harmonic::lock_window;
 use rubscope_solver::model::Machine;
-use rubscope_solver::motion::{Basis, Contact, Proof, RunReport, Verdict};
+use rubscope_solver::motion::{Basis, Contact, Proof, RunReport};
 use rubscope_solver::scene::{ContactLaw, SolverKind};
 
 /// Quantities of which tiny changes change the outcome of a sensitive run.
@@ -45,13 +45,11 @@ pub fn write(report: &RunReport, wall: Wall, out: &mut dyn Write) -> Result<()> 
         writeln!(out, "Blade angles inside the gap's phase are left out (linearised).")?;
     }
     writeln!(out)?;
-    writeln!(out, "Verdict: {}. {}", report.outcome.verdict, meaning(report))?;
+    let told = Facts::of(report).sentence(usize::MAX);
+    writeln!(out, "Verdict: {}. {}", report.outcome.verdict, told.what)?;
+    told.history.iter().try_for_each(|history| writeln!(out, "{history}"))?;
     if let Some(message) = &report.outcome.message {
         writeln!(out, "Reason: {message}.")?;
-    }
-    if let Some(growth) = growth_of(report) {
-        let rate = rate(growth);
-        writeln!(out, "Held, but this lock is unstable: it grows by {rate} and does not last.")?;
     }
     for line in doubts(report) {
         writeln!(out, "{line}")?;
@@ -96,68 +94,21 @@ fn how(report: &RunReport) -> String {
     )
 }
 
-/// Returns what a verdict means, in one sentence.
-fn meaning(report: &RunReport) -> &'static str {
-    match report.outcome.verdict {
-        Verdict::Decay if report.scene.clearance() < 0.0 => {
-            "The wave died away; the blades rub the lining as at rest."
-        }
-        Verdict::Decay if report.impact_count == 0 => "No blade hit the casing.",
-        Verdict::Decay => "The contact ended and does not return.",
-        Verdict::Bounce => "Blades and casing meet and part again and again.",
-        Verdict::Slip => "The contact is permanent, but the wave slips along the blades.",
-        Verdict::Whirl => {
-            "The contact is permanent, passes from blade to blade and keeps the blades swinging."
-        }
-        Verdict::Forced if report.scene.clearance() < 0.0 => {
-            "All blades press the lining, and the longer ones drag the wave."
-        }
-        Verdict::Forced => {
-            "One blade or group of blades presses without a break and drags the wave; no corner \
-             is held."
-        }
-        Verdict::Divergent => {
-            "Nothing bounds the growth of the motion; what follows is the last state."
-        }
-        Verdict::Locked => "The same blades hold the casing without a break, and all of them push.",
-        Verdict::Adhesive => {
-            "The same blades hold the casing without a break, but some of them pull: \
-             a pull holds it, which a real contact cannot do."
-        }
-        Verdict::Failed => "The computation broke down; what follows is the state it stopped at.",
-    }
-}
-
-/// Returns what makes the verdict doubtful, one line each.
+/// Returns the numbers of what makes the verdict doubtful, one line each.
 fn doubts(report: &RunReport) -> Vec<String> {
-    let (outcome, pulls) = (&report.outcome, report.checks.tensile_steps);
+    let outcome = &report.outcome;
     let mut doubts = Vec::new();
-    if outcome.ends_otherwise == Some(true) {
-        doubts.push(format!(
-            "Sensitive: a change of 1e-9 {OF_WHAT} ends otherwise; do not rely on this outcome."
-        ));
-    } else if outcome.sensitive == Some(true) {
-        doubts.push(format!(
-            "Sensitive: a change of 1e-9 {OF_WHAT} gives other impacts; the verdict stays."
-        ));
-    }
-    if outcome.depends_on_step == Some(true) {
-        doubts.push(
-            "Depends on the step: half of it ends otherwise; do not rely on this outcome.".into(),
-        );
-    }
-    if let Some(verdict) = outcome.by_events {
-        doubts.push(format!("The event solver, which has no step, says {verdict}."));
+    if outcome.sensitive == Some(true) {
+        let ends = outcome.ends_otherwise == Some(true);
+        let so = if ends { "do not rely on this outcome" } else { "the verdict stays" };
+        doubts.push(format!("Sensitive to a change of 1e-9 {OF_WHAT}: {so}."));
     }
     // Events have no steps, and a run that takes each has been told so.
-    if !doubts.is_empty() && report.solver.steps_skipped.is_some_and(|skipped| skipped > 0) {
+    let doubtful = outcome.depends_on_step == Some(true) || outcome.by_events.is_some();
+    if (doubtful || !doubts.is_empty())
+        && report.solver.steps_skipped.is_some_and(|skipped| skipped > 0)
+    {
         doubts.push("To audit this run, take each of its steps: rubscope run --plain.".into());
-    }
-    if report.solver.contact == ContactLaw::Bilateral && pulls > 0 {
-        doubts.push(format!(
-            "Warning: the bilateral law pulled in {}, where a real contact would open; compare with --contact unilateral.",
-            count(pulls, "step")
-        ));
     }
     doubts
 }
@@ -378,7 +329,7 @@ fn listed(blades: &[u32]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rubscope_solver::motion::simulate;
+    use rubscope_solver::motion::{Verdict, simulate};
     use rubscope_solver::scene::Scene;
 
     fn report(settings: &[(&str, &str)]) -> RunReport {
@@ -400,25 +351,14 @@ mod tests {
     }
 
     #[test]
-    fn every_verdict_says_what_it_means() {
+    fn every_verdict_is_told_by_the_sentences_of_the_headline() {
         let mut report = report(&[]);
-        for (verdict, words) in [
-            (Verdict::Decay, "does not return"),
-            (Verdict::Bounce, "again and again"),
-            (Verdict::Slip, "slips along the blades"),
-            (Verdict::Whirl, "keeps the blades swinging"),
-            (Verdict::Forced, "drags the wave"),
-            (Verdict::Divergent, "Nothing bounds the growth"),
-            (Verdict::Locked, "all of them push"),
-            (Verdict::Adhesive, "a pull holds it, which a real contact cannot do"),
-            (Verdict::Failed, "broke down"),
-        ] {
+        for verdict in Verdict::ALL {
             report.outcome.verdict = verdict;
+            let told = Facts::of(&report).sentence(usize::MAX);
             let text = text_of(&report);
-            assert!(
-                text.contains(&format!("Verdict: {verdict}.")) && text.contains(words),
-                "{text}"
-            );
+            let lines = format!("Verdict: {verdict}. {}\n", told.what);
+            assert!(text.contains(&lines) && text.contains(&told.history.unwrap_or_default()));
         }
     }
 
@@ -437,12 +377,15 @@ mod tests {
     #[test]
     fn sensitive_and_pulling_runs_say_so() {
         let mut report = report(&[]);
-        assert!(!text_of(&report).contains("Warning") && !text_of(&report).contains("Sensitive"));
+        assert!(!text_of(&report).contains("Sensitive"));
         report.outcome.sensitive = Some(true);
         report.solver.contact = ContactLaw::Bilateral;
         report.checks.tensile_steps = 2;
         let text = text_of(&report);
-        assert!(text.contains("Sensitive: ") && text.contains("pulled in 2 steps"), "{text}");
+        assert!(
+            text.contains("Sensitive to ") && text.contains("pulling multiplier: 2."),
+            "{text}"
+        );
     }
 
     #[test]
@@ -458,7 +401,7 @@ mod tests {
     fn a_run_without_touch_and_without_critical_speed_reads_well() {
         let report = report(&[("operation.pulse_n", "0"), ("operation.nodal_diameters", "0")]);
         let text = text_of(&report);
-        assert!(text.contains("No blade hit") && text.contains("No impact."), "{text}");
+        assert!(text.contains("No blade touches") && text.contains("No impact."), "{text}");
         assert!(!text.contains("Omega_c") && !text.contains("not a number"), "{text}");
     }
 }

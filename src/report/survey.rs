@@ -5,54 +5,46 @@ use std::borrow::Cow;
 use std::f64::consts::TAU;
 use std::io::{Result, Write};
 
-use super::line::{capital, wrapped};
+use super::line::wrapped;
 use super::margins::words;
 use super::number::{count, per_speed, rounded, short, speed, speed_unit, time};
-use super::symbols::symbol;
 use super::table::{Heading, Table, TableCell, WIDTH};
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
-use rubscope_solver::study::margins::{LimitName, Quantity as Kind};
-use rubscope_solver::study::survey::{Scattered, Survey, SurveyLimit, SurveyRow};
+use rubscope_solver::study::margins::LimitName;
+use rubscope_solver::study::survey::{Scattered, Survey, SurveyRow};
 
-/// Most rows of the text where every number of diameters has one.
+/// Most rows of the text, and its widest line.
 const ROWS: usize = 64;
-/// Most of the nearest limits that are listed.
-const NEAREST: usize = 16;
+const WIDEST: usize = 110;
+/// Letters of the range as a line.
+const BAR: usize = 20;
+/// Most numbers of diameters that the answer lists.
+const LISTED: usize = 8;
 
-/// The limits with their letter on a chart and their heading, the most important first.
-pub const LIMITS: [(LimitName, char, &str); 10] = [
-    (LimitName::OmegaC, 'c', "Omega_c"),
-    (LimitName::OmegaLock, 'L', "Omega_lock"),
-    (LimitName::Coincidence, 'x', "sum (31)"),
-    (LimitName::LockEnds, 'e', "ends"),
-    (LimitName::WhirlOnset, 'w', "whirl"),
-    (LimitName::FlutterSpeed, 'f', "flutter"),
-    (LimitName::OmegaAdhesive, 'a', "adhesive"),
-    (LimitName::CoincidenceDifference, 'd', "diff (30)"),
-    (LimitName::LockFold, 'g', "gives way"),
-    (LimitName::FirstTouch, 't', "touches"),
+/// The limits that are shown with their heading, the most important first.
+const LIMITS: [(LimitName, &str); 6] = [
+    (LimitName::OmegaLock, "Omega_lock"),
+    (LimitName::LockEnds, "ends"),
+    (LimitName::Coincidence, "sum (31)"),
+    (LimitName::WhirlOnset, "whirl"),
+    (LimitName::FlutterSpeed, "flutter"),
+    (LimitName::OmegaC, "Omega_c"),
 ];
 
-/// Returns the limits that any number of diameters has.
-pub fn present(survey: &Survey) -> impl Iterator<Item = &'static (LimitName, char, &'static str)> {
-    let names = survey.names();
-    LIMITS.iter().filter(move |(name, ..)| names.contains(name))
+/// Returns the limits that any of these numbers of diameters has.
+fn present<'a>(
+    rows: &'a [&'a SurveyRow],
+) -> impl Iterator<Item = &'static (LimitName, &'static str)> + 'a {
+    let has = |row: &SurveyRow, name| row.limits.iter().any(|limit| limit.name == name);
+    LIMITS.iter().filter(move |(name, _)| rows.iter().any(|row| has(row, *name)))
 }
 
 /// Every limit, one row each; a number of diameters without any has one row, too.
 #[must_use]
 pub fn table(survey: &Survey) -> Table {
-    let mut table = Table::new([
-        "nodal_diameters",
-        "omega_c_rad_s",
-        "omega_bd_rad_s",
-        "name",
-        "value_rad_s",
-        "margin",
-        "in_range",
-        "by",
-    ]);
+    let names = "nodal_diameters,omega_c_rad_s,omega_bd_rad_s,name,value_rad_s,margin,in_range,by";
+    let mut table = Table::new(names.split(','));
     for row in &survey.rows {
         let own = [
             f64::from(row.nodal_diameters).into(),
@@ -76,39 +68,130 @@ pub fn table(survey: &Survey) -> Table {
     table
 }
 
-/// Writes the survey for people.
+/// Writes the survey for people; with `all` also of diameters without modes of their own.
 ///
 /// # Errors
 /// An error of the writer.
-pub fn write(survey: &Survey, out: &mut dyn Write) -> Result<()> {
+pub fn write(survey: &Survey, all: bool, out: &mut dyn Write) -> Result<()> {
     let scene = &survey.scene;
     let mut tell =
         |text: &str| wrapped(text, WIDTH).iter().try_for_each(|line| writeln!(out, "{line}"));
     tell(&scene.title)?;
-    tell(&head(survey))?;
-    if let Some(which) = unknown(survey) {
-        tell(&format!(
-            "Numbers of diameters with ? have no mode in the scene, and the own values of casing or \
-             disk; they are not in the list below: {which}."
-        ))?;
-    }
+    tell(&answer(survey, all))?;
+    let marks = if survey.range_rad_s.is_some() { " * marks a limit in the range." } else { "" };
+    tell(&(head(survey) + marks))?;
     survey.note.iter().try_for_each(|note| tell(&format!("The limits are {note}.")))?;
     survey.scattered.iter().try_for_each(|scattered| tell(&of_scatter(scene, scattered)))?;
-    if survey.rows.len() > 1 {
+    let shown = survey.shown(all);
+    if shown.iter().any(|row| row.nodal_diameters == 1) {
         tell("One nodal diameter also moves the shaft, which this model does not have.")?;
     }
     writeln!(out)?;
-    shown(survey).write_text(out)?;
-    writeln!(out)?;
-    nearest(survey, out)?;
+    let mut table = rows(survey, &shown[..shown.len().min(ROWS)]);
+    let others = survey.rows.len() - shown.len();
+    if shown.len() > ROWS {
+        table.note(format!("and {} more: --json or --out", shown.len() - ROWS));
+    }
+    if others > 0 {
+        table.note(format!("{others} more have no modes of their own: --all shows them, with ?."));
+    }
+    table.write_text_in(WIDEST, out)?;
     writeln!(out)?;
     writeln!(out, "Computed in {}.", time(rounded(survey.wall_s, 2)))
+}
+
+/// Which diameters can lock: in the range, or at the speed of the scene.
+#[must_use]
+pub fn answer(survey: &Survey, all: bool) -> String {
+    let now = survey.scene.operation.speed_rad_s;
+    let at = match survey.range_rad_s {
+        Some([from, to]) => format!("From {} to {}", speed(from), speed(to)),
+        None => format!("At {}", speed(now)),
+    };
+    let locks = |row: &SurveyRow| match (&row.locks_in_range, survey.range_rad_s) {
+        (Some(locks), Some(_)) => !locks.is_empty(),
+        _ => row.locks_at(now),
+    };
+    let mut rows = survey.shown(all);
+    let known = rows.iter().all(|row| row.locks_in_range.is_some());
+    rows.retain(|row| locks(row));
+    rows.sort_by_key(|row| row.nodal_diameters);
+    let all: Vec<String> = rows.iter().map(|row| row.nodal_diameters.to_string()).collect();
+    let which = match all.as_slice() {
+        [] => "no wave can lock".to_string(),
+        [one] if one == "1" => "waves of 1 nodal diameter can lock".to_string(),
+        [one] => format!("waves of {one} nodal diameters can lock"),
+        [.., last] if all.len() > LISTED => {
+            format!("waves of {} numbers of nodal diameters can lock, up to {last}", all.len())
+        }
+        [first @ .., last] => {
+            format!("waves of {} and {last} nodal diameters can lock", first.join(", "))
+        }
+    };
+    let unknown = if known { "" } else { "; of these tips or this shape it is not known of all" };
+    format!("{at} {which}{unknown}.")
+}
+
+/// A speed in words, in four digits and not less than whole ones.
+fn told(omega: f64) -> String {
+    let shown = per_speed(omega);
+    short(if shown.abs() < 1e3 { rounded(shown, 4) } else { shown.round() })
+}
+
+/// What a row can do in the range, in words.
+#[must_use]
+pub fn verdict(survey: &Survey, row: &SurveyRow) -> String {
+    let ([least, most], unit) = (survey.speeds(), speed_unit());
+    let span = |[from, to]: &[f64; 2]| match (*from <= least, *to >= most) {
+        (true, true) if survey.range_rad_s.is_none() => "at every speed".to_string(),
+        (true, true) => "whole range".to_string(),
+        (true, false) => format!("up to {} {unit}", told(*to)),
+        (false, true) => format!("from {} {unit}", told(*from)),
+        (false, false) => format!("{} to {} {unit}", told(*from), told(*to)),
+    };
+    let locks = match &row.locks_in_range {
+        None => "not known: runs have it".to_string(),
+        Some(locks) if locks.is_empty() => "no lock".to_string(),
+        Some(locks) => {
+            format!("can lock: {}", locks.iter().map(span).collect::<Vec<_>>().join(", "))
+        }
+    };
+    let onset = row.limits.iter().any(|limit| limit.name == LimitName::WhirlOnset);
+    let from = if onset { "from " } else { "" };
+    let whirls = row.whirls_in_range.first();
+    locks + &whirls.map_or(String::new(), |omega| format!("; whirl: {from}{} {unit}", told(*omega)))
+}
+
+/// The speeds of the line of letters: the range, or from rest to beyond the present speed.
+fn ends(survey: &Survey) -> [f64; 2] {
+    let far = REACH * survey.scene.operation.speed_rad_s;
+    survey.range_rad_s.unwrap_or([far.min(0.0), far.max(0.0)])
+}
+
+/// Speeds as a line of letters: `#` where a wave can lock, `w` where whirl begins.
+fn bar(survey: &Survey, row: &SurveyRow) -> String {
+    let [from, to] = ends(survey);
+    let part = (to - from) / BAR as f64;
+    let sign = |place: usize| {
+        let start = from + part * place as f64;
+        let begins = row.whirls_in_range.iter().any(|at| (start..start + part).contains(at));
+        let locks = row.locks_at(start + 0.5 * part);
+        if begins {
+            'w'
+        } else if locks {
+            '#'
+        } else {
+            '.'
+        }
+    };
+    (0..BAR).map(sign).collect()
 }
 
 /// What the limits are of, and what tips that differ do to the lock.
 #[must_use]
 pub fn of_scatter(scene: &Scene, scattered: &Scattered) -> String {
-    let [mean, equal] = [scattered.mean_rad_s, scattered.equal_rad_s].map(|x| speed(rounded(x, 4)));
+    let speeds = [scattered.mean_rad_s, scattered.equal_rad_s];
+    let [mean, equal] = speeds.map(|omega| format!("{} {}", told(omega), speed_unit()));
     let of = match scene.is_uneven() {
         true => "the tips and the casing of the scene. Equal tips in a round one lock last",
         false => "equal tips and a round casing, which lock last",
@@ -120,187 +203,79 @@ pub fn of_scatter(scene: &Scene, scattered: &Scattered) -> String {
     )
 }
 
-/// The numbers of diameters without a mode in the scene.
-fn unknown(survey: &Survey) -> Option<String> {
-    let without = survey.rows.iter().filter(|row| !row.modes_known);
-    let all: Vec<String> = without.map(|row| row.nodal_diameters.to_string()).collect();
-    let last = all.last()?;
-    let many = all.len() > 12;
-    Some(if many { format!("{} of them, up to {last}", all.len()) } else { all.join(", ") })
-}
-
-/// The machine and the range in a few sentences.
-#[must_use]
-pub fn head(survey: &Survey) -> String {
-    let asked = match survey.range_rad_s {
-        Some([from, to]) => {
-            let other = if speed_unit() == "rpm" { String::new() } else { in_rpm([from, to]) };
-            format!("* marks what lies from {} to {}{other}.", speed(from), speed(to))
-        }
-        None => "Without --range nothing is marked.".to_string(),
-    };
-    format!(
-        "{}; speeds in {}, frequencies in Hz. {asked} {}",
-        machine(survey),
-        speed_unit(),
-        sense(survey)
-    )
-}
-
-fn machine(survey: &Survey) -> String {
+/// The machine and the units in a sentence.
+fn head(survey: &Survey) -> String {
     let blades = survey.scene.bladed_disk.blades;
-    format!("{blades} blades, 0 to {}", count(u64::from(blades / 2), "nodal diameter"))
+    let most = count(u64::from(blades / 2), "nodal diameter");
+    let back = if survey.is_forward() { "" } else { ", of a rotor that turns backward" };
+    let (unit, disk) = (speed_unit(), at_speed(survey));
+    let disk = if disk.is_empty() { disk } else { format!(", that of the disk{disk}") };
+    format!("{blades} blades, 0 to {most}; speeds in {unit}{back}; frequencies in Hz{disk}.")
 }
 
-/// What the speeds of the other sense are.
-fn sense(survey: &Survey) -> String {
-    let mirrored = survey.rows.iter().all(|row| {
-        let back = row.limits.iter().filter(|limit| limit.value.is_sign_negative());
-        back.into_iter().all(|limit| {
-            row.limit(limit.name, true).is_some_and(|forward| forward.value == -limit.value)
-        })
-    });
-    match (survey.is_forward(), mirrored) {
-        (forward, true) => {
-            let other = if forward { "backward" } else { "forward" };
-            format!("The same speeds with the other sign are those of a rotor that turns {other}.")
-        }
-        (true, false) => "Speeds of a rotor that turns forward; --json has the others.".into(),
-        (false, false) => "Speeds of a rotor that turns backward; --json has the others.".into(),
-    }
+/// At which speed the frequencies of a disk are that stiffens.
+fn at_speed(survey: &Survey) -> String {
+    let stiffens = survey.scene.bladed_disk.stiffens();
+    let now = survey.scene.operation.speed_rad_s.abs();
+    if stiffens { format!(" at {}", speed(now)) } else { String::new() }
 }
 
-fn in_rpm([from, to]: [f64; 2]) -> String {
-    let turns = |omega: f64| short(omega * 60.0 / TAU);
-    format!(" ({} to {} rpm)", turns(from), turns(to))
-}
-
-/// Returns the rows of the text: every number of diameters where they are few, or else those
-/// with something in the range.
-fn shown(survey: &Survey) -> Table {
-    let inside = |row: &&SurveyRow| row.limits.iter().any(|limit| limit.in_range == Some(true));
-    let few = survey.rows.len() <= ROWS;
-    let mut found: Vec<&SurveyRow> = survey.rows.iter().filter(|row| few || inside(row)).collect();
-    if found.is_empty() {
-        found = survey.rows.iter().collect();
-    }
-    found.truncate(ROWS);
-    let mut table = rows(survey, &found);
-    let left = survey.rows.len() - found.len();
-    if left > 0 {
-        table.note(format!("and {left} more: --json or --out"));
-    }
-    table
-}
-
-/// Returns a row for each of these numbers of diameters: modes \[Hz\], and the limits of the
-/// sense of rotation that is looked at.
+/// Returns a row for each of these numbers of diameters: what it can do, modes \[Hz\], and the
+/// limits of the sense of rotation that is looked at.
 #[must_use]
 pub fn rows(survey: &Survey, shown: &[&SurveyRow]) -> Table {
-    let limits: Vec<_> = present(survey).collect();
-    let heads = ["n_d", "casing", "disk"].into_iter().chain(limits.iter().map(|limit| limit.2));
+    let limits: Vec<_> = present(shown).collect();
+    let [from, to] = ends(survey).map(told);
+    let of_bar = format!("{from:<0$}{to}", BAR.saturating_sub(to.len()));
+    let heads = ["n_d", "verdict", &of_bar, "casing", "disk"].map(str::to_string).into_iter();
+    let heads = heads.chain(limits.iter().map(|limit| limit.1.to_string()));
     let mut table = Table::new(heads.map(Heading::shown));
-    let told = |x: f64, sign: &str| TableCell::Told(x, short(rounded(x, 5)) + sign);
+    let cell = |x: f64, sign: &str| TableCell::Told(x, short(rounded(x, 5)) + sign);
     for row in shown {
         let here = row.nodal_diameters == survey.scene.operation.nodal_diameters;
         let (sign, known) = (if here { ">" } else { " " }, if row.modes_known { "" } else { "?" });
-        let own = TableCell::Word(format!("{sign}{}{known}", row.nodal_diameters));
-        let modes = [row.omega_c_rad_s, row.omega_bd_rad_s].map(|omega| told(omega / TAU, ""));
-        let limits = limits.iter().map(|(name, ..)| {
+        let own = format!("{sign}{}{known}", row.nodal_diameters);
+        let words = [own, verdict(survey, row), bar(survey, row)].map(TableCell::Word);
+        let modes = [row.omega_c_rad_s, row.omega_bd_rad_s].map(|omega| cell(omega / TAU, ""));
+        let limits = limits.iter().map(|(name, _)| {
             row.limit(*name, survey.is_forward()).map_or(TableCell::Empty, |limit| {
                 let sign = if limit.in_range == Some(true) { "*" } else { "" };
-                told(per_speed(limit.value.abs()), sign)
+                let by = limit.by.map_or(String::new(), |by| format!(" ({})", words::change(by)));
+                cell(per_speed(limit.value.abs()), &format!("{sign}{by}"))
             })
         });
-        table.push(std::iter::once(own).chain(modes).chain(limits).collect());
+        table.push(words.into_iter().chain(modes).chain(limits).collect());
     }
     table
-}
-
-/// What lies in the range, the nearest to the scene first.
-fn nearest(survey: &Survey, out: &mut dyn Write) -> Result<()> {
-    let found = survey.nearest();
-    let present = speed(survey.scene.operation.speed_rad_s);
-    let what = match (survey.range_rad_s, found.len()) {
-        (Some(_), 0) => return beside(survey, out),
-        (Some(_), some) => format!("{} in the range", count(some as u64, "limit")),
-        (None, _) => "Limits".to_string(),
-    };
-    writeln!(out, "{what}, the nearest to {present} first:")?;
-    let by = survey.by.map(|path| format!("+1 % of {} moves it by", symbol(path)));
-    let mut table = Table::new(
-        ["n_d".into(), "limit".into(), "speed".into(), "now".to_string()].into_iter().chain(by),
-    );
-    for (diameters, limit) in found.iter().take(NEAREST) {
-        table.push(line(*diameters, limit));
-    }
-    table.write_text(out)?;
-    match found.len().saturating_sub(NEAREST) {
-        0 => Ok(()),
-        more => writeln!(out, "... and {more} more, see --json"),
-    }
-}
-
-/// A limit of a number of diameters, in words.
-fn line(diameters: u32, limit: &SurveyLimit) -> Vec<TableCell> {
-    let margin = match limit.margin {
-        None if limit.value == 0.0 => String::new(),
-        margin => margin.map_or_else(|| "the other way round".into(), words::margin),
-    };
-    vec![
-        diameters.to_string().into(),
-        limit.name.to_string().into(),
-        words::value(limit.value, 6, Kind::Speed).into(),
-        margin.into(),
-        limit.by.map_or_else(|| TableCell::from(""), |by| words::change(by).into()),
-    ]
-}
-
-/// Nothing lies in the range: the nearest limits below and above it.
-fn beside(survey: &Survey, out: &mut dyn Write) -> Result<()> {
-    let Some([from, to]) = survey.range_rad_s else { return Ok(()) };
-    let all = || {
-        let of_row = |row: &SurveyRow| -> Vec<(u32, SurveyLimit)> {
-            row.limits.iter().map(|limit| (row.nodal_diameters, limit.clone())).collect()
-        };
-        survey.rows.iter().filter(|row| row.modes_known).flat_map(of_row)
-    };
-    let below = all().filter(|(_, limit)| limit.value < from);
-    let below = below.max_by(|a, b| a.1.value.total_cmp(&b.1.value));
-    let above = all().filter(|(_, limit)| limit.value > to);
-    let above = above.min_by(|a, b| a.1.value.total_cmp(&b.1.value));
-    let told = |side: &str, found: &Option<(u32, SurveyLimit)>| match found {
-        Some((diameters, limit)) => {
-            let what = count(u64::from(*diameters), "diameter");
-            format!("{side} it {} of {what} at {}", limit.name, speed(limit.value))
-        }
-        None => format!("none {side} it"),
-    };
-    let text = format!("{}; {}", told("below", &below), told("above", &above));
-    writeln!(out, "No limit lies in the range: the nearest are {text}.")
 }
 
 /// Colour number of the lines, apart from those of the limits.
 const INK: usize = 5;
-/// How far beyond the range limits are drawn, as a part of it.
-const BEYOND: f64 = 0.25;
+/// How far limits are drawn, as a factor of the fastest speed of interest.
+const REACH: f64 = 2.0;
 
 /// The interference chart: frequencies and the lines `n_d Omega` over the numbers of
-/// diameters, and below it the limits over them.
+/// diameters, and below it the limits over them, with the speeds at which waves can lock.
 #[must_use]
-pub fn figure(survey: &Survey) -> Figure {
-    let rows = &survey.rows;
-    let over = |of: fn(&SurveyRow) -> f64| {
-        rows.iter().map(move |row| (f64::from(row.nodal_diameters), of(row)))
+pub fn figure(survey: &Survey, all: bool) -> Figure {
+    let rows = survey.shown(all);
+    let at = |row: &SurveyRow| f64::from(row.nodal_diameters);
+    let over = |of: fn(&SurveyRow) -> f64, known: bool| {
+        let rows = rows.iter().filter(move |row| row.modes_known == known);
+        rows.map(move |row| (at(row), of(row))).collect::<Vec<_>>()
     };
-    let present = survey.scene.operation.speed_rad_s.abs();
-    let mut frequencies = vec![
-        Series::new("casing ω_c", Style::Discs(0, 4), over(|row| row.omega_c_rad_s))
-            .named("omega_c"),
-        Series::new("disk ω_bd", Style::Discs(1, 4), over(|row| row.omega_bd_rad_s))
-            .named("omega_bd"),
-    ];
-    let last = rows.last().map_or(0.0, |row| f64::from(row.nodal_diameters));
+    let now = survey.scene.operation.speed_rad_s;
+    let mut frequencies = Vec::new();
+    let casing: fn(&SurveyRow) -> f64 = |row| row.omega_c_rad_s;
+    let disk: fn(&SurveyRow) -> f64 = |row| row.omega_bd_rad_s;
+    let of_disk = format!("disk ω_bd{}", at_speed(survey));
+    for (label, number, radius, of) in [("casing ω_c", 0, 4, casing), (&of_disk, 1, 3, disk)] {
+        // A disc of the colour of this number.
+        frequencies.push(Series::new(label, Style::Discs(7 * number, radius), over(of, true)));
+        let assumed = format!("{label}, assumed");
+        frequencies.push(Series::new(assumed, Style::Rings(number, radius), over(of, false)));
+    }
+    let last = rows.iter().map(|row| at(row)).fold(0.0, f64::max);
     let most =
         rows.iter().fold(0.0_f64, |most, row| most.max(row.omega_c_rad_s + row.omega_bd_rad_s));
     // A line goes as far as the frequencies do.
@@ -308,61 +283,41 @@ pub fn figure(survey: &Survey) -> Figure {
         let end = if omega > 0.0 { (most / omega).min(last) } else { last };
         [(0.0, 0.0), (end, end * omega)]
     };
-    frequencies.push(
-        Series::new(format!("n_d Ω at {}", speed(present)), Style::Line(INK), turning(present))
-            .named("now"),
-    );
-    let mut limits = Vec::new();
-    if let Some([from, to]) = survey.range_rad_s {
-        for (end, name) in [(from, "from"), (to, "to")] {
-            let label = format!("n_d Ω at {}", speed(end));
-            let points = turning(end.abs());
-            frequencies.push(Series::new(label, Style::Dashed(INK), points).named(name));
-            let level = [(0.0, end), (last, end)];
-            limits.push(
-                Series::new(format!("{name} {}", speed(end)), Style::Dashed(INK), level)
-                    .named(name),
-            );
-        }
+    let [from, to] = survey.range_rad_s.unwrap_or([now; 2]);
+    let reach = REACH * [from, to, now].map(f64::abs).into_iter().fold(0.0, f64::max);
+    let spans = rows.iter().flat_map(|row| {
+        let locks = row.locks_in_range.iter().flatten();
+        locks.flat_map(move |span| span.map(|end| (at(row), end.clamp(-reach, reach))))
+    });
+    let mut limits = vec![Series::new("can lock", Style::Bars(0), spans)];
+    let ends = [("now", now, Style::Line(INK)), ("from", from, Style::Dotted(INK))];
+    let ends = ends.into_iter().chain([("to", to, Style::Dashed(INK))]);
+    for (name, end, style) in ends.take(if survey.range_rad_s.is_some() { 3 } else { 1 }) {
+        let label = format!("n_d Ω at {}", speed(end.abs()));
+        frequencies.push(Series::new(label, style, turning(end.abs())));
+        let level = [(0.0, end), (last, end)];
+        limits.push(Series::new(format!("{name} {}", speed(end)), style, level));
     }
-    limits.push(
-        Series::new(
-            format!("now {}", speed(survey.scene.operation.speed_rad_s)),
-            Style::Line(INK),
-            [0.0, last].map(|n| (n, survey.scene.operation.speed_rad_s)),
-        )
-        .named("now"),
-    );
-    for (colour, name) in survey.names().into_iter().enumerate() {
-        let points = rows.iter().filter_map(|row| {
-            let limit = row.limit(name, survey.is_forward())?;
-            let shown = survey.range_rad_s.is_none_or(|[from, to]| {
-                let more = BEYOND * (to - from);
-                (from - more..=to + more).contains(&limit.value)
-            });
-            shown.then(|| (f64::from(row.nodal_diameters), limit.value))
-        });
-        let points: Vec<_> = points.collect();
-        if !points.is_empty() {
-            limits.push(
-                Series::new(name.symbol(), Style::Discs(colour, 4), points).named(name.to_string()),
-            );
-        }
+    let mut outside = 0;
+    for (colour, (name, _)) in present(&rows).enumerate() {
+        let value = |row: &&SurveyRow| Some(row.limit(*name, survey.is_forward())?.value);
+        let points = rows.iter().filter_map(|row| Some((at(row), value(row)?)));
+        let (points, beyond): (Vec<_>, Vec<_>) = points.partition(|point| point.1.abs() <= reach);
+        outside += beyond.len();
+        limits.push(Series::new(name.symbol(), Style::Discs(colour, 4), points));
     }
     let diameters = || Quantity::new("nodal_diameters", "nodal diameters n_d", 1.0);
     let frequency = Quantity::new("omega_rad_s", "frequency [Hz]", 1.0 / TAU);
+    let label = Cow::Owned(format!("rotor speed Ω [{}]", speed_unit()));
+    let speeds = Quantity { label, factor: per_speed(1.0), ..Quantity::SPEED };
     let panels = vec![
         Panel::new("(a) frequencies", diameters(), frequency, frequencies),
-        Panel::new("(b) limits", diameters(), speed_axis(), limits),
+        Panel::new("(b) limits", diameters(), speeds, limits),
     ];
-    let own = unknown(survey).map_or_else(String::new, |which| {
-        format!(" With the own values of casing or disk, as the scene has no mode of it: {which}.")
-    });
-    let note = format!("{}.{own} {}", machine(survey), sense(survey));
-    Figure::new(survey.scene.title.clone(), capital(&note), panels)
-}
-
-fn speed_axis() -> Quantity {
-    let label = Cow::Owned(format!("rotor speed Ω [{}]", speed_unit()));
-    Quantity { column: "speed_rad_s".into(), label, factor: per_speed(1.0), log: false }
+    let beyond = match outside {
+        0 => String::new(),
+        some => format!(" {} beyond {} left out.", count(some as u64, "limit"), speed(reach)),
+    };
+    let note = format!("{} {}{beyond}", answer(survey, all), head(survey));
+    Figure::new(survey.scene.title.clone(), note, panels)
 }

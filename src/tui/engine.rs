@@ -139,6 +139,8 @@ pub struct FullRun {
     /// The longest hold of a corner that ended on the way, if it was as long as a
     /// casing period, and the rotor speed when it ended \[rad/s\].
     pub broken: Option<(Hold, f64)>,
+    /// Rotor speed at which a run-up (true) or run-down came to its last contact \[rad/s\].
+    pub caught: Option<(f64, bool)>,
     /// Verdict of the run.
     pub verdict: Verdict,
     /// Start of the final contact \[s\].

@@ -3,6 +3,7 @@
 
 use rubscope::report::table::WIDTH;
 use rubscope::report::{CommandLine, Provenance, margins as report};
+use rubscope_solver::motion::to_the_end;
 use rubscope_solver::scene::CheckedScene;
 use rubscope_solver::study::margins::Margins;
 
@@ -103,7 +104,8 @@ fn odd_scenes_have_no_number_that_is_none_and_fit() {
 fn files_are_what_is_printed() {
     let directory = tempfile::tempdir().unwrap();
     let [csv, picture] = ["a.csv", "a.svg"].map(|name| directory.path().join(name));
-    let margins = Margins::of(&scene("paper-nd3", &[("operation.speed_rad_s", "450")]));
+    let mut margins = Margins::of(&scene("paper-nd3", &[("operation.speed_rad_s", "450")]));
+    margins.ask_runs(&to_the_end, &mut |_| {}).unwrap();
     for file in [&csv, &picture] {
         let out = file.to_str().unwrap();
         let output = rubscope(&["margins", "--speed", "450", "--out", out]);

@@ -90,14 +90,25 @@ fn case_a_meets_blades_19_and_4() {
 
 #[test]
 fn the_summary_tells_a_lock_and_a_pull_apart() {
-    let locked = rubscope(&["run", "--end", "0.005"]);
+    let locked = rubscope(&["run"]);
     assert!(locked.status.success());
     let text = String::from_utf8(locked.stdout).unwrap();
-    assert!(text.contains("Verdict: locked. "), "{text}");
-    assert!(text.contains("Warning: the bilateral law pulled in 2 steps"), "{text}");
+    assert!(text.contains("Steps with a pulling multiplier: 2."), "{text}");
+    let [state, history] = [
+        "Blades 12 and 19 hold the casing's wave; both push.",
+        "Contact that only pushes would not catch it: decay.",
+    ];
+    assert!(text.contains(&format!("Verdict: locked. {state}\n{history}\n")), "{text}");
+    let json = rubscope(&["run", "--json"]).stdout;
+    let report: serde_json::Value = serde_json::from_slice(&json).unwrap();
+    let told = ["state", "history"].map(|name| report["outcome"][name].as_str().unwrap());
+    assert_eq!(told, [state, history]);
     let text = String::from_utf8(rubscope(&["run", "adhesive", "--end", "0.005"]).stdout).unwrap();
     assert!(text.contains("Verdict: adhesive. "), "{text}");
-    assert!(text.contains("a pull holds it, which a real contact cannot do"), "{text}");
+    assert!(
+        text.contains("Blade 19 pushes the wave and blade 12 pulls it: no real contact can."),
+        "{text}"
+    );
 }
 
 #[test]
@@ -266,4 +277,26 @@ fn a_plain_run_takes_every_step_and_comes_to_the_same_end() {
     assert!(plain["command"].as_str().is_none_or(|command| command.contains("--plain")));
     let refused = refusal(&["run", "slip", "--solver", "event", "--plain"]);
     assert!(refused.contains("--plain: of --solver explicit only"), "{refused}");
+}
+
+#[test]
+fn a_lock_says_at_which_speed_a_run_up_caught_it_and_how_round_the_casing_must_be() {
+    let told = |arguments: &[&str]| -> serde_json::Value {
+        let output = rubscope(&[arguments, &["--json"]].concat());
+        serde_json::from_slice(&output.stdout).unwrap()
+    };
+    let run = told(&["run", "long-tip", "--no-sensitivity"]);
+    let operation = &run["scene"]["operation"];
+    let [speed, ramp] = ["speed_rad_s", "speed_ramp_rad_s2"].map(|key| operation[key].as_f64());
+    let since = run["outcome"]["lock_time_s"].as_f64().unwrap();
+    let caught = speed.unwrap() + ramp.unwrap() * since;
+    assert!((caught - 294.1).abs() < 0.05, "{caught}");
+    assert_eq!(run["outcome"]["history"], "Caught in a run-up at 294.1 rad/s.");
+    let run = told(&["run", "rocking", "--no-sensitivity"]);
+    assert_eq!(run["outcome"]["history"], "It needs a casing round to 0.64 um.");
+    let margins = told(&["margins", "rocking", "--no-search"]);
+    let limits = margins["limits"].as_array().unwrap().iter();
+    let round = limits.filter(|limit| limit["name"] == "roundness");
+    let least = round.map(|limit| limit["value"].as_f64().unwrap()).fold(f64::INFINITY, f64::min);
+    assert!((least - 0.64e-6).abs() < 0.005e-6, "{least}");
 }

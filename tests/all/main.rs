@@ -49,6 +49,7 @@ mod map_parts;
 mod map_signals;
 mod map_zone;
 mod margins;
+mod margins_changes;
 mod margins_command;
 mod margins_joined;
 mod margins_odd;

@@ -133,3 +133,43 @@ fn odd_scenes_have_reasons_instead_of_values() {
         assert_eq!((&limit["value"], &limit["margin"]), (&Value::Null, &Value::Null));
     }
 }
+
+#[test]
+fn the_answer_begins_with_the_nearest_changes_of_the_verdict() {
+    let said = |arguments: &[&str]| {
+        let out = rubscope(&[&["margins"], arguments].concat());
+        assert!(out.status.success(), "{}", String::from_utf8_lossy(&out.stderr));
+        String::from_utf8(out.stdout).unwrap()
+    };
+    let text = said(&["--speed", "480"]);
+    let place = |words: &str| text.find(words).unwrap_or_else(|| panic!("no {words} in {text}"));
+    let bilateral =
+        place("480 rad/s, bilateral law: locked; nearest found: adhesive at speed 411.");
+    let pushes = place("480 rad/s, pushes only: decay; ");
+    assert!(bilateral < pushes && pushes < place("omega_c  "), "{text}");
+    assert!(
+        text.replace('\n', " ").contains("no pulse tried from 0 to 2 times this one"),
+        "{text}"
+    );
+    assert!(text.contains("\nspeed [rad/s]") && text.contains("\nclearance [um]"), "{text}");
+    let rpm = said(&["--speed", "480 rad/s", "--rpm"]);
+    assert!(
+        rpm.contains("4584 rpm, bilateral law: locked") && rpm.contains("\nspeed [rpm]"),
+        "{rpm}"
+    );
+    let without = said(&["--speed", "480", "--no-search"]);
+    assert!(!without.contains("nearest") && without.contains("omega_c  "), "{without}");
+    let answer = json(&["margins", "--speed", "480", "--json"]);
+    let verdicts = [&answer, &answer["pushes_only"]].map(|law| {
+        let changes = law["changes"].as_array().unwrap();
+        assert_eq!(changes.len(), 5, "{law}");
+        (law["contact"].as_str().unwrap(), law["verdict"].as_str().unwrap())
+    });
+    assert_eq!(verdicts, [("bilateral", "locked"), ("unilateral", "decay")]);
+    let speed = &answer["changes"][0];
+    assert_eq!((&speed["path"], &speed["above"]), (&"operation.speed_rad_s".into(), &Value::Null));
+    close(speed["below"]["value"].as_f64(), 411.933_517, 1e-3, "the speed of the lock");
+    assert_eq!(speed["below"]["verdict"], "adhesive");
+    let bare = json(&["margins", "--speed", "480", "--no-search", "--json"]);
+    assert!(bare["changes"].is_null() && bare["verdict"].is_null(), "{bare}");
+}

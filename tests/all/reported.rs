@@ -58,7 +58,7 @@ fn a_lock_on_a_lining_is_said_to_be_of_two_groups() {
     assert!(run.contains(", where locks of two groups begin"), "{run}");
     let hbm = told(&[&["hbm", "soft-lining", "--smooth", "--speed", "450"][..], &stiff].concat());
     assert!(hbm.contains(", lock-in of two groups from "), "{hbm}");
-    let margins = told(&[&["margins", "soft-lining"][..], &stiff].concat());
+    let margins = told(&[&["margins", "soft-lining", "--no-search"][..], &stiff].concat());
     assert!(margins.contains(": of two groups on the lining"), "{margins}");
     // Rigid contact has no others.
     assert!(!told(&["run", "rub", "--end", "1e-4", "--step", "1e-6"]).contains("two groups"));
@@ -86,7 +86,7 @@ fn results_of_equal_blades_say_so() {
         &["hbm", "coincidence", "--coincidence", "--speed", "406"],
         &["hbm", "rub", "--whirl", "--speed", "450"],
         &["hbm", "rub"],
-        &["margins", "rub"],
+        &["margins", "rub", "--no-search"],
     ] {
         for (more, count) in [(&[][..], 0), (&full, 1)] {
             let asked = [command, more].concat();

@@ -134,6 +134,39 @@ fn every_scene_is_made_again_by_its_command_also_where_a_mode_hides_values() {
 }
 
 #[test]
+fn a_frequency_of_turning_blades_gives_that_at_rest_for_each_mode() {
+    let square = |x: f64| x * x;
+    let at = |rest: f64, b: f64, omega: f64| (square(TAU * rest) + b * square(omega)).sqrt();
+    let toml = format!(
+        "[bladed_disk]\nblades = 36\ncentrifugal_stiffening = 0.5
+        [[bladed_disk.modes]]\nnodal_diameters = 5\nfrequency_hz = {}\nat_speed_rad_s = 300
+        [[bladed_disk.modes]]\nnodal_diameters = 5\nfrequency_hz = {}\nat_speed_rad_s = \"9000 rpm\"
+        [[bladed_disk.modes]]\nnodal_diameters = 6\nfrequency_hz = {}\nat_speed_rad_s = 700
+        centrifugal_stiffening = 1.9
+        [[bladed_disk.modes]]\nnodal_diameters = 7\nfrequency_hz = 93.0",
+        at(92.75, 1.7, 300.0) / TAU,
+        at(92.75, 1.7, TAU * 150.0) / TAU,
+        at(95.0, 1.9, 700.0) / TAU,
+    );
+    let mut scene = Scene::from_toml(&toml).unwrap();
+    assert_eq!(Scene::from_toml(&scene.to_toml()).unwrap(), scene);
+    for (diameters, rest, b) in [("5", 92.75, 1.7), ("6", 95.0, 1.9), ("7", 93.0, 0.5)] {
+        scene.set(DIAMETERS, diameters).unwrap();
+        let machine = scene.machine();
+        close(machine.omega_bd_at_rest(), TAU * rest, 1e-12);
+        close(machine.stiffening(), b, 1e-11);
+        close(machine.at(600.0).omega_bd, at(rest, b, 600.0), 1e-12);
+    }
+    // The key is that of the mode in use; others keep theirs.
+    scene.set(DIAMETERS, "6").unwrap();
+    scene.set("bladed_disk.centrifugal_stiffening", "0").unwrap();
+    assert_eq!(scene.bladed_disk.centrifugal_stiffening, 0.5);
+    assert!(!scene.changes_with_speed() && scene.machine().stiffening() == 0.0);
+    scene.set(DIAMETERS, "7").unwrap();
+    assert!(scene.changes_with_speed());
+}
+
+#[test]
 fn bad_modes_and_units_are_refused_by_name() {
     for (toml, start) in [
         (
@@ -167,6 +200,23 @@ fn bad_modes_and_units_are_refused_by_name() {
         (
             "[[bladed_disk.modes]]\nnodal_diameters = 11\nfrequency_hz = 20\n",
             "bladed_disk.modes.frequency_hz = 20.0000: allowed is above 38.2",
+        ),
+        (
+            "[[bladed_disk.modes]]\nnodal_diameters = 3\nfrequency_hz = 100\nat_speed_rad_s = 900\n\
+             centrifugal_stiffening = 2.0\n",
+            "bladed_disk.modes.frequency_hz = 100 Hz at 900 rad/s: allowed is two of them, the higher",
+        ),
+        (
+            "[[bladed_disk.modes]]\nnodal_diameters = 3\nfrequency_hz = 100\nat_speed_rad_s = 9\n",
+            "bladed_disk.modes.frequency_hz = 100 Hz at 9 rad/s: allowed is two of them",
+        ),
+        (
+            "[[bladed_disk.modes]]\nnodal_diameters = 3\nat_speed_rad_s = 9\n",
+            "bladed_disk.modes.frequency_hz = 0 Hz at 9 rad/s: allowed is two of them, the higher",
+        ),
+        (
+            "[[casing.modes]]\nnodal_diameters = 3\nfrequency_hz = 9\nat_speed_rad_s = 9\n",
+            "unknown key casing.modes[1].at_speed_rad_s; allowed: nodal_diameters, modal_mass_kg",
         ),
         ("[casing]\nmodes = 3\n", "casing.modes = 3: allowed is a list of modes"),
         (

@@ -43,9 +43,12 @@ fn every_row_has_the_limits_that_margins_finds_for_its_diameters() {
             own.solver.step_s = 1e-7;
             let margins = Margins::of(&own.checked().unwrap());
             let forward = own.operation.speed_rad_s > 0.0;
-            for limit in margins.limits.iter().filter(|limit| limit.quantity == Quantity::Speed) {
+            let speeds = margins.limits.iter().filter(|limit| limit.quantity == Quantity::Speed);
+            for limit in speeds {
                 let found = row.limit(limit.name, forward);
-                assert_eq!(found.map(|found| found.value.abs()), limit.value, "{}", limit.name);
+                // What the paper's algorithm does below Omega_lock is no limit of a machine.
+                let of_machine = limit.value.filter(|_| limit.name != LimitName::OmegaAdhesive);
+                assert_eq!(found.map(|found| found.value.abs()), of_machine, "{}", limit.name);
                 let Some(found) = found else { continue };
                 assert_eq!(found.margin, limit.margin, "{}", limit.name);
                 let by = limit.sensitivities.by("casing.modal_mass_kg").unwrap();
@@ -77,7 +80,6 @@ fn every_row_of_the_paper_is_what_the_campbell_diagram_says() {
         for (name, field) in [
             ("omega_c", "omega_c_rad_s"),
             ("omega_lock", "omega_lock_rad_s"),
-            ("omega_adhesive", "omega_adhesive_rad_s"),
             ("coincidence", "coincidence_rad_s"),
         ] {
             assert_eq!(limit(name), single[field], "{diameters}: {name}");
@@ -117,29 +119,121 @@ fn the_numbers_are_those_of_independent_formulas() {
     assert!(survey.rows[0].limits.is_empty());
 }
 
+/// The lines of the rows, without spaces at their beginning.
+fn rows_of(text: &str) -> Vec<&str> {
+    let rows = text.lines().skip_while(|line| !line.starts_with("n_d")).skip(1);
+    rows.take_while(|line| !line.is_empty()).map(str::trim_start).collect()
+}
+
 #[test]
-fn what_lies_in_the_range_is_told_the_nearest_first() {
-    let scene = scene("paper-nd3", &[("operation.speed_rad_s", "300")]);
-    let survey = Survey::of(&scene, Some([200.0, 320.0]), None);
-    let nearest = survey.nearest();
-    assert!(nearest.len() > 4 && nearest.iter().all(|(n, _)| [3, 4].contains(n)));
-    let far: Vec<f64> = nearest.iter().map(|(_, limit)| (limit.value - 300.0).abs()).collect();
-    assert!(far.is_sorted());
-    // Of diameters without a mode nothing is told.
-    let all = survey.rows.iter().filter(|row| row.modes_known).flat_map(|row| &row.limits);
-    let inside = all.clone().filter(|limit| (200.0..=320.0).contains(&limit.value)).count();
-    assert_eq!(inside, nearest.len());
-    assert!(all.clone().all(|limit| limit.in_range.is_some()));
-    let told = text("survey paper-nd3 --speed 300 --range 200:320");
-    let joined = told.split_whitespace().collect::<Vec<_>>().join(" ");
-    for words in
-        [" >3 139.84 ", "* marks what lies from 200 rad/s to 320 rad/s", "nearest to 300 rad/s"]
-    {
-        assert!(joined.contains(words), "{words}: {told}");
+fn a_row_says_first_where_it_can_lock_also_where_the_limit_lies_below_the_range() {
+    let folder = tempfile::tempdir().unwrap();
+    let (file, _) = crate::own_machine::made(folder.path());
+    let told = |range: &str| text(&format!("survey {file} --rpm --range {range}"));
+    let whole = told("6000:11000");
+    let said = "From 6000 rpm to 11000 rpm waves of 4, 5 and 6 nodal diameters can lock.";
+    assert!(whole.contains(said), "{whole}");
+    let rows = rows_of(&whole);
+    for (row, start) in rows.iter().zip(["4 ", ">5 ", "6 "]) {
+        assert!(row.starts_with(start) && row.contains(" can lock: whole range  ####"), "{whole}");
     }
-    assert!(told.lines().all(|line| line.chars().count() <= 110), "{told}");
-    let none = text("survey paper-nd3 --range 3000:3100");
-    assert!(none.contains("No limit lies in the range"), "{none}");
+    assert!(rows[3].starts_with("16 more have no modes of their own: --all"), "{whole}");
+    // Omega_lock of 4, 5 and 6 is 4790, 5653 and 5432 rpm: the first one that locks stands first.
+    let part = told("4700:5500");
+    let rows = rows_of(&part);
+    for (row, start) in rows.iter().zip(["4 ", "6 ", ">5 "]) {
+        assert!(row.starts_with(start), "{part}");
+    }
+    assert!(rows[0].contains("can lock: from 4790 rpm  ..####"), "{part}");
+    assert!(rows[1].contains("can lock: from 5432 rpm  ................"), "{part}");
+    assert!(rows[2].contains("no lock") && !rows[2].contains('#'), "{part}");
+    let json = json(&["survey", &file, "--range", "4700rpm:5500rpm", "--json"]);
+    let row = &json["rows"][4];
+    let lock = row["limits"].as_array().unwrap().iter().find(|one| one["name"] == "omega_lock");
+    assert_eq!(
+        row["locks_in_range"][0],
+        serde_json::json!([lock.unwrap()["value"], json["range_rad_s"][1]])
+    );
+    assert_eq!(json["rows"][5]["locks_in_range"], serde_json::json!([]));
+}
+
+#[test]
+fn a_lock_counts_where_both_push_and_where_it_lasts() {
+    for name in ["paper-nd3", "rub", "long-tip", "friction-lock"] {
+        let range = "201:801";
+        let survey = json(&["survey", name, "--range", range, "--json"]);
+        let points = json(&["hbm", name, "--nd", "3", "--speed", "201:801:25", "--json"]);
+        let mut found = [0, 0];
+        for point in points["points"].as_array().unwrap() {
+            let speed = point["speed_rad_s"].as_f64().unwrap();
+            let holds = point["admissible"] == true && point["stable"] == true;
+            let locks = survey["rows"][3]["locks_in_range"].as_array().unwrap();
+            let end = |span: &serde_json::Value, place: usize| span[place].as_f64().unwrap();
+            let inside = locks.iter().any(|span| end(span, 0) <= speed && speed <= end(span, 1));
+            assert_eq!(holds, inside, "{name} at {speed}: {point}");
+            found[usize::from(holds)] += 1;
+        }
+        assert!(found.iter().all(|count| *count > 3), "{name}: {found:?}");
+    }
+}
+
+#[test]
+fn tips_that_move_outward_whirl_from_where_whirl_begins_or_the_range() {
+    let whirls = |words: &str, diameters: usize| {
+        let survey = json(&words.split(' ').chain(["--json"]).collect::<Vec<_>>());
+        let found = survey["rows"][diameters]["whirls_in_range"].as_array().unwrap().clone();
+        found.iter().map(|speed| speed.as_f64().unwrap()).collect::<Vec<_>>()
+    };
+    let begins = whirls("survey rub --range 300:500", 3);
+    assert!((begins[0] / 414.339 - 1.0).abs() < 1e-6 && begins.len() == 1, "{begins:?}");
+    // It does not end there.
+    assert_eq!(whirls("survey rub --range 450:500", 3), [450.0]);
+    assert!(whirls("survey rub --range 300:400", 3).is_empty());
+    // On a lining that is pressed at rest the coincidence is known.
+    let felt = whirls("survey coincidence --range 300:500", 3);
+    assert!((felt[0] / 388.315 - 1.0).abs() < 1e-6 && felt.len() == 1, "{felt:?}");
+    assert!(whirls("survey coincidence --range 300:380", 3).is_empty());
+    // The paper's tips do not move outward.
+    assert!(whirls("survey paper-nd3 --range 300:500", 3).is_empty());
+    let told = text("survey coincidence --range 300:500");
+    assert!(rows_of(&told)[1].contains("no lock; whirl: 388.3 rad/s  ........w..."), "{told}");
+    assert!(text("survey rub").contains("; whirl: from 414.3 rad/s"));
+}
+
+#[test]
+fn what_is_not_known_of_a_shape_is_not_told_as_no_lock() {
+    let words = "survey paper-nd3 --set casing.lobes=2 --set casing.out_of_round_m=1e-6";
+    let told = text(words);
+    assert!(told.contains("no wave can lock; of these tips or this shape it is not known of all."));
+    assert!(rows_of(&told)[0].contains("not known: runs have it"), "{told}");
+    let survey = json(&words.split(' ').chain(["--json"]).collect::<Vec<_>>());
+    assert!(survey["rows"][3]["locks_in_range"].is_null());
+    assert_eq!(survey["rows"][0]["locks_in_range"], serde_json::json!([]));
+}
+
+#[test]
+fn rows_without_modes_of_their_own_come_with_all_of_them_and_are_drawn_hollow() {
+    let few = text("survey paper-nd3 --range 200:320");
+    assert_eq!(rows_of(&few).len(), 3, "{few}");
+    let all = text("survey paper-nd3 --range 200:320 --all");
+    assert!(rows_of(&all).len() == 12 && all.contains(" 5? "), "{all}");
+    assert!(all.lines().all(|line| line.chars().count() <= 110), "{all}");
+    // The row of the scene is there, whatever it has.
+    assert!(text("survey paper-nd3 --nd 5").contains(">5? "));
+    let survey = Survey::of(&scene("paper-nd3", &[]), None, None);
+    let figure = |all| rubscope::report::survey::figure(&survey, all);
+    let points = |all| {
+        let [of, _] = &figure(all).panels[..] else { panic!() };
+        of.series[..4].iter().map(|series| series.points.len()).collect::<Vec<_>>()
+    };
+    assert_eq!(points(false), [2, 0, 2, 0]);
+    assert_eq!(points(true), [2, 10, 2, 10]);
+    // A mark that is left out is counted.
+    assert!(
+        figure(true).note.contains("2 limits beyond 1000 rad/s left out."),
+        "{}",
+        figure(true).note
+    );
 }
 
 #[test]
@@ -192,7 +286,7 @@ fn a_bare_speed_is_in_rpm_with_the_option_and_keys_and_other_units_stay() {
 fn speeds_are_told_in_turns_a_minute_where_that_is_wanted() {
     let told = text("survey paper-nd3 --range 2000rpm:3000rpm --rpm");
     let joined = told.split_whitespace().collect::<Vec<_>>().join(" ");
-    for words in ["speeds in rpm", "from 2000 rpm to 3000 rpm", "2796.8"] {
+    for words in ["speeds in rpm", "From 2000 rpm to 3000 rpm", "2796.8"] {
         assert!(joined.contains(words), "{words}: {told}");
     }
     assert!(!told.contains("rad/s"), "{told}");
@@ -233,6 +327,9 @@ fn the_survey_is_written_as_csv_and_as_a_chart() {
         assert!(svg.contains(words), "{words}");
     }
     assert!(!svg.contains("NaN"));
+    for words in ["can lock", "from 200 rad/s", "to 320 rad/s"] {
+        assert!(svg.contains(words), "{words}: {svg}");
+    }
     // Nothing that belongs to the text alone; marks stand by themselves.
     let shown = svg.split_once("</desc>").unwrap().1;
     assert!(!shown.contains("* marks") && !shown.contains("--range"), "{shown}");
@@ -249,12 +346,18 @@ fn the_survey_is_written_as_csv_and_as_a_chart() {
 
 #[test]
 fn a_range_that_is_none_is_refused_by_name() {
-    assert_eq!(speed_range("0:60 rpm").unwrap()[1], std::f64::consts::TAU);
+    assert_eq!(speed_range("--range", "0:60 rpm").unwrap()[1], std::f64::consts::TAU);
     for (words, start) in [
-        ("survey --range 11000rpm:6000rpm", "rubscope: --range 11000rpm:6000rpm: allowed is FROM:"),
-        ("survey --range 5", "rubscope: --range 5: allowed is FROM:TO, two speeds, the lower one"),
-        ("survey --range 0:3kN", "rubscope: --range 0:3kN: this is a force; it takes rad/s, rpm"),
-        ("survey --range 0:nan", "rubscope: --range 0:nan: allowed is FROM:TO"),
+        (
+            "survey --range 11000rpm:6000rpm",
+            "rubscope: --range = 11000rpm:6000rpm: allowed is FROM:",
+        ),
+        (
+            "survey --range 5",
+            "rubscope: --range = 5: allowed is FROM:TO, two speeds, the lower one",
+        ),
+        ("survey --range 0:3kN", "rubscope: --range = 0:3kN: this is a force; it takes rad/s, rpm"),
+        ("survey --range 0:nan", "rubscope: --range = 0:nan: allowed is FROM:TO"),
         ("survey --by casing", "rubscope: parameter casing: allowed is one of clearance, "),
         ("survey --out x.npz", "rubscope: --out"),
     ] {
@@ -268,7 +371,7 @@ fn thousands_of_blades_have_a_row_each() {
     let blades = [("bladed_disk.blades", "4096")];
     let survey = Survey::of(&scene("paper-nd3", &blades), Some([1.0, 2.0]), None);
     assert_eq!(survey.rows.len(), 2049);
-    let told = text("survey paper-nd3 --set bladed_disk.blades=4096 --range 1:2");
+    let told = text("survey paper-nd3 --set bladed_disk.blades=4096 --range 1:2 --all");
     assert!(told.contains(" more: --json or --out") && told.lines().count() < 100, "{told}");
 }
 

@@ -54,7 +54,8 @@ pub use round_whirl::{
     RoundWhirl, RoundWhirlLoads, WhirlOnset, round_whirls, whirl_beginnings, whirl_onset,
     whirl_onsets,
 };
-pub use roundness::roundness;
+pub(crate) use roundness::lobes_of;
+pub use roundness::{roundness, roundness_needed};
 pub use slip::{
     Crossing, NoSlip, SlipLimit, SlipOrbit, SlipPoint, slip_limits, slip_map, slip_over,
 };

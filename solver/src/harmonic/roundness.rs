@@ -8,6 +8,21 @@ use nalgebra::Complex;
 
 use super::Corner;
 use crate::model::{Machine, Number};
+use crate::tolerances::ROUND_ENOUGH;
+
+/// Returns the numbers of lobes of which the roundness of a lock is told.
+pub(crate) fn lobes_of(diameters: u32) -> impl Iterator<Item = u32> {
+    (1..=4).chain((diameters > 4).then_some(diameters))
+}
+
+/// Returns the roundness that the lock of a machine needs of its casing at a speed \[m\], the
+/// least of all shapes; none where it is not known, and where usual casings have it.
+#[must_use]
+pub fn roundness_needed(machine: &Machine, speed: f64) -> Option<f64> {
+    let lobes = lobes_of(machine.polygon.nodal_diameters);
+    let needed = lobes.map_while(|lobes| roundness(machine, speed, lobes)).reduce(f64::min)?;
+    (needed < ROUND_ENOUGH * machine.clearance() && !machine.is_uneven()).then_some(needed)
+}
 
 /// Returns the largest height of `lobes` lobes with which the lock of a machine lasts at a
 /// speed \[m\]; none where it has no lock there, and where this is not known: with blades that

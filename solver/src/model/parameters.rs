@@ -22,6 +22,8 @@ pub struct Mode {
     pub frequency_hz: Option<f64>,
     /// Damping ratio.
     pub damping_ratio: Option<f64>,
+    /// Centrifugal stiffening of blades, `B`.
+    pub stiffening: Option<f64>,
 }
 
 /// A value of a mode.
@@ -33,6 +35,8 @@ pub enum ModePart {
     Stiffness,
     /// Damping ratio.
     Damping,
+    /// Centrifugal stiffening, of blades alone.
+    Stiffening,
 }
 
 /// Returns the frequency that the mode of so many diameters has instead of a stiffness \[Hz\].
@@ -48,6 +52,7 @@ impl Mode {
             ModePart::Mass => self.mass,
             ModePart::Stiffness => self.stiffness,
             ModePart::Damping => self.damping_ratio,
+            ModePart::Stiffening => self.stiffening,
         }
     }
 
@@ -57,6 +62,7 @@ impl Mode {
             ModePart::Mass => &mut self.mass,
             ModePart::Stiffness => &mut self.stiffness,
             ModePart::Damping => &mut self.damping_ratio,
+            ModePart::Stiffening => &mut self.stiffening,
         }
     }
 }
@@ -88,7 +94,11 @@ fn named<S: Serializer>(modes: &[Mode], names: [&str; 2], out: S) -> Result<S::O
     out.collect_seq(modes.iter().map(|mode| {
         let parts = [(names[0], mode.mass), (names[1], mode.stiffness)];
         let mut all = BTreeMap::from([("nodal_diameters", Number::Whole(mode.nodal_diameters))]);
-        let more = [("frequency_hz", mode.frequency_hz), ("damping_ratio", mode.damping_ratio)];
+        let more = [
+            ("frequency_hz", mode.frequency_hz),
+            ("damping_ratio", mode.damping_ratio),
+            ("centrifugal_stiffening", mode.stiffening),
+        ];
         let known = parts.into_iter().chain(more);
         all.extend(known.filter_map(|(name, value)| Some((name, Number::Real(value?)))));
         all
@@ -164,6 +174,13 @@ impl<T> BladedDisk<T> {
 }
 
 impl BladedDisk {
+    /// Returns whether its blades stiffen with the speed, in any mode.
+    #[must_use]
+    pub fn stiffens(&self) -> bool {
+        let of_modes = self.modes.iter().filter_map(|mode| mode.stiffening);
+        of_modes.chain([self.centrifugal_stiffening]).any(|stiffening| stiffening != 0.0)
+    }
+
     /// Returns it with the values of its mode of these diameters, and without other modes.
     #[must_use]
     pub fn at(&self, diameters: u32) -> Self {
@@ -179,6 +196,7 @@ impl BladedDisk {
             inertia_kg_m2,
             stiffness_nm_per_rad: by_frequency.unwrap_or_else(stiffness),
             damping_ratio: of(ModePart::Damping, self.damping_ratio),
+            centrifugal_stiffening: of(ModePart::Stiffening, self.centrifugal_stiffening),
             tips_m: self.tips_m.clone(),
             modes: Vec::new(),
             ..*self
@@ -216,6 +234,7 @@ impl BladedDisk {
             ModePart::Mass => &mut self.inertia_kg_m2,
             ModePart::Stiffness => &mut self.stiffness_nm_per_rad,
             ModePart::Damping => &mut self.damping_ratio,
+            ModePart::Stiffening => &mut self.centrifugal_stiffening,
         };
         own_part(&mut self.modes, diameters, part).unwrap_or(own)
     }
@@ -316,7 +335,8 @@ impl Casing {
         let own = match part {
             ModePart::Mass => &mut self.modal_mass_kg,
             ModePart::Stiffness => &mut self.modal_stiffness_n_per_m,
-            ModePart::Damping => &mut self.damping_ratio,
+            // A casing does not turn: no key asks for its stiffening.
+            ModePart::Damping | ModePart::Stiffening => &mut self.damping_ratio,
         };
         own_part(&mut self.modes, diameters, part).unwrap_or(own)
     }

@@ -124,6 +124,12 @@ pub struct RunReport {
     /// The lock that broke on the way, and the speed of the rotor then \[rad/s\].
     #[serde(skip)]
     pub broken: Option<(Hold, f64)>,
+    /// Rotor speed at which a run-up (true) or run-down came to its last contact \[rad/s\].
+    #[serde(skip)]
+    pub caught: Option<(f64, bool)>,
+    /// Verdict of the event solver, whose contact only pushes, where it was asked.
+    #[serde(skip)]
+    pub pushes_only: Option<Verdict>,
     /// Why the run stopped early.
     #[serde(skip)]
     pub failure: Option<Failure>,
@@ -519,6 +525,8 @@ pub(super) fn report(
         end_speed_rad_s: motion.rotor().speed(state.t_s),
         end_machine: machine.clone(),
         broken: lock_that_broke(motion),
+        caught: caught_at(motion),
+        pushes_only: None,
         failure,
         reached: VerdictReached::of(motion, verdict),
         course,
@@ -547,6 +555,15 @@ pub fn lock_that_broke(motion: &Motion) -> Option<(Hold, f64)> {
     let period = TAU / motion.machine().omega_c;
     let hold = motion.contacts().longest_hold.filter(|hold| hold.length() >= period)?;
     Some((hold, motion.rotor().speed(hold.ended)))
+}
+
+/// The rotor speed at which a motion came to the blades that it touches now, where the speed
+/// changes \[rad/s\], and whether it becomes faster.
+#[must_use]
+pub fn caught_at(motion: &Motion) -> Option<(f64, bool)> {
+    let (since, ramp) = (motion.contacts().since, motion.rotor().ramp());
+    let speed = motion.rotor().speed(since);
+    (ramp != 0.0 && since > 0.0).then_some((speed, ramp * speed > 0.0))
 }
 
 #[cfg(test)]

@@ -180,17 +180,19 @@ impl RunReport {
         }
     }
 
-    /// Finds the verdict of the event solver, where this run is by steps of rigid contact
-    /// that only pushes and nothing is changed on the way; kept where it is another.
+    /// Finds the verdict of the event solver, whose contact only pushes, where this run is by
+    /// steps of contact that only pushes, too, or that pulled, and nothing is changed on the way.
+    /// Of a run that only pushes it is kept in the outcome where it is another.
     pub fn ask_events(&mut self, script: &Script, go_on: GoOn<'_>) {
         let by_steps = self.solver.kind == SolverKind::Explicit;
         let pushes = by_steps && self.solver.contact == ContactLaw::Unilateral;
-        if !pushes || !script.changes().is_empty() {
+        if !(pushes || self.checks.tensile_steps > 0) || !script.changes().is_empty() {
             return;
         }
         let Ok(scene) = self.scene.as_reference().checked() else { return };
-        let other = run_to_verdict(&scene, go_on).map(|reached| reached.verdict);
-        self.outcome.by_events = other.filter(|other| *other != self.outcome.verdict);
+        self.pushes_only = run_to_verdict(&scene, go_on).map(|reached| reached.verdict);
+        let other = self.pushes_only.filter(|other| *other != self.outcome.verdict);
+        self.outcome.by_events = other.filter(|_| pushes);
     }
 
     /// The longest of ever halved steps with which a run that failed goes on for as long

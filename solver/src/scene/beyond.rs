@@ -24,7 +24,7 @@ impl Scene {
     /// Returns whether the machine changes with the rotor speed in a run.
     #[must_use]
     pub fn changes_with_speed(&self) -> bool {
-        let stiffens = self.bladed_disk.centrifugal_stiffening != 0.0;
+        let stiffens = self.disk_in_use().centrifugal_stiffening != 0.0;
         let grows = self.casing.clearance_loss_m_s2 != 0.0;
         grows || (stiffens && self.solver.model != ModelSize::Rigid)
     }

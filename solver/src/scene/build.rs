@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 
 use crate::numeric::rounding::rounded;
 
-use super::modes::{hertz_of, number_of};
+use super::modes::{frequency_at_rest, hertz_of, number_of};
 use super::{Allowed, Scene, SceneError, keys};
 use crate::model::of_neighbours;
 
@@ -24,6 +24,8 @@ pub struct Family {
     pub modal_mass_kg: f64,
     /// Its damping ratio, if it is known.
     pub damping_ratio: Option<f64>,
+    /// What blades stiffen by with the speed, `B`, if it is known.
+    pub stiffening: Option<f64>,
 }
 
 /// What a scene is made from.
@@ -96,6 +98,8 @@ impl ModalData {
         ));
         line(&format!("coupling_nm_per_rad = {coupling:?}  # between two blades k_bb, N m/rad"));
         line(&format!("damping_ratio = {:?}  # of every blade mode", self.damping_ratios[1]));
+        let stiffening = disk.stiffening.unwrap_or(0.0);
+        line(&format!("centrifugal_stiffening = {stiffening:?}  # B: omega^2 + B Omega^2"));
         if self.disk.len() > 1 {
             line("");
             line(
@@ -109,8 +113,10 @@ impl ModalData {
             line(&format!("frequency_hz = {:?}", mode.frequency_hz));
             let inertia = self.inertia(mode, length);
             line(&format!("inertia_kg_m2 = {inertia:?}"));
-            if let Some(ratio) = mode.damping_ratio {
-                line(&format!("damping_ratio = {ratio:?}"));
+            for (name, value) in
+                [("damping_ratio", mode.damping_ratio), (STIFFENING, mode.stiffening)]
+            {
+                value.iter().for_each(|value| line(&format!("{name} = {value:?}")));
             }
         }
         line("");
@@ -178,9 +184,14 @@ impl ModalData {
     }
 }
 
+/// A mode of a table, with each frequency and its speed \[Hz, rad/s\].
+type Measured = (Family, Vec<(f64, f64)>);
+
 /// Reads the modes of a table: a line of names, then a line for each mode. Names are
 /// `structure` (casing or disk), `nodal_diameters`, `frequency_hz`, `modal_mass_kg`, and
-/// `damping_ratio` if there is one, also as `Frequency [Hz]`. Cells stand between commas, or
+/// `damping_ratio` if there is one, also as `Frequency [Hz]`. A line of the disk may have the
+/// rotor speed of its frequency (`Speed [rpm]`) and `centrifugal_stiffening`; two lines of the same
+/// diameters at two speeds are one mode, with the mass of the first. Cells stand between commas, or
 /// between semicolons or tabs, with which numbers may have a decimal comma. Empty lines and
 /// those that begin with `#` are left out, and columns of other names.
 ///
@@ -214,7 +225,7 @@ pub fn read_modes(text: &str) -> Result<[Vec<Family>; 2], SceneError> {
         let allowed = format!("{STRUCTURE}, {}, each once", COLUMNS.join(", "));
         return Err(SceneError::refused("the first line", names.join(","), allowed));
     }
-    let mut found = [Vec::new(), Vec::new()];
+    let mut found: [Vec<Measured>; 2] = Default::default();
     for record in records {
         let (line, record) = record?;
         if record.len() != names.len() {
@@ -233,18 +244,44 @@ pub fn read_modes(text: &str) -> Result<[Vec<Family>; 2], SceneError> {
             "disk" => 1,
             other => return Err(SceneError::refused(path(STRUCTURE), other, "casing or disk")),
         };
-        let damping = Some(cell("damping_ratio")).filter(|cell| !cell.is_empty());
+        let given = |name: &str| Some(cell(name)).filter(|cell| !cell.is_empty());
         let numbers = COLUMNS.map(cell);
-        let mode = Family::read(numbers.each_ref().map(String::as_str), damping.as_deref(), &path)?;
-        let modes: &mut Vec<Family> = &mut found[structure];
-        if modes.iter().any(|known| known.nodal_diameters == mode.nodal_diameters) {
-            let given = format!("{} twice", mode.nodal_diameters);
-            let allowed = "one mode for each number of diameters";
-            return Err(SceneError::refused(path(COLUMNS[0]), given, allowed));
+        let damping = given("damping_ratio");
+        let mut mode =
+            Family::read(numbers.each_ref().map(String::as_str), damping.as_deref(), &path)?;
+        let number = |name: &str, key: &str, unit: &str| {
+            let text = given(name)?;
+            let bare = text.trim().parse::<f64>().is_ok();
+            let text = if bare { format!("{text} {unit}") } else { text };
+            Some(keys::find(key).and_then(|key| number_of(&path(name), &text, key)))
+        };
+        let mut speed = None;
+        if structure == 1 {
+            mode.stiffening = number(STIFFENING, keys::STIFFENING, "").transpose()?;
+            let read = SPEEDS.iter().find_map(|(name, unit)| number(name, keys::SPEED, unit));
+            speed = read.transpose()?.map(|speed| (mode.frequency_hz, speed));
         }
-        modes.push(mode);
+        let modes = &mut found[structure];
+        let same = |(known, _): &&mut Measured| known.nodal_diameters == mode.nodal_diameters;
+        match (modes.iter_mut().find(same), speed) {
+            (None, speed) => modes.push((mode, speed.into_iter().collect())),
+            (Some((known, speeds)), Some(speed)) if speeds.len() == 1 => {
+                known.stiffening = known.stiffening.or(mode.stiffening);
+                speeds.push(speed);
+            }
+            _ => {
+                let given = format!("{} twice", mode.nodal_diameters);
+                let allowed = "one mode for each number of diameters, of the disk also two speeds";
+                return Err(SceneError::refused(path(COLUMNS[0]), given, allowed));
+            }
+        }
     }
-    Ok(found)
+    for (mode, speeds) in found[1].iter_mut().filter(|(_, speeds)| !speeds.is_empty()) {
+        let name = format!("disk, {} nodal diameters, frequency_hz", mode.nodal_diameters);
+        let (rest, stiffening) = frequency_at_rest(&name, speeds, mode.stiffening)?;
+        (mode.frequency_hz, mode.stiffening) = (digits(rest), stiffening.map(digits));
+    }
+    Ok(found.map(|modes| modes.into_iter().map(|(mode, _)| mode).collect()))
 }
 
 /// The name of a column as keys are written: `frequency_hz` for `Frequency [Hz]`.
@@ -263,6 +300,11 @@ fn digits(x: f64) -> f64 {
 const STRUCTURE: &str = "structure";
 /// What a mode needs.
 const COLUMNS: [&str; 3] = ["nodal_diameters", "frequency_hz", "modal_mass_kg"];
+/// What a mode of the disk may have: the speed of its frequency, with the unit of bare numbers,
+const SPEEDS: [(&str, &str); 4] =
+    [("speed_rpm", "rpm"), ("speed_1_min", "rpm"), ("speed_rad_s", "rad/s"), ("speed", "")];
+/// and what it stiffens by.
+const STIFFENING: &str = "centrifugal_stiffening";
 
 impl Family {
     /// A mode from the texts of its diameters, frequency and mass, and its damping ratio;
@@ -290,6 +332,7 @@ impl Family {
             frequency_hz: hertz_of(&of_frequency, frequency)?,
             modal_mass_kg: number_of(&of_mass, mass, keys::find(keys::CASING_MASS)?)?,
             damping_ratio: damping.map(ratio).transpose()?,
+            stiffening: None,
         })
     }
 }
@@ -304,6 +347,7 @@ mod tests {
             frequency_hz,
             modal_mass_kg,
             damping_ratio: None,
+            stiffening: None,
         };
         ModalData {
             title: "A \"quoted\" machine".into(),
@@ -353,6 +397,64 @@ mod tests {
         }
     }
 
+    #[test]
+    fn frequencies_at_two_speeds_give_those_at_rest_and_the_stiffening() {
+        let (rest, stiffening) = (352.0_f64, 1.6);
+        let at = |rpm: f64| (rest * rest + stiffening * (rpm / 60.0).powi(2)).sqrt();
+        let head = "Structure;Nodal diameters;Frequency [Hz];Modal mass [kg];Speed [rpm]";
+        for rpm in [0.0, 6000.0] {
+            let table = format!(
+                "{head};Centrifugal stiffening\ncasing;2;145;9,8;;\ndisk;2;{};3,9;{rpm};\n\
+                 disk;2;{};4,1;9500 rpm;\ndisk;3;{};3,7;157.0796326794896 rad/s;1,6\ndisk;4;386;3;;",
+                at(rpm),
+                at(9500.0),
+                at(1500.0)
+            );
+            let [casing, disk] = read_modes(&table).unwrap();
+            assert_eq!((casing[0].frequency_hz, casing[0].stiffening), (145.0, None));
+            for mode in &disk[..2] {
+                close(mode.frequency_hz, rest);
+                close(mode.stiffening.unwrap(), stiffening);
+            }
+            assert_eq!((disk[0].modal_mass_kg, disk.len()), (3.9, 3));
+            assert_eq!((disk[2].frequency_hz, disk[2].stiffening), (386.0, None));
+        }
+        // It comes back from the scene, at any speed.
+        let [_, disk] = read_modes(&format!(
+            "{head}\ndisk;5;352;3,9;0\ndisk;5;{};3,9;9500\ndisk;4;300;3;",
+            at(9500.0)
+        ))
+        .unwrap();
+        let scene = Scene::from_toml(&ModalData { disk, ..data() }.to_toml().unwrap()).unwrap();
+        let machine = scene.machine();
+        close(machine.at(TAU * 7000.0 / 60.0).omega_bd, TAU * at(7000.0));
+        for (rows, start) in [
+            (
+                "disk;2;352;3;0\ndisk;2;340;3;9000",
+                "disk, 2 nodal diameters, frequency_hz = 352 Hz at 0 rad/s and 340 Hz at 942.477796 rad/s: allowed is two",
+            ),
+            (
+                "disk;2;352;3;900",
+                "disk, 2 nodal diameters, frequency_hz = 352 Hz at 94.2477796 rad/s: allowed",
+            ),
+            (
+                "disk;2;352;3;0\ndisk;2;360;3;0",
+                "disk, 2 nodal diameters, frequency_hz = 352 Hz at 0",
+            ),
+            (
+                "disk;2;352;3;0\ndisk;2;360;3;",
+                "line 3, nodal_diameters = 2 twice: allowed is one mode",
+            ),
+            ("disk;2;352;3;0\ndisk;2;360;3;1\ndisk;2;360;3;2", "line 4, nodal_diameters = 2 twice"),
+            ("casing;2;352;3;0\ncasing;2;360;3;1", "line 3, nodal_diameters = 2 twice"),
+            ("disk;2;352;3;1 kN", "line 2, speed_rpm = 1 kN: this is a force; it takes rad/s, rpm"),
+            ("disk;2;352;3;x", "line 2, speed_rpm = x: allowed is a number"),
+        ] {
+            let message = read_modes(&format!("{head}\n{rows}\n")).unwrap_err().to_string();
+            assert!(message.starts_with(start), "{message}");
+        }
+    }
+
     fn close(value: f64, expected: f64) {
         assert!((value / expected - 1.0).abs() < 1e-12, "{value} is not {expected}");
     }
@@ -382,6 +484,7 @@ mod tests {
             frequency_hz,
             modal_mass_kg,
             damping_ratio: None,
+            stiffening: None,
         };
         let ordinary = vec![family(2, 214.0, 3.9), family(3, 297.5, 2.9), family(8, 378.0, 2.25)];
         // One that is softer than the springs of the two others alone.
@@ -411,6 +514,7 @@ mod tests {
             frequency_hz: crate::model::blade_frequency(&base.bladed_disk, diameters) / TAU,
             modal_mass_kg: mass,
             damping_ratio: None,
+            stiffening: None,
         };
         let two = ModalData {
             blades: 22,

@@ -476,7 +476,7 @@ keys! {
     BLADE_STIFFNESS "bladed_disk.stiffness_nm_per_rad" = moded(Steps, "N m/rad", "blade-to-disk stiffness k_b", true 0.0..1e15, disk_in_use.stiffness_nm_per_rad, disk_part Stiffness);
     BLADE_COUPLING "bladed_disk.coupling_nm_per_rad" = real(Steps, "N m/rad", "blade-to-blade stiffness k_bb", false 0.0..1e15, bladed_disk.coupling_nm_per_rad);
     BLADE_DAMPING "bladed_disk.damping_ratio" = moded(Steps, "-", "blade damping zeta_bd", false 0.0..10.0, disk_in_use.damping_ratio, disk_part Damping);
-    STIFFENING "bladed_disk.centrifugal_stiffening" = real(Steps, "-", "centrifugal stiffening, omega^2 + B Omega^2, B", false 0.0..1e3, bladed_disk.centrifugal_stiffening);
+    STIFFENING "bladed_disk.centrifugal_stiffening" = moded(Steps, "-", "centrifugal stiffening, omega^2 + B Omega^2, B", false 0.0..1e3, disk_in_use.centrifugal_stiffening, disk_part Stiffening);
     RADIAL_COUPLING "bladed_disk.radial_coupling" = real(Steps, "-", "slope of the path of a blade tip kappa", false -10.0..10.0, bladed_disk.radial_coupling);
     DISK_DIAMETERS "bladed_disk.nodal_diameters" = whole(Never, "nodal diameters of the disk, 0 as the casing, n_b", 0..4096, bladed_disk.nodal_diameters);
     MISTUNING "bladed_disk.mistuning" = real(Never, "-", "standard deviation of single k_b (full model), sd", false 0.0..0.2, bladed_disk.mistuning);

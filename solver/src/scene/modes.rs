@@ -3,7 +3,8 @@
 //!
 //! What a mode leaves out is the structure's own value. A frequency stands for the
 //! stiffness that gives it, whatever the mass is: `k_c = m_c (2 pi f)^2` of the casing, and of the disk that
-//! `k_b` which with the given `k_bb` does, `m_b (2 pi f)^2 - 4 k_bb sin^2(pi n/N)`.
+//! `k_b` which with the given `k_bb` does, `m_b (2 pi f)^2 - 4 k_bb sin^2(pi n/N)`. Frequencies of
+//! blades that turn give those at rest, `f^2 = f_0^2 + B (Omega/2 pi)^2`.
 
 use std::f64::consts::TAU;
 
@@ -12,23 +13,26 @@ use toml::{Table, Value as Toml};
 use super::units::{Quantity, UnitError};
 use super::{Scene, SceneError, Value, file, keys};
 use crate::model::{BladedDisk, Casing, Mode, ModePart, frequency_of, of_neighbours};
+use crate::numeric::rounding::rounded;
 
 /// Name of the number of diameters in a mode, and of its frequency.
 const DIAMETERS: &str = "nodal_diameters";
 const FREQUENCY: &str = "frequency_hz";
+/// Name of the rotor speed at which that is the frequency.
+const AT_SPEED: &str = "at_speed_rad_s";
 /// Largest frequency \[Hz\]: beyond the range of any machine.
 pub(crate) const MOST_HZ: f64 = 1e9;
 
-/// A structure with modes: the path of its list, and the keys of mass and stiffness beside it.
+/// A structure with modes: the path of its list, and the keys of its values beside it.
 #[derive(Debug, PartialEq)]
 pub struct Structure {
     path: &'static str,
-    keys: [(&'static str, ModePart); 3],
+    keys: &'static [(&'static str, ModePart)],
 }
 
 pub(super) const CASING: Structure = Structure {
     path: keys::CASING_MODES,
-    keys: [
+    keys: &[
         (keys::CASING_MASS, ModePart::Mass),
         (keys::CASING_STIFFNESS, ModePart::Stiffness),
         (keys::CASING_DAMPING, ModePart::Damping),
@@ -36,10 +40,11 @@ pub(super) const CASING: Structure = Structure {
 };
 pub(super) const DISK: Structure = Structure {
     path: keys::DISK_MODES,
-    keys: [
+    keys: &[
         (keys::BLADE_INERTIA, ModePart::Mass),
         (keys::BLADE_STIFFNESS, ModePart::Stiffness),
         (keys::BLADE_DAMPING, ModePart::Damping),
+        (keys::STIFFENING, ModePart::Stiffening),
     ],
 };
 
@@ -55,7 +60,7 @@ impl Structure {
     /// The first mode with an unknown key, a value that is not allowed, or a number of
     /// diameters that another has.
     fn read(&self, items: &[Toml]) -> Result<Vec<Mode>, SceneError> {
-        let mut found: Vec<Mode> = Vec::with_capacity(items.len());
+        let mut found = Vec::with_capacity(items.len());
         for (place, item) in items.iter().enumerate() {
             let name = format!("{}[{}]", self.path, place + 1);
             let Toml::Table(table) = item else {
@@ -67,18 +72,32 @@ impl Structure {
             };
             found.push(self.mode(&name, table)?);
         }
-        found.sort_by_key(|mode| mode.nodal_diameters);
-        let twice = found
-            .windows(2)
-            .find(|pair| matches!(pair, [a, b] if a.nodal_diameters == b.nodal_diameters));
-        match twice.and_then(|pair| pair.first()) {
-            Some(mode) => Err(SceneError::refused(
+        found.sort_by_key(|(mode, _)| mode.nodal_diameters);
+        let of_one = found.chunk_by(|(a, _), (b, _)| a.nodal_diameters == b.nodal_diameters);
+        of_one.map(|modes| self.at_rest(modes)).collect()
+    }
+
+    /// Returns the mode of some diameters, from its values at one speed or at two.
+    fn at_rest(&self, modes: &[(Mode, Option<f64>)]) -> Result<Mode, SceneError> {
+        let of = |(mode, speed): &(Mode, Option<f64>)| {
+            speed.map(|speed| (mode.frequency_hz.unwrap_or(0.0), speed))
+        };
+        let speeds: Vec<(f64, f64)> = modes.iter().filter_map(of).collect();
+        let mut mode = modes.first().map(|(mode, _)| mode.clone()).unwrap_or_default();
+        if modes.len() > speeds.len().max(1) {
+            return Err(SceneError::refused(
                 format!("{}.{DIAMETERS}", self.path),
                 format!("{} twice", mode.nodal_diameters),
                 "one mode for each number of diameters",
-            )),
-            None => Ok(found),
+            ));
         }
+        if !speeds.is_empty() {
+            let name = format!("{}.{FREQUENCY}", self.path);
+            let known = modes.iter().find_map(|(mode, _)| mode.stiffening);
+            let (rest, stiffening) = frequency_at_rest(&name, &speeds, known)?;
+            (mode.frequency_hz, mode.stiffening) = (Some(rest), stiffening);
+        }
+        Ok(mode)
     }
 
     /// Describes what a mode may have, in words.
@@ -87,13 +106,15 @@ impl Structure {
     }
 
     fn names(&self) -> Vec<&'static str> {
-        let mut names = self.keys.map(|(path, _)| leaf(path)).to_vec();
+        let mut names: Vec<_> = self.keys.iter().map(|(path, _)| leaf(path)).collect();
         names.insert(2, FREQUENCY);
+        names.extend((*self == DISK).then_some(AT_SPEED));
         names
     }
 
-    fn mode(&self, name: &str, table: &Table) -> Result<Mode, SceneError> {
-        let (mut mode, mut diameters) = (Mode::default(), None);
+    /// Returns a mode, and the speed at which it has its frequency.
+    fn mode(&self, name: &str, table: &Table) -> Result<(Mode, Option<f64>), SceneError> {
+        let (mut mode, mut diameters, mut speed) = (Mode::default(), None, None);
         for (entry, value) in table {
             let path = format!("{name}.{entry}");
             let own = self.keys.iter().find(|(path, _)| leaf(path) == entry);
@@ -108,6 +129,8 @@ impl Structure {
                 })?);
             } else if entry == FREQUENCY {
                 mode.frequency_hz = Some(hertz(&path, value)?);
+            } else if entry == AT_SPEED && *self == DISK {
+                speed = Some(number(&path, value, keys::find(keys::SPEED)?)?);
             } else {
                 let allowed = format!("{DIAMETERS}, {}", self.names().join(", "));
                 return Err(SceneError::UnknownKey { key: path, allowed });
@@ -125,7 +148,7 @@ impl Structure {
             let allowed = format!("{FREQUENCY} or {stiffness}, not both");
             return Err(SceneError::refused(format!("{name}.{FREQUENCY}"), frequency, allowed));
         }
-        Ok(mode)
+        Ok((mode, speed))
     }
 
     /// Returns the list in one line, as `--set` accepts it.
@@ -149,9 +172,9 @@ impl Structure {
     }
 
     fn values(&self, mode: &Mode) -> impl Iterator<Item = (&'static str, String)> {
-        let [mass, stiffness, damping] =
-            self.keys.map(|(path, part)| (leaf(path), mode.part(part)));
-        let parts = [mass, stiffness, (FREQUENCY, mode.frequency_hz), damping];
+        let of = |(path, part): &(&'static str, ModePart)| (leaf(path), mode.part(*part));
+        let mut parts: Vec<_> = self.keys.iter().map(of).collect();
+        parts.insert(2, (FREQUENCY, mode.frequency_hz));
         let numbers =
             parts.into_iter().filter_map(|(name, value)| Some((name, format!("{:?}", value?))));
         [(DIAMETERS, mode.nodal_diameters.to_string())].into_iter().chain(numbers)
@@ -183,6 +206,38 @@ impl Structure {
     pub(super) fn modes(&self, text: &str) -> Vec<Mode> {
         self.parsed(text).unwrap_or_default()
     }
+}
+
+/// Returns frequency at rest and `B` from frequencies at rotor speeds \[Hz, rad/s\]: two, or one
+/// and `B`, or one at rest.
+///
+/// # Errors
+/// Frequencies that no `B` gives, or too few of them, by this name.
+pub(super) fn frequency_at_rest(
+    name: &str,
+    speeds: &[(f64, f64)],
+    known: Option<f64>,
+) -> Result<(f64, Option<f64>), SceneError> {
+    let square = |x: f64| x * x;
+    let (stiffening, (hertz, speed)) = match (speeds, known) {
+        ([one], known) if known.is_some() || one.1 == 0.0 => (known, *one),
+        ([one, other], None) => {
+            let rise = square(TAU * other.0) - square(TAU * one.0);
+            (Some(rise / (square(other.1) - square(one.1))), *one)
+        }
+        (speeds, _) => (Some(f64::NAN), speeds.first().copied().unwrap_or_default()),
+    };
+    let rest = (square(hertz) - stiffening.unwrap_or(0.0) * square(speed / TAU)).sqrt();
+    let key = keys::find(keys::STIFFENING)?;
+    let is_known = stiffening.is_none_or(|b| key.check(&Value::Real(b)).is_ok());
+    if is_known && rest > 0.0 {
+        return Ok((rest, stiffening));
+    }
+    let given =
+        speeds.iter().map(|(hertz, speed)| format!("{hertz} Hz at {} rad/s", rounded(*speed, 9)));
+    let allowed = "two of them, the higher one at the higher speed, or one with its \
+                   centrifugal_stiffening B and above what that alone gives";
+    Err(SceneError::refused(name, given.collect::<Vec<_>>().join(" and "), allowed))
 }
 
 /// Returns the beginning of a table in one line.

@@ -1,53 +1,35 @@
 //! The limits of a machine for every number of diameters from 0 to N/2: the speeds of
-//! `margins`, which of them lie in a range of speeds, and which are nearest to the scene's.
+//! `margins`, and at which speeds of a range waves can lock or whirl.
 //!
 //! A limit of a rotor that turns backward is a negative speed. Its size is that of the
 //! forward one unless friction tells the two apart.
 
+use std::cmp::Ordering;
 use std::time::Instant;
 
 use rayon::prelude::*;
 use serde::Serialize;
-use strum::IntoEnumIterator;
-use thiserror::Error;
 
 use super::margins::{LimitName, Parameter, shown_margin, speed_sensitivities, speeds};
-use crate::harmonic::lock_window;
-use crate::scene::units::{self, RangeError, UnitError};
-use crate::scene::{CheckedScene, Scene};
+use crate::harmonic::{Joint, RoundWhirl, lock_window, lock_windows, round_whirls};
+use crate::model::Machine;
+use crate::scene::units::{self, RangeError};
+use crate::scene::{CheckedScene, Scene, SceneError};
 
-/// Why a survey was refused.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum SurveyError {
-    /// No range.
-    #[error(
-        "range {text}: allowed is FROM:TO, two speeds, the lower one first, such as \
-         6000rpm:11000rpm"
-    )]
-    Range {
-        /// As given.
-        text: String,
-    },
-    /// An end of another quantity.
-    #[error("range {text}: {why}")]
-    Unit {
-        /// As given.
-        text: String,
-        /// What it is, and which units are allowed.
-        why: UnitError,
-    },
-}
-
-/// Reads `FROM:TO` \[rad/s\].
+/// Reads `FROM:TO` \[rad/s\]; `name` is that of the option.
 ///
 /// # Errors
 /// Text of another form, an end of another quantity, or a lower end that is not lower.
-pub fn speed_range(text: &str) -> Result<[f64; 2], SurveyError> {
-    let form = || SurveyError::Range { text: text.to_string() };
+pub fn speed_range(name: &str, text: &str) -> Result<[f64; 2], SceneError> {
     match units::read_ends(text, units::Quantity::Speed) {
         Ok(([from, to], None)) if from < to && (to - from).is_finite() => Ok([from, to]),
-        Err(RangeError::End(why)) => Err(SurveyError::Unit { text: text.to_string(), why }),
-        _ => Err(form()),
+        Err(RangeError::End(why)) => {
+            Err(SceneError::Unit { key: name.to_string(), value: text.to_string(), why })
+        }
+        _ => {
+            let allowed = "FROM:TO, two speeds, the lower one first, such as 6000rpm:11000rpm";
+            Err(SceneError::refused(name, text, allowed))
+        }
     }
 }
 
@@ -104,9 +86,7 @@ impl Scattered {
     pub fn of(scene: &Scene) -> Option<Self> {
         const ROTORS: u32 = 200;
         let lock = |tip_scatter_m: f64, tip_seed: u32| {
-            let mut rotor = scene.clone();
-            (rotor.bladed_disk.tips_m, rotor.casing.out_of_round_m) = (Vec::new(), 0.0);
-            (rotor.bladed_disk.longest_tip_m, rotor.bladed_disk.orbit_m) = (0.0, 0.0);
+            let mut rotor = even(scene);
             (rotor.bladed_disk.tip_scatter_m, rotor.bladed_disk.tip_seed) =
                 (tip_scatter_m, tip_seed);
             let window = lock_window(&rotor.machine(), scene.operation.speed_rad_s);
@@ -131,6 +111,13 @@ pub struct SurveyRow {
     pub omega_bd_rad_s: f64,
     /// Whether modes of casing and disk are known for them, where any are.
     pub modes_known: bool,
+    /// The speeds of the range at which pushes hold a lock that lasts, from the lowest; of all
+    /// speeds of the scene's sense of rotation without a range, then without an end as an
+    /// infinite one. None where that is not known of these tips and this casing \[rad/s\].
+    pub locks_in_range: Option<Vec<[f64; 2]>>,
+    /// The speeds of the range from which tips that move outward can whirl, where known, or else
+    /// the coincidence that they feel \[rad/s\].
+    pub whirls_in_range: Vec<f64>,
     /// The limits that there are, in the order of `margins`; forward ones first.
     pub limits: Vec<SurveyLimit>,
 }
@@ -159,6 +146,25 @@ impl SurveyRow {
         self.limits
             .iter()
             .find(|limit| limit.name == name && limit.value.is_sign_positive() == forward)
+    }
+
+    /// Returns whether a wave can lock at a speed of the range.
+    #[must_use]
+    pub fn locks_at(&self, speed: f64) -> bool {
+        let has = |[from, to]: &[f64; 2]| (*from..=*to).contains(&speed);
+        self.locks_in_range.as_ref().is_some_and(|locks| locks.iter().any(has))
+    }
+
+    /// Where it stands among others: what locks everywhere, from the lowest speed, is not known,
+    /// and each of them by the lowest speed of whirl.
+    fn order(&self, range: [f64; 2]) -> [f64; 2] {
+        let least = |speeds: &[f64]| speeds.iter().map(|x| x.abs()).fold(f64::INFINITY, f64::min);
+        let locks = match &self.locks_in_range {
+            None => f64::MAX,
+            Some(locks) if locks.contains(&range) => 0.0,
+            Some(locks) => least(locks.as_flattened()),
+        };
+        [locks, least(&self.whirls_in_range)]
     }
 }
 
@@ -191,39 +197,78 @@ impl Survey {
         }
     }
 
-    /// Limits with the diameters that they are of, the nearest to the scene first: those in
-    /// the range, or all of the scene's sense of rotation without one. Diameters of which no
-    /// mode is known, where others are, have none of this machine.
+    /// The range, or else all speeds of the sense of rotation \[rad/s\].
     #[must_use]
-    pub fn nearest(&self) -> Vec<(u32, &SurveyLimit)> {
-        let speed = self.scene.operation.speed_rad_s;
-        let own = self.is_forward();
-        let wanted = |limit: &SurveyLimit| match limit.in_range {
-            Some(inside) => inside,
-            None => limit.value.is_sign_positive() == own,
-        };
-        let mut found: Vec<(u32, &SurveyLimit)> = self
-            .rows
-            .iter()
-            .filter(|row| row.modes_known)
-            .flat_map(|row| row.limits.iter().map(|limit| (row.nodal_diameters, limit)))
-            .filter(|(_, limit)| wanted(limit))
-            .collect();
-        found.sort_by(|a, b| {
-            let far = |limit: &SurveyLimit| (limit.value - speed).abs();
-            far(a.1).total_cmp(&far(b.1))
-        });
-        found
+    pub fn speeds(&self) -> [f64; 2] {
+        searched(self.range_rad_s, &self.scene)
     }
 
-    /// The names of limits that any row has, in the order of `margins`.
+    /// Rows by what they can do in the range, the most first: those with modes of their own and
+    /// the one of the scene, or all.
     #[must_use]
-    pub fn names(&self) -> Vec<LimitName> {
-        let has = |name: LimitName| {
-            self.rows.iter().any(|row| row.limits.iter().any(|limit| limit.name == name))
-        };
-        LimitName::iter().filter(|name| has(*name)).collect()
+    pub fn shown(&self, all: bool) -> Vec<&SurveyRow> {
+        let own = self.scene.operation.nodal_diameters;
+        let shown = |row: &&SurveyRow| all || row.modes_known || row.nodal_diameters == own;
+        let mut rows: Vec<&SurveyRow> = self.rows.iter().filter(shown).collect();
+        let order = |row: &SurveyRow| row.order(self.speeds());
+        rows.sort_by(|a, b| order(a).partial_cmp(&order(b)).unwrap_or(Ordering::Equal));
+        rows
     }
+}
+
+/// The range, or else all speeds of the sense of rotation of a scene.
+fn searched(range: Option<[f64; 2]>, scene: &Scene) -> [f64; 2] {
+    let forward = scene.operation.speed_rad_s >= 0.0;
+    range.unwrap_or(if forward { [0.0, f64::INFINITY] } else { [f64::NEG_INFINITY, 0.0] })
+}
+
+/// The scene with equal tips in a round casing.
+fn even(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    let disk = &mut scene.bladed_disk;
+    (disk.tips_m, disk.tip_scatter_m, disk.longest_tip_m, disk.orbit_m) = Default::default();
+    scene.casing.out_of_round_m = 0.0;
+    scene
+}
+
+/// Where a lock holds in these speeds, from the lowest; none where that is not known.
+fn locks(scene: &Scene, machine: &Machine, [from, to]: [f64; 2]) -> Option<Vec<[f64; 2]>> {
+    if scene.clearance() <= 0.0 {
+        return Some(Vec::new());
+    }
+    let mut found = Vec::new();
+    for sense in [-1.0, 1.0] {
+        let windows = lock_windows(machine, sense);
+        let of_even = || lock_windows(&even(scene).machine(), sense);
+        if windows.is_empty() && machine.is_uneven() && !of_even().is_empty() {
+            return None;
+        }
+        found.extend(windows.into_iter().filter_map(|window| {
+            let ends = [window.from, window.to.unwrap_or(f64::INFINITY)].map(|end| sense * end);
+            let [low, high] = [ends[0].min(ends[1]).max(from), ends[0].max(ends[1]).min(to)];
+            (low < high).then_some([low, high])
+        }));
+    }
+    found.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    Some(found)
+}
+
+/// Where whirl begins in these speeds, or lasts from their slower end on.
+fn whirls(machine: &Machine, limits: &[SurveyLimit], [from, to]: [f64; 2]) -> Vec<f64> {
+    let of_sense = |sense: f64| {
+        let onset = |limit: &&SurveyLimit| {
+            limit.name == LimitName::WhirlOnset && limit.value * sense >= 0.0
+        };
+        let onsets: Vec<f64> = limits.iter().filter(onset).map(|limit| limit.value).collect();
+        let felt = machine.coincidence_felt_at(sense).filter(|_| onsets.is_empty());
+        let slower = if sense > 0.0 { from } else { to };
+        let lasts = || RoundWhirl::lasting(&round_whirls(&Joint::at(machine, slower))).is_some();
+        let lasting = (slower * sense > 0.0 && !onsets.is_empty() && lasts()).then_some(slower);
+        lasting.into_iter().chain(onsets).chain(felt)
+    };
+    let moves = machine.coupling_product_at(1.0) != 0.0;
+    let all = [1.0, -1.0].into_iter().filter(|_| moves).flat_map(of_sense);
+    all.filter(|speed| (from..=to).contains(speed)).collect()
 }
 
 /// The scene with so many diameters, whose mode is then in use.
@@ -242,6 +287,7 @@ fn row(
     let scene = with_diameters(scene, diameters);
     let machine = scene.machine();
     let own = 1_f64.copysign(scene.operation.speed_rad_s);
+    let asked = searched(range, &scene);
     let found = Speeds::of(&scene, own, by);
     // Only friction tells the two senses apart.
     let other = (scene.contact.friction != 0.0).then(|| Speeds::of(&scene, -own, by));
@@ -249,13 +295,15 @@ fn row(
         Some(other) if sense != own => other,
         _ => &found,
     };
-    let limits = [1.0, -1.0].map(|sense| of(sense).limits(&scene, sense, range));
+    let limits = [1.0, -1.0].map(|sense| of(sense).limits(&scene, sense, range)).concat();
     SurveyRow {
         nodal_diameters: diameters,
         omega_c_rad_s: machine.omega_c,
         omega_bd_rad_s: machine.omega_bd,
         modes_known: scene.modes_note().is_none(),
-        limits: limits.concat(),
+        locks_in_range: locks(&scene, &machine, asked),
+        whirls_in_range: whirls(&machine, &limits, asked),
+        limits,
     }
 }
 
@@ -286,6 +334,8 @@ impl Speeds {
                 by: self.by.get(place).copied().flatten(),
             }
         };
-        self.sizes.iter().enumerate().map(limit).collect()
+        // The paper's algorithm pulls below that speed, and no machine does.
+        let of_machine = |limit: &SurveyLimit| limit.name != LimitName::OmegaAdhesive;
+        self.sizes.iter().enumerate().map(limit).filter(of_machine).collect()
     }
 }

@@ -69,3 +69,7 @@ pub(crate) const FLUTTER_FURTHEST: f64 = 100.0;
 /// Factor between two speeds at which that growth is asked. Larger: a narrow range of
 /// flutter is stepped over.
 pub(crate) const FLUTTER_STRIDE: f64 = 1.01;
+
+/// Part of the clearance to which usual casings are round: one per cent. A lock that needs
+/// more says so. Larger: every lock says it; smaller: none does.
+pub(crate) const ROUND_ENOUGH: f64 = 0.01;

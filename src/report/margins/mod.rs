@@ -1,6 +1,7 @@
 //! The margins of a scene as a table: a row for each limit, with every number for files, and
 //! for people what moves it most.
 
+pub mod robust;
 pub mod words;
 
 use std::io::{Result, Write};
@@ -104,6 +105,11 @@ fn write_limits(margins: &Margins, out: &mut dyn Write) -> Result<()> {
     tell(&words::conditions(margins), out)?;
     words::note(margins).iter().try_for_each(|note| tell(note, out))?;
     writeln!(out)?;
+    for found in robust::asked(margins) {
+        tell(&robust::sentence(found, &margins.scene), out)?;
+        robust::table(found).write_text_in(WIDTH, out)?;
+        writeln!(out)?;
+    }
     table(margins).write_text_in(WIDTH, out)?;
     if let Some(found) = &margins.target {
         writeln!(out)?;

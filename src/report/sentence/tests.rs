@@ -1,4 +1,4 @@
-//! Sentences of every verdict, doubt and width.
+//! Sentences of every verdict, history and width.
 
 use super::*;
 use rubscope_solver::motion::{Sampling, Script, run_to_end};
@@ -7,18 +7,17 @@ use rubscope_solver::scene::{BUILTIN, Scene};
 const WIDTHS: std::ops::RangeInclusive<usize> = 40..=200;
 
 fn facts(verdict: Verdict) -> Facts {
-    Facts {
-        verdict,
-        blades: vec![19, 12],
-        pulling: Vec::new(),
-        touches: 5,
-        law: ContactLaw::Unilateral,
-        pressed: false,
-        damped: true,
-        broken: None,
-        failure: None,
-        doubts: Vec::new(),
-    }
+    let scene = Scene::base().checked().unwrap();
+    let (machine, speed) = (scene.machine(), scene.operation.speed_rad_s);
+    let all = Facts::at(verdict, (&scene, &machine, speed), std::iter::empty());
+    let law = ContactLaw::Unilateral;
+    Facts { blades: vec![19, 12], touches: 5, law, round: None, ..all }
+}
+
+const ENDS: Certainty = Certainty { sensitive: true, ends_otherwise: true, depends_on_step: None };
+
+fn pulled(verdict: Verdict, other: Option<Verdict>) -> Facts {
+    Facts { pulled: true, other, law: ContactLaw::Bilateral, ..facts(verdict) }
 }
 
 fn failures() -> Vec<FailureReason> {
@@ -43,7 +42,7 @@ fn failures() -> Vec<FailureReason> {
     ]
 }
 
-/// Whole sentences that fit, of at most twelve words each.
+/// Asserts whole sentences that fit, of at most fourteen words each.
 /// Looks at the sentences of all widths. One that has room in a width is the one of every
 /// width down to its own: what does not fit above does not fit there.
 fn assert_reads_well(facts: &Facts) {
@@ -59,11 +58,9 @@ fn assert_reads_well(facts: &Facts) {
 
 #[test]
 fn a_sentence_is_the_one_of_every_width_down_to_its_own() {
-    for doubts in
-        [vec![], vec![Doubt::Pulls(7, Some(Verdict::Decay)), Doubt::Sensitive { ends: true }]]
-    {
+    for sensitive in [Certainty::default(), ENDS] {
         for verdict in Verdict::ALL {
-            let facts = Facts { doubts: doubts.clone(), ..facts(verdict) };
+            let facts = Facts { certainty: sensitive, ..pulled(verdict, Some(Verdict::Decay)) };
             for width in WIDTHS {
                 let wide = facts.sentence(width);
                 let own = wide.to_string().chars().count();
@@ -76,10 +73,10 @@ fn a_sentence_is_the_one_of_every_width_down_to_its_own() {
 fn assert_is_whole(told: &Sentence, width: usize) {
     let line = told.to_string();
     assert!(line.is_ascii(), "{width}: {line}");
-    let doubts = told.doubt.iter().flat_map(|doubt| doubt.split_inclusive(". "));
-    for sentence in std::iter::once(told.what.as_str()).chain(doubts).map(str::trim_end) {
+    let history = told.history.iter().flat_map(|history| history.split_inclusive(". "));
+    for sentence in std::iter::once(told.what.as_str()).chain(history).map(str::trim_end) {
         assert!(sentence.ends_with('.') && !sentence.contains(".."), "{width}: {line}");
-        assert!(sentence.split_whitespace().count() <= 12, "{width}: {line}");
+        assert!(sentence.split_whitespace().count() <= 14, "{width}: {line}");
         assert!(
             sentence.starts_with(|c: char| c.is_ascii_uppercase() || c.is_ascii_digit()),
             "{line}"
@@ -87,48 +84,63 @@ fn assert_is_whole(told: &Sentence, width: usize) {
     }
 }
 
+/// A change of the facts of a run.
+type Change = fn(&mut Facts);
+
+/// Every kind of history, each as a change of the facts of a run, and whether it is of a
+/// state that is wrong.
+fn histories() -> Vec<(bool, Change)> {
+    vec![
+        (false, |_| {}),
+        (false, |facts| facts.certainty = ENDS),
+        (false, |facts| facts.certainty = Certainty { ends_otherwise: false, ..ENDS }),
+        (true, |facts| facts.certainty.depends_on_step = Some(true)),
+        (true, |facts| facts.growth = Some(12.345)),
+        (false, |facts| facts.round = Some(2.439_28e-7)),
+        (false, |facts| facts.caught = Some((292.149, true))),
+        (false, |facts| facts.caught = Some((-4_292.149, false))),
+        (false, |facts| facts.pulled = true),
+        (false, |facts| (facts.pulled, facts.certainty) = (true, ENDS)),
+    ]
+}
+
 #[test]
-fn every_verdict_law_failure_and_doubt_has_a_whole_sentence_at_every_width() {
-    let blades: [&[u32]; 5] =
-        [&[], &[7], &[1012, 1019], &[1001, 1006, 1012, 1017], &[1, 2, 3, 4, 5, 6]];
-    let mut doubts = vec![
-        None,
-        Some(Doubt::Sensitive { ends: true }),
-        Some(Doubt::Sensitive { ends: false }),
-        Some(Doubt::Step),
-    ];
-    for other in Verdict::ALL {
-        doubts.extend([1, 1_000_000].map(|steps| Some(Doubt::Pulls(steps, Some(other)))));
-        doubts.extend([Cause::Step, Cause::Angles].map(|cause| Some(Doubt::Differs(other, cause))));
-    }
-    doubts.push(Some(Doubt::Pulls(2, None)));
-    let mut doubts: Vec<Vec<Doubt>> =
-        doubts.into_iter().map(|doubt| doubt.into_iter().collect()).collect();
-    doubts.push(vec![Doubt::Pulls(7, Some(Verdict::Decay)), Doubt::Sensitive { ends: true }]);
+fn every_verdict_law_failure_and_history_has_whole_sentences_at_every_width() {
+    let blades: [&[u32]; 6] =
+        [&[], &[7], &[1012, 1019], &[1001, 1006, 1012], &[1, 6, 12, 17], &[1, 2, 3, 4, 5, 6]];
     let mut stopped: Vec<Option<FailureReason>> = failures().into_iter().map(Some).collect();
     stopped.push(None);
-    for verdict in Verdict::ALL {
+    let others =
+        [None, Some(Verdict::Decay), Some(Verdict::Locked), Some(Verdict::Failed)].into_iter();
+    for (verdict, other) in Verdict::ALL
+        .into_iter()
+        .flat_map(|verdict| others.clone().map(move |other| (verdict, other)))
+    {
         for law in [ContactLaw::Unilateral, ContactLaw::Bilateral, ContactLaw::Smooth] {
-            for doubt in &doubts {
+            for (wrong, change) in histories() {
                 let early = matches!(verdict, Verdict::Failed | Verdict::Divergent);
                 for reason in stopped.iter().filter(|reason| early || reason.is_none()) {
                     for (case, blades) in blades.iter().enumerate() {
-                        let facts = Facts {
+                        let mut facts = Facts {
                             law,
                             blades: blades.to_vec(),
                             pulling: blades.iter().copied().take(case % 3).collect(),
-                            touches: [0, 1, 5, 143, 1_234_567][case],
+                            touches: [0, 1, 5, 143, 2, 1_234_567][case],
                             pressed: law == ContactLaw::Smooth && case % 2 == 0,
                             damped: case != 2,
                             broken: (case == 3).then_some(411.933_5),
                             failure: reason
                                 .clone()
                                 .map(|reason| Failure { t_s: 1.234_5e-4, reason }),
-                            doubts: doubt.clone(),
+                            other,
+                            angles: case == 1,
                             ..facts(verdict)
                         };
+                        change(&mut facts);
                         assert_reads_well(&facts);
-                        assert_eq!(facts.sentence(200).doubt.is_none(), doubt.is_empty());
+                        let sure = !facts.certainty.sensitive && !facts.pulled;
+                        let differs = sure && other.is_some_and(|other| other != verdict);
+                        assert_eq!(facts.sentence(200).wrong, wrong || differs, "{facts:?}");
                     }
                 }
             }
@@ -149,43 +161,65 @@ fn every_built_in_scene_ends_in_a_whole_sentence() {
 
 #[test]
 fn a_run_that_pulls_is_called_sensitive_too_where_it_is() {
-    let both = Facts {
-        doubts: vec![Doubt::Pulls(2, Some(Verdict::Decay)), Doubt::Sensitive { ends: true }],
-        ..facts(Verdict::Locked)
-    };
-    let doubt = |width| both.sentence(width).doubt.unwrap();
+    let both = Facts { certainty: ENDS, ..pulled(Verdict::Locked, Some(Verdict::Decay)) };
+    let history = |width| both.sentence(width).history.unwrap();
     assert_eq!(
-        doubt(200),
-        "A real contact would let go: 2 steps pull. \
-         A tiny change of pulse or speed ends otherwise."
+        history(200),
+        "Contact that only pushes would not catch it: decay. A tiny change ends otherwise."
     );
-    assert_eq!(doubt(80), "A real contact would let go. Sensitive.");
-    assert_eq!(doubt(55), "But 2 steps pull. Sensitive.");
-    assert_eq!(doubt(49), "But it pulls. Sensitive.");
-    // The worse one alone, where there is no room for two.
-    assert_eq!(doubt(48), "But 2 steps pull.");
+    assert_eq!(history(80), "Contact that only pushes: decay. Sensitive.");
+    assert_eq!(history(60), "Pushes only: decay. Sensitive.");
+    // The first alone, where there is no room for two.
+    assert_eq!(history(50), "Pushes only: decay.");
 }
 
 #[test]
 fn what_is_told_at_the_widths_of_terminals() {
-    let locked = Facts {
-        doubts: vec![Doubt::Pulls(2, Some(Verdict::Decay))],
-        law: ContactLaw::Bilateral,
-        ..facts(Verdict::Locked)
-    };
-    let told = |facts: &Facts, width| facts.sentence(width).to_string();
+    let locked = pulled(Verdict::Locked, Some(Verdict::Decay));
     for (width, line) in [
-        (40, "LOCKED  12 + 19 hold it. But it pulls."),
-        (60, "LOCKED  Blades 12 and 19 hold the wave. But 2 steps pull."),
-        (80, "LOCKED  Blades 12 and 19 hold the casing's wave. A real contact would let go."),
+        (40, "LOCKED  12 + 19 hold it; both push."),
+        (79, "LOCKED  Blades 12 and 19 hold the casing's wave; both push. Pushes only: decay."),
         (
             120,
-            "LOCKED  Blades 12 and 19 hold the casing's wave and carry it round. \
-             A real contact would let go: 2 steps pull.",
+            "LOCKED  Blades 12 and 19 hold the casing's wave; both push. \
+             Contact that only pushes would not catch it: decay.",
         ),
     ] {
-        assert_eq!(told(&locked, width), line);
+        assert_eq!(locked.sentence(width).to_string(), line);
+        assert!(!locked.sentence(width).wrong);
     }
+}
+
+#[test]
+fn the_state_comes_first_and_how_it_was_reached_second() {
+    use Verdict::{Adhesive, Decay, Locked};
+    let told = |facts: Facts| facts.sentence(200).to_string();
+    let locked = "LOCKED  Blades 12 and 19 hold the casing's wave; both push.";
+    for (facts, history) in [
+        (facts(Locked), ""),
+        (pulled(Locked, None), " Contact pulled on the way."),
+        (pulled(Locked, Some(Locked)), ""),
+        (
+            Facts { caught: Some((291.98, true)), ..facts(Locked) },
+            " Caught in a run-up at 292 rad/s.",
+        ),
+        (
+            Facts { round: Some(2.439_28e-7), ..facts(Locked) },
+            " It needs a casing round to 0.24 um.",
+        ),
+        (Facts { certainty: ENDS, ..facts(Locked) }, " A tiny change ends otherwise."),
+        (
+            Facts { certainty: Certainty { ends_otherwise: false, ..ENDS }, ..facts(Locked) },
+            " A tiny change gives other impacts.",
+        ),
+    ] {
+        assert_eq!(told(facts), format!("{locked}{history}"));
+    }
+    let pulls = Facts { pulling: vec![19], ..pulled(Adhesive, Some(Decay)) };
+    assert_eq!(
+        told(pulls),
+        "ADHESIVE  Blade 12 pushes the wave and blade 19 pulls it: no real contact can."
+    );
 }
 
 #[test]
@@ -204,7 +238,7 @@ fn a_run_says_its_own_facts() {
         "DECAY  The lock breaks at 380.3 rad/s; then the casing comes to rest."
     );
     let held = Facts { blades: vec![4], ..facts(Verdict::Locked) };
-    assert_eq!(told(held), "LOCKED  Blade 4 holds the casing's wave and carries it round.");
+    assert_eq!(told(held), "LOCKED  Blade 4 holds the casing's wave; it pushes.");
     let failure = Failure {
         t_s: 2e-4,
         reason: FailureReason::Penetration { depth_m: 1.0, clearance_m: 0.5 },

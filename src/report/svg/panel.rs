@@ -19,6 +19,13 @@ const SAMPLE: u32 = 26;
 const APART: u32 = 18;
 /// Left of the axes: their labels and their name.
 const LABELS: i32 = 72;
+/// Half the width of a bar, where x counts.
+const HALF: f64 = 0.3;
+
+/// Returns the filling of a bar, on which marks can be seen.
+fn pale(style: Style) -> ShapeStyle {
+    colour(style).mix(0.2).filled()
+}
 
 /// Draws a panel.
 ///
@@ -116,6 +123,18 @@ pub fn draw(panel: &Panel, area: &Area) -> Drawn<()> {
                     chart.draw_series(points.map(|at| Circle::new(at, px(radius), fill)))?;
                 }
             }
+            Style::Rings(_, radius) => {
+                let ink = colour(series.style).stroke_width(FINE);
+                chart.draw_series(points.map(|at| Circle::new(at, px(radius), ink)))?;
+            }
+            Style::Bars(_) => {
+                let ends: Vec<(f64, f64)> = points.collect();
+                let bars = ends.chunks_exact(2).filter_map(|ends| {
+                    let [(x, low), (_, high)] = ends else { return None };
+                    Some(Rectangle::new([(x - HALF, *low), (x + HALF, *high)], pale(series.style)))
+                });
+                chart.draw_series(bars)?;
+            }
             Style::Dots => {
                 let around = points.clone().filter(|_| rim.is_some());
                 chart.draw_series(around.map(|at| Circle::new(at, px(5) / 2, WHITE.filled())))?;
@@ -201,6 +220,10 @@ fn draw_sample(style: Style, (left, top): (i32, i32), area: &Area) -> Drawn<()> 
                 area.draw(&Circle::new(at(9, 8), px(radius), fill.filled()))?;
             }
         }
+        Style::Rings(_, radius) => {
+            area.draw(&Circle::new(at(9, 8), px(radius), fill.stroke_width(FINE)))?;
+        }
+        Style::Bars(_) => area.draw(&Rectangle::new([at(0, 2), at(18, 14)], pale(style)))?,
         Style::Dots => area.draw(&Circle::new(at(9, 8), px(3) / 2, fill.filled()))?,
         Style::Edge => {
             area.draw(&TriangleMarker::new(at(9, 9), px(5), fill.stroke_width(FINE)))?;

@@ -76,7 +76,8 @@ pub fn strokes(number: usize, radius: i32) -> Vec<Vec<(i32, i32)>> {
 pub fn colour(style: Style) -> RGBColor {
     let index = match style {
         Style::Faint => return RGBColor(130, 130, 130),
-        Style::Line(n) | Style::Dashed(n) | Style::Dotted(n) | Style::Discs(n, _) => n,
+        Style::Line(n) | Style::Dashed(n) | Style::Dotted(n) | Style::Bars(n) => n,
+        Style::Discs(n, _) | Style::Rings(n, _) => n,
         Style::Cells(verdict) => return colour_of(verdict),
         Style::Dots => return RGBColor(60, 60, 60),
         Style::Edge => return BLACK,

@@ -1,7 +1,7 @@
 //! The state of the run in words: its verdict in one sentence, which blades touch and how deep
 //! in a lining, and the speeds of locks and coincidence that it is compared with.
 
-use crate::report::sentence::{Cause, Doubt, Facts, Sentence, growth};
+use crate::report::sentence::{Facts, Sentence};
 use crate::tui::app::App;
 use crate::tui::axis::readable;
 use crate::tui::engine::{Answer, FORECAST_LIMIT, FullRun, FullRunState};
@@ -82,46 +82,18 @@ impl App {
     /// Returns what the sentence of a run says.
     fn facts(&self, run: &FullRun) -> Facts {
         let polygon = &self.machine.polygon;
-        let blades = |pulling: bool| {
-            let groups = run.multipliers.iter().filter(move |(_, force)| !pulling || *force > 0.0);
-            groups.flat_map(|(side, _)| polygon.blades_of_side(*side)).collect()
-        };
+        let contacts = run.multipliers.iter();
+        let contacts = contacts.map(|(side, force)| (polygon.blades_of_side(*side), *force));
         Facts {
-            verdict: run.verdict,
-            blades: blades(false),
-            pulling: blades(true),
             touches: run.impacts,
-            law: self.scene.solver.contact,
-            pressed: self.is_pressed(),
-            damped: self.machine.casing_damping_ratio > 0.0,
             broken: run.broken.map(|(_, speed)| speed),
+            caught: run.caught,
             failure: run.failure.clone(),
-            doubts: self.doubts(run),
+            pulled: run.checks.tensile_steps > 0,
+            other: self.results().reference.as_ref().map(|other| other.verdict),
+            certainty: self.results().sensitive.known(),
+            ..Facts::at(run.verdict, (&self.scene, &self.machine, self.speed()), contacts)
         }
-    }
-
-    /// Returns what makes a run doubtful: a lock that grows, pulls, a tiny change, or that the event solver says
-    /// otherwise.
-    fn doubts(&self, run: &FullRun) -> Vec<Doubt> {
-        let other = self.results().reference.as_ref().map(|other| other.verdict);
-        let pulls = run.checks.tensile_steps;
-        let grows = growth(run.verdict, &self.scene, &self.machine, self.speed());
-        let mut doubts: Vec<Doubt> = grows.map(Doubt::Grows).into_iter().collect();
-        if pulls > 0 {
-            doubts.push(Doubt::Pulls(pulls, other));
-        }
-        let certainty = self.results().sensitive.known();
-        if certainty.sensitive {
-            doubts.push(Doubt::Sensitive { ends: certainty.ends_otherwise });
-        }
-        if certainty.depends_on_step == Some(true) {
-            doubts.push(Doubt::Step);
-        }
-        if let Some(other) = other.filter(|other| *other != run.verdict && doubts.is_empty()) {
-            let beyond = self.scene.has_other_tips();
-            doubts.push(Doubt::Differs(other, if beyond { Cause::Angles } else { Cause::Step }));
-        }
-        doubts
     }
 
     /// Returns the blades in contact at the instant that is shown, in words.

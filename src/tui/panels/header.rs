@@ -1,5 +1,5 @@
-//! The two lines at the top. The first: what happens, in one sentence, and what makes it
-//! doubtful. The second: where the motion is now, how fast it turns beside its limits, and
+//! The two lines at the top. The first: what the motion is, in one sentence, and how it came
+//! there; red only where the state itself is wrong. The second: where the motion is now, how fast it turns beside its limits, and
 //! the end of the run. What has no room has a shorter form or is left out; nothing is cut.
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier, style::Style};
@@ -14,7 +14,6 @@ use crate::tui::text::{columns, pieces, print};
 use crate::tui::theme::{Role, Theme};
 use crate::tui::views::map::colour;
 use rubscope_solver::motion::Verdict;
-use rubscope_solver::scene::ContactLaw;
 
 type Parts = Vec<(String, Style)>;
 
@@ -54,7 +53,8 @@ fn sentence(app: &App, buffer: &mut Buffer, area: Rect) -> u16 {
     let (headline, style) = headline(app, width);
     let mut parts = vec![(format!(" {} ", headline.word), style.add_modifier(Modifier::REVERSED))];
     parts.push((format!(" {}", headline.what), look.style(Role::Text)));
-    parts.extend(headline.doubt.map(|doubt| (format!(" {doubt}"), look.style(Role::Trouble))));
+    let role = if headline.wrong { Role::Trouble } else { Role::Quiet };
+    parts.extend(headline.history.map(|history| (format!(" {history}"), look.style(role))));
     let parts: Parts = parts.into_iter().map(|(text, style)| (look.spell(&text), style)).collect();
     pieces(buffer, area, 0, &parts);
     u16::try_from(parts.iter().map(|(text, _)| columns(text)).sum::<usize>()).unwrap_or(u16::MAX)
@@ -83,9 +83,7 @@ pub fn headline(app: &App, width: usize) -> (Sentence, Style) {
 fn verdict_style(look: &Appearance, verdict: Verdict) -> Style {
     let own = colour(look, verdict).filter(|_| look.theme != Theme::Mono);
     let style = match (verdict, own) {
-        (Verdict::Failed | Verdict::Adhesive | Verdict::Whirl | Verdict::Divergent, _) => {
-            look.style(Role::Trouble)
-        }
+        (Verdict::Failed | Verdict::Adhesive | Verdict::Divergent, _) => look.style(Role::Trouble),
         (_, Some(colour)) => Style::new().fg(colour),
         (_, None) => look.style(Role::Text),
     };
@@ -135,7 +133,6 @@ fn second(app: &App, buffer: &mut Buffer, area: Rect) {
     let mut parts = vec![now(app), speed(app), end(app)];
     if !app.is_asked() {
         parts.extend(baseline(app));
-        parts.extend(other(app));
         parts.extend(unsure(app));
     }
     parts.extend(modes(app));
@@ -297,19 +294,6 @@ fn end(app: &App) -> Part {
     Part::new(longer.into_iter().chain([at(1, run.verdict.to_string())]).collect())
 }
 
-/// Returns what contact that only pushes does, by the event solver.
-fn other(app: &App) -> Option<Part> {
-    let own = app.full_run()?;
-    let other = app.results().reference.as_ref()?;
-    let quiet = app.appearance.style(Role::Quiet);
-    let text = match app.scene.solver.contact {
-        ContactLaw::Bilateral => format!("other law: {}", other.verdict),
-        _ if other.verdict == own.verdict => "event solver agrees".into(),
-        _ => format!("event solver: {}", other.verdict),
-    };
-    Some(Part::plain(6, text, quiet))
-}
-
 /// Returns a note where it is not known whether a tiny change changes the outcome.
 fn unsure(app: &App) -> Option<Part> {
     let text = format!("small changes: not checked in {} s", FORECAST_LIMIT.as_secs());
@@ -385,14 +369,16 @@ mod tests {
     }
 
     #[test]
-    fn what_harms_a_machine_has_the_colour_of_trouble_and_a_lock_its_own() {
+    fn a_state_that_is_wrong_has_the_colour_of_trouble_and_every_other_its_own() {
         let look = Appearance::new(Theme::Dark, Marker::Braille);
         let trouble = look.style(Role::Trouble).fg;
         for verdict in Verdict::ALL {
-            use Verdict::{Adhesive, Divergent, Failed, Whirl};
-            let harms = matches!(verdict, Failed | Adhesive | Whirl | Divergent);
-            assert_eq!(verdict_style(&look, verdict).fg == trouble, harms, "{verdict}");
+            use Verdict::{Adhesive, Divergent, Failed};
+            let wrong = matches!(verdict, Failed | Adhesive | Divergent);
+            let fg = verdict_style(&look, verdict).fg;
+            assert_eq!(fg == trouble, wrong, "{verdict}");
+            let own = colour(&look, verdict).or(look.style(Role::Text).fg);
+            assert!(wrong || fg == own, "{verdict}");
         }
-        assert_eq!(verdict_style(&look, Verdict::Locked).fg, colour(&look, Verdict::Locked));
     }
 }

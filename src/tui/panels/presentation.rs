@@ -65,7 +65,7 @@ pub fn letters(app: &App, buffer: &mut Buffer, area: Rect) {
         None => centred(app, buffer, area, rows / 2, &headline.word, style),
     }
     let parts =
-        headline.doubt.map_or(headline.what.clone(), |doubt| format!("{} {doubt}", headline.what));
+        headline.history.map_or(headline.what.clone(), |told| format!("{} {told}", headline.what));
     centred(app, buffer, area, rows, &parts, look.style(Role::Text));
 }
 

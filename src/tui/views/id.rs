@@ -35,7 +35,7 @@ const VIEWS: [(ViewId, &str); CHARTS.len()] = [
     (ViewId::Map, "map of the verdict over two knobs"),
     (ViewId::Spectrum, "spectrum and Campbell lines"),
     (ViewId::Precision, "speed against error"),
-    (ViewId::Margins, "margins: how far from every limit, and what moves it"),
+    (ViewId::Margins, "margins: is it robust, how far is every limit, what moves it"),
     (ViewId::Coincidence, "coincidence: how large a wave becomes"),
 ];
 

@@ -7,7 +7,9 @@ use std::time::{Duration, Instant};
 use super::reading::Copies;
 use crate::tui::engine::{FORECAST_LIMIT, FullRun, FullRunState};
 use crate::tui::trace::{Mark, Marks, Trace};
-use rubscope_solver::motion::{Course, Looker, Motion, VerdictReached, judge_end, lock_that_broke};
+use rubscope_solver::motion::{
+    Course, Looker, Motion, VerdictReached, caught_at, judge_end, lock_that_broke,
+};
 use rubscope_solver::tolerances::LAST_PART;
 
 /// A full run that is being computed.
@@ -139,6 +141,7 @@ impl FullRunJob {
             trace: Arc::new(Trace { from: self.start, step, points: self.points.clone() }),
             marks: Arc::new(self.marks.seen.clone()),
             broken: lock_that_broke(motion),
+            caught: caught_at(motion),
             verdict,
             since: verdict.keeps_contact().then_some(log.since),
             multipliers: motion.multipliers(),

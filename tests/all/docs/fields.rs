@@ -81,7 +81,9 @@ fn every_field_of_the_reports_is_in_the_documents() {
         ("| field of `rubscope.map/1` | what it is |", vec![map]),
         (
             "| field of `rubscope.survey/1` | what it is |",
-            vec!["survey --range 200:500 --by casing.modal_mass_kg --json"],
+            vec![
+                "survey --range 200:500 --by casing.modal_mass_kg --set bladed_disk.radial_coupling=0.3 --json",
+            ],
         ),
         (
             "| field of `rubscope.precision/1` | what it is |",

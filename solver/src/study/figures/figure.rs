@@ -75,6 +75,10 @@ pub enum Style {
     Cells(Verdict),
     /// Discs of this colour number and radius in pixels.
     Discs(usize, i32),
+    /// Rings in the same way.
+    Rings(usize, i32),
+    /// Pale upright bars in the colour of this number, each from a point to the next one.
+    Bars(usize),
     /// Small grey dots.
     Dots,
     /// Triangles on the lower edge, for values that the axis cannot show.

@@ -6,8 +6,8 @@ use num_dual::Dual64;
 use super::limit::{Limit, LimitName, Quantity, Sensitivities};
 use super::parameters::{Parameter, Parameters, acting, sensitivity};
 use crate::harmonic::{
-    flutters, lock_fold_speed, lock_growth, lock_loads, lock_windows, roundness, whirl_beginnings,
-    whirl_onset,
+    flutters, lobes_of, lock_fold_speed, lock_growth, lock_loads, lock_windows, roundness,
+    whirl_beginnings, whirl_onset,
 };
 use crate::model::{Machine, Number};
 use crate::numeric::rounding::rounded;
@@ -48,11 +48,6 @@ const SELDOM: [LimitName; 6] = [
     LimitName::FirstTouch,
     LimitName::Roundness,
 ];
-
-/// The numbers of lobes of which the roundness of a lock is told.
-fn lobes_of(diameters: u32) -> impl Iterator<Item = u32> {
-    (1..=4).chain((diameters > 4).then_some(diameters))
-}
 
 /// Returns the first of every closed form of these parameters, in the order of `CLOSED`; none
 /// where the machine has no such limit.

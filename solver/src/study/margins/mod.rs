@@ -1,10 +1,11 @@
-//! How far a scene is from every limit, and which of its parameters moves a limit
-//! most: closed forms (`closed`), the smallest pulse that touches (`touching`), and
+//! How far a run is from another verdict (`changes`), a scene from every limit, and which of its
+//! parameters moves a limit most: closed forms (`closed`), the smallest pulse that touches (`touching`), and
 //! the value of a parameter that puts a limit where it is wanted (`target`). docs/theory.md, section 9.
 //!
 //! A *sensitivity* is `d ln(limit)/d ln(parameter)`: the change of the limit in per
 //! cent by one per cent of the parameter.
 
+mod changes;
 mod closed;
 mod limit;
 mod parameters;
@@ -15,9 +16,11 @@ use std::time::Instant;
 
 use serde::Serialize;
 
+use crate::motion::{GoOn, run_to_verdict};
 use crate::scene::CheckedScene;
 use crate::tolerances::DOUBTFUL_PUSH;
 
+pub use changes::{ChangedVerdict, Robustness, VerdictChange};
 pub(super) use closed::{speed_sensitivities, speeds};
 pub(super) use limit::shown_margin;
 pub use limit::{Limit, LimitName, MOST_TIMES, Quantity, Sensitivities, Side};
@@ -45,6 +48,12 @@ pub struct Margins {
     /// What the closed forms are of, where the scene asks for more than they have.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
+    /// How far the run is from another verdict, if asked.
+    #[serde(flatten)]
+    pub robust: Option<Robustness>,
+    /// The same of contact that only pushes, where the law of the scene pulls.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pushes_only: Option<Robustness>,
     /// Its limits, in the order in which they are shown.
     pub limits: Vec<Limit>,
     /// The parameter that puts a limit where it is wanted, if asked.
@@ -72,7 +81,32 @@ impl Margins {
         limits.insert(place.unwrap_or(limits.len()), touching::limit(scene));
         let cost = Cost { wall_s: start.elapsed().as_secs_f64() };
         let (scene, note) = (scene.clone(), scene.tuned_note());
-        Self { scene, note, limits, target: None, cost }
+        Self { scene, note, robust: None, pushes_only: None, limits, target: None, cost }
+    }
+
+    /// Returns how many rows `ask_runs` finds for a scene.
+    #[must_use]
+    pub fn rows_asked(scene: &CheckedScene) -> usize {
+        changes::asked(scene).iter().map(|scene| changes::rows(scene).len()).sum()
+    }
+
+    /// Finds by runs how far this one is from another verdict, and hands itself to `known` after
+    /// each row; none where `go_on` said no on the way.
+    pub fn ask_runs(&mut self, go_on: GoOn<'_>, known: &mut dyn FnMut(&Self)) -> Option<()> {
+        let start = Instant::now();
+        for (place, scene) in changes::asked(&self.scene).iter().enumerate() {
+            let (contact, rows) = (scene.solver.contact, changes::rows(scene));
+            let verdict = run_to_verdict(scene, go_on)?.verdict;
+            let mut found = Robustness { contact, verdict, changes: Vec::new(), rows: rows.len() };
+            for row in rows {
+                found.changes.push(changes::Search { scene, verdict, row, go_on }.both()?);
+                let of_law = if place == 0 { &mut self.robust } else { &mut self.pushes_only };
+                *of_law = Some(found.clone());
+                known(self);
+            }
+        }
+        self.cost.wall_s += start.elapsed().as_secs_f64();
+        Some(())
     }
 
     /// What looks like a slip of a unit or a decimal point: in the scene, and the push of a tip.

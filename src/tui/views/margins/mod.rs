@@ -1,6 +1,8 @@
-//! View 8: how far the scene is from every limit, and what moves each of them most.
+//! View 8: how far the run is from another verdict, how far the scene is from every limit, and
+//! what moves each of them most.
 
 pub mod live;
+mod robust;
 mod rows;
 mod survey;
 
@@ -40,8 +42,13 @@ impl ViewPanel for MarginsView {
             (true, TOLD_FROM..) => 1,
             _ => 0,
         };
-        let above = Rect { height: inside.height - told, ..inside };
         let limits = &live.margins.limits;
+        let above = Rect { height: inside.height - told, ..inside };
+        let head = match at.large && !old {
+            true => robust::draw(app, &live.margins, buffer, above, limits.len()),
+            false => 0,
+        };
+        let above = Rect { y: above.y + head, height: above.height - head, ..above };
         let table = margins::titled(&live.margins, |name| name.titles()[1].to_string());
         let drawn = Rows {
             table: &table,

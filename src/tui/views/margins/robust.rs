@@ -1,0 +1,45 @@
+//! The head of view 8: how far this run is from another verdict, in a sentence and a row for
+//! each quantity, under each contact law that was asked.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+
+use crate::report::margins::robust;
+use crate::tui::app::App;
+use crate::tui::text::{print, wrap};
+use crate::tui::theme::Role;
+use rubscope_solver::study::margins::Margins;
+
+/// The column of the present value.
+const NOW: usize = 2;
+/// Rows of limits below it that are left on a small screen.
+const LEFT: usize = 6;
+
+/// Draws it at the top of an area; returns the rows that it takes. What was found under the
+/// second law has rows only where all `limits` keep theirs.
+pub fn draw(app: &App, margins: &Margins, buffer: &mut Buffer, area: Rect, limits: usize) -> u16 {
+    let (look, mut lines) = (&app.appearance, Vec::new());
+    let (height, width) = (usize::from(area.height), usize::from(area.width.saturating_sub(1)));
+    for (place, found) in robust::asked(margins).enumerate() {
+        let sentence = wrap(&look.spell(&robust::sentence(found, &margins.scene)), width);
+        let mut rows = robust::table(found).lines(usize::MAX, 1);
+        if rows.iter().any(|row| row.join(" ").chars().count() > width) {
+            // The knobs have the present values, too.
+            rows.iter_mut().for_each(|row| drop(row.remove(NOW)));
+        }
+        if lines.len() + sentence.len() + LEFT > height {
+            break;
+        }
+        lines.extend(sentence.into_iter().map(|line| (line, Role::Text)));
+        let below = if place == 0 { LEFT } else { limits + 2 };
+        if lines.len() + rows.len() + below <= height {
+            let role = |row| if row == 0 { Role::Quiet } else { Role::Text };
+            lines.extend(rows.iter().enumerate().map(|(row, cells)| (cells.join(" "), role(row))));
+        }
+    }
+    let at = Rect { x: area.x + 1, width: area.width.saturating_sub(1), ..area };
+    for (y, (text, role)) in (0..).zip(&lines) {
+        print(buffer, at, y, &look.spell(text), look.style(*role));
+    }
+    u16::try_from(lines.len()).unwrap_or(area.height)
+}

@@ -1,0 +1,119 @@
+//! How far runs are from another verdict: each change that is found is one by plain runs, just
+//! outside and not just inside.
+
+use rubscope_solver::motion::{Verdict, run_to_verdict, to_the_end};
+use rubscope_solver::scene::{CheckedScene, ContactLaw, Scene};
+use rubscope_solver::study::margins::{Margins, Robustness, parameter};
+
+fn with(name: &str, changes: &[(&str, &str)]) -> CheckedScene {
+    Scene::builtin(name).unwrap().with(changes).unwrap()
+}
+
+/// The same by events under contact that only pushes.
+fn pushes_only(name: &str, changes: &[(&str, &str)]) -> CheckedScene {
+    with(name, changes).as_reference().checked().unwrap()
+}
+
+fn asked(scene: &CheckedScene) -> Margins {
+    let mut margins = Margins::of(scene);
+    let mut known = 0;
+    margins.ask_runs(&to_the_end, &mut |_| known += 1).unwrap();
+    assert_eq!(known, Margins::rows_asked(scene));
+    margins
+}
+
+fn verdict(scene: &CheckedScene, path: &str, value: f64) -> Verdict {
+    let changed = parameter(path).unwrap().set(scene, value).unwrap().checked().unwrap();
+    run_to_verdict(&changed, &to_the_end).unwrap().verdict
+}
+
+/// Asserts by plain runs what was found of a scene.
+fn assert_found(scene: &CheckedScene, found: &Robustness) {
+    let own = run_to_verdict(scene, &to_the_end).unwrap().verdict;
+    assert_eq!((found.contact, found.verdict), (scene.solver.contact, own));
+    for row in &found.changes {
+        assert_eq!(row.present, parameter(row.path).unwrap().of(scene));
+        for (side, changed) in [(-1.0, row.below), (1.0, row.above)] {
+            let Some(changed) = changed else { continue };
+            let said = format!("{} {} {changed:?}", scene.title, row.path);
+            assert_eq!(verdict(scene, row.path, changed.value), changed.verdict, "{said}");
+            assert_ne!(changed.verdict, own, "{said}");
+            assert!(side * (changed.value - row.present) > 0.0, "{said}");
+            // A part in a thousand inside, or before it where verdicts have islands.
+            let inside = |part: i32| changed.value * (1.0 - side * 1e-3 * f64::from(part) / 32.0);
+            let is_own = |part| verdict(scene, row.path, inside(part)) == own;
+            assert!((1..=32).rev().any(is_own), "{said}");
+        }
+        for (found, tried) in [row.below, row.above].into_iter().zip(row.tried) {
+            let end = found.map_or(own, |found| found.verdict);
+            assert_eq!(verdict(scene, row.path, tried), end, "{} {tried}", row.path);
+        }
+    }
+}
+
+#[test]
+fn a_verdict_is_another_just_outside_of_what_is_found_and_not_just_inside() {
+    let paper = with("paper-nd3", &[]);
+    let margins = asked(&paper);
+    assert_found(&paper, margins.robust.as_ref().unwrap());
+    let law = paper.as_reference().checked().unwrap();
+    assert_found(&law, margins.pushes_only.as_ref().unwrap());
+    for name in ["paper-fig-7", "slip", "rub"] {
+        let scene = pushes_only(name, &[]);
+        let margins = asked(&scene);
+        assert_found(&scene, margins.robust.as_ref().unwrap());
+        assert!(margins.pushes_only.is_none(), "{name}");
+    }
+}
+
+#[test]
+fn a_pulse_that_locks_by_pushes_alone_is_an_island() {
+    let at = |pulse: f64| {
+        let pulse = pulse.to_string();
+        let how = [("operation.speed_rad_s", "480"), ("operation.pulse_n", pulse.as_str())];
+        pushes_only("paper-nd3", &how)
+    };
+    let margins = asked(&at(46.3e3));
+    let found = margins.robust.unwrap();
+    assert_eq!(found.verdict, Verdict::Locked);
+    let pulse = found.changes.iter().find(|row| row.path == "operation.pulse_n").unwrap();
+    let ends = [pulse.below, pulse.above].map(|found| found.unwrap());
+    assert!(ends.iter().all(|end| end.verdict == Verdict::Decay), "{ends:?}");
+    assert!(ends[0].value > 46.1e3 && ends[1].value < 48e3, "{ends:?}");
+    // Beyond it nearly every pulse decays.
+    let pulses = (0..80).map(|k| 46.3e3 * (1e6_f64 / 46.3e3).powf(f64::from(k) / 79.0));
+    let decays = pulses.filter(|pulse| {
+        run_to_verdict(&at(*pulse), &to_the_end).unwrap().verdict == Verdict::Decay
+    });
+    assert_eq!(decays.count(), 79);
+    let margins = asked(&at(1e6));
+    let found = margins.robust.unwrap();
+    let pulse = found.changes.iter().find(|row| row.path == "operation.pulse_n").unwrap();
+    assert_eq!((found.verdict, pulse.below, pulse.above), (Verdict::Decay, None, None));
+    assert_eq!(pulse.tried, [0.0, 2e6]);
+}
+
+#[test]
+fn what_is_zero_is_searched_upward_and_only_what_is_there_is_changed() {
+    let scene = pushes_only("paper-nd3", &[("operation.pulse_n", "0")]);
+    let found = asked(&scene).robust.unwrap();
+    let row = |path: &str| found.changes.iter().find(|row| row.path == path);
+    let pulse = row("operation.pulse_n").unwrap();
+    // Twice the pulse that touches.
+    assert_eq!((pulse.below, pulse.tried[0]), (None, 0.0));
+    assert!((pulse.tried[1] - 2.0 * 3_795.024_727).abs() < 1e-3, "{pulse:?}");
+    assert!(row("bladed_disk.longest_tip_m").is_none() && row("casing.out_of_round_m").is_none());
+    assert_eq!(found.changes.len(), 5);
+    let long = with("long-tip", &[("solver.end_s", "1e-3"), ("solver.step_s", "1e-6")]);
+    let found = asked(&long).robust.unwrap();
+    assert!(found.changes.iter().any(|row| row.path == "bladed_disk.longest_tip_m"));
+}
+
+#[test]
+fn a_search_that_is_told_to_stop_says_nothing() {
+    let scene = with("paper-nd3", &[]);
+    assert_eq!(scene.solver.contact, ContactLaw::Bilateral);
+    let mut margins = Margins::of(&scene);
+    assert_eq!(margins.ask_runs(&|| false, &mut |_| panic!("nothing is known")), None);
+    assert!(margins.robust.is_none() && margins.pushes_only.is_none());
+}
