@@ -9,7 +9,7 @@ const MOST: usize = 120;
 /// The lessons with their durations: the rows of a table.
 pub fn course() -> Vec<Vec<String>> {
     let row = |(place, lesson): (usize, &Lesson)| {
-        let minutes = format!("{} minutes", lesson.minutes());
+        let minutes = lesson.minutes().to_string();
         vec![place.to_string(), lesson.title.clone(), minutes, lesson.needs.clone()]
     };
     (1..).zip(all()).map(row).collect()

@@ -154,7 +154,7 @@ fn scene_keys() -> String {
 fn tables() -> Vec<(String, String)> {
     let mut found = vec![("keys".to_string(), keys()), ("scene file".to_string(), scene_keys())];
     found.push(("lessons".into(), super::lessons::sheet()));
-    let header = ["", "lesson", "takes", "needs"];
+    let header = ["", "lesson", "minutes", "needs"];
     found.push(("course".into(), table(&header, super::lessons::course())));
     let mut whole = Cli::command();
     whole.build();
