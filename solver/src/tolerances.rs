@@ -104,23 +104,6 @@ pub(crate) const STEPS_TO_TRY: f64 = 1e6;
 /// Larger: one is named that misses impacts.
 pub(crate) const STEP_AGREES: f64 = 0.1;
 
-/// Looks at a run on its way, against which a changed run is held. Fewer: it goes on longer
-/// beside the first one. More: a short run costs more to look at than to solve.
-pub(crate) const COURSE_LOOKS: usize = 128;
-
-/// Looks in a window over which what parts two runs is followed. Fewer: the beat of a
-/// passing blade is taken for growth.
-pub(crate) const COURSE_WINDOW: usize = 4;
-
-/// Part by which waves and impacts in a window may differ from those at the end of the run,
-/// for the motion to be the one that is kept. Larger: it still changes.
-pub(crate) const COURSE_ALIKE: f64 = 0.1;
-
-/// How far apart two runs may come to be at their ends, as parts of their waves, for them to
-/// come to one verdict: a part of the way from blade to blade, that a wave goes on with for
-/// ever. A wave that is kept has more room than this.
-pub(crate) const COURSE_APART: f64 = 1e-2;
-
 /// Looks at a run in each casing period, for a verdict that is proved. Speed only.
 pub(crate) const LOOKS_A_PERIOD: u64 = 4;
 

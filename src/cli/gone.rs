@@ -1,14 +1,12 @@
-//! Options, limits and scenes of earlier versions, each with what answers its question now.
+//! Options and limits of earlier versions, each with what answers its question now.
 
 use std::ffi::OsString;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 
-use rubscope_solver::scene::SceneError;
-
 /// An input of an earlier version.
 struct Gone {
-    /// The command that had it; empty for a scene, which every command had.
+    /// The command that had it.
     command: &'static str,
     /// The option or the name as typed; [`POSITIONAL`] stands for any argument that is no option.
     name: &'static str,
@@ -31,8 +29,6 @@ const GONE: &[Gone] = &[
     gone("margins", "lasting_pulse", PULSES),
     gone("margins", "lasting_pulse_unilateral", PULSES),
     gone("margins", "lasting_pulse_bilateral", PULSES),
-    gone("", "half-n", "half as many diameters as blades are paper-nd3 --nd 11 --speed 100"),
-    gone("", "near-critical", "its numbers are in docs/theory.md; see undamped --speed 293"),
     gone("margins", "blade_angle", "hbm --speed SPEED has the angles of the blades"),
     gone("margins", "lock_energy", "margins has torque and power that the rotor gives to the wave"),
     gone("figures", POSITIONAL, OWN),
@@ -71,14 +67,6 @@ pub fn name(command: &str, name: &str) -> Option<String> {
     find(GONE, command, name, name)
 }
 
-/// Returns the refusal of a built-in scene of an earlier version.
-pub fn scene(error: &SceneError) -> Option<String> {
-    match error {
-        SceneError::UnknownScene { name, .. } => find(GONE, "", name, &format!("scene {name}")),
-        _ => None,
-    }
-}
-
 fn find(known: &[Gone], command: &str, name: &str, shown: &str) -> Option<String> {
     let found = known.iter().find(|gone| gone.command == command && gone.name == name)?;
     Some(format!("{shown} is gone: {}", found.instead))
@@ -95,12 +83,5 @@ mod tests {
         assert_eq!(found.as_deref(), Some("hbm --old is gone: ask hbm --new"));
         assert_eq!(find(&known, "run", "--old", "run --old"), None);
         assert_eq!(find(&known, "hbm", "--new", "hbm --new"), None);
-    }
-
-    #[test]
-    fn what_is_gone_is_not_there() {
-        for gone in GONE.iter().filter(|gone| gone.command.is_empty()) {
-            assert!(rubscope_solver::scene::Scene::builtin(gone.name).is_err(), "{}", gone.name);
-        }
     }
 }

@@ -14,6 +14,7 @@ use super::range::Range;
 use super::status::{self, Refusal, Status};
 use super::{Done, output, sign};
 use crate::file::{self, Written};
+use crate::report::number::from_shown;
 use crate::report::part::{self, Shard};
 use crate::report::{Provenance, json, map as report, svg};
 use rubscope_solver::scene::keys;
@@ -135,8 +136,10 @@ impl MapCommand {
             axis.map_err(|error: AxisError| Refusal::because(error.to_string()))
         };
         let scene = resolved.scene;
+        // Round in the unit shown.
+        let fastest = if self.options.in_rpm() { from_shown(5000.0, "rad/s") } else { 500.0 };
         let plan = MapPlan {
-            x: axis(&self.x, keys::SPEED, resolved.speeds, 0.0, 500.0, COLUMNS)?,
+            x: axis(&self.x, keys::SPEED, resolved.speeds, 0.0, fastest, COLUMNS)?,
             y: axis(&self.y, keys::PULSE, resolved.pulses, 0.0, 1e6, ROWS)?,
             scene: scene.into_scene(),
             sensitivity: !self.no_sensitivity,

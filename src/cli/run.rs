@@ -80,10 +80,9 @@ impl RunCommand {
         let mut shown = LongRun::of(&scene, changed_runs);
         let started = Instant::now();
         let mut sink = |sample: &Sample| history.push(sample);
-        let ask = changed_runs > 0;
-        let mut report = run_to_end_watched(&scene, &acts, sampling, &mut sink, &mut shown, ask);
+        let mut report = run_to_end_watched(&scene, &acts, sampling, &mut sink, &mut shown);
         let mut wall = Wall { run_s: started.elapsed().as_secs_f64(), certainty_s: None };
-        if ask {
+        if changed_runs > 0 {
             sign::doing("changed runs find out which digits hold");
             let started = Instant::now();
             report.ask_changed_runs(&acts, &to_the_end);

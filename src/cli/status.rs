@@ -62,8 +62,7 @@ pub fn exit(done: super::Done) -> u8 {
     if error.is::<SceneError>() || error.is::<Refusal>() {
         // What would have been done is of no interest: the refusal stands alone.
         noted().clear();
-        let gone = error.downcast_ref::<SceneError>().and_then(gone::scene);
-        say(&format!("rubscope: {}", gone.unwrap_or_else(|| format!("{error:#}"))));
+        say(&format!("rubscope: {error:#}"));
         return 2;
     }
     say_noted();

@@ -6,7 +6,7 @@ use std::io::{Result, Write};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::json;
 
-use super::number::short;
+use super::number::{per_speed, rounded, short, speed_unit};
 use super::summary::OF_WHAT;
 use super::symbols::greek;
 use super::{CommandLine, table};
@@ -122,14 +122,25 @@ pub fn write_csv(map: &Map, out: &mut dyn Write) -> Result<()> {
     table::write_csv([first, second, "verdict", "sensitive", "depends_on_step"], rows, out)
 }
 
+/// Returns the number of shown units of an axis in one SI unit.
+fn factor(axis: &Axis) -> f64 {
+    if axis.path == keys::SPEED { per_speed(1.0) } else { 1.0 }
+}
+
+/// Returns the name of an axis, with the unit shown.
+fn label(axis: &Axis) -> String {
+    let title = greek(&keys::find(&axis.path).map_or_else(|_| axis.path.clone(), Key::title));
+    if axis.path == keys::SPEED { title.replace("rad/s", speed_unit()) } else { title }
+}
+
 /// Returns the map as a figure, with these curves.
 #[must_use]
 pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
     let (scene, x, y) = (&map.plan.scene, &map.plan.x, &map.plan.y);
     let quantity = |axis: &Axis| Quantity {
         column: leaf(axis).to_string().into(),
-        label: greek(&keys::find(&axis.path).map_or_else(|_| axis.path.clone(), Key::title)).into(),
-        factor: 1.0,
+        label: label(axis).into(),
+        factor: factor(axis),
         log: axis.log,
     };
     let columns = x.count as usize;
@@ -205,15 +216,20 @@ pub fn write_text(map: &Map, width: usize, out: &mut dyn Write) -> Result<()> {
     let most = width.saturating_sub(FRAME).max(10);
     let across = (x.count as usize).div_ceil(most);
     let down = (y.count as usize).div_ceil(TEXT_ROWS);
-    writeln!(out, "{} (up) against {} (right)", y.path, x.path)?;
+    let [up, right] = [y, x].map(|axis| match axis.path == keys::SPEED {
+        true => axis.path.replace("rad_s", &speed_unit().replace('/', "_")),
+        false => axis.path.clone(),
+    });
+    writeln!(out, "{up} (up) against {right} (right)")?;
+    let told = |axis: &Axis, at: u32| short(rounded(factor(axis) * axis.value(at), 12));
     let rows: Vec<u32> = (0..y.count).step_by(down).collect();
     for &row in rows.iter().rev() {
         let line: String =
             (0..x.count).step_by(across).map(|column| mark(map.at(column, row))).collect();
-        writeln!(out, "{:>12} |{line}|", short(y.value(row)))?;
+        writeln!(out, "{:>12} |{line}|", told(y, row))?;
     }
     let columns = (x.count as usize).div_ceil(across);
-    let (first, last) = (short(x.value(0)), short(x.value(x.count - 1)));
+    let (first, last) = (told(x, 0), told(x, x.count - 1));
     // Below few columns the last label goes beyond them.
     let room = columns.saturating_sub(first.len()).max(last.len() + 1);
     writeln!(out, "{:>INDENT$}{first}{last:>room$}", "")?;
@@ -238,7 +254,8 @@ fn write_speeds(map: &Map, across: usize, columns: usize, out: &mut dyn Write) -
         if map.plan.x.path != keys::SPEED || !upright || !(0.0..columns as f64).contains(&column) {
             continue;
         }
-        let (column, name) = (column as usize, format!("{} = {}", curve.name, short(speed)));
+        let (column, name) =
+            (column as usize, format!("{} = {}", curve.name, short(per_speed(speed))));
         if column + 2 + name.len() <= columns.max(40) {
             writeln!(out, "{:>1$}^ {name}", "", INDENT + column)?;
         } else {

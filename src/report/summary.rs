@@ -201,8 +201,8 @@ fn many_touch(
         format!(", {noun} {} most, with {force} N", listed(&most.blades))
     });
     let blades: usize = contacts.iter().map(|contact| contact.blades.len()).sum();
-    let sum = digits.shown(sum, all, short);
-    format!("{blades} blades push with {sum} N at the end{most}.")
+    let (sum, push) = (digits.shown(sum, all, short), if blades == 1 { "pushes" } else { "push" });
+    format!("{} {push} with {sum} N at the end{most}.", count(blades as u64, "blade"))
 }
 
 fn touch(contact: &Contact, moved: Option<f64>, digits: &Digits) -> String {

@@ -27,7 +27,7 @@ const LIMITS: [(LimitName, &str); 6] = [
     (LimitName::OmegaLock, "Omega_lock"),
     (LimitName::LockEnds, "ends"),
     (LimitName::Coincidence, "sum (31)"),
-    (LimitName::WhirlOnset, "whirl"),
+    (LimitName::WhirlOnset, "onset"),
     (LimitName::FlutterSpeed, "flutter"),
     (LimitName::OmegaC, "Omega_c"),
 ];
@@ -138,9 +138,8 @@ fn told(omega: f64) -> String {
     short(if shown.abs() < 1e3 { rounded(shown, 4) } else { shown.round() })
 }
 
-/// What a row can do in the range, in words.
-#[must_use]
-pub fn verdict(survey: &Survey, row: &SurveyRow) -> String {
+/// What a row can do in the range, in words: where it can lock, and whirl.
+fn verdict(survey: &Survey, row: &SurveyRow) -> [String; 2] {
     let ([least, most], unit) = (survey.speeds(), speed_unit());
     let span = |[from, to]: &[f64; 2]| match (*from <= least, *to >= most) {
         (true, true) if survey.range_rad_s.is_none() => "at every speed".to_string(),
@@ -159,7 +158,7 @@ pub fn verdict(survey: &Survey, row: &SurveyRow) -> String {
     let onset = row.limits.iter().any(|limit| limit.name == LimitName::WhirlOnset);
     let from = if onset { "from " } else { "" };
     let whirls = row.whirls_in_range.first();
-    locks + &whirls.map_or(String::new(), |omega| format!("; whirl: {from}{} {unit}", told(*omega)))
+    [locks, whirls.map_or(String::new(), |omega| format!("{from}{} {unit}", told(*omega)))]
 }
 
 /// The speeds of the line of letters: the range, or from rest to beyond the present speed.
@@ -227,15 +226,20 @@ pub fn rows(survey: &Survey, shown: &[&SurveyRow]) -> Table {
     let limits: Vec<_> = present(shown).collect();
     let [from, to] = ends(survey).map(told);
     let of_bar = format!("{from:<0$}{to}", BAR.saturating_sub(to.len()));
-    let heads = ["n_d", "verdict", &of_bar, "casing", "disk"].map(str::to_string).into_iter();
-    let heads = heads.chain(limits.iter().map(|limit| limit.1.to_string()));
-    let mut table = Table::new(heads.map(Heading::shown));
+    // A column of its own, as both together are wider than a small screen.
+    let whirls = shown.iter().any(|row| !row.whirls_in_range.is_empty());
+    let heads = ["n_d", "verdict"].into_iter().chain(whirls.then_some("whirl"));
+    let heads = heads.chain([of_bar.as_str(), "casing", "disk"]);
+    let heads = heads.chain(limits.iter().map(|limit| limit.1));
+    let mut table = Table::new(heads.map(|head| Heading::shown(head.to_string())));
     let cell = |x: f64, sign: &str| TableCell::Told(x, short(rounded(x, 5)) + sign);
     for row in shown {
         let here = row.nodal_diameters == survey.scene.operation.nodal_diameters;
         let (sign, known) = (if here { ">" } else { " " }, if row.modes_known { "" } else { "?" });
         let own = format!("{sign}{}{known}", row.nodal_diameters);
-        let words = [own, verdict(survey, row), bar(survey, row)].map(TableCell::Word);
+        let [locks, whirl] = verdict(survey, row);
+        let words = [own, locks].into_iter().chain(whirls.then_some(whirl));
+        let words = words.chain([bar(survey, row)]).map(TableCell::Word);
         let modes = [row.omega_c_rad_s, row.omega_bd_rad_s].map(|omega| cell(omega / TAU, ""));
         let limits = limits.iter().map(|(name, _)| {
             row.limit(*name, survey.is_forward()).map_or(TableCell::Empty, |limit| {
@@ -244,7 +248,7 @@ pub fn rows(survey: &Survey, shown: &[&SurveyRow]) -> Table {
                 cell(per_speed(limit.value.abs()), &format!("{sign}{by}"))
             })
         });
-        table.push(words.into_iter().chain(modes).chain(limits).collect());
+        table.push(words.chain(modes).chain(limits).collect());
     }
     table
 }

@@ -3,6 +3,7 @@
 
 use ratatui::style::Style;
 
+use super::field::CURSOR;
 use super::ground::Ground;
 use super::raster::{Marker, Pen};
 use super::theme::{Role, Theme};
@@ -128,6 +129,7 @@ impl Appearance {
                 '↑' => out.push('^'),
                 '↓' => out.push('v'),
                 '┄' => out.push('~'),
+                CURSOR => out.push(CURSOR),
                 letter if letter.is_ascii() => out.push(letter),
                 _ => out.push('?'),
             }

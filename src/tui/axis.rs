@@ -2,7 +2,7 @@
 //! that follow the data with hysteresis, so that the scale does not jump.
 
 pub use crate::report::number::SiScale;
-use crate::report::number::{in_shown_unit, per_speed, trimmed};
+use crate::report::number::{in_shown_unit, per_frequency, per_speed, trimmed};
 pub use crate::report::ticks::{nice_step, ticks};
 
 /// The axis of a chart: its range and the prefix of its labels.
@@ -37,6 +37,12 @@ impl ChartAxis {
     pub fn speeds(low: f64, high: f64) -> Self {
         let scale = SiScale { factor: 1.0 / per_speed(1.0), prefix: "" };
         Self { scale, speeds: true, ..Self::plain(low, high) }
+    }
+
+    /// Same as [`Self::speeds`], of angular frequencies.
+    pub fn frequencies(low: f64, high: f64) -> Self {
+        let scale = SiScale { factor: 1.0 / per_frequency(1.0), prefix: "" };
+        Self { scale, ..Self::speeds(low, high) }
     }
 
     /// Creates an axis of powers of ten, from one exponent to another.
@@ -214,6 +220,10 @@ mod tests {
         let (values, step) = axis.ticks(5);
         let labels: Vec<String> = values.iter().map(|value| axis.label(*value, step)).collect();
         let shown = (readable(50.0 * std::f64::consts::PI, "rad/s"), number(-100.0, "rad/s"));
+        assert!(
+            (ChartAxis::frequencies(0.0, 600.0).ticks(6).0[1] - 20.0 * std::f64::consts::TAU).abs()
+                < 1e-9
+        );
         crate::report::number::tell_in_rpm(false);
         assert!(labels.len() > 2, "{labels:?}");
         assert!(labels.iter().all(|label| label.parse::<u32>().unwrap() % 1000 == 0), "{labels:?}");

@@ -6,7 +6,6 @@
 use super::app::{App, Purpose};
 use super::axis::readable;
 use super::bindings::{self, Action, Binding, Chord, Context};
-use super::files::builtin_scenes;
 use super::knobs::{Fit, KNOBS, Knob, best, called, fit, knob_of, plain};
 use super::lessons::{self, LETTERS};
 use super::theme::Theme;
@@ -14,14 +13,15 @@ use super::views::id::ViewId;
 use super::views::map::plan::numeric;
 use rubscope_solver::scene::Value;
 use rubscope_solver::scene::keys;
+use rubscope_solver::scene::{Scene, SceneError};
 
 /// Something that can be asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
     /// An action that also has a key.
     Act(Action),
-    /// Open a built-in scene.
-    Scene(&'static str),
+    /// Open a scene of the list.
+    Scene(String),
     /// Begin a lesson.
     Lesson(usize),
     /// Select a knob.
@@ -81,7 +81,13 @@ pub fn found(app: &App, typed: &str) -> Vec<Found> {
     let fits = |item: Found| rank(&item, &words).map(|rank| (rank, item));
     let mut others: Vec<_> = everything(app).filter_map(fits).collect();
     // A name that is typed in full comes first; the order of equals is that of the list.
-    others.sort_by_key(|(rank, item)| (item.what.to_lowercase() != typed.trim(), *rank));
+    let place = |item: &Found| match &item.command {
+        Command::Scene(name) if name == typed.trim() => 0,
+        Command::Act(Action::View(view)) if view.word() == typed.trim() => 1,
+        _ if item.what.to_lowercase() == typed.trim() => 0,
+        _ => 2,
+    };
+    others.sort_by_key(|(rank, item)| (place(item), *rank));
     all.extend(others.into_iter().map(|(_, item)| item));
     all
 }
@@ -104,39 +110,29 @@ pub fn only(app: &App, typed: &str) -> Result<Found, String> {
     }
     let lower = typed.to_lowercase();
     let words: Vec<&str> = lower.split_whitespace().collect();
-    // Nobody looks at what was found: letters between others are not enough, where it is
-    // not named by its own word.
-    let is_like =
-        |item: &Found| !is_named(item) || rank(item, &words).is_none_or(|(is_like, _)| !is_like);
     let refusal = refused(app, typed);
-    let first = found(app, typed).into_iter().next().filter(is_like);
+    let first = found(app, typed).into_iter().next();
     match (first, refusal) {
         (Some(Found { command: Command::Set(..), .. }), _) => alone(app, typed),
         // To select a knob is no answer to a value that it does not take; nor is another
         // thing that only happens to have these words.
         (Some(Found { command: Command::Select(_), .. }), Some((_, why))) => Err(why),
         (Some(item), Some((fit, why)))
-            if fit < Fit::Begins && is_named(&item) && !is_own(&item, &words) =>
+            if fit < Fit::Begins
+                && ["", "knob", "scene", "lesson"].contains(&item.kind)
+                && !is_own(&item, &words) =>
         {
             Err(why)
         }
         (Some(item), _) => Ok(item),
         (None, Some((_, why))) => Err(why),
-        (None, None) if typed.starts_with(|c: char| c.is_ascii_digit() || c == '-') => {
+        (None, None) if is_numeric(typed) => {
             Err(format!("{typed}: of which knob? Such as speed 450 rad/s"))
         }
-        (None, None) => {
-            Err(format!("nothing has these words: {typed}; help lists what can be asked for"))
-        }
-    }
-}
-
-/// Returns whether something is found by its words, not found by a word of its own.
-fn is_named(item: &Found) -> bool {
-    match item.command {
-        Command::Act(_) | Command::Scene(_) | Command::Lesson(_) | Command::Select(_) => true,
-        Command::Set(..) | Command::GoTo(_) | Command::Blade(_) => false,
-        Command::Axes(_) | Command::Write(..) | Command::Theme(_) => false,
+        (None, None) => match Scene::builtin(words.last().unwrap_or(&"")) {
+            Err(gone @ SceneError::GoneScene { .. }) => Err(gone.to_string()),
+            _ => Err(format!("nothing has these words: {typed}; help lists what can be asked for")),
+        },
     }
 }
 
@@ -221,7 +217,7 @@ fn directed(app: &App, typed: &str) -> Option<Vec<Found>> {
             None => one_axis(app, "across", &lower),
         },
         "across" | "up" => one_axis(app, &first, &lower),
-        "scene" => those_with(scenes(), &lower),
+        "scene" => those_with(scenes(app), &lower),
         "lesson" => match lower.parse::<usize>() {
             Ok(number) => lessons().nth(number.checked_sub(1)?).into_iter().collect(),
             Err(_) => those_with(lessons(), &lower),
@@ -296,9 +292,11 @@ fn one_axis(app: &App, first: &str, words: &str) -> Vec<Found> {
     fitting.into_iter().map(|(_, knob)| item(knob)).collect()
 }
 
-/// Reads `t 0.3 ms`: an instant to go to.
+/// Reads `t 0.3 ms`, or `0.3 ms` alone: an instant to go to.
 fn going_to(app: &App, typed: &str) -> Option<Found> {
-    let text = typed.trim_start().strip_prefix(['t', 'T'])?.trim_start_matches(['=', ' ']);
+    let named = typed.trim().strip_prefix(['t', 'T']);
+    let text = named.map(|text| text.trim_start_matches(['=', ' ']));
+    let text = text.or(Some(typed.trim()).filter(|text| text.ends_with('s')))?;
     let Value::Real(t) = knob_of(keys::END)?.parse(text).ok()? else { return None };
     let what = format!("t = {}", readable(t, "s"));
     Some(
@@ -307,7 +305,7 @@ fn going_to(app: &App, typed: &str) -> Option<Found> {
 }
 
 /// Returns the knobs that the first words name, set to what follows them, the best named first; a
-/// speed has a unit of its own and needs no name.
+/// number alone, or with a unit of speeds, is a speed.
 fn assignments(app: &App, typed: &str) -> Vec<(Fit, Found)> {
     let typed = typed.replacen('=', " ", 1);
     let words: Vec<&str> = typed.split_whitespace().collect();
@@ -316,8 +314,10 @@ fn assignments(app: &App, typed: &str) -> Vec<(Fit, Found)> {
     for (place, knob) in KNOBS.iter().enumerate() {
         let splits = (1..words.len()).rev().filter_map(|at| words.split_at_checked(at));
         let named = splits.filter_map(|(name, value)| Some((fit(knob, name)?, value.join(" "))));
+        // One digit is the key of a view.
+        let is_number = nameless.len() > 1 && nameless.parse().is_ok_and(f64::is_finite);
         let alone = knob.path == keys::SPEED
-            && ["rpm", "Hz", "rad/s"].iter().any(|unit| nameless.ends_with(unit));
+            && (is_number || ["rpm", "Hz", "rad/s"].iter().any(|unit| nameless.ends_with(unit)));
         let alone = alone.then(|| (Fit::Name, nameless.clone()));
         let values = named.chain(alone);
         let values = values.filter_map(|(fit, text)| Some((fit, knob.parse(&text).ok()?, text)));
@@ -331,13 +331,13 @@ fn assignments(app: &App, typed: &str) -> Vec<(Fit, Found)> {
     found
 }
 
-fn scenes() -> impl Iterator<Item = Found> {
-    builtin_scenes().iter().map(|scene| {
+fn scenes(app: &App) -> impl Iterator<Item = Found> {
+    app.scene_entries().into_iter().map(|scene| {
         let what = match &scene.scene {
             Ok(read) => format!("{}: {}", scene.name, read.title),
             Err(_) => scene.name.clone(),
         };
-        Found::of("scene", what, Command::Scene(&scene.name)).also("open")
+        Found::of("scene", what, Command::Scene(scene.name)).also("open")
     })
 }
 
@@ -365,41 +365,30 @@ fn everything(app: &App) -> impl Iterator<Item = Found> {
             .beside(knob.text(&app.scene))
             .also(format!("{} {}", knob.path, plain(knob.label)))
     });
-    actions.map(action).chain(knobs).chain(scenes()).chain(lessons())
+    actions.map(action).chain(knobs).chain(scenes(app)).chain(lessons())
 }
 
-/// Returns how well a line fits all the words, the best first: whether of a word it only has the
-/// letters, with others between, and the sum over the words; none if it does not.
-fn rank(item: &Found, words: &[&str]) -> Option<(bool, usize)> {
+/// Returns how well a line fits all the words, the best first, as a sum over the words; none if it
+/// does not.
+fn rank(item: &Found, words: &[&str]) -> Option<usize> {
     let what = item.what.to_lowercase();
     let all = format!("{} {what} {}", item.kind, item.also.to_lowercase());
     let each = words.iter().map(|word| match () {
-        () if what.starts_with(word) => Some((false, 0)),
+        () if what.starts_with(word) => Some(0),
         () if all.split(|c: char| !c.is_alphanumeric()).any(|part| part.starts_with(word)) => {
-            Some((false, 1))
+            Some(1)
         }
-        () if all.contains(word) => Some((false, 2)),
-        () if has_in_order(&what, word) => Some((true, 0)),
-        () => None,
+        () => all.contains(word).then_some(2),
     });
-    let sum = |(is_like, sum), each: Option<(bool, usize)>| {
-        each.map(|(like, rank)| (is_like || like, sum + rank))
-    };
-    each.into_iter().try_fold((false, 0), sum)
-}
-
-/// Returns whether a text has the letters of a word in their order, with others between.
-fn has_in_order(text: &str, word: &str) -> bool {
-    let mut rest = text.chars();
-    word.len() > 2 && word.chars().all(|letter| rest.any(|other| other == letter))
+    each.sum()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::tui::Marker;
+    use rubscope_solver::scene::BUILTIN;
     use rubscope_solver::scene::keys::PULSE;
-    use rubscope_solver::scene::{BUILTIN, Scene};
 
     fn app() -> App {
         App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Braille)
@@ -442,6 +431,9 @@ mod tests {
             ("pulse 20k", "pulse F"),
             ("ramp -400", "speed ramp"),
             ("fric 0.2", "friction μ"),
+            ("omega 450", "speed Ω"),
+            ("450", "speed Ω"),
+            ("-430.5", "speed Ω"),
         ] {
             assert_eq!(sets(typed).map(|place| KNOBS[place].label), Ok(label), "{typed}");
         }
@@ -485,7 +477,12 @@ mod tests {
             assert_eq!(known, !matches!(binding.action, Action::Palette | Action::Close));
         }
         for scene in BUILTIN {
-            assert_eq!(found(scene.name)[0].command, Command::Scene(scene.name), "{}", scene.name);
+            assert_eq!(
+                found(scene.name)[0].command,
+                Command::Scene(scene.name.into()),
+                "{}",
+                scene.name
+            );
         }
         for (place, lesson) in lessons::all().iter().enumerate() {
             // A scene may have the title of its lesson.
@@ -535,6 +532,12 @@ mod tests {
         for (typed, command) in [
             ("t 0.3 ms", Command::GoTo(0.3e-3)),
             ("T=2e-3", Command::GoTo(2e-3)),
+            ("5 ms", Command::GoTo(5e-3)),
+            ("40us", Command::GoTo(4e-5)),
+            ("compare", Command::Act(Action::OtherLaw)),
+            ("presentation", Command::Act(Action::Present)),
+            ("margins", Command::Act(Action::View(ViewId::Margins))),
+            ("survey", Command::Act(Action::Survey)),
             ("end", Command::Act(Action::GoToEnd)),
             ("blade 7", Command::Blade(7)),
             ("axes clearance pulse", axes(Some("clearance"), Some(PULSE))),
@@ -545,8 +548,8 @@ mod tests {
             ("axes clear", axes(Some("clearance"), None)),
             ("across clear", axes(Some("clearance"), None)),
             ("up pulse t_p", axes(None, Some("operation.pulse_s"))),
-            ("scene rub", Command::Scene("rub")),
-            ("scene slip", Command::Scene("slip")),
+            ("scene rub", Command::Scene("rub".into())),
+            ("scene slip", Command::Scene("slip".into())),
             ("lesson friction", Command::Lesson(11)),
             ("lesson 2", Command::Lesson(1)),
             ("view 5", Command::Act(Action::View(ViewId::Map))),
@@ -571,6 +574,15 @@ mod tests {
             ("blade -3", "blade -3: from 1 to 22"),
             ("something odd", "nothing has these words: something odd"),
             ("qqq", "nothing has these words: qqq"),
+            ("t inf", "t inf: this is no time, such as 0.3 ms"),
+            ("t nan", "t nan: this is no time, such as 0.3 ms"),
+            ("450,5", "450,5: of which knob? Such as speed 450 rad/s"),
+            ("speed 450,5", "speed Ω: 450,5 cannot be read: a number has a decimal point"),
+            (
+                "scene half-n",
+                "scene half-n is gone: half as many diameters as blades are paper-nd3",
+            ),
+            ("half-n", "scene half-n is gone: "),
             ("scene qqq", "nothing has these words: scene qqq"),
             ("axes qqq", "nothing has these words: axes qqq"),
         ] {

@@ -9,14 +9,16 @@ use std::io::{BufRead, Error, Read, Write};
 use anyhow::Context as _;
 
 use super::app::{App, InputMode};
+use super::bindings::{Action, Group};
 use super::commands::{self, Found};
 use super::engine::{Order, Pace};
-use super::files::FileResult;
+use super::files::{FileResult, FoundScenes};
 use super::knobs::KNOBS;
 use super::options::ExploreOptions;
 use super::raster::Marker;
 use super::theme::Theme;
 use super::update::Effect;
+use super::views::id::ViewId;
 use super::worker::Playback;
 use super::{ability, config, panels};
 use crate::report::line::clean;
@@ -38,6 +40,7 @@ const USAGE: &str = "\
 speed 450, pulse 20k, law unilateral: give a knob a value; its name alone says the value
 t 0.3 ms, end, n, blade 7: go to an instant, the end, the next change of contact, a gap
 scene rub, lesson friction: open; answer b answers its question, g goes on, G leaves
+margins, survey, view 3: the rows of the tables, and the lock at this speed
 undo, restart, live, fire, and every other action of the explorer by its words or key
 save FILE, copy: the scene as a file, the command that repeats the run
 help WORDS: what the help says about them; quit, or the end of input, ends";
@@ -47,6 +50,8 @@ struct Lines {
     app: App,
     engine: Option<Playback>,
     ordered: Option<Order>,
+    /// The view whose rows are told.
+    told: Option<ViewId>,
 }
 
 /// Takes commands until the input ends or one quits. With a prompt for a person who types.
@@ -116,14 +121,15 @@ impl Lines {
         let mut app = App::new(scene, Theme::Mono, marker);
         app.layout.size = (WIDTH, ROWS);
         app.play.playing = false;
-        Self { app, engine: None, ordered: None }
+        Self { app, engine: None, ordered: None, told: None }
     }
 
     /// Computes everything that the state needs.
     fn settle(&mut self) {
         for _ in 0..ORDERS {
-            // Without charts there are no studies.
-            let order = Order { playing: false, open: Vec::new(), ..self.app.order() };
+            // Nobody sees a chart: a study is only for what is told.
+            let open = self.told.into_iter().collect();
+            let order = Order { playing: false, open, ..self.app.order() };
             if self.ordered.as_ref() == Some(&order) {
                 return;
             }
@@ -142,6 +148,9 @@ impl Lines {
     /// Does what a line asks for and answers it; false where it quits.
     fn answer(&mut self, line: &str, out: &mut dyn Write) -> Result<bool, Error> {
         let (first, rest) = line.split_once(' ').unwrap_or((line, ""));
+        if first.starts_with("scene") {
+            self.app.files.found = FoundScenes::of(&self.app.files.directory);
+        }
         match (first, rest.trim()) {
             ("help" | "?", words) => return self.help(words, out).map(|()| true),
             ("scene" | "scenes", "") => return self.list("scene", out).map(|()| true),
@@ -150,13 +159,20 @@ impl Lines {
         }
         let found = match commands::only(&self.app, line) {
             Ok(found) => found,
-            Err(refused) => {
-                self.refuse(&refused, out)?;
-                return Ok(true);
-            }
+            Err(refused) => return self.refuse(&refused, out).map(|()| true),
         };
+        self.told = match found.command {
+            commands::Command::Act(Action::View(view)) => {
+                Some(view).filter(|view| TOLD.contains(view))
+            }
+            commands::Command::Act(Action::Survey) => Some(ViewId::Margins),
+            _ => None,
+        };
+        if self.told.is_none() && needs_screen(&found) {
+            let refused = format!("only a screen shows this: {}", found.what);
+            return self.refuse(&refused, out).map(|()| true);
+        }
         let (before, lesson) = (self.app.scene.clone(), self.app.lessons.progress.clone());
-        let shown = shown(&found);
         // Nobody sees a cursor: an instant is gone to, and not read.
         self.app.stop_reading();
         self.app.status = None;
@@ -168,7 +184,15 @@ impl Lines {
         self.settle();
         self.app.check_lesson();
         self.tell(out)?;
-        for line in self.changed(&before, shown) {
+        if let Some(view) = self.told {
+            self.app.status = None;
+            let lines = view.panel().lines(&self.app, usize::from(WIDTH)).unwrap_or_default();
+            return lines
+                .iter()
+                .try_for_each(|line| writeln!(out, "{}", self.spelled(line)))
+                .map(|()| true);
+        }
+        for line in self.changed(&before) {
             writeln!(out, "{}", self.spelled(&clean(&line)))?;
         }
         if self.app.lessons.progress != lesson {
@@ -256,8 +280,8 @@ impl Lines {
     }
 
     /// Returns what is other than before: knobs with their values, and what the last line of the
-    /// screen would say, or what only a screen can show.
-    fn changed(&self, before: &Scene, shown: Option<String>) -> Vec<String> {
+    /// screen would say.
+    fn changed(&self, before: &Scene) -> Vec<String> {
         let differ = KNOBS.iter().filter(|knob| knob.get(before) != knob.get(&self.app.scene));
         let parts: Vec<String> = differ
             .map(|knob| {
@@ -265,7 +289,7 @@ impl Lines {
             })
             .collect();
         let changed = (!parts.is_empty()).then(|| format!("changed: {}", parts.join("; ")));
-        let said = shown.or(self.app.status.clone()).map(|said| format!("done: {said}"));
+        let said = self.app.status.as_ref().map(|said| format!("done: {said}"));
         let lines: Vec<String> = changed.into_iter().chain(said).collect();
         if lines.is_empty() { vec!["changed: nothing".into()] } else { lines }
     }
@@ -288,22 +312,24 @@ impl Lines {
     }
 }
 
-/// Returns what only a screen shows of a command.
-fn shown(found: &Found) -> Option<String> {
-    use super::bindings::{Action, Group};
+/// The views that say something without a picture.
+const TOLD: [ViewId; 2] = [ViewId::Locked, ViewId::Margins];
+
+/// Returns whether only a screen shows what a command does.
+fn needs_screen(found: &Found) -> bool {
     let action = match found.command {
         commands::Command::Act(action) => action,
         commands::Command::Axes(_) | commands::Command::Theme(_) => Action::Theme,
-        _ => return None,
+        _ => return false,
     };
     let moves = [Action::Step, Action::Restart, Action::Fire, Action::Jump, Action::GoToEnd];
     match action.group() {
-        Group::Look | Group::Views => {}
+        Group::Look => action != Action::SpeedUnit,
+        Group::Views => true,
         // The motion waits: nothing plays.
-        Group::Time if !moves.contains(&action) => {}
-        _ => return None,
+        Group::Time => !moves.contains(&action),
+        _ => false,
     }
-    Some(format!("{}; only a screen shows it", found.what))
 }
 
 #[cfg(test)]
@@ -373,9 +399,9 @@ mod tests {
             (b"run end", "run end is 5 ms: "),
             (b"law x", "refused: contact: x is unknown"),
             (b"answer b", "done: no question is open"),
-            (b"view map", "done: map of the verdict over two knobs; only a screen shows it"),
-            (b"theme light", "done: theme light; only a screen shows it"),
-            (b"pause", "done: pause, or go on; only a screen shows it"),
+            (b"view map", "refused: only a screen shows this: map of the verdict over two knobs"),
+            (b"theme light", "refused: only a screen shows this: theme light"),
+            (b"pause", "refused: only a screen shows this: pause, or go on"),
             (b"undo", "done: nothing to undo"),
             (b"law", "contact is unilateral"),
         ] {
@@ -386,6 +412,37 @@ mod tests {
             assert!(answer.last().unwrap().starts_with("speed Ω is 500 rad/s"), "{text}");
             assert!(!text.contains('\u{1b}'), "{text}");
         }
+    }
+
+    #[test]
+    fn margins_survey_and_the_lock_answer_with_their_rows() {
+        let text = answers(b"margins\n");
+        assert!(
+            text.lines().any(|line| line.starts_with("Ω_lock") && line.contains("411.9")),
+            "{text}"
+        );
+        let text = answers(b"survey\nspeed\n");
+        assert!(
+            text.lines().filter(|line| line.trim_start().starts_with(char::is_numeric)).count() > 5,
+            "{text}"
+        );
+        let text = answers(b"speed 450\nview 3\n");
+        assert!(text.contains("at 450.0 rad/s: λ_a -"), "{text}");
+        assert!(!text.contains("screen shows"), "{text}");
+    }
+
+    #[test]
+    fn a_scene_that_was_just_saved_is_found() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut lines = Lines::of(Scene::base().checked().unwrap(), Marker::Braille);
+        lines.app.files.directory = folder.path().into();
+        let mut out = Vec::new();
+        for line in ["speed 450", "save mine.toml", "scene rub", "scene mine"] {
+            assert!(lines.answer(line, &mut out).unwrap());
+        }
+        let text = String::from_utf8(out).unwrap();
+        assert!(text.contains("done: opened mine.toml"), "{text}");
+        assert_eq!(lines.app.scene.operation.speed_rad_s, 450.0);
     }
 
     #[test]

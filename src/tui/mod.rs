@@ -16,6 +16,7 @@ pub mod engine;
 #[doc(hidden)]
 pub mod events;
 pub mod export;
+mod field;
 #[doc(hidden)]
 pub mod files;
 mod glossary;

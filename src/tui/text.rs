@@ -2,7 +2,6 @@
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Style};
 
-use super::appearance::Appearance;
 use crate::report::line::{harmless, wrapped};
 
 /// Characters in a cell on average, at most: a letter may have several accents,
@@ -65,28 +64,6 @@ pub fn pieces(buffer: &mut Buffer, area: Rect, row: u16, parts: &[(String, Style
     }
 }
 
-/// Pieces of text in one row, spelled as the screen writes them; the one that does
-/// not fit ends in an ellipsis. The columns that they take.
-pub fn spelled_pieces(
-    look: &Appearance,
-    buffer: &mut Buffer,
-    area: Rect,
-    row: u16,
-    parts: &[(String, Style)],
-) -> u16 {
-    let mut x = area.x;
-    for (text, style) in parts {
-        let left = usize::from(area.right().saturating_sub(x));
-        let text = shorten(&look.spell(text), left, look.ellipsis());
-        if left == 0 || row >= area.height {
-            break;
-        }
-        buffer.set_string(x, area.y + row, &text, *style);
-        x = x.saturating_add(u16::try_from(columns(&text)).unwrap_or(u16::MAX));
-    }
-    x - area.x
-}
-
 /// Returns a text in lines no wider than `width`, at least one.
 pub fn wrap(text: &str, width: usize) -> Vec<String> {
     let lines = wrapped(text, width.max(1));
@@ -102,6 +79,16 @@ pub fn first_lines(mut lines: Vec<String>, width: usize, rows: usize, mark: &str
     }
     lines.truncate(rows);
     lines
+}
+
+/// Returns a text in lines, without those of its parts, each after a comma, that have no room in
+/// so many rows.
+pub fn whole_parts(text: &str, width: usize, rows: usize) -> Vec<String> {
+    let lines = wrap(text, width);
+    match text.rsplit_once(", ") {
+        Some((before, _)) if lines.len() > rows => whole_parts(before, width, rows),
+        _ => lines,
+    }
 }
 
 /// Returns the numbers of a few blades: more than three are not told.
@@ -128,6 +115,8 @@ mod tests {
         assert_eq!(lines(3), ["one two", "three", "four five"]);
         assert_eq!(lines(2), ["one two", "three fo…"]);
         assert!(lines(0).is_empty());
+        assert_eq!(whole_parts("one, two three, four", 9, 2), ["one, two", "three"]);
+        assert_eq!(whole_parts("one, two three, four", 7, 1), ["one"]);
         assert_eq!((few(&[1, 8, 15]), few(&[1, 7, 12, 18])), ("1,8,15".into(), "1,7,12,..".into()));
     }
 

@@ -183,7 +183,6 @@ fn a_run_that_is_watched_is_the_same_run() {
                 sampling,
                 &mut |sample| samples[1].push(sample.state),
                 &mut watch,
-                false,
             );
             assert_eq!(plain, watched, "{name}");
             assert_eq!(samples[0], samples[1], "{name}");

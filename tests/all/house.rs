@@ -156,7 +156,7 @@ const EXPLORER: [&[&str]; 23] = [
     &["axis", "text"],
     &["appearance", "ability"],
     &["theme", "raster", "job", "job_other"],
-    &["ending", "ground", "history", "line", "trace", "tty", "tty_other"],
+    &["ending", "field", "ground", "history", "line", "trace", "tty", "tty_other"],
 ];
 
 /// The row of a path in the explorer, and its part.

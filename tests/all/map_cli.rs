@@ -184,3 +184,20 @@ fn more_threads_than_any_machine_has_are_refused() {
         assert!(line.contains(&format!("'{threads}'")) && line.contains(expected), "{line}");
     }
 }
+
+#[test]
+fn with_rpm_a_map_is_in_turns_a_minute_with_round_ends() {
+    let map = ["map", "--no-sensitivity", "--set", "solver.end_s=1e-3", "--pulse", "0:1e6:3"];
+    let text = String::from_utf8(rubscope(&[&map[..], &["--rpm"]].concat()).stdout).unwrap();
+    assert!(text.contains("(up) against operation.speed_rpm (right)"), "{text}");
+    assert!(text.contains("Omega_lock = 3933.68") && text.contains("\n              0 "), "{text}");
+    assert!(text.lines().any(|line| line.trim_end().ends_with(" 5000")), "{text}");
+    let text = String::from_utf8(rubscope(&map).stdout).unwrap();
+    assert!(text.contains("against operation.speed_rad_s (right)"), "{text}");
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("map.svg");
+    let out = ["--rpm", "--out", path.to_str().unwrap()];
+    assert!(rubscope(&[&map[..], &out].concat()).status.success());
+    let picture = std::fs::read_to_string(path).unwrap();
+    assert!(picture.contains("[rpm]") && picture.contains("4000") && !picture.contains("[rad/s]"));
+}

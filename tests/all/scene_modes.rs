@@ -191,7 +191,7 @@ fn bad_modes_and_units_are_refused_by_name() {
         ),
         (
             "[[casing.modes]]\nnodal_diameters = 3\nmodal_mass_kg = \"2 kN\"\n",
-            "casing.modes[1].modal_mass_kg = 2 kN: this is a force; it takes kg or g",
+            "casing.modes[1].modal_mass_kg = 2 kN: this is a force; it takes kg, g or t",
         ),
         (
             "[[casing.modes]]\nnodal_diameters = 3\nmodal_mass_kg = -2\n",

@@ -34,7 +34,7 @@ impl Host for NoHost {
 pub struct Stepwise {
     /// Motion between two snapshots \[s\].
     pub stride: f64,
-    /// Cells of a map that are computed: blocks of eight by eight.
+    /// Cells of a map that are computed: all blocks of eight by eight, and some finer ones.
     pub map_cells: usize,
     order: Option<Order>,
     playback: Option<Playback>,

@@ -1,6 +1,8 @@
 //! Finding things in the explorer: the help and its filter, the palette, and the
 //! last line, at every size.
 
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use rubscope::tui::events::ScreenEvent;
 use rubscope::tui::{Exit, Marker, Theme};
 use rubscope_solver::scene::Scene;
 
@@ -162,9 +164,104 @@ fn what_does_not_fit_is_marked_where_it_ends() {
 fn the_letters_of_speed_against_error_are_explained_at_80_columns() {
     let mut session = open((80, 24), Marker::Braille);
     session.press("7");
+    assert!(session.text().contains("error |u-u_ref|/g0 by wall time [s]"), "{}", session.text());
+    session.press("?");
     let text = session.text().split_whitespace().collect::<Vec<_>>().join(" ");
-    for words in ["e event", "u explicit", "capital: modal", "error |u-u_ref|/g0 by wall time [s]"]
-    {
+    for words in ["e event", "u s explicit", "b other law", "capital modal"] {
         assert!(text.contains(words), "no {words} in {}", session.text());
     }
+}
+
+#[test]
+fn every_prompt_edits_as_a_shell_does_and_shows_its_cursor() {
+    let ctrl = |session: &mut Session, letter| {
+        let key = KeyEvent::new(KeyCode::Char(letter), KeyModifiers::CONTROL);
+        session.send([ScreenEvent::Key(key)].into_iter());
+    };
+    // Each begins with the key that opens the prompt; the last is that of a screen for a projector.
+    for (open_with, prompt) in
+        [("\n", ""), (":", ": "), ("/", "find: "), ("s", "save the scene as: "), ("P\n", "")]
+    {
+        for marker in [Marker::Braille, Marker::Ascii] {
+            let mut session = open((80, 24), marker);
+            session.press(open_with);
+            ctrl(&mut session, 'u');
+            session.press("4 50x");
+            session.press("\u{8}←←⇱⇲←←6⌦");
+            assert!(session.text().contains(&format!("{prompt}4 60")), "{}", session.text());
+            // The letter under the cursor stands out from those beside it.
+            let text = session.text();
+            let (row, line) =
+                text.lines().enumerate().find(|(_, line)| line.contains("4 60")).unwrap();
+            let at =
+                line.chars().collect::<Vec<_>>().windows(4).position(|w| w == ['4', ' ', '6', '0']);
+            let cell = |x: usize| {
+                let buffer = session.terminal.backend().buffer();
+                buffer[(u16::try_from(x).unwrap(), u16::try_from(row).unwrap())].modifier
+            };
+            let at = at.unwrap();
+            assert_eq!(cell(at + 3) ^ cell(at + 2), ratatui::style::Modifier::REVERSED);
+            session.press("⇲");
+            ctrl(&mut session, 'w');
+            assert!(session.text().contains(&format!("{prompt}4 _")), "{}", session.text());
+            ctrl(&mut session, 'a');
+            ctrl(&mut session, 'k');
+            assert!(session.text().contains(&format!("{prompt}_")), "{}", session.text());
+        }
+    }
+}
+
+#[test]
+fn every_list_pages_and_goes_to_its_ends() {
+    for (keys, first, last) in [
+        ("o", "paper-nd3", "cannot be read"),
+        ("g", "1. ", "15. "),
+        (":", "select the knob above", "▸lesson Your own machine"),
+        ("?", "Here", "draw the screen again"),
+    ] {
+        let mut session = open((80, 24), Marker::Braille);
+        session.press(keys);
+        session.press("⇱");
+        let top = session.text();
+        assert!(top.contains(first), "{keys}: {top}");
+        session.press("⇲");
+        let end = session.text();
+        assert!(end != top && (keys == "?" || end.contains(last)), "{keys}: {end}");
+        session.press("↓");
+        assert_eq!(session.text(), end, "{keys}");
+        session.press("⇱");
+        assert_eq!(session.text(), top, "{keys}");
+        session.press("⇟");
+        let page = session.text();
+        assert!(page != top, "{keys}");
+        session.press("⇞");
+        assert_eq!(session.text(), top, "{keys}");
+    }
+}
+
+#[test]
+fn a_slash_finds_in_the_help_whatever_its_first_letter_and_in_lists() {
+    let mut session = open((80, 24), Marker::Braille);
+    session.press("/quit");
+    assert!(session.text().contains("find: quit_"), "{}", session.text());
+    session.press("\u{1b}\u{1b}o/oval");
+    assert!(session.text().contains(": scene oval_"), "{}", session.text());
+    session.press("\n");
+    assert_eq!(session.app.files.source.as_ref().unwrap().name, "oval");
+}
+
+#[test]
+fn what_was_just_saved_is_found_and_comes_first() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut session = open((80, 24), Marker::Braille);
+    session.app.files.directory = folder.path().into();
+    session.press("→:save mine.toml\n");
+    session.press(":scene mine");
+    session.press("");
+    assert!(session.text().contains("scene mine.toml: changed from"), "{}", session.text());
+    session.press("\n");
+    assert!(session.app.files.source.as_ref().unwrap().name.ends_with("mine.toml"));
+    session.press("o");
+    let text = session.text();
+    assert!(text.find("mine.toml") < text.find("paper-nd3 "), "{text}");
 }

@@ -313,6 +313,17 @@ fn the_survey_shows_every_number_of_diameters_and_enter_takes_one() {
 }
 
 #[test]
+fn where_blades_whirl_both_verdicts_fit_the_small_screen() {
+    let mut scene = Scene::builtin("rub").unwrap();
+    scene.solver.end_s = 1e-3;
+    let mut session = Session::open(80, 24, scene, Theme::Dark, Marker::Braille);
+    session.press("D");
+    session.press("");
+    let text = session.text();
+    assert!(text.contains("can lock: 472.1 to 566.3 rad/s from 414.3 rad/s"), "{text}");
+}
+
+#[test]
 fn speeds_are_told_in_the_chosen_unit_and_a_missing_mode_is_told() {
     let mut session = Session::open(120, 40, short(), Theme::Dark, Marker::Braille);
     session.press("U");

@@ -118,6 +118,17 @@ fn speed_against_error_shows_every_kind_of_solver() {
     }
 }
 
+#[test]
+fn speed_against_error_exports_its_rows() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut session = Session::open(120, 40, scene(), Theme::Mono, Marker::Braille);
+    session.app.files.directory = folder.path().into();
+    session.press("7");
+    session.press(":export rows.csv\n");
+    let rows = std::fs::read_to_string(folder.path().join("rows.csv")).unwrap();
+    assert!(rows.starts_with("solver,contact,model,step_s,") && rows.lines().count() > 5, "{rows}");
+}
+
 /// Beyond the event solver the view says what it compares with.
 #[test]
 fn speed_against_error_names_its_reference() {
@@ -288,7 +299,7 @@ fn a_long_tip_and_the_corner_that_it_makes_are_seen_in_every_view() {
 #[test]
 fn an_oval_casing_lies_or_stands_as_its_lobes_do() {
     let mut scene = Scene::builtin("oval").unwrap();
-    scene.view.charts = vec!["frame".into()];
+    scene.view.charts = vec!["wheel".into()];
     // It hardly turns while it is looked at.
     scene.operation.speed_rad_s = 0.1;
     scene.solver.end_s = 0.05;

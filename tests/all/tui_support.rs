@@ -40,6 +40,9 @@ fn code(letter: char) -> KeyCode {
         '↓' => KeyCode::Down,
         '⇟' => KeyCode::PageDown,
         '⇞' => KeyCode::PageUp,
+        '⇱' => KeyCode::Home,
+        '⇲' => KeyCode::End,
+        '⌦' => KeyCode::Delete,
         letter => KeyCode::Char(letter),
     }
 }

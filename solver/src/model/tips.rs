@@ -165,6 +165,16 @@ impl Machine {
         self.tips.as_ref().map_or(0.0, |tips| tips.longer(blade))
     }
 
+    /// Returns the blades of a side that touch, those with its longest tip, numbered from 1.
+    #[must_use]
+    pub fn first_of_side(&self, side: u32) -> Vec<u32> {
+        let mut blades = self.polygon.blades_of_side(side);
+        let tips = blades.iter().map(|blade| self.longer(blade - 1));
+        let longest = tips.fold(f64::NEG_INFINITY, f64::max);
+        blades.retain(|blade| self.longer(blade - 1) == longest);
+        blades
+    }
+
     /// Apothem of a side where the rotor has turned by `theta`: that of its blade with the
     /// least gap \[m\].
     #[must_use]

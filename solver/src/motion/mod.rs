@@ -5,11 +5,10 @@
 //! on, `clone` forks it, nothing is global.
 //!
 //! Read `solver` (what every solver offers), `drive` and `contacts` (what they share), then
-//! one kind of solver (`explicit` or `event`), then `run` with `script`, `wave`, `verdict`,
-//! `course` and `sensitivity`: a whole run, and whether a tiny change makes another of it.
+//! one kind of solver (`explicit` or `event`), then `run` with `script`, `wave`, `verdict` and
+//! `sensitivity`: a whole run, and whether a tiny change makes another of it.
 
 mod contacts;
-mod course;
 mod drive;
 mod event;
 mod explicit;
@@ -23,14 +22,13 @@ pub mod verdict;
 mod wave;
 
 pub use contacts::{ActiveSet, ContactLog, EnergyAccount, Hold, Impact, in_phase_order};
-pub use course::Course;
 pub use drive::{Pulse, Rotor, State};
 pub use event::{ExactEvents, LinearEvents};
 pub use failure::{Failure, FailureReason};
 pub use propagator::FreeFlight;
 pub use run::{
-    FinalState, ImpactReport, Looker, RunReport, Sample, Sampling, SolverReport, VerdictReached,
-    Watch, caught_at, judge_end, lock_that_broke, run_to_end, run_to_end_watched, run_to_verdict,
+    FinalState, ImpactReport, RunReport, Sample, Sampling, SolverReport, VerdictReached, Watch,
+    caught_at, judge_end, lock_that_broke, run_to_end, run_to_end_watched, run_to_verdict,
     simulate, simulate_with, verdict_of,
 };
 pub use script::{Change, Script};

@@ -9,8 +9,8 @@ use super::script::{Script, Scripted};
 use super::sensitivity::sign;
 use super::wave::WaveTracker;
 use super::{
-    ActiveSet, Basis, Checks, Contact, ContactLog, Course, EnergyAccount, Failure, FailureReason,
-    GoOn, Hold, Motion, Outcome, Proof, State, Verdict, to_the_end,
+    ActiveSet, Basis, Checks, Contact, ContactLog, EnergyAccount, Failure, FailureReason, GoOn,
+    Hold, Motion, Outcome, Proof, State, Verdict, to_the_end,
 };
 use crate::model::Machine;
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, SolverKind};
@@ -136,9 +136,6 @@ pub struct RunReport {
     /// What another run must agree with if this one is not sensitive.
     #[serde(skip)]
     pub reached: VerdictReached,
-    /// The way of this run, against which changed ones are held; unseen where it was not asked.
-    #[serde(skip)]
-    pub(super) course: Course,
 }
 
 /// How a run lasts, without its history.
@@ -173,42 +170,24 @@ impl VerdictReached {
     }
 }
 
-/// Looks at a run at instants of its own.
-pub trait Looker {
-    /// When to look next \[s\]; infinity where it has seen enough.
-    fn due(&self) -> f64;
-
-    /// Looks at that instant; whether the run may go on.
-    fn see(&mut self, motion: &Motion) -> bool;
-}
-
 /// Runs a checked scene until its verdict is settled, at most to its end; none
 /// where `go_on` said no on the way.
 #[must_use]
 pub fn run_to_verdict(scene: &CheckedScene, go_on: GoOn<'_>) -> Option<VerdictReached> {
-    run_looked_at(scene, &mut [], go_on)
-}
-
-/// As `run_to_verdict`, and looked at on the way.
-pub(super) fn run_looked_at(
-    scene: &CheckedScene,
-    lookers: &mut [&mut dyn Looker],
-    go_on: GoOn<'_>,
-) -> Option<VerdictReached> {
     let end = scene.solver.end_s;
-    run_motion_to_verdict(Motion::new(scene), &Script::default(), end, None, lookers, go_on)
+    run_motion_to_verdict(Motion::new(scene), &Script::default(), end, None, None, go_on)
         .map(|(motion, verdict)| VerdictReached::of(&motion, verdict))
 }
 
 /// Runs a motion through a script until its verdict is settled, at most to
 /// `end`; where there is `noise`, its rate changes by this part, up or down, once a casing
-/// period. None where `go_on` or a looker said no on the way.
+/// period. `wave` is followed on the way. None where `go_on` said no.
 pub(super) fn run_motion_to_verdict(
     motion: Motion,
     script: &Script,
     end: f64,
     noise: Option<f64>,
-    lookers: &mut [&mut dyn Looker],
+    mut wave: Option<&mut WaveTracker>,
     go_on: GoOn<'_>,
 ) -> Option<(Motion, Verdict)> {
     // Looking costs little against a part of a casing period of motion.
@@ -221,7 +200,7 @@ pub(super) fn run_motion_to_verdict(
     while verdict.is_none() {
         looks += 1;
         let until = (looks as f64 * interval).min(end);
-        verdict = match advance_looking(&mut scripted, lookers, until, go_on) {
+        verdict = match advance_following(&mut scripted, wave.as_deref_mut(), until, go_on) {
             Err(_) => scripted.motion.final_verdict().or(Some(Verdict::Failed)),
             Ok(false) => return None,
             Ok(true) if until >= end => Some(verdict_of(&scripted.motion, LAST_PART * end)),
@@ -237,27 +216,22 @@ pub(super) fn run_motion_to_verdict(
     Some((scripted.motion, verdict?))
 }
 
-/// Advances to `until`, and lets the lookers look on the way.
-fn advance_looking(
+/// Advances to `until`, and follows the wave on the way.
+fn advance_following(
     scripted: &mut Scripted<'_>,
-    lookers: &mut [&mut dyn Looker],
+    wave: Option<&mut WaveTracker>,
     until: f64,
     go_on: GoOn<'_>,
 ) -> Result<bool, Failure> {
-    loop {
-        let next = lookers.iter().map(|looker| looker.due()).fold(f64::INFINITY, f64::min);
-        if next > until {
-            return scripted.advance_while(until, go_on);
-        }
-        if !scripted.advance_while(next, go_on)? {
-            return Ok(false);
-        }
-        for looker in lookers.iter_mut().filter(|looker| looker.due() <= next) {
-            if !looker.see(&scripted.motion) {
+    if let Some(wave) = wave {
+        while wave.next_look() <= until {
+            if !scripted.advance_while(wave.next_look(), go_on)? {
                 return Ok(false);
             }
+            wave.look(scripted.motion.state());
         }
     }
+    scripted.advance_while(until, go_on)
 }
 
 /// Returns the verdict on a motion now: the proven one, or that over the last
@@ -349,7 +323,7 @@ pub fn simulate_with(
     sampling: Sampling,
     sink: &mut dyn FnMut(&Sample),
 ) -> RunReport {
-    let mut report = run_to_end_watched(scene, script, sampling, sink, &mut Unwatched, true);
+    let mut report = run_to_end_watched(scene, script, sampling, sink, &mut Unwatched);
     report.ask_changed_runs(script, &to_the_end);
     report
 }
@@ -362,7 +336,7 @@ pub fn run_to_end(
     sampling: Sampling,
     sink: &mut dyn FnMut(&Sample),
 ) -> RunReport {
-    run_to_end_watched(scene, script, sampling, sink, &mut Unwatched, false)
+    run_to_end_watched(scene, script, sampling, sink, &mut Unwatched)
 }
 
 /// Looks at a run on the way, when it wants to. The run is the same.
@@ -384,20 +358,17 @@ impl Watch for Unwatched {
     fn look(&mut self, _: &Motion) {}
 }
 
-/// As `run_to_end`, and looked at on the way; `will_ask` keeps what changed runs are held
-/// against.
+/// As `run_to_end`, and looked at on the way.
 pub fn run_to_end_watched(
     scene: &CheckedScene,
     script: &Script,
     sampling: Sampling,
     sink: &mut dyn FnMut(&Sample),
     watch: &mut dyn Watch,
-    will_ask: bool,
 ) -> RunReport {
     let mut scripted = Scripted::new(Motion::new(scene), script);
     let end = scene.solver.end_s;
     let mut wave = WaveTracker::over(scene, script);
-    let mut course = Course::over(end);
     let mut sample = 0_u32;
     loop {
         let sample_time = match sampling.intervals {
@@ -405,8 +376,7 @@ pub fn run_to_end_watched(
             n if sample > n => f64::INFINITY,
             n => end * (f64::from(sample) / f64::from(n)),
         };
-        let course_due = if will_ask { course.due() } else { f64::INFINITY };
-        let until = sample_time.min(wave.next_look()).min(course_due).min(end);
+        let until = sample_time.min(wave.next_look()).min(end);
         let advanced = loop {
             match scripted.advance_while(until, &|| watch.goes_on()) {
                 Ok(false) => watch.look(&scripted.motion),
@@ -423,9 +393,6 @@ pub fn run_to_end_watched(
                 && scripted.motion.final_verdict().is_some();
             if decided { wave.stop() } else { wave.look(scripted.motion.state()) }
         }
-        if until >= course_due {
-            course.see(&scripted.motion);
-        }
         if until >= sample_time {
             sink(&take_sample(&mut scripted.motion, sampling.gaps));
             sample += 1;
@@ -435,7 +402,7 @@ pub fn run_to_end_watched(
             break;
         }
     }
-    report(scene, &scripted.motion, &wave, course)
+    report(scene, &scripted.motion, &wave)
 }
 
 fn take_sample(motion: &mut Motion, gaps: bool) -> Sample {
@@ -450,14 +417,8 @@ fn take_sample(motion: &mut Motion, gaps: bool) -> Sample {
 }
 
 /// What there is to say of a motion at the end of its run.
-pub(super) fn report(
-    scene: &CheckedScene,
-    motion: &Motion,
-    wave: &WaveTracker,
-    course: Course,
-) -> RunReport {
+pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) -> RunReport {
     let machine = motion.machine();
-    let polygon = &machine.polygon;
     let (log, state) = (motion.contacts(), motion.state());
     let window = LAST_PART * scene.solver.end_s;
     let checks = motion.checks();
@@ -486,7 +447,7 @@ pub(super) fn report(
             .multipliers()
             .into_iter()
             .map(|(side, multiplier_n)| Contact {
-                blades: polygon.blades_of_side(side),
+                blades: machine.first_of_side(side),
                 multiplier_n,
             })
             .collect(),
@@ -509,7 +470,7 @@ pub(super) fn report(
         impacts: log
             .impacts
             .iter()
-            .map(|hit| ImpactReport { t_s: hit.t_s, blades: polygon.blades_of_side(hit.side) })
+            .map(|hit| ImpactReport { t_s: hit.t_s, blades: machine.first_of_side(hit.side) })
             .collect(),
         impact_count: log.impact_count,
         impacts_accumulate_at_s: accumulation(scene, log, machine),
@@ -529,7 +490,6 @@ pub(super) fn report(
         pushes_only: None,
         failure,
         reached: VerdictReached::of(motion, verdict),
-        course,
     }
 }
 

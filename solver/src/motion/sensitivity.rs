@@ -10,10 +10,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::course::{Beside, Course};
-use super::run::{
-    Looker, VerdictReached, report, run_looked_at, run_motion_to_verdict, run_to_verdict,
-};
+use super::run::{VerdictReached, report, run_motion_to_verdict, run_to_verdict};
 use super::script::{Change, Script, Scripted};
 use super::wave::WaveTracker;
 use super::{Contact, GoOn, Motion, RunReport, Verdict};
@@ -74,21 +71,19 @@ pub fn run_with_certainty(
     scene: &CheckedScene,
     go_on: GoOn<'_>,
 ) -> Option<(VerdictReached, Certainty)> {
-    let mut course = Course::over(scene.solver.end_s);
-    let reached = run_looked_at(scene, &mut [&mut course], go_on)?;
-    let certainty = certainty(scene, reached, &course, false, go_on)?;
+    let reached = run_to_verdict(scene, go_on)?;
+    let certainty = certainty(scene, reached, false, go_on)?;
     Some((reached, certainty))
 }
 
 /// What changed runs say of a checked scene that settled so and went this way; none where
-/// `go_on` said no on the way. Idle threads of the pool that asks take some of the runs, and
-/// one that goes beside the course ends there. The first that makes a tiny change differ
+/// `go_on` said no on the way. Idle threads of the pool that asks take some of the runs.
+/// The first that makes a tiny change differ
 /// ends all others; with `thoroughly`, the first with another end does.
 #[must_use]
 pub fn certainty(
     scene: &CheckedScene,
     reached: VerdictReached,
-    course: &Course,
     thoroughly: bool,
     go_on: GoOn<'_>,
 ) -> Option<Certainty> {
@@ -101,12 +96,8 @@ pub fn certainty(
         if !undecided() {
             return (*change, None);
         }
-        let mut beside = Beside::of(course, reached).filter(|_| *change != TinyChange::Step);
-        let mut lookers: Vec<&mut dyn Looker> = Vec::new();
-        lookers.extend(beside.iter_mut().map(|beside| beside as &mut dyn Looker));
-        let Some((motion, verdict)) = change.run(scene, &script, &mut lookers, &undecided) else {
-            let agrees = beside.is_some_and(|beside| beside.agrees());
-            return (*change, agrees.then_some(Difference::Nothing));
+        let Some((motion, verdict)) = change.run(scene, &script, None, &undecided) else {
+            return (*change, None);
         };
         let differs = VerdictReached::of(&motion, verdict).difference(reached, moment);
         found.fetch_or(*change != TinyChange::Step && differs >= enough, Ordering::Relaxed);
@@ -148,24 +139,17 @@ impl RunReport {
     /// numbers move; nothing is known where `go_on` said no on the way. A run that failed is
     /// tried with shorter steps.
     pub fn ask_changed_runs(&mut self, script: &Script, go_on: GoOn<'_>) {
-        let run = |change: &TinyChange| {
-            let mut beside = Beside::of(&self.course, self.reached)
-                .filter(|_| *change != TinyChange::Step)
-                .map(Beside::going_on);
-            let other = change.run_to_end(&self.scene, script, beside.as_mut(), go_on)?;
-            let agrees = beside.is_some_and(|beside| beside.agrees());
-            Some((*change, other, agrees))
-        };
+        let run =
+            |change: &TinyChange| Some((*change, change.run_to_end(&self.scene, script, go_on)?));
         let all = TinyChange::all(&self.scene);
         let changed: Option<Vec<_>> = all.par_iter().with_max_len(1).map(run).collect();
         let Some(changed) = changed else { return };
         let moment = moment(&self.scene);
-        let told = changed.iter().map(|(change, other, agrees)| match agrees {
-            true => (*change, Difference::Nothing),
-            false => (*change, other.reached.difference(self.reached, moment)),
-        });
+        let told = changed
+            .iter()
+            .map(|(change, other)| (*change, other.reached.difference(self.reached, moment)));
         let certainty = Certainty::of(told);
-        let changed: Vec<_> = changed.into_iter().map(|(_, other, _)| other).collect();
+        let changed: Vec<_> = changed.into_iter().map(|(_, other)| other).collect();
         self.outcome.spread = Some(Spread::of(self, &changed));
         self.outcome.sensitive = Some(certainty.sensitive);
         self.outcome.ends_otherwise = Some(certainty.ends_otherwise);
@@ -260,7 +244,7 @@ impl TinyChange {
         self,
         scene: &CheckedScene,
         script: &Script,
-        lookers: &mut [&mut dyn Looker],
+        wave: Option<&mut WaveTracker>,
         go_on: GoOn<'_>,
     ) -> Option<(Motion, Verdict)> {
         let mut motion = Motion::new(&self.changed(scene));
@@ -269,7 +253,7 @@ impl TinyChange {
             motion.scale_tolerance(FINER);
         }
         let script = script.mapped(|change| self.change(change));
-        run_motion_to_verdict(motion, &script, scene.solver.end_s, noise, lookers, go_on)
+        run_motion_to_verdict(motion, &script, scene.solver.end_s, noise, wave, go_on)
     }
 
     /// Runs a scene with this change to its end.
@@ -277,16 +261,13 @@ impl TinyChange {
         self,
         scene: &CheckedScene,
         script: &Script,
-        beside: Option<&mut Beside<'_>>,
         go_on: GoOn<'_>,
     ) -> Option<RunReport> {
         let mut wave = WaveTracker::over(scene, script);
-        let mut lookers: Vec<&mut dyn Looker> = vec![&mut wave];
-        lookers.extend(beside.map(|beside| beside as &mut dyn Looker));
-        let (mut motion, _) = self.run(scene, script, &mut lookers, go_on)?;
+        let (mut motion, _) = self.run(scene, script, Some(&mut wave), go_on)?;
         // What is settled before the end goes on to it; a failure stays where it is.
         let arrived = motion.advance_while(scene.solver.end_s, go_on).unwrap_or(true);
-        arrived.then(|| report(scene, &motion, &wave, Course::over(scene.solver.end_s)))
+        arrived.then(|| report(scene, &motion, &wave))
     }
 
     /// The scene with this change.
@@ -411,35 +392,10 @@ mod tests {
     }
 
     #[test]
-    fn a_changed_run_that_stops_beside_the_first_one_says_what_it_would_say_at_its_end() {
-        let (mut settled, mut both) = (0, [0; 2]);
-        let slips = [("slip", "rigid"), ("rub", "modal")];
-        for ((name, model), n) in slips.into_iter().flat_map(|slip| (0..12).map(move |n| (slip, n)))
-        {
-            let keys = [("solver.model", model), ("solver.kind", "event"), ("solver.end_s", "0.5")];
-            let mut scene = Scene::builtin(name).unwrap().with(&keys).unwrap().into_scene();
-            scene.operation.speed_rad_s = 380.0 + 12.0 * f64::from(n);
-            scene.operation.pulse_n = 3e4 * 1.35_f64.powi(n);
-            let scene = scene.checked().unwrap();
-            let mut course = Course::over(scene.solver.end_s);
-            let reached = run_looked_at(&scene, &mut [&mut course], &|| true).unwrap();
-            let told = |course: &Course| {
-                certainty(&scene, reached, course, false, &|| true).unwrap().sensitive
-            };
-            let (early, late) = (told(&course), told(&Course::over(scene.solver.end_s)));
-            assert_eq!(early, late, "{name} {n}");
-            settled += usize::from(Beside::of(&course, reached).is_some());
-            both[usize::from(late)] += 1;
-        }
-        assert!(settled > 2 && both.iter().all(|count| *count > 0), "{settled} {both:?}");
-    }
-
-    #[test]
     fn what_is_told_to_stop_does_not_know_whether_a_run_is_sensitive() {
         let scene = Scene::base().as_reference().checked().unwrap();
         let reached = run_to_verdict(&scene, &|| true).unwrap();
-        let course = Course::over(scene.solver.end_s);
-        assert_eq!(certainty(&scene, reached, &course, false, &|| false), None);
+        assert_eq!(certainty(&scene, reached, false, &|| false), None);
         assert_eq!(run_with_certainty(&scene, &|| false), None);
     }
 }

@@ -2,9 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::run::Looker;
+use super::State;
 use super::script::{Change, Script};
-use super::{Motion, State};
 use crate::model::Machine;
 use crate::scene::CheckedScene;
 use crate::tolerances::{LAST_PART, WAVE_LOOKS, WAVE_LOOKS_A_TURN};
@@ -88,17 +87,6 @@ impl WaveTracker {
         let elapsed = self.last.0 - self.first?.0;
         let speed = self.turned / elapsed / machine.nodal_diameters;
         (elapsed > 0.0 && speed.is_finite()).then_some(speed)
-    }
-}
-
-impl Looker for WaveTracker {
-    fn due(&self) -> f64 {
-        self.next_look()
-    }
-
-    fn see(&mut self, motion: &Motion) -> bool {
-        self.look(motion.state());
-        true
     }
 }
 

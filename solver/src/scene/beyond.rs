@@ -15,10 +15,22 @@ impl Scene {
     /// Returns whether tips have lengths of their own, or the casing is out of round.
     #[must_use]
     pub fn is_uneven(&self) -> bool {
+        self.unevenness().iter().any(|(_, length)| *length != 0.0)
+    }
+
+    /// Returns the keys that give tips lengths of their own, and that of the casing out of round,
+    /// which is the last, each with its largest magnitude \[m\].
+    #[must_use]
+    pub fn unevenness(&self) -> [(&'static str, f64); 5] {
         let disk = &self.bladed_disk;
-        let numbers = [disk.tip_scatter_m, disk.longest_tip_m, disk.orbit_m];
-        let all = disk.tips_m.iter().chain(&numbers);
-        all.chain(&[self.casing.out_of_round_m]).any(|number| *number != 0.0)
+        [
+            (keys::TIPS, disk.tips_m.iter().fold(0.0, |most: f64, tip| most.max(tip.abs()))),
+            (keys::TIP_SCATTER, disk.tip_scatter_m),
+            (keys::LONGEST_TIP, disk.longest_tip_m),
+            (keys::ORBIT, disk.orbit_m),
+            (keys::OUT_OF_ROUND, self.casing.out_of_round_m),
+        ]
+        .map(|(key, length)| (key, length.abs()))
     }
 
     /// Returns whether the machine changes with the rotor speed in a run.
@@ -159,15 +171,8 @@ pub(super) fn tips(scene: &Scene) -> Result<(), SceneError> {
     }
     let allowed = "less: no place of the casing leaves every gap open; solver.contact = \
                    \"smooth\" takes it";
-    let (key, value) = [
-        (keys::OUT_OF_ROUND, e),
-        (keys::ORBIT, disk.orbit_m),
-        (keys::LONGEST_TIP, disk.longest_tip_m),
-        (keys::TIP_SCATTER, disk.tip_scatter_m),
-        (keys::TIPS, disk.tips_m.iter().copied().fold(0.0, f64::max)),
-    ]
-    .into_iter()
-    .fold(("", 0.0), |most, next| if next.1 > most.1 { next } else { most });
+    let all = scene.unevenness().into_iter();
+    let (key, value) = all.fold(("", 0.0), |most, next| if next.1 > most.1 { next } else { most });
     Err(SceneError::refused(key, format!("{value:e}"), allowed))
 }
 

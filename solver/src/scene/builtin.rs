@@ -42,6 +42,24 @@ pub const BUILTIN: &[Builtin] = builtin![
     "oval",
 ];
 
+/// Scenes of earlier versions, each with what has its motion or its numbers now.
+const GONE: [(&str, &str); 2] = [
+    ("half-n", "half as many diameters as blades are paper-nd3 --nd 11 --speed 100"),
+    ("near-critical", "its numbers are in docs/theory.md; see undamped --speed 293"),
+];
+
+/// Returns the error for a scene that is not built in; it lists those that are.
+pub(super) fn unknown(name: &str) -> SceneError {
+    let name = name.to_string();
+    match GONE.iter().find(|(gone, _)| *gone == name) {
+        Some((_, instead)) => SceneError::GoneScene { name, instead },
+        None => SceneError::UnknownScene {
+            name,
+            allowed: BUILTIN.iter().map(|scene| scene.name).collect::<Vec<_>>().join(", "),
+        },
+    }
+}
+
 impl Scene {
     /// Returns the built-in scene of this name.
     ///
@@ -50,10 +68,7 @@ impl Scene {
     pub fn builtin(name: &str) -> Result<Self, SceneError> {
         match BUILTIN.iter().find(|scene| scene.name == name) {
             Some(scene) => Self::from_toml(scene.toml),
-            None => Err(SceneError::UnknownScene {
-                name: name.to_string(),
-                allowed: BUILTIN.iter().map(|scene| scene.name).collect::<Vec<_>>().join(", "),
-            }),
+            None => Err(unknown(name)),
         }
     }
 }

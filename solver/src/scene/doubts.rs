@@ -106,16 +106,8 @@ impl Scene {
 
     /// Tips, an orbit or lobes that are no small error of a machine.
     fn tips_doubt(&self) -> Option<String> {
-        let (disk, most) = (&self.bladed_disk, DOUBTFUL_CLEARANCE * self.casing.radius_m);
-        let tips = disk.tips_m.iter().fold(0.0, |most: f64, tip| most.max(tip.abs()));
-        let lengths = [
-            (keys::TIPS, tips),
-            (keys::TIP_SCATTER, disk.tip_scatter_m),
-            (keys::LONGEST_TIP, disk.longest_tip_m),
-            (keys::ORBIT, disk.orbit_m),
-            (keys::OUT_OF_ROUND, self.casing.out_of_round_m),
-        ];
-        let (key, length) = lengths.into_iter().find(|(_, length)| length.abs() > most)?;
+        let most = DOUBTFUL_CLEARANCE * self.casing.radius_m;
+        let (key, length) = self.unevenness().into_iter().find(|(_, length)| *length > most)?;
         Some(format!(
             "{key} = {length} is in m, and more than {:.0} % of the radius. Was it mm or um? Then write its unit.",
             100.0 * DOUBTFUL_CLEARANCE

@@ -46,6 +46,14 @@ pub enum SceneError {
         /// The system's reason.
         reason: String,
     },
+    /// A built-in scene of an earlier version.
+    #[error("scene {name} is gone: {instead}")]
+    GoneScene {
+        /// The name as given.
+        name: String,
+        /// What has its motion or its numbers now.
+        instead: &'static str,
+    },
     /// Neither a built-in scene nor a file.
     #[error("unknown scene {name}; allowed: a path ending in .toml, or one of {allowed}")]
     UnknownScene {

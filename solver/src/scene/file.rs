@@ -7,6 +7,7 @@ use std::path::Path;
 
 use toml::{Table, Value as Toml};
 
+use super::builtin::unknown;
 use super::{Allowed, BUILTIN, Key, Scene, SceneError, Value, keys, modes};
 
 /// Largest scene file \[bytes\]; the built-in ones have some hundreds.
@@ -38,10 +39,7 @@ impl Scene {
         let path = Path::new(name_or_path);
         let is_toml = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml"));
         if !is_toml && !name_or_path.contains(std::path::MAIN_SEPARATOR) {
-            return Err(SceneError::UnknownScene {
-                name: name_or_path.to_string(),
-                allowed: BUILTIN.iter().map(|scene| scene.name).collect::<Vec<_>>().join(", "),
-            });
+            return Err(unknown(name_or_path));
         }
         let refused = |reason: String| SceneError::File { path: name_or_path.to_string(), reason };
         let text = read_text(path, LARGEST_FILE).map_err(|error| refused(error.to_string()))?;

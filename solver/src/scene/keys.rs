@@ -267,7 +267,7 @@ pub const CHARTS: &[&str] = &[
     "response",
     "gaps",
     "locked",
-    "frame",
+    "wheel",
     "map",
     "spectrum",
     "precision",

@@ -106,7 +106,7 @@ pub struct View {
 
 impl Default for View {
     fn default() -> Self {
-        let charts = ["frame", "response", "gaps", "locked"].map(String::from).to_vec();
+        let charts = ["wheel", "response", "gaps", "locked"].map(String::from).to_vec();
         Self { charts, begin_s: 0.0 }
     }
 }

@@ -83,6 +83,7 @@ const UNITS: &[Unit] = &[
     unit(Velocity, "m/s", 0),
     Unit { of: Mass, name: "kg", power: 0, factor: 1.0, prefixed: false },
     unit(Mass, "g", -3),
+    Unit { of: Mass, name: "t", power: 3, factor: 1.0, prefixed: false },
     unit(Stiffness, "N/m", 0),
     unit(Stiffness, "N/mm", 3),
     Unit { of: Inertia, name: "kg m^2", power: 0, factor: 1.0, prefixed: false },
@@ -110,6 +111,9 @@ pub enum UnitError {
     /// The text does not begin with a number.
     #[error("no number")]
     NoNumber,
+    /// The number has a comma, between its digits.
+    #[error("a number has a decimal point and no comma")]
+    Comma,
     /// The unit is one of another quantity.
     #[error("this is {is}; {}", takes(*.wanted))]
     Other {
@@ -182,6 +186,10 @@ impl Quantity {
         let end = number_end(text);
         let (number, unit) = text.split_at_checked(end).unwrap_or((text, ""));
         let decimal = Decimal::of(number).ok_or(UnitError::NoNumber)?;
+        let after = unit.strip_prefix(',');
+        if after.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit())) {
+            return Err(UnitError::Comma);
+        }
         let written = plain(unit);
         let (power, factor) = self.scale(&written).ok_or_else(|| self.refused(&written, unit))?;
         let scaled = decimal.times_ten_to(power).ok_or(UnitError::NoNumber)?;
@@ -342,6 +350,7 @@ mod tests {
             (Stiffness, "1.544 MN/m", 1.544e6),
             (Stiffness, "1544 N/mm", 1.544e6),
             (Mass, "250 g", 0.25),
+            (Mass, "0.0091 t", 9.1),
             (Mass, "2kg", 2.0),
             (Inertia, "2082.5 kg cm²", 0.20825),
             (TorsionalStiffness, "15 kN·m/rad", 15e3),
@@ -366,13 +375,15 @@ mod tests {
             (Length, "50us", "this is a time; it takes m"),
             (Plain, "3 N/m", "this is a stiffness; it takes %"),
             (Speed, "5 furlongs", "no unit furlongs; it takes rad/s, rpm or Hz"),
-            (Mass, "5 kkg", "no unit kkg; it takes kg or g"),
+            (Mass, "5 kkg", "no unit kkg; it takes kg, g or t"),
             (Speed, "fast", "no number"),
             (Force, "1e", "no unit e; it takes N"),
             (Force, "", "no number"),
             (Force, "--3", "no number"),
             (Force, "1.2.3k", "no number"),
-            (Speed, "9,500rpm", "no number"),
+            (Speed, "9,500rpm", "a number has a decimal point and no comma"),
+            (Length, "0,3mm", "a number has a decimal point and no comma"),
+            (Length, "0,", "no number"),
             (Speed, "100:500:5", "no number"),
         ] {
             assert_eq!(of.read(text).unwrap_err().to_string(), told, "{text}");

@@ -174,11 +174,12 @@ impl Axis {
     /// The value at a position between 0 (first) and `count - 1` (last).
     #[must_use]
     pub fn value_at(&self, place: f64) -> f64 {
-        let part = place / f64::from(self.count.max(2) - 1);
+        let span = f64::from(self.count.max(2) - 1);
         if self.log {
-            self.from * (self.to / self.from).powf(part)
+            self.from * (self.to / self.from).powf(place / span)
         } else {
-            self.from + (self.to - self.from) * part
+            // In this order a round step gives round values.
+            self.from + (self.to - self.from) * place / span
         }
     }
 

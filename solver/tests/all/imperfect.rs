@@ -492,3 +492,18 @@ fn no_pull_holds_a_lock_where_pushes_begin_below() {
     let machine = Scene::builtin("long-tip").unwrap().machine();
     assert!(machine.lock_speed().is_some() && machine.adhesive_speed().is_none());
 }
+
+#[test]
+fn of_blades_that_share_a_side_only_the_longest_touches() {
+    let keys =
+        [(LONGEST, "2e-5"), ("operation.nodal_diameters", "4"), ("operation.pulse_n", "1e6")];
+    let machine = scene(&keys).machine();
+    assert_eq!(machine.polygon.blades_of_side(0), [1, 12]);
+    assert_eq!(machine.first_of_side(0), [1]);
+    assert_eq!(machine.first_of_side(1), machine.polygon.blades_of_side(1));
+    let with_first = |blades: &Vec<u32>| blades.contains(&1) || blades.contains(&12);
+    let report = run(&keys);
+    let touches: Vec<_> = report.impacts.iter().map(|impact| &impact.blades).collect();
+    let touches: Vec<_> = touches.into_iter().filter(|blades| with_first(blades)).collect();
+    assert!(!touches.is_empty() && touches.iter().all(|blades| **blades == [1]), "{touches:?}");
+}

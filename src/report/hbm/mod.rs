@@ -138,7 +138,9 @@ impl Request<'_> {
             Err(refused(key, given, format!("none with {option}, which is not derived for it")))
         };
         if machine.has_unequal_tips() && !["", "branches", "campbell"].contains(&view.option) {
-            return refuse("bladed_disk.tips_m", "tips of their own lengths".to_string());
+            let given = self.scene.unevenness().into_iter().find(|(_, length)| *length != 0.0);
+            let (key, length) = given.unwrap_or((keys::TIPS, 0.0));
+            return refuse(key, format!("{length:e}"));
         }
         let round = ["forced", "coincidence", "campbell", "compliance"];
         if height != 0.0 && !round.contains(&view.option) {

@@ -1,7 +1,6 @@
 //! The open dialogue: what the keyboard acts on.
 
-use crate::tui::bindings::Action;
-use crate::tui::lessons;
+use crate::tui::field::Field;
 
 /// Target of the keyboard: the main screen or an open dialogue.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -9,13 +8,13 @@ pub enum InputMode {
     /// Knobs and charts.
     Main,
     /// The value of the selected knob is being typed.
-    Typing(String),
+    Typing(Field),
     /// The help is open.
     Help(HelpState),
     /// A command is being looked for.
     Palette(PaletteState),
     /// A file name is being typed.
-    Naming(Purpose, String),
+    Naming(Purpose, Field),
     /// A question: replace the existing file?
     Replacing(Purpose, String),
     /// A lesson is being chosen.
@@ -76,7 +75,7 @@ impl Dialogue {
     }
 
     /// Returns the text that is being typed.
-    pub fn typed(&mut self) -> Option<&mut String> {
+    pub fn typed(&mut self) -> Option<&mut Field> {
         match &mut self.mode {
             InputMode::Typing(text) | InputMode::Naming(_, text) => Some(text),
             InputMode::Help(help) => Some(&mut help.filter),
@@ -93,38 +92,24 @@ impl Dialogue {
             _ => {}
         }
     }
-
-    /// Carries out an action of a list; returns false where the dialogue has none for this.
-    pub fn act(&mut self, action: Action) -> bool {
-        match (&mut self.mode, action) {
-            (InputMode::Lessons(place), Action::KnobBelow) => {
-                let last = lessons::all().len().saturating_sub(1);
-                *place = (*place + 1).min(last);
-            }
-            (InputMode::Lessons(place), Action::KnobAbove) => *place = place.saturating_sub(1),
-            (InputMode::Scenes(_), Action::PageForward) => {
-                self.note_page = self.note_page.wrapping_add(1);
-            }
-            _ => return false,
-        }
-        true
-    }
 }
 
 /// The open help.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct HelpState {
     /// Only entries with these words are shown.
-    pub filter: String,
+    pub filter: Field,
+    /// Whether every letter is part of them, the first one too.
+    pub searches: bool,
     /// Lines above the first that is shown.
-    pub scroll: u16,
+    pub scroll: usize,
 }
 
 /// The open list.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PaletteState {
     /// Text that is searched for.
-    pub typed: String,
+    pub typed: Field,
     /// The chosen line of what was found.
     pub place: usize,
 }
@@ -139,7 +124,6 @@ mod tests {
         assert!(dialogue.is_closed() && dialogue.asked && dialogue.typed().is_none());
         dialogue.open(InputMode::Palette(PaletteState { typed: "ab".into(), place: 3 }));
         dialogue.look_again();
-        assert!(!dialogue.act(Action::Accept));
         let expected = PaletteState { typed: "ab".into(), place: 0 };
         assert_eq!(dialogue.mode, InputMode::Palette(expected));
         dialogue.ask(InputMode::Replacing(Purpose::Save, "a".into()));

@@ -100,21 +100,21 @@ pub struct SceneEntry {
 }
 
 impl App {
-    /// Returns every scene that can be opened. One from elsewhere that is open comes first.
+    /// Returns every scene that can be opened, those of the user first; one from elsewhere that is
+    /// open before all.
     pub fn scene_entries(&self) -> Vec<SceneEntry> {
         let open = self.files.source.as_ref().map_or(DEFAULT, |source| source.name.as_str());
-        let builtin = builtin_scenes().iter().map(|FoundScene { name, scene }| SceneEntry {
-            name: name.clone(),
-            scene: scene.clone(),
-            file: false,
-            open: name == open,
-        });
-        let files = self.files.found.files.iter().map(|FoundScene { name, scene }| {
-            let path = self.files.directory.join(name);
-            let open = same_path(&path, Path::new(open));
-            SceneEntry { name: name.clone(), scene: scene.clone(), file: true, open }
-        });
-        let mut entries: Vec<SceneEntry> = builtin.chain(files).collect();
+        let entry = |found: &FoundScene, file, open| {
+            let FoundScene { name, scene } = found.clone();
+            SceneEntry { name, scene, file, open }
+        };
+        let builtin = builtin_scenes().iter().map(|one| entry(one, false, one.name == open));
+        let path = |name: &String| self.files.directory.join(name);
+        let is_open = |name: &String| same_path(&path(name), Path::new(open));
+        let files = self.files.found.files.iter().map(|one| entry(one, true, is_open(&one.name)));
+        let mut entries: Vec<SceneEntry> = files.chain(builtin).collect();
+        // Other programs have such files, too.
+        entries.sort_by_key(|entry| entry.scene.is_err());
         if let Some(source) = &self.files.source
             && !entries.iter().any(|entry| entry.open)
         {

@@ -2,6 +2,7 @@
 
 use crate::tui::app::{App, cell_of};
 use crate::tui::views::id::ViewId;
+use crate::tui::views::map::plan::MapChoice;
 use crate::tui::views::margins::live::LiveMargins;
 use rubscope_solver::scene::ContactLaw;
 use rubscope_solver::study::MapPlan;
@@ -12,7 +13,12 @@ impl App {
     /// # Errors
     /// The scene has no such map; the reason in one line.
     pub fn map_plan(&self) -> Result<MapPlan, String> {
-        self.map.plan(&self.scene)
+        self.map_choice().plan(&self.scene)
+    }
+
+    /// Returns what was chosen for the map, in the unit in which speeds are shown.
+    pub fn map_choice(&self) -> MapChoice {
+        MapChoice { rpm: self.appearance.rpm, ..self.map }
     }
 
     /// Returns the plan of the map on the screen: the last one, until a new one can be seen.

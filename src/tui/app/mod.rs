@@ -121,7 +121,9 @@ impl App {
             InputMode::Main if self.is_asked() => Context::Question,
             InputMode::Main => Context::Main,
             InputMode::Typing(_) => Context::Typing,
-            InputMode::Help(ref help) if help.filter.is_empty() => Context::Help,
+            InputMode::Help(ref help) if help.filter.text().is_empty() && !help.searches => {
+                Context::Help
+            }
             InputMode::Help(_) => Context::Filter,
             InputMode::Palette(_) => Context::Palette,
             InputMode::Naming(..) => Context::Typing,
@@ -151,7 +153,7 @@ impl App {
             slow_at_events: self.play.slow_at_events,
             cursor_s: self.cursor_time(),
             open: ViewId::all().filter(|view| self.is_open(*view)).collect(),
-            map: self.map,
+            map: self.map_choice(),
             cell: self.map_cell(),
         }
     }

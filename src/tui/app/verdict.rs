@@ -1,6 +1,7 @@
 //! The state of the run in words: its verdict in one sentence, which blades touch and how deep
 //! in a lining, and the speeds of locks and coincidence that it is compared with.
 
+use crate::report::number::count;
 use crate::report::sentence::{Facts, Sentence};
 use crate::tui::app::App;
 use crate::tui::axis::readable;
@@ -81,9 +82,8 @@ impl App {
 
     /// Returns what the sentence of a run says.
     fn facts(&self, run: &FullRun) -> Facts {
-        let polygon = &self.machine.polygon;
         let contacts = run.multipliers.iter();
-        let contacts = contacts.map(|(side, force)| (polygon.blades_of_side(*side), *force));
+        let contacts = contacts.map(|(side, force)| (self.machine.first_of_side(*side), *force));
         Facts {
             touches: run.impacts,
             broken: run.broken.map(|(_, speed)| speed),
@@ -123,7 +123,7 @@ impl App {
             let touching = moment.gaps.iter().filter(|gap| **gap < 0.0).count();
             return match touching == moment.gaps.len() {
                 true => "touching all".into(),
-                false => format!("touching {touching} blades"),
+                false => format!("touching {}", count(touching as u64, "blade")),
             };
         }
         self.state_of(moment.active_set)
@@ -176,7 +176,7 @@ impl App {
     /// Returns the numbers of the blades of some sides, `6 + 21`.
     pub fn numbers_of(&self, sides: impl Iterator<Item = u32>) -> String {
         let mut all: Vec<Vec<u32>> =
-            sides.take(4).map(|side| self.machine.polygon.blades_of_side(side)).collect();
+            sides.take(4).map(|side| self.machine.first_of_side(side)).collect();
         all.sort_unstable();
         let groups: Vec<String> = all.iter().map(|blades| few(blades)).collect();
         groups.join(" + ")
@@ -227,7 +227,9 @@ impl App {
         match moment.active_set {
             _ if self.has_lining() => within(-f64::MIN_POSITIVE),
             ActiveSet::Many => within(CLOSED * polygon.clearance),
-            touching => touching.sides().flat_map(|side| polygon.blades_of_side(side)).collect(),
+            touching => {
+                touching.sides().flat_map(|side| self.machine.first_of_side(side)).collect()
+            }
         }
     }
 

@@ -6,6 +6,7 @@ mod table;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use strum::{EnumIter, IntoStaticStr};
 
+use crate::tui::field::Edit;
 use crate::tui::views::id::ViewId;
 
 pub use table::BINDINGS;
@@ -70,7 +71,11 @@ pub enum Action {
     MapAxis { up: bool },
     Yes,
     Accept,
-    DeleteLast,
+    Edit(Edit),
+    First,
+    Last,
+    Search,
+    TurnNote,
 }
 
 /// Context in which a binding holds.
@@ -96,6 +101,10 @@ pub enum Context {
     Question,
     /// A scene is being chosen.
     Scenes,
+    /// A text is being typed: the keys that edit it.
+    Field,
+    /// A list is open: the keys that every list has.
+    List,
     /// Any dialogue is open: the keys that all of them have.
     Dialogue,
 }
@@ -180,23 +189,28 @@ pub struct Binding {
 }
 
 impl Context {
-    /// Returns the context that has the keys which this one has not.
-    pub fn behind(self) -> Option<Self> {
+    /// Returns the contexts that have the keys which this one has not, the nearest first.
+    pub fn behind(self) -> &'static [Self] {
         match self {
-            Self::Main | Self::Dialogue => None,
-            Self::Reading | Self::Question => Some(Self::Main),
-            _ => Some(Self::Dialogue),
+            Self::Main | Self::Dialogue => &[],
+            Self::Reading | Self::Question => &[Self::Main],
+            Self::Typing => &[Self::Field, Self::Dialogue],
+            Self::Filter | Self::Palette => &[Self::Field, Self::List, Self::Dialogue],
+            Self::Help | Self::Lessons | Self::Scenes => &[Self::List, Self::Dialogue],
+            Self::Field | Self::List | Self::Replacing => &[Self::Dialogue],
         }
     }
 }
 
 /// Returns what a key does in a context.
 pub fn lookup(context: Context, chord: Chord) -> Option<Action> {
-    let own = of(context).find(|binding| binding.keys.contains(&chord));
-    match (own, context.behind()) {
-        (None, Some(behind)) => lookup(behind, chord),
-        (own, _) => own.map(|binding| binding.action),
-    }
+    let found = with_behind(context).find(|binding| binding.keys.contains(&chord));
+    found.map(|binding| binding.action)
+}
+
+/// Returns the bindings of a context, and those behind it.
+pub fn with_behind(context: Context) -> impl Iterator<Item = &'static Binding> {
+    of(context).chain(context.behind().iter().copied().flat_map(of))
 }
 
 /// Creates the bindings of a context.
@@ -241,9 +255,7 @@ impl Action {
             | Self::Reset
             | Self::Undo
             | Self::Redo
-            | Self::Live
-            | Self::Accept
-            | Self::DeleteLast => Group::Knobs,
+            | Self::Live => Group::Knobs,
             Self::Pause
             | Self::Step
             | Self::Restart
@@ -269,19 +281,14 @@ impl Action {
             | Self::Pin
             | Self::OtherLaw
             | Self::MapAxis { .. }
-            | Self::Read
-            | Self::Cursor { .. }
-            | Self::OpenPlace => Group::Views,
-            Self::Lesson
-            | Self::LeaveLesson
-            | Self::LessonBack
-            | Self::Answer(_)
-            | Self::Scenes => Group::Scenes,
-            Self::Save | Self::Export | Self::Copy | Self::Yes => Group::Files,
+            | Self::Read => Group::Views,
+            Self::Lesson | Self::LeaveLesson | Self::LessonBack | Self::Scenes => Group::Scenes,
+            Self::Save | Self::Export | Self::Copy => Group::Files,
             Self::Marker | Self::Theme | Self::SpeedUnit | Self::Mouse | Self::Redraw => {
                 Group::Look
             }
-            Self::Help | Self::Palette | Self::Quit | Self::Suspend | Self::Close => Group::Program,
+            // Those of dialogues, too, of which the help has other headings.
+            _ => Group::Program,
         }
     }
 }

@@ -16,6 +16,7 @@ pub use table::KNOBS;
 
 use crate::report::number::{exact, from_shown, in_shown_unit, rounded, with_typed_unit};
 use crate::tui::axis;
+use crate::tui::field::Field;
 use rubscope_solver::scene::units::UnitError;
 use rubscope_solver::scene::{
     Adjustment, Allowed, CheckedScene, ContactLaw, Quantity, Scene, SceneError, Value, keys,
@@ -309,8 +310,10 @@ impl Knob {
     }
 
     /// Returns what was typed so far, with a cursor and the unit that it has without its own.
-    pub fn typed(&self, text: &str) -> String {
-        format!("{text}_ {}", in_shown_unit(0.0, self.unit()).1).trim_end().to_string()
+    pub fn typed(&self, text: &Field, columns: usize) -> String {
+        let unit = in_shown_unit(0.0, self.unit()).1;
+        let text = text.shown(columns.saturating_sub(unit.chars().count() + 1));
+        format!("{text} {unit}").trim_end().to_string()
     }
 
     /// Returns a refusal of a value of it in the words of the panel, without keys of the file.
@@ -362,7 +365,9 @@ impl Knob {
         match self.allowed() {
             Allowed::Real { .. } => {
                 let number = with_typed_unit(text, self.quantity());
-                self.quantity().read(&number).map(Value::Real).map_err(|why| match why {
+                let read = self.quantity().read(&number);
+                let finite = |x: f64| x.is_finite().then_some(x).ok_or(UnitError::NoNumber);
+                read.and_then(finite).map(Value::Real).map_err(|why| match why {
                     UnitError::NoNumber => {
                         refused("a number, such as 500, 2.5e-7, 20k or 50u".into())
                     }
@@ -464,7 +469,7 @@ mod tests {
         let up = speed.turned(&typed[0], true, false, &scene);
         let back = speed.turned(&up, false, false, &scene);
         let dragged = real(speed.near(470.0).unwrap());
-        let (words, prompt) = (speed.range_words(), speed.typed("45"));
+        let (words, prompt) = (speed.range_words(), speed.typed(&"45".into(), 20));
         let refused = speed.set(&scene, speed.parse("1e9").unwrap()).unwrap_err();
         let refused = speed.refusal(&refused);
         let other = knob("operation.pulse_n").parse("4500").unwrap();
@@ -484,7 +489,7 @@ mod tests {
         assert_eq!(other, Value::Real(4500.0));
         assert_eq!(speed.parse("4500").unwrap(), Value::Real(4500.0));
         assert_eq!(
-            (speed.typed(""), knob("contact.friction").typed("0.1")),
+            (speed.typed(&"".into(), 9), knob("contact.friction").typed(&"0.1".into(), 9)),
             ("_ rad/s".into(), "0.1_".into())
         );
     }

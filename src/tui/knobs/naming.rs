@@ -29,7 +29,11 @@ pub fn fit(knob: &Knob, words: &[&str]) -> Option<Fit> {
     let plain = plain(knob.label);
     let (label, name) = (knob.label.to_lowercase(), knob.name().to_lowercase());
     let spelled = plain.to_lowercase();
-    let law = if knob.path == keys::LAW { "law" } else { knob.path };
+    let law = match knob.path {
+        keys::LAW => "law",
+        keys::SPEED => "omega",
+        path => path,
+    };
     if [label.as_str(), spelled.as_str(), name.as_str(), law, knob.path].contains(&&*lower) {
         return Some(Fit::Name);
     }

@@ -6,6 +6,7 @@ use ratatui::{buffer::Buffer, layout::Rect};
 
 use crate::tui::app::{App, InputMode, Purpose, Target};
 use crate::tui::bindings::{self, Action, Binding, Chord, Context};
+use crate::tui::field::Field;
 use crate::tui::text::{columns, pieces, print, shorten};
 use crate::tui::theme::Role;
 
@@ -22,16 +23,18 @@ const TRY: &str = "new here? → turns Ω, g: lessons";
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     let look = &app.appearance;
     let mark = look.ellipsis();
+    let asked = |question: &str, name: &Field| {
+        let room = usize::from(area.width).saturating_sub(columns(question));
+        format!("{question}{}", name.shown(room))
+    };
     let question = match &app.dialogue.mode {
-        InputMode::Naming(Purpose::Save, name) => Some(format!("save the scene as: {name}_")),
-        InputMode::Naming(Purpose::Export, name) => {
-            Some(format!("export as (.csv data, .svg picture): {name}_"))
-        }
+        InputMode::Naming(Purpose::Save, name) => Some(asked("save the scene as: ", name)),
+        InputMode::Naming(Purpose::Export, name) => Some(asked("export as .csv or .svg: ", name)),
         InputMode::Replacing(_, name) => Some(format!("{name} exists: y replaces it, n leaves it")),
         _ => None,
     };
     if let Some(question) = question.filter(|_| app.status.is_none()) {
-        let shown = ending(&question, usize::from(area.width), mark);
+        let shown = shorten(&question, usize::from(area.width), mark);
         print(buffer, area, 0, &shown, look.style(Role::Focus));
         return;
     }
@@ -106,22 +109,6 @@ impl Entry {
     }
 }
 
-/// Returns the end of a text, where its cursor is, with a mark where its beginning is left out.
-fn ending(text: &str, width: usize, mark: &str) -> String {
-    let count = text.chars().count();
-    if count <= width {
-        return text.to_string();
-    }
-    let skip = count + columns(mark) - width.min(count);
-    mark.chars().chain(text.chars().skip(skip)).collect()
-}
-
-/// Returns the bindings that hold now, with what is left of those of the main screen.
-fn current(app: &App) -> impl Iterator<Item = &'static Binding> {
-    let context = app.context();
-    bindings::of(context).chain(context.behind().into_iter().flat_map(bindings::of))
-}
-
 /// Returns whether a binding has its place at the right end.
 fn is_kept(binding: &Binding) -> bool {
     matches!(binding.action, Action::Palette | Action::Help | Action::Quit)
@@ -130,12 +117,12 @@ fn is_kept(binding: &Binding) -> bool {
 /// Returns what stands at the right end: words where a message leaves room for them, otherwise keys
 /// alone.
 fn kept(app: &App, width: u16, message: Option<usize>) -> Vec<Entry> {
-    let entries = |palette: bool, words: bool| {
+    let entries = |words: bool| {
         let mut entries: Vec<Entry> = Vec::new();
-        for binding in current(app).filter(|binding| is_kept(binding)) {
+        for binding in bindings::with_behind(app.context()).filter(|binding| is_kept(binding)) {
             let Some((keys, word)) = binding.footer else { continue };
             let known = entries.iter().any(|entry| entry.binding.action == binding.action);
-            if known || (binding.action == Action::Palette && !palette) {
+            if known || (binding.action == Action::Palette && !(words && width >= PALETTE_FROM)) {
                 continue;
             }
             let gap = match (entries.is_empty(), words) {
@@ -147,21 +134,18 @@ fn kept(app: &App, width: u16, message: Option<usize>) -> Vec<Entry> {
         }
         entries
     };
-    let room = usize::from(width);
-    let fits = |entries: &Vec<Entry>| {
-        let taken: usize = entries.iter().map(|entry| entry.columns(app)).sum();
-        message.is_none_or(|message| message + GAP.len() + taken <= room)
-    };
-    let ways = [(width >= PALETTE_FROM, true), (false, true), (false, false)];
-    let found = ways.into_iter().map(|(palette, words)| entries(palette, words)).find(fits);
-    found.unwrap_or_else(|| entries(false, false))
+    let whole: usize = entries(true).iter().map(|entry| entry.columns(app)).sum();
+    entries(message.is_none_or(|message| message + GAP.len() + whole <= usize::from(width)))
 }
 
 /// Draws the other keys, the most important first. A key and its word are shown together or not at
 /// all.
 fn keys(app: &App, buffer: &mut Buffer, area: Rect) {
     let mut rest = area;
-    let others = bindings::of(app.context()).filter(|binding| !is_kept(binding));
+    // Those of the main screen have no room beside those of what is open over it.
+    let own =
+        |binding: &&Binding| binding.context == app.context() || binding.context != Context::Main;
+    let others = bindings::with_behind(app.context()).filter(own).filter(|b| !is_kept(b));
     for (binding, (keys, word)) in others.filter_map(|binding| Some((binding, binding.footer?))) {
         let word = match binding.action {
             Action::Pause if !app.play.playing => "go on",
@@ -229,11 +213,5 @@ mod tests {
         let code = crossterm::event::KeyCode::Char(' ');
         app.key(&crossterm::event::KeyEvent::new(code, crossterm::event::KeyModifiers::NONE));
         assert!(line(&app, 80).contains("knob"), "{}", line(&app, 80));
-    }
-
-    #[test]
-    fn the_end_of_a_long_name_is_visible_and_its_beginning_marked() {
-        assert_eq!(ending("short_", 10, "…"), "short_");
-        assert_eq!(ending("a/long/name_", 10, "…"), "…ong/name_");
     }
 }

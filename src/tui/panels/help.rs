@@ -17,7 +17,8 @@ const ABOVE: u16 = 1;
 /// those that do the same everywhere.
 const ELSEWHERE: &[(&str, &[Context])] = &[
     ("While a chart is read", &[Context::Reading]),
-    ("While typing", &[Context::Typing]),
+    ("While typing", &[Context::Typing, Context::Field]),
+    ("In every list", &[Context::List]),
     ("In this help", &[Context::Help, Context::Filter]),
     ("While a command is looked for", &[Context::Palette]),
     ("Where a file exists", &[Context::Replacing]),
@@ -65,17 +66,7 @@ fn sections(app: &App) -> Vec<(&'static str, Vec<Entry>)> {
         let own = contexts.iter().flat_map(|c| bindings::of(*c));
         let own =
             own.filter(|b| !matches!(b.action, Action::Quit | Action::Suspend | Action::Redraw));
-        let mut entries: Vec<Entry> = Vec::new();
-        for entry in own.map(Entry::of) {
-            // Two contexts under one heading have most keys in common.
-            if !entries
-                .iter()
-                .any(|known| (&known.left, &known.right) == (&entry.left, &entry.right))
-            {
-                entries.push(entry);
-            }
-        }
-        (*heading, entries)
+        (*heading, own.map(Entry::of).collect())
     });
     let words = glossary::sections().iter().map(|section| {
         let entry = |term: &glossary::Term| Entry {
@@ -146,10 +137,9 @@ fn list(body: Rect) -> Rect {
 }
 
 /// Returns the furthest that the help can be scrolled on this screen.
-pub fn help_bottom(app: &App, help: &HelpState) -> u16 {
+pub fn help_bottom(app: &App, help: &HelpState) -> usize {
     let area = list(super::body(app));
-    let lines = lines(app, area, &help.filter).0.len();
-    u16::try_from(lines).unwrap_or(u16::MAX).saturating_sub(area.height)
+    lines(app, area, &help.filter.text()).0.len().saturating_sub(usize::from(area.height))
 }
 
 /// Returns what the help says about these words, in lines of so many columns.
@@ -167,16 +157,22 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, help: &HelpState) {
     let look = &app.appearance;
     let width = usize::from(area.width);
     let below = list(area);
-    let (lines, count) = lines(app, below, &help.filter);
-    let first = usize::from(help.scroll).min(lines.len().saturating_sub(usize::from(below.height)));
+    let (lines, count) = lines(app, below, &help.filter.text());
+    let first = help.scroll.min(lines.len().saturating_sub(usize::from(below.height)));
     let last = (first + usize::from(below.height)).min(lines.len());
-    let head = match (help.filter.is_empty(), count) {
-        (true, _) => "Type to find a key, a word or a symbol".to_string(),
-        (false, 0) => format!("find: {}_  nothing has these words", help.filter),
-        (false, _) => format!("find: {}_  {count} found", help.filter),
-    };
     let place = format!("{last}/{}", lines.len());
     let room = width.saturating_sub(place.len() + 1);
+    let found = match count {
+        0 => "nothing has these words".to_string(),
+        count => format!("{count} found"),
+    };
+    let head = match help.filter.text().is_empty() && !help.searches {
+        true => "Type to find a key, a word or a symbol".to_string(),
+        false => {
+            let typed = help.filter.shown(room.saturating_sub(found.len() + 8));
+            format!("find: {typed}  {found}")
+        }
+    };
     let head = shorten(&head, room, look.ellipsis());
     print(buffer, area, 0, &head, look.style(Role::Focus));
     let at = u16::try_from(place.len()).unwrap_or(0);
@@ -205,7 +201,7 @@ mod tests {
         let app = App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Braille);
         let area = Rect::new(0, 0, 130, 400);
         let mut buffer = Buffer::empty(area);
-        draw(&app, &mut buffer, area, &HelpState { filter: filter.into(), scroll: 0 });
+        draw(&app, &mut buffer, area, &HelpState { filter: filter.into(), ..HelpState::default() });
         buffer.content.iter().map(|cell| cell.symbol().to_string()).collect()
     }
 

@@ -10,7 +10,7 @@ use ratatui::style::Modifier;
 use crate::report::line::capital;
 use crate::tui::app::{App, InputMode, Target};
 use crate::tui::knobs::{Group, KNOBS, Knob};
-use crate::tui::text::{columns, first_lines, pieces, print, shorten, wrap};
+use crate::tui::text::{columns, pieces, print, shorten, wrap};
 use crate::tui::theme::Role;
 use rubscope_solver::scene::Allowed;
 
@@ -47,11 +47,16 @@ pub fn panel(app: &App, buffer: &mut Buffer, area: Rect) {
     }
     let used = u16::try_from(lines.len()).unwrap_or(area.height);
     let width = usize::from(area.width);
-    let (notes, roles): (Vec<_>, Vec<_>) = notes(app, width).into_iter().unzip();
-    let room = usize::from(area.height.saturating_sub(used));
-    let notes = first_lines(notes, width, room, look.ellipsis());
-    for (row, (text, role)) in (used..area.height).zip(notes.iter().zip(roles)) {
-        print(buffer, area, row, text, look.style(role));
+    let mut row = used;
+    for (lines, role) in notes(app, width) {
+        // What has no room is left out, whole.
+        if row + u16::try_from(lines.len()).unwrap_or(0) > area.height {
+            continue;
+        }
+        for line in lines {
+            print(buffer, area, row, &line, look.style(role));
+            row += 1;
+        }
     }
     let selected = ColumnLine::Knob(app.knobs.selected);
     if let Some(at) = lines.iter().position(|line| *line == selected) {
@@ -78,8 +83,8 @@ fn heading(app: &App, buffer: &mut Buffer, row: Rect, group: Group) {
     pieces(buffer, row, 0, &parts);
 }
 
-/// Draws a folded group: its name, the number of its knobs, and as many of those that differ from
-/// the scene as have room.
+/// Draws a folded group: its name, the number of its knobs, and those that differ from the scene;
+/// where they have no room, how many.
 fn folded(app: &App, buffer: &mut Buffer, row: Rect, group: Group) {
     let look = &app.appearance;
     let head = look.spell(&format!(" {} {} ▸", group.name(), group.places().count()));
@@ -90,19 +95,8 @@ fn folded(app: &App, buffer: &mut Buffer, row: Rect, group: Group) {
         .map(|knob| look.spell(&format!(" {}* {}", knob.symbol(), knob.text(&app.scene))))
         .collect();
     let mut shown = changed.concat();
-    let room = usize::from(row.width).saturating_sub(columns(&head));
-    if columns(&shown) > room {
-        let more = |count: usize| match count {
-            0 => String::new(),
-            count => format!(" +{count}*"),
-        };
-        let fits = |count: &usize| {
-            let first = changed.iter().take(*count).map(|text| columns(text)).sum::<usize>();
-            first + columns(&more(changed.len() - count)) <= room
-        };
-        let count = (0..changed.len()).rev().find(fits).unwrap_or(0);
-        let first: Vec<String> = changed.iter().take(count).cloned().collect();
-        shown = format!("{}{}", first.concat(), more(changed.len() - count));
+    if columns(&shown) > usize::from(row.width).saturating_sub(columns(&head)) {
+        shown = format!(" {}*", changed.len());
     }
     let text = look.style(Role::Text);
     pieces(buffer, row, 0, &[(head, text), (shown, text.add_modifier(Modifier::BOLD))]);
@@ -116,17 +110,14 @@ fn knob(app: &App, buffer: &mut Buffer, row: Rect, knob: &Knob, selected: bool) 
     let inert = knob.inert(&app.scene).is_some();
     let sign = if selected { '▸' } else { ' ' };
     let label = look.spell(&format!("{sign}{}{}", knob.label, if changed { '*' } else { ' ' }));
+    let width = usize::from(row.width);
+    let room = width.saturating_sub(columns(&label) + 1);
     let shown = match (&app.dialogue.mode, selected) {
-        (InputMode::Typing(text), true) => look.spell(&knob.typed(text)),
+        (InputMode::Typing(text), true) => look.spell(&knob.typed(text, room)),
         // A sign beside the dim colour, for themes without colour.
         _ if inert => look.spell(&format!("({})", knob.shown(&value))),
         _ => look.spell(&knob.shown(&value)),
     };
-    let width = usize::from(row.width);
-    let room = width.saturating_sub(columns(&label) + 1);
-    // The end of a typed value must be visible.
-    let skip = shown.chars().count().saturating_sub(room);
-    let shown: String = shown.chars().skip(skip).collect();
     let pad = width.saturating_sub(columns(&label) + columns(&shown));
     let style = match (selected, changed) {
         (true, _) => look.style(Role::Focus).add_modifier(Modifier::REVERSED),
@@ -137,22 +128,18 @@ fn knob(app: &App, buffer: &mut Buffer, row: Rect, knob: &Knob, selected: bool) 
     print(buffer, row, 0, &format!("{label}{}{shown}", " ".repeat(pad)), style);
 }
 
-/// Returns what the selected knob does, its allowed values, and the limit where it stands.
-fn notes(app: &App, width: usize) -> Vec<(String, Role)> {
+/// Returns why the selected knob has no effect, what it does, and the limit where it stands.
+fn notes(app: &App, width: usize) -> Vec<(Vec<String>, Role)> {
     let Some(knob) = app.selected() else { return Vec::new() };
-    let of = |text: &str, role: Role| {
-        let lines = wrap(&app.appearance.spell(text), width).into_iter();
-        lines.map(move |line| (line, role)).collect::<Vec<_>>()
-    };
-    let mut lines = match knob.inert(&app.scene) {
-        Some(reason) => of(&format!("no effect now: {reason}"), Role::Focus),
-        None => Vec::new(),
-    };
-    lines.extend(of(&sentence(knob), Role::Quiet));
     let range = knob.range(&app.scene, &app.files.opened, &app.machine);
     let beside = range.zip(knob.number(&app.scene)).and_then(|(range, value)| range.beside(value));
-    lines.extend(beside.iter().flat_map(|beside| of(&format!("Now {beside}."), Role::Focus)));
-    lines
+    let notes = [
+        knob.inert(&app.scene).map(|why| (format!("no effect now: {why}"), Role::Focus)),
+        Some((sentence(knob), Role::Quiet)),
+        beside.map(|beside| (format!("Now {beside}."), Role::Focus)),
+    ];
+    let lines = |(text, role): (String, Role)| (wrap(&app.appearance.spell(&text), width), role);
+    notes.into_iter().flatten().map(lines).collect()
 }
 
 /// Returns one sentence: what a knob does, and its range.
@@ -187,7 +174,7 @@ pub fn strip(app: &App, buffer: &mut Buffer, area: Rect) {
 
 fn strip_text(app: &App, knob: &Knob) -> String {
     let shown = match &app.dialogue.mode {
-        InputMode::Typing(text) => knob.typed(text),
+        InputMode::Typing(text) => knob.typed(text, usize::from(TEXT)),
         _ => knob.text(&app.scene),
     };
     let changed = if knob.get(&app.scene) == knob.get(&app.files.opened) { "" } else { "*" };

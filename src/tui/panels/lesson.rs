@@ -108,7 +108,11 @@ fn head(app: &App, width: usize) -> (String, String) {
     let Some((lesson, progress)) = app.current_lesson() else { return Default::default() };
     let look = &app.appearance;
     let count = lessons::all().len();
-    let left = format!("Lesson {} of {count} · {}", progress.lesson + 1, lesson.title);
+    let number = progress.lesson + 1;
+    let lefts = [
+        format!("Lesson {number} of {count} · {}", lesson.title),
+        format!("{number}/{count} {}", lesson.title),
+    ];
     let step = format!("step {} of {}", progress.step + 1, lesson.steps.len());
     let keys = match (app.is_asked(), is_last(lesson, progress.step)) {
         (true, _) => "↑↓ Enter answer",
@@ -117,8 +121,12 @@ fn head(app: &App, width: usize) -> (String, String) {
     };
     let long = format!("{step} · {keys} · B back · G leave");
     let short = format!("{step} · {keys}");
-    let (left, long, short) = (look.spell(&left), look.spell(&long), look.spell(&short));
-    let right = if columns(&left) + columns(&long) + 2 <= width { long } else { short };
+    let [whole, number] = lefts;
+    let ways = [(&whole, &long), (&whole, &short), (&number, &short), (&number, &step)];
+    let ways = ways.map(|(left, right)| (look.spell(left), look.spell(right)));
+    let fits = |(left, right): &(String, String)| columns(left) + columns(right) + 2 <= width;
+    let (left, right) =
+        ways.iter().find(|way| fits(way)).or(ways.last()).cloned().unwrap_or_default();
     let room = width.saturating_sub(columns(&right) + 2);
     (shorten(&left, room, look.ellipsis()), right)
 }

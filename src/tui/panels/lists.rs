@@ -16,16 +16,13 @@ use crate::tui::theme::Role;
 pub fn commands(app: &App, buffer: &mut Buffer, area: Rect, palette: &PaletteState) {
     let look = &app.appearance;
     let (width, mark) = (usize::from(area.width), look.ellipsis());
-    let found = commands::found(app, &palette.typed);
-    let hint = if palette.typed.is_empty() {
-        "  t 0.3 ms, speed 450, blade 7, scene rub, or any words"
-    } else {
-        ""
+    let found = commands::found(app, &palette.typed.text());
+    let hint = match palette.typed.text().as_str() {
+        "" => "  t 0.3 ms, speed 450, blade 7, scene rub, or any words",
+        _ => "",
     };
-    // The end of what is typed, where the cursor is, must be visible.
-    let skip = (palette.typed.chars().count() + 4).saturating_sub(width);
-    let typed: String = palette.typed.chars().skip(skip).collect();
-    let head = shorten(&format!(": {typed}_{hint}"), width, mark);
+    let typed = palette.typed.shown(width.saturating_sub(2));
+    let head = shorten(&format!(": {typed}{hint}"), width, mark);
     print(buffer, area, 0, &head, look.style(Role::Focus));
     let status = app.status.as_ref().map_or(Vec::new(), |text| wrap(&look.spell(text), width));
     let mut said: Vec<_> = status.into_iter().map(|line| (line, Role::Trouble)).collect();

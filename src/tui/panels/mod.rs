@@ -10,9 +10,10 @@ mod lesson;
 mod lists;
 mod presentation;
 
-use ratatui::{Frame, buffer::Buffer, layout::Rect};
+use ratatui::{Frame, buffer::Buffer, layout::Rect, style::Modifier};
 
 use super::app::{App, InputMode, Target};
+use super::field::CURSOR;
 use super::text::{CUT, print, wrap};
 use super::theme::Role;
 use super::views::ViewArea;
@@ -75,6 +76,11 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
     }
     if places.letters.is_none() || app.status.is_some() || app.dialogue.mode != InputMode::Main {
         footer::draw(app, buffer, places.footer);
+    }
+    for cell in &mut buffer.content {
+        if let Some(letter) = cell.symbol().strip_suffix(CURSOR).map(String::from) {
+            cell.set_symbol(&letter).modifier.toggle(Modifier::REVERSED);
+        }
     }
     if app.appearance.ascii() {
         // Names and titles can have any letter.

@@ -109,7 +109,8 @@ pub fn knob(app: &App, buffer: &mut Buffer, area: Rect) {
             centred(app, buffer, area, 0, refusal, app.appearance.style(Role::Trouble));
         }
         (None, InputMode::Typing(text)) => {
-            centred(app, buffer, area, 0, &format!("{} = {}", knob.label, knob.typed(text)), focus);
+            let typed = knob.typed(text, usize::from(area.width / 2));
+            centred(app, buffer, area, 0, &format!("{} = {typed}", knob.label), focus);
         }
         _ => {
             let shown = knob.text(&app.scene);

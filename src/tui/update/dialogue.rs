@@ -5,29 +5,58 @@ use crate::report::line::clean;
 use crate::tui::app::{App, HelpState, InputMode, PaletteState};
 use crate::tui::bindings::Action;
 use crate::tui::commands::{self, Command};
+use crate::tui::field::Edit;
+use crate::tui::lessons;
 use crate::tui::panels;
-use rubscope_solver::scene::Scene;
 
 impl App {
-    /// Scrolls the help, or clears its filter; whether the action did that.
-    pub(super) fn scroll_help(&mut self, help: &HelpState, action: Action) -> bool {
-        let page = panels::body(self).height.saturating_sub(2).max(1);
-        // Further than the end, a key up would do nothing for a while.
-        let from = help.scroll.min(panels::help_bottom(self, help));
-        let scroll = match action {
-            Action::KnobBelow => from.saturating_add(1),
-            Action::KnobAbove => from.saturating_sub(1),
-            Action::PageForward => from.saturating_add(page),
-            Action::PageBack => from.saturating_sub(page),
-            Action::Close if !help.filter.is_empty() => {
-                self.dialogue.open(InputMode::Help(HelpState::default()));
-                return true;
+    /// Moves in the list that is open, if one is; returns whether the action does that.
+    pub(super) fn move_in_list(&mut self, action: Action) -> bool {
+        let last = |count: usize| count.saturating_sub(1);
+        let (from, last) = match &self.dialogue.mode {
+            InputMode::Help(help) => (help.scroll, panels::help_bottom(self, help)),
+            InputMode::Palette(palette) => {
+                (palette.place, last(commands::found(self, &palette.typed.text()).len()))
+            }
+            InputMode::Lessons(place) => (*place, last(lessons::all().len())),
+            InputMode::Scenes(chosen) => {
+                let entries = self.scene_entries();
+                (self.scene_place(&entries, *chosen), last(entries.len()))
             }
             _ => return false,
         };
-        let scroll = scroll.min(panels::help_bottom(self, help));
-        self.dialogue.open(InputMode::Help(HelpState { scroll, ..help.clone() }));
+        // Further than the end, a key up would do nothing for a while.
+        let from = from.min(last);
+        let page = usize::from(panels::body(self).height.saturating_sub(2)).max(1);
+        let to = match action {
+            Action::KnobBelow => from + 1,
+            Action::KnobAbove => from.saturating_sub(1),
+            Action::PageForward => from + page,
+            Action::PageBack => from.saturating_sub(page),
+            Action::First => 0,
+            Action::Last => last,
+            _ => return false,
+        };
+        let to = to.min(last);
+        match &mut self.dialogue.mode {
+            InputMode::Help(HelpState { scroll: place, .. })
+            | InputMode::Palette(PaletteState { place, .. })
+            | InputMode::Lessons(place) => *place = to,
+            InputMode::Scenes(place) => *place = Some(to),
+            _ => {}
+        }
+        self.dialogue.note_page = 0;
         true
+    }
+
+    /// Edits what is typed; at an end of the text, goes on to that end of the list.
+    pub(super) fn edit(&mut self, edit: Edit) {
+        match (self.dialogue.typed().is_some_and(|field| field.edit(edit)), edit) {
+            (true, Edit::Left | Edit::Right | Edit::Start | Edit::End) => {}
+            (false, Edit::Start) => _ = self.move_in_list(Action::First),
+            (false, Edit::End) => _ = self.move_in_list(Action::Last),
+            _ => self.typed_on(),
+        }
     }
 
     /// Opens the list with these words.
@@ -35,26 +64,11 @@ impl App {
         self.dialogue.open(InputMode::Palette(PaletteState { typed: typed.into(), place: 0 }));
     }
 
-    /// Moves the choice; whether the action did that.
-    pub(super) fn move_choice(&mut self, palette: &PaletteState, action: Action) -> bool {
-        const PAGE: usize = 8;
-        let last = commands::found(self, &palette.typed).len().saturating_sub(1);
-        let place = match action {
-            Action::KnobBelow => palette.place + 1,
-            Action::KnobAbove => palette.place.saturating_sub(1),
-            Action::PageForward => palette.place + PAGE,
-            Action::PageBack => palette.place.saturating_sub(PAGE),
-            _ => return false,
-        };
-        self.dialogue
-            .open(InputMode::Palette(PaletteState { place: place.min(last), ..palette.clone() }));
-        true
-    }
-
     /// Does what was chosen; where there is nothing to choose, the list stays open.
     pub(super) fn choose_command(&mut self, palette: &PaletteState) -> Effect {
-        let chosen = commands::found(self, &palette.typed).into_iter().nth(palette.place);
-        let chosen = chosen.map_or_else(|| commands::only(self, &palette.typed), Ok);
+        let typed = palette.typed.text();
+        let chosen = commands::found(self, &typed).into_iter().nth(palette.place);
+        let chosen = chosen.map_or_else(|| commands::only(self, &typed), Ok);
         chosen.and_then(|found| self.obey(found.command)).unwrap_or_else(|reason| {
             self.status = Some(clean(&reason));
             Effect::None
@@ -75,7 +89,12 @@ impl App {
             }
             Command::Blade(blade) => self.go_to_blade(blade)?,
             Command::Axes(paths) => self.put_axes(paths),
-            Command::Scene(name) => self.open_builtin(name),
+            Command::Scene(name) => {
+                let entries = self.scene_entries();
+                if let Some(entry) = entries.iter().find(|entry| entry.name == name) {
+                    self.open_entry(entry)?;
+                }
+            }
             Command::Lesson(place) => self.begin_lesson(place),
             Command::Select(place) => self.knobs.select(place),
             Command::Theme(theme) => self.status = Some(self.appearance.use_theme(theme)),
@@ -90,23 +109,13 @@ impl App {
         }
         Ok(Effect::None)
     }
-
-    /// Makes a built-in scene the current one; undo brings the former one back.
-    pub fn open_builtin(&mut self, name: &str) {
-        match Scene::builtin(name).and_then(|scene| scene.checked()) {
-            Ok(scene) => {
-                self.open_scene(name.to_string(), scene);
-                self.status = Some(format!("opened {name}"));
-            }
-            Err(error) => self.status = Some(clean(&error.to_string())),
-        }
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::tui::{Marker, Theme};
+    use rubscope_solver::scene::Scene;
 
     fn app() -> App {
         App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Braille)
@@ -143,7 +152,7 @@ mod tests {
         app.key(&KeyEvent::new(KeyCode::Char('x'), KeyModifiers::NONE));
         app.act(Action::Accept);
         assert!(app.knobs.refusal.is_some());
-        app.act(Action::DeleteLast);
+        app.act(Action::Edit(Edit::DeleteBefore));
         assert!(app.knobs.refusal.is_none() && !app.dialogue.is_closed());
     }
 
@@ -152,7 +161,7 @@ mod tests {
         let mut app = app();
         let before = app.scene.clone();
         app.knobs.live = true;
-        app.open_builtin("rocking");
+        assert_eq!(app.obey(Command::Scene("rocking".into())), Ok(Effect::None));
         assert_eq!(*app.scene, Scene::builtin("rocking").unwrap());
         assert_eq!((&app.files.opened, app.knobs.live), (&app.scene, true));
         assert_eq!(app.files.source.as_ref().map(|source| source.name.as_str()), Some("rocking"));

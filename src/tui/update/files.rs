@@ -70,9 +70,8 @@ impl App {
         command
     }
 
-    /// Opens the list, and has the files of the directory read.
-    pub(super) fn list_scenes(&mut self) -> Effect {
-        self.dialogue.open(InputMode::Scenes(None));
+    /// Has the files of the directory read.
+    pub(super) fn find_scenes(&mut self) -> Effect {
         if std::mem::replace(&mut self.files.found.reading, true) {
             // A folder that does not answer is asked once.
             return Effect::None;
@@ -93,32 +92,21 @@ impl App {
         }
     }
 
-    pub(super) fn move_in_scenes(&mut self, by: i64) {
-        let InputMode::Scenes(chosen) = self.dialogue.mode else { return };
-        let entries = self.scene_entries();
-        let last = i64::try_from(entries.len()).unwrap_or(1) - 1;
-        let place = i64::try_from(self.scene_place(&entries, chosen)).unwrap_or(0);
-        let place = usize::try_from((place + by).clamp(0, last)).ok();
-        self.dialogue.open(InputMode::Scenes(place));
-    }
-
-    /// Opens the chosen scene, if it is one.
-    pub(super) fn open_chosen_scene(&mut self) {
-        let InputMode::Scenes(chosen) = self.dialogue.mode else { return };
-        let entries = self.scene_entries();
-        let Some(entry) = entries.get(self.scene_place(&entries, chosen)) else { return };
-        match &entry.scene {
-            Ok(scene) => {
-                let path = match entry.file && !entry.open {
-                    true => self.files.directory.join(&entry.name).to_string_lossy().into_owned(),
-                    false => entry.name.clone(),
-                };
-                self.dialogue.close();
-                self.open_scene(path, scene.clone());
-                self.status = Some(format!("opened {}", entry.name));
-            }
-            Err(_) => self.status = Some(format!("{} cannot be opened", entry.name)),
-        }
+    /// Opens a scene of the list; undo brings the former one back.
+    ///
+    /// # Errors
+    /// Its file holds none, in one line.
+    pub(super) fn open_entry(&mut self, entry: &SceneEntry) -> Result<(), String> {
+        let refused = |why: &String| format!("{} cannot be opened: {why}", entry.name);
+        let scene = entry.scene.as_ref().map_err(refused)?;
+        let path = match entry.file && !entry.open {
+            true => self.files.directory.join(&entry.name).to_string_lossy().into_owned(),
+            false => entry.name.clone(),
+        };
+        self.dialogue.close();
+        self.open_scene(path, scene.clone());
+        self.status = Some(format!("opened {}", entry.name));
+        Ok(())
     }
 
     /// Makes another scene the open one, with the charts that it names; undo
@@ -201,7 +189,7 @@ mod tests {
         let mut app = app();
         press(&mut app, KeyCode::Char('s'));
         let InputMode::Naming(_, name) = &app.dialogue.mode else { panic!() };
-        for _ in name.len()..200 {
+        for _ in name.text().len()..200 {
             press(&mut app, KeyCode::Char('x'));
             assert_eq!(app.status, None);
         }
@@ -259,7 +247,8 @@ mod tests {
         let scene = Ok(Scene::base().checked().unwrap());
         let files = vec![FoundScene { name: "late.toml".into(), scene }];
         app.scenes_found(FoundScenes { files, ..FoundScenes::default() });
-        assert_eq!(app.scene_entries().last().unwrap().name, "late.toml");
+        // Own scenes come first.
+        assert_eq!(app.scene_entries()[0].name, "late.toml");
         app.act(Action::Accept);
         assert_eq!(app.files.source.as_ref().unwrap().name, chosen);
         // Now it is asked again.

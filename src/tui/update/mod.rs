@@ -19,6 +19,7 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use super::app::{App, HelpState, InputMode, Purpose};
 use crate::report::line::{self, clean};
 use crate::tui::bindings::{Action, Chord, lookup};
+use crate::tui::field::Field;
 use crate::tui::files::FileJob;
 use crate::tui::knobs::knob_of;
 use crate::tui::views::id::ViewId;
@@ -69,17 +70,13 @@ impl App {
         }
         let typed = match (self.dialogue.typed(), chord.code, chord.ctrl) {
             // What is typed begins with what can be seen.
-            (Some(text), KeyCode::Char(' '), false) if text.is_empty() => None,
+            (Some(text), KeyCode::Char(' '), false) if text.text().is_empty() => None,
             (Some(text), KeyCode::Char(letter), false) if line::harmless(letter) == letter => {
-                Some((text, letter))
+                Some(text.insert(letter.encode_utf8(&mut [0; 4]), LONGEST_TYPED))
             }
             _ => None,
         };
-        if let Some((text, letter)) = typed {
-            let room = text.len() < LONGEST_TYPED;
-            if room {
-                text.push(letter);
-            }
+        if let Some(room) = typed {
             self.status = (!room).then(|| format!("no room: at most {LONGEST_TYPED} letters"));
             self.typed_on();
         } else {
@@ -126,13 +123,8 @@ impl App {
             text.chars().filter(|&letter| line::harmless(letter) == letter).collect();
         let refused = match self.dialogue.typed() {
             None => Some("the pasted text is ignored: no field is open"),
-            Some(field) if field.len().saturating_add(text.len()) > LONGEST_TYPED => {
-                Some("the pasted text is ignored: it is too long")
-            }
-            Some(field) => {
-                field.push_str(&text);
-                None
-            }
+            Some(field) => (!field.insert(&text, LONGEST_TYPED))
+                .then_some("the pasted text is ignored: it is too long"),
         };
         self.typed_on();
         self.status = refused.map(String::from);
@@ -159,32 +151,51 @@ impl App {
                 self.status = Some(self.mouse.toggle());
                 return Effect::Mouse(self.mouse.on);
             }
-            (InputMode::Help(help), action) if self.scroll_help(&help, action) => {}
+            (_, action) if self.move_in_list(action) => {}
             (InputMode::Palette(palette), Action::Accept) => return self.choose_command(&palette),
-            (InputMode::Palette(palette), action) if self.move_choice(&palette, action) => {}
             (InputMode::Naming(purpose, name), Action::Accept) => {
-                return self.write(purpose, &name, false);
+                return self.write(purpose, &name.text(), false);
             }
             // What was typed before the question was seen is no answer to it.
             (InputMode::Replacing(..), Action::Yes) if !self.dialogue.asked => {}
             (InputMode::Replacing(purpose, name), Action::Yes) => {
                 return self.write(purpose, &name, true);
             }
-            (_, Action::DeleteLast) => {
-                _ = self.dialogue.typed().and_then(String::pop);
-                self.typed_on();
-            }
+            (_, Action::Edit(edit)) => self.edit(edit),
             (InputMode::Main, Action::KnobAbove) if self.is_asked() => self.choose_answer(true),
             (InputMode::Main, Action::KnobBelow) if self.is_asked() => self.choose_answer(false),
             (InputMode::Main, Action::Accept) => self.answer_chosen(),
-            _ if self.dialogue.act(action) => {}
+            (InputMode::Scenes(_), Action::TurnNote) => {
+                self.dialogue.note_page = self.dialogue.note_page.wrapping_add(1);
+            }
+            (InputMode::Lessons(_), Action::Search) => self.look_for("lesson "),
+            (InputMode::Scenes(_), Action::Search) => self.look_for("scene "),
+            (_, Action::Search) => {
+                let searching = HelpState { searches: true, ..HelpState::default() };
+                self.dialogue.open(InputMode::Help(searching));
+            }
+            (InputMode::Help(help), Action::Close)
+                if !help.filter.text().is_empty() || help.searches =>
+            {
+                self.dialogue.open(InputMode::Help(HelpState::default()));
+            }
             (InputMode::Lessons(place), Action::Accept) => self.begin_lesson(place),
-            (InputMode::Main, Action::Scenes) => return self.list_scenes(),
-            (InputMode::Scenes(_), Action::KnobBelow) => self.move_in_scenes(1),
-            (InputMode::Scenes(_), Action::KnobAbove) => self.move_in_scenes(-1),
-            (InputMode::Scenes(_), Action::Accept) => self.open_chosen_scene(),
+            (InputMode::Main, Action::Scenes) => {
+                self.dialogue.open(InputMode::Scenes(None));
+                return self.find_scenes();
+            }
+            (InputMode::Main, Action::Palette) => {
+                self.look_for("");
+                return self.find_scenes();
+            }
+            (InputMode::Scenes(chosen), Action::Accept) => {
+                let entries = self.scene_entries();
+                if let Some(entry) = entries.get(self.scene_place(&entries, chosen)) {
+                    self.open_entry(entry).unwrap_or_else(|why| self.status = Some(why));
+                }
+            }
             (_, Action::Copy) => return Effect::Copy(self.copied()),
-            (InputMode::Typing(text), Action::Accept) => self.accept(&text),
+            (InputMode::Typing(text), Action::Accept) => self.accept(&text.text()),
             (_, Action::Close) => self.close(),
             _ => self.act_main(action),
         }
@@ -208,7 +219,6 @@ impl App {
     fn act_main(&mut self, action: Action) {
         match action {
             Action::Help => self.dialogue.open(InputMode::Help(HelpState::default())),
-            Action::Palette => self.look_for(""),
             Action::NextView => self.walk(self.layout.neighbour(1)),
             Action::PreviousView => self.walk(self.layout.neighbour(-1)),
             Action::View(view) => self.walk(view),
@@ -217,7 +227,7 @@ impl App {
             Action::Turn { up, coarse } => self.turn(up, coarse),
             Action::Type => {
                 self.knobs.refusal = None;
-                self.dialogue.open(InputMode::Typing(String::new()));
+                self.dialogue.open(InputMode::Typing(Field::default()));
             }
             Action::Reset => self.reset(),
             Action::Undo => self.step_back(false),
@@ -252,7 +262,7 @@ impl App {
             }
             Action::Export => {
                 let name = format!("{}.csv", self.view().word());
-                self.dialogue.open(InputMode::Naming(Purpose::Export, name));
+                self.dialogue.open(InputMode::Naming(Purpose::Export, name.into()));
             }
             Action::Lesson => self.lesson_key(),
             Action::LessonBack => self.lesson_back(),

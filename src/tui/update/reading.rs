@@ -194,7 +194,7 @@ mod tests {
         let cursor = app.cursor_in(ViewId::Gaps).unwrap();
         assert_eq!((cell_of(cursor.across, 22), app.reading.on), (6, true));
         for blade in [0, 23] {
-            app.choose_command(&PaletteState { typed: format!("blade {blade}"), place: 0 });
+            app.choose_command(&PaletteState { typed: format!("blade {blade}").into(), place: 0 });
             let refused = format!("blade {blade}: from 1 to 22");
             assert_eq!(app.status.as_deref(), Some(refused.as_str()));
         }

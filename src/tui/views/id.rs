@@ -31,7 +31,7 @@ const VIEWS: [(ViewId, &str); CHARTS.len()] = [
     (ViewId::Response, "response"),
     (ViewId::Gaps, "gaps"),
     (ViewId::Locked, "locked motion"),
-    (ViewId::Frame, "the wheel, and the wave as the blades see it"),
+    (ViewId::Frame, "wheel, and the wave as the blades see it"),
     (ViewId::Map, "map of the verdict over two knobs"),
     (ViewId::Spectrum, "spectrum and Campbell lines"),
     (ViewId::Precision, "speed against error"),

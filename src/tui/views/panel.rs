@@ -5,7 +5,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Modifier, Style};
 
-use crate::report::table::{TableCell, write_csv};
+use crate::report::table::{Table, TableCell, write_csv};
 use crate::tui::app::{App, Cursor, Target};
 use crate::tui::appearance::Appearance;
 use crate::tui::axis::ChartAxis;
@@ -26,6 +26,11 @@ pub trait ViewPanel: Sync {
     /// # Errors
     /// There is nothing to export; the reason as text.
     fn csv(&self, app: &App) -> Result<String, String>;
+
+    /// Returns what it says in lines, without a screen; none where only a picture says it.
+    fn lines(&self, _: &App, _: usize) -> Option<Vec<String>> {
+        None
+    }
 
     /// Returns whether it is drawn over the page of time.
     fn is_over_time(&self, _: &App) -> bool {
@@ -249,6 +254,16 @@ pub fn not_yet(app: &App, buffer: &mut Buffer, inside: Rect) {
         None => "waits for the verdict of the run",
     };
     print(buffer, inside, 1, text, quiet);
+}
+
+/// Returns a table as CSV text.
+///
+/// # Errors
+/// It cannot be written.
+pub fn table_csv(table: &Table) -> Result<String, String> {
+    let mut bytes = Vec::new();
+    table.write_csv(&mut bytes).map_err(|error| error.to_string())?;
+    String::from_utf8(bytes).map_err(|error| error.to_string())
 }
 
 /// Named columns of numbers as CSV text.

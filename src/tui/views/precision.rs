@@ -3,20 +3,16 @@
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-use super::panel::{ViewArea, ViewPanel, not_yet, title};
-use crate::report::precision::{decades, letter, place, reference_words, series};
+use super::panel::{ViewArea, ViewPanel, not_yet, table_csv, title};
+use crate::report::number::count;
+use crate::report::precision::{decades, letter, place, reference_words, series, table};
 use crate::tui::app::App;
 use crate::tui::axis::{ChartAxis, readable};
 use crate::tui::plot::Plot;
-use crate::tui::text::{columns, print, wrap};
+use crate::tui::text::{print, wrap};
 use crate::tui::theme::Role;
-use rubscope_solver::scene::{ContactLaw, SolverKind};
+use rubscope_solver::scene::SolverKind;
 use rubscope_solver::study::precision::{Effort, Measure, Row, Way};
-
-/// Columns of the title before its legend.
-const TITLE: usize = 14;
-/// From this height on there is room for a legend below the title.
-const LEGEND_FROM: u16 = 8;
 
 /// The view.
 pub struct PrecisionView;
@@ -29,27 +25,8 @@ impl ViewPanel for PrecisionView {
             SolverKind::Event => Role::First,
             SolverKind::Explicit => Role::Second,
         };
-        let explicit = match app.scene.solver.contact {
-            ContactLaw::Smooth => "s explicit (capital: modal, 1: full)",
-            _ => "u explicit, b other law (capital: modal, 1 2: full)",
-        };
-        let entries = [("e event", Role::First), (explicit, Role::Second)];
         let axes = [("error |u-u_ref|/g0 by wall time [s]".to_string(), quiet)];
-        let mut legend: Vec<_> =
-            entries.iter().map(|(text, role)| (text.to_string(), look.style(*role))).collect();
-        legend.extend(axes.clone());
-        // What does not fit into the title has lines of its own.
-        let taken: usize = legend.iter().map(|(text, _)| columns(text) + 2).sum();
-        let fits = taken + TITLE <= usize::from(at.area.width);
-        let mut inside = title(app, buffer, at, "precision", if fits { &legend } else { &axes });
-        if !fits && inside.height >= LEGEND_FROM {
-            for (text, role) in entries {
-                for line in wrap(text, usize::from(inside.width)) {
-                    print(buffer, inside, 0, &line, look.style(role));
-                    inside = below(inside);
-                }
-            }
-        }
+        let mut inside = title(app, buffer, at, "precision", &axes);
         if let Err(error) = Measure::check(&app.scene, Effort::QUICK) {
             print(buffer, inside, 1, "no reference for this scene:", look.style(Role::Trouble));
             print(buffer, inside, 2, &error.to_string(), quiet);
@@ -75,29 +52,16 @@ impl ViewPanel for PrecisionView {
             inside = below(inside);
         }
         let placed = || report.rows.iter().filter_map(|row| Some((place(row)?, row)));
-        // A logarithmic axis has no zero: rows without error are listed below.
-        let mut zeros: Vec<char> = placed()
-            .filter(|(at, _)| at.error.is_none())
-            .map(|(_, row)| letter(&row.way))
-            .collect();
-        zeros.dedup();
-        // Nor has it a place for a run that gives no number to compare.
-        let lost = report.rows.iter().filter(|row| row.is_wrong() && place(row).is_none());
-        let mut lost: Vec<char> = lost.map(|row| letter(&row.way)).collect();
-        lost.dedup();
-        let listed = |letters: Vec<char>, what: &str, sign: &str| {
-            let named: String = letters.iter().map(|letter| format!(" {letter}{sign}")).collect();
-            (!letters.is_empty()).then(|| format!("{what}:{named}"))
-        };
-        let off = [listed(zeros, "error 0, off this axis", ""), listed(lost, "no error", "!")];
-        let off = off.into_iter().flatten().collect::<Vec<_>>().join("; ");
-        let height = inside.height.saturating_sub(u16::from(!off.is_empty()));
-        if !off.is_empty() {
-            print(buffer, inside, height, &off, quiet);
-        }
-        let inside = Rect { height, ..inside };
         let points: Vec<_> =
             placed().filter_map(|(at, row)| Some(((at.time, at.error?), row))).collect();
+        // A logarithmic axis has no zero, nor a place for a run that gives no number.
+        let off = report.rows.len() - points.len();
+        let height = inside.height.saturating_sub(u16::from(off > 0));
+        if off > 0 {
+            let text = format!("{} off this axis, with error 0 or none", count(off as u64, "row"));
+            print(buffer, inside, height, &text, quiet);
+        }
+        let inside = Rect { height, ..inside };
         let times = decades(points.iter().map(|((x, _), _)| *x));
         let errors = decades(points.iter().map(|((_, y), _)| *y));
         let (Some((left, right)), Some((bottom, top))) = (times, errors) else { return };
@@ -118,15 +82,11 @@ impl ViewPanel for PrecisionView {
             }
         }
         for ((x, y), row) in &points {
-            plot.point(*x, *y, letter(&row.way), look.style(hue(&row.way)));
-        }
-        for ((x, y), _) in points.iter().filter(|(_, row)| row.is_wrong()) {
-            if let (Some(column), Some(line)) = (plot.column(*x), plot.row(*y)) {
-                // Beside its letter, on the side where there is room.
-                let last = plot.inner.right() - 1;
-                let beside = if column < last { column + 1 } else { column - 1 };
-                plot.text(beside, line, "!", look.style(Role::Trouble));
-            }
+            let (sign, role) = match row.is_wrong() {
+                true => ('!', Role::Trouble),
+                false => (letter(&row.way), hue(&row.way)),
+            };
+            plot.point(*x, *y, sign, look.style(role));
         }
         if let Some(reading) = reading {
             let blank = " ".repeat(usize::from(words.width));
@@ -135,8 +95,9 @@ impl ViewPanel for PrecisionView {
         }
     }
 
-    fn csv(&self, _: &App) -> Result<String, String> {
-        Err("`rubscope precision` writes these rows".into())
+    fn csv(&self, app: &App) -> Result<String, String> {
+        let report = app.results().found.precision.as_ref();
+        table_csv(&table(report.ok_or("nothing is measured yet")?))
     }
 }
 

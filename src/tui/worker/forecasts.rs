@@ -12,7 +12,7 @@ use crate::tui::trace::Mark;
 use crate::tui::worker::background::{Background, on_spare_cores};
 use crate::tui::worker::full_run::{FullRunJob, SLICE};
 use crate::tui::worker::studies::Studies;
-use rubscope_solver::motion::{Certainty, Course, Motion, VerdictReached, certainty};
+use rubscope_solver::motion::{Certainty, Motion, VerdictReached, certainty};
 use rubscope_solver::scene::{CheckedScene, ContactLaw, Scene, SolverKind};
 
 /// The computations for one motion.
@@ -178,15 +178,12 @@ fn reference(scene: &Scene) -> Option<FullRunJob> {
 
 /// Finds out whether a tiny change of the pulse, the speed or the motion changes the
 /// outcome of the run that came to this; nothing comes where this takes too long.
-fn sensitivity(
-    scene: &CheckedScene,
-    (reached, course): (VerdictReached, Course),
-) -> Background<Certainty> {
+fn sensitivity(scene: &CheckedScene, reached: VerdictReached) -> Background<Certainty> {
     let scene = scene.clone();
     Background::start(move |to, go_on| {
         let began = Instant::now();
         let go_on = || go_on() && began.elapsed() < FORECAST_LIMIT;
-        let found = on_spare_cores(|| certainty(&scene, reached, &course, true, &go_on));
+        let found = on_spare_cores(|| certainty(&scene, reached, true, &go_on));
         if let Some(certainty) = found {
             // Without a receiver nobody asks any more.
             let _ = to.send(certainty);

@@ -7,9 +7,7 @@ use std::time::{Duration, Instant};
 use super::reading::Copies;
 use crate::tui::engine::{FORECAST_LIMIT, FullRun, FullRunState};
 use crate::tui::trace::{Mark, Marks, Trace};
-use rubscope_solver::motion::{
-    Course, Looker, Motion, VerdictReached, caught_at, judge_end, lock_that_broke,
-};
+use rubscope_solver::motion::{Motion, VerdictReached, caught_at, judge_end, lock_that_broke};
 use rubscope_solver::tolerances::LAST_PART;
 
 /// A full run that is being computed.
@@ -28,7 +26,6 @@ pub struct FullRunJob {
     limit: Duration,
     /// Steps taken and skipped before the start.
     before: [u64; 2],
-    course: Course,
     result: Option<FullRun>,
 }
 
@@ -54,7 +51,6 @@ impl FullRunJob {
             wall: Duration::ZERO,
             slice: SLICE,
             limit: FORECAST_LIMIT,
-            course: Course::over(start + length),
             result: None,
             motion,
             start,
@@ -88,9 +84,6 @@ impl FullRunJob {
                 self.points.push(point(&self.motion));
                 self.marks.look(self.motion.contacts());
                 self.copies.follow(&self.motion);
-                if self.course.due() <= sample {
-                    self.course.see(&self.motion);
-                }
             }
         }
         self.wall += began.elapsed();
@@ -124,11 +117,11 @@ impl FullRunJob {
         self.end
     }
 
-    /// Returns what it came to, and which way, once it is done: of a run from the start of a scene,
+    /// Returns what it came to, once it is done: of a run from the start of a scene,
     /// what changed runs must agree with.
-    pub fn reached(&self) -> Option<(VerdictReached, Course)> {
+    pub fn reached(&self) -> Option<VerdictReached> {
         let run = self.result.as_ref()?;
-        Some((VerdictReached::of(&self.motion, run.verdict), self.course.clone()))
+        Some(VerdictReached::of(&self.motion, run.verdict))
     }
 
     fn finished(&self) -> FullRun {

@@ -34,8 +34,9 @@ fn code(text: impl std::fmt::Display) -> String {
     format!("`{text}`")
 }
 
-/// Lists and dialogues, whose keys the screen names on its last line.
-const NAMED_ON_THE_SCREEN: [Context; 9] = [
+/// Lists and dialogues, whose keys the screen names on its last line, and what all prompts
+/// and lists take.
+const NAMED_ON_THE_SCREEN: [Context; 11] = [
     Context::Typing,
     Context::Help,
     Context::Filter,
@@ -44,6 +45,8 @@ const NAMED_ON_THE_SCREEN: [Context; 9] = [
     Context::Lessons,
     Context::Question,
     Context::Scenes,
+    Context::Field,
+    Context::List,
     Context::Dialogue,
 ];
 

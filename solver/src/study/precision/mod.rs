@@ -18,7 +18,7 @@ use strum::IntoStaticStr;
 
 pub use ways::{Effort, Way, ways};
 
-use crate::motion::{Course, GoOn, Motion, State, Verdict, VerdictReached, certainty};
+use crate::motion::{GoOn, Motion, State, Verdict, VerdictReached, certainty};
 use crate::scene::{Scene, SceneError};
 use crate::tolerances;
 use track::Track;
@@ -295,8 +295,7 @@ fn described(
         reference.method = Method::None(Lack::EventsFailed);
     }
     let reached = VerdictReached::of(&track.end, track.verdict);
-    let unseen = Course::over(scene.solver.end_s);
-    let certainty = certainty(&track.way.of(scene)?, reached, &unseen, false, go_on);
+    let certainty = certainty(&track.way.of(scene)?, reached, false, go_on);
     reference.sensitive = certainty.map(|certainty| certainty.sensitive);
     Ok(reference.sensitive.map(|_| reference))
 }

@@ -121,7 +121,7 @@ fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
         left = (0..).zip(&apothems).map(whole).collect();
     }
     let read = reading(app, x, y, &apothems);
-    let name = read_before(look, &mut legend, read, "blade frame");
+    let name = read_before(look, &mut legend, read, "polygon");
     let inside = title(app, buffer, at, name, &legend);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     at.note(app, plot.inner);

@@ -16,7 +16,7 @@ use crate::tui::app::{App, Cursor, STEP};
 use crate::tui::axis::{ChartAxis, nice_step, readable};
 use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
-use crate::tui::text::{first_lines, print, wrap};
+use crate::tui::text::{print, whole_parts, wrap};
 use crate::tui::theme::Role;
 use crate::tui::views::locked::curves::LockedCurves;
 use crate::tui::views::panel::{
@@ -27,8 +27,6 @@ use rubscope_solver::motion::{ActiveSet, Verdict};
 
 /// From this height on, the large chart shows the undamped curve of the paper too.
 const ROOMY: u16 = 14;
-/// From this width on, the legend names the forces of the running motion.
-const NAMED_FROM: u16 = 62;
 /// Most rows of what the reading cursor reads.
 const READ_ROWS: usize = 3;
 
@@ -62,6 +60,10 @@ impl ViewPanel for LockedView {
     fn here(&self, app: &App) -> Cursor {
         let fastest = app.results().found.locked.as_ref().map_or(1.0, |curves| curves.fastest);
         Cursor { across: (app.speed().abs() / fastest).clamp(0.0, 1.0), up: 0.5 }
+    }
+
+    fn lines(&self, app: &App, width: usize) -> Option<Vec<String>> {
+        Some(wrap(&reading(app, app.speed().abs()), width))
     }
 
     fn csv(&self, app: &App) -> Result<String, String> {
@@ -123,9 +125,7 @@ fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
     if curves.is_some_and(|curves| !curves.whirl.is_empty()) {
         legend.push(entry(look, &going_round, "whirl"));
     }
-    // Beside another chart there is room for the numbers only.
-    let mean = if at.area.width >= NAMED_FROM { "mean now " } else { "" };
-    legend.push((format!("{point} {mean}{now}"), look.style(Role::Contact)));
+    legend.push((format!("{point} now {now}"), look.style(Role::Contact)));
     legend.push(("below 0 pushes".into(), quiet));
     let round = app.machine.out_of_round() != 0.0;
     let of = [(app.has_lining(), "of a rigid casing"), (round, "of a round casing")];
@@ -199,8 +199,7 @@ fn read(app: &App, curves: &LockedCurves, buffer: &mut Buffer, inside: Rect) -> 
     let width = usize::from(inside.width).saturating_sub(1);
     // The chart keeps at least half of the rows.
     let most = READ_ROWS.min(usize::from(inside.height / 4)).max(1);
-    let lines = wrap(&look.spell(&reading(app, speed)), width);
-    let lines = first_lines(lines, width, most, look.ellipsis());
+    let lines = whole_parts(&look.spell(&reading(app, speed)), width, most);
     lines_above(app, buffer, inside, &lines, Role::Focus)
 }
 
@@ -333,13 +332,13 @@ pub fn reading(app: &App, speed: f64) -> String {
     let parts = [
         value("λ_a", a, "N"),
         value("λ_b", b, "N"),
+        holds.to_string(),
+        not_this_run(app, can_last).unwrap_or_default(),
         format!("|u| {ratio:.4} g0"),
         value("α_a", turn_a, "rad"),
         value("α_b", turn_b, "rad"),
         value("u_cc", point.u_cc_m, "m"),
         value("u_cs", point.u_cs_m, "m"),
-        holds.to_string(),
-        not_this_run(app, can_last).unwrap_or_default(),
     ];
     let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
     at + &parts.join(", ")

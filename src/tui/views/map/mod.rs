@@ -14,7 +14,7 @@ pub use words::value_text;
 use super::panel::{Opening, ViewArea, ViewPanel, not_yet, title};
 use crate::report::map::write_csv;
 use crate::tui::app::{App, Cursor};
-use crate::tui::text::{print, spelled_pieces};
+use crate::tui::text::{pieces, print};
 use crate::tui::theme::Role;
 use plan::LiveMap;
 use rubscope_solver::study::{Axis, MapPlan};
@@ -36,7 +36,7 @@ impl ViewPanel for MapView {
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
         let live = app.results().found.map.as_deref();
         let plan = app.map_plan();
-        let entries = words::title(app, live, plan.as_ref().ok(), at.area.width);
+        let entries = words::title(app, live, plan.as_ref().ok());
         let inside = title(app, buffer, at, "map", &entries);
         if let Err(reason) = plan {
             let text = format!("no map: {reason}");
@@ -84,28 +84,27 @@ pub fn here(app: &App, plan: &MapPlan) -> Cursor {
 /// Says what the signs mean and what the cursor reads, beside the map or above
 /// it; returns the rest of the area.
 fn explain(app: &App, live: &LiveMap, buffer: &mut Buffer, inside: Rect, large: bool) -> Rect {
-    let look = &app.appearance;
-    if large && inside.width >= BESIDE_FROM {
-        let column = Rect { x: inside.right() - BESIDE + 1, width: BESIDE - 1, ..inside };
-        for (row, line) in
-            (0..inside.height).zip(words::column(app, live, usize::from(column.width)))
-        {
-            spelled_pieces(look, buffer, column, row, &line);
-        }
-        return Rect { width: inside.width - BESIDE, ..inside };
-    }
-    let reads = large && app.map_cell().is_some();
+    let beside = large && inside.width >= BESIDE_FROM;
+    let area = match beside {
+        true => Rect { x: inside.right() - BESIDE + 1, width: BESIDE - 1, ..inside },
+        false => Rect { x: inside.x + 1, width: inside.width.saturating_sub(1), ..inside },
+    };
+    let (width, reads) = (usize::from(area.width), large && app.map_cell().is_some());
     let lines: Vec<Line> = match inside.height {
-        TWO_ROWS_FROM.. if large => vec![words::legend(app, live), words::row(app, live)],
-        ONE_ROW_FROM.. if reads => vec![words::row(app, live)],
+        _ if beside => words::column(app, live, width),
+        TWO_ROWS_FROM.. if large => vec![words::legend(app, live), words::row(app, live, width)],
+        ONE_ROW_FROM.. if reads => vec![words::row(app, live, width)],
         ONE_ROW_FROM.. => vec![words::legend(app, live)],
         _ => Vec::new(),
     };
-    let row = Rect { x: inside.x + 1, width: inside.width.saturating_sub(1), ..inside };
-    let mut rows = 0;
-    for line in &lines {
-        spelled_pieces(look, buffer, row, rows, line);
-        rows += 1;
+    let look = &app.appearance;
+    for (row, line) in (0..area.height).zip(&lines) {
+        let spelled = line.iter().map(|(text, style)| (look.spell(text), *style));
+        pieces(buffer, area, row, &spelled.collect::<Vec<_>>());
     }
+    if beside {
+        return Rect { width: inside.width - BESIDE, ..inside };
+    }
+    let rows = u16::try_from(lines.len()).unwrap_or(0);
     Rect { y: inside.y + rows, height: inside.height.saturating_sub(rows), ..inside }
 }

@@ -58,7 +58,6 @@ pub fn draw(app: &App, live: &LiveMap, buffer: &mut Buffer, area: Rect, at: View
     if plan.x.path == SPEED || plan.y.path == SPEED {
         live.lines.iter().for_each(|line| picture.line(line));
     }
-    picture.names();
     let [across, up] = [&plan.x, &plan.y].map(|axis| axis.place(present(app, axis)));
     if is_inside(&plan.x, across) && is_inside(&plan.y, up) {
         let (column, row) = (picture.column(across), picture.row(up));
@@ -173,37 +172,6 @@ impl Picture<'_> {
                 let (left, right) = (self.column(across - 0.5), self.column(across + 0.5));
                 for column in left.max(inner.x)..=right.min(inner.right().saturating_sub(1)) {
                     self.over(column, row, self.look.either('┈', '-'), Role::Text);
-                }
-            }
-        }
-    }
-
-    /// Prints the names of the lines with their speeds in the lowest rows, where most maps are
-    /// quiet.
-    fn names(&mut self) {
-        let (live, inner) = (self.live, self.inner);
-        let plan = &live.map.plan;
-        let mut free = [inner.x; 3];
-        for line in words::by_speed(live) {
-            let Some(&(across, up)) = line.points.first() else { continue };
-            let place = places(&plan.x, &plan.y, (across, up));
-            if !is_inside(&plan.x, place[0]) || !is_inside(&plan.y, place[1]) {
-                continue;
-            }
-            let name = self.look.spell(&words::line_name(line));
-            let width = u16::try_from(name.chars().count()).unwrap_or(u16::MAX);
-            if width >= inner.width {
-                continue;
-            }
-            let column = self.column(place[0]).saturating_add(1).min(inner.right() - width);
-            let lowest = if plan.x.path == SPEED { inner.bottom() - 1 } else { self.row(place[1]) };
-            for (row, free) in (inner.y..=lowest).rev().zip(&mut free) {
-                if column >= *free {
-                    for (x, sign) in (column..).zip(name.chars()) {
-                        self.over(x, row, sign, Role::Text);
-                    }
-                    *free = column + width + 1;
-                    break;
                 }
             }
         }

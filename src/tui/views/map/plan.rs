@@ -2,6 +2,9 @@
 //! solver and model or under the other law. It is computed in coarse blocks first, then in finer
 //! ones in a fixed order.
 
+use std::f64::consts::TAU;
+
+use crate::tui::axis::nice_step;
 use crate::tui::knobs::{KNOBS, Knob, knob_of};
 use crate::tui::views::locked::curves::speed_range;
 use rubscope_solver::motion::Verdict;
@@ -9,8 +12,7 @@ use rubscope_solver::scene::{Allowed, ContactLaw, Scene, SolverKind, keys};
 use rubscope_solver::study::overlay::{Curve, threshold_curves};
 use rubscope_solver::study::{Axis, Cell, Map, MapPlan};
 
-/// Most cells across and up. Usual ranges give round values: 7.5 rad/s for 600,
-/// a tenth of a decade for four.
+/// Most cells across and up; a tenth of a decade is a cell of four.
 const CELLS: [u32; 2] = [81, 41];
 /// The key of the torque on the blades.
 const TORQUE: &str = keys::EXCITATION;
@@ -32,12 +34,14 @@ pub struct MapChoice {
     pub x: MapAxis,
     /// The key up.
     pub y: MapAxis,
+    /// Whether speeds are shown in turns a minute, of which the cells are round values.
+    pub rpm: bool,
 }
 
 impl Default for MapChoice {
     fn default() -> Self {
         let axis = |path| MapAxis { path, anchor: 0.0 };
-        Self { law: None, x: axis(keys::SPEED), y: axis(keys::PULSE) }
+        Self { law: None, x: axis(keys::SPEED), y: axis(keys::PULSE), rpm: false }
     }
 }
 
@@ -78,8 +82,9 @@ impl MapChoice {
         let slides = scene.contact.friction != 0.0
             || [self.x, self.y].iter().any(|axis| axis.path == FRICTION);
         let plan = |without: f64| {
-            let x = self.x.over(&scene, CELLS[0], slides, without)?;
-            let y = self.y.over(&scene, CELLS[1], slides, without)?;
+            let unit = if self.rpm { TAU / 60.0 } else { 1.0 };
+            let x = self.x.over(&scene, CELLS[0], slides, without, unit)?;
+            let y = self.y.over(&scene, CELLS[1], slides, without, unit)?;
             let mut scene = scene.clone();
             for axis in [&x, &y] {
                 // The map stays the same while the knobs that it sweeps are turned.
@@ -99,8 +104,16 @@ pub fn numeric() -> impl Iterator<Item = &'static Knob> {
 }
 
 impl MapAxis {
-    /// Returns the axis over the bar of the knob, without a part at each end.
-    fn over(&self, scene: &Scene, most: u32, slides: bool, without: f64) -> Result<Axis, String> {
+    /// Returns the axis over the bar of the knob, without a part at each end; for speeds, in round
+    /// values of a unit.
+    fn over(
+        &self,
+        scene: &Scene,
+        most: u32,
+        slides: bool,
+        without: f64,
+        unit: f64,
+    ) -> Result<Axis, String> {
         let knob = knob_of(self.path).ok_or_else(|| format!("{} is no knob", self.path))?;
         let bar = knob.range_around(self.anchor, scene, &scene.machine());
         let (mut from, mut to, mut log) =
@@ -127,7 +140,22 @@ impl MapAxis {
                 (from, to) = (from.ceil(), to.floor());
                 ((to - from).max(0.0) as u32).saturating_add(1).min(most)
             }
-            _ => most,
+            _ if log => most,
+            _ => {
+                let is_speed = self.path == keys::SPEED;
+                let unit = if is_speed { unit } else { 1.0 };
+                let step = nice_step((to - from) / unit, most as usize - 1).unwrap_or(0.0) * unit;
+                let [a, b] = [from, to].map(|end| end / step);
+                let [first, last] =
+                    if is_speed { [a.floor(), b.ceil()] } else { [a.round(), b.round()] };
+                // Other ends than round ones are those of what the key allows.
+                if is_speed || (a - first).abs() + (b - last).abs() < 1e-6 {
+                    (from, to) = (first * step, last * step);
+                    (last - first) as u32 + 1
+                } else {
+                    most
+                }
+            }
         };
         Axis::new(self.path, from, to, count, log).map_err(|error| error.to_string())
     }
@@ -252,7 +280,24 @@ mod tests {
         scene.operation.speed_rad_s = 100.0;
         assert_eq!(MapChoice::default().plan(&scene).unwrap(), before);
         // The paper's range, in round steps.
-        assert_eq!((before.x.from, before.x.to, before.x.value(1)), (0.0, 600.0, 7.5));
+        assert_eq!((before.x.from, before.x.to, before.x.count), (0.0, 600.0, 61));
+    }
+
+    #[test]
+    fn cells_are_round_values_in_the_unit_that_is_shown() {
+        let scene = Scene::base();
+        let plan = MapChoice::default().plan(&scene).unwrap();
+        assert_eq!((plan.x.value(46), plan.x.value(45)), (460.0, 450.0));
+        let plan = MapChoice { rpm: true, ..MapChoice::default() }.plan(&scene).unwrap();
+        let turns = |at: u32| plan.x.value(at) * 60.0 / TAU;
+        for (at, rpm) in [(0, 0.0), (1, 100.0), (45, 4500.0), (plan.x.count - 1, 5800.0)] {
+            assert!((turns(at) - rpm).abs() < 1e-9, "{}", turns(at));
+        }
+        let damping = MapAxis { path: keys::CASING_DAMPING, anchor: 0.05 };
+        let plan = MapChoice { y: damping, ..MapChoice::default() }.plan(&scene).unwrap();
+        // Steps of 1, 2 or 5 times a power of ten, and so every value.
+        let step = format!("{:.1e}", plan.y.value(1) - plan.y.value(0));
+        assert!(["1.0", "2.0", "5.0"].contains(&&step[..3]) && plan.y.count > 20, "{step}");
     }
 
     #[test]

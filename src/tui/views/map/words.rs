@@ -6,11 +6,11 @@ use ratatui::style::Style;
 use super::picture::{is_inside, sign};
 use super::plan::{CellRun, LiveMap};
 use crate::report::map::means;
-use crate::report::number::{count, grouped, in_shown_unit, per_speed, rounded};
+use crate::report::number::{count, from_shown, in_shown_unit, per_speed, rounded};
 use crate::tui::app::App;
 use crate::tui::axis::{number, readable};
 use crate::tui::knobs::{Knob, knob_of};
-use crate::tui::text::{columns, few, wrap};
+use crate::tui::text::{columns, few, whole_parts, wrap};
 use crate::tui::theme::Role;
 use rubscope_solver::motion::Verdict;
 use rubscope_solver::scene::keys::SPEED;
@@ -20,11 +20,6 @@ use rubscope_solver::study::{Axis, MapPlan};
 /// One line: pieces with their styles.
 pub type Line = Vec<(String, Style)>;
 
-/// Steps of the progress: a title that changes with every cell is a lot to send.
-const PROGRESS_STEPS: usize = 64;
-/// Cells of the progress bar.
-const BAR: usize = 8;
-
 /// Returns the unit of a key.
 pub fn unit(path: &str) -> &'static str {
     knob_of(path).map_or("", Knob::unit)
@@ -32,7 +27,8 @@ pub fn unit(path: &str) -> &'static str {
 
 /// Returns a value of a key in four digits, with its unit.
 pub fn value_text(path: &str, value: f64) -> String {
-    number(rounded(value, 4), unit(path))
+    let unit = unit(path);
+    number(from_shown(rounded(in_shown_unit(value, unit).0, 4), unit), unit)
 }
 
 /// Same as [`value_text`]; a number without a unit with its symbol, such as `n_d 3`.
@@ -69,57 +65,28 @@ fn axis_name(axis: &Axis) -> String {
     }
 }
 
-/// Returns the title: what the map shows, and how far it is; as much as fits.
-pub fn title(app: &App, live: Option<&LiveMap>, wanted: Option<&MapPlan>, width: u16) -> Line {
+/// Returns the entries of the title: how far the map is, and what it shows.
+pub fn title(app: &App, live: Option<&LiveMap>, wanted: Option<&MapPlan>) -> Line {
     let look = &app.appearance;
     let Some(plan) = live.map(|live| &live.map.plan).or(wanted) else { return Vec::new() };
-    let solver = &plan.scene.solver;
-    let law = format!("{}, {}", solver.contact, solver.kind);
-    let key = format!("(c: {})", app.map_law().other());
-    let over = format!("{} over {}", axis_name(&plan.y), axis_name(&plan.x));
-    let subjects = [
-        format!("{over} · {law} {} {key}", solver.model),
-        format!("{over} · {law} {key}"),
-        format!("{law} {key}"),
-        law,
-    ];
     let progress = match live {
         Some(live) if wanted.is_some_and(|plan| *plan != live.map.plan) => {
-            ["the new map is under way".to_string(), "new map ..".to_string(), "..".to_string()]
+            Some("new map ..".into())
         }
-        Some(live) if !live.is_complete() => progress(app, live),
-        _ => Default::default(),
-    };
-    // Digit, name and the spaces around them.
-    let room = usize::from(width).saturating_sub(8);
-    let pairs =
-        subjects.iter().flat_map(|subject| progress.iter().map(move |part| (subject, part)));
-    let fits = |(subject, part): &(&String, &String)| {
-        columns(&look.spell(subject)) + columns(&look.spell(part)) + 5 <= room
-    };
-    let found = pairs.clone().find(fits).or_else(|| pairs.last());
-    let mut line = Vec::new();
-    if let Some((subject, part)) = found {
-        line.push((subject.clone(), look.style(Role::Text)));
-        if !part.is_empty() {
-            line.push((part.clone(), look.style(Role::Focus)));
+        Some(live) if !live.is_complete() => {
+            Some(format!("computing {} %", 100 * live.tried / live.map.cells.len()))
         }
-    }
-    line
-}
-
-/// Returns how far the map is, long and short.
-fn progress(app: &App, live: &LiveMap) -> [String; 3] {
-    let all = live.map.cells.len().max(1);
-    let step = all.div_ceil(PROGRESS_STEPS);
-    let done = live.tried / step * step;
-    let full = BAR * done / all;
-    let [ends, on, off] = app
-        .appearance
-        .either([["▕", "▏"], ["█", ""], [" ", ""]], [["[", "]"], ["#", ""], [".", ""]]);
-    let bar = format!("{}{}{}{}", ends[0], on[0].repeat(full), off[0].repeat(BAR - full), ends[1]);
-    let of = format!("{} of {}", grouped(done as u64), count(all as u64, "cell"));
-    [format!("{of} {bar}"), of, format!("{} %", 100 * done / all)]
+        _ => None,
+    };
+    let solver = &plan.scene.solver;
+    let subjects = [
+        solver.contact.to_string(),
+        format!("{} over {}", axis_name(&plan.y), axis_name(&plan.x)),
+        solver.kind.to_string(),
+        format!("c: {}", app.map_law().other()),
+    ];
+    let progress = progress.into_iter().map(|text| (text, look.style(Role::Focus)));
+    progress.chain(subjects.map(|text| (text, look.style(Role::Text)))).collect()
 }
 
 /// Returns the verdicts on the map, and the sign of the present knobs.
@@ -142,27 +109,23 @@ fn occurring(live: &LiveMap) -> impl Iterator<Item = Verdict> {
 
 /// Returns where the present knobs are.
 fn now(app: &App, live: &LiveMap) -> String {
-    let plan = &live.map.plan;
-    let axes = [(&plan.x, ["left of", "right of"]), (&plan.y, ["below", "above"])];
-    for (axis, sides) in axes {
-        let value = present(app, axis);
-        let place = axis.place(value);
-        if !is_inside(axis, place) {
-            let side = if place > 0.0 { sides[1] } else { sides[0] };
-            let name = knob_of(&axis.path).map_or("", |knob| knob.label);
-            return format!("now {name} {}: {side} the map", value_text(&axis.path, value));
-        }
+    let axes = [&live.map.plan.x, &live.map.plan.y];
+    let is_inside = axes.iter().all(|axis| is_inside(axis, axis.place(present(app, axis))));
+    let [x, y] = axes.map(|axis| named_value(axis, present(app, axis)));
+    match is_inside {
+        true => format!("{} now {x}, {y}", app.appearance.either('╋', '+')),
+        false => format!("now {x}, {y}: outside"),
     }
-    let [x, y] = [&plan.x, &plan.y].map(|axis| named_value(axis, present(app, axis)));
-    format!("{} now {x}, {y}", app.appearance.either('╋', '+'))
 }
 
-/// Returns the cell under the cursor in one row, or the key that leads to it.
-pub fn row(app: &App, live: &LiveMap) -> Line {
+/// Returns the cell under the cursor in one row of so many columns, or the lines over the map.
+pub fn row(app: &App, live: &LiveMap, width: usize) -> Line {
     let look = &app.appearance;
     let Some([head, verdict, detail]) = cell(app, live) else {
-        return vec![("i reads a cell; X Y choose the axes".into(), look.style(Role::Quiet))];
+        return vec![(lines(live).join(", "), look.style(Role::Text))];
     };
+    let taken = columns(&format!("[ ] {head}:   {verdict} "));
+    let detail = whole_parts(&detail, width.saturating_sub(taken), 1).concat();
     let shown = app.map_cell().and_then(|[column, row]| live.shown(column, row));
     let (sign, style) =
         shown.map_or((' ', look.style(Role::Text)), |cell| sign(look, cell.verdict));
@@ -225,6 +188,7 @@ pub fn column(app: &App, live: &LiveMap, width: usize) -> Vec<Line> {
     let paragraph = |words: &str, style: Style| -> Vec<Line> {
         wrap(words, width).into_iter().map(|line| vec![(line, style)]).collect()
     };
+    lines.extend(self::lines(live).iter().map(|name| vec![(format!("┊ {name}"), text)]));
     lines.extend(paragraph(&now(app, live), focus));
     lines.push(Vec::new());
     match cell(app, live) {
@@ -241,17 +205,17 @@ pub fn column(app: &App, live: &LiveMap, width: usize) -> Vec<Line> {
     lines
 }
 
-/// Returns the lines of a map, in the order of their speeds on its axis.
-pub fn by_speed(live: &LiveMap) -> Vec<&Curve> {
+/// Returns the names of the lines of a map, in the order of their speeds on its axis.
+fn lines(live: &LiveMap) -> Vec<String> {
     let on_x = live.map.plan.x.path == SPEED;
-    let speed = |line: &Curve| line.points.first().map_or(0.0, |(x, y)| if on_x { *x } else { *y });
+    let speed = |line: &&Curve| line.points.first().map_or(0.0, |p| if on_x { p.0 } else { p.1 });
     let mut lines: Vec<&Curve> = live.lines.iter().collect();
     lines.sort_by(|a, b| speed(a).total_cmp(&speed(b)));
-    lines
+    lines.into_iter().map(line_name).collect()
 }
 
 /// Returns the name of a line, and its speed where that is the same all over the map.
-pub fn line_name(line: &Curve) -> String {
+fn line_name(line: &Curve) -> String {
     let name = line.name.replace("Omega", "Ω");
     let Some(first) = line.points.first() else { return name };
     let [on_x, on_y] = [|p: &(f64, f64)| p.0, |p: &(f64, f64)| p.1]

@@ -8,8 +8,9 @@ mod survey;
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-use super::panel::{Opening, ViewArea, ViewPanel, not_yet, title};
+use super::panel::{Opening, ViewArea, ViewPanel, not_yet, table_csv, title};
 use crate::report::margins;
+use crate::report::survey::rows as report_rows;
 use crate::tui::app::{App, Cursor};
 use crate::tui::text::{first_lines, print, wrap};
 use crate::tui::theme::Role;
@@ -105,13 +106,22 @@ impl ViewPanel for MarginsView {
 
     fn csv(&self, app: &App) -> Result<String, String> {
         let (live, _) = app.margins().ok_or("there are no margins yet")?;
-        let table = match &live.survey {
+        table_csv(&match &live.survey {
             Some(survey) if app.layout.is_surveyed() => crate::report::survey::table(survey),
             _ => margins::table(&live.margins),
+        })
+    }
+
+    fn lines(&self, app: &App, width: usize) -> Option<Vec<String>> {
+        let (live, _) = app.margins()?;
+        let table = match &live.survey {
+            Some(survey) if app.layout.is_surveyed() => {
+                report_rows(survey, &survey.rows.iter().collect::<Vec<_>>())
+            }
+            _ => margins::titled(&live.margins, |name| name.titles()[1].to_string()),
         };
-        let mut bytes = Vec::new();
-        table.write_csv(&mut bytes).map_err(|error| error.to_string())?;
-        String::from_utf8(bytes).map_err(|error| error.to_string())
+        let lines = table.lines(width, 1);
+        Some(lines.iter().map(|cells| cells.join(" ").trim_end().to_string()).collect())
     }
 }
 

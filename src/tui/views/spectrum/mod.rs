@@ -63,10 +63,10 @@ fn lines(app: &App, speed: f64) -> [(f64, &'static str); 4] {
 fn amplitudes(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let quiet = look.style(Role::Quiet);
-    let x = ChartAxis::plain(0.0, highest(app));
+    let x = ChartAxis::frequencies(0.0, highest(app));
     let cursor = app.cursor_in(ViewId::Spectrum).map(|at| x.at(at.across));
     let spectrum = app.results().found.spectrum.as_ref();
-    let mut legend = vec![("m by rad/s".to_string(), quiet)];
+    let mut legend = vec![(format!("m by {}", frequency_unit()), quiet)];
     legend.extend([entry(look, &look.first(), "u_c"), entry(look, &look.second(), "u_s")]);
     let read = cursor.and_then(|frequency| reading(spectrum?, frequency));
     let name = read_before(look, &mut legend, read, "spectrum");
@@ -111,7 +111,7 @@ fn campbell(app: &App, buffer: &mut Buffer, at: ViewArea) {
         entry(look, &look.first(), "n_d Ω"),
         entry(look, &look.second(), "n_d Ω±ω_bd"),
         (format!("{meet} meets ω_c"), look.style(Role::Contact)),
-        (format!("rad/s by {}", speed_unit()), quiet),
+        (format!("{} by {}", frequency_unit(), speed_unit()), quiet),
     ];
     let inside = title(app, buffer, at, "Campbell", &legend);
     let fastest = app.results().found.locked.as_ref().map_or(600.0, |curves| curves.fastest);
@@ -119,7 +119,8 @@ fn campbell(app: &App, buffer: &mut Buffer, at: ViewArea) {
     // Over the speeds of the present sense of rotation.
     let sense = if app.speed() < 0.0 { -1.0 } else { 1.0 };
     let x = ChartAxis::speeds((sense * fastest).min(0.0), (sense * fastest).max(0.0));
-    let Some(mut plot) = Plot::new(buffer, inside, x, ChartAxis::plain(0.0, top), look) else {
+    let Some(mut plot) = Plot::new(buffer, inside, x, ChartAxis::frequencies(0.0, top), look)
+    else {
         return;
     };
     at.note(app, plot.inner);
