@@ -19,6 +19,7 @@ pub struct CheckCommand {
 impl CheckCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
         let scene = self.options.scene()?;
+        self.options.note_assumed(&scene);
         status::say_noted();
         report::write(&scene, out)?;
         Ok(Status::Done)

@@ -44,6 +44,7 @@ impl MarginsCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
         let format = output::format(self.out.as_deref(), &["csv", "svg"])?;
         let scene = self.options.scene()?;
+        self.options.note_assumed(&scene);
         let target = match (&self.target(), &self.by) {
             (Some(target), Some(by)) => {
                 let name = target.split('=').next().unwrap_or_default().trim();

@@ -4,7 +4,7 @@
 use std::os::unix::fs::FileTypeExt;
 
 use clap::Args;
-use rubscope_solver::scene::keys;
+use rubscope_solver::scene::keys::{self, BLADE_DAMPING, CASING_DAMPING};
 
 use super::range::Range;
 use super::status::{Refusal, note, say};
@@ -112,6 +112,29 @@ impl SceneOptions {
     /// No such scene, or the first key, value or combination that is refused.
     pub fn scene(&self) -> anyhow::Result<CheckedScene> {
         Ok(self.resolve(Swept::default())?.scene)
+    }
+
+    /// Notes each damping ratio that neither the file of the scene nor an option gives.
+    pub(super) fn note_assumed(&self, scene: &Scene) {
+        let file = self.name().filter(|name| name.contains(['.', '/']));
+        let file = file.filter(|name| std::fs::metadata(name).is_ok_and(|found| found.is_file()));
+        let text = file.and_then(|name| std::fs::read_to_string(name).ok());
+        let Some(Ok(table)) = text.map(|text| text.parse::<toml::Table>()) else { return };
+        for (key, option, value) in [
+            (CASING_DAMPING, "--zeta-casing", scene.casing.damping_ratio),
+            (BLADE_DAMPING, "--zeta-disk", scene.bladed_disk.damping_ratio),
+        ] {
+            let Some((part, name)) = key.split_once('.') else { continue };
+            let has = |table: &toml::Value| table.get(name).is_some();
+            let every =
+                |modes: &toml::Value| modes.as_array().is_some_and(|all| all.iter().all(has));
+            let part = table.get(part);
+            let in_file = part.is_some_and(|of| has(of) || of.get("modes").is_some_and(every));
+            let named = self.named().into_iter().any(|(_, of, text)| of == key && text.is_some());
+            if !(in_file || named || self.set.iter().any(|set| set.trim().starts_with(key))) {
+                note(format!("rubscope: {key}: {value} is assumed ({option})"));
+            }
+        }
     }
 
     /// Returns the scene these options describe, and the ranges among them.

@@ -43,6 +43,7 @@ impl SurveyCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
         let format = output::format(self.out.as_deref(), &["csv", "svg"])?;
         let scene = self.options.scene()?;
+        self.options.note_assumed(&scene);
         let range = self.range().map(|text| speed_range("--range", &text)).transpose()?;
         let by = match &self.by {
             Some(path) => Some(parameter(path.trim()).ok_or_else(|| {

@@ -266,6 +266,36 @@ mod tests {
     }
 
     #[test]
+    fn the_right_answers_are_spread_over_their_places() {
+        let right: Vec<char> =
+            all().iter().flat_map(|lesson| &lesson.steps).filter_map(|step| step.right).collect();
+        for letter in LETTERS {
+            let count = right.iter().filter(|right| **right == letter).count();
+            assert!(4 * count > right.len(), "{letter}: {count} of {}", right.len());
+        }
+        assert!(right.windows(4).all(|four| four.iter().any(|letter| *letter != four[0])));
+    }
+
+    #[test]
+    fn no_task_stands_beside_its_answer() {
+        for lesson in all() {
+            for step in lesson.steps.iter().filter(|step| step.question.is_none()) {
+                let Some(task) = &step.task else { continue };
+                let limit = match &step.until {
+                    Some(Condition::Above(_, limit) | Condition::Below(_, limit)) => {
+                        limit.to_string()
+                    }
+                    _ => continue,
+                };
+                let done = step.doing.iter().map(|(_, value)| value.as_str());
+                for told in done.chain([limit.as_str()]).filter(|told| !task.contains(*told)) {
+                    assert!(!step.text.contains(told), "{}: {told} in {}", lesson.name, step.text);
+                }
+            }
+        }
+    }
+
+    #[test]
     fn every_letter_of_the_lessons_has_a_spelling_in_ascii() {
         let look = Appearance::new(Theme::Mono, Marker::Ascii);
         let others = FILES.iter().flat_map(|(_, text)| text.chars()).filter(|c| !c.is_ascii());

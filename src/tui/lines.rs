@@ -173,7 +173,7 @@ impl Lines {
             return self.refuse(&refused, out).map(|()| true);
         }
         let (before, lesson) = (self.app.scene.clone(), self.app.lessons.progress.clone());
-        // Nobody sees a cursor: an instant is gone to, and not read.
+        // Nobody sees a cursor.
         self.app.stop_reading();
         self.app.status = None;
         match self.obey(found, out)? {
@@ -213,7 +213,8 @@ impl Lines {
         self.app.layout.size = PICTURE;
         let effect = self.app.obey(found.command);
         self.app.layout.size = (WIDTH, ROWS);
-        // It moves where it is sent.
+        // It moves where it is sent: to the cursor.
+        self.app.depart();
         self.app.play.playing = false;
         match effect {
             Err(refused) => {
@@ -353,7 +354,7 @@ mod tests {
         assert_eq!(text.matches("NOW").count(), 4, "{text}");
         for changed in [
             "changed: speed Ω 500 rad/s -> 450 rad/s",
-            "done: on to 300",
+            "done: paused at 300",
             "changed: speed Ω 450 rad/s -> 500 rad/s",
         ] {
             assert!(text.contains(changed), "{text}");
@@ -365,7 +366,7 @@ mod tests {
     #[test]
     fn an_instant_is_gone_to_after_a_blade_was_read() {
         let text = answers(b"blade 7\nt 0.3 ms\nrestart\n");
-        assert!(text.contains("done: on to 300") && text.contains("done: restarted"), "{text}");
+        assert!(text.contains("done: paused at 300") && text.contains("done: restarted"), "{text}");
     }
 
     #[test]
@@ -447,9 +448,9 @@ mod tests {
 
     #[test]
     fn a_lesson_asks_and_takes_the_answer() {
-        let text = answers(b"lesson lock\nanswer b\ng\nG\nquit\nspeed 450\n");
+        let text = answers(b"lesson lock\nanswer c\ng\nG\nquit\nspeed 450\n");
         assert!(text.contains("[a]") && text.contains("Lesson 2 of 15"), "{text}");
-        assert!(text.contains("Your answer b is right: in a corner of two walls."), "{text}");
+        assert!(text.contains("Your answer c is right: in a corner of two walls."), "{text}");
         assert!(!text.contains("450"), "{text}");
     }
 

@@ -51,6 +51,12 @@ impl Events<'_> {
         self.waiting.pop_front()
     }
 
+    /// Removes the events at the front that are the same as this one; returns how many.
+    fn repeats(&mut self, event: &ScreenEvent) -> usize {
+        let same = self.waiting.iter().take_while(|other| *other == event).count();
+        self.waiting.drain(..same).count()
+    }
+
     /// Returns the next event, and waits for it this long.
     fn within(&mut self, wait: Duration) -> Result<ScreenEvent, RecvTimeoutError> {
         self.next().map_or_else(|| self.from.recv_timeout(wait), Ok)
@@ -112,6 +118,11 @@ pub fn run<B: Backend>(
             }
         };
         while let Some(event) = next {
+            if let ScreenEvent::Key(key) = &event
+                && app.is_turn(key)
+            {
+                app.knobs.again = events.repeats(&event);
+            }
             match handle(event, app, host) {
                 Reaction::Exit(exit) => return Ok(exit),
                 Reaction::Quit => return Ok(last_file(&mut events, app, host)),
@@ -123,7 +134,8 @@ pub fn run<B: Backend>(
             next = events.next();
         }
         if order(app, engine, &mut ordered) {
-            answer = Some(Instant::now() + ANSWER);
+            // Not for ever: the next key may come sooner.
+            answer = answer.or(Some(Instant::now() + ANSWER));
         }
         if app.full_run().is_some() {
             answer = None;

@@ -285,6 +285,46 @@ fn whirl_has_its_onset_and_its_limits() {
 }
 
 #[test]
+fn rigid_blades_do_not_bend_under_a_lock() {
+    let soft = ["bladed_disk.stiffness_nm_per_rad=10", "bladed_disk.coupling_nm_per_rad=0"];
+    let soft = ["--set", soft[0], "--set", soft[1], "--speed", "500"];
+    let groups = |model: &str| {
+        let report = json(&[&soft[..], &["--model", model]].concat());
+        let groups = report["points"][0]["groups"].as_array().unwrap().clone();
+        groups.iter().map(|g| [number(&g["multiplier_n"]), number(&g["alpha_rad"])]).collect()
+    };
+    let [rigid, modal]: [Vec<[f64; 2]>; 2] = ["rigid", "modal"].map(groups);
+    for (rigid, modal) in rigid.iter().zip(modal) {
+        assert!(rigid[1] == 0.0 && modal[1].abs() > 6e-5, "{rigid:?} {modal:?}");
+        assert!((rigid[0] / modal[0] - 1.0).abs() > 1e-5, "{rigid:?} {modal:?}");
+    }
+    // As of the event solver, whose rigid blades have no angle.
+    assert!((rigid[0][0] + 244.415_92).abs() < 1e-5 && (rigid[1][0] + 57.294_78).abs() < 1e-5);
+}
+
+#[test]
+fn corners_of_unequal_tips_are_named_by_their_blades() {
+    let asked = ["long-tip", "--branches", "--speed", "300"];
+    let text = String::from_utf8(ended(&mut hbm(&asked), 0).stdout).unwrap();
+    assert!(text.contains("blade_a  blade_b"), "{text}");
+    let rows: Vec<Vec<&str>> = text.lines().map(|row| row.split_whitespace().collect()).collect();
+    let first = rows.iter().find(|row| row.first() == Some(&"300")).unwrap();
+    assert_eq!(first[1..4], ["1", "3", "292.149"]);
+}
+
+#[test]
+fn lobes_that_drive_no_wave_say_so() {
+    let title = |scene: &[&str]| {
+        let text = ended(&mut hbm(&[scene, &["--forced", "--speed", "90"]].concat()), 0).stdout;
+        String::from_utf8(text).unwrap()
+    };
+    let still = "4 lobes drive no wave of 3 nodal diameters, whatever the speed:";
+    assert!(title(&["oval"]).contains(still), "{}", title(&["oval"]));
+    let three = title(&["oval", "--set", "casing.lobes=3"]);
+    assert!(three.contains("3 lobes of 6e-5 m drive, where all blades press:"), "{three}");
+}
+
+#[test]
 fn the_compliance_crosses_the_negative_axis_where_the_waves_are() {
     let report = json(&[&INCLINED[..], &["--compliance", "--speed", "450"]].concat());
     let [omega, re, im] = ["omega_rad_s", "re_m_per_n", "im_m_per_n"].map(|name| {

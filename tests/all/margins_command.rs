@@ -123,6 +123,12 @@ fn odd_scenes_have_reasons_instead_of_values() {
             "touching_pulse",
             "no pulse of this length touches within the run",
         ),
+        (&["long-tip"], "touching_pulse", "a tip touches without a pulse"),
+        (
+            &["long-tip", "--set", "bladed_disk.longest_tip_m=1e-5"],
+            "touching_pulse",
+            "of equal tips in a round casing only",
+        ),
     ] {
         let mut all = vec!["margins", "--json"];
         all.extend(arguments);

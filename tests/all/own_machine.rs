@@ -209,6 +209,36 @@ fn a_check_says_what_follows_and_what_looks_like_a_slip() {
     assert!(own.contains("One mode of the casing is given"), "{own}");
 }
 
+#[test]
+fn a_damping_ratio_that_nobody_gave_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("mine.toml");
+    let file = file.to_str().unwrap();
+    let said = |words: &[&str]| {
+        let output = rubscope(words);
+        assert!(output.status.success());
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let casing = "rubscope: casing.damping_ratio: 0.05 is assumed (--zeta-casing)\n";
+    let disk = "rubscope: bladed_disk.damping_ratio: 0.04 is assumed (--zeta-disk)\n";
+    for (text, expected) in [
+        ("schema = 1\n", [casing, disk].concat()),
+        ("[casing]\ndamping_ratio = 0.05\n", disk.to_string()),
+        (
+            "[[casing.modes]]\nnodal_diameters = 3\ndamping_ratio = 0.01\n[bladed_disk]\ndamping_ratio = 0\n",
+            String::new(),
+        ),
+    ] {
+        std::fs::write(file, text).unwrap();
+        for command in ["check", "survey", "margins"] {
+            assert_eq!(said(&[command, file]), expected, "{command} {text}");
+        }
+        assert!(!said(&["check", file, "--zeta-disk", "0.04"]).contains("bladed_disk"), "{text}");
+        assert!(!said(&["check", file, "--set", "casing.damping_ratio=0.05"]).contains("casing"));
+    }
+    assert_eq!(said(&["check", "adhesive"]), "");
+}
+
 /// The words of a new scene from a table.
 fn of_table<'a>(file: &'a str, table: &'a str) -> Vec<&'a str> {
     let machine = ["--blades", "40", "--radius", "420mm", "--clearance", "0.3mm", "--nd", "2"];

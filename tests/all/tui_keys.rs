@@ -88,11 +88,11 @@ fn the_speed_acts_on_the_running_motion_when_live() {
 #[test]
 fn the_cursor_reads_values_and_pages_can_be_looked_back_at() {
     let mut session = Session::open(120, 40, scene(), Theme::Dark, Marker::Braille);
-    // 33 ms of motion are on the second page of 20 ms.
+    // The end of a run of 20 ms, and the page of 5 ms before it.
     for _ in 0..10 {
         session.press("");
     }
-    session.press("1 i←←←←");
+    session.press("1 i++←←←←");
     assert!(session.text().contains(" at "), "{}", session.text());
     session.press("<");
     assert!(session.text().contains("1 back"), "{}", session.text());

@@ -187,9 +187,15 @@ fn assert_has_room(session: &mut Session, step: &LessonStep) {
     assert_has_words(&session.text(), shown);
     resize(session, (40, 12));
     assert_has_words(&read_on(session), shown);
-    // The charts are there at last.
     let digit = session.app.view().digit();
-    assert!(session.text().contains(&format!(" {digit} ")), "{}", session.text());
+    if is_open {
+        // The question and its answers stay in sight.
+        let text = session.text();
+        step.answers.iter().chain([shown]).for_each(|words| assert_has_words(&text, words));
+    } else {
+        // The charts are there at last.
+        assert!(session.text().contains(&format!(" {digit} ")), "{}", session.text());
+    }
     if is_open {
         resize(session, (60, 20));
         let progress = session.app.lessons.progress.as_mut().unwrap();
@@ -277,28 +283,28 @@ fn an_open_question_shows_nothing_of_its_answer_and_a_wrong_one_is_explained() {
     assert!(!session.text().contains("LOCKED"), "{}", session.text());
     // Its second step: the curves of the forces come with the answer.
     let mut second = begin(120, 40, 1);
-    second.press(&(keys_of('b') + "g"));
+    second.press(&(keys_of(right(0)) + "g"));
     let text = second.text();
     assert!(!text.contains("3 locked") && !text.contains("5 map"), "{text}");
-    second.press(&keys_of('b'));
+    second.press(&keys_of(right(1)));
     assert!(second.text().contains("3 locked"), "{}", second.text());
     session.press("g");
     assert!(session.text().contains("first your guess"), "{}", session.text());
     session.press(&keys_of('a'));
     let text = session.text();
-    assert!(text.contains("Not a. Right is b: in a corner of two walls."), "{text}");
+    assert!(text.contains("Not a. Right is c: in a corner of two walls."), "{text}");
     assert!(text.contains("LOCKED"), "{text}");
 }
 
 #[test]
 fn back_and_forward_keep_the_answers_and_the_list_knows_what_was_done() {
     let mut session = begin(120, 40, 1);
-    session.press(&format!("{0}g{0}", keys_of('b')));
+    session.press(&format!("{}g{}", keys_of(right(0)), keys_of(right(1))));
     assert_eq!(session.app.lessons.progress.as_ref().unwrap().step, 1);
     session.press("B");
     let progress = session.app.lessons.progress.clone().unwrap();
-    assert_eq!((progress.step, progress.now().answer), (0, Some(1)));
-    assert!(session.text().contains("Your answer b is right"), "{}", session.text());
+    assert_eq!((progress.step, progress.now().answer), (0, Some(2)));
+    assert!(session.text().contains("Your answer c is right"), "{}", session.text());
     session.press("gG");
     assert!(session.app.lessons.progress.is_none());
     session.press("g");
@@ -306,6 +312,49 @@ fn back_and_forward_keep_the_answers_and_the_list_knows_what_was_done() {
     // It goes on where it was left.
     session.press("j\n");
     assert_eq!(session.app.lessons.progress.as_ref().unwrap().step, 2);
+}
+
+#[test]
+fn a_step_that_was_passed_over_is_named_in_the_list() {
+    let place = lessons::all().iter().position(|lesson| lesson.name == "coincidence").unwrap();
+    let mut session = begin(80, 24, place);
+    for step in &lessons::all()[place].steps {
+        if let Some(right) = step.right {
+            session.press(&keys_of(right));
+        }
+        // Its third step has a task, which is not done.
+        session.press("g");
+    }
+    session.press("g");
+    let row = |text: &str| text.lines().find(|line| line.contains("11. The")).unwrap().to_string();
+    let left = row(&session.text());
+    assert!(left.contains(" 3/4 ") && left.contains("step 3 is left"), "{left}");
+}
+
+#[test]
+fn a_lesson_is_shown_on_a_projector_and_goes_on_there() {
+    for size in [(80, 24), (120, 40)] {
+        let mut session = begin(size.0, size.1, 1);
+        session.press("P");
+        let text = session.text();
+        assert!(text.contains("Lesson 2 of ") && text.contains("[b] in the centre"), "{text}");
+        assert!(!text.contains("pulse F      ") && text.contains("pulse F = 0 N"), "{text}");
+        // The verdict in large letters comes with the answer.
+        let large = |text: &str| text.matches('█').count();
+        let before = large(&text);
+        session.press(&keys_of(right(0)));
+        let text = session.text();
+        assert!(text.contains("Your answer c is right") && large(&text) > before, "{text}");
+        session.press("g");
+        assert!(session.app.is_asked() && session.app.appearance.wide);
+        session.press("P");
+        assert!(session.text().contains("diameters n_d"), "{}", session.text());
+    }
+}
+
+/// The right answer of a step of the second lesson.
+fn right(step: usize) -> char {
+    lessons::all()[1].steps[step].right.unwrap()
 }
 
 #[test]

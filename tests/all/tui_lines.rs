@@ -31,7 +31,7 @@ fn commands_by_a_pipe_are_answered_until_the_input_ends() {
         "changed: speed Ω 500 rad/s -> 400 rad/s",
         "changed: pulse F 1 MN -> 20 kN",
         "changed: contact bilateral -> unilateral",
-        "done: on to 20",
+        "done: paused at 20",
     ] {
         assert!(text.contains(words), "no {words} in {text}");
     }

@@ -138,6 +138,79 @@ fn behind_a_burst_of_keys_a_ctrl_c_is_the_next_one() {
     }
 }
 
+/// Sends the next key a moment after each order; counts the frames.
+struct Repeating {
+    events: Sender<ScreenEvent>,
+    left: u32,
+    frames: u32,
+}
+
+impl Engine for Repeating {
+    fn order(&mut self, _: &Order) {
+        std::thread::sleep(Duration::from_millis(4));
+        self.left -= 1;
+        let right = KeyEvent::new(KeyCode::Right, KeyModifiers::NONE);
+        let next = if self.left > 0 { ScreenEvent::Key(right) } else { ScreenEvent::Signal(15) };
+        self.events.send(next).unwrap();
+    }
+
+    fn take(&mut self) -> Option<Snapshot> {
+        None
+    }
+
+    fn drawn(&mut self) {
+        self.frames += 1;
+    }
+}
+
+#[test]
+fn a_key_that_repeats_faster_than_a_frame_waits_for_its_answer_is_drawn() {
+    let (sender, events) = channel();
+    let mut engine = Repeating { events: sender, left: 100, frames: 0 };
+    let mut app = App::new(Scene::base().checked().unwrap(), Theme::Dark, Marker::Braille);
+    let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
+    let frame = Duration::from_millis(33);
+    run(&mut terminal, &events, &mut app, &mut engine, &mut NoHost, frame).unwrap();
+    assert!(engine.frames > 5, "{} frames of 100 keys", engine.frames);
+}
+
+#[test]
+fn a_burst_of_turns_of_one_knob_is_one_change_and_ends_at_the_refused_value() {
+    let scene = Scene::builtin("friction-lock").unwrap();
+    // Down from there, Coulomb's law is without a direction at 0.
+    let speed = scene.operation.speed_rad_s;
+    for (keys, wanted, refused) in
+        [(KeyCode::Right, speed + 200.0, false), (KeyCode::Left, 5.0, true)]
+    {
+        let presses = if refused { 300 } else { 40 };
+        let one = |presses: usize, at_once: bool| {
+            let mut app = App::new(scene.clone().checked().unwrap(), Theme::Dark, Marker::Braille);
+            assert!(app.select_path("operation.speed_rad_s"));
+            let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
+            let mut send = |presses: usize| {
+                let (sender, events) = channel();
+                let key = KeyEvent::new(keys, KeyModifiers::NONE);
+                (0..presses).for_each(|_| sender.send(ScreenEvent::Key(key)).unwrap());
+                drop(sender);
+                let mut engine = Silent;
+                run(&mut terminal, &events, &mut app, &mut engine, &mut NoHost, Duration::ZERO)
+                    .unwrap();
+            };
+            match at_once {
+                true => send(presses),
+                false => (0..presses).for_each(|_| send(1)),
+            }
+            app
+        };
+        let (joined, each) = (one(presses, true), one(presses, false));
+        assert_eq!((&joined.scene, &joined.knobs.refusal), (&each.scene, &each.knobs.refusal));
+        let end = (joined.scene.operation.speed_rad_s, joined.knobs.refusal.is_some());
+        assert_eq!(end, (wanted, refused));
+        assert!(joined.run.restarts <= 2 && each.run.restarts > 2, "{}", joined.run.restarts);
+        assert!(joined.knobs.remembered() <= 2);
+    }
+}
+
 /// What failed before the key that quits came, with no screen in between.
 #[test]
 fn a_reason_that_no_screen_showed_is_kept_and_one_that_was_shown_is_not() {

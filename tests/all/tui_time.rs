@@ -53,7 +53,7 @@ fn the_first_line_says_what_is_now_and_what_will_be() {
 fn the_reading_cursor_reads_the_run_and_not_a_bin() {
     let mut session = open(scene("paper-nd3"), 3e-3);
     session.press_each("1fi←←←←←←←←←");
-    let t = session.app.cursor_time().unwrap();
+    let t = session.app.reading.at_s.unwrap();
     let mut motion = Motion::new(&session.app.scene);
     motion.advance(t).unwrap();
     let ([u_c, u_s], [alpha_c, _]) = (motion.state().u, motion.state().alpha);
@@ -154,8 +154,7 @@ fn the_reading_cursor_reads_every_chart() {
     session.press_each("i");
     assert!(session.text().contains(" to blade "), "{}", session.text());
     // View 2: the gap of one blade, as the motion has it.
-    session.press_each("2i");
-    session.press_each("lll");
+    session.press_each("2lll");
     let gap = session.app.shown().unwrap().gaps[3];
     let wanted = format!("blade 4: {:.2}", 1e6 * gap);
     assert!(session.text().contains(&wanted[..13]), "{wanted}\n{}", session.text());

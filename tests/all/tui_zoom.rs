@@ -166,24 +166,30 @@ fn a_turned_knob_forgets_the_page_of_the_run_before() {
 #[test]
 fn the_gap_of_a_blade_at_an_instant_is_read_in_every_chart() {
     let mut session = open("rocking");
-    session.press_each(" i");
     session.press_each(":t 0.3 ms\n");
-    assert_eq!(session.app.cursor_time(), Some(3e-4));
+    assert_eq!((session.app.reading.at_s, session.app.play.playing), (Some(3e-4), false));
+    assert_eq!(session.app.status.as_deref(), Some("paused at 300.000 µs"));
+    assert!(session.rows()[1].starts_with("NOW 300.0 µs touching 12 ‖"), "{}", session.text());
     let mut motion = Motion::new(&session.app.scene);
     motion.advance(3e-4).unwrap();
     let wanted = format!("blade 7: {:.1}", 1e6 * motion.blade_gaps()[6]);
-    // Blade by blade, at the same instant.
-    session.press_each("2llllll");
+    session.press_each(":blade 7\n");
     let text = session.text();
     assert!(text.contains(&wanted) && text.contains("at 300.000 µs"), "{wanted}\n{text}");
+    let said = session.app.status.clone().unwrap();
+    assert!(said.starts_with("blade 7: gap ") && said.ends_with(" at 300.000 µs"), "{said}");
+    // The file names the instant, and has its gaps.
+    let file = session.app.panel().csv(&session.app).unwrap();
+    let row = format!("0.0003,7,{}", motion.blade_gaps()[6]);
+    assert!(file.starts_with("t_s,blade,gap_m\n") && file.contains(&row), "{row}\n{file}");
     session.press_each("41");
-    assert_eq!(session.app.cursor_time(), Some(3e-4));
+    assert_eq!(session.app.reading.at_s, Some(3e-4));
     // The cursor goes on from there, and the end of reading is the end of it.
     session.press_each("l");
     let page = session.app.page_s();
-    assert!((session.app.cursor_time().unwrap() - 3e-4 - 0.01 * page).abs() < 1e-12);
+    assert!((session.app.reading.at_s.unwrap() - 3e-4 - 0.01 * page).abs() < 1e-12);
     session.press_each("\u{1b}2");
-    assert_eq!((session.app.cursor_time(), session.app.reading.cursor), (None, None));
+    assert_eq!((session.app.reading.at_s, session.app.reading.cursor), (None, None));
 }
 
 #[test]
@@ -197,19 +203,24 @@ fn the_end_of_the_run_and_any_instant_are_one_command_away() {
         assert!((session.app.now() - end).abs() <= step && !session.app.play.playing, "{name}");
         // The whole page of the end is there, although it was not played.
         check(&session.app);
+        assert!(session.app.played_s() < 0.01, "nothing was played");
         session.press_each(" ");
+        assert!((session.app.played_s() - end).abs() <= step, "{name}: goes on from the cursor");
         // What is behind begins again, with the state of a run that stops there.
         session.press_each(":t 1.25 ms\n");
         let mut motion = Motion::new(&session.app.scene);
         motion.advance(1.25e-3).unwrap();
-        session.press_each(" ");
-        let moment = session.app.shown().unwrap();
-        assert_eq!(
-            moment.state.u.map(|u| (1e12 * u).round()),
-            motion.state().u.map(|u| (1e12 * u).round()),
-            "{name}"
-        );
-        check(&session.app);
+        for goes_on in ["", " "] {
+            session.press_each(goes_on);
+            let moment = session.app.shown().unwrap();
+            assert_eq!(
+                moment.state.u.map(|u| (1e12 * u).round()),
+                motion.state().u.map(|u| (1e12 * u).round()),
+                "{name}"
+            );
+            check(&session.app);
+        }
+        assert!(session.app.play.playing && session.app.reading.at_s.is_none());
     }
     let mut session = open("rocking");
     session.press_each(":t 9\n");
@@ -233,10 +244,81 @@ fn the_coincidence_begins_where_its_waves_are_and_its_lesson_shows_them_grow() {
     session.press_each("\ng↓\n");
     let app = &session.app;
     let (past, future) = app.past_and_future(app.record());
-    assert!(app.view().word() == "response" && app.page() == (0.0, 5.0) && app.now() >= 2.4);
+    assert!(app.view().word() == "response" && app.page() == (0.0, 3.0) && app.now() >= 2.4);
     // The growth of two seconds, and what is to come.
     let tenth = past.len() / 10;
-    assert!(swing(&past[tenth..2 * tenth]) < 0.05 * swing(past) && !future.is_empty());
+    assert!(swing(&past[..tenth]) < 0.05 * swing(past) && !future.is_empty());
+}
+
+#[test]
+fn zoom_keeps_the_cursor_in_the_middle_and_stays_inside_the_run() {
+    let mut session = open("rocking");
+    session.engine.stride = 1e-12;
+    session.press_each("1:t 12 ms\n");
+    let page = |session: &Session| {
+        let (from, to) = session.app.page();
+        [from, to].map(|t| (1e6 * t).round() / 1e6)
+    };
+    assert_eq!(page(&session), [0.0, 0.02]);
+    for (keys, wanted) in [("+", [7e-3, 17e-3]), ("++", [11e-3, 13e-3]), ("-", [9.5e-3, 14.5e-3])] {
+        session.press_each(keys);
+        assert_eq!(page(&session), wanted, "{keys}");
+    }
+    check(&session.app);
+    // At the ends of the run the page is as far as it goes; it is never longer than the run.
+    session.press_each("--------");
+    assert_eq!((page(&session), session.app.play.zoom), ([0.0, 0.02], 0));
+    session.press_each("-");
+    assert!(session.app.status.as_ref().is_some_and(|said| said.contains("nothing to change")));
+    session.press_each("++E");
+    assert_eq!(page(&session), [0.015, 0.02]);
+    session.press_each("<<<<>");
+    assert_eq!(page(&session), [5e-3, 0.01]);
+    assert!(session.rows()[1].contains("2 back"), "{}", session.rows()[1]);
+    // The usual page is where NOW is, with a cursor and without one.
+    session.press_each("=");
+    assert_eq!(page(&session), [0.0, 0.02]);
+    session.press_each("\u{1b}++>>=");
+    assert_eq!((page(&session), session.app.play.middle_s), ([0.0, 0.02], None));
+}
+
+#[test]
+fn steps_and_jumps_go_on_from_the_cursor() {
+    let mut session = open("rocking");
+    session.engine.stride = 1e-12;
+    // Ahead of the motion, and behind it.
+    for from in [13e-3, 3e-4] {
+        session.press_each(&format!(":t {from}\nn"));
+        let marks = session.app.full_run().unwrap().marks.clone();
+        let next = marks.iter().find(|mark| mark.t_s > from).unwrap().t_s;
+        assert!((session.app.now() - next).abs() < 1e-12, "{} {next}", session.app.now());
+        let said = session.app.status.clone().unwrap_or_default();
+        assert!(said.contains(" ms: touching ") && session.app.reading.at_s.is_none(), "{said}");
+        session.press_each(".");
+        assert!(session.app.now() > next && !session.app.play.playing);
+    }
+    // A pulse acts on the motion, wherever the cursor is, and says when.
+    session.press_each(":t 9 ms\np");
+    let said = session.app.status.clone().unwrap();
+    assert!(said.contains(" fired at 2.74") && session.app.reading.at_s.is_none(), "{said}");
+}
+
+#[test]
+fn a_run_that_nobody_watches_to_its_end_opens_with_all_of_it() {
+    for name in ["coincidence", "oval", "rub", "paper-nd3"] {
+        let scene = Scene::builtin(name).unwrap();
+        let (end, long) = (scene.solver.end_s, scene.solver.end_s > 0.6);
+        let mut app = App::new(scene.clone().checked().unwrap(), Theme::Mono, Marker::Braille);
+        for _ in 0..2 {
+            assert_eq!(app.page(), (0.0, if long { end } else { 0.02 }), "{name}");
+            app.open_scene("rub".into(), Scene::builtin("rub").unwrap().checked().unwrap());
+            assert_eq!(app.page(), (0.0, 0.02));
+            // Also where it is opened in the explorer, and where that is undone.
+            app.open_scene(name.into(), scene.clone().checked().unwrap());
+        }
+        app.act(rubscope::tui::bindings::Action::Undo);
+        assert_eq!(app.page(), (0.0, 0.02));
+    }
 }
 
 #[test]

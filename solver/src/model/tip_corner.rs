@@ -59,6 +59,13 @@ impl<T: Number> Machine<T> {
         met.map(|left| self.tip_corner([left.side, left.next])).collect()
     }
 
+    /// The same, one of neighbours that are alike.
+    fn other_tip_corners(&self) -> Vec<TipCorner<T>> {
+        let mut corners = self.tip_corners();
+        corners.dedup_by(|one, other| one.gamma.re() == other.gamma.re() && one.beta == other.beta);
+        corners
+    }
+
     fn tip_corner(&self, sides: [u32; 2]) -> TipCorner<T> {
         let [a, b] = sides.map(|side| self.apothem(side));
         let polygon = &self.polygon;
@@ -77,14 +84,16 @@ impl<T: Number> Machine<T> {
         if !self.knows_tip_corners() {
             return None;
         }
-        let with_windows = |corner: TipCorner<T>| {
-            let windows = self.windows_of(&corner, toward);
-            let from = windows.first()?.from.re();
-            Some((from, corner, windows))
-        };
-        let found = self.tip_corners().into_iter().filter_map(with_windows);
-        let lowest = found.min_by(|one, other| one.0.total_cmp(&other.0))?;
-        Some((lowest.1, lowest.2))
+        // Derivatives are those of the one corner that is found.
+        let plain = self.plain();
+        let from = |corner: &TipCorner| plain.windows_of(corner, toward).first().map(|of| of.from);
+        let found = plain.other_tip_corners().into_iter();
+        let lowest = found
+            .filter_map(|corner| Some((from(&corner)?, corner.sides)))
+            .min_by(|one, other| one.0.total_cmp(&other.0))?;
+        let corner = self.tip_corner(lowest.1);
+        let windows = self.windows_of(&corner, toward);
+        Some((corner, windows))
     }
 
     /// Whether it is known at which speeds corners of unequal tips are held.
@@ -97,7 +106,7 @@ impl<T: Number> Machine<T> {
         if !self.knows_tip_corners() {
             return Vec::new();
         }
-        let corners = self.tip_corners();
+        let corners = self.other_tip_corners();
         let mut all: Vec<_> =
             corners.iter().flat_map(|corner| self.windows_of(corner, toward)).collect();
         all.sort_by(|one, other| one.from.re().total_cmp(&other.from.re()));

@@ -13,6 +13,7 @@ mod drive;
 mod event;
 mod explicit;
 mod failure;
+mod point;
 mod propagator;
 mod run;
 mod script;

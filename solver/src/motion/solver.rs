@@ -97,8 +97,8 @@ pub trait Solver: Debug + Send + Sync {
     /// again, or a corner can never let go.
     fn final_verdict(&self) -> Option<Verdict>;
 
-    /// The linear motion about rest, where all blades press a lining at constant speed
-    /// and it is known.
+    /// The linear motion about rest, where all blades press a lining at constant speed, stay so
+    /// through the whole beat, and it is known.
     fn linear_rest(&self) -> Option<LinearRest> {
         None
     }

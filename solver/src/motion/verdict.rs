@@ -137,7 +137,7 @@ pub struct Outcome {
     /// What the verdict rests on; none of a run that stopped early.
     pub basis: Option<Basis>,
     /// Rate at which the wave dies about a linear rest, free or pressed into a lining by
-    /// all blades; negative where it grows; none elsewhere \[1/s\].
+    /// all blades through the whole beat; negative where it grows; none elsewhere \[1/s\].
     pub decay_rate_per_s: Option<f64>,
     /// Whether a tiny change of what drives the run, or of its rate on the way,
     /// changes the verdict, the blades that hold, the impact count or the time of the

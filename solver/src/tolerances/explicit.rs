@@ -139,6 +139,8 @@ pub(crate) const TIP_MARGIN: f64 = 0.005;
 pub(crate) const DIES_LOOKS: i32 = 400;
 /// Round-off of one step of such a wave, in units of the last place.
 pub(crate) const DIES_ROUNDINGS: f64 = 64.0;
+/// Steps to one of its motions; twenty are usual.
+pub(crate) const DIES_STEPS: usize = 1000;
 /// See `DIES_LOOKS`.
 pub(crate) const DIES_SMALLER: f64 = 0.95;
 

@@ -75,6 +75,24 @@ fn a_proved_lock_near_its_limit_holds_in_longer_runs() {
     assert!(proved[1] > 8, "{proved:?}");
 }
 
+/// Soft blades swing far enough to change a push: what holds now may not hold for good.
+#[test]
+fn a_corner_of_blades_one_by_one_is_proved_only_where_they_bend_little() {
+    for (stiffness, proved) in [("15000", true), ("100", true), ("10", false), ("1", false)] {
+        let report = run_once(&scene(
+            "paper-nd3",
+            &[
+                ("solver.model", "full"),
+                ("solver.end_s", "0.002"),
+                ("bladed_disk.stiffness_nm_per_rad", stiffness),
+                ("bladed_disk.coupling_nm_per_rad", "0"),
+            ],
+        ));
+        assert_eq!(report.outcome.verdict, Verdict::Locked, "{stiffness}");
+        assert_eq!(is_proved(&report), proved, "{stiffness}: {:?}", report.outcome.basis);
+    }
+}
+
 #[test]
 fn tips_without_a_slope_do_not_make_a_wave_slip_on_a_pressed_lining() {
     for end in ["0.1", "0.2", "0.6"] {
@@ -121,6 +139,47 @@ fn the_rate_of_the_linear_rest_decides_on_a_beat() {
         let [first, rest @ ..] = ["0.02", "0.05", "0.1", "0.15", "0.2", "0.4"].map(run);
         assert_eq!(first.0, verdict, "{first:?}");
         assert!(rest.iter().all(|other| *other == first), "{first:?} {rest:?}");
+    }
+}
+
+/// Beats larger than the interference in which blades stay pressed, and one that lifts blades.
+#[test]
+fn a_beat_has_one_verdict_and_one_rate_whatever_part_of_it_is_seen() {
+    let machine = |of: [&'static str; 8]| {
+        [
+            ("casing.radius_m", of[0]),
+            ("casing.damping_ratio", of[1]),
+            ("bladed_disk.damping_ratio", of[2]),
+            ("bladed_disk.radial_coupling", of[3]),
+            ("contact.stiffness_n_per_m", of[4]),
+            ("operation.speed_rad_s", of[5]),
+            ("operation.pulse_n", of[6]),
+            ("bladed_disk.blades", of[7]),
+            ("operation.nodal_diameters", "1"),
+            ("contact.smoothing_m", "1e-8"),
+        ]
+    };
+    let still =
+        ["0.49983974", "1.2825e-6", "1.5532e-6", "-0.5479", "65252", "54.4787", "2209", "28"];
+    let slow = ["0.4998971", "1.1e-6", "2.4036e-4", "-0.624", "6946", "579.6874", "76.42", "22"];
+    let lifts = ["0.499898", "0", "1e-7", "0.398", "27e3", "406", "100", "12"];
+    for (of, end, verdict) in [
+        (still, 0.218, Verdict::Decay),
+        (slow, 0.0943504, Verdict::Decay),
+        (lifts, 0.05, Verdict::Slip),
+    ] {
+        let mut rates = [1.0, 0.4, 2.0, 3.0, 4.0, 6.0].map(|times| {
+            let end = (times * end).to_string();
+            let changes = [&machine(of)[..], &[("solver.end_s", &end)]].concat();
+            let report = run_once(&scene("coincidence", &changes));
+            assert_eq!(report.outcome.verdict, verdict, "{of:?} {end}");
+            report.outcome.decay_rate_per_s
+        });
+        rates.sort_by(|a, b| a.partial_cmp(b).unwrap());
+        assert!(
+            rates[0] == rates[5] && rates[0].is_some() == (verdict == Verdict::Decay),
+            "{rates:?}"
+        );
     }
 }
 

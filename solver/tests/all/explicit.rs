@@ -25,6 +25,18 @@ const MODEL: &str = "solver.model";
 const U_C: f64 = 1.228_513_3e-6;
 const U_S: f64 = 1.310_205_9e-7;
 
+/// Nine blades with three diameters have three sides: `Omega_lock` = 301.455, adhesive from 319.339.
+#[test]
+fn with_three_sides_the_bilateral_law_chatters_up_to_the_adhesive_limit() {
+    for (speed, bilateral) in [("310", Verdict::Slip), ("322", Verdict::Locked)] {
+        for (contact, verdict) in [("bilateral", bilateral), ("unilateral", Verdict::Locked)] {
+            let asked = [(SPEED, speed), (LAW, contact), (PULSE, "20000"), (STEP, "1e-6")];
+            let found = run(&[&asked[..], &[("bladed_disk.blades", "9")]].concat());
+            assert_eq!(found.outcome.verdict, verdict, "{speed} {contact}");
+        }
+    }
+}
+
 #[test]
 fn steps_are_taken_where_something_acts_and_skipped_in_between() {
     // A pulse too weak to reach a blade acts on the steps 0 to 500.

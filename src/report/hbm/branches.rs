@@ -44,8 +44,8 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     Ok(Answer::of(Parts::default().with_parts("branches", json), tables))
 }
 
-/// A corner of unequal tips that is held at some speeds, at one of them.
-type CornerRow = (f64, TipCorner, LockWindow, LockedPoint);
+/// A corner of unequal tips that is held at some speeds, by the blades of its sides, at one of them.
+type CornerRow = ([Vec<u32>; 2], TipCorner, LockWindow, LockedPoint);
 
 /// Returns every corner of unequal tips: where it is held, and what it takes at each speed.
 fn corners(request: &Request<'_>) -> Result<Answer, HarmonicError> {
@@ -56,16 +56,15 @@ fn corners(request: &Request<'_>) -> Result<Answer, HarmonicError> {
         for window in machine.windows_of(&corner, request.fastest()) {
             let [a, b] = corner.sides;
             let locked = Locked::new(machine, Corner { a, b }, Form::Modal, *damped)?;
-            let points = locked.sweep(speeds)?.points;
-            found
-                .extend(points.into_iter().map(|point| (point.speed_rad_s, corner, window, point)));
+            let blades = || corner.sides.map(|side| polygon.blades_of_side(side));
+            let points = locked.sweep(speeds)?.points.into_iter();
+            found.extend(points.map(|point| (blades(), corner, window, point)));
         }
     }
     let json = json!(
         found
             .iter()
-            .map(|(_, corner, window, point)| {
-                let blades = corner.sides.map(|side| polygon.blades_of_side(side));
+            .map(|(blades, corner, window, point)| {
                 json!({
                     "blades": blades, "gamma_rad": corner.gamma, "beta_rad": corner.beta,
                     "from_rad_s": window.from, "to_rad_s": window.to, "point": point,
@@ -81,9 +80,9 @@ fn corners(request: &Request<'_>) -> Result<Answer, HarmonicError> {
 
 /// Columns of corners of unequal tips.
 const CORNERS: &[Column<'_, CornerRow>] = &[
-    ("speed_rad_s", |row| row.0.into()),
-    ("side_a", |row| f64::from(row.1.sides[0]).into()),
-    ("side_b", |row| f64::from(row.1.sides[1]).into()),
+    ("speed_rad_s", |row| row.3.speed_rad_s.into()),
+    ("blade_a", |row| row.0[0].first().map(|blade| f64::from(*blade)).into()),
+    ("blade_b", |row| row.0[1].first().map(|blade| f64::from(*blade)).into()),
     ("held_from_rad_s", |row| row.2.from.into()),
     ("held_to_rad_s", |row| row.2.to.into()),
     ("multiplier_a_n", |row| row.3.multipliers_n[0].into()),

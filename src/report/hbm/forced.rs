@@ -3,6 +3,7 @@
 use serde_json::json;
 
 use super::{Answer, LockBeside, Parts, Request, Rows, View, refused};
+use crate::report::number::count;
 use crate::report::table::Column;
 use rubscope_solver::harmonic::{Forced, HarmonicError, Lining};
 use rubscope_solver::scene::{ContactLaw, keys};
@@ -29,14 +30,23 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
         return Err(refused(keys::OUT_OF_ROUND, height, allowed.to_string()));
     }
     let lining = Lining::of(machine, &scene.contact)?;
-    let forced = speeds.iter().map(|speed| lining.forced(*speed, lobes, height)).collect();
+    let forced: Vec<Forced> =
+        speeds.iter().map(|speed| lining.forced(*speed, lobes, height)).collect();
+    let still = forced.iter().all(|point| point.amplitude_m == 0.0);
     let points = Rows::of(forced);
     let json = Parts::default().with("lobes", lobes).with("out_of_round_m", height).with_rows(
         "points",
         &points,
         |point| json!(point),
     );
-    let title = format!("{lobes} lobes of {height:e} m drive, where all blades press:");
+    let diameters = machine.polygon.nodal_diameters;
+    let title = match still {
+        true => format!(
+            "{lobes} lobes drive no wave of {}, whatever the speed:",
+            count(u64::from(diameters), "nodal diameter")
+        ),
+        false => format!("{lobes} lobes of {height:e} m drive, where all blades press:"),
+    };
     let json = Parts::default().with_parts("forced", json);
     Ok(Answer::of(json, vec![(title, points.table(POINTS))]))
 }

@@ -25,7 +25,7 @@ use super::number::{per_speed, short};
 use super::table::{MadeTable, Table};
 use rubscope_solver::harmonic::{Corner, Form, HarmonicError, Sweep, lock_window, locked_motion};
 use rubscope_solver::model::{LockWindow, Machine};
-use rubscope_solver::scene::{Scene, keys};
+use rubscope_solver::scene::{ModelSize, Scene, keys};
 
 /// The views with an option, in the order of the help.
 pub const VIEWS: [&View; 9] = [
@@ -112,14 +112,21 @@ impl Request<'_> {
     pub fn answer(&mut self, view: &View) -> Result<Answer, HarmonicError> {
         self.knows_tips(view)?;
         if let LockBeside::Rigid(tolerates) = view.lock {
-            self.machine = self.scene.machine().with_lining(None);
+            let machine = self.scene.machine().with_lining(None);
+            // Blades of the rigid model do not bend under the loads.
+            let rigid = self.scene.solver.model == ModelSize::Rigid;
+            self.machine = if rigid { machine.with_stiff_blades() } else { machine };
             let Self { form, damped, pair, speeds, .. } = *self;
             let found = match self.scene.clearance() {
                 ..=0.0 => Err(no_clearance(self.scene)),
                 _ => locked_motion(&self.machine, form, damped, pair, speeds),
             };
             match found {
-                Ok(sweep) => self.sweep = Some(Rc::new(sweep)),
+                Ok(mut sweep) => {
+                    let points = sweep.points.iter_mut().filter(|_| rigid);
+                    points.for_each(|point| point.alpha_rad = [0.0; 2]);
+                    self.sweep = Some(Rc::new(sweep));
+                }
                 Err(error) if tolerates(&error) => {}
                 Err(error) => return Err(error),
             }

@@ -18,6 +18,8 @@ pub struct Knobs {
     pub refusal: Option<String>,
     /// Whether they act on the running motion.
     pub live: bool,
+    /// Presses of the key that turns one, which wait behind the present one.
+    pub again: usize,
     undo: Vec<Past>,
     redo: Vec<Past>,
 }

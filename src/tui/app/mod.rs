@@ -18,7 +18,7 @@ pub use files::{SceneEntry, Writing};
 pub use knobs::Past;
 pub use lesson::{LessonProgress, StepProgress};
 pub use mouse::{Grip, Target};
-pub use reading::{Cursor, STEP, cell_of};
+pub use reading::{Cursor, Reading, STEP, cell_of};
 
 use dialogue::Dialogue;
 use files::Files;
@@ -26,8 +26,7 @@ use knobs::Knobs;
 use layout::Layout;
 use lesson::Lessons;
 use mouse::Mouse;
-use play::{Play, begin_s};
-use reading::Reading;
+use play::Play;
 use run::Run;
 
 use super::appearance::Appearance;
@@ -76,7 +75,7 @@ pub struct App {
     pub run: Run,
     /// The charts on the screen.
     pub layout: Layout,
-    /// Place and instant that are read in the large chart.
+    /// The cursor: instant that is shown, and place that is read in the large chart.
     pub reading: Reading,
     /// Axes and contact law of the map.
     pub map: MapChoice,
@@ -99,7 +98,7 @@ impl App {
         Self {
             status: None,
             knobs: Knobs::default(),
-            play: Play::from(begin_s(&scene)),
+            play: Play::of(&scene),
             run: Run::of(&scene, &machine),
             layout: Layout::of(&scene),
             reading: Reading::default(),
@@ -151,7 +150,7 @@ impl App {
             page: self.page(),
             compare: self.run.compare,
             slow_at_events: self.play.slow_at_events,
-            cursor_s: self.cursor_time(),
+            cursor_s: self.reading.at_s,
             open: ViewId::all().filter(|view| self.is_open(*view)).collect(),
             map: self.map_choice(),
             cell: self.map_cell(),
@@ -163,16 +162,22 @@ impl App {
         self.run.compare && self.is_large(ViewId::Response)
     }
 
-    /// Returns the instant that every panel shows: that under the reading cursor, or now.
+    /// Returns the motion that every panel shows: at the cursor, or as it plays.
     pub fn shown(&self) -> Option<&Moment> {
         let reading = self.results().reading.as_deref();
-        let reading = reading.filter(|_| self.cursor_time().is_some());
+        let reading = reading.filter(|_| self.reading.at_s.is_some());
         reading.or(self.moment())
     }
 
-    /// Returns the current rotor speed \[rad/s\].
+    /// Same as [`Self::shown`], once it is computed for the instant that is asked for.
+    pub fn shown_now(&self) -> Option<&Moment> {
+        let step = self.scene.solver.step_s;
+        self.shown().filter(|moment| (moment.state.t_s - self.now()).abs() <= step)
+    }
+
+    /// Returns the rotor speed at the instant that is shown \[rad/s\].
     pub fn speed(&self) -> f64 {
-        let moment = self.moment();
+        let moment = self.shown();
         moment.map_or(self.scene.operation.speed_rad_s, |moment| moment.speed)
     }
 

@@ -21,6 +21,10 @@ const PAGE_SECONDS: f64 = 4.0;
 /// Least rate that is called real time.
 const REAL: f64 = 0.95;
 
+/// Wall time that somebody watches a run, at most: the first page of a longer one is all of it
+/// \[s\].
+const WATCHED: f64 = 120.0;
+
 /// Zoom steps in either direction.
 const MOST_ZOOM: i32 = 12;
 
@@ -56,8 +60,8 @@ pub struct Play {
     pub zoom: i32,
     /// Whether the motion slows down at changes of contact and hurries between.
     pub slow_at_events: bool,
-    /// Pages back from the current one.
-    pub pages_back: i64,
+    /// Instant in the middle of the page, where that is not the one that fills \[s\].
+    pub middle_s: Option<f64>,
     /// Instant to which the motion goes at once \[s\].
     pub go_to_s: f64,
     pub goes: u64,
@@ -83,10 +87,19 @@ pub struct Tempo {
 }
 
 impl Play {
-    /// Creates the state of playing that begins at an instant \[s\].
-    pub fn from(go_to_s: f64) -> Self {
-        let (playing, slow_at_events) = (true, true);
-        Self { playing, rate: FIRST_RATE, slow_at_events, go_to_s, ..Self::default() }
+    /// Creates the state of playing a scene from where it begins.
+    pub fn of(scene: &Scene) -> Self {
+        let (playing, slow_at_events, go_to_s) = (true, true, begin_s(scene));
+        let mut play =
+            Self { playing, rate: FIRST_RATE, slow_at_events, go_to_s, ..Self::default() };
+        play.open(scene);
+        play
+    }
+
+    /// Shows the first page of a scene: the whole run, where nobody watches it to its end.
+    pub fn open(&mut self, scene: &Scene) {
+        let end = scene.solver.end_s;
+        self.zoom = if end > WATCHED * self.rate() { self.zoom_for(end) } else { 0 };
     }
 
     /// Carries out an action on playing; returns the message, if there is one.
@@ -111,18 +124,20 @@ impl Play {
             }
             Action::Slower => self.rate = self.rate.saturating_sub(1),
             Action::Faster => self.rate = (self.rate + 1).min(RATES.len() - 1),
-            Action::ZoomIn => self.zoom = (self.zoom + 1).min(MOST_ZOOM),
-            Action::ZoomOut => self.zoom = (self.zoom - 1).max(-MOST_ZOOM),
-            Action::ZoomReset => self.zoom = 0,
             _ => {}
         }
         None
     }
 
+    /// Stops time by hand.
+    pub fn pause(&mut self) {
+        (self.playing, self.stopped_by_end) = (false, false);
+    }
+
     /// Resets what belongs to the former run.
     pub fn restart(&mut self, go_to_s: f64) {
         self.playing |= std::mem::take(&mut self.stopped_by_end);
-        (self.pages_back, self.page, self.go_to_s) = (0, 0, go_to_s);
+        (self.page, self.go_to_s) = (0, go_to_s);
         (self.ends, self.extensions) = (0, 0);
         // Nobody waits for a jump of the motion before.
         self.met = self.jumps;
@@ -139,12 +154,11 @@ impl Play {
         self.slow_at_events = tempo.slow_at_events;
     }
 
-    /// Slows down at changes of contact, and sets the length of a page where one is wanted \[s\].
-    pub fn show_closely(&mut self, page_s: Option<Option<f64>>) {
+    /// Slows down at changes of contact, on pages of this length at least, or of the usual one
+    /// \[s\].
+    pub fn show_closely(&mut self, page_s: Option<f64>) {
         self.slow_at_events = true;
-        if let Some(length) = page_s {
-            self.zoom = length.map_or(0, |length| self.zoom_for(length));
-        }
+        self.zoom = page_s.map_or(0, |length| self.zoom_for(length));
     }
 
     /// Records the current page; returns whether it is another one than at the last call.
@@ -190,13 +204,18 @@ impl App {
         self.play.rate()
     }
 
-    /// Returns the length of a page \[s\].
+    /// Returns the length of a page, at most that of the run \[s\].
     pub fn page_s(&self) -> f64 {
-        page_length(self.rate(), self.play.zoom)
+        page_length(self.rate(), self.play.zoom).min(self.end_s())
     }
 
-    /// Returns the motion time now \[s\].
+    /// Returns the instant that is shown: that of the cursor, or how far the motion is \[s\].
     pub fn now(&self) -> f64 {
+        self.reading.at_s.unwrap_or(self.played_s())
+    }
+
+    /// Returns how far the motion is \[s\].
+    pub fn played_s(&self) -> f64 {
         self.moment().map_or(0.0, |moment| moment.state.t_s)
     }
 
@@ -209,9 +228,17 @@ impl App {
     /// Returns the page that is shown, from and to \[s\].
     pub fn page(&self) -> (f64, f64) {
         let length = self.page_s();
-        let number = (self.page_number() - self.play.pages_back).max(0);
-        let start = number as f64 * length;
+        let start = match self.play.middle_s {
+            Some(middle) => (middle - 0.5 * length).min(self.end_s() - length).max(0.0),
+            None => self.page_number() as f64 * length,
+        };
         (start, start + length)
+    }
+
+    /// Returns the instant in the middle of the page \[s\].
+    pub fn middle_s(&self) -> f64 {
+        let (from, to) = self.page();
+        0.5 * (from + to)
     }
 
     /// Returns the record of the page that is shown: computed again at its zoom, with what is to
@@ -233,26 +260,42 @@ impl App {
         }
     }
 
-    /// Returns the bins of a record that are behind the motion, and those ahead of it.
+    /// Returns the bins of a record that are behind motion and cursor, and those ahead of both.
     pub fn past_and_future<'a>(&self, record: &'a [Bin]) -> (&'a [Bin], &'a [Bin]) {
-        let now = self.now();
-        record.split_at(record.partition_point(|bin| bin.from < now))
+        let known = self.known_s();
+        record.split_at(record.partition_point(|bin| bin.from < known))
     }
 
-    /// Returns the last step may pass the end of the run, which may be that of a page.
+    /// Returns the later one of cursor and motion: from there on the run is still to come \[s\].
+    pub fn known_s(&self) -> f64 {
+        self.played_s().max(self.now())
+    }
+
+    /// Returns the page of the motion: one that has just become full is shown full.
     pub fn page_number(&self) -> i64 {
-        self.page_of(self.now().min(self.end_s()))
+        // The last step may pass the end of the run.
+        let pages = self.played_s().min(self.end_s()) / self.page_s();
+        (pages - 1e-9).floor().max(0.0) as i64
     }
 
-    /// Returns the page of an instant: one that has just become full is shown full.
-    pub fn page_of(&self, t: f64) -> i64 {
-        (t / self.page_s() - 1e-9).floor().max(0.0) as i64
-    }
-
-    /// Returns the part of the page that is before the instant that is read, or now, 0 to 1.
+    /// Returns the part of the page that is before the instant that is shown, 0 to 1.
     pub fn part_of_page(&self) -> f64 {
         let (from, to) = self.page();
-        ((self.reading.at_s.unwrap_or(self.now()) - from) / (to - from)).clamp(0.0, 1.0)
+        ((self.now() - from) / (to - from)).clamp(0.0, 1.0)
+    }
+
+    /// Changes the length of the page. The cursor, or where time is paused, is in its middle, and
+    /// no page leaves the run.
+    pub fn zoom(&mut self, action: Action) {
+        let middle = self.reading.at_s.or(self.play.middle_s);
+        let middle = middle.or((!self.play.playing).then(|| self.played_s()));
+        let whole = page_length(self.rate(), self.play.zoom) >= self.end_s();
+        (self.play.zoom, self.play.middle_s) = match action {
+            Action::ZoomIn => ((self.play.zoom + 1).min(MOST_ZOOM), middle),
+            Action::ZoomOut if whole => return,
+            Action::ZoomOut => ((self.play.zoom - 1).max(-MOST_ZOOM), middle),
+            _ => (0, self.reading.at_s),
+        };
     }
 
     /// Returns the rate that is reached, in words: `200x slower` than real time; while nothing
@@ -285,7 +328,7 @@ mod tests {
 
     #[test]
     fn at_the_end_of_the_run_time_stops_once_and_goes_on_when_asked() {
-        let mut play = Play::from(0.0);
+        let mut play = Play::of(&Scene::base());
         assert!(play.stop_at_end(1) && !play.playing && !play.stop_at_end(1));
         play.act(Action::Pause);
         assert_eq!((play.playing, play.extensions), (true, 1));

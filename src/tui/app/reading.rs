@@ -1,5 +1,6 @@
-//! The reading cursor: a place in the large chart, moved by keys or the mouse.
-//! What it reads there is up to the view.
+//! The cursor: an instant of the run, which every panel shows instead of the motion as it plays,
+//! and a place in the large chart, moved by keys or the mouse. What it reads there is up to the
+//! view.
 
 use super::App;
 use crate::tui::views::id::ViewId;
@@ -17,27 +18,15 @@ pub struct Cursor {
 /// One step of the cursor where the chart has no cells.
 pub const STEP: f64 = 0.01;
 
-/// Place and instant that are read in the large chart.
-#[derive(Clone, Debug, Default)]
+/// Instant that is shown, and place that is read in the large chart.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reading {
-    /// The reading cursor.
+    /// The place.
     pub cursor: Option<Cursor>,
     /// Whether the arrows move it, not the knobs.
     pub on: bool,
-    /// The instant that it reads, where it was put in a chart over time \[s\].
+    /// The instant, while time is paused there and not where the motion is \[s\].
     pub at_s: Option<f64>,
-}
-
-impl Reading {
-    /// Returns whether there is something to leave.
-    pub fn is_open(&self) -> bool {
-        self.on || self.cursor.is_some()
-    }
-
-    /// Stops reading.
-    pub fn stop(&mut self) {
-        *self = Self::default();
-    }
 }
 
 impl App {
@@ -46,15 +35,9 @@ impl App {
         self.reading.cursor.filter(|_| self.is_large(view))
     }
 
-    /// Returns the instant that is read: that of the cursor in the chart over time where it was
-    /// last \[s\].
-    pub fn cursor_time(&self) -> Option<f64> {
-        self.reading.at_s.filter(|_| self.reading.cursor.is_some())
-    }
-
-    /// Stops reading.
+    /// Removes the cursor: the motion is shown as it plays, and its page.
     pub fn stop_reading(&mut self) {
-        self.reading.stop();
+        (self.reading, self.play.middle_s) = (Reading::default(), None);
     }
 }
 

@@ -188,10 +188,11 @@ impl App {
         if live { self.run.change() } else { self.restart() }
     }
 
-    /// Restarts the run.
+    /// Restarts the run. A cursor stays, and its page.
     pub fn restart(&mut self) {
         self.run.restart(&self.scene);
         self.play.restart(begin_s(&self.scene));
+        self.play.middle_s = self.play.middle_s.filter(|_| self.reading.at_s.is_some());
     }
 
     /// Pins the run behind the next ones, or removes what is pinned.

@@ -112,9 +112,9 @@ impl App {
         }
     }
 
-    /// Returns the state of the motion now: `free`, `touching 12`, `held on 6 + 21`.
+    /// Returns the state at the instant that is shown: `free`, `touching 12`, `held on 6 + 21`.
     pub fn state_now(&self) -> String {
-        let Some(moment) = self.moment() else { return "starting".into() };
+        let Some(moment) = self.shown() else { return "starting".into() };
         if moment.failure.is_some() {
             let grown = self.full_run().is_some_and(|run| run.verdict == Verdict::Divergent);
             return if grown { "diverged" } else { "failed" }.into();

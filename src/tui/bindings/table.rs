@@ -109,7 +109,7 @@ const BEFORE_VIEWS: &[Binding] = &[
 const AFTER_VIEWS: &[Binding] = &[
     bind!(Main: [letter('+')], Action::ZoomIn, "a shorter page of time"),
     bind!(Main: [letter('-')], Action::ZoomOut, "a longer page of time"),
-    bind!(Main: [letter('=')], Action::ZoomReset, "the first page of time"),
+    bind!(Main: [letter('=')], Action::ZoomReset, "the usual page of time, where NOW is"),
     bind!(Main: [letter('a')], Action::Autoscale, "scales follow the data, or stay fixed"),
     bind!(Main: [letter('m')], Action::Marker, "next marker (braille, halfblock, dot, ascii; octant with --marker octant)"),
     bind!(Main: [letter('t')], Action::Theme, "next theme (dark, light, colour-blind on dark or light, mono)"),

@@ -311,9 +311,10 @@ fn baseline(app: &App) -> Option<Part> {
 /// Returns what keys do otherwise than usual: pages of time, and knobs that act at once.
 fn modes(app: &App) -> Vec<Part> {
     let focus = app.appearance.style(Role::Focus);
-    let pages = app.play.pages_back;
-    let word = if pages > 0 { "back" } else { "ahead" };
-    let pages = (pages != 0).then(|| format!("{} {word}", pages.abs()));
+    let ((from, to), now) = (app.page(), app.now().min(app.end_s()));
+    let word = if now > to { "back" } else { "ahead" };
+    let pages = ((now - from) / (to - from) - 1e-9).floor().abs();
+    let pages = (now < from || now > to).then(|| format!("{pages} {word}"));
     let live = app.knobs.live.then(|| "LIVE".to_string());
     let missing = app.scene.modes_note().map(|_| "own mode: none known of n_d".to_string());
     pages.into_iter().chain(live).chain(missing).map(|text| Part::plain(1, text, focus)).collect()

@@ -43,15 +43,16 @@ pub struct Places {
 /// Returns the places for a screen of this size.
 pub fn places(area: Rect, app: &App) -> Places {
     if presentation::is_shown(app, area) {
-        let [letters, chart, knobs, footer] = presentation::split(app, area);
+        let [letters, body, knobs, footer] = presentation::split(app, area);
+        let (lesson, charts) = lesson(body, app);
         return Places {
             header: Rect::default(),
             body: area,
             knobs,
             column: false,
-            charts: vec![(app.view(), chart)],
+            charts: vec![(app.view(), charts)],
             letters: Some(letters),
-            lesson: None,
+            lesson,
             footer,
         };
     }
@@ -88,7 +89,9 @@ fn lesson(body: Rect, app: &App) -> (Option<Rect>, Rect) {
         // page, then its end.
         false if !read => wanted.min(page_rows(body.height)),
         false => {
-            super::lesson::end_rows(app, usize::from(body.width)).min(most_rows(body.height)).max(3)
+            // An open question comes before the charts.
+            let most = if app.is_asked() { page_rows } else { most_rows };
+            super::lesson::end_rows(app, usize::from(body.width)).min(most(body.height)).max(3)
         }
     };
     let [lesson, body] = below(body, rows);
@@ -146,9 +149,14 @@ const LOWER: u16 = 45;
 /// Part of the width that the wheel has, in per cent.
 const WHEEL_PART: u16 = 44;
 
-/// Returns the rows between header and footer, which take three.
+/// Returns the rows that a lesson shares with the charts: those between header and footer, which
+/// take three, or less for a projector.
 fn body_rows(app: &App) -> u16 {
-    app.layout.size.1.saturating_sub(3)
+    let area = Rect::new(0, 0, app.layout.size.0, app.layout.size.1);
+    match presentation::is_shown(app, area) {
+        true => presentation::split(app, area)[1].height,
+        false => area.height.saturating_sub(3),
+    }
 }
 
 /// Returns the greatest number of rows of a lesson beside the charts.

@@ -27,10 +27,15 @@ pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
         app.note(Rect { y: area.y + row, height: 1, ..area }, Target::Lesson(index));
         let (sign, style) = look_of(look, index == place, Role::Text);
         let (done, steps) = (app.lessons.done.count(lesson), lesson.steps.len());
+        // One that was passed over comes before the last that was done.
+        let passed = app.lessons.done.next(lesson).filter(|next| *next < done);
         let done = if done == steps { "done".to_string() } else { format!("{done}/{steps}") };
         let name = format!("{sign} {done:>4}  {}. {}", index + 1, lesson.title);
         let minutes = format!("   {} min", lesson.minutes());
-        let needs = format!("{minutes}, needs {}", lesson.needs);
+        let needs = match passed {
+            Some(step) => format!("{minutes}, step {} is left", step + 1),
+            None => format!("{minutes}, needs {}", lesson.needs),
+        };
         // What has no room is left out; the minutes stay.
         let beside = if columns(&name) + columns(&needs) <= width { needs } else { minutes };
         let room = width.saturating_sub(columns(&beside));

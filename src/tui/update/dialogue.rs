@@ -3,6 +3,7 @@
 use super::Effect;
 use crate::report::line::clean;
 use crate::tui::app::{App, HelpState, InputMode, PaletteState};
+use crate::tui::axis::{instant, readable};
 use crate::tui::bindings::Action;
 use crate::tui::commands::{self, Command};
 use crate::tui::field::Edit;
@@ -84,8 +85,13 @@ impl App {
         match command {
             Command::Act(action) => return Ok(self.act(action)),
             Command::GoTo(t) => {
-                self.has_instant(t)?;
+                let end = self.end_s();
+                if !(0.0..=end).contains(&t) {
+                    let [t, end] = [t, end].map(|t| readable(t, "s"));
+                    return Err(format!("t = {t}: from 0 to {end}, the end of the run"));
+                }
                 self.go_to(t);
+                self.status = Some(format!("paused at {}", instant(t)));
             }
             Command::Blade(blade) => self.go_to_blade(blade)?,
             Command::Axes(paths) => self.put_axes(paths),

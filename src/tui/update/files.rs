@@ -118,7 +118,8 @@ impl App {
         self.files.open(scene.clone(), Some(source));
         self.layout.open(&scene);
         self.map = self.map.anchored(&scene);
-        self.reading.stop();
+        self.stop_reading();
+        self.play.open(&scene);
         self.knobs.refusal = None;
         self.set_scene(scene, false);
     }

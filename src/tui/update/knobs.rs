@@ -1,16 +1,31 @@
 //! Turning knobs, and coming back to an earlier state.
 
+use crossterm::event::KeyEvent;
+
 use crate::tui::app::{App, LessonProgress, Past};
+use crate::tui::bindings::{Action, Chord, lookup};
 use crate::tui::knobs::Knob;
 use rubscope_solver::motion::Change;
-use rubscope_solver::scene::{CheckedScene, Value};
+use rubscope_solver::scene::{CheckedScene, Scene, Value};
 
 impl App {
+    /// Returns whether a key turns the selected knob.
+    pub fn is_turn(&self, key: &KeyEvent) -> bool {
+        matches!(lookup(self.context(), Chord::of(key)), Some(Action::Turn { .. }))
+    }
+
+    /// Turns the selected knob as often as its key was pressed. Each value is checked: a refused one
+    /// is told, and is the end.
     pub(super) fn turn(&mut self, up: bool, coarse: bool) {
-        if let Some(knob) = self.selected() {
-            let value = knob.turned(&knob.get(&self.scene), up, coarse, &self.scene);
-            self.set(knob, value);
+        let again = std::mem::take(&mut self.knobs.again);
+        let Some(knob) = self.selected() else { return };
+        let turned = |scene: &Scene| knob.turned(&knob.get(scene), up, coarse, scene);
+        let next = |scene: &CheckedScene| Some(knob.set(scene, turned(scene)).ok()?.0);
+        let all = std::iter::successors(Some(self.scene.clone()), next);
+        if let Some(scene) = all.take(again + 1).last() {
+            self.turn_to(scene);
         }
+        self.set(knob, turned(&self.scene));
     }
 
     pub(super) fn reset(&mut self) {
@@ -82,7 +97,6 @@ impl App {
     /// Gives the user's own state back, as it was before a lesson.
     pub(super) fn give_back(&mut self, own: Past) {
         self.knobs.remember(self.past());
-        self.play.set_tempo(own.tempo);
         self.come_back(own);
     }
 
@@ -101,10 +115,8 @@ impl App {
         }
         (self.files.opened, self.files.source) = (past.opened, past.source);
         self.lessons.progress = past.lesson;
-        if self.lessons.progress.is_some() {
-            self.present(false);
-        }
         self.knobs.live = past.live;
+        self.play.set_tempo(past.tempo);
         if self.layout.set_views(past.views) {
             self.keep_instant();
         }

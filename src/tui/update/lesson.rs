@@ -74,8 +74,9 @@ impl App {
     fn begin_step(&mut self, place: usize, step: usize) {
         let Some(lesson) = lessons::all().get(place) else { return };
         let past = self.past();
-        // A screen for a projector has no room for a lesson.
-        self.present(false);
+        // A step begins to play, wherever a cursor has paused.
+        self.play.playing |= self.reading.at_s.is_some();
+        self.stop_reading();
         let begun = self.lessons.progress.clone().filter(|progress| progress.lesson == place);
         let begun = begun.unwrap_or_else(|| LessonProgress {
             lesson: place,
@@ -160,8 +161,7 @@ impl App {
         self.knobs.refusal = None;
         self.knobs.live = step.live;
         self.run.set_compare(step.compare && answered);
-        let own_pages = lesson.steps.iter().any(|step| step.page_s.is_some());
-        self.play.show_closely(own_pages.then_some(step.page_s));
+        self.play.show_closely(step.page_s);
         let then = step.then_view.as_ref().filter(|_| answered);
         let view = then.or(step.view.as_ref()).and_then(|word| ViewId::from_word(word));
         if let Some(view) = view {

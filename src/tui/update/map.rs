@@ -93,7 +93,7 @@ impl App {
     pub(super) fn turn_survey(&mut self) {
         let on = !(self.is_large(ViewId::Margins) && self.layout.is_surveyed());
         let said = self.layout.turn_survey(on);
-        self.reading.stop();
+        self.stop_reading();
         self.walk(ViewId::Margins);
         self.status = Some(said);
     }

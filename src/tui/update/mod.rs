@@ -16,9 +16,11 @@ use std::path::PathBuf;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-use super::app::{App, HelpState, InputMode, Purpose};
+use super::app::{App, HelpState, InputMode, Purpose, Reading};
 use crate::report::line::{self, clean};
+use crate::tui::axis::instant;
 use crate::tui::bindings::{Action, Chord, lookup};
+use crate::tui::commands::Command;
 use crate::tui::field::Field;
 use crate::tui::files::FileJob;
 use crate::tui::knobs::knob_of;
@@ -206,9 +208,8 @@ impl App {
         self.knobs.refusal = None;
         if !self.dialogue.is_closed() {
             self.dialogue.close();
-        } else if self.reading.is_open() || self.play.pages_back != 0 {
-            self.reading.stop();
-            self.play.pages_back = 0;
+        } else if self.reading != Reading::default() || self.play.middle_s.is_some() {
+            self.stop_reading();
         } else if self.appearance.wide {
             self.present(false);
         } else {
@@ -232,15 +233,14 @@ impl App {
             Action::Reset => self.reset(),
             Action::Undo => self.step_back(false),
             Action::Redo => self.step_back(true),
-            Action::Pause
-            | Action::Step
-            | Action::Jump
-            | Action::SlowAtEvents
-            | Action::Slower
-            | Action::Faster
-            | Action::ZoomIn
-            | Action::ZoomOut
-            | Action::ZoomReset => self.status = self.play.act(action),
+            Action::Pause | Action::Step | Action::Jump => {
+                self.depart();
+                self.status = self.play.act(action);
+            }
+            Action::SlowAtEvents | Action::Slower | Action::Faster => {
+                self.status = self.play.act(action);
+            }
+            Action::ZoomIn | Action::ZoomOut | Action::ZoomReset => self.zoom(action),
             Action::Charts | Action::FullScreen => self.layout.act(action),
             Action::Pin => self.pin(),
             Action::OtherLaw if self.is_large(ViewId::Map) => self.other_map_law(),
@@ -271,18 +271,22 @@ impl App {
             Action::Survey => self.turn_survey(),
             Action::PageBack => self.pan(true),
             Action::PageForward => self.pan(false),
-            Action::GoToEnd => self.go_to(self.end_s()),
+            Action::GoToEnd => _ = self.obey(Command::GoTo(self.end_s())),
             Action::Read => self.toggle_reading(),
             Action::Cursor { right, up, coarse } => self.move_cursor(right, up, coarse),
             Action::OpenPlace => self.open_cursor(),
             Action::Restart => {
+                self.stop_reading();
                 self.restart();
                 self.status = Some("restarted".into());
             }
             Action::Fire => {
+                // It acts on the motion, wherever the cursor is.
+                self.stop_reading();
                 self.run.fire();
                 let pulse = knob_of(PULSE).map(|knob| knob.text(&self.scene));
-                self.status = pulse.map(|pulse| format!("pulse of {pulse} fired"));
+                let at = instant(self.now());
+                self.status = pulse.map(|pulse| format!("pulse of {pulse} fired at {at}"));
             }
             Action::Autoscale => self.status = Some(self.run.autoscale()),
             Action::Present => self.present(!self.appearance.wide),
@@ -293,10 +297,6 @@ impl App {
 
     /// Changes to the screen for a projector, or to the usual one.
     pub(super) fn present(&mut self, on: bool) {
-        if on && self.lessons.progress.is_some() {
-            self.status = Some("a lesson needs the usual screen; G leaves it".into());
-            return;
-        }
         self.appearance.wide = on;
         self.status = on.then(|| "P or Esc: back to the usual screen".into());
     }

@@ -8,6 +8,7 @@ use super::Effect;
 use crate::tui::app::{App, Cursor, Grip, InputMode, Target};
 use crate::tui::bindings::Action;
 use crate::tui::knobs::KNOBS;
+use crate::tui::views::id::ViewId;
 
 /// Effect of a mouse event.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -98,7 +99,10 @@ impl App {
             }
             Target::View(view) => self.show(view),
             Target::Chart(_) if again && self.reading.cursor.is_some() => self.open_cursor(),
-            Target::Chart(parts) => self.point(Cursor::at(at, area, parts)),
+            Target::Chart(parts) => {
+                self.reading.on = true;
+                self.put_cursor(Cursor::at(at, area, parts));
+            }
             Target::Key(_) | Target::Lesson(_) => {}
         }
         MouseOutcome::Acted(Effect::None)
@@ -146,7 +150,7 @@ impl App {
                 self.knobs.select(knob);
                 self.acted(Action::Turn { up, coarse })
             }
-            Some(Target::Chart(_)) if self.panel().is_over_time(self) => {
+            Some(Target::Chart(_)) if self.is_large(ViewId::Response) => {
                 self.acted(if up { Action::ZoomIn } else { Action::ZoomOut })
             }
             _ => MouseOutcome::Nothing,

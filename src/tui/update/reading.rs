@@ -1,7 +1,7 @@
 //! Moving the reading cursor, in the chart and in time.
 
 use crate::tui::app::{App, Cursor, STEP, cell_of};
-use crate::tui::axis::{instant, readable};
+use crate::tui::axis::instant;
 use crate::tui::views::Opening;
 use crate::tui::views::id::ViewId;
 
@@ -18,34 +18,26 @@ impl App {
         }
     }
 
-    /// Starts reading at the pointer.
-    pub(super) fn point(&mut self, cursor: Cursor) {
-        self.reading.on = true;
-        self.put_cursor(cursor);
-    }
-
-    /// Reads this instant.
-    pub(super) fn read_instant(&mut self, t: f64) {
+    /// Puts the cursor at an instant, and pauses there: every panel shows it. The page stays
+    /// where it has that instant.
+    pub(super) fn go_to(&mut self, t: f64) {
+        let ((from, to), middle) = (self.page(), self.middle_s());
+        self.play.middle_s = Some(if (from..=to).contains(&t) { middle } else { t });
         self.reading.at_s = Some(t);
-        self.reading.cursor = Some(self.panel().here(self));
+        self.play.pause();
+        self.reading.cursor = self.reading.cursor.map(|_| self.panel().here(self));
     }
 
-    /// Puts the cursor at a place of the large chart; over time, that instant is read.
+    /// Puts the cursor at a place of the large chart, and where that shows an instant pauses at
+    /// it.
     pub(super) fn put_cursor(&mut self, cursor: Cursor) {
-        if self.panel().is_over_time(self) {
-            let (from, to) = self.page();
-            self.reading.at_s = Some(from + cursor.across * (to - from));
+        let (from, to) = self.page();
+        match self.view() {
+            ViewId::Response => self.go_to(from + cursor.across * (to - from)),
+            ViewId::Gaps | ViewId::Frame => self.go_to(self.now()),
+            _ => {}
         }
         self.reading.cursor = Some(cursor);
-    }
-
-    /// Moves the cursor up or down only: an instant that is read goes on being read, also
-    /// where it is on another page.
-    fn put_beside(&mut self, cursor: Cursor) {
-        match self.cursor_time() {
-            Some(_) => self.reading.cursor = Some(cursor),
-            None => self.put_cursor(cursor),
-        }
     }
 
     /// Reads the gap of a blade, numbered from 1.
@@ -60,24 +52,25 @@ impl App {
         self.show(ViewId::Gaps);
         self.reading.on = true;
         let (part, here) = ((f64::from(blade) - 0.5) / f64::from(all), self.panel().here(self));
-        self.put_beside(Cursor { across: part, ..here });
-        let gap = self.shown().and_then(|moment| moment.gaps.get(blade as usize - 1).copied());
-        self.status = gap.map(|gap| format!("blade {blade}: gap {}", self.gap_words(gap)));
+        self.put_cursor(Cursor { across: part, ..here });
+        let gap = self.shown_now().and_then(|now| now.gaps.get(blade as usize - 1).copied());
+        let at = instant(self.now());
+        self.status = gap.map(|gap| format!("blade {blade}: gap {} at {at}", self.gap_words(gap)));
         Ok(())
     }
 
     /// Keeps the instant that is read after a change of the large chart.
     pub(super) fn keep_instant(&mut self) {
-        match self.cursor_time() {
-            Some(_) => self.reading.cursor = Some(self.panel().here(self)),
-            None => self.reading.stop(),
+        match self.reading.at_s {
+            Some(_) => self.reading.cursor = self.reading.cursor.map(|_| self.panel().here(self)),
+            None => self.stop_reading(),
         }
     }
 
     /// Gives the arrows to the cursor, or back to the knobs.
     pub(super) fn toggle_reading(&mut self) {
         if self.reading.on {
-            return self.reading.stop();
+            return self.stop_reading();
         }
         self.reading.on = true;
         if self.reading.cursor.is_none() {
@@ -89,7 +82,7 @@ impl App {
     pub(super) fn move_cursor(&mut self, right: i64, up: i64, coarse: bool) {
         let panel = self.panel();
         let mut cursor = self.reading.cursor.unwrap_or_else(|| panel.here(self));
-        if panel.is_over_time(self) {
+        if self.is_large(ViewId::Response) {
             // The page may be another one since.
             cursor.across = self.part_of_page();
         }
@@ -105,7 +98,8 @@ impl App {
         };
         let (across, up) = (moved(cursor.across, right, across), moved(cursor.up, up, high));
         match right {
-            0 => self.put_beside(Cursor { across, up }),
+            // Also where the instant is on another page.
+            0 if self.reading.at_s.is_some() => self.reading.cursor = Some(Cursor { across, up }),
             _ => self.put_cursor(Cursor { across, up }),
         }
     }
@@ -121,41 +115,25 @@ impl App {
         }
     }
 
-    /// Checks that the run has this instant.
-    ///
-    /// # Errors
-    /// It has not, in words.
-    pub(super) fn has_instant(&self, t: f64) -> Result<(), String> {
-        let end = self.end_s();
-        if (0.0..=end).contains(&t) {
-            return Ok(());
-        }
-        let [t, end] = [t, end].map(|t| readable(t, "s"));
-        Err(format!("t = {t}: from 0 to {end}, the end of the run"))
-    }
-
-    /// Goes to an instant: what is read, while a chart is read, otherwise the motion, which
-    /// begins again where that is behind.
-    pub(super) fn go_to(&mut self, t: f64) {
-        if self.reading.on {
-            self.play.pages_back = self.page_number() - self.page_of(t);
-            self.read_instant(t);
-            return;
-        }
-        if t < self.now() {
+    /// Makes the motion go on from the cursor, beginning again where that is behind.
+    pub fn depart(&mut self) {
+        let Some(t) = self.reading.at_s else { return };
+        self.stop_reading();
+        if t < self.played_s() {
             self.restart();
         }
-        (self.play.go_to_s, self.play.pages_back) = (t, 0);
-        self.play.goes += 1;
-        self.status = Some(format!("on to {}", instant(t)));
+        self.play.go_to_s = t;
+        self.play.goes += u64::from(t != self.played_s());
     }
 
-    /// Goes a page back, or forward, as far as the forecast.
+    /// Goes a page back, or forward, inside the run.
     pub(super) fn pan(&mut self, back: bool) {
-        let last = self.page_of(self.end_s());
-        let now = self.page_number();
-        let pages = self.play.pages_back + if back { 1 } else { -1 };
-        self.play.pages_back = pages.clamp((now - last).min(0), now);
+        let by = if back { -self.page_s() } else { self.page_s() };
+        self.play.middle_s = Some(self.middle_s() + by);
+        let (from, to) = self.page();
+        if self.reading.at_s.is_none() && (from..to).contains(&self.played_s()) {
+            self.play.middle_s = None;
+        }
     }
 }
 
@@ -168,23 +146,25 @@ mod tests {
     fn an_instant_that_is_read_stays_from_view_to_view() {
         let mut app = on_screen();
         app.walk(ViewId::Response);
-        app.point(Cursor { across: 0.25, up: 0.5 });
+        app.reading.on = true;
+        app.put_cursor(Cursor { across: 0.25, up: 0.5 });
         let read = Some(5e-3);
         for view in ViewId::all().chain([ViewId::Gaps, ViewId::Response]) {
             app.walk(view);
-            assert_eq!(app.cursor_time(), read, "{}", view.word());
+            assert_eq!(app.reading.at_s, read, "{}", view.word());
             assert_eq!(app.order().cursor_s, read);
         }
         assert_eq!(app.cursor_in(ViewId::Response), Some(Cursor { across: 0.25, up: 0.5 }));
         // On a page that it is not on, too, unless the cursor is moved across.
         app.play.zoom = 6;
+        app.play.middle_s = None;
         assert!(app.page().1 < 5e-3);
         app.move_cursor(0, 1, false);
-        assert_eq!(app.cursor_time(), read);
+        assert_eq!(app.reading.at_s, read);
         app.move_cursor(-1, 0, false);
-        assert!(app.cursor_time().is_some_and(|t| t < app.page().1));
-        app.reading.stop();
-        assert_eq!((app.cursor_time(), app.reading.is_open()), (None, false));
+        assert!(app.reading.at_s.is_some_and(|t| t < app.page().1));
+        app.stop_reading();
+        assert_eq!((app.reading.at_s, app.reading.on), (None, false));
     }
 
     #[test]

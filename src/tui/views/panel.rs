@@ -32,11 +32,6 @@ pub trait ViewPanel: Sync {
         None
     }
 
-    /// Returns whether it is drawn over the page of time.
-    fn is_over_time(&self, _: &App) -> bool {
-        false
-    }
-
     /// Cells across and up that the reading cursor goes through one by one; 0
     /// where it moves freely.
     fn grid(&self, _: &App) -> [u32; 2] {

@@ -56,10 +56,6 @@ impl ViewPanel for ResponseView {
         }
     }
 
-    fn is_over_time(&self, _: &App) -> bool {
-        true
-    }
-
     fn here(&self, app: &App) -> Cursor {
         Cursor { across: app.part_of_page(), up: 0.5 }
     }
@@ -188,7 +184,7 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
     for (level, _) in &levels {
         plot.level(*level, look.either('┈', '.'), quiet);
     }
-    if let Some(t) = app.cursor_time() {
+    if let Some(t) = app.reading.at_s {
         plot.upright(t, look.either('┊', ':'), look.style(Role::Focus));
     }
     let columns = plot.columns();
@@ -244,14 +240,14 @@ fn clearance_levels(app: &App, what: &Page) -> Vec<(f64, &'static str)> {
 /// Returns the values at the reading cursor, computed for that instant. It comes without the
 /// instant where that has no room.
 fn reading(app: &App, what: &Page, width: usize) -> Option<String> {
-    app.cursor_time()?;
+    app.reading.at_s?;
     let values = |moment: &Moment| match what.unit {
         "rad" => moment.state.alpha,
         _ => moment.state.u,
     };
     if !what.own {
         // The other law is not computed again: its bin has least and greatest value.
-        let t = app.cursor_time()?;
+        let t = app.reading.at_s?;
         let bin = history::bin_at(what.record, t)?;
         let [first, second] = what.channels.map(|channel| readable(bin.middle(channel), what.unit));
         return Some(format!("near {}: {first}, {second}", readable(t, "s")));
@@ -269,7 +265,7 @@ fn reading(app: &App, what: &Page, width: usize) -> Option<String> {
 /// Draws the run to come in dots. They are those of the whole page, so that they do not move while
 /// the motion comes to them.
 fn ghost(app: &App, plot: &mut Plot, what: &Page) {
-    let (look, ahead) = (&app.appearance, app.now());
+    let (look, ahead) = (&app.appearance, app.known_s());
     let machine = &app.machine;
     let fastest = machine.omega_c.max(machine.omega_bd).max(machine.nu(app.speed().abs()));
     // Of a wave that turns within a bin the envelope is drawn.

@@ -108,17 +108,23 @@ impl Forecasts {
             || self.studies.is_computing(order, &self.full_run)
     }
 
-    /// Computes a slice of a run that was begun before the last change; false where there is
-    /// none.
-    pub fn compute_older(&mut self) -> bool {
-        self.answers.compute()
+    /// Computes a slice of a run that was begun before the last change, or of the present one
+    /// that may be quicker; false where there is none.
+    pub fn compute_older(&mut self, order: &Order) -> bool {
+        let is_slow = self.answers.older.as_ref().is_some_and(|(_, run)| run.wall() >= HELD);
+        if !is_slow || self.full_run.wall() >= QUICK {
+            return self.answers.compute();
+        }
+        self.full_run.compute();
+        self.answers.note(&order.scene, &self.full_run.state());
+        true
     }
 
     /// Computes one slice.
     pub fn compute(&mut self, order: &Order, comparison: Option<&mut FullRunJob>) {
         let known = self.full_run.is_done();
         // The run that had least time: the quick one does not wait for the slow one.
-        let runs = self.reference.iter_mut().chain([&mut self.full_run]).chain(comparison);
+        let runs = [&mut self.full_run].into_iter().chain(&mut self.reference).chain(comparison);
         if let Some(run) = runs.filter(|run| !run.is_done()).min_by_key(|run| run.wall()) {
             run.compute();
             if !known {
@@ -202,6 +208,10 @@ fn done(run: Option<&FullRunJob>) -> Option<FullRun> {
 /// comes again sooner, at any usual rate; somebody who has let go waits this much longer.
 const HELD: Duration = Duration::from_millis(200);
 
+/// Wall time of a run that does not wait for a slow one that was begun before it: a third of the
+/// time between two turns of a held key.
+const QUICK: Duration = Duration::from_millis(10);
+
 /// The latest answer, and the run for the next.
 #[derive(Debug, Default)]
 pub struct Answers {
@@ -211,10 +221,12 @@ pub struct Answers {
 }
 
 impl Answers {
-    /// Takes over a run that is not wanted any more, unless an older one goes on.
+    /// Takes over a run that is not wanted any more, unless an older one was begun: beside other
+    /// work no run may have had its first slice.
     pub fn turned_on(&mut self, scene: &CheckedScene, run: FullRunJob) {
         self.left = HELD;
-        if self.older.is_none() && !run.is_done() && !run.wall().is_zero() {
+        let is_free = self.older.as_ref().is_none_or(|(_, older)| older.wall().is_zero());
+        if is_free && !run.is_done() {
             self.older = Some((scene.clone(), run));
         }
     }
@@ -245,9 +257,10 @@ impl Answers {
         }
     }
 
-    /// Notes the result of a run, if it is one.
+    /// Notes the result of a run, if it is one; that of an older one is not waited for any more.
     pub fn note(&mut self, scene: &CheckedScene, state: &FullRunState) {
         if let FullRunState::Done(run) = state {
+            self.older = None;
             self.latest = Some(Arc::new(Answer { scene: scene.clone(), verdict: run.verdict }));
         }
     }
@@ -294,6 +307,27 @@ mod tests {
     }
 
     #[test]
+    fn a_quick_run_does_not_wait_for_a_slow_one_that_was_begun_before_it() {
+        let slow = Scene::builtin("undamped").unwrap().as_reference().checked().unwrap();
+        let mut forecasts = Forecasts::of(&Motion::new(&slow), &slow, Default::default());
+        forecasts.again(&Motion::new(&slow), 1e6);
+        while forecasts.full_run.wall() < HELD {
+            forecasts.full_run.compute();
+        }
+        let (quick, _) = run(400.0);
+        forecasts.changed(&slow, &Motion::new(&quick), 1e-6);
+        forecasts.answers.left = Duration::MAX;
+        let app = crate::tui::app::on_screen();
+        let order = Order { scene: quick.clone(), ..app.order() };
+        for _ in 0..3 {
+            forecasts.compute_older(&order);
+        }
+        // The newest that is ready is not followed by an older one.
+        assert_eq!(forecasts.answers.latest().map(|answer| answer.scene.clone()), Some(quick));
+        assert!(!forecasts.compute_older(&order));
+    }
+
+    #[test]
     fn a_long_run_does_not_keep_a_key_that_was_let_go_waiting() {
         let mut answers = Answers::default();
         let scene = Scene::builtin("undamped").unwrap().as_reference().checked().unwrap();
@@ -307,11 +341,13 @@ mod tests {
     }
 
     #[test]
-    fn the_run_that_was_begun_first_goes_on_and_one_that_was_not_begun_does_not() {
+    fn the_run_that_was_begun_first_goes_on_and_before_that_the_latest() {
         let mut answers = Answers::default();
-        let (scene, never) = run(399.0);
-        answers.turned_on(&scene, never);
-        assert!(!answers.is_computing());
+        for speed in [398.0, 399.0] {
+            let (scene, waits) = run(speed);
+            answers.turned_on(&scene, waits);
+            assert!(answers.older.as_ref().is_some_and(|(older, _)| *older == scene));
+        }
         for speed in [400.0, 401.0] {
             let (scene, mut run) = run(speed);
             run.compute();

@@ -39,6 +39,8 @@ pub struct Playback {
     reached: Reached,
     /// Instant to which the motion goes at once \[s\].
     going: Option<f64>,
+    /// Steps and jumps that are made from there.
+    owed: [u64; 2],
     copies: Copies,
     reading: Reading,
     page: Page,
@@ -73,6 +75,7 @@ impl Playback {
             turned: Turned::default(),
             reached: Reached::default(),
             going: Some(order.go_to_s).filter(|t| *t > 0.0),
+            owed: [0; 2],
             copies: Copies::of(&motion, order.page.1 - order.page.0),
             reading: Reading::default(),
             page: Page::default(),
@@ -105,7 +108,7 @@ impl Playback {
         if order.restarts != before.restarts {
             let kept = self.forecasts.hand_over(&before.scene, &self.motion);
             *self = Self::start(order.clone(), self.time_limit, kept);
-            return;
+            return self.owe(&before);
         }
         let length = order.scene.solver.end_s;
         let changed = order.changes != before.changes || order.pulses != before.pulses;
@@ -146,13 +149,7 @@ impl Playback {
         if order.goes != before.goes {
             self.going = Some(order.go_to_s);
         }
-        for _ in 0..order.steps.saturating_sub(before.steps).min(1000) {
-            self.step();
-        }
-        for _ in 0..order.jumps.saturating_sub(before.jumps).min(10) {
-            self.jump();
-        }
-        self.met.0 = order.jumps;
+        self.owe(&before);
         if order.cursor_s != before.cursor_s || changed {
             self.read();
         }
@@ -315,7 +312,7 @@ impl Playback {
             return self.play_comparison(self.time_limit);
         }
         self.reading.go_on(self.time_limit.min(SLICE));
-        if self.forecasts.compute_older() || self.arrive() || self.compute_page() {
+        if self.forecasts.compute_older(&self.order) || self.arrive() || self.compute_page() {
             return;
         }
         let comparison = self.comparison.as_mut().map(|comparison| &mut comparison.full_run);

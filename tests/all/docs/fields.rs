@@ -111,7 +111,7 @@ fn every_field_of_the_reports_is_in_the_documents() {
     let inclined = "--set bladed_disk.radial_coupling=0.3 --speed";
     let lobed = format!("{pressed} --set casing.lobes=3 --set casing.out_of_round_m=5e-6 --speed");
     for (view, command) in [
-        ("branches", "--branches".to_string()),
+        ("branches", "--branches --json;hbm long-tip --branches --speed 300".to_string()),
         ("slip", "slip --slip --speed 300:500:3".to_string()),
         ("campbell", "--campbell --speed 0:500:2".to_string()),
         ("excitation", "--excitation --set excitation.amplitude_nm=10 --speed 500".to_string()),
@@ -121,7 +121,8 @@ fn every_field_of_the_reports_is_in_the_documents() {
         ("whirl", format!("--whirl {inclined} 300:450:2")),
         ("compliance", format!("--compliance {inclined} 450")),
     ] {
-        let all = fields_of(&[&format!("hbm {command} --json")]);
+        let commands = format!("hbm {command} --json");
+        let all = fields_of(&commands.split(';').collect::<Vec<_>>());
         let base = told(&document, "| field of `rubscope.hbm/1` | what it is |");
         let own = &(&all - &base) - &common;
         let header = format!("| field added by `--{view}` | what it is |");

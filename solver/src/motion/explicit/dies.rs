@@ -2,12 +2,14 @@
 //!
 //! Where every blade presses by more than the smoothing, pushes are linear in the gaps, and
 //! all there is beyond a linear step are products with the blade phase `n_d alpha`. In the
-//! frame of the blades, at constant speed, a step is `x[n+1] = x[n] + D x[n] + r(x[n])`. With
-//! `|x|^2 = x^T Q x` of a `Q` for which the linear step shrinks `|x|` by a part `s`, and
-//! `|r| <= c |x|^2` there, a wave of `c |x| < s` shrinks in every step. So it stays where it
-//! was linear, if no blade leaves that within `|x|`, and dies.
+//! frame of the blades, at constant speed, a step is `x[n+1] = x[n] + D x[n] + r(x[n])`.
+//!
+//! A wave is a sum of motions that turn and die each at its rate. However they meet, a blade is
+//! pressed by no more than the sum of their sizes: a beat stays linear where this sum does. With
+//! `|x|` the sum of the sizes, a linear step shrinks it by a part `s`, and `|r| <= c |x|^2`. A
+//! wave of `c |x| < s` shrinks in every step, so it dies, if no blade leaves the linear within it.
 
-use nalgebra::{Complex, DMatrix, DVector, SymmetricEigen};
+use nalgebra::{Complex, DMatrix, DVector};
 
 use super::Explicit;
 use super::disk::Disk;
@@ -15,8 +17,11 @@ use super::oscillator::Oscillator;
 use super::rows::TipLaw;
 use crate::model::LiningLaw;
 use crate::motion::Plane;
-use crate::numeric::lyapunov::lyapunov;
-use crate::tolerances::{DIES_LOOKS, DIES_ROUNDINGS, DIES_SMALLER, LARGEST_BLADE_ANGLE};
+use crate::motion::point::{Point, Units, one_of};
+use crate::numeric::eigen::eigenvalues;
+use crate::tolerances::{
+    DIES_LOOKS, DIES_ROUNDINGS, DIES_SMALLER, DIES_STEPS, LARGEST_BLADE_ANGLE,
+};
 
 /// A row that presses: its direction, its shape in the modes of the blades, and its blades.
 #[derive(Clone, Copy, Debug)]
@@ -37,36 +42,6 @@ struct Step<'a> {
     turn: f64,
 }
 
-/// Casing, its increment, blades and theirs, in the frame of the blades.
-#[derive(Clone, Copy, Debug, Default)]
-struct State {
-    z: Plane,
-    dz: Plane,
-    a: Plane,
-    da: Plane,
-}
-
-/// The units of the four parts of a state, so that all are of one size.
-#[derive(Clone, Copy, Debug)]
-struct Units([f64; 4]);
-
-impl Units {
-    fn states(&self, state: &State, size: usize) -> DVector<f64> {
-        let parts = [state.z, state.dz, state.a, state.da];
-        let each =
-            parts.iter().zip(self.0).flat_map(|(part, unit)| [part.re, part.im].map(|x| x / unit));
-        DVector::from_iterator(size, each.take(size))
-    }
-
-    fn state(&self, x: &DVector<f64>) -> State {
-        let at = |part: usize| {
-            let place = |k: usize| x.get(2 * part + k).copied().unwrap_or(0.0);
-            Plane::new(place(0), place(1)) * self.0[part]
-        };
-        State { z: at(0), dz: at(1), a: at(2), da: at(3) }
-    }
-}
-
 impl Step<'_> {
     /// Push of a row at rest \[N\].
     fn preload(&self, row: &Pressed) -> f64 {
@@ -75,13 +50,13 @@ impl Step<'_> {
     }
 
     /// How much a row is pressed in beyond rest, to first order \[m\].
-    fn pressed(&self, row: &Pressed, state: &State) -> f64 {
+    fn pressed(&self, row: &Pressed, state: &Point) -> f64 {
         let angle = (state.a * row.shape.conj()).re;
         self.tips.rise * angle - (state.z * row.normal.conj()).re
     }
 
     /// Force on the casing and torque on the blades, to first order.
-    fn pushes(&self, state: &State) -> (Plane, Plane) {
+    fn pushes(&self, state: &Point) -> (Plane, Plane) {
         let TipLaw { diameters, pushed, .. } = self.tips;
         let (mut force, mut torque) = (Plane::default(), Plane::default());
         for row in self.rows {
@@ -96,7 +71,7 @@ impl Step<'_> {
     }
 
     /// What one step adds, to first order, without losing digits of a short step.
-    fn change(&self, state: &State) -> State {
+    fn change(&self, state: &Point) -> Point {
         let (force, torque) = self.pushes(state);
         let half = (0.5 * self.turn).sin();
         // exp(-i turn) - 1
@@ -109,45 +84,79 @@ impl Step<'_> {
             torque * blades.compliance - state.a * blades.pull - state.da * blades.loss
         });
         let a = if self.blades.is_some() { state.da + da } else { Plane::default() };
-        State { z, dz, a, da }
+        Point { z, dz, a, da }
     }
 }
 
-/// What is known for good of a wave on a lining at one speed.
+/// A motion of the linear step that turns and dies by itself.
 #[derive(Clone, Debug)]
-pub(super) struct Dies {
-    units: Units,
-    bound: DMatrix<f64>,
-    /// The largest wave, by `sqrt(x^T Q x)`, that dies for certain.
-    largest: f64,
+struct Part {
+    /// The rate at which it dies, 0 within the round-off of a step \[1/s\].
+    rate: f64,
+    /// Its size in a state is the size of the product with this.
+    of: DVector<Complex<f64>>,
+    /// What it presses a blade at most \[m\], and the sizes of `z`, `dz` and `a`, by its own.
+    pressed: f64,
+    sizes: [f64; 3],
+}
+
+impl Part {
+    /// Its size in a state.
+    fn size(&self, x: &DVector<f64>) -> f64 {
+        let (x, of) = (x.iter(), self.of.iter());
+        x.zip(of).map(|(x, of)| of.conj() * *x).sum::<Complex<f64>>().norm()
+    }
 }
 
 /// What is known of the linear motion about rest.
 #[derive(Clone, Debug)]
 pub(super) struct Rest {
-    dies: Option<Dies>,
+    units: Units,
+    /// The motions of which a wave is a sum, and those of them that a lining feels.
+    parts: Vec<Part>,
+    felt: Vec<Part>,
+    /// The largest wave, as a sum of sizes, that dies for certain.
+    largest: f64,
     /// The rate at which the slowest wave dies, of those that move the tips in the lining;
     /// negative where it grows, 0 where it does neither beyond round-off \[1/s\].
     pub rate: f64,
     /// A wave up to here leaves all pushes linear in the gaps \[m\].
-    pub room: f64,
+    room: f64,
 }
 
 impl<B: Disk> Explicit<B> {
     /// Whether every wave to come dies: all blades press a lining and stay so.
     pub(super) fn dies(&self) -> bool {
-        let Some(dies) = self.rest().and_then(|rest| rest.dies.as_ref()) else { return false };
-        let Some(modes) = self.blades.held_modes() else { return false };
+        self.rest().is_some_and(|rest| self.wave(rest).is_some_and(|wave| wave < rest.largest))
+    }
+
+    /// Whether the wave leaves all pushes linear from now on, or `after` it went on \[s\] as if
+    /// they were; none where the motion about rest is not known.
+    pub(super) fn stays_linear(&self, after: f64) -> Option<bool> {
+        let (rest, x) = (self.rest()?, self.wave_state()?);
+        let x = rest.units.states(&x, UNKNOWNS);
+        let part = |part: &Part| part.size(&x) * part.pressed * (-part.rate * after).exp();
+        Some(rest.felt.iter().map(part).sum::<f64>() < rest.room)
+    }
+
+    /// The wave now, as a sum of sizes.
+    fn wave(&self, rest: &Rest) -> Option<f64> {
+        let x = rest.units.states(&self.wave_state()?, UNKNOWNS);
+        Some(rest.parts.iter().map(|part| part.size(&x)).sum())
+    }
+
+    /// The wave now, in the frame of the blades.
+    fn wave_state(&self) -> Option<Point> {
+        let modes = self.blades.held_modes()?;
         let (c, s) = self.drive.look_at_turn(self.n);
         let back = Plane::new(c, -s);
         let [[x, y], [a, b]] = [self.u, modes.modes];
-        let state = State {
+        Some(Point {
             z: Plane::new(x.x, y.x) * back,
             dz: Plane::new(x.increment, y.increment) * back,
             a: Plane::new(a.x, b.x),
             da: Plane::new(a.increment, b.increment),
-        };
-        dies.holds(&state)
+        })
     }
 
     /// The linear motion about rest, where all blades press a lining at constant speed and
@@ -180,116 +189,100 @@ impl<B: Disk> Explicit<B> {
             rows: &rows,
             turn: machine.nu(self.drive.speed(self.n)) * self.drive.step,
         };
-        let tip_speed = self.tip_speed();
-        let rate = machine.omega_c.max(machine.omega_bd);
-        Rest::of(
-            &step,
-            self.drive.step,
-            rate,
-            machine.blade_length,
-            [machine.tangential_ratio, tip_speed],
-        )
+        let turn = machine.omega_c.max(machine.omega_bd) * self.drive.step;
+        let units = Units::of(-self.tips.clearance, machine.blade_length, turn);
+        Rest::of(&step, self.drive.step, units, [machine.tangential_ratio, self.tip_speed()])
     }
 }
 
 impl Rest {
-    /// Of steps this long \[s\] with this rate of the motion \[rad/s\]; `outrun` are the
-    /// casing's way along the tips by its own, and the speed of these \[m/s\].
-    fn of(step: &Step<'_>, length: f64, rate: f64, blade: f64, outrun: [f64; 2]) -> Option<Self> {
+    /// Of steps this long \[s\], in these units; `outrun` are the casing's way along the tips by
+    /// its own, and the speed of these \[m/s\].
+    fn of(step: &Step<'_>, length: f64, units: Units, outrun: [f64; 2]) -> Option<Self> {
         let Step { tips, law, rows, .. } = *step;
         let room = -tips.clearance - law.smoothing_m;
         let has_corners = rows.len() >= 3;
-        if room <= 0.0 || !has_corners || !is_even(rows) {
+        // Where the rotor stands, waves of both senses are one motion.
+        if room <= 0.0 || !has_corners || !is_even(rows) || step.turn == 0.0 {
             return None;
         }
-        let size = if step.blades.is_some() { 8 } else { 4 };
-        let (unit, turned) = (-tips.clearance, -tips.clearance / blade);
-        let units = Units([unit, unit * length * rate, turned, turned * length * rate]);
-        let mut matrix = DMatrix::zeros(size, size);
-        for k in 0..size {
-            let at = units.state(&DVector::from_fn(size, |n, _| f64::from(u8::from(n == k))));
-            matrix.set_column(k, &units.states(&step.change(&at), size));
-        }
-        let dies = Dies::of(step, &matrix, units, [length, rate], outrun);
-        let dies = dies.filter(|_| decay_rate(&matrix, length) > 0.0);
+        let size = if step.blades.is_some() { UNKNOWNS } else { UNKNOWNS / 2 };
+        let column = |k| units.states(&step.change(&units.point(&one_of(size, k))), size);
+        let matrix = DMatrix::from_columns(&(0..size).map(column).collect::<Vec<_>>());
+        let parts = step.parts(&matrix, &units, length)?;
         // A lining does not feel the blades of tips without a slope, to first order.
-        let felt = if tips.rise == 0.0 { 4 } else { size };
-        let rate = decay_rate(&matrix.view((0, 0), (felt, felt)).into_owned(), length);
-        Some(Self { dies, rate, room })
+        let felt = match tips.rise == 0.0 && size == UNKNOWNS {
+            true => step.parts(&matrix.view((0, 0), (4, 4)).into_owned(), &units, length)?,
+            false => parts.clone(),
+        };
+        let largest = step.largest(&parts, &units, length, outrun).unwrap_or(0.0);
+        Some(Self { units, parts, largest, rate: slowest(&felt), felt, room })
     }
 }
 
-/// The rate at which the slowest state of a step `1 + change` of this length \[s\] dies, 0
-/// within its round-off \[1/s\].
-fn decay_rate(change: &DMatrix<f64>, length: f64) -> f64 {
-    let grows = |root: &Complex<f64>| 2.0 * root.re + root.norm_sqr();
-    let roots = change.clone().complex_eigenvalues();
-    let most = roots.iter().map(grows).fold(f64::NEG_INFINITY, f64::max);
-    let beyond = most.abs() > DIES_ROUNDINGS * f64::EPSILON;
-    if beyond { -0.5 * most.ln_1p() / length } else { 0.0 }
+/// The numbers of a state: casing, its increment, blades and theirs, each in two directions.
+const UNKNOWNS: usize = 8;
+
+/// The rate at which the slowest of these motions dies \[1/s\].
+fn slowest(parts: &[Part]) -> f64 {
+    parts.iter().map(|part| part.rate).fold(f64::INFINITY, f64::min)
 }
 
-impl Dies {
-    /// Of a wave under these steps, `matrix` less one, of a length \[s\] and with this rate of
-    /// the motion \[rad/s\].
-    fn of(
-        step: &Step<'_>,
-        matrix: &DMatrix<f64>,
-        units: Units,
-        [length, rate]: [f64; 2],
-        outrun: [f64; 2],
-    ) -> Option<Self> {
-        let Step { tips, law, rows, .. } = *step;
-        let (size, room) = (matrix.nrows(), -tips.clearance - law.smoothing_m);
-        // With M = 2/(h rate) D (2 + D)^-1, each step takes h rate/4 |(2 + D) x|^2 of x^T Q x.
-        let two = DMatrix::<f64>::identity(size, size) * 2.0;
-        let across = (&two + matrix).try_inverse()?;
-        let bound = lyapunov(&(matrix * across * (2.0 / (length * rate))))?;
-        let inverse = bound.clone().cholesky()?.inverse();
-        let steepest = SymmetricEigen::new(bound.clone()).eigenvalues.max();
-        let kept = (2.0 - matrix.norm()).max(0.0);
-        let shrinks = 0.125 * length * rate * kept * kept / steepest;
+impl Step<'_> {
+    /// The motions of a step `1 + change` of this length \[s\].
+    fn parts(&self, change: &DMatrix<f64>, units: &Units, length: f64) -> Option<Vec<Part>> {
+        let size = change.nrows();
+        let part = |root: Complex<f64>| {
+            let grows = 2.0 * root.re + root.norm_sqr();
+            let beyond = grows.abs() > DIES_ROUNDINGS * f64::EPSILON;
+            let from = change.map(Complex::from) - DMatrix::identity(size, size) * root;
+            let svd = from.try_svd(true, true, f64::EPSILON, DIES_STEPS)?;
+            let of = svd.u?.column(size - 1).into_owned();
+            let shape = svd.v_t?.row(size - 1).adjoint();
+            let [re, im] = [shape.map(|x| x.re), shape.map(|x| x.im)].map(|x| units.point(&x));
+            let pressed = |row| self.pressed(row, &re).hypot(self.pressed(row, &im));
+            let sizes = [(re.z, im.z), (re.dz, im.dz), (re.a, im.a)];
+            Some(Part {
+                rate: if beyond { -0.5 * grows.ln_1p() / length } else { 0.0 },
+                pressed: self.rows.iter().map(pressed).fold(0.0, f64::max),
+                sizes: sizes.map(|(re, im)| re.norm().hypot(im.norm())),
+                of: &of / Complex::from(of.dotc(&shape).norm()),
+            })
+        };
+        eigenvalues(change.clone())?.into_iter().map(part).collect()
+    }
+
+    /// The largest sum of sizes of these motions that dies for certain, of steps of this length
+    /// \[s\]; `outrun` as in `Rest::of`.
+    fn largest(&self, parts: &[Part], units: &Units, length: f64, outrun: [f64; 2]) -> Option<f64> {
+        let Step { tips, law, rows, .. } = *self;
+        let room = -tips.clearance - law.smoothing_m;
+        let shrinks = -(-slowest(parts) * length).exp_m1();
         // Without damping the step keeps a wave, but for the round-off of its map.
-        let uneven = steepest * SymmetricEigen::new(inverse.clone()).eigenvalues.max();
+        let uneven: f64 = parts.iter().map(|part| part.of.norm()).sum();
         if shrinks.is_nan() || shrinks <= DIES_ROUNDINGS * f64::EPSILON * uneven {
             return None;
         }
-        let per_unit = |row: &DVector<f64>| row.dot(&(&inverse * row)).max(0.0).sqrt();
-        // The largest of one part of the state in a wave of unit size.
-        let part = |place: usize| {
-            let both = [0, 1].map(|k| {
-                let at = DVector::from_fn(size, |n, _| f64::from(u8::from(n == 2 * place + k)));
-                per_unit(&at)
-            });
-            if 2 * place < size { units.0[place] * both[0].hypot(both[1]) } else { 0.0 }
-        };
-        let [z, dz, a] = [part(0), part(1), part(2)];
-        let more = |row: &Pressed| {
-            let each = |n: usize| {
-                let at = units.state(&DVector::from_fn(size, |k, _| f64::from(u8::from(n == k))));
-                step.pressed(row, &at)
-            };
-            per_unit(&DVector::from_fn(size, |n, _| each(n)))
-        };
-        let pressed = rows.iter().map(more).fold(0.0, f64::max);
-        // The size of what a unit of force, or torque, adds to a state.
-        let added = |place: usize, compliance: f64| {
-            let along = [Plane::new(1.0, 0.0), Plane::i()].map(|one| {
-                let mut state = State::default();
-                match place {
-                    0 => (state.z, state.dz) = (one * compliance, one * compliance),
-                    _ => (state.a, state.da) = (one * compliance, one * compliance),
-                }
-                let x = units.states(&state, size);
-                x.dot(&(&bound * &x)).max(0.0).sqrt()
-            });
-            along[0].hypot(along[1])
-        };
-        let felt = [
-            added(0, step.casing.compliance) * Plane::new(1.0, tips.casing_friction).norm(),
-            step.blades.map_or(0.0, |blades| added(2, blades.compliance)),
+        let most = |of: fn(&Part) -> f64| parts.iter().map(of).fold(0.0, f64::max);
+        let [z, dz, a, pressed] = [
+            most(|part| part.sizes[0]),
+            most(|part| part.sizes[1]),
+            most(|part| part.sizes[2]),
+            most(|part| part.pressed),
         ];
-        let rest: f64 = rows.iter().map(|row| step.preload(row)).sum();
+        // What a unit of force, or of torque, adds to the sum.
+        let added = |state: fn(Plane) -> Point, compliance: f64| -> f64 {
+            let along = [Plane::new(compliance, 0.0), Plane::i() * compliance]
+                .map(|one| units.states(&state(one), UNKNOWNS));
+            parts.iter().map(|part| part.size(&along[0]).hypot(part.size(&along[1]))).sum()
+        };
+        let casing = |one| Point { z: one, dz: one, ..Point::default() };
+        let blades = |one| Point { a: one, da: one, ..Point::default() };
+        let felt = [
+            added(casing, self.casing.compliance) * Plane::new(1.0, tips.casing_friction).norm(),
+            self.blades.map_or(0.0, |of| added(blades, of.compliance)),
+        ];
+        let rest: f64 = rows.iter().map(|row| self.preload(row)).sum();
         let stiffness: f64 = rows.iter().map(|row| row.blades * law.stiffness_n_per_m).sum();
         // What is left out of the pushes of a wave of this size, and whether all of it holds.
         let holds = |wave: f64| {
@@ -306,14 +299,7 @@ impl Dies {
                 && felt[0] * force + felt[1] * torque < shrinks * wave
         };
         let mut sizes = (0..DIES_LOOKS).map(|k| room / pressed * DIES_SMALLER.powi(k));
-        let largest = sizes.find(|&wave| holds(wave))?;
-        Some(Self { units, bound, largest })
-    }
-
-    /// Whether a wave in this state dies.
-    fn holds(&self, state: &State) -> bool {
-        let x = self.units.states(state, self.bound.nrows());
-        x.dot(&(&self.bound * &x)) < self.largest * self.largest
+        sizes.find(|&wave| holds(wave))
     }
 }
 
@@ -400,18 +386,8 @@ mod tests {
     impl<B: Disk> Explicit<B> {
         /// The wave now, as a part of the largest that dies.
         fn size_of_wave(&self) -> Option<f64> {
-            let dies = self.lining.as_ref()?.rest.get()?.as_ref()?.dies.clone()?;
-            let modes = self.blades.held_modes()?.modes;
-            let (c, s) = self.drive.look_at_turn(self.n);
-            let back = Plane::new(c, -s);
-            let state = State {
-                z: Plane::new(self.u[0].x, self.u[1].x) * back,
-                dz: Plane::new(self.u[0].increment, self.u[1].increment) * back,
-                a: Plane::new(modes[0].x, modes[1].x),
-                da: Plane::new(modes[0].increment, modes[1].increment),
-            };
-            let x = dies.units.states(&state, dies.bound.nrows());
-            Some(x.dot(&(&dies.bound * &x)).sqrt() / dies.largest)
+            let rest = self.rest()?;
+            Some(self.wave(rest)? / rest.largest)
         }
     }
 
@@ -420,6 +396,35 @@ mod tests {
         let (modal, rigid) =
             (proved::<ModalBlades>(500, "modal"), proved::<RigidBlades>(60, "rigid"));
         assert!(modal > 120 && rigid > 15, "{modal} {rigid}");
+    }
+
+    #[test]
+    fn no_beat_of_a_linear_motion_is_above_the_sum_of_its_parts() {
+        for (blades, disk, friction) in [("12", "1e-7", "0"), ("22", "1e-3", "0.2")] {
+            let scene = Scene::builtin("coincidence").unwrap().with(&[
+                ("bladed_disk.blades", blades),
+                ("bladed_disk.damping_ratio", disk),
+                ("casing.damping_ratio", "1e-7"),
+                ("casing.radius_m", "0.499898"),
+                ("contact.smoothing_m", "1e-8"),
+                ("contact.friction", friction),
+                ("operation.speed_rad_s", "300"),
+                ("operation.pulse_n", "20"),
+            ]);
+            let mut motion = after::<ModalBlades>(&scene.unwrap(), 1e-3);
+            let rest = motion.rest().unwrap().clone();
+            let x = rest.units.states(&motion.wave_state().unwrap(), UNKNOWNS);
+            let sum: f64 = rest.felt.iter().map(|part| part.size(&x) * part.pressed).sum();
+            let clearance = motion.machine.clearance();
+            let mut largest = 0.0_f64;
+            for k in 0..100_000 {
+                motion.advance(1e-3 + 5e-6 * f64::from(k)).unwrap();
+                let gaps = motion.blade_gaps();
+                largest = gaps.iter().fold(largest, |most, gap| most.max((gap - clearance).abs()));
+            }
+            let part = largest / sum;
+            assert!(0.9 < part && part < 1.002, "{blades} {part}");
+        }
     }
 
     /// The motion of a scene at an instant.

@@ -1,7 +1,6 @@
 //! How a motion beyond the paper lasts: what the verdict needs of the last part of the
 //! run, kept as it goes (docs/theory.md, section 10).
 
-use super::dies::Rest;
 use crate::motion::verdict::Trend;
 use crate::motion::{ActiveSet, ContactLog, Plane, Verdict};
 use crate::tolerances::{
@@ -159,16 +158,16 @@ impl Lasting {
     }
 
     /// The verdict over the last `window` seconds, of a machine with this clearance and
-    /// surface. Where its motion about rest is linear and known, the rate of that
-    /// decides, whatever the wave did in so short a time.
-    pub fn verdict<'a>(
+    /// surface. Where its motion about rest is linear and known, that decides by `comes_to_rest`,
+    /// whatever the wave did in so short a time.
+    pub fn verdict(
         &self,
         log: &ContactLog,
         now: f64,
         window: f64,
         clearance: f64,
         surface: Surface,
-        rest: impl FnOnce() -> Option<&'a Rest>,
+        comes_to_rest: impl FnOnce() -> Option<bool>,
     ) -> Verdict {
         let Surface { lining, uneven_tips, lobes_rub } = surface;
         let start = now - window;
@@ -203,13 +202,8 @@ impl Lasting {
             return Verdict::Decay;
         }
         if lining && lasted(self.all_since) {
-            let moves = self.moves(size);
-            let dies = match rest().filter(|_| moves) {
-                Some(rest) if rest.rate <= 0.0 => false,
-                Some(rest) => dies || self.largest_wave() < rest.room,
-                None => dies,
-            };
-            match (dies, whirls) {
+            let known = if self.moves(size) { comes_to_rest() } else { None };
+            match (known.unwrap_or(dies), whirls) {
                 // Longer tips drag the wave round with the rotor.
                 (true, _) if uneven_tips && stretch.centre() > WAVE_AT_REST * size => {
                     Verdict::Forced

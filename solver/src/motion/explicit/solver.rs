@@ -114,12 +114,16 @@ impl<B: Disk> Solver for Explicit<B> {
             uneven_tips: self.machine.has_unequal_tips(),
             lobes_rub: lining && self.machine.out_of_round() > clearance.abs(),
         };
-        let verdict = lasting.verdict(log, now, window, clearance, surface, || self.rest());
+        // A beat that lifts blades must be over within another run.
+        let rests = || Some(self.rest()?.rate > 0.0 && self.stays_linear(now)?);
+        let verdict = lasting.verdict(log, now, window, clearance, surface, rests);
         verdict.unless_forced(&self.machine, log, now - window)
     }
 
     fn linear_rest(&self) -> Option<LinearRest> {
-        let (rest, since_s) = (self.rest()?, self.beyond.lasting.all_since()?);
+        let linear = || self.dies() || self.stays_linear(0.0) == Some(true);
+        let rest = self.rest().filter(|_| linear())?;
+        let since_s = self.beyond.lasting.all_since()?;
         Some(LinearRest { rate_per_s: rest.rate, since_s })
     }
 

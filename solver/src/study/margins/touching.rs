@@ -173,8 +173,14 @@ pub(super) fn limit(scene: &CheckedScene) -> Limit {
 
 /// Why no pulse touches.
 pub(super) fn why_none(scene: &CheckedScene) -> &'static str {
-    if scene.machine().clearance() <= 0.0 {
+    let machine = scene.machine();
+    let touches = |side| machine.apothem(side) < machine.out_of_round();
+    if machine.clearance() <= 0.0 {
         "all blades touch without a pulse"
+    } else if (0..machine.polygon.sides).any(touches) {
+        "a tip touches without a pulse"
+    } else if machine.is_uneven() {
+        "of equal tips in a round casing only"
     } else if scene.casing.clearance_loss_m_s2 != 0.0 && scene.operation.speed_ramp_rad_s2 != 0.0 {
         "at a constant speed only, as the clearance changes with it"
     } else if scene.initial == Initial::default() {

@@ -139,7 +139,7 @@ fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
             plot.curve(ends, if pass { &touched } else { &outline });
         }
     }
-    let past = app.past_and_future(app.record()).0.iter();
+    let past = app.record().iter().take_while(|bin| bin.from < app.now());
     let trail = past.map(|bin| (bin.middle(Channel::RimX), bin.middle(Channel::RimY)));
     plot.curve(trail, &look.first());
     plot.ink();
@@ -259,6 +259,6 @@ fn blade_read(app: &App, x: ChartAxis, y: ChartAxis, cursor: Cursor) -> Option<S
     let turn = y.at(cursor.up).atan2(x.at(cursor.across)).rem_euclid(TAU) / TAU;
     let blade = (turn * f64::from(blades)).round() as u32 % blades.max(1);
     let gap = app.gap_words(*moment.gaps.get(blade as usize)?);
-    let at = app.cursor_time().map(|_| format!(" at {}", instant(moment.state.t_s)));
+    let at = app.reading.at_s.map(|_| format!(" at {}", instant(moment.state.t_s)));
     Some(format!("blade {}: {gap}{}", blade + 1, at.unwrap_or_default()))
 }

@@ -9,7 +9,7 @@ use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
 use crate::tui::views::ViewId;
-use crate::tui::views::panel::{ViewArea, ViewPanel, csv, name_level, title};
+use crate::tui::views::panel::{ViewArea, ViewPanel, csv, name_level, names, read_before, title};
 
 /// The view.
 pub struct GapsView;
@@ -28,9 +28,10 @@ impl ViewPanel for GapsView {
     }
 
     fn csv(&self, app: &App) -> Result<String, String> {
-        let gaps = app.shown().map_or(&[][..], |moment| &moment.gaps);
-        let rows = (1..).zip(gaps).map(|(blade, gap)| [f64::from(blade), *gap]);
-        csv(&["blade", "gap_m"].map(String::from), rows)
+        let now = app.shown_now().ok_or("there is no data yet")?;
+        let t = now.state.t_s;
+        let rows = (1..).zip(&now.gaps).map(|(blade, gap)| [t, f64::from(blade), *gap]);
+        csv(&names(&["t_s", "blade", "gap_m"]), rows)
     }
 }
 
@@ -49,10 +50,8 @@ fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let style = if active_set.is_empty() { quiet } else { contact };
     let mut legend =
         vec![(format!("{}m by blade", y.scale.prefix), quiet), (format!("{mark} {shown}"), style)];
-    if let Some(read) = reading(app) {
-        legend.insert(0, (read, look.style(Role::Focus)));
-    }
-    let inside = title(app, buffer, at, "gaps", &legend);
+    let name = read_before(look, &mut legend, reading(app), "gaps");
+    let inside = title(app, buffer, at, name, &legend);
     let y = y.evened(inside, look);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     at.note(app, plot.inner);
@@ -102,7 +101,7 @@ fn reading(app: &App) -> Option<String> {
         let gap = moment.gaps.get(blade as usize)?;
         Some(format!("blade {}: {}", blade + 1, app.gap_words(*gap)))
     });
-    let at = app.cursor_time().map(|_| format!("at {}", instant(moment.state.t_s)));
+    let at = app.reading.at_s.map(|_| format!("at {}", instant(moment.state.t_s)));
     let parts: Vec<String> = blade.into_iter().chain(at).collect();
     (!parts.is_empty()).then(|| parts.join(" "))
 }

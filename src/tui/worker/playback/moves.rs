@@ -4,6 +4,7 @@
 
 use std::time::{Duration, Instant};
 
+use crate::tui::engine::Order;
 use crate::tui::trace::Marks;
 use crate::tui::worker::full_run::SLICE;
 use crate::tui::worker::jump::{met, next_change};
@@ -18,6 +19,21 @@ const JUMP_SAMPLES: f64 = 20_000.0;
 pub(super) const JUMP_LIMIT: Duration = Duration::from_secs(1);
 
 impl Playback {
+    /// Makes the steps and jumps that are asked for since an order, once it has arrived.
+    pub(super) fn owe(&mut self, before: &Order) {
+        let Self { order, owed: [steps, jumps], .. } = self;
+        *steps += order.steps.saturating_sub(before.steps).min(1000);
+        *jumps += order.jumps.saturating_sub(before.jumps).min(10);
+        self.met.0 = before.jumps;
+        if self.going.is_some() {
+            return;
+        }
+        let [steps, jumps] = std::mem::take(&mut self.owed);
+        (0..steps).for_each(|_| self.step());
+        (0..jumps).for_each(|_| self.jump());
+        self.met.0 = self.order.jumps;
+    }
+
     /// Takes one time step, or one sample of a solver without steps.
     pub(super) fn step(&mut self) {
         let step = match self.motion.steps() {
@@ -89,6 +105,7 @@ impl Playback {
             theirs.go_to(until);
         }
         self.play_comparison(self.time_limit);
+        self.owe(&self.order.clone());
         self.want_page();
         true
     }
@@ -134,9 +151,9 @@ impl Playback {
         let theirs = self.comparison.as_mut().map(|theirs| &mut theirs.page);
         let mut pages = std::iter::once(&mut self.page).chain(theirs);
         let Some(page) = pages.find(|page| !page.is_done()) else { return false };
-        // The page is another one after arriving.
-        let first =
-            self.going.is_none() && self.forecasts.wall().is_none_or(|wall| page.wall() <= wall);
+        // The page is another one after arriving. One of the whole run has a third of the time.
+        let first = self.going.is_none()
+            && self.forecasts.wall().is_none_or(|wall| 2 * page.wall() <= wall);
         if first {
             page.compute();
         }

@@ -6,9 +6,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::parameters::{Parameters, Point};
+use super::parameters::Parameters;
 use super::stretch::Held;
 use crate::motion::Plane;
+use crate::motion::point::{Point, Units, one_of};
 use crate::numeric::lyapunov::lyapunov;
 use crate::tolerances::{CERTAIN_PUSH, LARGEST_BLADE_ANGLE};
 
@@ -17,72 +18,34 @@ use crate::tolerances::{CERTAIN_PUSH, LARGEST_BLADE_ANGLE};
 pub(super) struct Rest {
     /// The equilibrium.
     point: Point,
-    /// `Q`, in the scaled states of `Scales`.
+    /// `Q`, in states of `units`.
     bound: DMatrix<f64>,
     /// What each push and gap has in hand, and how much of it a unit of
     /// `sqrt(x^T Q x)` may take.
     rooms: Vec<(f64, f64)>,
 }
 
-/// The units that make all states of one size.
-struct Scales {
-    z: f64,
-    a: f64,
-    rate: f64,
-}
-
-impl Scales {
-    fn of(parameters: &Parameters) -> Self {
-        let g0 = parameters.clearance();
-        Self { z: g0, a: g0 / parameters.machine.blade_length, rate: parameters.rates() }
-    }
-
-    fn states(&self, point: &Point, size: usize) -> DVector<f64> {
-        let Point { z, dz, a, da } = point;
-        let all = [
-            z.re / self.z,
-            z.im / self.z,
-            dz.re / self.z / self.rate,
-            dz.im / self.z / self.rate,
-            a.re / self.a,
-            a.im / self.a,
-            da.re / self.a / self.rate,
-            da.im / self.a / self.rate,
-        ];
-        DVector::from_iterator(size, all.into_iter().take(size))
-    }
-
-    fn point(&self, x: &DVector<f64>) -> Point {
-        let at = |n: usize| x.get(n).copied().unwrap_or(0.0);
-        Point {
-            z: Plane::new(at(0), at(1)) * self.z,
-            dz: Plane::new(at(2), at(3)) * (self.z * self.rate),
-            a: Plane::new(at(4), at(5)) * self.a,
-            da: Plane::new(at(6), at(7)) * (self.a * self.rate),
-        }
-    }
+/// The units of the states.
+fn units(parameters: &Parameters) -> Units {
+    Units::of(parameters.clearance(), parameters.machine.blade_length, parameters.rates())
 }
 
 impl Rest {
     /// Of the motion that holds these rows; none where it has no equilibrium that it
     /// comes to, or one that would not hold.
     pub(super) fn of(parameters: &Parameters, held: &Held) -> Option<Self> {
-        let scales = Scales::of(parameters);
+        let (units, rate) = (units(parameters), parameters.rates());
         // Where the tips have no slope, nothing of the blades comes back.
         let size = if parameters.arm() == 0.0 { 4 } else { 8 };
         let none = Point::default();
-        let offset = scales.states(&slope(parameters, held, &none, 1.0).0, size) / scales.rate;
-        let mut matrix = DMatrix::zeros(size, size);
-        let unit = |n: usize| DVector::from_fn(size, |k, _| if k == n { 1.0 } else { 0.0 });
-        for n in 0..size {
-            let at = scales.point(&unit(n));
-            let change = slope(parameters, held, &at, 0.0).0;
-            matrix.set_column(n, &(scales.states(&change, size) / scales.rate));
-        }
+        let offset = units.states(&slope(parameters, held, &none, 1.0).0, size) / rate;
+        let unit = |n: usize| units.point(&one_of(size, n));
+        let change = |n| units.states(&slope(parameters, held, &unit(n), 0.0).0, size) / rate;
+        let matrix = DMatrix::from_columns(&(0..size).map(change).collect::<Vec<_>>());
         let states = matrix.clone().lu().solve(&-offset)?;
         let bound = lyapunov(&matrix)?;
         let inverse = bound.clone().cholesky()?.inverse();
-        let mut point = scales.point(&states);
+        let mut point = units.point(&states);
         if size == 4 {
             point.a = resting_blades(parameters, held, &point);
         }
@@ -90,22 +53,20 @@ impl Rest {
         let pushes = slope(parameters, held, &point, 1.0).1;
         let mut rooms = Vec::new();
         for (k, &push) in pushes.iter().take(held.rows.len()).enumerate() {
-            let row = DVector::from_fn(size, |n, _| {
-                slope(parameters, held, &scales.point(&unit(n)), 0.0).1[k]
-            });
+            let row = DVector::from_fn(size, |n, _| slope(parameters, held, &unit(n), 0.0).1[k]);
             rooms.push((push, per_unit(&row)));
         }
         // A wave held in a corner of the polygon is away from all other sides.
         let fixed = held.rows.len() == 2;
         for row in (0..parameters.rows.len()).filter(|row| !fixed && !held.rows.contains(row)) {
             let along = DVector::from_fn(size, |n, _| {
-                let at = scales.point(&unit(n));
+                let at = unit(n);
                 parameters.along(row, at.z, at.a)
             });
             rooms.push((parameters.gap(row, &point), per_unit(&along)));
         }
         let bent = parameters.largest_angle(point.a);
-        let turn = DVector::from_fn(size, |n, _| if n == 4 || n == 5 { scales.a } else { 0.0 });
+        let turn = DVector::from_fn(size, |n, _| unit(n).a.norm());
         rooms.push((LARGEST_BLADE_ANGLE - bent, 2.0 * per_unit(&turn)));
         let machine = &parameters.machine;
         let least = CERTAIN_PUSH * machine.push_scale(parameters.nu) / machine.casing_mass;
@@ -122,7 +83,7 @@ impl Rest {
             a: point.a - self.point.a,
             da: point.da,
         };
-        let x = Scales::of(parameters).states(&left, self.bound.nrows());
+        let x = units(parameters).states(&left, self.bound.nrows());
         let size = x.dot(&(&self.bound * &x)).max(0.0).sqrt();
         self.rooms.iter().all(|&(room, share)| share * size < room)
     }
@@ -184,7 +145,7 @@ mod tests {
                 let x = DVector::from_fn(size, |_, _| random.f64() - 0.5);
                 let part =
                     0.05 * f64::from(turn % 80) * largest / x.dot(&(&rest.bound * &x)).sqrt();
-                let left = Scales::of(&parameters).point(&(x * part));
+                let left = units(&parameters).point(&(x * part));
                 let point = Point {
                     z: rest.point.z + left.z,
                     dz: left.dz,

@@ -8,8 +8,9 @@
 use std::f64::consts::TAU;
 
 use super::LinearEvents;
-use super::parameters::{Parameters, Point, size};
+use super::parameters::{Parameters, size};
 use super::stretch::{Held, Stretch};
+use crate::motion::point::Point;
 use crate::motion::propagator::damped;
 use crate::motion::verdict::Trend;
 use crate::motion::{FailureReason, Plane};

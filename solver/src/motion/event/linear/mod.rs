@@ -33,8 +33,9 @@ use crate::scene::CheckedScene;
 use crate::tolerances::{EVENT_RANGE, LOOKS_UNASKED, ON_A_SIDE};
 use decided::Rest;
 
+use crate::motion::point::Point;
 use energy::{Energies, Swings};
-use parameters::{Parameters, Point};
+use parameters::Parameters;
 
 use stretch::{Ending, Held, OpenedGap, Stretch};
 

@@ -12,6 +12,7 @@
 
 use crate::model::Machine;
 use crate::motion::Plane;
+use crate::motion::point::Point;
 use crate::motion::propagator::Propagator;
 use crate::scene::{ModelSize, Scene};
 use crate::tolerances;
@@ -29,17 +30,6 @@ pub(super) struct Blades {
     pub moment: f64,
     /// That over the mass ratio \[1/m\].
     pub lever: f64,
-}
-
-/// Place and rates in the frame of the blades.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Point {
-    /// `z` \[m\] and `z'` \[m/s\].
-    pub z: Plane,
-    pub dz: Plane,
-    /// `a` \[rad\] and `a'` \[rad/s\].
-    pub a: Plane,
-    pub da: Plane,
 }
 
 /// The machine at one speed.

@@ -6,11 +6,12 @@
 //! Order by order the pushes are those that keep the held gaps closed: with `c_j` the
 //! row of a gap, `c_j (free acceleration) + sum W_jk Q_k = 0`.
 
-use super::parameters::{Parameters, Point, along};
+use super::parameters::{Parameters, along};
 use crate::motion::Plane;
 use crate::motion::event::series::{
     STRETCH, TERMS, Terms, curved_step, ended, gap, jounce, values,
 };
+use crate::motion::point::Point;
 use crate::motion::propagator::Propagator;
 use crate::numeric::elimination::{Square, inverse};
 use crate::tolerances::{EVENT, MOST_HALVINGS, MOST_HELD, PEAK_LOOKS, ROUND_OFF};

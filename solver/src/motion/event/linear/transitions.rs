@@ -9,8 +9,9 @@
 use std::f64::consts::TAU;
 
 use super::LinearEvents;
-use super::parameters::{Point, size};
+use super::parameters::size;
 use super::stretch::{Ending, Held, OpenedGap, Stretch, seek};
+use crate::motion::point::Point;
 use crate::motion::{ActiveSet, FailureReason, Plane};
 use crate::numeric::elimination::inverse;
 use crate::tolerances::{
