@@ -46,8 +46,7 @@ fn answers(place: usize, lesson: &Lesson) -> String {
     let steps = (1..).zip(&lesson.steps);
     let of = |(number, step): (usize, &LessonStep)| {
         let (right, reason) = (step.right?, step.reason.as_deref()?);
-        let equation = step.equation.as_ref().map_or(String::new(), |text| format!(" `{text}`"));
-        Some(wrapped(&format!("- **{}.{number}: {right}.** {reason}{equation}", place + 1), "  "))
+        Some(wrapped(&format!("- **{}.{number}: {right}.** {reason}", place + 1), "  "))
     };
     steps.filter_map(of).collect()
 }
