@@ -105,6 +105,16 @@ async def check():
     assert " attach -r " in class_line and " attach -r " not in teacher_line
     teacher = await page(serve(teacher_line))
     port = serve(class_line)
+    few = serve(class_line.replace(" -- ", " --most 2 -- "))
+    watching = [await page(few), await page(few)]
+    for opened in watching:
+        await shows(opened, "LOCKED")
+    third = await page(few)
+    assert await asyncio.wait_for(third.read_message(), 60) is None, "a third page was let in"
+    assert "2 pages are open" in third.close_reason, third.close_reason
+    watching.pop().close()
+    await asyncio.sleep(1)
+    await shows(await page(few), "LOCKED")
     # Each of the two locks holds alone.
     only_server = serve(class_line.replace(" -r ", " "))
     only_tmux = serve(class_line.replace(" -- ", " --write -- "))

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Shows a terminal program in a browser.
 
-    serve.py PORT [--write] -- COMMAND [ARGUMENT...]
+    serve.py PORT [--write] [--most COUNT] -- COMMAND [ARGUMENT...]
 
 Listens on 127.0.0.1 only. Without --write nothing typed in the browser is
-passed on. Needs terminado from PyPI, and xterm.js from npm in the folder where
+passed on. At most 40 pages, or COUNT, are open at once; others are told so. Needs terminado from PyPI, and xterm.js from npm in the folder where
 it is started: npm install @xterm/xterm @xterm/addon-fit
 """
 import json
@@ -30,7 +30,7 @@ socket.onmessage = (event) => {
   const [kind, text] = JSON.parse(event.data);
   if (kind === "stdout") term.write(text);
 };
-socket.onclose = () => term.write("\\r\\n[the session has ended]");
+socket.onclose = (event) => term.write(`\\r\\n[${event.reason || "the session has ended"}]`);
 term.onData((text) => send("stdin", text));
 term.onResize(({ rows, cols }) => send("set_size", rows, cols));
 window.onresize = () => fit.fit();
@@ -45,8 +45,14 @@ class Page(tornado.web.RequestHandler):
 class Socket(terminado.TermSocket):
     """Tornado refuses the socket to pages from elsewhere."""
 
+    def open(self, *arguments):
+        try:
+            super().open(*arguments)
+        except terminado.management.MaxTerminalsReached:
+            self.close(1013, f"{most} pages are open, and no more are allowed")
+
     def on_message(self, message):
-        if write or json.loads(message)[0] == "set_size":
+        if self.terminal and (write or json.loads(message)[0] == "set_size"):
             super().on_message(message)
 
 
@@ -54,10 +60,14 @@ if "--" not in sys.argv[2:]:
     sys.exit(__doc__.strip())
 split = sys.argv.index("--")
 port, *options = sys.argv[1:split]
-write = options == ["--write"]
-if options and not write:
+write, most = "--write" in options, 40
+if write:
+    options.remove("--write")
+if options[:1] == ["--most"] and len(options) == 2 and options[1].isdecimal() and int(options[1]):
+    most, options = int(options[1]), []
+if options:
     sys.exit(__doc__.strip())
-terminals = terminado.UniqueTermManager(shell_command=sys.argv[split + 1 :])
+terminals = terminado.UniqueTermManager(max_terminals=most, shell_command=sys.argv[split + 1 :])
 handlers = [
     ("/", Page),
     ("/socket", Socket, {"term_manager": terminals}),

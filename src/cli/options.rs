@@ -42,7 +42,7 @@ pub struct SceneOptions {
           value_parser = Words::of::<SolverKind>(), hide_possible_values = true)]
     solver: Option<String>,
     /// unilateral: contact only pushes; bilateral: the paper's equality, which may pull;
-    /// smooth: a lining that gives way
+    /// smooth: an elastic lining
     #[arg(long, value_name = "LAW", help_heading = HEADING,
           value_parser = Words::of::<ContactLaw>(), hide_possible_values = true)]
     contact: Option<String>,

@@ -29,14 +29,13 @@ impl Host for NoHost {
     }
 }
 
-/// Cells of a map: all blocks of eight by eight, and some finer ones.
-const MAP_CELLS: usize = 66;
-
 /// The engine driven by hand.
 #[derive(Debug)]
 pub struct Stepwise {
     /// Motion between two snapshots \[s\].
     pub stride: f64,
+    /// Cells of a map that are computed: all blocks of eight by eight, and some finer ones.
+    pub map_cells: usize,
     order: Option<Order>,
     playback: Option<Playback>,
     fresh: bool,
@@ -45,7 +44,7 @@ pub struct Stepwise {
 impl Stepwise {
     /// Creates an engine that plays `stride` seconds of motion between two snapshots.
     pub fn new(stride: f64) -> Self {
-        Self { stride, order: None, playback: None, fresh: false }
+        Self { stride, map_cells: 66, order: None, playback: None, fresh: false }
     }
 }
 
@@ -59,7 +58,7 @@ impl Engine for Stepwise {
         let order = self.order.as_ref()?;
         let start = || Playback::with_time_limit(order.clone(), Duration::MAX);
         let playback = self.playback.get_or_insert_with(start);
-        playback.bound_maps(MAP_CELLS);
+        playback.bound_maps(self.map_cells);
         playback.apply(order);
         while playback.is_computing() {
             playback.compute();

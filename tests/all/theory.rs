@@ -1,5 +1,5 @@
 //! The page of the theory, docs/theory.md: its numbers are those of the program,
-//! every number of its text stands in one of its tables, its formulas survive
+//! every number of its text stands in one of its tables or in docs/numbers.csv, its formulas survive
 //! Markdown, and the sections that the source cites exist.
 
 use std::collections::HashMap;
@@ -17,6 +17,9 @@ fn page() -> String {
     std::fs::read_to_string(root().join("docs/theory.md")).unwrap()
 }
 
+/// The numbers of the page, with the commands that print them.
+const NUMBERS: &str = "docs/numbers.csv";
+
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).to_path_buf()
 }
@@ -31,38 +34,46 @@ fn table(last: &str) -> Vec<Vec<String>> {
     lines.skip(2).take_while(|line| line.starts_with('|')).map(cells).collect()
 }
 
-/// What stands between the backticks of a cell.
-fn code(cell: &str) -> &str {
-    cell.trim_matches('`')
+/// The number of a value such as `1.2 ± 0.1 N`, and its tolerance: zero without one.
+fn stated(value: &str) -> (f64, f64) {
+    let words: Vec<&str> = value.split(' ').collect();
+    let tolerance = match words.get(1) {
+        Some(&"±") => words[2].parse().unwrap(),
+        _ => 0.0,
+    };
+    (words[0].parse().unwrap(), tolerance)
 }
 
 #[test]
 fn every_command_gives_the_number_of_its_row() {
-    let rows = table("JSON pointer");
-    assert!(rows.len() > 100);
     let mut printed: HashMap<String, Value> = HashMap::new();
-    for row in rows {
-        let [id, _, value, _, tolerance, command, pointer] = row.as_slice() else {
+    let mut file = csv::Reader::from_path(root().join(NUMBERS)).unwrap();
+    let rows: Vec<csv::StringRecord> = file.records().map(Result::unwrap).collect();
+    assert!(rows.len() > 100);
+    for row in &rows {
+        let [_, _, value, tolerance, _, command, pointer] = row.iter().collect::<Vec<_>>()[..]
+        else {
             panic!("{row:?}");
         };
-        let report = printed.entry(command.clone()).or_insert_with(|| {
-            let mut words: Vec<&str> = code(command).split(' ').skip(1).collect();
-            words.push("--json");
+        let report = printed.entry(command.to_string()).or_insert_with(|| {
+            let words: Vec<&str> = command.split(' ').skip(1).chain(["--json"]).collect();
             let output = rubscope(&words);
             serde_json::from_slice(&output.stdout).unwrap()
         });
-        let found = report.pointer(code(pointer)).unwrap_or_else(|| panic!("{id}: {pointer}"));
-        if tolerance == "exact" {
-            let stated: Value = serde_json::from_str(code(value)).unwrap();
-            assert_eq!(*found, stated, "{id}");
-        } else {
-            near(id, found.as_f64().unwrap(), value, tolerance);
+        let found = report.pointer(pointer).unwrap_or_else(|| panic!("{row:?}"));
+        let stated = serde_json::from_str(value).unwrap_or_else(|_| Value::from(value));
+        match (stated.as_f64(), found.as_f64()) {
+            (Some(stated), Some(found)) => {
+                let tolerance = if tolerance.is_empty() { 0.0 } else { tolerance.parse().unwrap() };
+                assert!((found - stated).abs() <= tolerance, "{row:?}: {found:e}");
+            }
+            _ => assert_eq!(*found, stated, "{row:?}"),
         }
     }
 }
 
-fn near(id: &str, found: f64, value: &str, tolerance: &str) {
-    let (stated, tolerance): (f64, f64) = (value.parse().unwrap(), tolerance.parse().unwrap());
+fn near(id: &str, found: f64, value: &str) {
+    let (stated, tolerance) = stated(value);
     assert!((found - stated).abs() <= tolerance, "{id}: {found:e}, the page says {value}");
 }
 
@@ -71,8 +82,8 @@ fn closed_forms_are_those_of_the_library() {
     let rows = table("library");
     assert!(rows.len() > 15);
     for row in rows {
-        let [id, _, value, _, tolerance, _] = row.as_slice() else { panic!("{row:?}") };
-        near(id, closed_form(id), value, tolerance);
+        let [id, _, value, _] = row.as_slice() else { panic!("{row:?}") };
+        near(id, closed_form(id), value);
     }
 }
 
@@ -204,10 +215,11 @@ fn numbers(text: &str) -> Vec<(String, f64, f64)> {
 fn every_number_of_the_text_is_in_a_table() {
     let page = page();
     let (text, tables) = page.split_once("\n## 13 ").unwrap();
-    let tables = tables.split_once("\n## 14 ").unwrap().0;
+    let file = std::fs::read_to_string(root().join(NUMBERS)).unwrap().replace(',', " ");
+    let tables = tables.split_once("\n## 14 ").unwrap().0.to_string() + &file;
     // Values in their unit, in milli, micro, kilo or mega; `half` a unit is that of
     // the text.
-    let known: Vec<f64> = numbers(tables).into_iter().map(|(_, number, _)| number).collect();
+    let known: Vec<f64> = numbers(&tables).into_iter().map(|(_, number, _)| number).collect();
     let stands = |number: f64, half: f64| {
         let units = [1.0, 1e-3, 1e-6, 1e3, 1e6];
         units.iter().any(|unit| known.iter().any(|k| (k / unit - number).abs() <= 1.000_001 * half))

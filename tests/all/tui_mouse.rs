@@ -198,7 +198,8 @@ fn lists_are_chosen_from_and_scrolled() {
     session.press("");
     let text = session.text();
     assert!(
-        text.contains("2/15 Lock-in, and how damping delays it  ") && text.contains("step 1 of"),
+        text.contains("2/15 The lock speed, and how damping raises it  ")
+            && text.contains("step 1 of"),
         "{text}"
     );
     session.press("G?");

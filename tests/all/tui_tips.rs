@@ -189,7 +189,7 @@ fn the_second_line_has_the_coincidence_where_it_is_dangerous() {
     assert!(line(trailing(), 80).contains("1.16 coincidence"), "{}", line(trailing(), 80));
     assert!(line(rigid, 300).contains("coincidence 388.3"));
     assert!(line(scene(), 300).contains("coincidence 388.3"));
-    // A blade that digs in meets the other one.
+    // A blade that friction turns outward meets the other one.
     let keys = [("bladed_disk.radial_coupling", "-0.15"), ("contact.friction", "0.3")];
     assert!(line(with(&keys), 300).contains("coincidence 197.4"), "{}", line(with(&keys), 300));
     assert!(line(pressed(), 120).contains("no lock"), "{}", line(pressed(), 120));

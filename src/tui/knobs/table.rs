@@ -85,7 +85,7 @@ pub const KNOBS: &[Knob] = &[
         "contact",
         keys::LAW,
         Words,
-        "contact law: unilateral pushes; bilateral, the paper's, pulls too; smooth gives way",
+        "contact law: unilateral pushes; bilateral, the paper's, pulls too; smooth is elastic",
     ),
     knob(
         Operation,

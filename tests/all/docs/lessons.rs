@@ -9,7 +9,7 @@ const MOST: usize = 120;
 /// The lessons with their durations: the rows of a table.
 pub fn course() -> Vec<Vec<String>> {
     let row = |(place, lesson): (usize, &Lesson)| {
-        let minutes = format!("{} minutes", lesson.minutes());
+        let minutes = lesson.minutes().to_string();
         vec![place.to_string(), lesson.title.clone(), minutes, lesson.needs.clone()]
     };
     (1..).zip(all()).map(row).collect()
@@ -24,23 +24,13 @@ pub fn sheet() -> String {
     };
     for (place, lesson) in all().iter().enumerate() {
         paragraph(&format!("## {}. {}", place + 1, lesson.title), "");
-        let about = format!(
-            "{} minutes. Needs {}. On the screen: `rubscope`, then `:lesson {}`.",
-            lesson.minutes(),
-            lesson.needs,
-            place + 1
-        );
-        paragraph(&about, "");
         for (number, step) in (1..).zip(&lesson.steps) {
             paragraph(&format!("**{}.{number}** {}", place + 1, step.text), "");
             if let Some(question) = &step.question {
                 paragraph(question, "");
                 let answers = LETTERS.iter().zip(&step.answers);
-                let answers = answers.map(|(letter, text)| format!("- [ ] {letter}: {text}\n"));
-                paragraph(answers.collect::<String>().trim_end_matches('\n'), "- ");
-            }
-            if let Some(task) = &step.task {
-                paragraph(&format!("*To do:* {task}"), "");
+                let answers = answers.map(|(letter, text)| format!("**{letter}** {text}"));
+                paragraph(&answers.collect::<Vec<_>>().join("; "), "");
             }
         }
     }
@@ -56,8 +46,7 @@ fn answers(place: usize, lesson: &Lesson) -> String {
     let steps = (1..).zip(&lesson.steps);
     let of = |(number, step): (usize, &LessonStep)| {
         let (right, reason) = (step.right?, step.reason.as_deref()?);
-        let equation = step.equation.as_ref().map_or(String::new(), |text| format!(" `{text}`"));
-        Some(wrapped(&format!("- **{}.{number}: {right}.** {reason}{equation}", place + 1), "  "))
+        Some(wrapped(&format!("- **{}.{number}: {right}.** {reason}", place + 1), "  "))
     };
     steps.filter_map(of).collect()
 }

@@ -34,20 +34,20 @@ fn code(text: impl std::fmt::Display) -> String {
     format!("`{text}`")
 }
 
-/// Where keys act, in words.
-const CONTEXTS: [(Context, &str); 12] = [
-    (Context::Reading, "While the arrows read a chart (`i`); all other keys as above"),
-    (Context::Typing, "While a value or a file name is typed"),
-    (Context::Help, "In the help"),
-    (Context::Filter, "In the help, while a filter is typed"),
-    (Context::Palette, "In the list of commands (`:`)"),
-    (Context::Replacing, "When a file would be replaced"),
-    (Context::Lessons, "In the list of lessons"),
-    (Context::Question, "While a lesson waits for an answer; all other keys as above"),
-    (Context::Scenes, "In the list of scenes"),
-    (Context::Field, "In every prompt"),
-    (Context::List, "In every list"),
-    (Context::Dialogue, "In all of these but a chart and a lesson"),
+/// Lists and dialogues, whose keys the screen names on its last line, and what all prompts
+/// and lists take.
+const NAMED_ON_THE_SCREEN: [Context; 11] = [
+    Context::Typing,
+    Context::Help,
+    Context::Filter,
+    Context::Palette,
+    Context::Replacing,
+    Context::Lessons,
+    Context::Question,
+    Context::Scenes,
+    Context::Field,
+    Context::List,
+    Context::Dialogue,
 ];
 
 fn keys() -> String {
@@ -66,16 +66,19 @@ fn keys() -> String {
         let own = |binding: &&Binding| binding.action.group() == group;
         part(group.into(), bindings::of(Context::Main).filter(own).collect());
     }
-    for (context, title) in CONTEXTS {
-        part(title, bindings::of(context).collect());
-    }
+    let reading = "While the arrows read a chart (`i`); all other keys as above";
+    part(reading, bindings::of(Context::Reading).collect());
+    told += NAMED_ON_THE_SCREEN.into_iter().flat_map(bindings::of).count();
     assert_eq!(told, BINDINGS.len(), "a binding is in no table");
     out.trim_end().to_string() + "\n"
 }
 
-/// The rows of the arguments of a command that pass.
+/// What the page says of all commands at once.
+const OF_MOST: [&str; 4] = ["help", "version", "scene", "json"];
+
+/// The rows of the arguments of a command that pass; nothing where none is an option.
 fn arguments(command: &Command, pass: impl Fn(&&Arg) -> bool) -> String {
-    let shown = |arg: &&Arg| !["help", "version"].contains(&arg.get_id().as_str());
+    let shown = |arg: &&Arg| !OF_MOST.contains(&arg.get_id().as_str());
     let row = |arg: &Arg| {
         let value = arg.get_value_names().map(|names| names[0].to_string());
         let name = match (arg.get_long(), value) {
@@ -98,11 +101,19 @@ fn arguments(command: &Command, pass: impl Fn(&&Arg) -> bool) -> String {
             None => (help, None),
         };
         default.extend(told);
-        let default = if arg.is_required_set() { "required".into() } else { default.join(", ") };
-        vec![code(name), default, help]
+        let default = default.join(", ");
+        let help = match (arg.is_required_set(), default.as_str()) {
+            (true, _) => help + " (required)",
+            (false, "") => help,
+            (false, default) => format!("{help} (default: {default})"),
+        };
+        vec![code(name), help]
     };
-    let own = command.get_arguments().filter(shown).filter(pass);
-    table(&["option", "default", "what it does"], own.map(row))
+    let own: Vec<&Arg> = command.get_arguments().filter(shown).filter(pass).collect();
+    if own.iter().all(|arg| arg.get_long().is_none()) {
+        return String::new();
+    }
+    table(&["option", "what it does"], own.into_iter().map(row))
 }
 
 /// The options that change the scene, with the keys that they set.
@@ -122,11 +133,6 @@ fn scene_options(command: &Command) -> String {
     table(&["option", "key it sets", "what it does"], own.map(row))
 }
 
-/// The option of each key that has one.
-fn option_of(key: &str) -> Option<&'static str> {
-    SceneOptions::keys().into_iter().find(|(_, path)| *path == key).map(|(option, _)| option)
-}
-
 fn changes_the_scene(arg: &&Arg) -> bool {
     arg.get_help_heading().is_some()
 }
@@ -138,11 +144,12 @@ fn scene_keys() -> String {
             Value::Text(text) if text.is_empty() => "empty".to_string(),
             value => code(value),
         };
-        let unit = if key.unit == "-" { String::new() } else { key.unit.to_string() };
-        let option = option_of(key.path).map(code).unwrap_or_default();
-        vec![code(key.path), unit, default, key.allowed.to_string(), key.what.into(), option]
+        // The page says that values are numbers.
+        let allowed = key.allowed.to_string().replace("a whole number", "whole");
+        let allowed = allowed.trim_start_matches("a number ").to_string();
+        vec![code(key.path), default, allowed, key.what.into()]
     };
-    let header = ["key", "unit", "default", "allowed", "what it is", "option"];
+    let header = ["key", "default", "allowed", "what it is"];
     table(&header, KEYS.iter().map(row))
 }
 
@@ -150,7 +157,7 @@ fn scene_keys() -> String {
 fn tables() -> Vec<(String, String)> {
     let mut found = vec![("keys".to_string(), keys()), ("scene file".to_string(), scene_keys())];
     found.push(("lessons".into(), super::lessons::sheet()));
-    let header = ["", "lesson", "takes", "needs"];
+    let header = ["", "lesson", "minutes", "needs"];
     found.push(("course".into(), table(&header, super::lessons::course())));
     let mut whole = Cli::command();
     whole.build();
@@ -167,6 +174,7 @@ fn tables() -> Vec<(String, String)> {
         let inner = command.get_subcommands();
         commands.extend(inner.map(|inner| (format!("{name} {}", inner.get_name()), inner)));
     }
+    found.retain(|(_, text)| !text.is_empty());
     found
 }
 
