@@ -276,8 +276,18 @@ fn the_explorer_has_the_views_and_limits_of_the_document() {
 }
 
 #[test]
-fn the_readme_has_the_speeds_of_the_machine() {
-    let readme = read("README.md");
+fn the_readme_has_the_numbers_of_the_page_on_accuracy_and_the_speeds_of_the_machine() {
+    let (readme, accuracy) = (read("README.md"), read("docs/accuracy.md"));
+    let header = "| time step | error of the two impact times | error of u_s at 0.1 s |";
+    let known = accuracy.table(header);
+    let header =
+        "| solver | step | error of the impact times | error of u_s at 0.1 s | time | bench |";
+    let told = readme.table(header);
+    let explicit: Vec<_> = told.iter().filter(|row| row[0] == "explicit").collect();
+    assert_eq!(explicit.len(), 2);
+    for row in explicit {
+        assert!(known.iter().any(|other| other[..] == row[1..4]), "{row:?}");
+    }
     let machine = Scene::builtin("paper-nd3").unwrap().machine();
     let rounded = |speed: Option<f64>| format!("{:.1} rad/s", speed.unwrap());
     assert!(readme.says(&format!("**Omega_c**, {} here", rounded(machine.critical_speed()))));

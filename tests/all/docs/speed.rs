@@ -2,6 +2,8 @@
 //! benchmark that is there, so that it can be measured again. The times themselves
 //! belong to a machine.
 
+use std::collections::BTreeMap;
+
 use super::{documents, read, top};
 
 /// The benchmark and the time of every row, document by document.
@@ -49,4 +51,14 @@ fn every_time_in_the_documents_has_a_benchmark_of_its_name() {
         }
     }
     assert!(count > 20, "{count}");
+}
+
+#[test]
+fn the_readme_has_the_times_of_the_page_on_accuracy() {
+    let known: BTreeMap<_, _> = rows("docs/accuracy.md").into_iter().collect();
+    let told = rows("README.md");
+    assert_eq!(told.len(), 3);
+    for (bench, time) in told {
+        assert_eq!(known.get(&bench), Some(&time), "{bench}");
+    }
 }
