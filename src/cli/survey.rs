@@ -1,4 +1,4 @@
-//! `rubscope survey`: which numbers of diameters can lock at the speeds of a machine.
+//! `rubscope survey`: which nodal diameters can lock at the speeds of a machine.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -14,7 +14,7 @@ use rubscope_solver::scene::Quantity;
 use rubscope_solver::study::margins::{TargetError, parameter};
 use rubscope_solver::study::survey::{Survey, speed_range};
 
-/// Find which numbers of diameters can lock in a range of speeds, and their limits.
+/// Find which nodal diameters can lock in a range of speeds, and their limits.
 ///
 /// Frequencies of casing and disk, critical and lock speeds, coincidences, whirl and
 /// flutter, each by the modes that the scene has for that number of diameters.
@@ -28,7 +28,7 @@ pub struct SurveyCommand {
     /// Also how much 1 % of this parameter moves each limit, such as casing.modal_mass_kg
     #[arg(long, value_name = "PATH")]
     by: Option<String>,
-    /// Show numbers of diameters without modes of their own, too
+    /// Show nodal diameters without modes of their own, too
     #[arg(long)]
     all: bool,
     /// Print everything as JSON (rubscope.survey/1)
@@ -61,7 +61,7 @@ impl SurveyCommand {
             json::write_as("rubscope.survey/1", &command, &survey, out)?;
         }
         if let Some(path) = &self.out {
-            let rows = format!("{} numbers of diameters", survey.rows.len());
+            let rows = format!("{} nodal diameters", survey.rows.len());
             if format == Some("svg") {
                 let command = command.option("--out", "survey.svg");
                 let origin = Provenance { command, scene: scene.into_scene() };

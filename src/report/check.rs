@@ -145,13 +145,13 @@ fn unknown(scene: &CheckedScene) -> Option<String> {
     let all = u64::from(half) + 1;
     match known(&scene.casing.modes) {
         0 => Some(format!(
-            "One mode of the casing is given; for other numbers of diameters than {} nothing is \
+            "One mode of the casing is given; for other nodal diameters than {} nothing is \
              known, and the same is taken.",
             scene.operation.nodal_diameters
         )),
         some if some < all => Some(format!(
-            "Modes of the casing are known for {some} of {all} numbers of diameters; for the \
-             others its own values are taken."
+            "Modes of the casing are known for {some} of {all} nodal diameters; for the \
+             others its common values are taken."
         )),
         _ => None,
     }

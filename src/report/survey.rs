@@ -1,4 +1,4 @@
-//! The survey of all numbers of diameters: aligned text for people, a table of every limit
+//! The survey of all nodal diameters: aligned text for people, a table of every limit
 //! (CSV), and the interference chart (SVG).
 
 use std::borrow::Cow;
@@ -19,7 +19,7 @@ const ROWS: usize = 64;
 const WIDEST: usize = 110;
 /// Letters of the range as a line.
 const BAR: usize = 20;
-/// Most numbers of diameters that the answer lists.
+/// Most nodal diameters that the answer lists.
 const LISTED: usize = 8;
 
 /// The limits that are shown with their heading, the most important first.
@@ -32,7 +32,7 @@ const LIMITS: [(LimitName, &str); 6] = [
     (LimitName::OmegaC, "Omega_c"),
 ];
 
-/// Returns the limits that any of these numbers of diameters has.
+/// Returns the limits that any of these nodal diameters has.
 fn present<'a>(
     rows: &'a [&'a SurveyRow],
 ) -> impl Iterator<Item = &'static (LimitName, &'static str)> + 'a {
@@ -122,7 +122,7 @@ pub fn answer(survey: &Survey, all: bool) -> String {
         [one] if one == "1" => "waves of 1 nodal diameter can lock".to_string(),
         [one] => format!("waves of {one} nodal diameters can lock"),
         [.., last] if all.len() > LISTED => {
-            format!("waves of {} numbers of nodal diameters can lock, up to {last}", all.len())
+            format!("waves of {} different nodal diameters can lock, up to {last}", all.len())
         }
         [first @ .., last] => {
             format!("waves of {} and {last} nodal diameters can lock", first.join(", "))
@@ -219,7 +219,7 @@ fn at_speed(survey: &Survey) -> String {
     if stiffens { format!(" at {}", speed(now)) } else { String::new() }
 }
 
-/// Returns a row for each of these numbers of diameters: what it can do, modes \[Hz\], and the
+/// Returns a row for each of these nodal diameters: what it can do, modes \[Hz\], and the
 /// limits of the sense of rotation that is looked at.
 #[must_use]
 pub fn rows(survey: &Survey, shown: &[&SurveyRow]) -> Table {

@@ -37,7 +37,7 @@ fn the_papers_scene_knows_its_modes_of_three_and_four_diameters() {
 #[test]
 fn a_missing_mode_is_said_in_text_and_json() {
     let note = "o mode of the casing with 5 nodal diameters is known (known: 3, 4): the casing's \
-                own values are taken";
+                common values are taken";
     for command in ["run --nd 5 --end 0.001", "margins --nd 5", "hbm --nd 5"] {
         let words: Vec<&str> = command.split(' ').collect();
         let text = String::from_utf8(rubscope(&words).stdout).unwrap();

@@ -337,7 +337,10 @@ fn a_lesson_is_shown_on_a_projector_and_goes_on_there() {
         let mut session = begin(size.0, size.1, 1);
         session.press("P");
         let text = session.text();
-        assert!(text.contains("The lock speed, and") && text.contains("[b] in the centre"), "{text}");
+        assert!(
+            text.contains("The lock speed, and") && text.contains("[b] in the centre"),
+            "{text}"
+        );
         assert!(!text.contains("pulse F      ") && text.contains("pulse F = 0 N"), "{text}");
         // The verdict in large letters comes with the answer.
         let large = |text: &str| text.matches('█').count();

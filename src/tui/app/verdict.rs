@@ -206,7 +206,7 @@ impl App {
         gaps.fold(f64::NEG_INFINITY, f64::max) + machine.out_of_round()
     }
 
-    /// Returns whether the casing has a lining, which gives way.
+    /// Returns whether the casing has an elastic lining.
     pub fn has_lining(&self) -> bool {
         self.scene.solver.contact == ContactLaw::Smooth
     }

@@ -103,7 +103,7 @@ fn title(app: &App, buffer: &mut Buffer, area: Rect, used: u16) {
 }
 
 /// A part of the second line: its forms from long to short, each with its rank. While the
-/// line is too long, the form of the highest rank gives way to the next one of its part.
+/// line is too long, the form of the highest rank is replaced by the next one of its part.
 struct Part {
     forms: Vec<(u8, Parts)>,
 }

@@ -172,8 +172,8 @@ impl Forecasts {
     }
 }
 
-/// Returns the event solver under unilateral contact, if the scene uses another solver. A lining
-/// that gives way is another machine.
+/// Returns the event solver under unilateral contact, if the scene uses another solver. An
+/// elastic lining is another machine.
 fn reference(scene: &Scene) -> Option<FullRunJob> {
     if scene.solver.kind == SolverKind::Event || scene.solver.contact == ContactLaw::Smooth {
         return None;

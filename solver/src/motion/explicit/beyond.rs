@@ -1,6 +1,6 @@
 //! What only motions beyond the paper keep (docs/theory.md, section 10), and a step of
-//! theirs: tips that move outward as blades bend, friction, restitution, a lining that
-//! gives way, disks of other diameters and mistuned ones.
+//! theirs: tips that move outward as blades bend, friction, restitution, an elastic
+//! lining, disks of other diameters and mistuned ones.
 
 use super::disk::Disk;
 use super::lasting::{Lasting, mark};

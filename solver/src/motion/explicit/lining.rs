@@ -1,4 +1,4 @@
-//! A lining that gives way, as arrays: the gaps of all rows near it and the pushes of the
+//! An elastic lining, as arrays: the gaps of all rows near it and the pushes of the
 //! latest step, which act on the next one (docs/theory.md, sections 6 and 10).
 //!
 //! `near` are the rows that may press, four by four. They are looked for again when the casing has moved by the margin that they were looked for

@@ -98,7 +98,7 @@ impl<B: Disk> Explicit<B> {
             self.beyond.set_parameters(scene, &self.machine, speed);
             self.take_shape();
             self.begin_closing();
-            self.give_way();
+            self.shrink_into_clearance();
             self.press_again();
             self.beyond.account.start += self.stored() - before;
         }

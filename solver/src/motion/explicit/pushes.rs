@@ -74,7 +74,7 @@ pub(super) fn solve<B: Disk>(
             }
         }
     }
-    // A single row that gives way to its own push has no answer either.
+    // A single row that moves away from its own push has no answer either.
     let good = |row: &Row| row.lambda.is_finite() && (law.pulls() || row.lambda <= 0.0);
     if rows.iter().all(good) { Ok(()) } else { Err(FailureReason::Singular { rows: count }) }
 }

@@ -86,7 +86,7 @@ impl<B: Disk> Explicit<B> {
         let before = self.stored();
         self.tips = TipLaw::at(&self.machine, speed);
         self.beyond.dips = [self.machine.clearance().abs(); 2];
-        self.give_way();
+        self.shrink_into_clearance();
         self.press_again();
         self.beyond.account.sums.growth_work_j += self.stored() - before;
         if let Err(reason) = self.has_room(speed) {
@@ -97,13 +97,13 @@ impl<B: Disk> Explicit<B> {
 
     /// Where a clearance that is smaller all at once leaves rigid tips in the casing, all
     /// displacements shrink by one part, as those of a lock do; rates stay.
-    pub(super) fn give_way(&mut self) {
+    pub(super) fn shrink_into_clearance(&mut self) {
         let rigid = self.lining.is_none() && self.tips.clearance > 0.0;
         if !(rigid && (self.machine.changes_with_speed() || self.machine.is_uneven())) {
             return;
         }
         if self.tips.least <= 0.0 {
-            return self.give_way_to_tips();
+            return self.move_from_tips();
         }
         // The phases of the gaps are not quite in proportion.
         for _ in 0..GIVE_WAY {

@@ -120,9 +120,9 @@ impl<B: Disk> Explicit<B> {
         self.beyond.uneven.as_ref().is_some_and(Uneven::moves)
     }
 
-    /// Where tips leave the centre outside, the casing gives way to them by going to the
-    /// nearest open place.
-    pub(super) fn give_way_to_tips(&mut self) {
+    /// Where tips leave the centre outside, the casing is moved to the nearest place that is
+    /// open.
+    pub(super) fn move_from_tips(&mut self) {
         let theta = self.drive.rotor.angle(self.time_of(self.n));
         for _ in 0..GIVE_WAY {
             let (z, turn) = self.in_blade_frame();

@@ -1,4 +1,4 @@
-//! The survey of all numbers of diameters, in the place of the margins of one: a table of what
+//! The survey of all nodal diameters, in the place of the margins of one: a table of what
 //! each can do, below what can lock now.
 
 use ratatui::buffer::Buffer;

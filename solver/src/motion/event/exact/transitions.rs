@@ -207,7 +207,7 @@ impl ExactEvents {
         if self.parameters.clearance > clearance {
             flight = Some(standing);
         } else if self.parameters.clearance < clearance {
-            self.give_way(standing, side.map(|(side, _)| side), corner);
+            self.shrink_into_clearance(standing, side.map(|(side, _)| side), corner);
             return;
         }
         // The rate against the blades jumps with the speed of the rotor.
@@ -224,7 +224,12 @@ impl ExactEvents {
 impl ExactEvents {
     /// A clearance that is smaller all at once: where it leaves the casing beyond a side, all
     /// of its displacement shrinks by one part, and its rate stays.
-    fn give_way(&mut self, (u, v): (Plane, Plane), held: Option<u32>, corner: Option<u32>) {
+    fn shrink_into_clearance(
+        &mut self,
+        (u, v): (Plane, Plane),
+        held: Option<u32>,
+        corner: Option<u32>,
+    ) {
         let back = Plane::cis(-self.parameters.drive.phase);
         let (place, polygon) = (u * back, &self.parameters.machine.polygon);
         let near = polygon.nearest_side(place.re, place.im);
