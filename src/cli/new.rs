@@ -178,17 +178,24 @@ impl NewCommand {
                 modes.push(asking.value(option, None, &what, None, &read)?);
             }
         }
-        let ratio = |option, given: &Option<String>, what, key| {
+        let ratio = |option, given: &Option<String>, what, key, modes: &[Family]| {
             let read = |text: &str| number(option, text, key);
-            if given.is_none() && !asking.answers {
+            let assumed = modes.iter().any(|mode| mode.damping_ratio.is_none());
+            if given.is_none() && assumed && !asking.answers {
                 note(format!("rubscope: {what}: {USUAL_DAMPING} is assumed ({option})"));
             }
             asking.value(option, given.as_ref(), what, Some(USUAL_DAMPING), &read)
         };
         let what = ["Damping ratio of the casing", "Damping ratio of the bladed disk"];
         let damping_ratios = [
-            ratio("--casing-damping", &self.casing_damping, what[0], keys::CASING_DAMPING)?,
-            ratio("--disk-damping", &self.disk_damping, what[1], keys::BLADE_DAMPING)?,
+            ratio(
+                "--casing-damping",
+                &self.casing_damping,
+                what[0],
+                keys::CASING_DAMPING,
+                &casing,
+            )?,
+            ratio("--disk-damping", &self.disk_damping, what[1], keys::BLADE_DAMPING, &disk)?,
         ];
         let what = "Speeds of the machine, FROM:TO, such as 6000rpm:11000rpm";
         let read =

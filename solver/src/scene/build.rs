@@ -70,6 +70,8 @@ impl ModalData {
         let disk = own(&self.disk, keys::DISK_MODES)?;
         let length = digits(self.radius_m - self.clearance_m);
         let inertia = self.inertia(&disk, length);
+        let of_disk = disk.damping_ratio.filter(|_| self.disk.len() == 1);
+        let damping = of_disk.unwrap_or(self.damping_ratios[1]);
         let (stiffness, coupling) = self.springs(&disk, length);
         let omega = TAU * casing.frequency_hz;
         let [from, to] = self.range_rad_s;
@@ -97,17 +99,19 @@ impl ModalData {
             "stiffness_nm_per_rad = {stiffness:?}  # of a blade on the disk k_b, N m/rad"
         ));
         line(&format!("coupling_nm_per_rad = {coupling:?}  # between two blades k_bb, N m/rad"));
-        line(&format!("damping_ratio = {:?}  # of every blade mode", self.damping_ratios[1]));
+        line(&format!("damping_ratio = {damping:?}  # of every blade mode"));
+        // One mode of the diameters in use needs no list.
+        let listed = self.disk.len() > 1 || disk.nodal_diameters != self.nodal_diameters;
         let stiffening = disk.stiffening.unwrap_or(0.0);
         line(&format!("centrifugal_stiffening = {stiffening:?}  # B: omega^2 + B Omega^2"));
-        if self.disk.len() > 1 {
+        if listed {
             line("");
             line(
                 "# Modes of the disk: frequency in Hz, inertia of a blade in kg m^2. Diameters without",
             );
             line("# a mode have the values above.");
         }
-        for mode in self.disk.iter().filter(|_| self.disk.len() > 1) {
+        for mode in self.disk.iter().filter(|_| listed) {
             line("[[bladed_disk.modes]]");
             line(&format!("nodal_diameters = {}", mode.nodal_diameters));
             line(&format!("frequency_hz = {:?}", mode.frequency_hz));
@@ -189,7 +193,7 @@ type Measured = (Family, Vec<(f64, f64)>);
 
 /// Reads the modes of a table: a line of names, then a line for each mode. Names are
 /// `structure` (casing or disk), `nodal_diameters`, `frequency_hz`, `modal_mass_kg`, and
-/// `damping_ratio` if there is one, also as `Frequency [Hz]`. A line of the disk may have the
+/// `damping_ratio` if there is one, also as `Frequency [Hz]` or `Damping [%]`. A line of the disk may have the
 /// rotor speed of its frequency (`Speed [rpm]`) and `centrifugal_stiffening`; two lines of the same
 /// diameters at two speeds are one mode, with the mass of the first. Cells stand between commas, or
 /// between semicolons or tabs, with which numbers may have a decimal comma. Empty lines and
@@ -225,6 +229,12 @@ pub fn read_modes(text: &str) -> Result<[Vec<Family>; 2], SceneError> {
         let allowed = format!("{STRUCTURE}, {}, each once", COLUMNS.join(", "));
         return Err(SceneError::refused("the first line", names.join(","), allowed));
     }
+    let speeds = SPEEDS.map(|(name, _)| name);
+    let unknown = |name: &&String| name.starts_with("speed") && !speeds.contains(&name.as_str());
+    if let Some(name) = names.iter().find(unknown) {
+        let allowed = "Speed with the unit [rpm], [1/min], [rad/s] or [Hz]";
+        return Err(SceneError::refused("the first line", name, allowed));
+    }
     let mut found: [Vec<Measured>; 2] = Default::default();
     for record in records {
         let (line, record) = record?;
@@ -241,17 +251,23 @@ pub fn read_modes(text: &str) -> Result<[Vec<Family>; 2], SceneError> {
         let path = |name: &str| format!("line {line}, {name}");
         let structure = match cell(STRUCTURE).to_lowercase().as_str() {
             "casing" => 0,
-            "disk" => 1,
+            "disk" | "bladed disk" => 1,
             other => return Err(SceneError::refused(path(STRUCTURE), other, "casing or disk")),
         };
         let given = |name: &str| Some(cell(name)).filter(|cell| !cell.is_empty());
         let numbers = COLUMNS.map(cell);
-        let damping = given("damping_ratio");
+        let percent = given(DAMPING_PERCENT);
+        let percent = percent.map(|text| format!("{} %", text.trim_end_matches(['%', ' '])));
+        let damping = given(DAMPING).or(percent);
         let mut mode =
             Family::read(numbers.each_ref().map(String::as_str), damping.as_deref(), &path)?;
         let number = |name: &str, key: &str, unit: &str| {
             let text = given(name)?;
             let bare = text.trim().parse::<f64>().is_ok();
+            if bare && name == "speed" {
+                let allowed = "a number with its unit, or Speed [rpm] in the first line";
+                return Some(Err(SceneError::refused(path(name), text, allowed)));
+            }
             let text = if bare { format!("{text} {unit}") } else { text };
             Some(keys::find(key).and_then(|key| number_of(&path(name), &text, key)))
         };
@@ -286,9 +302,20 @@ pub fn read_modes(text: &str) -> Result<[Vec<Family>; 2], SceneError> {
 
 /// The name of a column as keys are written: `frequency_hz` for `Frequency [Hz]`.
 fn column_name(written: &str) -> String {
-    let lower = written.to_lowercase();
+    let lower = written.to_lowercase().replace('%', " percent ");
     let words = lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
-    words.collect::<Vec<_>>().join("_")
+    let name = words.collect::<Vec<_>>().join("_");
+    let name = name.strip_prefix("rotor_").unwrap_or(&name);
+    match name {
+        "nodal_diameter" => "nodal_diameters",
+        "frequency" => "frequency_hz",
+        "mass" | "mass_kg" | "modal_mass" => "modal_mass_kg",
+        "rpm" | "speed_r_min" | "speed_u_min" => "speed_rpm",
+        "damping" => DAMPING,
+        "damping_percent" => DAMPING_PERCENT,
+        other => other,
+    }
+    .to_string()
 }
 
 /// A number as it is written: what round-off adds is left out.
@@ -300,9 +327,17 @@ fn digits(x: f64) -> f64 {
 const STRUCTURE: &str = "structure";
 /// What a mode needs.
 const COLUMNS: [&str; 3] = ["nodal_diameters", "frequency_hz", "modal_mass_kg"];
+/// Its damping ratio, if it has one: a number, or in per cent.
+const DAMPING: &str = "damping_ratio";
+const DAMPING_PERCENT: &str = "damping_ratio_percent";
 /// What a mode of the disk may have: the speed of its frequency, with the unit of bare numbers,
-const SPEEDS: [(&str, &str); 4] =
-    [("speed_rpm", "rpm"), ("speed_1_min", "rpm"), ("speed_rad_s", "rad/s"), ("speed", "")];
+const SPEEDS: [(&str, &str); 5] = [
+    ("speed_rpm", "rpm"),
+    ("speed_1_min", "rpm"),
+    ("speed_rad_s", "rad/s"),
+    ("speed_hz", "Hz"),
+    ("speed", ""),
+];
 /// and what it stiffens by.
 const STIFFENING: &str = "centrifugal_stiffening";
 
@@ -325,8 +360,7 @@ impl Family {
         let [of_diameters, of_frequency, of_mass] = COLUMNS.map(path);
         let read = diameters.trim().parse().ok().filter(|n| u64::from(*n) <= most);
         let refused = || SceneError::refused(of_diameters, diameters, whole.allowed.to_string());
-        let ratio =
-            |text: &str| number_of(&path("damping_ratio"), text, keys::find(keys::CASING_DAMPING)?);
+        let ratio = |text: &str| number_of(&path(DAMPING), text, keys::find(keys::CASING_DAMPING)?);
         Ok(Self {
             nodal_diameters: read.ok_or_else(refused)?,
             frequency_hz: hertz_of(&of_frequency, frequency)?,
@@ -395,6 +429,52 @@ mod tests {
             let table = table.replace('.', comma).replace("left;", "left").replace(';', separator);
             assert_eq!(read_modes(&table), expected, "{table}");
         }
+    }
+
+    #[test]
+    fn a_single_mode_of_the_disk_keeps_its_damping_and_is_not_that_of_other_diameters() {
+        let mut data = data();
+        data.disk.truncate(1);
+        data.disk[0].damping_ratio = Some(0.03);
+        data.nodal_diameters = data.disk[0].nodal_diameters;
+        let here = Scene::from_toml(&data.to_toml().unwrap()).unwrap();
+        assert_eq!(here.disk_in_use().damping_ratio, 0.03);
+        assert!(!here.modes_note().unwrap_or_default().contains("of the disk"));
+        data.nodal_diameters += 1;
+        let other = Scene::from_toml(&data.to_toml().unwrap()).unwrap();
+        assert!(other.modes_note().unwrap().contains("of the disk"));
+    }
+
+    #[test]
+    fn units_in_the_names_of_columns_are_heard() {
+        let of = |head: &str, row: &str| read_modes(&format!("{head}\ncasing,4,310,3,\n{row}\n"));
+        let head = "structure,nodal diameter,frequency,mass [kg]";
+        let ratio = |name: &str, cell: &str| {
+            let [_, disk] =
+                of(&format!("{head},{name}"), &format!("bladed disk,4,151,5,{cell}")).unwrap();
+            disk[0].damping_ratio.unwrap()
+        };
+        for (name, cell) in
+            [("Damping ratio [%]", "0.3"), ("damping (%)", "0.3 %"), ("Damping", "0.003")]
+        {
+            assert!((ratio(name, cell) - 0.003).abs() < 1e-15, "{name}");
+        }
+        let bare = of(&format!("{head},Speed"), "disk,4,151,5,9000").unwrap_err().to_string();
+        assert_eq!(
+            bare,
+            "line 3, speed = 9000: allowed is a number with its unit, or Speed [rpm] in the first line"
+        );
+        for name in ["Rotor speed [rpm]", "RPM", "Speed [U/min]", "Speed [Hz]"] {
+            assert!(of(&format!("{head},{name}"), "disk,4,151,5,0").is_ok(), "{name}");
+            let turning = of(&format!("{head},{name}"), "disk,4,151,5,50").unwrap_err();
+            assert!(turning.to_string().contains("centrifugal_stiffening"), "{turning}");
+        }
+        let strange =
+            of(&format!("{head},Speed [m/s]"), "disk,4,151,5,50").unwrap_err().to_string();
+        assert!(
+            strange.starts_with("the first line = speed_m_s: allowed is Speed with"),
+            "{strange}"
+        );
     }
 
     #[test]
