@@ -124,6 +124,22 @@ fn a_run_that_breaks_down_is_told_and_ends_with_status_1() {
 }
 
 #[test]
+fn a_speed_that_was_changed_since_is_not_named_as_that_of_the_lock() {
+    let history = |args: &[&str]| json(&[&["run", "--no-sensitivity", "--json"], args].concat());
+    let caught = history(&["long-tip"])["outcome"]["history"].clone();
+    assert!(caught.as_str().unwrap().starts_with("Caught in a run-up at 294.1"), "{caught}");
+    for (scene, end, at, words) in [
+        ("long-tip", "1", "0.5:operation.speed_rad_s=400", "394"),
+        ("paper-nd3", "0.1", "0.05:operation.speed_ramp_rad_s2=400", "Caught"),
+        ("run-down", "0.2", "0.1:operation.speed_rad_s=600", "620"),
+    ] {
+        let outcome = history(&[scene, "--end", end, "--at", at])["outcome"].clone();
+        let told = format!("{} {}", outcome["state"], outcome["history"]);
+        assert!(!told.contains(words), "{scene}: {told}");
+    }
+}
+
+#[test]
 fn a_history_has_the_asked_number_of_samples_and_reads_back() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("history.csv");

@@ -64,6 +64,11 @@ impl Rotor {
         self.speed + self.ramp * (t - self.since)
     }
 
+    /// The speed at `t`, unless another speed or acceleration held then \[rad/s\].
+    pub fn known_speed(&self, t: f64) -> Option<f64> {
+        (t >= self.since).then(|| self.speed(t))
+    }
+
     /// Mean speed over the last `window` seconds before `t`, as far as this speed
     /// and acceleration reach back \[rad/s\].
     #[must_use]
