@@ -97,13 +97,6 @@ pub(crate) const FINER: f64 = 0.1;
 /// that depend on the step are found. Smaller: it costs more than the run itself.
 pub(crate) const OTHER_STEP: f64 = 0.5;
 
-/// Most steps of a run that failed with which a shorter step is tried. Speed only.
-pub(crate) const STEPS_TO_TRY: f64 = 1e6;
-
-/// Part by which two steps may differ in the largest blade angle for the longer one to hold.
-/// Larger: one is named that misses impacts.
-pub(crate) const STEP_AGREES: f64 = 0.1;
-
 /// Looks at a run in each casing period, for a verdict that is proved. Speed only.
 pub(crate) const LOOKS_A_PERIOD: u64 = 4;
 

@@ -11,13 +11,11 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::run::{VerdictReached, report, run_motion_to_verdict, run_to_verdict};
-use super::script::{Change, Script, Scripted};
+use super::script::{Change, Script};
 use super::wave::WaveTracker;
 use super::{Contact, GoOn, Motion, RunReport, Verdict};
 use crate::scene::{CheckedScene, ContactLaw, SolverKind};
-use crate::tolerances::{
-    FINER, LARGEST_BLADE_ANGLE, LOCK_MOMENT, OTHER_STEP, PERTURBATION, STEP_AGREES, STEPS_TO_TRY,
-};
+use crate::tolerances::{FINER, LOCK_MOMENT, OTHER_STEP, PERTURBATION};
 
 /// What changed runs say of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -136,8 +134,7 @@ impl Certainty {
 impl RunReport {
     /// Finds out by changed runs, all of them to the end and side by side, whether this
     /// run through a script is sensitive or depends on its step, and how far its final
-    /// numbers move; nothing is known where `go_on` said no on the way. A run that failed is
-    /// tried with shorter steps.
+    /// numbers move; nothing is known where `go_on` said no on the way.
     pub fn ask_changed_runs(&mut self, script: &Script, go_on: GoOn<'_>) {
         let run =
             |change: &TinyChange| Some((*change, change.run_to_end(&self.scene, script, go_on)?));
@@ -154,14 +151,6 @@ impl RunReport {
         self.outcome.sensitive = Some(certainty.sensitive);
         self.outcome.ends_otherwise = Some(certainty.ends_otherwise);
         self.outcome.depends_on_step = certainty.depends_on_step;
-        if let Some((step, angle)) = self.step_that_holds(script, go_on)
-            && let Some(message) = &mut self.outcome.message
-        {
-            *message += &format!(
-                "; the step is too long: with {step:e} s the largest blade angle by then is \
-                 {angle:.3e} rad"
-            );
-        }
     }
 
     /// Finds the verdict of the event solver, whose contact only pushes, where this run is by
@@ -177,31 +166,6 @@ impl RunReport {
         self.pushes_only = run_to_verdict(&scene, go_on).map(|reached| reached.verdict);
         let other = self.pushes_only.filter(|other| *other != self.outcome.verdict);
         self.outcome.by_events = other.filter(|_| pushes);
-    }
-
-    /// The longest of ever halved steps with which a run that failed goes on for as long
-    /// again \[s\], and the largest blade angle then \[rad\], which half of it finds, too.
-    fn step_that_holds(&self, script: &Script, go_on: GoOn<'_>) -> Option<(f64, f64)> {
-        let failed = self.failure.as_ref()?.t_s;
-        let until = (2.0 * failed).min(self.scene.solver.end_s);
-        let mut step = TinyChange::Step.changed(&self.scene);
-        let mut before: Option<(f64, f64)> = None;
-        if !TinyChange::all(&self.scene).contains(&TinyChange::Step) {
-            return None;
-        }
-        while until / step.solver.step_s < STEPS_TO_TRY && go_on() {
-            let mut scripted = Scripted::new(Motion::new(&step), script);
-            let goes_on = scripted.advance_while(until, go_on).is_ok();
-            let angle = scripted.motion.checks().max_blade_angle_rad;
-            let holds = goes_on && angle <= LARGEST_BLADE_ANGLE;
-            let alike = |before: &(f64, f64)| (before.1 - angle).abs() <= STEP_AGREES * angle;
-            if let Some(found) = before.filter(|before| holds && alike(before)) {
-                return Some(found);
-            }
-            before = holds.then_some((step.solver.step_s, angle));
-            step = TinyChange::Step.changed(&step);
-        }
-        None
     }
 }
 
