@@ -182,7 +182,10 @@ fn the_gap_of_a_blade_at_an_instant_is_read_in_every_chart() {
     let file = session.app.panel().csv(&session.app).unwrap();
     let row = format!("0.0003,7,{}", motion.blade_gaps()[6]);
     assert!(file.starts_with("t_s,blade,gap_m\n") && file.contains(&row), "{row}\n{file}");
-    session.press_each("41");
+    // The arrows go back to the knobs, and the instant stays.
+    session.press_each("i");
+    assert_eq!((session.app.reading.on, session.app.reading.at_s), (false, Some(3e-4)));
+    session.press_each("i41");
     assert_eq!(session.app.reading.at_s, Some(3e-4));
     // The cursor goes on from there, and the end of reading is the end of it.
     session.press_each("l");

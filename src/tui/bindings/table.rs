@@ -102,7 +102,7 @@ const BEFORE_VIEWS: &[Binding] = &[
     bind!(Main: [letter('v')], Action::Charts, "one, two, three or four charts"),
     bind!(Main: [letter('<'), key(PageUp)], Action::PageBack, "a page of time back"),
     bind!(Main: [letter('>'), key(PageDown)], Action::PageForward, "a page of time forward"),
-    bind!(Main: [letter('i')], Action::Read, "read the chart: the arrows move a cursor, or the knobs again", "i" "read"),
+    bind!(Main: [letter('i')], Action::Read, "read the chart: the arrows move a cursor, or, where it stays, the knobs again", "i" "read"),
 ];
 
 /// The bindings after those of the views.
@@ -126,7 +126,7 @@ const AFTER_VIEWS: &[Binding] = &[
     bind!(Reading: [shift(Right), letter('L')], cursor(1, 0, true), "cursor far to the right"),
     bind!(Reading: [shift(Up), letter('K')], cursor(0, 1, true), "cursor far up"),
     bind!(Reading: [shift(Down), letter('J')], cursor(0, -1, true), "cursor far down"),
-    bind!(Reading: [key(Esc), letter('i')], Action::Close, "the arrows act on the knobs again", "Esc" "knobs"),
+    bind!(Reading: [key(Esc)], Action::Close, "no cursor: the motion where it is; i leaves it", "Esc" "knobs"),
     bind!(Typing: [key(Enter)], Action::Accept, "take the value", "Enter" "take"),
     bind!(Typing: [key(Esc)], Action::Close, "leave it as it was", "Esc" "leave"),
     bind!(Help: [letter('?'), key(Esc)], Action::Close, "close the help", "? Esc" "close"),

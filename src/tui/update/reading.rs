@@ -70,7 +70,8 @@ impl App {
     /// Gives the arrows to the cursor, or back to the knobs.
     pub(super) fn toggle_reading(&mut self) {
         if self.reading.on {
-            return self.stop_reading();
+            self.reading.on = false;
+            return self.keep_instant();
         }
         self.reading.on = true;
         if self.reading.cursor.is_none() {

@@ -42,7 +42,8 @@ impl Rows<'_> {
         let look = &app.appearance;
         // The first letter is for the cursor.
         let lines = self.table.lines(usize::from(area.width.saturating_sub(1)), 1);
-        let Some((headings, rows)) = lines.split_first() else { return 0 };
+        let parts = lines.split_first().filter(|_| area.height > 0);
+        let Some((headings, rows)) = parts else { return 0 };
         let head = u16::from(area.height >= HEADING_FROM);
         let room = usize::from(area.height - head).max(1);
         let row = self.cell.map_or(self.home, |[_, row]| row);
