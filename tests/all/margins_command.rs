@@ -151,7 +151,7 @@ fn the_answer_begins_with_the_nearest_changes_of_the_verdict() {
     let place = |words: &str| text.find(words).unwrap_or_else(|| panic!("no {words} in {text}"));
     let bilateral =
         place("480 rad/s, bilateral law: locked; nearest found: adhesive at speed 411.");
-    let pushes = place("480 rad/s, pushes only: decay; ");
+    let pushes = place("480 rad/s, pushes only, by events: decay; ");
     assert!(bilateral < pushes && pushes < place("omega_c  "), "{text}");
     assert!(
         text.replace('\n', " ").contains("no pulse tried from 0 to 2 times this one"),

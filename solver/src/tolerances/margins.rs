@@ -29,6 +29,10 @@ pub(crate) const TARGET_REACHED: f64 = 1e-6;
 /// still the same. Closer together: more islands are found, by more runs.
 pub(crate) const CHANGE_STEPS: [f64; 7] = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0];
 
+/// Digits of a value that is tried. Fewer: a change is not found to its three digits. More: a
+/// value that is shown does not give the same run.
+pub(crate) const CHANGE_DIGITS: usize = 4;
+
 /// Part of a value to which a change of the verdict is found: three digits. Smaller: more runs
 /// for digits that no machine has.
 pub(crate) const CHANGE_FOUND: f64 = 1e-3;

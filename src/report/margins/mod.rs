@@ -107,7 +107,7 @@ fn write_limits(margins: &Margins, out: &mut dyn Write) -> Result<()> {
     writeln!(out)?;
     for found in robust::asked(margins) {
         tell(&robust::sentence(found, &margins.scene), out)?;
-        robust::table(found).write_text_in(WIDTH, out)?;
+        robust::table(found, " at ").write_text_in(WIDTH, out)?;
         writeln!(out)?;
     }
     table(margins).write_text_in(WIDTH, out)?;

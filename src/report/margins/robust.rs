@@ -6,8 +6,11 @@ use crate::report::table::{Heading, Table, TableCell};
 use rubscope_solver::scene::{ContactLaw, Scene, keys};
 use rubscope_solver::study::margins::{ChangedVerdict, Margins, Robustness, parameter};
 
-/// Digits of a value: a change is found to three.
+/// Digits of a value: those of the values that are tried.
 const DIGITS: usize = 4;
+
+/// What the mark of a change says.
+const MARKED: &str = " A ? marks what a tiny change or another step turns over.";
 
 /// Returns what was asked of the runs, under each law that was asked.
 pub fn asked(margins: &Margins) -> impl Iterator<Item = &Robustness> {
@@ -18,8 +21,10 @@ pub fn asked(margins: &Margins) -> impl Iterator<Item = &Robustness> {
 #[must_use]
 pub fn sentence(found: &Robustness, scene: &Scene) -> String {
     let law = match found.contact {
-        ContactLaw::Unilateral => "pushes only".to_string(),
-        other => format!("{other} law"),
+        ContactLaw::Unilateral if found.solver != scene.solver.kind => "pushes only, by events",
+        ContactLaw::Unilateral => "pushes only",
+        ContactLaw::Bilateral => "bilateral law",
+        ContactLaw::Smooth => "smooth law",
     };
     let speed = with_unit(scene.operation.speed_rad_s, DIGITS, "rad/s");
     let mut parts = vec![format!("{speed}, {law}: {}", found.verdict)];
@@ -33,8 +38,9 @@ pub fn sentence(found: &Robustness, scene: &Scene) -> String {
         Some((row, (changed, part))) => {
             let (what, at) = (row.name, amount(row.path, changed.value, changed.value).join(" "));
             format!(
-                "nearest found: {} at {what} {} ({})",
+                "nearest found: {}{} at {what} {} ({})",
                 changed.verdict,
+                mark(changed),
                 at.trim_end(),
                 margin(part)
             )
@@ -46,19 +52,27 @@ pub fn sentence(found: &Robustness, scene: &Scene) -> String {
         let [from, to] = row.tried.map(|tried| short(rounded(tried / row.present, 3)));
         parts.push(format!("no pulse tried from {from} to {to} times this one ends otherwise"));
     }
-    format!("{}.", parts.join("; "))
+    let mut ends = found.changes.iter().flat_map(|row| [row.below, row.above]).flatten();
+    let foot = if ends.any(|end| end.sensitive) { MARKED } else { "" };
+    format!("{}.{foot}", parts.join("; "))
 }
 
-/// Returns a row for each quantity, with its numbers in one unit.
+/// Returns the mark of a change that cannot be relied on.
+fn mark(changed: ChangedVerdict) -> &'static str {
+    if changed.sensitive { "?" } else { "" }
+}
+
+/// Returns a row for each quantity, with its numbers in one unit, `at` between verdict and value.
 #[must_use]
-pub fn table(found: &Robustness) -> Table {
-    let headings = ["what", "nearest below", "now", "nearest above"];
+pub fn table(found: &Robustness, at: &str) -> Table {
+    let headings = ["what", "found below", "now", "found above"];
     let mut table = Table::new(headings.map(Heading::shown));
     for row in &found.changes {
         let [now, unit] = amount(row.path, row.present, row.present);
         let side = |found: Option<ChangedVerdict>, tried: f64| match found {
-            Some(ChangedVerdict { value, verdict }) => {
-                format!("{verdict} at {}", amount(row.path, value, row.present)[0])
+            Some(changed) => {
+                let value = &amount(row.path, changed.value, row.present)[0];
+                format!("{}{}{at}{value}", changed.verdict, mark(changed))
             }
             None if tried == row.present => "-".into(),
             None => format!("none to {}", amount(row.path, tried, row.present)[0]),

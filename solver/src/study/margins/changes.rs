@@ -6,9 +6,10 @@ use serde::Serialize;
 
 use super::parameters::{CLEARANCE, Parameter, acting};
 use super::touching;
-use crate::motion::{GoOn, Verdict, run_to_verdict};
-use crate::scene::{CheckedScene, ContactLaw, Scene, keys};
-use crate::tolerances::{CHANGE_FOUND, CHANGE_OF_ZERO, CHANGE_RUNS, CHANGE_STEPS};
+use crate::motion::{GoOn, Verdict, VerdictReached, certainty, run_to_verdict};
+use crate::numeric::rounding::rounded;
+use crate::scene::{CheckedScene, ContactLaw, Scene, SolverKind, keys};
+use crate::tolerances::{CHANGE_DIGITS, CHANGE_FOUND, CHANGE_OF_ZERO, CHANGE_RUNS, CHANGE_STEPS};
 
 /// The quantities that are changed, and their names; the last two only where they are not zero.
 const CHANGED: [(&str, &str); 7] = [
@@ -26,6 +27,8 @@ const CHANGED: [(&str, &str); 7] = [
 pub struct Robustness {
     /// The contact law.
     pub contact: ContactLaw,
+    /// The solver of the runs.
+    pub solver: SolverKind,
     /// Verdict of the run.
     pub verdict: Verdict,
     /// The nearest changes of it, a row for each quantity.
@@ -61,6 +64,8 @@ pub struct ChangedVerdict {
     pub value: f64,
     /// Verdict of the run with it.
     pub verdict: Verdict,
+    /// Whether a tiny change or another step makes that run end otherwise.
+    pub sensitive: bool,
 }
 
 impl VerdictChange {
@@ -128,11 +133,12 @@ impl Search<'_> {
     /// Looks on one side: outward, then between the last two.
     fn one(&self, sense: f64) -> Option<(Option<ChangedVerdict>, f64)> {
         let (by, _, step) = self.row;
-        let value = |steps: f64| by.of(self.scene) + sense * steps * step;
+        // A value that was tried is one that can be typed.
+        let value = |steps: f64| rounded(by.of(self.scene) + sense * steps * step, CHANGE_DIGITS);
         let (mut same, mut runs) = (0.0, 0);
-        let mut found: Option<(f64, Verdict)> = None;
+        let mut found: Option<(f64, (CheckedScene, VerdictReached))> = None;
         while runs < CHANGE_RUNS {
-            let steps = match (found, CHANGE_STEPS.get(runs)) {
+            let steps = match (&found, CHANGE_STEPS.get(runs)) {
                 (Some((steps, _)), _) => 0.5 * (same + steps),
                 (None, Some(steps)) => *steps,
                 (None, None) => break,
@@ -140,23 +146,28 @@ impl Search<'_> {
             runs += 1;
             match self.ends(value(steps))? {
                 None => break,
-                Some(verdict) if verdict == self.verdict => same = steps,
-                Some(verdict) => found = Some((steps, verdict)),
+                Some((_, reached)) if reached.verdict == self.verdict => same = steps,
+                Some(run) => found = Some((steps, run)),
             }
-            let near = |(steps, _)| step * (steps - same) <= CHANGE_FOUND * f64::abs(value(steps));
-            if found.is_some_and(near) {
+            let near = |(steps, _): &(f64, _)| {
+                step * (steps - same) <= CHANGE_FOUND * f64::abs(value(*steps))
+            };
+            if found.as_ref().is_some_and(near) {
                 break;
             }
         }
-        let changed = found.map(|(at, verdict)| ChangedVerdict { value: value(at), verdict });
-        Some((changed, changed.map_or(value(same), |changed| changed.value)))
+        let Some((at, (scene, reached))) = found else { return Some((None, value(same))) };
+        let certainty = certainty(&scene, reached, true, self.go_on)?;
+        let sensitive = certainty.ends_otherwise || certainty.depends_on_step == Some(true);
+        let changed = ChangedVerdict { value: value(at), verdict: reached.verdict, sensitive };
+        Some((Some(changed), changed.value))
     }
 
-    /// Returns how the run with this value ends; none inside where the scene does not allow it.
-    fn ends(&self, value: f64) -> Option<Option<Verdict>> {
+    /// Returns the scene with this value and how it ends; none inside where it is not allowed.
+    fn ends(&self, value: f64) -> Option<Option<(CheckedScene, VerdictReached)>> {
         (self.go_on)().then_some(())?;
         let scene = self.row.0.set(self.scene, value).and_then(|scene| scene.checked());
         let Ok(scene) = scene else { return Some(None) };
-        run_to_verdict(&scene, self.go_on).map(|reached| Some(reached.verdict))
+        run_to_verdict(&scene, self.go_on).map(|reached| Some((scene, reached)))
     }
 }

@@ -95,9 +95,15 @@ impl Margins {
     pub fn ask_runs(&mut self, go_on: GoOn<'_>, known: &mut dyn FnMut(&Self)) -> Option<()> {
         let start = Instant::now();
         for (place, scene) in changes::asked(&self.scene).iter().enumerate() {
-            let (contact, rows) = (scene.solver.contact, changes::rows(scene));
-            let verdict = run_to_verdict(scene, go_on)?.verdict;
-            let mut found = Robustness { contact, verdict, changes: Vec::new(), rows: rows.len() };
+            let rows = changes::rows(scene);
+            let mut found = Robustness {
+                contact: scene.solver.contact,
+                solver: scene.solver.kind,
+                verdict: run_to_verdict(scene, go_on)?.verdict,
+                changes: Vec::new(),
+                rows: rows.len(),
+            };
+            let verdict = found.verdict;
             for row in rows {
                 found.changes.push(changes::Search { scene, verdict, row, go_on }.both()?);
                 let of_law = if place == 0 { &mut self.robust } else { &mut self.pushes_only };

@@ -125,7 +125,7 @@ impl ViewPanel for MarginsView {
         let asked = margins::robust::asked(&live.margins).filter(|_| !app.layout.is_surveyed());
         let head = asked.flat_map(|found| {
             let sentence = margins::robust::sentence(found, &live.margins.scene);
-            std::iter::once(sentence).chain(told(&margins::robust::table(found)))
+            std::iter::once(sentence).chain(told(&margins::robust::table(found, " at ")))
         });
         Some(head.chain(told(&table)).map(|line| line.trim_end().to_string()).collect())
     }

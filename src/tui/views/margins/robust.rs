@@ -22,8 +22,9 @@ pub fn draw(app: &App, margins: &Margins, buffer: &mut Buffer, area: Rect, limit
     let (height, width) = (usize::from(area.height), usize::from(area.width.saturating_sub(1)));
     for (place, found) in robust::asked(margins).enumerate() {
         let sentence = wrap(&look.spell(&robust::sentence(found, &margins.scene)), width);
-        let mut rows = robust::table(found).lines(usize::MAX, 1);
+        let mut rows = robust::table(found, " at ").lines(usize::MAX, 1);
         if rows.iter().any(|row| row.join(" ").chars().count() > width) {
+            rows = robust::table(found, " ").lines(usize::MAX, 1);
             // The knobs have the present values, too.
             rows.iter_mut().for_each(|row| drop(row.remove(NOW)));
         }
