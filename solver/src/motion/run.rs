@@ -510,7 +510,6 @@ fn accumulation(scene: &CheckedScene, log: &ContactLog, machine: &Machine) -> Op
 
 /// The longest hold of a corner that ended on the way, if it was as long as a casing period,
 /// and the speed of the rotor when it ended \[rad/s\]; none where that was changed since.
-#[must_use]
 pub fn lock_that_broke(motion: &Motion) -> Option<(Hold, f64)> {
     let period = TAU / motion.machine().omega_c;
     let hold = motion.contacts().longest_hold.filter(|hold| hold.length() >= period)?;
@@ -519,7 +518,6 @@ pub fn lock_that_broke(motion: &Motion) -> Option<(Hold, f64)> {
 
 /// The rotor speed at which a motion came to the blades that it touches now, where the speed
 /// changes \[rad/s\], and whether it becomes faster; none where the ramp was changed since.
-#[must_use]
 pub fn caught_at(motion: &Motion) -> Option<(f64, bool)> {
     let (since, ramp) = (motion.contacts().since, motion.rotor().ramp());
     let speed = motion.rotor().known_speed(since)?;

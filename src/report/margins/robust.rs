@@ -18,7 +18,6 @@ pub fn asked(margins: &Margins) -> impl Iterator<Item = &Robustness> {
 }
 
 /// Returns what the run does, and which change of its verdict is nearest, of those found.
-#[must_use]
 pub fn sentence(found: &Robustness, scene: &Scene) -> String {
     let law = match found.contact {
         ContactLaw::Unilateral if found.solver != scene.solver.kind => "pushes only, by events",
@@ -63,7 +62,6 @@ fn mark(changed: ChangedVerdict) -> &'static str {
 }
 
 /// Returns a row for each quantity, with its numbers in one unit, `at` between verdict and value.
-#[must_use]
 pub fn table(found: &Robustness, at: &str) -> Table {
     let headings = ["what", "found below", "now", "found above"];
     let mut table = Table::new(headings.map(Heading::shown));
