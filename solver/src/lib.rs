@@ -16,6 +16,8 @@
 //! | slip, whirl, flutter, rest on a lining | [`harmonic`] |
 //! | verdicts over two parameters | [`study::MapPlan::compute`] a cell, [`study::Map::fill`] all |
 //! | the distance to every limit, and what moves it | [`study::margins::Margins::of`] |
+//! | the nearest changes of a verdict | [`study::margins::Margins::ask_runs`] |
+//! | another clearance | [`scene::Scene::set_clearance`]; all keys: [`scene::Scene::set`] |
 //! | every number of nodal diameters | [`study::survey::Survey::of`] |
 //!
 //! Units are SI. A multiplier is negative where the contact pushes. The package's `examples`

@@ -204,8 +204,11 @@ impl Locked {
     }
 }
 
-/// Computes the locked motion of a machine over speeds \[rad/s\], held between the
-/// groups of two blades (the paper's where `None`, see [`Corner::paper`]).
+/// Computes the locked motion of a machine over speeds \[rad/s\], on rigid contact in a round
+/// casing, held between the groups of two blades; where `None` the paper's of equal tips, else
+/// the corner that holds at the lowest speed ([`Corner::of`]). A machine that changes with the
+/// speed is taken at each speed. Undamped unless `damped`, as in the paper's equations. On a
+/// lining ask [`super::lock_loads`]. Speeds at which nothing is found have no point.
 ///
 /// ```
 /// use rubscope_solver::harmonic::{Form, locked_motion};
@@ -222,8 +225,9 @@ impl Locked {
 /// ```
 ///
 /// # Errors
-/// A polygon without corners, blades that are not phase neighbours, or a speed
-/// that is not finite.
+/// A polygon without corners, blades that are not phase neighbours, a speed that is not finite,
+/// no clearance, a disk of other diameters, or unequal, inclined or rubbing tips in another
+/// form than [`Form::Modal`].
 pub fn locked_motion(
     machine: &Machine,
     form: Form,

@@ -103,7 +103,7 @@ impl Scene {
         self.casing.radius_m - self.bladed_disk.blade_length_m
     }
 
-    /// Sets the clearance by the radius of the casing, without a check of the scene.
+    /// Sets the clearance \[m\] by the radius of the casing, without a check of the scene.
     ///
     /// # Errors
     /// A radius that its key does not allow.

@@ -169,8 +169,8 @@ impl SurveyRow {
 }
 
 impl Survey {
-    /// The survey of a scene, over a range of speeds, with the sensitivities by a parameter,
-    /// if there is one.
+    /// The survey of a scene, over a range of speeds \[rad/s\], finite and the lower first (see
+    /// [`speed_range`]), with the sensitivities of every limit by a parameter, if there is one.
     #[must_use]
     pub fn of(scene: &CheckedScene, range: Option<[f64; 2]>, by: Option<&Parameter>) -> Self {
         let start = Instant::now();

@@ -46,9 +46,9 @@ pub enum LimitName {
     FirstTouch,
     /// The smallest pulse that touches.
     TouchingPulse,
-    /// Push of the group a of the lock.
+    /// Push of the group a of the lock: minus its multiplier, positive where it pushes.
     PushA,
-    /// Push of the group b.
+    /// Push of the group b, likewise.
     PushB,
     /// Torque that holds the lock.
     Torque,

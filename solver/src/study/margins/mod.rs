@@ -90,8 +90,9 @@ impl Margins {
         changes::asked(scene).iter().map(|scene| changes::rows(scene).len()).sum()
     }
 
-    /// Finds by runs how far this one is from another verdict, and hands itself to `known` after
-    /// each row; none where `go_on` said no on the way.
+    /// Finds by runs how far this one is from another verdict, up to twice each value and down to
+    /// zero, and hands itself to `known` after each row: `robust`, and where the law pulls
+    /// `pushes_only`. None where `go_on` said no on the way; the rows found by then stay.
     pub fn ask_runs(&mut self, go_on: GoOn<'_>, known: &mut dyn FnMut(&Self)) -> Option<()> {
         let start = Instant::now();
         for (place, scene) in changes::asked(&self.scene).iter().enumerate() {
