@@ -9,6 +9,11 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
+/// Whether both packages are here: a package by itself has not the folder of the other.
+fn is_checkout() -> bool {
+    root().join("solver/src").is_dir()
+}
+
 fn contributing() -> String {
     fs::read_to_string(root().join("CONTRIBUTING.md")).unwrap()
 }
@@ -59,6 +64,9 @@ fn packages() -> [PathBuf; 2] {
 
 #[test]
 fn every_part_uses_only_what_is_drawn_below_it() {
+    if !is_checkout() {
+        return;
+    }
     let rows = rows();
     let mut wrong = Vec::new();
     let mut uses = 0;
@@ -89,6 +97,9 @@ fn every_part_uses_only_what_is_drawn_below_it() {
 
 #[test]
 fn every_file_that_is_named_exists() {
+    if !is_checkout() {
+        return;
+    }
     let text = contributing();
     let mut seen = 0;
     for word in text.split('`').skip(1).step_by(2) {
@@ -110,6 +121,9 @@ fn every_file_that_is_named_exists() {
 
 #[test]
 fn no_solver_knows_its_sibling() {
+    if !is_checkout() {
+        return;
+    }
     // A folder of `motion`, and what none of its lines may name.
     let apart = [
         ("explicit", &["motion::event", "LinearEvents", "ExactEvents"][..]),
@@ -239,6 +253,9 @@ fn every_part_of_the_explorer_uses_only_what_is_below_it() {
 
 #[test]
 fn the_map_of_the_tests_names_modules_that_there_are() {
+    if !is_checkout() {
+        return;
+    }
     let read = |path: &str| fs::read_to_string(root().join(path)).unwrap();
     let main = read("solver/tests/all/main.rs");
     let both = main.clone() + &read("tests/all/main.rs");

