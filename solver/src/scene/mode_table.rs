@@ -11,10 +11,10 @@ type Measured = (Family, Vec<(f64, f64)>);
 /// Reads the modes of a table: a line of names, then a line for each mode. Names are
 /// `structure` (casing or disk), `nodal_diameters`, `frequency_hz`, `modal_mass_kg`, and
 /// `damping_ratio` if there is one, also as `Frequency [Hz]` or `Damping [%]`. A line of the disk
-/// may have the rotor speed of its frequency (`Speed [rpm]`) and `centrifugal_stiffening`; two lines of the same
-/// diameters at two speeds are one mode, with the mass of the first. Cells stand between commas, or
-/// between semicolons or tabs, with which numbers may have a decimal comma. Empty lines and
-/// those that begin with `#` are left out, and columns of other names.
+/// may have the rotor speed of its frequency (`Speed [rpm]`) and `centrifugal_stiffening`; two
+/// lines of the same diameters at two speeds are one mode, with the mass of the first. Cells stand
+/// between commas, or between semicolons or tabs, with which numbers may have a decimal comma.
+/// Empty lines and those that begin with `#` are left out, and columns of other names.
 ///
 /// # Errors
 /// A missing column, or a value that is not allowed, by its line and column.

@@ -1,6 +1,7 @@
 //! The two lines at the top. The first: what the motion is, in one sentence, and how it came
-//! there; red only where the state itself is wrong. The second: where the motion is now, how fast it turns beside its limits, and
-//! the end of the run. What has no room has a shorter form or is left out; nothing is cut.
+//! there; red only where the state itself is wrong. The second: where the motion is now, how
+//! fast it turns beside its limits, and the end of the run. What has no room has a shorter form
+//! or is left out; nothing is cut.
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier, style::Style};
 
