@@ -2,14 +2,10 @@
 //! at any step. The program, which skips flights and holds corners in closed
 //! form, against the plain stepper, which does neither.
 
+use crate::keys::{LAW, MODEL, PULSE, SPEED};
 use crate::plain::compare::Pair;
 use crate::plain::scenes::{LAWS, MODELS, in_corner, scene};
 use rubscope_solver::scene::Scene;
-
-const MODEL: &str = "solver.model";
-const LAW: &str = "solver.contact";
-const PULSE: &str = "operation.pulse_n";
-const SPEED: &str = "operation.speed_rad_s";
 
 /// The same changes in every model under every law.
 fn each(changes: &[(&str, &str)], mut run: impl FnMut(Scene)) {
@@ -114,36 +110,23 @@ fn fired_again_while_locked() {
 }
 
 #[test]
-fn fired_again_during_the_pulse() {
-    for at in [1e-5, 2.5e-5, 4.95e-5] {
+fn fired_again_before_the_first_step_and_during_the_pulse() {
+    for at in [0.0, 1e-5, 2.5e-5, 4.95e-5] {
         each(&[], |scene| {
             let mut pair = Pair::new(&scene);
             assert!(pair.advance(at).is_ok());
             pair.fire();
-            go_on(&mut pair, "fired during the pulse", 0.002);
+            go_on(&mut pair, &format!("fired at {at}"), 0.002);
+            // Another pulse, too.
+            let mut stronger = scene.clone();
+            stronger.operation.pulse_n *= 2.0;
+            let mut pair = Pair::new(&scene);
+            assert!(pair.advance(at).is_ok());
+            pair.adopt(&stronger);
+            pair.fire();
+            go_on(&mut pair, &format!("another fired at {at}"), 0.001);
         });
     }
-}
-
-#[test]
-fn fired_before_the_first_step() {
-    each(&[], |scene| {
-        let mut pair = Pair::new(&scene);
-        pair.fire();
-        go_on(&mut pair, "fired at zero", 0.001);
-    });
-}
-
-#[test]
-fn another_pulse_fired_before_the_first_step() {
-    each(&[], |scene| {
-        let mut stronger = scene.clone();
-        stronger.operation.pulse_n *= 2.0;
-        let mut pair = Pair::new(&scene);
-        pair.adopt(&stronger);
-        pair.fire();
-        go_on(&mut pair, "another fired at zero", 0.001);
-    });
 }
 
 #[test]

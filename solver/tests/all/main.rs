@@ -9,10 +9,10 @@
 //! | numbers of other codes | `cases` `explicit_tips` | `explicit_lining` | `event_cases` | `event_linear` | `hbm_locked` `hbm_slip` `hbm_joined` `hbm_lining` |
 //! | closed forms | `explicit` `explicit_tip_locks` | `lock_ends` | `event_cases` | `event_linear` | `theory` `hbm_laws` `hbm_whirl` |
 //! | plain stepping, or integration | `plain_stepper` `rebound` | `explicit_lining` | `event_modal` | `rebound` | `hbm_time` `hbm_excitation` |
-//! | its order | `order` `rebound` | `explicit_lining` | `order` | `explicit_tips` | |
+//! | its order | `live_event` `rebound` | `explicit_lining` | `live_event` | `explicit_tips` | |
 //! | leaps are steps | `shortcuts` `sliding` `soft_locks` `plain_stepper` | | | | |
 //! | no pull, no energy made, mirrors | `motion_laws` | `motion_laws` | `event_laws` | `event_linear_laws` | `hbm_laws` |
-//! | sizes of the disk agree | `full_disk` | `explicit_lining` | | | |
+//! | sizes of the disk agree | `cases` | `explicit_lining` | | | |
 //! | live changes | `live_changes` `live_random` | `motion_laws` | `live_event` | `event_linear_laws` | |
 //! | hard cases, any input | `explicit_hard` `fuzz_cases` | `motion_laws` | `event_hard` | `event_linear_laws` | `hbm_lining_states` `hbm_branches` |
 //! | verdicts, digits, flags | `verdicts` `certainty` `digits` `map_flags` | `explicit_lining` | `verdicts` `digits` | `event_linear` | |
@@ -39,8 +39,8 @@ mod explicit_hard;
 mod explicit_lining;
 mod explicit_tip_locks;
 mod explicit_tips;
-mod full_disk;
 mod imperfect;
+mod keys;
 mod lasting_locks;
 mod live_changes;
 mod live_event;
@@ -49,10 +49,8 @@ mod lock_ends;
 mod machine_at_speed;
 mod machine_in_time;
 mod motion_laws;
-mod order;
 mod pauses;
 mod plain;
-mod plain_self;
 mod plain_stepper;
 mod rebound;
 mod shortcuts;
@@ -66,6 +64,12 @@ fn drawn(cases: u32) -> ProptestConfig {
     let given = ProptestConfig::default();
     let cases = if std::env::var_os("PROPTEST_CASES").is_some() { given.cases } else { cases };
     ProptestConfig { cases, failure_persistence: None, max_shrink_iters: 200, ..given }
+}
+
+/// A value is what is expected, up to this difference.
+#[track_caller]
+fn close(value: f64, expected: f64, most: f64) {
+    assert!((value - expected).abs() <= most, "{value:.12e} is not {expected:e}");
 }
 
 /// A scene run to its end once, without the changed runs that say how far to trust it.

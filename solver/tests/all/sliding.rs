@@ -2,14 +2,7 @@
 //! in twice the digits, over whole runs of random scenes.
 
 use crate::plain::compare::Pair;
-use crate::plain::scenes::scene;
-
-/// The `k`th number between 0 and 1 of a seed.
-fn random(seed: u64, k: u64) -> f64 {
-    let bits = (seed * 1000 + k).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    let bits = (bits ^ bits >> 29).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    (bits ^ bits >> 32) as f64 / u64::MAX as f64
-}
+use crate::plain::scenes::{random, scene};
 
 fn pick<T: Copy>(values: &[T], part: f64) -> T {
     values[((values.len() as f64 * part) as usize).min(values.len() - 1)]

@@ -15,8 +15,6 @@ pub struct Dd(pub f64, pub f64);
 
 pub const ZERO: Dd = Dd(0.0, 0.0);
 pub const ONE: Dd = Dd(1.0, 0.0);
-/// Pi to 32 digits.
-pub const PI: Dd = Dd(std::f64::consts::PI, 1.224_646_799_147_353_2e-16);
 pub const TAU: Dd = Dd(std::f64::consts::TAU, 2.449_293_598_294_706_4e-16);
 const HALF_PI: Dd = Dd(std::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17);
 

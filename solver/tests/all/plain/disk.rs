@@ -3,8 +3,7 @@
 //! The stiffness of Eqs. (2)-(3), `k_b` on every blade and `k_bb` between
 //! neighbours, is circulant, so `cos(k Phi_i)` and `sin(k Phi_i)` are its modes,
 //! with `k_b + 2 k_bb (1 - cos(2 pi k/N))` a blade. *full* takes all N of them,
-//! *modal* those of `n_d` diameters, *rigid* none. `plain_stepper` checks the
-//! modes against neighbours coupled by springs.
+//! *modal* those of `n_d` diameters, *rigid* none.
 
 use rubscope_solver::scene::{ModelSize, Scene};
 
