@@ -1,17 +1,13 @@
 //! The event solver of what goes beyond the paper's model: reference motions from
 //! independent codes, and agreement with the paper's event solver where both apply.
 
+use crate::close;
+use crate::keys::{KAPPA, MU, PULSE, SPEED, TAU, ZETA};
 use rubscope_solver::motion::{
     ExactEvents, LinearEvents, Motion, Sample, Sampling, Script, Solver, Verdict, run_to_end,
 };
 use rubscope_solver::scene::{CheckedScene, Scene};
 
-const SLOPE: &str = "bladed_disk.radial_coupling";
-const FRICTION: &str = "contact.friction";
-const TAU: &str = "casing.tangential_ratio";
-const SPEED: &str = "operation.speed_rad_s";
-const PULSE: &str = "operation.pulse_n";
-const ZETA: &str = "casing.damping_ratio";
 const REBOUND: &str = "contact.restitution";
 
 pub fn scene(model: &str, changes: &[(&str, f64)]) -> CheckedScene {
@@ -22,10 +18,6 @@ pub fn scene(model: &str, changes: &[(&str, f64)]) -> CheckedScene {
         scene.set(key, &value.to_string()).unwrap();
     }
     scene.checked().unwrap()
-}
-
-fn close(value: f64, expected: f64, tolerance: f64) {
-    assert!((value - expected).abs() <= tolerance, "{value:.12e} is not {expected:e}");
 }
 
 /// The impulse of an impact \[N s\], from the jump of the casing's rate.
@@ -70,7 +62,7 @@ fn a_pulse_from_rest_gives_the_impacts_and_the_state_of_two_other_codes() {
         ),
     ];
     for ([kappa, mu, tau, speed, pulse], count, impacts, at_3_ms) in rows {
-        let keys = [(SLOPE, kappa), (FRICTION, mu), (TAU, tau), (SPEED, speed), (PULSE, pulse)];
+        let keys = [(KAPPA, kappa), (MU, mu), (TAU, tau), (SPEED, speed), (PULSE, pulse)];
         let scene = scene("modal", &keys);
         let mut motion = LinearEvents::new(&scene);
         motion.advance(3e-3).unwrap();
@@ -200,7 +192,7 @@ fn the_whirl_turns_as_the_fixed_point_of_its_passing_says() {
             [9.440509250e-4, 181.306383, 0.0179329119, 1.330297e-4, 5.01028e-4],
         ),
     ] {
-        let keys = [(SLOPE, kappa), (FRICTION, mu), (SPEED, first), (PULSE, pulse)];
+        let keys = [(KAPPA, kappa), (MU, mu), (SPEED, first), (PULSE, pulse)];
         let mut motion = Motion::new(&scene("modal", &keys));
         motion.advance(0.3).unwrap();
         motion.set_speed(speed, 0.0);
@@ -233,7 +225,7 @@ fn the_whirl_turns_as_the_fixed_point_of_its_passing_says() {
 
 #[test]
 fn a_divergent_run_ends_in_one_state_with_its_energy() {
-    let keys = [(SLOPE, 0.58), (FRICTION, 0.27), (SPEED, 517.0), (PULSE, 15699.0)];
+    let keys = [(KAPPA, 0.58), (MU, 0.27), (SPEED, 517.0), (PULSE, 15699.0)];
     let mut scene = scene("modal", &keys).into_scene();
     scene.solver.end_s = 0.05;
     let scene = scene.checked().unwrap();

@@ -211,6 +211,19 @@ fn runs_in_time_keep_a_lock_to_its_ends_and_lose_it_beyond() {
     }
 }
 
+/// In time, as the steady state has them.
+#[test]
+fn a_lining_pushes_a_lock_just_above_its_lowest_speed() {
+    let mut motion = Motion::new(
+        &pressed_in_corner(lined(1e9, &[(SPEED, 418.616_650_8), (STEP, 1e-6)])).checked().unwrap(),
+    );
+    motion.advance(0.1).unwrap();
+    let pushes = motion.multipliers();
+    // The scheme's own error is of second order, 1e-6 of the larger push.
+    assert!((pushes[0].1 + 163.825_941).abs() < 2e-3, "{pushes:?}");
+    assert!((pushes[1].1 + 0.541_935).abs() < 2e-3, "{pushes:?}");
+}
+
 #[test]
 fn margins_of_a_lining_are_its_own_or_say_why_there_are_none() {
     let of = |stiffness: &str| {

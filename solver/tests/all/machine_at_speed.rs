@@ -2,6 +2,7 @@
 //! that grow, `g0 - c Omega^2`. Closed forms against numbers that were made apart, and every
 //! view of the frequency domain against the machine at one speed that stays the same.
 
+use crate::keys::{KAPPA, LOSS, SPEED, STIFFENING};
 use rubscope_solver::harmonic::{
     Campbell, Form, Joint, Lining, coincidence, equilibria, flutter_speed, flutters, lock_loads,
     lock_roots, locked_motion, slip_over, undamped_flutter_speed, whirl_beginnings, whirl_onset,
@@ -10,11 +11,7 @@ use rubscope_solver::model::Machine;
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::margins::{LimitName, Margins};
 
-const STIFFENING: &str = "bladed_disk.centrifugal_stiffening";
-const LOSS: &str = "casing.clearance_loss_m_s2";
-const KAPPA: &str = "bladed_disk.radial_coupling";
 const STIFFNESS: &str = "bladed_disk.stiffness_nm_per_rad";
-const SPEED: &str = "operation.speed_rad_s";
 
 fn scene(changes: &[(&str, f64)]) -> Scene {
     changed(Scene::base(), changes)
@@ -320,6 +317,8 @@ fn limits_change_with_every_parameter_as_their_derivatives_say() {
         (SPEED, 520.0),
         ("casing.damping_ratio", 0.02),
         ("bladed_disk.damping_ratio", 0.02),
+        ("contact.friction", 0.05),
+        ("casing.tangential_ratio", 0.3),
     ]);
     let limits = |of: &Scene| Margins::of(&of.checked().unwrap());
     let here = limits(&of);
@@ -333,6 +332,10 @@ fn limits_change_with_every_parameter_as_their_derivatives_say() {
         ("casing.damping_ratio", 1e-5),
         ("bladed_disk.damping_ratio", 1e-5),
         ("casing.modal_stiffness_n_per_m", 1e-6),
+        ("casing.modal_mass_kg", 1e-6),
+        ("bladed_disk.inertia_kg_m2", 1e-6),
+        ("contact.friction", 1e-5),
+        ("casing.tangential_ratio", 1e-5),
     ] {
         let value = |sign: f64| {
             let mut other = of.clone();

@@ -3,20 +3,12 @@
 //! on a lining, against an integrator of its own; and what a change of speed gives to the
 //! blades stands in the ledger.
 
+use crate::keys::{KAPPA, KIND, LOSS, PULSE, RAMP, SPEED, STEP, STIFFENING};
 use rubscope_solver::model::LiningLaw;
 use rubscope_solver::motion::{ActiveSet, FailureReason, Motion, State};
 use rubscope_solver::scene::{CheckedScene, Scene};
 
 use crate::machine_at_speed::frozen;
-
-const STIFFENING: &str = "bladed_disk.centrifugal_stiffening";
-const LOSS: &str = "casing.clearance_loss_m_s2";
-const KAPPA: &str = "bladed_disk.radial_coupling";
-const SPEED: &str = "operation.speed_rad_s";
-const RAMP: &str = "operation.speed_ramp_rad_s2";
-const PULSE: &str = "operation.pulse_n";
-const STEP: &str = "solver.step_s";
-const KIND: &str = "solver.kind";
 
 fn set(scene: &mut Scene, changes: &[(&str, &str)]) {
     changes.iter().for_each(|(path, text)| scene.set(path, text).unwrap());
