@@ -29,6 +29,26 @@ pub fn rubscope(arguments: &[&str]) -> Output {
     program().args(arguments).output().unwrap()
 }
 
+/// The words of a command line.
+pub fn words(line: &str) -> Vec<&str> {
+    line.split_whitespace().collect()
+}
+
+/// The words of a command line, and more.
+pub fn map_words<'a>(line: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    [&words(line), more].concat()
+}
+
+/// What a command that must succeed prints.
+pub fn text(arguments: &[&str]) -> String {
+    String::from_utf8(ended(program().args(arguments), 0).stdout).unwrap()
+}
+
+/// The same of a command that prints JSON.
+pub fn json(arguments: &[&str]) -> serde_json::Value {
+    serde_json::from_str(&text(arguments)).unwrap()
+}
+
 /// Runs a command, which must end with this status.
 pub fn ended(command: &mut Command, status: i32) -> Output {
     let output = command.output().unwrap();

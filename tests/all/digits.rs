@@ -1,14 +1,13 @@
 //! Which digits of a run hold: its spread, the text that leaves the others out, and runs
 //! that do not ask.
 
-use rubscope::report::summary;
 use rubscope_solver::motion::{
     Contact, Motion, RunReport, Sampling, Script, Spread, Watch, run_to_end, run_to_end_watched,
     simulate,
 };
 use rubscope_solver::scene::{CheckedScene, Scene};
 
-use crate::cli_support::rubscope;
+use crate::cli_support::{self, text};
 
 /// Skims the blades again and again.
 const NOISE: [&str; 5] = ["run", "--contact", "unilateral", "--pulse", "1e6"];
@@ -16,14 +15,8 @@ const NOISE: [&str; 5] = ["run", "--contact", "unilateral", "--pulse", "1e6"];
 /// What is said where digits are left out.
 const LEFT_OUT: &str = "Digits that a tiny change or another step moves are left out.";
 
-fn text(arguments: &[&str]) -> String {
-    let output = rubscope(arguments);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).unwrap()
-}
-
 fn json(arguments: &[&str]) -> serde_json::Value {
-    serde_json::from_str(&text(&[arguments, &["--json"]].concat())).unwrap()
+    cli_support::json(&[arguments, &["--json"]].concat())
 }
 
 /// The number after some words.
@@ -118,9 +111,7 @@ fn a_number_that_a_changed_run_does_not_have_has_no_spread() {
     let spread = report.outcome.spread.clone().unwrap();
     assert_eq!(spread.multipliers_n, [None, None]);
     assert!(spread.amplitude_m.is_some());
-    let mut text = Vec::new();
-    summary::write(&report, Default::default(), &mut text).unwrap();
-    let text = String::from_utf8(text).unwrap();
+    let text = crate::told(&report);
     assert!(text.contains(" pushes with about 200 N") && text.contains("No digit holds"), "{text}");
 }
 
@@ -216,12 +207,7 @@ fn each_number_is_told_in_its_own_digits() {
         multipliers_n: vec![Some(0.004), Some(0.4)],
         ..spread.clone()
     });
-    let told = |report: &RunReport| {
-        let mut text = Vec::new();
-        summary::write(report, Default::default(), &mut text).unwrap();
-        String::from_utf8(text).unwrap()
-    };
-    let text = told(&report);
+    let text = crate::told(&report);
     for words in [
         "same blades since 12.3 ms.",
         "Blade 6 pushes with 244.42 N",
@@ -234,7 +220,7 @@ fn each_number_is_told_in_its_own_digits() {
     // Of many, the sum moves by what all move by.
     report.outcome.contacts = (1..=5).map(|blade| touch(-10.1234, &[blade])).collect();
     report.outcome.spread = Some(Spread { multipliers_n: vec![Some(0.04); 5], ..spread });
-    let text = told(&report);
+    let text = crate::told(&report);
     assert!(text.contains("5 blades push with 51 N at the end, "), "{text}");
     assert!(text.contains("most, with 10.1 N."), "{text}");
 }

@@ -51,7 +51,6 @@ mod map_zone;
 mod margins;
 mod margins_changes;
 mod margins_command;
-mod margins_joined;
 mod margins_odd;
 mod own_machine;
 mod pty;
@@ -67,7 +66,6 @@ mod scene_modes;
 mod scene_notes;
 mod scene_numbers;
 mod scene_support;
-mod scenes;
 mod security;
 mod signs_of_life;
 mod soak;
@@ -99,6 +97,30 @@ fn drawn(cases: u32) -> ProptestConfig {
     let given = ProptestConfig::default();
     let cases = if std::env::var_os("PROPTEST_CASES").is_some() { given.cases } else { cases };
     ProptestConfig { cases, failure_persistence: None, max_shrink_iters: 200, ..given }
+}
+
+/// A value is what is expected, up to this part of it.
+#[track_caller]
+fn close(value: f64, expected: f64, part: f64) {
+    assert!((value - expected).abs() <= part * expected.abs(), "{value:e} is not {expected:e}");
+}
+
+/// The same up to this difference.
+#[track_caller]
+fn near(value: f64, expected: f64, most: f64) {
+    assert!((value - expected).abs() <= most, "{value:e} is not {expected:e}");
+}
+
+/// A built-in scene with some keys set.
+fn scene(name: &str, changes: &[(&str, &str)]) -> CheckedScene {
+    rubscope_solver::scene::Scene::builtin(name).unwrap().with(changes).unwrap()
+}
+
+/// What the program prints of a run.
+fn told(report: &RunReport) -> String {
+    let mut text = Vec::new();
+    rubscope::report::summary::write(report, Default::default(), &mut text).unwrap();
+    String::from_utf8(text).unwrap()
 }
 
 /// A scene run to its end once, without the changed runs that say how far to trust it.

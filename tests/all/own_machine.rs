@@ -5,7 +5,7 @@ use std::path::Path;
 
 use rubscope_solver::scene::Scene;
 
-use crate::cli_support::{program, refusal, rubscope};
+use crate::cli_support::{program, refusal, rubscope, text};
 
 /// The worked example of docs/your-machine.md: `stage.toml` from its table, by its command.
 pub fn stage(folder: &Path) {
@@ -70,35 +70,15 @@ disk,5,155.9,5.4
 disk,6,159.7,5.3
 ";
 
-fn text(words: &[&str]) -> String {
-    let output = rubscope(words);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).unwrap()
-}
-
 /// A new scene in a folder, and what was said.
 pub fn made(folder: &Path) -> (String, String) {
     let [table, file] = ["modes.csv", "mine.toml"].map(|name| folder.join(name));
     std::fs::write(&table, TABLE).unwrap();
     let [table, file] = [table, file].map(|path| path.to_str().unwrap().to_string());
-    let told = text(&[
-        "new",
-        &file,
-        "--modes",
-        &table,
-        "--blades",
-        "36",
-        "--radius",
-        "420mm",
-        "--clearance",
-        "0.3 mm",
-        "--nd",
-        "5",
-        "--casing-damping",
-        "1 %",
-        "--range",
-        "6000rpm:11000rpm",
-    ]);
+    let machine = "--blades 36 --radius 420mm --clearance 0.3mm --nd 5 --range 6000rpm:11000rpm";
+    let words = machine.split(' ').chain(["--casing-damping", "1 %"]);
+    let told =
+        text(&["new", &file, "--modes", &table].into_iter().chain(words).collect::<Vec<_>>());
     (file, told)
 }
 

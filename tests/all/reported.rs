@@ -3,7 +3,7 @@
 
 use rubscope_solver::scene::{CheckedScene, Scene};
 
-use crate::cli_support::{refusal, rubscope};
+use crate::cli_support::{json, refusal, text};
 
 const SLOPE: &str = "bladed_disk.radial_coupling";
 const REBOUND: &str = "contact.restitution";
@@ -26,9 +26,7 @@ fn blades_that_follow_are_reported() {
         scene.bladed_disk.stiffness_nm_per_rad = stiffness;
         let report = crate::run_once(&scene.checked().unwrap());
         assert_eq!(report.solver.blades_follow, follow, "{stiffness:e}");
-        let mut text = Vec::new();
-        rubscope::report::summary::write(&report, Default::default(), &mut text).unwrap();
-        let text = String::from_utf8(text).unwrap();
+        let text = crate::told(&report);
         assert_eq!(text.contains("modal model (blades too stiff to be felt"), follow, "{text}");
     }
 }
@@ -37,9 +35,7 @@ fn blades_that_follow_are_reported() {
 fn reports_say_that_angles_are_left_out_of_the_phases() {
     let told = |model: &str, changes: &[(&str, f64)]| {
         let report = crate::run_once(&reference(model, changes));
-        let mut text = Vec::new();
-        rubscope::report::summary::write(&report, Default::default(), &mut text).unwrap();
-        let told = String::from_utf8(text).unwrap().contains("(linearised)");
+        let told = crate::told(&report).contains("(linearised)");
         assert_eq!(told, report.solver.linearised);
         told
     };
@@ -52,28 +48,26 @@ fn reports_say_that_angles_are_left_out_of_the_phases() {
 /// On a lining the closed form is of two groups alone, wherever it is told.
 #[test]
 fn a_lock_on_a_lining_is_said_to_be_of_two_groups() {
-    let told = |arguments: &[&str]| String::from_utf8(rubscope(arguments).stdout).unwrap();
     let stiff = ["--set", "contact.stiffness_n_per_m=1e9"];
-    let run = told(&[&["run", "soft-lining", "--end", "1e-4"][..], &stiff].concat());
+    let run = text(&[&["run", "soft-lining", "--end", "1e-4"][..], &stiff].concat());
     assert!(run.contains(", where locks of two groups begin"), "{run}");
-    let hbm = told(&[&["hbm", "soft-lining", "--smooth", "--speed", "450"][..], &stiff].concat());
+    let hbm = text(&[&["hbm", "soft-lining", "--smooth", "--speed", "450"][..], &stiff].concat());
     assert!(hbm.contains(", lock-in of two groups from "), "{hbm}");
-    let margins = told(&[&["margins", "soft-lining", "--no-search"][..], &stiff].concat());
+    let margins = text(&[&["margins", "soft-lining", "--no-search"][..], &stiff].concat());
     assert!(margins.contains(": of two groups on the lining"), "{margins}");
     // Rigid contact has no others.
-    assert!(!told(&["run", "rub", "--end", "1e-4", "--step", "1e-6"]).contains("two groups"));
+    assert!(!text(&["run", "rub", "--end", "1e-4", "--step", "1e-6"]).contains("two groups"));
 }
 
 /// Where a lock begins and ends stands on a map over the speed, and in a run.
 #[test]
 fn maps_and_runs_name_the_end_of_a_lock() {
-    let told = |arguments: &[&str]| String::from_utf8(rubscope(arguments).stdout).unwrap();
     let speeds = ["--speed", "400:700:31", "--pulse", "1e4:1e5:2", "--end", "1e-4"];
-    let map = told(&[&["map", "rub"][..], &speeds].concat());
+    let map = text(&[&["map", "rub"][..], &speeds].concat());
     assert!(map.contains("lock ends = 566.259"), "{map}");
-    let run = told(&["run", "rub", "--speed", "600", "--end", "1e-4", "--step", "1e-6"]);
+    let run = text(&["run", "rub", "--speed", "600", "--end", "1e-4", "--step", "1e-6"]);
     assert!(run.contains("Omega_lock (472.117 rad/s, where locks begin; they end at 566.259)"));
-    let paper = told(&["run", "--end", "1e-4", "--step", "1e-6"]);
+    let paper = text(&["run", "--pulse", "1e4", "--end", "1e-4", "--step", "1e-6"]);
     assert!(paper.contains("of Omega_lock (411.934 rad/s)."), "{paper}");
 }
 
@@ -90,12 +84,11 @@ fn results_of_equal_blades_say_so() {
     ] {
         for (more, count) in [(&[][..], 0), (&full, 1)] {
             let asked = [command, more].concat();
-            let text = String::from_utf8(rubscope(&asked).stdout).unwrap().replace('\n', " ");
+            let text = text(&asked).replace('\n', " ");
             let words = "equal blades in the modes of 3 nodal diameters";
             assert_eq!(text.matches(words).count(), count, "{asked:?}: {text}");
             assert_eq!(text.contains("differ by 0.02"), count == 1, "{asked:?}: {text}");
-            let json = rubscope(&[&asked[..], &["--json"]].concat()).stdout;
-            let json: serde_json::Value = serde_json::from_slice(&json).unwrap();
+            let json = json(&[&asked[..], &["--json"]].concat());
             let notes = [&json["note"], &json["notes"][0]];
             let noted = notes.iter().filter(|note| note.is_string()).count();
             assert_eq!(noted, count, "{asked:?}");

@@ -1,7 +1,7 @@
 //! With the defaults of every key beyond the paper nothing changes: the scenes of the
 //! paper's model are solved by its own solvers, bit for bit as without those keys.
 
-use crate::cli_support::{refusal, rubscope};
+use crate::cli_support::{refusal, rubscope, words};
 use rubscope_solver::motion::{RunReport, simulate};
 use rubscope_solver::scene::{BUILTIN, KEYS, Scene};
 
@@ -210,14 +210,8 @@ fn tips_whose_pushes_close_their_own_gap_are_refused_with_the_bounds() {
         let smooth = [more, &lining[..]].concat();
         assert!(with(mu, kappa, inertia, &smooth).is_ok());
     }
-    let hbm = crate::cli_support::refusal(&[
-        "hbm",
-        "digs-in",
-        "--set",
-        "contact.friction=5",
-        "--set",
-        "bladed_disk.radial_coupling=-2.5",
-    ]);
+    let set = "hbm digs-in --set contact.friction=5 --set bladed_disk.radial_coupling=-2.5";
+    let hbm = refusal(&words(set));
     assert!(hbm.starts_with("rubscope: bladed_disk.radial_coupling = -2.5: allowed is not from"));
 }
 

@@ -7,11 +7,8 @@ use rubscope::report::CommandLine;
 use rubscope_solver::model::Mode;
 use rubscope_solver::scene::{BUILTIN, Scene};
 
-use crate::cli_support::{refusal, rubscope};
-
-fn close(value: f64, expected: f64, part: f64) {
-    assert!((value / expected - 1.0).abs() <= part, "{value} is not {expected}");
-}
+use crate::cli_support::{self, json, refusal, text, words};
+use crate::close;
 
 fn scene(name: &str, changes: &[(&str, &str)]) -> Scene {
     Scene::builtin(name).unwrap().with(changes).unwrap().into_scene()
@@ -28,8 +25,7 @@ fn the_papers_scene_knows_its_modes_of_three_and_four_diameters() {
     let other = Scene::builtin("paper-nd4").unwrap();
     assert_eq!(four.machine(), other.machine());
     assert_eq!((four.casing, four.bladed_disk), (other.casing, other.bladed_disk));
-    let told = rubscope(&["run", "--nd", "4", "--end", "0.001"]);
-    let told = String::from_utf8(told.stdout).unwrap();
+    let told = text(&["run", "--nd", "4", "--end", "0.001"]);
     assert!(told.contains("Omega_c (256.12 rad/s"), "{told}");
     assert!(!told.contains("No mode"), "{told}");
 }
@@ -39,12 +35,9 @@ fn a_missing_mode_is_said_in_text_and_json() {
     let note = "o mode of the casing with 5 nodal diameters is known (known: 3, 4): the casing's \
                 common values are taken";
     for command in ["run --nd 5 --end 0.001", "margins --nd 5", "hbm --nd 5"] {
-        let words: Vec<&str> = command.split(' ').collect();
-        let text = String::from_utf8(rubscope(&words).stdout).unwrap();
-        let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        let text = words(&text(&words(command))).join(" ");
         assert!(text.contains(&format!("N{note}.")), "{command}: {text}");
-        let json = rubscope(&[&words[..], &["--json"]].concat()).stdout;
-        let json: serde_json::Value = serde_json::from_slice(&json).unwrap();
+        let json = json(&words(&format!("{command} --json")));
         let told = json["scene"]["modes_note"].as_str().unwrap();
         assert_eq!(told, format!("n{note}"), "{command}");
     }
@@ -239,16 +232,15 @@ fn bad_modes_and_units_are_refused_by_name() {
         ),
         ("run --set casing.modes=3", "rubscope: casing.modes = 3: allowed is a list of modes"),
     ] {
-        let said = refusal(&words.split(' ').collect::<Vec<_>>());
+        let said = refusal(&cli_support::words(words));
         assert!(said.starts_with(start), "{said}");
     }
 }
 
 #[test]
 fn options_take_units_and_mean_the_same_as_bare_numbers() {
-    let json = |words: &str| {
-        let output = rubscope(&words.split(' ').collect::<Vec<_>>());
-        let mut value: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let json = |line: &str| {
+        let mut value = json(&words(line));
         for table in ["cost", "solver"] {
             value[table] = serde_json::Value::Null;
         }
@@ -293,10 +285,8 @@ fn where_a_mode_has_a_frequency_it_is_the_parameter_and_a_target_names_the_line_
     let modes = "[{ nodal_diameters = 3, frequency_hz = 139.84, modal_mass_kg = 2.0 }]";
     let set = format!("casing.modes={modes}");
     let text = |more: &[&str]| {
-        let output = rubscope(&[&["margins", "paper-nd3", "--set", &set], more].concat());
-        assert!(output.status.success());
-        let told = String::from_utf8(output.stdout).unwrap();
-        told.split_whitespace().collect::<Vec<_>>().join(" ")
+        let told = text(&[&["margins", "paper-nd3", "--set", &set], more].concat());
+        words(&told).join(" ")
     };
     // A mass beside a frequency moves no frequency, in the table of sensitivities and in a target.
     let scene = Scene::builtin("paper-nd3").unwrap().with(&[("casing.modes", modes)]).unwrap();
@@ -324,6 +314,5 @@ fn where_a_mode_has_a_frequency_it_is_the_parameter_and_a_target_names_the_line_
     scene.set("casing.modal_stiffness_n_per_m", "1.5e6").unwrap();
     let mode = &scene.casing.modes[0];
     assert_eq!((mode.frequency_hz, mode.stiffness), (None, Some(1.5e6)));
-    let own = rubscope(&["margins", "paper-nd3", "--target", "omega_c=300", "--by", "clearance"]);
-    assert!(own.status.success());
+    cli_support::text(&["margins", "paper-nd3", "--target", "omega_c=300", "--by", "clearance"]);
 }

@@ -1,24 +1,16 @@
 //! Runs the numbers in the notes of the scenes that go beyond the paper.
 
+use crate::{near, scene};
 use rubscope_solver::harmonic::{Lining, least_lock_stiffness};
 use rubscope_solver::motion::{Motion, RunReport, Verdict, simulate};
 use rubscope_solver::scene::Scene;
 
-fn scene(name: &str, changes: &[(&str, &str)]) -> Scene {
-    Scene::builtin(name).unwrap().with(changes).unwrap().into_scene()
-}
-
 fn run(name: &str, changes: &[(&str, &str)]) -> RunReport {
-    let scene = scene(name, changes).checked().unwrap();
-    crate::run_once(&scene)
+    crate::run_once(&scene(name, changes))
 }
 
 fn verdict(name: &str, changes: &[(&str, &str)]) -> Verdict {
     run(name, changes).outcome.verdict
-}
-
-fn close(value: f64, expected: f64, tolerance: f64) {
-    assert!((value - expected).abs() <= tolerance, "{value} is not {expected}");
 }
 
 /// The note has these words.
@@ -51,18 +43,18 @@ fn the_coincidence_is_seen() {
     assert_eq!(verdict(name, &[speed("390")]), Verdict::Decay);
     assert_eq!(verdict(name, &[]), Verdict::Whirl);
     assert_eq!(verdict(name, &[speed("445")]), Verdict::Decay);
-    close(swing(name, &[], 0.05), 1.82e-4, 0.005e-4);
+    near(swing(name, &[], 0.05), 1.82e-4, 0.005e-4);
     says(name, "Between 399.5 and 437.9 rad/s it cannot");
     says(name, "the coincidence (31), 388.3 rad/s, raised by the lining");
     let scene = Scene::builtin(name).unwrap();
     let machine = scene.machine();
-    close(machine.dangerous_speed().unwrap(), 388.3, 0.05);
+    near(machine.dangerous_speed().unwrap(), 388.3, 0.05);
     let lining = Lining::of(&machine, &scene.contact).unwrap();
     let found: Vec<f64> =
         lining.hopf_points([300.0, 500.0]).unwrap().iter().map(|point| point.speed_rad_s).collect();
     assert_eq!(found.len(), 2);
-    close(found[0], 399.5, 0.05);
-    close(found[1], 437.9, 0.05);
+    near(found[0], 399.5, 0.05);
+    near(found[1], 437.9, 0.05);
 }
 
 #[test]
@@ -94,10 +86,10 @@ fn a_rub_does_not_end() {
     let run = run(name, &[]);
     assert_eq!(run.outcome.verdict, Verdict::Whirl);
     let wave = run.outcome.wave_speed_rad_s.unwrap();
-    close(wave, 363.0, 0.5);
+    near(wave, 363.0, 0.5);
     // The blades feel the wave that turns by them: s = n_d (Omega_wave - Omega).
-    close(3.0 * (450.0 - wave), 261.0, 0.5);
-    close(swing(name, &[], 0.05), 7.9e-4, 0.05e-4);
+    near(3.0 * (450.0 - wave), 261.0, 0.5);
+    near(swing(name, &[], 0.05), 7.9e-4, 0.05e-4);
     says(name, "At 400 rad/s it decays, and so it does with radial tips (kappa = 0)");
     assert_eq!(verdict(name, &[speed("400")]), Verdict::Decay);
     assert_eq!(verdict(name, &[("bladed_disk.radial_coupling", "0")]), Verdict::Decay);
@@ -106,7 +98,7 @@ fn a_rub_does_not_end() {
     let verdicts = ["30e3", "50e3", "80e3"].map(|pulse| by(pulse).outcome.verdict);
     assert_eq!(verdicts, [Verdict::Whirl, Verdict::Decay, Verdict::Whirl]);
     for pulse in ["30e3", "80e3"] {
-        close(by(pulse).outcome.wave_speed_rad_s.unwrap(), wave, 0.05);
+        near(by(pulse).outcome.wave_speed_rad_s.unwrap(), wave, 0.05);
     }
 }
 
@@ -117,8 +109,8 @@ fn a_blade_digs_in_below_the_critical_speed() {
     says(name, "faster than the rotor, at 379 rad/s");
     let run = run(name, &[]);
     assert_eq!(run.outcome.verdict, Verdict::Whirl);
-    close(run.outcome.wave_speed_rad_s.unwrap(), 379.0, 0.5);
-    close(Scene::builtin(name).unwrap().machine().critical_speed().unwrap(), 292.9, 0.05);
+    near(run.outcome.wave_speed_rad_s.unwrap(), 379.0, 0.5);
+    near(Scene::builtin(name).unwrap().machine().critical_speed().unwrap(), 292.9, 0.05);
     says(name, "At 240 rad/s it decays; with trailing blades (kappa = 0.15) it decays");
     assert_eq!(verdict(name, &[speed("240")]), Verdict::Decay);
     says(name, "(with 300 kN this run is sensitive; with 250 kN it is not)");
@@ -139,14 +131,14 @@ fn friction_works_against_the_lock() {
     says(name, "The wave starts locked at 500 rad/s; turn the friction up");
     let lock = |mu: &str| scene(name, &[("contact.friction", mu)]).machine().lock_speed();
     for (mu, value) in [("0", 411.9), ("0.15", 489.7), ("0.2", 541.8), ("0.3", 787.5)] {
-        close(lock(mu).unwrap(), value, 0.05);
+        near(lock(mu).unwrap(), value, 0.05);
     }
     assert!(lock("0.4305").is_some() && lock("0.432").is_none());
     assert_eq!(verdict(name, &[]), Verdict::Locked);
     assert_eq!(verdict(name, &[("contact.friction", "0.2")]), Verdict::Decay);
     // Friction bends the blades, though no gap feels it: mu l_b |p|/k_a at last.
     let bent = run(name, &[("solver.end_s", "3")]).r#final;
-    close(bent.alpha_c_rad.hypot(bent.alpha_s_rad), 1.195_782_347e-4, 1e-12);
+    near(bent.alpha_c_rad.hypot(bent.alpha_s_rad), 1.195_782_347e-4, 1e-12);
 }
 
 #[test]
@@ -164,10 +156,10 @@ fn a_soft_lining_cannot_hold_a_lock() {
         holds(1.9375e8).unwrap().from < 500.0 && holds(1.936e8).is_none_or(|at| at.from > 500.0)
     );
     let machine = Scene::builtin(name).unwrap().machine();
-    close(least_lock_stiffness(&machine).unwrap().stiffness_n_per_m, 1.931e8, 0.0005e8);
+    near(least_lock_stiffness(&machine).unwrap().stiffness_n_per_m, 1.931e8, 0.0005e8);
     let window = holds(3e8).unwrap();
-    close(window.from, 438.2, 0.05);
-    close(window.to.unwrap(), 732.4, 0.05);
+    near(window.from, 438.2, 0.05);
+    near(window.to.unwrap(), 732.4, 0.05);
     assert_eq!(verdict(name, &[]), Verdict::Locked);
     // Softer from the same start.
     let softer = |stiffness| verdict(name, &[("contact.stiffness_n_per_m", stiffness)]);
@@ -188,8 +180,7 @@ fn a_soft_lining_cannot_hold_a_lock() {
         let words = ["run", name, "--json"].map(String::from).into_iter();
         let all: Vec<String> = words.chain((0..).zip(to).flat_map(change)).chain(end).collect();
         let words: Vec<&str> = all.iter().map(String::as_str).collect();
-        let report: serde_json::Value =
-            serde_json::from_slice(&crate::cli_support::rubscope(&words).stdout).unwrap();
+        let report = crate::cli_support::json(&words);
         report["outcome"]["verdict"].as_str().unwrap().to_string()
     };
     assert_eq!([turned(&["4.1e8"]), turned(&["4.0e8"])], ["locked", "decay"]);

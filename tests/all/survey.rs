@@ -1,29 +1,13 @@
 //! `rubscope survey`: each number of diameters is what the single commands say of it.
 
-use rubscope_solver::scene::{CheckedScene, Scene};
 use rubscope_solver::study::margins::{LimitName, Margins, Quantity, parameter};
 use rubscope_solver::study::survey::{Survey, speed_range};
 
-use crate::cli_support::{refusal, rubscope};
+use crate::cli_support::{self, json, refusal, rubscope, words};
+use crate::{close, scene};
 
-fn scene(name: &str, changes: &[(&str, &str)]) -> CheckedScene {
-    Scene::builtin(name).unwrap().with(changes).unwrap()
-}
-
-fn close(value: f64, expected: f64, part: f64) {
-    assert!((value / expected - 1.0).abs() <= part, "{value} is not {expected}");
-}
-
-fn json(words: &[&str]) -> serde_json::Value {
-    let output = rubscope(words);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    serde_json::from_slice(&output.stdout).unwrap()
-}
-
-fn text(words: &str) -> String {
-    let output = rubscope(&words.split(' ').collect::<Vec<_>>());
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).unwrap()
+fn text(line: &str) -> String {
+    cli_support::text(&words(line))
 }
 
 #[test]

@@ -24,16 +24,6 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).to_path_buf()
 }
 
-/// The rows, without their bars, of the table whose last column has this title.
-fn table(last: &str) -> Vec<Vec<String>> {
-    let page = page();
-    let cells = |line: &str| -> Vec<String> {
-        line.trim_matches('|').split('|').map(|cell| cell.trim().to_string()).collect()
-    };
-    let lines = page.lines().skip_while(|line| !line.ends_with(&format!("| {last} |")));
-    lines.skip(2).take_while(|line| line.starts_with('|')).map(cells).collect()
-}
-
 /// The number of a value such as `1.2 ± 0.1 N`, and its tolerance: zero without one.
 fn stated(value: &str) -> (f64, f64) {
     let words: Vec<&str> = value.split(' ').collect();
@@ -57,8 +47,8 @@ fn every_command_gives_the_number_of_its_row() {
         };
         let report = printed.entry(command.to_string()).or_insert_with(|| {
             let words: Vec<&str> = command.split(' ').skip(1).chain(["--json"]).collect();
-            let output = rubscope(&words);
-            serde_json::from_slice(&output.stdout).unwrap()
+            // Some of these runs fail, and have numbers all the same.
+            serde_json::from_slice(&rubscope(&words).stdout).unwrap()
         });
         let found = report.pointer(pointer).unwrap_or_else(|| panic!("{row:?}"));
         let stated = serde_json::from_str(value).unwrap_or_else(|_| Value::from(value));
@@ -79,7 +69,7 @@ fn near(id: &str, found: f64, value: &str) {
 
 #[test]
 fn closed_forms_are_those_of_the_library() {
-    let rows = table("library");
+    let rows = crate::docs::read("docs/theory.md").table("| id | quantity | value | library |");
     assert!(rows.len() > 15);
     for row in rows {
         let [id, _, value, _] = row.as_slice() else { panic!("{row:?}") };

@@ -188,32 +188,3 @@ fn every_block_of_the_documents_is_what_the_program_does() {
     };
     assert!(count("console") > 10 && count("sh") > 3 && count("toml") > 0);
 }
-
-#[test]
-fn what_differs_is_found() {
-    let lines = |text: &str| -> Vec<String> { text.lines().map(String::from).collect() };
-    assert!(matches(&lines("a 1.0001 N\n...\nb"), &["a 1 N", "x", "b"]));
-    assert!(!matches(&lines("a 1.01 N"), &["a 1 N"]));
-    assert!(!matches(&lines("a\nb"), &["a"]));
-    assert!(same("   5 |....~#####|", "   5 |....~~####|"));
-    let block = |language: &str, text: &str| Document {
-        name: "test.md".into(),
-        text: format!("```{language}\n{text}\n```\n"),
-    };
-    for (language, text) in [
-        ("console", "$ rubscope run --step 0.01\nrubscope: nothing"),
-        ("console", "$ rubscope run --no-such-option\n..."),
-        ("sh", "rubscope --no-such-option"),
-        ("sh", "rubscope scenes nothing"),
-        ("toml", "[casing]\ncolour = 1"),
-    ] {
-        assert_eq!(check(&block(language, text)).len(), 1, "{text}");
-    }
-    for (language, text) in [
-        ("sh", "rubscope slip --theme light\nrubscope scenes"),
-        ("sh", "parallel rubscope --no-such-option"),
-        ("toml settings", "theme = \"dark\""),
-    ] {
-        assert!(check(&block(language, text)).is_empty(), "{text}");
-    }
-}

@@ -61,10 +61,3 @@ fn every_link_leads_to_a_file_and_a_heading() {
     }
     assert!(wrong.is_empty(), "links that lead nowhere:\n{}", wrong.join("\n"));
 }
-
-#[test]
-fn headings_have_the_names_that_links_use() {
-    assert_eq!(anchor(" One simulation: `rubscope run`"), "one-simulation-rubscope-run");
-    assert_eq!(anchor(" View 3: locked motion, λ(Ω)"), "view-3-locked-motion-λω");
-    assert_eq!(targets("see [a](b.md#c) and `[x](y)`, ![d](e.svg)"), ["b.md#c", "e.svg"]);
-}

@@ -15,29 +15,29 @@ mod tables;
 use std::path::{Path, PathBuf};
 
 /// One document.
-struct Document {
+pub struct Document {
     /// Its path from the top folder, such as `docs/commands.md`.
     name: String,
-    text: String,
+    pub text: String,
 }
 
 /// A fenced block of a document.
 #[derive(Debug)]
-struct Block {
+pub struct Block {
     /// The line of its fence, from 1.
     line: usize,
     /// The word behind the fence, such as `console`.
-    language: String,
+    pub language: String,
     /// The second word, such as the name of a file.
     word: String,
-    text: String,
+    pub text: String,
 }
 
 fn top() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
 
-fn read(name: &str) -> Document {
+pub fn read(name: &str) -> Document {
     let text = std::fs::read_to_string(top().join(name)).unwrap();
     Document { name: name.to_string(), text }
 }
@@ -61,7 +61,7 @@ fn documents() -> Vec<Document> {
 }
 
 impl Document {
-    fn blocks(&self) -> Vec<Block> {
+    pub fn blocks(&self) -> Vec<Block> {
         let mut blocks: Vec<Block> = Vec::new();
         let mut open = false;
         for (line, text) in (1..).zip(self.text.lines()) {
@@ -102,7 +102,7 @@ impl Document {
     }
 
     /// The cells of the table under this header, row by row.
-    fn table(&self, header: &str) -> Vec<Vec<String>> {
+    pub fn table(&self, header: &str) -> Vec<Vec<String>> {
         let mut lines = self.text.lines().skip_while(|line| *line != header);
         assert!(lines.next().is_some(), "{}: no table {header}", self.name);
         let cells = |line: &str| -> Vec<String> {

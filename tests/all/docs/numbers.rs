@@ -7,7 +7,8 @@ use rubscope_solver::scene::Scene;
 use rubscope_solver::study::Cell;
 
 use super::read;
-use crate::cli_support::rubscope;
+use crate::cli_support::{json, text};
+use crate::close;
 
 fn run(name: &str, changes: &[(&str, &str)]) -> RunReport {
     simulate(&Scene::builtin(name).unwrap().with(changes).unwrap())
@@ -16,10 +17,6 @@ fn run(name: &str, changes: &[(&str, &str)]) -> RunReport {
 /// The number at the start of a cell.
 fn number(cell: &str) -> f64 {
     cell.trim_matches('`').split([' ', ',']).next().unwrap().parse().unwrap()
-}
-
-fn close(found: f64, told: f64, part: f64) {
-    assert!((found - told).abs() <= part * told.abs(), "{found}, the document says {told}");
 }
 
 #[test]
@@ -108,8 +105,7 @@ fn steps_are_taken_and_skipped_as_the_document_counts() {
     for row in rows {
         let command = row[0].trim_matches('`').strip_prefix("rubscope ").unwrap();
         let arguments: Vec<&str> = command.split(' ').chain(["--json"]).collect();
-        let report: serde_json::Value =
-            serde_json::from_slice(&rubscope(&arguments).stdout).unwrap();
+        let report = json(&arguments);
         for (name, told) in [("steps", &row[1]), ("steps_skipped", &row[2])] {
             // Round-off of another processor may move a leap.
             close(report["solver"][name].as_f64().unwrap(), number(&told.replace(',', "")), 0.02);
@@ -120,8 +116,7 @@ fn steps_are_taken_and_skipped_as_the_document_counts() {
 #[test]
 fn errors_at_the_end_are_those_of_the_document() {
     let arguments = ["precision", "--pulse", "20e3", "--repeat", "1", "--json"];
-    let output = rubscope(&arguments);
-    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let report = json(&arguments);
     let rows = report["rows"].as_array().unwrap();
     let header = "| solver | step or tolerance | error at the end, in clearances | time | bench |";
     let told = read("docs/accuracy.md").table(header);
@@ -151,7 +146,7 @@ fn errors_at_the_end_are_those_of_the_document() {
 fn what_does_not_converge_is_in_the_documents() {
     let many = ["--contact", "unilateral"];
     let precise = [&["precision"][..], &many, &["--repeat", "1", "--json"]].concat();
-    let report: serde_json::Value = serde_json::from_slice(&rubscope(&precise).stdout).unwrap();
+    let report = json(&precise);
     assert_eq!(report["reference"]["sensitive"], false);
     let found = report["rows"].as_array().unwrap().iter().filter(|row| {
         row["model"] == "modal" && row["contact"] == "unilateral" && row["solver"] == "explicit"
@@ -216,8 +211,7 @@ fn contact_that_only_pushes_locks_as_many_cells_as_the_readme_says() {
     let more = ["--contact", "unilateral", "--json"];
     let [steps, events] = [&[][..], &["--solver", "event"]].map(|solver| {
         let arguments: Vec<&str> = map.split(' ').chain(more).chain(solver.to_vec()).collect();
-        let report: serde_json::Value =
-            serde_json::from_slice(&rubscope(&arguments).stdout).unwrap();
+        let report = json(&arguments);
         let cells = report["verdict"].to_string();
         ["locked", "decay"].map(|word| cells.matches(word).count())
     });
@@ -246,7 +240,7 @@ fn every_verdict_has_its_word_and_its_signs_in_the_tables_and_legends() {
     }
     // The legend of a map with a sensitive cell has all letters.
     let map = ["map", "--solver", "event", "--speed", "500:500:1", "--pulse", "2e5:2e5:1"];
-    let printed = String::from_utf8(rubscope(&map).stdout).unwrap();
+    let printed = text(&map);
     let letters = Verdict::ALL.map(|verdict| {
         rubscope::report::map::mark(Some(Cell { sensitive: true, ..Cell::of(verdict) }))
     });

@@ -213,8 +213,7 @@ fn every_table_is_what_the_program_has() {
 
 /// The section of a manual page with this heading.
 fn section(heading: &str) -> String {
-    let output = crate::cli_support::rubscope(&["man"]);
-    let page = String::from_utf8(output.stdout).unwrap();
+    let page = crate::cli_support::text(&["man"]);
     let rest = page.split(&format!(".SH {heading}\n")).nth(1).unwrap();
     rest.split("\n.SH ").next().unwrap().replace("\\", "")
 }
