@@ -1,5 +1,6 @@
 //! Every equilibrium of the blade frame, its stability and the thresholds.
 
+use crate::close;
 use rubscope_solver::harmonic::{Branches, Character, Kind, Threshold, equilibria};
 use rubscope_solver::model::{BladedDisk, Casing, Machine};
 
@@ -11,10 +12,6 @@ fn machine(stiffness: f64, nodal_diameters: u32, zeta_c: f64) -> Machine {
 
 /// Blades stiff enough to be rigid to the last digits.
 const RIGID: f64 = 1e15;
-
-fn close(value: f64, expected: f64, relative: f64) {
-    assert!((value - expected).abs() <= relative * expected.abs(), "{value:e} is not {expected:e}");
-}
 
 fn threshold(branches: &Branches, kind: Kind, from: Character, to: Character) -> f64 {
     let same = |t: &&Threshold| t.kind == kind && t.below == from && t.above == to;

@@ -1,39 +1,13 @@
 //! Slip in the frequency domain: the map from corner to corner, its fixed
 //! point, and the balance of power.
 
+use crate::close;
 use rubscope_solver::harmonic::{NoSlip, SlipLimit, slip_limits, slip_map, slip_over};
 use rubscope_solver::model::{BladedDisk, Casing, Machine};
 
 fn machine(nodal_diameters: u32, zeta_c: f64) -> Machine {
     let casing = Casing { damping_ratio: zeta_c, ..Casing::default() };
     Machine::new(&BladedDisk::default(), &casing, nodal_diameters)
-}
-
-fn close(value: f64, expected: f64, relative: f64) {
-    assert!((value - expected).abs() <= relative * expected.abs(), "{value:e} is not {expected:e}");
-}
-
-#[test]
-fn power_closes_and_the_multiplier_is_below_one_wherever_slip_lives() {
-    for (diameters, zeta, speed) in
-        [(3, 0.01, 500.0), (3, 0.05, 900.0), (4, 0.05, 500.0), (1, 0.02, 4000.0), (5, 0.1, 1500.0)]
-    {
-        let machine = machine(diameters, zeta);
-        for sign in [1.0, -1.0] {
-            let point = slip_over(&machine, &[sign * speed]).unwrap()[0];
-            let orbit = point.outcome.unwrap();
-            close(orbit.power_w, orbit.damper_power_w + orbit.corner_power_w, 1e-12);
-            assert!(orbit.slope > 0.0 && orbit.slope < 1.0 && point.stable());
-            assert!(orbit.least_push_n > 0.0 && orbit.power_w > 0.0);
-            let fraction = orbit.wave_speed_rad_s / (sign * speed);
-            assert!((0.0..1.0).contains(&fraction), "slower than the rotor: {fraction}");
-            close(
-                orbit.speed_after_corner_m_s,
-                orbit.speed_before_corner_m_s * (2.0 * machine.polygon.delta).cos(),
-                1e-12,
-            );
-        }
-    }
 }
 
 #[test]

@@ -1,8 +1,9 @@
 //! The frequency domain against the time solvers: locked states in all four
 //! coordinates, the lock-in threshold by bisection, the speed of slip.
 
+use crate::close;
 use nalgebra::Complex;
-use rubscope_solver::harmonic::{Corner, ExcitedLocks, Form, Locked, SlipOrbit, slip_over};
+use rubscope_solver::harmonic::{Corner, Form, Locked, SlipOrbit, slip_over};
 use rubscope_solver::motion::{ActiveSet, ExactEvents, Motion, Solver};
 use rubscope_solver::scene::{ModelSize, Scene};
 
@@ -11,10 +12,6 @@ fn scene(changes: &[(&str, &str)]) -> Scene {
     let mut scene = Scene::base();
     scene.solver.model = ModelSize::Rigid;
     scene.with(changes).unwrap().into_scene()
-}
-
-fn close(value: f64, expected: f64, relative: f64) {
-    assert!((value - expected).abs() <= relative * expected.abs(), "{value:e} is not {expected:e}");
 }
 
 /// The wave put into the corner of blades 6 and 21, turning with the rotor.
@@ -39,26 +36,6 @@ fn in_default_corner(diameters: u32, zeta: f64, speed: f64) -> Scene {
     scene.initial.v_s_m_s = nu * scene.initial.u_c_m;
     scene.checked().unwrap();
     scene
-}
-
-#[test]
-fn the_event_solver_holds_the_corner_from_the_lock_in_speed_on() {
-    for zeta in [0.01, 0.05] {
-        let holds = |speed: f64| {
-            let mut motion = ExactEvents::new(&in_corner(zeta, speed).checked().unwrap()).unwrap();
-            motion.advance(1e-3).unwrap();
-            motion.contacts().active_set == ActiveSet::Corner(15, 16)
-        };
-        let (mut below, mut above) = (293.0, 600.0);
-        assert!(!holds(below) && holds(above));
-        for _ in 0..60 {
-            let middle = 0.5 * (below + above);
-            if holds(middle) { above = middle } else { below = middle }
-        }
-        let machine = scene(&[("casing.damping_ratio", &zeta.to_string())]).machine();
-        // The event solver takes a push of 1e-15 of the motion as zero.
-        close(above, machine.lock_speed().unwrap(), 1e-10);
-    }
 }
 
 /// Rotor speed of the wave over 100 sides, after neighbouring orbits have
@@ -202,45 +179,6 @@ fn event_locked_motion_is_the_modal_form() {
             let (cos, sin) = machine.polygon.direction(side);
             let alpha = cos * state.alpha[0] + sin * state.alpha[1];
             close(alpha, point.alpha_rad[i], 1e-12);
-        }
-    }
-}
-
-/// The linear response against the explicit solver, blade by blade amplitude:
-/// its Fourier coefficient over whole periods of the load.
-#[test]
-fn an_engine_order_moves_the_blades_as_the_frequency_domain_says() {
-    let speed = 500.0;
-    let mut scene = in_corner(0.05, speed);
-    scene.solver.model = ModelSize::Modal;
-    scene.solver.step_s = 1e-6;
-    scene.bladed_disk.damping_ratio = 0.2;
-    for order in [3, 19] {
-        scene.excitation.amplitude_nm = 10.0;
-        scene.excitation.order = order;
-        scene.checked().unwrap();
-        let machine = scene.machine();
-        let locks = ExcitedLocks::over(&machine, 15, &scene.excitation, &[speed]).unwrap();
-        let response = locks.lock_at(0).unwrap().unwrap();
-        let mut motion = Motion::new(&scene.checked().unwrap());
-        let period = std::f64::consts::TAU / response.frequency_rad_s;
-        let start = (0.25 / period).ceil() * period;
-        let (count, mut sums) = (64, [Complex::new(0.0, 0.0); 2]);
-        for sample in 0..count {
-            let time = start + period * f64::from(sample) / f64::from(count);
-            motion.advance(time).unwrap();
-            let state = motion.state();
-            let turn = Complex::new(0.0, -response.frequency_rad_s * state.t_s).exp();
-            for (sum, alpha) in sums.iter_mut().zip(state.alpha) {
-                *sum += turn * (alpha * 2.0 / f64::from(count));
-            }
-        }
-        assert_eq!(motion.contacts().active_set, ActiveSet::Corner(15, 16));
-        for (found, expected) in sums.into_iter().zip(&response.response[2..]) {
-            println!(
-                "{order} {found} {expected} {:e}",
-                (found - expected).norm() / expected.norm()
-            );
         }
     }
 }
