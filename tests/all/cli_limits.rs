@@ -3,7 +3,7 @@
 
 use std::fs;
 
-use crate::cli_support::{refusal, rubscope};
+use crate::cli_support::{json, refusal, rubscope, text, words};
 
 fn message(arguments: &[&str]) -> (Option<i32>, String) {
     let output = rubscope(arguments);
@@ -11,10 +11,11 @@ fn message(arguments: &[&str]) -> (Option<i32>, String) {
 }
 
 /// Commands that would take minutes, or hours in a debug build.
-const LONG: [&str; 3] = [
+const LONG: [&str; 4] = [
     "run undamped --end 20",
     "hbm --branches --speed 0:500:100000",
     "precision undamped --repeat 1000",
+    "map --solver event --speed 0:500:3900 --pulse 1e5:1e6:3900",
 ];
 
 #[test]
@@ -139,15 +140,8 @@ fn a_refusal_stands_alone_and_what_was_changed_is_said_when_the_command_goes_on(
 fn a_picture_has_a_largest_number_of_cells() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("m.svg");
-    let said = refusal(&[
-        "map",
-        "--speed",
-        "0:500:2000",
-        "--pulse",
-        "0:1:2000",
-        "--out",
-        path.to_str().unwrap(),
-    ]);
+    let map = words("map --speed 0:500:2000 --pulse 0:1:2000 --out");
+    let said = refusal(&[&map[..], &[path.to_str().unwrap()]].concat());
     let expected = "an .svg of 4000000 cells: allowed is up to 1000000 cells in a picture";
     assert!(said.contains(expected), "{said}");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
@@ -157,8 +151,7 @@ fn a_picture_has_a_largest_number_of_cells() {
 fn two_axes_of_one_name_have_their_whole_names() {
     let command = "map --solver event --model rigid --x casing.damping_ratio=0:0.1:2 \
                    --y bladed_disk.damping_ratio=0:0.1:3 --no-sensitivity --json";
-    let output = rubscope(&command.split_whitespace().collect::<Vec<_>>());
-    let map: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let map = json(&words(command));
     assert_eq!(map["casing.damping_ratio"].as_array().unwrap().len(), 2);
     assert_eq!(map["bladed_disk.damping_ratio"].as_array().unwrap().len(), 3);
     assert_eq!(map["verdict"].as_array().unwrap().len(), 3);
@@ -227,13 +220,12 @@ fn an_end_below_one_step_is_refused_and_one_step_is_not() {
         "margins --end 1e-8 --step 1e-7",
     ];
     for line in lines {
-        let said = refusal(&line.split_whitespace().collect::<Vec<_>>());
+        let said = refusal(&words(line));
         let expected = "solver.end_s = 1e-8: allowed is at least one step, solver.step_s = 1e-7";
         assert!(said.contains(expected) && said.lines().count() == 1, "{line}: {said}");
     }
     for line in ["run --end 1e-7 --step 1e-7", "run --solver event --end 1e-8 --step 1e-7"] {
-        let output = rubscope(&line.split_whitespace().collect::<Vec<_>>());
-        assert_eq!(output.status.code(), Some(0), "{line}");
+        text(&words(line));
     }
 }
 
@@ -256,17 +248,15 @@ fn many_speeds_take_little_memory() {
         &driven,
         &["--compliance", "--json"],
     ] {
-        for out in [&[][..], &file] {
-            // With 40 MB of data and no more: a program that wants more is aborted.
-            let run = std::process::Command::new("sh")
-                .args(["-c", "ulimit -d 40000; exec \"$0\" \"$@\""])
-                .arg(env!("CARGO_BIN_EXE_rubscope"))
-                .args(["hbm", "--zeta-casing", "0.01", "--speed", "0:500:10000"])
-                .args(view)
-                .args(out)
-                .stdout(std::process::Stdio::null())
-                .status();
-            assert!(run.unwrap().success(), "{view:?} {out:?}");
-        }
+        // With 40 MB of data and no more: a program that wants more is aborted.
+        let run = std::process::Command::new("sh")
+            .args(["-c", "ulimit -d 40000; exec \"$0\" \"$@\""])
+            .arg(env!("CARGO_BIN_EXE_rubscope"))
+            .args(["hbm", "--zeta-casing", "0.01", "--speed", "0:500:10000"])
+            .args(view)
+            .args(file)
+            .stdout(std::process::Stdio::null())
+            .status();
+        assert!(run.unwrap().success(), "{view:?}");
     }
 }

@@ -2,14 +2,11 @@
 //! gives, and the command of a target shows it.
 
 use rubscope::report::margins as report;
-use rubscope_solver::scene::{CheckedScene, Scene};
+use rubscope_solver::scene::CheckedScene;
 use rubscope_solver::study::margins::{MOST_TIMES, Margins, Target, acting};
 
 use crate::cli_support::rubscope;
-
-pub fn scene(name: &str, changes: &[(&str, &str)]) -> CheckedScene {
-    Scene::builtin(name).unwrap().with(changes).unwrap()
-}
+use crate::{close, scene};
 
 /// Margins with all that can be in them.
 pub fn full(scene: &CheckedScene) -> Margins {
@@ -40,10 +37,6 @@ fn read(words: &str, unit: &str) -> f64 {
         other => panic!("{other}"),
     };
     number.parse::<f64>().unwrap() * 10_f64.powi(exponent)
-}
-
-fn close(said: f64, is: f64, part: f64) {
-    assert!((said - is).abs() <= part * is.abs(), "{said} is not {is}");
 }
 
 /// Columns of a row of the text: two spaces or more are between them.
@@ -90,26 +83,6 @@ fn rows_of_the_text_are_the_limits() {
             }
         }
     }
-}
-
-#[test]
-fn the_text_names_the_knobs_that_matter() {
-    let text = text(&full(&scene("paper-nd3", &[])));
-    let row = |name: &str| text.lines().find(|line| line.starts_with(name)).unwrap();
-    assert!(row("omega_lock ").contains("411.934 rad/s"), "{text}");
-    let cells = cells(row("omega_lock "));
-    assert_eq!(cells[3..], ["m_c -0.50 %", "k_c +0.50 %", "zeta_c +0.33 %"]);
-    assert!(row("touching_pulse ").contains("3.79502 kN  > 100 x  g0 +1.00 %"), "{text}");
-    assert!(row("push_b ").contains("57.2948 N        -  Omega +6.38 %"), "{text}");
-}
-
-#[test]
-fn the_target_is_reported() {
-    let margins = full(&scene("paper-nd3", &[]));
-    let text = text(&margins);
-    assert!(
-        text.contains("casing.damping_ratio = 0.0636674 puts omega_lock at 450 rad/s (0.05 gives")
-    );
 }
 
 #[test]

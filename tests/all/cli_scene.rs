@@ -3,13 +3,11 @@
 
 use std::io::Write;
 
-use crate::cli_support::{refusal, rubscope};
+use crate::cli_support::{json, refusal, rubscope};
 
 /// The scene of a short run with these arguments, as its report gives it.
 fn scene(arguments: &[&str]) -> serde_json::Value {
-    let output = rubscope(&[&["run", "--json"], arguments].concat());
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let mut report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let mut report = json(&[&["run", "--json"], arguments].concat());
     report["scene"].take()
 }
 

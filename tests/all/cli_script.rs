@@ -1,7 +1,7 @@
 //! Changes of a running motion from the command line: their order, errors
 //! before the run, and the same effect as the calls on the motion.
 
-use crate::cli_support::{refusal, rubscope};
+use crate::cli_support::{json, refusal, rubscope, text, words};
 use rubscope::cli::script::{RequestedChange, RequestedScript, parse};
 use rubscope_solver::motion::{self, Motion};
 use rubscope_solver::scene::{Allowed, ContactLaw, KEYS, Key, ModelSize, Scene, SolverKind, Value};
@@ -260,11 +260,7 @@ fn the_option_is_checked_before_the_simulation() {
 
 #[test]
 fn the_speed_that_is_told_is_that_of_the_end() {
-    let told = |more: &str| {
-        let words = format!("run --end 0.002 --no-sensitivity {more}");
-        let output = rubscope(&words.split_whitespace().collect::<Vec<_>>());
-        String::from_utf8(output.stdout).unwrap()
-    };
+    let told = |more: &str| text(&words(&format!("run --end 0.002 --no-sensitivity {more}")));
     assert!(told("").contains("Rotor speed: 500 rad/s"));
     for solver in ["explicit", "event"] {
         let change = format!("--solver {solver} --at 0.001:operation.speed_rad_s=300");
@@ -277,12 +273,10 @@ fn the_speed_that_is_told_is_that_of_the_end() {
 
 #[test]
 fn a_run_without_changes_says_nothing_of_them() {
-    let output = rubscope(&["run", "--end", "1e-4", "--json"]);
-    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let report = json(&["run", "--end", "1e-4", "--json"]);
     assert_eq!(report["schema"], "rubscope.run/1");
     assert!(report.get("changes").is_none());
-    let output = rubscope(&["run", "--end", "1e-4"]);
-    assert!(!String::from_utf8(output.stdout).unwrap().contains("hanged"));
+    assert!(!text(&["run", "--end", "1e-4"]).contains("hanged"));
 }
 
 #[test]
@@ -304,33 +298,16 @@ fn a_change_that_would_leave_the_papers_model_or_return_to_it_is_refused_with_th
 #[test]
 fn a_live_change_is_judged_by_the_running_state() {
     // The initial place is inside the clearance of 400 rad/s, and outside that of 480.
-    let started = [
-        "--step",
-        "1e-6",
-        "--end",
-        "0.03",
-        "--set",
-        "operation.speed_ramp_rad_s2=0",
-        "--set",
-        "initial.u_c_m=2.2e-5",
-        "--set",
-        "initial.u_s_m=7.5e-5",
-        "--set",
-        "casing.clearance_loss_m_s2=1e-10",
-        "--no-sensitivity",
-        "--json",
-    ];
-    let run = |change: &[&str]| {
-        let first = ["run", "run-down", "--solver", "explicit"];
-        rubscope(&[&first[..], &started, change].concat())
-    };
-    let late = run(&["--at", "0.01:operation.speed_rad_s=480"]);
-    assert_eq!(late.status.code(), Some(0), "{}", String::from_utf8_lossy(&late.stderr));
-    let report: serde_json::Value = serde_json::from_slice(&late.stdout).unwrap();
+    let started = words(
+        "run run-down --solver explicit --step 1e-6 --end 0.03 --no-sensitivity --json \
+         --set operation.speed_ramp_rad_s2=0 --set initial.u_c_m=2.2e-5 \
+         --set initial.u_s_m=7.5e-5 --set casing.clearance_loss_m_s2=1e-10",
+    );
+    let report = json(&[&started[..], &["--at", "0.01:operation.speed_rad_s=480"]].concat());
     assert_ne!(report["outcome"]["verdict"], "failed");
     let residual = report["checks"]["energy_residual_j"].as_f64().unwrap();
     assert!(residual.abs() < 1e-3, "{residual}");
     // At the start the running state is the initial one.
-    let early = run(&["--at", "0:operation.speed_rad_s=480"]);
+    let early = rubscope(&[&started[..], &["--at", "0:operation.speed_rad_s=480"]].concat());
     assert!(String::from_utf8_lossy(&early.stderr).contains("initial.u_c_m"));
 }

@@ -42,18 +42,6 @@ fn places_that_take_no_file_have_a_reason() {
     assert_eq!(names(folder.path()), ["file"]);
 }
 
-#[test]
-fn a_read_only_file_is_refused_also_to_a_superuser() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("a.csv");
-    fs::write(&path, "mine").unwrap();
-    let mut permissions = fs::metadata(&path).unwrap().permissions();
-    permissions.set_readonly(true);
-    fs::set_permissions(&path, permissions).unwrap();
-    assert_eq!(refused(&path).to_string(), "the file is read-only");
-    assert_eq!(fs::read_to_string(&path).unwrap(), "mine");
-}
-
 #[cfg(target_os = "linux")]
 #[test]
 fn a_folder_that_takes_no_file_is_found_by_trying() {
