@@ -3,14 +3,10 @@
 
 use std::process::Output;
 
-use crate::cli_support::{refusal, rubscope};
+use crate::cli_support::{self, map_words as words, refusal, rubscope};
 
 const MAP: &str =
     "map --contact bilateral --model rigid --step 1e-6 --speed 250:500:11 --pulse 0:4e5:9";
-
-fn words<'a>(command: &'a str, more: &[&'a str]) -> Vec<&'a str> {
-    command.split_whitespace().chain(more.iter().copied()).collect()
-}
 
 fn message(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).unwrap()
@@ -20,9 +16,7 @@ fn message(output: &Output) -> String {
 fn any_two_keys_are_axes() {
     let command = "map slip --json --x casing.damping_ratio=log:1e-4:0.1:4 \
                    --y operation.speed_rad_s=300:500:3";
-    let output = rubscope(&words(command, &[]));
-    assert_eq!(output.status.code(), Some(0), "{}", message(&output));
-    let map: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let map = cli_support::json(&words(command, &[]));
     assert_eq!(map["schema"], "rubscope.map/1");
     let values: Vec<f64> = serde_json::from_value(map["damping_ratio"].clone()).unwrap();
     for (value, expected) in values.iter().zip([1e-4, 1e-3, 1e-2, 1e-1]) {
@@ -70,60 +64,9 @@ fn axes_are_refused_in_one_line_that_says_what_is_allowed() {
 }
 
 #[test]
-fn a_place_that_takes_no_file_is_said_before_anything_is_computed() {
-    let directory = tempfile::tempdir().unwrap();
-    let file = directory.path().join("file");
-    std::fs::write(&file, "").unwrap();
-    let none = directory.path().join("none/map.csv");
-    // So many cells that a debug build would need hours.
-    let large = "map --solver event --speed 0:500:3900 --pulse 1e5:1e6:3900";
-    for path in [none, file.join("map.csv"), file.join("map.json")] {
-        let output = rubscope(&words(large, &["--out", path.to_str().unwrap()]));
-        assert_eq!(output.status.code(), Some(1));
-        let said = message(&output);
-        let start = format!("rubscope: cannot write {}: ", path.display());
-        assert!(said.lines().any(|line| line.starts_with(&start)), "{said}");
-        assert!(output.stdout.is_empty());
-    }
-}
-
-#[cfg(target_os = "linux")]
-#[test]
-fn a_full_disk_loses_nothing() {
-    if !std::path::Path::new("/dev/full").exists() {
-        println!("skipped: no /dev/full on this system");
-        return;
-    }
-    let json: serde_json::Value = {
-        let output = rubscope(&words(MAP, &["--json"]));
-        serde_json::from_slice(&output.stdout).unwrap()
-    };
-    for format in ["csv", "json", "svg"] {
-        let directory = tempfile::tempdir().unwrap();
-        let path = directory.path().join(format!("map.{format}"));
-        std::os::unix::fs::symlink("/dev/full", &path).unwrap();
-        let output = rubscope(&words(MAP, &["--out", path.to_str().unwrap()]));
-        assert_eq!(output.status.code(), Some(1), "{}", message(&output));
-        let said = message(&output);
-        assert!(said.starts_with("rubscope: cannot write "), "{said}");
-        assert!(said.contains("standard output as JSON") && said.contains("No space"), "{said}");
-        let map: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-        assert_eq!(map["verdict"], json["verdict"]);
-        assert_eq!(map["sensitive"], json["sensitive"]);
-    }
-    // Those of a shard come out as its part.
-    let directory = tempfile::tempdir().unwrap();
-    let path = directory.path().join("part.csv");
-    std::os::unix::fs::symlink("/dev/full", &path).unwrap();
-    let output = rubscope(&words(MAP, &["--shard", "1/3", "--out", path.to_str().unwrap()]));
-    assert_eq!(output.status.code(), Some(1));
-    assert_eq!(String::from_utf8(output.stdout).unwrap().lines().count(), 2 + 33);
-}
-
-#[test]
 fn the_text_map_fits_marks_the_two_speeds_and_explains_its_signs() {
-    let output = rubscope(&["map", "--step", "1e-6", "--pulse", "0:4e5:9", "--no-sensitivity"]);
-    let text = String::from_utf8(output.stdout).unwrap();
+    let text =
+        cli_support::text(&["map", "--step", "1e-6", "--pulse", "0:4e5:9", "--no-sensitivity"]);
     let lines: Vec<&str> = text.lines().collect();
     assert!(lines.iter().all(|line| line.chars().count() <= 80), "{text}");
     let marked = |name: &str| lines.iter().find(|line| line.contains(name)).unwrap().find('^');
@@ -132,8 +75,8 @@ fn the_text_map_fits_marks_the_two_speeds_and_explains_its_signs() {
     assert_eq!(marked("Omega_lock = 411.934"), Some(14 + 41));
     let legend = ["#  locked, ", "%  adhesive, ", ".  decay, "];
     assert!(legend.iter().all(|sign| text.contains(sign)), "{text}");
-    let wide = rubscope(&["map", "--step", "1e-5", "--speed", "0:1:400", "--pulse", "0:0:1"]);
-    let text = String::from_utf8(wide.stdout).unwrap();
+    let wide = ["map", "--step", "1e-5", "--speed", "0:1:400", "--pulse", "0:0:1"];
+    let text = cli_support::text(&wide);
     assert!(text.contains("Shown is one column of 4 and every row."), "{text}");
 }
 
@@ -188,11 +131,11 @@ fn more_threads_than_any_machine_has_are_refused() {
 #[test]
 fn with_rpm_a_map_is_in_turns_a_minute_with_round_ends() {
     let map = ["map", "--no-sensitivity", "--set", "solver.end_s=1e-3", "--pulse", "0:1e6:3"];
-    let text = String::from_utf8(rubscope(&[&map[..], &["--rpm"]].concat()).stdout).unwrap();
+    let text = cli_support::text(&[&map[..], &["--rpm"]].concat());
     assert!(text.contains("(up) against operation.speed_rpm (right)"), "{text}");
     assert!(text.contains("Omega_lock = 3933.68") && text.contains("\n              0 "), "{text}");
     assert!(text.lines().any(|line| line.trim_end().ends_with(" 5000")), "{text}");
-    let text = String::from_utf8(rubscope(&map).stdout).unwrap();
+    let text = cli_support::text(&map);
     assert!(text.contains("against operation.speed_rad_s (right)"), "{text}");
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("map.svg");

@@ -3,23 +3,16 @@
 
 use std::path::Path;
 
-use crate::cli_support::{refusal, rubscope};
+use crate::cli_support::{self, ended, map_words as words, program, refusal};
 
 /// A map with several verdicts, fast in any build.
 const MAP: &str =
     "map --contact bilateral --model rigid --step 1e-6 --speed 250:500:26 --pulse 0:4e5:9";
 const FORMATS: [&str; 3] = ["csv", "json", "svg"];
 
-fn words<'a>(command: &'a str, more: &[&'a str]) -> Vec<&'a str> {
-    command.split_whitespace().chain(more.iter().copied()).collect()
-}
-
 /// Runs a command that must succeed; returns its standard error.
 fn done(arguments: &[&str]) -> String {
-    let output = rubscope(arguments);
-    let message = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(0), "{arguments:?} said {message}");
-    message
+    String::from_utf8(ended(program().args(arguments), 0).stderr).unwrap()
 }
 
 fn text(path: &Path) -> String {
@@ -59,7 +52,7 @@ fn a_part_is_a_table_below_a_line_that_tells_its_origin() {
     done(&words(MAP, &["--shard", "2/2", "--out", &path]));
     let part = std::fs::read_to_string(&path).unwrap();
     let lines: Vec<&str> = part.lines().collect();
-    let version = String::from_utf8(rubscope(&["--version"]).stdout).unwrap();
+    let version = cli_support::text(&["--version"]);
     let (program, origin) = lines[0].split_once(" map ").unwrap();
     assert_eq!(program, format!("# {}", version.trim_end()));
     let origin: serde_json::Value = serde_json::from_str(origin).unwrap();

@@ -8,26 +8,14 @@ use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::cli_support::{hearing, program};
+use crate::cli_support::{hearing, program, words};
 
 /// A long limit, not a speed test: a loaded machine may be slow.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// One cell of minutes: an undamped casing that bounces for hours.
-const LONG_CELL: [&str; 12] = [
-    "map",
-    "undamped",
-    "--solver",
-    "event",
-    "--model",
-    "rigid",
-    "--end",
-    "1e6",
-    "--speed",
-    "500:500:1",
-    "--pulse",
-    "20000:20000:1",
-];
+const LONG_CELL: &str = "map undamped --solver event --model rigid --end 1e6 --speed 500:500:1 \
+                         --pulse 20000:20000:1 --out map.csv";
 
 /// A program under test, killed when the test ends.
 struct Running(Option<Child>);
@@ -41,9 +29,9 @@ impl Drop for Running {
 }
 
 impl Running {
-    fn start(arguments: &[&str], directory: &Path) -> Self {
+    fn start(line: &str, directory: &Path) -> Self {
         let child = program()
-            .args(arguments)
+            .args(words(line))
             .current_dir(directory)
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
@@ -90,8 +78,7 @@ fn computes(process: u32) -> bool {
 
 /// Starts a map of one long cell, and waits until it is at work.
 fn long_map(directory: &Path) -> Running {
-    let arguments = [&LONG_CELL[..], &["--out", "map.csv"]].concat();
-    let map = Running::start(&arguments, directory);
+    let map = Running::start(LONG_CELL, directory);
     map.wait_until(|| map.computes());
     map
 }
@@ -107,25 +94,11 @@ fn a_signal_stops_a_map_in_the_middle_of_a_cell() {
     }
 }
 
-/// As under `nohup`, and after `&` in a script.
-#[test]
-fn what_a_test_starts_hears_the_signals_that_the_test_ignores() {
-    let test = "map_signals::a_signal_stops_a_map_in_the_middle_of_a_cell";
-    let output = Command::new("sh")
-        .args(["-c", "trap '' INT HUP QUIT TERM; exec \"$@\"", "sh"])
-        .arg(std::env::current_exe().unwrap())
-        .args(["--exact", test])
-        .output()
-        .unwrap();
-    let said = String::from_utf8_lossy(&output.stdout);
-    assert!(output.status.success() && said.contains("1 passed"), "{said}");
-}
-
 #[test]
 fn a_hang_up_that_was_ignored_at_the_start_stays_ignored() {
     let directory = tempfile::tempdir().unwrap();
     let program = env!("CARGO_BIN_EXE_rubscope");
-    let script = format!("trap '' HUP; exec {program} {} --out map.csv", LONG_CELL.join(" "));
+    let script = format!("trap '' HUP; exec {program} {LONG_CELL}");
     let child = hearing("sh")
         .args(["-c", &script])
         .current_dir(directory.path())
@@ -145,8 +118,7 @@ fn a_large_map_takes_little_memory() {
     let directory = tempfile::tempdir().unwrap();
     let axes = "map --solver event --model rigid --contact unilateral --threads 2 --no-sensitivity \
                 --speed 300:500:4000 --pulse 1e5:1e6:4000 --out m.csv";
-    let arguments: Vec<&str> = axes.split_whitespace().collect();
-    let map = Running::start(&arguments, directory.path());
+    let map = Running::start(axes, directory.path());
     map.wait_until(|| map.computes());
     std::thread::sleep(Duration::from_millis(500));
     let process = map.0.as_ref().unwrap().id();

@@ -157,25 +157,6 @@ fn a_pipe_a_device_or_a_folder_is_refused_as_a_file_and_the_screen_lives() {
 }
 
 #[test]
-fn the_question_whether_to_replace_a_file_is_asked_and_answered() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("scene.toml");
-    std::fs::write(&path, "mine").unwrap();
-    let mut terminal = Start::explorer(&SHORT).folder(folder.path()).open();
-    terminal.wait_for(" LOCKED ");
-    terminal.send("s\r");
-    terminal.wait_for("scene.toml exists");
-    assert_eq!(std::fs::read_to_string(&path).unwrap(), "mine");
-    terminal.send("\u{1b}");
-    terminal.wait_for("quit");
-    terminal.send("s\r");
-    terminal.wait_for("y replaces it");
-    terminal.send("yq");
-    assert_eq!(terminal.wait(), 0);
-    assert!(std::fs::read_to_string(&path).unwrap().starts_with("schema = 1"));
-}
-
-#[test]
 fn a_file_above_the_limit_of_the_system_is_refused_and_the_screen_lives() {
     let folder = tempfile::tempdir().unwrap();
     let script = "ulimit -f 0; \"$@\"; echo ended with $?";

@@ -34,9 +34,10 @@ fn ends(mut terminal: Terminal, what: &str) {
 
 #[test]
 fn one_ctrl_c_is_heard_after_a_burst_of_any_size_in_every_mode() {
-    for (keys, seen) in MODES {
-        // More than the program reads at once, and more than a terminal and a pipe hold.
-        for size in [1_000, 4_200, 20_000, 70_000] {
+    // More than the program reads at once, and more than a terminal and a pipe hold.
+    for (place, (keys, seen)) in MODES.into_iter().enumerate() {
+        let sizes = [70_000, 1_000, 4_200, 20_000];
+        for size in if place == 0 { &sizes[..] } else { &sizes[..1] } {
             let mut terminal = opened(keys, seen);
             terminal.send(&UNIT.repeat(size / UNIT.len()));
             ends(terminal, &format!("{keys:?}, {size} bytes"));
@@ -46,15 +47,14 @@ fn one_ctrl_c_is_heard_after_a_burst_of_any_size_in_every_mode() {
 
 #[test]
 fn one_ctrl_c_is_heard_after_a_sequence_without_an_end_in_every_mode() {
-    for (keys, seen) in MODES {
-        for begun in ["\u{1b}[<0;1", "\u{1b}[200~abc", "\u{1b}]11;rgb:", "\u{1b}O"] {
+    let long = format!("\u{1b}[200~{}", "abc".repeat(20_000));
+    let begun = [&long, "\u{1b}[200~abc", "\u{1b}[<0;1", "\u{1b}]11;rgb:", "\u{1b}O"];
+    for (place, (keys, seen)) in MODES.into_iter().enumerate() {
+        for begun in if place == 0 { &begun[..] } else { &begun[1..2] } {
             let mut terminal = opened(keys, seen);
             terminal.send(begun);
-            ends(terminal, &format!("{keys:?} {begun:?}"));
+            ends(terminal, &format!("{keys:?} {begun:.20?}"));
         }
-        let mut terminal = opened(keys, seen);
-        terminal.send(&format!("\u{1b}[200~{}", "abc".repeat(20_000)));
-        ends(terminal, &format!("{keys:?} a long text"));
     }
 }
 

@@ -214,7 +214,7 @@ fn a_signal_to_stop_is_heard_while_nobody_reads_and_the_screen_comes_back() {
     terminal.follow_the_job();
     terminal.block();
     terminal.signal("TSTP");
-    terminal.wait_for_stop();
+    terminal.wait_for_state('T');
     terminal.unblock();
     terminal.wait_for("is stopped");
     terminal.send("\r");
@@ -241,7 +241,12 @@ fn a_signal_that_comes_while_it_stops_is_not_lost() {
         terminal.signal("TERM");
         terminal.signal("CONT");
         terminal.unblock();
-        terminal.wait_for("ended with 143");
+        terminal.wait_for("ended with 14");
+        // On a busy machine it may have stopped before it was told to end: the shell has seen
+        // that, and it ends when it goes on.
+        if !terminal.text().contains("ended with 143") {
+            terminal.wait_for_state('Z');
+        }
     }
 }
 

@@ -193,9 +193,33 @@ fn settings(master: &dyn MasterPty) -> String {
 
 impl Terminal {
     pub fn send(&mut self, keys: &str) {
+        self.send_bytes(keys.as_bytes());
+    }
+
+    pub fn send_bytes(&mut self, bytes: &[u8]) {
         let input = self.input.as_mut().unwrap();
-        input.write_all(keys.as_bytes()).unwrap();
+        input.write_all(bytes).unwrap();
         input.flush().unwrap();
+    }
+
+    /// Takes what the program has written so far; it must not have ended.
+    pub fn read(&mut self) {
+        while let Ok(bytes) = self.output.try_recv() {
+            self.heard(&bytes);
+        }
+        let ended = self.child.try_wait().unwrap();
+        assert!(ended.is_none(), "it ended: {ended:?}\n{}", self.text());
+    }
+
+    /// Its resident memory \[MB\] and threads.
+    #[cfg(target_os = "linux")]
+    pub fn usage(&self) -> (u64, u64) {
+        let status = std::fs::read_to_string(format!("/proc/{}/status", self.process)).unwrap();
+        let number = |name: &str| -> u64 {
+            let line = status.lines().find(|line| line.starts_with(name)).unwrap();
+            line.split_whitespace().nth(1).unwrap().parse().unwrap()
+        };
+        (number("VmRSS:") / 1024, number("Threads:"))
     }
 
     fn heard(&mut self, bytes: &[u8]) {
@@ -271,14 +295,15 @@ impl Terminal {
         assert!(sent.success(), "kill -s {signal}");
     }
 
-    /// Waits until the program is stopped, where the system tells it in a file.
-    pub fn wait_for_stop(&self) {
+    /// Waits until the program is stopped (`T`) or has ended (`Z`), where the system tells it
+    /// in a file.
+    pub fn wait_for_state(&self, letter: char) {
         let state = format!("/proc/{}/stat", self.process);
         let began = Instant::now();
         while let Ok(state) = std::fs::read_to_string(&state)
-            && !state.contains(") T ")
+            && !state.contains(&format!(") {letter} "))
         {
-            assert!(began.elapsed() < PATIENCE, "it does not stop: {state}");
+            assert!(began.elapsed() < PATIENCE, "it is not {letter}: {state}");
             std::thread::sleep(Duration::from_millis(10));
         }
     }

@@ -5,30 +5,7 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
-/// A fenced block: its language and its text.
-type Block = (String, String);
-
-fn read(name: &str) -> String {
-    std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(name)).unwrap()
-}
-
-fn blocks(text: &str) -> Vec<Block> {
-    let mut found: Vec<Block> = Vec::new();
-    let mut inside = false;
-    for line in text.lines() {
-        if let Some(language) = line.strip_prefix("```") {
-            inside = !inside;
-            if inside {
-                found.push((language.to_string(), String::new()));
-            }
-        } else if inside {
-            let text = &mut found.last_mut().unwrap().1;
-            text.push_str(line);
-            text.push('\n');
-        }
-    }
-    found
-}
+use crate::docs::read;
 
 /// A Python and the modules it has.
 struct Python {
@@ -84,10 +61,11 @@ impl Python {
 fn the_python_of_the_documents_runs() {
     let Some(python) = Python::find() else { return };
     let folder = tempfile::tempdir().unwrap();
-    let blocks = blocks(&read("docs/python.md"));
+    let blocks = read("docs/python.md").blocks();
     let mut count = 0;
-    for (at, (language, text)) in blocks.iter().enumerate() {
-        match language.as_str() {
+    for (at, block) in blocks.iter().enumerate() {
+        let text = &block.text;
+        match block.language.as_str() {
             "sh" => {
                 let arguments = text.trim_end().strip_prefix("rubscope ").unwrap().split(' ');
                 let run = crate::cli_support::program()
@@ -98,8 +76,8 @@ fn the_python_of_the_documents_runs() {
                 assert!(run.status.success(), "{text}{}", String::from_utf8_lossy(&run.stderr));
             }
             "python" => {
-                let after = blocks.get(at + 1).filter(|(language, _)| language == "text");
-                python.check(text, after.map(|(_, text)| text.as_str()), folder.path());
+                let after = blocks.get(at + 1).filter(|block| block.language == "text");
+                python.check(text, after.map(|block| block.text.as_str()), folder.path());
                 count += 1;
             }
             _ => {}
@@ -114,14 +92,14 @@ fn the_python_of_the_documents_runs() {
 
 #[test]
 fn the_plot_of_fig_5_has_at_most_six_lines() {
-    let blocks = blocks(&read("docs/python.md"));
-    let plot = blocks.iter().find(|(language, _)| language == "python").unwrap();
-    assert!(plot.1.contains("plt.plot(") && plot.1.lines().count() <= 6, "{}", plot.1);
+    let blocks = read("docs/python.md").blocks();
+    let plot = &blocks.iter().find(|block| block.language == "python").unwrap().text;
+    assert!(plot.contains("plt.plot(") && plot.lines().count() <= 6, "{plot}");
 }
 
 #[test]
 fn every_array_of_a_history_is_in_the_document() {
-    let text = read("docs/python.md");
+    let text = read("docs/python.md").text;
     for column in rubscope::report::History::new(2).columns() {
         assert!(text.contains(&format!("`{}`", column.name)), "{}", column.name);
     }

@@ -95,16 +95,6 @@ fn into_a_pipe_long_work_says_how_far_it_is_every_ten_seconds() {
 }
 
 #[test]
-fn the_line_is_gone_when_the_result_is_printed() {
-    let folder = tempfile::tempdir().unwrap();
-    let command = "margins";
-    let mut terminal = start(command, folder.path());
-    assert_eq!(terminal.wait(), 0);
-    assert!(!is_seen(terminal.parser.screen()), "{}", terminal.text());
-    assert!(terminal.text().contains("omega_c"), "{}", terminal.text());
-}
-
-#[test]
 fn a_refusal_stands_alone() {
     let folder = tempfile::tempdir().unwrap();
     for command in ["run --end 0", "run --none", "map --threads 0", "--set casing.damping_ratio=-1"]

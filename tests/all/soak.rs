@@ -6,18 +6,14 @@
 #![cfg(target_os = "linux")]
 
 use std::fs;
-use std::io::{Read, Write};
-use std::num::NonZero;
 use std::path::Path;
-use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system};
 use proptest::prelude::Rng;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 
-/// A long limit, not a speed test: a loaded machine may be slow.
-const PATIENCE: Duration = Duration::from_secs(120);
+use crate::pty_support::{SHORT, Start, Terminal};
+
 /// Time between two actions: faster than any user.
 const PAUSE: Duration = Duration::from_millis(15);
 /// Actions between two looks at the program.
@@ -50,104 +46,26 @@ const ODD: [&[u8]; 7] = [
     "é漢\u{202e}".as_bytes(),
 ];
 
-/// The program in its terminal.
-struct Session {
-    pair: Box<dyn MasterPty + Send>,
-    input: Box<dyn Write + Send>,
-    child: Box<dyn Child + Send + Sync>,
-    parser: Arc<Mutex<vt100::Parser>>,
-    process: u32,
+fn open(folder: &Path) -> Terminal {
+    // A write beyond the limit fails, as on a full disk, and does not kill.
+    let script = format!("trap '' XFSZ; ulimit -f {LARGEST_FILE}; exec \"$@\"");
+    let config = folder.join("config");
+    // Not the config file of the user, which may have another marker.
+    let start = Start::shell(&script, &SHORT).folder(folder).size(USUAL.0, USUAL.1);
+    start.env("XDG_CONFIG_HOME", config.to_str().unwrap()).open()
 }
 
-impl Session {
-    fn open(folder: &Path) -> Self {
-        let pair = native_pty_system().openpty(size(USUAL)).unwrap();
-        // A write beyond the limit fails, as on a full disk, and does not kill.
-        let script = format!("trap '' XFSZ; ulimit -f {LARGEST_FILE}; exec \"$0\" \"$@\"");
-        let mut command = CommandBuilder::new("sh");
-        command.args(["-c", &script, env!("CARGO_BIN_EXE_rubscope")]);
-        command.args(["paper-nd3", "--step", "2e-7", "--end", "0.01"]);
-        command.cwd(folder);
-        command.env("TERM", "xterm-256color");
-        command.env("LC_ALL", "C.UTF-8");
-        command.env("NO_COLOR", "");
-        // Not the config file of the user, which may have another marker.
-        command.env("XDG_CONFIG_HOME", folder.join("config"));
-        let child = pair.slave.spawn_command(command).unwrap();
-        drop(pair.slave);
-        let parser = Arc::new(Mutex::new(vt100::Parser::new(side(USUAL.1), side(USUAL.0), 0)));
-        let mut reader = pair.master.try_clone_reader().unwrap();
-        let screen = Arc::clone(&parser);
-        std::thread::spawn(move || {
-            let mut buffer = [0; 1 << 14];
-            while let Ok(count @ 1..) = reader.read(&mut buffer) {
-                screen.lock().unwrap().process(&buffer[..count]);
-            }
-        });
-        let input = pair.master.take_writer().unwrap();
-        let process = child.process_id().unwrap();
-        Self { pair: pair.master, input, child, parser, process }
+/// It opens its help and closes it, whatever was before.
+fn answers(terminal: &mut Terminal) {
+    terminal.resize(USUAL.0, USUAL.1);
+    // An escape byte alone is a key only after a moment.
+    for _ in 0..3 {
+        terminal.send("\x1b");
+        std::thread::sleep(Duration::from_millis(100));
     }
-
-    fn send(&mut self, bytes: impl AsRef<[u8]>) {
-        self.input.write_all(bytes.as_ref()).unwrap();
-        self.input.flush().unwrap();
-    }
-
-    fn resize(&self, (width, height): (u16, u16)) {
-        self.parser.lock().unwrap().screen_mut().set_size(side(height), side(width));
-        self.pair.resize(size((width, height))).unwrap();
-    }
-
-    fn text(&self) -> String {
-        self.parser.lock().unwrap().screen().contents()
-    }
-
-    fn assert_alive(&mut self) {
-        let ended = self.child.try_wait().unwrap();
-        assert!(ended.is_none(), "it ended: {ended:?}\n{}", self.text());
-    }
-
-    /// Waits until the screen contains a text.
-    fn wait_for(&mut self, text: &str) {
-        let began = Instant::now();
-        while !self.text().contains(text) {
-            self.assert_alive();
-            assert!(began.elapsed() < PATIENCE, "no {text:?} in\n{}", self.text());
-            std::thread::sleep(PAUSE);
-        }
-    }
-
-    /// It opens its help and closes it, whatever was before.
-    fn answers(&mut self) {
-        self.resize(USUAL);
-        // An escape byte alone is a key only after a moment.
-        for _ in 0..3 {
-            self.send("\x1b");
-            std::thread::sleep(Duration::from_millis(100));
-        }
-        self.send("?");
-        self.wait_for("select the knob above");
-        self.send("?");
-    }
-
-    /// Resident memory \[MB\] and threads.
-    fn usage(&self) -> (u64, u64) {
-        let status = fs::read_to_string(format!("/proc/{}/status", self.process)).unwrap();
-        let number = |name: &str| -> u64 {
-            let line = status.lines().find(|line| line.starts_with(name)).unwrap();
-            line.split_whitespace().nth(1).unwrap().parse().unwrap()
-        };
-        (number("VmRSS:") / 1024, number("Threads:"))
-    }
-}
-
-fn size((cols, rows): (u16, u16)) -> PtySize {
-    PtySize { rows, cols, pixel_width: 0, pixel_height: 0 }
-}
-
-fn side(length: u16) -> NonZero<u16> {
-    NonZero::new(length).unwrap()
+    terminal.send("?");
+    terminal.wait_for("select the knob above");
+    terminal.send("?");
 }
 
 /// Draws from a list.
@@ -156,15 +74,15 @@ fn one_of<T: Copy>(rng: &mut TestRng, list: &[T]) -> T {
 }
 
 /// One thing that a user, a terminal or a window manager does.
-fn act(session: &mut Session, rng: &mut TestRng) {
+fn act(session: &mut Terminal, rng: &mut TestRng) {
     let keys: Vec<char> = KEYS.chars().collect();
     match rng.next_u32() % 100 {
         0..70 => {
             let count = rng.next_u32() % 8;
             let text: String = (0..=count).map(|_| one_of(rng, &keys)).collect();
-            session.send(text);
+            session.send(&text);
         }
-        70..78 => session.send(format!("\r{}\r", one_of(rng, &VALUES))),
+        70..78 => session.send(&format!("\r{}\r", one_of(rng, &VALUES))),
         78..82 => {
             session.send(one_of(rng, &["?jjk?", "g\r", "gjj\rgggg", "ggG", "\x12", "\x0c", "\x7f"]))
         }
@@ -172,14 +90,13 @@ fn act(session: &mut Session, rng: &mut TestRng) {
             let name = one_of(rng, &FILES);
             // The offered name goes; `y` replaces a file, or else copies.
             session.send(one_of(rng, &["s", "e"]));
-            session.send("\x7f".repeat(40));
-            session.send(format!("{name}\ry"));
+            session.send(&format!("{}{name}\ry", "\x7f".repeat(40)));
         }
         90..96 => {
             let (width, height) = (10 + rng.next_u32() % 200, 4 + rng.next_u32() % 60);
-            session.resize((width as u16, height as u16));
+            session.resize(width as u16, height as u16);
         }
-        _ => session.send(one_of(rng, &ODD)),
+        _ => session.send_bytes(one_of(rng, &ODD)),
     }
 }
 
@@ -191,7 +108,7 @@ fn soak(done: impl Fn(Duration, usize) -> bool) {
     fs::create_dir(&locked).unwrap();
     fs::set_permissions(&locked, std::os::unix::fs::PermissionsExt::from_mode(0o555)).unwrap();
     let mut rng = TestRng::from_seed(RngAlgorithm::XorShift, b"sixteen of them.");
-    let mut session = Session::open(folder.path());
+    let mut session = open(folder.path());
     session.wait_for("speed Ω");
     let began = Instant::now();
     let (mut actions, mut told, mut looks) = (0, 0, Vec::new());
@@ -212,10 +129,10 @@ fn soak(done: impl Fn(Duration, usize) -> bool) {
         for _ in 0..ROUND {
             act(&mut session, &mut rng);
             std::thread::sleep(PAUSE);
-            session.assert_alive();
+            session.read();
         }
         actions += ROUND;
-        session.answers();
+        answers(&mut session);
     }
     let (first, second) = looks.split_at(looks.len() / 2);
     let most =
@@ -224,17 +141,12 @@ fn soak(done: impl Fn(Duration, usize) -> bool) {
     println!("most: {before:?} in the first half, {after:?} in the second (MB, threads)");
     assert!(after.0 <= before.0 + MOST_GROWTH, "memory grows: {looks:?}");
     session.send("q");
-    let ended = Instant::now();
-    while session.child.try_wait().unwrap().is_none() {
-        assert!(ended.elapsed() < PATIENCE, "it does not end");
-        std::thread::sleep(PAUSE);
-    }
-    assert_eq!(session.child.wait().unwrap().exit_code(), 0);
+    assert_eq!(session.wait(), 0);
 }
 
 #[test]
 fn some_use_leaves_it_answering() {
-    soak(|_, actions| actions >= 8 * ROUND);
+    soak(|_, actions| actions >= 4 * ROUND);
 }
 
 /// `RUBSCOPE_SOAK_MINUTES` says how long; ten minutes are hours of a user.
