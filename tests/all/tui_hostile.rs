@@ -1,16 +1,13 @@
 //! Text from outside on the screen: titles and names that would act on a
 //! terminal, or break the layout, if they were shown as they are.
 
-use std::sync::mpsc::channel;
-use std::time::Duration;
-
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
-use ratatui::{Terminal, backend::TestBackend, buffer::Buffer};
+use ratatui::buffer::Buffer;
 use rubscope::tui::events::ScreenEvent;
-use rubscope::tui::{App, Marker, Theme, run};
+use rubscope::tui::{App, Marker, Theme};
 use rubscope_solver::scene::Scene;
 
-use crate::stepwise::{NoHost, Stepwise};
+use crate::tui_support::Session;
 
 /// Escape sequences, a break of a line, text from right to left, characters
 /// without a width, wide ones, and letters with many accents.
@@ -25,15 +22,10 @@ fn screen(title: &str, status: &str, marker: Marker, events: &[ScreenEvent]) -> 
     let mut scene = Scene::base();
     scene.solver.step_s = 1e-6;
     scene.title = title.to_string();
-    let mut app = App::new(scene.checked().unwrap(), Theme::Dark, marker);
-    app.status = Some(status.to_string()).filter(|status| !status.is_empty());
-    let mut terminal = Terminal::new(TestBackend::new(160, 30)).unwrap();
-    let (sender, receiver) = channel();
-    events.iter().for_each(|event| sender.send(event.clone()).unwrap());
-    drop(sender);
-    let mut engine = Stepwise::new(1e-4);
-    run(&mut terminal, &receiver, &mut app, &mut engine, &mut NoHost, Duration::ZERO).unwrap();
-    (app, terminal.backend().buffer().clone())
+    let mut session = Session::with_stride((160, 30), 1e-4, scene, Theme::Dark, marker);
+    session.app.status = Some(status.to_string()).filter(|status| !status.is_empty());
+    session.send(events.iter().cloned());
+    (session.app, session.terminal.backend().buffer().clone())
 }
 
 fn acts(letter: char) -> bool {

@@ -1,7 +1,7 @@
 //! The loop of the explorer without new snapshots, and the record of its engine.
 
 use std::f64::consts::TAU;
-use std::sync::mpsc::{Sender, channel};
+use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
@@ -11,10 +11,59 @@ use rubscope::tui::events::ScreenEvent;
 use rubscope::tui::files::{FileJob, FileResult};
 use rubscope::tui::history::Channel;
 use rubscope::tui::host::Host;
-use rubscope::tui::{App, Exit, Marker, Theme, run};
+use rubscope::tui::{App, Exit, Marker, Theme};
 use rubscope_solver::scene::Scene;
 
 use crate::stepwise::{NoHost, Stepwise};
+
+/// An explorer of a scene.
+fn app(scene: Scene) -> App {
+    App::new(scene.checked().unwrap(), Theme::Dark, Marker::Braille)
+}
+
+/// The paper's scene to an early end.
+fn short() -> Scene {
+    Scene::base().with(&[("solver.end_s", "2e-3")]).unwrap().into_scene()
+}
+
+fn screen(width: u16, height: u16) -> Terminal<TestBackend> {
+    Terminal::new(TestBackend::new(width, height)).unwrap()
+}
+
+/// The loop on a screen of 80 columns.
+fn run(events: &Receiver<ScreenEvent>, app: &mut App, engine: &mut dyn Engine) -> Exit {
+    run_with(events, app, engine, &mut NoHost)
+}
+
+fn run_with(
+    events: &Receiver<ScreenEvent>,
+    app: &mut App,
+    engine: &mut dyn Engine,
+    host: &mut dyn Host,
+) -> Exit {
+    let frame = Duration::from_millis(100);
+    rubscope::tui::run(&mut screen(80, 24), events, app, engine, host, frame).unwrap()
+}
+
+fn key(code: KeyCode) -> ScreenEvent {
+    ScreenEvent::Key(KeyEvent::new(code, KeyModifiers::NONE))
+}
+
+fn press(app: &mut App, letter: char) {
+    let _ = app.key(&KeyEvent::new(KeyCode::Char(letter), KeyModifiers::NONE));
+}
+
+fn interrupt() -> ScreenEvent {
+    ScreenEvent::Key(KeyEvent::new(KeyCode::Char('c'), KeyModifiers::CONTROL))
+}
+
+/// An engine with the order of an explorer, and its answer.
+fn answer(app: &App) -> (Stepwise, Snapshot) {
+    let mut engine = Stepwise::new(1e-4);
+    engine.order(&app.order());
+    let snapshot = engine.take().unwrap();
+    (engine, snapshot)
+}
 
 /// Ends the loop at the second picture.
 struct Second {
@@ -48,12 +97,9 @@ fn end_in_a_minute(events: &Sender<ScreenEvent>) {
 fn a_screen_without_news_is_drawn_again_to_notice_a_lost_terminal() {
     let (sender, events) = channel();
     end_in_a_minute(&sender);
-    let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
-    let mut app = App::new(Scene::base().checked().unwrap(), Theme::Dark, Marker::Braille);
     let mut engine = Second { pictures: 0, events: sender };
-    let frame = Duration::from_millis(100);
-    let exit = run(&mut terminal, &events, &mut app, &mut engine, &mut NoHost, frame);
-    assert_eq!(exit.unwrap(), Exit::Signal(15), "nothing was drawn for a minute");
+    let exit = run(&events, &mut app(Scene::base()), &mut engine);
+    assert_eq!(exit, Exit::Signal(15), "nothing was drawn for a minute");
 }
 
 /// A host whose files take a while: the results come as events.
@@ -91,25 +137,20 @@ fn quitting_waits_for_the_file_and_keeps_the_reason_why_it_was_not_written() {
     let failed = FileResult::Failed("no room".into());
     let results = vec![failed, FileResult::Exists, FileResult::Written];
     let mut host = Slow { results, events: sender.clone(), suspended: 0, unseen: None };
-    let key = |code, modifiers| ScreenEvent::Key(KeyEvent::new(code, modifiers));
-    let interrupt = key(KeyCode::Char('c'), KeyModifiers::CONTROL);
     for (quit, reason) in [
-        (key(KeyCode::Char('q'), KeyModifiers::NONE), Some("cannot write scene.toml: no room")),
-        (interrupt.clone(), Some("cannot write scene.toml: it exists")),
-        (interrupt, None),
+        (key(KeyCode::Char('q')), Some("cannot write scene.toml: no room")),
+        (interrupt(), Some("cannot write scene.toml: it exists")),
+        (interrupt(), None),
     ] {
         for code in [KeyCode::Char('s'), KeyCode::Enter] {
-            sender.send(key(code, KeyModifiers::NONE)).unwrap();
+            sender.send(key(code)).unwrap();
         }
         sender.send(quit).unwrap();
-        sender.send(key(KeyCode::Char('?'), KeyModifiers::NONE)).unwrap();
+        sender.send(key(KeyCode::Char('?'))).unwrap();
         // If the loop goes on, it is until this.
         end_in_a_minute(&sender);
-        let mut app = App::new(Scene::base().checked().unwrap(), Theme::Dark, Marker::Braille);
-        let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
-        let frame = Duration::from_millis(100);
         let mut engine = Stepwise::new(1e-4);
-        let exit = run(&mut terminal, &events, &mut app, &mut engine, &mut host, frame).unwrap();
+        let exit = run_with(&events, &mut app(Scene::base()), &mut engine, &mut host);
         assert_eq!(exit, Exit::Done);
         assert_eq!(host.unseen.take().as_deref(), reason);
         while events.try_recv().is_ok() {}
@@ -121,19 +162,15 @@ fn quitting_waits_for_the_file_and_keeps_the_reason_why_it_was_not_written() {
 /// were typed ahead of it are.
 #[test]
 fn behind_a_burst_of_keys_a_ctrl_c_is_the_next_one() {
-    let key = |code, modifiers| ScreenEvent::Key(KeyEvent::new(code, modifiers));
     for (before, answered) in [(1000, true), (1001, false)] {
         let (sender, events) = channel();
         for _ in 0..before {
-            sender.send(key(KeyCode::Right, KeyModifiers::NONE)).unwrap();
+            sender.send(key(KeyCode::Right)).unwrap();
         }
-        sender.send(key(KeyCode::Char('c'), KeyModifiers::CONTROL)).unwrap();
-        let scene = Scene::base().checked().unwrap();
-        let mut app = App::new(scene.clone(), Theme::Dark, Marker::Braille);
-        let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
-        let frame = Duration::from_millis(100);
-        let exit = run(&mut terminal, &events, &mut app, &mut Silent, &mut NoHost, frame);
-        assert_eq!(exit.unwrap(), Exit::Done);
+        sender.send(interrupt()).unwrap();
+        let mut app = app(Scene::base());
+        let scene = app.scene.clone();
+        assert_eq!(run(&events, &mut app, &mut Silent), Exit::Done);
         assert_eq!(app.scene != scene, answered, "{before} keys");
     }
 }
@@ -149,8 +186,7 @@ impl Engine for Repeating {
     fn order(&mut self, _: &Order) {
         std::thread::sleep(Duration::from_millis(4));
         self.left -= 1;
-        let right = KeyEvent::new(KeyCode::Right, KeyModifiers::NONE);
-        let next = if self.left > 0 { ScreenEvent::Key(right) } else { ScreenEvent::Signal(15) };
+        let next = if self.left > 0 { key(KeyCode::Right) } else { ScreenEvent::Signal(15) };
         self.events.send(next).unwrap();
     }
 
@@ -167,10 +203,9 @@ impl Engine for Repeating {
 fn a_key_that_repeats_faster_than_a_frame_waits_for_its_answer_is_drawn() {
     let (sender, events) = channel();
     let mut engine = Repeating { events: sender, left: 100, frames: 0 };
-    let mut app = App::new(Scene::base().checked().unwrap(), Theme::Dark, Marker::Braille);
-    let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
-    let frame = Duration::from_millis(33);
-    run(&mut terminal, &events, &mut app, &mut engine, &mut NoHost, frame).unwrap();
+    let (mut app, frame) = (app(Scene::base()), Duration::from_millis(33));
+    rubscope::tui::run(&mut screen(80, 24), &events, &mut app, &mut engine, &mut NoHost, frame)
+        .unwrap();
     assert!(engine.frames > 5, "{} frames of 100 keys", engine.frames);
 }
 
@@ -184,17 +219,13 @@ fn a_burst_of_turns_of_one_knob_is_one_change_and_ends_at_the_refused_value() {
     {
         let presses = if refused { 300 } else { 40 };
         let one = |presses: usize, at_once: bool| {
-            let mut app = App::new(scene.clone().checked().unwrap(), Theme::Dark, Marker::Braille);
+            let mut app = app(scene.clone());
             assert!(app.select_path("operation.speed_rad_s"));
-            let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
             let mut send = |presses: usize| {
                 let (sender, events) = channel();
-                let key = KeyEvent::new(keys, KeyModifiers::NONE);
-                (0..presses).for_each(|_| sender.send(ScreenEvent::Key(key)).unwrap());
+                (0..presses).for_each(|_| sender.send(key(keys)).unwrap());
                 drop(sender);
-                let mut engine = Silent;
-                run(&mut terminal, &events, &mut app, &mut engine, &mut NoHost, Duration::ZERO)
-                    .unwrap();
+                run(&events, &mut app, &mut Silent);
             };
             match at_once {
                 true => send(presses),
@@ -217,19 +248,15 @@ fn a_reason_that_no_screen_showed_is_kept_and_one_that_was_shown_is_not() {
     let (sender, events) = channel();
     let mut host = Slow { results: Vec::new(), events: sender.clone(), suspended: 0, unseen: None };
     let failed = || ScreenEvent::Written(FileResult::Failed("no room".into()));
-    let quit = || ScreenEvent::Key(KeyEvent::new(KeyCode::Char('q'), KeyModifiers::NONE));
     for shown in [false, true] {
-        let mut app = App::new(Scene::base().checked().unwrap(), Theme::Dark, Marker::Braille);
-        let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
         sender.send(failed()).unwrap();
         let mut second = Second { pictures: 0, events: sender.clone() };
         let mut none = Stepwise::new(1e-4);
         let engine: &mut dyn Engine = if shown { &mut second } else { &mut none };
         if !shown {
-            sender.send(quit()).unwrap();
+            sender.send(key(KeyCode::Char('q'))).unwrap();
         }
-        let frame = Duration::from_millis(100);
-        run(&mut terminal, &events, &mut app, engine, &mut host, frame).unwrap();
+        run_with(&events, &mut app(Scene::base()), engine, &mut host);
         assert_eq!(host.unseen.take().is_some(), !shown);
         while events.try_recv().is_ok() {}
     }
@@ -243,7 +270,7 @@ fn a_bin_longer_than_a_turn_of_the_wave_shows_its_whole_swing() {
     scene.operation.pulse_n = 0.0;
     scene.initial.u_c_m = 5e-5;
     scene.solver.end_s = 1.0;
-    let mut order = App::new(scene.checked().unwrap(), Theme::Dark, Marker::Braille).order();
+    let mut order = app(scene).order();
     order.bin_s = 5.0 * TAU / order.scene.machine().omega_c;
     let mut engine = Stepwise::new(4.0 * order.bin_s);
     engine.order(&order);
@@ -294,33 +321,27 @@ impl Engine for Later {
 fn a_forecast_is_drawn_when_it_exists_and_not_at_the_next_frame() {
     let (sender, events) = channel();
     end_in_a_minute(&sender);
-    let mut scene = Scene::base();
-    scene.solver.end_s = 2e-3;
-    let mut app = App::new(scene.checked().unwrap(), Theme::Dark, Marker::Braille);
-    let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
+    let (mut app, mut terminal) = (app(short()), screen(80, 24));
     let mut engine = Later { engine: Stepwise::new(1e-4), events: sender, asked: 0 };
     let frame = Duration::from_secs(3600);
-    let exit = run(&mut terminal, &events, &mut app, &mut engine, &mut NoHost, frame);
+    let host = &mut NoHost;
+    let exit = rubscope::tui::run(&mut terminal, &events, &mut app, &mut engine, host, frame);
     assert_eq!(exit.unwrap(), Exit::Signal(15), "it waits for the frame");
-    let line: String =
-        (0..80).map(|x| terminal.backend().buffer().cell((x, 0)).unwrap().symbol()).collect();
+    let line = top(&terminal, 80);
     assert!(!line.contains("computing"), "{line}");
     assert!(line.contains(&format!(" {} ", app.verdict_word())), "{line}");
 }
 
 #[test]
 fn the_verdict_of_the_value_before_stays_with_it_until_there_is_a_new_one() {
-    let mut scene = Scene::base();
-    scene.solver.end_s = 2e-3;
-    let mut app = App::new(scene.checked().unwrap(), Theme::Dark, Marker::Braille);
+    let mut app = app(short());
     assert_eq!(app.verdict_word(), "computing");
-    let mut engine = Stepwise::new(1e-4);
-    engine.order(&app.order());
-    app.apply_snapshot(engine.take().unwrap());
+    let (mut engine, first) = answer(&app);
+    app.apply_snapshot(first);
     let before = app.sentence(80);
     assert!(before.word != "computing" && !before.what.contains("Computing"));
     for _ in 0..2 {
-        let _ = app.key(&KeyEvent::new(KeyCode::Char('l'), KeyModifiers::NONE));
+        press(&mut app, 'l');
         let dimmed = app.sentence(80);
         assert_eq!(dimmed.word, format!("at 500 rad/s: {}", before.word));
         assert_eq!(dimmed.what, "Computing the run.");
@@ -345,27 +366,26 @@ impl Engine for Silent {
 fn first_line(app: &mut App, width: u16) -> String {
     let (sender, events) = channel();
     drop(sender);
-    let mut terminal = Terminal::new(TestBackend::new(width, 12)).unwrap();
-    let frame = Duration::from_millis(100);
-    run(&mut terminal, &events, app, &mut Silent, &mut NoHost, frame).unwrap();
-    let buffer = terminal.backend().buffer();
-    (0..width).map(|x| buffer.cell((x, 0)).unwrap().symbol()).collect()
+    let (mut terminal, frame) = (screen(width, 12), Duration::from_millis(100));
+    rubscope::tui::run(&mut terminal, &events, app, &mut Silent, &mut NoHost, frame).unwrap();
+    top(&terminal, width)
+}
+
+fn top(terminal: &Terminal<TestBackend>, width: u16) -> String {
+    (0..width).map(|x| terminal.backend().buffer().cell((x, 0)).unwrap().symbol()).collect()
 }
 
 #[test]
 fn on_a_narrow_screen_the_verdict_comes_first_and_whole() {
     for name in ["coincidence", "rub", "slip", "paper-nd3"] {
-        let mut scene = Scene::builtin(name).unwrap();
-        scene.solver.end_s = 2e-3;
-        scene.solver.step_s = 1e-6;
-        let mut app = App::new(scene.checked().unwrap(), Theme::Dark, Marker::Braille);
-        let mut engine = Stepwise::new(1e-4);
-        engine.order(&app.order());
-        app.apply_snapshot(engine.take().unwrap());
+        let changes = [("solver.end_s", "2e-3"), ("solver.step_s", "1e-6")];
+        let mut app = app(crate::scene(name, &changes).into_scene());
+        let (_, first) = answer(&app);
+        app.apply_snapshot(first);
         let line = first_line(&mut app, 40);
         let begins = format!(" {}  ", app.verdict_word());
         assert!(line.starts_with(&begins) && line.trim_end().ends_with('.'), "{name}: {line:?}");
-        let _ = app.key(&KeyEvent::new(KeyCode::Char('l'), KeyModifiers::NONE));
+        press(&mut app, 'l');
         let word = app.verdict_word();
         assert!(word.starts_with("at ") && word.contains(" rad/s: "), "{name}: {word}");
         for width in [40, 59] {
@@ -378,46 +398,37 @@ fn on_a_narrow_screen_the_verdict_comes_first_and_whole() {
 
 #[test]
 fn an_answer_to_an_older_value_is_told_with_it_however_late_it_comes() {
-    let mut scene = Scene::base();
-    scene.solver.end_s = 2e-3;
-    let mut app = App::new(scene.checked().unwrap(), Theme::Dark, Marker::Braille);
-    let mut engine = Stepwise::new(1e-4);
-    engine.order(&app.order());
-    let late = engine.take().unwrap();
-    let key = |letter| KeyEvent::new(KeyCode::Char(letter), KeyModifiers::NONE);
-    let _ = app.key(&key('l'));
+    let mut app = app(short());
+    let (_, late) = answer(&app);
+    press(&mut app, 'l');
     assert_eq!(app.verdict_word(), "computing");
     assert!(!app.apply_snapshot(late));
     let word = app.verdict_word();
     assert!(word.starts_with("at 500 rad/s: "), "{word}");
     // Of two knobs no one value says what it was of.
-    let _ = app.key(&key('j'));
-    let _ = app.key(&key('l'));
+    press(&mut app, 'j');
+    press(&mut app, 'l');
     assert_eq!(app.verdict_word(), "computing");
 }
 
 #[test]
 fn a_screen_too_small_for_the_question_takes_no_answer() {
     let folder = tempfile::tempdir().unwrap();
-    let scene = Scene::base().checked().unwrap();
     for (height, replaced) in [(1, false), (24, true)] {
         let path = folder.path().join("scene.toml");
         std::fs::write(&path, "old").unwrap();
-        let mut app = App::new(scene.clone(), Theme::Dark, Marker::Braille);
+        let (mut app, mut terminal) = (app(Scene::base()), screen(80, height));
         app.files.directory = folder.path().to_path_buf();
-        let mut terminal = Terminal::new(TestBackend::new(80, height)).unwrap();
         for keys in ["s\r", "y"] {
             let (sender, events) = channel();
-            for key in keys.chars() {
-                let code = if key == '\r' { KeyCode::Enter } else { KeyCode::Char(key) };
-                let key = KeyEvent::new(code, KeyModifiers::NONE);
-                sender.send(ScreenEvent::Key(key)).unwrap();
+            for letter in keys.chars() {
+                let code = if letter == '\r' { KeyCode::Enter } else { KeyCode::Char(letter) };
+                sender.send(key(code)).unwrap();
             }
             drop(sender);
-            let mut engine = Stepwise::new(1e-4);
-            let exit =
-                run(&mut terminal, &events, &mut app, &mut engine, &mut NoHost, Duration::ZERO);
-            assert_eq!(exit.unwrap(), Exit::Done);
+            let (mut engine, frame) = (Stepwise::new(1e-4), Duration::ZERO);
+            let host = &mut NoHost;
+            rubscope::tui::run(&mut terminal, &events, &mut app, &mut engine, host, frame).unwrap();
         }
         assert_eq!(std::fs::read_to_string(&path).unwrap() != "old", replaced, "{height}");
     }

@@ -56,16 +56,6 @@ fn the_rows_are_the_margins_of_the_scene_with_their_knobs() {
     let (live, old) = session.app.margins().unwrap();
     assert!(!old);
     assert_eq!(live.margins.limits, Margins::of(&session.app.scene).limits);
-    for (symbol, parts) in [
-        ("Ω_c", ["292.878", "+70.7 %", "k_c +0.50 %", "m_c -0.50 %"]),
-        ("Ω_lock", ["411.934", "+21.4 %", "ζ_c +0.33 %", "m_c -0.50 %"]),
-        ("coincidence", ["388.315", "+28.8 %", "m_b -0.12 %", "m_c"]),
-        ("F touches", ["3.79502 kN", "> 100 x", "g0 +1.00 %", "t_p"]),
-        ("push a", [" N ", "", "Ω +2.2", ""]),
-    ] {
-        let line = line(&session, symbol);
-        assert!(parts.iter().all(|part| line.contains(part)), "{parts:?} in {line}");
-    }
 }
 
 #[test]
@@ -207,11 +197,7 @@ fn a_companion_has_the_symbols_per_cents_and_words_and_mono_needs_no_colour() {
 
 #[test]
 fn no_scene_is_too_odd() {
-    let with = |set: &[(&str, &str)]| {
-        let mut scene = short();
-        set.iter().for_each(|(path, value)| scene.set(path, value).unwrap());
-        scene
-    };
+    let with = |set: &[(&str, &str)]| short().with(set).unwrap().into_scene();
     let half = Scene { solver: short().solver, ..crate::scene_support::half_n() };
     let scenes = [
         half,
@@ -231,9 +217,6 @@ fn no_scene_is_too_odd() {
         with(&[("initial.u_c_m", "5e-5"), ("operation.pulse_n", "0")]),
     ];
     for (place, scene) in scenes.into_iter().enumerate() {
-        if let Err(error) = scene.checked() {
-            panic!("scene {place}: {error}");
-        }
         let mut session = open((120, 40), scene);
         assert!(session.app.margins().is_some(), "scene {place}");
         session.press("i");

@@ -88,47 +88,25 @@ fn press(
     assert_eq!(exit.unwrap(), Exit::Done);
 }
 
-/// Sends a key, or none, and looks: the generations of the results on the screen.
-fn look(
-    terminal: &mut Terminal<TestBackend>,
-    app: &mut App,
-    engine: &mut Late,
-    key: Option<char>,
-) -> Vec<u64> {
-    let key = key.map(|letter| KeyEvent::new(KeyCode::Char(letter), KeyModifiers::NONE));
-    press(terminal, app, engine, key);
-    results(app)
-}
-
 #[test]
-fn a_live_knob_drops_every_result_of_the_knobs_before() {
-    let mut app = App::new(scene().checked().unwrap(), Theme::Dark, Marker::Braille);
-    (app.knobs.live, app.run.compare) = (true, true);
-    let mut terminal = Terminal::new(TestBackend::new(120, 40)).unwrap();
-    let mut engine = Late::new();
-    let mut look = |app: &mut App, key| look(&mut terminal, app, &mut engine, key);
-    assert!(look(&mut app, None).is_empty());
-    assert_eq!((0..DELAY).map(|_| look(&mut app, None)).last(), Some(vec![0, 0, 0]));
-    // The answers that arrive now still belong to the earlier knobs.
-    assert!(look(&mut app, Some('h')).is_empty());
-    // The event solver gives no verdict on a motion that was changed live.
-    assert_eq!((0..DELAY).map(|_| look(&mut app, None)).last(), Some(vec![1, 1]));
-}
-
-#[test]
-fn a_pulse_drops_every_result_of_the_motion_before() {
-    let mut app = App::new(scene().checked().unwrap(), Theme::Dark, Marker::Braille);
-    app.run.compare = true;
-    let mut terminal = Terminal::new(TestBackend::new(120, 40)).unwrap();
-    let mut engine = Late::new();
-    let mut look = |app: &mut App, key| look(&mut terminal, app, &mut engine, key);
-    for _ in 0..=DELAY {
-        look(&mut app, None);
+fn a_live_knob_and_a_pulse_drop_every_result_of_the_motion_before() {
+    for (live, letter) in [(true, 'h'), (false, 'p')] {
+        let mut app = App::new(scene().checked().unwrap(), Theme::Dark, Marker::Braille);
+        (app.knobs.live, app.run.compare) = (live, true);
+        let mut terminal = Terminal::new(TestBackend::new(120, 40)).unwrap();
+        let mut engine = Late::new();
+        let mut look = |letter: Option<char>| {
+            let key = letter.map(|it| KeyEvent::new(KeyCode::Char(it), KeyModifiers::NONE));
+            press(&mut terminal, &mut app, &mut engine, key);
+            results(&app)
+        };
+        assert!(look(None).is_empty());
+        assert_eq!((0..DELAY).map(|_| look(None)).last(), Some(vec![0, 0, 0]));
+        // The answers that arrive now still belong to the earlier motion.
+        assert!(look(Some(letter)).is_empty());
+        // The event solver gives no verdict on a motion that was changed live.
+        assert_eq!((0..DELAY).map(|_| look(None)).last(), Some(vec![1, 1]));
     }
-    assert_eq!(results(&app), [0, 0, 0]);
-    // What arrives now was computed before the second pulse.
-    assert!(look(&mut app, Some('p')).is_empty());
-    assert_eq!((0..DELAY).map(|_| look(&mut app, None)).last(), Some(vec![1, 1]));
 }
 
 #[test]

@@ -6,6 +6,7 @@ use rubscope::tui::{Marker, Source, Theme};
 use rubscope_solver::motion::Motion;
 use rubscope_solver::scene::Scene;
 
+use crate::cli_support::json;
 use crate::tui_support::Session;
 
 /// A wide explorer whose engine goes on by `stride` at each look.
@@ -204,10 +205,8 @@ fn the_copied_command_repeats_live_changes_at_their_instants() {
         let command = app.command();
         assert_eq!(command.matches(" --at ").count(), 3, "{command}");
         let run = app.full_run().unwrap();
-        let words = words(&command);
-        let output =
-            crate::cli_support::program().args(&words[1..]).arg("--json").output().unwrap();
-        let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let words = words(&format!("{command} --json"));
+        let report = json(&words.iter().skip(1).map(String::as_str).collect::<Vec<_>>());
         let outcome = &report["outcome"];
         assert_eq!(outcome["verdict"].as_str().unwrap(), run.verdict.as_ref(), "{command}");
         assert_eq!(report["impact_count"].as_u64().unwrap(), run.impacts, "{command}");
