@@ -88,27 +88,8 @@ fn close_few(
     gaps: &[f64],
 ) -> bool {
     let mut closed = (0..rows.len()).filter(|&row| gaps[row] < 0.0);
-    let (first, second) = (closed.next(), closed.next());
-    let (Some(a), None, false) = (first, closed.next(), law.pulls()) else { return false };
-    let across = |i: usize, j: usize| entry(&rows[i], &rows[j]);
-    let found = match second {
-        None => Some([single(across(a, a), gaps[a]), 0.0]),
-        Some(b) => {
-            let w = [[across(a, a), across(a, b)], [across(b, a), across(b, b)]];
-            law.pair(w, [gaps[a], gaps[b]])
-        }
-    };
-    let Some(lambda) = found.filter(|lambda| lambda.iter().all(|value| *value <= 0.0)) else {
-        return false;
-    };
-    let b = second.unwrap_or(a);
-    let opens = |row: usize| gaps[row] - across(row, a) * lambda[0] - across(row, b) * lambda[1];
-    if !(0..rows.len()).all(|row| gaps[row] < 0.0 || opens(row) >= 0.0) {
-        return false;
-    }
-    rows.iter_mut().for_each(|row| row.lambda = 0.0);
-    (rows[b].lambda, rows[a].lambda) = (lambda[1], lambda[0]);
-    true
+    let (Some(a), b, None) = (closed.next(), closed.next(), closed.next()) else { return false };
+    close(law, entry, rows, gaps, [a, b.unwrap_or(a)], |k, left| gaps[k] < 0.0 || left >= 0.0)
 }
 
 /// Closes two rows, or one, by a law that only pushes so that all others are open: where three
@@ -120,25 +101,37 @@ fn close_pair(
     gaps: &[f64],
 ) -> bool {
     let deepest = gaps.iter().fold(0.0_f64, |deepest, gap| deepest.max(-gap));
-    for (a, b) in (0..rows.len()).flat_map(|b| (0..=b).map(move |a| (a, b))) {
-        let across = |i: usize, j: usize| entry(&rows[i], &rows[j]);
-        let found = match a == b {
-            true => Some([single(across(a, a), gaps[a]), 0.0]),
-            false => {
-                let w = [[across(a, a), across(a, b)], [across(b, a), across(b, b)]];
-                law.pair(w, [gaps[a], gaps[b]])
-            }
-        };
-        let pushes = |lambda: &[f64; 2]| lambda.iter().all(|value| *value <= 0.0);
-        let Some(lambda) = found.filter(|lambda| !law.pulls() && pushes(lambda)) else { continue };
-        let left = |k: usize| gaps[k] - across(k, a) * lambda[0] - across(k, b) * lambda[1];
-        if (0..rows.len()).all(|k| left(k) >= -CLOSED_PART * deepest) {
-            rows.iter_mut().for_each(|row| row.lambda = 0.0);
-            (rows[b].lambda, rows[a].lambda) = (lambda[1], lambda[0]);
-            return true;
-        }
+    let open = |_: usize, left: f64| left >= -CLOSED_PART * deepest;
+    let mut pairs = (0..rows.len()).flat_map(|b| (0..=b).map(move |a| [a, b]));
+    pairs.any(|pair| close(law, &entry, rows, gaps, pair, open))
+}
+
+/// Closes two rows, or twice the same one, by a law that only pushes, where the gaps that this
+/// leaves are all `open`.
+fn close(
+    law: &dyn StepLaw,
+    entry: impl Fn(&Row, &Row) -> f64,
+    rows: &mut [Row],
+    gaps: &[f64],
+    [a, b]: [usize; 2],
+    open: impl Fn(usize, f64) -> bool,
+) -> bool {
+    let across = |i: usize, j: usize| entry(&rows[i], &rows[j]);
+    let found = if a == b {
+        Some([single(across(a, a), gaps[a]), 0.0])
+    } else {
+        let w = [[across(a, a), across(a, b)], [across(b, a), across(b, b)]];
+        law.pair(w, [gaps[a], gaps[b]])
+    };
+    let pushes = |lambda: &[f64; 2]| !law.pulls() && lambda.iter().all(|value| *value <= 0.0);
+    let Some(lambda) = found.filter(pushes) else { return false };
+    let left = |k: usize| gaps[k] - across(k, a) * lambda[0] - across(k, b) * lambda[1];
+    let answer = (0..rows.len()).all(|k| open(k, left(k)));
+    if answer {
+        rows.iter_mut().for_each(|row| row.lambda = 0.0);
+        (rows[b].lambda, rows[a].lambda) = (lambda[1], lambda[0]);
     }
-    false
+    answer
 }
 
 #[cfg(test)]
