@@ -5,12 +5,12 @@ use std::rc::Rc;
 
 mod branches;
 mod campbell;
-mod coincidence;
+pub mod coincidence;
 mod compliance;
 mod excitation;
 mod forced;
 mod heading;
-mod locked;
+pub mod locked;
 mod rows;
 mod slip;
 mod smooth;

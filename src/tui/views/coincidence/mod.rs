@@ -7,7 +7,9 @@ pub mod curves;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
+use crate::report::hbm::coincidence::CURVE;
 use crate::report::number::{frequency_unit, per_frequency, per_speed, speed_unit};
+use crate::report::table::Table;
 use crate::tui::app::{App, Cursor};
 use crate::tui::axis::{ChartAxis, nice_step, readable};
 use crate::tui::plot::Plot;
@@ -41,26 +43,7 @@ impl ViewPanel for CoincidenceView {
     fn csv(&self, app: &App) -> Result<String, String> {
         let curves = app.results().found.coincidence.as_deref().and_then(Option::as_ref);
         let points = curves.map_or(&[][..], |curves| &curves.points);
-        let rows = points.iter().map(|point| {
-            let values = [
-                point.growth_1_s,
-                point.blade_amplitude_rad,
-                point.casing_amplitude_m,
-                point.omega_rad_s,
-            ];
-            let bounded = f64::from(u8::from(point.bounded));
-            let values = values.map(|value| value.unwrap_or(f64::NAN));
-            std::iter::once(point.speed_rad_s).chain(values).chain([bounded])
-        });
-        let columns = [
-            "speed_rad_s",
-            "growth_1_s",
-            "blade_amplitude_rad",
-            "casing_amplitude_m",
-            "omega_rad_s",
-            "bounded",
-        ];
-        csv(&columns.map(String::from), rows)
+        csv(&Table::of(points, CURVE))
     }
 }
 

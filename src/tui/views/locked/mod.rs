@@ -11,7 +11,9 @@ pub mod curves;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Rect};
 
+use crate::report::hbm::locked::FILE;
 use crate::report::number::speed_unit;
+use crate::report::table::Table;
 use crate::tui::app::{App, Cursor, STEP};
 use crate::tui::axis::{ChartAxis, nice_step, readable};
 use crate::tui::plot::Plot;
@@ -69,30 +71,7 @@ impl ViewPanel for LockedView {
     fn csv(&self, app: &App) -> Result<String, String> {
         let damped = app.results().found.locked.as_ref().and_then(|curves| curves.damped.as_ref());
         let points = damped.map_or(&[][..], |sweep| &sweep.points);
-        let rows = points.iter().map(|point| {
-            let [a, b] = point.multipliers_n;
-            let [admissible, stable] =
-                [point.admissible, point.stable].map(|is| f64::from(u8::from(is)));
-            let [turn_a, turn_b] = point.alpha_rad;
-            let waves = [point.u_cc_m, point.u_cs_m, point.u_sc_m, point.u_ss_m];
-            let first = [point.speed_rad_s, a, b, admissible, stable, turn_a, turn_b];
-            first.into_iter().chain(waves).chain([point.amplitude_m])
-        });
-        let columns = [
-            "speed_rad_s",
-            "multiplier_a_n",
-            "multiplier_b_n",
-            "admissible",
-            "stable",
-            "alpha_a_rad",
-            "alpha_b_rad",
-            "u_cc_m",
-            "u_cs_m",
-            "u_sc_m",
-            "u_ss_m",
-            "amplitude_m",
-        ];
-        csv(&columns.map(String::from), rows)
+        csv(&Table::of(points, FILE))
     }
 }
 
