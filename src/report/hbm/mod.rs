@@ -22,7 +22,7 @@ pub use rows::Parts;
 use rows::Rows;
 
 use super::number::{per_speed, short};
-use super::table::{MadeTable, Table};
+use super::table::Table;
 use rubscope_solver::harmonic::{Corner, Form, HarmonicError, Sweep, lock_window, locked_motion};
 use rubscope_solver::model::{LockWindow, Machine};
 use rubscope_solver::scene::{ModelSize, Scene, keys};
@@ -189,16 +189,15 @@ pub struct Answer {
     /// Its fields in JSON.
     pub json: Parts,
     /// Its tables, each below a title.
-    pub tables: Vec<(String, MadeTable)>,
+    pub tables: Vec<(String, Table)>,
     /// The table for files.
-    pub file: MadeTable,
+    pub file: Table,
 }
 
 impl Answer {
     /// Creates an answer whose last table is the one for files.
-    fn of(json: Parts, tables: Vec<(String, MadeTable)>) -> Self {
-        let last = tables.last().map(|(_, table)| table.clone());
-        let file = last.unwrap_or_else(|| Table::default().into());
+    fn of(json: Parts, tables: Vec<(String, Table)>) -> Self {
+        let file = tables.last().map(|(_, table)| table.clone()).unwrap_or_default();
         Self { json, tables, file }
     }
 }

@@ -64,11 +64,11 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
         .with("states", &states);
     let mut tables = Vec::new();
     if pressed {
-        tables.push((pressed_title(&lining, shifted, &hopf), Table::of(&rests, RESTS).into()));
+        tables.push((pressed_title(&lining, shifted, &hopf), Table::of(&rests, RESTS)));
     } else {
         if !cycles.is_empty() {
             let title = "Whirl, waves that turn against the blades:".to_string();
-            tables.push((title, Table::of(&cycles, CYCLES).into()));
+            tables.push((title, Table::of(&cycles, CYCLES)));
         }
         let mut title = "Steady states in the frame of the blades.".to_string();
         if let Some(least) = least {
@@ -84,7 +84,7 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
                 short(lining.stiffness_n_per_m)
             );
         }
-        tables.push((title, Table::of(&states, STATES).into()));
+        tables.push((title, Table::of(&states, STATES)));
     }
     Ok(Answer::of(Parts::default().with_parts("smooth", json), tables))
 }
