@@ -75,13 +75,11 @@ impl Heading {
     }
 
     /// Sets the words for people.
-    #[must_use]
     pub fn words(self, words: impl Into<Cow<'static, str>>) -> Self {
         Self { words: Some(words.into()), ..self }
     }
 
     /// Sets the most significant digits for people.
-    #[must_use]
     pub fn digits(self, digits: usize) -> Self {
         Self { digits, ..self }
     }
@@ -201,7 +199,6 @@ impl std::fmt::Debug for Rows {
 
 impl Table {
     /// Creates an empty table with these columns.
-    #[must_use]
     pub fn new<H: Into<Heading>>(headings: impl IntoIterator<Item = H>) -> Self {
         let headings = headings.into_iter().map(Into::into).collect();
         Self { headings, ..Self::default() }
@@ -218,7 +215,6 @@ impl Table {
     }
 
     /// Creates a table with a row for each item.
-    #[must_use]
     pub fn of<T, H: Clone + Into<Heading>>(items: &[T], columns: &[Column<'_, T, H>]) -> Self {
         let mut table = Self::new(columns.iter().map(|column| column.0.clone()));
         for item in items {
@@ -241,13 +237,11 @@ impl Table {
     }
 
     /// Returns the notes.
-    #[must_use]
     pub fn notes(&self) -> &[String] {
         &self.notes
     }
 
     /// Returns the number of rows.
-    #[must_use]
     pub fn len(&self) -> usize {
         match &self.rows {
             Rows::There(rows) => rows.len(),
@@ -256,7 +250,6 @@ impl Table {
     }
 
     /// Returns whether there is no row.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -272,7 +265,6 @@ impl Table {
     /// Returns the rows as people see them, in padded cells, headings first; columns that do
     /// not fit into `room` letters with `apart` of them between columns are left out from the
     /// right.
-    #[must_use]
     pub fn lines(&self, room: usize, apart: usize) -> Vec<Vec<String>> {
         let mut lines = Vec::new();
         let keep = |line| {

@@ -88,7 +88,6 @@ pub struct Request<'a> {
 
 impl Request<'_> {
     /// Returns the speed furthest from standstill, whose sense of rotation counts \[rad/s\].
-    #[must_use]
     pub fn fastest(&self) -> f64 {
         let further = |a: &f64, b: &f64| a.abs().total_cmp(&b.abs());
         self.speeds.iter().copied().max_by(further).unwrap_or(self.scene.operation.speed_rad_s)
@@ -225,7 +224,6 @@ fn refused(key: &'static str, value: impl ToString, allowed: String) -> Harmonic
 }
 
 /// Returns what the numbers are of, where the scene asks for more than the view has.
-#[must_use]
 pub fn notes(scene: &Scene, machine: &Machine) -> Vec<String> {
     let hard = scene.lining().filter(|_| machine.lining.is_none());
     let hard = hard.map(|_| "of rigid contact; --smooth has the lining of the scene".to_string());
@@ -233,7 +231,6 @@ pub fn notes(scene: &Scene, machine: &Machine) -> Vec<String> {
 }
 
 /// Returns the speeds of a window: `472.117 to 566.259`, or where it begins alone.
-#[must_use]
 pub fn speeds_of(window: LockWindow) -> String {
     match window.to {
         Some(to) => format!("{} to {}", short(per_speed(window.from)), short(per_speed(to))),

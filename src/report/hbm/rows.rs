@@ -98,21 +98,18 @@ impl Serialize for Part {
 
 impl Parts {
     /// Adds a value.
-    #[must_use]
     pub fn with(mut self, name: &'static str, value: impl Serialize) -> Self {
         self.0.push((name, Part::Whole(json!(value))));
         self
     }
 
     /// Adds an object below this one.
-    #[must_use]
     pub fn with_parts(mut self, name: &'static str, parts: Self) -> Self {
         self.0.push((name, Part::Parts(parts)));
         self
     }
 
     /// Adds an array with what `value` makes of each row.
-    #[must_use]
     pub fn with_rows<T: 'static>(
         mut self,
         name: &'static str,
@@ -126,7 +123,6 @@ impl Parts {
     }
 
     /// Adds the parts of another object behind those of this one.
-    #[must_use]
     pub fn and(mut self, other: Self) -> Self {
         self.0.extend(other.0);
         self
