@@ -59,7 +59,8 @@ pub fn with_unit(x: f64, digits: usize, unit: &str) -> String {
 pub fn scaled(x: f64, of: f64, digits: usize, unit: &str) -> [String; 2] {
     let ((x, _), (of, unit)) = (in_shown_unit(x, unit), in_shown_unit(of, unit));
     let scale = SiScale::before(unit, of);
-    [short(rounded(x / scale.factor, digits)), format!("{}{unit}", scale.in_ascii())]
+    let prefix = if scale.prefix == "µ" { "u" } else { scale.prefix };
+    [short(rounded(x / scale.factor, digits)), format!("{prefix}{unit}")]
 }
 
 thread_local! {
@@ -185,11 +186,6 @@ impl SiScale {
     /// Creates the prefix of a number of this unit, where one is usual in front of it.
     pub fn before(unit: &str, magnitude: f64) -> Self {
         if WITH_PREFIX.contains(&unit) { Self::of(magnitude) } else { Self::plain() }
-    }
-
-    /// Returns the prefix in letters of ASCII.
-    pub fn in_ascii(&self) -> &'static str {
-        if self.prefix == "µ" { "u" } else { self.prefix }
     }
 
     /// Returns no prefix, for angles, speeds and counts.

@@ -56,7 +56,8 @@ pub(super) fn solve<B: Disk>(
         [row] => row.lambda = single(entry(row, row), gaps[0]),
         [a, b] => {
             let across = entry(a, b);
-            let back = if tips.is_symmetric() { across } else { entry(b, a) };
+            // Without friction pushes act along the rows, and `W` is symmetric.
+            let back = if tips.friction == 0.0 { across } else { entry(b, a) };
             let w = [[entry(a, a), across], [back, entry(b, b)]];
             let lambda = law.pair(w, [gaps[0], gaps[1]]);
             [a.lambda, b.lambda] = lambda.ok_or(FailureReason::Singular { rows: 2 })?;
