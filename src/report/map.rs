@@ -112,9 +112,9 @@ pub fn write_csv(map: &Map, out: &mut dyn Write) -> Result<()> {
             // Values of an axis are never written with a power of ten.
             x.value(column).to_string().into(),
             y.value(row).to_string().into(),
-            cell.map_or_else(String::new, |cell| cell.verdict.to_string()).into(),
-            cell.map_or(table::TableCell::Empty, |cell| cell.sensitive.into()),
-            cell.map_or(table::TableCell::Empty, |cell| cell.depends_on_step.into()),
+            cell.map(|cell| cell.verdict.to_string()).into(),
+            cell.map(|cell| cell.sensitive).into(),
+            cell.map(|cell| cell.depends_on_step).into(),
         ]
     });
     table::write_csv([first, second, "verdict", "sensitive", "depends_on_step"], rows, out)

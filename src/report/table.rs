@@ -113,21 +113,15 @@ impl From<f64> for TableCell {
     }
 }
 
-impl From<Option<f64>> for TableCell {
-    fn from(x: Option<f64>) -> Self {
-        x.map_or(Self::Empty, Self::from)
+impl<T: Into<TableCell>> From<Option<T>> for TableCell {
+    fn from(known: Option<T>) -> Self {
+        known.map_or(Self::Empty, T::into)
     }
 }
 
 impl From<bool> for TableCell {
     fn from(yes: bool) -> Self {
         Self::Word(yes.to_string())
-    }
-}
-
-impl From<Option<bool>> for TableCell {
-    fn from(known: Option<bool>) -> Self {
-        known.map_or(Self::Empty, Self::from)
     }
 }
 

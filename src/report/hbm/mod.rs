@@ -141,7 +141,11 @@ impl Request<'_> {
         let refuse = |key, given: String| {
             let option =
                 if view.option.is_empty() { "hbm".into() } else { format!("--{}", view.option) };
-            Err(refused(key, given, format!("none with {option}, which is not derived for it")))
+            Err(HarmonicError::refused(
+                key,
+                given,
+                format!("none with {option}, which is not derived for it"),
+            ))
         };
         if machine.has_unequal_tips() && !["", "branches", "campbell"].contains(&view.option) {
             let given = self.scene.unevenness().into_iter().find(|(_, length)| *length != 0.0);
@@ -209,7 +213,7 @@ const fn nothing(_: &HarmonicError) -> bool {
 /// Refuses a preload, in which rigid contact has no place.
 fn no_clearance(scene: &Scene) -> HarmonicError {
     let length = scene.bladed_disk.blade_length_m;
-    refused(
+    HarmonicError::refused(
         keys::CASING_RADIUS,
         scene.casing.radius_m,
         format!(
@@ -217,10 +221,6 @@ fn no_clearance(scene: &Scene) -> HarmonicError {
          a preloaded lining"
         ),
     )
-}
-
-fn refused(key: &'static str, value: impl ToString, allowed: String) -> HarmonicError {
-    HarmonicError::Refused { key, value: value.to_string(), allowed }
 }
 
 /// Returns what the numbers are of, where the scene asks for more than the view has.
