@@ -16,7 +16,7 @@ use super::lining::Lining;
 use super::record::{Record, Watch};
 use super::rows::TipLaw;
 use super::{Explicit, Oscillator};
-use crate::contact::{self, Several};
+use crate::contact::Several;
 use crate::motion::Change;
 use crate::scene::CheckedScene;
 
@@ -35,7 +35,7 @@ impl<B: Disk> Explicit<B> {
         ];
         let mut motion = Self {
             scene: Arc::new(scene.clone()),
-            law: contact::law(scene.solver.contact),
+            law: scene.solver.contact,
             lining: scene.lining().map(Lining::new),
             tips: TipLaw::at(&machine, speed),
             record: Record::of(machine.polygon.sides, drive.step),
@@ -82,7 +82,7 @@ impl<B: Disk> Explicit<B> {
         self.machine = scene.machine().at(speed).into_owned();
         self.blades = self.blades.with_parameters(scene, &self.machine);
         self.casing = Oscillator::of_casing(&self.machine, self.drive.step);
-        self.law = contact::law(scene.solver.contact);
+        self.law = scene.solver.contact;
         self.drive.set_parameters(scene);
         self.neighbours_matter = self.neighbours_matter();
         self.tips = TipLaw::at(&self.machine, speed);
