@@ -82,3 +82,16 @@ impl SceneError {
         Self::Refused { key: key.into(), value: value.to_string(), allowed: allowed.into() }
     }
 }
+
+/// Refuses `value` for `key` where it is wrong.
+///
+/// # Errors
+/// The refusal.
+pub(super) fn refuse_if(
+    is_wrong: bool,
+    key: &str,
+    value: impl ToString,
+    allowed: &str,
+) -> Result<(), SceneError> {
+    if is_wrong { Err(SceneError::refused(key, value, allowed)) } else { Ok(()) }
+}
