@@ -272,15 +272,21 @@ fn power_of(prefix: &str) -> Option<i32> {
 }
 
 /// Returns a unit in the form in which units are compared: without spaces and points, with ASCII
-/// letters.
+/// letters, and one of its names.
 fn plain(unit: &str) -> String {
     let kept = unit.chars().filter(|c| !c.is_whitespace() && !matches!(c, '·' | '*' | '^'));
-    kept.map(|c| match c {
-        'µ' | 'μ' => 'u',
-        '²' => '2',
-        other => other,
-    })
-    .collect()
+    let kept: String = kept
+        .map(|c| match c {
+            'µ' | 'μ' => 'u',
+            '²' => '2',
+            other => other,
+        })
+        .collect();
+    match kept.to_lowercase().as_str() {
+        "1/min" | "u/min" | "r/min" | "min-1" | "min⁻¹" => "rpm".to_string(),
+        "percent" => "%".to_string(),
+        _ => kept,
+    }
 }
 
 /// Returns where the decimal number at the start of a text ends.
