@@ -103,7 +103,7 @@ impl NewCommand {
             .with_context(|| format!("cannot write {shown}"))?;
         writeln!(out, "Wrote {shown}.")?;
         writeln!(out)?;
-        report::write(&Survey::of(&scene, Some(data.range_rad_s), None), false, out)?;
+        report::write(&Survey::of(&scene, Some(data.range_rad_s), None)?, false, out)?;
         Ok(Status::Done)
     }
 
