@@ -30,7 +30,7 @@ type Measured = (Family, Vec<(f64, f64)>);
 /// # Errors
 /// A missing column, or a value that is not allowed, by its line and column.
 pub fn read_modes(text: &str) -> Result<ModeTable, SceneError> {
-    let text = text.trim_start_matches('\u{feff}');
+    let text = text.trim_start_matches('\u{feff}').replace("\r\n", "\n").replace('\r', "\n");
     let head = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#'));
     let between = |c: &u8| head.unwrap_or_default().as_bytes().contains(c);
     let delimiter = [b';', b'\t'].into_iter().find(between).unwrap_or(b',');
@@ -61,7 +61,11 @@ pub fn read_modes(text: &str) -> Result<ModeTable, SceneError> {
     }
     let mut found: [Vec<Measured>; 2] = Default::default();
     for record in records {
-        let line = record.position().map_or(0, csv::Position::line);
+        // Its position is that of the lines that are left out before it.
+        let (line, start) = record.position().map_or((0, 0), |at| (at.line(), at.byte()));
+        let before = text.get(start as usize..).unwrap_or_default().lines();
+        let is_left_out = |line: &&str| line.is_empty() || line.starts_with('#');
+        let line = line + before.take_while(is_left_out).count() as u64;
         if record.len() != names.len() {
             let allowed = format!("as many as names in the first line, {}", names.len());
             let given = format!("{} cells", record.len());
@@ -114,7 +118,8 @@ pub fn read_modes(text: &str) -> Result<ModeTable, SceneError> {
             }
             _ => {
                 let given = format!("{} twice", mode.nodal_diameters);
-                let allowed = "one mode for each number of diameters, of the disk also two speeds";
+                let allowed =
+                    "one mode for each number of diameters, of the disk also at two Speed [rpm]";
                 return Err(SceneError::refused(path(MODE[0]), given, allowed));
             }
         }
@@ -145,12 +150,16 @@ fn column(written: &str) -> Result<Option<(&'static str, String)>, SceneError> {
     let Some((name, quantity, rest)) = COLUMNS.iter().find_map(of) else { return Ok(None) };
     let rest = words.get(words.len() - rest..).unwrap_or_default();
     let parts = rest.split(|c: char| "_/,:[](){}".contains(c));
-    let unit = parts.filter(|part| !matches!(*part, "" | "-")).collect::<Vec<_>>().join("/");
+    let unit = parts.filter(|part| !matches!(*part, "" | "-" | "in")).collect::<Vec<_>>().join("/");
     let one = format!("1 {unit}");
-    let is_prefix = unit.len() == 1 && unit != "%" && Quantity::Plain.read(&one).is_ok();
+    let is_prefix = unit.chars().count() == 1 && unit != "%" && Quantity::Plain.read(&one).is_ok();
     match quantity.read(&one) {
         Ok(_) if !is_prefix => Ok(Some((name, unit))),
         Err(why) if rest.contains(['[', '(']) || matches!(why, UnitError::Other { .. }) => {
+            let why = match why {
+                UnitError::NoNumber => UnitError::Unknown { unit, wanted: quantity },
+                why => why,
+            };
             Err(SceneError::Unit { key: "the first line".into(), value: written.into(), why })
         }
         _ => Ok(None),
@@ -281,14 +290,12 @@ mod tests {
         assert_eq!(expected.notes, [""; 0]);
         for (names, cells) in [
             ("frequency_hz;modal_mass_kg;damping_ratio", "310,7;3,1;0,012"),
-            ("Frequency, Hz;Mass, kg;Damping, %", "310.7;3.1;1.2"),
-            ("Frequency / kHz;Modal mass in brackets (g);Damping", "0,3107;3100;1,2 %"),
+            ("Frequency, Hz;Mass in kg;Damping, %", "310.7;3.1;1.2"),
             ("Frequency [kHz];Modal mass (g);Damping [%]", "0,3107;3100;1,2"),
             ("Frequency_khz;mass_t;damping_ratio_percent", "0,3107;0,0031;1,2"),
             ("Frequency (kHz);Mass [g];Damping%", "310,7 Hz;3,1kg;1,2"),
             ("Frequency {1/min};\"Modal\nmass [kg]\";Damping ratio [-]", "18642;3,1;0,012"),
         ] {
-            let names = names.replace("in brackets ", "");
             for (speed, rpm) in [
                 (speed, "9000"),
                 ("Rotor speed [1/min];Centrifugal stiffening", "9000"),
@@ -310,12 +317,15 @@ mod tests {
             ("Speed [m/s]", "this is a velocity; it takes rad/s, rpm or Hz"),
             ("Speed (knots)", "no unit knots; it takes rad/s, rpm or Hz"),
             ("speed_kg", "this is a mass; it takes rad/s, rpm or Hz"),
+            ("Damping [‰]", "no unit ‰; it takes %"),
         ] {
             let refused = of(&format!("frequency;mass;{name}"), "310;3;1").unwrap_err();
             assert_eq!(refused.to_string(), format!("the first line = {name}: {why}"));
         }
         // What is no unit makes another column, the symbol of a prefix alone, too.
-        for name in ["Speed n", "Speed of the test", "Massive", "Damping measured", "speed_k"] {
+        for name in
+            ["Speed n", "Speed of the test", "Massive", "Damping measured", "speed_k", "Speed µ"]
+        {
             let read = of(&format!("frequency;mass;{name}"), "310;3;1").unwrap();
             assert_eq!(read.notes, [format!("columns not used: {name}")]);
         }
@@ -359,9 +369,13 @@ mod tests {
             ("casing,x,9,2,\n", "line 2, nodal_diameters = x: allowed is a whole number"),
             ("casing,3,9,2 kN,\n", "line 2, modal_mass_kg = 2 kN: this is a force; it takes kg"),
             ("rotor,3,9,2,\n", "line 2, structure = rotor: allowed is casing or disk"),
+            ("\n# 1\n\ncasing,3,x,2,\n", "line 5, frequency_hz = x: allowed is a frequency"),
         ] {
-            let message = read_modes(&format!("{head}{rows}")).unwrap_err().to_string();
-            assert!(message.starts_with(start), "{message}");
+            for end in ["\n", "\r\n", "\r"] {
+                let table = format!("{head}{rows}").replace('\n', end);
+                let message = read_modes(&table).unwrap_err().to_string();
+                assert!(message.starts_with(start), "{end:?} {message}");
+            }
         }
         let message = read_modes("frequency_hz\n1\n").unwrap_err().to_string();
         assert!(
