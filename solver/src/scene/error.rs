@@ -6,6 +6,7 @@ use super::units::UnitError;
 
 /// Why a scene, or a key of one, was refused.
 #[derive(Debug, Error, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum SceneError {
     /// A key that does not exist.
     #[error("unknown key {key}; allowed: {allowed}")]

@@ -107,6 +107,7 @@ const PREFIXES: [(char, i32); 7] =
 
 /// Why a text is not a number of a quantity.
 #[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
 pub enum UnitError {
     /// The text does not begin with a number.
     #[error("no number")]
@@ -229,6 +230,7 @@ impl Quantity {
 
 /// Why a text is not a range.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum RangeError {
     /// The text does not have the form `FROM:TO`.
     Form,
