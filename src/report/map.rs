@@ -240,7 +240,7 @@ pub fn write_text(map: &Map, width: usize, out: &mut dyn Write) -> Result<()> {
     write_legend(map, out)
 }
 
-/// Marks the columns of the critical and the lock-in speed, if they are the same for all
+/// Marks the columns of the critical and the lock speed, if they are the same for all
 /// rows.
 fn write_speeds(map: &Map, across: usize, columns: usize, out: &mut dyn Write) -> Result<()> {
     for curve in overlay::speed_curves(&map.plan) {

@@ -35,7 +35,7 @@ fn thresholds_of_rigid_blades_are_the_closed_forms() {
         close(find(Kind::Corner, Pulls, Adhesive), machine.adhesive_speed().unwrap(), 1e-8);
         close(find(Kind::Corner, Adhesive, Stable), lock, 1e-12);
         close(find(Kind::Side, Pulls, Penetrates), critical, 1e-12);
-        // Above the lock-in speed the saddle stands on the side: the
+        // Above the lock speed the saddle stands on the side: the
         // single-side limit is the same number.
         close(find(Kind::Side, Penetrates, Unstable), lock, 1e-12);
         assert_eq!(branches.thresholds.len(), 4);

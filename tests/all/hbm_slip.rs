@@ -206,7 +206,7 @@ fn slow_waves_turn_back() {
     let machine = machine(3, 0.01);
     assert_eq!(slip_map(&machine, 500.0, 1e-3), None);
     assert!(slip_map(&machine, 500.0, 0.05).is_some());
-    // Between the critical and the lock-in speed there is no saddle on the side
+    // Between the critical and the lock speed there is no saddle on the side
     // and any drift continues.
     assert!(slip_map(&machine, 300.0, 1e-6).is_some());
 }

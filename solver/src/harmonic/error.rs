@@ -8,6 +8,7 @@ use crate::model::{ContactPolygon, Machine};
 
 /// An input without meaning in the frequency domain, or a solution that was not found.
 #[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
 pub enum HarmonicError {
     /// Fewer than three sides: neighbouring sides never meet.
     #[error(

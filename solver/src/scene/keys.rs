@@ -186,6 +186,21 @@ impl Key {
         Quantity::of(self.unit)
     }
 
+    /// Reads a number within the bounds of this key, whole or not, which a refusal calls `name`.
+    ///
+    /// # Errors
+    /// Text that is no such number.
+    pub fn number(&self, name: &str, text: &str) -> Result<f64, SceneError> {
+        match self.parse(text).and_then(|value| self.check(&value).map(|()| value)) {
+            Ok(Value::Real(x)) => Ok(x),
+            Ok(Value::Whole(n)) => Ok(n as f64),
+            Err(SceneError::Unit { why, .. }) => {
+                Err(SceneError::Unit { key: name.into(), value: text.into(), why })
+            }
+            _ => Err(SceneError::refused(name, text, self.allowed.to_string())),
+        }
+    }
+
     /// Reads a value of this key's kind from text, as given on a command line; a number may
     /// have a unit.
     ///
