@@ -64,7 +64,7 @@ pub fn with_unit(x: f64, digits: usize, unit: &str) -> String {
 pub fn scaled(x: f64, of: f64, digits: usize, unit: &str) -> [String; 2] {
     let ((x, _), (of, unit)) = (in_shown_unit(x, unit), in_shown_unit(of, unit));
     let scale = SiScale::before(unit, of);
-    [short(rounded(x / scale.factor, digits)), format!("{}{unit}", scale.in_ascii())]
+    [short(rounded(x / scale.factor, digits)), scale.prefix.replace('µ', "u") + unit]
 }
 
 thread_local! {
@@ -93,6 +93,31 @@ pub fn per_speed(omega: f64) -> f64 {
 #[must_use]
 pub fn speed(omega: f64) -> String {
     format!("{} {}", short(per_speed(omega)), speed_unit())
+}
+
+/// Writes a speed as it is shown, with one decimal, or three where it is small.
+#[must_use]
+pub fn in_tenths(speed: f64) -> String {
+    let decimals = if speed.abs() < 10.0 { 3 } else { 1 };
+    trimmed(&format!("{speed:.decimals$}")).to_string()
+}
+
+/// Returns a text with its marked speeds as they are shown: `{411.934}`, `{500 rad/s}` with its
+/// unit, and `{878.635 1/s}`, a frequency with its unit.
+#[must_use]
+pub fn with_speeds(text: &str) -> String {
+    let told = |(place, part): (usize, &str)| {
+        let (number, unit) = part.split_once(' ').unwrap_or((part, ""));
+        let Some(omega) = number.parse().ok().filter(|_| place % 2 == 1) else {
+            return part.to_string();
+        };
+        match unit {
+            "" => in_tenths(per_speed(omega)),
+            RAD_S => format!("{} {}", in_tenths(per_speed(omega)), speed_unit()),
+            _ => format!("{} {}", in_tenths(per_frequency(omega)), frequency_unit()),
+        }
+    };
+    text.split(['{', '}']).enumerate().map(told).collect()
 }
 
 /// Returns the unit in which angular frequencies are shown: hertz where speeds are in rpm.
@@ -203,12 +228,6 @@ impl SiScale {
     #[must_use]
     pub fn before(unit: &str, magnitude: f64) -> Self {
         if WITH_PREFIX.contains(&unit) { Self::of(magnitude) } else { Self::plain() }
-    }
-
-    /// Returns the prefix in letters of ASCII.
-    #[must_use]
-    pub fn in_ascii(&self) -> &'static str {
-        if self.prefix == "µ" { "u" } else { self.prefix }
     }
 
     /// Returns no prefix, for angles, speeds and counts.
