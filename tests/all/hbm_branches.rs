@@ -127,7 +127,8 @@ fn a_very_soft_casing_has_the_closed_forms_all_the_same() {
     let speed = 5578.0;
     for damped in [false, true] {
         let branches = Branches::over(&machine, &[0.0, speed], damped).unwrap();
-        let states = branches.states().unwrap();
+        let at = |place| branches.states_at(place).unwrap();
+        let states: Vec<_> = (0..branches.speeds()).flat_map(at).collect();
         assert_eq!(states.len(), 4);
         let (rest, side) = (&states[2], &states[3]);
         assert_eq!((rest.kind, rest.character), (Kind::Rest, Character::Stable));

@@ -284,20 +284,15 @@ fn whirls(machine: &Machine, limits: &[SurveyLimit], [from, to]: [f64; 2]) -> Ve
     all.filter(|speed| (from..=to).contains(speed)).collect()
 }
 
-/// The scene with so many diameters, whose mode is then in use.
-fn with_diameters(scene: &Scene, diameters: u32) -> Scene {
-    let mut scene = scene.clone();
-    scene.operation.nodal_diameters = diameters;
-    scene
-}
-
 fn row(
     scene: &CheckedScene,
     diameters: u32,
     range: Option<[f64; 2]>,
     by: Option<&Parameter>,
 ) -> SurveyRow {
-    let scene = with_diameters(scene, diameters);
+    // The mode of so many diameters is then in use.
+    let mut scene = Scene::clone(scene);
+    scene.operation.nodal_diameters = diameters;
     let machine = scene.machine();
     let own = 1_f64.copysign(scene.operation.speed_rad_s);
     let asked = searched(range, &scene);
