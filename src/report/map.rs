@@ -55,7 +55,6 @@ impl Serialize for MapJson<'_> {
 }
 
 /// Returns the command that gives this map in one run.
-#[must_use]
 pub fn command(map: &Map) -> CommandLine {
     let plan = &map.plan;
     CommandLine::new("map", &plan.scene)
@@ -89,7 +88,6 @@ impl<T: Serialize> Serialize for Row<'_, T> {
 }
 
 /// Returns the last part of the key of an axis, such as `speed_rad_s`.
-#[must_use]
 pub fn leaf(axis: &Axis) -> &str {
     axis.path.rsplit('.').next().unwrap_or(&axis.path)
 }
@@ -114,9 +112,9 @@ pub fn write_csv(map: &Map, out: &mut dyn Write) -> Result<()> {
             // Values of an axis are never written with a power of ten.
             x.value(column).to_string().into(),
             y.value(row).to_string().into(),
-            cell.map_or_else(String::new, |cell| cell.verdict.to_string()).into(),
-            cell.map_or(table::TableCell::Empty, |cell| cell.sensitive.into()),
-            cell.map_or(table::TableCell::Empty, |cell| cell.depends_on_step.into()),
+            cell.map(|cell| cell.verdict.to_string()).into(),
+            cell.map(|cell| cell.sensitive).into(),
+            cell.map(|cell| cell.depends_on_step).into(),
         ]
     });
     table::write_csv([first, second, "verdict", "sensitive", "depends_on_step"], rows, out)
@@ -134,7 +132,6 @@ fn label(axis: &Axis) -> String {
 }
 
 /// Returns the map as a figure, with these curves.
-#[must_use]
 pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
     let (scene, x, y) = (&map.plan.scene, &map.plan.x, &map.plan.y);
     let quantity = |axis: &Axis| Quantity {
@@ -143,11 +140,9 @@ pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
         factor: factor(axis),
         log: axis.log,
     };
-    let columns = x.count as usize;
     let places = |chosen: &dyn Fn(Cell) -> bool| -> Vec<(f64, f64)> {
         let found = map.cells.iter().enumerate().filter(|(_, cell)| cell.is_some_and(chosen));
-        let at =
-            |index: usize| (x.value((index % columns) as u32), y.value((index / columns) as u32));
+        let at = |index: usize| (x.value(index as u32 % x.count), y.value(index as u32 / x.count));
         found.map(|(index, _)| at(index)).collect()
     };
     let mut series: Vec<Series> = Verdict::ALL
@@ -160,9 +155,10 @@ pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
     series.push(Series::new("doubtful", Style::Dots, places(&Cell::is_doubtful)));
     let inside =
         |axis: &Axis, value| (-0.5..=f64::from(axis.count) - 0.5).contains(&axis.place(value));
-    for (curve, colour) in curves.iter().zip([5, 2, 1]) {
+    let styles = [Style::Line(5), Style::Dashed(2), Style::Dotted(1), Style::Line(3)];
+    for (curve, style) in curves.iter().zip(styles) {
         let shown = curve.points.iter().copied().filter(|at| inside(x, at.0) && inside(y, at.1));
-        series.push(Series::new(greek(curve.name), Style::Line(colour), shown).named(curve.name));
+        series.push(Series::new(greek(curve.name), style, shown).named(curve.name));
     }
     series.retain(|series| !series.points.is_empty());
     let title = format!("{} ({} contact)", scene.title, scene.solver.contact);
@@ -181,7 +177,6 @@ pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
 
 /// Returns the character of a cell: a mark for the verdict, or a letter if the cell is
 /// sensitive or depends on the step.
-#[must_use]
 pub fn mark(cell: Option<Cell>) -> char {
     let Some(cell) = cell else { return ' ' };
     match (cell.verdict, cell.is_doubtful()) {
@@ -244,7 +239,7 @@ pub fn write_text(map: &Map, width: usize, out: &mut dyn Write) -> Result<()> {
     write_legend(map, out)
 }
 
-/// Marks the columns of the critical and the lock-in speed, if they are the same for all
+/// Marks the columns of the critical and the lock speed, if they are the same for all
 /// rows.
 fn write_speeds(map: &Map, across: usize, columns: usize, out: &mut dyn Write) -> Result<()> {
     for curve in overlay::speed_curves(&map.plan) {
@@ -266,7 +261,6 @@ fn write_speeds(map: &Map, across: usize, columns: usize, out: &mut dyn Write) -
 }
 
 /// Returns what a verdict means, in a few words.
-#[must_use]
 pub fn means(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Decay => "contact ends",
@@ -315,6 +309,22 @@ fn write_legend(map: &Map, out: &mut dyn Write) -> Result<()> {
 mod tests {
     use super::*;
     use rubscope_solver::scene::Scene;
+
+    #[test]
+    fn every_curve_over_a_map_is_drawn_apart_from_the_others_without_colour() {
+        let axis = |path: &str, from, to, log| Axis::new(path, from, to, 5, log).unwrap();
+        let (x, y) = (axis(keys::SPEED, 250.0, 700.0, false), axis(keys::PULSE, 1e3, 1e5, true));
+        let scene = Scene::builtin("rub").unwrap();
+        let map = Map::empty(MapPlan { scene, x, y, sensitivity: false });
+        let curves = overlay::curves(&map.plan);
+        assert_eq!(curves.len(), 4);
+        let drawn = &figure(&map, &curves).panels[0].series;
+        let names: Vec<_> = drawn.iter().map(|series| &*series.name).collect();
+        assert_eq!(names, ["Omega_c", "Omega_lock", "lock ends", "grazing pulse"]);
+        // The limits of the speed; the pulse goes across them.
+        let kinds: Vec<_> = drawn[..3].iter().map(|it| std::mem::discriminant(&it.style)).collect();
+        assert!(kinds[0] != kinds[1] && kinds[1] != kinds[2] && kinds[2] != kinds[0]);
+    }
 
     #[test]
     fn the_ends_of_a_narrow_map_stay_apart() {

@@ -41,7 +41,6 @@ fn present<'a>(
 }
 
 /// Every limit, one row each; a number of diameters without any has one row, too.
-#[must_use]
 pub fn table(survey: &Survey) -> Table {
     let names = "nodal_diameters,omega_c_rad_s,omega_bd_rad_s,name,value_rad_s,margin,in_range,by";
     let mut table = Table::new(names.split(','));
@@ -80,12 +79,8 @@ pub fn write(survey: &Survey, all: bool, out: &mut dyn Write) -> Result<()> {
     tell(&answer(survey, all))?;
     let marks = if survey.range_rad_s.is_some() { " * marks a limit in the range." } else { "" };
     tell(&(head(survey) + marks))?;
-    survey.note.iter().try_for_each(|note| tell(&format!("The limits are {note}.")))?;
-    survey.scattered.iter().try_for_each(|scattered| tell(&of_scatter(scene, scattered)))?;
     let shown = survey.shown(all);
-    if shown.iter().any(|row| row.nodal_diameters == 1) {
-        tell("One nodal diameter also moves the shaft, which this model does not have.")?;
-    }
+    notes(survey, &shown).iter().try_for_each(|note| tell(note))?;
     writeln!(out)?;
     let mut table = rows(survey, &shown[..shown.len().min(ROWS)]);
     let others = survey.rows.len() - shown.len();
@@ -100,8 +95,21 @@ pub fn write(survey: &Survey, all: bool, out: &mut dyn Write) -> Result<()> {
     writeln!(out, "Computed in {}.", time(rounded(survey.wall_s, 2)))
 }
 
-/// Which diameters can lock: in the range, or at the speed of the scene.
+/// Returns what must be known of these rows, in sentences.
 #[must_use]
+pub fn notes(survey: &Survey, shown: &[&SurveyRow]) -> Vec<String> {
+    let any = |has: fn(&SurveyRow) -> bool, note: &str| {
+        shown.iter().any(|row| has(row)).then(|| note.to_string())
+    };
+    let tuned = survey.note.iter().map(|note| format!("The limits are {note}."));
+    let scattered = survey.scattered.iter().map(|found| of_scatter(&survey.scene, found));
+    let shaft = "One nodal diameter also moves the shaft, which this model does not have.";
+    let rigid = "If rigid: these blades bend so much that their lock speed is another.";
+    let of_rows = [any(|row| row.nodal_diameters == 1, shaft), any(|row| row.bends, rigid)];
+    tuned.chain(scattered).chain(of_rows.into_iter().flatten()).collect()
+}
+
+/// Which diameters can lock: in the range, or at the speed of the scene.
 pub fn answer(survey: &Survey, all: bool) -> String {
     let now = survey.scene.operation.speed_rad_s;
     let at = match survey.range_rad_s {
@@ -152,7 +160,8 @@ fn verdict(survey: &Survey, row: &SurveyRow) -> [String; 2] {
         None => "not known: runs have it".to_string(),
         Some(locks) if locks.is_empty() => "no lock".to_string(),
         Some(locks) => {
-            format!("can lock: {}", locks.iter().map(span).collect::<Vec<_>>().join(", "))
+            let spans = locks.iter().map(span).collect::<Vec<_>>().join(", ");
+            format!("can lock{}: {spans}", if row.bends { " if rigid" } else { "" })
         }
     };
     let onset = row.limits.iter().any(|limit| limit.name == LimitName::WhirlOnset);
@@ -187,7 +196,6 @@ fn bar(survey: &Survey, row: &SurveyRow) -> String {
 }
 
 /// What the limits are of, and what tips that differ do to the lock.
-#[must_use]
 pub fn of_scatter(scene: &Scene, scattered: &Scattered) -> String {
     let speeds = [scattered.mean_rad_s, scattered.equal_rad_s];
     let [mean, equal] = speeds.map(|omega| format!("{} {}", told(omega), speed_unit()));
@@ -221,7 +229,6 @@ fn at_speed(survey: &Survey) -> String {
 
 /// Returns a row for each of these nodal diameters: what it can do, modes \[Hz\], and the
 /// limits of the sense of rotation that is looked at.
-#[must_use]
 pub fn rows(survey: &Survey, shown: &[&SurveyRow]) -> Table {
     let limits: Vec<_> = present(shown).collect();
     let [from, to] = ends(survey).map(told);
@@ -260,7 +267,6 @@ const REACH: f64 = 2.0;
 
 /// The interference chart: frequencies and the lines `n_d Omega` over the numbers of
 /// diameters, and below it the limits over them, with the speeds at which waves can lock.
-#[must_use]
 pub fn figure(survey: &Survey, all: bool) -> Figure {
     let rows = survey.shown(all);
     let at = |row: &SurveyRow| f64::from(row.nodal_diameters);

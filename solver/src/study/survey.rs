@@ -10,7 +10,7 @@ use std::time::Instant;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::margins::{LimitName, Parameter, shown_margin, speed_sensitivities, speeds};
+use super::margins::{LimitName, Parameter, bends, shown_margin, speed_sensitivities, speeds};
 use crate::harmonic::{Joint, RoundWhirl, lock_window, lock_windows, round_whirls};
 use crate::model::Machine;
 use crate::scene::units::{self, RangeError};
@@ -22,15 +22,19 @@ use crate::scene::{CheckedScene, Scene, SceneError};
 /// Text of another form, an end of another quantity, or a lower end that is not lower.
 pub fn speed_range(name: &str, text: &str) -> Result<[f64; 2], SceneError> {
     match units::read_ends(text, units::Quantity::Speed) {
-        Ok(([from, to], None)) if from < to && (to - from).is_finite() => Ok([from, to]),
+        Ok((range, None)) if is_range(range) => Ok(range),
         Err(RangeError::End(why)) => {
             Err(SceneError::Unit { key: name.to_string(), value: text.to_string(), why })
         }
-        _ => {
-            let allowed = "FROM:TO, two speeds, the lower one first, such as 6000rpm:11000rpm";
-            Err(SceneError::refused(name, text, allowed))
-        }
+        _ => Err(SceneError::refused(name, text, RANGE)),
     }
+}
+
+/// What a range of speeds is.
+const RANGE: &str = "FROM:TO, two speeds, the lower one first, such as 6000rpm:11000rpm";
+
+fn is_range([from, to]: [f64; 2]) -> bool {
+    from < to && (to - from).is_finite()
 }
 
 /// Every number of diameters of a machine.
@@ -41,7 +45,7 @@ pub fn speed_range(name: &str, text: &str) -> Result<[f64; 2], SceneError> {
 /// use rubscope_solver::study::survey::Survey;
 ///
 /// let scene = Scene::builtin("paper-nd3")?.checked()?;
-/// let survey = Survey::of(&scene, Some([200.0, 300.0]), None);
+/// let survey = Survey::of(&scene, Some([200.0, 300.0]), None)?;
 /// assert_eq!(survey.rows.len(), 12);
 /// let four = survey.rows[4].limit(LimitName::OmegaC, true).ok_or("it has one")?;
 /// assert!((four.value - 256.12).abs() < 1e-2 && four.in_range == Some(true));
@@ -118,6 +122,8 @@ pub struct SurveyRow {
     /// The speeds of the range from which tips that move outward can whirl, where known, or else
     /// the coincidence that they feel \[rad/s\].
     pub whirls_in_range: Vec<f64>,
+    /// Whether blades bend so much that its lock speeds, which are of rigid ones, are others.
+    pub bends: bool,
     /// The limits that there are, in the order of `margins`; forward ones first.
     pub limits: Vec<SurveyLimit>,
 }
@@ -169,14 +175,23 @@ impl SurveyRow {
 }
 
 impl Survey {
-    /// The survey of a scene, over a range of speeds \[rad/s\], finite and the lower first (see
-    /// [`speed_range`]), with the sensitivities of every limit by a parameter, if there is one.
-    #[must_use]
-    pub fn of(scene: &CheckedScene, range: Option<[f64; 2]>, by: Option<&Parameter>) -> Self {
+    /// Makes the survey of a scene, over a range of speeds \[rad/s\], with the sensitivities of
+    /// every limit by a parameter, if there is one.
+    ///
+    /// # Errors
+    /// A range that is not finite, or whose lower end is not the first.
+    pub fn of(
+        scene: &CheckedScene,
+        range: Option<[f64; 2]>,
+        by: Option<&Parameter>,
+    ) -> Result<Self, SceneError> {
+        if let Some([from, to]) = range.filter(|range| !is_range(*range)) {
+            return Err(SceneError::refused("range", format!("{from}:{to}"), RANGE));
+        }
         let start = Instant::now();
         let most = scene.bladed_disk.blades / 2;
         let rows = (0..=most).into_par_iter().map(|diameters| row(scene, diameters, range, by));
-        Self {
+        Ok(Self {
             scene: scene.clone(),
             range_rad_s: range,
             by: by.map(|parameter| parameter.path),
@@ -184,7 +199,7 @@ impl Survey {
             scattered: Scattered::of(scene),
             rows: rows.collect(),
             wall_s: start.elapsed().as_secs_f64(),
-        }
+        })
     }
 
     /// The sense of rotation that is looked at: that of the range, or else of the scene.
@@ -271,20 +286,15 @@ fn whirls(machine: &Machine, limits: &[SurveyLimit], [from, to]: [f64; 2]) -> Ve
     all.filter(|speed| (from..=to).contains(speed)).collect()
 }
 
-/// The scene with so many diameters, whose mode is then in use.
-fn with_diameters(scene: &Scene, diameters: u32) -> Scene {
-    let mut scene = scene.clone();
-    scene.operation.nodal_diameters = diameters;
-    scene
-}
-
 fn row(
     scene: &CheckedScene,
     diameters: u32,
     range: Option<[f64; 2]>,
     by: Option<&Parameter>,
 ) -> SurveyRow {
-    let scene = with_diameters(scene, diameters);
+    // The mode of so many diameters is then in use.
+    let mut scene = Scene::clone(scene);
+    scene.operation.nodal_diameters = diameters;
     let machine = scene.machine();
     let own = 1_f64.copysign(scene.operation.speed_rad_s);
     let asked = searched(range, &scene);
@@ -296,6 +306,10 @@ fn row(
         _ => &found,
     };
     let limits = [1.0, -1.0].map(|sense| of(sense).limits(&scene, sense, range)).concat();
+    let rigid = machine.lining.is_some() || scene.casing_in_use().damping_ratio == 0.0;
+    let is_lock = |limit: &&SurveyLimit| {
+        limit.name == LimitName::OmegaLock && limit.value * own > 0.0 && !rigid
+    };
     SurveyRow {
         nodal_diameters: diameters,
         omega_c_rad_s: machine.omega_c,
@@ -303,6 +317,7 @@ fn row(
         modes_known: scene.modes_note().is_none(),
         locks_in_range: locks(&scene, &machine, asked),
         whirls_in_range: whirls(&machine, &limits, asked),
+        bends: limits.iter().find(is_lock).is_some_and(|lock| bends(&machine, lock.value)),
         limits,
     }
 }
