@@ -225,13 +225,13 @@ impl Table {
         }
     }
 
-    /// Writes every word of it as `spell` does.
-    #[must_use]
+    /// Writes every word of it as `spell` does, in the rows that are there.
     pub fn spelled(mut self, spell: impl Fn(&str) -> String) -> Self {
         for words in self.headings.iter_mut().filter_map(|heading| heading.words.as_mut()) {
             *words = spell(words).into();
         }
-        for cell in self.rows.iter_mut().flatten() {
+        let Rows::There(rows) = &mut self.rows else { return self };
+        for cell in rows.iter_mut().flatten() {
             if let TableCell::Told(_, text) | TableCell::Word(text) = cell {
                 *text = spell(text);
             }

@@ -66,13 +66,14 @@ fn a_row_says_where_its_lock_speed_is_of_rigid_blades_only() {
         [("bladed_disk.stiffness_nm_per_rad", "0.02"), ("bladed_disk.coupling_nm_per_rad", "0")];
     for (changes, bends) in [(&soft[..], true), (&[][..], false)] {
         let scene = scene("paper-nd3", changes);
-        let row = &Survey::of(&scene, None, None).rows[3];
+        let row = &Survey::of(&scene, None, None).unwrap().rows[3];
         let margins = Margins::of(&scene);
         let note = &margins.limit(LimitName::OmegaLock).unwrap().note;
         let noted = note.as_ref().is_some_and(|note| note.contains("for rigid blades"));
         assert_eq!([row.bends, noted], [bends; 2]);
         let mut text = Vec::new();
-        rubscope::report::survey::write(&Survey::of(&scene, None, None), false, &mut text).unwrap();
+        rubscope::report::survey::write(&Survey::of(&scene, None, None).unwrap(), false, &mut text)
+            .unwrap();
         let text = String::from_utf8(text).unwrap();
         assert_eq!(text.contains("can lock if rigid: from 4"), bends, "{text}");
         assert_eq!(text.contains("If rigid: these blades bend so much"), bends, "{text}");
