@@ -32,12 +32,16 @@ pub fn harmless(c: char) -> char {
     if is_plain(c) { c } else { ' ' }
 }
 
-/// Returns a text in lines of at most so many columns, broken at spaces, and within words that are
-/// longer than a line.
+/// Stands for the space between a number and its per cent, where no line ends.
+const HELD: char = '\u{a0}';
+
+/// Returns a text in lines of at most so many columns, broken at spaces, but not before a per
+/// cent, and within words that are longer than a line.
 pub fn wrapped(text: &str, most: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     let mut used = 0;
-    for word in text.split_whitespace() {
+    let text = text.replace(" %", "\u{a0}%");
+    for word in text.split(|c: char| c.is_whitespace() && c != HELD).filter(|w| !w.is_empty()) {
         let long: usize = word.chars().map(columns).sum();
         match lines.last_mut() {
             Some(line) if used + 1 + long <= most => {
@@ -55,7 +59,7 @@ pub fn wrapped(text: &str, most: usize) -> Vec<String> {
                 used = 0;
             }
             if let Some(line) = lines.last_mut() {
-                line.push(c);
+                line.push(if c == HELD { ' ' } else { c });
             }
             used += columns(c);
         }
@@ -95,6 +99,7 @@ mod tests {
         assert_eq!(wrapped("a sesquipedalian b", 6), ["a", "sesqui", "pedali", "an b"]);
         assert_eq!(wrapped("a 叶叶叶叶 b", 6), ["a", "叶叶叶", "叶 b"]);
         assert_eq!(wrapped("ab", 0), ["a", "b"]);
+        assert_eq!(wrapped("found at 516 (+20.0 %) now", 19), ["found at 516", "(+20.0 %) now"]);
         assert!(wrapped("  ", 7).is_empty());
     }
 }

@@ -59,8 +59,7 @@ pub fn with_unit(x: f64, digits: usize, unit: &str) -> String {
 pub fn scaled(x: f64, of: f64, digits: usize, unit: &str) -> [String; 2] {
     let ((x, _), (of, unit)) = (in_shown_unit(x, unit), in_shown_unit(of, unit));
     let scale = SiScale::before(unit, of);
-    let prefix = if scale.prefix == "µ" { "u" } else { scale.prefix };
-    [short(rounded(x / scale.factor, digits)), format!("{prefix}{unit}")]
+    [short(rounded(x / scale.factor, digits)), scale.prefix.replace('µ', "u") + unit]
 }
 
 thread_local! {
@@ -86,6 +85,29 @@ pub fn per_speed(omega: f64) -> f64 {
 /// Returns a speed with its unit, in at most six significant digits.
 pub fn speed(omega: f64) -> String {
     format!("{} {}", short(per_speed(omega)), speed_unit())
+}
+
+/// Writes a speed as it is shown, with one decimal, or three where it is small.
+pub fn in_tenths(speed: f64) -> String {
+    let decimals = if speed.abs() < 10.0 { 3 } else { 1 };
+    trimmed(&format!("{speed:.decimals$}")).to_string()
+}
+
+/// Returns a text with its marked speeds as they are shown: `{411.934}`, `{500 rad/s}` with its
+/// unit, and `{878.635 1/s}`, a frequency with its unit.
+pub fn with_speeds(text: &str) -> String {
+    let told = |(place, part): (usize, &str)| {
+        let (number, unit) = part.split_once(' ').unwrap_or((part, ""));
+        let Some(omega) = number.parse().ok().filter(|_| place % 2 == 1) else {
+            return part.to_string();
+        };
+        match unit {
+            "" => in_tenths(per_speed(omega)),
+            RAD_S => format!("{} {}", in_tenths(per_speed(omega)), speed_unit()),
+            _ => format!("{} {}", in_tenths(per_frequency(omega)), frequency_unit()),
+        }
+    };
+    text.split(['{', '}']).enumerate().map(told).collect()
 }
 
 /// Returns the unit in which angular frequencies are shown: hertz where speeds are in rpm.

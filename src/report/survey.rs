@@ -79,12 +79,8 @@ pub fn write(survey: &Survey, all: bool, out: &mut dyn Write) -> Result<()> {
     tell(&answer(survey, all))?;
     let marks = if survey.range_rad_s.is_some() { " * marks a limit in the range." } else { "" };
     tell(&(head(survey) + marks))?;
-    survey.note.iter().try_for_each(|note| tell(&format!("The limits are {note}.")))?;
-    survey.scattered.iter().try_for_each(|scattered| tell(&of_scatter(scene, scattered)))?;
     let shown = survey.shown(all);
-    if shown.iter().any(|row| row.nodal_diameters == 1) {
-        tell("One nodal diameter also moves the shaft, which this model does not have.")?;
-    }
+    notes(survey, &shown).iter().try_for_each(|note| tell(note))?;
     writeln!(out)?;
     let mut table = rows(survey, &shown[..shown.len().min(ROWS)]);
     let others = survey.rows.len() - shown.len();
@@ -97,6 +93,20 @@ pub fn write(survey: &Survey, all: bool, out: &mut dyn Write) -> Result<()> {
     table.write_text_in(WIDEST, out)?;
     writeln!(out)?;
     writeln!(out, "Computed in {}.", time(rounded(survey.wall_s, 2)))
+}
+
+/// Returns what must be known of these rows, in sentences.
+#[must_use]
+pub fn notes(survey: &Survey, shown: &[&SurveyRow]) -> Vec<String> {
+    let any = |has: fn(&SurveyRow) -> bool, note: &str| {
+        shown.iter().any(|row| has(row)).then(|| note.to_string())
+    };
+    let tuned = survey.note.iter().map(|note| format!("The limits are {note}."));
+    let scattered = survey.scattered.iter().map(|found| of_scatter(&survey.scene, found));
+    let shaft = "One nodal diameter also moves the shaft, which this model does not have.";
+    let rigid = "If rigid: these blades bend so much that their lock speed is another.";
+    let of_rows = [any(|row| row.nodal_diameters == 1, shaft), any(|row| row.bends, rigid)];
+    tuned.chain(scattered).chain(of_rows.into_iter().flatten()).collect()
 }
 
 /// Which diameters can lock: in the range, or at the speed of the scene.
@@ -150,7 +160,8 @@ fn verdict(survey: &Survey, row: &SurveyRow) -> [String; 2] {
         None => "not known: runs have it".to_string(),
         Some(locks) if locks.is_empty() => "no lock".to_string(),
         Some(locks) => {
-            format!("can lock: {}", locks.iter().map(span).collect::<Vec<_>>().join(", "))
+            let spans = locks.iter().map(span).collect::<Vec<_>>().join(", ");
+            format!("can lock{}: {spans}", if row.bends { " if rigid" } else { "" })
         }
     };
     let onset = row.limits.iter().any(|limit| limit.name == LimitName::WhirlOnset);

@@ -32,11 +32,6 @@ impl Appearance {
         Self { theme, follows_ground: false, marker, wide: false, octants: false, rpm: false }
     }
 
-    /// Changes to the next theme; returns the message.
-    pub fn next_theme(&mut self) -> String {
-        self.use_theme(self.theme.next())
-    }
-
     /// Changes to a theme; returns the message.
     pub fn use_theme(&mut self, theme: Theme) -> String {
         (self.theme, self.follows_ground) = (theme, false);

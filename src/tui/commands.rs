@@ -11,9 +11,11 @@ use super::lessons::{self, LETTERS};
 use super::theme::Theme;
 use super::views::id::ViewId;
 use super::views::map::plan::numeric;
+use crate::report::number::with_typed_unit;
 use rubscope_solver::scene::Value;
 use rubscope_solver::scene::keys;
-use rubscope_solver::scene::{Scene, SceneError};
+use rubscope_solver::scene::{Quantity, Scene, SceneError};
+use rubscope_solver::study::survey::speed_range;
 
 /// Something that can be asked for.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,6 +36,8 @@ pub enum Command {
     Blade(u32),
     /// Put knobs on the axes of the map, across and up.
     Axes([Option<&'static str>; 2]),
+    /// Survey all diameters over these speeds, or over all \[rad/s\].
+    Range(Option<[f64; 2]>),
     /// Write a file.
     Write(Purpose, String),
     /// Use a theme.
@@ -172,6 +176,9 @@ fn refused(app: &App, typed: &str) -> Option<(Fit, String)> {
             let why = format!("t {}: this is no time, such as 0.3 ms", time.join(" "));
             return Some((Fit::Name, why));
         }
+        ["range", rest @ ..] if !rest.is_empty() => {
+            return surveyed(&rest.join(" ")).err().map(|why| (Fit::Name, why.to_string()));
+        }
         ["blade", rest @ ..] if rest.first().is_some_and(|word| is_numeric(word)) => {
             let (blade, all) = (rest.join(" "), app.machine.polygon.blades);
             return Some((Fit::Name, format!("blade {blade}: from 1 to {all}")));
@@ -217,6 +224,7 @@ fn directed(app: &App, typed: &str) -> Option<Vec<Found>> {
             None => one_axis(app, "across", &lower),
         },
         "across" | "up" => one_axis(app, &first, &lower),
+        "range" => surveyed(rest).into_iter().collect(),
         "scene" => those_with(scenes(app), &lower),
         "lesson" => match lower.parse::<usize>() {
             Ok(number) => lessons().nth(number.checked_sub(1)?).into_iter().collect(),
@@ -250,6 +258,14 @@ fn directed(app: &App, typed: &str) -> Option<Vec<Found>> {
         }
         _ => return None,
     })
+}
+
+/// Reads the speeds of the survey: `200:600`, `200 600`, or `all` of them.
+fn surveyed(text: &str) -> Result<Found, SceneError> {
+    let ends = if text.contains(':') { text.to_string() } else { text.replacen(' ', ":", 1) };
+    let read = |ends| speed_range("range", &with_typed_unit(ends, Quantity::Speed));
+    let range = (text != "all").then(|| read(&ends)).transpose()?;
+    Ok(Found::of("go", format!("survey of all diameters over {ends}"), Command::Range(range)))
 }
 
 /// Returns those that have these words, the best first.

@@ -62,6 +62,8 @@ pub struct Order {
     pub map: MapChoice,
     /// Column and row of the map's cell whose run is wanted.
     pub cell: Option<[u32; 2]>,
+    /// The speeds that the survey is of \[rad/s\].
+    pub range: Option<[f64; 2]>,
 }
 
 impl Order {

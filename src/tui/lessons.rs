@@ -66,6 +66,8 @@ pub struct LessonStep {
     pub view: Option<String>,
     /// The view that is shown with the answer, if another.
     pub then_view: Option<String>,
+    /// The limit that the rows of the margins are shown around.
+    pub limit: Option<LimitName>,
     /// Length of the page of time, at least \[s\].
     pub page_s: Option<f64>,
     /// The knob that is selected.
@@ -117,6 +119,12 @@ const QUESTION: f64 = 0.5;
 const TASK: f64 = 2.0;
 
 impl Lesson {
+    /// Returns its subject in few words: those before what it adds.
+    pub fn brief(&self) -> &str {
+        let end = [",", ":", " and "].iter().filter_map(|sign| self.title.find(sign)).min();
+        end.and_then(|end| self.title.get(..end)).unwrap_or(&self.title)
+    }
+
     /// Returns how long it takes, by what there is to read, to answer and to do.
     pub fn minutes(&self) -> u32 {
         let of = |step: &LessonStep| {

@@ -165,7 +165,9 @@ impl Lines {
             commands::Command::Act(Action::View(view)) => {
                 Some(view).filter(|view| TOLD.contains(view))
             }
-            commands::Command::Act(Action::Survey) => Some(ViewId::Margins),
+            commands::Command::Act(Action::Survey) | commands::Command::Range(_) => {
+                Some(ViewId::Margins)
+            }
             _ => None,
         };
         if self.told.is_none() && needs_screen(&found) {

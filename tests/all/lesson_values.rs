@@ -50,7 +50,23 @@ pub enum Expected {
 
 /// The checks of a step.
 pub fn checks(step: &LessonStep) -> Vec<Check> {
-    step.check.iter().map(|check| check.clone().try_into().unwrap()).collect()
+    let checks = step.check.iter().filter(|check| !check.contains_key("shown"));
+    checks.map(|check| check.clone().try_into().unwrap()).collect()
+}
+
+/// What the text names of the screen, and the columns from which on there is room for it.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Shown {
+    pub shown: String,
+    #[serde(default)]
+    pub from: u16,
+}
+
+/// What a step names of the screen.
+pub fn shown(step: &LessonStep) -> Vec<Shown> {
+    let named = step.check.iter().filter(|check| check.contains_key("shown"));
+    named.map(|check| check.clone().try_into().unwrap()).collect()
 }
 
 /// Runs that were asked for, by their scene: several checks ask for the same.

@@ -61,6 +61,26 @@ fn every_row_has_the_limits_that_margins_finds_for_its_diameters() {
 }
 
 #[test]
+fn a_row_says_where_its_lock_speed_is_of_rigid_blades_only() {
+    let soft =
+        [("bladed_disk.stiffness_nm_per_rad", "0.02"), ("bladed_disk.coupling_nm_per_rad", "0")];
+    for (changes, bends) in [(&soft[..], true), (&[][..], false)] {
+        let scene = scene("paper-nd3", changes);
+        let row = &Survey::of(&scene, None, None).unwrap().rows[3];
+        let margins = Margins::of(&scene);
+        let note = &margins.limit(LimitName::OmegaLock).unwrap().note;
+        let noted = note.as_ref().is_some_and(|note| note.contains("for rigid blades"));
+        assert_eq!([row.bends, noted], [bends; 2]);
+        let mut text = Vec::new();
+        rubscope::report::survey::write(&Survey::of(&scene, None, None).unwrap(), false, &mut text)
+            .unwrap();
+        let text = String::from_utf8(text).unwrap();
+        assert_eq!(text.contains("can lock if rigid: from 4"), bends, "{text}");
+        assert_eq!(text.contains("If rigid: these blades bend so much"), bends, "{text}");
+    }
+}
+
+#[test]
 fn every_row_of_the_paper_is_what_the_campbell_diagram_says() {
     let survey = json(&["survey", "paper-nd3", "--json"]);
     assert_eq!(survey["schema"], "rubscope.survey/1");

@@ -1,6 +1,7 @@
 //! Every step of every lesson, through the explorer: answers, tasks, and what the
 //! text says against what the solvers find.
 
+use rubscope::report::number::{in_tenths, tell_in_rpm, with_speeds};
 use rubscope::tui::bindings::{Action, Context};
 use rubscope::tui::events::ScreenEvent;
 use rubscope::tui::lessons::{self, Lesson, LessonStep};
@@ -8,7 +9,7 @@ use rubscope::tui::{App, Marker, Theme};
 use rubscope_solver::motion::simulate;
 use rubscope_solver::scene::Scene;
 
-use super::lesson_values::{Check, Expected, Runs, checks, found};
+use super::lesson_values::{Check, Expected, Runs, checks, found, shown};
 use super::tui_support::{Session, scene};
 
 /// Begins a lesson of a fresh explorer.
@@ -80,8 +81,64 @@ fn assert_true(check: &Check, session: &Session, runs: &mut Runs) {
             assert!(within <= half_digit(*is), "{check:?}: looser than it is written");
             let near = found.iter().any(|x| (x - is).abs() <= within);
             assert!(near, "{check:?}: {:?}", found.iter().take(8).collect::<Vec<_>>());
+            // A marked speed has more digits, for the other unit.
+            let (step, _) = app.lesson_step().unwrap();
+            let of_this = |mark: &f64| in_tenths(*mark) == in_tenths(is.abs());
+            for mark in marks(step).into_iter().filter(of_this) {
+                let near = found.iter().any(|x| (x.abs() - mark).abs() <= half_digit(mark));
+                assert!(near, "{mark} is none of {:?}", found.iter().take(8).collect::<Vec<_>>());
+            }
         }
     }
+}
+
+/// Every text of a step.
+fn texts(step: &LessonStep) -> impl Iterator<Item = &String> {
+    let others = [&step.question, &step.reason, &step.task, &step.equation];
+    [&step.text].into_iter().chain(others.into_iter().flatten()).chain(&step.answers)
+}
+
+/// The marked speeds of a step.
+fn marks(step: &LessonStep) -> Vec<f64> {
+    let marked = texts(step).flat_map(|text| text.split('{').skip(1));
+    marked.map(|mark| mark.split([' ', '}']).next().unwrap().parse().unwrap()).collect()
+}
+
+#[test]
+fn every_speed_of_the_lessons_is_told_in_the_unit_of_the_mode() {
+    for step in lessons::all().iter().flat_map(|lesson| &lesson.steps) {
+        for text in texts(step) {
+            tell_in_rpm(true);
+            let told = with_speeds(text);
+            tell_in_rpm(false);
+            assert!(!told.contains(['{', '}']) && !told.contains("rad/s"), "{told}");
+            // Where a text says no unit it says no number of rad/s either.
+            let alike = |text: &str| numbers(text).len();
+            assert_eq!(alike(&told), alike(&with_speeds(text)), "{told}");
+        }
+        for mark in marks(step) {
+            tell_in_rpm(true);
+            let [turns, frequency] =
+                [" rad/s", " 1/s"].map(|unit| with_speeds(&format!("{{{mark}{unit}}}")));
+            tell_in_rpm(false);
+            let number = |text: &str, unit: &str| -> f64 {
+                text.strip_suffix(unit).unwrap().parse().unwrap()
+            };
+            let turn = std::f64::consts::TAU;
+            assert!((number(&turns, " rpm") - mark * 60.0 / turn).abs() <= 0.0501, "{turns}");
+            assert!((number(&frequency, " Hz") - mark / turn).abs() <= 0.0501, "{frequency}");
+        }
+    }
+}
+
+#[test]
+fn a_lesson_in_rpm_says_rpm_on_the_screen() {
+    let mut session = begin(80, 24, 1);
+    assert!(session.text().contains("A pulse of 1 MN at 500 rad/s, far above Ω_c = 292.9."));
+    session.press("U");
+    let text = session.text();
+    session.press("U");
+    assert!(text.contains("A pulse of 1 MN at 4774.6 rpm, far above Ω_c = 2796.8."), "{text}");
 }
 
 /// The numbers of a text, each with the values it may stand for.
@@ -134,7 +191,7 @@ fn assert_numbers_are_checked(lesson: &Lesson, step: &LessonStep) {
     let right = step.right_place().and_then(|place| step.answers.get(place));
     let prose = [Some(&step.text), step.question.as_ref(), right, step.reason.as_ref()];
     let texts = prose.into_iter().chain([step.task.as_ref()]).flatten();
-    for (digits, values) in texts.flat_map(|text| numbers(text)) {
+    for (digits, values) in texts.flat_map(|text| numbers(&with_speeds(text))) {
         let checked = checks(step).iter().any(|check| match check.is {
             Expected::Number(is) => {
                 values.iter().any(|value| (is.abs() - value).abs() <= 1e-9 * value.abs())
@@ -165,6 +222,35 @@ fn assert_header_is_shown(session: &mut Session, step: &LessonStep) -> bool {
     !quoted.is_empty()
 }
 
+/// Words of a text that speak of what stands on the screen.
+const SPEAKS: [&str; 6] =
+    ["row of", "rows of", "margins have", "gaps show", "beside it", "go with"];
+
+/// What the text of a step names stands on the screen: at 80x24, also for a projector, and at
+/// 40x12.
+fn assert_named_is_shown(session: &mut Session, step: &LessonStep) {
+    let named = shown(step);
+    let answered = [Some(&step.text), step.reason.as_ref()];
+    let mut texts = answered.into_iter().flatten();
+    let speaks = texts.any(|text| SPEAKS.iter().any(|words| text.contains(words)));
+    assert!(
+        !speaks || !named.is_empty(),
+        "nothing checks what stands on the screen: {}",
+        step.text
+    );
+    for (size, wide) in [((80, 24), false), ((80, 24), true), ((40, 12), false)] {
+        session.app.appearance.wide = wide;
+        resize(session, size);
+        read_on(session);
+        let text = session.text();
+        for one in named.iter().filter(|one| one.from <= size.0) {
+            assert!(text.contains(&one.shown), "{} is not in {text}", one.shown);
+        }
+    }
+    session.app.appearance.wide = false;
+    resize(session, (120, 40));
+}
+
 fn resize(session: &mut Session, (width, height): (u16, u16)) {
     session.terminal.backend_mut().resize(width, height);
     session.send(std::iter::once(ScreenEvent::Resize));
@@ -181,7 +267,8 @@ fn assert_has_words(text: &str, words: &str) {
 fn assert_has_room(session: &mut Session, step: &LessonStep) {
     let is_open = session.app.context() == Context::Question;
     let shown = if is_open { &step.question } else { &step.reason };
-    let shown = shown.as_ref().unwrap_or(&step.text);
+    let shown = &with_speeds(shown.as_ref().unwrap_or(&step.text));
+    let answers: Vec<String> = step.answers.iter().map(|answer| with_speeds(answer)).collect();
     resize(session, (80, 24));
     assert!(!session.text().contains(" page "), "{}", session.text());
     assert_has_words(&session.text(), shown);
@@ -191,7 +278,7 @@ fn assert_has_room(session: &mut Session, step: &LessonStep) {
     if is_open {
         // The question and its answers stay in sight.
         let text = session.text();
-        step.answers.iter().chain([shown]).for_each(|words| assert_has_words(&text, words));
+        answers.iter().chain([shown]).for_each(|words| assert_has_words(&text, words));
     } else {
         // The charts are there at last.
         assert!(session.text().contains(&format!(" {digit} ")), "{}", session.text());
@@ -202,7 +289,7 @@ fn assert_has_room(session: &mut Session, step: &LessonStep) {
         (progress.read, progress.page) = (false, 0);
         read_on(session);
         let text = session.text();
-        step.answers.iter().chain([shown]).for_each(|words| assert_has_words(&text, words));
+        answers.iter().chain([shown]).for_each(|words| assert_has_words(&text, words));
         let title = format!("─ {digit} ");
         let above = text.lines().position(|line| line.starts_with(&title));
         // Without its title, and the last line.
@@ -236,6 +323,7 @@ fn every_step_says_what_the_solvers_find_and_has_room_at_every_size() {
             }
             assert_eq!(session.app.scene, lesson.scene_at(number, true).unwrap(), "{at}");
             assert_has_room(&mut session, step);
+            assert_named_is_shown(&mut session, step);
             let progress = |session: &Session| session.app.lessons.progress.as_ref().unwrap().now();
             if step.task.is_some() {
                 assert!(!progress(&session).done, "{at}: nothing to do");
@@ -392,4 +480,38 @@ fn a_lesson_gives_back_what_was_there_and_undo_reaches_across() {
         session.app.act(Action::Redo);
     }
     assert!(session.app.lessons.progress.is_some() && session.app.is_asked());
+}
+
+#[test]
+fn every_title_of_a_lesson_has_a_form_that_fits_the_smallest_screen() {
+    for (place, lesson) in lessons::all().iter().enumerate() {
+        let mut session = Session::open(40, 12, scene(), Theme::Dark, Marker::Braille);
+        session.press(&format!("g{}", "j".repeat(place)));
+        let named = format!("{}. {}", place + 1, lesson.brief());
+        let list = session.text();
+        assert!(list.contains(&named) && !list.contains('…'), "{list}");
+        session.press("\n");
+        let head = session.rows()[2].clone();
+        assert!(head.contains(lesson.brief()) && head.contains("1 of"), "{head}");
+        assert!(!head.contains('…'), "{head}");
+    }
+}
+
+#[test]
+fn the_knob_that_a_task_asks_for_is_in_the_row_that_its_text_names() {
+    let place = lessons::all().iter().position(|lesson| lesson.name == "what-if").unwrap();
+    let mut session = begin(80, 24, place);
+    for step in &lessons::all()[place].steps[..3] {
+        session.press(&(keys_of(step.right.unwrap()) + "g"));
+    }
+    session.press("P");
+    let row = |session: &Session| {
+        let text = session.text();
+        text.lines().find(|line| line.contains("Ω_lock      411.934")).unwrap().to_string()
+    };
+    assert!(row(&session).contains("ζ_c +0.33 %"), "{}", session.text());
+    // Where its column has no room, i reads it.
+    session.press("Pi↓↓→→→");
+    assert!(!row(&session).contains("ζ_c"), "{}", session.text());
+    assert!(session.text().contains("of damping ζ_c: Ω_lock +0.33 %"), "{}", session.text());
 }

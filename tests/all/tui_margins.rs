@@ -370,3 +370,35 @@ fn every_limit_stays_in_sight_below_it_over_the_whole_screen() {
         assert!(text.lines().any(is_here), "{start}\n{text}");
     }
 }
+
+#[test]
+fn the_survey_is_of_the_range_that_is_asked_for_in_the_unit_of_speeds() {
+    let mut session = open((80, 24), short());
+    session.press("D");
+    assert!(session.text().contains(": range 200:600"), "{}", session.text());
+    for (typed, said) in [
+        ("range 200:300", "From 200 rad/s to 300 rad/s no wave can lock."),
+        ("range 400 450", "From 400 rad/s to 450 rad/s waves of 3 and 4 nodal diameters can lock."),
+        ("range 2000rpm:2900rpm", "From 209.44 rad/s to 303.687 rad/s"),
+        ("range all", "At 500 rad/s waves of 3 and 4"),
+    ] {
+        session.press(&format!(":{typed}\n"));
+        session.press("");
+        let text = session.text().split_whitespace().collect::<Vec<_>>().join(" ");
+        let rows: String = text.chars().filter(|c| !"│─".contains(*c)).collect();
+        let survey = session.app.margins().unwrap().0.survey.clone().unwrap();
+        assert_eq!(survey.range_rad_s, session.app.layout.range);
+        assert!(!text.contains("of the knobs before"), "{text}");
+        let answer = rubscope::report::survey::answer(&survey, false);
+        assert!(answer.starts_with(said), "{answer}");
+        assert!(rows.contains(&said[..20]), "{text}");
+    }
+    session.press("U:range 2000 2900\n");
+    session.press("");
+    let range = session.app.layout.range.unwrap();
+    session.press("U");
+    assert!((range[1] - 2900.0 * std::f64::consts::TAU / 60.0).abs() < 1e-9, "{range:?}");
+    session.press(":range 5:2\n");
+    assert!(session.text().contains("range = 5:2: allowed is FROM:TO"), "{}", session.text());
+    assert_eq!(session.app.layout.range, Some(range));
+}

@@ -45,6 +45,14 @@ fn a_run_that_pulls_and_is_sensitive_says_both_and_no_exact_instant() {
     assert!(rows[0].contains(" only pushes ") && rows[0].contains("A tiny change"), "{}", rows[0]);
     assert!(rows[1].contains("AT 30 ms ") && !rows[1].contains(" since "), "{}", rows[1]);
     assert!(!rows[1].contains("until"), "{}", rows[1]);
+    // It is told how to audit it, on the usual screen, too.
+    let scene = session.app.scene.clone().into_scene();
+    for width in [80, 200] {
+        let session = Session::open(width, 24, scene.clone(), Theme::Dark, Marker::Braille);
+        assert!(session.rows()[1].contains("audit: run --plain"), "{}", session.rows()[1]);
+    }
+    let sure = Session::open(200, 24, self::scene(), Theme::Dark, Marker::Braille);
+    assert!(!sure.rows()[1].contains("audit"), "{}", sure.rows()[1]);
 }
 
 #[test]
@@ -226,11 +234,9 @@ fn the_first_two_lines_are_whole_at_every_width() {
         let [first, second] = [&rows[0], &rows[1]].map(|row| row.trim_end());
         assert!(first.starts_with(" LOCKED  ") && first.contains('.'), "{width}: {first}");
         assert!(!first.contains("..") && !second.contains(".."), "{width}: {first}\n{second}");
-        // The end is told with its verdict, or not at all.
-        let whole = match second.split_once("AT ") {
-            Some((_, end)) => end.starts_with("20 ms locked"),
-            None => width < 44,
-        };
+        // The end is always told, with its verdict where there is room.
+        let end = second.split_once("AT ").map_or("", |(_, end)| end);
+        let whole = end.starts_with("20 ms locked") || end == "20 ms" && width < 44;
         assert!(second.starts_with("NOW ") && whole, "{width}: {second}");
         let title = first.contains("nodal diameters");
         assert!(title || first.ends_with('.'), "{width}: {first}");

@@ -50,6 +50,21 @@ fn the_first_line_says_what_is_now_and_what_will_be() {
 }
 
 #[test]
+fn the_instant_and_the_end_are_said_at_every_size() {
+    for name in ["paper-nd3", "run-down", "coincidence", "oval"] {
+        for (width, height) in [(40, 12), (60, 18), (80, 24), (200, 50)] {
+            let mut session =
+                Session::open(width, height, scene(name), Theme::Mono, Marker::Braille);
+            for key in ["U", "\n-12000\n", "U"] {
+                let line = row(&session, 1);
+                assert!(line.starts_with("NOW ") && line.contains(" AT "), "{width} {line}");
+                session.press(key);
+            }
+        }
+    }
+}
+
+#[test]
 fn the_reading_cursor_reads_the_run_and_not_a_bin() {
     let mut session = open(scene("paper-nd3"), 3e-3);
     session.press_each("1fi←←←←←←←←←");

@@ -10,7 +10,7 @@ use std::time::Instant;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::margins::{LimitName, Parameter, shown_margin, speed_sensitivities, speeds};
+use super::margins::{LimitName, Parameter, bends, shown_margin, speed_sensitivities, speeds};
 use crate::harmonic::{Joint, RoundWhirl, lock_window, lock_windows, round_whirls};
 use crate::model::Machine;
 use crate::scene::units::{self, RangeError};
@@ -122,6 +122,8 @@ pub struct SurveyRow {
     /// The speeds of the range from which tips that move outward can whirl, where known, or else
     /// the coincidence that they feel \[rad/s\].
     pub whirls_in_range: Vec<f64>,
+    /// Whether blades bend so much that its lock speeds, which are of rigid ones, are others.
+    pub bends: bool,
     /// The limits that there are, in the order of `margins`; forward ones first.
     pub limits: Vec<SurveyLimit>,
 }
@@ -304,6 +306,10 @@ fn row(
         _ => &found,
     };
     let limits = [1.0, -1.0].map(|sense| of(sense).limits(&scene, sense, range)).concat();
+    let rigid = machine.lining.is_some() || scene.casing_in_use().damping_ratio == 0.0;
+    let is_lock = |limit: &&SurveyLimit| {
+        limit.name == LimitName::OmegaLock && limit.value * own > 0.0 && !rigid
+    };
     SurveyRow {
         nodal_diameters: diameters,
         omega_c_rad_s: machine.omega_c,
@@ -311,6 +317,7 @@ fn row(
         modes_known: scene.modes_note().is_none(),
         locks_in_range: locks(&scene, &machine, asked),
         whirls_in_range: whirls(&machine, &limits, asked),
+        bends: limits.iter().find(is_lock).is_some_and(|lock| bends(&machine, lock.value)),
         limits,
     }
 }

@@ -9,7 +9,7 @@ use rubscope_solver::scene::Scene;
 const MOST_BESIDE: usize = 3;
 
 /// The charts on the screen.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Layout {
     /// Every view: the large chart, then the others in the order of their places.
     views: Vec<ViewId>,
@@ -17,6 +17,8 @@ pub struct Layout {
     pub beside: usize,
     /// Whether the margins are those of all diameters.
     pub survey: bool,
+    /// The speeds that the survey is of; none for all of them \[rad/s\].
+    pub range: Option<[f64; 2]>,
     /// Whether the large chart has the whole screen.
     pub full_screen: bool,
     /// Width and height of the screen, in cells.
@@ -27,8 +29,9 @@ impl Layout {
     /// Creates the layout with the charts that a scene names first.
     pub fn of(scene: &Scene) -> Self {
         let views = ViewId::all().collect();
+        let (survey, range, full_screen) = (false, None, false);
         let mut layout =
-            Self { views, beside: MOST_BESIDE, survey: false, full_screen: false, size: (80, 24) };
+            Self { views, beside: MOST_BESIDE, survey, range, full_screen, size: (80, 24) };
         layout.open(scene);
         layout
     }
@@ -74,15 +77,11 @@ impl Layout {
         }
     }
 
-    /// Returns whether the margins are those of all diameters.
-    pub fn is_surveyed(&self) -> bool {
-        self.survey
-    }
-
     /// Shows the margins of all diameters, or of one; returns the message.
     pub fn turn_survey(&mut self, on: bool) -> String {
         self.survey = on;
-        format!("margins of {}", if on { "all diameters" } else { "n_d alone" })
+        let all = "all diameters; : range 200:600 gives the speeds of a machine";
+        format!("margins of {}", if on { all } else { "n_d alone" })
     }
 
     /// Its keys.

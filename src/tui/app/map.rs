@@ -44,6 +44,8 @@ impl App {
     /// Returns the margins on the screen, and whether they are of other knobs.
     pub fn margins(&self) -> Option<(&LiveMargins, bool)> {
         let live = self.results().found.margins.as_deref()?;
-        Some((live, live.margins.scene != self.scene))
+        let range = live.survey.as_ref().map(|survey| survey.range_rad_s);
+        let other = range.is_some_and(|range| range != self.layout.range);
+        Some((live, other || live.margins.scene != self.scene))
     }
 }

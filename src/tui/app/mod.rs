@@ -154,6 +154,7 @@ impl App {
             open: ViewId::all().filter(|view| self.is_open(*view)).collect(),
             map: self.map_choice(),
             cell: self.map_cell(),
+            range: self.layout.range,
         }
     }
 

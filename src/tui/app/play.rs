@@ -71,7 +71,7 @@ pub struct Play {
     /// Whether it stopped because the run has come to its end.
     stopped_by_end: bool,
     /// The page of the last snapshot.
-    page: i64,
+    pub page: i64,
     /// Latest jump whose result was reported.
     met: u64,
     /// Number of times that the end of the run was reported.
@@ -81,8 +81,8 @@ pub struct Play {
 /// Rate of play on the screen, to be restored.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tempo {
-    rate: usize,
-    zoom: i32,
+    pub rate: usize,
+    pub zoom: i32,
     pub slow_at_events: bool,
 }
 
@@ -148,22 +148,11 @@ impl Play {
         Tempo { rate: self.rate, zoom: self.zoom, slow_at_events: self.slow_at_events }
     }
 
-    /// Restores how fast time passes.
-    pub fn set_tempo(&mut self, tempo: Tempo) {
-        (self.rate, self.zoom) = (tempo.rate, tempo.zoom);
-        self.slow_at_events = tempo.slow_at_events;
-    }
-
     /// Slows down at changes of contact, on pages of this length at least, or of the usual one
     /// \[s\].
     pub fn show_closely(&mut self, page_s: Option<f64>) {
         self.slow_at_events = true;
         self.zoom = page_s.map_or(0, |length| self.zoom_for(length));
-    }
-
-    /// Records the current page; returns whether it is another one than at the last call.
-    pub fn is_new_page(&mut self, page: i64) -> bool {
-        std::mem::replace(&mut self.page, page) != page
     }
 
     /// Returns whether this snapshot is the first with the result of the latest jump.
@@ -247,12 +236,8 @@ impl App {
         self.recorded(self.results().page.as_deref(), &self.run.history)
     }
 
-    /// Returns the same under the other contact law.
-    pub fn comparison_record(&self) -> &[Bin] {
-        self.recorded(self.results().comparison_page.as_deref(), &self.run.comparison)
-    }
-
-    fn recorded<'a>(&self, page: Option<&'a PageRecord>, played: &'a BinHistory) -> &'a [Bin] {
+    /// Returns a record of the page that is shown, or what was played of it.
+    pub fn recorded<'a>(&self, page: Option<&'a PageRecord>, played: &'a BinHistory) -> &'a [Bin] {
         let (from, to) = self.page();
         match page.filter(|known| known.page == (from, to)) {
             Some(known) => known.record.between(from, to),

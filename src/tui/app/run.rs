@@ -316,7 +316,7 @@ impl App {
     /// Lets ranges shrink to the data of the old page when a new one starts.
     fn turn_page(&mut self) {
         let page = self.page_number();
-        if !self.play.is_new_page(page) || !self.run.ranges.follow {
+        if std::mem::replace(&mut self.play.page, page) == page || !self.run.ranges.follow {
             return;
         }
         let (from, _) = self.page();

@@ -26,28 +26,27 @@ fn is_event(scene: &Scene) -> bool {
     scene.solver.kind == SolverKind::Event
 }
 
-pub fn rigid(scene: &Scene) -> Option<&'static str> {
-    has(ModelSize::Rigid, scene).then_some(STILL)
+/// Functions that give a reason where a condition holds.
+macro_rules! inert {
+    ($($name:ident: |$scene:ident| $when:expr => $why:expr;)+) => {
+        $(pub fn $name($scene: &Scene) -> Option<&'static str> { ($when).then_some($why) })+
+    };
 }
 
-pub fn without_time(scene: &Scene) -> Option<&'static str> {
-    (scene.operation.pulse_s == 0.0).then_some("the pulse time is 0")
-}
-
-pub fn without_pulse(scene: &Scene) -> Option<&'static str> {
-    (scene.operation.pulse_n == 0.0).then_some("the pulse is 0")
-}
-
-pub fn step(scene: &Scene) -> Option<&'static str> {
-    is_event(scene).then_some("the event solver has no steps")
-}
-
-pub fn lining(scene: &Scene) -> Option<&'static str> {
-    (scene.solver.contact != ContactLaw::Smooth).then_some("only the smooth law has a lining")
-}
-
-pub fn restitution(scene: &Scene) -> Option<&'static str> {
-    (scene.solver.contact != ContactLaw::Unilateral).then_some("only the unilateral law rebounds")
+inert! {
+    rigid: |scene| has(ModelSize::Rigid, scene) => STILL;
+    without_time: |scene| scene.operation.pulse_s == 0.0 => "the pulse time is 0";
+    without_pulse: |scene| scene.operation.pulse_n == 0.0 => "the pulse is 0";
+    step: |scene| is_event(scene) => "the event solver has no steps";
+    lining: |scene| scene.solver.contact != ContactLaw::Smooth => "only the smooth law has a lining";
+    restitution: |scene| scene.solver.contact != ContactLaw::Unilateral => "only the unilateral law rebounds";
+    not_modal: |scene| !has(ModelSize::Modal, scene) => "only the modal model chooses the diameters of the disk";
+    not_full: |scene| !has(ModelSize::Full, scene) => "only the full model has single blades";
+    tangential: |scene| scene.contact.friction == 0.0 => "without friction nothing pulls the casing along";
+    equal_tips: |scene| scene.bladed_disk.tip_scatter_m == 0.0 => "the tip scatter is 0";
+    centred: |scene| scene.bladed_disk.orbit_m == 0.0 => "the orbit is 0";
+    without_lobes: |scene| scene.casing.lobes == 0 => "there are no lobes";
+    round: |scene| scene.casing.out_of_round_m == 0.0 => "the casing is round";
 }
 
 pub fn friction(scene: &Scene) -> Option<&'static str> {
@@ -58,19 +57,6 @@ pub fn friction(scene: &Scene) -> Option<&'static str> {
         }
         _ => None,
     }
-}
-
-pub fn tangential(scene: &Scene) -> Option<&'static str> {
-    (scene.contact.friction == 0.0).then_some("without friction nothing pulls the casing along")
-}
-
-pub fn not_modal(scene: &Scene) -> Option<&'static str> {
-    (!has(ModelSize::Modal, scene))
-        .then_some("only the modal model chooses the diameters of the disk")
-}
-
-pub fn not_full(scene: &Scene) -> Option<&'static str> {
-    (!has(ModelSize::Full, scene)).then_some("only the full model has single blades")
 }
 
 pub fn draw(scene: &Scene) -> Option<&'static str> {
@@ -92,22 +78,6 @@ pub fn torque(scene: &Scene) -> Option<&'static str> {
 pub fn order(scene: &Scene) -> Option<&'static str> {
     let none = (scene.excitation.amplitude_nm == 0.0).then_some("the EO torque is 0");
     torque(scene).or(none)
-}
-
-pub fn equal_tips(scene: &Scene) -> Option<&'static str> {
-    (scene.bladed_disk.tip_scatter_m == 0.0).then_some("the tip scatter is 0")
-}
-
-pub fn centred(scene: &Scene) -> Option<&'static str> {
-    (scene.bladed_disk.orbit_m == 0.0).then_some("the orbit is 0")
-}
-
-pub fn without_lobes(scene: &Scene) -> Option<&'static str> {
-    (scene.casing.lobes == 0).then_some("there are no lobes")
-}
-
-pub fn round(scene: &Scene) -> Option<&'static str> {
-    (scene.casing.out_of_round_m == 0.0).then_some("the casing is round")
 }
 
 /// The paper's values.

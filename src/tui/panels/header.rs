@@ -5,7 +5,7 @@
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier, style::Style};
 
-use crate::report::number::{per_speed, rounded, short as digits, speed_unit, trimmed};
+use crate::report::number::{in_tenths, per_speed, rounded, short as digits, speed_unit, trimmed};
 use crate::report::sentence::Sentence;
 use crate::tui::app::App;
 use crate::tui::appearance::Appearance;
@@ -250,6 +250,7 @@ fn named_limits(app: &App) -> Vec<(&'static str, Option<f64>)> {
 fn limits(app: &App) -> Option<Part> {
     let quiet = app.appearance.style(Role::Quiet);
     let to = app.lock_window().and_then(|window| window.to);
+    let short = |speed| in_tenths(per_speed(speed));
     let known = named_limits(app).into_iter().filter_map(|(name, limit)| Some((name, limit?)));
     let mut listed: Vec<String> = known
         .map(|(name, limit)| {
@@ -265,13 +266,6 @@ fn limits(app: &App) -> Option<Part> {
     (!listed.is_empty()).then(|| Part::plain(10, listed.join(", "), quiet))
 }
 
-/// Writes a limit with four or five digits.
-fn short(speed: f64) -> String {
-    let speed = per_speed(speed);
-    let decimals = if speed.abs() < 10.0 { 3 } else { 1 };
-    trimmed(&format!("{speed:.decimals$}")).to_string()
-}
-
 /// Returns the end of the run and its verdict: `AT 100 ms locked since 38.1 µs`.
 fn end(app: &App) -> Part {
     let look = &app.appearance;
@@ -281,7 +275,7 @@ fn end(app: &App) -> Part {
         (rank, vec![("AT ".into(), quiet), end, (format!(" {what}"), quiet)])
     };
     let Some(run) = app.full_run().filter(|_| !app.is_asked()) else {
-        return Part::new(vec![at(1, "?".into())]);
+        return Part::new(vec![at(1, "?".into()), at(0, String::new())]);
     };
     // Of a whirl or a slip, only the latest change of sides is known; where a tiny change
     // decides, no instant is known at all.
@@ -292,14 +286,23 @@ fn end(app: &App) -> Part {
     let broken = broken
         .map(|(hold, _)| format!("{}, locked until {}", run.verdict, readable(hold.ended, "s")));
     let longer = held.or(broken).map(|longer| at(5, longer));
-    Part::new(longer.into_iter().chain([at(1, run.verdict.to_string())]).collect())
+    let shorter = [at(1, run.verdict.to_string()), at(0, String::new())];
+    Part::new(longer.into_iter().chain(shorter).collect())
 }
 
-/// Returns a note where it is not known whether a tiny change changes the outcome.
+/// Returns a note where it is not known whether a tiny change changes the outcome, or how to
+/// audit a run that is in doubt and of which steps were skipped.
 fn unsure(app: &App) -> Option<Part> {
-    let text = format!("small changes: not checked in {} s", FORECAST_LIMIT.as_secs());
-    let given_up = app.results().sensitive == Sensitive::GivenUp;
-    given_up.then(|| Part::plain(6, text, app.appearance.style(Role::Quiet)))
+    let (results, known) = (app.results(), app.results().sensitive.known());
+    let doubtful = known.sensitive || known.depends_on_step == Some(true);
+    let (rank, text) = if results.sensitive == Sensitive::GivenUp {
+        (6, format!("small changes: not checked in {} s", FORECAST_LIMIT.as_secs()))
+    } else if doubtful && results.pace.skipped.is_some_and(|part| part > 0.0) {
+        (3, "audit: run --plain".to_string())
+    } else {
+        return None;
+    };
+    Some(Part::plain(rank, text, app.appearance.style(Role::Quiet)))
 }
 
 /// Returns the pinned run, if it ended in another way.

@@ -109,7 +109,9 @@ fn split(area: Rect, app: &App) -> Vec<(ViewId, Rect)> {
     let wheel = app.is_large(ViewId::Frame);
     let large = if wheel { WHEEL_ROWS } else { LEAST_ROWS };
     let below = area.height.saturating_sub(large) / LEAST_ROWS;
-    let lower = (area.height * LOWER).div_ceil(100).max(LEAST_ROWS);
+    // A table has a use for every row.
+    let part = if app.is_large(ViewId::Margins) { 0 } else { LOWER };
+    let lower = (area.height * part).div_ceil(100).max(LEAST_ROWS);
     let two = [Constraint::Min(1), Constraint::Length(lower)];
     let vertical = |parts: &[Constraint]| Layout::vertical(parts.iter()).split(area).to_vec();
     let pair = |area: Rect, left: u16| {

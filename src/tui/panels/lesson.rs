@@ -4,9 +4,10 @@
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 
 use super::lists::{first_in_sight, look_of};
+use crate::report::number::with_speeds;
 use crate::tui::app::{App, Target};
-use crate::tui::lessons::{self, LETTERS, Lesson, LessonStep};
-use crate::tui::text::{columns, print, shorten, wrap};
+use crate::tui::lessons::{self, LETTERS, LessonStep};
+use crate::tui::text::{columns, print, shorten, whole_parts, wrap};
 use crate::tui::theme::Role;
 
 /// Least width at which the question stays beside its answer.
@@ -15,11 +16,10 @@ const WIDE: usize = 110;
 /// Draws the list of lessons, one of them selected, with what was done of each.
 pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
     let look = &app.appearance;
-    let mark = look.ellipsis();
     let width = usize::from(area.width);
     let bold = look.style(Role::Text).add_modifier(Modifier::BOLD);
     let head = "Lessons: Enter begins one, g goes on, B back, G leaves";
-    print(buffer, area, 0, &shorten(head, width, mark), bold);
+    print(buffer, area, 0, &whole_parts(head, width, 1).join(""), bold);
     let first = first_in_sight(place, usize::from(area.height.saturating_sub(2)));
     for (row, (index, lesson)) in
         (2..area.height).zip(lessons::all().iter().enumerate().skip(first))
@@ -30,17 +30,18 @@ pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
         // One that was passed over comes before the last that was done.
         let passed = app.lessons.done.next(lesson).filter(|next| *next < done);
         let done = if done == steps { "done".to_string() } else { format!("{done}/{steps}") };
-        let name = format!("{sign} {done:>4}  {}. {}", index + 1, lesson.title);
+        let name = |title: &str| format!("{sign} {done:>4}  {}. {title}", index + 1);
+        let [whole, brief] = [lesson.title.as_str(), lesson.brief()].map(name);
         let minutes = format!("   {} min", lesson.minutes());
         let needs = match passed {
             Some(step) => format!("{minutes}, step {} is left", step + 1),
             None => format!("{minutes}, needs {}", lesson.needs),
         };
-        // What has no room is left out; the minutes stay.
-        let beside = if columns(&name) + columns(&needs) <= width { needs } else { minutes };
-        let room = width.saturating_sub(columns(&beside));
-        let text = shorten(&look.spell(&name), room, mark) + &beside;
-        print(buffer, area, row, &text, style);
+        // What has no room is left out.
+        let ways = [whole.clone() + &needs, whole + &minutes, brief.clone() + &minutes, brief];
+        let ways = ways.map(|way| look.spell(&way));
+        let fits = ways.iter().find(|way| columns(way) <= width);
+        print(buffer, area, row, fits.unwrap_or(&ways[3]), style);
     }
 }
 
@@ -50,12 +51,16 @@ const LEAST: usize = 3;
 /// A line and its colour.
 type Line = (String, Role);
 
+/// Returns a text of a lesson as it is shown: its speeds in the unit of speeds.
+fn told(app: &App, text: &str) -> String {
+    app.appearance.spell(&with_speeds(text))
+}
+
 /// Returns the lines of a step below its head.
 fn lines(app: &App, width: usize) -> Vec<Line> {
     let Some((step, now)) = app.lesson_step() else { return Vec::new() };
-    let look = &app.appearance;
     let of = |text: &str, role: Role| -> Vec<Line> {
-        wrap(&look.spell(text), width).into_iter().map(|line| (line, role)).collect()
+        wrap(&told(app, text), width).into_iter().map(|line| (line, role)).collect()
     };
     let mut lines = Vec::new();
     match (&step.question, now.answer) {
@@ -67,7 +72,7 @@ fn lines(app: &App, width: usize) -> Vec<Line> {
             let named = named.map(|(place, (letter, text))| {
                 format!("{}[{letter}] {text}", if place == chosen { '▸' } else { ' ' })
             });
-            let named: Vec<String> = named.map(|text| look.spell(&text)).collect();
+            let named: Vec<String> = named.map(|text| told(app, &text)).collect();
             let one = named.join("  ");
             // Side by side if they fit.
             match columns(&one) <= width {
@@ -114,30 +119,26 @@ fn head(app: &App, width: usize) -> (String, String) {
     let look = &app.appearance;
     let count = lessons::all().len();
     let number = progress.lesson + 1;
-    let lefts = [
-        format!("Lesson {number} of {count} · {}", lesson.title),
-        format!("{number}/{count} {}", lesson.title),
-    ];
-    let step = format!("step {} of {}", progress.step + 1, lesson.steps.len());
-    let keys = match (app.is_asked(), is_last(lesson, progress.step)) {
+    let whole = format!("Lesson {number} of {count} · {}", lesson.title);
+    let [number, brief] =
+        [&lesson.title, lesson.brief()].map(|title| format!("{number}/{count} {title}"));
+    let of = format!("{} of {}", progress.step + 1, lesson.steps.len());
+    let step = format!("step {of}");
+    let keys = match (app.is_asked(), progress.step + 1 == lesson.steps.len()) {
         (true, _) => "↑↓ Enter answer",
         (false, false) => "g next",
         (false, true) => "g ends",
     };
     let long = format!("{step} · {keys} · B back · G leave");
     let short = format!("{step} · {keys}");
-    let [whole, number] = lefts;
-    let ways = [(&whole, &long), (&whole, &short), (&number, &short), (&number, &step)];
-    let ways = ways.map(|(left, right)| (look.spell(left), look.spell(right)));
+    let numbers = [(&number, &short), (&number, &step), (&brief, &step), (&brief, &of)];
+    let ways = [[(&whole, &long), (&whole, &short)].as_slice(), &numbers].concat();
+    let mut ways = ways.iter().map(|(left, right)| (look.spell(left), look.spell(right)));
     let fits = |(left, right): &(String, String)| columns(left) + columns(right) + 2 <= width;
-    let (left, right) =
-        ways.iter().find(|way| fits(way)).or(ways.last()).cloned().unwrap_or_default();
+    let last = ways.clone().last();
+    let (left, right) = ways.find(fits).or(last).unwrap_or_default();
     let room = width.saturating_sub(columns(&right) + 2);
     (shorten(&left, room, look.ellipsis()), right)
-}
-
-fn is_last(lesson: &Lesson, step: usize) -> bool {
-    step + 1 == lesson.steps.len()
 }
 
 /// Returns the rows the step needs, with its head and a rule below.
@@ -149,7 +150,7 @@ pub fn rows(app: &App, width: usize) -> u16 {
 /// question with its answers, or the end of the step.
 pub fn end_rows(app: &App, width: usize) -> u16 {
     let asked = app.lesson_step().filter(|_| app.is_asked());
-    let before = asked.map_or(0, |(step, _)| wrap(&app.appearance.spell(&step.text), width).len());
+    let before = asked.map_or(0, |(step, _)| wrap(&told(app, &step.text), width).len());
     let rows = if before > 0 { lines(app, width).len().saturating_sub(before) } else { LEAST };
     u16::try_from(rows + 2).unwrap_or(u16::MAX)
 }

@@ -95,6 +95,10 @@ impl App {
             }
             Command::Blade(blade) => self.go_to_blade(blade)?,
             Command::Axes(paths) => self.put_axes(paths),
+            Command::Range(range) => {
+                self.layout.range = range;
+                self.show_survey(true);
+            }
             Command::Scene(name) => {
                 let entries = self.scene_entries();
                 if let Some(entry) = entries.iter().find(|entry| entry.name == name) {

@@ -116,7 +116,8 @@ impl App {
         (self.files.opened, self.files.source) = (past.opened, past.source);
         self.lessons.progress = past.lesson;
         self.knobs.live = past.live;
-        self.play.set_tempo(past.tempo);
+        (self.play.rate, self.play.zoom) = (past.tempo.rate, past.tempo.zoom);
+        self.play.slow_at_events = past.tempo.slow_at_events;
         if self.layout.set_views(past.views) {
             self.keep_instant();
         }

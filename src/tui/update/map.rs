@@ -91,7 +91,11 @@ impl App {
     /// Shows the margins of all diameters instead of those of one, or the other way round; from
     /// another view the survey.
     pub(super) fn turn_survey(&mut self) {
-        let on = !(self.is_large(ViewId::Margins) && self.layout.is_surveyed());
+        self.show_survey(!(self.is_large(ViewId::Margins) && self.layout.survey));
+    }
+
+    /// Shows the margins of all diameters, or of one.
+    pub(super) fn show_survey(&mut self, on: bool) {
         let said = self.layout.turn_survey(on);
         self.stop_reading();
         self.walk(ViewId::Margins);

@@ -141,7 +141,7 @@ impl App {
             (_, Action::Suspend) => return Effect::Suspend,
             (_, Action::Redraw) => return Effect::Redraw,
             (_, Action::Theme) => {
-                self.status = Some(self.appearance.next_theme());
+                self.status = Some(self.appearance.use_theme(self.appearance.theme.next()));
             }
             (_, Action::SpeedUnit) => self.status = Some(self.appearance.next_speeds()),
             (InputMode::Main, Action::Marker) => {

@@ -58,7 +58,7 @@ impl ViewPanel for PrecisionView {
         let off = report.rows.len() - points.len();
         let height = inside.height.saturating_sub(u16::from(off > 0));
         if off > 0 {
-            let text = format!("{} off this axis, with error 0 or none", count(off as u64, "row"));
+            let text = format!("{} off this axis: error 0 or none", count(off as u64, "row"));
             print(buffer, inside, height, &text, quiet);
         }
         let inside = Rect { height, ..inside };

@@ -133,7 +133,7 @@ fn both_laws(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let word =
         comparison.map_or("...".to_string(), |outcome| outcome.verdict.as_ref().to_uppercase());
     let theirs = Page {
-        record: app.comparison_record(),
+        record: app.recorded(app.results().comparison_page.as_deref(), &app.run.comparison),
         forecast: comparison,
         own: false,
         ..Page::casing(format!("{}: {word}", law.other()), app)

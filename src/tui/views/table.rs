@@ -23,7 +23,7 @@ pub struct Rows<'a> {
     pub cursor: [usize; 2],
     /// Column and row under the cursor.
     pub cell: Option<[usize; 2]>,
-    /// The row that is shown where nothing is read.
+    /// The row that is in the middle where nothing is read.
     pub home: usize,
     /// The row with the sign of a special one.
     pub marked: Option<usize>,
@@ -41,20 +41,23 @@ impl Rows<'_> {
     ) -> u16 {
         let look = &app.appearance;
         // The first letter is for the cursor.
-        let lines = self.table.lines(usize::from(area.width.saturating_sub(1)), 1);
+        let spell = |text: &str| look.spell(&greek(text).replace("g_0", "g0"));
+        let table = self.table.clone().spelled(spell);
+        let lines = table.lines(usize::from(area.width.saturating_sub(1)), 1);
         let parts = lines.split_first().filter(|_| area.height > 0);
         let Some((headings, rows)) = parts else { return 0 };
         let head = u16::from(area.height >= HEADING_FROM);
         let room = usize::from(area.height - head).max(1);
-        let row = self.cell.map_or(self.home, |[_, row]| row);
         // Pages, on which rows stay where they are while a pointer goes over them.
-        let first = (row / room * room).min(rows.len().saturating_sub(room));
+        let first =
+            self.cell.map_or(self.home.saturating_sub(room / 2), |[_, row]| row / room * room);
+        let first = first.min(rows.len().saturating_sub(room));
         let last = (first + room).min(rows.len());
         if head > 0 {
             let quiet = look.style(Role::Quiet);
             let line = Rect { height: 1, ..area };
             for (cell, place) in headings.iter().zip(places(line, headings)) {
-                print(buffer, place, 0, &look.spell(&in_greek(cell)), quiet);
+                print(buffer, place, 0, cell, quiet);
             }
         }
         for (y, (place, cells)) in (head..).zip(rows.iter().enumerate().take(last).skip(first)) {
@@ -74,7 +77,7 @@ impl Rows<'_> {
                     true => look.style(Role::Focus).add_modifier(Modifier::REVERSED),
                     false => style(place, column),
                 };
-                print(buffer, spot, 0, &look.spell(&in_greek(text)), style);
+                print(buffer, spot, 0, text, style);
             }
             self.note(app, at, line, (place, rows.len(), cells));
         }
@@ -115,13 +118,4 @@ fn places(line: Rect, cells: &[String]) -> Vec<Rect> {
         place
     };
     cells.iter().map(place).collect()
-}
-
-/// Returns a padded cell in Greek letters, which are shorter, on the same side.
-fn in_greek(cell: &str) -> String {
-    let (text, width) = (greek(cell).replace("g_0", "g0"), cell.chars().count());
-    match cell.starts_with(' ') && text != cell {
-        true => format!("{:>width$}", text.trim_start()),
-        false => text,
-    }
 }

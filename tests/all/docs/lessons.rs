@@ -1,6 +1,7 @@
 //! The lessons on paper: every question, and the answers at the end, made from the lessons
 //! of the program.
 
+use rubscope::report::number::with_speeds;
 use rubscope::tui::lessons::{LETTERS, Lesson, LessonStep, all};
 
 /// Longest line of a document.
@@ -39,7 +40,7 @@ pub fn sheet() -> String {
         let answers: String = answers(place, lesson);
         paragraph(answers.trim_end_matches('\n'), "- ");
     }
-    out.trim_end().to_string() + "\n"
+    with_speeds(out.trim_end()) + "\n"
 }
 
 fn answers(place: usize, lesson: &Lesson) -> String {

@@ -14,7 +14,7 @@ use crate::numeric::rounding::rounded;
 use crate::scene::{CheckedScene, ModelSize, Scene};
 
 /// How far beyond the speeds of interest the end of the branch of a lock is told, as a
-/// factor: stiff blades give way at speeds that no rotor has.
+/// factor: stiff blades bend out of a lock at speeds that no rotor has.
 const FAR: f64 = 10.0;
 
 /// How many of the closed forms are speeds; they come first.
@@ -242,11 +242,17 @@ fn note(scene: &CheckedScene, name: LimitName, value: f64) -> Option<String> {
         LimitName::OmegaAdhesive => machine.lock_windows(sense).first()?.from,
         _ => value,
     };
-    let left = lock_loads(&machine, sense * of_rigid_blades).is_none_or(|loads| {
+    bends(&machine, sense * of_rigid_blades)
+        .then(|| "for rigid blades; these bend so much that it is another".to_string())
+}
+
+/// Returns whether blades bend so much that at this lock speed of rigid ones they push, or have no
+/// lock.
+pub fn bends(machine: &Machine, speed: f64) -> bool {
+    lock_loads(machine, speed).is_none_or(|loads| {
         let [a, b] = loads.pushes_n.map(f64::abs);
         a.min(b) > BENDING * (a + b)
-    });
-    left.then(|| "for rigid blades; these bend so much that it is another".to_string())
+    })
 }
 
 /// Part of the pushes that soft blades may leave at the lock speed of rigid ones.

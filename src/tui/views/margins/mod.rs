@@ -32,7 +32,7 @@ pub struct MarginsView;
 
 impl ViewPanel for MarginsView {
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
-        if app.layout.is_surveyed() {
+        if app.layout.survey {
             return survey::draw(app, buffer, at, survey::cell(app).filter(|_| at.large));
         }
         let look = &app.appearance;
@@ -56,7 +56,7 @@ impl ViewPanel for MarginsView {
             table: &table,
             cursor: [LEADING, COLUMNS as usize],
             cell,
-            home: 0,
+            home: rows::home(app, limits),
             marked: rows::nearest(limits),
         };
         let style = |row: usize, column: usize| {
@@ -78,7 +78,7 @@ impl ViewPanel for MarginsView {
     }
 
     fn grid(&self, app: &App) -> [u32; 2] {
-        if app.layout.is_surveyed() {
+        if app.layout.survey {
             return [1, survey::rows(app)].map(|count| count * survey::rows(app).min(1));
         }
         let rows = app.margins().map_or(0, |(live, _)| live.margins.limits.len());
@@ -86,7 +86,7 @@ impl ViewPanel for MarginsView {
     }
 
     fn here(&self, app: &App) -> Cursor {
-        if app.layout.is_surveyed() {
+        if app.layout.survey {
             return survey::here(app);
         }
         let rows = f64::from(self.grid(app)[1].max(1));
@@ -94,7 +94,7 @@ impl ViewPanel for MarginsView {
     }
 
     fn opening(&self, app: &App, _: Cursor) -> Option<Opening> {
-        if app.layout.is_surveyed() {
+        if app.layout.survey {
             return survey::opening(app);
         }
         let ((live, old), [column, row]) = (app.margins()?, app.margins_cell()?);
@@ -108,7 +108,7 @@ impl ViewPanel for MarginsView {
     fn csv(&self, app: &App) -> Result<String, String> {
         let (live, _) = app.margins().ok_or("there are no margins yet")?;
         table_csv(&match &live.survey {
-            Some(survey) if app.layout.is_surveyed() => crate::report::survey::table(survey),
+            Some(survey) if app.layout.survey => crate::report::survey::table(survey),
             _ => margins::table(&live.margins),
         })
     }
@@ -116,13 +116,13 @@ impl ViewPanel for MarginsView {
     fn lines(&self, app: &App, width: usize) -> Option<Vec<String>> {
         let (live, _) = app.margins()?;
         let table = match &live.survey {
-            Some(survey) if app.layout.is_surveyed() => {
+            Some(survey) if app.layout.survey => {
                 report_rows(survey, &survey.rows.iter().collect::<Vec<_>>())
             }
             _ => margins::titled(&live.margins, |name| name.titles()[1].to_string()),
         };
         let told = |table: &Table| table.lines(width, 1).into_iter().map(|cells| cells.join(" "));
-        let asked = margins::robust::asked(&live.margins).filter(|_| !app.layout.is_surveyed());
+        let asked = margins::robust::asked(&live.margins).filter(|_| !app.layout.survey);
         let head = asked.flat_map(|found| {
             let sentence = margins::robust::sentence(found, &live.margins.scene);
             std::iter::once(sentence).chain(told(&margins::robust::table(found, " at ")))

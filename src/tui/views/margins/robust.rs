@@ -22,12 +22,15 @@ pub fn draw(app: &App, margins: &Margins, buffer: &mut Buffer, area: Rect, limit
     let (height, width) = (usize::from(area.height), usize::from(area.width.saturating_sub(1)));
     for (place, found) in robust::asked(margins).enumerate() {
         let sentence = wrap(&look.spell(&robust::sentence(found, &margins.scene)), width);
-        let mut rows = robust::table(found, " at ").lines(usize::MAX, 1);
-        if rows.iter().any(|row| row.join(" ").chars().count() > width) {
-            rows = robust::table(found, " ").lines(usize::MAX, 1);
+        let shown = |at| robust::table(found, at).lines(usize::MAX, 1);
+        let wide = |row: &Vec<String>| row.join(" ").chars().count() > width;
+        let ways = [" at ", " "].map(shown).into_iter().find(|rows| !rows.iter().any(wide));
+        let rows = ways.unwrap_or_else(|| {
+            let mut rows = shown(" ");
             // The knobs have the present values, too.
             rows.iter_mut().for_each(|row| drop(row.remove(NOW)));
-        }
+            rows
+        });
         if lines.len() + sentence.len() + LEFT > height {
             break;
         }

@@ -56,6 +56,12 @@ pub fn nearest(rows: &[Limit]) -> Option<usize> {
     margins.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(place, _)| place)
 }
 
+/// Returns the row that the step of a lesson speaks of, the last one of this name; or the first.
+pub fn home(app: &App, rows: &[Limit]) -> usize {
+    let named = app.lesson_step().and_then(|(step, _)| step.limit);
+    rows.iter().rposition(|row| named == Some(row.name)).unwrap_or(0)
+}
+
 /// Returns the colour of a column of a limit: to be beyond a limit is no trouble.
 pub fn role(limit: &Limit, column: usize) -> Role {
     let strongest = limit.sensitivities.strongest(STRONGEST);
@@ -85,7 +91,7 @@ pub fn title(app: &App, width: u16) -> Vec<(String, Style)> {
 pub fn told(app: &App, rows: &[Limit], cell: Option<[usize; 2]>) -> (String, Role) {
     let found = cell.and_then(|[column, row]| Some((column, rows.get(row)?)));
     let Some((column, row)) = found else {
-        return ("i reads a row: Enter jumps to its limit, or selects a knob".into(), Role::Quiet);
+        return ("i reads a row: Enter jumps to it, or selects a knob".into(), Role::Quiet);
     };
     let text = match column.checked_sub(1) {
         None => limit(app, row),

@@ -5,7 +5,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use crate::report::number::speed_unit;
-use crate::report::survey::{answer, rows as rows_of};
+use crate::report::survey::{answer, notes, rows as rows_of};
 use crate::tui::app::{App, Cursor};
 use crate::tui::text::{print, wrap};
 use crate::tui::theme::Role;
@@ -66,7 +66,7 @@ fn table(
         home,
         marked: None,
     };
-    drawn.draw(app, buffer, (at, below), |place, column| {
+    let used = drawn.draw(app, buffer, (at, below), |place, column| {
         let role = match rows.get(place) {
             Some(_) if column == 0 && place == home => Role::Focus,
             Some(row) if !row.modes_known => Role::Quiet,
@@ -75,6 +75,12 @@ fn table(
         };
         look.style(role)
     });
+    // What must be known of them, where a row is left between.
+    let notes = lines(&notes(survey, &rows).join(" "));
+    let free = (height + used + 1..area.height).zip(&notes);
+    for (row, line) in free.filter(|_| height + used + 1 + notes.len() as u16 <= area.height) {
+        print(buffer, area, row, line, look.style(Role::Quiet));
+    }
 }
 
 /// The row of the diameters of the scene.

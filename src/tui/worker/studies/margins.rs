@@ -20,22 +20,23 @@ pub struct MarginsStudy {
 }
 
 impl Study for MarginsStudy {
-    type Key = CheckedScene;
+    type Key = (CheckedScene, Option<[f64; 2]>);
     type Found = LiveMargins;
     const VIEW: ViewId = ViewId::Margins;
     const BESIDE: bool = true;
 
-    fn key(given: &Given) -> Option<CheckedScene> {
-        given.order.shows(ViewId::Margins).then(|| given.order.scene.clone())
+    fn key(given: &Given) -> Option<Self::Key> {
+        let order = given.order;
+        order.shows(ViewId::Margins).then(|| (order.scene.clone(), order.range))
     }
 
-    fn begin(scene: &CheckedScene, _: &Given) -> Self {
-        let theirs = scene.clone();
+    fn begin((scene, range): &Self::Key, _: &Given) -> Self {
+        let (theirs, range) = (scene.clone(), *range);
         let coming = Background::start(move |to, go_on| {
             let mut live = LiveMargins { margins: Margins::of(&theirs), survey: None };
             // Without a receiver nobody asks any more.
             let _ = to.send(live.clone());
-            live.survey = Survey::of(&theirs, None, None).ok().map(Arc::new);
+            live.survey = Survey::of(&theirs, range, None).ok().map(Arc::new);
             let _ = to.send(live.clone());
             let LiveMargins { mut margins, survey } = live;
             on_spare_cores(|| {
@@ -76,7 +77,7 @@ mod tests {
     #[test]
     fn the_margins_come_first_then_the_survey_and_last_what_runs_say() {
         let scene = Scene::builtin("paper-nd3").unwrap().checked().unwrap();
-        let start = |given: &Given| MarginsStudy::begin(&scene, given);
+        let start = |given: &Given| MarginsStudy::begin(&(scene.clone(), None), given);
         let mut job = with_given(&scene, ViewId::Margins, start);
         while !job.is_done() {
             job.work(Duration::from_millis(20));
