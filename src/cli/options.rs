@@ -88,19 +88,16 @@ pub struct Resolved {
 
 impl SceneOptions {
     /// Returns the scene as given: a name or a path.
-    #[must_use]
     pub fn name(&self) -> Option<&str> {
         self.scene.as_deref()
     }
 
     /// Returns whether speeds are shown in rpm.
-    #[must_use]
     pub fn in_rpm(&self) -> bool {
         self.rpm
     }
 
     /// Returns the speed or range given with `--speed`, with its unit.
-    #[must_use]
     pub fn speed(&self) -> Option<String> {
         self.speed.as_ref().map(|text| with_typed_unit(text, Quantity::Speed))
     }
@@ -207,7 +204,6 @@ impl SceneOptions {
     }
 
     /// Returns every named option, and the key it sets.
-    #[must_use]
     pub fn keys() -> [(&'static str, &'static str); 10] {
         Self::default().named().map(|(option, key, _)| (option, key))
     }

@@ -21,7 +21,6 @@ pub struct Range {
 
 impl Range {
     /// Returns whether this text is meant as a range.
-    #[must_use]
     pub fn looks_like(text: &str) -> bool {
         text.contains(':')
     }
@@ -47,14 +46,12 @@ impl Range {
     }
 
     /// Returns the values.
-    #[must_use]
     pub fn values(&self) -> Vec<f64> {
         linspace(self.from, self.to, self.count)
     }
 }
 
 /// Returns `count` evenly spaced values from `from` to `to`, both ends exactly.
-#[must_use]
 pub fn linspace(from: f64, to: f64, count: usize) -> Vec<f64> {
     let last = count.saturating_sub(1);
     (0..count)

@@ -169,13 +169,11 @@ impl RequestedScript {
     }
 
     /// Returns whether there are no changes.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
     /// Returns the changes of the motion.
-    #[must_use]
     pub fn changes(&self) -> motion::Script {
         let acts =
             |step: &RequestedStep| step.acts.iter().map(|act| (step.t_s, act.clone())).collect();

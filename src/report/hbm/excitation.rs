@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use serde_json::{Value, json};
 
-use super::{Answer, LockBeside, Parts, Request, Rows, View, nothing};
+use super::{Answer, LockBeside, Parts, Request, Rows, View};
 use crate::report::number::short;
 use crate::report::table::Column;
 use rubscope_solver::harmonic::{ExcitedLock, ExcitedLocks, HarmonicError, drives};
@@ -16,7 +16,7 @@ pub const EXCITATION: View = View {
     help: "View: response of the damped lock to the scene's engine-order excitation",
     always_damped: true,
     one_speed: false,
-    lock: LockBeside::Rigid(nothing),
+    lock: LockBeside::Rigid(|_| false),
     answer,
 };
 

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use serde_json::{Value, json};
 
-use super::{Answer, LockBeside, Parts, Request, Rows, View, nothing};
+use super::{Answer, LockBeside, Parts, Request, Rows, View};
 use crate::report::table::{Column, TableCell};
 use rubscope_solver::harmonic::{HarmonicError, LockedPoint, Sweep};
 use rubscope_solver::model::ContactPolygon;
@@ -15,7 +15,7 @@ pub const LOCKED: View = View {
     help: "",
     always_damped: false,
     one_speed: false,
-    lock: LockBeside::Rigid(nothing),
+    lock: LockBeside::Rigid(|_| false),
     answer,
 };
 

@@ -205,11 +205,6 @@ impl Answer {
     }
 }
 
-/// Tolerates no refusal of the lock.
-const fn nothing(_: &HarmonicError) -> bool {
-    false
-}
-
 /// Refuses a preload, in which rigid contact has no place.
 fn no_clearance(scene: &Scene) -> HarmonicError {
     let length = scene.bladed_disk.blade_length_m;

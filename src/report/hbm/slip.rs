@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{Answer, LockBeside, Parts, Request, Rows, View, nothing};
+use super::{Answer, LockBeside, Parts, Request, Rows, View};
 use crate::report::number::speed;
 use crate::report::table::{Column, TableCell};
 use rubscope_solver::harmonic::{
@@ -15,7 +15,7 @@ pub const SLIP: View = View {
     help: "View: lasting slip, the fixed point of the map from corner to corner",
     always_damped: true,
     one_speed: false,
-    lock: LockBeside::Rigid(nothing),
+    lock: LockBeside::Rigid(|_| false),
     answer,
 };
 

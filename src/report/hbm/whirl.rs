@@ -3,7 +3,7 @@
 
 use serde_json::{Value, json};
 
-use super::{Answer, LockBeside, Parts, Request, Rows, View, nothing, speeds_of};
+use super::{Answer, LockBeside, Parts, Request, Rows, View, speeds_of};
 use crate::report::number::{speed, speed_unit};
 use crate::report::table::{Column, TableCell};
 use rubscope_solver::harmonic::{
@@ -19,7 +19,7 @@ pub const WHIRL: View = View {
            a lock flutters",
     always_damped: true,
     one_speed: false,
-    lock: LockBeside::Rigid(nothing),
+    lock: LockBeside::Rigid(|_| false),
     answer,
 };
 

@@ -10,23 +10,31 @@ use std::sync::Arc;
 
 use super::beyond::Beyond;
 use super::disk::Disk;
-use super::drive::Drive;
+use super::drive::{Drive, Driven};
 use super::leap::Leaps;
 use super::lining::Lining;
 use super::record::{Record, Watch};
 use super::rows::TipLaw;
 use super::{Explicit, Oscillator};
 use crate::contact::Several;
+use crate::model::Machine;
 use crate::motion::Change;
 use crate::scene::CheckedScene;
 
 impl<B: Disk> Explicit<B> {
     /// Creates the motion of a scene at t = 0.
     pub(in crate::motion) fn new(scene: &CheckedScene) -> Self {
+        Self::with_blades(scene, |machine, driven| B::at_rest(scene, machine, driven))
+    }
+
+    /// Returns the same with the blades that these make, of the machine and what drives it.
+    pub(super) fn with_blades(
+        scene: &CheckedScene,
+        blades: impl FnOnce(&Machine, Driven<'_>) -> B,
+    ) -> Self {
         let machine = scene.machine();
         let drive = Drive::of(scene);
-        let driven = drive.driven(0).filter(|_| scene.goes_beyond());
-        let blades = B::at_rest(scene, &machine, driven);
+        let blades = blades(&machine, drive.driven(0).filter(|_| scene.goes_beyond()));
         let casing = Oscillator::of_casing(&machine, drive.step);
         let (initial, speed, start) = (&scene.initial, drive.speed(0), scene.start());
         let u = [

@@ -29,7 +29,22 @@ pub struct CoincidenceView;
 
 impl ViewPanel for CoincidenceView {
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
-        over_speed(app, buffer, at);
+        let Some(found) = app.results().found.coincidence.as_deref() else {
+            let inside = title(app, buffer, at, AMPLITUDE.name, &[]);
+            return not_yet(app, buffer, inside);
+        };
+        let Some(curves) = found else {
+            let inside = title(app, buffer, at, AMPLITUDE.name, &[]);
+            let quiet = app.appearance.style(Role::Quiet);
+            print(buffer, inside, 1, "this wave has no coincidence", quiet);
+            return;
+        };
+        let grows = curves.points.iter().any(|point| point.growth_1_s.is_some());
+        let (first, second) = if grows { at.pair(40) } else { (at, None) };
+        chart(app, buffer, first, curves, &AMPLITUDE);
+        if let Some(second) = second {
+            chart(app, buffer, second, curves, &GROWTH);
+        }
     }
 
     /// The present speed.
@@ -65,26 +80,6 @@ const AMPLITUDE: Quantity = Quantity {
 
 const GROWTH: Quantity =
     Quantity { name: "growth of rest", curve: "growth", unit: "1/s", of: |point| point.growth_1_s };
-
-/// The charts over speed.
-fn over_speed(app: &App, buffer: &mut Buffer, at: ViewArea) {
-    let Some(found) = app.results().found.coincidence.as_deref() else {
-        let inside = title(app, buffer, at, AMPLITUDE.name, &[]);
-        return not_yet(app, buffer, inside);
-    };
-    let Some(curves) = found else {
-        let inside = title(app, buffer, at, AMPLITUDE.name, &[]);
-        let quiet = app.appearance.style(Role::Quiet);
-        print(buffer, inside, 1, "this wave has no coincidence", quiet);
-        return;
-    };
-    let grows = curves.points.iter().any(|point| point.growth_1_s.is_some());
-    let (first, second) = if grows { at.pair(40) } else { (at, None) };
-    chart(app, buffer, first, curves, &AMPLITUDE);
-    if let Some(second) = second {
-        chart(app, buffer, second, curves, &GROWTH);
-    }
-}
 
 fn chart(
     app: &App,

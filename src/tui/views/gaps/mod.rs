@@ -17,7 +17,57 @@ pub struct GapsView;
 
 impl ViewPanel for GapsView {
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
-        draw(app, buffer, at);
+        let look = &app.appearance;
+        let quiet = look.style(Role::Quiet);
+        let contact = look.style(Role::Contact);
+        let range = app.run.ranges.gaps;
+        let y = ChartAxis::scaled(range.low, range.high);
+        let count = app.machine.polygon.blades;
+        let x = ChartAxis::plain(0.5, f64::from(count) + 0.5);
+        let active_set = app.touching_blades();
+        let mark = look.either('▲', '^');
+        let shown = app.contact_shown();
+        let style = if active_set.is_empty() { quiet } else { contact };
+        let mut legend = vec![
+            (format!("{}m by blade", y.scale.prefix), quiet),
+            (format!("{mark} {shown}"), style),
+        ];
+        let name = read_before(look, &mut legend, reading(app), "gaps");
+        let inside = title(app, buffer, at, name, &legend);
+        let y = y.evened(inside, look);
+        let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
+        at.note(app, plot.inner);
+        plot.level(0.0, look.either('━', '='), look.style(Role::Text));
+        plot.level(app.machine.clearance(), look.either('┈', '.'), quiet);
+        let Some(moment) = app.shown() else { return };
+        let gaps = || (1..=count).map(f64::from).zip(moment.gaps.iter().copied());
+        // There are no values between blades: the line only joins the points.
+        if app.is_still() || count > u32::from(plot.inner.width) {
+            plot.curve(gaps(), &Pen { dashed: false, ..look.quiet() });
+            plot.ink();
+        }
+        let room = u32::from(plot.inner.width);
+        if count <= room {
+            let sign =
+                if 2 * count <= room { look.either('●', 'o') } else { look.either('•', 'o') };
+            for (blade, gap) in gaps() {
+                plot.point(blade, gap.clamp(range.low, range.high), sign, look.style(Role::First));
+            }
+        }
+        if app.has_lining() {
+            // What the level means must be said where it can be below the other.
+            name_level(&mut plot, x, app.machine.clearance(), "g0", quiet);
+        }
+        let deep = |blade: u32| moment.gaps.get(blade.saturating_sub(1) as usize).copied();
+        for blade in &active_set {
+            // A rigid casing is touched at zero, a lining somewhere inside.
+            let gap = deep(*blade).filter(|_| app.has_lining()).unwrap_or(0.0);
+            plot.point(f64::from(*blade), gap.clamp(range.low, range.high), mark, contact);
+        }
+        label(&mut plot, &active_set, app);
+        if let Some(blade) = read_blade(app) {
+            plot.upright(f64::from(blade + 1), look.either('┊', ':'), look.style(Role::Focus));
+        }
     }
 
     fn grid(&self, app: &App) -> [u32; 2] {
@@ -36,59 +86,6 @@ impl ViewPanel for GapsView {
             table.push(vec![t.into(), f64::from(blade).into(), (*gap).into()]);
         }
         csv(&table)
-    }
-}
-
-/// Draws the gaps of one instant.
-fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
-    let look = &app.appearance;
-    let quiet = look.style(Role::Quiet);
-    let contact = look.style(Role::Contact);
-    let range = app.run.ranges.gaps;
-    let y = ChartAxis::scaled(range.low, range.high);
-    let count = app.machine.polygon.blades;
-    let x = ChartAxis::plain(0.5, f64::from(count) + 0.5);
-    let active_set = app.touching_blades();
-    let mark = look.either('▲', '^');
-    let shown = app.contact_shown();
-    let style = if active_set.is_empty() { quiet } else { contact };
-    let mut legend =
-        vec![(format!("{}m by blade", y.scale.prefix), quiet), (format!("{mark} {shown}"), style)];
-    let name = read_before(look, &mut legend, reading(app), "gaps");
-    let inside = title(app, buffer, at, name, &legend);
-    let y = y.evened(inside, look);
-    let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
-    at.note(app, plot.inner);
-    plot.level(0.0, look.either('━', '='), look.style(Role::Text));
-    plot.level(app.machine.clearance(), look.either('┈', '.'), quiet);
-    let Some(moment) = app.shown() else { return };
-    let gaps = || (1..=count).map(f64::from).zip(moment.gaps.iter().copied());
-    // There are no values between blades: the line only joins the points.
-    if app.is_still() || count > u32::from(plot.inner.width) {
-        plot.curve(gaps(), &Pen { dashed: false, ..look.quiet() });
-        plot.ink();
-    }
-    let room = u32::from(plot.inner.width);
-    if count <= room {
-        let sign =
-            if 2 * count <= room { look.either('●', 'o') } else { look.either('•', 'o') };
-        for (blade, gap) in gaps() {
-            plot.point(blade, gap.clamp(range.low, range.high), sign, look.style(Role::First));
-        }
-    }
-    if app.has_lining() {
-        // What the level means must be said where it can be below the other.
-        name_level(&mut plot, x, app.machine.clearance(), "g0", quiet);
-    }
-    let deep = |blade: u32| moment.gaps.get(blade.saturating_sub(1) as usize).copied();
-    for blade in &active_set {
-        // A rigid casing is touched at zero, a lining somewhere inside.
-        let gap = deep(*blade).filter(|_| app.has_lining()).unwrap_or(0.0);
-        plot.point(f64::from(*blade), gap.clamp(range.low, range.high), mark, contact);
-    }
-    label(&mut plot, &active_set, app);
-    if let Some(blade) = read_blade(app) {
-        plot.upright(f64::from(blade + 1), look.either('┊', ':'), look.style(Role::Focus));
     }
 }
 

@@ -442,8 +442,7 @@ pub(super) mod tests {
             let rows = Arc::get_mut(&mut blades.rows).unwrap();
             rows.springs = vec![0.0; 22];
             rows.springs[0] = 0.05 * scene.bladed_disk.stiffness_nm_per_rad;
-            let mut motion = Explicit::<FullBlades>::new(&scene.checked().unwrap());
-            motion.blades = blades;
+            let mut motion = Explicit::with_blades(&scene.checked().unwrap(), |_, _| blades);
             motion.advance(0.05).unwrap();
             motion.state().u
         });
