@@ -33,7 +33,7 @@ fn every_row_has_the_limits_that_margins_finds_for_its_diameters() {
     {
         let scene = scene(name, &[("operation.speed_rad_s", speed)]);
         let mass = parameter("casing.modal_mass_kg").unwrap();
-        let survey = Survey::of(&scene, None, Some(mass));
+        let survey = Survey::of(&scene, None, Some(mass)).unwrap();
         assert_eq!(survey.rows.len(), scene.bladed_disk.blades as usize / 2 + 1);
         let mut compared = 0;
         for row in &survey.rows {
@@ -66,13 +66,14 @@ fn a_row_says_where_its_lock_speed_is_of_rigid_blades_only() {
         [("bladed_disk.stiffness_nm_per_rad", "0.02"), ("bladed_disk.coupling_nm_per_rad", "0")];
     for (changes, bends) in [(&soft[..], true), (&[][..], false)] {
         let scene = scene("paper-nd3", changes);
-        let row = &Survey::of(&scene, None, None).rows[3];
+        let row = &Survey::of(&scene, None, None).unwrap().rows[3];
         let margins = Margins::of(&scene);
         let note = &margins.limit(LimitName::OmegaLock).unwrap().note;
         let noted = note.as_ref().is_some_and(|note| note.contains("for rigid blades"));
         assert_eq!([row.bends, noted], [bends; 2]);
         let mut text = Vec::new();
-        rubscope::report::survey::write(&Survey::of(&scene, None, None), false, &mut text).unwrap();
+        rubscope::report::survey::write(&Survey::of(&scene, None, None).unwrap(), false, &mut text)
+            .unwrap();
         let text = String::from_utf8(text).unwrap();
         assert_eq!(text.contains("can lock if rigid: from 4"), bends, "{text}");
         assert_eq!(text.contains("If rigid: these blades bend so much"), bends, "{text}");
@@ -108,7 +109,7 @@ fn every_row_of_the_paper_is_what_the_campbell_diagram_says() {
 
 #[test]
 fn the_numbers_are_those_of_independent_formulas() {
-    let survey = Survey::of(&scene("paper-nd3", &[]), None, None);
+    let survey = Survey::of(&scene("paper-nd3", &[]), None, None).unwrap();
     let frequencies = [
         268.381839036,
         270.547372399,
@@ -239,7 +240,7 @@ fn rows_without_modes_of_their_own_come_with_all_of_them_and_are_drawn_hollow() 
     assert!(all.lines().all(|line| line.chars().count() <= 110), "{all}");
     // The row of the scene is there, whatever it has.
     assert!(text("survey paper-nd3 --nd 5").contains(">5? "));
-    let survey = Survey::of(&scene("paper-nd3", &[]), None, None);
+    let survey = Survey::of(&scene("paper-nd3", &[]), None, None).unwrap();
     let figure = |all| rubscope::report::survey::figure(&survey, all);
     let points = |all| {
         let [of, _] = &figure(all).panels[..] else { panic!() };
@@ -385,9 +386,22 @@ fn a_range_that_is_none_is_refused_by_name() {
 }
 
 #[test]
+fn a_survey_takes_no_range_that_is_none() {
+    let scene = scene("paper-nd3", &[]);
+    let nan = f64::NAN;
+    for range in [[nan, 300.0], [200.0, nan], [300.0, 200.0], [5.0, 5.0], [0.0, f64::INFINITY]] {
+        let refused = Survey::of(&scene, Some(range), None).unwrap_err().to_string();
+        let start = format!("range = {}:{}: allowed is FROM:TO, two speeds", range[0], range[1]);
+        assert!(refused.starts_with(&start), "{refused}");
+    }
+    // A rotor that turns backward.
+    assert!(!Survey::of(&scene, Some([-600.0, -200.0]), None).unwrap().is_forward());
+}
+
+#[test]
 fn thousands_of_blades_have_a_row_each() {
     let blades = [("bladed_disk.blades", "4096")];
-    let survey = Survey::of(&scene("paper-nd3", &blades), Some([1.0, 2.0]), None);
+    let survey = Survey::of(&scene("paper-nd3", &blades), Some([1.0, 2.0]), None).unwrap();
     assert_eq!(survey.rows.len(), 2049);
     let told = text("survey paper-nd3 --set bladed_disk.blades=4096 --range 1:2 --all");
     assert!(told.contains(" more: --json or --out") && told.lines().count() < 100, "{told}");
@@ -417,6 +431,6 @@ fn the_limits_say_of_which_tips_they_are_and_what_scatter_does() {
     }
     // Of another machine it is another speed: twice the diameters turn at half of it.
     let own = Survey::of(&scene("paper-nd3", &[("operation.nodal_diameters", "6")]), None, None);
-    let found = own.scattered.unwrap();
+    let found = own.unwrap().scattered.unwrap();
     assert!(found.mean_rad_s < found.equal_rad_s && found.equal_rad_s < 200.0, "{found:?}");
 }
