@@ -13,9 +13,7 @@ use super::status::{self, Refusal, Status};
 use super::{Done, output, sign};
 use crate::report::history::HISTORY_VALUES;
 use crate::report::{CommandLine, History, Provenance, Wall, json, npz, summary};
-use rubscope_solver::motion::{
-    CHANGED_RUNS, Sample, Sampling, Verdict, run_to_end_watched, to_the_end,
-};
+use rubscope_solver::motion::{CHANGED_RUNS, Sample, Sampling, Verdict, run_to_end, to_the_end};
 use rubscope_solver::scene::{Scene, Shortcuts, SolverKind};
 
 /// Simulate a scene in time and report how it ends.
@@ -80,7 +78,7 @@ impl RunCommand {
         let mut shown = LongRun::of(&scene, changed_runs);
         let started = Instant::now();
         let mut sink = |sample: &Sample| history.push(sample);
-        let mut report = run_to_end_watched(&scene, &acts, sampling, &mut sink, &mut shown);
+        let mut report = run_to_end(&scene, &acts, sampling, &mut sink, &mut shown);
         let mut wall = Wall { run_s: started.elapsed().as_secs_f64(), certainty_s: None };
         if changed_runs > 0 {
             sign::doing("changed runs find out which digits hold");

@@ -140,11 +140,9 @@ pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
         factor: factor(axis),
         log: axis.log,
     };
-    let columns = x.count as usize;
     let places = |chosen: &dyn Fn(Cell) -> bool| -> Vec<(f64, f64)> {
         let found = map.cells.iter().enumerate().filter(|(_, cell)| cell.is_some_and(chosen));
-        let at =
-            |index: usize| (x.value((index % columns) as u32), y.value((index / columns) as u32));
+        let at = |index: usize| (x.value(index as u32 % x.count), y.value(index as u32 / x.count));
         found.map(|(index, _)| at(index)).collect()
     };
     let mut series: Vec<Series> = Verdict::ALL
@@ -157,9 +155,10 @@ pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
     series.push(Series::new("doubtful", Style::Dots, places(&Cell::is_doubtful)));
     let inside =
         |axis: &Axis, value| (-0.5..=f64::from(axis.count) - 0.5).contains(&axis.place(value));
-    for (curve, colour) in curves.iter().zip([5, 2, 1]) {
+    let styles = [Style::Line(5), Style::Dashed(2), Style::Dotted(1), Style::Line(3)];
+    for (curve, style) in curves.iter().zip(styles) {
         let shown = curve.points.iter().copied().filter(|at| inside(x, at.0) && inside(y, at.1));
-        series.push(Series::new(greek(curve.name), Style::Line(colour), shown).named(curve.name));
+        series.push(Series::new(greek(curve.name), style, shown).named(curve.name));
     }
     series.retain(|series| !series.points.is_empty());
     let title = format!("{} ({} contact)", scene.title, scene.solver.contact);
@@ -310,6 +309,22 @@ fn write_legend(map: &Map, out: &mut dyn Write) -> Result<()> {
 mod tests {
     use super::*;
     use rubscope_solver::scene::Scene;
+
+    #[test]
+    fn every_curve_over_a_map_is_drawn_apart_from_the_others_without_colour() {
+        let axis = |path: &str, from, to, log| Axis::new(path, from, to, 5, log).unwrap();
+        let (x, y) = (axis(keys::SPEED, 250.0, 700.0, false), axis(keys::PULSE, 1e3, 1e5, true));
+        let scene = Scene::builtin("rub").unwrap();
+        let map = Map::empty(MapPlan { scene, x, y, sensitivity: false });
+        let curves = overlay::curves(&map.plan);
+        assert_eq!(curves.len(), 4);
+        let drawn = &figure(&map, &curves).panels[0].series;
+        let names: Vec<_> = drawn.iter().map(|series| &*series.name).collect();
+        assert_eq!(names, ["Omega_c", "Omega_lock", "lock ends", "grazing pulse"]);
+        // The limits of the speed; the pulse goes across them.
+        let kinds: Vec<_> = drawn[..3].iter().map(|it| std::mem::discriminant(&it.style)).collect();
+        assert!(kinds[0] != kinds[1] && kinds[1] != kinds[2] && kinds[2] != kinds[0]);
+    }
 
     #[test]
     fn the_ends_of_a_narrow_map_stay_apart() {

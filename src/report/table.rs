@@ -225,15 +225,15 @@ impl Table {
         }
     }
 
-    /// Writes every word of it as `spell` does.
+    /// Writes every word of it as `spell` does, in the rows that are there.
     pub fn spelled(mut self, spell: impl Fn(&str) -> String) -> Self {
-        let words = self.headings.iter_mut().filter_map(|heading| heading.words.as_mut());
-        words.for_each(|words| *words = spell(words).into());
-        if let Rows::There(rows) = &mut self.rows {
-            for cell in rows.iter_mut().flatten() {
-                if let TableCell::Told(_, text) | TableCell::Word(text) = cell {
-                    *text = spell(text);
-                }
+        for words in self.headings.iter_mut().filter_map(|heading| heading.words.as_mut()) {
+            *words = spell(words).into();
+        }
+        let Rows::There(rows) = &mut self.rows else { return self };
+        for cell in rows.iter_mut().flatten() {
+            if let TableCell::Told(_, text) | TableCell::Word(text) = cell {
+                *text = spell(text);
             }
         }
         self

@@ -29,28 +29,20 @@ pub trait Host {
     /// The terminal cannot be written to.
     fn copy(&mut self, text: &str) -> Result<()>;
     /// Returns how much the terminal is sent.
-    fn line(&self) -> Line {
-        Line::Auto
-    }
+    fn line(&self) -> Line;
     /// Bytes sent to the terminal so far.
-    fn sent(&self) -> u64 {
-        0
-    }
+    fn sent(&self) -> u64;
     /// Returns whether a write had to wait for the terminal.
-    fn is_slow(&self) -> bool {
-        false
-    }
+    fn is_slow(&self) -> bool;
     /// Asks the terminal for mouse events, or no longer.
-    fn mouse(&mut self, _on: bool) {}
+    fn mouse(&mut self, on: bool);
     /// Writes a file. Without a result, that comes later as an event.
     fn write(&mut self, job: FileJob) -> Option<FileResult>;
     /// Records why a file was not written, until a screen has shown it.
-    fn unseen(&mut self, _reason: Option<String>) {}
+    fn unseen(&mut self, reason: Option<String>);
     /// Reads the scenes of a directory. Without a result, that comes later as an
     /// event.
-    fn find_scenes(&mut self, directory: PathBuf) -> Option<FoundScenes> {
-        Some(FoundScenes::of(&directory))
-    }
+    fn find_scenes(&mut self, directory: PathBuf) -> Option<FoundScenes>;
 }
 
 /// The real terminal, its shell, and a thread for files.

@@ -3,8 +3,7 @@
 
 use rubscope::report::summary;
 use rubscope_solver::motion::{
-    Contact, Motion, RunReport, Sampling, Script, Spread, Watch, run_to_end, run_to_end_watched,
-    simulate,
+    Contact, Motion, RunReport, Sample, Sampling, Script, Spread, Watch, run_to_end, simulate,
 };
 use rubscope_solver::scene::{CheckedScene, Scene};
 
@@ -174,10 +173,9 @@ fn a_run_that_is_watched_is_the_same_run() {
             let script = Script::default();
             let sampling = Sampling { intervals: 7, gaps: false };
             let mut samples = [Vec::new(), Vec::new()];
-            let plain = run_to_end(&scene, &script, sampling, &mut |sample| {
-                samples[0].push(sample.state);
-            });
-            let watched = run_to_end_watched(
+            let mut keep = |sample: &Sample| samples[0].push(sample.state);
+            let plain = run_to_end(&scene, &script, sampling, &mut keep, &mut ());
+            let watched = run_to_end(
                 &scene,
                 &script,
                 sampling,

@@ -193,6 +193,7 @@ fn break_time(scene: &CheckedScene) -> f64 {
             &Script::default(),
             Sampling::default(),
             &mut |_| {},
+            &mut (),
         );
         let held_still = run.outcome.contacts.len() == 2;
         *(if held_still { &mut held } else { &mut broken }) = shorter.solver.end_s;

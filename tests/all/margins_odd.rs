@@ -15,7 +15,7 @@ use crate::margins::{close, differenced, of};
 const LENGTH: &str = "bladed_disk.blade_length_m";
 const RADIUS: &str = "casing.radius_m";
 
-/// Blades that give way at speeds that a rotor may have.
+/// Blades that bend out of a lock at speeds that a rotor may have.
 fn soft(stiffness: &str, speed: &str) -> CheckedScene {
     scene(
         "paper-nd3",

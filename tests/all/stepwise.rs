@@ -3,10 +3,12 @@
 //! on every machine.
 
 use std::io::Result;
+use std::path::PathBuf;
 use std::time::Duration;
 
+use rubscope::tui::Line;
 use rubscope::tui::engine::{Engine, Limit, Order, Pace, Snapshot};
-use rubscope::tui::files::{FileJob, FileResult};
+use rubscope::tui::files::{FileJob, FileResult, FoundScenes};
 use rubscope::tui::host::Host;
 use rubscope::tui::worker::Playback;
 
@@ -26,6 +28,20 @@ impl Host for NoHost {
     }
     fn write(&mut self, job: FileJob) -> Option<FileResult> {
         Some(job.run())
+    }
+    fn unseen(&mut self, _: Option<String>) {}
+    fn line(&self) -> Line {
+        Line::Auto
+    }
+    fn sent(&self) -> u64 {
+        0
+    }
+    fn is_slow(&self) -> bool {
+        false
+    }
+    fn mouse(&mut self, _: bool) {}
+    fn find_scenes(&mut self, directory: PathBuf) -> Option<FoundScenes> {
+        Some(FoundScenes::of(&directory))
     }
 }
 

@@ -1,6 +1,7 @@
 //! The loop of the explorer without new snapshots, and the record of its engine.
 
 use std::f64::consts::TAU;
+use std::path::PathBuf;
 use std::sync::mpsc::{Sender, channel};
 use std::time::Duration;
 
@@ -8,10 +9,10 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::{Terminal, backend::TestBackend};
 use rubscope::tui::engine::{Engine, Order, Snapshot};
 use rubscope::tui::events::ScreenEvent;
-use rubscope::tui::files::{FileJob, FileResult};
+use rubscope::tui::files::{FileJob, FileResult, FoundScenes};
 use rubscope::tui::history::Channel;
 use rubscope::tui::host::Host;
-use rubscope::tui::{App, Exit, Marker, Theme, run};
+use rubscope::tui::{App, Exit, Line, Marker, Theme, run};
 use rubscope_solver::scene::Scene;
 
 use crate::stepwise::{NoHost, Stepwise};
@@ -82,6 +83,19 @@ impl Host for Slow {
     }
     fn unseen(&mut self, reason: Option<String>) {
         self.unseen = reason;
+    }
+    fn line(&self) -> Line {
+        Line::Auto
+    }
+    fn sent(&self) -> u64 {
+        0
+    }
+    fn is_slow(&self) -> bool {
+        false
+    }
+    fn mouse(&mut self, _: bool) {}
+    fn find_scenes(&mut self, directory: PathBuf) -> Option<FoundScenes> {
+        Some(FoundScenes::of(&directory))
     }
 }
 

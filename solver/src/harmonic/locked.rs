@@ -285,7 +285,7 @@ pub fn lock_loads<T: Number>(machine: &Machine<T>, speed: T) -> Option<LockLoads
     })
 }
 
-/// Returns the largest speed with a lock \[rad/s\]: blades that are soft give way above it.
+/// Returns the largest speed with a lock \[rad/s\]: blades that are soft bend out of it above.
 /// None without corners, with tips that are inclined or rub, on a lining, and where it is
 /// beyond any speed that a number can square.
 #[must_use]

@@ -196,7 +196,7 @@ impl<T: Number> Machine<T> {
     }
 
     /// Amplitude of the locked casing wave, `g0/cos delta` \[m\]; none without corners or
-    /// clearance, and where inclined tips or a lining give way, so that it depends on the
+    /// clearance, and where inclined tips bend or a lining yields, so that it depends on the
     /// speed.
     #[must_use]
     pub fn locked_amplitude(&self) -> Option<T> {

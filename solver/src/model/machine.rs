@@ -153,7 +153,7 @@ impl<T: Number> Machine<T> {
         }
     }
 
-    /// The same machine with blades that do not give way to forces, at their frequency, which
+    /// The same machine with blades that do not bend, at their frequency, which
     /// no derivative changes.
     #[must_use]
     pub fn with_stiff_blades(self) -> Self {
@@ -338,7 +338,7 @@ impl<T: Number> Machine<T> {
     }
 
     /// The coincidence that the tips of this machine make dangerous at a speed: (31), or
-    /// the difference of (30) where they dig in, `kappa (kappa + mu) < 0` \[rad/s\].
+    /// the difference of (30) where friction locks itself, `kappa (kappa + mu) < 0` \[rad/s\].
     #[must_use]
     pub fn coincidence_felt_at(&self, speed: T) -> Option<T> {
         let digs_in = self.coupling_product_at(speed).re() < 0.0;

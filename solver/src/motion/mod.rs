@@ -29,8 +29,7 @@ pub use failure::{Failure, FailureReason};
 pub use propagator::FreeFlight;
 pub use run::{
     FinalState, ImpactReport, RunReport, Sample, Sampling, SolverReport, VerdictReached, Watch,
-    caught_at, judge_end, lock_that_broke, run_to_end, run_to_end_watched, run_to_verdict,
-    simulate, simulate_with, verdict_of,
+    caught_at, judge_end, lock_that_broke, run_to_end, run_to_verdict, simulate, verdict_of,
 };
 pub use script::{Change, Script};
 pub use sensitivity::{CHANGED_RUNS, Certainty, Spread, certainty, run_with_certainty};

@@ -310,33 +310,13 @@ fn decay_rate(motion: &Motion, verdict: Verdict) -> Option<f64> {
     motion.linear_rest().map(|rest| rest.rate_per_s).or_else(free)
 }
 
-/// Runs a scene to its end.
+/// Runs a scene to its end, and finds out whether its outcome is sensitive, and which digits hold.
 #[must_use]
 pub fn simulate(scene: &CheckedScene) -> RunReport {
-    simulate_with(scene, &Script::default(), Sampling::default(), &mut |_| {})
-}
-
-/// As `simulate`, with changes during the run, and handing samples to `sink`.
-pub fn simulate_with(
-    scene: &CheckedScene,
-    script: &Script,
-    sampling: Sampling,
-    sink: &mut dyn FnMut(&Sample),
-) -> RunReport {
-    let mut report = run_to_end_watched(scene, script, sampling, sink, &mut Unwatched);
-    report.ask_changed_runs(script, &to_the_end);
+    let script = Script::default();
+    let mut report = run_to_end(scene, &script, Sampling::default(), &mut |_| {}, &mut ());
+    report.ask_changed_runs(&script, &to_the_end);
     report
-}
-
-/// As `simulate_with`, without the runs that find out whether the outcome is
-/// sensitive, and which digits hold.
-pub fn run_to_end(
-    scene: &CheckedScene,
-    script: &Script,
-    sampling: Sampling,
-    sink: &mut dyn FnMut(&Sample),
-) -> RunReport {
-    run_to_end_watched(scene, script, sampling, sink, &mut Unwatched)
 }
 
 /// Looks at a run on the way, when it wants to. The run is the same.
@@ -348,9 +328,7 @@ pub trait Watch: Sync {
     fn look(&mut self, motion: &Motion);
 }
 
-struct Unwatched;
-
-impl Watch for Unwatched {
+impl Watch for () {
     fn goes_on(&self) -> bool {
         true
     }
@@ -358,8 +336,9 @@ impl Watch for Unwatched {
     fn look(&mut self, _: &Motion) {}
 }
 
-/// As `run_to_end`, and looked at on the way.
-pub fn run_to_end_watched(
+/// Runs a scene to its end with changes on the way, hands samples to `sink`, and lets `watch` look
+/// at the run (`&mut ()` does not).
+pub fn run_to_end(
     scene: &CheckedScene,
     script: &Script,
     sampling: Sampling,
@@ -557,7 +536,8 @@ mod tests {
     fn an_adhesive_contact_of_the_law_that_pulls_is_no_failure() {
         let changes = [("solver.contact", "bilateral"), ("operation.speed_rad_s", "400")];
         let scene = Scene::builtin("paper-nd3").unwrap().with(&changes).unwrap();
-        let report = run_to_end(&scene, &Script::default(), Sampling::default(), &mut |_| {});
+        let report =
+            run_to_end(&scene, &Script::default(), Sampling::default(), &mut |_| {}, &mut ());
         assert_eq!(report.outcome.verdict, Verdict::Adhesive);
         assert!(report.outcome.contacts.iter().any(|contact| contact.multiplier_n > 1.0));
         assert_eq!(report.failure, None);

@@ -1,8 +1,6 @@
 //! The explicit solver against the reference numbers and closed forms.
 
-use rubscope_solver::motion::{
-    Motion, RunReport, Sample, Sampling, Script, Verdict, simulate_with,
-};
+use rubscope_solver::motion::{Motion, RunReport, Sample, Sampling, Script, Verdict, run_to_end};
 use rubscope_solver::scene::Scene;
 
 /// Case A of the paper's machine: three diameters, 500 rad/s, 20 kN.
@@ -188,7 +186,7 @@ fn looking_does_not_change_the_motion() {
             assert_eq!(sample.gaps.len(), 22);
         };
         let watched =
-            simulate_with(&scene.checked().unwrap(), &Script::default(), sampling, &mut look);
+            run_to_end(&scene.checked().unwrap(), &Script::default(), sampling, &mut look, &mut ());
         assert_eq!(seen, 778);
         assert_eq!(plain.r#final, watched.r#final);
         assert_eq!(plain.impacts, watched.impacts);

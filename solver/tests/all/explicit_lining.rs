@@ -1,4 +1,4 @@
-//! A lining that gives way, by the explicit solver: reference states, second order,
+//! An elastic lining, by the explicit solver: reference states, second order,
 //! growth rates, limit cycles, and the verdicts on them.
 
 use crate::tips_support::{

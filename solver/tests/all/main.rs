@@ -70,5 +70,5 @@ fn drawn(cases: u32) -> ProptestConfig {
 
 /// A scene run to its end once, without the changed runs that say how far to trust it.
 fn run_once(scene: &CheckedScene) -> RunReport {
-    run_to_end(scene, &Script::default(), Sampling::default(), &mut |_| {})
+    run_to_end(scene, &Script::default(), Sampling::default(), &mut |_| {}, &mut ())
 }

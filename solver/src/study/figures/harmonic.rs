@@ -51,7 +51,7 @@ pub fn multipliers(scene: &Scene) -> Result<Figure, HarmonicError> {
     let lines = vec![
         line(&undamped, 0, Style::Line(0), "undamped"),
         line(&undamped, 1, Style::Dashed(1), "undamped"),
-        line(&damped, 0, Style::Line(2), "damped"),
+        line(&damped, 0, Style::Dotted(2), "damped"),
         line(&damped, 1, Style::Dashed(3), "damped"),
     ];
     let marks = speed_marks(&machine, scene.operation.speed_rad_s);
@@ -89,7 +89,7 @@ pub fn amplitudes(scene: &Scene) -> Result<Figure, HarmonicError> {
     let casing = vec![
         series("u_cc", Style::Line(0), &printed, |point| point.u_cc_m),
         series("u_ss", Style::Dashed(1), &printed, |point| point.u_ss_m),
-        series("u_sc", Style::Line(2), &printed, |point| point.u_sc_m),
+        series("u_sc", Style::Dotted(2), &printed, |point| point.u_sc_m),
         series("u_cs", Style::Dashed(3), &printed, |point| point.u_cs_m),
     ];
     let [a, b] = names(&machine, &printed);

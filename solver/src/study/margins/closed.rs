@@ -14,7 +14,7 @@ use crate::numeric::rounding::rounded;
 use crate::scene::{CheckedScene, ModelSize, Scene};
 
 /// How far beyond the speeds of interest the end of the branch of a lock is told, as a
-/// factor: stiff blades give way at speeds that no rotor has.
+/// factor: stiff blades bend out of a lock at speeds that no rotor has.
 const FAR: f64 = 10.0;
 
 /// How many of the closed forms are speeds; they come first.

@@ -36,7 +36,7 @@ pub enum LimitName {
     Coincidence,
     /// The other coincidence of (30), of the difference of the frequencies.
     CoincidenceDifference,
-    /// The speed above which very soft blades give way.
+    /// The speed above which very soft blades bend out of the lock.
     LockFold,
     /// The speed from which inclined tips whirl with the casing.
     WhirlOnset,
@@ -273,13 +273,13 @@ const LIMITS: [Entry; 16] = {
         entry(OmegaAdhesive, Speed, "Ω_adhesive", ["adhesive limit", "adhesive"], "above it the bilateral law holds, if one blade pulls"),
         entry(Coincidence, Speed, "Ω_coincidence", ["coincidence"; 2], "dangerous coincidence (31), of the sum of frequencies"),
         entry(CoincidenceDifference, Speed, "Ω_difference", ["coincidence (30)", "coinc. (30)"], "coincidence (30) of their difference"),
-        entry(LockFold, Speed, "Ω_fold", ["blades give way", "give way"], "above it soft blades give way, and no lock is left"),
+        entry(LockFold, Speed, "Ω_fold", ["blades bend out", "bend out"], "above it soft blades bend out of the lock"),
         entry(WhirlOnset, Speed, "Ω_whirl", ["whirl begins", "whirl"], "above it blades and casing whirl, on a rim of many blades"),
         entry(FlutterSpeed, Speed, "Ω_flutter", ["lock flutters", "flutter"], "from it on a lock of inclined tips flutters"),
         entry(FirstTouch, Speed, "Ω_touch", ["first touch"; 2], "at it blades that grow touch a casing at rest"),
         entry(TouchingPulse, Pulse, "F_touches", ["F that touches", "F touches"], "smallest pulse that touches"),
-        entry(PushA, Push, "−λ_a", ["push of group a", "push a"], "push of group a in the lock"),
-        entry(PushB, Push, "−λ_b", ["push of group b", "push b"], "push of group b in the lock"),
+        entry(PushA, Push, "-λ_a", ["push of group a", "push a"], "push of group a in the lock"),
+        entry(PushB, Push, "-λ_b", ["push of group b", "push b"], "push of group b in the lock"),
         entry(Torque, Quantity::Torque, "T", ["torque"; 2], "torque that holds the lock"),
         entry(Power, Quantity::Power, "P", ["power"; 2], "power that the lock takes"),
         entry(Roundness, Quantity::Height, "e_max", ["out of round", "e_max"], "largest height of lobes with which the lock lasts"),
