@@ -96,7 +96,6 @@ pub fn write(survey: &Survey, all: bool, out: &mut dyn Write) -> Result<()> {
 }
 
 /// Returns what must be known of these rows, in sentences.
-#[must_use]
 pub fn notes(survey: &Survey, shown: &[&SurveyRow]) -> Vec<String> {
     let any = |has: fn(&SurveyRow) -> bool, note: &str| {
         shown.iter().any(|row| has(row)).then(|| note.to_string())

@@ -272,7 +272,7 @@ fn end(app: &App) -> Part {
     let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
     let at = |rank: u8, what: String| {
         let end = (duration(app.end_s()), text);
-        (rank, vec![("AT ".into(), quiet), end, (format!(" {what}"), quiet)])
+        (rank, vec![("AT ".into(), quiet), end, (format!(" {what}").trim_end().into(), quiet)])
     };
     let Some(run) = app.full_run().filter(|_| !app.is_asked()) else {
         return Part::new(vec![at(1, "?".into()), at(0, String::new())]);

@@ -135,7 +135,7 @@ fn head(app: &App, width: usize) -> (String, String) {
     let ways = [[(&whole, &long), (&whole, &short)].as_slice(), &numbers].concat();
     let mut ways = ways.iter().map(|(left, right)| (look.spell(left), look.spell(right)));
     let fits = |(left, right): &(String, String)| columns(left) + columns(right) + 2 <= width;
-    let last = ways.clone().last();
+    let last = ways.clone().next_back();
     let (left, right) = ways.find(fits).or(last).unwrap_or_default();
     let room = width.saturating_sub(columns(&right) + 2);
     (shorten(&left, room, look.ellipsis()), right)

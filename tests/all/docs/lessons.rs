@@ -40,7 +40,7 @@ pub fn sheet() -> String {
         let answers: String = answers(place, lesson);
         paragraph(answers.trim_end_matches('\n'), "- ");
     }
-    with_speeds(out.trim_end()) + "\n"
+    out.trim_end().to_string() + "\n"
 }
 
 fn answers(place: usize, lesson: &Lesson) -> String {
@@ -58,7 +58,7 @@ fn wrapped(text: &str, indent: &str) -> String {
         return format!("{text}\n");
     }
     let mut lines = vec![String::new()];
-    for word in text.split_whitespace() {
+    for word in with_speeds(text).split_whitespace() {
         let last = lines.last_mut().unwrap();
         let room = last.chars().count() + 1 + word.chars().count() <= MOST;
         match (last.is_empty(), room) {
