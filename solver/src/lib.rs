@@ -22,7 +22,9 @@
 //!
 //! Units are SI. A multiplier is negative where the contact pushes. The package's `examples`
 //! are whole programs; `docs/theory.md` has the equations that are cited by number. Nothing
-//! here knows a terminal, prints, or formats a report: the package `rubscope` does.
+//! here knows a terminal, prints, or formats a report: the package `rubscope` does. Errors may get
+//! new cases (`non_exhaustive`); a `match` on a verdict, a law or a solver is whole, so that the
+//! compiler names what another version has more.
 //!
 //! ```
 //! use rubscope_solver::motion::{Verdict, simulate};

@@ -8,15 +8,12 @@ use anyhow::Context;
 use clap::Args;
 
 use super::Done;
-use super::status::{Refusal, Status, note, say};
+use super::status::{Refusal, Status, note, say, say_noted};
 use crate::file;
 use crate::report::check::write_doubts;
 use crate::report::number::{rounded, tell_in_rpm, with_typed_unit};
 use crate::report::survey as report;
-use rubscope_solver::scene::units::UnitError;
-use rubscope_solver::scene::{
-    Family, ModalData, Quantity, Scene, SceneError, Value, keys, read_modes,
-};
+use rubscope_solver::scene::{Family, ModalData, Quantity, Scene, SceneError, keys, read_modes};
 use rubscope_solver::study::margins::{LimitName, Margins};
 use rubscope_solver::study::survey::{Survey, speed_range};
 
@@ -100,12 +97,13 @@ impl NewCommand {
         data.pulse_n = touching.map_or(data.pulse_n, |pulse| rounded(PULSE * pulse, DIGITS));
         let text = data.to_toml()?;
         let scene = Scene::from_toml(&text)?.checked()?;
+        say_noted();
         self.ask_about(&Margins::of(&scene).doubts(), &asking)?;
         file::create(path, |out| out.write_all(text.as_bytes()))
             .with_context(|| format!("cannot write {shown}"))?;
         writeln!(out, "Wrote {shown}.")?;
         writeln!(out)?;
-        report::write(&Survey::of(&scene, Some(data.range_rad_s), None), false, out)?;
+        report::write(&Survey::of(&scene, Some(data.range_rad_s), None)?, false, out)?;
         Ok(Status::Done)
     }
 
@@ -147,7 +145,7 @@ impl NewCommand {
             }
         }
         let first = casing.first().map(|mode| mode.nodal_diameters.to_string());
-        let counted = |option, key| move |text: &str| whole(option, text, key);
+        let counted = |option, key| move |text: &str| Ok(number(option, text, key)? as u32);
         let blades = "Number of blades";
         let read = counted("--blades", keys::BLADES);
         let blades = asking.value("--blades", self.blades.as_ref(), blades, None, &read)?;
@@ -229,37 +227,31 @@ fn table(path: &Path) -> anyhow::Result<[Vec<Family>; 2]> {
     let shown = path.display();
     let text = file::read_text(path, LARGEST_TABLE)
         .map_err(|error| Refusal::because(format!("cannot read {shown}: {error}")))?;
-    Ok(read_modes(&text).map_err(|error| Refusal::because(format!("{shown}: {error}")))?)
+    let table = read_modes(&text);
+    let table = table.map_err(|error| Refusal::because(format!("{shown}: {error}")))?;
+    table.notes.iter().for_each(|said| note(format!("rubscope: {shown}: {said}")));
+    Ok(table.modes)
 }
 
 /// Returns a mode from `DIAMETERS:FREQUENCY:MASS`.
 fn family(option: &str, text: &str) -> Result<Family, SceneError> {
     let parts: Vec<&str> = text.split(':').collect();
-    let [diameters, frequency, mass] = parts.as_slice() else {
+    if parts.len() != 3 {
         let allowed = "DIAMETERS:FREQUENCY:MASS, such as 3:139.8Hz:2kg";
         return Err(SceneError::refused(option, text, allowed));
+    }
+    let names = ["nodal_diameters", "frequency_hz", "modal_mass_kg"];
+    let given = |name: &str| {
+        let part = names.iter().zip(&parts).find(|(known, _)| **known == name);
+        part.map(|(_, text)| (*text).to_string())
     };
-    Family::read([diameters, frequency, mass], None, &|name| format!("{option} {text}: {name}"))
-}
-
-/// Reads a whole number that a key takes.
-fn whole(option: &str, text: &str, path: &str) -> anyhow::Result<u32> {
-    let key = keys::find(path)?;
-    let read = text.trim().parse().ok();
-    let allowed = read.filter(|n| key.check(&Value::Whole(u64::from(*n))).is_ok());
-    allowed.ok_or_else(|| Refusal::of(option, text, key.allowed).into())
+    Family::read(&given, &|name| format!("{option} {text}: {name}"))
 }
 
 /// Reads a number that a key takes.
 fn number(option: &str, text: &str, path: &str) -> anyhow::Result<f64> {
     let key = keys::find(path)?;
-    let of = key.quantity();
-    let read = of.read(&with_typed_unit(text, of)).map_err(|why| match why {
-        UnitError::NoNumber => Refusal::of(option, text, key.allowed),
-        why => Refusal::because(format!("{option} = {text}: {why}")),
-    })?;
-    let is_allowed = key.check(&Value::Real(read)).is_ok();
-    is_allowed.then_some(read).ok_or_else(|| Refusal::of(option, text, key.allowed).into())
+    Ok(key.number(option, &with_typed_unit(text, key.quantity()))?)
 }
 
 /// The user does not want the file.

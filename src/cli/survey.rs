@@ -52,7 +52,7 @@ impl SurveyCommand {
             None => None,
         };
         status::say_noted();
-        let survey = Survey::of(&scene, range, by);
+        let survey = Survey::of(&scene, range, by)?;
         let command = CommandLine::new("survey", &scene)
             .optional("--range", self.range())
             .optional("--by", self.by.as_ref())

@@ -23,7 +23,6 @@ pub struct CommandLine(String);
 impl CommandLine {
     /// Creates `rubscope COMMAND NAME`, with `--set` for every key in which the scene
     /// differs from the one of that name; charts are not counted.
-    #[must_use]
     pub fn from_base(command: &str, name: &str, base: &Scene, scene: &Scene) -> Self {
         // A file whose name begins with - would be taken for an option.
         let here = if name.starts_with('-') { "./" } else { "" };
@@ -33,7 +32,6 @@ impl CommandLine {
     }
 
     /// Creates the line of a command that takes no scene.
-    #[must_use]
     pub fn without_scene(command: &str) -> Self {
         Self(format!("{PROGRAM} {command}"))
     }
@@ -41,7 +39,6 @@ impl CommandLine {
     /// Same as [`Self::from_base`] with the built-in scene of the same title, or else the one
     /// that differs in the fewest keys, so that the command needs no scene file.
     /// Charts are set too: the scene is the same in every key.
-    #[must_use]
     pub fn new(command: &str, scene: &Scene) -> Self {
         let known = |name| Scene::builtin(name).ok().map(|base| (name, base));
         let far = |base: &Scene| (base.title != scene.title, differences(base, scene).count());
@@ -54,14 +51,12 @@ impl CommandLine {
     }
 
     /// Adds an option and its value.
-    #[must_use]
     pub fn option(mut self, name: &str, value: impl Display) -> Self {
         self.0.push_str(&format!(" {name} {}", quoted(&value.to_string())));
         self
     }
 
     /// Adds an option and its value, if there is one.
-    #[must_use]
     pub fn optional(self, name: &str, value: Option<impl Display>) -> Self {
         match value {
             Some(value) => self.option(name, value),
@@ -70,7 +65,6 @@ impl CommandLine {
     }
 
     /// Adds an option that has no value, if it is given.
-    #[must_use]
     pub fn flag(mut self, name: &str, given: bool) -> Self {
         if given {
             self.0.push_str(&format!(" {name}"));
@@ -79,7 +73,6 @@ impl CommandLine {
     }
 
     /// Returns the program, its version and commit and the command, as `program` in JSON.
-    #[must_use]
     pub fn program(&self) -> Value {
         json!({ "name": PROGRAM, "version": VERSION, "commit": COMMIT, "command": self.0 })
     }
@@ -113,7 +106,6 @@ pub struct Provenance {
 impl Provenance {
     /// Returns all of it as text: a line with program, version and commit, the command, and the scene as a
     /// scene file.
-    #[must_use]
     pub fn text(&self) -> String {
         format!("{PROGRAM} {VERSION} {COMMIT}\n{}\n\n{}", self.command, self.scene.to_toml())
     }

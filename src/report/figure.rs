@@ -5,7 +5,6 @@ use rubscope_solver::study::figures::Panel;
 
 /// Returns the data as a table: if all series share x, a column for x and one for each
 /// series; otherwise one row per point, with the name of its series.
-#[must_use]
 pub fn table(panel: &Panel) -> Table {
     if panel.shares_x() { wide(panel) } else { long(panel) }
 }

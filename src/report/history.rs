@@ -41,7 +41,6 @@ pub struct History {
 
 impl History {
     /// Creates an empty history; `blades` gap columns are added, none for 0.
-    #[must_use]
     pub fn new(blades: u32) -> Self {
         let gaps = (1..=blades).map(|blade| format!("gap_{blade}_m"));
         let names = COLUMNS.into_iter().map(String::from).chain(gaps);
@@ -49,7 +48,6 @@ impl History {
     }
 
     /// Returns the greatest number of samples with the gaps of this many blades.
-    #[must_use]
     pub fn most_samples(blades: u32) -> u32 {
         let columns = COLUMNS.len() + blades as usize;
         u32::try_from(HISTORY_VALUES / columns).unwrap_or(u32::MAX)
@@ -84,19 +82,16 @@ impl History {
     }
 
     /// Returns the columns, all of one length.
-    #[must_use]
     pub fn columns(&self) -> &[HistoryColumn] {
         &self.columns
     }
 
     /// Returns how many samples there are.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.columns.first().map_or(0, |column| column.values.len())
     }
 
     /// Returns whether there is no sample.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

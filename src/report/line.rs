@@ -8,7 +8,6 @@ const SHOWN: usize = 800;
 
 /// Returns a message without what quoted input must not do to a terminal: no control characters, no
 /// breaks of lines or of their direction, no endless text.
-#[must_use]
 pub fn clean(text: &str) -> String {
     let count = text.chars().count();
     if count <= 2 * SHOWN {
@@ -20,7 +19,6 @@ pub fn clean(text: &str) -> String {
 }
 
 /// Returns a text with its first letter in upper case.
-#[must_use]
 pub fn capital(text: &str) -> String {
     let mut text = text.to_string();
     if let Some(first) = text.get_mut(..1) {
@@ -30,14 +28,12 @@ pub fn capital(text: &str) -> String {
 }
 
 /// Returns a plain character; a space in place of any other.
-#[must_use]
 pub fn harmless(c: char) -> char {
     if is_plain(c) { c } else { ' ' }
 }
 
 /// Returns a text in lines of at most so many columns, broken at spaces, and within words that are
 /// longer than a line.
-#[must_use]
 pub fn wrapped(text: &str, most: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     let mut used = 0;

@@ -55,7 +55,6 @@ impl Serialize for MapJson<'_> {
 }
 
 /// Returns the command that gives this map in one run.
-#[must_use]
 pub fn command(map: &Map) -> CommandLine {
     let plan = &map.plan;
     CommandLine::new("map", &plan.scene)
@@ -89,7 +88,6 @@ impl<T: Serialize> Serialize for Row<'_, T> {
 }
 
 /// Returns the last part of the key of an axis, such as `speed_rad_s`.
-#[must_use]
 pub fn leaf(axis: &Axis) -> &str {
     axis.path.rsplit('.').next().unwrap_or(&axis.path)
 }
@@ -114,9 +112,9 @@ pub fn write_csv(map: &Map, out: &mut dyn Write) -> Result<()> {
             // Values of an axis are never written with a power of ten.
             x.value(column).to_string().into(),
             y.value(row).to_string().into(),
-            cell.map_or_else(String::new, |cell| cell.verdict.to_string()).into(),
-            cell.map_or(table::TableCell::Empty, |cell| cell.sensitive.into()),
-            cell.map_or(table::TableCell::Empty, |cell| cell.depends_on_step.into()),
+            cell.map(|cell| cell.verdict.to_string()).into(),
+            cell.map(|cell| cell.sensitive).into(),
+            cell.map(|cell| cell.depends_on_step).into(),
         ]
     });
     table::write_csv([first, second, "verdict", "sensitive", "depends_on_step"], rows, out)
@@ -134,7 +132,6 @@ fn label(axis: &Axis) -> String {
 }
 
 /// Returns the map as a figure, with these curves.
-#[must_use]
 pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
     let (scene, x, y) = (&map.plan.scene, &map.plan.x, &map.plan.y);
     let quantity = |axis: &Axis| Quantity {
@@ -181,7 +178,6 @@ pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
 
 /// Returns the character of a cell: a mark for the verdict, or a letter if the cell is
 /// sensitive or depends on the step.
-#[must_use]
 pub fn mark(cell: Option<Cell>) -> char {
     let Some(cell) = cell else { return ' ' };
     match (cell.verdict, cell.is_doubtful()) {
@@ -244,7 +240,7 @@ pub fn write_text(map: &Map, width: usize, out: &mut dyn Write) -> Result<()> {
     write_legend(map, out)
 }
 
-/// Marks the columns of the critical and the lock-in speed, if they are the same for all
+/// Marks the columns of the critical and the lock speed, if they are the same for all
 /// rows.
 fn write_speeds(map: &Map, across: usize, columns: usize, out: &mut dyn Write) -> Result<()> {
     for curve in overlay::speed_curves(&map.plan) {
@@ -266,7 +262,6 @@ fn write_speeds(map: &Map, across: usize, columns: usize, out: &mut dyn Write) -
 }
 
 /// Returns what a verdict means, in a few words.
-#[must_use]
 pub fn means(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Decay => "contact ends",

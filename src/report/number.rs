@@ -15,7 +15,6 @@ use rubscope_solver::scene::Quantity;
 /// assert_eq!(short(1.010_283_04e-4), "1.01028e-4");
 /// assert_eq!(short(500.0), "500");
 /// ```
-#[must_use]
 pub fn short(x: f64) -> String {
     if x == 0.0 {
         return "0".to_string();
@@ -35,13 +34,11 @@ pub fn short(x: f64) -> String {
 }
 
 /// Returns the shortest text that reads back as this number.
-#[must_use]
 pub fn exact(x: f64) -> String {
     if x != 0.0 && !(1e-4..1e15).contains(&x.abs()) { format!("{x:e}") } else { x.to_string() }
 }
 
 /// Returns a time \[s\] in the unit that suits it.
-#[must_use]
 pub fn time(seconds: f64) -> String {
     let (factor, unit) = match seconds.abs() {
         x if x == 0.0 || x >= 1.0 => (1.0, "s"),
@@ -54,17 +51,16 @@ pub fn time(seconds: f64) -> String {
 
 /// Returns a number in at most so many significant digits, in its unit with the prefix that suits
 /// it; in letters of ASCII.
-#[must_use]
 pub fn with_unit(x: f64, digits: usize, unit: &str) -> String {
     scaled(x, x, digits, unit).join(" ").trim_end().to_string()
 }
 
 /// Returns a number and its unit as [`with_unit`] does, with the prefix that suits `of`.
-#[must_use]
 pub fn scaled(x: f64, of: f64, digits: usize, unit: &str) -> [String; 2] {
     let ((x, _), (of, unit)) = (in_shown_unit(x, unit), in_shown_unit(of, unit));
     let scale = SiScale::before(unit, of);
-    [short(rounded(x / scale.factor, digits)), format!("{}{unit}", scale.in_ascii())]
+    let prefix = if scale.prefix == "µ" { "u" } else { scale.prefix };
+    [short(rounded(x / scale.factor, digits)), format!("{prefix}{unit}")]
 }
 
 thread_local! {
@@ -78,50 +74,42 @@ pub fn tell_in_rpm(rpm: bool) {
 }
 
 /// Returns the unit in which speeds are shown.
-#[must_use]
 pub fn speed_unit() -> &'static str {
     if IN_RPM.get() { "rpm" } else { RAD_S }
 }
 
 /// Returns a speed \[rad/s\] in the unit in which speeds are shown.
-#[must_use]
 pub fn per_speed(omega: f64) -> f64 {
     if IN_RPM.get() { omega * 60.0 / TAU } else { omega }
 }
 
 /// Returns a speed with its unit, in at most six significant digits.
-#[must_use]
 pub fn speed(omega: f64) -> String {
     format!("{} {}", short(per_speed(omega)), speed_unit())
 }
 
 /// Returns the unit in which angular frequencies are shown: hertz where speeds are in rpm.
-#[must_use]
 pub fn frequency_unit() -> &'static str {
     if IN_RPM.get() { "Hz" } else { RAD_S }
 }
 
 /// Returns an angular frequency \[rad/s\] in that unit.
-#[must_use]
 pub fn per_frequency(omega: f64) -> f64 {
     if IN_RPM.get() { omega / TAU } else { omega }
 }
 
 /// Returns a number and its unit as they are shown.
-#[must_use]
 pub fn in_shown_unit(x: f64, unit: &str) -> (f64, &str) {
     if unit == RAD_S { (per_speed(x), speed_unit()) } else { (x, unit) }
 }
 
 /// Returns a number as it is shown, in its own unit of SI: the inverse of [`in_shown_unit`].
-#[must_use]
 pub fn from_shown(x: f64, unit: &str) -> f64 {
     if unit == RAD_S && IN_RPM.get() { x * (TAU / 60.0) } else { x }
 }
 
 /// Returns a number of a quantity, or a range of them, as it was typed: a speed without a unit of
 /// its own gets the unit in which speeds are shown.
-#[must_use]
 pub fn with_typed_unit(text: &str, of: Quantity) -> String {
     if of != Quantity::Speed || !IN_RPM.get() {
         return text.to_string();
@@ -138,13 +126,11 @@ pub fn with_typed_unit(text: &str, of: Quantity) -> String {
 const RAD_S: &str = "rad/s";
 
 /// Writes a count with its noun: "1 step", "2 steps", "1,000,000 steps".
-#[must_use]
 pub fn count(n: u64, noun: &str) -> String {
     format!("{} {noun}{}", grouped(n), if n == 1 { "" } else { "s" })
 }
 
 /// Returns a whole number with a comma between thousands.
-#[must_use]
 pub fn grouped(n: u64) -> String {
     let digits = n.to_string();
     let mut grouped = String::new();
@@ -158,7 +144,6 @@ pub fn grouped(n: u64) -> String {
 }
 
 /// Removes zeros at the end of decimal digits.
-#[must_use]
 pub fn trimmed(digits: &str) -> &str {
     if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { digits }
 }
@@ -187,7 +172,6 @@ const PREFIXES: &[(f64, &str)] = &[
 
 impl SiScale {
     /// Creates the prefix under which the largest magnitude reads as 1 to 999.
-    #[must_use]
     pub fn of(magnitude: f64) -> Self {
         let magnitude = magnitude.abs() * (1.0 + 1e-9);
         let (factor, prefix) = PREFIXES
@@ -200,25 +184,16 @@ impl SiScale {
     }
 
     /// Creates the prefix of a number of this unit, where one is usual in front of it.
-    #[must_use]
     pub fn before(unit: &str, magnitude: f64) -> Self {
         if WITH_PREFIX.contains(&unit) { Self::of(magnitude) } else { Self::plain() }
     }
 
-    /// Returns the prefix in letters of ASCII.
-    #[must_use]
-    pub fn in_ascii(&self) -> &'static str {
-        if self.prefix == "µ" { "u" } else { self.prefix }
-    }
-
     /// Returns no prefix, for angles, speeds and counts.
-    #[must_use]
     pub const fn plain() -> Self {
         Self { factor: 1.0, prefix: "" }
     }
 
     /// Returns the label of a tick, with the decimals that its spacing needs.
-    #[must_use]
     pub fn label(&self, value: f64, step: f64) -> String {
         let shown = step / self.factor;
         let decimals = if shown > 0.0 && shown.is_finite() {
@@ -247,7 +222,6 @@ pub struct Digits {
 
 impl Digits {
     /// Creates the number format of a run for which it is `known` how far changes move its numbers.
-    #[must_use]
     pub fn of(known: bool) -> Self {
         Self { known, ..Self::default() }
     }

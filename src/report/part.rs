@@ -37,7 +37,6 @@ pub struct Shard {
 
 impl Shard {
     /// Reads `K/COUNT`, counted from 1.
-    #[must_use]
     pub fn parse(text: &str) -> Option<Self> {
         let (number, count) = text.split_once('/')?;
         let shard = Self { number: number.trim().parse().ok()?, count: count.trim().parse().ok()? };
@@ -45,7 +44,6 @@ impl Shard {
     }
 
     /// Returns the cells of this share.
-    #[must_use]
     pub fn indices(self, cells: usize) -> impl IndexedParallelIterator<Item = usize> {
         (self.number as usize - 1..cells).into_par_iter().step_by(self.count as usize)
     }

@@ -10,7 +10,6 @@ use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
 use rubscope_solver::study::precision::{Lack, Method, Precision, Reference, Row, Way};
 
 /// Letter of a series on the screen: solver, law and model size.
-#[must_use]
 pub fn letter(way: &Way) -> char {
     let base = match (way.solver, way.contact) {
         (SolverKind::Event, _) => 'e',
@@ -29,7 +28,6 @@ pub fn letter(way: &Way) -> char {
 }
 
 /// Name of a series.
-#[must_use]
 pub fn series(way: &Way) -> String {
     format!("{} {} {}", way.solver, way.contact, way.model)
 }
@@ -64,7 +62,6 @@ fn found(reference: &Reference) -> String {
 }
 
 /// Returns why there is no reference.
-#[must_use]
 pub fn why_none(lack: Lack) -> &'static str {
     match lack {
         Lack::NotFalling => "the end does not settle with the step",
@@ -104,7 +101,6 @@ fn goodness(reference: &Reference) -> String {
 }
 
 /// A reference in some words, for a line of a screen.
-#[must_use]
 pub fn reference_words(reference: &Reference) -> String {
     let verdict = reference.verdict;
     let error = reference.error.map(|error| short(rounded(error, 1))).unwrap_or_default();
@@ -118,7 +114,6 @@ pub fn reference_words(reference: &Reference) -> String {
 }
 
 /// Returns the rows: every figure for files, and most of them for people.
-#[must_use]
 pub fn table(report: &Precision) -> Table {
     let head = |name, words, digits| Heading::from(name).words(words).digits(digits);
     let columns: &[Column<'_, Row, Heading>] = &[
@@ -210,7 +205,6 @@ pub struct PlotPlace {
 }
 
 /// The place of a row that has an error.
-#[must_use]
 pub fn place(row: &Row) -> Option<PlotPlace> {
     let error = row.error_final?;
     let error = (error > 0.0).then(|| error.log10());
@@ -218,7 +212,6 @@ pub fn place(row: &Row) -> Option<PlotPlace> {
 }
 
 /// Whole powers of ten around some values; none where there is no value.
-#[must_use]
 pub fn decades(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
         (low.min(value), high.max(value))

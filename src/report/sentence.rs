@@ -80,7 +80,6 @@ impl fmt::Display for Sentence {
 impl Sentence {
     /// Creates the word with the longest of these forms that fit in so many columns, each list from
     /// long to short. A history in few words goes before a longer sentence.
-    #[must_use]
     pub fn of(word: &str, forms: &[String], histories: &[String], width: usize) -> Self {
         let sentence = |what: &str, history: Option<&String>| Self {
             word: word.to_string(),
@@ -104,7 +103,6 @@ impl Sentence {
 impl Facts {
     /// Creates what scene and machine say of a run that ended so at this speed, with these groups
     /// of blades in contact and their forces; the rest is empty.
-    #[must_use]
     pub fn at(
         verdict: Verdict,
         (scene, machine, speed): (&Scene, &Machine, f64),
@@ -137,7 +135,6 @@ impl Facts {
     }
 
     /// Collects the facts of a run.
-    #[must_use]
     pub fn of(report: &RunReport) -> Self {
         let outcome = &report.outcome;
         let end = (&*report.scene, &report.end_machine, report.end_speed_rad_s);
@@ -160,7 +157,6 @@ impl Facts {
     }
 
     /// Returns the sentences in at most so many columns; from 40 on there is always one.
-    #[must_use]
     pub fn sentence(&self, width: usize) -> Sentence {
         let (word, forms) = (self.verdict.as_ref().to_uppercase(), self.forms());
         let (notes, wrong) = self.notes();

@@ -41,7 +41,6 @@ fn present<'a>(
 }
 
 /// Every limit, one row each; a number of diameters without any has one row, too.
-#[must_use]
 pub fn table(survey: &Survey) -> Table {
     let names = "nodal_diameters,omega_c_rad_s,omega_bd_rad_s,name,value_rad_s,margin,in_range,by";
     let mut table = Table::new(names.split(','));
@@ -101,7 +100,6 @@ pub fn write(survey: &Survey, all: bool, out: &mut dyn Write) -> Result<()> {
 }
 
 /// Which diameters can lock: in the range, or at the speed of the scene.
-#[must_use]
 pub fn answer(survey: &Survey, all: bool) -> String {
     let now = survey.scene.operation.speed_rad_s;
     let at = match survey.range_rad_s {
@@ -187,7 +185,6 @@ fn bar(survey: &Survey, row: &SurveyRow) -> String {
 }
 
 /// What the limits are of, and what tips that differ do to the lock.
-#[must_use]
 pub fn of_scatter(scene: &Scene, scattered: &Scattered) -> String {
     let speeds = [scattered.mean_rad_s, scattered.equal_rad_s];
     let [mean, equal] = speeds.map(|omega| format!("{} {}", told(omega), speed_unit()));
@@ -221,7 +218,6 @@ fn at_speed(survey: &Survey) -> String {
 
 /// Returns a row for each of these nodal diameters: what it can do, modes \[Hz\], and the
 /// limits of the sense of rotation that is looked at.
-#[must_use]
 pub fn rows(survey: &Survey, shown: &[&SurveyRow]) -> Table {
     let limits: Vec<_> = present(shown).collect();
     let [from, to] = ends(survey).map(told);
@@ -260,7 +256,6 @@ const REACH: f64 = 2.0;
 
 /// The interference chart: frequencies and the lines `n_d Omega` over the numbers of
 /// diameters, and below it the limits over them, with the speeds at which waves can lock.
-#[must_use]
 pub fn figure(survey: &Survey, all: bool) -> Figure {
     let rows = survey.shown(all);
     let at = |row: &SurveyRow| f64::from(row.nodal_diameters);

@@ -9,7 +9,6 @@ const AT_START: &str = " at t = 0";
 
 /// Returns the symbol of a parameter, in letters of ASCII: `zeta_c`, `Omega`, `u_c(0)`. The path
 /// itself of what is no key.
-#[must_use]
 pub fn symbol(path: &str) -> String {
     match path {
         CLEARANCE => return "g0".to_string(),
@@ -32,7 +31,6 @@ pub fn symbol(path: &str) -> String {
 }
 
 /// Symbols in Greek letters.
-#[must_use]
 pub fn greek(text: &str) -> String {
     let letter = |word: &str| {
         match word {

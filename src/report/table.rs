@@ -1,7 +1,7 @@
 //! A table: headings with names for files and words for people, rows of cells, and notes.
-//! Text, CSV, the page and the screen are written from it. Its rows are there (`Table`), or
-//! are made as they are written (`MadeTable`): all cells at once take a hundred times the
-//! memory of the numbers that they show.
+//! Text, CSV, the page and the screen are written from it. Its rows are there, or are made as
+//! they are written: all cells at once take a hundred times the memory of the numbers that
+//! they show.
 
 use std::borrow::Cow;
 use std::io::{Result, Write};
@@ -75,13 +75,11 @@ impl Heading {
     }
 
     /// Sets the words for people.
-    #[must_use]
     pub fn words(self, words: impl Into<Cow<'static, str>>) -> Self {
         Self { words: Some(words.into()), ..self }
     }
 
     /// Sets the most significant digits for people.
-    #[must_use]
     pub fn digits(self, digits: usize) -> Self {
         Self { digits, ..self }
     }
@@ -100,10 +98,10 @@ impl Heading {
 }
 
 impl TableCell {
-    fn in_csv(self) -> String {
+    fn in_csv(&self) -> String {
         match self {
-            Self::Number(x) | Self::Told(x, _) if x.is_finite() => exact(x),
-            Self::Word(word) => word,
+            Self::Number(x) | Self::Told(x, _) if x.is_finite() => exact(*x),
+            Self::Word(word) => word.clone(),
             Self::Number(_) | Self::Told(..) | Self::Empty => String::new(),
         }
     }
@@ -115,21 +113,15 @@ impl From<f64> for TableCell {
     }
 }
 
-impl From<Option<f64>> for TableCell {
-    fn from(x: Option<f64>) -> Self {
-        x.map_or(Self::Empty, Self::from)
+impl<T: Into<TableCell>> From<Option<T>> for TableCell {
+    fn from(known: Option<T>) -> Self {
+        known.map_or(Self::Empty, T::into)
     }
 }
 
 impl From<bool> for TableCell {
     fn from(yes: bool) -> Self {
         Self::Word(yes.to_string())
-    }
-}
-
-impl From<Option<bool>> for TableCell {
-    fn from(known: Option<bool>) -> Self {
-        known.map_or(Self::Empty, Self::from)
     }
 }
 
@@ -155,24 +147,7 @@ pub(crate) fn write_csv<R: IntoIterator<Item = TableCell>>(
     let mut csv = csv::Writer::from_writer(out);
     csv.write_record(names)?;
     rows.into_iter()
-        .try_for_each(|row| csv.write_record(row.into_iter().map(TableCell::in_csv)))?;
-    csv.flush()
-}
-
-/// Writes CSV of the columns that have a name in files, of rows that `each` hands over one
-/// by one.
-fn write_csv_of(
-    headings: &[Heading],
-    each: impl FnOnce(&mut dyn FnMut(Vec<TableCell>) -> Result<()>) -> Result<()>,
-    out: &mut dyn Write,
-) -> Result<()> {
-    let mut csv = csv::Writer::from_writer(out);
-    csv.write_record(headings.iter().filter_map(|heading| heading.name.as_deref()))?;
-    each(&mut |row| {
-        let cells = row.into_iter().zip(headings);
-        let filed = cells.filter(|(_, heading)| heading.name.is_some());
-        Ok(csv.write_record(filed.map(|(cell, _)| cell.in_csv()))?)
-    })?;
+        .try_for_each(|row| csv.write_record(row.into_iter().map(|cell| cell.in_csv())))?;
     csv.flush()
 }
 
@@ -180,23 +155,60 @@ fn write_csv_of(
 pub type Column<'a, T, H = &'a str> = (H, fn(&T) -> TableCell);
 
 /// Rows under headings, with notes below.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub struct Table {
     headings: Vec<Heading>,
-    rows: Vec<Vec<TableCell>>,
+    rows: Rows,
     notes: Vec<String>,
+}
+
+/// Makes the rows of one place of a list.
+type RowsAt = Rc<dyn Fn(usize) -> Result<Vec<Vec<TableCell>>>>;
+
+#[derive(Clone)]
+enum Rows {
+    There(Vec<Vec<TableCell>>),
+    /// So many rows, made place by place of a list.
+    Made {
+        count: usize,
+        places: usize,
+        at: RowsAt,
+    },
+}
+
+impl Default for Rows {
+    fn default() -> Self {
+        Self::There(Vec::new())
+    }
+}
+
+impl std::fmt::Debug for Rows {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::There(rows) => rows.fmt(out),
+            Self::Made { count, .. } => write!(out, "{count} rows"),
+        }
+    }
 }
 
 impl Table {
     /// Creates an empty table with these columns.
-    #[must_use]
     pub fn new<H: Into<Heading>>(headings: impl IntoIterator<Item = H>) -> Self {
         let headings = headings.into_iter().map(Into::into).collect();
-        Self { headings, rows: Vec::new(), notes: Vec::new() }
+        Self { headings, ..Self::default() }
+    }
+
+    /// Creates a table of rows that are made as they are written: so many over all of so many
+    /// places, of which each has those that `at` makes.
+    pub fn made<H: Into<Heading>>(
+        headings: impl IntoIterator<Item = H>,
+        [places, count]: [usize; 2],
+        at: impl Fn(usize) -> Result<Vec<Vec<TableCell>>> + 'static,
+    ) -> Self {
+        Self { rows: Rows::Made { count, places, at: Rc::new(at) }, ..Self::new(headings) }
     }
 
     /// Creates a table with a row for each item.
-    #[must_use]
     pub fn of<T, H: Clone + Into<Heading>>(items: &[T], columns: &[Column<'_, T, H>]) -> Self {
         let mut table = Self::new(columns.iter().map(|column| column.0.clone()));
         for item in items {
@@ -205,10 +217,12 @@ impl Table {
         table
     }
 
-    /// Adds a row, one cell for each column.
+    /// Adds a row, one cell for each column, to those that are there.
     pub fn push(&mut self, mut row: Vec<TableCell>) {
         row.resize(self.headings.len(), TableCell::Empty);
-        self.rows.push(row);
+        if let Rows::There(rows) = &mut self.rows {
+            rows.push(row);
+        }
     }
 
     /// Adds a note below the rows.
@@ -217,52 +231,86 @@ impl Table {
     }
 
     /// Returns the notes.
-    #[must_use]
     pub fn notes(&self) -> &[String] {
         &self.notes
     }
 
     /// Returns the number of rows.
-    #[must_use]
     pub fn len(&self) -> usize {
-        self.rows.len()
+        match &self.rows {
+            Rows::There(rows) => rows.len(),
+            Rows::Made { count, .. } => *count,
+        }
     }
 
     /// Returns whether there is no row.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.rows.is_empty()
+        self.len() == 0
+    }
+
+    fn each(&self, mut row: impl FnMut(&[TableCell]) -> Result<()>) -> Result<()> {
+        match &self.rows {
+            Rows::There(rows) => rows.iter().try_for_each(|cells| row(cells)),
+            Rows::Made { places, at, .. } => (0..*places)
+                .try_for_each(|place| at(place)?.iter().try_for_each(|cells| row(cells))),
+        }
     }
 
     /// Returns the rows as people see them, in padded cells, headings first; columns that do
     /// not fit into `room` letters with `apart` of them between columns are left out from the
     /// right.
-    #[must_use]
     pub fn lines(&self, room: usize, apart: usize) -> Vec<Vec<String>> {
+        let mut lines = Vec::new();
+        let keep = |line| {
+            lines.push(line);
+            Ok(())
+        };
+        // Rows that are there have no error.
+        let _ = self.each_line(room, apart, keep);
+        lines
+    }
+
+    fn each_line(
+        &self,
+        room: usize,
+        apart: usize,
+        mut told: impl FnMut(Vec<String>) -> Result<()>,
+    ) -> Result<()> {
         let mut layout = Layout::of(&self.headings);
-        self.rows.iter().for_each(|row| layout.meet(row));
+        self.each(|row| {
+            layout.meet(row);
+            Ok(())
+        })?;
         let mut used = 0;
         layout.columns.retain(|(_, _, width, _)| {
             used += width + apart;
             used <= room.saturating_add(apart)
         });
-        let rows = self.rows.iter().map(|row| layout.line(row));
-        std::iter::once(layout.headings()).chain(rows).collect()
+        told(layout.headings())?;
+        self.each(|row| told(layout.line(row)))
     }
 
-    /// Writes CSV: a header line, then numbers that read back as themselves.
+    /// Writes CSV of the columns that have a name in files: a header line, then numbers that read
+    /// back as themselves.
     ///
     /// # Errors
-    /// An error of the writer.
+    /// An error of the writer, or of what makes a row.
     pub fn write_csv(&self, out: &mut dyn Write) -> Result<()> {
-        write_csv_of(&self.headings, |row| self.rows.iter().cloned().try_for_each(row), out)
+        let mut csv = csv::Writer::from_writer(out);
+        csv.write_record(self.headings.iter().filter_map(|heading| heading.name.as_deref()))?;
+        self.each(|row| {
+            let cells = row.iter().zip(&self.headings);
+            let filed = cells.filter(|(_, heading)| heading.name.is_some());
+            Ok(csv.write_record(filed.map(|(cell, _)| cell.in_csv()))?)
+        })?;
+        csv.flush()
     }
 
     /// Writes aligned text: numbers to the right, words to the left, `-` for a missing
-    /// number; below it the notes.
+    /// number; below it the notes. Rows that are made are made twice.
     ///
     /// # Errors
-    /// An error of the writer.
+    /// As `write_csv`.
     pub fn write_text(&self, out: &mut dyn Write) -> Result<()> {
         self.write_text_in(usize::MAX, out)
     }
@@ -270,18 +318,15 @@ impl Table {
     /// Writes text as [`Table::write_text`] does, of the columns that fit into `room` letters.
     ///
     /// # Errors
-    /// An error of the writer.
+    /// As `write_csv`.
     pub fn write_text_in(&self, room: usize, out: &mut dyn Write) -> Result<()> {
         if !self.headings.is_empty() {
-            self.lines(room, APART).iter().try_for_each(|line| write_line(line, out))?;
+            let apart = " ".repeat(APART);
+            self.each_line(room, APART, |line| writeln!(out, "{}", line.join(&apart).trim_end()))?;
         }
         let notes = self.notes.iter().flat_map(|note| wrapped(note, WIDTH));
         notes.into_iter().try_for_each(|line| writeln!(out, "{line}"))
     }
-}
-
-fn write_line(cells: &[String], out: &mut dyn Write) -> Result<()> {
-    writeln!(out, "{}", cells.join(&" ".repeat(APART)).trim_end())
 }
 
 /// How people see the columns of a table: their widths are those of the cells met.
@@ -328,97 +373,6 @@ impl Layout {
 
 fn pad(text: String, width: usize, left: bool) -> String {
     if left { format!("{text:<width$}") } else { format!("{text:>width$}") }
-}
-
-/// The rows of one place of a list.
-type RowsAt = Rc<dyn Fn(usize) -> Result<Vec<Vec<TableCell>>>>;
-
-/// Rows under named columns, made place by place of a list.
-#[derive(Clone)]
-pub struct MadeTable {
-    headings: Vec<Heading>,
-    places: usize,
-    rows: usize,
-    at: RowsAt,
-}
-
-impl std::fmt::Debug for MadeTable {
-    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(out, "MadeTable({} rows of {:?})", self.rows, self.headings)
-    }
-}
-
-impl From<Table> for MadeTable {
-    fn from(Table { headings, rows, .. }: Table) -> Self {
-        let count = rows.len();
-        let at: RowsAt = Rc::new(move |place| Ok(rows.get(place).cloned().into_iter().collect()));
-        Self { headings, places: count, rows: count, at }
-    }
-}
-
-impl MadeTable {
-    /// With these columns, and so many rows over all of so many places, of which each has
-    /// these items.
-    pub fn of<T: 'static>(
-        columns: &'static [Column<'static, T>],
-        [places, rows]: [usize; 2],
-        items: impl Fn(usize) -> Result<Vec<T>> + 'static,
-    ) -> Self {
-        let headings = columns.iter().map(|column| column.0.into()).collect();
-        let cells = |item: &T| columns.iter().map(|column| (column.1)(item)).collect();
-        let at: RowsAt = Rc::new(move |place| Ok(items(place)?.iter().map(cells).collect()));
-        Self { headings, places, rows, at }
-    }
-
-    /// With columns of these names, and a row for each place, which has these cells.
-    pub fn named(
-        names: Vec<String>,
-        rows: usize,
-        cells: impl Fn(usize) -> Vec<TableCell> + 'static,
-    ) -> Self {
-        let headings = names.into_iter().map(Heading::from).collect();
-        Self { headings, places: rows, rows, at: Rc::new(move |place| Ok(vec![cells(place)])) }
-    }
-
-    /// How many rows there are.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.rows
-    }
-
-    /// Whether there is no row.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.rows == 0
-    }
-
-    fn each(&self, mut row: impl FnMut(Vec<TableCell>) -> Result<()>) -> Result<()> {
-        (0..self.places).try_for_each(|place| (self.at)(place)?.into_iter().try_for_each(&mut row))
-    }
-
-    /// As [`Table::write_csv`].
-    ///
-    /// # Errors
-    /// An error of the writer, or of what makes a row.
-    pub fn write_csv(&self, out: &mut dyn Write) -> Result<()> {
-        write_csv_of(&self.headings, |row| self.each(row), out)
-    }
-
-    /// As [`Table::write_text`]; every row is made twice.
-    ///
-    /// # Errors
-    /// As `write_csv`.
-    pub fn write_text(&self, out: &mut dyn Write) -> Result<()> {
-        let mut layout = Layout::of(&self.headings);
-        self.each(|row| {
-            layout.meet(&row);
-            Ok(())
-        })?;
-        if !self.headings.is_empty() {
-            write_line(&layout.headings(), out)?;
-        }
-        self.each(|row| write_line(&layout.line(&row), out))
-    }
 }
 
 #[cfg(test)]
@@ -478,10 +432,12 @@ mod made_table_tests {
     const COLUMNS: &[Column<'_, f64>] =
         &[("x_m", |x| (*x).into()), ("word", |x| if *x > 1.0 { "large, so" } else { "" }.into())];
 
-    fn made() -> MadeTable {
+    fn made() -> Table {
         // Of each place none, one or two.
-        let items = |place: usize| (0..place).map(|k| place as f64 + k as f64 / 3.0).collect();
-        MadeTable::of(COLUMNS, [3, 3], move |place| Ok(items(place)))
+        let items = |place: usize| (0..place).map(move |k| place as f64 + k as f64 / 3.0);
+        let cells = |x: f64| COLUMNS.iter().map(|column| (column.1)(&x)).collect();
+        let headings = COLUMNS.iter().map(|column| column.0);
+        Table::made(headings, [3, 3], move |place| Ok(items(place).map(cells).collect()))
     }
 
     fn told(write: impl Fn(&mut dyn Write) -> Result<()>) -> String {
@@ -495,17 +451,15 @@ mod made_table_tests {
         let (made, whole) = (made(), Table::of(&[1.0, 2.0, 2.0 + 1.0 / 3.0], COLUMNS));
         assert_eq!(told(|out| made.write_csv(out)), told(|out| whole.write_csv(out)));
         assert_eq!(told(|out| made.write_text(out)), told(|out| whole.write_text(out)));
-        let kept = MadeTable::from(whole.clone());
-        assert_eq!((made.len(), kept.len()), (3, 3));
-        assert_eq!(told(|out| kept.write_text(out)), told(|out| whole.write_text(out)));
-        let none = MadeTable::from(Table::default());
+        assert_eq!((made.len(), whole.len()), (3, 3));
+        let none = Table::default();
         assert!(none.is_empty() && told(|out| none.write_text(out)).is_empty());
     }
 
     #[test]
     fn a_row_that_cannot_be_made_is_an_error() {
         let fails = |_| Err(std::io::Error::other("no such row"));
-        let failing = MadeTable::of(COLUMNS, [1, 1], fails);
+        let failing = Table::made(["x_m"], [1, 1], fails);
         assert!(failing.write_csv(&mut Vec::new()).is_err());
         assert!(failing.write_text(&mut Vec::new()).is_err());
     }

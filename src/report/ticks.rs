@@ -3,7 +3,6 @@
 
 /// Returns a step of 1, 2 or 5 times a power of ten that puts at most `most` ticks in `span`; none
 /// for a span that is not a positive number.
-#[must_use]
 pub fn nice_step(span: f64, most: usize) -> Option<f64> {
     if !(span.is_finite() && span > 0.0) || most == 0 {
         return None;
@@ -20,7 +19,6 @@ pub fn nice_step(span: f64, most: usize) -> Option<f64> {
 
 /// Returns the round values inside `[low, high]`, at most about `most` of them, with their spacing;
 /// empty where the range is empty, reversed or not finite.
-#[must_use]
 pub fn ticks(low: f64, high: f64, most: usize) -> (Vec<f64>, f64) {
     let Some(step) = nice_step(high - low, most.max(1)) else { return (Vec::new(), 1.0) };
     let slack = 1e-9 * step;
@@ -41,7 +39,6 @@ pub fn ticks(low: f64, high: f64, most: usize) -> (Vec<f64>, f64) {
 /// Ticks of a logarithmic axis between two exponents of ten: whole powers, every
 /// so many that about `most` remain; with less than a decade, also 2 and 5 times
 /// a power. Values are exponents.
-#[must_use]
 pub fn log_ticks(low: f64, high: f64, most: usize) -> Vec<f64> {
     let decades = high - low;
     if !(decades.is_finite() && (0.0..1e3).contains(&decades)) {
@@ -58,7 +55,6 @@ pub fn log_ticks(low: f64, high: f64, most: usize) -> Vec<f64> {
 
 /// Returns a value of a logarithmic axis, given by its exponent of ten: `10⁵`, and `2·10⁵` between
 /// whole powers.
-#[must_use]
 pub fn power_of_ten(exponent: f64) -> String {
     let whole = (exponent + 1e-9).floor();
     let digits: String = format!("{whole}").chars().map(raised).collect();
@@ -69,7 +65,6 @@ pub fn power_of_ten(exponent: f64) -> String {
 }
 
 /// Returns a number as a multiple of a power of ten: `2.5·10⁵`, `10⁶`.
-#[must_use]
 pub fn scientific(x: f64) -> String {
     let text = format!("{x:.5e}");
     let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));

@@ -28,6 +28,15 @@ impl ChartAxis {
         Self { scale: SiScale::of(low.abs().max(high.abs())), ..Self::plain(low, high) }
     }
 
+    /// Creates an axis with round ends around values and zero.
+    pub fn around(values: impl Iterator<Item = f64>) -> Self {
+        let (low, high) = values
+            .filter(|value| value.is_finite())
+            .fold((0.0_f64, 0.0_f64), |(a, b), v| (a.min(v), b.max(v)));
+        let step = nice_step(high - low, 6).unwrap_or(1.0);
+        Self::scaled((low / step).floor() * step, (high / step).ceil() * step)
+    }
+
     /// Creates an axis without a prefix.
     pub fn plain(low: f64, high: f64) -> Self {
         Self { low, high, scale: SiScale::plain(), powers: false, unit: None, speeds: false }

@@ -15,7 +15,7 @@ use super::app::App;
 use super::files::FILES_NAME;
 use super::lessons::LessonsDone;
 use super::raster::Marker;
-use super::theme::{Theme, ThemeChoice};
+use super::theme::ThemeChoice;
 use crate::file;
 use crate::report::line::clean;
 
@@ -81,6 +81,23 @@ impl Units {
 }
 
 impl Config {
+    /// Returns what is to be remembered of the explorer as it is now.
+    fn of(app: &App) -> Self {
+        let look = app.appearance;
+        let speed = if look.rpm { SpeedUnit::Rpm } else { SpeedUnit::Radians };
+        Self {
+            // None while it follows the background of the terminal.
+            theme: (!look.follows_ground).then(|| ThemeChoice::of(look.theme)),
+            marker: Some(look.marker),
+            charts: Some(app.layout.beside),
+            mouse: Some(app.mouse.on),
+            introduced: !app.dialogue.is_new,
+            units: Units { speed: Some(speed) },
+            steps_done: app.lessons.done.clone(),
+            others: toml::Table::new(),
+        }
+    }
+
     fn read(path: &Path) -> Result<Self, String> {
         match path.metadata() {
             // A pipe would keep the program waiting.
@@ -118,26 +135,6 @@ fn is_at_home(folder: &Path, home: &Path) -> bool {
     home.is_dir() || !folder.starts_with(home)
 }
 
-/// Choices that keys change.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Choices {
-    /// `None` while it follows the background of the terminal.
-    theme: Option<Theme>,
-    marker: Marker,
-    charts: usize,
-    mouse: bool,
-    rpm: bool,
-}
-
-impl Choices {
-    fn of(app: &App) -> Self {
-        let look = app.appearance;
-        let (charts, mouse) = (app.layout.beside, app.mouse.on);
-        let theme = (!look.follows_ground).then_some(look.theme);
-        Self { theme, marker: look.marker, charts, mouse, rpm: look.rpm }
-    }
-}
-
 /// The config file of this start.
 #[derive(Debug)]
 pub struct Memory {
@@ -147,8 +144,8 @@ pub struct Memory {
     pub config: Config,
     /// Reason why it was not used.
     pub complaint: Option<String>,
-    /// The choices at the start.
-    began: Option<Choices>,
+    /// What there was to remember at the start.
+    began: Option<Config>,
 }
 
 impl Memory {
@@ -186,21 +183,19 @@ impl Memory {
         app.mouse.on &= self.config.mouse.unwrap_or(true);
         app.dialogue.is_new = self.path.is_some() && !self.config.introduced;
         app.status.clone_from(&self.complaint);
-        self.began = Some(Choices::of(app));
+        self.began = Some(Config::of(app));
     }
 
     /// Remembers what was changed since the beginning, for the next start; returns why it could
     /// not. Waits no longer than this for a disk that does not answer.
     pub fn keep(self, app: &App, patience: Duration) -> Option<String> {
         let path = self.path.clone()?;
-        let ended = Choices::of(app);
-        let (introduced, lessons) = (!app.dialogue.is_new, app.lessons.done.clone());
+        let ended = Config::of(app);
         let (done, wait) = channel();
         let work = move || {
             // Another explorer may have written it meanwhile.
             let kept = Config::read(&path).and_then(|config| {
-                let mut changed = self.changed(config.clone(), ended, introduced);
-                changed.steps_done.join(lessons);
+                let changed = self.changed(config.clone(), ended);
                 let is_new = changed != config;
                 let written = if is_new { changed.write(&path) } else { Ok(()) };
                 // A place that is no folder is meant to keep nothing.
@@ -216,25 +211,25 @@ impl Memory {
         wait.recv_timeout(patience).ok()?
     }
 
-    fn changed(&self, mut config: Config, ended: Choices, introduced: bool) -> Config {
-        let Some(began) = self.began else { return config };
+    fn changed(&self, mut config: Config, ended: Config) -> Config {
+        config.steps_done.join(ended.steps_done);
+        config.introduced |= ended.introduced;
+        let Some(began) = &self.began else { return config };
         if ended.theme != began.theme {
-            config.theme = ended.theme.map(ThemeChoice::of);
+            config.theme = ended.theme;
         }
         if ended.marker != began.marker {
-            config.marker = Some(ended.marker);
+            config.marker = ended.marker;
         }
         if ended.charts != began.charts {
-            config.charts = Some(ended.charts);
+            config.charts = ended.charts;
         }
         if ended.mouse != began.mouse {
-            config.mouse = Some(ended.mouse);
+            config.mouse = ended.mouse;
         }
-        if ended.rpm != began.rpm {
-            let unit = if ended.rpm { SpeedUnit::Rpm } else { SpeedUnit::Radians };
-            config.units.speed = Some(unit);
+        if ended.units != began.units {
+            config.units = ended.units;
         }
-        config.introduced |= introduced;
         config
     }
 }

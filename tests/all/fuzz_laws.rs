@@ -237,7 +237,7 @@ fn part_seeds() -> Vec<Vec<u8>> {
     let other = plan("bladed_disk.blades=20:24:2", "operation.pulse_n=log:1e3:1e6:4", true);
     let mut seeds = Vec::new();
     for (plan, step) in [(&plain, 1), (&plain, 2), (&plain, 100), (&other, 1), (&other, 3)] {
-        let map = Map::empty(plan.clone());
+        let mut map = Map::empty(plan.clone());
         // Invented cells: a run is not what is tested.
         for index in (0..map.cells.len()).step_by(step) {
             let verdict = rubscope_solver::motion::Verdict::ALL[index % 6];

@@ -35,7 +35,7 @@ fn thresholds_of_rigid_blades_are_the_closed_forms() {
         close(find(Kind::Corner, Pulls, Adhesive), machine.adhesive_speed().unwrap(), 1e-8);
         close(find(Kind::Corner, Adhesive, Stable), lock, 1e-12);
         close(find(Kind::Side, Pulls, Penetrates), critical, 1e-12);
-        // Above the lock-in speed the saddle stands on the side: the
+        // Above the lock speed the saddle stands on the side: the
         // single-side limit is the same number.
         close(find(Kind::Side, Penetrates, Unstable), lock, 1e-12);
         assert_eq!(branches.thresholds.len(), 4);
@@ -127,7 +127,8 @@ fn a_very_soft_casing_has_the_closed_forms_all_the_same() {
     let speed = 5578.0;
     for damped in [false, true] {
         let branches = Branches::over(&machine, &[0.0, speed], damped).unwrap();
-        let states = branches.states().unwrap();
+        let at = |place| branches.states_at(place).unwrap();
+        let states: Vec<_> = (0..branches.speeds()).flat_map(at).collect();
         assert_eq!(states.len(), 4);
         let (rest, side) = (&states[2], &states[3]);
         assert_eq!((rest.kind, rest.character), (Kind::Rest, Character::Stable));

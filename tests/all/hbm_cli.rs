@@ -85,11 +85,11 @@ fn the_papers_form_says_that_it_has_no_damping() {
     };
     let printed = told(&["--form", "printed", "--speed", "500"]);
     assert!(printed.contains("form printed, undamped as in the paper"), "{printed}");
-    // The lock-in speed that is told is that of the equations below it.
-    let words = "lock-in from 292.878 rad/s without damping, 411.934 with zeta_c = 0.05";
+    // The lock speed that is told is that of the equations below it.
+    let words = "lock from 292.878 rad/s without damping, 411.934 with zeta_c = 0.05";
     assert!(printed.contains(words), "{printed}");
     assert!(told(&["--undamped"]).contains(words));
-    assert!(told(&[]).contains("lock-in from 411.934 rad/s (zeta_c = 0.05)"));
+    assert!(told(&[]).contains("lock from 411.934 rad/s (zeta_c = 0.05)"));
     assert_eq!(json(&["--form", "printed"])["damped"], false);
     assert_eq!(json(&["--form", "printed", "--damped"])["damped"], true);
     ended(&mut hbm(&["--damped", "--undamped"]), 2);
@@ -107,7 +107,7 @@ fn views_that_are_always_damped_do_not_drop_it() {
     // The paper's form is of the multipliers alone.
     let output = ended(&mut hbm(&["--slip", "--form", "printed"]), 0);
     let told = String::from_utf8(output.stdout).unwrap();
-    assert!(told.contains("lock-in from 411.934 rad/s (zeta_c = 0.05)"), "{told}");
+    assert!(told.contains("lock from 411.934 rad/s (zeta_c = 0.05)"), "{told}");
     ended(&mut hbm(&["--branches", "--undamped"]), 0);
 }
 

@@ -1,8 +1,9 @@
 //! Laws of the frequency domain over random machines.
 
+use crate::hbm_slip::slip_map;
 use proptest::prelude::*;
 use rubscope_solver::harmonic::{
-    Character, Corner, Form, Kind, Locked, equilibria, lock_fold_speed, slip_map, slip_over,
+    Character, Corner, Form, Kind, Locked, equilibria, lock_fold_speed, slip_over,
 };
 use rubscope_solver::model::{BladedDisk, Casing, Machine};
 

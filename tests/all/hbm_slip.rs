@@ -1,7 +1,7 @@
 //! Slip in the frequency domain: the map from corner to corner, its fixed
 //! point, and the balance of power.
 
-use rubscope_solver::harmonic::{NoSlip, SlipLimit, slip_limits, slip_map, slip_over};
+use rubscope_solver::harmonic::{NoSlip, SlipLimit, slip_limits, slip_over};
 use rubscope_solver::model::{BladedDisk, Casing, Machine};
 
 fn machine(nodal_diameters: u32, zeta_c: f64) -> Machine {
@@ -11,6 +11,64 @@ fn machine(nodal_diameters: u32, zeta_c: f64) -> Machine {
 
 fn close(value: f64, expected: f64, relative: f64) {
     assert!((value - expected).abs() <= relative * expected.abs(), "{value:e} is not {expected:e}");
+}
+
+/// One step of the map from corner to corner.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    /// Speed just after the next corner \[m/s\].
+    pub speed_after_corner_m_s: f64,
+    /// Time it took \[s\].
+    pub time_s: f64,
+    /// Smallest push on the way \[N\].
+    pub least_push_n: f64,
+    /// Derivative of `speed_after` with respect to the initial speed.
+    pub slope: f64,
+}
+
+/// Returns the map from a speed just after one corner \[m/s\], along a side, to that just after
+/// the next, in closed form; `None` where the wave turns back.
+pub fn slip_map(machine: &Machine, rotor: f64, start: f64) -> Option<Crossing> {
+    let (omega, zeta, nu) = (machine.omega_c, machine.casing_damping_ratio, machine.nu(rotor));
+    let (end, drag) = (machine.polygon.half_side(), zeta * omega);
+    let excess = (nu - omega) * (nu + omega);
+    let root = (drag * drag + excess).sqrt();
+    let [up, down] = [excess / (root + drag), -root - drag];
+    let saddle = -2.0 * drag * nu * machine.clearance() / excess;
+    let offset = -end - saddle;
+    if start <= (down * offset).max(0.0) {
+        return None;
+    }
+    let grow = (start - down * offset) / (up - down);
+    let decay = offset - grow;
+    let at = |t: f64| {
+        let (grown, decayed) = (grow * (up * t).exp(), decay * (down * t).exp());
+        (saddle + grown + decayed, grown * up + decayed * down)
+    };
+    let (mut low, mut high) = (0.0, 2.0 * end / start);
+    while at(high).0 < end {
+        (low, high) = (high, 2.0 * high);
+    }
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if at(middle).0 < end { low = middle } else { high = middle }
+    }
+    let push = |t: f64| {
+        let (y, speed) = at(t);
+        machine.casing_mass * (excess * machine.clearance() - 2.0 * nu * (speed + drag * y))
+    };
+    // Between the ends it is least where its rate vanishes.
+    let ratio = -(decay * down * (down + drag)) / (grow * up * (up + drag));
+    let least = Some(ratio.ln() / (up - down)).filter(|t| (0.0..high).contains(t));
+    let least_push_n = [0.0, high].into_iter().chain(least).map(push).fold(f64::INFINITY, f64::min);
+    let (kept, before) = ((2.0 * machine.polygon.delta).cos(), at(high).1);
+    let contraction = (-2.0 * drag * high).exp();
+    Some(Crossing {
+        speed_after_corner_m_s: kept * before,
+        time_s: high,
+        least_push_n,
+        slope: kept * start / before * contraction,
+    })
 }
 
 #[test]
@@ -148,7 +206,7 @@ fn slow_waves_turn_back() {
     let machine = machine(3, 0.01);
     assert_eq!(slip_map(&machine, 500.0, 1e-3), None);
     assert!(slip_map(&machine, 500.0, 0.05).is_some());
-    // Between the critical and the lock-in speed there is no saddle on the side
+    // Between the critical and the lock speed there is no saddle on the side
     // and any drift continues.
     assert!(slip_map(&machine, 300.0, 1e-6).is_some());
 }

@@ -1,5 +1,5 @@
 //! The frequency domain against the time solvers: locked states in all four
-//! coordinates, the lock-in threshold by bisection, the speed of slip.
+//! coordinates, the lock speed by bisection, the speed of slip.
 
 use nalgebra::Complex;
 use rubscope_solver::harmonic::{Corner, ExcitedLocks, Form, Locked, SlipOrbit, slip_over};

@@ -1,4 +1,4 @@
-//! What the map shows: no lock below the lock-in speed where contact can only
+//! What the map shows: no lock below the lock speed where contact can only
 //! push, the paper's zone with its adhesive part where it can pull, and the same
 //! map on any number of threads.
 
@@ -45,30 +45,30 @@ fn is_held(verdict: Verdict) -> bool {
 
 /// No cell holds at or below Omega_lock, 411.934 rad/s here, and none anywhere
 /// needs a pull; returns how many hold above.
-fn holds_only_above_lock_in(speed: &str, pulse: &str) -> usize {
+fn holds_only_above_lock_speed(speed: &str, pulse: &str) -> usize {
     let map = filled(plan(speed, pulse));
-    let lock_in = map.plan.scene.machine().lock_speed().unwrap();
-    assert!((lock_in - 411.934).abs() < 1e-3, "{lock_in}");
+    let lock = map.plan.scene.machine().lock_speed().unwrap();
+    assert!((lock - 411.934).abs() < 1e-3, "{lock}");
     let held: Vec<_> = cells(&map).into_iter().filter(|cell| is_held(cell.2)).collect();
     for &(speed, pulse, verdict) in &held {
-        assert!(speed > lock_in, "{verdict} at {speed} rad/s with {pulse} N");
+        assert!(speed > lock, "{verdict} at {speed} rad/s with {pulse} N");
         assert_eq!(verdict, Verdict::Locked, "contact that only pushes cannot be adhesive");
     }
     held.len()
 }
 
 #[test]
-fn no_lock_at_or_below_the_lock_in_speed_where_contact_only_pushes() {
+fn no_lock_at_or_below_the_lock_speed_where_contact_only_pushes() {
     // Ends at Omega_lock to all digits given: "at" is in.
-    assert_eq!(holds_only_above_lock_in("0:411.934:60", "1e3:1e6:30"), 0);
+    assert_eq!(holds_only_above_lock_speed("0:411.934:60", "1e3:1e6:30"), 0);
     // The default scene locks here, between 45 and 60 kN for one.
-    assert!(holds_only_above_lock_in("430:800:20", "1e4:1e6:30") > 0);
+    assert!(holds_only_above_lock_speed("430:800:20", "1e4:1e6:30") > 0);
 }
 
 #[test]
 #[ignore = "40,000 cells, for release builds: cargo test --release -- --ignored"]
-fn no_lock_at_or_below_the_lock_in_speed_in_a_full_map() {
-    holds_only_above_lock_in("0:500:200", "0:1.2e6:200");
+fn no_lock_at_or_below_the_lock_speed_in_a_full_map() {
+    holds_only_above_lock_speed("0:500:200", "0:1.2e6:200");
 }
 
 #[test]
@@ -78,7 +78,7 @@ fn the_bilateral_map_shows_the_zone_of_the_paper() {
     plan.scene.solver.contact = ContactLaw::Bilateral;
     plan.scene.solver.step_s = 1e-6;
     let machine = plan.scene.machine();
-    let (critical, lock_in) = (machine.critical_speed().unwrap(), machine.lock_speed().unwrap());
+    let (critical, lock) = (machine.critical_speed().unwrap(), machine.lock_speed().unwrap());
     // Omega_c [zeta_c tan delta + sqrt(1 + zeta_c^2 tan^2 delta)], delta the
     // half corner, pi / 22 for these 22 sides.
     let tan = 0.05 * (std::f64::consts::PI / 22.0).tan();
@@ -89,7 +89,7 @@ fn the_bilateral_map_shows_the_zone_of_the_paper() {
     for (speed, pulse, verdict) in cells(&map) {
         if is_held(verdict) {
             assert!(speed > adhesive_from, "{verdict} at {speed} rad/s with {pulse} N");
-            let expected = if speed > lock_in { Verdict::Locked } else { Verdict::Adhesive };
+            let expected = if speed > lock { Verdict::Locked } else { Verdict::Adhesive };
             assert_eq!(verdict, expected, "at {speed} rad/s with {pulse} N");
             seen[usize::from(expected == Verdict::Locked)] += 1;
         }

@@ -279,6 +279,29 @@ fn an_ordinary_blade_family_is_taken_as_it_is_and_a_slip_is_shown_before_it_is_w
     assert!(told.contains(doubt) && !told.contains("Nothing looks"), "{told}");
 }
 
+#[test]
+fn what_a_new_scene_does_not_use_of_its_table_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let [table, file] = ["modes.csv", "mine.toml"].map(|name| folder.path().join(name));
+    let rows = "Structure;Nodal diameters;Frequency [kHz];Mass [g];Speed [1/min];Tested by;Date\r\n\
+                casing;2;0,145;9800;;me;\r\ndisk;2;0,352;3900;0;;\r\ndisk;2;0,4103;4100;10000;;\r\n";
+    std::fs::write(&table, rows).unwrap();
+    let [table, file] = [&table, &file].map(|path| path.to_str().unwrap());
+    let made = rubscope(&of_table(file, table));
+    let said = String::from_utf8(made.stderr).unwrap();
+    assert!(made.status.success() && !said.contains("slip"), "{said}");
+    for words in [
+        "columns not used: Tested by, Date",
+        "line 4, modal_mass_kg = 4.1 is not used: the line before of this mode has 3.9",
+    ] {
+        assert!(said.contains(&format!("rubscope: {table}: {words}\n")), "{said}");
+    }
+    let mut scene = Scene::load(file).unwrap();
+    scene.set("operation.nodal_diameters", "2").unwrap();
+    let turning = scene.machine().at(10000.0 * (TAU / 60.0)).omega_bd;
+    assert!((turning / (TAU * 410.3) - 1.0).abs() < 1e-12);
+}
+
 #[cfg(unix)]
 #[test]
 fn a_name_that_is_no_text_is_refused_as_by_every_command() {

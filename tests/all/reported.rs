@@ -57,7 +57,7 @@ fn a_lock_on_a_lining_is_said_to_be_of_two_groups() {
     let run = told(&[&["run", "soft-lining", "--end", "1e-4"][..], &stiff].concat());
     assert!(run.contains(", where locks of two groups begin"), "{run}");
     let hbm = told(&[&["hbm", "soft-lining", "--smooth", "--speed", "450"][..], &stiff].concat());
-    assert!(hbm.contains(", lock-in of two groups from "), "{hbm}");
+    assert!(hbm.contains(", lock of two groups from "), "{hbm}");
     let margins = told(&[&["margins", "soft-lining", "--no-search"][..], &stiff].concat());
     assert!(margins.contains(": of two groups on the lining"), "{margins}");
     // Rigid contact has no others.

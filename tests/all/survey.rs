@@ -33,7 +33,7 @@ fn every_row_has_the_limits_that_margins_finds_for_its_diameters() {
     {
         let scene = scene(name, &[("operation.speed_rad_s", speed)]);
         let mass = parameter("casing.modal_mass_kg").unwrap();
-        let survey = Survey::of(&scene, None, Some(mass));
+        let survey = Survey::of(&scene, None, Some(mass)).unwrap();
         assert_eq!(survey.rows.len(), scene.bladed_disk.blades as usize / 2 + 1);
         let mut compared = 0;
         for row in &survey.rows {
@@ -89,7 +89,7 @@ fn every_row_of_the_paper_is_what_the_campbell_diagram_says() {
 
 #[test]
 fn the_numbers_are_those_of_independent_formulas() {
-    let survey = Survey::of(&scene("paper-nd3", &[]), None, None);
+    let survey = Survey::of(&scene("paper-nd3", &[]), None, None).unwrap();
     let frequencies = [
         268.381839036,
         270.547372399,
@@ -220,7 +220,7 @@ fn rows_without_modes_of_their_own_come_with_all_of_them_and_are_drawn_hollow() 
     assert!(all.lines().all(|line| line.chars().count() <= 110), "{all}");
     // The row of the scene is there, whatever it has.
     assert!(text("survey paper-nd3 --nd 5").contains(">5? "));
-    let survey = Survey::of(&scene("paper-nd3", &[]), None, None);
+    let survey = Survey::of(&scene("paper-nd3", &[]), None, None).unwrap();
     let figure = |all| rubscope::report::survey::figure(&survey, all);
     let points = |all| {
         let [of, _] = &figure(all).panels[..] else { panic!() };
@@ -366,9 +366,22 @@ fn a_range_that_is_none_is_refused_by_name() {
 }
 
 #[test]
+fn a_survey_takes_no_range_that_is_none() {
+    let scene = scene("paper-nd3", &[]);
+    let nan = f64::NAN;
+    for range in [[nan, 300.0], [200.0, nan], [300.0, 200.0], [5.0, 5.0], [0.0, f64::INFINITY]] {
+        let refused = Survey::of(&scene, Some(range), None).unwrap_err().to_string();
+        let start = format!("range = {}:{}: allowed is FROM:TO, two speeds", range[0], range[1]);
+        assert!(refused.starts_with(&start), "{refused}");
+    }
+    // A rotor that turns backward.
+    assert!(!Survey::of(&scene, Some([-600.0, -200.0]), None).unwrap().is_forward());
+}
+
+#[test]
 fn thousands_of_blades_have_a_row_each() {
     let blades = [("bladed_disk.blades", "4096")];
-    let survey = Survey::of(&scene("paper-nd3", &blades), Some([1.0, 2.0]), None);
+    let survey = Survey::of(&scene("paper-nd3", &blades), Some([1.0, 2.0]), None).unwrap();
     assert_eq!(survey.rows.len(), 2049);
     let told = text("survey paper-nd3 --set bladed_disk.blades=4096 --range 1:2 --all");
     assert!(told.contains(" more: --json or --out") && told.lines().count() < 100, "{told}");
@@ -398,6 +411,6 @@ fn the_limits_say_of_which_tips_they_are_and_what_scatter_does() {
     }
     // Of another machine it is another speed: twice the diameters turn at half of it.
     let own = Survey::of(&scene("paper-nd3", &[("operation.nodal_diameters", "6")]), None, None);
-    let found = own.scattered.unwrap();
+    let found = own.unwrap().scattered.unwrap();
     assert!(found.mean_rad_s < found.equal_rad_s && found.equal_rad_s < 200.0, "{found:?}");
 }

@@ -1,34 +1,15 @@
-//! Contact laws, each a value that solves one step on predicted gaps: the
-//! corrected gaps are `g = g* - W lambda` (docs/theory.md, section 6). A multiplier
-//! below zero pushes. A law is one file, and one line each of `ContactLaw` and `law`.
+//! Contact laws, which solve one step on predicted gaps: the corrected gaps are
+//! `g = g* - W lambda` (docs/theory.md, section 6). A multiplier below zero pushes.
 //!
 //! At most one corner of the polygon touches in every ordinary step, so a law
 //! solves two rows by cases; larger sets go to `several`.
 
-mod bilateral;
 mod several;
-mod unilateral;
 
 use serde::Serialize;
 use strum::{AsRefStr, Display, EnumString, IntoStaticStr, VariantNames};
 
-pub use bilateral::pair;
 pub use several::Several;
-pub use unilateral::complementary_pair;
-
-/// A contact law, which gives the multipliers of one step. `None` stands for rows that cannot
-/// be told apart (singular equations).
-pub trait StepLaw: std::fmt::Debug + Sync {
-    /// Returns whether a multiplier may pull.
-    fn pulls(&self) -> bool;
-    /// Solves two rows of different sides.
-    fn pair(&self, w: [[f64; 2]; 2], gap: [f64; 2]) -> Option<[f64; 2]>;
-    /// Solves any number of rows of different sides.
-    fn several<'a>(&self, rows: &'a mut Several) -> Option<&'a [f64]>;
-    /// Returns the force that keeps a corner closed, for the multipliers of its sides and the
-    /// cosine of the angle between them; the corner opens where it is zero \[N\].
-    fn hold(&self, multipliers: [f64; 2], cos: f64) -> f64;
-}
 
 /// Which contact law closes the predicted penetrations.
 #[derive(
@@ -74,14 +55,32 @@ impl ContactLaw {
             Self::Smooth => Some("a lining has no events"),
         }
     }
-}
 
-/// Returns the rigid law of this name; for a lining, the law of its stiff limit.
-#[must_use]
-pub fn law(name: ContactLaw) -> &'static dyn StepLaw {
-    match name {
-        ContactLaw::Unilateral | ContactLaw::Smooth => &unilateral::Unilateral,
-        ContactLaw::Bilateral => &bilateral::Bilateral,
+    /// Returns whether a multiplier may pull. A lining has the rigid law of its stiff limit.
+    #[must_use]
+    pub fn pulls(self) -> bool {
+        self == Self::Bilateral
+    }
+
+    /// Solves two rows of different sides; `None` where they cannot be told apart (singular
+    /// equations).
+    #[must_use]
+    pub fn pair(self, w: [[f64; 2]; 2], gap: [f64; 2]) -> Option<[f64; 2]> {
+        if self.pulls() { Some(pair(w, gap)) } else { complementary_pair(w, gap) }
+    }
+
+    /// Solves any number of rows of different sides, as `pair`.
+    #[must_use]
+    pub fn several(self, rows: &mut Several) -> Option<&[f64]> {
+        if self.pulls() { rows.all_closed() } else { rows.complementary() }
+    }
+
+    /// Returns the force that keeps a corner closed, for the multipliers of its sides and the
+    /// cosine of the angle between them; the corner opens where it is zero \[N\]. It lasts while
+    /// both sides push, or, where they may pull, are predicted to penetrate.
+    #[must_use]
+    pub fn hold(self, [a, b]: [f64; 2], cos: f64) -> f64 {
+        if self.pulls() { (-(a + cos * b)).min(-(b + cos * a)) } else { (-a).min(-b) }
     }
 }
 
@@ -89,6 +88,37 @@ pub fn law(name: ContactLaw) -> &'static dyn StepLaw {
 #[must_use]
 pub fn single(w: f64, gap: f64) -> f64 {
     gap / w
+}
+
+/// Returns the multipliers of two rows closed as equalities, which are not finite where the
+/// rows are dependent.
+#[must_use]
+pub fn pair(w: [[f64; 2]; 2], gap: [f64; 2]) -> [f64; 2] {
+    let determinant = w[0][0] * w[1][1] - w[0][1] * w[1][0];
+    [
+        (w[1][1] * gap[0] - w[0][1] * gap[1]) / determinant,
+        (w[0][0] * gap[1] - w[1][0] * gap[0]) / determinant,
+    ]
+}
+
+/// Solves the complementarity problem of two rows, `g >= 0`, `lambda <= 0`, `g lambda = 0`
+/// (Signorini; docs/theory.md, section 2), by cases: neither, the first, the second,
+/// both. `None` where no case holds (dependent rows).
+#[must_use]
+pub fn complementary_pair(w: [[f64; 2]; 2], gap: [f64; 2]) -> Option<[f64; 2]> {
+    if gap[0] >= 0.0 && gap[1] >= 0.0 {
+        return Some([0.0, 0.0]);
+    }
+    let first = single(w[0][0], gap[0]);
+    if first <= 0.0 && gap[1] - w[1][0] * first >= 0.0 {
+        return Some([first, 0.0]);
+    }
+    let second = single(w[1][1], gap[1]);
+    if second <= 0.0 && gap[0] - w[0][1] * second >= 0.0 {
+        return Some([0.0, second]);
+    }
+    let both = pair(w, gap);
+    (both[0] <= 0.0 && both[1] <= 0.0).then_some(both)
 }
 
 #[cfg(test)]

@@ -81,9 +81,7 @@ impl Campbell {
     /// No nodal diameters, so no travelling waves.
     pub fn of(machine: &Machine, orders: &[u32], speed: f64) -> Result<Self, HarmonicError> {
         let n_d = machine.nodal_diameters;
-        if n_d == 0.0 {
-            return Err(HarmonicError::NoWave);
-        }
+        error::refuse_no_wave(machine)?;
         let (omega_c, omega_bd) = (machine.omega_c, machine.omega_bd_at_rest());
         let sense = if speed < 0.0 { -1.0 } else { 1.0 };
         let line = |name: &str, at_standstill_rad_s, slope, stiffening| Line {

@@ -386,18 +386,6 @@ impl Branches {
         Ok(states)
     }
 
-    /// Returns every equilibrium at every speed, in the order of the speeds.
-    ///
-    /// # Errors
-    /// None for what `over` gave.
-    pub fn states(&self) -> Result<Vec<Equilibrium>, HarmonicError> {
-        let mut all = Vec::with_capacity(self.count);
-        for place in 0..self.speeds() {
-            all.append(&mut self.states_at(place)?);
-        }
-        Ok(all)
-    }
-
     fn at(&self, kind: Kind, speed: f64) -> Result<Option<Equilibrium>, HarmonicError> {
         let side = Corner::paper(&self.machine.polygon).map_or(0, |corner| corner.a);
         equilibrium(&self.machine, kind, side, speed, self.damped)

@@ -8,6 +8,7 @@ use crate::model::{ContactPolygon, Machine};
 
 /// An input without meaning in the frequency domain, or a solution that was not found.
 #[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
 pub enum HarmonicError {
     /// Fewer than three sides: neighbouring sides never meet.
     #[error(
@@ -22,12 +23,6 @@ pub enum HarmonicError {
         /// `N'`.
         sides: u32,
     },
-    /// `n_d = 0`: the casing has no travelling wave.
-    #[error(
-        "operation.nodal_diameters = 0: allowed is 1 or more; without nodal diameters there is no \
-         travelling wave and no critical speed"
-    )]
-    NoWave,
     /// Two blades that cannot hold the wave between them.
     #[error("blades = {first},{second}: allowed is {allowed}")]
     Blades {
@@ -38,9 +33,6 @@ pub enum HarmonicError {
         /// What would be accepted.
         allowed: String,
     },
-    /// A speed that is not a finite number.
-    #[error("speed = {0}: allowed is a finite number of rad/s")]
-    Speed(f64),
     /// A parameter of the frequency domain out of bounds.
     #[error("{key} = {value}: allowed is {allowed}")]
     Refused {
@@ -77,11 +69,7 @@ pub enum HarmonicError {
 
 impl HarmonicError {
     /// Creates the refusal of a value that is not allowed for its key.
-    pub(super) fn refused(
-        key: &'static str,
-        value: impl ToString,
-        allowed: impl Into<String>,
-    ) -> Self {
+    pub fn refused(key: &'static str, value: impl ToString, allowed: impl Into<String>) -> Self {
         Self::Refused { key, value: value.to_string(), allowed: allowed.into() }
     }
 
@@ -143,6 +131,16 @@ pub(super) fn refuse_other_diameters(machine: &Machine) -> Result<(), HarmonicEr
     Ok(())
 }
 
+/// Refuses `n_d = 0`: the casing has no travelling wave.
+pub(super) fn refuse_no_wave(machine: &Machine) -> Result<(), HarmonicError> {
+    let allowed = "1 or more; without nodal diameters there is no travelling wave and no critical \
+                   speed";
+    if machine.nodal_diameters == 0.0 {
+        return Err(HarmonicError::refused(keys::DIAMETERS, 0, allowed));
+    }
+    Ok(())
+}
+
 /// Refuses a polygon whose neighbouring sides never meet.
 pub(super) fn refuse_no_corner(polygon: &ContactPolygon) -> Result<(), HarmonicError> {
     if polygon.has_corners() { Ok(()) } else { Err(HarmonicError::no_corner(polygon)) }
@@ -151,5 +149,6 @@ pub(super) fn refuse_no_corner(polygon: &ContactPolygon) -> Result<(), HarmonicE
 /// Refuses speeds that are not finite.
 pub(super) fn refuse_endless(speeds: &[f64]) -> Result<(), HarmonicError> {
     let endless = speeds.iter().find(|speed| !speed.is_finite());
-    endless.map_or(Ok(()), |&speed| Err(HarmonicError::Speed(speed)))
+    let refused = |speed| Err(HarmonicError::refused("speed", speed, "a finite number of rad/s"));
+    endless.map_or(Ok(()), refused)
 }

@@ -105,11 +105,9 @@ impl ExcitedLocks {
     /// # Errors
     /// None for what `over` gave.
     pub fn lock_at(&self, place: usize) -> Result<Option<ExcitedLock>, HarmonicError> {
-        match self.speeds.get(place) {
-            Some(&speed) if !speed.is_finite() => Err(HarmonicError::Speed(speed)),
-            Some(&speed) => at(&self.machine, self.corner, &self.excitation, speed),
-            None => Ok(None),
-        }
+        let Some(&speed) = self.speeds.get(place) else { return Ok(None) };
+        error::refuse_endless(&[speed])?;
+        at(&self.machine, self.corner, &self.excitation, speed)
     }
 }
 

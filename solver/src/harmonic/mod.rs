@@ -56,6 +56,4 @@ pub use round_whirl::{
 };
 pub(crate) use roundness::lobes_of;
 pub use roundness::{roundness, roundness_needed};
-pub use slip::{
-    Crossing, NoSlip, SlipLimit, SlipOrbit, SlipPoint, slip_limits, slip_map, slip_over,
-};
+pub use slip::{NoSlip, SlipLimit, SlipOrbit, SlipPoint, slip_limits, slip_over};

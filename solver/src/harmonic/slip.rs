@@ -88,56 +88,6 @@ impl SlipPoint {
     }
 }
 
-/// One step of the map from corner to corner.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Crossing {
-    /// Speed just after the next corner \[m/s\].
-    pub speed_after_corner_m_s: f64,
-    /// Time it took \[s\].
-    pub time_s: f64,
-    /// Smallest push on the way \[N\]; below zero the contact is lost.
-    pub least_push_n: f64,
-    /// Derivative of `speed_after` with respect to the initial speed.
-    pub slope: f64,
-}
-
-/// Returns the map from a speed just after one corner \[m/s\], along a side, to that
-/// just after the next; `None` where the wave turns back (and rocks into the
-/// corner), or not above the critical speed.
-///
-/// ```
-/// use rubscope_solver::harmonic::{slip_map, slip_over};
-/// use rubscope_solver::scene::Scene;
-///
-/// let mut scene = Scene::builtin("paper-nd3")?;
-/// scene.set("casing.damping_ratio", "0.01")?;
-/// let machine = scene.machine();
-/// let orbit = slip_over(&machine, &[500.0])?[0].outcome.unwrap();
-/// let mut speed = 2.0 * orbit.speed_after_corner_m_s;
-/// for _ in 0..2000 {
-///     speed = slip_map(&machine, 500.0, speed).unwrap().speed_after_corner_m_s;
-/// }
-/// assert!((speed / orbit.speed_after_corner_m_s - 1.0).abs() < 1e-12);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-#[must_use]
-pub fn slip_map(machine: &Machine, rotor_speed: f64, speed: f64) -> Option<Crossing> {
-    if machine.casing_feels_tips() {
-        return None;
-    }
-    let machine = &*machine.at(rotor_speed);
-    let slide = SaddleFlow::at(machine, rotor_speed)?;
-    let units = Units::of(machine);
-    let arc = slide.cross(speed / units.speed)?;
-    let [after, before] = slide.end_speeds(&arc);
-    Some(Crossing {
-        speed_after_corner_m_s: slide.kept * before * units.speed,
-        time_s: arc.time / machine.omega_c,
-        least_push_n: slide.least_push(&arc) * units.force,
-        slope: slide.kept * (after / before) * contraction(&slide, &arc),
-    })
-}
-
 /// Computes lasting slip over a list of rotor speeds \[rad/s\].
 ///
 /// # Errors
@@ -335,14 +285,6 @@ impl SaddleFlow {
         saddle.is_finite().then_some(slide)
     }
 
-    /// Returns the arc that starts at the corner `y = -end` with this speed.
-    fn starting(&self, speed: f64) -> (f64, f64) {
-        let [up, down] = self.roots;
-        let offset = -self.end - self.saddle;
-        let grow = (speed - down * offset) / (up - down);
-        (grow, offset - grow)
-    }
-
     /// Returns the speed just after a corner below which the wave turns back before the
     /// next: the stable manifold of the saddle.
     fn least_speed(&self) -> f64 {
@@ -374,19 +316,6 @@ impl SaddleFlow {
         let ratio = -(arc.decay * down * (down + self.zeta)) / (arc.grow * up * (up + self.zeta));
         let time = ratio.ln() / (up - down);
         if time > 0.0 && time < arc.time { ends.min(at(time)) } else { ends }
-    }
-
-    /// Returns the arc from a speed just after one corner to the next corner; `None`
-    /// where the wave turns back. Contact is not checked.
-    fn cross(&self, speed: f64) -> Option<Arc> {
-        if speed <= self.least_speed() {
-            return None;
-        }
-        let (grow, decay) = self.starting(speed);
-        let free = Arc { grow, decay, time: f64::INFINITY };
-        let beyond = |time| self.state(&free, time).0 >= self.end;
-        let time = first_time(beyond, 2.0 * self.end / speed)?;
-        Some(Arc { grow, decay, time })
     }
 
     /// Returns the arc that takes a given time from corner to corner.

@@ -2,6 +2,7 @@
 //! combinations of it have no meaning or no unique answer.
 
 use super::check::{down, up};
+use super::error::refuse_if;
 use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind, Value, keys};
 
 impl Scene {
@@ -120,13 +121,10 @@ impl Scene {
     /// # Errors
     /// The friction, and what is allowed.
     pub fn slides(&self) -> Result<(), SceneError> {
-        let (mu, operation) = (self.contact.friction, &self.operation);
-        if mu == 0.0 || operation.speed_rad_s != 0.0 {
-            return Ok(());
-        }
+        let mu = self.contact.friction;
         let allowed = "0 with operation.speed_rad_s = 0: Coulomb's law, mu times the push against \
                        the sliding, has no direction there";
-        Err(SceneError::refused(keys::FRICTION, mu, allowed))
+        refuse_if(mu != 0.0 && self.operation.speed_rad_s == 0.0, keys::FRICTION, mu, allowed)
     }
 }
 
@@ -135,12 +133,45 @@ impl Scene {
 /// # Errors
 /// The first such combination, named by its key.
 pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
-    diameters(scene)?;
-    slope(scene)?;
-    friction(scene)?;
-    restitution(scene)?;
-    mistuning(scene)?;
-    digging_in(scene)?;
+    let (disk, surface, operation) = (&scene.bladed_disk, &scene.contact, &scene.operation);
+    let law = scene.solver.contact;
+    let (rigid, full) = (law != ContactLaw::Smooth, scene.solver.model == ModelSize::Full);
+    let casing = operation.nodal_diameters;
+    let allowed = format!(
+        "0 or that of the casing, {casing}, with rigid contact; solver.contact = \"smooth\" takes \
+         others"
+    );
+    let is_other = rigid && scene.has_other_diameters();
+    refuse_if(is_other, keys::DISK_DIAMETERS, disk.nodal_diameters, &allowed)?;
+    // The blade angles do not close its gaps.
+    let (kappa, bilateral) = (disk.radial_coupling, law == ContactLaw::Bilateral);
+    let allowed = "0 with solver.contact = \"bilateral\", the paper's law; \"unilateral\" and \
+                   \"smooth\" take inclined tips";
+    refuse_if(bilateral && kappa != 0.0, keys::RADIAL_COUPLING, kappa, allowed)?;
+    let mu = surface.friction;
+    let allowed = "0 with solver.contact = \"bilateral\": a pull has no friction";
+    refuse_if(bilateral && mu != 0.0, keys::FRICTION, mu, allowed)?;
+    let first = operation.speed_rad_s;
+    let last = first + operation.speed_ramp_rad_s2 * scene.solver.end_s;
+    let allowed =
+        "0 where a ramp stops the rotor or turns it back: the direction of sliding is fixed";
+    let turns = first != last && first * last <= 0.0;
+    refuse_if(turns && mu != 0.0, keys::FRICTION, mu, allowed)?;
+    let e = surface.restitution;
+    let allowed = "0, or solver.contact = \"unilateral\": only rigid pushes rebound";
+    refuse_if(e != 0.0 && law != ContactLaw::Unilateral, keys::RESTITUTION, e, allowed)?;
+    let sd = disk.mistuning;
+    let allowed = "0, or solver.model = \"full\": only there has each blade its own stiffness";
+    refuse_if(sd != 0.0 && !full, keys::MISTUNING, sd, allowed)?;
+    // Self-locking friction has no unique contact forces once three blades touch.
+    let forward = if first < 0.0 { -mu } else { mu };
+    let locks_itself = rigid && full && kappa * (kappa + forward) < 0.0;
+    let allowed = format!(
+        "not between 0 and {} with solver.model = \"full\" and rigid contact, whose pushes are \
+         not unique there; solver.model = \"modal\" or solver.contact = \"smooth\" have them",
+        -forward
+    );
+    refuse_if(locks_itself, keys::RADIAL_COUPLING, kappa, &allowed)?;
     opening(scene)?;
     by_events(scene)
 }
@@ -150,107 +181,24 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
 pub(super) fn tips(scene: &Scene) -> Result<(), SceneError> {
     let (disk, casing) = (&scene.bladed_disk, &scene.casing);
     let (given, blades) = (disk.tips_m.len(), disk.blades as usize);
-    if given != 0 && given != blades {
-        let allowed = format!("none, or one for each of bladed_disk.blades = {blades}");
-        return Err(SceneError::refused(keys::TIPS, format!("{given} numbers"), allowed));
-    }
+    let allowed = format!("none, or one for each of bladed_disk.blades = {blades}");
+    let is_part = given != 0 && given != blades;
+    refuse_if(is_part, keys::TIPS, format!("{given} numbers"), &allowed)?;
     let e = casing.out_of_round_m;
-    if e != 0.0 && casing.lobes == 0 {
-        let allowed = "1 or more with casing.out_of_round_m; another clearance is that of \
-                       casing.radius_m";
-        return Err(SceneError::refused(keys::LOBES, 0, allowed));
-    }
-    if e != 0.0 && scene.solver.kind == SolverKind::Event {
-        let allowed = "0 with solver.kind = \"event\": a side that moves has no closed form";
-        return Err(SceneError::refused(keys::OUT_OF_ROUND, format!("{e:e}"), allowed));
-    }
-    let machine = scene.machine();
-    let rigid = scene.solver.contact != ContactLaw::Smooth;
-    if !(rigid && scene.is_uneven()) || machine.at(scene.fastest_rad_s()).has_room() {
-        return Ok(());
-    }
+    let allowed = "1 or more with casing.out_of_round_m; another clearance is that of \
+                   casing.radius_m";
+    refuse_if(e != 0.0 && casing.lobes == 0, keys::LOBES, 0, allowed)?;
+    let allowed = "0 with solver.kind = \"event\": a side that moves has no closed form";
+    let has_events = scene.solver.kind == SolverKind::Event;
+    refuse_if(e != 0.0 && has_events, keys::OUT_OF_ROUND, format!("{e:e}"), allowed)?;
+    let is_tight = scene.solver.contact != ContactLaw::Smooth
+        && scene.is_uneven()
+        && !scene.machine().at(scene.fastest_rad_s()).has_room();
     let allowed = "less: no place of the casing leaves every gap open; solver.contact = \
                    \"smooth\" takes it";
     let all = scene.unevenness().into_iter();
     let (key, value) = all.fold(("", 0.0), |most, next| if next.1 > most.1 { next } else { most });
-    Err(SceneError::refused(key, format!("{value:e}"), allowed))
-}
-
-/// Refuses rigid contact of blades in other diameters than those of the casing.
-fn diameters(scene: &Scene) -> Result<(), SceneError> {
-    if scene.solver.contact == ContactLaw::Smooth || !scene.has_other_diameters() {
-        return Ok(());
-    }
-    let casing = scene.operation.nodal_diameters;
-    let allowed = format!(
-        "0 or that of the casing, {casing}, with rigid contact; solver.contact = \"smooth\" takes \
-         others"
-    );
-    Err(SceneError::refused(keys::DISK_DIAMETERS, scene.bladed_disk.nodal_diameters, allowed))
-}
-
-/// Refuses inclined tips under the paper's law, whose gaps the blade angles do not close.
-fn slope(scene: &Scene) -> Result<(), SceneError> {
-    let kappa = scene.bladed_disk.radial_coupling;
-    if kappa == 0.0 || scene.solver.contact != ContactLaw::Bilateral {
-        return Ok(());
-    }
-    let allowed = "0 with solver.contact = \"bilateral\", the paper's law; \"unilateral\" and \
-                   \"smooth\" take inclined tips";
-    Err(SceneError::refused(keys::RADIAL_COUPLING, kappa, allowed))
-}
-
-/// Rejects friction without one direction in which the blades slide.
-fn friction(scene: &Scene) -> Result<(), SceneError> {
-    let (mu, operation) = (scene.contact.friction, &scene.operation);
-    if mu == 0.0 {
-        return Ok(());
-    }
-    let refused = |allowed: &str| Err(SceneError::refused(keys::FRICTION, mu, allowed));
-    if scene.solver.contact == ContactLaw::Bilateral {
-        return refused("0 with solver.contact = \"bilateral\": a pull has no friction");
-    }
-    let first = operation.speed_rad_s;
-    let last = first + operation.speed_ramp_rad_s2 * scene.solver.end_s;
-    if first * last > 0.0 || first == last {
-        return Ok(());
-    }
-    refused("0 where a ramp stops the rotor or turns it back: the direction of sliding is fixed")
-}
-
-fn restitution(scene: &Scene) -> Result<(), SceneError> {
-    let e = scene.contact.restitution;
-    if e == 0.0 || scene.solver.contact == ContactLaw::Unilateral {
-        return Ok(());
-    }
-    let allowed = "0, or solver.contact = \"unilateral\": only rigid pushes rebound";
-    Err(SceneError::refused(keys::RESTITUTION, e, allowed))
-}
-
-fn mistuning(scene: &Scene) -> Result<(), SceneError> {
-    let sd = scene.bladed_disk.mistuning;
-    if sd == 0.0 || scene.solver.model == ModelSize::Full {
-        return Ok(());
-    }
-    let allowed = "0, or solver.model = \"full\": only there has each blade its own stiffness";
-    Err(SceneError::refused(keys::MISTUNING, sd, allowed))
-}
-
-/// Rejects rigid contact of single blades with self-locking friction, which has no unique
-/// contact forces once three blades touch.
-fn digging_in(scene: &Scene) -> Result<(), SceneError> {
-    let (kappa, mu) = (scene.bladed_disk.radial_coupling, scene.contact.friction);
-    let forward = if scene.operation.speed_rad_s < 0.0 { -mu } else { mu };
-    let rigid = scene.solver.contact != ContactLaw::Smooth;
-    if !(rigid && scene.solver.model == ModelSize::Full && kappa * (kappa + forward) < 0.0) {
-        return Ok(());
-    }
-    let allowed = format!(
-        "not between 0 and {} with solver.model = \"full\" and rigid contact, whose pushes are \
-         not unique there; solver.model = \"modal\" or solver.contact = \"smooth\" have them",
-        -forward
-    );
-    Err(SceneError::refused(keys::RADIAL_COUPLING, kappa, allowed))
+    refuse_if(is_tight, key, format!("{value:e}"), allowed)
 }
 
 /// Rejects tips whose contact force closes its own gap: it must open it, `1/m_c + c2/m_a > 0`, and in a time step with `m/h^2 +
@@ -289,14 +237,13 @@ fn opening(scene: &Scene) -> Result<(), SceneError> {
 /// Rejects events of equations whose coefficients change in the frame of the blades.
 fn by_events(scene: &Scene) -> Result<(), SceneError> {
     let ramp = scene.operation.speed_ramp_rad_s2;
-    if scene.solver.kind != SolverKind::Event || ramp == 0.0 || !scene.goes_beyond() {
-        return Ok(());
-    }
+    let has_events = scene.solver.kind == SolverKind::Event;
     let allowed = if scene.has_other_tips() {
         "0 with solver.kind = \"event\" beyond the paper's model"
     } else {
         "0 with solver.kind = \"event\" where the machine changes with the speed \
          (bladed_disk.centrifugal_stiffening, casing.clearance_loss_m_s2)"
     };
-    Err(SceneError::refused(keys::SPEED_RAMP, ramp, allowed))
+    let is_wrong = has_events && ramp != 0.0 && scene.goes_beyond();
+    refuse_if(is_wrong, keys::SPEED_RAMP, ramp, allowed)
 }

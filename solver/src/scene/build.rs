@@ -319,7 +319,7 @@ mod tests {
                 at(9500.0),
                 at(1500.0)
             );
-            let [casing, disk] = read_modes(&table).unwrap();
+            let [casing, disk] = read_modes(&table).unwrap().modes;
             assert_eq!((casing[0].frequency_hz, casing[0].stiffening), (145.0, None));
             for mode in &disk[..2] {
                 close(mode.frequency_hz, rest);
@@ -333,7 +333,8 @@ mod tests {
             "{head}\ndisk;5;352;3,9;0\ndisk;5;{};3,9;9500\ndisk;4;300;3;",
             at(9500.0)
         ))
-        .unwrap();
+        .unwrap()
+        .modes;
         let scene = Scene::from_toml(&ModalData { disk, ..data() }.to_toml().unwrap()).unwrap();
         let machine = scene.machine();
         close(machine.at(TAU * 7000.0 / 60.0).omega_bd, TAU * at(7000.0));
@@ -356,8 +357,8 @@ mod tests {
             ),
             ("disk;2;352;3;0\ndisk;2;360;3;1\ndisk;2;360;3;2", "line 4, nodal_diameters = 2 twice"),
             ("casing;2;352;3;0\ncasing;2;360;3;1", "line 3, nodal_diameters = 2 twice"),
-            ("disk;2;352;3;1 kN", "line 2, speed_rpm = 1 kN: this is a force; it takes rad/s, rpm"),
-            ("disk;2;352;3;x", "line 2, speed_rpm = x: allowed is a number"),
+            ("disk;2;352;3;1 kN", "line 2, speed = 1 kN: this is a force; it takes rad/s, rpm"),
+            ("disk;2;352;3;x", "line 2, speed = x: allowed is a number"),
         ] {
             let message = read_modes(&format!("{head}\n{rows}\n")).unwrap_err().to_string();
             assert!(message.starts_with(start), "{message}");

@@ -1,6 +1,7 @@
 //! Checks that need more than one key: combinations of values that have no meaning.
 
 use super::beyond;
+use super::error::refuse_if;
 use super::keys;
 use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
 use crate::tolerances::STEP_ROUND_OFF;
@@ -36,9 +37,6 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
 fn clearance(scene: &Scene) -> Result<(), SceneError> {
     let length = scene.bladed_disk.blade_length_m;
     let smooth = scene.solver.contact == ContactLaw::Smooth;
-    if scene.clearance() > 0.0 || (smooth && scene.clearance() < 0.0) {
-        return Ok(());
-    }
     let allowed = if smooth {
         format!("other than bladed_disk.blade_length_m = {length}")
     } else {
@@ -47,7 +45,8 @@ fn clearance(scene: &Scene) -> Result<(), SceneError> {
              other with solver.contact = \"smooth\", whose lining blades may press at rest"
         )
     };
-    Err(SceneError::refused(keys::CASING_RADIUS, scene.casing.radius_m, allowed))
+    let has_room = scene.clearance() > 0.0 || (smooth && scene.clearance() < 0.0);
+    refuse_if(!has_room, keys::CASING_RADIUS, scene.casing.radius_m, &allowed)
 }
 
 /// Rejects rigid contact without a clearance over the whole run, also where blades grow.
@@ -112,18 +111,13 @@ fn initial_state(scene: &Scene) -> Result<(), SceneError> {
 
 fn excitation(scene: &Scene) -> Result<(), SceneError> {
     let amplitude = scene.excitation.amplitude_nm;
-    let allowed = if amplitude == 0.0 {
-        return Ok(());
-    } else if scene.solver.kind == SolverKind::Event {
-        return undriven(scene);
-    } else if scene.solver.model == ModelSize::Rigid {
-        "0 with solver.model = \"rigid\", whose blades do not move"
-    } else if scene.solver.model == ModelSize::Full {
-        "0 with solver.model = \"full\"; with solver.model = \"modal\" any"
-    } else {
-        return Ok(());
+    let allowed = match (scene.solver.kind, scene.solver.model) {
+        (SolverKind::Event, _) => return undriven(scene),
+        (_, ModelSize::Modal) => return Ok(()),
+        (_, ModelSize::Rigid) => "0 with solver.model = \"rigid\", whose blades do not move",
+        (_, ModelSize::Full) => "0 with solver.model = \"full\"; with solver.model = \"modal\" any",
     };
-    Err(SceneError::refused(keys::EXCITATION, amplitude, allowed))
+    refuse_if(amplitude != 0.0, keys::EXCITATION, amplitude, allowed)
 }
 
 /// Rejects a step that is too long or too short; each bound is accepted as it is printed.
@@ -174,12 +168,10 @@ fn explicit(scene: &Scene) -> Result<(), SceneError> {
 
 /// Rejects a run that is shorter than one step.
 fn one_step(step: f64, end: f64) -> Result<(), SceneError> {
-    // As the solvers count.
-    if end / step + STEP_ROUND_OFF >= 1.0 {
-        return Ok(());
-    }
     let allowed = format!("at least one step, solver.step_s = {step:e}");
-    Err(SceneError::refused(keys::END, format!("{end:e}"), allowed))
+    // As the solvers count.
+    let is_less = end / step + STEP_ROUND_OFF < 1.0;
+    refuse_if(is_less, keys::END, format!("{end:e}"), &allowed)
 }
 
 /// Returns the largest number of steps of this scene, in four digits.
@@ -223,13 +215,8 @@ fn unit(x: f64) -> f64 {
 
 /// Rejects an excitation of the blades with the event solver.
 fn undriven(scene: &Scene) -> Result<(), SceneError> {
-    match scene.excitation.amplitude_nm {
-        0.0 => Ok(()),
-        some => {
-            let allowed = "0 with solver.kind = \"event\"";
-            Err(SceneError::refused(keys::EXCITATION, some, allowed))
-        }
-    }
+    let some = scene.excitation.amplitude_nm;
+    refuse_if(some != 0.0, keys::EXCITATION, some, "0 with solver.kind = \"event\"")
 }
 
 /// Rejects what the event solver does not support.
@@ -243,14 +230,8 @@ pub(super) fn event(scene: &Scene) -> Result<(), SceneError> {
         let allowed = format!("\"unilateral\" with solver.kind = \"event\" ({why})");
         return Err(SceneError::refused(keys::LAW, format!("\"{law}\""), allowed));
     }
-    if scene.solver.model == ModelSize::Full {
-        return Err(SceneError::refused(
-            keys::MODEL,
-            "\"full\"",
-            "\"rigid\" or \"modal\" with solver.kind = \"event\"",
-        ));
-    }
-    Ok(())
+    let allowed = "\"rigid\" or \"modal\" with solver.kind = \"event\"";
+    refuse_if(scene.solver.model == ModelSize::Full, keys::MODEL, "\"full\"", allowed)
 }
 
 #[cfg(test)]

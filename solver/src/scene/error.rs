@@ -6,6 +6,7 @@ use super::units::UnitError;
 
 /// Why a scene, or a key of one, was refused.
 #[derive(Debug, Error, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum SceneError {
     /// A key that does not exist.
     #[error("unknown key {key}; allowed: {allowed}")]
@@ -81,4 +82,17 @@ impl SceneError {
     ) -> Self {
         Self::Refused { key: key.into(), value: value.to_string(), allowed: allowed.into() }
     }
+}
+
+/// Refuses `value` for `key` where it is wrong.
+///
+/// # Errors
+/// The refusal.
+pub(super) fn refuse_if(
+    is_wrong: bool,
+    key: &str,
+    value: impl ToString,
+    allowed: &str,
+) -> Result<(), SceneError> {
+    if is_wrong { Err(SceneError::refused(key, value, allowed)) } else { Ok(()) }
 }

@@ -81,7 +81,8 @@ impl Scene {
                 for (leaf, value) in plain.into_iter().chain(modes) {
                     read(&mut scene, &format!("{name}.{leaf}"), value)?;
                 }
-                if inner.is_empty() && !keys::KEYS.iter().any(|key| in_table(key, name)) {
+                let of_table = |key: &Key| key.path.split_once('.').is_some_and(|of| of.0 == name);
+                if inner.is_empty() && !keys::KEYS.iter().any(of_table) {
                     return Err(keys::unknown(name));
                 }
             } else {
@@ -140,10 +141,6 @@ fn builtin_text(name: &str) -> Option<&'static str> {
 
 fn in_file(path: &str, error: SceneError) -> SceneError {
     SceneError::InFile { path: path.to_string(), error: Box::new(error) }
-}
-
-fn in_table(key: &Key, table: &str) -> bool {
-    key.path.split_once('.').is_some_and(|(name, _)| name == table)
 }
 
 fn as_toml(value: &Value) -> Toml {

@@ -186,6 +186,21 @@ impl Key {
         Quantity::of(self.unit)
     }
 
+    /// Reads a number within the bounds of this key, whole or not, which a refusal calls `name`.
+    ///
+    /// # Errors
+    /// Text that is no such number.
+    pub fn number(&self, name: &str, text: &str) -> Result<f64, SceneError> {
+        match self.parse(text).and_then(|value| self.check(&value).map(|()| value)) {
+            Ok(Value::Real(x)) => Ok(x),
+            Ok(Value::Whole(n)) => Ok(n as f64),
+            Err(SceneError::Unit { why, .. }) => {
+                Err(SceneError::Unit { key: name.into(), value: text.into(), why })
+            }
+            _ => Err(SceneError::refused(name, text, self.allowed.to_string())),
+        }
+    }
+
     /// Reads a value of this key's kind from text, as given on a command line; a number may
     /// have a unit.
     ///
@@ -275,106 +290,98 @@ pub const CHARTS: &[&str] = &[
     "coincidence",
 ];
 
-macro_rules! real {
-    ($path:expr, $live:ident, $unit:literal, $what:literal, $above:literal $min:literal .. $max:literal, $($field:ident).+) => {
-        Key {
-            path: $path, unit: $unit, what: $what, live: Live::$live,
-            allowed: Allowed::Real { min: $min, max: $max, above: $above },
-            get: |scene| Value::Real(scene.$($field).+),
-            set: |scene, value| if let Value::Real(x) = value { scene.$($field).+ = x },
-        }
-    };
-}
-/// As `real`, of a value that modes may have of their own: that of the mode in use.
-macro_rules! moded {
-    ($path:expr, $live:ident, $unit:literal, $what:literal, $above:literal $min:literal .. $max:literal, $in_use:ident.$field:ident, $place:ident $part:ident) => {
+/// Makes a key of what it allows, the kind of its value, and how that is read and set.
+macro_rules! key {
+    ($path:expr, $live:ident, $unit:expr, $what:expr, $allowed:expr,
+     $kind:ident, |$from:ident| $get:expr, |$to:ident, $value:ident| $set:expr) => {
         Key {
             path: $path,
             unit: $unit,
             what: $what,
             live: Live::$live,
-            allowed: Allowed::Real { min: $min, max: $max, above: $above },
-            get: |scene| Value::Real(scene.$in_use().$field),
-            set: |scene, value| {
-                if let Value::Real(x) = value {
-                    *scene.$place(ModePart::$part) = x
+            allowed: $allowed,
+            get: |$from| Value::$kind($get),
+            set: |$to, value| {
+                if let Value::$kind($value) = value {
+                    $set
                 }
             },
         }
+    };
+}
+macro_rules! real {
+    ($path:expr, $live:ident, $unit:literal, $what:literal, $above:literal $min:literal .. $max:literal, $($field:ident).+) => {
+        key!($path, $live, $unit, $what, Allowed::Real { min: $min, max: $max, above: $above },
+            Real, |scene| scene.$($field).+, |scene, x| scene.$($field).+ = x)
+    };
+}
+/// As `real`, of a value that modes may have of their own: that of the mode in use.
+macro_rules! moded {
+    ($path:expr, $live:ident, $unit:literal, $what:literal, $above:literal $min:literal .. $max:literal, $in_use:ident.$field:ident, $place:ident $part:ident) => {
+        key!(
+            $path,
+            $live,
+            $unit,
+            $what,
+            Allowed::Real { min: $min, max: $max, above: $above },
+            Real,
+            |scene| scene.$in_use().$field,
+            |scene, x| *scene.$place(ModePart::$part) = x
+        )
     };
 }
 macro_rules! modes {
     ($path:expr, $live:ident, $what:literal, $structure:ident, $table:ident) => {
-        Key {
-            path: $path,
-            unit: "-",
-            what: $what,
-            live: Live::$live,
-            allowed: Allowed::Modes(&modes::$structure),
-            get: |scene| Value::Text(modes::$structure.text(&scene.$table.modes)),
-            set: |scene, value| {
-                if let Value::Text(text) = value {
-                    scene.$table.modes = modes::$structure.modes(&text)
-                }
-            },
-        }
+        key!(
+            $path,
+            $live,
+            "-",
+            $what,
+            Allowed::Modes(&modes::$structure),
+            Text,
+            |scene| modes::$structure.text(&scene.$table.modes),
+            |scene, text| scene.$table.modes = modes::$structure.modes(&text)
+        )
     };
 }
 macro_rules! whole {
     ($path:expr, $live:ident, $what:literal, $min:literal .. $max:literal, $($field:ident).+) => {
-        Key {
-            path: $path, unit: "-", what: $what, live: Live::$live,
-            allowed: Allowed::Whole { min: $min, max: $max },
-            get: |scene| Value::Whole(u64::from(scene.$($field).+)),
-            set: |scene, value| if let Value::Whole(n) = value
-                && let Ok(n) = u32::try_from(n) { scene.$($field).+ = n },
-        }
+        key!($path, $live, "-", $what, Allowed::Whole { min: $min, max: $max },
+            Whole, |scene| u64::from(scene.$($field).+),
+            |scene, n| if let Ok(n) = u32::try_from(n) { scene.$($field).+ = n })
     };
 }
 macro_rules! word {
     ($path:expr, $live:ident, $what:literal, $type:ident, $($field:ident).+) => {
-        Key {
-            path: $path, unit: "-", what: $what, live: Live::$live, allowed: Allowed::OneOf($type::VARIANTS),
-            get: |scene| Value::Text(scene.$($field).+.to_string()),
-            set: |scene, value| if let Value::Text(text) = value
-                && let Ok(choice) = text.parse::<$type>() { scene.$($field).+ = choice },
-        }
+        key!($path, $live, "-", $what, Allowed::OneOf($type::VARIANTS),
+            Text, |scene| scene.$($field).+.to_string(),
+            |scene, text| if let Ok(choice) = text.parse::<$type>() { scene.$($field).+ = choice })
     };
 }
 macro_rules! numbers {
     ($path:expr, $live:ident, $unit:literal, $what:literal, $size:literal, $($field:ident).+) => {
-        Key {
-            path: $path, unit: $unit, what: $what, live: Live::$live,
-            allowed: Allowed::Numbers { size: $size, most: 4096 },
-            get: |scene| Value::Numbers(scene.$($field).+.clone()),
-            set: |scene, value| if let Value::Numbers(list) = value { scene.$($field).+ = list },
-        }
+        key!($path, $live, $unit, $what, Allowed::Numbers { size: $size, most: 4096 },
+            Numbers, |scene| scene.$($field).+.clone(), |scene, list| scene.$($field).+ = list)
     };
 }
 macro_rules! text {
     ($path:expr, $live:ident, $what:literal, $most:literal, $field:ident) => {
-        Key {
-            path: $path,
-            unit: "-",
-            what: $what,
-            live: Live::$live,
-            allowed: Allowed::Text { most: $most },
-            get: |scene| Value::Text(scene.$field.clone()),
-            set: |scene, value| {
-                if let Value::Text(text) = value {
-                    scene.$field = text
-                }
-            },
-        }
+        key!(
+            $path,
+            $live,
+            "-",
+            $what,
+            Allowed::Text { most: $most },
+            Text,
+            |scene| scene.$field.clone(),
+            |scene, text| scene.$field = text
+        )
     };
 }
 macro_rules! charts {
     ($path:expr, $live:ident, $what:literal, $($field:ident).+) => {
-        Key {
-            path: $path, unit: "-", what: $what, live: Live::$live, allowed: Allowed::SomeOf(CHARTS),
-            get: |scene| Value::Words(scene.$($field).+.clone()),
-            set: |scene, value| if let Value::Words(words) = value { scene.$($field).+ = words },
-        }
+        key!($path, $live, "-", $what, Allowed::SomeOf(CHARTS),
+            Words, |scene| scene.$($field).+.clone(), |scene, words| scene.$($field).+ = words)
     };
 }
 

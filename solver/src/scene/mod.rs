@@ -28,7 +28,7 @@ pub use checked::{Adjustment, CheckedScene};
 pub use error::SceneError;
 pub use file::read_text;
 pub use keys::{Allowed, KEYS, Key, Value};
-pub use mode_table::read_modes;
+pub use mode_table::{ModeTable, read_modes};
 pub(crate) use modes::MOST_HZ;
 pub use shortcuts::Shortcuts;
 pub use units::Quantity;

@@ -2,110 +2,125 @@
 //! columns, separators, decimal commas, and frequencies at two speeds.
 
 use super::build::{Family, digits};
-use super::modes::{frequency_at_rest, hertz_of, number_of};
-use super::{Allowed, SceneError, keys};
+use super::modes::{frequency_at_rest, hertz_of};
+use super::units::UnitError;
+use super::{Quantity, SceneError, keys};
+
+/// The modes of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModeTable {
+    /// Modes of the casing, and of the disk.
+    pub modes: [Vec<Family>; 2],
+    /// Columns and cells that are not used, in words.
+    pub notes: Vec<String>,
+}
 
 /// A mode of a table, with each frequency and its speed \[Hz, rad/s\].
 type Measured = (Family, Vec<(f64, f64)>);
 
 /// Reads the modes of a table: a line of names, then a line for each mode. Names are
 /// `structure` (casing or disk), `nodal_diameters`, `frequency_hz`, `modal_mass_kg`, and
-/// `damping_ratio` if there is one, also as `Frequency [Hz]` or `Damping [%]`. A line of the disk
-/// may have the rotor speed of its frequency (`Speed [rpm]`) and `centrifugal_stiffening`; two
-/// lines of the same diameters at two speeds are one mode, with the mass of the first. Cells stand
-/// between commas, or between semicolons or tabs, with which numbers may have a decimal comma.
-/// Empty lines and those that begin with `#` are left out, and columns of other names.
+/// `damping_ratio` if there is one. A line of the disk may have the rotor `speed` of its frequency
+/// and `centrifugal_stiffening`; two lines of the same diameters at two speeds are one mode, with
+/// mass and damping of the first. A unit in the name of a column, as in `Frequency [kHz]`,
+/// `Damping (%)` or `speed_rpm`, is that of its bare numbers. Cells stand between commas, or
+/// between semicolons or tabs, with which numbers may have a decimal comma. Empty lines and those
+/// that begin with `#` are left out, and columns of other names, which are noted.
 ///
 /// # Errors
 /// A missing column, or a value that is not allowed, by its line and column.
-pub fn read_modes(text: &str) -> Result<[Vec<Family>; 2], SceneError> {
-    let text = text.trim_start_matches('\u{feff}');
+pub fn read_modes(text: &str) -> Result<ModeTable, SceneError> {
+    let text = text.trim_start_matches('\u{feff}').replace("\r\n", "\n").replace('\r', "\n");
     let head = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#'));
     let between = |c: &u8| head.unwrap_or_default().as_bytes().contains(c);
     let delimiter = [b';', b'\t'].into_iter().find(between).unwrap_or(b',');
     let mut reader = csv::ReaderBuilder::new();
     reader.delimiter(delimiter).comment(Some(b'#')).flexible(true).trim(csv::Trim::All);
     let mut reader = reader.has_headers(false).from_reader(text.as_bytes());
-    let cells = |record: csv::Result<csv::StringRecord>| {
-        let record = record.map_err(|error| {
-            SceneError::refused("the table", error.to_string(), "lines of cells")
-        })?;
-        let line = record.position().map_or(0, csv::Position::line);
-        Ok::<_, SceneError>((line, record))
-    };
-    let mut records = reader
-        .records()
-        .map(cells)
-        .filter(|read| !read.as_ref().is_ok_and(|(_, record)| record.iter().all(str::is_empty)));
-    let names = records
-        .next()
-        .transpose()?
-        .map_or_else(Vec::new, |(_, record)| record.iter().map(column_name).collect());
-    let count = |name: &str| names.iter().filter(|known| *known == name).count();
-    if count(STRUCTURE) != 1 || COLUMNS.iter().any(|name| count(name) != 1) {
-        let allowed = format!("{STRUCTURE}, {}, each once", COLUMNS.join(", "));
-        return Err(SceneError::refused("the first line", names.join(","), allowed));
+    // Lines of any length of what is text cannot fail.
+    let records = reader.records().flatten();
+    let mut records = records.filter(|record| !record.iter().all(str::is_empty));
+    let names = records.next().unwrap_or_default();
+    let (mut columns, mut unused) = (Vec::new(), Vec::new());
+    for (at, written) in names.iter().enumerate() {
+        match column(written)? {
+            Some((name, unit)) => columns.push((name, unit, at)),
+            None => unused.extend((!written.is_empty()).then_some(written)),
+        }
     }
-    let speeds = SPEEDS.map(|(name, _)| name);
-    let unknown = |name: &&String| name.starts_with("speed") && !speeds.contains(&name.as_str());
-    if let Some(name) = names.iter().find(unknown) {
-        let allowed = "Speed with the unit [rpm], [1/min], [rad/s] or [Hz]";
-        return Err(SceneError::refused("the first line", name, allowed));
+    for (place, (name, ..)) in COLUMNS.iter().enumerate() {
+        let count = columns.iter().filter(|(known, ..)| known == name).count();
+        if count > 1 || (count == 0 && place < NEEDED) {
+            let given = names.iter().collect::<Vec<_>>().join(",");
+            return Err(SceneError::refused("the first line", given, ALLOWED));
+        }
+    }
+    let mut notes = Vec::new();
+    if !unused.is_empty() {
+        notes.push(format!("columns not used: {}", unused.join(", ")));
     }
     let mut found: [Vec<Measured>; 2] = Default::default();
     for record in records {
-        let (line, record) = record?;
+        // Its position is that of the lines that are left out before it.
+        let (line, start) = record.position().map_or((0, 0), |at| (at.line(), at.byte()));
+        let before = text.get(start as usize..).unwrap_or_default().lines();
+        let is_left_out = |line: &&str| line.is_empty() || line.starts_with('#');
+        let line = line + before.take_while(is_left_out).count() as u64;
         if record.len() != names.len() {
             let allowed = format!("as many as names in the first line, {}", names.len());
             let given = format!("{} cells", record.len());
             return Err(SceneError::refused(format!("line {line}"), given, allowed));
         }
-        let cell = |name: &str| {
-            let at = names.iter().position(|known| known == name);
-            let cell = at.and_then(|at| record.get(at)).unwrap_or_default();
-            if delimiter == b',' { cell.to_string() } else { cell.replace(',', ".") }
+        let given = |name: &str| {
+            let (_, unit, at) = columns.iter().find(|(known, ..)| *known == name)?;
+            let cell = record.get(*at).filter(|cell| !matches!(*cell, "" | "-"))?;
+            let is_decimal = delimiter != b',' && !cell.contains('.');
+            let cell = if is_decimal { cell.replacen(',', ".", 1) } else { cell.to_string() };
+            let is_bare = !unit.is_empty() && cell.parse::<f64>().is_ok();
+            Some(if is_bare { format!("{cell} {unit}") } else { cell })
         };
         let path = |name: &str| format!("line {line}, {name}");
-        let structure = match cell(STRUCTURE).to_lowercase().as_str() {
+        let structure = given(STRUCTURE).unwrap_or_default().to_lowercase();
+        let structure = match structure.as_str() {
             "casing" => 0,
             "disk" | "bladed disk" => 1,
             other => return Err(SceneError::refused(path(STRUCTURE), other, "casing or disk")),
         };
-        let given = |name: &str| Some(cell(name)).filter(|cell| !cell.is_empty());
-        let numbers = COLUMNS.map(cell);
-        let percent = given(DAMPING_PERCENT);
-        let percent = percent.map(|text| format!("{} %", text.trim_end_matches(['%', ' '])));
-        let damping = given(DAMPING).or(percent);
-        let mut mode =
-            Family::read(numbers.each_ref().map(String::as_str), damping.as_deref(), &path)?;
-        let number = |name: &str, key: &str, unit: &str| {
-            let text = given(name)?;
-            let bare = text.trim().parse::<f64>().is_ok();
-            if bare && name == "speed" {
+        let mode = Family::read(&given, &path)?;
+        let speed = given(SPEED).filter(|_| structure == 1).map(|text| match text.parse::<f64>() {
+            Ok(_) => {
                 let allowed = "a number with its unit, or Speed [rpm] in the first line";
-                return Some(Err(SceneError::refused(path(name), text, allowed)));
+                Err(SceneError::refused(path(SPEED), text, allowed))
             }
-            let text = if bare { format!("{text} {unit}") } else { text };
-            Some(keys::find(key).and_then(|key| number_of(&path(name), &text, key)))
-        };
-        let mut speed = None;
-        if structure == 1 {
-            mode.stiffening = number(STIFFENING, keys::STIFFENING, "").transpose()?;
-            let read = SPEEDS.iter().find_map(|(name, unit)| number(name, keys::SPEED, unit));
-            speed = read.transpose()?.map(|speed| (mode.frequency_hz, speed));
-        }
+            _ => keys::find(keys::SPEED)?.number(&path(SPEED), &text),
+        });
+        let speed = speed.transpose()?.map(|speed| (mode.frequency_hz, speed));
         let modes = &mut found[structure];
         let same = |(known, _): &&mut Measured| known.nodal_diameters == mode.nodal_diameters;
         match (modes.iter_mut().find(same), speed) {
             (None, speed) => modes.push((mode, speed.into_iter().collect())),
             (Some((known, speeds)), Some(speed)) if speeds.len() == 1 => {
-                known.stiffening = known.stiffening.or(mode.stiffening);
                 speeds.push(speed);
+                known.stiffening = known.stiffening.or(mode.stiffening);
+                known.damping_ratio = known.damping_ratio.or(mode.damping_ratio);
+                for (name, first, second) in [
+                    (MODE[2], Some(known.modal_mass_kg), Some(mode.modal_mass_kg)),
+                    (DAMPING, known.damping_ratio, mode.damping_ratio),
+                ] {
+                    let other = first.zip(second).filter(|(first, second)| first != second);
+                    notes.extend(other.map(|(first, second)| {
+                        format!(
+                            "{} = {second} is not used: the line before of this mode has {first}",
+                            path(name)
+                        )
+                    }));
+                }
             }
             _ => {
                 let given = format!("{} twice", mode.nodal_diameters);
-                let allowed = "one mode for each number of diameters, of the disk also two speeds";
-                return Err(SceneError::refused(path(COLUMNS[0]), given, allowed));
+                let allowed =
+                    "one mode for each number of diameters, of the disk also at two Speed [rpm]";
+                return Err(SceneError::refused(path(MODE[0]), given, allowed));
             }
         }
     }
@@ -114,71 +129,82 @@ pub fn read_modes(text: &str) -> Result<[Vec<Family>; 2], SceneError> {
         let (rest, stiffening) = frequency_at_rest(&name, speeds, mode.stiffening)?;
         (mode.frequency_hz, mode.stiffening) = (digits(rest), stiffening.map(digits));
     }
-    Ok(found.map(|modes| modes.into_iter().map(|(mode, _)| mode).collect()))
+    let modes = found.map(|modes| modes.into_iter().map(|(mode, _)| mode).collect());
+    Ok(ModeTable { modes, notes })
 }
 
-/// The name of a column as keys are written: `frequency_hz` for `Frequency [Hz]`.
-fn column_name(written: &str) -> String {
-    let lower = written.to_lowercase().replace('%', " percent ");
-    let words = lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
-    let name = words.collect::<Vec<_>>().join("_");
-    let name = name.strip_prefix("rotor_").unwrap_or(&name);
-    match name {
-        "nodal_diameter" => "nodal_diameters",
-        "frequency" => "frequency_hz",
-        "mass" | "mass_kg" | "modal_mass" => "modal_mass_kg",
-        "rpm" | "speed_r_min" | "speed_u_min" => "speed_rpm",
-        "damping" => DAMPING,
-        "damping_percent" => DAMPING_PERCENT,
-        other => other,
+/// Returns the column that has this name, and the unit in it; none for other words.
+///
+/// # Errors
+/// A unit of another quantity, or no unit in brackets.
+fn column(written: &str) -> Result<Option<(&'static str, String)>, SceneError> {
+    let mut words = written.split_whitespace().collect::<Vec<_>>().join("_");
+    if words.eq_ignore_ascii_case("rpm") {
+        words.insert_str(0, "speed_");
     }
-    .to_string()
+    let lower = words.to_ascii_lowercase().replace('-', "_");
+    let of = |(name, quantity, others): &(&'static str, Quantity, &[&str])| {
+        let rest = [name].into_iter().chain(*others).find_map(|name| lower.strip_prefix(name))?;
+        (!rest.starts_with(char::is_alphanumeric)).then_some((*name, *quantity, rest.len()))
+    };
+    let Some((name, quantity, rest)) = COLUMNS.iter().find_map(of) else { return Ok(None) };
+    let rest = words.get(words.len() - rest..).unwrap_or_default();
+    let parts = rest.split(|c: char| "_/,:[](){}".contains(c));
+    let unit = parts.filter(|part| !matches!(*part, "" | "-" | "in")).collect::<Vec<_>>().join("/");
+    let one = format!("1 {unit}");
+    let is_prefix = unit.chars().count() == 1 && unit != "%" && Quantity::Plain.read(&one).is_ok();
+    match quantity.read(&one) {
+        Ok(_) if !is_prefix => Ok(Some((name, unit))),
+        Err(why) if rest.contains(['[', '(']) || matches!(why, UnitError::Other { .. }) => {
+            let why = match why {
+                UnitError::NoNumber => UnitError::Unknown { unit, wanted: quantity },
+                why => why,
+            };
+            Err(SceneError::Unit { key: "the first line".into(), value: written.into(), why })
+        }
+        _ => Ok(None),
+    }
 }
 
-/// What a line of the table is of.
-const STRUCTURE: &str = "structure";
-/// What a mode needs.
-const COLUMNS: [&str; 3] = ["nodal_diameters", "frequency_hz", "modal_mass_kg"];
-/// Its damping ratio, if it has one: a number, or in per cent.
-const DAMPING: &str = "damping_ratio";
-const DAMPING_PERCENT: &str = "damping_ratio_percent";
-/// What a mode of the disk may have: the speed of its frequency, with the unit of bare numbers,
-const SPEEDS: [(&str, &str); 5] = [
-    ("speed_rpm", "rpm"),
-    ("speed_1_min", "rpm"),
-    ("speed_rad_s", "rad/s"),
-    ("speed_hz", "Hz"),
-    ("speed", ""),
+/// Names of columns, the quantity of their numbers, and other names; the first four are needed.
+const COLUMNS: [(&str, Quantity, &[&str]); 7] = [
+    (STRUCTURE, Quantity::Plain, &[]),
+    (MODE[0], Quantity::Plain, &["nodal_diameter"]),
+    (MODE[1], Quantity::Speed, &["frequency"]),
+    (MODE[2], Quantity::Mass, &["modal_mass", "mass"]),
+    (DAMPING, Quantity::Plain, &["damping"]),
+    (SPEED, Quantity::Speed, &["rotor_speed"]),
+    (STIFFENING, Quantity::Plain, &[]),
 ];
-/// and what it stiffens by.
+const NEEDED: usize = 4;
+const ALLOWED: &str = "structure, nodal_diameters, frequency_hz, modal_mass_kg and, if known, \
+                       damping_ratio, speed and centrifugal_stiffening, each once";
+const STRUCTURE: &str = "structure";
+const MODE: [&str; 3] = ["nodal_diameters", "frequency_hz", "modal_mass_kg"];
+const DAMPING: &str = "damping_ratio";
+const SPEED: &str = "speed";
+/// What a mode of the disk may have; also its name in a scene.
 pub(super) const STIFFENING: &str = "centrifugal_stiffening";
 
 impl Family {
-    /// A mode from the texts of its diameters, frequency and mass, and its damping ratio;
-    /// `path` names each for a refusal.
+    /// Reads a mode from the texts that are given for the names of a table, such as
+    /// `frequency_hz`; `path` names each for a refusal.
     ///
     /// # Errors
     /// The first that is not allowed.
     pub fn read(
-        [diameters, frequency, mass]: [&str; 3],
-        damping: Option<&str>,
+        given: &dyn Fn(&str) -> Option<String>,
         path: &dyn Fn(&str) -> String,
     ) -> Result<Self, SceneError> {
-        let whole = keys::find(keys::DIAMETERS)?;
-        let most = match whole.allowed {
-            Allowed::Whole { max, .. } => max,
-            _ => u64::MAX,
-        };
-        let [of_diameters, of_frequency, of_mass] = COLUMNS.map(path);
-        let read = diameters.trim().parse().ok().filter(|n| u64::from(*n) <= most);
-        let refused = || SceneError::refused(of_diameters, diameters, whole.allowed.to_string());
-        let ratio = |text: &str| number_of(&path(DAMPING), text, keys::find(keys::CASING_DAMPING)?);
+        let text = |name| given(name).unwrap_or_default();
+        let number = |name, key| keys::find(key)?.number(&path(name), &text(name));
+        let known = |name, key| given(name).map(|_| number(name, key)).transpose();
         Ok(Self {
-            nodal_diameters: read.ok_or_else(refused)?,
-            frequency_hz: hertz_of(&of_frequency, frequency)?,
-            modal_mass_kg: number_of(&of_mass, mass, keys::find(keys::CASING_MASS)?)?,
-            damping_ratio: damping.map(ratio).transpose()?,
-            stiffening: None,
+            nodal_diameters: number(MODE[0], keys::DIAMETERS)? as u32,
+            frequency_hz: hertz_of(&path(MODE[1]), &text(MODE[1]))?,
+            modal_mass_kg: number(MODE[2], keys::CASING_MASS)?,
+            damping_ratio: known(DAMPING, keys::CASING_DAMPING)?,
+            stiffening: known(STIFFENING, keys::STIFFENING)?,
         })
     }
 }
@@ -191,7 +217,7 @@ mod tests {
     fn tables_of_spreadsheets_are_read_or_refused_by_their_line() {
         let head = "structure,nodal_diameters,frequency_hz,modal_mass_kg";
         let table = format!("\u{feff}{head}\r\nCasing,4,310.7,3.1\r\ndisk,4,151.3,5.5\r\n");
-        let [casing, disk] = read_modes(&table).unwrap();
+        let [casing, disk] = read_modes(&table).unwrap().modes;
         assert_eq!((casing[0].frequency_hz, disk[0].modal_mass_kg), (310.7, 5.5));
         for (table, refusal) in [
             (format!("{head}\ncasing,4,310,7,3,1"), "line 2 = 6 cells: allowed is as many as"),
@@ -207,16 +233,16 @@ mod tests {
 
     #[test]
     fn tables_of_spreadsheets_have_semicolons_decimal_commas_and_names_with_units() {
-        let expected = read_modes(
-            "structure,nodal_diameters,frequency_hz,modal_mass_kg,damping_ratio\n\
-             casing,4,310.7,3.1,0.01\ndisk,4,151.3,5.5,\n",
-        );
+        let of = |table: &str| read_modes(table).unwrap().modes;
+        let expected = of("structure,nodal_diameters,frequency_hz,modal_mass_kg,damping_ratio\n\
+             casing,4,310.7,3.1,0.01\ndisk,4,151.3,5.5,\n");
         for (separator, comma) in [(";", ","), ("\t", ","), (";", "."), (",", ".")] {
             let table = "\u{feff}# of the rig\r\n\r\nStructure;Nodal diameters;Frequency [Hz];\
                          \"Modal mass (kg)\";Damping ratio;Remark\r\n\
                          Casing;4;310.7;3.1;0.01;\r\ndisk;4;151.3;5.5;;\"left; or right\"\r\n;;;;;\r\n";
             let table = table.replace('.', comma).replace("left;", "left").replace(';', separator);
-            assert_eq!(read_modes(&table), expected, "{table}");
+            assert_eq!(of(&table), expected, "{table}");
+            assert_eq!(read_modes(&table).unwrap().notes, ["columns not used: Remark"]);
         }
     }
 
@@ -225,8 +251,8 @@ mod tests {
         let of = |head: &str, row: &str| read_modes(&format!("{head}\ncasing,4,310,3,\n{row}\n"));
         let head = "structure,nodal diameter,frequency,mass [kg]";
         let ratio = |name: &str, cell: &str| {
-            let [_, disk] =
-                of(&format!("{head},{name}"), &format!("bladed disk,4,151,5,{cell}")).unwrap();
+            let row = format!("bladed disk,4,151,5,{cell}");
+            let [_, disk] = of(&format!("{head},{name}"), &row).unwrap().modes;
             disk[0].damping_ratio.unwrap()
         };
         for (name, cell) in
@@ -247,8 +273,85 @@ mod tests {
         let strange =
             of(&format!("{head},Speed [m/s]"), "disk,4,151,5,50").unwrap_err().to_string();
         assert!(
-            strange.starts_with("the first line = speed_m_s: allowed is Speed with"),
+            strange.starts_with("the first line = Speed [m/s]: this is a velocity; it takes rad/s"),
             "{strange}"
+        );
+    }
+
+    #[test]
+    fn the_unit_of_a_column_is_that_of_its_bare_cells() {
+        let of = |names: &str, cells: &str| {
+            let head = format!("structure;nodal diameters [-];{names}");
+            read_modes(&format!("{head}\ndisk;5;{cells}\n"))
+        };
+        let (speed, stiffness) = ("Speed [rpm];Centrifugal stiffening", "9000;1,5");
+        let names = format!("Frequency;Mass;Damping;{speed}");
+        let expected = of(&names, &format!("310,7;3,1;0,012;{stiffness}")).unwrap();
+        assert_eq!(expected.notes, [""; 0]);
+        for (names, cells) in [
+            ("frequency_hz;modal_mass_kg;damping_ratio", "310,7;3,1;0,012"),
+            ("Frequency, Hz;Mass in kg;Damping, %", "310.7;3.1;1.2"),
+            ("Frequency [kHz];Modal mass (g);Damping [%]", "0,3107;3100;1,2"),
+            ("Frequency_khz;mass_t;damping_ratio_percent", "0,3107;0,0031;1,2"),
+            ("Frequency (kHz);Mass [g];Damping%", "310,7 Hz;3,1kg;1,2"),
+            ("Frequency {1/min};\"Modal\nmass [kg]\";Damping ratio [-]", "18642;3,1;0,012"),
+        ] {
+            for (speed, rpm) in [
+                (speed, "9000"),
+                ("Rotor speed [1/min];Centrifugal stiffening", "9000"),
+                ("rpm;centrifugal-stiffening", "9000"),
+                ("Speed [min⁻¹];centrifugal_stiffening [-]", "9000"),
+                ("speed_hz;centrifugal_stiffening", "150"),
+                ("Speed / krpm;centrifugal_stiffening", "9"),
+                ("Speed;centrifugal_stiffening", "9000 r/min"),
+            ] {
+                let read = of(&format!("{names};{speed}"), &format!("{cells};{rpm};1,5")).unwrap();
+                let [read, known] = [&read, &expected].map(|table| &table.modes[1][0]);
+                let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-14;
+                assert!(near(read.frequency_hz, known.frequency_hz), "{names} {speed}: {read:?}");
+                assert!(near(read.modal_mass_kg, known.modal_mass_kg), "{names}: {read:?}");
+                assert!(near(read.damping_ratio.unwrap(), 0.012), "{names}: {read:?}");
+            }
+        }
+        for (name, why) in [
+            ("Speed [m/s]", "this is a velocity; it takes rad/s, rpm or Hz"),
+            ("Speed (knots)", "no unit knots; it takes rad/s, rpm or Hz"),
+            ("speed_kg", "this is a mass; it takes rad/s, rpm or Hz"),
+            ("Damping [‰]", "no unit ‰; it takes %"),
+        ] {
+            let refused = of(&format!("frequency;mass;{name}"), "310;3;1").unwrap_err();
+            assert_eq!(refused.to_string(), format!("the first line = {name}: {why}"));
+        }
+        // What is no unit makes another column, the symbol of a prefix alone, too.
+        for name in
+            ["Speed n", "Speed of the test", "Massive", "Damping measured", "speed_k", "Speed µ"]
+        {
+            let read = of(&format!("frequency;mass;{name}"), "310;3;1").unwrap();
+            assert_eq!(read.notes, [format!("columns not used: {name}")]);
+        }
+        let twice = of("frequency;mass;Speed [rpm];Speed [Hz]", "310;3;;").unwrap_err();
+        assert!(
+            twice.to_string().contains("speed and centrifugal_stiffening, each once"),
+            "{twice}"
+        );
+    }
+
+    #[test]
+    fn what_two_lines_of_a_mode_say_otherwise_is_told() {
+        let table = "structure,nodal_diameters,frequency_hz,modal_mass_kg,damping_ratio,speed_rpm,by\n\
+                     disk,2,352,3.9,,0,me\ndisk,2,410,4.1,0.01,10000,\n\
+                     disk,3,371,3.7,0.02,0,\ndisk,3,427,3.7,0.03,10000,you\n";
+        let read = read_modes(table).unwrap();
+        let mode =
+            |place: usize| (read.modes[1][place].modal_mass_kg, read.modes[1][place].damping_ratio);
+        assert_eq!([mode(0), mode(1)], [(3.9, Some(0.01)), (3.7, Some(0.02))]);
+        assert_eq!(
+            read.notes,
+            [
+                "columns not used: by",
+                "line 3, modal_mass_kg = 4.1 is not used: the line before of this mode has 3.9",
+                "line 5, damping_ratio = 0.03 is not used: the line before of this mode has 0.02",
+            ]
         );
     }
 
@@ -257,7 +360,7 @@ mod tests {
         let head = "structure,nodal_diameters,frequency_hz,modal_mass_kg,damping_ratio\n";
         let text =
             format!("# of the rig\n{head}casing, 3, 139.8, 2.0, 0.05\ndisk,3,45.6,9166 g,\n");
-        let [casing, disk] = read_modes(&text).unwrap();
+        let [casing, disk] = read_modes(&text).unwrap().modes;
         assert_eq!((casing[0].frequency_hz, casing[0].damping_ratio), (139.8, Some(0.05)));
         assert_eq!((disk[0].modal_mass_kg, disk[0].damping_ratio), (9.166, None));
         for (rows, start) in [
@@ -266,9 +369,13 @@ mod tests {
             ("casing,x,9,2,\n", "line 2, nodal_diameters = x: allowed is a whole number"),
             ("casing,3,9,2 kN,\n", "line 2, modal_mass_kg = 2 kN: this is a force; it takes kg"),
             ("rotor,3,9,2,\n", "line 2, structure = rotor: allowed is casing or disk"),
+            ("\n# 1\n\ncasing,3,x,2,\n", "line 5, frequency_hz = x: allowed is a frequency"),
         ] {
-            let message = read_modes(&format!("{head}{rows}")).unwrap_err().to_string();
-            assert!(message.starts_with(start), "{message}");
+            for end in ["\n", "\r\n", "\r"] {
+                let table = format!("{head}{rows}").replace('\n', end);
+                let message = read_modes(&table).unwrap_err().to_string();
+                assert!(message.starts_with(start), "{end:?} {message}");
+            }
         }
         let message = read_modes("frequency_hz\n1\n").unwrap_err().to_string();
         assert!(

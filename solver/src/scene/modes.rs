@@ -248,39 +248,16 @@ fn short(table: &Table) -> String {
 
 /// Reads a number of a mode within the bounds of the key beside the list.
 fn number(path: &str, value: &Toml, key: &keys::Key) -> Result<f64, SceneError> {
-    match value {
-        Toml::String(text) => number_of(path, text, key),
-        value => bounded(path, value, key, plain(value)),
+    if let Toml::String(text) = value {
+        return key.number(path, text);
     }
-}
-
-/// Does the same for text, with or without its unit.
-pub(super) fn number_of(path: &str, text: &str, key: &keys::Key) -> Result<f64, SceneError> {
-    bounded(path, text, key, read(path, text, key.quantity())?)
-}
-
-fn bounded(
-    path: &str,
-    given: impl ToString,
-    key: &keys::Key,
-    read: Option<f64>,
-) -> Result<f64, SceneError> {
-    read.filter(|x| key.check(&Value::Real(*x)).is_ok())
-        .ok_or_else(|| SceneError::refused(path, given, key.allowed.to_string()))
+    let allowed = plain(value).filter(|x| key.check(&Value::Real(*x)).is_ok());
+    allowed.ok_or_else(|| SceneError::refused(path, value, key.allowed.to_string()))
 }
 
 /// Returns a number of a file that has no unit.
 fn plain(value: &Toml) -> Option<f64> {
     value.as_float().or_else(|| value.as_integer().map(|n| n as f64))
-}
-
-/// Reads a number of a quantity; `None` for text that is not a number.
-fn read(path: &str, text: &str, of: Quantity) -> Result<Option<f64>, SceneError> {
-    match of.read(text) {
-        Ok(number) => Ok(Some(number)),
-        Err(UnitError::NoNumber) => Ok(None),
-        Err(why) => Err(SceneError::Unit { key: path.into(), value: text.into(), why }),
-    }
 }
 
 /// Reads a frequency; a number without a unit is in hertz, as the key says.
@@ -293,9 +270,14 @@ fn hertz(path: &str, value: &Toml) -> Result<f64, SceneError> {
 
 /// Does the same for text.
 pub(super) fn hertz_of(path: &str, text: &str) -> Result<f64, SceneError> {
-    let given = match text.trim().parse() {
-        Ok(bare) => Some(bare),
-        Err(_) => read(path, text, Quantity::Speed)?.map(|omega| omega / TAU),
+    let given = match (text.trim().parse(), Quantity::Speed.read(text)) {
+        (Ok(bare), _) => Some(bare),
+        // What pi rounds is left out, so that 310.7 Hz is 310.7.
+        (_, Ok(omega)) => Some(rounded(omega / TAU, 14)),
+        (_, Err(UnitError::NoNumber)) => None,
+        (_, Err(why)) => {
+            return Err(SceneError::Unit { key: path.into(), value: text.into(), why });
+        }
     };
     frequency(path, text.to_string(), given)
 }

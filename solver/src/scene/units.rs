@@ -107,6 +107,7 @@ const PREFIXES: [(char, i32); 7] =
 
 /// Why a text is not a number of a quantity.
 #[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
 pub enum UnitError {
     /// The text does not begin with a number.
     #[error("no number")]
@@ -229,6 +230,7 @@ impl Quantity {
 
 /// Why a text is not a range.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum RangeError {
     /// The text does not have the form `FROM:TO`.
     Form,
@@ -272,15 +274,21 @@ fn power_of(prefix: &str) -> Option<i32> {
 }
 
 /// Returns a unit in the form in which units are compared: without spaces and points, with ASCII
-/// letters.
+/// letters, and one of its names.
 fn plain(unit: &str) -> String {
     let kept = unit.chars().filter(|c| !c.is_whitespace() && !matches!(c, '·' | '*' | '^'));
-    kept.map(|c| match c {
-        'µ' | 'μ' => 'u',
-        '²' => '2',
-        other => other,
-    })
-    .collect()
+    let kept: String = kept
+        .map(|c| match c {
+            'µ' | 'μ' => 'u',
+            '²' => '2',
+            other => other,
+        })
+        .collect();
+    match kept.to_lowercase().as_str() {
+        "1/min" | "u/min" | "r/min" | "min-1" | "min⁻¹" => "rpm".to_string(),
+        "percent" => "%".to_string(),
+        _ => kept,
+    }
 }
 
 /// Returns where the decimal number at the start of a text ends.

@@ -17,6 +17,7 @@ const MOST_FACTOR: f64 = 1e30;
 
 /// Why an axis was refused.
 #[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
 pub enum AxisError {
     /// Text that is not `PATH=FROM:TO:COUNT`.
     #[error("axis {text}: allowed is PATH=FROM:TO:COUNT or PATH=log:FROM:TO:COUNT")]

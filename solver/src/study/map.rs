@@ -2,7 +2,7 @@
 //! memory, a byte each, so that a large map is limited by its runs.
 
 use std::ops::Index;
-use std::sync::atomic::{AtomicU8, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 use rayon::prelude::*;
@@ -134,13 +134,14 @@ impl Map {
         keep: Keep<'_>,
     ) {
         let started = Instant::now();
-        let (plan, cells) = (&self.plan, &self.cells);
+        let (plan, cells) = (&self.plan, Mutex::new(&mut self.cells));
+        let cells = || cells.lock().unwrap_or_else(PoisonError::into_inner);
         let computed = indices
             .with_max_len(16)
-            .filter(|&index| cells[index].is_none() && go_on())
+            .filter(|&index| cells()[index].is_none() && go_on())
             .filter_map(|index| {
                 let cell = plan.compute(index, go_on)?;
-                cells.set(index, Some(cell));
+                cells().set(index, Some(cell));
                 keep(index, cell);
                 Some(())
             })
@@ -214,16 +215,15 @@ static MEANING: [Option<Cell>; 1 + 3 * KINDS] = {
 };
 const KINDS: usize = Verdict::ALL.len();
 
-/// Cells in order; none where nothing is computed. Threads may set different
-/// cells at the same time.
-#[derive(Debug)]
-pub struct Cells(Vec<AtomicU8>);
+/// Cells in order; none where nothing is computed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cells(Vec<u8>);
 
 impl Cells {
     /// Creates cells with nothing computed.
     #[must_use]
     pub fn empty(count: usize) -> Self {
-        Self((0..count).map(|_| AtomicU8::new(0)).collect())
+        Self(vec![0; count])
     }
 
     /// Returns the number of cells.
@@ -241,14 +241,14 @@ impl Cells {
     /// Returns a cell; `None` outside the map.
     #[must_use]
     pub fn get(&self, index: usize) -> Option<&'static Option<Cell>> {
-        MEANING.get(usize::from(self.0.get(index)?.load(Ordering::Relaxed)))
+        MEANING.get(usize::from(*self.0.get(index)?))
     }
 
     /// Sets a cell; a place that does not exist takes nothing.
-    pub fn set(&self, index: usize, cell: Option<Cell>) {
+    pub fn set(&mut self, index: usize, cell: Option<Cell>) {
         let byte = MEANING.iter().position(|meaning| *meaning == cell).unwrap_or_default();
-        if let (Some(place), Ok(byte)) = (self.0.get(index), u8::try_from(byte)) {
-            place.store(byte, Ordering::Relaxed);
+        if let (Some(place), Ok(byte)) = (self.0.get_mut(index), u8::try_from(byte)) {
+            *place = byte;
         }
     }
 
@@ -261,20 +261,7 @@ impl Cells {
 impl Index<usize> for Cells {
     type Output = Option<Cell>;
     fn index(&self, index: usize) -> &Option<Cell> {
-        &MEANING[usize::from(self.0[index].load(Ordering::Relaxed))]
-    }
-}
-
-impl Clone for Cells {
-    fn clone(&self) -> Self {
-        let byte = |cell: &AtomicU8| AtomicU8::new(cell.load(Ordering::Relaxed));
-        Self(self.0.iter().map(byte).collect())
-    }
-}
-
-impl PartialEq for Cells {
-    fn eq(&self, other: &Self) -> bool {
-        self.len() == other.len() && self.iter().eq(other.iter())
+        &MEANING[usize::from(self.0[index])]
     }
 }
 
@@ -286,7 +273,7 @@ mod cells_tests {
 
     #[test]
     fn every_cell_has_a_byte_of_its_own() {
-        let cells = Cells::empty(MEANING.len() + 1);
+        let mut cells = Cells::empty(MEANING.len() + 1);
         for (index, meaning) in MEANING.iter().enumerate() {
             cells.set(index, *meaning);
         }

@@ -22,15 +22,19 @@ use crate::scene::{CheckedScene, Scene, SceneError};
 /// Text of another form, an end of another quantity, or a lower end that is not lower.
 pub fn speed_range(name: &str, text: &str) -> Result<[f64; 2], SceneError> {
     match units::read_ends(text, units::Quantity::Speed) {
-        Ok(([from, to], None)) if from < to && (to - from).is_finite() => Ok([from, to]),
+        Ok((range, None)) if is_range(range) => Ok(range),
         Err(RangeError::End(why)) => {
             Err(SceneError::Unit { key: name.to_string(), value: text.to_string(), why })
         }
-        _ => {
-            let allowed = "FROM:TO, two speeds, the lower one first, such as 6000rpm:11000rpm";
-            Err(SceneError::refused(name, text, allowed))
-        }
+        _ => Err(SceneError::refused(name, text, RANGE)),
     }
+}
+
+/// What a range of speeds is.
+const RANGE: &str = "FROM:TO, two speeds, the lower one first, such as 6000rpm:11000rpm";
+
+fn is_range([from, to]: [f64; 2]) -> bool {
+    from < to && (to - from).is_finite()
 }
 
 /// Every number of diameters of a machine.
@@ -41,7 +45,7 @@ pub fn speed_range(name: &str, text: &str) -> Result<[f64; 2], SceneError> {
 /// use rubscope_solver::study::survey::Survey;
 ///
 /// let scene = Scene::builtin("paper-nd3")?.checked()?;
-/// let survey = Survey::of(&scene, Some([200.0, 300.0]), None);
+/// let survey = Survey::of(&scene, Some([200.0, 300.0]), None)?;
 /// assert_eq!(survey.rows.len(), 12);
 /// let four = survey.rows[4].limit(LimitName::OmegaC, true).ok_or("it has one")?;
 /// assert!((four.value - 256.12).abs() < 1e-2 && four.in_range == Some(true));
@@ -169,14 +173,23 @@ impl SurveyRow {
 }
 
 impl Survey {
-    /// The survey of a scene, over a range of speeds \[rad/s\], finite and the lower first (see
-    /// [`speed_range`]), with the sensitivities of every limit by a parameter, if there is one.
-    #[must_use]
-    pub fn of(scene: &CheckedScene, range: Option<[f64; 2]>, by: Option<&Parameter>) -> Self {
+    /// Makes the survey of a scene, over a range of speeds \[rad/s\], with the sensitivities of
+    /// every limit by a parameter, if there is one.
+    ///
+    /// # Errors
+    /// A range that is not finite, or whose lower end is not the first.
+    pub fn of(
+        scene: &CheckedScene,
+        range: Option<[f64; 2]>,
+        by: Option<&Parameter>,
+    ) -> Result<Self, SceneError> {
+        if let Some([from, to]) = range.filter(|range| !is_range(*range)) {
+            return Err(SceneError::refused("range", format!("{from}:{to}"), RANGE));
+        }
         let start = Instant::now();
         let most = scene.bladed_disk.blades / 2;
         let rows = (0..=most).into_par_iter().map(|diameters| row(scene, diameters, range, by));
-        Self {
+        Ok(Self {
             scene: scene.clone(),
             range_rad_s: range,
             by: by.map(|parameter| parameter.path),
@@ -184,7 +197,7 @@ impl Survey {
             scattered: Scattered::of(scene),
             rows: rows.collect(),
             wall_s: start.elapsed().as_secs_f64(),
-        }
+        })
     }
 
     /// The sense of rotation that is looked at: that of the range, or else of the scene.
@@ -271,20 +284,15 @@ fn whirls(machine: &Machine, limits: &[SurveyLimit], [from, to]: [f64; 2]) -> Ve
     all.filter(|speed| (from..=to).contains(speed)).collect()
 }
 
-/// The scene with so many diameters, whose mode is then in use.
-fn with_diameters(scene: &Scene, diameters: u32) -> Scene {
-    let mut scene = scene.clone();
-    scene.operation.nodal_diameters = diameters;
-    scene
-}
-
 fn row(
     scene: &CheckedScene,
     diameters: u32,
     range: Option<[f64; 2]>,
     by: Option<&Parameter>,
 ) -> SurveyRow {
-    let scene = with_diameters(scene, diameters);
+    // The mode of so many diameters is then in use.
+    let mut scene = Scene::clone(scene);
+    scene.operation.nodal_diameters = diameters;
     let machine = scene.machine();
     let own = 1_f64.copysign(scene.operation.speed_rad_s);
     let asked = searched(range, &scene);

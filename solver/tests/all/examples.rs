@@ -15,6 +15,9 @@ mod run;
 #[path = "../../examples/study.rs"]
 #[expect(dead_code, reason = "its main is for cargo")]
 mod study;
+#[path = "../../examples/survey.rs"]
+#[expect(dead_code, reason = "its main is for cargo")]
+mod survey;
 
 /// The lines that an example prints.
 fn lines(show: impl Fn(&mut dyn Write) -> Result<(), Box<dyn Error>>) -> Vec<String> {
@@ -33,7 +36,7 @@ fn one_run_locks_under_one_law_and_decays_under_the_other() {
 }
 
 #[test]
-fn the_sweep_pushes_only_above_the_lock_in_speed() {
+fn the_sweep_pushes_only_above_the_lock_speed() {
     let lines = lines(locked_sweep::show);
     assert_eq!(lines[0], "speed_rad_s,lambda_a_n,lambda_b_n,only_pushes");
     assert_eq!(lines.len(), 22);
@@ -60,6 +63,19 @@ fn a_knob_that_is_turned_changes_what_holds_and_what_will_be() {
     let begin = |line: usize, text: &str| assert!(lines[line].starts_with(text), "{lines:?}");
     begin(0, "500 rad/s: locked at 0.1 s; at 0.02 s [19] -244.57 N [12] -57.14 N");
     begin(1, "420 rad/s: locked at 0.1 s; at 0.04 s [19] -161.91 N [12] -4.58 N");
-    // Below the lock-in speed one side lets go, unless a pull holds it.
+    // Below the lock speed one side lets go, unless a pull holds it.
     assert!(!lines[2].contains(" locked ") && !lines[3].contains(" locked "), "{lines:?}");
+}
+
+#[test]
+fn a_table_of_modes_becomes_a_survey_and_what_moves_its_limit() {
+    assert_eq!(
+        lines(survey::show),
+        [
+            "4: 7000.0 to 12000.0 rpm",
+            "5: 8605.2 to 12000.0 rpm",
+            "1 % of casing.frequency_hz moves it by 1.00 %",
+            "1 % of casing.damping_ratio moves it by 0.02 %",
+        ]
+    );
 }

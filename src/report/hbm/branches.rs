@@ -38,7 +38,7 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let damping = if *damped { "with damping" } else { "without damping" };
     let changes = format!("Where branches change between these speeds, {damping}:");
     let tables = vec![
-        (changes, Table::of(&branches.thresholds, THRESHOLDS).into()),
+        (changes, Table::of(&branches.thresholds, THRESHOLDS)),
         ("Equilibria of the blade frame:".to_string(), rows.table(STATES)),
     ];
     Ok(Answer::of(Parts::default().with_parts("branches", json), tables))

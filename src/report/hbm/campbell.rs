@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::{Answer, LockBeside, Parts, Request, Rows, View};
-use crate::report::table::{Column, MadeTable, Table, TableCell};
+use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{Campbell, Coincidence, HarmonicError, Line};
 
 /// View: frequencies against speed.
@@ -40,7 +40,7 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let coincidences = "Coincidences +-omega_c = n_d Omega +- omega_bd, Eq. (30):".to_string();
     let title = "Frequencies in the standing frame [rad/s]:".to_string();
     let tables = vec![
-        (coincidences, Table::of(&campbell.coincidences, COINCIDENCES).into()),
+        (coincidences, Table::of(&campbell.coincidences, COINCIDENCES)),
         (title, table(lines, speeds)),
     ];
     Ok(Answer::of(Parts::default().with_parts("campbell", json), tables))
@@ -57,15 +57,15 @@ fn value(line: &Line, speeds: &[f64]) -> Value {
 }
 
 /// Returns the lines over speed, one per column.
-fn table(lines: Vec<Line>, speeds: Vec<f64>) -> MadeTable {
+fn table(lines: Vec<Line>, speeds: Vec<f64>) -> Table {
     let names = lines.iter().map(|line| line.name.clone());
-    let names = std::iter::once("speed_rad_s".to_string()).chain(names).collect();
-    MadeTable::named(names, speeds.len(), move |place| {
+    let names: Vec<_> = std::iter::once("speed_rad_s".to_string()).chain(names).collect();
+    Table::made(names, [speeds.len(); 2], move |place| {
         let row = |&speed: &f64| {
             let lines = lines.iter().map(|line| line.at(speed));
             std::iter::once(speed).chain(lines).map(TableCell::from).collect()
         };
-        speeds.get(place).map(row).unwrap_or_default()
+        Ok(speeds.get(place).map(row).into_iter().collect())
     })
 }
 

@@ -44,7 +44,7 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
 }
 
 /// Columns of a coincidence against speed.
-const CURVE: &[Column<'_, CoincidencePoint>] = &[
+pub const CURVE: &[Column<'_, CoincidencePoint>] = &[
     ("speed_rad_s", |point| point.speed_rad_s.into()),
     ("growth_1_s", |point| point.growth_1_s.into()),
     ("blade_amplitude_rad", |point| point.blade_amplitude_rad.into()),

@@ -50,7 +50,7 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     };
     // On a lining that blades press at rest the amplitude decides.
     let columns = if joint.machine.clearance() <= 0.0 { PRESSED } else { WAVES };
-    let tables = vec![(crossings, Table::of(&waves, columns).into())];
+    let tables = vec![(crossings, Table::of(&waves, columns))];
     let json = Parts::default().with_parts("compliance", json);
     Ok(Answer { json, tables, file: points.table(POINTS) })
 }

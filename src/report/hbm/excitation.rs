@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use serde_json::{Value, json};
 
-use super::{Answer, LockBeside, Parts, Request, Rows, View, nothing, refused};
+use super::{Answer, LockBeside, Parts, Request, Rows, View, nothing};
 use crate::report::number::short;
 use crate::report::table::Column;
 use rubscope_solver::harmonic::{ExcitedLock, ExcitedLocks, HarmonicError, drives};
@@ -25,7 +25,7 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let side = request.corner()?.a;
     if excitation.amplitude_nm <= 0.0 {
         let allowed = "above 0 with --excitation, such as --set excitation.amplitude_nm=10";
-        return Err(refused(keys::EXCITATION, excitation.amplitude_nm, allowed.to_string()));
+        return Err(HarmonicError::refused(keys::EXCITATION, excitation.amplitude_nm, allowed));
     }
     let reaches = drives(&machine, excitation.order);
     let found = Rc::new(ExcitedLocks::over(&machine, side, excitation, request.speeds)?);

@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use super::{Answer, LockBeside, Parts, Request, Rows, View, refused};
+use super::{Answer, LockBeside, Parts, Request, Rows, View};
 use crate::report::number::count;
 use crate::report::table::Column;
 use rubscope_solver::harmonic::{Forced, HarmonicError, Lining};
@@ -23,11 +23,11 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let (height, lobes) = (scene.casing.out_of_round_m, scene.casing.lobes);
     if scene.solver.contact != ContactLaw::Smooth {
         let allowed = "\"smooth\" with --forced: blades that all rub press a lining";
-        return Err(refused(keys::LAW, scene.solver.contact, allowed.to_string()));
+        return Err(HarmonicError::refused(keys::LAW, scene.solver.contact, allowed));
     }
     if height == 0.0 {
         let allowed = "above 0 with --forced: a round casing drives nothing";
-        return Err(refused(keys::OUT_OF_ROUND, height, allowed.to_string()));
+        return Err(HarmonicError::refused(keys::OUT_OF_ROUND, height, allowed));
     }
     let lining = Lining::of(machine, &scene.contact)?;
     let forced: Vec<Forced> =

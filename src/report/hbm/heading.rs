@@ -60,11 +60,11 @@ impl Heading<'_> {
                     let words = format!("{unit} without damping");
                     write!(
                         out,
-                        ", lock-in{groups} from {without} {words}, {lock} with zeta_c = {zeta}"
+                        ", lock{groups} from {without} {words}, {lock} with zeta_c = {zeta}"
                     )?;
                 }
                 Some(lock) => {
-                    write!(out, ", lock-in{groups} from {lock} {unit} (zeta_c = {zeta})")?;
+                    write!(out, ", lock{groups} from {lock} {unit} (zeta_c = {zeta})")?;
                 }
                 None => {}
             }

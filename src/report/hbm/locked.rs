@@ -70,7 +70,7 @@ const SUMMARY: &[Column<'_, LockedPoint>] = &[
 ];
 
 /// Columns of the locked motion with every number.
-const FILE: &[Column<'_, LockedPoint>] = &[
+pub const FILE: &[Column<'_, LockedPoint>] = &[
     ("speed_rad_s", |point| point.speed_rad_s.into()),
     ("multiplier_a_n", |point| point.multipliers_n[0].into()),
     ("multiplier_b_n", |point| point.multipliers_n[1].into()),

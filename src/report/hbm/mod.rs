@@ -5,12 +5,12 @@ use std::rc::Rc;
 
 mod branches;
 mod campbell;
-mod coincidence;
+pub mod coincidence;
 mod compliance;
 mod excitation;
 mod forced;
 mod heading;
-mod locked;
+pub mod locked;
 mod rows;
 mod slip;
 mod smooth;
@@ -22,7 +22,7 @@ pub use rows::Parts;
 use rows::Rows;
 
 use super::number::{per_speed, short};
-use super::table::{MadeTable, Table};
+use super::table::Table;
 use rubscope_solver::harmonic::{Corner, Form, HarmonicError, Sweep, lock_window, locked_motion};
 use rubscope_solver::model::{LockWindow, Machine};
 use rubscope_solver::scene::{ModelSize, Scene, keys};
@@ -88,7 +88,6 @@ pub struct Request<'a> {
 
 impl Request<'_> {
     /// Returns the speed furthest from standstill, whose sense of rotation counts \[rad/s\].
-    #[must_use]
     pub fn fastest(&self) -> f64 {
         let further = |a: &f64, b: &f64| a.abs().total_cmp(&b.abs());
         self.speeds.iter().copied().max_by(further).unwrap_or(self.scene.operation.speed_rad_s)
@@ -142,7 +141,11 @@ impl Request<'_> {
         let refuse = |key, given: String| {
             let option =
                 if view.option.is_empty() { "hbm".into() } else { format!("--{}", view.option) };
-            Err(refused(key, given, format!("none with {option}, which is not derived for it")))
+            Err(HarmonicError::refused(
+                key,
+                given,
+                format!("none with {option}, which is not derived for it"),
+            ))
         };
         if machine.has_unequal_tips() && !["", "branches", "campbell"].contains(&view.option) {
             let given = self.scene.unevenness().into_iter().find(|(_, length)| *length != 0.0);
@@ -189,16 +192,15 @@ pub struct Answer {
     /// Its fields in JSON.
     pub json: Parts,
     /// Its tables, each below a title.
-    pub tables: Vec<(String, MadeTable)>,
+    pub tables: Vec<(String, Table)>,
     /// The table for files.
-    pub file: MadeTable,
+    pub file: Table,
 }
 
 impl Answer {
     /// Creates an answer whose last table is the one for files.
-    fn of(json: Parts, tables: Vec<(String, MadeTable)>) -> Self {
-        let last = tables.last().map(|(_, table)| table.clone());
-        let file = last.unwrap_or_else(|| Table::default().into());
+    fn of(json: Parts, tables: Vec<(String, Table)>) -> Self {
+        let file = tables.last().map(|(_, table)| table.clone()).unwrap_or_default();
         Self { json, tables, file }
     }
 }
@@ -211,7 +213,7 @@ const fn nothing(_: &HarmonicError) -> bool {
 /// Refuses a preload, in which rigid contact has no place.
 fn no_clearance(scene: &Scene) -> HarmonicError {
     let length = scene.bladed_disk.blade_length_m;
-    refused(
+    HarmonicError::refused(
         keys::CASING_RADIUS,
         scene.casing.radius_m,
         format!(
@@ -221,12 +223,7 @@ fn no_clearance(scene: &Scene) -> HarmonicError {
     )
 }
 
-fn refused(key: &'static str, value: impl ToString, allowed: String) -> HarmonicError {
-    HarmonicError::Refused { key, value: value.to_string(), allowed }
-}
-
 /// Returns what the numbers are of, where the scene asks for more than the view has.
-#[must_use]
 pub fn notes(scene: &Scene, machine: &Machine) -> Vec<String> {
     let hard = scene.lining().filter(|_| machine.lining.is_none());
     let hard = hard.map(|_| "of rigid contact; --smooth has the lining of the scene".to_string());
@@ -234,7 +231,6 @@ pub fn notes(scene: &Scene, machine: &Machine) -> Vec<String> {
 }
 
 /// Returns the speeds of a window: `472.117 to 566.259`, or where it begins alone.
-#[must_use]
 pub fn speeds_of(window: LockWindow) -> String {
     match window.to {
         Some(to) => format!("{} to {}", short(per_speed(window.from)), short(per_speed(to))),

@@ -8,7 +8,7 @@ use serde::Serialize;
 use serde::ser::{Error, SerializeMap, SerializeSeq, Serializer};
 use serde_json::{Value, json};
 
-use crate::report::table::{Column, MadeTable};
+use crate::report::table::{Column, Table};
 use rubscope_solver::harmonic::HarmonicError;
 
 /// Makes the rows of one place of a list.
@@ -42,10 +42,12 @@ impl<T: 'static> Rows<T> {
     }
 
     /// Returns the table with these columns.
-    pub fn table(&self, columns: &'static [Column<'static, T>]) -> MadeTable {
+    pub fn table(&self, columns: &'static [Column<'static, T>]) -> Table {
         let at = Rc::clone(&self.at);
-        MadeTable::of(columns, [self.places, self.count], move |place| {
-            at(place).map_err(io::Error::other)
+        let cells = |item: &T| columns.iter().map(|column| (column.1)(item)).collect();
+        let headings = columns.iter().map(|column| column.0);
+        Table::made(headings, [self.places, self.count], move |place| {
+            Ok(at(place).map_err(io::Error::other)?.iter().map(cells).collect())
         })
     }
 }
@@ -96,21 +98,18 @@ impl Serialize for Part {
 
 impl Parts {
     /// Adds a value.
-    #[must_use]
     pub fn with(mut self, name: &'static str, value: impl Serialize) -> Self {
         self.0.push((name, Part::Whole(json!(value))));
         self
     }
 
     /// Adds an object below this one.
-    #[must_use]
     pub fn with_parts(mut self, name: &'static str, parts: Self) -> Self {
         self.0.push((name, Part::Parts(parts)));
         self
     }
 
     /// Adds an array with what `value` makes of each row.
-    #[must_use]
     pub fn with_rows<T: 'static>(
         mut self,
         name: &'static str,
@@ -124,7 +123,6 @@ impl Parts {
     }
 
     /// Adds the parts of another object behind those of this one.
-    #[must_use]
     pub fn and(mut self, other: Self) -> Self {
         self.0.extend(other.0);
         self

@@ -3,7 +3,7 @@
 
 use serde_json::json;
 
-use super::{Answer, LockBeside, Parts, Request, View, refused, speeds_of};
+use super::{Answer, LockBeside, Parts, Request, View, speeds_of};
 use crate::report::number::{short, speed, speed_unit};
 use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{
@@ -30,7 +30,7 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let Request { scene, machine, speeds, .. } = request;
     if scene.solver.contact != ContactLaw::Smooth {
         let allowed = "\"smooth\" with --smooth: only a lining has these steady states";
-        return Err(refused(keys::LAW, scene.solver.contact, allowed.to_string()));
+        return Err(HarmonicError::refused(keys::LAW, scene.solver.contact, allowed));
     }
     let lining = Lining::of(machine, &scene.contact)?;
     let (mut states, mut cycles, mut rests): (Vec<LiningState>, Vec<Cycle>, Vec<RestRow>) =
@@ -64,11 +64,11 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
         .with("states", &states);
     let mut tables = Vec::new();
     if pressed {
-        tables.push((pressed_title(&lining, shifted, &hopf), Table::of(&rests, RESTS).into()));
+        tables.push((pressed_title(&lining, shifted, &hopf), Table::of(&rests, RESTS)));
     } else {
         if !cycles.is_empty() {
             let title = "Whirl, waves that turn against the blades:".to_string();
-            tables.push((title, Table::of(&cycles, CYCLES).into()));
+            tables.push((title, Table::of(&cycles, CYCLES)));
         }
         let mut title = "Steady states in the frame of the blades.".to_string();
         if let Some(least) = least {
@@ -84,7 +84,7 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
                 short(lining.stiffness_n_per_m)
             );
         }
-        tables.push((title, Table::of(&states, STATES).into()));
+        tables.push((title, Table::of(&states, STATES)));
     }
     Ok(Answer::of(Parts::default().with_parts("smooth", json), tables))
 }

@@ -19,13 +19,11 @@ use rubscope_solver::study::margins::{LimitName, Margins, acting};
 pub const STRONGEST: usize = 3;
 
 /// Returns a row for each limit, under the name that it has in files.
-#[must_use]
 pub fn table(margins: &Margins) -> Table {
     titled(margins, |name| name.to_string())
 }
 
 /// Returns the rows of [`table`] under the names that `title` gives.
-#[must_use]
 pub fn titled(margins: &Margins, title: fn(LimitName) -> String) -> Table {
     let parameters: Vec<&str> = acting(&margins.scene).map(|parameter| parameter.path).collect();
     let people = ["+1 % of", "each", "moves it by"].map(Heading::shown);

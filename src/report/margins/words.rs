@@ -11,14 +11,12 @@ use rubscope_solver::study::margins::{Found, LimitName, MOST_TIMES, Margins, Qua
 const FACTORS: f64 = 9.0;
 
 /// The value of a limit with its unit, in so many digits.
-#[must_use]
 pub fn value(x: f64, digits: usize, quantity: Quantity) -> String {
     with_unit(x, digits, quantity.unit())
 }
 
 /// How far beyond a limit the scene is: in per cent, and as a factor where it is far
 /// beyond.
-#[must_use]
 pub fn margin(part: f64) -> String {
     if part > MOST_TIMES {
         return format!("> {} x", 1.0 + MOST_TIMES);
@@ -31,14 +29,12 @@ pub fn margin(part: f64) -> String {
 }
 
 /// A margin as a cell: above `MOST_TIMES` files have no number.
-#[must_use]
 pub fn margin_cell(part: Option<f64>) -> TableCell {
     let shown = |part: f64| if part > MOST_TIMES { f64::NAN } else { part };
     part.map_or(TableCell::Empty, |part| TableCell::Told(shown(part), margin(part)))
 }
 
 /// A change in per cent, of one per cent of a parameter.
-#[must_use]
 pub fn change(by: f64) -> String {
     if (0.095..99.995).contains(&by.abs()) {
         return format!("{by:+.2} %");
@@ -49,7 +45,6 @@ pub fn change(by: f64) -> String {
 }
 
 /// Speed, pulse, law and solver of the scene.
-#[must_use]
 pub fn conditions(margins: &Margins) -> String {
     let (operation, solver) = (&margins.scene.operation, &margins.scene.solver);
     format!(
@@ -65,7 +60,6 @@ pub fn conditions(margins: &Margins) -> String {
 }
 
 /// What the closed forms are of, where the scene asks for more.
-#[must_use]
 pub fn note(margins: &Margins) -> Option<String> {
     let tuned = margins.note.as_ref().map(|note| format!("Speeds and loads are {note}."));
     let modes = margins.scene.modes_note().map(|note| format!("{}.", capital(&note)));
@@ -74,7 +68,6 @@ pub fn note(margins: &Margins) -> Option<String> {
 }
 
 /// The parameter that puts a limit where it is wanted, in a sentence.
-#[must_use]
 pub fn target(found: &Found, margins: &Margins) -> String {
     let Found { name, by, .. } = *found;
     let changed = parameter(by);
@@ -108,7 +101,6 @@ pub fn target(found: &Found, margins: &Margins) -> String {
 
 /// The command that shows the limit with the parameter found, by another way than the
 /// one that found it where there is one; none where no parameter was found.
-#[must_use]
 pub fn check(found: &Found, scene: &Scene) -> Option<CommandLine> {
     let (to, reached) = found.to.zip(found.reached)?;
     let mut changed = parameter(found.by)?.set(scene, to).ok()?;
@@ -149,7 +141,6 @@ pub fn check(found: &Found, scene: &Scene) -> Option<CommandLine> {
 const BEYOND: f64 = 1.001;
 
 /// What the answer took.
-#[must_use]
 pub fn cost(margins: &Margins) -> String {
     format!("Computed in {}.", time(rounded(margins.cost.wall_s, 2)))
 }

@@ -66,7 +66,6 @@ pub fn write_text(text: &str, origin: &Provenance, out: &mut dyn Write) -> Resul
 }
 
 /// Returns where a picture comes from, as an element of SVG.
-#[must_use]
 pub fn describe(origin: &Provenance) -> String {
     // A name of a file may hold anything.
     let plain = |c: char| if c == '\n' { c } else { harmless(c) };
@@ -75,7 +74,6 @@ pub fn describe(origin: &Provenance) -> String {
 }
 
 /// Returns the text as it stands in XML.
-#[must_use]
 pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

@@ -6,7 +6,6 @@ use std::path::{Component, Path, PathBuf};
 use crate::report::CommandLine;
 use crate::tui::app::{App, Purpose, Source};
 use crate::tui::files::{FoundScene, FoundScenes, builtin_scenes};
-use rubscope_solver::scene::keys::differences;
 use rubscope_solver::scene::{CheckedScene, DEFAULT, Scene};
 
 /// A file that is being written.
@@ -78,11 +77,6 @@ impl App {
         let at =
             |line: CommandLine, (t, what): &(f64, _)| line.option("--at", format!("{t:?}:{what}"));
         live.iter().fold(start, at)
-    }
-
-    /// Returns the keys that differ from a scene, with their values as text.
-    pub fn changes_from(&self, base: &Scene) -> Vec<(&'static str, String)> {
-        differences(base, &self.scene).collect()
     }
 }
 

@@ -1,4 +1,5 @@
 use super::*;
+use crate::tui::Theme;
 use crate::tui::bindings::Action;
 use crate::tui::lessons;
 use rubscope_solver::scene::Scene;

@@ -14,6 +14,8 @@ use number::{decades, mantissas};
 use range::Bar;
 pub use table::KNOBS;
 
+use strum::VariantArray;
+
 use crate::report::number::{exact, from_shown, in_shown_unit, rounded, with_typed_unit};
 use crate::tui::axis;
 use crate::tui::field::Field;
@@ -41,7 +43,7 @@ pub enum Turn {
 }
 
 /// Group of knobs, in the order of the panel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, VariantArray)]
 pub enum Group {
     /// Speed, pulse, dampings, contact and solver.
     Operation,
@@ -60,17 +62,6 @@ pub enum Group {
 }
 
 impl Group {
-    /// Every group, in the order of the panel.
-    pub const ALL: [Self; 7] = [
-        Self::Operation,
-        Self::Time,
-        Self::Model,
-        Self::Machine,
-        Self::Beyond,
-        Self::Tips,
-        Self::Start,
-    ];
-
     /// Returns its heading.
     pub fn name(self) -> &'static str {
         ["operation", "time", "model", "machine", "beyond the paper", "tips and shape", "start"]
@@ -412,7 +403,7 @@ mod tests {
 
     #[test]
     fn groups_follow_each_other_and_have_every_knob() {
-        let places: Vec<usize> = Group::ALL.into_iter().flat_map(Group::places).collect();
+        let places: Vec<usize> = Group::VARIANTS.iter().flat_map(|group| group.places()).collect();
         assert_eq!(places, (0..KNOBS.len()).collect::<Vec<_>>());
         let first: Vec<&str> = KNOBS.iter().take(5).map(|knob| knob.label).collect();
         assert_eq!(first, ["speed Ω", "pulse F", "diameters n_d", "damping ζ_c", "damping ζ_bd"]);

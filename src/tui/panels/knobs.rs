@@ -6,6 +6,7 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::Modifier;
+use strum::VariantArray;
 
 use crate::report::line::capital;
 use crate::tui::app::{App, InputMode, Target};
@@ -238,7 +239,7 @@ pub fn lines(app: &App, height: u16) -> Vec<ColumnLine> {
 /// scene leaves it are legend_of where there is room.
 fn all(app: &App, open: &[Group], telling: bool) -> Vec<ColumnLine> {
     let mut lines = Vec::new();
-    for group in Group::ALL {
+    for &group in Group::VARIANTS {
         let open = open.contains(&group);
         match (open, group) {
             // The first one, where everybody begins, needs no name.

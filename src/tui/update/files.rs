@@ -5,6 +5,7 @@ use super::Effect;
 use crate::tui::app::{App, InputMode, Purpose, SceneEntry, Source, Writing};
 use crate::tui::export;
 use crate::tui::files::{FileJob, FileResult, FoundScenes};
+use rubscope_solver::scene::keys::differences;
 use rubscope_solver::scene::{CheckedScene, Scene};
 
 impl App {
@@ -132,7 +133,7 @@ impl App {
             Some(source) => (&source.scene, source.name.as_str()),
             None => (&*self.files.opened, "the opened scene"),
         };
-        let mut changes = self.changes_from(base);
+        let mut changes: Vec<_> = differences(base, &self.scene).collect();
         changes.retain(|(path, _)| !["title", "note"].contains(path));
         if changes.is_empty() {
             return scene;

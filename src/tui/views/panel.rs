@@ -5,7 +5,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Modifier, Style};
 
-use crate::report::table::{Table, TableCell, write_csv};
+use crate::report::table::Table;
 use crate::tui::app::{App, Cursor, Target};
 use crate::tui::appearance::Appearance;
 use crate::tui::axis::ChartAxis;
@@ -261,26 +261,12 @@ pub fn table_csv(table: &Table) -> Result<String, String> {
     String::from_utf8(bytes).map_err(|error| error.to_string())
 }
 
-/// Named columns of numbers as CSV text.
+/// Returns a table that has rows as CSV text.
 ///
 /// # Errors
-/// There are no rows.
-pub fn csv<R: IntoIterator<Item = f64>>(
-    names: &[String],
-    rows: impl Iterator<Item = R>,
-) -> Result<String, String> {
-    let mut rows = rows.map(|row| row.into_iter().map(TableCell::from)).peekable();
-    if rows.peek().is_none() {
-        return Err("there is no data yet".into());
-    }
-    let mut bytes = Vec::new();
-    write_csv(names, rows, &mut bytes).map_err(|error| error.to_string())?;
-    String::from_utf8(bytes).map_err(|error| error.to_string())
-}
-
-/// Returns the names of columns.
-pub fn names(names: &[&str]) -> Vec<String> {
-    names.iter().map(ToString::to_string).collect()
+/// There are no rows, or it cannot be written.
+pub fn csv(table: &Table) -> Result<String, String> {
+    if table.is_empty() { Err("there is no data yet".into()) } else { table_csv(table) }
 }
 
 /// Names of marked speeds where the chart is empty, as high as possible, or on the axis; one

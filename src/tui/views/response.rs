@@ -5,9 +5,10 @@
 use ratatui::{buffer::Buffer, layout::Rect};
 
 use super::panel::{
-    ViewArea, ViewPanel, csv, dots, entry, lines_above, name_level, names, read_before, title,
+    ViewArea, ViewPanel, csv, dots, entry, lines_above, name_level, read_before, title,
 };
 use crate::report::line::clean;
+use crate::report::table::{Table, TableCell};
 use crate::tui::app::{App, Cursor};
 use crate::tui::axis::{AutoRange, ChartAxis, instant, readable};
 use crate::tui::engine::{FullRun, Moment};
@@ -72,20 +73,19 @@ impl ViewPanel for ResponseView {
             (Channel::X, "z_real_m"),
             (Channel::Y, "z_imaginary_m"),
         ];
-        let mut columns = names(&["from_s", "to_s"]);
-        columns.extend(
-            channels
-                .iter()
-                .flat_map(|(_, name)| [format!("{name}_least"), format!("{name}_greatest")]),
-        );
-        columns.push("contact".into());
-        let rows = app.past_and_future(app.record()).0.iter().map(|bin| {
+        let of_channels = channels
+            .iter()
+            .flat_map(|(_, name)| [format!("{name}_least"), format!("{name}_greatest")]);
+        let times = ["from_s", "to_s"].map(String::from).into_iter();
+        let mut table = Table::new(times.chain(of_channels).chain(["contact".into()]));
+        for bin in app.past_and_future(app.record()).0 {
             let spans =
                 channels.iter().flat_map(|(channel, _)| <[f64; 2]>::from(bin.span(*channel)));
             let contact = f64::from(u8::from(bin.contact.is_some()));
-            [bin.from, bin.to].into_iter().chain(spans).chain([contact])
-        });
-        csv(&columns, rows)
+            let row = [bin.from, bin.to].into_iter().chain(spans).chain([contact]);
+            table.push(row.map(TableCell::from).collect());
+        }
+        csv(&table)
     }
 }
 

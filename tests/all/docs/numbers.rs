@@ -1,7 +1,6 @@
 //! The numbers of docs/accuracy.md that no other test checks, those outside its
 //! console blocks, and of the README.
 
-use rubscope_solver::harmonic::{Lining, lock_loads, roundness};
 use rubscope_solver::motion::{RunReport, Verdict, simulate};
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::Cell;
@@ -293,33 +292,4 @@ fn the_readme_has_the_numbers_of_the_page_on_accuracy_and_the_speeds_of_the_mach
     assert!(readme.says(&format!("**Omega_c**, {} here", rounded(machine.critical_speed()))));
     assert!(readme.says(&format!("**Omega_lock**, {},", rounded(machine.lock_speed()))));
     assert!(readme.says(&format!("({:.0} rad/s here)", machine.dangerous_speed().unwrap())));
-}
-
-#[test]
-fn imperfect_machines_have_the_numbers_that_the_document_says() {
-    let page = read("docs/accuracy.md").text.split_whitespace().collect::<Vec<_>>().join(" ");
-    let says = |told: &str| assert!(page.contains(told), "{told} is not in the document");
-    let machine = |longest: &str| {
-        let changes = [("bladed_disk.longest_tip_m", longest)];
-        Scene::builtin("paper-nd3").unwrap().with(&changes).unwrap().machine()
-    };
-    let lock = |longest: &str| format!("{:.6}", machine(longest).lock_speed().unwrap());
-    says(&format!("{} rad/s of equal tips, {} with one", lock("0"), lock("10e-6")));
-    says(&format!("{} by 105 um", lock("105e-6")));
-    let [a, b] = machine("10e-6").locked_multipliers(350.0).unwrap();
-    says(&format!("{:.6} and {:.6} N with 10 um at 350 rad/s", -a, -b));
-    let moving = lock_loads(&machine("10e-6"), 350.0).unwrap().pushes_n;
-    close(moving[0], -a, 1e-4);
-    let round = |lobes| 1e6 * roundness(&machine("0"), 500.0, lobes).unwrap();
-    let [one, two, three, four] = [1, 2, 3, 4].map(round);
-    says(&format!("({one:.6}, {two:.6}, {three:.5} and {four:.6} um for one to four)"));
-    let growth = |speed: &str| {
-        let scene = Scene::builtin("oval").unwrap();
-        let scene = scene.with(&[("operation.speed_rad_s", speed)]).unwrap();
-        let (machine, speed) = (scene.machine(), scene.operation.speed_rad_s);
-        let lining = Lining::of(&machine, &scene.contact).unwrap();
-        format!("{:.6}", lining.rest(speed).worst().growth_1_s)
-    };
-    let [slow, middle, fast] = ["410", "420", "430"].map(growth);
-    says(&format!("{slow}, {middle} and {fast} per second at 410, 420 and 430 rad/s"));
 }

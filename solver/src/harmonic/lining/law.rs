@@ -37,9 +37,7 @@ impl<'a> Lining<'a> {
     /// or with modes of the disk whose diameters are not `+-n_d` modulo `N`.
     pub fn of(machine: &'a Machine, surface: &ContactSurface) -> Result<Self, HarmonicError> {
         let polygon = &machine.polygon;
-        if machine.nodal_diameters == 0.0 {
-            return Err(HarmonicError::NoWave);
-        }
+        error::refuse_no_wave(machine)?;
         error::refuse_no_corner(polygon)?;
         if !Joint::has_one_wave(machine) {
             let (key, value) = (keys::DISK_DIAMETERS, machine.blade_diameters);

@@ -295,7 +295,8 @@ impl<B: Disk> Explicit<B> {
             if row.lambda != 0.0 && !self.beyond.account.forgone {
                 let closed = 0.5 * (gap - self.gap_before(&row, tips));
                 self.beyond.account.sums.impact_loss_j += row.lambda * closed;
-                self.count_growth(-row.lambda);
+                let lost = self.lost_clearance();
+                self.beyond.account.sums.growth_work_j -= 0.5 * row.lambda * lost;
                 self.count_push(&row, turn, tips);
             }
         }

@@ -177,7 +177,6 @@ pub struct EngineOrderTorque {
 
 impl EngineOrderTorque {
     /// Creates the excitation of a scene; none where its amplitude is zero.
-    #[must_use]
     pub fn of(scene: &Scene) -> Option<Self> {
         let amplitude = scene.excitation.amplitude_nm;
         let (order, blades) = (scene.excitation.order, scene.bladed_disk.blades);
@@ -185,13 +184,11 @@ impl EngineOrderTorque {
     }
 
     /// Returns the phase `E theta` at an instant \[rad\].
-    #[must_use]
     pub fn phase(&self, rotor: &Rotor, t: f64) -> f64 {
         f64::from(self.order) * rotor.angle(t)
     }
 
     /// Returns `sum_i (cos, sin)(k Phi_i) Q_i` for `k` diameters at a phase \[N m\].
-    #[must_use]
     pub fn torque_on(&self, diameters: u32, phase: f64) -> [f64; 2] {
         let (k, order) = (diameters % self.blades, self.order % self.blades);
         let half = 0.5 * f64::from(self.blades) * self.amplitude;

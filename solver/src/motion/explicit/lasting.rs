@@ -152,11 +152,6 @@ impl Lasting {
         self.all_since
     }
 
-    /// The swing that lasts, as it goes \[m\].
-    pub fn lasting_swing(&self) -> f64 {
-        self.trends[0].falls_to(self.swing()).unwrap_or_else(|| self.swing())
-    }
-
     /// The verdict over the last `window` seconds, of a machine with this clearance and
     /// surface. Where its motion about rest is linear and known, that decides by `comes_to_rest`,
     /// whatever the wave did in so short a time.
@@ -173,13 +168,14 @@ impl Lasting {
         let start = now - window;
         let lasted = |since: Option<f64>| since.is_some_and(|t| t <= start);
         let size = clearance.abs();
-        let whirls = self.lasting_swing() > WHIRL_SWING * size;
+        let swing = self.trends[0].falls_to(self.swing()).unwrap_or_else(|| self.swing());
+        let whirls = swing > WHIRL_SWING * size;
         if !lasted(log.unbroken_since) {
             let touched = log.last_contact.is_some_and(|t| t >= start);
             return if touched { Verdict::Bounce } else { Verdict::Decay };
         }
         // A stretch that has hardly begun has seen no full swing.
-        let young = self.is_young(now);
+        let young = now - self.since < 0.5 * self.length;
         let stretch = if young { self.before } else { self.now };
         // What the casing does by itself dies soon; the wave that both have is in the tips.
         let (trend, size_now, size_before) = match stretch.tips() > 0.0 {
@@ -220,10 +216,6 @@ impl Lasting {
         } else {
             Verdict::Slip
         }
-    }
-
-    fn is_young(&self, now: f64) -> bool {
-        now - self.since < 0.5 * self.length
     }
 }
 

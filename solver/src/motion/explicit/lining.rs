@@ -360,13 +360,9 @@ impl<B: Disk> Explicit<B> {
         let anew = self.find_near(z, tips, bound);
         let n = self.n;
         let Self { lining: Some(lining), blades, record, beyond, .. } = self else { return };
-        let modes = blades.modes();
-        if modes.is_none() {
-            blades.angles(&mut lining.near);
-        }
         let uneven = beyond.uneven.as_ref();
-        let modes = modes.unwrap_or([1.0, 0.0]);
-        lining.press(z, tips, modes, tips.diameters * bound, uneven);
+        let amplitudes = blades.amplitudes(&mut lining.near);
+        lining.press(z, tips, amplitudes, tips.diameters * bound, uneven);
         if anew || lining.sums.changed {
             lining.keep_change(record, n, blades.table().count());
         }

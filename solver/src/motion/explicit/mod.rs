@@ -37,7 +37,7 @@ pub(super) use oscillator::{Coordinate, Oscillator};
 use std::sync::Arc;
 
 use super::{Failure, FailureReason, Plane};
-use crate::contact::{Several, StepLaw};
+use crate::contact::{ContactLaw, Several};
 use crate::model::Machine;
 use crate::scene::CheckedScene;
 use beyond::Beyond;
@@ -53,7 +53,7 @@ use rows::{Row, TipLaw};
 pub(super) struct Explicit<B: Disk> {
     scene: Arc<CheckedScene>,
     machine: Machine,
-    law: &'static dyn StepLaw,
+    law: ContactLaw,
     /// The lining of the smooth law.
     lining: Option<Lining>,
     /// Law of the tips at the current rotor speed.

@@ -49,7 +49,6 @@ pub struct Coordinate {
 
 impl Oscillator {
     /// Computes the coefficients for `mass`, `damping`, `stiffness` at a time step \[s\].
-    #[must_use]
     pub fn new(mass: f64, damping: f64, stiffness: f64, step: f64) -> Self {
         let inertia = mass / (step * step);
         let drag = damping / (2.0 * step);
@@ -64,20 +63,17 @@ impl Oscillator {
 
     /// Returns the state at n = 0 from position and rate, so that `x[-1]` is
     /// `x - h v + h^2/2 a` with the acceleration that `force` gives.
-    #[must_use]
     pub fn start(&self, x: f64, rate: f64, force: f64) -> Coordinate {
         let acceleration = (force - self.damping * rate - self.stiffness * x) / self.mass;
         Coordinate { x, increment: self.step * (rate - 0.5 * self.step * acceleration) }
     }
 
     /// Creates the oscillator of the casing.
-    #[must_use]
     pub fn of_casing(machine: &Machine, step: f64) -> Self {
         Self::new(machine.casing_mass, machine.casing_damping, machine.casing_stiffness, step)
     }
 
     /// Returns a state of `start` under an additional force.
-    #[must_use]
     pub fn begin(&self, at: Coordinate, force: f64) -> Coordinate {
         let change = 0.5 * self.step * self.step * force / self.mass;
         Coordinate { increment: at.increment - change, ..at }
@@ -91,14 +87,12 @@ impl Oscillator {
     }
 
     /// Takes one step under a force.
-    #[must_use]
     pub fn step(&self, at: Coordinate, force: f64) -> Coordinate {
         let increment = self.ratio * at.increment - self.pull * at.x + self.compliance * force;
         Coordinate { x: at.x + increment, increment }
     }
 
     /// Takes `steps` free steps at once.
-    #[must_use]
     pub fn skip(&self, at: Coordinate, steps: u64) -> Coordinate {
         let Some(leap) = &self.leap else {
             return (0..steps).fold(at, |at, _| self.step(at, 0.0));
@@ -108,14 +102,12 @@ impl Oscillator {
     }
 
     /// Returns the rate at step n of a free coordinate, `(x[n+1] - x[n-1])/2h`.
-    #[must_use]
     pub fn rate(&self, at: Coordinate, force: f64) -> f64 {
         (at.increment + self.step(at, force).increment) / (2.0 * self.step)
     }
 
     /// Returns twice the discrete energy, `m (increment/h)^2 + k x[n] x[n-1]`, which free steps
     /// never increase.
-    #[must_use]
     pub fn twice_energy(&self, at: Coordinate) -> f64 {
         let rate = at.increment / self.step;
         self.mass * rate * rate + self.stiffness * at.x * (at.x - at.increment)
@@ -123,20 +115,17 @@ impl Oscillator {
 
     /// Returns the factor of the energy loss by damping: the loss is this times the square of the
     /// sum of two successive increments \[J/rad^2\] or \[J/m^2\].
-    #[must_use]
     pub fn lost(&self) -> f64 {
         self.lost
     }
 
     /// Returns the approximate phase of a free coordinate per step \[rad\].
-    #[must_use]
     pub fn turn(&self) -> f64 {
         self.step * (self.stiffness / self.mass).sqrt()
     }
 
     /// Returns the largest `|x|` around the first turning point of a free coordinate, if it comes
     /// within `steps` steps; zero otherwise.
-    #[must_use]
     pub fn turning_point(&self, at: Coordinate, steps: u64) -> f64 {
         let damping = 0.5 * self.damping / self.mass;
         let propagator = Propagator::new(damping, self.stiffness / self.mass);
@@ -161,14 +150,12 @@ impl Oscillator {
     }
 
     /// Returns `reach` for these coordinates together.
-    #[must_use]
     pub fn reach_of(&self, coordinates: [Coordinate; 2]) -> (f64, f64) {
         self.reach(coordinates.into_iter().map(|at| self.twice_energy(at)).sum())
     }
 
     /// Returns bounds on `|x|` and on `|increment|` over all free steps to come, for one or more
     /// coordinates of this kind with this sum of `twice_energy`.
-    #[must_use]
     pub fn reach(&self, twice_energy: f64) -> (f64, f64) {
         let inertia = self.mass / (self.step * self.step);
         let rest = inertia - 0.25 * self.stiffness;

@@ -10,31 +10,23 @@ use std::sync::Arc;
 
 use super::beyond::Beyond;
 use super::disk::Disk;
-use super::drive::{Drive, Driven};
+use super::drive::Drive;
 use super::leap::Leaps;
 use super::lining::Lining;
 use super::record::{Record, Watch};
 use super::rows::TipLaw;
 use super::{Explicit, Oscillator};
-use crate::contact::{self, Several};
-use crate::model::Machine;
+use crate::contact::Several;
 use crate::motion::Change;
 use crate::scene::CheckedScene;
 
 impl<B: Disk> Explicit<B> {
     /// Creates the motion of a scene at t = 0.
     pub(in crate::motion) fn new(scene: &CheckedScene) -> Self {
-        Self::with_blades(scene, |machine, driven| B::at_rest(scene, machine, driven))
-    }
-
-    /// Returns the same with the blades that these make, of the machine and what drives it.
-    pub(super) fn with_blades(
-        scene: &CheckedScene,
-        blades: impl FnOnce(&Machine, Driven<'_>) -> B,
-    ) -> Self {
         let machine = scene.machine();
         let drive = Drive::of(scene);
-        let blades = blades(&machine, drive.driven(0).filter(|_| scene.goes_beyond()));
+        let driven = drive.driven(0).filter(|_| scene.goes_beyond());
+        let blades = B::at_rest(scene, &machine, driven);
         let casing = Oscillator::of_casing(&machine, drive.step);
         let (initial, speed, start) = (&scene.initial, drive.speed(0), scene.start());
         let u = [
@@ -43,7 +35,7 @@ impl<B: Disk> Explicit<B> {
         ];
         let mut motion = Self {
             scene: Arc::new(scene.clone()),
-            law: contact::law(scene.solver.contact),
+            law: scene.solver.contact,
             lining: scene.lining().map(Lining::new),
             tips: TipLaw::at(&machine, speed),
             record: Record::of(machine.polygon.sides, drive.step),
@@ -90,7 +82,7 @@ impl<B: Disk> Explicit<B> {
         self.machine = scene.machine().at(speed).into_owned();
         self.blades = self.blades.with_parameters(scene, &self.machine);
         self.casing = Oscillator::of_casing(&self.machine, self.drive.step);
-        self.law = contact::law(scene.solver.contact);
+        self.law = scene.solver.contact;
         self.drive.set_parameters(scene);
         self.neighbours_matter = self.neighbours_matter();
         self.tips = TipLaw::at(&self.machine, speed);

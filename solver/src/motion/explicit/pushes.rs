@@ -4,7 +4,7 @@
 
 use super::disk::Disk;
 use super::rows::{Row, TipLaw};
-use crate::contact::{Several, StepLaw, single};
+use crate::contact::{ContactLaw, Several, complementary_pair, single};
 use crate::motion::{FailureReason, Plane};
 use crate::tolerances::CLOSED_PART;
 
@@ -43,7 +43,7 @@ pub(super) fn push<B: Disk>(
 #[inline]
 pub(super) fn solve<B: Disk>(
     tips: &TipLaw,
-    law: &dyn StepLaw,
+    law: ContactLaw,
     casing_compliance: f64,
     blades: &B,
     rows: &mut [Row],
@@ -56,19 +56,21 @@ pub(super) fn solve<B: Disk>(
         [row] => row.lambda = single(entry(row, row), gaps[0]),
         [a, b] => {
             let across = entry(a, b);
-            let back = if tips.is_symmetric() { across } else { entry(b, a) };
+            // Without friction pushes act along the rows, and `W` is symmetric.
+            let back = if tips.friction == 0.0 { across } else { entry(b, a) };
             let w = [[entry(a, a), across], [back, entry(b, b)]];
             let lambda = law.pair(w, [gaps[0], gaps[1]]);
             [a.lambda, b.lambda] = lambda.ok_or(FailureReason::Singular { rows: 2 })?;
         }
         _ => {
-            if !close_few(law, entry, rows, gaps) {
+            let pushes = !law.pulls();
+            if !(pushes && close_few(entry, rows, gaps)) {
                 several.fill(gaps, |i, j| entry(&rows[i], &rows[j]));
                 if let Some(lambda) = law.several(several) {
                     for (row, value) in rows.iter_mut().zip(lambda) {
                         row.lambda = *value;
                     }
-                } else if tips.rise != 0.0 || !close_pair(law, entry, rows, gaps) {
+                } else if tips.rise != 0.0 || !(pushes && close_pair(entry, rows, gaps)) {
                     return Err(FailureReason::Singular { rows: count });
                 }
             }
@@ -81,73 +83,54 @@ pub(super) fn solve<B: Disk>(
 
 /// Closes the one or two rows that penetrate by a law that only pushes, if that leaves all
 /// others open: it is then the answer of all rows, which is nearly always so.
-fn close_few(
-    law: &dyn StepLaw,
-    entry: impl Fn(&Row, &Row) -> f64,
-    rows: &mut [Row],
-    gaps: &[f64],
-) -> bool {
+fn close_few(entry: impl Fn(&Row, &Row) -> f64, rows: &mut [Row], gaps: &[f64]) -> bool {
     let mut closed = (0..rows.len()).filter(|&row| gaps[row] < 0.0);
-    let (first, second) = (closed.next(), closed.next());
-    let (Some(a), None, false) = (first, closed.next(), law.pulls()) else { return false };
-    let across = |i: usize, j: usize| entry(&rows[i], &rows[j]);
-    let found = match second {
-        None => Some([single(across(a, a), gaps[a]), 0.0]),
-        Some(b) => {
-            let w = [[across(a, a), across(a, b)], [across(b, a), across(b, b)]];
-            law.pair(w, [gaps[a], gaps[b]])
-        }
-    };
-    let Some(lambda) = found.filter(|lambda| lambda.iter().all(|value| *value <= 0.0)) else {
-        return false;
-    };
-    let b = second.unwrap_or(a);
-    let opens = |row: usize| gaps[row] - across(row, a) * lambda[0] - across(row, b) * lambda[1];
-    if !(0..rows.len()).all(|row| gaps[row] < 0.0 || opens(row) >= 0.0) {
-        return false;
-    }
-    rows.iter_mut().for_each(|row| row.lambda = 0.0);
-    (rows[b].lambda, rows[a].lambda) = (lambda[1], lambda[0]);
-    true
+    let (Some(a), b, None) = (closed.next(), closed.next(), closed.next()) else { return false };
+    close(entry, rows, gaps, [a, b.unwrap_or(a)], |k, left| gaps[k] < 0.0 || left >= 0.0)
 }
 
 /// Closes two rows, or one, by a law that only pushes so that all others are open: where three
 /// sides that have no slope meet, the casing alone does not tell their pushes apart.
-fn close_pair(
-    law: &dyn StepLaw,
+fn close_pair(entry: impl Fn(&Row, &Row) -> f64, rows: &mut [Row], gaps: &[f64]) -> bool {
+    let deepest = gaps.iter().fold(0.0_f64, |deepest, gap| deepest.max(-gap));
+    let open = |_: usize, left: f64| left >= -CLOSED_PART * deepest;
+    let mut pairs = (0..rows.len()).flat_map(|b| (0..=b).map(move |a| [a, b]));
+    pairs.any(|pair| close(&entry, rows, gaps, pair, open))
+}
+
+/// Closes two rows, or twice the same one, by a law that only pushes, where the gaps that this
+/// leaves are all `open`.
+fn close(
     entry: impl Fn(&Row, &Row) -> f64,
     rows: &mut [Row],
     gaps: &[f64],
+    [a, b]: [usize; 2],
+    open: impl Fn(usize, f64) -> bool,
 ) -> bool {
-    let deepest = gaps.iter().fold(0.0_f64, |deepest, gap| deepest.max(-gap));
-    for (a, b) in (0..rows.len()).flat_map(|b| (0..=b).map(move |a| (a, b))) {
-        let across = |i: usize, j: usize| entry(&rows[i], &rows[j]);
-        let found = match a == b {
-            true => Some([single(across(a, a), gaps[a]), 0.0]),
-            false => {
-                let w = [[across(a, a), across(a, b)], [across(b, a), across(b, b)]];
-                law.pair(w, [gaps[a], gaps[b]])
-            }
-        };
-        let pushes = |lambda: &[f64; 2]| lambda.iter().all(|value| *value <= 0.0);
-        let Some(lambda) = found.filter(|lambda| !law.pulls() && pushes(lambda)) else { continue };
-        let left = |k: usize| gaps[k] - across(k, a) * lambda[0] - across(k, b) * lambda[1];
-        if (0..rows.len()).all(|k| left(k) >= -CLOSED_PART * deepest) {
-            rows.iter_mut().for_each(|row| row.lambda = 0.0);
-            (rows[b].lambda, rows[a].lambda) = (lambda[1], lambda[0]);
-            return true;
-        }
+    let across = |i: usize, j: usize| entry(&rows[i], &rows[j]);
+    let found = if a == b {
+        Some([single(across(a, a), gaps[a]), 0.0])
+    } else {
+        let w = [[across(a, a), across(a, b)], [across(b, a), across(b, b)]];
+        complementary_pair(w, [gaps[a], gaps[b]])
+    };
+    let pushes = |lambda: &[f64; 2]| lambda.iter().all(|value| *value <= 0.0);
+    let Some(lambda) = found.filter(pushes) else { return false };
+    let left = |k: usize| gaps[k] - across(k, a) * lambda[0] - across(k, b) * lambda[1];
+    let answer = (0..rows.len()).all(|k| open(k, left(k)));
+    if answer {
+        rows.iter_mut().for_each(|row| row.lambda = 0.0);
+        (rows[b].lambda, rows[a].lambda) = (lambda[1], lambda[0]);
     }
-    false
+    answer
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact;
     use crate::motion::explicit::Oscillator;
     use crate::motion::explicit::disk::{FullBlades, ModalBlades, RigidBlades};
-    use crate::scene::{ContactLaw, Scene};
+    use crate::scene::Scene;
 
     /// Rows beside the wave at some place, and the change of each gap by a unit
     /// multiplier of another: as it is moved, and as `W` says.
@@ -214,7 +197,6 @@ mod tests {
             let machine = scene.machine();
             let tips = TipLaw::at(&machine, 450.0);
             let blades = ModalBlades::at_rest(&scene, &machine, None);
-            let law = contact::law(ContactLaw::Unilateral);
             for turn in 0..60 {
                 let z = Plane::cis(0.1 * f64::from(turn)) * (2.0004 * machine.clearance());
                 let row = |side: u32| {
@@ -229,7 +211,7 @@ mod tests {
                 several.fill(&gaps, |a, b| entry(&rows[a], &rows[b]));
                 let Some(expected) = several.complementary().map(<[f64]>::to_vec) else { continue };
                 all += 1;
-                if !close_few(law, entry, &mut rows, &gaps) {
+                if !close_few(entry, &mut rows, &gaps) {
                     continue;
                 }
                 alone += 1;
@@ -255,7 +237,7 @@ mod tests {
             Row { place: tips.place((1.0, 0.0), Plane::default(), 0.0), ..Row::default() };
         row.place.moment_arm = 0.0;
         let mut rows = [row];
-        let law = contact::law(ContactLaw::Unilateral);
+        let law = ContactLaw::Unilateral;
         let compliance = 1e-14 / machine.casing_mass;
         let solved =
             solve(&tips, law, compliance, &blades, &mut rows, &[-1e-9], &mut Several::default());

@@ -54,12 +54,6 @@ impl TipLaw {
         Place { gap, normal, moment_arm }
     }
 
-    /// Returns whether pushes act along the constraint rows, so that `W` is symmetric.
-    #[inline(always)]
-    pub fn is_symmetric(&self) -> bool {
-        self.friction == 0.0
-    }
-
     /// Returns the torque of the multiplier of a row on its blades, with its friction \[N m\].
     #[inline(always)]
     pub fn torque(&self, row: &Row) -> f64 {

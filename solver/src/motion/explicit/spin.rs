@@ -63,12 +63,6 @@ impl<B: Disk> Explicit<B> {
         self.beyond.closed[0] + self.beyond.closed[1]
     }
 
-    /// Work of blades that grow, by a push over the last two half steps.
-    #[inline]
-    pub(super) fn count_growth(&mut self, push: f64) {
-        self.beyond.account.sums.growth_work_j += 0.5 * push * self.lost_clearance();
-    }
-
     /// The machine at another speed from the latest step on.
     pub(super) fn take_speed(&mut self) {
         if !self.machine.changes_with_speed() {

@@ -17,6 +17,7 @@ use crate::tolerances::{TARGET_FACTOR, TARGET_REACHED, TARGET_SPAN};
 
 /// Why a target was refused.
 #[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
 pub enum TargetError {
     /// Text of another form.
     #[error("target {text}: allowed is NAME=VALUE, such as omega_lock=450, NAME one of {}", LimitName::VARIANTS.join(", "))]

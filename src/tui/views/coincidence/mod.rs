@@ -7,9 +7,11 @@ pub mod curves;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
+use crate::report::hbm::coincidence::CURVE;
 use crate::report::number::{frequency_unit, per_frequency, per_speed, speed_unit};
+use crate::report::table::Table;
 use crate::tui::app::{App, Cursor};
-use crate::tui::axis::{ChartAxis, nice_step, readable};
+use crate::tui::axis::{ChartAxis, readable};
 use crate::tui::plot::Plot;
 use crate::tui::text::{print, wrap};
 use crate::tui::theme::Role;
@@ -41,26 +43,7 @@ impl ViewPanel for CoincidenceView {
     fn csv(&self, app: &App) -> Result<String, String> {
         let curves = app.results().found.coincidence.as_deref().and_then(Option::as_ref);
         let points = curves.map_or(&[][..], |curves| &curves.points);
-        let rows = points.iter().map(|point| {
-            let values = [
-                point.growth_1_s,
-                point.blade_amplitude_rad,
-                point.casing_amplitude_m,
-                point.omega_rad_s,
-            ];
-            let bounded = f64::from(u8::from(point.bounded));
-            let values = values.map(|value| value.unwrap_or(f64::NAN));
-            std::iter::once(point.speed_rad_s).chain(values).chain([bounded])
-        });
-        let columns = [
-            "speed_rad_s",
-            "growth_1_s",
-            "blade_amplitude_rad",
-            "casing_amplitude_m",
-            "omega_rad_s",
-            "bounded",
-        ];
-        csv(&columns.map(String::from), rows)
+        csv(&Table::of(points, CURVE))
     }
 }
 
@@ -115,7 +98,8 @@ fn chart(
     let large = what.unit == AMPLITUDE.unit;
     let values = || curves.points.iter().filter_map(what.of).filter(|value| value.is_finite());
     let now = now(app).filter(|_| large);
-    let y = rounded(values().chain(now));
+    let y = ChartAxis::around(values().chain(now));
+    let y = if y.high > y.low { y } else { ChartAxis::scaled(0.0, 1e-4) };
     let x = ChartAxis::speeds(curves.from, curves.to);
     let read = app.cursor_in(ViewId::Coincidence).map(|at| x.at(at.across));
     let point = look.either('◆', '@');
@@ -156,14 +140,6 @@ fn chart(
     if large {
         name_speeds(&mut plot, &curves.markers, app);
     }
-}
-
-/// A range with a round end around values and zero.
-fn rounded(values: impl Iterator<Item = f64>) -> ChartAxis {
-    let (low, high) = values.fold((0.0_f64, 0.0_f64), |(a, b), v| (a.min(v), b.max(v)));
-    let high = if high > low { high } else { low + 1e-4 };
-    let step = nice_step(high - low, 6).unwrap_or(1.0);
-    ChartAxis::scaled((low / step).floor() * step, (high / step).ceil() * step)
 }
 
 /// Lines above the chart; returns the rest.

@@ -3,13 +3,14 @@
 
 use ratatui::buffer::Buffer;
 
+use crate::report::table::Table;
 use crate::tui::app::{App, Cursor, cell_of};
 use crate::tui::axis::{ChartAxis, instant};
 use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
 use crate::tui::views::ViewId;
-use crate::tui::views::panel::{ViewArea, ViewPanel, csv, name_level, names, read_before, title};
+use crate::tui::views::panel::{ViewArea, ViewPanel, csv, name_level, read_before, title};
 
 /// The view.
 pub struct GapsView;
@@ -30,8 +31,11 @@ impl ViewPanel for GapsView {
     fn csv(&self, app: &App) -> Result<String, String> {
         let now = app.shown_now().ok_or("there is no data yet")?;
         let t = now.state.t_s;
-        let rows = (1..).zip(&now.gaps).map(|(blade, gap)| [t, f64::from(blade), *gap]);
-        csv(&names(&["t_s", "blade", "gap_m"]), rows)
+        let mut table = Table::new(["t_s", "blade", "gap_m"]);
+        for (blade, gap) in (1..).zip(&now.gaps) {
+            table.push(vec![t.into(), f64::from(blade).into(), (*gap).into()]);
+        }
+        csv(&table)
     }
 }
 

@@ -11,9 +11,11 @@ pub mod curves;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Rect};
 
+use crate::report::hbm::locked::FILE;
 use crate::report::number::speed_unit;
+use crate::report::table::Table;
 use crate::tui::app::{App, Cursor, STEP};
-use crate::tui::axis::{ChartAxis, nice_step, readable};
+use crate::tui::axis::{ChartAxis, readable};
 use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::text::{print, whole_parts, wrap};
@@ -69,30 +71,7 @@ impl ViewPanel for LockedView {
     fn csv(&self, app: &App) -> Result<String, String> {
         let damped = app.results().found.locked.as_ref().and_then(|curves| curves.damped.as_ref());
         let points = damped.map_or(&[][..], |sweep| &sweep.points);
-        let rows = points.iter().map(|point| {
-            let [a, b] = point.multipliers_n;
-            let [admissible, stable] =
-                [point.admissible, point.stable].map(|is| f64::from(u8::from(is)));
-            let [turn_a, turn_b] = point.alpha_rad;
-            let waves = [point.u_cc_m, point.u_cs_m, point.u_sc_m, point.u_ss_m];
-            let first = [point.speed_rad_s, a, b, admissible, stable, turn_a, turn_b];
-            first.into_iter().chain(waves).chain([point.amplitude_m])
-        });
-        let columns = [
-            "speed_rad_s",
-            "multiplier_a_n",
-            "multiplier_b_n",
-            "admissible",
-            "stable",
-            "alpha_a_rad",
-            "alpha_b_rad",
-            "u_cc_m",
-            "u_cs_m",
-            "u_sc_m",
-            "u_ss_m",
-            "amplitude_m",
-        ];
-        csv(&columns.map(String::from), rows)
+        csv(&Table::of(points, FILE))
     }
 }
 
@@ -189,7 +168,7 @@ fn force_axis(curves: &LockedCurves, damped: &Sweep) -> ChartAxis {
     let points = damped.points.iter().filter(|point| curves.scales(point.speed_rad_s));
     let whirl = curves.whirl.iter().filter(|(speed, _)| curves.scales(*speed));
     let locks = points.flat_map(|point| point.multipliers_n);
-    range(locks.chain(whirl.map(|(_, push)| *push)))
+    ChartAxis::around(locks.chain(whirl.map(|(_, push)| *push)))
 }
 
 /// What the reading cursor reads, above the chart; returns the rest.
@@ -256,15 +235,6 @@ pub const AMPLITUDES: Chart = Chart {
     note: "u_ss = u_cc, u_sc = -u_cs",
 };
 
-/// A range with round ends around values and zero.
-pub fn range(values: impl Iterator<Item = f64>) -> ChartAxis {
-    let (low, high) = values
-        .filter(|value| value.is_finite())
-        .fold((0.0_f64, 0.0_f64), |(a, b), v| (a.min(v), b.max(v)));
-    let step = nice_step(high - low, 6).unwrap_or(1.0);
-    ChartAxis::scaled((low / step).floor() * step, (high / step).ceil() * step)
-}
-
 impl Chart {
     /// Draws it.
     pub fn draw(&self, app: &App, curves: &LockedCurves, buffer: &mut Buffer, at: ViewArea) {
@@ -274,7 +244,7 @@ impl Chart {
         let points = &damped.points;
         let scaled = || points.iter().filter(|point| curves.scales(point.speed_rad_s));
         let values = self.quantities.iter().flat_map(|(_, of)| scaled().map(of));
-        let (x, y) = (ChartAxis::speeds(0.0, curves.fastest), range(values));
+        let (x, y) = (ChartAxis::speeds(0.0, curves.fastest), ChartAxis::around(values));
         let pens: [Pen; 2] = [look.first(), look.second()];
         let named = pens.iter().zip(self.quantities);
         let mut legend: Vec<_> = named.map(|(pen, (name, _))| entry(look, pen, name)).collect();

@@ -6,6 +6,7 @@ pub mod lines;
 use ratatui::buffer::Buffer;
 
 use crate::report::number::{frequency_unit, per_frequency, speed_unit};
+use crate::report::table::Table;
 use crate::tui::app::App;
 use crate::tui::axis::{ChartAxis, nice_step, readable};
 use crate::tui::plot::Plot;
@@ -34,10 +35,12 @@ impl ViewPanel for SpectrumView {
 
     fn csv(&self, app: &App) -> Result<String, String> {
         let spectrum = app.results().found.spectrum.as_deref().cloned().unwrap_or_default();
-        let lines = (0..).zip(spectrum.cosine.iter().zip(&spectrum.sine));
-        let rows =
-            lines.map(|(k, (cosine, sine))| [f64::from(k) * spectrum.resolution, *cosine, *sine]);
-        csv(&["frequency_rad_s", "u_c_m", "u_s_m"].map(String::from), rows)
+        let mut table = Table::new(["frequency_rad_s", "u_c_m", "u_s_m"]);
+        for (k, (cosine, sine)) in (0..).zip(spectrum.cosine.iter().zip(&spectrum.sine)) {
+            let frequency = f64::from(k) * spectrum.resolution;
+            table.push(vec![frequency.into(), (*cosine).into(), (*sine).into()]);
+        }
+        csv(&table)
     }
 }
 

@@ -35,7 +35,7 @@ impl Study for MarginsStudy {
             let mut live = LiveMargins { margins: Margins::of(&theirs), survey: None };
             // Without a receiver nobody asks any more.
             let _ = to.send(live.clone());
-            live.survey = Some(Arc::new(Survey::of(&theirs, None, None)));
+            live.survey = Survey::of(&theirs, None, None).ok().map(Arc::new);
             let _ = to.send(live.clone());
             let LiveMargins { mut margins, survey } = live;
             on_spare_cores(|| {

@@ -22,16 +22,6 @@ use super::{ExactEvents, locked, rocking};
 use crate::motion::{ActiveSet, Failure, FailureReason, GoOn, Plane};
 use crate::tolerances::{BRIEF_ROCKING, LOOKS_UNASKED, MOST_LOOKS, ON_A_SIDE};
 
-/// What a search for the event that ends a segment comes to.
-enum Sought {
-    /// This event, so many seconds after its start.
-    Found(f64, Ending),
-    /// None by the limit.
-    Nothing,
-    /// It was told not to go on.
-    Paused,
-}
-
 /// What became of the next event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Passage {
@@ -55,9 +45,8 @@ impl ExactEvents {
             return Err(failure.clone());
         }
         let (s, what) = match self.seek(self.elapsed(until), go_on) {
-            Sought::Found(s, what) => (s, what),
-            Sought::Nothing => return self.run.failure.clone().map_or(Ok(Passage::Later), Err),
-            Sought::Paused => return Ok(Passage::Paused),
+            Ok(found) => found,
+            Err(passage) => return self.run.failure.clone().map_or(Ok(passage), Err),
         };
         self.check_angles(s)?;
         let rates = self.parameters.omega + self.parameters.drive.nu.abs();
@@ -95,22 +84,22 @@ impl ExactEvents {
         self.run.fail(s, reason)
     }
 
-    /// Returns the event that ends the segment, if no later than `limit` seconds after
-    /// its start. The looks ahead depend neither on `limit` nor on pauses.
-    fn seek(&mut self, limit: f64, go_on: GoOn<'_>) -> Sought {
+    /// Returns the event that ends the segment and when, if no later than `limit` seconds after
+    /// its start, or why not. The looks ahead depend neither on `limit` nor on pauses.
+    fn seek(&mut self, limit: f64, go_on: GoOn<'_>) -> Result<(f64, Ending), Passage> {
         let pulse_end = self.pulse_left();
         let series_end = self.mode.length();
         let end = pulse_end.min(series_end);
         loop {
             if let Some((s, what)) = self.found {
-                return if s <= limit { Sought::Found(s, what) } else { Sought::Nothing };
+                return if s <= limit { Ok((s, what)) } else { Err(Passage::Later) };
             }
             if self.safe > limit {
-                return Sought::Nothing;
+                return Err(Passage::Later);
             }
             if self.safe >= end {
                 if !end.is_finite() {
-                    return Sought::Nothing;
+                    return Err(Passage::Later);
                 }
                 let what =
                     if pulse_end <= series_end { Ending::PulseEnd } else { Ending::SeriesEnd };
@@ -118,13 +107,13 @@ impl ExactEvents {
                 continue;
             }
             if self.looks.is_multiple_of(LOOKS_UNASKED) && !go_on() {
-                return Sought::Paused;
+                return Err(Passage::Paused);
             }
             self.looks += 1;
             self.run.looks += 1;
             if self.run.looks > MOST_LOOKS {
                 self.fail(self.safe, FailureReason::Looks);
-                return Sought::Nothing;
+                return Err(Passage::Later);
             }
             match self.mode.look(&self.parameters, self.safe, end) {
                 Next::Until(later) => self.safe = later.min(end),

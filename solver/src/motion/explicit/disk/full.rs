@@ -144,7 +144,7 @@ impl Disk for FullBlades {
         self.x.iter_mut().for_each(|x| *x *= part);
         self.seen.forget();
     }
-    fn angles(&mut self, rows: &mut Columns) {
+    fn amplitudes(&mut self, rows: &mut Columns) -> [f64; 2] {
         if self.are_many(rows) {
             self.see_all();
         }
@@ -155,13 +155,20 @@ impl Disk for FullBlades {
                 false => ring.shapes.at(member, x),
             })
         });
+        [1.0, 0.0]
     }
     fn push(&mut self, rows: &Columns, _: [f64; 2]) -> f64 {
         if self.are_many(rows) {
             self.put(rows.each(|four| four.torque));
             return self.turn_all();
         }
-        self.push_each(rows)
+        let mut change = 0.0;
+        for (row, _, torque) in rows.each(|four| four.torque).filter(|(.., torque)| *torque != 0.0)
+        {
+            self.correct(row, torque);
+            change += self.compliance(row, row) * torque.abs();
+        }
+        change
     }
     fn swept(&mut self, rows: &Columns) -> f64 {
         self.put(rows.each(|four| four.push));
@@ -435,7 +442,8 @@ pub(super) mod tests {
             let rows = Arc::get_mut(&mut blades.rows).unwrap();
             rows.springs = vec![0.0; 22];
             rows.springs[0] = 0.05 * scene.bladed_disk.stiffness_nm_per_rad;
-            let mut motion = Explicit::with_blades(&scene.checked().unwrap(), |_, _| blades);
+            let mut motion = Explicit::<FullBlades>::new(&scene.checked().unwrap());
+            motion.blades = blades;
             motion.advance(0.05).unwrap();
             motion.state().u
         });

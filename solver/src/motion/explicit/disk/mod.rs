@@ -55,30 +55,14 @@ pub(in crate::motion) trait Disk: Clone + Debug + Send + Sync + 'static {
     fn shape_of(&self, _row: u32) -> (f64, f64) {
         (0.0, 0.0)
     }
-    /// Returns the angles of the two modes, for a disk of two modes \[rad\].
-    fn modes(&self) -> Option<[f64; 2]> {
-        None
-    }
-    /// Finds the angles of these rows \[rad\].
-    fn angles(&mut self, rows: &mut Columns) {
-        rows.put_angles(|row| self.angle(row));
+    /// Returns the amplitudes \[rad\] of what these rows have as their shapes; a disk of more than
+    /// two modes makes that the angle of each row.
+    fn amplitudes(&mut self, _rows: &mut Columns) -> [f64; 2] {
+        self.modal()
     }
     /// Corrects the predicted step by the torques on these rows, whose modal torques on two modes
     /// are `felt` \[N m\]. Returns a bound on the change of any blade angle \[rad\].
-    fn push(&mut self, rows: &Columns, _felt: [f64; 2]) -> f64 {
-        self.push_each(rows)
-    }
-    /// Does the same, one torque after the other.
-    fn push_each(&mut self, rows: &Columns) -> f64 {
-        let mut change = 0.0;
-        for (row, _, torque) in rows.each(|four| four.torque) {
-            if torque != 0.0 {
-                self.correct(row, torque);
-                change += self.compliance(row, row) * torque.abs();
-            }
-        }
-        change
-    }
+    fn push(&mut self, rows: &Columns, felt: [f64; 2]) -> f64;
     /// Sets the increase of the squared blade frequencies above those at rest \[rad^2/s^2\].
     /// Returns the change of their energy \[J\].
     fn stiffen(&mut self, _added: f64) -> f64 {
@@ -88,15 +72,7 @@ pub(in crate::motion) trait Disk: Clone + Debug + Send + Sync + 'static {
     fn shrink(&mut self, _part: f64) {}
     /// Returns the sum of the pushes on these rows times the turn of their blades over the last two
     /// half steps \[N rad\].
-    fn swept(&mut self, rows: &Columns) -> f64 {
-        let mut swept = 0.0;
-        for (row, _, push) in rows.each(|four| four.push) {
-            if push != 0.0 {
-                swept += push * 0.5 * (self.angle(row) - self.angle_before(row));
-            }
-        }
-        swept
-    }
+    fn swept(&mut self, rows: &Columns) -> f64;
     /// Corrects the state at the start for torques that act there: only the step before it changes.
     fn begin(&mut self, rows: &Columns, felt: [f64; 2]);
     /// Returns `[alpha_c, alpha_s]` \[rad\].

@@ -138,9 +138,6 @@ impl Disk for ModalBlades {
     fn shape_of(&self, row: u32) -> (f64, f64) {
         self.rows.shapes[row as usize]
     }
-    fn modes(&self) -> Option<[f64; 2]> {
-        Some(self.modal())
-    }
     fn push(&mut self, _: &Columns, felt: [f64; 2]) -> f64 {
         let mut change = 0.0;
         for (mode, felt) in self.modes.iter_mut().zip(felt) {

@@ -44,9 +44,6 @@ impl Disk for RigidBlades {
         0.0
     }
     fn correct(&mut self, _: u32, _: f64) {}
-    fn modes(&self) -> Option<[f64; 2]> {
-        Some([0.0; 2])
-    }
     fn push(&mut self, _: &Columns, _: [f64; 2]) -> f64 {
         0.0
     }

@@ -61,7 +61,8 @@ pub(in crate::motion) struct Four {
     /// Direction at rest, `cos psi` and `sin psi`.
     pub cosine: Lanes,
     pub sine: Lanes,
-    /// `Disk::shape_of`; where not only two modes move, the angle of the row \[rad\] and zero.
+    /// `Disk::shape_of`; where not only two modes move, the angle of the row \[rad\] and zero, see
+    /// `Disk::amplitudes`.
     pub shape: [Lanes; 2],
     /// Stiffness of the lining under all blades of a row \[N/m\].
     pub stiffness: Lanes,

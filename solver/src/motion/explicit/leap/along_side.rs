@@ -74,7 +74,8 @@ impl<B: Disk> Explicit<B> {
             return None;
         }
         let tips = self.goes_beyond.then(|| self.sliding_tips());
-        let step = self.side_step();
+        let turn = self.machine.nu(self.drive.speed(self.n)) * self.drive.step;
+        let step = SideStep::new(&self.casing, turn);
         let rules = Rules::new(&self.machine, &self.casing, moving, step, tips)?;
         let [c, s] = self.beyond.before;
         let before = Plane::new(c, s) * self.standing_side(side, self.n.saturating_sub(1)).conj();
@@ -156,12 +157,6 @@ impl<B: Disk> Explicit<B> {
             blades.set_held_modes(modes, before);
         }
         (self.standing(sliding.side, self.n, sliding.casing()), blades)
-    }
-
-    /// Coefficients of a step along a side at this speed.
-    fn side_step(&self) -> SideStep {
-        let turn = self.machine.nu(self.drive.speed(self.n)) * self.drive.step;
-        SideStep::new(&self.casing, turn)
     }
 
     /// Returns `zeta` and `zeta[n] - exp(-i nu h) zeta[n-1]` on a side.

@@ -27,9 +27,6 @@ impl Block {
     pub(in crate::motion::explicit) fn is_open(self) -> bool {
         self.length > 0
     }
-    pub(in crate::motion::explicit) fn is_endless(self) -> bool {
-        self.length == ENDLESS
-    }
     pub(in crate::motion::explicit) fn used(self) -> u64 {
         self.used
     }
@@ -133,7 +130,7 @@ impl<B: Disk> Explicit<B> {
             return self.rests();
         }
         let skipped = |coordinate| self.casing.skip(coordinate, self.leaps.block.used());
-        self.leaps.block.is_endless()
+        self.leaps.block.length == ENDLESS
             || self.casing.reach_of(self.u.map(skipped)).0 < self.machine.polygon.clearance
     }
 }
