@@ -277,6 +277,8 @@ impl Sensitive {
 pub struct Results {
     /// The run to the scene's end.
     pub full_run: Option<FullRunState>,
+    /// Its verdict, which may be proved before its end.
+    pub verdict: Option<Verdict>,
     /// The latest verdict there is, of this scene or of an older one.
     pub answer: Option<Arc<Answer>>,
     /// The end of that run \[s\].

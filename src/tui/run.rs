@@ -137,7 +137,7 @@ pub fn run<B: Backend>(
             // Not for ever: the next key may come sooner.
             answer = answer.or(Some(Instant::now() + ANSWER));
         }
-        if app.full_run().is_some() {
+        if app.verdict().is_some() {
             answer = None;
         }
         let free = throttle.wait(due == Due::Now, Instant::now()).is_zero();
@@ -176,14 +176,14 @@ fn order(app: &App, engine: &mut dyn Engine, ordered: &mut Option<Order>) -> boo
     other
 }
 
-/// Takes the latest snapshot. A forecast is drawn as soon as it exists: while a key
+/// Takes the latest snapshot. A verdict is drawn as soon as it is known: while a key
 /// is held, the next one comes before the next frame.
 fn look(app: &mut App, engine: &mut dyn Engine) -> Due {
-    let known = app.full_run().is_some();
+    let known = app.verdict().is_some();
     if let Some(snapshot) = engine.take() {
         app.apply_snapshot(snapshot);
     }
-    if !known && app.full_run().is_some() { Due::Now } else { Due::Frame }
+    if !known && app.verdict().is_some() { Due::Now } else { Due::Frame }
 }
 
 fn show<B: Backend>(

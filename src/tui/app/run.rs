@@ -142,7 +142,8 @@ impl Run {
     /// Drops what was computed for the motion before it was changed.
     fn forget_forecasts(&mut self) {
         let results = &mut self.latest.results;
-        (results.full_run, results.reference, results.comparison) = (None, None, None);
+        (results.full_run, results.verdict) = (None, None);
+        (results.reference, results.comparison) = (None, None);
         (results.page, results.comparison_page) = (None, None);
         results.sensitive = Sensitive::Unknown;
     }

@@ -23,6 +23,11 @@ impl App {
         }
     }
 
+    /// Returns the verdict of the run, which may be proved before its end.
+    pub fn verdict(&self) -> Option<Verdict> {
+        self.full_run().map(|run| run.verdict).or(self.results().verdict)
+    }
+
     /// Returns whether there will be no verdict: the run takes too long.
     pub fn is_given_up(&self) -> bool {
         matches!(self.results().full_run, Some(FullRunState::GivenUp(_)))
@@ -43,7 +48,7 @@ impl App {
                     format!("{limit} s of work reached {part:.0} % of the run."),
                     format!("{part:.0} % in {limit} s."),
                 ];
-                of("NO FORECAST", &forms)
+                of(&self.proved().unwrap_or("NO FORECAST".into()), &forms)
             }
             Some(FullRunState::Computing(part)) => {
                 let part = 100.0 * part;
@@ -53,10 +58,18 @@ impl App {
         }
     }
 
-    /// Returns the sentence while there is no verdict: the latest one, with its value.
+    /// Returns the word of the verdict that is proved before the end of the run.
+    fn proved(&self) -> Option<String> {
+        Some(self.results().verdict?.as_ref().to_uppercase())
+    }
+
+    /// Returns the sentence while the run is computed: what is proved, or the latest verdict, with
+    /// its value.
     fn computing(&self, part: &str, width: usize) -> Sentence {
-        let forms = [format!("Computing the run{part}."), format!("Computing{part}.")];
-        match self.older_answer() {
+        let proved = if self.verdict().is_some() { "Proved. " } else { "" };
+        let forms =
+            [format!("{proved}Computing the run{part}."), format!("{proved}Computing{part}.")];
+        match self.proved().or_else(|| self.older_answer()) {
             Some(answer) => Sentence::of(&answer, &forms, &[], width),
             None => Sentence::of("computing", &[part.trim_start_matches(", ").into()], &[], width),
         }

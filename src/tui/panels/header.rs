@@ -70,9 +70,9 @@ pub fn headline(app: &App, width: usize) -> (Sentence, Style) {
         return (Sentence::of("?", &forms, &[], width), look.style(Role::Quiet));
     }
     let sentence = app.sentence(width);
-    let style = match app.full_run() {
+    let style = match app.verdict() {
         _ if app.run.latest.trouble.is_some() => look.style(Role::Trouble),
-        Some(run) => verdict_style(look, run.verdict),
+        Some(verdict) => verdict_style(look, verdict),
         // Nothing is wrong, but no verdict will come.
         None if app.is_given_up() => look.style(Role::Text).add_modifier(Modifier::BOLD),
         None => look.style(Role::Quiet),
@@ -371,6 +371,25 @@ mod tests {
         assert_eq!(app.verdict_word(), "NO FORECAST");
         let text = app.appearance.style(Role::Text).add_modifier(Modifier::BOLD);
         assert_eq!(style(&app), text);
+    }
+
+    #[test]
+    fn a_verdict_that_is_proved_is_told_while_its_run_goes_on() {
+        let scene = Scene::base().checked().unwrap();
+        let mut app = App::new(scene, Theme::Dark, Marker::Braille);
+        app.run.latest.results.full_run = Some(FullRunState::Computing(0.13));
+        assert_eq!(app.verdict_word(), "computing");
+        app.run.latest.results.verdict = Some(Verdict::Decay);
+        let (told, style) = headline(&app, 80);
+        assert_eq!(
+            (told.word.as_str(), told.what.as_str()),
+            ("DECAY", "Proved. Computing the run, 13 %.")
+        );
+        assert_eq!(style, verdict_style(&app.appearance, Verdict::Decay));
+        app.run.latest.results.full_run = Some(FullRunState::GivenUp(0.3));
+        assert_eq!(app.verdict_word(), "DECAY");
+        app.run.fire();
+        assert_eq!(app.verdict_word(), "computing");
     }
 
     #[test]

@@ -5,14 +5,12 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crate::tui::engine::{
-    Answer, FORECAST_LIMIT, FullRun, FullRunState, Order, Pace, Results, Sensitive,
-};
+use crate::tui::engine::{Answer, FORECAST_LIMIT, Order, Pace, Results, Sensitive};
 use crate::tui::trace::Mark;
 use crate::tui::worker::background::{Background, on_spare_cores};
 use crate::tui::worker::full_run::{FullRunJob, SLICE};
 use crate::tui::worker::studies::Studies;
-use rubscope_solver::motion::{Certainty, Motion, VerdictReached, certainty};
+use rubscope_solver::motion::{Certainty, Motion, Verdict, VerdictReached, certainty};
 use rubscope_solver::scene::{CheckedScene, ContactLaw, Scene, SolverKind};
 
 /// The computations for one motion.
@@ -55,11 +53,13 @@ impl Forecasts {
         (std::mem::take(&mut self.studies), std::mem::take(&mut self.answers))
     }
 
-    /// Same as [`Self::again`], for a motion of `scene` that has been changed.
+    /// Same as [`Self::again`], for a motion of `scene` that has been changed, whose sensitivity is
+    /// not computed.
     pub fn changed(&mut self, scene: &CheckedScene, motion: &Motion, length: f64) {
         let run = std::mem::replace(&mut self.full_run, FullRunJob::new(motion.clone(), length));
         self.answers.turned_on(scene, run);
         self.reference = None;
+        (self.sensitivity, self.sensitive) = (None, Some(Sensitive::Unknown));
     }
 
     /// Starts a new run of `length` seconds from where the motion is. The reference starts from
@@ -67,11 +67,6 @@ impl Forecasts {
     pub fn again(&mut self, motion: &Motion, length: f64) {
         self.full_run = FullRunJob::new(motion.clone(), length);
         self.reference = None;
-    }
-
-    /// Marks the sensitivity as unknown: it is not computed for a motion that was changed.
-    pub fn forget_sensitivity(&mut self) {
-        (self.sensitivity, self.sensitive) = (None, Some(Sensitive::Unknown));
     }
 
     /// Returns the end of the run \[s\].
@@ -103,32 +98,24 @@ impl Forecasts {
     pub fn is_computing(&self, order: &Order, comparison: Option<&FullRunJob>) -> bool {
         let mut runs = std::iter::once(&self.full_run).chain(&self.reference).chain(comparison);
         runs.any(|run| !run.is_done())
-            || self.answers.is_computing()
+            || self.answers.older.is_some()
             || self.sensitive.is_none()
             || self.studies.is_computing(order, &self.full_run)
     }
 
-    /// Computes a slice of a run that was begun before the last change, or of the present one
-    /// that may be quicker; false where there is none.
-    pub fn compute_older(&mut self, order: &Order) -> bool {
-        let is_slow = self.answers.older.as_ref().is_some_and(|(_, run)| run.wall() >= HELD);
-        if !is_slow || self.full_run.wall() >= QUICK {
-            return self.answers.compute();
-        }
-        self.full_run.compute();
-        self.answers.note(&order.scene, &self.full_run.state());
-        true
-    }
-
     /// Computes one slice.
     pub fn compute(&mut self, order: &Order, comparison: Option<&mut FullRunJob>) {
-        let known = self.full_run.is_done();
-        // The run that had least time: the quick one does not wait for the slow one.
-        let runs = [&mut self.full_run].into_iter().chain(&mut self.reference).chain(comparison);
+        self.answers.look();
+        let known = self.full_run.verdict().is_some();
+        // First the verdict, then the run that had least time: the quick one does not wait for
+        // the slow one.
+        let alone = !known && self.full_run.wall() < ALONE;
+        let others = self.reference.iter_mut().chain(comparison).filter(|_| !alone);
+        let runs = std::iter::once(&mut self.full_run).chain(others);
         if let Some(run) = runs.filter(|run| !run.is_done()).min_by_key(|run| run.wall()) {
             run.compute();
             if !known {
-                self.answers.note(&order.scene, &self.full_run.state());
+                self.answers.note(&order.scene, self.full_run.verdict());
             }
             return;
         }
@@ -150,15 +137,15 @@ impl Forecasts {
 
     /// Returns what is known so far.
     pub fn results(&self, order: &Order, comparison: Option<&FullRunJob>) -> Results {
-        let full_run = self.full_run.state();
-        let done_in = matches!(full_run, FullRunState::Done(_)).then(|| self.full_run.wall_s());
+        let done_in = self.full_run.result().map(|_| self.full_run.wall().as_secs_f64());
         Results {
-            full_run: Some(full_run),
-            answer: self.answers.latest(),
+            full_run: Some(self.full_run.state()),
+            verdict: self.full_run.verdict(),
+            answer: self.answers.latest.clone(),
             end_s: self.end(),
             sensitive: self.sensitive.unwrap_or_default(),
-            reference: done(self.reference.as_ref()),
-            comparison: done(comparison),
+            reference: self.reference.as_ref().and_then(FullRunJob::result).cloned(),
+            comparison: comparison.and_then(FullRunJob::result).cloned(),
             pace: Pace {
                 step_s: self.full_run.step_s(),
                 skipped: self.full_run.skipped(),
@@ -197,77 +184,49 @@ fn sensitivity(scene: &CheckedScene, reached: VerdictReached) -> Background<Cert
     })
 }
 
-fn done(run: Option<&FullRunJob>) -> Option<FullRun> {
-    match run?.state() {
-        FullRunState::Done(run) => Some(*run),
-        FullRunState::Computing(_) | FullRunState::GivenUp(_) => None,
-    }
-}
+/// Wall time of a run that has a core for itself, until its verdict is known.
+const ALONE: Duration = Duration::from_millis(200);
 
-/// Wall time that an older run may still take after the last turn of a knob. A held key
-/// comes again sooner, at any usual rate; somebody who has let go waits this much longer.
-const HELD: Duration = Duration::from_millis(200);
-
-/// Wall time of a run that does not wait for a slow one that was begun before it: a third of the
-/// time between two turns of a held key.
-const QUICK: Duration = Duration::from_millis(10);
-
-/// The latest answer, and the run for the next.
+/// The latest answer, and the run for the next, which nobody waits for.
 #[derive(Debug, Default)]
 pub struct Answers {
     latest: Option<Arc<Answer>>,
-    older: Option<(CheckedScene, FullRunJob)>,
-    left: Duration,
+    older: Option<(CheckedScene, Background<Verdict>)>,
 }
 
 impl Answers {
-    /// Takes over a run that is not wanted any more, unless an older one was begun: beside other
-    /// work no run may have had its first slice.
-    pub fn turned_on(&mut self, scene: &CheckedScene, run: FullRunJob) {
-        self.left = HELD;
-        let is_free = self.older.as_ref().is_none_or(|(_, older)| older.wall().is_zero());
-        if is_free && !run.is_done() {
-            self.older = Some((scene.clone(), run));
+    /// Takes over a run that is not wanted any more, unless an older one is under way.
+    pub fn turned_on(&mut self, scene: &CheckedScene, mut run: FullRunJob) {
+        if self.older.is_some() || run.verdict().is_some() {
+            return;
+        }
+        let older = Background::start(move |to, go_on| {
+            while run.verdict().is_none() && !run.is_done() && go_on() {
+                run.compute();
+            }
+            // Without a receiver nobody asks any more.
+            _ = run.verdict().map(|verdict| to.send(verdict));
+        });
+        self.older = Some((scene.clone(), older));
+    }
+
+    /// Takes the verdict of the older run, once it has come.
+    fn look(&mut self) {
+        if let Some((scene, mut older)) = self.older.take() {
+            match older.receive(Duration::ZERO) {
+                None if !older.is_done() => self.older = Some((scene, older)),
+                verdict => self.note(&scene, verdict),
+            }
         }
     }
 
-    /// Returns whether an older run goes on.
-    pub fn is_computing(&self) -> bool {
-        self.older.is_some()
-    }
-
-    /// Computes a slice of the older run; false where none goes on.
-    pub fn compute(&mut self) -> bool {
-        let Some((_, run)) = &mut self.older else { return false };
-        let before = run.wall();
-        run.compute();
-        let spent = run.wall().saturating_sub(before);
-        self.spend(spent);
-        true
-    }
-
-    /// Records the wall time of the older run: its result is kept, or it is given up.
-    fn spend(&mut self, spent: Duration) {
-        let Some((scene, run)) = &self.older else { return };
-        self.left = self.left.saturating_sub(spent);
-        if run.is_done() || self.left.is_zero() {
-            let (scene, state) = (scene.clone(), run.state());
+    /// Notes the verdict of a run, once there is one; that of an older one is not waited for any
+    /// more.
+    pub fn note(&mut self, scene: &CheckedScene, verdict: Option<Verdict>) {
+        if let Some(verdict) = verdict {
             self.older = None;
-            self.note(&scene, &state);
+            self.latest = Some(Arc::new(Answer { scene: scene.clone(), verdict }));
         }
-    }
-
-    /// Notes the result of a run, if it is one; that of an older one is not waited for any more.
-    pub fn note(&mut self, scene: &CheckedScene, state: &FullRunState) {
-        if let FullRunState::Done(run) = state {
-            self.older = None;
-            self.latest = Some(Arc::new(Answer { scene: scene.clone(), verdict: run.verdict }));
-        }
-    }
-
-    /// Returns the latest answer.
-    pub fn latest(&self) -> Option<Arc<Answer>> {
-        self.latest.clone()
     }
 }
 
@@ -288,13 +247,12 @@ mod tests {
         let mut answers = Answers::default();
         // Each run has a slice before the next turn of the knob, and takes many.
         let mut reported = Vec::new();
-        for turn in 0..100_000 {
+        for turn in 0.. {
             let (scene, mut run) = run(400.0 + 1e-3 * f64::from(turn));
-            if !answers.compute() {
-                run.compute();
-            }
+            run.compute();
             answers.turned_on(&scene, run);
-            let speed = answers.latest().map(|answer| answer.scene.operation.speed_rad_s);
+            answers.look();
+            let speed = answers.latest.as_ref().map(|answer| answer.scene.operation.speed_rad_s);
             if reported.last().copied() != speed {
                 reported.extend(speed);
             }
@@ -303,59 +261,54 @@ mod tests {
             }
         }
         // Not those of all values, but the next one begins when one is done.
-        assert!(reported.len() > 2 && reported.is_sorted(), "{reported:?}");
+        assert!(reported.is_sorted(), "{reported:?}");
     }
 
     #[test]
-    fn a_quick_run_does_not_wait_for_a_slow_one_that_was_begun_before_it() {
+    fn no_run_waits_for_a_slow_one_that_was_begun_before_it() {
         let slow = Scene::builtin("undamped").unwrap().as_reference().checked().unwrap();
         let mut forecasts = Forecasts::of(&Motion::new(&slow), &slow, Default::default());
         forecasts.again(&Motion::new(&slow), 1e6);
-        while forecasts.full_run.wall() < HELD {
-            forecasts.full_run.compute();
-        }
         let (quick, _) = run(400.0);
         forecasts.changed(&slow, &Motion::new(&quick), 1e-6);
-        forecasts.answers.left = Duration::MAX;
+        assert!(forecasts.answers.older.is_some());
         let app = crate::tui::app::on_screen();
         let order = Order { scene: quick.clone(), ..app.order() };
-        for _ in 0..3 {
-            forecasts.compute_older(&order);
+        while forecasts.full_run.verdict().is_none() {
+            forecasts.compute(&order, None);
         }
         // The newest that is ready is not followed by an older one.
-        assert_eq!(forecasts.answers.latest().map(|answer| answer.scene.clone()), Some(quick));
-        assert!(!forecasts.compute_older(&order));
+        let latest = forecasts.answers.latest.as_ref();
+        assert_eq!(latest.map(|answer| &answer.scene), Some(&quick));
+        assert!(forecasts.answers.older.is_none());
     }
 
     #[test]
-    fn a_long_run_does_not_keep_a_key_that_was_let_go_waiting() {
-        let mut answers = Answers::default();
-        let scene = Scene::builtin("undamped").unwrap().as_reference().checked().unwrap();
-        let mut run = FullRunJob::new(Motion::new(&scene), 1e6);
-        run.compute();
-        answers.turned_on(&scene, run);
-        answers.spend(HELD / 2);
-        assert!(answers.is_computing());
-        answers.spend(HELD / 2);
-        assert!(!answers.is_computing() && answers.latest().is_none());
+    fn the_verdict_of_a_run_does_not_wait_for_the_reference() {
+        let scene = Scene::builtin("rub").unwrap().checked().unwrap();
+        let mut forecasts = Forecasts::of(&Motion::new(&scene), &scene, Default::default());
+        let order = Order { scene, ..crate::tui::app::on_screen().order() };
+        let spent = |forecasts: &Forecasts| forecasts.reference.as_ref().unwrap().wall();
+        while forecasts.full_run.verdict().is_none() && forecasts.full_run.wall() < ALONE {
+            forecasts.compute(&order, None);
+            assert!(spent(&forecasts).is_zero());
+        }
+        while forecasts.is_computing(&order, None) && spent(&forecasts).is_zero() {
+            forecasts.compute(&order, None);
+        }
+        assert!(!spent(&forecasts).is_zero());
     }
 
     #[test]
-    fn the_run_that_was_begun_first_goes_on_and_before_that_the_latest() {
+    fn the_run_that_was_begun_first_goes_on() {
         let mut answers = Answers::default();
-        for speed in [398.0, 399.0] {
+        for speed in [398.0, 399.0, 400.0] {
             let (scene, waits) = run(speed);
             answers.turned_on(&scene, waits);
-            assert!(answers.older.as_ref().is_some_and(|(older, _)| *older == scene));
         }
-        for speed in [400.0, 401.0] {
-            let (scene, mut run) = run(speed);
-            run.compute();
-            assert!(!run.is_done());
-            answers.turned_on(&scene, run);
+        while answers.older.is_some() {
+            answers.look();
         }
-        answers.left = Duration::MAX;
-        while answers.compute() {}
-        assert_eq!(answers.latest().unwrap().scene.operation.speed_rad_s, 400.0);
+        assert_eq!(answers.latest.unwrap().scene.operation.speed_rad_s, 398.0);
     }
 }

@@ -7,7 +7,9 @@ use std::time::{Duration, Instant};
 use super::reading::Copies;
 use crate::tui::engine::{FORECAST_LIMIT, FullRun, FullRunState};
 use crate::tui::trace::{Mark, Marks, Trace};
-use rubscope_solver::motion::{Motion, VerdictReached, caught_at, judge_end, lock_that_broke};
+use rubscope_solver::motion::{
+    Motion, Verdict, VerdictReached, caught_at, judge_end, lock_that_broke,
+};
 use rubscope_solver::tolerances::LAST_PART;
 
 /// A full run that is being computed.
@@ -26,6 +28,8 @@ pub struct FullRunJob {
     limit: Duration,
     /// Steps taken and skipped before the start.
     before: [u64; 2],
+    /// The verdict, once it is proved.
+    proved: Option<Verdict>,
     result: Option<FullRun>,
 }
 
@@ -51,6 +55,7 @@ impl FullRunJob {
             wall: Duration::ZERO,
             slice: SLICE,
             limit: FORECAST_LIMIT,
+            proved: None,
             result: None,
             motion,
             start,
@@ -84,6 +89,7 @@ impl FullRunJob {
                 self.points.push(point(&self.motion));
                 self.marks.look(self.motion.contacts());
                 self.copies.follow(&self.motion);
+                self.proved = self.proved.or_else(|| self.proof());
             }
         }
         self.wall += began.elapsed();
@@ -120,8 +126,23 @@ impl FullRunJob {
     /// Returns what it came to, once it is done: of a run from the start of a scene,
     /// what changed runs must agree with.
     pub fn reached(&self) -> Option<VerdictReached> {
-        let run = self.result.as_ref()?;
-        Some(VerdictReached::of(&self.motion, run.verdict))
+        Some(VerdictReached::of(&self.motion, self.result()?.verdict))
+    }
+
+    /// Returns the verdict, as soon as it is known: it may be proved before the end.
+    pub fn verdict(&self) -> Option<Verdict> {
+        self.result().map(|run| run.verdict).or(self.proved)
+    }
+
+    /// Returns the result, once it is done.
+    pub fn result(&self) -> Option<&FullRun> {
+        self.result.as_ref()
+    }
+
+    /// Returns the verdict that is proved by now, if the end would say the same.
+    fn proof(&self) -> Option<Verdict> {
+        let end = || judge_end(&self.motion, &self.motion.checks(), self.window).0;
+        self.motion.final_verdict().filter(|proved| *proved == end())
     }
 
     fn finished(&self) -> FullRun {
@@ -168,15 +189,10 @@ impl FullRunJob {
         self.wall
     }
 
-    /// Returns the wall time so far \[s\].
-    pub fn wall_s(&self) -> f64 {
-        self.wall.as_secs_f64()
-    }
-
     /// Returns the wall time over the number of steps taken \[s\], for a solver that steps.
     pub fn step_s(&self) -> Option<f64> {
         let [taken, _] = self.steps()?;
-        (taken > 0).then(|| self.wall_s() / taken as f64)
+        (taken > 0).then(|| self.wall.as_secs_f64() / taken as f64)
     }
 
     /// Returns the part of its steps that was skipped, for a solver that steps.
@@ -225,7 +241,29 @@ mod tests {
         assert_eq!(taken + before, job.motion.steps_taken().unwrap());
         assert!(before > 0 && taken > 0 && taken < skipped, "{before} {taken} {skipped}");
         assert_eq!(job.skipped(), Some(skipped as f64 / 1e5));
-        assert_eq!(job.step_s(), Some(job.wall_s() / taken as f64));
+        assert_eq!(job.step_s(), Some(job.wall.as_secs_f64() / taken as f64));
+    }
+
+    #[test]
+    fn a_verdict_that_is_proved_is_known_before_the_end_and_is_that_of_the_end() {
+        for (name, key, value) in [
+            ("coincidence", "operation.speed_rad_s", "445"),
+            ("paper-nd3", "operation.pulse_n", "75e3"),
+            ("rub", "operation.speed_rad_s", "400"),
+        ] {
+            let scene = Scene::builtin(name).unwrap().with(&[(key, value)]).unwrap();
+            let job = FullRunJob::new(Motion::new(&scene), scene.solver.end_s);
+            let mut job = job.in_slices_of(Duration::from_micros(20));
+            while job.verdict().is_none() {
+                job.compute();
+            }
+            let proved = job.verdict();
+            assert!(matches!(job.state(), FullRunState::Computing(_)), "{name}");
+            while !job.is_done() {
+                job.compute();
+            }
+            assert_eq!(job.result().map(|run| run.verdict), proved, "{name}");
+        }
     }
 
     #[test]

@@ -135,7 +135,6 @@ impl Playback {
             if let Some(comparison) = &mut self.comparison {
                 comparison.changed(length);
             }
-            self.forecasts.forget_sensitivity();
         }
         if order.extensions != before.extensions && self.is_at_end() {
             self.forecast();
@@ -312,7 +311,7 @@ impl Playback {
             return self.play_comparison(self.time_limit);
         }
         self.reading.go_on(self.time_limit.min(SLICE));
-        if self.forecasts.compute_older(&self.order) || self.arrive() || self.compute_page() {
+        if self.arrive() || self.compute_page() {
             return;
         }
         let comparison = self.comparison.as_mut().map(|comparison| &mut comparison.full_run);

@@ -159,7 +159,7 @@ impl<B: Disk> Explicit<B> {
         // As deep as the step before, nothing has to be looked for twice.
         let likely = if self.law.pulls() { 0.0 } else { NEIGHBOUR_DEPTHS * self.beyond.depth };
         self.find_candidates(z, tips, bound, highest + likely, TIP_MARGIN);
-        let deepest = self.gather_targets(z, tips, restitution);
+        let deepest = self.gather_targets(z, tips, restitution, highest + 2.0 * likely);
         if deepest <= 0.0 {
             let dip = self.rows.iter().fold(0.0, |dip: f64, row| dip.max(-row.place.gap));
             self.rows.clear();
@@ -174,9 +174,10 @@ impl<B: Disk> Explicit<B> {
         self.beyond.depth = deepest;
         if !self.law.pulls()
             && reach > likely
-            && self.find_candidates(z, tips, bound, reach + highest, TIP_MARGIN)
+            && (self.find_candidates(z, tips, bound, reach + highest, TIP_MARGIN)
+                || reach > 2.0 * likely)
         {
-            self.gather_targets(z, tips, restitution);
+            self.gather_targets(z, tips, restitution, reach + highest);
         }
         let limit = if self.law.pulls() { 0.0 } else { reach };
         let kept = self.below_first(limit);
@@ -211,9 +212,9 @@ impl<B: Disk> Explicit<B> {
         Ok(())
     }
 
-    /// Makes rows of the candidates, with their distances to the target. Returns how far the
-    /// deepest one is beyond its target.
-    pub(super) fn gather_targets(&mut self, z: Plane, tips: &TipLaw, restitution: f64) -> f64 {
+    /// Makes rows of the candidates whose gaps may be below `reach`, with their distances to the
+    /// target. Returns how far the deepest one is beyond its target.
+    pub(super) fn gather_targets(&mut self, z: Plane, tips: &TipLaw, e: f64, reach: f64) -> f64 {
         self.rows.clear();
         self.gaps.clear();
         let mut deepest = 0.0_f64;
@@ -221,10 +222,11 @@ impl<B: Disk> Explicit<B> {
         let alone = self.blades.table().rows_per_side() > 1
             && (self.tips.rise == 0.0 || self.blades.wave().is_some());
         for place in 0..self.beyond.candidates.len() {
-            let row = self.row_at(self.beyond.candidates[place], z, tips);
+            let index = self.beyond.candidates[place];
+            let Some(row) = self.row_at(index, z, tips, reach) else { continue };
             let mut gap = row.place.gap;
-            if restitution != 0.0 {
-                gap += restitution * self.gap_before(&row, tips);
+            if e != 0.0 {
+                gap += e * self.gap_before(&row, tips);
             }
             deepest = deepest.max(-gap);
             let same = |known: &Row| known.side == row.side;

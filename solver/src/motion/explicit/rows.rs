@@ -223,12 +223,26 @@ impl<B: Disk> Explicit<B> {
         }
     }
 
-    /// Returns the row of a candidate, with its exact gap.
-    pub(super) fn row_at(&mut self, index: u32, z: Plane, tips: &TipLaw) -> Row {
+    /// Returns the row of a candidate, with its exact gap; none where that is above `reach`.
+    pub(super) fn row_at(
+        &mut self,
+        index: u32,
+        z: Plane,
+        tips: &TipLaw,
+        reach: f64,
+    ) -> Option<Row> {
         let side = self.blades.table().side[index as usize];
         let angle = self.blades.angle(index);
+        let ((c, s), phase) = (self.machine.polygon.direction(side), tips.diameters * angle);
+        // The normal by its first two terms: all others turn the gap by less than the square.
+        let open = z.re * (c - phase * s) + z.im * (s + phase * c)
+            - tips.rise * angle
+            - phase * phase * (z.re.abs() + z.im.abs());
+        if tips.clearance + open > reach && self.beyond.uneven.is_none() {
+            return None;
+        }
         let place = self.place_of((index, side), z, tips, angle, 0);
-        Row { index, side, angle, place, lambda: 0.0 }
+        Some(Row { index, side, angle, place, lambda: 0.0 })
     }
 }
 

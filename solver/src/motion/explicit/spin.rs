@@ -104,7 +104,7 @@ impl<B: Disk> Explicit<B> {
             let (tips, bound) = (self.tips, self.blades.bound());
             let (z, _) = self.in_blade_frame();
             self.find_candidates(z, &tips, bound, 0.0, TIP_MARGIN);
-            let deepest = self.gather_targets(z, &tips, 0.0);
+            let deepest = self.gather_targets(z, &tips, 0.0, 0.0);
             self.rows.clear();
             if deepest <= 0.0 {
                 return;

@@ -152,8 +152,8 @@ impl Playback {
         let mut pages = std::iter::once(&mut self.page).chain(theirs);
         let Some(page) = pages.find(|page| !page.is_done()) else { return false };
         // The page is another one after arriving. One of the whole run has a third of the time.
-        let first = self.going.is_none()
-            && self.forecasts.wall().is_none_or(|wall| 2 * page.wall() <= wall);
+        let first =
+            self.going.is_none() && self.forecasts.wall().is_none_or(|wall| 2 * page.wall() < wall);
         if first {
             page.compute();
         }
