@@ -182,7 +182,7 @@ impl App {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tui::app::on_screen;
+    use crate::tui::app::tests::on_screen;
     use crate::tui::bindings::Action;
     use crate::tui::lessons::Condition;
 

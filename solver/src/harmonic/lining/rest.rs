@@ -120,16 +120,6 @@ impl Quartic {
         (value, slope, joined_c.norm() * joined_a.norm() + product.norm())
     }
 
-    /// Returns the residual of a root \[rad/s\] over the size of its terms, for tests.
-    #[cfg(test)]
-    pub fn residual(&self, s: Complex<f64>) -> f64 {
-        let t = s / self.scale;
-        let terms = |[square, rate]: [f64; 2], at: f64| at * at + rate * at + square;
-        let casing = terms(self.casing, (t + self.nu).norm()) + self.on_casing.norm();
-        let blades = terms(self.blades, t.norm()) + self.on_blades.abs();
-        self.at(t).0.norm() / (casing * blades)
-    }
-
     /// Returns the four roots \[rad/s\], by the iteration of Aberth and Ehrlich.
     pub fn roots(&self) -> [Complex<f64>; 4] {
         let casing = (Complex::from(self.casing[0]) + self.on_casing).sqrt();
@@ -413,6 +403,17 @@ mod tests {
     use crate::model::ContactSurface;
     use crate::scene::Scene;
     use proptest::prelude::*;
+
+    impl Quartic {
+        /// Returns the residual of a root \[rad/s\] over the size of its terms.
+        fn residual(&self, s: Complex<f64>) -> f64 {
+            let t = s / self.scale;
+            let terms = |[square, rate]: [f64; 2], at: f64| at * at + rate * at + square;
+            let casing = terms(self.casing, (t + self.nu).norm()) + self.on_casing.norm();
+            let blades = terms(self.blades, t.norm()) + self.on_blades.abs();
+            self.at(t).0.norm() / (casing * blades)
+        }
+    }
 
     proptest! {
         #[test]
