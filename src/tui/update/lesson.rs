@@ -57,7 +57,9 @@ impl App {
     pub(super) fn leave_lesson(&mut self) {
         if let Some(own) = self.lessons.progress.as_ref().map(|progress| Arc::clone(&progress.own))
         {
-            self.give_back(Past::clone(&own));
+            // As it was before the lesson.
+            self.knobs.remember(self.past());
+            self.come_back(Past::clone(&own));
         }
     }
 

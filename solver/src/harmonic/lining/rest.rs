@@ -204,10 +204,11 @@ pub struct ShiftedCoincidence {
     pub blades_rad_s: f64,
 }
 
-/// The least lining that makes rest grow, at the speed where it grows first.
+/// The least stiffness of a lining that holds a lock or makes rest grow, at the speed where it
+/// does first.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct GrowthThreshold {
-    /// Stiffness `S0` of all blades together \[N/m\].
+pub struct LeastStiffness {
+    /// Stiffness, of one blade or of all together as the function says \[N/m\].
     pub stiffness_n_per_m: f64,
     /// Rotor speed \[rad/s\].
     pub speed_rad_s: f64,
@@ -351,9 +352,10 @@ impl Lining<'_> {
 
 /// Returns the least stiffness of a lining under preload that makes rest grow at the peak near
 /// the coincidence, for a rotor that turns in the sense of `sense`; zero where blades or
-/// casing have no damping, none for a machine whose blades and casing are not coupled.
+/// casing have no damping, none for a machine whose blades and casing are not coupled. Its
+/// stiffness is `S0` of all blades together.
 #[must_use]
-pub fn growth_threshold(machine: &Machine, sense: f64) -> Option<GrowthThreshold> {
+pub fn growth_threshold(machine: &Machine, sense: f64) -> Option<LeastStiffness> {
     let product = machine.coupling_product_at(sense).abs();
     let plain = shifted(machine, 0.0, sense)?;
     let inertia = machine.casing_mass * machine.omega_c * machine.blade_modal_mass;
@@ -362,7 +364,7 @@ pub fn growth_threshold(machine: &Machine, sense: f64) -> Option<GrowthThreshold
     let guess = 2.0 * machine.omega_bd * (inertia * damping / product).sqrt();
     if guess == 0.0 {
         let speed_rad_s = plain.speed_rad_s;
-        return Some(GrowthThreshold { stiffness_n_per_m: 0.0, speed_rad_s });
+        return Some(LeastStiffness { stiffness_n_per_m: 0.0, speed_rad_s });
     }
     let peak = |stiffness: f64| peak(machine, stiffness, sense);
     let growth = |stiffness: f64| peak(stiffness).map_or(-1.0, |(_, growth)| growth);
@@ -376,7 +378,7 @@ pub fn growth_threshold(machine: &Machine, sense: f64) -> Option<GrowthThreshold
         } else {
             let stiffness_n_per_m = between(ends, growth);
             let (speed_rad_s, _) = peak(stiffness_n_per_m)?;
-            return Some(GrowthThreshold { stiffness_n_per_m, speed_rad_s });
+            return Some(LeastStiffness { stiffness_n_per_m, speed_rad_s });
         }
     }
     None
