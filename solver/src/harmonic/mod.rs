@@ -45,7 +45,7 @@ pub use joint::{
 };
 pub use lining::{
     Cycle, Forced, GroupPush, HopfPoint, LeastStiffness, Lining, LiningState, Rest, RestRoot,
-    ShiftedCoincidence, Whirl, growth_threshold, least_lock_stiffness,
+    growth_threshold, least_lock_stiffness,
 };
 pub use locked::{
     LockLoads, Locked, LockedPoint, Sweep, lock_fold_speed, lock_loads, locked_motion,

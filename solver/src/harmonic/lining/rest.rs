@@ -192,18 +192,6 @@ pub struct HopfPoint {
     pub grows_above: bool,
 }
 
-/// The dangerous coincidence, with the frequencies that blades and casing have while
-/// all blades touch the lining.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct ShiftedCoincidence {
-    /// `(omega_c' +- omega_bd')/n_d`, minus for a coupling product below zero \[rad/s\].
-    pub speed_rad_s: f64,
-    /// `omega_c' = sqrt((k_c + S0)/m_c)` \[rad/s\].
-    pub casing_rad_s: f64,
-    /// `omega_bd' = sqrt(omega_bd^2 + S0 c2/m_a)` \[rad/s\].
-    pub blades_rad_s: f64,
-}
-
 /// The least stiffness of a lining that holds a lock or makes rest grow, at the speed where it
 /// does first.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -215,18 +203,14 @@ pub struct LeastStiffness {
 }
 
 /// Returns the coincidence of a machine whose blades together have a stiffness \[N/m\], in the
-/// sense of rotation of `sense`; `None` for blades that nothing comes back to.
-fn shifted(machine: &Machine, stiffness: f64, sense: f64) -> Option<ShiftedCoincidence> {
+/// sense of rotation of `sense` \[rad/s\]: `(omega_c' +- omega_bd')/n_d`, minus for a coupling
+/// product below zero; `None` for blades that nothing comes back to.
+fn shifted(machine: &Machine, stiffness: f64, sense: f64) -> Option<f64> {
     let product = machine.coupling_product_at(sense);
-    let [casing_rad_s, blades] = pressed(machine, stiffness, product)?;
-    let (differences, sum) = machine.meetings(casing_rad_s, blades);
+    let [casing, blades] = pressed(machine, stiffness, product)?;
+    let (differences, sum) = machine.meetings(casing, blades);
     let speed = if product < 0.0 { differences.first().copied() } else { sum }?;
-    let blades_rad_s = if machine.stiffening() == 0.0 {
-        blades
-    } else {
-        blades.hypot(machine.stiffening().sqrt() * speed)
-    };
-    Some(ShiftedCoincidence { speed_rad_s: speed.copysign(sense), casing_rad_s, blades_rad_s })
+    Some(speed.copysign(sense))
 }
 
 /// Returns the frequencies of casing and blades at rest that all press on this stiffness; `None`
@@ -256,9 +240,9 @@ const BESIDE_REST: f64 = 1e-9;
 
 impl Lining<'_> {
     /// Returns the coincidence at which rest grows fastest, for a rotor that turns in the sense
-    /// of `speed`; none with a clearance.
+    /// of `speed` \[rad/s\]; none with a clearance.
     #[must_use]
-    pub fn shifted_coincidence(&self, speed: f64) -> Option<ShiftedCoincidence> {
+    pub fn shifted_coincidence(&self, speed: f64) -> Option<f64> {
         let stiffness = self.at(speed).stiffness_at_rest();
         (stiffness > 0.0).then(|| shifted(&self.machine, stiffness, speed)).flatten()
     }
@@ -357,13 +341,12 @@ impl Lining<'_> {
 #[must_use]
 pub fn growth_threshold(machine: &Machine, sense: f64) -> Option<LeastStiffness> {
     let product = machine.coupling_product_at(sense).abs();
-    let plain = shifted(machine, 0.0, sense)?;
+    let speed_rad_s = shifted(machine, 0.0, sense)?;
     let inertia = machine.casing_mass * machine.omega_c * machine.blade_modal_mass;
     let damping = machine.casing_damping_ratio * machine.omega_c * machine.blade_damping_ratio;
     // Of weak coupling, at the middle of the tongue.
     let guess = 2.0 * machine.omega_bd * (inertia * damping / product).sqrt();
     if guess == 0.0 {
-        let speed_rad_s = plain.speed_rad_s;
         return Some(LeastStiffness { stiffness_n_per_m: 0.0, speed_rad_s });
     }
     let peak = |stiffness: f64| peak(machine, stiffness, sense);
@@ -386,7 +369,7 @@ pub fn growth_threshold(machine: &Machine, sense: f64) -> Option<LeastStiffness>
 
 /// Returns the speed of the fastest growth near a coincidence, and that growth \[1/s\].
 fn peak(machine: &Machine, stiffness: f64, sense: f64) -> Option<(f64, f64)> {
-    let middle = shifted(machine, stiffness, sense)?.speed_rad_s;
+    let middle = shifted(machine, stiffness, sense)?;
     let reach = PEAK_REACH * width(machine, stiffness, sense);
     let growth = |speed: f64| {
         Quartic::new(&Joint::at(machine, speed), stiffness).rest(speed).worst().growth_1_s
