@@ -53,7 +53,7 @@ fn whirl(lining: &Lining<'_>, speed: f64) -> Whirl {
 
 /// The limit cycle at a speed.
 fn cycle(lining: &Lining, speed: f64) -> Cycle {
-    match whirl(&lining, speed) {
+    match whirl(lining, speed) {
         Whirl::Cycle(cycle) => cycle,
         other => panic!("{other:?} at {speed}"),
     }
@@ -103,7 +103,7 @@ fn limit_cycles_of_simulations() {
             }
             assert!(found.stable && found.growth_1_s < -1.0);
         }
-        assert_eq!(whirl(&lining, 390.0), Whirl::Decays);
+        assert_eq!(whirl(lining, 390.0), Whirl::Decays);
     });
 }
 
@@ -214,7 +214,7 @@ fn threshold_of_the_lining_is_that_of_its_formula() {
 fn too_stiff_a_joint_grows_without_bound() {
     // Half of the lining's stiffness is still inside the tongue.
     with(&preloaded("54e3", &[]), |lining| {
-        let unbounded = whirl(&lining, 425.0);
+        let unbounded = whirl(lining, 425.0);
         assert_eq!(unbounded, Whirl::Unbounded);
         let wave = round_whirls(&Joint::at(&lining.machine, 425.0));
         assert!(wave[0].stiffness_n_per_m < lining.stiffness_far_out());
@@ -247,7 +247,7 @@ fn without_damping_nothing_settles() {
         assert_eq!(points.len(), 2, "{points:?}");
         let middle = 0.5 * (points[0].speed_rad_s + points[1].speed_rad_s);
         assert!(lining.rest(middle).grows && !lining.rest(points[1].speed_rad_s + 1.0).grows);
-        let settled = whirl(&lining, points[0].speed_rad_s + 1.0);
+        let settled = whirl(lining, points[0].speed_rad_s + 1.0);
         assert!(matches!(settled, Whirl::Unsteady | Whirl::Unbounded), "{settled:?}");
         let shifted = lining.shifted_coincidence(1.0).unwrap();
         assert!((points[0].speed_rad_s..points[1].speed_rad_s).contains(&shifted));

@@ -166,7 +166,9 @@ impl Study for CellStudy {
         Sent::by(move |to, go_on| {
             let began = Instant::now();
             let go_on = || go_on() && began.elapsed() < FORECAST_LIMIT;
-            _ = run_of(plan, cell, &go_on).map(|run| to.send(run));
+            if let Some(run) = run_of(plan, cell, &go_on) {
+                _ = to.send(run);
+            }
         })
     }
 }
