@@ -393,22 +393,22 @@ fn thousands_of_blades_have_a_row_each() {
 
 #[test]
 fn the_limits_say_of_which_tips_they_are_and_what_scatter_does() {
-    let scattered = "tips that differ by 1 % of the clearance lock from 360.5 rad/s on, the mean of 200 \
-                     rotors, and not from 411.9 rad/s.";
+    let scattered = "Tips that differ by 1 % of the clearance lock from 360.5 rad/s on instead of 411.9 \
+                     rad/s, the mean of 200 rotors.";
     for command in ["survey", "check"] {
         let told = |scene| {
             let text = text(&format!("{command} {scene}"));
             text.split_whitespace().collect::<Vec<_>>().join(" ")
         };
         let of = |scene, tips| {
-            told(scene).contains(&format!("The limits are those of {tips}: {scattered}"))
+            told(scene).contains(&format!("The limits are those of {tips}. {scattered}"))
         };
         assert!(
-            of("paper-nd3", "equal tips and a round casing, which lock last"),
+            of("paper-nd3", "equal tips in a round casing, which lock last"),
             "{}",
             told("paper-nd3")
         );
-        let own = "the tips and the casing of the scene. Equal tips in a round one lock last";
+        let own = "the tips and the casing of the scene. Equal tips in a round casing lock last";
         assert!(of("long-tip", own), "{}", told("long-tip"));
         // Equal tips on a lining have another lock.
         assert!(!told("oval").contains("differ by 1 %"), "{}", told("oval"));
