@@ -136,10 +136,11 @@ pub fn with_typed_unit(text: &str, of: Quantity) -> String {
     if of != Quantity::Speed || !IN_RPM.get() {
         return text.to_string();
     }
-    let is_bare = |number: &str| !number.contains('%') && Quantity::Plain.read(number).is_ok();
     let parts = text.split(':').enumerate().map(|(place, part)| match part.trim_end() {
         // The third part of a range is a count.
-        number if place < 2 && is_bare(number) => format!("{number}{}", speed_unit()),
+        number if place < 2 && Quantity::bare(number).is_some() => {
+            format!("{number}{}", speed_unit())
+        }
         _ => part.to_string(),
     });
     parts.collect::<Vec<_>>().join(":")

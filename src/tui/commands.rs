@@ -262,7 +262,13 @@ fn directed(app: &App, typed: &str) -> Option<Vec<Found>> {
 
 /// Reads the speeds of the survey: `200:600`, `200 600`, or `all` of them.
 fn surveyed(text: &str) -> Result<Found, SceneError> {
-    let ends = if text.contains(':') { text.to_string() } else { text.replacen(' ', ":", 1) };
+    // A unit may stand apart from its number.
+    let second = |&at: &usize| text.get(at + 1..).is_some_and(is_numeric);
+    let spaces = text.match_indices(' ').map(|(at, _)| at);
+    let ends = match spaces.filter(|_| !text.contains(':')).find(second) {
+        Some(at) => format!("{}:{}", text.split_at(at).0, text.split_at(at + 1).1),
+        None => text.to_string(),
+    };
     let read = |ends| speed_range("range", &with_typed_unit(ends, Quantity::Speed));
     let range = (text != "all").then(|| read(&ends)).transpose()?;
     Ok(Found::of("go", format!("survey of all diameters over {ends}"), Command::Range(range)))

@@ -394,3 +394,15 @@ fn the_limits_say_of_which_tips_they_are_and_what_scatter_does() {
     let found = own.unwrap().scattered.unwrap();
     assert!(found.mean_rad_s < found.equal_rad_s && found.equal_rad_s < 200.0, "{found:?}");
 }
+
+#[test]
+fn soft_blades_are_told_of_the_sense_of_the_range() {
+    let soft = "survey --contact unilateral --nd 3 --range=-900:-100 \
+                --set bladed_disk.stiffness_nm_per_rad=65.4 --set bladed_disk.coupling_nm_per_rad=2.28 \
+                --set bladed_disk.inertia_kg_m2=0.005124 --set bladed_disk.radial_coupling=0.0407 \
+                --set contact.friction=0.05 --speed";
+    for speed in ["500", "-500"] {
+        let text = text(&format!("{soft}={speed}"));
+        assert!(text.contains(" 4   can lock if rigid: up to -298.6 rad/s"), "{text}");
+    }
+}

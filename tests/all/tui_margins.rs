@@ -349,6 +349,8 @@ fn the_survey_is_of_the_range_that_is_asked_for_in_the_unit_of_speeds() {
     for (typed, said) in [
         ("range 200:300", "From 200 rad/s to 300 rad/s no wave can lock."),
         ("range 400 450", "From 400 rad/s to 450 rad/s waves of 3 and 4 nodal diameters can lock."),
+        ("range 400rad/s 450 rad/s", "From 400 rad/s to 450 rad/s waves of 3 and 4"),
+        ("range 2000 rpm 2900 rpm", "From 209.44 rad/s to 303.687 rad/s"),
         ("range 2000rpm:2900rpm", "From 209.44 rad/s to 303.687 rad/s"),
         ("range all", "At 500 rad/s waves of 3 and 4"),
     ] {
@@ -366,6 +368,8 @@ fn the_survey_is_of_the_range_that_is_asked_for_in_the_unit_of_speeds() {
     session.press("U:range 2000 2900\n");
     session.press("");
     let range = session.app.layout.range.unwrap();
+    session.press("DD");
+    assert!(session.text().contains(": range 2000:6000"), "{}", session.text());
     session.press("U");
     assert!((range[1] - 2900.0 * std::f64::consts::TAU / 60.0).abs() < 1e-9, "{range:?}");
     session.press(":range 5:2\n");

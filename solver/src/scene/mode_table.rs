@@ -76,7 +76,7 @@ pub fn read_modes(text: &str) -> Result<ModeTable, SceneError> {
             let cell = record.get(*at).filter(|cell| !matches!(*cell, "" | "-"))?;
             let is_decimal = delimiter != b',' && !cell.contains('.');
             let cell = if is_decimal { cell.replacen(',', ".", 1) } else { cell.to_string() };
-            let is_bare = !unit.is_empty() && cell.parse::<f64>().is_ok();
+            let is_bare = !unit.is_empty() && Quantity::bare(&cell).is_some();
             Some(if is_bare { format!("{cell} {unit}") } else { cell })
         };
         let path = |name: &str| format!("line {line}, {name}");
@@ -87,13 +87,14 @@ pub fn read_modes(text: &str) -> Result<ModeTable, SceneError> {
             other => return Err(SceneError::refused(path(STRUCTURE), other, "casing or disk")),
         };
         let mode = Family::read(&given, &path)?;
-        let speed = given(SPEED).filter(|_| structure == 1).map(|text| match text.parse::<f64>() {
-            Ok(_) => {
-                let allowed = "a number with its unit, or Speed [rpm] in the first line";
-                Err(SceneError::refused(path(SPEED), text, allowed))
-            }
-            _ => keys::find(keys::SPEED)?.number(&path(SPEED), &text),
-        });
+        let speed =
+            given(SPEED).filter(|_| structure == 1).map(|text| match Quantity::bare(&text) {
+                Some(_) => {
+                    let allowed = "a number with its unit, or Speed [rpm] in the first line";
+                    Err(SceneError::refused(path(SPEED), text, allowed))
+                }
+                _ => keys::find(keys::SPEED)?.number(&path(SPEED), &text),
+            });
         let speed = speed.transpose()?.map(|speed| (mode.frequency_hz, speed));
         let modes = &mut found[structure];
         let same = |(known, _): &&mut Measured| known.nodal_diameters == mode.nodal_diameters;
@@ -151,6 +152,10 @@ fn column(written: &str) -> Result<Option<(&'static str, String)>, SceneError> {
     let rest = words.get(words.len() - rest..).unwrap_or_default();
     let parts = rest.split(|c: char| "_/,:[](){}".contains(c));
     let unit = parts.filter(|part| !matches!(*part, "" | "-" | "in")).collect::<Vec<_>>().join("/");
+    let has_unit = |name: &str| lower.starts_with(name) && !name.ends_with(&unit.to_lowercase());
+    if !unit.is_empty() && MODE[1..].iter().any(|name| has_unit(name)) {
+        return Ok(None);
+    }
     let one = format!("1 {unit}");
     let is_prefix = unit.chars().count() == 1 && unit != "%" && Quantity::Plain.read(&one).is_ok();
     match quantity.read(&one) {
@@ -294,12 +299,14 @@ mod tests {
             ("Frequency [kHz];Modal mass (g);Damping [%]", "0,3107;3100;1,2"),
             ("Frequency_khz;mass_t;damping_ratio_percent", "0,3107;0,0031;1,2"),
             ("Frequency (kHz);Mass [g];Damping%", "310,7 Hz;3,1kg;1,2"),
+            ("frequency_hz;Mass [g];Damping", "0,3107k;3.1k;0,012"),
+            ("Frequency [Hz];Mass (kg);Damping", "0,3107k;3,1;0,012"),
             ("Frequency {1/min};\"Modal\nmass [kg]\";Damping ratio [-]", "18642;3,1;0,012"),
         ] {
             for (speed, rpm) in [
                 (speed, "9000"),
                 ("Rotor speed [1/min];Centrifugal stiffening", "9000"),
-                ("rpm;centrifugal-stiffening", "9000"),
+                ("rpm;centrifugal-stiffening", "9k"),
                 ("Speed [min⁻¹];centrifugal_stiffening [-]", "9000"),
                 ("speed_hz;centrifugal_stiffening", "150"),
                 ("Speed / krpm;centrifugal_stiffening", "9"),
@@ -321,6 +328,14 @@ mod tests {
         ] {
             let refused = of(&format!("frequency;mass;{name}"), "310;3;1").unwrap_err();
             assert_eq!(refused.to_string(), format!("the first line = {name}: {why}"));
+        }
+        for (names, cells, why) in [
+            ("frequency_hz_rad_s;mass", "140;3", "the first line = "),
+            ("frequency [kHz];mass", "1.4k;3", "no unit k kHz; it takes rad/s, rpm or Hz"),
+            ("frequency;mass;Speed", "310;3;9k", "a number with its unit, or Speed [rpm]"),
+        ] {
+            let refused = of(names, cells).unwrap_err().to_string();
+            assert!(refused.contains(why), "{names}: {refused}");
         }
         // What is no unit makes another column, the symbol of a prefix alone, too.
         for name in

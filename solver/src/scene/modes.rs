@@ -270,8 +270,8 @@ fn hertz(path: &str, value: &Toml) -> Result<f64, SceneError> {
 
 /// Does the same for text.
 pub(super) fn hertz_of(path: &str, text: &str) -> Result<f64, SceneError> {
-    let given = match (text.trim().parse(), Quantity::Speed.read(text)) {
-        (Ok(bare), _) => Some(bare),
+    let given = match (Quantity::bare(text), Quantity::Speed.read(text)) {
+        (Some(bare), _) => Some(bare),
         // What pi rounds is left out, so that 310.7 Hz is 310.7.
         (_, Ok(omega)) => Some(rounded(omega / TAU, 14)),
         (_, Err(UnitError::NoNumber)) => None,

@@ -144,7 +144,7 @@ impl Quantity {
     /// Returns its name, with an article.
     fn what(self) -> &'static str {
         match self {
-            Plain => "a part",
+            Plain => "a ratio",
             Speed => "a speed or frequency",
             Acceleration => "an angular acceleration",
             Force => "a force",
@@ -195,6 +195,13 @@ impl Quantity {
         let (power, factor) = self.scale(&written).ok_or_else(|| self.refused(&written, unit))?;
         let scaled = decimal.times_ten_to(power).ok_or(UnitError::NoNumber)?;
         Ok(if factor == 1.0 { scaled } else { scaled * factor })
+    }
+
+    /// Returns a number without a unit, which may have a prefix: `1200`, `1.2k`.
+    #[must_use]
+    pub fn bare(text: &str) -> Option<f64> {
+        let is_part = text.contains('%') || text.contains("percent");
+        Plain.read(text).ok().filter(|_| !is_part)
     }
 
     /// Returns the size of one of its units, or of a prefix alone, in SI units.
@@ -371,6 +378,16 @@ mod tests {
             (Angle, "1 mrad", 1e-3),
         ] {
             assert_eq!(of.read(text), Ok(value), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_bare_number_may_have_a_prefix_and_no_unit() {
+        for (text, value) in [("140", 140.0), (" 1.4k", 1400.0), ("-50u", -50e-6), ("1e3", 1e3)] {
+            assert_eq!(Quantity::bare(text), Some(value), "{text}");
+        }
+        for text in ["5 %", "5 percent", "20m", "1.4 kHz", "", "k"] {
+            assert_eq!(Quantity::bare(text), None, "{text}");
         }
     }
 

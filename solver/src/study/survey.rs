@@ -307,8 +307,9 @@ fn row(
     };
     let limits = [1.0, -1.0].map(|sense| of(sense).limits(&scene, sense, range)).concat();
     let rigid = machine.lining.is_some() || scene.casing_in_use().damping_ratio == 0.0;
+    let is_asked = |omega: f64| if omega > 0.0 { asked[1] > 0.0 } else { asked[0] < 0.0 };
     let is_lock = |limit: &&SurveyLimit| {
-        limit.name == LimitName::OmegaLock && limit.value * own > 0.0 && !rigid
+        limit.name == LimitName::OmegaLock && is_asked(limit.value) && !rigid
     };
     SurveyRow {
         nodal_diameters: diameters,
@@ -317,7 +318,7 @@ fn row(
         modes_known: scene.modes_note().is_none(),
         locks_in_range: locks(&scene, &machine, asked),
         whirls_in_range: whirls(&machine, &limits, asked),
-        bends: limits.iter().find(is_lock).is_some_and(|lock| bends(&machine, lock.value)),
+        bends: limits.iter().filter(is_lock).any(|lock| bends(&machine, lock.value)),
         limits,
     }
 }

@@ -1,6 +1,7 @@
 //! Which charts are on the screen, and where.
 
 use super::App;
+use crate::report::number::per_speed;
 use crate::tui::bindings::Action;
 use crate::tui::views::id::ViewId;
 use rubscope_solver::scene::Scene;
@@ -80,8 +81,13 @@ impl Layout {
     /// Shows the margins of all diameters, or of one; returns the message.
     pub fn turn_survey(&mut self, on: bool) -> String {
         self.survey = on;
-        let all = "all diameters; : range 200:600 gives the speeds of a machine";
-        format!("margins of {}", if on { all } else { "n_d alone" })
+        let ends = if per_speed(1.0) == 1.0 { "200:600" } else { "2000:6000" };
+        match on {
+            true => {
+                format!("margins of all diameters; : range {ends} gives the speeds of a machine")
+            }
+            false => "margins of n_d alone".to_string(),
+        }
     }
 
     /// Its keys.

@@ -261,7 +261,11 @@ fn end(app: &App) -> Part {
         (rank, vec![("AT ".into(), quiet), end, (format!(" {what}").trim_end().into(), quiet)])
     };
     let Some(run) = app.full_run().filter(|_| !app.is_asked()) else {
-        return vec![at(1, "?".into()), at(0, String::new())];
+        let proved = app
+            .verdict()
+            .filter(|_| !app.is_asked())
+            .map_or("?".into(), |verdict| verdict.to_string());
+        return vec![at(1, proved), at(0, String::new())];
     };
     // Of a whirl or a slip, only the latest change of sides is known; where a tiny change
     // decides, no instant is known at all.
@@ -372,6 +376,8 @@ mod tests {
             ("DECAY", "Proved. Computing the run, 13 %.")
         );
         assert_eq!(style, verdict_style(&app.appearance, Verdict::Decay));
+        let at_the_end = end(&app).into_iter().map(|(_, spans)| spans[2].0.clone());
+        assert_eq!(at_the_end.collect::<Vec<_>>(), [" decay", ""]);
         app.run.latest.results.full_run = Some(FullRunState::GivenUp(0.3));
         assert_eq!(app.verdict_word(), "DECAY");
         app.run.fire();
