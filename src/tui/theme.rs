@@ -119,16 +119,6 @@ impl Theme {
         Self::ALL[(self as usize + 1) % Self::ALL.len()]
     }
 
-    /// Returns the background that it is made for; none if it can be read on both.
-    #[cfg(test)]
-    fn ground(self) -> Option<Ground> {
-        match self {
-            Self::Dark | Self::ColourBlind => Some(Ground::Dark),
-            Self::Light | Self::ColourBlindLight => Some(Ground::Light),
-            Self::Mono => None,
-        }
-    }
-
     /// Returns the style of a role. Only the sixteen named colours, which follow the user's
     /// palette.
     pub fn style(self, role: Role) -> Style {
@@ -164,6 +154,17 @@ impl Theme {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    impl Theme {
+        /// Returns the background that it is made for; none if it can be read on both.
+        fn ground(self) -> Option<Ground> {
+            match self {
+                Self::Dark | Self::ColourBlind => Some(Ground::Dark),
+                Self::Light | Self::ColourBlindLight => Some(Ground::Light),
+                Self::Mono => None,
+            }
+        }
+    }
 
     const ROLES: [Role; 8] = [
         Role::Text,
