@@ -98,7 +98,7 @@ fn picture(
     sender.send(ScreenEvent::Resize).unwrap();
     keys.drain(..).for_each(|key| sender.send(ScreenEvent::Key(key)).unwrap());
     drop(sender);
-    let exit = run(terminal, &events, app, engine, &mut NoHost::default(), Duration::ZERO);
+    let exit = run(terminal, &events, app, engine, &mut NoHost, Duration::ZERO);
     assert_eq!(exit.unwrap(), Exit::Done);
     app.scene.checked().unwrap();
     for cell in &terminal.backend().buffer().content {

@@ -4,28 +4,20 @@
 
 use std::io::Result;
 use std::path::PathBuf;
-use std::sync::mpsc::Sender;
 use std::time::Duration;
 
 use rubscope::tui::Line;
 use rubscope::tui::engine::{Engine, Limit, Order, Pace, Snapshot};
-use rubscope::tui::events::ScreenEvent;
 use rubscope::tui::files::{FileJob, FileResult, FoundScenes};
 use rubscope::tui::host::Host;
 use rubscope::tui::worker::Playback;
 
-/// A host without a terminal. Files are written at once, or take a while: their results then
-/// come as events, behind a suspension.
+/// A host without a terminal; files are written at once.
 #[derive(Debug, Default)]
-pub struct NoHost {
-    pub later: Option<(Vec<FileResult>, Sender<ScreenEvent>)>,
-    pub suspended: u32,
-    pub unseen: Option<String>,
-}
+pub struct NoHost;
 
 impl Host for NoHost {
     fn suspend(&mut self, _: bool) -> Result<bool> {
-        self.suspended += 1;
         Ok(true)
     }
     fn resume(&mut self) -> Result<()> {
@@ -35,14 +27,9 @@ impl Host for NoHost {
         Ok(())
     }
     fn write(&mut self, job: FileJob) -> Option<FileResult> {
-        let Some((results, events)) = &mut self.later else { return Some(job.run()) };
-        events.send(ScreenEvent::Suspend).unwrap();
-        events.send(ScreenEvent::Written(results.remove(0))).unwrap();
-        None
+        Some(job.run())
     }
-    fn unseen(&mut self, reason: Option<String>) {
-        self.unseen = reason;
-    }
+    fn unseen(&mut self, _: Option<String>) {}
     fn line(&self) -> Line {
         Line::Auto
     }

@@ -84,7 +84,7 @@ fn press(
     sender.send(ScreenEvent::Resize).unwrap();
     keys.into_iter().for_each(|key| sender.send(ScreenEvent::Key(key)).unwrap());
     drop(sender);
-    let exit = run(terminal, &events, app, engine, &mut NoHost::default(), Duration::ZERO);
+    let exit = run(terminal, &events, app, engine, &mut NoHost, Duration::ZERO);
     assert_eq!(exit.unwrap(), Exit::Done);
 }
 

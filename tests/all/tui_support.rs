@@ -87,8 +87,7 @@ impl Session {
         all.for_each(|event| sender.send(event).unwrap());
         drop(sender);
         let (app, engine) = (&mut self.app, &mut self.engine);
-        run(&mut self.terminal, &events, app, engine, &mut NoHost::default(), Duration::ZERO)
-            .unwrap()
+        run(&mut self.terminal, &events, app, engine, &mut NoHost, Duration::ZERO).unwrap()
     }
 
     /// Gives the screen another size.
