@@ -26,7 +26,8 @@ pub fn write_cells<'a>(
         out.write_all(cell.symbol().as_bytes())?;
         // Terminals differ in what they do after the last column, and in the width of signs
         // that are combined or new.
-        let is_known = cell.symbol().len() < 4 && cell.cell_width() == 1 && x + 1 < columns;
+        let is_usual = cell.symbol().len() < 4 && cell.symbol().chars().nth(1).is_none();
+        let is_known = is_usual && cell.cell_width() == 1 && x + 1 < columns;
         (at, last) = (is_known.then_some((x + 1, y)), Some(cell));
     }
     // Without a change nothing is sent, not even a reset.
@@ -49,9 +50,8 @@ fn way(from: Option<(u16, u16)>, (x, y): (u16, u16)) -> String {
 fn change(old: Option<Vec<String>>, mut new: Vec<String>) -> String {
     // Each old code must stay or be replaced by one of its kind, such as a bright colour by a
     // bright one: on some consoles it would be bold too until a reset.
-    let replaces =
-        |old: &String, new: &String| new.len() == old.len() && new.get(..1) == old.get(..1);
-    match old.filter(|old| old.iter().all(|old| new.iter().any(|new| replaces(old, new)))) {
+    let kind = |code: &String| (code.len(), code.chars().next());
+    match old.filter(|old| old.iter().all(|old| new.iter().any(|new| kind(new) == kind(old)))) {
         Some(old) => new.retain(|new| !old.contains(new)),
         None => new.insert(0, String::new()),
     }
@@ -205,8 +205,8 @@ mod tests {
         crossterm::style::force_color_output(true);
         let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
         let scene = rubscope_solver::scene::Scene::base().checked().unwrap();
-        let mut app = App::new(scene, Theme::Dark, Marker::Braille);
-        terminal.draw(|frame| crate::tui::panels::draw(frame, &mut app)).unwrap();
+        let app = App::new(scene, Theme::Dark, Marker::Braille);
+        terminal.draw(|frame| crate::tui::panels::draw(frame, &app)).unwrap();
         let screen = terminal.backend().buffer();
         let changed = Buffer::empty(screen.area).diff(screen);
         let (mut usual, mut short) = (Vec::new(), Vec::new());
@@ -238,8 +238,11 @@ mod tests {
         );
         assert_eq!(bytes_of(&[at(0, 0), at(0, 1), at(9, 2)]), "^[1;1H^[ma\r\na\r\n^[9Ca^[m");
         assert_eq!(bytes_of(&[at(79, 0), at(0, 1), at(0, 3)]), "^[1;80H^[ma^[2;1Ha^[4;1Ha^[m");
-        let wide = (0, 0, "漢", Color::Reset, Modifier::empty());
-        assert_eq!(bytes_of(&[wide, at(2, 0)]), "^[1;1H^[m漢^[1;3Ha^[m");
+        for (sign, x) in [("漢", 2), ("🦀", 2), ("e\u{301}", 1), ("\u{1cd00}", 1)] {
+            let unsure = (0, 0, sign, Color::Reset, Modifier::empty());
+            let expected = format!("^[1;1H^[m{sign}^[1;{}Ha^[m", x + 1);
+            assert_eq!(bytes_of(&[unsure, at(x, 0)]), expected);
+        }
     }
 
     #[test]
