@@ -164,7 +164,7 @@ impl SceneOptions {
                 _ => None,
             };
             match range {
-                Some(range) if Range::looks_like(text) => {
+                Some(range) if text.contains(':') => {
                     let parsed = Range::parse(option, text, of)?;
                     *range = Some(parsed);
                     scene.set(key, &parsed.from.to_string())?;

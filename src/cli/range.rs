@@ -20,11 +20,6 @@ pub struct Range {
 }
 
 impl Range {
-    /// Returns whether this text is meant as a range.
-    pub fn looks_like(text: &str) -> bool {
-        text.contains(':')
-    }
-
     /// Reads `FROM:TO:COUNT`, given for `name` (an option as typed), with ends of a quantity.
     ///
     /// # Errors

@@ -179,26 +179,18 @@ pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
 /// sensitive or depends on the step.
 pub fn mark(cell: Option<Cell>) -> char {
     let Some(cell) = cell else { return ' ' };
-    match (cell.verdict, cell.is_doubtful()) {
-        (Verdict::Decay, false) => '.',
-        (Verdict::Bounce, false) => 'o',
-        (Verdict::Slip, false) => '~',
-        (Verdict::Whirl, false) => '@',
-        (Verdict::Forced, false) => '+',
-        (Verdict::Divergent, false) => '^',
-        (Verdict::Locked, false) => '#',
-        (Verdict::Adhesive, false) => '%',
-        (Verdict::Failed, false) => '!',
-        (Verdict::Decay, true) => 'd',
-        (Verdict::Bounce, true) => 'b',
-        (Verdict::Slip, true) => 's',
-        (Verdict::Whirl, true) => 'w',
-        (Verdict::Forced, true) => 'p',
-        (Verdict::Divergent, true) => 'g',
-        (Verdict::Locked, true) => 'l',
-        (Verdict::Adhesive, true) => 'a',
-        (Verdict::Failed, true) => 'f',
-    }
+    let (sure, doubtful) = match cell.verdict {
+        Verdict::Decay => ('.', 'd'),
+        Verdict::Bounce => ('o', 'b'),
+        Verdict::Slip => ('~', 's'),
+        Verdict::Whirl => ('@', 'w'),
+        Verdict::Forced => ('+', 'p'),
+        Verdict::Divergent => ('^', 'g'),
+        Verdict::Locked => ('#', 'l'),
+        Verdict::Adhesive => ('%', 'a'),
+        Verdict::Failed => ('!', 'f'),
+    };
+    if cell.is_doubtful() { doubtful } else { sure }
 }
 
 /// Writes the map as text, highest row first and no line of cells wider than `width`, with a

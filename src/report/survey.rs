@@ -199,12 +199,12 @@ pub fn of_scatter(scene: &Scene, scattered: &Scattered) -> String {
     let speeds = [scattered.mean_rad_s, scattered.equal_rad_s];
     let [mean, equal] = speeds.map(|omega| format!("{} {}", told(omega), speed_unit()));
     let of = match scene.is_uneven() {
-        true => "the tips and the casing of the scene. Equal tips in a round one lock last",
-        false => "equal tips and a round casing, which lock last",
+        true => "the tips and the casing of the scene. Equal tips in a round casing lock last",
+        false => "equal tips in a round casing, which lock last",
     };
     format!(
-        "The limits are those of {of}: tips that differ by 1 % of the clearance lock from {mean} \
-         on, the mean of {} rotors, and not from {equal}.",
+        "The limits are those of {of}. Tips that differ by 1 % of the clearance lock from {mean} \
+         on instead of {equal}, the mean of {} rotors.",
         scattered.rotors
     )
 }

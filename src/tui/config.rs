@@ -4,6 +4,7 @@
 
 use std::io::ErrorKind::NotADirectory;
 use std::io::Write;
+use std::os::unix::fs::DirBuilderExt;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::channel;
 use std::time::Duration;
@@ -114,7 +115,7 @@ impl Config {
         // Plain values come before tables in a table, as the format needs it.
         let table = toml::Table::try_from(self).map_err(std::io::Error::other)?;
         if let Some(folder) = path.parent() {
-            private_folder(folder)?;
+            std::fs::DirBuilder::new().recursive(true).mode(0o700).create(folder)?;
         }
         let write = |out: &mut dyn Write| out.write_all(table.to_string().as_bytes());
         if path.symlink_metadata().is_ok() {
@@ -125,9 +126,11 @@ impl Config {
     }
 }
 
-fn private_folder(folder: &Path) -> std::io::Result<()> {
-    use std::os::unix::fs::DirBuilderExt;
-    std::fs::DirBuilder::new().recursive(true).mode(0o700).create(folder)
+/// Keeps what is other at the end than it was at the beginning.
+fn take<T: PartialEq>(began: &T, ended: T, kept: &mut T) {
+    if ended != *began {
+        *kept = ended;
+    }
 }
 
 /// Returns whether a folder may be made: not below a home that does not exist.
@@ -215,21 +218,11 @@ impl Memory {
         config.steps_done.join(ended.steps_done);
         config.introduced |= ended.introduced;
         let Some(began) = &self.began else { return config };
-        if ended.theme != began.theme {
-            config.theme = ended.theme;
-        }
-        if ended.marker != began.marker {
-            config.marker = ended.marker;
-        }
-        if ended.charts != began.charts {
-            config.charts = ended.charts;
-        }
-        if ended.mouse != began.mouse {
-            config.mouse = ended.mouse;
-        }
-        if ended.units != began.units {
-            config.units = ended.units;
-        }
+        take(&began.theme, ended.theme, &mut config.theme);
+        take(&began.marker, ended.marker, &mut config.marker);
+        take(&began.charts, ended.charts, &mut config.charts);
+        take(&began.mouse, ended.mouse, &mut config.mouse);
+        take(&began.units, ended.units, &mut config.units);
         config
     }
 }

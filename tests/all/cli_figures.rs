@@ -120,6 +120,7 @@ fn figures_4_to_6_lock_on_the_blades_of_the_paper() {
     assert!((fine.lock_time_s.unwrap() - 0.0769).abs() < 3e-4);
     let figure = drawn(4);
     assert!(says(&figure, "ms on #6 and #21; event solver: locked from 77."));
+    assert!(says(&figure, "steps of 1 µs with twice the digits lock at 79.6 ms"));
     assert!(says(
         &figure,
         "at each of 50 steps from 0.01 to 1 µs it locks from 75 to 81 ms, at some 30 of them"
@@ -149,11 +150,6 @@ fn at_steps(number: u32, pulse: &str, beside: f64, every: usize) -> Vec<(Option<
         (outcome.lock_time_s, held)
     };
     (0..50).into_par_iter().step_by(every).map(run).collect()
-}
-
-#[test]
-fn the_caption_of_figure_4_names_the_lock_without_round_off() {
-    assert!(says(&drawn(4), "steps of 1 µs with twice the digits lock at 79.6 ms"));
 }
 
 /// The angles of the blades over the last tenth of the run, as a part of the

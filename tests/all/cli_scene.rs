@@ -87,6 +87,11 @@ fn refused_options_name_key_value_and_what_is_allowed() {
         (&["--zeta-disk", "x"], "bladed_disk.damping_ratio = x: allowed is a number from 0"),
         (&["--solver", "magic"], "solver.kind = \"magic\": allowed is one of explicit, event"),
         (&["--contact", "glue"], "solver.contact = \"glue\": allowed is one of unilateral, bil"),
+        (
+            &["--solver", "event", "--contact", "bilateral"],
+            "solver.contact = \"bilateral\": allowed",
+        ),
+        (&["--solver", "event", "--model", "full"], "solver.model = \"full\": allowed is"),
         (&["--model", "huge"], "solver.model = \"huge\": allowed is one of rigid, modal, full"),
         (&["--step", "0"], "solver.step_s = 0: allowed is a number above 0"),
         (&["--step", "0.01"], "solver.step_s = 1e-2: allowed is above 0 and below the stability"),
@@ -130,14 +135,6 @@ fn refused_files_are_named() {
         let message = refusal(&["run", path]);
         assert!(message.starts_with(&format!("rubscope: {path}: {found}")), "{message}");
     }
-}
-
-#[test]
-fn the_event_solver_and_the_bilateral_law_asked_for_together_are_refused() {
-    let message = refusal(&["run", "--solver", "event", "--contact", "bilateral"]);
-    assert!(message.starts_with("rubscope: solver.contact = \"bilateral\": allowed is"));
-    let message = refusal(&["run", "--solver", "event", "--model", "full"]);
-    assert!(message.contains("solver.model = \"full\": allowed is"));
 }
 
 /// A device without end, or a huge file, is refused before it fills the memory.

@@ -244,14 +244,8 @@ fn the_option_is_checked_before_the_simulation() {
     let long = ["run", "slip", "--solver", "explicit", "--step", "1e-9", "--end", "10"];
     for (options, said) in [
         (&["--at", "11:pulse"][..], "--at = 11:pulse: allowed is a time from 0 to solver.end_s ="),
-        (&["--at", "-1:pulse"], "--at = -1:pulse: allowed is a time from 0 to solver.end_s = 10"),
         (&["--at", "pulse"], "--at = pulse: allowed is TIME:PATH=VALUE or TIME:pulse"),
-        (&["--at", "1:bladed_disk.blades=24"], "--at = 1:bladed_disk.blades=24: allowed is pulse"),
         (&["--at", "1:pulse", "--at", "2:x=1"], "--at 2:x=1: unknown key x; allowed: schema"),
-        (
-            &["--at", "1:casing.damping_ratio=lots"],
-            "--at 1:casing.damping_ratio=lots: casing.damping_ratio = lots: allowed is a number",
-        ),
     ] {
         let refused = refusal(&[&long[..], options].concat());
         assert!(refused.starts_with(&format!("rubscope: {said}")), "{refused}");

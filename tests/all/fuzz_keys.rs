@@ -6,7 +6,6 @@ use std::time::Duration;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::{Terminal, backend::TestBackend};
-use rubscope::tui::bindings::BINDINGS;
 use rubscope::tui::engine::{Engine, Order, Snapshot};
 use rubscope::tui::events::ScreenEvent;
 use rubscope::tui::worker::Playback;
@@ -14,6 +13,7 @@ use rubscope::tui::{App, Exit, Marker, Theme, run};
 use rubscope_solver::scene::Scene;
 
 use crate::stepwise::NoHost;
+use crate::tui_random::bound_keys;
 
 /// Most bytes of one stream.
 const LONGEST: usize = 400;
@@ -27,13 +27,7 @@ const TYPED: &str = "0123456789.-+eEkMuµn,:= abx\u{1b}\u{7f}\u{202e}é漢\u{301
 
 /// The keys, by number.
 static KEYS: LazyLock<Vec<KeyEvent>> = LazyLock::new(|| {
-    let mut keys = Vec::new();
-    for chord in BINDINGS.iter().flat_map(|binding| binding.keys) {
-        let mut modifiers = KeyModifiers::NONE;
-        modifiers.set(KeyModifiers::CONTROL, chord.ctrl);
-        modifiers.set(KeyModifiers::SHIFT, chord.shift);
-        keys.push(KeyEvent::new(chord.code, modifiers));
-    }
+    let mut keys = bound_keys();
     let typed =
         TYPED.chars().map(|letter| KeyEvent::new(KeyCode::Char(letter), KeyModifiers::NONE));
     keys.extend(typed);
@@ -104,7 +98,7 @@ fn picture(
     sender.send(ScreenEvent::Resize).unwrap();
     keys.drain(..).for_each(|key| sender.send(ScreenEvent::Key(key)).unwrap());
     drop(sender);
-    let exit = run(terminal, &events, app, engine, &mut NoHost, Duration::ZERO);
+    let exit = run(terminal, &events, app, engine, &mut NoHost::default(), Duration::ZERO);
     assert_eq!(exit.unwrap(), Exit::Done);
     app.scene.checked().unwrap();
     for cell in &terminal.backend().buffer().content {

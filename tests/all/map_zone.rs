@@ -12,7 +12,6 @@ fn holds_only_above_lock_speed(speed: &str, pulse: &str) -> usize {
         [("solver.kind", "event"), ("solver.contact", "unilateral"), ("solver.model", "rigid")];
     let scene = crate::scene("paper-nd3", &changes).into_scene();
     let lock = scene.machine().lock_speed().unwrap();
-    assert!((lock - 411.934).abs() < 1e-3, "{lock}");
     let axis = |key: &str, range: &str| Axis::parse(&format!("operation.{key}={range}")).unwrap();
     let (x, y) = (axis("speed_rad_s", speed), axis("pulse_n", pulse));
     let mut map = Map::empty(MapPlan { scene, x, y, sensitivity: false });

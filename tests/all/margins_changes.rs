@@ -2,16 +2,14 @@
 //! outside and not just inside.
 
 use rubscope_solver::motion::{Verdict, run_to_verdict, to_the_end};
-use rubscope_solver::scene::{CheckedScene, ContactLaw, Scene};
+use rubscope_solver::scene::{CheckedScene, ContactLaw};
 use rubscope_solver::study::margins::{Margins, Robustness, parameter};
 
-fn with(name: &str, changes: &[(&str, &str)]) -> CheckedScene {
-    Scene::builtin(name).unwrap().with(changes).unwrap()
-}
+use crate::scene;
 
 /// The same by events under contact that only pushes.
 fn pushes_only(name: &str, changes: &[(&str, &str)]) -> CheckedScene {
-    with(name, changes).as_reference().checked().unwrap()
+    scene(name, changes).as_reference().checked().unwrap()
 }
 
 fn asked(scene: &CheckedScene) -> Margins {
@@ -53,7 +51,7 @@ fn assert_found(scene: &CheckedScene, found: &Robustness) {
 
 #[test]
 fn a_verdict_is_another_just_outside_of_what_is_found_and_not_just_inside() {
-    let paper = with("paper-nd3", &[]);
+    let paper = scene("paper-nd3", &[]);
     let margins = asked(&paper);
     assert_found(&paper, margins.robust.as_ref().unwrap());
     let law = paper.as_reference().checked().unwrap();
@@ -105,14 +103,14 @@ fn what_is_zero_is_searched_upward_and_only_what_is_there_is_changed() {
     assert_eq!(pulse.tried[1], 7590.0);
     assert!(row("bladed_disk.longest_tip_m").is_none() && row("casing.out_of_round_m").is_none());
     assert_eq!(found.changes.len(), 5);
-    let long = with("long-tip", &[("solver.end_s", "1e-3"), ("solver.step_s", "1e-6")]);
+    let long = crate::scene("long-tip", &[("solver.end_s", "1e-3"), ("solver.step_s", "1e-6")]);
     let found = asked(&long).robust.unwrap();
     assert!(found.changes.iter().any(|row| row.path == "bladed_disk.longest_tip_m"));
 }
 
 #[test]
 fn a_search_that_is_told_to_stop_says_nothing() {
-    let scene = with("paper-nd3", &[]);
+    let scene = scene("paper-nd3", &[]);
     assert_eq!(scene.solver.contact, ContactLaw::Bilateral);
     let mut margins = Margins::of(&scene);
     assert_eq!(margins.ask_runs(&|| false, &mut |_| panic!("nothing is known")), None);

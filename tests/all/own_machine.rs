@@ -83,23 +83,11 @@ pub fn made(folder: &Path) -> (String, String) {
 }
 
 #[test]
-fn a_machine_in_hertz_comes_back_to_twelve_digits() {
+fn a_new_scene_has_its_speed_a_pulse_that_touches_and_comments() {
     let folder = tempfile::tempdir().unwrap();
     let (file, told) = made(folder.path());
     assert!(told.starts_with("Wrote ") && told.contains("36 blades, 0 to 18 nodal"), "{told}");
-    let mut scene = Scene::load(&file).unwrap();
-    let mut compared = 0;
-    for row in TABLE.lines().skip(1) {
-        let cells: Vec<&str> = row.split(',').collect();
-        let hertz: f64 = cells[2].parse().unwrap();
-        scene.set("operation.nodal_diameters", cells[1]).unwrap();
-        let machine = scene.machine();
-        let omega = if cells[0] == "casing" { machine.omega_c } else { machine.omega_bd };
-        assert!((omega / (TAU * hertz) - 1.0).abs() < 1e-12, "{row}");
-        compared += 1;
-    }
-    assert_eq!(compared, 6);
-    scene.set("operation.nodal_diameters", "5").unwrap();
+    let scene = Scene::load(&file).unwrap();
     assert!((scene.operation.speed_rad_s / (8500.0 * TAU / 60.0) - 1.0).abs() < 1e-13);
     assert_eq!(scene.casing.damping_ratio, 0.01);
     // The pulse makes a blade touch.

@@ -186,6 +186,17 @@ impl Start {
     }
 }
 
+/// What looks find at last.
+fn patiently<T>(missing: &str, mut look: impl FnMut() -> Option<T>) -> T {
+    let began = Instant::now();
+    loop {
+        if let Some(found) = look() {
+            return found;
+        }
+        assert!(began.elapsed() < PATIENCE, "{missing}");
+    }
+}
+
 /// The settings of the terminal, as text to compare.
 fn settings(master: &dyn MasterPty) -> String {
     format!("{:?}", master.get_termios().unwrap())
@@ -225,6 +236,13 @@ impl Terminal {
     fn heard(&mut self, bytes: &[u8]) {
         self.written.extend_from_slice(bytes);
         self.parser.process(bytes);
+    }
+
+    /// Takes what the program writes next, if it comes soon.
+    fn listen(&mut self) {
+        if let Ok(bytes) = self.output.recv_timeout(Duration::from_millis(20)) {
+            self.heard(&bytes);
+        }
     }
 
     /// Whether a private mode of the terminal is set, by its last change.
@@ -273,9 +291,7 @@ impl Terminal {
                 return true;
             }
             assert!(began.elapsed() < PATIENCE, "neither in\n{}", self.text());
-            if let Ok(bytes) = self.output.recv_timeout(Duration::from_millis(20)) {
-                self.heard(&bytes);
-            }
+            self.listen();
         }
         false
     }
@@ -327,15 +343,11 @@ impl Terminal {
     /// The same at the end of the program, which is waited for.
     #[cfg(target_os = "linux")]
     pub fn last_processor_s(&self) -> f64 {
-        let began = Instant::now();
-        loop {
-            let (used, ended) = self.used_s();
-            if ended {
-                return used;
-            }
-            assert!(began.elapsed() < PATIENCE, "it does not end: {used} s");
+        patiently("it does not end", || {
             std::thread::sleep(Duration::from_millis(5));
-        }
+            let (used, ended) = self.used_s();
+            ended.then_some(used)
+        })
     }
 
     /// Nobody reads the terminal any more; the program writes until it is full.
@@ -367,29 +379,23 @@ impl Terminal {
     pub fn hang_up(&mut self) {
         self.reader.store(GOES, Ordering::SeqCst);
         // The reader ends at the next output; the screen is drawn every second.
-        let began = Instant::now();
-        while !matches!(
-            self.output.recv_timeout(Duration::from_millis(20)),
-            Err(RecvTimeoutError::Disconnected)
-        ) {
-            assert!(began.elapsed() < PATIENCE, "nothing was drawn for a minute");
-        }
+        patiently("nothing was drawn for a minute", || {
+            let next = self.output.recv_timeout(Duration::from_millis(20));
+            matches!(next, Err(RecvTimeoutError::Disconnected)).then_some(())
+        });
         (self.slave, self.input, self.master) = (None, None, None);
     }
 
     /// Waits for the end of a program whose terminal nobody may be reading.
     pub fn ended(&mut self) -> ExitStatus {
-        let began = Instant::now();
-        loop {
-            if let Some(status) = self.child.try_wait().unwrap() {
-                return status;
-            }
-            assert!(began.elapsed() < PATIENCE, "it does not end");
+        patiently("it does not end", || {
+            let status = self.child.try_wait().unwrap();
             // If it is read, this must go on: a full terminal would block it.
-            if let Ok(bytes) = self.output.recv_timeout(Duration::from_millis(20)) {
-                self.heard(&bytes);
+            if status.is_none() {
+                self.listen();
             }
-        }
+            status
+        })
     }
 
     /// Waits for the end and reads the rest; the exit status.
@@ -400,13 +406,10 @@ impl Terminal {
         let name = self.master.as_ref().unwrap().tty_name().unwrap();
         let slave = std::fs::File::options().write(true).open(name);
         slave.unwrap().write_all(LAST.as_bytes()).unwrap();
-        let began = Instant::now();
-        while !self.written.ends_with(LAST.as_bytes()) {
-            assert!(began.elapsed() < PATIENCE, "the rest never came");
-            if let Ok(bytes) = self.output.recv_timeout(Duration::from_millis(100)) {
-                self.heard(&bytes);
-            }
-        }
+        patiently("the rest never came", || {
+            self.listen();
+            self.written.ends_with(LAST.as_bytes()).then_some(())
+        });
         assert_eq!(status.signal(), None, "killed");
         status.exit_code()
     }

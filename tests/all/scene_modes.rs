@@ -20,8 +20,6 @@ const STIFFNESS: &str = "casing.modal_stiffness_n_per_m";
 #[test]
 fn the_papers_scene_knows_its_modes_of_three_and_four_diameters() {
     let four = scene("paper-nd3", &[(DIAMETERS, "4")]);
-    close(four.machine().critical_speed().unwrap(), 256.12, 1e-5);
-    close(four.machine().lock_speed().unwrap(), 303.42, 1e-4);
     let other = Scene::builtin("paper-nd4").unwrap();
     assert_eq!(four.machine(), other.machine());
     assert_eq!((four.casing, four.bladed_disk), (other.casing, other.bladed_disk));

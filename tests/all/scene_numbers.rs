@@ -1,5 +1,6 @@
 //! Runs the numbers in the notes of the scenes that go beyond the paper.
 
+use crate::scene_notes::says;
 use crate::{near, scene};
 use rubscope_solver::harmonic::{Lining, least_lock_stiffness};
 use rubscope_solver::motion::{Motion, RunReport, Verdict, simulate};
@@ -11,12 +12,6 @@ fn run(name: &str, changes: &[(&str, &str)]) -> RunReport {
 
 fn verdict(name: &str, changes: &[(&str, &str)]) -> Verdict {
     run(name, changes).outcome.verdict
-}
-
-/// The note has these words.
-fn says(name: &str, words: &str) {
-    let note = Scene::builtin(name).unwrap().note;
-    assert!(note.contains(words), "{name}: {note}");
 }
 
 fn speed(value: &str) -> (&'static str, &str) {

@@ -4,20 +4,28 @@
 
 use std::io::Result;
 use std::path::PathBuf;
+use std::sync::mpsc::Sender;
 use std::time::Duration;
 
 use rubscope::tui::Line;
 use rubscope::tui::engine::{Engine, Limit, Order, Pace, Snapshot};
+use rubscope::tui::events::ScreenEvent;
 use rubscope::tui::files::{FileJob, FileResult, FoundScenes};
 use rubscope::tui::host::Host;
 use rubscope::tui::worker::Playback;
 
-/// A host without a terminal; files are written at once.
+/// A host without a terminal. Files are written at once, or take a while: their results then
+/// come as events, behind a suspension.
 #[derive(Debug, Default)]
-pub struct NoHost;
+pub struct NoHost {
+    pub later: Option<(Vec<FileResult>, Sender<ScreenEvent>)>,
+    pub suspended: u32,
+    pub unseen: Option<String>,
+}
 
 impl Host for NoHost {
     fn suspend(&mut self, _: bool) -> Result<bool> {
+        self.suspended += 1;
         Ok(true)
     }
     fn resume(&mut self) -> Result<()> {
@@ -27,9 +35,14 @@ impl Host for NoHost {
         Ok(())
     }
     fn write(&mut self, job: FileJob) -> Option<FileResult> {
-        Some(job.run())
+        let Some((results, events)) = &mut self.later else { return Some(job.run()) };
+        events.send(ScreenEvent::Suspend).unwrap();
+        events.send(ScreenEvent::Written(results.remove(0))).unwrap();
+        None
     }
-    fn unseen(&mut self, _: Option<String>) {}
+    fn unseen(&mut self, reason: Option<String>) {
+        self.unseen = reason;
+    }
     fn line(&self) -> Line {
         Line::Auto
     }

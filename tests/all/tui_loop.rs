@@ -1,7 +1,6 @@
 //! The loop of the explorer without new snapshots, and the record of its engine.
 
 use std::f64::consts::TAU;
-use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 
@@ -9,10 +8,10 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::{Terminal, backend::TestBackend};
 use rubscope::tui::engine::{Engine, Order, Snapshot};
 use rubscope::tui::events::ScreenEvent;
-use rubscope::tui::files::{FileJob, FileResult, FoundScenes};
+use rubscope::tui::files::FileResult;
 use rubscope::tui::history::Channel;
 use rubscope::tui::host::Host;
-use rubscope::tui::{App, Exit, Line, Marker, Theme};
+use rubscope::tui::{App, Exit, Marker, Theme};
 use rubscope_solver::scene::Scene;
 
 use crate::stepwise::{NoHost, Stepwise};
@@ -33,7 +32,7 @@ fn screen(width: u16, height: u16) -> Terminal<TestBackend> {
 
 /// The loop on a screen of 80 columns.
 fn run(events: &Receiver<ScreenEvent>, app: &mut App, engine: &mut dyn Engine) -> Exit {
-    run_with(events, app, engine, &mut NoHost)
+    run_with(events, app, engine, &mut NoHost::default())
 }
 
 fn run_with(
@@ -103,54 +102,12 @@ fn a_screen_without_news_is_drawn_again_to_notice_a_lost_terminal() {
     assert_eq!(exit, Exit::Signal(15), "nothing was drawn for a minute");
 }
 
-/// A host whose files take a while: the results come as events.
-struct Slow {
-    results: Vec<FileResult>,
-    events: Sender<ScreenEvent>,
-    suspended: u32,
-    unseen: Option<String>,
-}
-
-impl Host for Slow {
-    fn suspend(&mut self, _: bool) -> std::io::Result<bool> {
-        self.suspended += 1;
-        Ok(true)
-    }
-    fn resume(&mut self) -> std::io::Result<()> {
-        Ok(())
-    }
-    fn copy(&mut self, _: &str) -> std::io::Result<()> {
-        Ok(())
-    }
-    fn write(&mut self, _: FileJob) -> Option<FileResult> {
-        self.events.send(ScreenEvent::Suspend).unwrap();
-        self.events.send(ScreenEvent::Written(self.results.remove(0))).unwrap();
-        None
-    }
-    fn unseen(&mut self, reason: Option<String>) {
-        self.unseen = reason;
-    }
-    fn line(&self) -> Line {
-        Line::Auto
-    }
-    fn sent(&self) -> u64 {
-        0
-    }
-    fn is_slow(&self) -> bool {
-        false
-    }
-    fn mouse(&mut self, _: bool) {}
-    fn find_scenes(&mut self, directory: PathBuf) -> Option<FoundScenes> {
-        Some(FoundScenes::of(&directory))
-    }
-}
-
 #[test]
 fn quitting_waits_for_the_file_and_keeps_the_reason_why_it_was_not_written() {
     let (sender, events) = channel();
     let failed = FileResult::Failed("no room".into());
     let results = vec![failed, FileResult::Exists, FileResult::Written];
-    let mut host = Slow { results, events: sender.clone(), suspended: 0, unseen: None };
+    let mut host = NoHost { later: Some((results, sender.clone())), ..NoHost::default() };
     for (quit, reason) in [
         (key(KeyCode::Char('q')), Some("cannot write scene.toml: no room")),
         (interrupt(), Some("cannot write scene.toml: it exists")),
@@ -218,8 +175,15 @@ fn a_key_that_repeats_faster_than_a_frame_waits_for_its_answer_is_drawn() {
     let (sender, events) = channel();
     let mut engine = Repeating { events: sender, left: 100, frames: 0 };
     let (mut app, frame) = (app(Scene::base()), Duration::from_millis(33));
-    rubscope::tui::run(&mut screen(80, 24), &events, &mut app, &mut engine, &mut NoHost, frame)
-        .unwrap();
+    rubscope::tui::run(
+        &mut screen(80, 24),
+        &events,
+        &mut app,
+        &mut engine,
+        &mut NoHost::default(),
+        frame,
+    )
+    .unwrap();
     assert!(engine.frames > 5, "{} frames of 100 keys", engine.frames);
 }
 
@@ -260,7 +224,7 @@ fn a_burst_of_turns_of_one_knob_is_one_change_and_ends_at_the_refused_value() {
 #[test]
 fn a_reason_that_no_screen_showed_is_kept_and_one_that_was_shown_is_not() {
     let (sender, events) = channel();
-    let mut host = Slow { results: Vec::new(), events: sender.clone(), suspended: 0, unseen: None };
+    let mut host = NoHost::default();
     let failed = || ScreenEvent::Written(FileResult::Failed("no room".into()));
     for shown in [false, true] {
         sender.send(failed()).unwrap();
@@ -338,7 +302,7 @@ fn a_forecast_is_drawn_when_it_exists_and_not_at_the_next_frame() {
     let (mut app, mut terminal) = (app(short()), screen(80, 24));
     let mut engine = Later { engine: Stepwise::new(1e-4), events: sender, asked: 0 };
     let frame = Duration::from_secs(3600);
-    let host = &mut NoHost;
+    let host = &mut NoHost::default();
     let exit = rubscope::tui::run(&mut terminal, &events, &mut app, &mut engine, host, frame);
     assert_eq!(exit.unwrap(), Exit::Signal(15), "it waits for the frame");
     let line = top(&terminal, 80);
@@ -381,7 +345,8 @@ fn first_line(app: &mut App, width: u16) -> String {
     let (sender, events) = channel();
     drop(sender);
     let (mut terminal, frame) = (screen(width, 12), Duration::from_millis(100));
-    rubscope::tui::run(&mut terminal, &events, app, &mut Silent, &mut NoHost, frame).unwrap();
+    rubscope::tui::run(&mut terminal, &events, app, &mut Silent, &mut NoHost::default(), frame)
+        .unwrap();
     top(&terminal, width)
 }
 
@@ -441,7 +406,7 @@ fn a_screen_too_small_for_the_question_takes_no_answer() {
             }
             drop(sender);
             let (mut engine, frame) = (Stepwise::new(1e-4), Duration::ZERO);
-            let host = &mut NoHost;
+            let host = &mut NoHost::default();
             rubscope::tui::run(&mut terminal, &events, &mut app, &mut engine, host, frame).unwrap();
         }
         assert_eq!(std::fs::read_to_string(&path).unwrap() != "old", replaced, "{height}");

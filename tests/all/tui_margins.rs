@@ -3,7 +3,6 @@
 
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use rubscope::tui::bindings::Action;
-use rubscope::tui::events::ScreenEvent;
 use rubscope::tui::{Effect, Marker, MouseOutcome, Theme};
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::margins::{LimitName, Margins};
@@ -21,12 +20,6 @@ fn open(size: (u16, u16), scene: Scene) -> Session {
     let mut session = Session::open(size.0, size.1, scene, Theme::Dark, Marker::Braille);
     session.press("8");
     session
-}
-
-fn resize(session: &mut Session, (width, height): (u16, u16)) {
-    session.terminal.backend_mut().resize(width, height);
-    session.send(std::iter::once(ScreenEvent::Resize));
-    session.press("");
 }
 
 /// The line of a limit.
@@ -134,12 +127,6 @@ fn enter_on_a_knob_selects_it_and_enter_elsewhere_types_a_value() {
 #[test]
 fn a_click_reads_a_row_and_a_second_one_jumps() {
     let mut session = open((120, 40), short());
-    let find = |session: &Session, text: &str| {
-        let screen = session.text();
-        let row = screen.lines().position(|line| line.contains(text)).unwrap();
-        let line = screen.lines().nth(row).unwrap();
-        (line[..line.find(text).unwrap()].chars().count() as u16, row as u16)
-    };
     let click = |session: &mut Session, (column, row)| {
         let kind = MouseEventKind::Down(MouseButton::Left);
         let heard =
@@ -147,13 +134,13 @@ fn a_click_reads_a_row_and_a_second_one_jumps() {
         session.press("");
         heard
     };
-    let coincidence = find(&session, "388.31");
+    let coincidence = session.find("388.31");
     assert_eq!(click(&mut session, coincidence), MouseOutcome::Acted(Effect::None));
     assert_eq!(cell(&session), [0, 3]);
     click(&mut session, coincidence);
     let speed = session.app.machine.dangerous_speed().unwrap();
     assert_eq!(session.app.scene.operation.speed_rad_s, speed);
-    let (_, row) = find(&session, "411.93");
+    let (_, row) = session.find("411.93");
     click(&mut session, (118, row));
     assert_eq!(cell(&session), [3, 2]);
     click(&mut session, (118, row));
@@ -166,11 +153,11 @@ fn the_columns_and_rows_that_have_no_room_are_said_or_left_out() {
     session.press("ij ");
     session.press("kj");
     for (width, height) in [(80, 24), (120, 40), (40, 12), (200, 50)] {
-        resize(&mut session, (width, height));
+        session.resize((width, height));
         insta::assert_snapshot!(format!("margins_{width}x{height}"), session.text());
         assert!(session.text().contains("Enter jump  "), "{}", session.text());
     }
-    resize(&mut session, (80, 13));
+    session.resize((80, 13));
     session.press("i");
     assert!(session.text().contains("↓"), "{}", session.text());
     session.press("i");
@@ -221,7 +208,7 @@ fn no_scene_is_too_odd() {
         assert!(session.app.margins().is_some(), "scene {place}");
         session.press("i");
         for size in [(40, 12), (80, 24), (200, 50), (120, 40)] {
-            resize(&mut session, size);
+            session.resize(size);
             for keys in ["JJJJJ", "LLL", "KK", "HHH", "KKK"] {
                 session.press(keys);
                 let text = session.text();

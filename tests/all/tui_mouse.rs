@@ -28,15 +28,6 @@ fn mouse(session: &mut Session, kind: MouseEventKind, at: (u16, u16)) -> MouseOu
     with(session, KeyModifiers::NONE, kind, at)
 }
 
-/// The place of the first letter of a text on the screen.
-fn find(session: &Session, text: &str) -> (u16, u16) {
-    let screen = session.text();
-    let row = screen.lines().position(|line| line.contains(text)).unwrap();
-    let line = screen.lines().nth(row).unwrap();
-    let column = line[..line.find(text).unwrap()].chars().count();
-    (column as u16, row as u16)
-}
-
 fn selected(session: &Session) -> &'static str {
     session.app.selected().unwrap().path
 }
@@ -44,28 +35,27 @@ fn selected(session: &Session) -> &'static str {
 #[test]
 fn the_keys_of_the_last_line_can_be_clicked() {
     let mut session = open(120, 40);
-    let turn = find(&session, "←→ turn");
+    let turn = session.find("←→ turn");
     for (at, speed) in [(0, 495.0), (1, 500.0), (4, 505.0)] {
         mouse(&mut session, LEFT, (turn.0 + at, turn.1));
         assert_eq!(session.app.scene.operation.speed_rad_s, speed);
     }
-    let commands = find(&session, ": commands");
+    let commands = session.find(": commands");
     mouse(&mut session, LEFT, (commands.0 + 3, commands.1));
     session.press("undo");
-    let choose = find(&session, "Enter do it");
+    let choose = session.find("Enter do it");
     assert_eq!(mouse(&mut session, LEFT, choose), MouseOutcome::Acted(Effect::None));
     assert_eq!(session.app.scene.operation.speed_rad_s, 500.0);
     session.press("");
-    let quit = find(&session, "q quit");
+    let quit = session.find("q quit");
     assert_eq!(mouse(&mut session, LEFT, quit), MouseOutcome::Acted(Effect::Quit));
 }
 
 #[test]
 fn a_screen_that_became_too_small_has_no_keys_to_click() {
     let mut session = open(80, 24);
-    let quit = find(&session, "q quit");
-    session.terminal.backend_mut().resize(80, 11);
-    session.send(std::iter::once(rubscope::tui::events::ScreenEvent::Resize));
+    let quit = session.find("q quit");
+    session.resize((80, 11));
     assert!(session.text().contains("rubscope needs"), "{}", session.text());
     assert_eq!(mouse(&mut session, LEFT, quit), MouseOutcome::Nothing);
 }
@@ -73,10 +63,10 @@ fn a_screen_that_became_too_small_has_no_keys_to_click() {
 #[test]
 fn a_click_selects_a_knob_and_the_wheel_turns_the_one_below_it() {
     let mut session = open(80, 24);
-    let diameters = find(&session, "diameters n_d");
+    let diameters = session.find("diameters n_d");
     assert_eq!(mouse(&mut session, LEFT, diameters), MouseOutcome::Acted(Effect::None));
     assert_eq!(selected(&session), "operation.nodal_diameters");
-    let damping = find(&session, "damping ζ_c");
+    let damping = session.find("damping ζ_c");
     mouse(&mut session, ScrollUp, damping);
     assert_eq!(selected(&session), "casing.damping_ratio");
     assert_eq!(session.app.scene.casing.damping_ratio, 0.055);
@@ -84,7 +74,7 @@ fn a_click_selects_a_knob_and_the_wheel_turns_the_one_below_it() {
     with(&mut session, KeyModifiers::SHIFT, ScrollUp, damping);
     assert_eq!(session.app.scene.casing.damping_ratio, 0.1);
     // A folded group opens at its first knob.
-    let machine = find(&session, "machine 9 ▸");
+    let machine = session.find("machine 9 ▸");
     mouse(&mut session, LEFT, machine);
     session.press("");
     assert!(session.text().contains("▸clearance g0"), "{}", session.text());
@@ -94,7 +84,7 @@ fn a_click_selects_a_knob_and_the_wheel_turns_the_one_below_it() {
 fn the_wheel_turns_the_same_knob_while_the_pointer_stays() {
     let scene = rubscope_solver::scene::Scene::builtin("rub").unwrap();
     let mut session = Session::with_stride((80, 24), 1e-4, scene, Theme::Dark, Marker::Braille);
-    let contact = find(&session, "contact    ");
+    let contact = session.find("contact    ");
     // The bar of the speed goes, and the rows below it move up.
     for law in ["unilateral", "smooth", "bilateral"] {
         mouse(&mut session, ScrollUp, contact);
@@ -110,7 +100,7 @@ fn the_wheel_turns_the_same_knob_while_the_pointer_stays() {
 #[test]
 fn a_bar_is_set_where_it_is_clicked_and_a_drag_is_undone_in_one_step() {
     let mut session = open(80, 24);
-    let (left, row) = find(&session, "▕▒");
+    let (left, row) = session.find("▕▒");
     mouse(&mut session, LEFT, (left + 1, row));
     assert_eq!(session.app.scene.operation.speed_rad_s, 0.0);
     for column in [3, 9, 15, 70] {
@@ -123,7 +113,7 @@ fn a_bar_is_set_where_it_is_clicked_and_a_drag_is_undone_in_one_step() {
     session.press("u");
     assert_eq!(session.app.scene.operation.speed_rad_s, 500.0);
     // A line without a bar of its own is one; a click only selects it.
-    let (_, row) = find(&session, "damping ζ_bd");
+    let (_, row) = session.find("damping ζ_bd");
     mouse(&mut session, LEFT, (5, row));
     mouse(&mut session, HELD, (5, row + 1));
     assert_eq!(session.app.scene.bladed_disk.damping_ratio, 0.04);
@@ -132,7 +122,7 @@ fn a_bar_is_set_where_it_is_clicked_and_a_drag_is_undone_in_one_step() {
     // Words have no bar.
     session.select("solver.kind");
     session.press("");
-    let place = find(&session, "solver ");
+    let place = session.find("solver ");
     mouse(&mut session, LEFT, place);
     let before = session.app.scene.clone();
     mouse(&mut session, HELD, (20, place.1));
@@ -142,11 +132,11 @@ fn a_bar_is_set_where_it_is_clicked_and_a_drag_is_undone_in_one_step() {
 #[test]
 fn a_click_on_another_chart_makes_it_the_large_one() {
     let mut session = open(120, 40);
-    let response = find(&session, "1 response");
+    let response = session.find("1 response");
     mouse(&mut session, LEFT, response);
     assert_eq!(session.app.view().word(), "response");
     session.press("");
-    let wheel = find(&session, "4 wheel");
+    let wheel = session.find("4 wheel");
     mouse(&mut session, LEFT, wheel);
     assert_eq!(session.app.view().word(), "wheel");
 }
@@ -155,7 +145,7 @@ fn a_click_on_another_chart_makes_it_the_large_one() {
 fn a_click_reads_the_large_chart_and_the_pointer_moves_the_cursor() {
     let mut session = open(80, 24);
     session.press("1");
-    let (left, row) = find(&session, "0┤");
+    let (left, row) = session.find("0┤");
     let (first, last) = (left + 2, 79);
     // Nothing is drawn while the pointer only passes.
     assert_eq!(mouse(&mut session, Moved, (first + 5, row)), MouseOutcome::Nothing);
@@ -178,7 +168,7 @@ fn a_click_reads_the_large_chart_and_the_pointer_moves_the_cursor() {
 fn the_wheel_zooms_time_and_nothing_else() {
     let mut session = open(80, 24);
     session.press("1");
-    let (left, row) = find(&session, "0┤");
+    let (left, row) = session.find("0┤");
     mouse(&mut session, ScrollUp, (left + 9, row));
     mouse(&mut session, ScrollUp, (left + 9, row));
     assert_eq!(session.app.play.zoom, 2);
@@ -193,7 +183,7 @@ fn the_wheel_zooms_time_and_nothing_else() {
 fn lists_are_chosen_from_and_scrolled() {
     let mut session = open(80, 24);
     session.press("g");
-    let second = find(&session, "2. ");
+    let second = session.find("2. ");
     mouse(&mut session, LEFT, second);
     session.press("");
     let text = session.text();
@@ -212,7 +202,7 @@ fn lists_are_chosen_from_and_scrolled() {
 #[test]
 fn the_mouse_can_be_turned_off() {
     let mut session = open(80, 24);
-    let damping = find(&session, "damping ζ_c");
+    let damping = session.find("damping ζ_c");
     session.press("M");
     assert!(session.text().contains("mouse off"), "{}", session.text());
     assert_eq!(mouse(&mut session, LEFT, damping), MouseOutcome::Nothing);

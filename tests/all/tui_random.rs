@@ -84,7 +84,7 @@ fn press(
     sender.send(ScreenEvent::Resize).unwrap();
     keys.into_iter().for_each(|key| sender.send(ScreenEvent::Key(key)).unwrap());
     drop(sender);
-    let exit = run(terminal, &events, app, engine, &mut NoHost, Duration::ZERO);
+    let exit = run(terminal, &events, app, engine, &mut NoHost::default(), Duration::ZERO);
     assert_eq!(exit.unwrap(), Exit::Done);
 }
 
@@ -122,15 +122,21 @@ fn a_snapshot_of_a_run_before_a_restart_changes_nothing() {
     assert!(app.apply_snapshot(engine.take().unwrap()) && !results(&app).is_empty());
 }
 
-/// Every key of the table, and the characters of typed values.
-fn any_key() -> impl Strategy<Value = KeyEvent> {
-    let mut keys: Vec<KeyEvent> = Vec::new();
-    for chord in BINDINGS.iter().flat_map(|binding| binding.keys) {
+/// Every key of the table.
+pub fn bound_keys() -> Vec<KeyEvent> {
+    let chords = BINDINGS.iter().flat_map(|binding| binding.keys);
+    let key = |chord: &rubscope::tui::bindings::Chord| {
         let mut modifiers = KeyModifiers::NONE;
         modifiers.set(KeyModifiers::CONTROL, chord.ctrl);
         modifiers.set(KeyModifiers::SHIFT, chord.shift);
-        keys.push(KeyEvent::new(chord.code, modifiers));
-    }
+        KeyEvent::new(chord.code, modifiers)
+    };
+    chords.map(key).collect()
+}
+
+/// Every key of the table, and the characters of typed values.
+fn any_key() -> impl Strategy<Value = KeyEvent> {
+    let mut keys = bound_keys();
     // Typing is rare among the bindings and takes several keys, so it has a
     // larger weight.
     for letter in "0123456789.-ekMu".chars() {

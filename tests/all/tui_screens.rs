@@ -202,8 +202,7 @@ fn a_first_screen_is_red_only_where_the_state_is_wrong() {
 fn the_first_two_lines_are_whole_at_every_width() {
     let mut session = Session::open(200, 24, scene(), Theme::Mono, Marker::Ascii);
     for width in 40..=200_u16 {
-        session.terminal.backend_mut().resize(width, 24);
-        session.send(std::iter::once(rubscope::tui::events::ScreenEvent::Resize));
+        session.resize((width, 24));
         let rows = session.rows();
         let [first, second] = [&rows[0], &rows[1]].map(|row| row.trim_end());
         assert!(first.starts_with(" LOCKED  ") && first.contains('.'), "{width}: {first}");

@@ -87,7 +87,22 @@ impl Session {
         all.for_each(|event| sender.send(event).unwrap());
         drop(sender);
         let (app, engine) = (&mut self.app, &mut self.engine);
-        run(&mut self.terminal, &events, app, engine, &mut NoHost, Duration::ZERO).unwrap()
+        run(&mut self.terminal, &events, app, engine, &mut NoHost::default(), Duration::ZERO)
+            .unwrap()
+    }
+
+    /// Gives the screen another size.
+    pub fn resize(&mut self, (width, height): (u16, u16)) {
+        self.terminal.backend_mut().resize(width, height);
+        self.send(std::iter::once(ScreenEvent::Resize));
+    }
+
+    /// The place of the first letter of a text on the screen.
+    pub fn find(&self, text: &str) -> (u16, u16) {
+        let rows = self.rows();
+        let row = rows.iter().position(|row| row.contains(text)).unwrap();
+        let column = rows[row][..rows[row].find(text).unwrap()].chars().count();
+        (column as u16, row as u16)
     }
 
     /// Selects the knob of a key, wherever it stands.

@@ -6,7 +6,7 @@ use rubscope::tui::{Marker, Source, Theme};
 use rubscope_solver::motion::Motion;
 use rubscope_solver::scene::Scene;
 
-use crate::cli_support::json;
+use crate::cli_support::{json, words};
 use crate::tui_support::Session;
 
 /// A wide explorer whose engine goes on by `stride` at each look.
@@ -138,6 +138,15 @@ fn the_motion_stops_at_the_end_of_the_run_and_goes_on_when_asked() {
         row(&session, 1)
     );
     assert!(session.app.now() > 5e-3);
+    while session.app.play.playing {
+        session.press_each("");
+    }
+    session.press_each("l");
+    assert!(session.app.play.playing && session.app.now() > 0.0);
+    // But not after a pause by hand.
+    session.press_each(" l");
+    let last = row(&session, 39);
+    assert!(!session.app.play.playing && last.contains("Space go on"), "{last}");
 }
 
 #[test]
@@ -197,12 +206,6 @@ fn the_reading_cursor_names_the_nearest_run_of_the_comparison() {
     assert!(text.contains(": error ") && text.contains(" in "), "{text}");
 }
 
-/// The words of a command line as the shell would give them.
-fn words(command: &str) -> Vec<String> {
-    assert!(!command.contains('\''), "{command}");
-    command.split_whitespace().map(String::from).collect()
-}
-
 #[test]
 fn the_copied_command_repeats_live_changes_at_their_instants() {
     for name in ["rocking", "paper-nd3"] {
@@ -220,8 +223,8 @@ fn the_copied_command_repeats_live_changes_at_their_instants() {
         let command = app.command();
         assert_eq!(command.matches(" --at ").count(), 3, "{command}");
         let run = app.full_run().unwrap();
-        let words = words(&format!("{command} --json"));
-        let report = json(&words.iter().skip(1).map(String::as_str).collect::<Vec<_>>());
+        assert!(!command.contains('\''), "{command}");
+        let report = json(&words(&format!("{command} --json"))[1..]);
         let outcome = &report["outcome"];
         assert_eq!(outcome["verdict"].as_str().unwrap(), run.verdict.as_ref(), "{command}");
         assert_eq!(report["impact_count"].as_u64().unwrap(), run.impacts, "{command}");
@@ -239,26 +242,6 @@ fn another_scene_has_scales_of_its_own() {
     session.press_each(":paper-nd3\n");
     let after = session.app.run.ranges.casing;
     assert!(before.high > 1e-3 && after.high < 3e-4, "{before:?} {after:?}");
-}
-
-#[test]
-fn a_knob_goes_on_playing_after_the_end_of_a_run() {
-    let mut scene = scene("rocking");
-    scene.solver.end_s = 5e-3;
-    let mut session = open(scene, 5e-4);
-    while session.app.play.playing {
-        session.press_each("");
-    }
-    assert!(row(&session, 39).contains("Space goes on"));
-    session.press_each("l");
-    assert!(session.app.play.playing && session.app.now() > 0.0);
-    // But not after a pause by hand.
-    session.press_each(" l");
-    assert!(
-        !session.app.play.playing && row(&session, 39).contains("Space go on"),
-        "{}",
-        row(&session, 39)
-    );
 }
 
 #[test]

@@ -5,7 +5,7 @@
 
 use serde::Serialize;
 
-use super::{HarmonicError, Joint, Lining, RoundWhirl, Whirl, error, lock_roots, round_whirls};
+use super::{HarmonicError, Joint, Lining, RoundWhirl, error, lock_roots, round_whirls};
 use crate::model::Machine;
 use crate::numeric::is_zero;
 use crate::scene::{ContactLaw, Scene};
@@ -166,17 +166,12 @@ pub fn shifted_coincidence(scene: &Scene, speed: f64) -> Option<f64> {
     let machine = scene.machine();
     let lining = Lining::of(&machine, &scene.contact).ok()?;
     let smooth = scene.solver.contact == ContactLaw::Smooth;
-    let found = smooth.then(|| lining.shifted_coincidence(speed)).flatten()?;
-    Some(found.speed_rad_s)
+    smooth.then(|| lining.shifted_coincidence(speed)).flatten()
 }
 
 fn on_lining(lining: &Lining, speed: f64) -> Result<CoincidencePoint, HarmonicError> {
     let rubs = lining.stiffness_at_rest() > 0.0;
-    let whirl = lining.whirl(speed)?;
-    let cycle = match whirl {
-        Whirl::Cycle(cycle) => Some(cycle),
-        Whirl::Decays | Whirl::Unbounded | Whirl::Unsteady => None,
-    };
+    let cycle = lining.cycles(speed)?.into_iter().find(|cycle| cycle.stable);
     Ok(CoincidencePoint {
         speed_rad_s: speed,
         growth_1_s: rubs.then(|| lining.rest(speed).worst().growth_1_s),

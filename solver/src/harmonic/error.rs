@@ -72,14 +72,6 @@ impl HarmonicError {
     pub fn refused(key: &'static str, value: impl ToString, allowed: impl Into<String>) -> Self {
         Self::Refused { key, value: value.to_string(), allowed: allowed.into() }
     }
-
-    fn no_corner(polygon: &ContactPolygon) -> Self {
-        Self::NoCorner {
-            nodal_diameters: polygon.nodal_diameters,
-            blades: polygon.blades,
-            sides: polygon.sides,
-        }
-    }
 }
 
 /// Refuses tips among which no corner is ever held, or of which that is not known.
@@ -112,11 +104,7 @@ pub(super) fn refuse_tips_on_casing(machine: &Machine, what: &str) -> Result<(),
 pub(super) fn refuse_preload(machine: &Machine) -> Result<(), HarmonicError> {
     let clearance = machine.clearance();
     let allowed = "above 0 for rigid contact (casing.radius_m above bladed_disk.blade_length_m)";
-    if clearance > 0.0 {
-        Ok(())
-    } else {
-        Err(HarmonicError::refused("clearance", clearance, allowed))
-    }
+    refuse_unless(clearance > 0.0, "clearance", clearance, allowed)
 }
 
 /// Refuses modes of the disk of other diameters than those of the casing: no single
@@ -125,30 +113,38 @@ pub(super) fn refuse_other_diameters(machine: &Machine) -> Result<(), HarmonicEr
     let (key, value) = (keys::DISK_DIAMETERS, machine.blade_diameters);
     let allowed = "0 or the nodal diameters of the casing; with others no single harmonic \
                    balances blades and casing";
-    if machine.has_other_diameters() {
-        return Err(HarmonicError::refused(key, value, allowed));
-    }
-    Ok(())
+    refuse_unless(!machine.has_other_diameters(), key, value, allowed)
 }
 
 /// Refuses `n_d = 0`: the casing has no travelling wave.
 pub(super) fn refuse_no_wave(machine: &Machine) -> Result<(), HarmonicError> {
     let allowed = "1 or more; without nodal diameters there is no travelling wave and no critical \
                    speed";
-    if machine.nodal_diameters == 0.0 {
-        return Err(HarmonicError::refused(keys::DIAMETERS, 0, allowed));
-    }
-    Ok(())
+    refuse_unless(machine.nodal_diameters != 0.0, keys::DIAMETERS, 0, allowed)
 }
 
 /// Refuses a polygon whose neighbouring sides never meet.
 pub(super) fn refuse_no_corner(polygon: &ContactPolygon) -> Result<(), HarmonicError> {
-    if polygon.has_corners() { Ok(()) } else { Err(HarmonicError::no_corner(polygon)) }
+    let &ContactPolygon { nodal_diameters, blades, sides, .. } = polygon;
+    if polygon.has_corners() {
+        Ok(())
+    } else {
+        Err(HarmonicError::NoCorner { nodal_diameters, blades, sides })
+    }
 }
 
 /// Refuses speeds that are not finite.
 pub(super) fn refuse_endless(speeds: &[f64]) -> Result<(), HarmonicError> {
-    let endless = speeds.iter().find(|speed| !speed.is_finite());
-    let refused = |speed| Err(HarmonicError::refused("speed", speed, "a finite number of rad/s"));
-    endless.map_or(Ok(()), refused)
+    let refused =
+        |&speed| refuse_unless(f64::is_finite(speed), "speed", speed, "a finite number of rad/s");
+    speeds.iter().try_for_each(refused)
+}
+
+fn refuse_unless(
+    is_allowed: bool,
+    key: &'static str,
+    value: impl ToString,
+    allowed: &str,
+) -> Result<(), HarmonicError> {
+    if is_allowed { Ok(()) } else { Err(HarmonicError::refused(key, value, allowed)) }
 }

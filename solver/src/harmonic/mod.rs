@@ -44,8 +44,8 @@ pub use joint::{
     undamped_flutter_speed,
 };
 pub use lining::{
-    Cycle, Forced, GroupPush, GrowthThreshold, HopfPoint, LeastStiffness, Lining, LiningState,
-    Rest, RestRoot, ShiftedCoincidence, Whirl, growth_threshold, least_lock_stiffness,
+    Cycle, Forced, GroupPush, HopfPoint, LeastStiffness, Lining, LiningState, Rest, RestRoot,
+    growth_threshold, least_lock_stiffness,
 };
 pub use locked::{
     LockLoads, Locked, LockedPoint, Sweep, lock_fold_speed, lock_loads, locked_motion,

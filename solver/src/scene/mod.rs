@@ -127,8 +127,7 @@ impl Default for View {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Scene {
     /// Version of the file format; 1.
-    #[serde(serialize_with = "schema_as_number")]
-    pub schema: Schema,
+    pub schema: u32,
     /// One line that names the scene.
     pub title: String,
     /// What to look for.
@@ -151,21 +150,13 @@ pub struct Scene {
     pub view: View,
 }
 
-/// The version of the scene format; there is one.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Schema;
-
-fn schema_as_number<S: serde::Serializer>(_: &Schema, out: S) -> Result<S::Ok, S::Error> {
-    out.serialize_u32(1)
-}
-
 impl Scene {
     /// What an empty file describes: the values of keys that a file leaves out. It
     /// has the paper's machine, and no words.
     #[must_use]
     pub fn base() -> Self {
         Self {
-            schema: Schema,
+            schema: 1,
             title: String::new(),
             note: String::new(),
             bladed_disk: BladedDisk::default(),

@@ -5,6 +5,7 @@ use crate::keys::{BLADES, DIAMETERS, LENGTH, PULSE, RAMP, SPEED, ZETA};
 use std::f64::consts::FRAC_PI_2;
 
 use crate::event_cases::scene as event_scene;
+use crate::event_modal::on_side_0;
 use rubscope_solver::motion::{ActiveSet, ExactEvents, Failure, Solver, Verdict};
 use rubscope_solver::scene::{ModelSize, Scene};
 
@@ -69,15 +70,13 @@ fn at_the_critical_speed_a_slide_keeps_its_pace() {
     let mut scene = Scene::base();
     scene.set("solver.model", "rigid").unwrap();
     scene.casing.damping_ratio = 0.0;
-    scene.operation.pulse_n = 0.0;
     let critical = scene.machine().critical_speed().unwrap();
     scene.operation.speed_rad_s = critical;
     let machine = scene.machine();
     let nu = machine.nu(critical);
-    scene.initial.u_c_m = -machine.clearance();
     // Rate of z in the turning frame: backward along side 0 is -i.
     let pace = 1e-3;
-    scene.initial.v_s_m_s = -nu * machine.clearance() - pace;
+    on_side_0(&mut scene, false, -pace);
     let mut motion = ExactEvents::new(&scene.checked().unwrap()).unwrap();
     assert_eq!(motion.contacts().active_set, ActiveSet::Side(0));
     let push = -motion.multipliers()[0].1 / machine.casing_mass;

@@ -11,13 +11,7 @@ use rubscope_solver::scene::{CheckedScene, Scene};
 const REBOUND: &str = "contact.restitution";
 
 pub fn scene(model: &str, changes: &[(&str, f64)]) -> CheckedScene {
-    let mut scene = Scene::base();
-    scene.set("solver.kind", "event").unwrap();
-    scene.set("solver.model", model).unwrap();
-    for (key, value) in changes {
-        scene.set(key, &value.to_string()).unwrap();
-    }
-    scene.checked().unwrap()
+    crate::event_cases::scene_of(model, changes).checked().unwrap()
 }
 
 /// The impulse of an impact \[N s\], from the jump of the casing's rate.

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 
 use crate::close;
 use crate::event_cases::scene_of;
+use crate::tips_support::carried;
 use rubscope_solver::model::Machine;
 use rubscope_solver::motion::{ActiveSet, ExactEvents, Solver, State, Verdict};
 use rubscope_solver::scene::Scene;
@@ -183,15 +184,11 @@ fn case_a_with_blades_agrees_with_runge_kutta_to_1e_9() {
 }
 
 /// A start on side 0, or in its corner with the next, carried by the rotor.
-fn on_side_0(scene: &mut Scene, corner: bool, pace: f64) {
+pub fn on_side_0(scene: &mut Scene, corner: bool, pace: f64) {
     let machine = scene.machine();
-    let nu = machine.nu(scene.operation.speed_rad_s);
-    let (x, y) = (-machine.clearance(), if corner { -machine.polygon.half_side() } else { 0.0 });
-    scene.operation.pulse_n = 0.0;
-    scene.initial.u_c_m = x;
-    scene.initial.u_s_m = y;
-    scene.initial.v_c_m_s = -nu * y;
-    scene.initial.v_s_m_s = nu * x + pace;
+    let y = if corner { -machine.polygon.half_side() } else { 0.0 };
+    carried(scene, [-machine.clearance(), y]);
+    scene.initial.v_s_m_s += pace;
 }
 
 #[test]

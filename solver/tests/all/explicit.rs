@@ -5,7 +5,7 @@ use rubscope_solver::motion::{Motion, RunReport, Sample, Sampling, Script, Verdi
 use rubscope_solver::scene::{Scene, Shortcuts};
 
 /// Case A of the paper's machine: three diameters, 500 rad/s, 20 kN.
-fn scene(changes: &[(&str, &str)]) -> Scene {
+pub fn scene(changes: &[(&str, &str)]) -> Scene {
     Scene::base().with(changes).unwrap().into_scene()
 }
 

@@ -1,17 +1,12 @@
 //! Where a lock holds: both blades push, and no motion that keeps it grows. One answer for every
 //! question about it.
 
+use crate::explicit::scene;
 use rubscope_solver::harmonic::{
     Form, flutters, lock_growth, lock_window, lock_windows, locked_motion,
 };
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::margins::{LimitName, Margins};
-
-fn scene(changes: &[(&str, &str)]) -> Scene {
-    let mut scene = Scene::base();
-    changes.iter().for_each(|(path, value)| scene.set(path, value).unwrap());
-    scene
-}
 
 /// A lock that grows at every speed.
 const GROWS: [(&str, &str); 6] = [

@@ -16,6 +16,13 @@ fn each(changes: &[(&str, &str)], mut run: impl FnMut(Scene)) {
     }
 }
 
+/// A motion of a scene to an instant.
+fn moved(scene: &Scene, until: f64) -> Pair {
+    let mut pair = Pair::new(scene);
+    assert!(pair.advance(until).is_ok());
+    pair
+}
+
 /// Continues until `end`, with a check every 0.3 ms and at the end.
 fn go_on(pair: &mut Pair, what: &str, end: f64) {
     let begin = pair.plain.time();
@@ -46,8 +53,7 @@ fn fired_again_in_flight() {
     // On a step, between steps, and when no contact is possible any more.
     for at in [0.0005, 0.001_037_5, 0.012] {
         each(&[], |scene| {
-            let mut pair = Pair::new(&scene);
-            assert!(pair.advance(at).is_ok());
+            let mut pair = moved(&scene, at);
             pair.fire();
             let before = pair.plain.impacts.len();
             go_on(&mut pair, "fired in flight", at + 0.002);
@@ -94,8 +100,7 @@ fn fired_again_while_locked() {
             each(&[(SPEED, speed)], |scene| {
                 let mut scene = in_corner(scene);
                 // The pulse waits for its first fire.
-                let mut pair = Pair::new(&scene);
-                assert!(pair.advance(0.001).is_ok());
+                let mut pair = moved(&scene, 0.001);
                 assert_eq!(scene.set(PULSE, force), Ok(()));
                 pair.adopt(&scene);
                 assert!(pair.advance(0.0015).is_ok());
@@ -113,15 +118,13 @@ fn fired_again_while_locked() {
 fn fired_again_before_the_first_step_and_during_the_pulse() {
     for at in [0.0, 1e-5, 2.5e-5, 4.95e-5] {
         each(&[], |scene| {
-            let mut pair = Pair::new(&scene);
-            assert!(pair.advance(at).is_ok());
+            let mut pair = moved(&scene, at);
             pair.fire();
             go_on(&mut pair, &format!("fired at {at}"), 0.002);
             // Another pulse, too.
             let mut stronger = scene.clone();
             stronger.operation.pulse_n *= 2.0;
-            let mut pair = Pair::new(&scene);
-            assert!(pair.advance(at).is_ok());
+            let mut pair = moved(&scene, at);
             pair.adopt(&stronger);
             pair.fire();
             go_on(&mut pair, &format!("another fired at {at}"), 0.001);
@@ -136,8 +139,7 @@ fn speed_changes_in_flight() {
     {
         for at in [0.0005, 0.001_000_4] {
             each(&[(PULSE, "5e4")], |scene| {
-                let mut pair = Pair::new(&scene);
-                assert!(pair.advance(at).is_ok());
+                let mut pair = moved(&scene, at);
                 pair.set_speed(speed, ramp);
                 go_on(&mut pair, "speed in flight", 0.004);
             });
@@ -171,8 +173,7 @@ fn speed_changes_while_locked() {
         (500.0, 1e4),
     ] {
         each(&[], |scene| {
-            let mut pair = Pair::new(&in_corner(scene));
-            assert!(pair.advance(0.001).is_ok());
+            let mut pair = moved(&in_corner(scene), 0.001);
             pair.set_speed(speed, ramp);
             go_on(&mut pair, "speed while locked", 0.0025);
             // After the end of a ramp the lock is held again.
@@ -188,8 +189,7 @@ fn multipliers_right_after_a_change_of_a_held_lock() {
     let machine = [("bladed_disk.blades", "12"), (MODEL, "modal"), (LAW, "bilateral")];
     let changes: [fn(&mut Pair); 2] = [Pair::fire, |pair| pair.set_speed(500.0, 0.0)];
     for change in changes {
-        let mut pair = Pair::new(&in_corner(scene(&machine)));
-        assert!(pair.advance(0.004).is_ok());
+        let mut pair = moved(&in_corner(scene(&machine)), 0.004);
         change(&mut pair);
         pair.check_multipliers_now("held");
     }
@@ -249,8 +249,7 @@ fn parameters_turned_in_flight_in_contact_and_locked() {
         each(&[(PULSE, "3e4")], |scene| {
             // Only the two modes can be driven.
             let Some(other) = turned(&scene, turn) else { return };
-            let mut flying = Pair::new(&scene);
-            assert!(flying.advance(0.0006).is_ok());
+            let mut flying = moved(&scene, 0.0006);
             flying.adopt(&other);
             go_on(&mut flying, &format!("{turn:?} in flight"), 0.0011);
             flying.fire();
@@ -260,8 +259,7 @@ fn parameters_turned_in_flight_in_contact_and_locked() {
             active_set.adopt(&other);
             let end = active_set.plain.time() + 0.0005;
             go_on(&mut active_set, &format!("{turn:?} in contact"), end);
-            let mut locked = Pair::new(&in_corner(scene));
-            assert!(locked.advance(0.0006).is_ok());
+            let mut locked = moved(&in_corner(scene), 0.0006);
             let other = turned(locked.scene(), turn);
             locked.adopt(&other.unwrap());
             go_on(&mut locked, &format!("{turn:?} while locked"), 0.0016);
@@ -274,8 +272,7 @@ fn parameters_turned_during_the_pulse() {
     for turn in TURNS {
         each(&[], |scene| {
             let Some(other) = turned(&scene, turn) else { return };
-            let mut pair = Pair::new(&scene);
-            assert!(pair.advance(3e-5).is_ok());
+            let mut pair = moved(&scene, 3e-5);
             pair.adopt(&other);
             go_on(&mut pair, &format!("{turn:?} during the pulse"), 0.001);
         });

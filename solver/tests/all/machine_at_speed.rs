@@ -3,6 +3,7 @@
 //! view of the frequency domain against the machine at one speed that stays the same.
 
 use crate::keys::{KAPPA, LOSS, SPEED, STIFFENING};
+use crate::tips_support::scene;
 use rubscope_solver::harmonic::{
     Campbell, Form, Joint, Lining, coincidence, equilibria, flutter_speed, flutters, lock_loads,
     lock_roots, locked_motion, slip_over, undamped_flutter_speed, whirl_beginnings, whirl_onset,
@@ -13,10 +14,6 @@ use rubscope_solver::study::margins::{LimitName, Margins};
 
 const STIFFNESS: &str = "bladed_disk.stiffness_nm_per_rad";
 
-fn scene(changes: &[(&str, f64)]) -> Scene {
-    changed(Scene::base(), changes)
-}
-
 fn changed(mut scene: Scene, changes: &[(&str, f64)]) -> Scene {
     changes.iter().for_each(|(path, value)| scene.set(path, &format!("{value:e}")).unwrap());
     scene
@@ -26,7 +23,7 @@ fn machine(changes: &[(&str, f64)]) -> Machine {
     scene(changes).machine()
 }
 
-fn close(value: f64, expected: f64, part: f64) {
+pub fn close(value: f64, expected: f64, part: f64) {
     assert!((value - expected).abs() <= part * expected.abs(), "{value} is not {expected}");
 }
 

@@ -9,24 +9,15 @@ use rubscope_solver::motion::{ActiveSet, FailureReason, Motion, State};
 use rubscope_solver::scene::{CheckedScene, Scene};
 
 use crate::machine_at_speed::frozen;
-
-fn set(scene: &mut Scene, changes: &[(&str, &str)]) {
-    changes.iter().for_each(|(path, text)| scene.set(path, text).unwrap());
-}
-
-fn with(mut scene: Scene, changes: &[(&str, &str)]) -> CheckedScene {
-    set(&mut scene, changes);
-    scene.checked().unwrap()
-}
+use crate::tips_support::in_corner;
 
 fn base(changes: &[(&str, &str)]) -> CheckedScene {
-    let mut scene = Scene::base();
-    set(&mut scene, &[("solver.contact", "unilateral"), (STEP, "1e-6")]);
-    with(scene, changes)
+    let usual = [("solver.contact", "unilateral"), (STEP, "1e-6")];
+    Scene::base().with(&[&usual, changes].concat()).unwrap()
 }
 
 fn preloaded(changes: &[(&str, &str)]) -> CheckedScene {
-    with(Scene::builtin("coincidence").unwrap(), changes)
+    Scene::builtin("coincidence").unwrap().with(changes).unwrap()
 }
 
 fn state_at(scene: &CheckedScene, t: f64) -> State {
@@ -56,8 +47,8 @@ fn at_a_constant_speed_it_is_the_machine_of_that_speed() {
         (vec![("solver.model", "full"), ("bladed_disk.damping_ratio", "0")], 1e-9),
         (vec![(KAPPA, "0.1"), ("solver.model", "full"), ("bladed_disk.damping_ratio", "0")], 1e-11),
     ] {
-        let mut scene = base(&changes).into_scene();
-        set(&mut scene, &[(STIFFENING, "1.5"), (LOSS, "1e-10")]);
+        let changing = [(STIFFENING, "1.5"), (LOSS, "1e-10")];
+        let scene = base(&[&changes[..], &changing].concat()).into_scene();
         let still = frozen(&scene, scene.operation.speed_rad_s);
         let [found, expected] =
             [scene, still].map(|scene| state_at(&scene.checked().unwrap(), 2e-3));
@@ -343,19 +334,11 @@ fn a_clearance_that_shrinks_under_a_lock_takes_energy_and_leaves_no_tip_in_the_c
             ("casing.clearance_loss_m_s2", "1e-10"),
             ("contact.restitution", restitution),
         ];
-        let mut scene = Scene::builtin("undamped").unwrap().with(&corner).unwrap().into_scene();
-        let resting = scene.machine();
-        let machine = resting.at(450.0);
-        let (delta, nu) = (machine.polygon.delta, machine.nu(450.0));
-        let (c, s) = machine.polygon.direction(0);
-        let (d, reach) = (delta, -machine.clearance() * (1.0 - 1e-12) / delta.cos());
-        let (x, y) = ((c * d.cos() - s * d.sin()) * reach, (s * d.cos() + c * d.sin()) * reach);
-        (scene.initial.u_c_m, scene.initial.u_s_m) = (x, y);
-        (scene.initial.v_c_m_s, scene.initial.v_s_m_s) = (-nu * y, nu * x);
-        let mut motion = Motion::new(&scene.checked().unwrap());
+        let scene = Scene::builtin("undamped").unwrap().with(&corner).unwrap().into_scene();
+        let mut motion = Motion::new(&in_corner(scene).checked().unwrap());
         motion.advance(1e-3).unwrap();
         assert!(matches!(motion.contacts().active_set, ActiveSet::Corner(..)), "{restitution}");
-        let stored = 0.5 * machine.casing_stiffness * (x * x + y * y);
+        let stored = 0.5 * motion.machine().casing_stiffness * motion.state().amplitude().powi(2);
         motion.set_speed(480.0, 0.0);
         motion.advance(1.1e-3).unwrap();
         let gaps = motion.blade_gaps();

@@ -6,7 +6,7 @@
 //!
 //! | law | explicit | on a lining | events, exact | events, linear | harmonic balance |
 //! |---|---|---|---|---|---|
-//! | numbers of other codes | `cases` `explicit_tips` | `explicit_lining` | `event_cases` | `event_linear` | `hbm_locked` `hbm_slip` `hbm_joined` `hbm_lining` |
+//! | numbers of other codes | `cases` `explicit_tips` | `explicit_lining` | `theory` | `event_linear` | `theory` `hbm_joined` `hbm_lining` |
 //! | closed forms | `explicit` `explicit_tip_locks` | `lock_ends` | `event_cases` | `event_linear` | `theory` `hbm_laws` `hbm_whirl` |
 //! | plain stepping, or integration | `plain_stepper` `rebound` | `explicit_lining` | `event_modal` | `rebound` | `hbm_time` `hbm_excitation` |
 //! | its order | `live_event` `rebound` | `explicit_lining` | `live_event` | `explicit_tips` | |

@@ -32,16 +32,21 @@ pub fn pressed(changes: &[(&str, f64)]) -> Scene {
 /// A start in the corner of blades 6 and 21, turning with the rotor, where blades soon
 /// come to rest.
 pub fn in_corner(mut scene: Scene) -> Scene {
-    let machine = scene.machine();
+    let resting = scene.machine();
+    let machine = resting.at(scene.operation.speed_rad_s);
     let angle = machine.polygon.phase(15) + machine.polygon.delta;
     let amplitude = machine.clearance() / machine.polygon.delta.cos() * (1.0 - 1e-12);
-    let (x, y) = (-amplitude * angle.cos(), -amplitude * angle.sin());
-    let nu = machine.nu(scene.operation.speed_rad_s);
+    carried(&mut scene, [angle.cos(), angle.sin()].map(|part| -amplitude * part));
+    scene.bladed_disk.damping_ratio = 1.0;
+    scene
+}
+
+/// A start at a place of the casing that the rotor carries, without a pulse.
+pub fn carried(scene: &mut Scene, [x, y]: [f64; 2]) {
+    let nu = scene.machine().nu(scene.operation.speed_rad_s);
     (scene.initial.u_c_m, scene.initial.u_s_m) = (x, y);
     (scene.initial.v_c_m_s, scene.initial.v_s_m_s) = (-nu * y, nu * x);
     scene.operation.pulse_n = 0.0;
-    scene.bladed_disk.damping_ratio = 1.0;
-    scene
 }
 
 /// The state at the end.

@@ -10,7 +10,7 @@ use rubscope_solver::study::margins::{ChangedVerdict, Margins, Robustness, param
 const DIGITS: usize = 4;
 
 /// What the mark of a change says.
-const MARKED: &str = " A ? is in doubt (a tiny change, another step): run --plain.";
+const MARKED: &str = " A ? marks a doubt (a tiny change, another step): run --plain.";
 
 /// Returns what was asked of the runs, under each law that was asked.
 pub fn asked(margins: &Margins) -> impl Iterator<Item = &Robustness> {

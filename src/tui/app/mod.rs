@@ -191,11 +191,15 @@ impl App {
 /// Bins recorded per page: more than the sub-pixels of a wide screen.
 const BINS_PER_PAGE: f64 = 1024.0;
 
-/// Returns the paper's scene on a screen of 120 x 40, for the tests of the parts.
 #[cfg(test)]
-pub fn on_screen() -> App {
-    let scene = rubscope_solver::scene::Scene::builtin("paper-nd3").unwrap().checked().unwrap();
-    let mut app = App::new(scene, Theme::Mono, Marker::Braille);
-    app.layout.size = (120, 40);
-    app
+pub mod tests {
+    use super::*;
+
+    /// Returns the paper's scene on a screen of 120 x 40, for the tests of the parts.
+    pub fn on_screen() -> App {
+        let scene = Scene::builtin("paper-nd3").unwrap().checked().unwrap();
+        let mut app = App::new(scene, Theme::Mono, Marker::Braille);
+        app.layout.size = (120, 40);
+        app
+    }
 }

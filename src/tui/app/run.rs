@@ -371,7 +371,7 @@ mod tests {
 
     #[test]
     fn a_run_without_a_verdict_is_not_pinned() {
-        let mut app = crate::tui::app::on_screen();
+        let mut app = crate::tui::app::tests::on_screen();
         app.pin();
         assert_eq!(app.status.as_deref(), Some("not pinned: the run has no verdict yet"));
         assert!(app.run.baseline.is_none());

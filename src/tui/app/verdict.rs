@@ -307,7 +307,7 @@ impl App {
     }
 
     /// Returns the coincidence that is dangerous here \[rad/s\]: of the sum of the frequencies, or
-    /// of their difference where the tips dig in.
+    /// of their difference where friction turns the blades outward.
     pub fn coincidence(&self) -> Option<f64> {
         self.machine.coincidence_felt_at(self.speed()).map(f64::abs)
     }

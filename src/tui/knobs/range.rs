@@ -254,9 +254,10 @@ pub mod bars {
     }
 
     pub fn slope(case: &Case) -> KnobRange {
-        // Between 0 and -mu the blades dig in.
-        let dig = Some(-case.scene.contact.friction).filter(|dig| *dig < 0.0);
-        KnobRange::linear(-1.0, 1.0).marked(&[("where blades dig in", dig), ("zero", Some(0.0))])
+        // Between -mu and 0 friction turns leading blades outward.
+        let from = Some(-case.scene.contact.friction).filter(|from| *from < 0.0);
+        let names = [("where blades turn outward", from), ("zero", Some(0.0))];
+        KnobRange::linear(-1.0, 1.0).marked(&names)
     }
 
     pub fn tangential(case: &Case) -> KnobRange {

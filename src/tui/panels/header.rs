@@ -105,25 +105,11 @@ fn title(app: &App, buffer: &mut Buffer, area: Rect, used: u16) {
 
 /// A part of the second line: its forms from long to short, each with its rank. While the
 /// line is too long, the form of the highest rank is replaced by the next one of its part.
-struct Part {
-    forms: Vec<(u8, Parts)>,
-}
+type Part = Vec<(u8, Parts)>;
 
-impl Part {
-    fn new(forms: Vec<(u8, Parts)>) -> Self {
-        Self { forms }
-    }
-
-    /// Creates a part of one form and one style.
-    fn plain(rank: u8, text: String, style: Style) -> Self {
-        Self::new(vec![(rank, vec![(text, style)])])
-    }
-
-    fn width(&self, look: &Appearance) -> usize {
-        self.forms.first().map_or(0, |(_, parts)| {
-            parts.iter().map(|(text, _)| columns(&look.spell(text))).sum::<usize>() + GAP.len()
-        })
-    }
+/// Creates a part of one form and one style.
+fn plain(rank: u8, text: String, style: Style) -> Part {
+    vec![(rank, vec![(text, style)])]
 }
 
 /// Between two parts.
@@ -141,17 +127,17 @@ fn second(app: &App, buffer: &mut Buffer, area: Rect) {
     parts.extend(limits(app));
     parts.extend(cost(app));
     let width = usize::from(area.width) + GAP.len();
-    while parts.iter().map(|part| part.width(look)).sum::<usize>() > width {
-        let rank = |part: &Part| part.forms.first().map_or(0, |(rank, _)| *rank);
-        let left = parts.iter_mut().filter(|part| !part.forms.is_empty());
-        let Some(longest) = left.max_by_key(|part| rank(part)) else { break };
-        longest.forms.remove(0);
+    let width_of = |(_, parts): &(u8, Parts)| {
+        parts.iter().map(|(text, _)| columns(&look.spell(text))).sum::<usize>() + GAP.len()
+    };
+    while parts.iter().filter_map(|part| part.first()).map(width_of).sum::<usize>() > width {
+        let left = parts.iter_mut().filter(|part| !part.is_empty());
+        let longest = left.max_by_key(|part| part.first().map(|(rank, _)| *rank));
+        let Some(longest) = longest else { break };
+        longest.remove(0);
     }
-    let shown = parts
-        .into_iter()
-        .filter_map(|mut part| (!part.forms.is_empty()).then(|| part.forms.swap_remove(0).1));
     let mut line = Parts::new();
-    for part in shown {
+    for (_, part) in parts.into_iter().filter_map(|part| part.into_iter().next()) {
         if !line.is_empty() {
             line.push((GAP.into(), look.style(Role::Quiet)));
         }
@@ -187,13 +173,13 @@ fn now(app: &App) -> Part {
         ]
     };
     let joined = |parts: &[&[(String, Style)]]| parts.concat();
-    Part::new(vec![
+    vec![
         (9, joined(&[&time(), &held(state.clone()), &rate(limit)])),
         (6, joined(&[&time(), &held(state.clone()), &rate("")])),
         (4, joined(&[&time(), &held(state)])),
         (2, joined(&[&time(), &held(one)])),
         (0, time()),
-    ])
+    ]
 }
 
 /// Returns the speed in parts of its limits: `500 rad/s = 1.71 Ω_c = 1.21 Ω_lock`.
@@ -227,9 +213,9 @@ fn speed(app: &App) -> Part {
     }
     // Each ratio is given up alone, the last one first.
     let ranks = [0, 3, 4, 4];
-    let mut forms: Vec<_> = ranks.into_iter().zip(most).collect();
+    let mut forms: Part = ranks.into_iter().zip(most).collect();
     forms.reverse();
-    Part::new(forms)
+    forms
 }
 
 /// Returns the limits of the speed that matter here, the most important first.
@@ -263,7 +249,7 @@ fn limits(app: &App) -> Option<Part> {
     {
         listed.push(format!("coincidence {}", short(coincidence)));
     }
-    (!listed.is_empty()).then(|| Part::plain(10, listed.join(", "), quiet))
+    (!listed.is_empty()).then(|| plain(10, listed.join(", "), quiet))
 }
 
 /// Returns the end of the run and its verdict: `AT 100 ms locked since 38.1 µs`.
@@ -275,7 +261,7 @@ fn end(app: &App) -> Part {
         (rank, vec![("AT ".into(), quiet), end, (format!(" {what}").trim_end().into(), quiet)])
     };
     let Some(run) = app.full_run().filter(|_| !app.is_asked()) else {
-        return Part::new(vec![at(1, "?".into()), at(0, String::new())]);
+        return vec![at(1, "?".into()), at(0, String::new())];
     };
     // Of a whirl or a slip, only the latest change of sides is known; where a tiny change
     // decides, no instant is known at all.
@@ -287,7 +273,7 @@ fn end(app: &App) -> Part {
         .map(|(hold, _)| format!("{}, locked until {}", run.verdict, readable(hold.ended, "s")));
     let longer = held.or(broken).map(|longer| at(5, longer));
     let shorter = [at(1, run.verdict.to_string()), at(0, String::new())];
-    Part::new(longer.into_iter().chain(shorter).collect())
+    longer.into_iter().chain(shorter).collect()
 }
 
 /// Returns a note where it is not known whether a tiny change changes the outcome, or how to
@@ -302,14 +288,14 @@ fn unsure(app: &App) -> Option<Part> {
     } else {
         return None;
     };
-    Some(Part::plain(rank, text, app.appearance.style(Role::Quiet)))
+    Some(plain(rank, text, app.appearance.style(Role::Quiet)))
 }
 
 /// Returns the pinned run, if it ended in another way.
 fn baseline(app: &App) -> Option<Part> {
     let word = &app.run.baseline.as_ref()?.word;
     let text = format!("pinned: {word}");
-    (*word != app.verdict_word()).then(|| Part::plain(3, text, app.appearance.style(Role::Text)))
+    (*word != app.verdict_word()).then(|| plain(3, text, app.appearance.style(Role::Text)))
 }
 
 /// Returns what keys do otherwise than usual: pages of time, and knobs that act at once.
@@ -321,14 +307,14 @@ fn modes(app: &App) -> Vec<Part> {
     let pages = (now < from || now > to).then(|| format!("{pages} {word}"));
     let live = app.knobs.live.then(|| "LIVE".to_string());
     let missing = app.scene.modes_note().map(|_| "own mode: none known of n_d".to_string());
-    pages.into_iter().chain(live).chain(missing).map(|text| Part::plain(1, text, focus)).collect()
+    pages.into_iter().chain(live).chain(missing).map(|text| plain(1, text, focus)).collect()
 }
 
 /// Returns the next change of contact.
 fn next(app: &App) -> Option<Part> {
     let next = app.next_change().filter(|_| !app.is_asked())?;
     let (what, after) = (app.happening(next.what), readable(next.t_s - app.now(), "s"));
-    Some(Part::plain(8, format!("next: {what} in {after}"), app.appearance.style(Role::Quiet)))
+    Some(plain(8, format!("next: {what} in {after}"), app.appearance.style(Role::Quiet)))
 }
 
 /// Returns how fast the run was computed.
@@ -343,7 +329,7 @@ fn cost(app: &App) -> Option<Part> {
         parts.push(format!("{} % skipped", trimmed(&format!("{percent:.1}"))));
     }
     parts.push(format!("{} in {}", duration(app.scene.solver.end_s), duration(run)));
-    Some(Part::plain(11, parts.join(", "), app.appearance.style(Role::Quiet)))
+    Some(plain(11, parts.join(", "), app.appearance.style(Role::Quiet)))
 }
 
 /// Returns two or three digits are enough for a duration.

@@ -94,12 +94,6 @@ impl App {
         }
     }
 
-    /// Gives the user's own state back, as it was before a lesson.
-    pub(super) fn give_back(&mut self, own: Past) {
-        self.knobs.remember(self.past());
-        self.come_back(own);
-    }
-
     /// Makes a state the present one. If only knobs were turned since, their
     /// turning may act on the running motion; another scene starts from t = 0.
     pub(super) fn come_back(&mut self, past: Past) {

@@ -57,7 +57,9 @@ impl App {
     pub(super) fn leave_lesson(&mut self) {
         if let Some(own) = self.lessons.progress.as_ref().map(|progress| Arc::clone(&progress.own))
         {
-            self.give_back(Past::clone(&own));
+            // As it was before the lesson.
+            self.knobs.remember(self.past());
+            self.come_back(Past::clone(&own));
         }
     }
 
@@ -182,7 +184,7 @@ impl App {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tui::app::on_screen;
+    use crate::tui::app::tests::on_screen;
     use crate::tui::bindings::Action;
     use crate::tui::lessons::Condition;
 

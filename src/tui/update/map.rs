@@ -132,7 +132,7 @@ impl App {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tui::app::on_screen;
+    use crate::tui::app::tests::on_screen;
     use rubscope_solver::scene::ContactLaw;
     use rubscope_solver::scene::keys::{CLEARANCE, PULSE, SPEED};
 

@@ -185,7 +185,7 @@ fn part(bar: Rect, x: u16) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tui::app::on_screen;
+    use crate::tui::app::tests::on_screen;
 
     fn event(kind: MouseEventKind, (column, row): (u16, u16)) -> MouseEvent {
         MouseEvent { kind, column, row, modifiers: KeyModifiers::NONE }

@@ -141,7 +141,8 @@ impl App {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tui::app::{PaletteState, on_screen};
+    use crate::tui::app::PaletteState;
+    use crate::tui::app::tests::on_screen;
 
     #[test]
     fn an_instant_that_is_read_stays_from_view_to_view() {

@@ -6,7 +6,6 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::tui::engine::{Answer, FORECAST_LIMIT, Order, Pace, Results, Sensitive};
-use crate::tui::trace::Mark;
 use crate::tui::worker::background::{Background, on_spare_cores};
 use crate::tui::worker::full_run::{FullRunJob, SLICE};
 use crate::tui::worker::studies::Studies;
@@ -16,11 +15,13 @@ use rubscope_solver::scene::{CheckedScene, ContactLaw, Scene, SolverKind};
 /// The computations for one motion.
 #[derive(Debug)]
 pub struct Forecasts {
-    full_run: FullRunJob,
+    /// The run to its end.
+    pub full_run: FullRunJob,
     reference: Option<FullRunJob>,
     sensitive: Option<Sensitive>,
     sensitivity: Option<Background<Certainty>>,
-    studies: Studies,
+    /// The studies.
+    pub studies: Studies,
     answers: Answers,
 }
 
@@ -35,11 +36,6 @@ impl Forecasts {
             studies,
             answers,
         }
-    }
-
-    /// Returns the studies.
-    pub fn studies(&mut self) -> &mut Studies {
-        &mut self.studies
     }
 
     /// Stops the studies that are not wanted any more.
@@ -67,31 +63,6 @@ impl Forecasts {
     pub fn again(&mut self, motion: &Motion, length: f64) {
         self.full_run = FullRunJob::new(motion.clone(), length);
         self.reference = None;
-    }
-
-    /// Returns the end of the run \[s\].
-    pub fn end(&self) -> f64 {
-        self.full_run.end()
-    }
-
-    /// Returns the motion of the run by `t`, computed on the way; none before its start.
-    pub fn before(&self, t: f64) -> Option<Motion> {
-        self.full_run.before(t)
-    }
-
-    /// Returns how far the run is \[s\], and whether it goes no farther.
-    pub fn reached(&self) -> (f64, bool) {
-        (self.full_run.t_s(), self.full_run.is_done())
-    }
-
-    /// Returns the wall time spent on the run, until it is done.
-    pub fn wall(&self) -> Option<Duration> {
-        (!self.full_run.is_done()).then(|| self.full_run.wall())
-    }
-
-    /// Returns the changes of contact ahead, as far as they are known.
-    pub fn marks(&self) -> &[Mark] {
-        self.full_run.marks()
     }
 
     /// Returns whether there is more to compute.
@@ -142,7 +113,7 @@ impl Forecasts {
             full_run: Some(self.full_run.state()),
             verdict: self.full_run.verdict(),
             answer: self.answers.latest.clone(),
-            end_s: self.end(),
+            end_s: self.full_run.end(),
             sensitive: self.sensitive.unwrap_or_default(),
             reference: self.reference.as_ref().and_then(FullRunJob::result).cloned(),
             comparison: comparison.and_then(FullRunJob::result).cloned(),
@@ -272,7 +243,7 @@ mod tests {
         let (quick, _) = run(400.0);
         forecasts.changed(&slow, &Motion::new(&quick), 1e-6);
         assert!(forecasts.answers.older.is_some());
-        let app = crate::tui::app::on_screen();
+        let app = crate::tui::app::tests::on_screen();
         let order = Order { scene: quick.clone(), ..app.order() };
         while forecasts.full_run.verdict().is_none() {
             forecasts.compute(&order, None);
@@ -287,7 +258,7 @@ mod tests {
     fn the_verdict_of_a_run_does_not_wait_for_the_reference() {
         let scene = Scene::builtin("rub").unwrap().checked().unwrap();
         let mut forecasts = Forecasts::of(&Motion::new(&scene), &scene, Default::default());
-        let order = Order { scene, ..crate::tui::app::on_screen().order() };
+        let order = Order { scene, ..crate::tui::app::tests::on_screen().order() };
         let spent = |forecasts: &Forecasts| forecasts.reference.as_ref().unwrap().wall();
         while forecasts.full_run.verdict().is_none() && forecasts.full_run.wall() < ALONE {
             forecasts.compute(&order, None);

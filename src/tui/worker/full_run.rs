@@ -63,13 +63,6 @@ impl FullRunJob {
         }
     }
 
-    /// Creates the same run in slices of this length, however fast the machine is.
-    #[cfg(test)]
-    pub fn in_slices_of(mut self, slice: Duration) -> Self {
-        self.slice = slice;
-        self
-    }
-
     /// Computes one slice.
     pub fn compute(&mut self) {
         if self.result.is_some() {
@@ -224,6 +217,14 @@ fn point(motion: &Motion) -> [f64; 4] {
 mod tests {
     use super::*;
     use rubscope_solver::scene::{Scene, SolverKind};
+
+    impl FullRunJob {
+        /// Creates the same run in slices of this length, however fast the machine is.
+        pub(in crate::tui::worker) fn in_slices_of(mut self, slice: Duration) -> Self {
+            self.slice = slice;
+            self
+        }
+    }
 
     #[test]
     fn the_steps_of_a_run_are_those_since_its_start() {

@@ -98,7 +98,7 @@ impl Playback {
 
     /// Bounds the number of cells of a map, for tests.
     pub fn bound_maps(&mut self, cells: usize) {
-        self.forecasts.studies().most_cells = Some(cells);
+        self.forecasts.studies.most_cells = Some(cells);
     }
 
     /// Takes a newer order and does what its counters ask for.
@@ -180,7 +180,7 @@ impl Playback {
     fn is_at_end(&self) -> bool {
         let step = self.motion.steps().map_or(0.0, |_| self.order.scene.solver.step_s);
         // The explicit solver ends at its last step by then.
-        self.motion.t_s() + step > self.forecasts.end() * (1.0 - f64::EPSILON)
+        self.motion.t_s() + step > self.forecasts.full_run.end() * (1.0 - f64::EPSILON)
     }
 
     /// Plays the same scene under the other contact law too, if it is wanted.
@@ -215,7 +215,7 @@ impl Playback {
         let due = wall.min(LONGEST_TICK).as_secs_f64();
         let (now, rate) = (self.motion.t_s(), self.order.rate);
         let rate = match self.order.slow_at_events {
-            true => rate_at(now, rate, self.forecasts.marks()),
+            true => rate_at(now, rate, self.forecasts.full_run.marks()),
             false => rate,
         };
         let turns = self.order.shows(ViewId::Frame) || self.order.shows(ViewId::Gaps);
@@ -239,7 +239,7 @@ impl Playback {
         let go_on = || began.elapsed() < limit;
         let sample = self.sample_length();
         self.limit = Limit::None;
-        let (end, before) = (self.forecasts.end(), self.motion.t_s());
+        let (end, before) = (self.forecasts.full_run.end(), self.motion.t_s());
         loop {
             let now = self.motion.t_s();
             let next = if now + sample > end { end } else { now + sample };

@@ -67,7 +67,7 @@ fn the_motion_waits_at_the_end_of_its_forecast_and_goes_on_when_asked() {
         assert!((moment.state.t_s - 5e-3).abs() < 2.1e-7 && moment.ends == 1, "{name}");
         order.extensions = 1;
         playback.apply(&order);
-        assert!((playback.forecasts.end() - 1e-2).abs() < 3e-7);
+        assert!((playback.forecasts.full_run.end() - 1e-2).abs() < 3e-7);
         playback.play(1e-3);
         assert!(playback.motion.t_s() > 5.9e-3);
     }
@@ -219,5 +219,5 @@ fn pages_take_turns_with_the_run_ahead_and_wait_for_an_arrival() {
     while !playback.pages_are_done() {
         playback.compute();
     }
-    assert!(!playback.forecasts.wall().is_some_and(|wall| wall.is_zero()));
+    assert!(!playback.forecasts.full_run.wall().is_zero());
 }

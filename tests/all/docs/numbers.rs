@@ -1,17 +1,14 @@
 //! The numbers of docs/accuracy.md that no other test checks, those outside its
 //! console blocks, and of the README.
 
-use rubscope_solver::motion::{RunReport, Verdict, simulate};
+use rubscope_solver::motion::Verdict;
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::Cell;
 
 use super::read;
 use crate::cli_support::{json, text};
 use crate::close;
-
-fn run(name: &str, changes: &[(&str, &str)]) -> RunReport {
-    simulate(&Scene::builtin(name).unwrap().with(changes).unwrap())
-}
+use crate::scene_notes::run;
 
 /// The number at the start of a cell.
 fn number(cell: &str) -> f64 {
@@ -245,15 +242,6 @@ fn every_verdict_has_its_word_and_its_signs_in_the_tables_and_legends() {
     });
     let told = format!("A letter ({}) marks", letters.map(String::from).join(" "));
     assert!(printed.contains(&told), "{printed}");
-}
-
-#[test]
-fn grazing_pulses_are_sensitive_by_events() {
-    for pulse in ["1e5", "2e5", "3e5", "4e5"] {
-        let changes = [("operation.pulse_n", pulse), ("solver.contact", "unilateral")];
-        let event = [changes[0], changes[1], ("solver.kind", "event")];
-        assert!(run("paper-nd3", &event).outcome.sensitive == Some(true), "{pulse}");
-    }
 }
 
 #[test]

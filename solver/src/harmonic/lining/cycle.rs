@@ -41,20 +41,6 @@ pub struct Cycle {
     pub stable: bool,
 }
 
-/// What a wave on a lining comes to.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Whirl {
-    /// Every wave decays.
-    Decays,
-    /// A wave of constant amplitude, the smallest stable one.
-    Cycle(Cycle),
-    /// No wave is large enough to stop its growth.
-    Unbounded,
-    /// Rest grows and waves far out decay, but none of constant amplitude is stable, as
-    /// without damping.
-    Unsteady,
-}
-
 impl Lining<'_> {
     /// Returns every wave of constant amplitude at a speed \[rad/s\], by increasing amplitude.
     ///
@@ -108,21 +94,6 @@ impl Lining<'_> {
     pub fn is_bounded(&self, speed: f64) -> bool {
         let joint = Joint::at(&self.machine, speed);
         !Quartic::new(&joint, self.stiffness_far_out()).rest(speed).grows
-    }
-
-    /// Returns what a wave comes to at a speed \[rad/s\]: with preload one that grows from rest,
-    /// with a clearance one that was large enough to touch.
-    ///
-    /// # Errors
-    /// Stiffnesses that differ by too many powers of ten.
-    pub fn whirl(&self, speed: f64) -> Result<Whirl, HarmonicError> {
-        let stable = self.cycles(speed)?.into_iter().find(|cycle| cycle.stable);
-        Ok(match stable {
-            Some(cycle) => Whirl::Cycle(cycle),
-            None if !self.is_bounded(speed) => Whirl::Unbounded,
-            None if self.rest(speed).grows => Whirl::Unsteady,
-            None => Whirl::Decays,
-        })
     }
 }
 

@@ -14,11 +14,11 @@ mod law;
 mod rest;
 mod states;
 
-pub use cycle::{Cycle, Whirl};
+pub use cycle::Cycle;
 pub use forced::Forced;
 pub use law::Lining;
-pub use rest::{GrowthThreshold, HopfPoint, ShiftedCoincidence, growth_threshold};
+pub use rest::{HopfPoint, LeastStiffness, growth_threshold};
 pub use rest::{Rest, RestRoot};
+pub use states::least_lock_stiffness;
 pub(super) use states::lock_loads;
 pub use states::{GroupPush, LiningState};
-pub use states::{LeastStiffness, least_lock_stiffness};

@@ -120,16 +120,6 @@ impl Quartic {
         (value, slope, joined_c.norm() * joined_a.norm() + product.norm())
     }
 
-    /// Returns the residual of a root \[rad/s\] over the size of its terms, for tests.
-    #[cfg(test)]
-    pub fn residual(&self, s: Complex<f64>) -> f64 {
-        let t = s / self.scale;
-        let terms = |[square, rate]: [f64; 2], at: f64| at * at + rate * at + square;
-        let casing = terms(self.casing, (t + self.nu).norm()) + self.on_casing.norm();
-        let blades = terms(self.blades, t.norm()) + self.on_blades.abs();
-        self.at(t).0.norm() / (casing * blades)
-    }
-
     /// Returns the four roots \[rad/s\], by the iteration of Aberth and Ehrlich.
     pub fn roots(&self) -> [Complex<f64>; 4] {
         let casing = (Complex::from(self.casing[0]) + self.on_casing).sqrt();
@@ -202,40 +192,25 @@ pub struct HopfPoint {
     pub grows_above: bool,
 }
 
-/// The dangerous coincidence, with the frequencies that blades and casing have while
-/// all blades touch the lining.
+/// The least stiffness of a lining that holds a lock or makes rest grow, at the speed where it
+/// does first.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct ShiftedCoincidence {
-    /// `(omega_c' +- omega_bd')/n_d`, minus for a coupling product below zero \[rad/s\].
-    pub speed_rad_s: f64,
-    /// `omega_c' = sqrt((k_c + S0)/m_c)` \[rad/s\].
-    pub casing_rad_s: f64,
-    /// `omega_bd' = sqrt(omega_bd^2 + S0 c2/m_a)` \[rad/s\].
-    pub blades_rad_s: f64,
-}
-
-/// The least lining that makes rest grow, at the speed where it grows first.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct GrowthThreshold {
-    /// Stiffness `S0` of all blades together \[N/m\].
+pub struct LeastStiffness {
+    /// Stiffness, of one blade or of all together as the function says \[N/m\].
     pub stiffness_n_per_m: f64,
     /// Rotor speed \[rad/s\].
     pub speed_rad_s: f64,
 }
 
 /// Returns the coincidence of a machine whose blades together have a stiffness \[N/m\], in the
-/// sense of rotation of `sense`; `None` for blades that nothing comes back to.
-fn shifted(machine: &Machine, stiffness: f64, sense: f64) -> Option<ShiftedCoincidence> {
+/// sense of rotation of `sense` \[rad/s\]: `(omega_c' +- omega_bd')/n_d`, minus for a coupling
+/// product below zero; `None` for blades that nothing comes back to.
+fn shifted(machine: &Machine, stiffness: f64, sense: f64) -> Option<f64> {
     let product = machine.coupling_product_at(sense);
-    let [casing_rad_s, blades] = pressed(machine, stiffness, product)?;
-    let (differences, sum) = machine.meetings(casing_rad_s, blades);
+    let [casing, blades] = pressed(machine, stiffness, product)?;
+    let (differences, sum) = machine.meetings(casing, blades);
     let speed = if product < 0.0 { differences.first().copied() } else { sum }?;
-    let blades_rad_s = if machine.stiffening() == 0.0 {
-        blades
-    } else {
-        blades.hypot(machine.stiffening().sqrt() * speed)
-    };
-    Some(ShiftedCoincidence { speed_rad_s: speed.copysign(sense), casing_rad_s, blades_rad_s })
+    Some(speed.copysign(sense))
 }
 
 /// Returns the frequencies of casing and blades at rest that all press on this stiffness; `None`
@@ -265,9 +240,9 @@ const BESIDE_REST: f64 = 1e-9;
 
 impl Lining<'_> {
     /// Returns the coincidence at which rest grows fastest, for a rotor that turns in the sense
-    /// of `speed`; none with a clearance.
+    /// of `speed` \[rad/s\]; none with a clearance.
     #[must_use]
-    pub fn shifted_coincidence(&self, speed: f64) -> Option<ShiftedCoincidence> {
+    pub fn shifted_coincidence(&self, speed: f64) -> Option<f64> {
         let stiffness = self.at(speed).stiffness_at_rest();
         (stiffness > 0.0).then(|| shifted(&self.machine, stiffness, speed)).flatten()
     }
@@ -361,18 +336,18 @@ impl Lining<'_> {
 
 /// Returns the least stiffness of a lining under preload that makes rest grow at the peak near
 /// the coincidence, for a rotor that turns in the sense of `sense`; zero where blades or
-/// casing have no damping, none for a machine whose blades and casing are not coupled.
+/// casing have no damping, none for a machine whose blades and casing are not coupled. Its
+/// stiffness is `S0` of all blades together.
 #[must_use]
-pub fn growth_threshold(machine: &Machine, sense: f64) -> Option<GrowthThreshold> {
+pub fn growth_threshold(machine: &Machine, sense: f64) -> Option<LeastStiffness> {
     let product = machine.coupling_product_at(sense).abs();
-    let plain = shifted(machine, 0.0, sense)?;
+    let speed_rad_s = shifted(machine, 0.0, sense)?;
     let inertia = machine.casing_mass * machine.omega_c * machine.blade_modal_mass;
     let damping = machine.casing_damping_ratio * machine.omega_c * machine.blade_damping_ratio;
     // Of weak coupling, at the middle of the tongue.
     let guess = 2.0 * machine.omega_bd * (inertia * damping / product).sqrt();
     if guess == 0.0 {
-        let speed_rad_s = plain.speed_rad_s;
-        return Some(GrowthThreshold { stiffness_n_per_m: 0.0, speed_rad_s });
+        return Some(LeastStiffness { stiffness_n_per_m: 0.0, speed_rad_s });
     }
     let peak = |stiffness: f64| peak(machine, stiffness, sense);
     let growth = |stiffness: f64| peak(stiffness).map_or(-1.0, |(_, growth)| growth);
@@ -386,7 +361,7 @@ pub fn growth_threshold(machine: &Machine, sense: f64) -> Option<GrowthThreshold
         } else {
             let stiffness_n_per_m = between(ends, growth);
             let (speed_rad_s, _) = peak(stiffness_n_per_m)?;
-            return Some(GrowthThreshold { stiffness_n_per_m, speed_rad_s });
+            return Some(LeastStiffness { stiffness_n_per_m, speed_rad_s });
         }
     }
     None
@@ -394,7 +369,7 @@ pub fn growth_threshold(machine: &Machine, sense: f64) -> Option<GrowthThreshold
 
 /// Returns the speed of the fastest growth near a coincidence, and that growth \[1/s\].
 fn peak(machine: &Machine, stiffness: f64, sense: f64) -> Option<(f64, f64)> {
-    let middle = shifted(machine, stiffness, sense)?.speed_rad_s;
+    let middle = shifted(machine, stiffness, sense)?;
     let reach = PEAK_REACH * width(machine, stiffness, sense);
     let growth = |speed: f64| {
         Quartic::new(&Joint::at(machine, speed), stiffness).rest(speed).worst().growth_1_s
@@ -413,6 +388,17 @@ mod tests {
     use crate::model::ContactSurface;
     use crate::scene::Scene;
     use proptest::prelude::*;
+
+    impl Quartic {
+        /// Returns the residual of a root \[rad/s\] over the size of its terms.
+        fn residual(&self, s: Complex<f64>) -> f64 {
+            let t = s / self.scale;
+            let terms = |[square, rate]: [f64; 2], at: f64| at * at + rate * at + square;
+            let casing = terms(self.casing, (t + self.nu).norm()) + self.on_casing.norm();
+            let blades = terms(self.blades, t.norm()) + self.on_blades.abs();
+            self.at(t).0.norm() / (casing * blades)
+        }
+    }
 
     proptest! {
         #[test]

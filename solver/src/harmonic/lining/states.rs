@@ -21,6 +21,7 @@ use serde::Serialize;
 
 use super::Lining;
 use super::cycle::{Tangent, small_motions};
+use super::rest::LeastStiffness;
 use crate::harmonic::LockLoads;
 use crate::harmonic::{HarmonicError, Joint, error};
 use crate::model::{LiningLaw, Machine, Number};
@@ -344,15 +345,6 @@ pub(in crate::harmonic) fn lock_loads<T: Number>(
     })
 }
 
-/// The softest lining that holds a lock, and the speed where it does.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct LeastStiffness {
-    /// Stiffness `k_p` under one blade \[N/m\].
-    pub stiffness_n_per_m: f64,
-    /// Rotor speed \[rad/s\].
-    pub speed_rad_s: f64,
-}
-
 /// Returns the stiffness that a lining needs at a speed \[N/m\]; infinite where no lock exists.
 fn needed(machine: &Machine, speed: f64) -> f64 {
     let polygon = &machine.polygon;
@@ -372,7 +364,7 @@ fn speed_at(lock: f64, excess: f64) -> f64 {
 
 /// Returns the softest lining of this machine that holds a lock of a rotor that turns forward;
 /// zero at the critical speed where the casing has no damping. None without a lock of
-/// rigid contact.
+/// rigid contact. Its stiffness is that under one blade.
 #[must_use]
 pub fn least_lock_stiffness(machine: &Machine) -> Option<LeastStiffness> {
     let lock = machine.clone().with_lining(None).lock_speed()?;

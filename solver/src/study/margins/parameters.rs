@@ -127,7 +127,8 @@ pub fn acting(scene: &Scene) -> impl Iterator<Item = &'static Parameter> {
             parameter.path != if given.is_some() { stiffness } else { frequency }
         })
     };
-    let acts = move |parameter: &Parameter| lined || !parameter.is_of_lining();
+    // Rigid contact has no parameters of a lining.
+    let acts = move |one: &Parameter| lined || ![STIFFNESS, SMOOTHING].contains(&one.path);
     PARAMETERS.iter().filter(move |one| acts(one) && changes(one) && is_given(one))
 }
 
@@ -221,11 +222,6 @@ impl Parameter {
             Ok(Allowed::Real { max, .. }) => max,
             _ => MOST_HZ,
         }
-    }
-
-    /// Whether it is one of the lining, which rigid contact has not.
-    pub(super) fn is_of_lining(&self) -> bool {
-        [STIFFNESS, SMOOTHING].contains(&self.path)
     }
 
     /// Its value where what is walked over has this one.

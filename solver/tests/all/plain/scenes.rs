@@ -1,5 +1,6 @@
 //! Scenes for comparisons: changes to the default, and starts in a corner; random numbers.
 
+use crate::tips_support::carried;
 use rubscope_solver::scene::Scene;
 
 pub const LAWS: [&str; 2] = ["unilateral", "bilateral"];
@@ -23,12 +24,7 @@ pub fn random(seed: u64, k: u64) -> f64 {
 pub fn in_corner(mut scene: Scene) -> Scene {
     let machine = scene.machine();
     let angle = machine.polygon.delta;
-    let amplitude = machine.clearance() / machine.polygon.delta.cos();
-    let (x, y) = (-amplitude * angle.cos(), -amplitude * angle.sin());
-    let nu = machine.nu(scene.operation.speed_rad_s);
-    scene.operation.pulse_n = 0.0;
-    (scene.initial.u_c_m, scene.initial.u_s_m) = (x, y);
-    (scene.initial.v_c_m_s, scene.initial.v_s_m_s) = (-nu * y, nu * x);
-    assert!(scene.checked().is_ok(), "{:?}", scene.checked());
+    let amplitude = machine.clearance() / angle.cos();
+    carried(&mut scene, [angle.cos(), angle.sin()].map(|part| -amplitude * part));
     scene
 }

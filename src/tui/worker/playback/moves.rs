@@ -80,13 +80,14 @@ impl Playback {
     /// Goes on to where the motion is to be; false while the run ahead is not there yet.
     pub(super) fn arrive(&mut self) -> bool {
         let Some(wanted) = self.going else { return false };
-        let (reached, done) = self.forecasts.reached();
-        if reached < wanted && !done {
+        let run = &self.forecasts.full_run;
+        let reached = run.t_s();
+        if reached < wanted && !run.is_done() {
             return false;
         }
         // A run that was given up, or failed, goes no farther.
         let until = wanted.min(reached);
-        if let Some(ahead) = self.forecasts.before(until)
+        if let Some(ahead) = run.before(until)
             && ahead.t_s() > self.motion.t_s()
         {
             self.motion = ahead;
@@ -114,14 +115,14 @@ impl Playback {
 impl Playback {
     /// Returns the latest motion by `t` that is known: a copy of the run ahead, or of the past.
     fn before(&self, t: f64) -> Option<Motion> {
-        self.forecasts.before(t).or_else(|| self.copies.before(t, &self.motion))
+        self.forecasts.full_run.before(t).or_else(|| self.copies.before(t, &self.motion))
     }
 
     /// Begins the page on the screen, once its zoom or its part of the run is another.
     pub(super) fn want_page(&mut self) {
         let (order, step) = (&self.order, self.order.scene.solver.step_s);
         let mut wanted = std::mem::take(&mut self.page);
-        let end = self.forecasts.end();
+        let end = self.forecasts.full_run.end();
         wanted.want(order.page, order.bin_s, (step, end), || self.before(order.page.0));
         self.page = wanted;
         if let Some(theirs) = &mut self.comparison {
@@ -152,8 +153,8 @@ impl Playback {
         let mut pages = std::iter::once(&mut self.page).chain(theirs);
         let Some(page) = pages.find(|page| !page.is_done()) else { return false };
         // The page is another one after arriving. One of the whole run has a third of the time.
-        let first =
-            self.going.is_none() && self.forecasts.wall().is_none_or(|wall| 2 * page.wall() < wall);
+        let run = &self.forecasts.full_run;
+        let first = self.going.is_none() && (run.is_done() || 2 * page.wall() < run.wall());
         if first {
             page.compute();
         }

@@ -1,25 +1,19 @@
 //! The curves of the coincidence of one scene, in the background: on a lining each
 //! point is a search.
 
-use std::sync::Arc;
-use std::time::Duration;
-
-use super::{Given, Study};
+use super::{Given, Sent, Study};
 use crate::tui::views::coincidence::curves::CoincidenceCurves;
 use crate::tui::views::id::ViewId;
-use crate::tui::worker::background::Background;
 use rubscope_solver::scene::Scene;
 
-/// The curves that are being computed; none where the wave has no coincidence.
+/// The curves; none where the wave has no coincidence.
 #[derive(Debug)]
-pub struct CoincidenceStudy {
-    under_way: Background<Option<CoincidenceCurves>>,
-    found: Option<Arc<Option<CoincidenceCurves>>>,
-}
+pub struct CoincidenceStudy;
 
 impl Study for CoincidenceStudy {
     type Key = Scene;
     type Found = Option<CoincidenceCurves>;
+    type Job = Sent<Self::Found>;
     const VIEW: ViewId = ViewId::Coincidence;
 
     fn key(given: &Given) -> Option<Scene> {
@@ -27,34 +21,18 @@ impl Study for CoincidenceStudy {
         shown.then(|| CoincidenceCurves::key(&given.order.scene))
     }
 
-    fn begin(_: &Scene, given: &Given) -> Self {
+    fn begin(_: &Scene, given: &Given) -> Self::Job {
         let theirs = given.order.scene.clone();
-        let under_way = Background::start(move |to, _| {
-            // Without a receiver nobody asks any more.
-            let _ = to.send(CoincidenceCurves::of(&theirs));
-        });
-        Self { under_way, found: None }
-    }
-
-    fn is_done(&self) -> bool {
-        self.found.is_some() || self.under_way.is_done()
-    }
-
-    fn work(&mut self, patience: Duration) {
-        if let Some(curves) = self.under_way.receive(patience) {
-            self.found = Some(Arc::new(curves));
-        }
-    }
-
-    fn found(&self) -> Option<&Arc<Self::Found>> {
-        self.found.as_ref()
+        Sent::by(move |to, _| _ = to.send(CoincidenceCurves::of(&theirs)))
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::Job;
     use super::super::tests::with_given;
     use super::*;
+    use std::time::Duration;
 
     #[test]
     fn the_curves_do_not_depend_on_the_pulse_or_on_a_speed_inside_their_range() {

@@ -10,22 +10,19 @@ use rubscope_solver::scene::Scene;
 
 /// The curves of a scene.
 #[derive(Debug)]
-pub struct LockedStudy(Arc<LockedCurves>);
+pub struct LockedStudy;
 
 impl Study for LockedStudy {
     type Key = Scene;
     type Found = LockedCurves;
+    type Job = Arc<LockedCurves>;
     const VIEW: ViewId = ViewId::Locked;
 
     fn key(given: &Given) -> Option<Scene> {
         Some(given.order.scene.clone().into_scene())
     }
 
-    fn begin(scene: &Scene, _: &Given) -> Self {
-        Self(Arc::new(LockedCurves::of(scene)))
-    }
-
-    fn found(&self) -> Option<&Arc<LockedCurves>> {
-        Some(&self.0)
+    fn begin(scene: &Scene, _: &Given) -> Self::Job {
+        Arc::new(LockedCurves::of(scene))
     }
 }

@@ -9,7 +9,7 @@ use crate::tui::engine::FORECAST_LIMIT;
 use crate::tui::views::id::ViewId;
 use crate::tui::views::map::plan::{CellRun, LiveMap, coarse_first};
 use crate::tui::worker::background::{Background, spare_threads};
-use crate::tui::worker::studies::{Given, Study};
+use crate::tui::worker::studies::{Given, Job, Sent, Study};
 use rubscope_solver::motion::{GoOn, Motion, verdict_of};
 use rubscope_solver::study::{Cell, MapPlan};
 use rubscope_solver::tolerances::LAST_PART;
@@ -21,9 +21,29 @@ const MOST_TAKEN: usize = 4096;
 
 type Computed = (usize, Option<Cell>);
 
+/// The map of a plan.
+#[derive(Debug)]
+pub struct MapStudy;
+
+impl Study for MapStudy {
+    type Key = MapPlan;
+    type Found = LiveMap;
+    type Job = MapJob;
+    const VIEW: ViewId = ViewId::Map;
+    const BESIDE: bool = true;
+
+    fn key(given: &Given) -> Option<MapPlan> {
+        given.plan.clone()
+    }
+
+    fn begin(plan: &MapPlan, given: &Given) -> MapJob {
+        MapJob::new(plan, given.most_cells.unwrap_or(usize::MAX))
+    }
+}
+
 /// A map that is being computed.
 #[derive(Debug)]
-pub struct MapStudy {
+pub struct MapJob {
     live: Arc<LiveMap>,
     /// The cells to compute, in order.
     order: Arc<Vec<usize>>,
@@ -33,19 +53,8 @@ pub struct MapStudy {
     threads: Vec<Background<Computed>>,
 }
 
-impl Study for MapStudy {
-    type Key = MapPlan;
+impl Job for MapJob {
     type Found = LiveMap;
-    const VIEW: ViewId = ViewId::Map;
-    const BESIDE: bool = true;
-
-    fn key(given: &Given) -> Option<MapPlan> {
-        given.plan.clone()
-    }
-
-    fn begin(plan: &MapPlan, given: &Given) -> Self {
-        Self::new(plan, given.most_cells.unwrap_or(usize::MAX))
-    }
 
     fn is_done(&self) -> bool {
         self.live.tried >= self.order.len()
@@ -82,10 +91,6 @@ impl Study for MapStudy {
         live.map.wall_s += began.elapsed().as_secs_f64();
     }
 
-    fn part(&self) -> Option<f64> {
-        Some(self.live.tried as f64 / self.order.len().max(1) as f64)
-    }
-
     fn found(&self) -> Option<&Arc<LiveMap>> {
         Some(&self.live).filter(|live| live.tried >= self.first)
     }
@@ -94,14 +99,13 @@ impl Study for MapStudy {
         Some(&self.live)
     }
 
-    fn wait(&mut self) -> bool {
+    fn pause(&mut self) {
         // The threads end; the cells so far are kept.
         self.threads.clear();
-        true
     }
 }
 
-impl MapStudy {
+impl MapJob {
     /// Creates a map of `plan`; of its cells at most the `most` coarsest are computed.
     fn new(plan: &MapPlan, most: usize) -> Self {
         let (mut order, first) = coarse_first(plan);
@@ -143,50 +147,29 @@ impl MapStudy {
 
 /// The run of the cell under the cursor.
 #[derive(Debug)]
-pub struct CellStudy {
-    run: Background<CellRun>,
-    found: Option<Arc<CellRun>>,
-}
+pub struct CellStudy;
 
 impl Study for CellStudy {
     type Key = (MapPlan, [u32; 2]);
     type Found = CellRun;
+    type Job = Sent<CellRun>;
     const VIEW: ViewId = ViewId::Map;
     const BESIDE: bool = true;
+    const ENDS: bool = true;
 
     fn key(given: &Given) -> Option<Self::Key> {
         given.plan.clone().zip(given.order.cell)
     }
 
-    fn begin((plan, cell): &Self::Key, _: &Given) -> Self {
+    fn begin((plan, cell): &Self::Key, _: &Given) -> Self::Job {
         let (plan, cell) = (plan.clone(), *cell);
-        let run = Background::start(move |to, go_on| {
+        Sent::by(move |to, go_on| {
             let began = Instant::now();
             let go_on = || go_on() && began.elapsed() < FORECAST_LIMIT;
             if let Some(run) = run_of(plan, cell, &go_on) {
-                // Without a receiver nobody asks any more.
-                let _ = to.send(run);
+                _ = to.send(run);
             }
-        });
-        Self { run, found: None }
-    }
-
-    fn is_done(&self) -> bool {
-        self.found.is_some() || self.run.is_done()
-    }
-
-    fn work(&mut self, patience: Duration) {
-        if let Some(run) = self.run.receive(patience) {
-            self.found = Some(Arc::new(run));
-        }
-    }
-
-    fn found(&self) -> Option<&Arc<CellRun>> {
-        self.found.as_ref()
-    }
-
-    fn wait(&mut self) -> bool {
-        false
+        })
     }
 }
 
@@ -226,17 +209,17 @@ mod tests {
         scene.solver.end_s = 5e-3;
         let mut plan = MapChoice::default().plan(&scene).unwrap();
         (plan.x.count, plan.y.count) = (7, 5);
-        let mut job = MapStudy::new(&plan, usize::MAX);
+        let mut job = MapJob::new(&plan, usize::MAX);
         while !job.is_done() {
             job.work(Duration::from_millis(5));
-            assert!(job.wait());
+            job.pause();
         }
         assert_eq!(job.live.tried, 35);
         for index in 0..plan.len() {
             assert_eq!(job.live.map.cells[index], plan.compute(index, &|| true), "{index}");
         }
         // Of a map that is too much for a test, only the coarse blocks.
-        let mut coarse = MapStudy::new(&plan, 1);
+        let mut coarse = MapJob::new(&plan, 1);
         while !coarse.is_done() {
             coarse.work(Duration::from_millis(5));
         }

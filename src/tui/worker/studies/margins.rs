@@ -2,39 +2,36 @@
 //! the survey of all of them, then by many runs the nearest changes of its verdict.
 
 use std::sync::Arc;
-use std::time::Duration;
 
-use super::{Given, Study};
+use super::{Given, Sent, Study};
 use crate::tui::views::id::ViewId;
 use crate::tui::views::margins::live::LiveMargins;
-use crate::tui::worker::background::{Background, on_spare_cores};
+use crate::tui::worker::background::on_spare_cores;
 use rubscope_solver::scene::CheckedScene;
 use rubscope_solver::study::margins::Margins;
 use rubscope_solver::study::survey::Survey;
 
-/// The margins that are being found. Dropping them ends the thread.
+/// The margins of one scene.
 #[derive(Debug)]
-pub struct MarginsStudy {
-    coming: Background<LiveMargins>,
-    live: Option<Arc<LiveMargins>>,
-}
+pub struct MarginsStudy;
 
 impl Study for MarginsStudy {
     type Key = (CheckedScene, Option<[f64; 2]>);
     type Found = LiveMargins;
+    type Job = Sent<LiveMargins>;
     const VIEW: ViewId = ViewId::Margins;
     const BESIDE: bool = true;
+    const ENDS: bool = true;
 
     fn key(given: &Given) -> Option<Self::Key> {
         let order = given.order;
         order.shows(ViewId::Margins).then(|| (order.scene.clone(), order.range))
     }
 
-    fn begin((scene, range): &Self::Key, _: &Given) -> Self {
+    fn begin((scene, range): &Self::Key, _: &Given) -> Self::Job {
         let (theirs, range) = (scene.clone(), *range);
-        let coming = Background::start(move |to, go_on| {
+        Sent::by(move |to, go_on| {
             let mut live = LiveMargins { margins: Margins::of(&theirs), survey: None };
-            // Without a receiver nobody asks any more.
             let _ = to.send(live.clone());
             live.survey = Survey::of(&theirs, range, None).ok().map(Arc::new);
             let _ = to.send(live.clone());
@@ -45,34 +42,17 @@ impl Study for MarginsStudy {
                     let _ = to.send(LiveMargins { margins, survey });
                 })
             });
-        });
-        Self { coming, live: None }
-    }
-
-    fn is_done(&self) -> bool {
-        self.coming.is_done()
-    }
-
-    fn work(&mut self, patience: Duration) {
-        if let Some(live) = self.coming.receive(patience) {
-            self.live = Some(Arc::new(live));
-        }
-    }
-
-    fn found(&self) -> Option<&Arc<LiveMargins>> {
-        self.live.as_ref()
-    }
-
-    fn wait(&mut self) -> bool {
-        self.is_done()
+        })
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::Job;
     use super::super::tests::with_given;
     use super::*;
     use rubscope_solver::scene::Scene;
+    use std::time::Duration;
 
     #[test]
     fn the_margins_come_first_then_the_survey_and_last_what_runs_say() {

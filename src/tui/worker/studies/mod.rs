@@ -11,11 +11,14 @@ mod spectrum;
 
 use std::fmt;
 use std::sync::Arc;
+use std::sync::mpsc::Sender;
 use std::time::{Duration, Instant};
 
+use super::background::Background;
 use super::full_run::{FullRunJob, SLICE};
 use crate::tui::engine::{Found, Order, Working};
 use crate::tui::views::id::ViewId;
+use rubscope_solver::motion::GoOn;
 use rubscope_solver::study::MapPlan;
 
 /// Wall time after which a study shows its progress.
@@ -34,38 +37,47 @@ pub struct Given<'a> {
     pub most_cells: Option<usize>,
 }
 
-/// One study: its inputs, a slice of its work, and its result.
-pub trait Study: fmt::Debug + Sized {
+/// One study: its inputs, and what computes its result.
+pub trait Study {
     /// Its inputs.
     type Key: fmt::Debug + PartialEq;
     /// Its result.
     type Found: fmt::Debug;
+    /// What computes it.
+    type Job: Job<Found = Self::Found>;
     /// The view that shows it.
     const VIEW: ViewId;
     /// Whether the result before is shown until there is a new one.
     const STAYS: bool = true;
     /// Whether it takes so long that others like it go on beside it.
     const BESIDE: bool = false;
+    /// Whether it ends where it is not wanted any more, so that the work of the next order has
+    /// the processor.
+    const ENDS: bool = false;
 
     /// Returns the inputs that are wanted; none where no view shows it.
     fn key(given: &Given) -> Option<Self::Key>;
 
     /// Starts it.
-    fn begin(key: &Self::Key, given: &Given) -> Self;
+    fn begin(key: &Self::Key, given: &Given) -> Self::Job;
+
+    /// Returns how far it is, 0 to 1, where that is known.
+    fn part(_: &Self::Found) -> Option<f64> {
+        None
+    }
+}
+
+/// The computation of a result, in slices.
+pub trait Job: fmt::Debug {
+    /// The result.
+    type Found;
 
     /// Returns whether nothing more comes.
-    fn is_done(&self) -> bool {
-        true
-    }
+    fn is_done(&self) -> bool;
 
     /// Does a slice of the work, or takes what a thread of it has found, waiting no longer
     /// than `patience`.
-    fn work(&mut self, _patience: Duration) {}
-
-    /// Returns how far it is, 0 to 1, where that is known.
-    fn part(&self) -> Option<f64> {
-        None
-    }
+    fn work(&mut self, patience: Duration);
 
     /// Returns the result, as soon as it can be shown instead of the one before.
     fn found(&self) -> Option<&Arc<Self::Found>>;
@@ -75,17 +87,60 @@ pub trait Study: fmt::Debug + Sized {
         None
     }
 
-    /// Pauses the study while it is not wanted; returns false where it must end, so that the work
-    /// of the next order has the processor.
-    fn wait(&mut self) -> bool {
+    /// Leaves the processor to others while the result is not wanted.
+    fn pause(&mut self) {}
+}
+
+/// What a thread sends, of which the latest counts. Dropping it ends the thread.
+#[derive(Debug)]
+pub struct Sent<T> {
+    coming: Background<T>,
+    found: Option<Arc<T>>,
+}
+
+impl<T: Send + 'static> Sent<T> {
+    /// Starts the thread. Where a result finds no receiver, nobody asks any more.
+    fn by(work: impl FnOnce(&Sender<T>, GoOn<'_>) + Send + 'static) -> Self {
+        Self { coming: Background::start(work), found: None }
+    }
+}
+
+impl<T: fmt::Debug + Send + 'static> Job for Sent<T> {
+    type Found = T;
+
+    fn is_done(&self) -> bool {
+        self.coming.is_done()
+    }
+
+    fn work(&mut self, patience: Duration) {
+        let latest = self.coming.receive(patience).map(Arc::new);
+        self.found = latest.or(self.found.take());
+    }
+
+    fn found(&self) -> Option<&Arc<T>> {
+        self.found.as_ref()
+    }
+}
+
+/// A result that is computed at once.
+impl<T: fmt::Debug> Job for Arc<T> {
+    type Found = T;
+
+    fn is_done(&self) -> bool {
         true
+    }
+
+    fn work(&mut self, _: Duration) {}
+
+    fn found(&self) -> Option<&Self> {
+        Some(self)
     }
 }
 
 /// A study, and what it found for the inputs before.
 #[derive(Debug)]
 struct StudySlot<S: Study> {
-    study: Option<(S::Key, S)>,
+    study: Option<(S::Key, S::Job)>,
     before: Option<Arc<S::Found>>,
     /// Start of the computation.
     since: Option<Instant>,
@@ -98,13 +153,13 @@ impl<S: Study> Default for StudySlot<S> {
 }
 
 impl<S: Study> StudySlot<S> {
-    fn replace(&mut self, study: Option<(S::Key, S)>) {
+    fn replace(&mut self, study: Option<(S::Key, S::Job)>) {
         let old = std::mem::replace(&mut self.study, study);
         let found = old.as_ref().and_then(|(_, old)| old.found()).filter(|_| S::STAYS).cloned();
         self.before = found.or(self.before.take());
     }
 
-    fn of(&self, key: &S::Key) -> Option<&S> {
+    fn of(&self, key: &S::Key) -> Option<&S::Job> {
         self.study.as_ref().filter(|(of, _)| of == key).map(|(_, study)| study)
     }
 
@@ -113,7 +168,7 @@ impl<S: Study> StudySlot<S> {
             true => self.study.as_ref().map(|(_, study)| study),
             false => self.of(&S::key(given)?),
         };
-        let found = study.and_then(S::found).or(self.before.as_ref());
+        let found = study.and_then(Job::found).or(self.before.as_ref());
         found.or_else(|| study?.first()).cloned()
     }
 }
@@ -134,7 +189,7 @@ impl<S: Study> Work for StudySlot<S> {
     }
 
     fn is_done(&self, given: &Given) -> bool {
-        S::key(given).is_none_or(|key| self.of(&key).is_some_and(S::is_done))
+        S::key(given).is_none_or(|key| self.of(&key).is_some_and(Job::is_done))
     }
 
     fn work(&mut self, given: &Given, patience: Duration) {
@@ -151,14 +206,16 @@ impl<S: Study> Work for StudySlot<S> {
 
     fn stop_unwanted(&mut self, given: &Given) {
         let wanted = S::key(given).is_some_and(|key| self.of(&key).is_some());
-        if self.study.as_mut().is_some_and(|(_, study)| !wanted && !study.wait()) {
-            self.replace(None);
+        match &mut self.study {
+            Some((_, study)) if !wanted && S::ENDS && !study.is_done() => self.replace(None),
+            Some((_, study)) if !wanted => study.pause(),
+            _ => {}
         }
     }
 
     fn working(&self, given: &Given) -> Option<Working> {
         let wall = self.since.filter(|_| !self.is_done(given))?.elapsed();
-        let part = self.study.as_ref().and_then(|(_, study)| study.part());
+        let part = self.study.as_ref().and_then(|(_, study)| S::part(study.found()?));
         (wall > LONG).then_some(Working { view: S::VIEW, part, seconds: wall.as_secs() })
     }
 }

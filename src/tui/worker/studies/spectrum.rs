@@ -8,12 +8,13 @@ use crate::tui::views::spectrum::lines::Spectrum;
 
 /// The spectrum of a run.
 #[derive(Debug)]
-pub struct SpectrumStudy(Arc<Spectrum>);
+pub struct SpectrumStudy;
 
 impl Study for SpectrumStudy {
     /// Identification of the run: the knobs, and its end.
     type Key = (u64, f64);
     type Found = Spectrum;
+    type Job = Arc<Spectrum>;
     const VIEW: ViewId = ViewId::Spectrum;
     const STAYS: bool = false;
 
@@ -22,12 +23,8 @@ impl Study for SpectrumStudy {
         shown.then(|| (given.order.generation(), given.run.end()))
     }
 
-    fn begin(_: &(u64, f64), given: &Given) -> Self {
+    fn begin(_: &(u64, f64), given: &Given) -> Self::Job {
         let length = given.order.scene.solver.end_s;
-        Self(Arc::new(Spectrum::of(&given.run.signal(), length)))
-    }
-
-    fn found(&self) -> Option<&Arc<Spectrum>> {
-        Some(&self.0)
+        Arc::new(Spectrum::of(&given.run.signal(), length))
     }
 }
