@@ -10,6 +10,7 @@ mod axis;
 pub mod bindings;
 mod commands;
 mod config;
+mod encode;
 mod ending;
 #[doc(hidden)]
 pub mod engine;

@@ -2,7 +2,7 @@
 //! and restoring it however the program ends. Restoring takes no lock that is held during
 //! output, never waits for the terminal, and may be done by any thread, more than once.
 
-use std::io::{Error, Write};
+use std::io::Error;
 use std::sync::OnceLock;
 use std::sync::atomic::Ordering::SeqCst;
 use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -20,6 +20,7 @@ use ratatui::backend::{Backend, ClearType, CrosstermBackend, WindowSize};
 use ratatui::buffer::Cell;
 use ratatui::layout::{Position, Size};
 
+use crate::tui::encode::write_cells;
 use crate::tui::ending::ended_by;
 use crate::tui::ground::QUESTION;
 use crate::tui::tty::Tty;
@@ -248,32 +249,6 @@ fn bounded((columns, rows): (u16, u16)) -> Size {
     Size::new(columns.min(MOST.0), rows.min(MOST.1))
 }
 
-/// Buffer of frames: each is written in one piece when it is flushed.
-#[derive(Debug, Default)]
-pub struct Frames(Vec<u8>);
-
-impl Write for Frames {
-    fn write(&mut self, bytes: &[u8]) -> Result<usize, Error> {
-        if self.0.is_empty() && WHOLE.load(SeqCst) {
-            self.0.extend_from_slice(BEGIN_FRAME);
-        }
-        self.0.extend_from_slice(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> Result<(), Error> {
-        if self.0.is_empty() {
-            return Ok(());
-        }
-        if self.0.starts_with(BEGIN_FRAME) {
-            self.0.extend_from_slice(END_FRAME);
-        }
-        let written = write(&self.0);
-        self.0.clear();
-        written
-    }
-}
-
 /// Opens the screen on the terminal of standard output.
 ///
 /// # Errors
@@ -315,18 +290,10 @@ impl Drop for Guard {
     }
 }
 
-/// Draws on the terminal of the explorer.
-#[derive(Debug)]
-pub struct ScreenBackend {
-    inner: CrosstermBackend<Frames>,
-    hidden: bool,
-}
-
-impl Default for ScreenBackend {
-    fn default() -> Self {
-        Self { inner: CrosstermBackend::new(Frames::default()), hidden: false }
-    }
-}
+/// Draws on the terminal of the explorer; holds the bytes of a frame, which are written in one
+/// piece when it is flushed.
+#[derive(Debug, Default)]
+pub struct ScreenBackend(Vec<u8>);
 
 impl Backend for ScreenBackend {
     type Error = Error;
@@ -335,35 +302,32 @@ impl Backend for ScreenBackend {
     where
         I: Iterator<Item = (u16, u16, &'a Cell)>,
     {
-        // Without a change nothing is sent, not even the usual reset of colours.
-        let mut content = content.peekable();
-        if content.peek().is_none() { Ok(()) } else { self.inner.draw(content) }
+        write_cells(&mut self.0, size()?.width, content)
     }
 
     fn hide_cursor(&mut self) -> Result<(), Error> {
         // It was hidden when the screen was opened, and nothing shows it.
-        if std::mem::replace(&mut self.hidden, true) { Ok(()) } else { self.inner.hide_cursor() }
+        Ok(())
     }
 
     fn show_cursor(&mut self) -> Result<(), Error> {
-        self.hidden = false;
-        self.inner.show_cursor()
+        CrosstermBackend::new(&mut self.0).show_cursor()
     }
 
     fn get_cursor_position(&mut self) -> Result<Position, Error> {
-        self.inner.get_cursor_position()
+        CrosstermBackend::new(&mut self.0).get_cursor_position()
     }
 
     fn set_cursor_position<P: Into<Position>>(&mut self, position: P) -> Result<(), Error> {
-        self.inner.set_cursor_position(position)
+        CrosstermBackend::new(&mut self.0).set_cursor_position(position)
     }
 
     fn clear(&mut self) -> Result<(), Error> {
-        self.inner.clear()
+        self.clear_region(ClearType::All)
     }
 
     fn clear_region(&mut self, region: ClearType) -> Result<(), Error> {
-        self.inner.clear_region(region)
+        CrosstermBackend::new(&mut self.0).clear_region(region)
     }
 
     fn size(&self) -> Result<Size, Error> {
@@ -375,7 +339,11 @@ impl Backend for ScreenBackend {
     }
 
     fn flush(&mut self) -> Result<(), Error> {
-        std::io::Write::flush(&mut self.inner)
+        match std::mem::take(&mut self.0) {
+            bytes if bytes.is_empty() => Ok(()),
+            bytes if WHOLE.load(SeqCst) => write(&[BEGIN_FRAME, &bytes, END_FRAME].concat()),
+            bytes => write(&bytes),
+        }
     }
 }
 

@@ -1,0 +1,269 @@
+//! The bytes of a frame: the shortest that all terminals take for the same cells. Over SSH they
+//! are what the user waits for.
+
+use std::io::{Error, Write};
+
+use crossterm::style::Colored;
+use ratatui::backend::IntoCrossterm;
+use ratatui::buffer::{Cell, CellWidth};
+
+/// Writes cells with their places, row by row, for a terminal with so many columns.
+///
+/// # Errors
+/// The terminal is closed.
+pub fn write_cells<'a>(
+    out: &mut impl Write,
+    columns: u16,
+    cells: impl Iterator<Item = (u16, u16, &'a Cell)>,
+) -> Result<(), Error> {
+    // Unknown at first: the frame before may have been given up.
+    let (mut at, mut last): (_, Option<&Cell>) = (None, None);
+    for (x, y, cell) in cells {
+        out.write_all(way(at, (x, y)).as_bytes())?;
+        if last.is_none_or(|last| last.style() != cell.style()) {
+            out.write_all(change(last.map(codes), codes(cell)).as_bytes())?;
+        }
+        out.write_all(cell.symbol().as_bytes())?;
+        // Terminals differ in what they do after the last column, and in the width of signs
+        // that are combined or new.
+        let is_usual = cell.symbol().len() < 4 && cell.symbol().chars().nth(1).is_none();
+        let is_known = is_usual && cell.cell_width() == 1 && x + 1 < columns;
+        (at, last) = (is_known.then_some((x + 1, y)), Some(cell));
+    }
+    // Without a change nothing is sent, not even a reset.
+    last.map_or(Ok(()), |_| out.write_all(b"\x1b[m"))
+}
+
+/// Returns what takes the cursor from one place, column and row, to another.
+fn way(from: Option<(u16, u16)>, (x, y): (u16, u16)) -> String {
+    let (start, across) = match from {
+        Some((at, row)) if row == y && at <= x => ("", x - at),
+        // A line feed alone stays in its column, or not, by the settings of the terminal.
+        Some((_, row)) if row + 1 == y => ("\r\n", x),
+        _ => return format!("\x1b[{};{}H", y + 1, x + 1),
+    };
+    let count = if across > 1 { across.to_string() } else { String::new() };
+    if across == 0 { start.into() } else { format!("{start}\x1b[{count}C") }
+}
+
+/// Returns the sequence for a change between the codes of two styles.
+fn change(old: Option<Vec<String>>, mut new: Vec<String>) -> String {
+    // Each old code must stay or be replaced by one of its kind, such as a bright colour by a
+    // bright one: on some consoles it would be bold too until a reset.
+    let kind = |code: &String| (code.len(), code.chars().next());
+    match old.filter(|old| old.iter().all(|old| new.iter().any(|new| kind(new) == kind(old)))) {
+        Some(old) => new.retain(|new| !old.contains(new)),
+        None => new.insert(0, String::new()),
+    }
+    format!("\x1b[{}m", new.join(";"))
+}
+
+/// Returns the codes of a style: modifiers, and colours that are not the default.
+fn codes(cell: &Cell) -> Vec<String> {
+    // The modifiers are in the order of their codes.
+    let modifiers = (0..9).filter(|k| cell.modifier.bits() >> k & 1 == 1);
+    let [front, back] = [cell.fg, cell.bg].map(IntoCrossterm::into_crossterm);
+    let colours = [Colored::ForegroundColor(front), Colored::BackgroundColor(back)].map(code);
+    modifiers.map(|k| (k + 1).to_string()).chain(colours.into_iter().flatten()).collect()
+}
+
+/// Returns the code of a colour, short for the first sixteen; none for the default.
+fn code(colour: Colored) -> Option<String> {
+    let long = colour.to_string();
+    match long.split_once(";5;").map(|(kind, index)| (kind.parse(), index.parse())) {
+        Some((Ok::<u8, _>(kind), Ok::<u8, _>(index @ 0..8))) => {
+            Some((kind - 8 + index).to_string())
+        }
+        Some((Ok(kind), Ok(index @ 8..16))) => Some((kind + 44 + index).to_string()),
+        _ => Some(long).filter(|long| long.len() > 2),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tui::app::App;
+    use crate::tui::{Marker, theme::Theme};
+    use proptest::prelude::*;
+    use ratatui::Terminal;
+    use ratatui::backend::{Backend, CrosstermBackend, TestBackend};
+    use ratatui::buffer::Buffer;
+    use ratatui::layout::Rect;
+    use ratatui::style::{Color, Modifier, Style};
+    use std::num::NonZeroU16;
+
+    /// One cell of a frame: its place, what it shows, and the style that it shows it with.
+    type Drawn = (u16, u16, &'static str, Color, Color, Modifier);
+
+    /// Narrow, wide, combined, and new signs, and those of the charts.
+    const SIGNS: [&str; 14] = [
+        " ",
+        " ",
+        "a",
+        "Z",
+        "9",
+        "│",
+        "⣿",
+        "█",
+        "Ω",
+        "漢",
+        "🦀",
+        "e\u{301}",
+        "x\u{332}",
+        "\u{1cd00}",
+    ];
+
+    fn colour() -> impl Strategy<Value = Color> {
+        let named = prop::sample::select(vec![
+            Color::Reset,
+            Color::Black,
+            Color::Red,
+            Color::Yellow,
+            Color::Magenta,
+            Color::Gray,
+            Color::DarkGray,
+            Color::LightRed,
+            Color::LightCyan,
+            Color::White,
+        ]);
+        prop_oneof![
+            8 => named,
+            1 => any::<u8>().prop_map(Color::Indexed),
+            1 => any::<[u8; 3]>().prop_map(|[r, g, b]| Color::Rgb(r, g, b)),
+        ]
+    }
+
+    /// The parser of the test knows these; of bold and dim it keeps the last.
+    fn modifier() -> impl Strategy<Value = Modifier> {
+        let weight = prop::sample::select(vec![Modifier::empty(), Modifier::BOLD, Modifier::DIM]);
+        let others = [Modifier::ITALIC, Modifier::UNDERLINED, Modifier::REVERSED];
+        (weight, prop::sample::subsequence(others.to_vec(), 0..3))
+            .prop_map(|(weight, others)| others.into_iter().fold(weight, Modifier::union))
+    }
+
+    fn frames(columns: u16, rows: u16) -> impl Strategy<Value = Vec<Vec<Drawn>>> {
+        let sign = prop::sample::select(SIGNS.to_vec());
+        let styles = prop::collection::vec((colour(), colour(), modifier()), 1..4);
+        let cell = (0..columns, 0..rows, sign, any::<prop::sample::Index>());
+        let frame = (styles, prop::collection::vec(cell, 0..120)).prop_map(|(styles, cells)| {
+            let drawn = |(x, y, sign, style): (_, _, _, prop::sample::Index)| {
+                let &(fg, bg, modifier) = style.get(&styles);
+                (x, y, sign, fg, bg, modifier)
+            };
+            cells.into_iter().map(drawn).collect()
+        });
+        prop::collection::vec(frame, 1..6)
+    }
+
+    fn terminal(size: Rect) -> vt100::Parser {
+        let of = |cells| NonZeroU16::new(cells).unwrap();
+        vt100::Parser::new(of(size.height), of(size.width), 0)
+    }
+
+    /// Everything that the terminal shows, and with which style, but the place of the cursor.
+    fn shown(parser: &vt100::Parser, size: Rect) -> Vec<Option<vt100::Cell>> {
+        let screen = parser.screen();
+        size.positions().map(|place| screen.cell(place.y, place.x).cloned()).collect()
+    }
+
+    proptest! {
+            #[test]
+            fn a_terminal_shows_the_same_as_with_the_usual_bytes(
+                (size, frames) in (2..30u16, 1..9u16).prop_flat_map(|(columns, rows)| {
+                    (Just(Rect::new(0, 0, columns, rows)), frames(columns, rows))
+                }),
+                torn in any::<bool>(),
+            ) {
+                crossterm::style::force_color_output(true);
+                let (mut usual, mut short) = (terminal(size), terminal(size));
+                if torn {
+                    // A frame that was given up has left its style and its place.
+                    short.process(b"\x1b[1;4;7;31;42m\x1b[2;2H");
+                }
+                let mut before = Buffer::empty(size);
+                for frame in frames {
+                    let mut after = before.clone();
+                    for (x, y, sign, fg, bg, modifier) in frame {
+    let style = Style::reset().fg(fg).bg(bg).add_modifier(modifier);
+                        after.set_string(x, y, sign, style);
+                    }
+                    let mut bytes = Vec::new();
+                    let changed = before.diff(&after);
+                    CrosstermBackend::new(&mut bytes).draw(changed.iter().copied()).unwrap();
+                    usual.process(&bytes);
+                        bytes.clear();
+                    write_cells(&mut bytes, size.width, changed.into_iter()).unwrap();
+                    short.process(&bytes);
+                    prop_assert_eq!(shown(&short, size), shown(&usual, size));
+                        before = after;
+                }
+            }
+        }
+
+    #[test]
+    fn a_screen_takes_less_than_three_quarters_of_the_usual_bytes() {
+        crossterm::style::force_color_output(true);
+        let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
+        let scene = rubscope_solver::scene::Scene::base().checked().unwrap();
+        let app = App::new(scene, Theme::Dark, Marker::Braille);
+        terminal.draw(|frame| crate::tui::panels::draw(frame, &app)).unwrap();
+        let screen = terminal.backend().buffer();
+        let changed = Buffer::empty(screen.area).diff(screen);
+        let (mut usual, mut short) = (Vec::new(), Vec::new());
+        CrosstermBackend::new(&mut usual).draw(changed.iter().copied()).unwrap();
+        write_cells(&mut short, 80, changed.into_iter()).unwrap();
+        assert!(4 * short.len() < 3 * usual.len(), "{} of {}", short.len(), usual.len());
+    }
+
+    /// The bytes of cells with signs one after the other from a place, each with its style.
+    fn bytes_of(cells: &[(u16, u16, &'static str, Color, Modifier)]) -> String {
+        crossterm::style::force_color_output(true);
+        let cell = |&(x, y, sign, fg, modifier): &(u16, u16, &'static str, Color, Modifier)| {
+            let mut cell = Cell::new(sign);
+            cell.set_fg(fg).modifier = modifier;
+            (x, y, cell)
+        };
+        let cells: Vec<_> = cells.iter().map(cell).collect();
+        let mut bytes = Vec::new();
+        write_cells(&mut bytes, 80, cells.iter().map(|(x, y, cell)| (*x, *y, cell))).unwrap();
+        String::from_utf8(bytes).unwrap().replace('\x1b', "^")
+    }
+
+    #[test]
+    fn moves_are_relative_where_the_cursor_is_known() {
+        let at = |x, y| (x, y, "a", Color::Reset, Modifier::empty());
+        assert_eq!(
+            bytes_of(&[at(4, 2), at(5, 2), at(7, 2), at(20, 2)]),
+            "^[3;5H^[maa^[Ca^[12Ca^[m"
+        );
+        assert_eq!(bytes_of(&[at(0, 0), at(0, 1), at(9, 2)]), "^[1;1H^[ma\r\na\r\n^[9Ca^[m");
+        assert_eq!(bytes_of(&[at(79, 0), at(0, 1), at(0, 3)]), "^[1;80H^[ma^[2;1Ha^[4;1Ha^[m");
+        for (sign, x) in [("漢", 2), ("🦀", 2), ("e\u{301}", 1), ("\u{1cd00}", 1)] {
+            let unsure = (0, 0, sign, Color::Reset, Modifier::empty());
+            let expected = format!("^[1;1H^[m{sign}^[1;{}Ha^[m", x + 1);
+            assert_eq!(bytes_of(&[unsure, at(x, 0)]), expected);
+        }
+    }
+
+    #[test]
+    fn a_style_is_one_sequence_with_a_reset_only_where_something_ends() {
+        let mut x = 0;
+        let mut a = |fg, modifier| {
+            x += 1;
+            (x - 1, 0, "a", fg, modifier)
+        };
+        let (none, bold) = (Modifier::empty(), Modifier::BOLD);
+        let cells = [
+            a(Color::LightCyan, none),
+            a(Color::LightGreen, bold),
+            a(Color::DarkGray, none),
+            // A console for which bright is bold must forget it.
+            a(Color::Blue, none),
+            a(Color::Reset, none),
+            a(Color::Reset, bold),
+            a(Color::Indexed(200), bold),
+        ];
+        let expected = "^[1;1H^[;96ma^[1;92ma^[;90ma^[;34ma^[ma^[1ma^[38;5;200ma^[m";
+        assert_eq!(bytes_of(&cells), expected);
+    }
+}
