@@ -155,17 +155,6 @@ impl Theme {
 mod tests {
     use super::*;
 
-    impl Theme {
-        /// Returns the background that it is made for; none if it can be read on both.
-        fn ground(self) -> Option<Ground> {
-            match self {
-                Self::Dark | Self::ColourBlind => Some(Ground::Dark),
-                Self::Light | Self::ColourBlindLight => Some(Ground::Light),
-                Self::Mono => None,
-            }
-        }
-    }
-
     const ROLES: [Role; 8] = [
         Role::Text,
         Role::Quiet,
