@@ -35,14 +35,7 @@ fn explorer(criterion: &mut Criterion) {
             bencher.iter(|| {
                 // An end of all events is one frame.
                 let (_, none) = mpsc::channel();
-                run(
-                    &mut terminal,
-                    &none,
-                    &mut app,
-                    &mut engine,
-                    &mut NoHost::default(),
-                    Duration::ZERO,
-                )
+                run(&mut terminal, &none, &mut app, &mut engine, &mut NoHost, Duration::ZERO)
             });
         });
     }

@@ -169,7 +169,7 @@ const EXPLORER: [&[&str]; 23] = [
     &["views/id", "views/spectrum/lines", "lessons", "knobs", "plot"],
     &["axis", "text"],
     &["appearance", "ability"],
-    &["theme", "raster", "job", "job_other"],
+    &["encode", "theme", "raster", "job", "job_other"],
     &["ending", "field", "ground", "history", "line", "trace", "tty", "tty_other"],
 ];
 
@@ -200,7 +200,8 @@ fn expanded(path: &str) -> Vec<String> {
 
 /// The paths in the explorer that a file names, as paths of modules.
 fn named_in_the_explorer(own: &str, text: &str) -> Vec<String> {
-    let code = text.split("#[cfg(test)]\nmod").next().unwrap();
+    let [own_tests, shared] = ["#[cfg(test)]\nmod", "#[cfg(test)]\npub mod"];
+    let code = text.split(own_tests).flat_map(|part| part.split(shared)).next().unwrap();
     let lines = code.lines().map(|line| line.split("//").next().unwrap());
     let code: String = lines.flat_map(str::split_whitespace).flat_map(|word| [word, " "]).collect();
     let mut found = Vec::new();
