@@ -167,38 +167,38 @@ mod tests {
     }
 
     proptest! {
-            #[test]
-            fn a_terminal_shows_the_same_as_with_the_usual_bytes(
-                (size, frames) in (2..30u16, 1..9u16).prop_flat_map(|(columns, rows)| {
-                    (Just(Rect::new(0, 0, columns, rows)), frames(columns, rows))
-                }),
-                torn in any::<bool>(),
-            ) {
-                crossterm::style::force_color_output(true);
-                let (mut usual, mut short) = (terminal(size), terminal(size));
-                if torn {
-                    // A frame that was given up has left its style and its place.
-                    short.process(b"\x1b[1;4;7;31;42m\x1b[2;2H");
+        #[test]
+        fn a_terminal_shows_the_same_as_with_the_usual_bytes(
+            (size, frames) in (2..30u16, 1..9u16).prop_flat_map(|(columns, rows)| {
+                (Just(Rect::new(0, 0, columns, rows)), frames(columns, rows))
+            }),
+            torn in any::<bool>(),
+        ) {
+            crossterm::style::force_color_output(true);
+            let (mut usual, mut short) = (terminal(size), terminal(size));
+            if torn {
+                // A frame that was given up has left its style and its place.
+                short.process(b"\x1b[1;4;7;31;42m\x1b[2;2H");
+            }
+            let mut before = Buffer::empty(size);
+            for frame in frames {
+                let mut after = before.clone();
+                for (x, y, sign, fg, bg, modifier) in frame {
+                    let style = Style::reset().fg(fg).bg(bg).add_modifier(modifier);
+                    after.set_string(x, y, sign, style);
                 }
-                let mut before = Buffer::empty(size);
-                for frame in frames {
-                    let mut after = before.clone();
-                    for (x, y, sign, fg, bg, modifier) in frame {
-    let style = Style::reset().fg(fg).bg(bg).add_modifier(modifier);
-                        after.set_string(x, y, sign, style);
-                    }
-                    let mut bytes = Vec::new();
-                    let changed = before.diff(&after);
-                    CrosstermBackend::new(&mut bytes).draw(changed.iter().copied()).unwrap();
-                    usual.process(&bytes);
-                        bytes.clear();
-                    write_cells(&mut bytes, size.width, changed.into_iter()).unwrap();
-                    short.process(&bytes);
-                    prop_assert_eq!(shown(&short, size), shown(&usual, size));
-                        before = after;
-                }
+                let mut bytes = Vec::new();
+                let changed = before.diff(&after);
+                CrosstermBackend::new(&mut bytes).draw(changed.iter().copied()).unwrap();
+                usual.process(&bytes);
+                bytes.clear();
+                write_cells(&mut bytes, size.width, changed.into_iter()).unwrap();
+                short.process(&bytes);
+                prop_assert_eq!(shown(&short, size), shown(&usual, size));
+                before = after;
             }
         }
+    }
 
     #[test]
     fn a_screen_takes_less_than_three_quarters_of_the_usual_bytes() {

@@ -1,0 +1,201 @@
+//! Tests of what is typed after `:`.
+
+use super::*;
+use crate::tui::Marker;
+use rubscope_solver::scene::BUILTIN;
+use rubscope_solver::scene::keys::PULSE;
+
+fn app() -> App {
+    App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Braille)
+}
+
+/// The knob that a whole line sets.
+fn sets(typed: &str) -> Result<usize, String> {
+    only(&app(), typed).map(|item| match item.command {
+        Command::Set(place, _) => place,
+        other => panic!("{typed}: {other:?}"),
+    })
+}
+
+#[test]
+fn the_name_of_every_knob_with_a_value_sets_it_and_alone_says_its_value() {
+    let app = app();
+    for (place, knob) in KNOBS.iter().enumerate() {
+        let label = knob.label;
+        for name in [label.to_string(), label.to_lowercase(), plain(label), knob.path.into()] {
+            let typed = format!("{name} {}", knob.text(&app.scene));
+            assert_eq!(sets(&typed), Ok(place), "{typed}");
+            let found = only(&app, &name).unwrap();
+            assert_eq!(found.command, Command::Select(place), "{name}");
+        }
+    }
+    for (typed, symbol) in [("F", "F"), ("n_d", "n_d"), ("K_BB", "k_bb"), ("om", "Ω")] {
+        let Command::Select(place) = only(&app, typed).unwrap().command else { panic!() };
+        assert_eq!(KNOBS[place].symbol(), symbol);
+    }
+}
+
+#[test]
+fn a_letter_sets_the_knob_whose_symbol_it_is_and_no_other() {
+    for (typed, label) in [
+        ("N 23", "blades N"),
+        ("e 0.1", "restitution e"),
+        ("blade k_b 1", "blade k_b"),
+        ("blade m_b 1", "blade m_b"),
+        ("speed 450", "speed Ω"),
+        ("pulse 20k", "pulse F"),
+        ("ramp -400", "speed ramp"),
+        ("fric 0.2", "friction μ"),
+        ("omega 450", "speed Ω"),
+        ("450", "speed Ω"),
+        ("-430.5", "speed Ω"),
+    ] {
+        assert_eq!(sets(typed).map(|place| KNOBS[place].label), Ok(label), "{typed}");
+    }
+    for (typed, among) in [
+        ("n 3", "blades N"),
+        ("b 4", "blades N"),
+        ("s 1", "speed Ω"),
+        ("k 5000", "casing k_c"),
+        ("m 2", "casing m_c"),
+        ("damping 0.1", "damping ζ_c, damping ζ_bd?"),
+    ] {
+        let why = sets(typed).unwrap_err();
+        assert!(why.starts_with(&format!("{typed}: which of ")), "{why}");
+        assert!(why.contains(among) && why.ends_with('?'), "{why}");
+    }
+}
+
+#[test]
+fn the_words_of_every_action_run_it() {
+    let app = app();
+    for binding in bindings::of(Context::Main) {
+        if matches!(binding.action, Action::Palette | Action::Close) {
+            continue;
+        }
+        let command = only(&app, binding.what).map(|item| item.command);
+        assert_eq!(command, Ok(Command::Act(binding.action)), "{}", binding.what);
+    }
+}
+
+fn first(typed: &str) -> Found {
+    only(&app(), typed).unwrap_or_else(|why| panic!("{typed}: {why}"))
+}
+
+#[test]
+fn every_action_scene_lesson_view_and_knob_is_found_by_its_name() {
+    let app = app();
+    let found = |typed: &str| found(&app, typed);
+    for binding in bindings::of(Context::Main) {
+        let wanted = Command::Act(binding.action);
+        let known = found(binding.what).iter().any(|item| item.command == wanted);
+        assert_eq!(known, !matches!(binding.action, Action::Palette | Action::Close));
+    }
+    for scene in BUILTIN {
+        assert_eq!(
+            found(scene.name)[0].command,
+            Command::Scene(scene.name.into()),
+            "{}",
+            scene.name
+        );
+    }
+    for (place, lesson) in lessons::all().iter().enumerate() {
+        // A scene may have the title of its lesson.
+        let first = &found(&lesson.title)[..2.min(found(&lesson.title).len())];
+        let known = first.iter().any(|item| item.command == Command::Lesson(place));
+        assert!(known, "{}", lesson.title);
+    }
+    for (place, knob) in KNOBS.iter().enumerate() {
+        let items = found(knob.path);
+        assert!(items.iter().any(|item| item.command == Command::Select(place)));
+    }
+    assert_eq!(first("undo").beside, "u");
+    assert_eq!(first("theme").command, Command::Act(Action::Theme));
+}
+
+#[test]
+fn a_name_and_a_value_set_a_knob() {
+    for (typed, path, shown) in [
+        ("speed 430", "operation.speed_rad_s", "430 rad/s"),
+        ("Speed -430", "operation.speed_rad_s", "-430 rad/s"),
+        ("pulse 20k", "operation.pulse_n", "20 kN"),
+        ("pulse 1M", PULSE, "1 MN"),
+        ("pulse 43.4 kN", PULSE, "43.4 kN"),
+        ("law smooth", "solver.contact", "smooth"),
+        ("speed 9500 rpm", keys::SPEED, "994.8377 rad/s"),
+        ("9500rpm", keys::SPEED, "994.8377 rad/s"),
+        ("pulse time 20u", "operation.pulse_s", "20 µs"),
+        ("operation.pulse_n=1e6", "operation.pulse_n", "1 MN"),
+        ("n_d 4", "operation.nodal_diameters", "4"),
+        ("zeta_c 0.01", "casing.damping_ratio", "0.01"),
+        ("contact bi", "solver.contact", "bilateral"),
+        ("speed ramp -400", "operation.speed_ramp_rad_s2", "-400 rad/s^2"),
+    ] {
+        let item = first(typed);
+        assert_eq!(item.kind, "set", "{typed}");
+        let Command::Set(place, _) = item.command else { panic!("{typed}") };
+        assert_eq!(KNOBS[place].path, path, "{typed}");
+        assert!(item.what.ends_with(shown), "{typed}: {}", item.what);
+    }
+    assert_ne!(first("speed").kind, "set");
+    assert_eq!(found(&app(), "speed qqq"), []);
+}
+
+#[test]
+fn a_word_of_its_own_goes_to_its_place() {
+    let axes = |x, y| Command::Axes([x, y]);
+    for (typed, command) in [
+        ("t 0.3 ms", Command::GoTo(0.3e-3)),
+        ("T=2e-3", Command::GoTo(2e-3)),
+        ("5 ms", Command::GoTo(5e-3)),
+        ("40us", Command::GoTo(4e-5)),
+        ("compare", Command::Act(Action::OtherLaw)),
+        ("presentation", Command::Act(Action::Present)),
+        ("margins", Command::Act(Action::View(ViewId::Margins))),
+        ("survey", Command::Act(Action::Survey)),
+        ("end", Command::Act(Action::GoToEnd)),
+        ("blade 7", Command::Blade(7)),
+        ("axes clearance pulse", axes(Some("clearance"), Some(PULSE))),
+        ("axes speed over damping zeta_c", axes(Some(keys::SPEED), Some("casing.damping_ratio"))),
+        ("axes clear", axes(Some("clearance"), None)),
+        ("across clear", axes(Some("clearance"), None)),
+        ("up pulse t_p", axes(None, Some("operation.pulse_s"))),
+        ("scene rub", Command::Scene("rub".into())),
+        ("scene slip", Command::Scene("slip".into())),
+        ("lesson friction", Command::Lesson(11)),
+        ("lesson 2", Command::Lesson(1)),
+        ("view 5", Command::Act(Action::View(ViewId::Map))),
+        ("view gaps", Command::Act(Action::View(ViewId::Gaps))),
+        ("save Mine.toml", Command::Write(Purpose::Save, "Mine.toml".into())),
+    ] {
+        assert_eq!(first(typed).command, command, "{typed}");
+    }
+    // A list to choose from.
+    assert_eq!(found(&app(), "across ").len(), numeric().count());
+}
+
+#[test]
+fn what_is_no_command_is_one_line_that_says_why() {
+    let app = app();
+    for (typed, begins) in [
+        ("speed fast", "speed Ω: fast is no number; from -1e6 to 1e6 rad/s"),
+        ("speed qqq", "speed Ω: qqq is no number"),
+        ("law soft", "contact: soft is unknown; one of"),
+        ("law x", "contact: x is unknown; one of"),
+        ("blade 1.5", "blade 1.5: from 1 to 22"),
+        ("blade -3", "blade -3: from 1 to 22"),
+        ("something odd", "nothing has these words: something odd"),
+        ("qqq", "nothing has these words: qqq"),
+        ("t inf", "t inf: this is no time, such as 0.3 ms"),
+        ("t nan", "t nan: this is no time, such as 0.3 ms"),
+        ("450,5", "450,5: of which knob? Such as speed 450 rad/s"),
+        ("speed 450,5", "speed Ω: 450,5 cannot be read: a number has a decimal point"),
+        ("scene half-n", "scene half-n is gone: half as many diameters as blades are paper-nd3"),
+        ("half-n", "scene half-n is gone: "),
+        ("scene qqq", "nothing has these words: scene qqq"),
+        ("axes qqq", "nothing has these words: axes qqq"),
+    ] {
+        let line = only(&app, typed).unwrap_err();
+        assert!(line.starts_with(begins) && line.lines().count() == 1, "{line}");
+    }
+}
