@@ -239,8 +239,7 @@ fn an_ordinary_blade_family_is_taken_as_it_is_and_a_slip_is_shown_before_it_is_w
     let made = rubscope(&of_table(slipped.to_str().unwrap(), odd.to_str().unwrap()));
     let said =
         String::from_utf8_lossy(&made.stderr).split_whitespace().collect::<Vec<_>>().join(" ");
-    let doubt =
-        "- The frequency of the bladed disk is 2.9750 Hz at 3 diameters and 214.0000 Hz at 2.";
+    let doubt = "- The frequency of the bladed disk is 2.975 Hz at 3 diameters and 214 Hz at 2.";
     assert!(made.status.success() && said.contains(doubt), "{said}");
     let told = text(&["check", slipped.to_str().unwrap()]);
     let told = told.split_whitespace().collect::<Vec<_>>().join(" ");

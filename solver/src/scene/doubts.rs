@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 
 use super::{Scene, keys};
 use crate::model::Mode;
+use crate::numeric::rounding::rounded;
 use crate::tolerances::{
     DOUBTFUL_CLEARANCE, DOUBTFUL_COURSE, DOUBTFUL_DAMPING, DOUBTFUL_DENSITY, DOUBTFUL_FORCE,
     DOUBTFUL_FREQUENCY, DOUBTFUL_GAP, DOUBTFUL_RADIUS, DOUBTFUL_TIP_SPEED,
@@ -179,8 +180,10 @@ impl Scene {
         let [least, most] = DOUBTFUL_DENSITY.map(|density| density * self.casing.radius_m.powi(3));
         let (mode, at) = first(looked, |mode| !(least..=most).contains(&mode.mass))?;
         Some(format!(
-            "The modal mass of the {}{at} is {:.4} kg ({}); at this radius modes of metal have {least:.2} to {most:.0} kg. Was it in g or in t?",
-            structure.name, mode.mass, structure.mass
+            "The modal mass of the {}{at} is {} kg ({}); at this radius modes of metal have {least:.2} to {most:.0} kg. Was it in g or in t?",
+            structure.name,
+            rounded(mode.mass, 4),
+            structure.mass
         ))
     }
 }
@@ -201,8 +204,9 @@ fn frequency_doubt(structure: &Structure, looked: &[Looked]) -> Option<String> {
     let [least, most] = DOUBTFUL_FREQUENCY;
     let (mode, at) = first(looked, |mode| !(least..=most).contains(&mode.hertz))?;
     Some(format!(
-        "The frequency of the {}{at} is {:.4} Hz; first modes usually have {least} to {most} Hz.",
-        structure.name, mode.hertz
+        "The frequency of the {}{at} is {} Hz; first modes usually have {least} to {most} Hz.",
+        structure.name,
+        rounded(mode.hertz, 4)
     ))
 }
 
@@ -241,8 +245,12 @@ fn course_doubts(structure: &Structure, looked: Vec<Looked>) -> Vec<String> {
             let near = rest.iter().min_by_key(|other| other.diameters.abs_diff(odd.diameters));
             doubts.extend(near.map(|near| {
                 format!(
-                    "The {what} of the {} is {:.4} {unit} at {} diameters and {:.4} {unit} at {}. Is the decimal point right, and the unit?",
-                    structure.name, value(&odd), odd.diameters, value(near), near.diameters
+                    "The {what} of the {} is {} {unit} at {} diameters and {} {unit} at {}. Is the decimal point right, and the unit?",
+                    structure.name,
+                    rounded(value(&odd), 4),
+                    odd.diameters,
+                    rounded(value(near), 4),
+                    near.diameters
                 )
             }));
         }
@@ -278,7 +286,7 @@ mod tests {
         for (doubts, asked) in [
             (
                 casing(|mode| mode.2 *= 1e3),
-                "mass of the casing at 2 diameters (and 4 more) is 9800.",
+                "mass of the casing at 2 diameters (and 4 more) is 9800 kg",
             ),
             (
                 casing(|mode| mode.2 *= 1e-3),
@@ -298,7 +306,7 @@ mod tests {
                         mode.1 = 8227.0
                     }
                 }),
-                "The frequency of the casing is 8227.0000 Hz at 6 diameters and 611.3000 Hz at 5. Is",
+                "The frequency of the casing is 8227 Hz at 6 diameters and 611.3 Hz at 5. Is",
             ),
             (
                 casing(|mode| {
@@ -306,7 +314,7 @@ mod tests {
                         mode.2 = 0.91
                     }
                 }),
-                "The modal mass of the casing is 0.9100 kg at 3 diameters and 9.8000 kg at 2. Is",
+                "The modal mass of the casing is 0.91 kg at 3 diameters and 9.8 kg at 2. Is",
             ),
             (
                 told(&[("bladed_disk.modes", "[{ nodal_diameters = 4, damping_ratio = 5.0 }]")]),
@@ -349,7 +357,12 @@ mod tests {
             (
                 "casing.modal_mass_kg",
                 "0.002",
-                "The modal mass of the casing is 0.0020 kg (casing.modal_mass_kg); at this radius",
+                "The modal mass of the casing is 0.002 kg (casing.modal_mass_kg); at this radius",
+            ),
+            (
+                "casing.modal_mass_kg",
+                "2e-6",
+                "The modal mass of the casing is 0.000002 kg (casing.modal_mass_kg); at this radius",
             ),
             ("casing.damping_ratio", "5", "casing.damping_ratio = 5 is a part of critical damping"),
             ("casing.modal_stiffness_n_per_m", "15", "The frequency of the casing is 0.4359 Hz"),

@@ -31,7 +31,7 @@ impl App {
             self.begin_step(number, step + 1);
         } else {
             self.leave_lesson();
-            self.status = Some(format!("end of the lesson: {}; your scene is back", lesson.title));
+            self.status = Some("end of the lesson; your scene is back".into());
         }
     }
 
