@@ -1,7 +1,7 @@
 //! Which charts are on the screen, and where.
 
 use super::App;
-use crate::report::number::per_speed;
+use crate::report::number::speed_unit;
 use crate::tui::bindings::Action;
 use crate::tui::views::id::ViewId;
 use rubscope_solver::scene::Scene;
@@ -81,7 +81,7 @@ impl Layout {
     /// Shows the margins of all diameters, or of one; returns the message.
     pub fn turn_survey(&mut self, on: bool) -> String {
         self.survey = on;
-        let ends = if per_speed(1.0) == 1.0 { "200:600" } else { "2000:6000" };
+        let ends = if speed_unit() == "rpm" { "2000:6000" } else { "200:600" };
         match on {
             true => {
                 format!("margins of all diameters; : range {ends} gives the speeds of a machine")
