@@ -1,6 +1,8 @@
 //! The modes of a modal analysis from a table as a spreadsheet saves it: names and units of
 //! columns, separators, decimal commas, and frequencies at two speeds.
 
+use csv::StringRecord;
+
 use super::build::{Family, digits};
 use super::modes::{frequency_at_rest, hertz_of};
 use super::units::UnitError;
@@ -17,6 +19,9 @@ pub struct ModeTable {
 
 /// A mode of a table, with each frequency and its speed \[Hz, rad/s\].
 type Measured = (Family, Vec<(f64, f64)>);
+
+/// A column by the name of its key, with its unit and its place.
+type Column = (&'static str, String, usize);
 
 /// Reads the modes of a table: a line of names, then a line for each mode. Names are
 /// `structure` (casing or disk), `nodal_diameters`, `frequency_hz`, `modal_mass_kg`, and
@@ -41,20 +46,7 @@ pub fn read_modes(text: &str) -> Result<ModeTable, SceneError> {
     let records = reader.records().flatten();
     let mut records = records.filter(|record| !record.iter().all(str::is_empty));
     let names = records.next().unwrap_or_default();
-    let (mut columns, mut unused) = (Vec::new(), Vec::new());
-    for (at, written) in names.iter().enumerate() {
-        match column(written)? {
-            Some((name, unit)) => columns.push((name, unit, at)),
-            None => unused.extend((!written.is_empty()).then_some(written)),
-        }
-    }
-    for (place, (name, ..)) in COLUMNS.iter().enumerate() {
-        let count = columns.iter().filter(|(known, ..)| known == name).count();
-        if count > 1 || (count == 0 && place < NEEDED) {
-            let given = names.iter().collect::<Vec<_>>().join(",");
-            return Err(SceneError::refused("the first line", given, ALLOWED));
-        }
-    }
+    let (columns, unused) = columns(&names)?;
     let mut notes = Vec::new();
     if !unused.is_empty() {
         notes.push(format!("columns not used: {}", unused.join(", ")));
@@ -96,34 +88,7 @@ pub fn read_modes(text: &str) -> Result<ModeTable, SceneError> {
                 _ => keys::find(keys::SPEED)?.number(&path(SPEED), &text),
             });
         let speed = speed.transpose()?.map(|speed| (mode.frequency_hz, speed));
-        let modes = &mut found[structure];
-        let same = |(known, _): &&mut Measured| known.nodal_diameters == mode.nodal_diameters;
-        match (modes.iter_mut().find(same), speed) {
-            (None, speed) => modes.push((mode, speed.into_iter().collect())),
-            (Some((known, speeds)), Some(speed)) if speeds.len() == 1 => {
-                speeds.push(speed);
-                known.stiffening = known.stiffening.or(mode.stiffening);
-                known.damping_ratio = known.damping_ratio.or(mode.damping_ratio);
-                for (name, first, second) in [
-                    (MODE[2], Some(known.modal_mass_kg), Some(mode.modal_mass_kg)),
-                    (DAMPING, known.damping_ratio, mode.damping_ratio),
-                ] {
-                    let other = first.zip(second).filter(|(first, second)| first != second);
-                    notes.extend(other.map(|(first, second)| {
-                        format!(
-                            "{} = {second} is not used: the line before of this mode has {first}",
-                            path(name)
-                        )
-                    }));
-                }
-            }
-            _ => {
-                let given = format!("{} twice", mode.nodal_diameters);
-                let allowed =
-                    "one mode for each number of diameters, of the disk also at two Speed [rpm]";
-                return Err(SceneError::refused(path(MODE[0]), given, allowed));
-            }
-        }
+        notes.extend(add(&mut found[structure], mode, speed, &path)?);
     }
     for (mode, speeds) in found[1].iter_mut().filter(|(_, speeds)| !speeds.is_empty()) {
         let name = format!("disk, {} nodal diameters, frequency_hz", mode.nodal_diameters);
@@ -132,6 +97,65 @@ pub fn read_modes(text: &str) -> Result<ModeTable, SceneError> {
     }
     let modes = found.map(|modes| modes.into_iter().map(|(mode, _)| mode).collect());
     Ok(ModeTable { modes, notes })
+}
+
+/// Adds a mode, or the second speed of one that is known; returns what is not used of the second
+/// line.
+///
+/// # Errors
+/// A mode that has all its lines.
+fn add(
+    modes: &mut Vec<Measured>,
+    mode: Family,
+    speed: Option<(f64, f64)>,
+    path: &dyn Fn(&str) -> String,
+) -> Result<Vec<String>, SceneError> {
+    let same = |(known, _): &&mut Measured| known.nodal_diameters == mode.nodal_diameters;
+    let Some((known, speeds)) = modes.iter_mut().find(same) else {
+        modes.push((mode, speed.into_iter().collect()));
+        return Ok(Vec::new());
+    };
+    let Some(speed) = speed.filter(|_| speeds.len() == 1) else {
+        let given = format!("{} twice", mode.nodal_diameters);
+        let allowed = "one mode for each number of diameters, of the disk also at two Speed [rpm]";
+        return Err(SceneError::refused(path(MODE[0]), given, allowed));
+    };
+    speeds.push(speed);
+    known.stiffening = known.stiffening.or(mode.stiffening);
+    known.damping_ratio = known.damping_ratio.or(mode.damping_ratio);
+    let twice = [
+        (MODE[2], Some(known.modal_mass_kg), Some(mode.modal_mass_kg)),
+        (DAMPING, known.damping_ratio, mode.damping_ratio),
+    ];
+    let unused = twice.into_iter().filter_map(|(name, first, second)| {
+        let (first, second) = first.zip(second).filter(|(first, second)| first != second)?;
+        let path = path(name);
+        Some(format!("{path} = {second} is not used: the line before of this mode has {first}"))
+    });
+    Ok(unused.collect())
+}
+
+/// Returns the known columns of a line of names, each with its unit and its place, and the names
+/// of the others.
+///
+/// # Errors
+/// A needed column that is missing, one that is there twice, or a wrong unit.
+fn columns(names: &StringRecord) -> Result<(Vec<Column>, Vec<&str>), SceneError> {
+    let (mut columns, mut unused) = (Vec::new(), Vec::new());
+    for (at, written) in names.iter().enumerate() {
+        match column(written)? {
+            Some((name, unit)) => columns.push((name, unit, at)),
+            None => unused.extend((!written.is_empty()).then_some(written)),
+        }
+    }
+    for (place, (name, ..)) in COLUMNS.iter().enumerate() {
+        let count = columns.iter().filter(|(known, ..)| known == name).count();
+        if count > 1 || (count == 0 && place < NEEDED) {
+            let given = names.iter().collect::<Vec<_>>().join(",");
+            return Err(SceneError::refused("the first line", given, ALLOWED));
+        }
+    }
+    Ok((columns, unused))
 }
 
 /// Returns the column that has this name, and the unit in it; none for other words.
@@ -157,7 +181,7 @@ fn column(written: &str) -> Result<Option<(&'static str, String)>, SceneError> {
         return Ok(None);
     }
     let one = format!("1 {unit}");
-    let is_prefix = unit.chars().count() == 1 && unit != "%" && Quantity::Plain.read(&one).is_ok();
+    let is_prefix = !unit.is_empty() && Quantity::bare(&one).is_some();
     match quantity.read(&one) {
         Ok(_) if !is_prefix => Ok(Some((name, unit))),
         Err(why) if rest.contains(['[', '(']) || matches!(why, UnitError::Other { .. }) => {
