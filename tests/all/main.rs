@@ -27,6 +27,7 @@ mod file_writer;
 mod fuzz_cases;
 mod fuzz_keys;
 mod fuzz_laws;
+mod golden;
 mod hbm_branches;
 mod hbm_cli;
 mod hbm_coincidence;
