@@ -28,6 +28,7 @@ mod fuzz_cases;
 mod fuzz_keys;
 mod fuzz_laws;
 mod golden;
+mod golden_outputs;
 mod hbm_branches;
 mod hbm_cli;
 mod hbm_coincidence;
