@@ -40,7 +40,7 @@ pub struct Order {
     pub jumps: u64,
     /// Number of times the pulse was fired again.
     pub pulses: u64,
-    /// Whether time passes.
+    /// Whether the motion plays.
     pub playing: bool,
     /// Number of times the user continued past the end of the run.
     pub extensions: u64,
@@ -91,7 +91,7 @@ pub fn generation(restarts: u64, changes: u64, pulses: u64) -> u64 {
 /// Speed of the solver and of the playback.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pace {
-    /// Wall-clock time per time step; `None` for solvers without steps \[s\].
+    /// Wall-clock time per time step taken; `None` for solvers without steps \[s\].
     pub step_s: Option<f64>,
     /// Fraction of the steps that was skipped in blocks.
     pub skipped: Option<f64>,
@@ -126,7 +126,7 @@ pub enum FullRunState {
     Computing(f64),
     /// Given up at this fraction, because it takes too long.
     GivenUp(f64),
-    /// Done.
+    /// Complete.
     Done(Box<FullRun>),
 }
 
@@ -164,7 +164,7 @@ pub struct FullRun {
 pub struct PageRecord {
     /// Start and end \[s\].
     pub page: (f64, f64),
-    /// Its bins.
+    /// Bins of the page.
     pub record: BinHistory,
 }
 

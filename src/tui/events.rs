@@ -24,7 +24,7 @@ pub enum ScreenEvent {
     Fresh,
     /// A signal that ends the program has arrived.
     Signal(u8),
-    /// A stop signal (Ctrl-Z from outside) has arrived: suspend.
+    /// SIGTSTP has arrived: suspend the job.
     Suspend,
     /// The job was continued after a stop.
     Continued,

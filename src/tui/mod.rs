@@ -92,7 +92,7 @@ pub fn check_terminal() -> Result<(), &'static str> {
 /// Returns the exit status: 0, or 128 + n after signal n.
 ///
 /// # Errors
-/// Threads or signals cannot be set up, or the last file was not written.
+/// Fails if threads or signals cannot be set up, or the last file was not written.
 pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u8> {
     // Otherwise crossterm would drop bold and reverse too if `NO_COLOR` is set. The mono theme has
     // no colours anyway.

@@ -158,7 +158,7 @@ impl App {
         }
     }
 
-    /// Returns whether the large chart shows both contact laws one below the other.
+    /// Returns whether the large chart shows both contact laws, which needs all the room for charts.
     pub fn compares(&self) -> bool {
         self.run.compare && self.is_large(ViewId::Response)
     }

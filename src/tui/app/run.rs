@@ -13,7 +13,7 @@ use rubscope_solver::model::Machine;
 use rubscope_solver::motion::ActiveSet;
 use rubscope_solver::scene::CheckedScene;
 
-/// A corner held for this fraction of a page counts as locked: charts then hold the wave still.
+/// A corner held for this fraction of a page counts as standing still.
 const STILL: f64 = 0.2;
 
 #[derive(Clone, Debug)]
@@ -326,8 +326,8 @@ impl App {
         }
     }
 
-    /// Returns whether charts may hold the wave still: playback is paused, or a corner has been
-    /// held for a while.
+    /// Returns whether the wave stands still in the frame of the blades: playback is paused, or a
+    /// corner has been held for a while.
     pub fn is_still(&self) -> bool {
         !self.play.playing
             || self.moment().is_some_and(|moment| {

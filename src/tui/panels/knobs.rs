@@ -148,7 +148,7 @@ fn notes(app: &App, width: usize) -> Vec<(Vec<String>, Role)> {
 fn sentence(knob: &Knob) -> String {
     let text = capital(knob.does);
     match knob.allowed() {
-        // `does` already lists the choices; and a range of millions both ways limits nobody.
+        // `does` lists the choices already, and a range beyond +-1e6 is no practical limit.
         Allowed::OneOf(_) => format!("{text}."),
         Allowed::Real { min, max, .. } if min == -max && max >= 1e6 => format!("{text}."),
         _ => format!("{text}; {}.", knob.range_words()),

@@ -52,7 +52,7 @@ pub enum Effect {
 const LONGEST_TYPED: usize = 200;
 
 impl App {
-    /// Handles a key press.
+    /// Handles a key press: an action of the current context, or a letter for the open text field.
     pub fn key(&mut self, event: &KeyEvent) -> Effect {
         self.files.disturb();
         self.dialogue.is_new = false;

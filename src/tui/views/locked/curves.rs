@@ -118,7 +118,7 @@ fn scaled_to(scene: &Scene, machine: &Machine) -> Option<f64> {
     Some(BESIDE * ends.map(|(speed, _)| speed).fold(present, f64::max))
 }
 
-/// The axis extends 5 % past the last marked speed.
+/// The scales include the values up to 5 % past the last marked speed.
 const BESIDE: f64 = 1.05;
 /// The range extends to a lock's upper threshold if that is at most this many times the range
 /// without it.

@@ -63,8 +63,8 @@ pub fn home(app: &App, rows: &[Limit]) -> usize {
     rows.iter().rposition(|row| named == Some(row.name)).unwrap_or(0)
 }
 
-/// Returns the role of a cell. Being beyond a limit is not marked as trouble, because many limits
-/// are meant to be passed.
+/// Returns the role of a cell. Being beyond a limit is not trouble by itself: a lock, for
+/// example, needs a speed above `Omega_lock`.
 pub fn role(limit: &Limit, column: usize) -> Role {
     let strongest = limit.sensitivities.strongest(STRONGEST);
     match column.checked_sub(LEADING).and_then(|place| strongest.get(place)) {
