@@ -158,7 +158,7 @@ impl App {
         }
     }
 
-    /// Returns whether the large chart shows both contact laws, which needs all the room for charts.
+    /// Returns whether the large chart shows both contact laws; then it is the only chart.
     pub fn compares(&self) -> bool {
         self.run.compare && self.is_large(ViewId::Response)
     }
