@@ -136,7 +136,7 @@ pub fn leave() {
         // Writing to a vector cannot fail.
         let _ = queue!(
             bytes,
-            // Also if it seems disabled: a lost frame may have enabled it.
+            // Even if mouse reports seem off: an abandoned frame may have switched them on.
             DisableMouseCapture,
             DisableBracketedPaste,
             LeaveAlternateScreen,

@@ -93,8 +93,8 @@ impl Dialogue {
 pub struct HelpState {
     /// Search words: only entries that contain all of them are listed.
     pub filter: Field,
-    /// Whether every letter goes into the search; otherwise the first letter may be a command of
-    /// the help.
+    /// Whether every letter goes into the search; otherwise the first one may be a key of the
+    /// help, such as `q`.
     pub searches: bool,
     /// Number of lines scrolled past.
     pub scroll: usize,

@@ -18,7 +18,6 @@ const PALETTE_FROM: u16 = 60;
 /// Hint for new users.
 const TRY: &str = "new here? → turns Ω, g: lessons";
 
-/// Draws the footer.
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     let look = &app.appearance;
     let mark = look.ellipsis();

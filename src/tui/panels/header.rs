@@ -314,7 +314,7 @@ fn modes(app: &App) -> Vec<Part> {
     pages.into_iter().chain(live).chain(missing).map(|text| plain(1, text, focus)).collect()
 }
 
-/// Returns the next change of contact.
+/// Returns the next change of contact and the time until then: `next: impact on 6 in 12 µs`.
 fn next(app: &App) -> Option<Part> {
     let next = app.next_change().filter(|_| !app.is_asked())?;
     let (what, after) = (app.happening(next.what), readable(next.t_s - app.now(), "s"));

@@ -185,9 +185,9 @@ fn strip_text(app: &App, knob: &Knob) -> String {
     app.appearance.spell(&text)
 }
 
-/// Least width of the bar in that line.
+/// Least width of the bar beside a single knob.
 const LEAST_BAR: u16 = 8;
-/// Least width of the text in that line, so that the bar does not move while the value changes.
+/// Least width of the text of a single knob, so that its bar does not move while the value changes.
 const TEXT: u16 = 27;
 
 /// Returns the area of the bar in the single line, if there is room.

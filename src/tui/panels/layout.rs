@@ -13,9 +13,9 @@ pub const LEAST_HEIGHT: u16 = 12;
 
 /// Width from which the knobs have a column of their own.
 const KNOBS_FROM: u16 = 66;
-/// Width of that column.
+/// Width of the column of knobs.
 const KNOBS_WIDTH: u16 = 27;
-/// Width from which the column stays when two contact laws are compared.
+/// Width from which the column of knobs stays when two contact laws are compared.
 const KNOBS_BESIDE_LAWS: u16 = 110;
 /// Width from which two charts are side by side.
 const PAIR_FROM: u16 = 76;

@@ -18,7 +18,6 @@ use rubscope_solver::scene::CheckedScene;
 
 /// A view of the explorer: drawing, export, and its cursor.
 pub trait ViewPanel: Sync {
-    /// Draws the view.
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea);
 
     /// Exports the view's data as CSV.
@@ -222,7 +221,7 @@ pub fn name_level(plot: &mut Plot, x: ChartAxis, level: f64, name: &str, style: 
     }
 }
 
-/// Number of positions tried for such a label.
+/// Number of positions along a level that are tried for its label.
 const LEVEL_PLACES: u32 = 40;
 
 /// Prints lines above a chart; returns the rest of the area.

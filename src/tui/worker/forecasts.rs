@@ -74,7 +74,7 @@ impl Forecasts {
             || self.studies.is_computing(order, &self.full_run)
     }
 
-    /// Computes one slice.
+    /// Computes for one slice of wall-clock time, the most urgent first.
     pub fn compute(&mut self, order: &Order, comparison: Option<&mut FullRunJob>) {
         self.answers.look();
         let known = self.full_run.verdict().is_some();

@@ -63,7 +63,7 @@ impl FullRunJob {
         }
     }
 
-    /// Computes one slice.
+    /// Advances the run by one slice of wall-clock time.
     pub fn compute(&mut self) {
         if self.result.is_some() {
             return;

@@ -61,7 +61,7 @@ impl Page {
         self.job.is_none()
     }
 
-    /// Computes one slice.
+    /// Advances the page by one slice of wall-clock time.
     pub fn compute(&mut self) {
         let Some(job) = &mut self.job else { return };
         let began = Instant::now();

@@ -304,7 +304,8 @@ impl Playback {
             || self.forecasts.is_computing(&self.order, comparison)
     }
 
-    /// Computes one slice.
+    /// Computes for one slice of wall-clock time: the comparison if it is behind, otherwise the
+    /// cursor, then a go-to, the page, or the forecasts.
     pub fn compute(&mut self) {
         if self.behind {
             return self.play_comparison(self.time_limit);

@@ -25,7 +25,7 @@ pub fn rim_point(machine: &Machine, state: &State, turned: f64) -> [f64; 2] {
     [z[0] - outward * a_c, z[1] - outward * a_s]
 }
 
-/// Recorder of one motion.
+/// Bins and mean contact forces of one motion, as they are recorded.
 #[derive(Debug, Default)]
 pub struct Recorder {
     done: Vec<Bin>,

@@ -1,5 +1,6 @@
-//! The curves of view 9: growth rate of a small wave and amplitude of the limit cycle, in closed
-//! form, over a speed range around both coincidences (docs/theory.md, section 10).
+//! The curves of view 9: growth rate of a small wave and amplitude of the limit cycle, over a speed
+//! range around both coincidences (docs/theory.md, section 10). They are closed forms, except on a
+//! lining, where each point is a search.
 
 use crate::tui::axis::nice_step;
 use rubscope_solver::harmonic::{CoincidencePoint, coincidence, shifted_coincidence};

@@ -46,7 +46,7 @@ impl ViewPanel for CoincidenceView {
         }
     }
 
-    /// Returns the current speed.
+    /// Puts the cursor at the current speed.
     fn here(&self, app: &App) -> Cursor {
         let curves = app.results().found.coincidence.as_deref().and_then(Option::as_ref);
         let across = curves

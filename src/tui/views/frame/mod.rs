@@ -239,7 +239,7 @@ fn wheel(app: &App, buffer: &mut Buffer, at: ViewArea) {
         let [x, y] = tip(*blade);
         plot.point(x, y, mark, look.style(Role::Contact));
     }
-    // If most blades touch, their numbers tell nothing.
+    // If most blades touch, their numbers say nothing useful.
     let named = if 2 * touching.len() > polygon.blades as usize { &[][..] } else { &touching };
     for blade in named.iter().copied().take(MOST_NUMBERS) {
         let (sin, cos) = angle_of(blade).sin_cos();

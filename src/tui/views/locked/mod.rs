@@ -53,7 +53,7 @@ impl ViewPanel for LockedView {
         }
     }
 
-    /// Returns the current speed.
+    /// Puts the cursor at the current speed.
     fn here(&self, app: &App) -> Cursor {
         let fastest = app.results().found.locked.as_ref().map_or(1.0, |curves| curves.fastest);
         Cursor { across: (app.speed().abs() / fastest).clamp(0.0, 1.0), up: 0.5 }
@@ -308,7 +308,7 @@ pub fn reading(app: &App, speed: f64) -> String {
     at + &parts.join(", ")
 }
 
-/// Explains why the run at this speed does not reach the lock.
+/// Notes that the run at this speed does not reach the lock, with its verdict.
 fn not_this_run(app: &App, can_last: bool) -> Option<String> {
     let (cursor, here) = (app.reading.cursor?, app.panel().here(app));
     let run = app.full_run().filter(|_| can_last && !app.is_asked())?;

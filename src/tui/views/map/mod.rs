@@ -21,11 +21,11 @@ use words::Line;
 
 /// Width from which the legend is a column beside the map.
 const BESIDE_FROM: u16 = 92;
-/// Width of that column.
+/// Width of the legend's column.
 const BESIDE: u16 = 34;
 /// Height from which there are two rows of text above the map.
 const TWO_ROWS_FROM: u16 = 14;
-/// Height from which there is one.
+/// Height from which there is one row of text above the map.
 const ONE_ROW_FROM: u16 = 7;
 
 pub struct MapView;

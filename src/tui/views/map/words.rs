@@ -19,7 +19,6 @@ use rubscope_solver::study::{Axis, MapPlan};
 /// A line of text pieces with their styles.
 pub type Line = Vec<(String, Style)>;
 
-/// Returns the unit of a key.
 pub fn unit(path: &str) -> &'static str {
     knob_of(path).map_or("", Knob::unit)
 }

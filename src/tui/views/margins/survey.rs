@@ -15,7 +15,7 @@ use crate::tui::views::table::Rows;
 use rubscope_solver::scene::keys::DIAMETERS;
 use rubscope_solver::study::survey::{Survey, SurveyRow};
 
-/// Height from which there is a summary above the table; its largest number of lines follows.
+/// Height from which there is a summary above the table.
 const TOLD_FROM: u16 = 6;
 const MOST_TOLD: usize = 2;
 

@@ -8,7 +8,6 @@ use crate::tui::views::id::ViewId;
 use crate::tui::views::locked::curves::LockedCurves;
 use rubscope_solver::scene::Scene;
 
-/// Computes the curves of a scene.
 #[derive(Debug)]
 pub struct LockedStudy;
 

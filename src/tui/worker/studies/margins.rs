@@ -11,7 +11,6 @@ use rubscope_solver::scene::CheckedScene;
 use rubscope_solver::study::margins::Margins;
 use rubscope_solver::study::survey::Survey;
 
-/// Computes the margins of a scene.
 #[derive(Debug)]
 pub struct MarginsStudy;
 

@@ -41,7 +41,7 @@ pub struct Given<'a> {
 pub trait Study {
     /// Inputs; the result is kept while they are equal.
     type Key: fmt::Debug + PartialEq;
-    /// The result.
+    /// The result, as the view draws it.
     type Found: fmt::Debug;
     /// The job that computes it.
     type Job: Job<Found = Self::Found>;
@@ -68,7 +68,7 @@ pub trait Study {
 
 /// The computation of a result, in slices.
 pub trait Job: fmt::Debug {
-    /// The result.
+    /// The result; it may be partial while the job is not done.
     type Found;
 
     /// Returns whether the job is complete.

@@ -5,7 +5,6 @@ use crate::tui::views::id::ViewId;
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::precision::{Effort, Measure, Precision, ways};
 
-/// Compares the solvers on one scene.
 #[derive(Debug)]
 pub struct PrecisionStudy;
 

@@ -7,7 +7,6 @@ use super::{Given, Study};
 use crate::tui::views::id::ViewId;
 use crate::tui::views::spectrum::lines::Spectrum;
 
-/// Computes the spectrum of a run.
 #[derive(Debug)]
 pub struct SpectrumStudy;
 
