@@ -93,7 +93,7 @@ fn screen_event(event: std::io::Result<Event>) -> Option<ScreenEvent> {
 }
 
 /// Starts the thread that waits for signals. If the drawing thread has not ended the program within
-/// [`GRACE`] after a deadly signal, this thread does.
+/// `GRACE` after a deadly signal, this thread does.
 ///
 /// # Errors
 /// Fails if the system cannot start a thread or watch signals.
