@@ -1,21 +1,21 @@
-//! The signal that ends the program. After it nothing is drawn any more.
+//! The signal that ends the program. After it nothing more is drawn.
 
 use std::sync::atomic::{AtomicU8, Ordering::SeqCst};
 use std::time::Duration;
 
-/// Longest wait for the last file at the end of the program: a busy disk takes a second, one
-/// that never answers must not keep the user.
+/// Longest wait for files at the end of the program. A busy disk takes about a second; one that
+/// never answers must not block the exit.
 pub const PATIENCE: Duration = Duration::from_secs(5);
 
-/// The first signal that ends the program; 0 if there was none.
+/// The first deadly signal received; 0 if none.
 static ENDED_BY: AtomicU8 = AtomicU8::new(0);
 
-/// Records a signal that ends the program.
+/// Records a deadly signal; later ones are ignored.
 pub fn end(signal: u8) {
     let _ = ENDED_BY.compare_exchange(0, signal, SeqCst, SeqCst);
 }
 
-/// Returns the signal that ends the program, if there was one.
+/// Returns the deadly signal received, if any.
 pub fn ended_by() -> Option<u8> {
     Some(ENDED_BY.load(SeqCst)).filter(|signal| *signal != 0)
 }

@@ -1,6 +1,6 @@
-//! Messages between the screen and the solver. The screen sends orders, and
-//! only the latest counts; the engine answers with snapshots. Both contain the
-//! generation of the knobs.
+//! Messages between the screen and the solver thread. The screen sends orders, of which only the
+//! latest counts; the engine answers with snapshots. Both carry the generation of the knobs, so
+//! that outdated results are recognised.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -20,8 +20,8 @@ use rubscope_solver::scene::CheckedScene;
 use rubscope_solver::study::MapPlan;
 use rubscope_solver::study::precision::Precision;
 
-/// The task of the engine. Counters only grow, so that no key press is lost
-/// when an order replaces an older one.
+/// What the engine should compute. Requests are counters that only grow, so that no key press is
+/// lost when an order replaces an older one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Order {
     /// The scene with the current values of the knobs.
@@ -32,37 +32,37 @@ pub struct Order {
     pub changes: u64,
     /// Number of requests for a single step.
     pub steps: u64,
-    /// Number of requests to go to `go_to_s`.
+    /// Number of go-tos; their target is `go_to_s`.
     pub goes: u64,
-    /// Instant to which the motion goes at once, also after a restart \[s\].
+    /// Target of a go-to, and start of the playback after a restart \[s\].
     pub go_to_s: f64,
     /// Number of requests to jump to the next change of contact.
     pub jumps: u64,
     /// Number of times the pulse was fired again.
     pub pulses: u64,
-    /// Whether time passes.
+    /// Whether the motion plays.
     pub playing: bool,
-    /// Number of times the user went on after the end of the run.
+    /// Number of times the user continued past the end of the run.
     pub extensions: u64,
     /// Simulated time per wall-clock time: 5e-3 plays five milliseconds per second.
     pub rate: f64,
     /// Length of one recorded bin \[s\].
     pub bin_s: f64,
-    /// The page on the screen, from and to \[s\].
+    /// Start and end of the page on the screen \[s\].
     pub page: (f64, f64),
-    /// Whether to run the other contact law too, for comparison.
+    /// Whether to run the scene under the other contact law too.
     pub compare: bool,
-    /// Whether the motion slows down at changes of contact and hurries between.
+    /// Whether playback slows down at changes of contact and speeds up between them.
     pub slow_at_events: bool,
-    /// The instant to compute again, for the reading cursor \[s\].
+    /// Time of the cursor, for which the motion is recomputed \[s\].
     pub cursor_s: Option<f64>,
-    /// The views on the screen: their studies are computed.
+    /// The views on the screen; only their studies run.
     pub open: Vec<ViewId>,
     /// Axes and contact law of the map.
     pub map: MapChoice,
-    /// Column and row of the map's cell whose run is wanted.
+    /// Column and row of the map cell whose run is wanted.
     pub cell: Option<[u32; 2]>,
-    /// The speeds that the survey is of \[rad/s\].
+    /// Speed range of the survey; `None` covers all speeds \[rad/s\].
     pub range: Option<[f64; 2]>,
 }
 
@@ -72,106 +72,106 @@ impl Order {
         self.open.contains(&view)
     }
 
-    /// Returns the map to compute, while its view is open and the scene has one.
+    /// Returns the plan of the map if its view is on the screen and the scene allows one.
     pub fn map_plan(&self) -> Option<MapPlan> {
         self.shows(ViewId::Map).then(|| self.map.plan(&self.scene).ok()).flatten()
     }
 
-    /// Returns the number of the knobs' state: grows with every restart, live change and pulse.
+    /// Returns the generation of the knobs; it grows with every restart, live change and pulse.
     pub fn generation(&self) -> u64 {
         generation(self.restarts, self.changes, self.pulses)
     }
 }
 
-/// Returns the generation of the knobs after so many restarts, live changes and pulses.
+/// Returns the generation after these numbers of restarts, live changes and pulses.
 pub fn generation(restarts: u64, changes: u64, pulses: u64) -> u64 {
     restarts + changes + pulses
 }
 
-/// Speed of the solver.
+/// Speed of the solver and of the playback.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pace {
-    /// Wall-clock time over the number of steps taken, if the solver has steps
-    /// \[s\].
+    /// Wall-clock time per time step taken; `None` for solvers without steps \[s\].
     pub step_s: Option<f64>,
-    /// The part of the steps that was skipped, many at once.
+    /// Fraction of the steps that was skipped in blocks.
     pub skipped: Option<f64>,
     /// Wall-clock time of the whole run to `solver.end_s` \[s\].
     pub run_s: Option<f64>,
-    /// Motion over wall-clock time, as reached.
+    /// Rate reached by the playback: simulated time over wall-clock time.
     pub reached: Option<f64>,
-    /// Reason why the motion plays slower than requested.
+    /// Why the playback is slower than requested.
     pub limit: Limit,
 }
 
-/// Limit of the rate of play.
+/// What limits the rate of the playback.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Limit {
-    /// Nothing.
+    /// The playback is as fast as requested.
     #[default]
     None,
     /// The solver is too slow.
     Solver,
-    /// The wave would turn too far between two frames to be seen travelling.
+    /// At the requested rate the wave would turn too far between two frames and seem to run
+    /// backward.
     Wave,
 }
 
-/// Wall time after which the full run is given up: nobody waits longer for it,
-/// and the motion itself goes on.
+/// Wall-clock time after which the full run is given up. The playback continues.
 pub const FORECAST_LIMIT: Duration = Duration::from_secs(20);
 
-/// Progress of the full run.
+/// State of the full run.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FullRunState {
-    /// The finished part of the run, 0 to 1.
+    /// Being computed; the finished fraction, 0 to 1.
     Computing(f64),
-    /// Given up at this part: it takes too long.
+    /// Given up at this fraction, because it takes too long.
     GivenUp(f64),
-    /// Done.
+    /// Complete.
     Done(Box<FullRun>),
 }
 
-/// The result of the run to `solver.end_s`, computed ahead of the playback.
+/// The run to `solver.end_s`, computed ahead of the playback.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FullRun {
     /// The coordinates over the run.
     pub trace: Arc<Trace>,
-    /// Changes of contact, in order of time, the first of them.
+    /// The first changes of contact, in order of time.
     pub marks: Arc<Vec<Mark>>,
-    /// The longest hold of a corner that ended on the way, if it was as long as a
-    /// casing period, and the rotor speed when it ended \[rad/s\].
+    /// The longest hold of a corner that ended during the run, if it lasted at least a casing
+    /// period, and the rotor speed at its end \[rad/s\].
     pub broken: Option<(Hold, f64)>,
-    /// Rotor speed at which a run-up (true) or run-down came to its last contact \[rad/s\].
+    /// Rotor speed at which the final contact began in a run-up (true) or run-down (false)
+    /// \[rad/s\].
     pub caught: Option<(f64, bool)>,
     /// Verdict of the run.
     pub verdict: Verdict,
     /// Start of the final contact \[s\].
     pub since: Option<f64>,
-    /// Sides in contact and their multipliers; negative is a push \[N\].
+    /// Sides in contact and their multipliers; negative pushes \[N\].
     pub multipliers: Vec<(u32, f64)>,
-    /// Impacts in all.
+    /// Number of impacts.
     pub impacts: u64,
-    /// Penetration, pulls and other checks.
+    /// Checks of the solver: penetration, pulls and others.
     pub checks: Checks,
-    /// Reason of a failure of the run, in the words of the solver.
+    /// The solver's message if the run failed.
     pub stopped: Option<String>,
-    /// Reason of a failure of the run.
+    /// Why the run failed.
     pub failure: Option<Failure>,
 }
 
-/// A page of time, recorded at its own zoom as far as the run goes.
+/// Record of one page at the page's own zoom, up to the end of the run.
 #[derive(Clone, Debug)]
 pub struct PageRecord {
     /// Start and end \[s\].
     pub page: (f64, f64),
-    /// Its bins.
+    /// Bins of the page.
     pub record: BinHistory,
 }
 
-/// The motion of one solver at one instant.
+/// The state of a motion at one time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Moment {
-    /// Coordinates and rates.
+    /// Coordinates and velocities.
     pub state: State,
     /// Rotor angle \[rad\].
     pub angle: f64,
@@ -179,22 +179,22 @@ pub struct Moment {
     pub speed: f64,
     /// Sides in contact.
     pub active_set: ActiveSet,
-    /// Start of this contact \[s\].
+    /// Start of the current contact \[s\].
     pub since: f64,
     /// Gap of every blade; positive is open \[m\].
     pub gaps: Vec<f64>,
-    /// Sides and their mean multipliers; negative is a push \[N\].
+    /// Sides in contact and their mean multipliers; negative pushes \[N\].
     pub multipliers: Vec<(u32, f64)>,
-    /// Reason why the motion stopped.
+    /// Why the motion failed.
     pub failure: Option<String>,
-    /// The latest jump to a change of contact: its number, and what it found.
+    /// Number of the latest jump, and the change of contact it reached, if any.
     pub met: (u64, Option<Mark>),
-    /// Number of times that the motion has come to the end of its forecast, where it waits.
+    /// Number of times the motion has reached the end of the run, where it pauses.
     pub ends: u64,
 }
 
 impl Moment {
-    /// Creates the instant at which a motion is; forces are those of this instant.
+    /// Captures the current state of a motion; forces are instantaneous.
     pub fn of(motion: &Motion) -> Self {
         let (state, log) = (motion.state(), motion.contacts());
         Self {
@@ -211,59 +211,59 @@ impl Moment {
     }
 }
 
-/// The verdict of a scene, which may be an older one.
+/// A verdict with its scene, which may be older than the current one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
-    /// The scene.
+    /// The scene that was run.
     pub scene: CheckedScene,
     /// Its verdict.
     pub verdict: Verdict,
 }
 
-/// A study that takes long.
+/// A study that has been running for a while.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Working {
-    /// The view that shows it.
+    /// The view that shows its result.
     pub view: ViewId,
-    /// Completed part, 0 to 1, where that is known.
+    /// Finished fraction, 0 to 1, if known.
     pub part: Option<f64>,
     /// Seconds since it began.
     pub seconds: u64,
 }
 
-/// Whether a tiny change changes the outcome.
+/// Result of the sensitivity check: whether a tiny change of the input changes the verdict.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Sensitive {
     /// Not known yet, or not requested.
     #[default]
     Unknown,
-    /// What changed runs say.
+    /// The outcome of the changed runs.
     Known(Certainty),
-    /// Given up: it takes too long.
+    /// Given up, because it takes too long.
     GivenUp,
 }
 
-/// Results of the studies of the views.
+/// Results of the studies, one per view.
 #[derive(Clone, Debug, Default)]
 pub struct Found {
-    /// The locked motion against speed.
+    /// Locked motion against rotor speed.
     pub locked: Option<Arc<LockedCurves>>,
-    /// The spectrum of the run.
+    /// Spectrum of the run.
     pub spectrum: Option<Arc<Spectrum>>,
-    /// Waves at the coincidence; an inner `None` where there is none.
+    /// Waves near the coincidence; the inner `None` says that there is no coincidence.
     pub coincidence: Option<Arc<Option<CoincidenceCurves>>>,
-    /// The margins; what is searched arrives later.
+    /// The margins; searched limits arrive later than closed-form ones.
     pub margins: Option<Arc<LiveMargins>>,
-    /// The run of the map's cell that was asked for.
+    /// The run of the map cell under the cursor.
     pub cell: Option<Arc<CellRun>>,
-    /// The map; cells arrive one by one.
+    /// The map; its cells arrive one by one.
     pub map: Option<Arc<LiveMap>>,
-    /// Speed against error; rows arrive one by one.
+    /// Speed against error of the solvers; its rows arrive one by one.
     pub precision: Option<Arc<Precision>>,
 }
 
 impl Sensitive {
-    /// Returns what changed runs say, as far as it is known.
+    /// Returns the known outcome, or the default (nothing known).
     pub fn known(self) -> Certainty {
         match self {
             Self::Known(certainty) => certainty,
@@ -275,64 +275,64 @@ impl Sensitive {
 /// Results for one generation of the knobs.
 #[derive(Clone, Debug, Default)]
 pub struct Results {
-    /// The run to the scene's end.
+    /// The run to `solver.end_s`.
     pub full_run: Option<FullRunState>,
-    /// Its verdict, which may be proved before its end.
+    /// The verdict, which may be proved before the run is complete.
     pub verdict: Option<Verdict>,
-    /// The latest verdict there is, of this scene or of an older one.
+    /// The latest known verdict, possibly of an older scene.
     pub answer: Option<Arc<Answer>>,
-    /// The end of that run \[s\].
+    /// End of the run, with extensions \[s\].
     pub end_s: f64,
-    /// Whether a tiny change of the pulse, the speed or the motion changes the outcome.
+    /// Whether a tiny change of the pulse, the speed or the motion changes the verdict.
     pub sensitive: Sensitive,
-    /// The event solver under unilateral contact, on the same scene.
+    /// Reference run: the event solver with push-only contact on the same scene.
     pub reference: Option<FullRun>,
-    /// The same scene under the other contact law.
+    /// The run under the other contact law.
     pub comparison: Option<FullRun>,
-    /// Results of the studies of the views.
+    /// Results of the studies.
     pub found: Found,
-    /// The studies that take long.
+    /// The studies that have been running for a while.
     pub working: Vec<Working>,
-    /// The page on the screen.
+    /// Record of the page on the screen.
     pub page: Option<Arc<PageRecord>>,
-    /// The same under the other contact law.
+    /// Record of the same page under the other contact law.
     pub comparison_page: Option<Arc<PageRecord>>,
-    /// Solver speed.
+    /// Speed of the solver and of the playback.
     pub pace: Pace,
-    /// Live changes and pulses so far, as `run --at` takes them: when \[s\], what.
+    /// Live changes and pulses so far, as arguments of `run --at`: time \[s\] and change.
     pub applied: Vec<(f64, String)>,
-    /// The motion at the reading cursor, computed for that instant.
+    /// The motion recomputed at the time of the cursor.
     pub reading: Option<Arc<Moment>>,
 }
 
-/// State of the engine at one instant of wall time.
+/// What the engine reports to the screen.
 #[derive(Clone, Debug, Default)]
 pub struct Snapshot {
-    /// Generation of the knobs this belongs to.
+    /// Generation of the knobs to which the results belong.
     pub generation: u64,
-    /// The run that the bins belong to.
+    /// Number of restarts before the run to which the bins belong.
     pub restarts: u64,
-    /// The latest state of the motion that is played.
+    /// The latest state of the playing motion.
     pub moment: Option<Moment>,
     /// Bins recorded since the last snapshot.
     pub bins: Vec<Bin>,
-    /// The same for the motion under the other contact law.
+    /// Bins of the motion under the other contact law.
     pub comparison_bins: Vec<Bin>,
-    /// Results for the scene of this generation.
+    /// Results for this generation.
     pub results: Results,
-    /// The reason if the engine itself failed.
+    /// Message if the engine itself failed.
     pub trouble: Option<String>,
 }
 
-/// A solver in the background, or a replacement for tests.
+/// The solver in its own thread, or a stand-in for tests.
 pub trait Engine {
-    /// Replaces what is wanted.
+    /// Replaces the current order.
     fn order(&mut self, order: &Order);
-    /// Returns the new snapshot, if there is one.
+    /// Returns the latest snapshot if it was not returned before.
     fn take(&mut self) -> Option<Snapshot>;
-    /// Tells the engine that a frame has been drawn: a turning picture may turn on.
+    /// Reports that a frame was drawn. The turn of the wave per frame limits the playback rate.
     fn drawn(&mut self) {}
 }
 
-/// Called by the engine when a new snapshot can be taken.
+/// Called by the engine when a new snapshot is ready.
 pub type Waker = Arc<dyn Fn() + Send + Sync>;

@@ -1,5 +1,5 @@
-//! The events that the drawing thread waits for, and the threads that send
-//! them: one reads keys, one waits for signals.
+//! The events that the drawing thread waits for, and the threads that send them: one reads the
+//! keyboard, one waits for signals.
 
 use std::sync::mpsc::Sender;
 use std::thread;
@@ -11,52 +11,52 @@ use super::files::{FileResult, FoundScenes};
 use super::ground::Ground;
 use super::input::Input;
 
-/// Something that happened.
+/// An event for the drawing thread.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ScreenEvent {
     /// A key was pressed.
     Key(KeyEvent),
-    /// The mouse was moved, or a button or the wheel was used.
+    /// The mouse was moved, clicked or scrolled.
     Mouse(MouseEvent),
     /// The terminal has a new size.
     Resize,
     /// The engine has a new snapshot.
     Fresh,
-    /// A signal that ends the program.
+    /// A signal that ends the program has arrived.
     Signal(u8),
-    /// The job must be suspended.
+    /// SIGTSTP has arrived: suspend the job.
     Suspend,
-    /// The job was continued.
+    /// The job was continued after a stop.
     Continued,
-    /// The terminal has reported its background.
+    /// The terminal has reported its background colour.
     Ground(Ground),
-    /// A text was pasted.
+    /// Text was pasted.
     Pasted(String),
-    /// The file that was being written is done.
+    /// A file was written, or writing failed.
     Written(FileResult),
-    /// The scenes of the directory were read.
+    /// The scene files of the directory were read.
     Scenes(FoundScenes),
-    /// The terminal is closed: no more keys come.
+    /// The input is closed: the terminal is gone.
     InputClosed,
 }
 
 impl ScreenEvent {
-    /// Returns whether it is Ctrl-C, which quits everywhere.
+    /// Returns whether it is Ctrl-C, which quits in every dialogue.
     pub fn is_interrupt(&self) -> bool {
         let interrupt = (KeyCode::Char('c'), KeyModifiers::CONTROL);
         matches!(self, Self::Key(key) if (key.code, key.modifiers) == interrupt)
     }
 
-    /// Returns whether the user has typed, pasted or pointed.
+    /// Returns whether it comes from the keyboard or the mouse.
     pub fn is_input(&self) -> bool {
         matches!(self, Self::Key(_) | Self::Pasted(_) | Self::Mouse(_))
     }
 }
 
-/// Starts the thread that reads keys, and the report of the background among them.
+/// Starts the thread that reads the keyboard, including the terminal's report of its background.
 ///
 /// # Errors
-/// The system cannot start a thread.
+/// Fails if the system cannot start a thread.
 pub fn read_keys(to: Sender<ScreenEvent>) -> std::io::Result<()> {
     let read = move || {
         let mut input = Input::default();
@@ -65,8 +65,8 @@ pub fn read_keys(to: Sender<ScreenEvent>) -> std::io::Result<()> {
             let ground = input.take_ground().map(ScreenEvent::Ground);
             for event in [ground, event].into_iter().flatten() {
                 if event.is_interrupt() {
-                    // A frame that waits for the terminal must not keep the drawing thread
-                    // from hearing it.
+                    // The drawing thread may be blocked in a write to the terminal; give up its
+                    // frame so that it can handle the key.
                     super::terminal::cut_frame();
                 }
                 let last = event == ScreenEvent::InputClosed;
@@ -79,10 +79,10 @@ pub fn read_keys(to: Sender<ScreenEvent>) -> std::io::Result<()> {
     thread::Builder::new().name("rubscope-input".into()).spawn(read).map(|_| ())
 }
 
-/// Returns what an event of the terminal is for the explorer, if it is anything.
+/// Converts a terminal event; `None` if the explorer ignores it.
 fn screen_event(event: std::io::Result<Event>) -> Option<ScreenEvent> {
     Some(match event {
-        // Some terminals also report releases; repeats count as presses.
+        // Some terminals also report key releases. Repeats count as presses.
         Ok(Event::Key(key)) if key.kind != KeyEventKind::Release => ScreenEvent::Key(key),
         Ok(Event::Mouse(mouse)) => ScreenEvent::Mouse(mouse),
         Ok(Event::Resize(..)) => ScreenEvent::Resize,
@@ -92,11 +92,11 @@ fn screen_event(event: std::io::Result<Event>) -> Option<ScreenEvent> {
     })
 }
 
-/// Starts the thread that waits for signals. If the drawing thread does not end
-/// the program soon after a signal to end, this thread does.
+/// Starts the thread that waits for signals. If the drawing thread has not ended the program within
+/// `GRACE` after a deadly signal, this thread does.
 ///
 /// # Errors
-/// The system cannot start a thread or watch signals.
+/// Fails if the system cannot start a thread or watch signals.
 pub fn watch_signals(to: Sender<ScreenEvent>) -> std::io::Result<()> {
     use super::{ending, files, job, terminal};
     use signal_hook::consts::{SIGCONT, SIGTSTP, SIGWINCH};
@@ -107,7 +107,7 @@ pub fn watch_signals(to: Sender<ScreenEvent>) -> std::io::Result<()> {
             match signal {
                 SIGTSTP => {
                     job::want_stop(true);
-                    // The drawing thread must hear it even if its output is blocked.
+                    // The drawing thread may be blocked in a write to the terminal.
                     terminal::cut_frame();
                     let _ = to.send(ScreenEvent::Suspend);
                 }
@@ -132,8 +132,8 @@ pub fn watch_signals(to: Sender<ScreenEvent>) -> std::io::Result<()> {
     thread::Builder::new().name("rubscope-signals".into()).spawn(watch).map(|_| ())
 }
 
-/// Returns every signal that ends a program which does not catch it, and can be caught; not those
-/// of faults in the program itself.
+/// Lists the signals that end a program by default and can be caught, except those raised by memory
+/// or arithmetic faults.
 fn deadly_signals() -> Vec<i32> {
     use signal_hook::consts::{
         SIGABRT, SIGALRM, SIGHUP, SIGINT, SIGPROF, SIGQUIT, SIGSYS, SIGTERM, SIGTRAP, SIGUSR1,
@@ -147,11 +147,11 @@ fn deadly_signals() -> Vec<i32> {
     {
         use rustix::process::Signal;
         signals.extend([Signal::IO, Signal::POWER, Signal::STKFLT].map(Signal::as_raw));
-        // The real-time signals; the C library has the first two for itself.
+        // Real-time signals; the C library reserves the first two (32 and 33).
         signals.extend(34..=64);
     }
     signals
 }
 
-/// Time that the drawing thread may take to end after a signal: it has a file to keep.
+/// Time for the drawing thread to end after a deadly signal; it may be saving a file.
 const GRACE: Duration = super::ending::PATIENCE;

@@ -1,4 +1,4 @@
-//! What the run loop needs besides a backend: the shell, the clipboard, files.
+//! What the event loop needs besides a backend: job control, clipboard, mouse and files.
 
 use std::io::Result;
 use std::path::PathBuf;
@@ -10,56 +10,56 @@ use super::job;
 use super::line::Line;
 use super::terminal;
 
-/// Environment of the run loop besides its backend.
+/// The environment of the event loop: the real shell, or a stand-in for tests.
 pub trait Host {
-    /// Gives the terminal to the shell until the job is continued; false where
-    /// there is none. A key asks for it now; a signal has asked before.
+    /// Returns the terminal to the shell until the job is continued; returns false if no shell
+    /// could continue it. `by_key` says that the user pressed Ctrl-Z; otherwise a stop signal
+    /// arrived.
     ///
     /// # Errors
-    /// The terminal cannot be set up again.
+    /// Fails if the terminal cannot be set up again.
     fn suspend(&mut self, by_key: bool) -> Result<bool>;
-    /// Sets up the terminal again after the job was continued from outside.
+    /// Sets up the terminal again after the job was continued by a signal.
     ///
     /// # Errors
-    /// The terminal cannot be set up again.
+    /// Fails if the terminal cannot be set up again.
     fn resume(&mut self) -> Result<()>;
-    /// Puts a text on the clipboard of the terminal.
+    /// Puts a text on the clipboard of the user's terminal.
     ///
     /// # Errors
-    /// The terminal cannot be written to.
+    /// Fails if the terminal cannot be written to.
     fn copy(&mut self, text: &str) -> Result<()>;
-    /// Returns how much the terminal is sent.
+    /// Returns the limit on the bytes sent to the terminal.
     fn line(&self) -> Line;
-    /// Bytes sent to the terminal so far.
+    /// Returns the number of bytes sent to the terminal so far.
     fn sent(&self) -> u64;
-    /// Returns whether a write had to wait for the terminal.
+    /// Returns whether any write had to wait for the terminal.
     fn is_slow(&self) -> bool;
-    /// Asks the terminal for mouse events, or no longer.
+    /// Switches the terminal's mouse reports on or off.
     fn mouse(&mut self, on: bool);
-    /// Writes a file. Without a result, that comes later as an event.
+    /// Writes a file. `None` means that the result will arrive as an event.
     fn write(&mut self, job: FileJob) -> Option<FileResult>;
-    /// Records why a file was not written, until a screen has shown it.
+    /// Records why a file was not written; `None` once a frame has shown the reason.
     fn unseen(&mut self, reason: Option<String>);
-    /// Reads the scenes of a directory. Without a result, that comes later as an
-    /// event.
+    /// Reads the scenes of a directory. `None` means that they will arrive as an event.
     fn find_scenes(&mut self, directory: PathBuf) -> Option<FoundScenes>;
 }
 
-/// The real terminal, its shell, and a thread for files.
+/// The real terminal and shell; files are written in a thread of their own.
 #[derive(Debug)]
 pub struct Shell {
-    /// Channel for the results of files.
+    /// Channel for the results of file operations.
     pub events: Sender<ScreenEvent>,
-    /// Reason why a file was not written, until a screen has shown it.
+    /// Why a file was not written, until a frame has shown the reason.
     pub unseen: Option<String>,
-    /// Limit on the bytes that are sent to the terminal.
+    /// Limit on the bytes sent to the terminal.
     pub line: Line,
 }
 
 impl Host for Shell {
     fn suspend(&mut self, by_key: bool) -> Result<bool> {
         if job::is_orphaned() {
-            // Nobody could continue it.
+            // No shell is left that could continue the job.
             return terminal::regain().map(|()| false);
         }
         if by_key {
@@ -71,12 +71,12 @@ impl Host for Shell {
     }
 
     fn resume(&mut self) -> Result<()> {
-        // The shell may have changed the settings of the terminal.
+        // The shell may have changed the terminal settings.
         terminal::regain()
     }
 
     fn copy(&mut self, text: &str) -> Result<()> {
-        // OSC 52: the terminal, not this machine, owns the clipboard.
+        // OSC 52 sets the clipboard of the terminal, also through SSH.
         terminal::write(format!("\x1b]52;c;{}\x07", base64(text.as_bytes())).as_bytes())
     }
 
@@ -93,13 +93,13 @@ impl Host for Shell {
     }
 
     fn mouse(&mut self, on: bool) {
-        // A terminal that is lost shows itself at the next frame.
+        // If the terminal is gone, the next frame fails and ends the program.
         let _ = terminal::set_mouse(on);
     }
 
     fn write(&mut self, job: FileJob) -> Option<FileResult> {
         let events = self.events.clone();
-        // Without a receiver the program is about to end.
+        // Sending fails only if the program is about to end.
         let done = move |result| _ = events.send(ScreenEvent::Written(result));
         aside(move || job.run(), FileResult::Failed, done)
     }
@@ -115,7 +115,7 @@ impl Host for Shell {
     }
 }
 
-/// Encodes bytes in base 64 with padding, as OSC 52 needs it.
+/// Encodes bytes in base64 with padding, as OSC 52 requires.
 fn base64(bytes: &[u8]) -> String {
     const SIGNS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut out = String::new();

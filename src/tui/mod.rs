@@ -1,6 +1,6 @@
-//! The explorer: a live screen of one motion. The state (`app`) knows no
-//! terminal; `panels` and `views` draw it; the solver runs in its own thread
-//! (`worker`). Tables: `views`, `knobs`, `lessons`, `bindings`.
+//! The explorer: a live screen of one motion. Its state (`app`) knows no terminal; `panels` and
+//! `views` draw it; the solver runs in a thread of its own (`worker`). Its tables are in `views`,
+//! `knobs`, `lessons` and `bindings`. Start reading at `app` and `run`.
 
 mod ability;
 mod app;
@@ -67,16 +67,16 @@ use crate::report::line::clean;
 use anyhow::Context;
 use rubscope_solver::scene::CheckedScene;
 
-/// Returns whether there is a terminal that only shows lines.
+/// Returns whether standard output is a terminal that cannot move the cursor (`TERM=dumb`).
 pub fn is_dumb_terminal() -> bool {
     let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
     dumb && std::io::stdout().is_terminal()
 }
 
-/// Checks that there are a screen and a keyboard.
+/// Checks that standard output is a terminal and that a keyboard can be read.
 ///
 /// # Errors
-/// What is missing.
+/// Says what is missing.
 pub fn check_terminal() -> Result<(), &'static str> {
     if !std::io::stdout().is_terminal() {
         return Err("the explorer needs a terminal on standard output; without one, use \
@@ -88,21 +88,20 @@ pub fn check_terminal() -> Result<(), &'static str> {
     Ok(())
 }
 
-/// Runs the explorer on a checked scene until the user quits, where
-/// `check_terminal` found nothing missing. The result is the exit status: 0, or
-/// 128 + n after signal n.
+/// Runs the explorer on a checked scene until the user quits; call [`check_terminal`] first.
+/// Returns the exit status: 0, or 128 + n after signal n.
 ///
 /// # Errors
-/// Threads or signals cannot be set up, or the last file was not written.
+/// Fails if threads or signals cannot be set up, or the last file was not written.
 pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u8> {
-    // With `NO_COLOR`, crossterm would drop bold and reverse too; the mono
-    // theme has no colours anyway.
+    // Otherwise crossterm would drop bold and reverse too if `NO_COLOR` is set. The mono theme has
+    // no colours anyway.
     crossterm::style::force_color_output(true);
     terminal::install_panic_hook(&[worker::WORKER_NAME, files::FILES_NAME]);
     let (sender, events) = mpsc::channel();
     events::watch_signals(sender.clone())?;
     let fresh = sender.clone();
-    // Without a receiver the program is about to end.
+    // Sending fails only if the loop has ended; then nobody needs the snapshot.
     let wake: engine::Waker = Arc::new(move || _ = fresh.send(events::ScreenEvent::Fresh));
     let mut worker = worker::Worker::spawn(wake)?;
     let variable = |name: &str| std::env::var(name).unwrap_or_default();
@@ -129,17 +128,17 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
     let ended = terminal::open().and_then(|mut screen| {
         events::read_keys(shell.events.clone())?;
         if is_asked {
-            // The report is not waited for: until it comes, the background is taken for dark.
+            // Do not wait for the answer; until it arrives the background is assumed dark.
             terminal::ask_ground()?;
         }
         let ended = run(&mut screen, &events, &mut app, &mut worker, &mut shell, options.frame());
-        // Dropping the screen would write to standard error if the terminal is gone.
+        // Dropping it would print an error if the terminal is gone.
         std::mem::forget(screen);
         ended
     });
     drop(guard);
     if let Some(why) = memory.keep(&app, ending::PATIENCE) {
-        // A terminal that is gone shows nothing.
+        // Writing fails only if the terminal is gone; then nobody can read it.
         let _ = writeln!(std::io::stderr(), "rubscope: {}", clean(&why));
     }
     if app.files.writing.is_some() {

@@ -1,5 +1,5 @@
-//! The loop of the drawing thread. Backend, events, engine and host are given
-//! to it, so that whole screens can be tested without a terminal.
+//! The event loop of the drawing thread. It receives backend, events, engine and host as arguments,
+//! so that tests can draw whole screens without a terminal.
 
 use std::collections::VecDeque;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
@@ -16,32 +16,32 @@ use super::line::Throttle;
 use super::panels::{self, LEAST_HEIGHT, LEAST_WIDTH};
 use super::update::{Effect, MouseOutcome};
 
-/// Draw at least this often, to detect a closed terminal by its error.
+/// Longest time between two frames. A frame is how the program notices that the terminal is gone.
 const HEARTBEAT: Duration = Duration::from_secs(1);
-/// Least time between two answers to keys.
+/// Shortest time between two frames that answer keys.
 const KEY_FRAME: Duration = Duration::from_millis(16);
 
-/// Longest wait of a frame for the forecast of a knob that was turned: most are
-/// there sooner, and then one frame shows both.
+/// Longest delay of a frame after a knob was turned. Most forecasts arrive within it, so that one
+/// frame shows both the knob and its verdict.
 const ANSWER: Duration = Duration::from_millis(15);
 
-/// Longest wait of quitting for a file that is being written.
+/// Longest time that quitting waits for a file to be written.
 const LAST_FILE: Duration = Duration::from_secs(1);
 
-/// Most events before a Ctrl-C that are still answered: more than anybody types ahead of the
-/// screen, and answered in a fraction of a second.
+/// Number of waiting events above which a Ctrl-C discards the input before it. Nobody types that
+/// far ahead, and fewer are handled within a fraction of a second.
 const MOST_AHEAD: usize = 1000;
 
-/// The events that have come and are not answered yet.
+/// Queue of the events that have arrived but are not handled yet.
 struct Events<'a> {
     from: &'a Receiver<ScreenEvent>,
     waiting: VecDeque<ScreenEvent>,
 }
 
 impl Events<'_> {
-    /// Returns the next event that is there. Behind a burst of keys a Ctrl-C is the next one.
+    /// Returns the next event without waiting. A Ctrl-C behind a long burst of input comes first.
     fn next(&mut self) -> Option<ScreenEvent> {
-        // Not for ever: more may come as fast as they are taken.
+        // Bounded, because events may arrive as fast as they are received.
         for event in self.from.try_iter().take(100 * MOST_AHEAD) {
             if event.is_interrupt() && self.waiting.len() > MOST_AHEAD {
                 self.waiting.retain(|event| !event.is_input());
@@ -51,13 +51,13 @@ impl Events<'_> {
         self.waiting.pop_front()
     }
 
-    /// Removes the events at the front that are the same as this one; returns how many.
+    /// Removes the events at the front that equal `event`; returns their number.
     fn repeats(&mut self, event: &ScreenEvent) -> usize {
         let same = self.waiting.iter().take_while(|other| *other == event).count();
         self.waiting.drain(..same).count()
     }
 
-    /// Returns the next event, and waits for it this long.
+    /// Returns the next event; waits up to `wait` for one.
     fn within(&mut self, wait: Duration) -> Result<ScreenEvent, RecvTimeoutError> {
         self.next().map_or_else(|| self.from.recv_timeout(wait), Ok)
     }
@@ -66,16 +66,16 @@ impl Events<'_> {
 /// Urgency of the next frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Due {
-    /// Nothing has changed.
+    /// Nothing has changed: draw at the heartbeat.
     Later,
-    /// New motion: at the frame rate.
+    /// The motion has advanced: draw at the frame rate.
     Frame,
-    /// A key or another size: at once.
+    /// A key was pressed or the screen has a new size: draw at once.
     Now,
 }
 
 impl Due {
-    /// Returns the least time between two frames.
+    /// Returns the shortest time since the last frame at which the next one may be drawn.
     fn pause(self, frame: Duration) -> Duration {
         match self {
             Self::Later => HEARTBEAT,
@@ -85,10 +85,11 @@ impl Due {
     }
 }
 
-/// Runs the explorer until the user quits. Draws only when something changed.
+/// Runs the explorer until the user quits. Frames are drawn only when something has changed, and at
+/// the heartbeat.
 ///
 /// # Errors
-/// The terminal cannot be written to.
+/// Fails if the terminal cannot be written to.
 pub fn run<B: Backend>(
     terminal: &mut Terminal<B>,
     events: &Receiver<ScreenEvent>,
@@ -130,11 +131,11 @@ pub fn run<B: Backend>(
                 Reaction::Look => due = due.max(look(app, engine)),
                 Reaction::Redraw => (again, due) = (true, Due::Now),
             }
-            // After many key presses only the last state is computed.
+            // Handle all waiting keys before the next order: only the final state is computed.
             next = events.next();
         }
         if order(app, engine, &mut ordered) {
-            // Not for ever: the next key may come sooner.
+            // Keep an earlier deadline: a held key must not delay the frame for ever.
             answer = answer.or(Some(Instant::now() + ANSWER));
         }
         if app.verdict().is_some() {
@@ -146,7 +147,8 @@ pub fn run<B: Backend>(
             && drawn.is_none_or(|at| at.elapsed() >= due.pause(frame))
         {
             if std::mem::take(&mut again) {
-                // `Terminal::clear` would ask for the cursor and wait for the input thread.
+                // `Terminal::clear` would ask for the cursor position, and its answer would wait
+                // for the input thread.
                 let size = terminal.size()?;
                 terminal.resize(size.into())?;
             }
@@ -164,7 +166,7 @@ fn until(instant: Option<Instant>) -> Duration {
     instant.map_or(Duration::ZERO, |at| at.saturating_duration_since(Instant::now()))
 }
 
-/// Gives a new order to the engine; whether it is about another motion.
+/// Sends the order to the engine if it has changed; returns whether its generation is new.
 fn order(app: &App, engine: &mut dyn Engine, ordered: &mut Option<Order>) -> bool {
     let order = app.order();
     let generation = order.generation();
@@ -176,8 +178,8 @@ fn order(app: &App, engine: &mut dyn Engine, ordered: &mut Option<Order>) -> boo
     other
 }
 
-/// Takes the latest snapshot. A verdict is drawn as soon as it is known: while a key
-/// is held, the next one comes before the next frame.
+/// Applies the latest snapshot. A new verdict is drawn at once, because while a key is held the
+/// next turn of the knob would replace it before the next regular frame.
 fn look(app: &mut App, engine: &mut dyn Engine) -> Due {
     let known = app.verdict().is_some();
     if let Some(snapshot) = engine.take() {
@@ -197,7 +199,7 @@ fn show<B: Backend>(
     app.layout.size = (size.width, size.height);
     terminal.draw(|frame| panels::draw(frame, app))?;
     engine.drawn();
-    // A screen that is too small shows only that it is.
+    // A screen that is too small shows only a note about its size, so no message was seen.
     if size.width >= LEAST_WIDTH && size.height >= LEAST_HEIGHT {
         app.drawn();
         host.unseen(None);
@@ -205,14 +207,14 @@ fn show<B: Backend>(
     Ok(())
 }
 
-/// Reaction of the loop to an event.
+/// What the loop does after an event.
 enum Reaction {
     Exit(Exit),
-    /// Exit, as soon as the file that is being written is complete.
+    /// Exit once the file being written is complete.
     Quit,
     Draw(Due),
     Redraw,
-    /// Take what the engine has.
+    /// Apply the latest snapshot of the engine.
     Look,
 }
 
@@ -252,7 +254,7 @@ fn handle(event: ScreenEvent, app: &mut App, host: &mut dyn Host) -> Reaction {
     }
 }
 
-/// Returns what follows from a key or a click.
+/// Carries out the effect of a key or a click on the host.
 fn take(effect: Effect, app: &mut App, host: &mut dyn Host) -> Reaction {
     match effect {
         Effect::None => Reaction::Draw(Due::Now),
@@ -264,7 +266,7 @@ fn take(effect: Effect, app: &mut App, host: &mut dyn Host) -> Reaction {
             Reaction::Draw(Due::Now)
         }
         Effect::Copy(text) => {
-            // The status line also shows it, in case the terminal refuses it.
+            // If the terminal refuses OSC 52, the text can still be copied from the status line.
             let _ = host.copy(&text);
             Reaction::Draw(Due::Now)
         }
@@ -283,8 +285,7 @@ fn take(effect: Effect, app: &mut App, host: &mut dyn Host) -> Reaction {
     }
 }
 
-/// Takes how the writing of a file went. Until a screen shows it, it is for the end of
-/// the program to say.
+/// Handles the result of a write. If no frame shows an error, it is printed on exit.
 fn written(result: FileResult, app: &mut App, host: &mut dyn Host) {
     let name = app.files.writing.as_ref().map_or("the file", |writing| &writing.name);
     match &result {
@@ -295,12 +296,12 @@ fn written(result: FileResult, app: &mut App, host: &mut dyn Host) {
     app.written(result);
 }
 
-/// Waits a moment for the file that is being written.
+/// Waits up to [`LAST_FILE`] for the file being written.
 fn last_file(events: &mut Events, app: &mut App, host: &mut dyn Host) -> Exit {
     let began = Instant::now();
     while app.files.writing.is_some() {
         match events.within(LAST_FILE.saturating_sub(began.elapsed())) {
-            // The keys after the one that quits are for nobody.
+            // Input after the quit key is ignored.
             Ok(event) if event.is_input() => {}
             Ok(other) => {
                 if let Reaction::Exit(exit) = handle(other, app, host) {
@@ -324,5 +325,5 @@ fn resumed(result: std::io::Result<()>) -> Reaction {
     if result.is_ok() { Reaction::Redraw } else { Reaction::Exit(Exit::Signal(HANGUP)) }
 }
 
-/// SIGHUP: the terminal is closed.
+/// Signal number of SIGHUP: the terminal was closed.
 pub(super) const HANGUP: u8 = 1;

@@ -1,6 +1,6 @@
-//! The terminal of the explorer: setting it up, drawing on it with frames that can be given up,
-//! and restoring it however the program ends. Restoring takes no lock that is held during
-//! output, never waits for the terminal, and may be done by any thread, more than once.
+//! The explorer's terminal: setting it up, drawing frames that can be abandoned, and restoring it
+//! however the program ends. Any thread may restore it, repeatedly: that takes no lock held during
+//! output, and waits a bounded time for the terminal.
 
 use std::io::Error;
 use std::sync::OnceLock;
@@ -25,50 +25,49 @@ use crate::tui::ending::ended_by;
 use crate::tui::ground::QUESTION;
 use crate::tui::tty::Tty;
 
-/// The terminal, opened once.
+/// The terminal, opened on first use.
 static TTY: OnceLock<Tty> = OnceLock::new();
-/// Whether the terminal is set up, completely or in part.
+/// Whether the terminal is set up, at least in part, and must be restored.
 static HELD: AtomicBool = AtomicBool::new(false);
-/// Whether the frame that is being written must be given up.
+/// Whether the frame being written must be abandoned.
 static CUT: AtomicBool = AtomicBool::new(false);
-/// Whether a frame was given up in its middle, perhaps within a sequence.
+/// Whether a frame was abandoned in its middle, perhaps within an escape sequence.
 static TORN: AtomicBool = AtomicBool::new(false);
-/// Whether mouse events are asked for while the terminal is set up.
+/// Whether mouse events are wanted.
 static MOUSE: AtomicBool = AtomicBool::new(false);
 
 /// Whether frames are sent as synchronized updates.
 static WHOLE: AtomicBool = AtomicBool::new(false);
 
-/// Begins and ends a synchronized update (mode 2026): the terminal shows the frame when it
-/// has all of it. One that does not know the mode ignores it.
+/// Begin and end of a synchronized update (mode 2026): the terminal shows the frame once it is
+/// complete. Terminals without this mode ignore both.
 const BEGIN_FRAME: &[u8] = b"\x1b[?2026h";
 const END_FRAME: &[u8] = b"\x1b[?2026l";
 
-/// Bytes sent so far.
 static SENT: AtomicU64 = AtomicU64::new(0);
-/// Whether a write had to wait.
+/// Whether any write had to wait for the terminal.
 static SLOW: AtomicBool = AtomicBool::new(false);
 
-/// A write that takes longer has waited for the terminal.
+/// A write that takes longer than this has waited for the terminal.
 const AT_ONCE: Duration = Duration::from_millis(60);
 
-/// Longest wait of restoring for room on the terminal, before and after the
-/// frames that it has not taken are dropped.
+/// Longest wait for the terminal to take the restoring bytes. It applies twice: before and after
+/// the pending output is discarded.
 const ROOM: Duration = Duration::from_millis(200);
 
-/// Time that a process that was continued in the background waits for a signal.
+/// Time to wait for a signal after the process was continued in the background.
 const BACKGROUND: Duration = Duration::from_secs(1);
 
-/// Ends a sequence of which the terminal has only the beginning.
+/// Cancels an escape sequence of which the terminal has received only the beginning.
 const CANCEL: &[u8] = b"\x18\x1b\\";
 
-/// Most columns and rows that are drawn: two screens of this size take 50 MB.
+/// Largest number of columns and rows drawn: two buffers of this size take 50 MB.
 pub const MOST: (u16, u16) = (1000, 500);
 
-/// Columns and rows if the terminal does not know its own, like a serial line.
+/// Columns and rows if the terminal reports none, as a serial line does.
 const USUAL: (u16, u16) = (80, 24);
 
-/// The terminal of the explorer.
+/// The screen type of the explorer.
 pub type Screen = Terminal<ScreenBackend>;
 
 fn tty() -> Result<&'static Tty, Error> {
@@ -78,13 +77,13 @@ fn tty() -> Result<&'static Tty, Error> {
     TTY.get().ok_or_else(|| Error::other("no terminal"))
 }
 
-/// Sets up raw keys, the alternate screen, no cursor, and pasted text in one piece.
+/// Sets up raw mode, alternate screen, hidden cursor and bracketed paste.
 ///
 /// # Errors
-/// The terminal refuses.
+/// Fails if the terminal rejects the settings.
 fn enter() -> Result<(), Error> {
     let tty = tty()?;
-    // First: a signal from here on restores.
+    // Set this first, so that a signal during the setup restores the terminal.
     let again = HELD.swap(true, SeqCst);
     if let Err(error) = tty.make_raw(again) {
         HELD.store(again, SeqCst);
@@ -98,11 +97,10 @@ fn enter() -> Result<(), Error> {
     write(&bytes)
 }
 
-/// Asks for mouse events, now if the terminal is set up and whenever it will be, or
-/// no longer.
+/// Switches mouse reports, now if the terminal is set up, and at every later setup.
 ///
 /// # Errors
-/// The terminal is closed.
+/// Fails if the terminal is closed.
 pub fn set_mouse(on: bool) -> Result<(), Error> {
     MOUSE.store(on, SeqCst);
     if !HELD.load(SeqCst) {
@@ -116,30 +114,29 @@ pub fn set_mouse(on: bool) -> Result<(), Error> {
     write(&bytes)
 }
 
-/// Sends frames as synchronized updates from now on, or not.
+/// Switches synchronized updates on or off.
 pub fn set_whole_frames(whole: bool) {
     WHOLE.store(whole, SeqCst);
 }
 
-/// Restores the terminal; may be called at any time, from any thread, and on a
-/// closed terminal.
+/// Restores the terminal. May be called at any time, from any thread, and on a closed terminal.
 pub fn leave() {
     let Some(tty) = TTY.get().filter(|_| HELD.load(SeqCst)) else { return };
     let front = tty.in_foreground();
     if front {
         tty.put_back();
     }
-    // In the background the settings belong to the shell.
+    // In the background the settings belong to the shell, and writing may stop the process.
     if front || tty.may_write_from_background() {
         let mut bytes = CANCEL.to_vec();
         if WHOLE.load(SeqCst) {
-            // A frame that was cut has not ended its update.
+            // An abandoned frame may have begun an update without ending it.
             bytes.extend_from_slice(END_FRAME);
         }
-        // A vector takes everything.
+        // Writing to a vector cannot fail.
         let _ = queue!(
             bytes,
-            // Also where it was never asked for: which frame was cut is not known.
+            // Even if mouse reports seem off: an abandoned frame may have switched them on.
             DisableMouseCapture,
             DisableBracketedPaste,
             LeaveAlternateScreen,
@@ -148,7 +145,7 @@ pub fn leave() {
         );
         let from = if TORN.load(SeqCst) { 0 } else { CANCEL.len() };
         if !tty.send_within(bytes.get(from..).unwrap_or(&bytes), ROOM) && front {
-            // What is dropped may end within a sequence.
+            // What is discarded may end within a sequence, so `CANCEL` is sent too.
             tty.drop_pending();
             tty.send_within(&bytes, ROOM);
         }
@@ -157,19 +154,19 @@ pub fn leave() {
     HELD.store(false, SeqCst);
 }
 
-/// Takes the terminal at the start, or again after the job was continued, as
-/// soon as it is in the foreground; until then the job is stopped. The system
-/// would stop it, too, but again and again, so that no signal could end it.
+/// Sets up the terminal at the start, or after the job was continued, once the process is in the
+/// foreground; until then the job is stopped. The system would stop it on its own, but repeatedly,
+/// and then no signal could end it.
 ///
 /// # Errors
-/// The terminal cannot be set up again.
+/// Fails if the terminal cannot be set up again.
 pub fn regain() -> Result<(), Error> {
     while let Some(tty) = TTY.get().filter(|_| ended_by().is_none()) {
         if tty.in_foreground() {
             CUT.store(false, SeqCst);
             return enter();
         }
-        // A signal that came with the continuation ends the program here.
+        // A signal that arrives together with the continuation ends the loop here.
         let began = Instant::now();
         while began.elapsed() < BACKGROUND && ended_by().is_none() && !tty.in_foreground() {
             std::thread::sleep(Duration::from_millis(10));
@@ -185,24 +182,25 @@ pub fn regain() -> Result<(), Error> {
     Ok(())
 }
 
-/// Asks the terminal for its background where its report would come among the keys.
+/// Asks the terminal for its background colour, if the report would arrive on the same terminal as
+/// the keys.
 ///
 /// # Errors
-/// The terminal is closed.
+/// Fails if the terminal is closed.
 pub fn ask_ground() -> Result<(), Error> {
     if tty()?.hears_itself() { write(QUESTION) } else { Ok(()) }
 }
 
-/// Gives up the frame that is being written and all that follow, until the
-/// terminal is set up again. The whole screen must be drawn afterwards.
+/// Abandons the frame being written and all that follow until the terminal is set up again; then
+/// the whole screen must be redrawn.
 pub fn cut_frame() {
     CUT.store(true, SeqCst);
 }
 
-/// Writes a frame, or a sequence beside frames, unless it is given up.
+/// Writes a frame, or a sequence between frames, unless it is abandoned.
 ///
 /// # Errors
-/// The terminal is closed.
+/// Fails if the terminal is closed.
 pub fn write(bytes: &[u8]) -> Result<(), Error> {
     let cut = || CUT.load(SeqCst) || ended_by().is_some();
     let began = Instant::now();
@@ -217,29 +215,28 @@ pub fn write(bytes: &[u8]) -> Result<(), Error> {
     Ok(())
 }
 
-/// Takes what was typed, and waits for it this long or for ever; none if there was
-/// nothing.
+/// Reads typed bytes. Waits up to `wait`, or without limit; `None` if nothing arrived.
 ///
 /// # Errors
-/// The terminal is closed.
+/// Fails if the terminal is closed.
 pub fn read(bytes: &mut [u8], wait: Option<Duration>) -> Result<Option<usize>, Error> {
     tty()?.read(bytes, wait)
 }
 
-/// Bytes sent to the terminal so far.
+/// Returns the number of bytes sent to the terminal so far.
 pub fn sent() -> u64 {
     SENT.load(SeqCst)
 }
 
-/// Returns whether a write had to wait for the terminal.
+/// Returns whether any write had to wait for the terminal.
 pub fn is_slow() -> bool {
     SLOW.load(SeqCst)
 }
 
-/// Returns the size of the screen: that of the terminal within bounds.
+/// Returns the size of the screen: that of the terminal, at most [`MOST`].
 ///
 /// # Errors
-/// The terminal is closed.
+/// Fails if the terminal is closed.
 pub fn size() -> Result<Size, Error> {
     tty()?.size().map(bounded)
 }
@@ -249,18 +246,18 @@ fn bounded((columns, rows): (u16, u16)) -> Size {
     Size::new(columns.min(MOST.0), rows.min(MOST.1))
 }
 
-/// Opens the screen on the terminal of standard output.
+/// Sets up the terminal and opens the screen on it.
 ///
 /// # Errors
-/// The terminal refuses.
+/// Fails if the terminal rejects the settings.
 pub fn open() -> Result<Screen, Error> {
     tty()?;
     regain()?;
     Terminal::new(ScreenBackend::default())
 }
 
-/// Restores the terminal before a panic is reported. Panics of threads with these names are
-/// caught and shown on the screen, so the hook does not report them.
+/// Makes panics restore the terminal before they are reported. Panics in the threads named in
+/// `caught` are not reported: those threads catch them and show them on the screen.
 pub fn install_panic_hook(caught: &'static [&'static str]) {
     let report = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |info| {
@@ -273,10 +270,10 @@ pub fn install_panic_hook(caught: &'static [&'static str]) {
     }));
 }
 
-/// Returns whether an error says that the terminal is no more: nobody is left to read a message.
+/// Returns whether an error means that the terminal no longer exists.
 pub fn is_gone(error: &Error) -> bool {
     use std::io::ErrorKind::{BrokenPipe, NotFound, UnexpectedEof};
-    // EIO and ENXIO, of a terminal whose other end is closed, have no kind of their own.
+    // EIO and ENXIO (the other end is closed) have no `ErrorKind`.
     matches!(error.kind(), BrokenPipe | NotFound | UnexpectedEof)
         || [5, 6].map(Some).contains(&error.raw_os_error())
 }
@@ -290,8 +287,7 @@ impl Drop for Guard {
     }
 }
 
-/// Draws on the terminal of the explorer; holds the bytes of a frame, which are written in one
-/// piece when it is flushed.
+/// Ratatui backend that collects the bytes of a frame and writes them at once when flushed.
 #[derive(Debug, Default)]
 pub struct ScreenBackend(Vec<u8>);
 
@@ -306,7 +302,7 @@ impl Backend for ScreenBackend {
     }
 
     fn hide_cursor(&mut self) -> Result<(), Error> {
-        // It was hidden when the screen was opened, and nothing shows it.
+        // The cursor is hidden when the screen is opened, and never shown before it is left.
         Ok(())
     }
 

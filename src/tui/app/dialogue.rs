@@ -1,29 +1,28 @@
-//! The open dialogue: what the keyboard acts on.
+//! The dialogue that has the keyboard: a prompt, a list, a question, or none.
 
 use crate::tui::field::Field;
 
-/// Target of the keyboard: the main screen or an open dialogue.
+/// What the keyboard acts on: the main screen, or one open dialogue.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum InputMode {
     /// Knobs and charts.
     Main,
-    /// The value of the selected knob is being typed.
+    /// Typing a value for the selected knob.
     Typing(Field),
-    /// The help is open.
     Help(HelpState),
-    /// A command is being looked for.
+    /// The command palette: commands are searched by name.
     Palette(PaletteState),
-    /// A file name is being typed.
+    /// Typing a file name.
     Naming(Purpose, Field),
-    /// A question: replace the existing file?
+    /// Asking whether to replace the existing file of this name.
     Replacing(Purpose, String),
-    /// A lesson is being chosen.
+    /// The list of lessons, with the index of the selected one.
     Lessons(usize),
-    /// A scene is being chosen: its place in the list, or the open one.
+    /// The list of scenes, with the index of the selected one; `None` selects the open scene.
     Scenes(Option<usize>),
 }
 
-/// The purpose of a file name that is typed.
+/// What the file will contain whose name is being typed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// The scene as a TOML file.
@@ -32,17 +31,15 @@ pub enum Purpose {
     Export,
 }
 
-/// The open dialogue, if one is.
 #[derive(Clone, Debug)]
 pub struct Dialogue {
-    /// Target of the keyboard: the main screen or an open dialogue.
     pub mode: InputMode,
-    /// Page of the note of the selected scene, where it is long.
+    /// Page of the selected scene's note, if the note is longer than its area.
     pub note_page: usize,
-    /// Whether the user is new and has pressed no key yet: the last line says
-    /// what to try.
+    /// Whether this is the first start and no key was pressed yet: the footer then says what to
+    /// try.
     pub is_new: bool,
-    /// Whether the screen has shown the question that is open.
+    /// Whether a frame has shown the open question. Keys typed ahead must not answer it unseen.
     pub asked: bool,
 }
 
@@ -53,28 +50,26 @@ impl Default for Dialogue {
 }
 
 impl Dialogue {
-    /// Returns whether none is open.
     pub fn is_closed(&self) -> bool {
         self.mode == InputMode::Main
     }
 
-    /// Opens another, at its first page.
+    /// Opens a dialogue and resets the page of the note.
     pub fn open(&mut self, mode: InputMode) {
         (self.mode, self.note_page) = (mode, 0);
     }
 
-    /// Opens a question, which is answered once the screen has shown it.
+    /// Opens a question, which keys can answer only after a frame has shown it.
     pub fn ask(&mut self, mode: InputMode) {
         self.open(mode);
         self.asked = false;
     }
 
-    /// Closes it.
     pub fn close(&mut self) {
         self.mode = InputMode::Main;
     }
 
-    /// Returns the text that is being typed.
+    /// Returns the text field that has the keyboard, if there is one.
     pub fn typed(&mut self) -> Option<&mut Field> {
         match &mut self.mode {
             InputMode::Typing(text) | InputMode::Naming(_, text) => Some(text),
@@ -84,7 +79,7 @@ impl Dialogue {
         }
     }
 
-    /// Scrolls the list to its top after a change of what is searched.
+    /// Goes to the top of the list after its search text has changed.
     pub fn look_again(&mut self) {
         match &mut self.mode {
             InputMode::Help(help) => help.scroll = 0,
@@ -94,23 +89,22 @@ impl Dialogue {
     }
 }
 
-/// The open help.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct HelpState {
-    /// Only entries with these words are shown.
+    /// Search words: only entries that contain all of them are listed.
     pub filter: Field,
-    /// Whether every letter is part of them, the first one too.
+    /// Whether every letter goes into the search; otherwise the first one may be a key of the
+    /// help, such as `q`.
     pub searches: bool,
-    /// Lines above the first that is shown.
+    /// Number of lines scrolled past.
     pub scroll: usize,
 }
 
-/// The open list.
+/// The open command palette.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PaletteState {
-    /// Text that is searched for.
     pub typed: Field,
-    /// The chosen line of what was found.
+    /// Index of the selected entry among the matches.
     pub place: usize,
 }
 

@@ -1,5 +1,5 @@
-//! The files: the open scene, the list of those that can be opened, the file that is being
-//! written, and the command line that repeats the run on the screen.
+//! Files: the open scene, the scenes that can be opened, the file being written, and the command
+//! line that repeats the run on the screen.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -8,45 +8,43 @@ use crate::tui::app::{App, Purpose, Source};
 use crate::tui::files::{FoundScene, FoundScenes, builtin_scenes};
 use rubscope_solver::scene::{CheckedScene, DEFAULT, Scene};
 
-/// A file that is being written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Writing {
-    /// Its name, as typed.
+    /// File name as typed.
     pub name: String,
     pub purpose: Purpose,
-    /// Whether no key was pressed since.
+    /// Whether no key was pressed since the write began.
     pub undisturbed: bool,
 }
 
-/// The files, and the open scene.
 #[derive(Clone, Debug)]
 pub struct Files {
-    /// Directory in which files are written; the working directory unless set.
+    /// Directory for written files; empty means the working directory.
     pub directory: PathBuf,
-    /// The scene as it was opened; `Backspace` restores its values.
+    /// The scene as opened; `Backspace` restores its values.
     pub opened: CheckedScene,
-    /// Origin of the scene, for the command line that repeats the run.
+    /// Where the scene came from; the command line needs it.
     pub source: Option<Source>,
-    /// The file that is being written.
+    /// The write under way, if there is one.
     pub writing: Option<Writing>,
-    /// The scenes of the directory, as they were last read.
+    /// The scene files of the directory, as last read.
     pub found: FoundScenes,
 }
 
 impl Files {
-    /// Creates the files with this scene open.
+    /// Creates the state with `opened` as the open scene and no known source.
     pub fn of(opened: CheckedScene) -> Self {
         let (directory, found) = (PathBuf::new(), FoundScenes::default());
         Self { directory, opened, source: None, writing: None, found }
     }
 
-    /// Makes another scene the open one; without a source that stays.
+    /// Makes `scene` the open one. Without a new source the old one is kept.
     pub fn open(&mut self, scene: CheckedScene, source: Option<Source>) {
         self.opened = scene;
         self.source = source.or(self.source.take());
     }
 
-    /// Records that a key was pressed while a file is being written.
+    /// Records that a key was pressed during a write.
     pub fn disturb(&mut self) {
         if let Some(writing) = &mut self.writing {
             writing.undisturbed = false;
@@ -55,21 +53,22 @@ impl Files {
 }
 
 impl App {
-    /// Returns the command line as text.
+    /// Returns the command line as one string.
     pub fn command(&self) -> String {
         self.command_line().to_string()
     }
 
-    /// Returns `rubscope run SCENE` with every key that differs from the scene.
+    /// Builds `rubscope run SCENE` with an option for every key that differs from the scene, and
+    /// `--at` for every live change.
     pub fn command_line(&self) -> CommandLine {
-        // Without a source it is the default scene, which is built in.
+        // Without a source the scene is the built-in default.
         let default = || Source {
             name: DEFAULT.into(),
             scene: Scene::builtin(DEFAULT).unwrap_or_else(|_| Scene::base()),
         };
         let Source { name, scene: base } = self.files.source.clone().unwrap_or_else(default);
-        // Live changes come at their instants, after which the forecast is as long
-        // as the scene says.
+        // Live changes are applied at their own instants, so the command starts from the scene at
+        // restart, with the extended end of the run.
         let mut scene = self.run.started.clone().into_scene();
         scene.solver.end_s = self.end_s();
         let start = CommandLine::from_base("run", &name, &base, &scene);
@@ -80,22 +79,21 @@ impl App {
     }
 }
 
-/// One line of the list.
+/// One entry of the list of scenes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneEntry {
-    /// Its name on the command line.
+    /// Name or path, as on the command line.
     pub name: String,
-    /// The scene, or why there is none.
+    /// The checked scene, or why it cannot be opened.
     pub scene: Result<CheckedScene, String>,
-    /// Whether it is a file.
+    /// Whether it is a file; otherwise it is built in.
     pub file: bool,
-    /// Whether it is open.
     pub open: bool,
 }
 
 impl App {
-    /// Returns every scene that can be opened, those of the user first; one from elsewhere that is
-    /// open before all.
+    /// Lists every scene that can be opened: files first, then the built-in ones, then unreadable
+    /// files. An open scene from another directory comes before all.
     pub fn scene_entries(&self) -> Vec<SceneEntry> {
         let open = self.files.source.as_ref().map_or(DEFAULT, |source| source.name.as_str());
         let entry = |found: &FoundScene, file, open| {
@@ -107,7 +105,7 @@ impl App {
         let is_open = |name: &String| same_path(&path(name), Path::new(open));
         let files = self.files.found.files.iter().map(|one| entry(one, true, is_open(&one.name)));
         let mut entries: Vec<SceneEntry> = files.chain(builtin).collect();
-        // Other programs have such files, too.
+        // Other programs may keep TOML files here too: those are no scenes, so they go last.
         entries.sort_by_key(|entry| entry.scene.is_err());
         if let Some(source) = &self.files.source
             && !entries.iter().any(|entry| entry.open)
@@ -119,14 +117,14 @@ impl App {
         entries
     }
 
-    /// Returns the place of the selected scene: the open one, unless another was chosen.
+    /// Returns the index of the selected scene: `chosen`, or the open one.
     pub fn scene_place(&self, entries: &[SceneEntry], chosen: Option<usize>) -> usize {
         let open = || entries.iter().position(|entry| entry.open).unwrap_or(0);
         chosen.unwrap_or_else(open).min(entries.len().saturating_sub(1))
     }
 }
 
-/// Returns whether two paths are written for the same file.
+/// Returns whether two paths name the same file, apart from `./`.
 fn same_path(one: &Path, other: &Path) -> bool {
     let parts = |path: &Path| -> Vec<std::ffi::OsString> {
         let named = path.components().filter(|part| *part != Component::CurDir);

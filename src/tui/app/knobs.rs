@@ -1,6 +1,6 @@
-//! The knobs, and what can be undone. A value is checked first and refused at its knob.
-//! Undo, and the end of a lesson, come back to a scene, and if another one was opened since,
-//! also to where it is from and how it was shown.
+//! The selected knob, and undo. A value that the scene's check refuses is shown at its knob and
+//! changes nothing. Undo restores the scene; if another scene was opened since, it also restores
+//! that scene's source and view.
 
 use crate::report::line::clean;
 use crate::tui::app::play::Tempo;
@@ -9,25 +9,23 @@ use crate::tui::knobs::{KNOBS, Knob, place_of};
 use crate::tui::views::id::ViewId;
 use rubscope_solver::scene::{CheckedScene, SceneError};
 
-/// The knobs, and what can be undone.
 #[derive(Clone, Debug, Default)]
 pub struct Knobs {
-    /// The selected one.
+    /// Index in `KNOBS`.
     pub selected: usize,
-    /// The reason if its last value was refused.
+    /// Why the last value typed or turned was refused.
     pub refusal: Option<String>,
-    /// Whether they act on the running motion.
+    /// Whether knobs act on the running motion instead of restarting it.
     pub live: bool,
-    /// Presses of the key that turns one, which wait behind the present one.
+    /// Further presses of the same key already waiting; they are applied together.
     pub again: usize,
     undo: Vec<Past>,
     redo: Vec<Past>,
 }
 
-/// Most changes that can be undone.
+/// Number of changes that can be undone.
 const KEPT: usize = 1000;
 
-/// State that undo restores.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Past {
     pub scene: CheckedScene,
@@ -41,24 +39,23 @@ pub struct Past {
 }
 
 impl Knobs {
-    /// Selects the one at a place of the table.
+    /// Selects the knob at index `place` of `KNOBS`.
     pub fn select(&mut self, place: usize) {
         (self.selected, self.refusal) = (place, None);
     }
 
-    /// Selects the one above or below.
+    /// Selects the knob above or below, cyclically.
     pub fn walk(&mut self, up: bool) {
         let count = KNOBS.len();
         let next = if up { self.selected + count - 1 } else { self.selected + 1 };
         self.select(next % count);
     }
 
-    /// Records why the last value of a knob was refused.
     pub fn refuse(&mut self, knob: &Knob, error: &SceneError) {
         self.refusal = Some(clean(&knob.refusal(error)));
     }
 
-    /// Makes knobs act on the running motion, or no longer; returns the message.
+    /// Switches live mode; returns the status message.
     pub fn turn_live(&mut self) -> String {
         self.live = !self.live;
         let how = match self.live {
@@ -68,7 +65,7 @@ impl Knobs {
         how.into()
     }
 
-    /// Records a state for undo.
+    /// Pushes a state for undo and clears redo.
     pub fn remember(&mut self, past: Past) {
         self.undo.push(past);
         if self.undo.len() > KEPT {
@@ -77,18 +74,17 @@ impl Knobs {
         self.redo.clear();
     }
 
-    /// Returns the number of states that undo can come back to.
+    /// Returns the number of undo states.
     pub fn remembered(&self) -> usize {
         self.undo.len()
     }
 
-    /// Forgets all but the first so many states of undo.
+    /// Merges all changes after the first `known` undo states into one step.
     pub fn merge(&mut self, known: usize) {
         self.undo.truncate(known);
     }
 
-    /// Returns the state before, or after, this one, and records this one; `None` where there is no
-    /// such state.
+    /// Swaps `now` for the last undo (or redo) state; `None` if there is no such state.
     pub fn step_back(&mut self, redo: bool, now: Past) -> Option<Past> {
         let Self { undo, redo: redone, .. } = self;
         let (from, to) = if redo { (redone, undo) } else { (undo, redone) };
@@ -104,7 +100,7 @@ impl App {
         KNOBS.get(self.knobs.selected)
     }
 
-    /// Selects the knob of a key; false if there is none.
+    /// Selects the knob of a scene key; false if the key has no knob.
     pub fn select_path(&mut self, path: &str) -> bool {
         let place = place_of(path);
         if let Some(place) = place {
@@ -113,7 +109,7 @@ impl App {
         place.is_some()
     }
 
-    /// Returns the present state, to come back to.
+    /// Captures the state that undo restores.
     pub fn past(&self) -> Past {
         Past {
             scene: self.scene.clone(),

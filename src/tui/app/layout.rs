@@ -1,4 +1,4 @@
-//! Which charts are on the screen, and where.
+//! Which views are on the screen, and in which order.
 
 use super::App;
 use crate::report::number::speed_unit;
@@ -6,28 +6,28 @@ use crate::tui::bindings::Action;
 use crate::tui::views::id::ViewId;
 use rubscope_solver::scene::Scene;
 
-/// Most charts next to the large one.
+/// Largest number of charts beside the large one.
 const MOST_BESIDE: usize = 3;
 
-/// The charts on the screen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layout {
-    /// Every view: the large chart, then the others in the order of their places.
+    /// All views: the large one, then the others in screen order. Only the first `1 + beside` are
+    /// shown.
     views: Vec<ViewId>,
-    /// Number of charts next to the large one.
+    /// Number of charts beside the large one.
     pub beside: usize,
-    /// Whether the margins are those of all diameters.
+    /// Whether the margins view shows the survey over all nodal diameters.
     pub survey: bool,
-    /// The speeds that the survey is of; none for all of them \[rad/s\].
+    /// Speed range of the survey; `None` covers all speeds \[rad/s\].
     pub range: Option<[f64; 2]>,
-    /// Whether the large chart has the whole screen.
+    /// Whether the large chart fills the screen.
     pub full_screen: bool,
-    /// Width and height of the screen, in cells.
+    /// Width and height of the screen \[cells\].
     pub size: (u16, u16),
 }
 
 impl Layout {
-    /// Creates the layout with the charts that a scene names first.
+    /// Creates the layout with the views that the scene names in front.
     pub fn of(scene: &Scene) -> Self {
         let views = ViewId::all().collect();
         let (survey, range, full_screen) = (false, None, false);
@@ -37,7 +37,7 @@ impl Layout {
         layout
     }
 
-    /// Puts the charts that a scene names first.
+    /// Moves the views that the scene names to the front.
     pub fn open(&mut self, scene: &Scene) {
         let named = scene.view.charts.iter().filter_map(|word| ViewId::from_word(word));
         let mut views: Vec<ViewId> = named.collect();
@@ -47,38 +47,37 @@ impl Layout {
         self.views = views;
     }
 
-    /// Returns the large chart.
     pub fn view(&self) -> ViewId {
         self.views.first().copied().unwrap_or(ViewId::Response)
     }
 
-    /// Returns every view, the large one first.
     pub fn views(&self) -> &[ViewId] {
         &self.views
     }
 
-    /// Restores the order of the charts; returns whether the large one is another.
+    /// Restores an order of views; returns whether the large view changed.
     pub fn set_views(&mut self, views: Vec<ViewId>) -> bool {
         let before = self.view();
         self.views = views;
         self.view() != before
     }
 
-    /// Makes a view the large one; the former one takes its place. False where it is large.
+    /// Makes `view` the large one by swapping places; returns false if it was already large.
     pub fn show(&mut self, view: ViewId) -> bool {
         let place = self.views.iter().position(|other| *other == view).unwrap_or(0);
         self.views.swap(0, place);
         place > 0
     }
 
-    /// Orders the charts beside the large one.
+    /// Sorts the views beside the large one by rank.
     pub fn order_beside(&mut self, rank: impl Fn(ViewId) -> u8) {
         if let Some((_, others)) = self.views.split_first_mut() {
             others.sort_by_key(|view| rank(*view));
         }
     }
 
-    /// Shows the margins of all diameters, or of one; returns the message.
+    /// Switches between the survey over all nodal diameters and the margins of one; returns the
+    /// status message.
     pub fn turn_survey(&mut self, on: bool) -> String {
         self.survey = on;
         let ends = if speed_unit() == "rpm" { "2000:6000" } else { "200:600" };
@@ -90,7 +89,7 @@ impl Layout {
         }
     }
 
-    /// Its keys.
+    /// Applies a layout key.
     pub fn act(&mut self, action: Action) {
         match action {
             Action::Charts => self.beside = (self.beside + 1) % (MOST_BESIDE + 1),
@@ -100,7 +99,7 @@ impl Layout {
         }
     }
 
-    /// Returns the view some places after the large one in the table.
+    /// Returns the view `by` places after the large one in the table, cyclically.
     pub fn neighbour(&self, by: i64) -> ViewId {
         let views: Vec<ViewId> = ViewId::all().collect();
         let place = (self.view() as i64 + by).rem_euclid(views.len() as i64);
@@ -109,23 +108,23 @@ impl Layout {
 }
 
 impl App {
-    /// Returns the large chart.
+    /// Returns the large view.
     pub fn view(&self) -> ViewId {
         self.layout.view()
     }
 
-    /// Returns whether a view is the large chart.
+    /// Returns whether `view` is the large one.
     pub fn is_large(&self, view: ViewId) -> bool {
         self.view() == view
     }
 
-    /// Returns whether a view can be on the screen.
+    /// Returns whether the layout includes `view`; a small screen may still leave no room for it.
     pub fn is_open(&self, view: ViewId) -> bool {
         let shown = if self.is_alone() { 1 } else { 1 + self.layout.beside };
         self.layout.views.iter().take(shown).any(|other| *other == view)
     }
 
-    /// Returns whether only the large chart is on the screen.
+    /// Returns whether the large chart is the only one on the screen.
     pub fn is_alone(&self) -> bool {
         self.layout.full_screen || self.appearance.wide || self.compares()
     }

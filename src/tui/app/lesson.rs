@@ -1,4 +1,4 @@
-//! The current lesson: its step, the answer, and whether its task is done.
+//! Progress in the lessons: the current step, its answer, and whether its task is done.
 
 use std::sync::Arc;
 
@@ -8,75 +8,72 @@ use crate::tui::lessons::{self, Condition, Lesson, LessonStep, LessonsDone};
 use crate::tui::views::id::ViewId;
 use rubscope_solver::scene::Value;
 
-/// The progress of a lesson.
+/// Progress in the current lesson.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LessonProgress {
-    /// Which lesson.
+    /// Index of the lesson.
     pub lesson: usize,
-    /// Which step, from 0.
+    /// Index of the current step.
     pub step: usize,
-    /// Answers given, and tasks done, by step.
+    /// Answer and task of every step.
     pub steps: Vec<StepProgress>,
-    /// Page of the text, if it hides the charts.
+    /// Page of the text, if it takes the place of the charts.
     pub page: usize,
-    /// The last page has been read.
+    /// Whether the last page of the text was shown.
     pub read: bool,
-    /// The place of the answer that Enter gives.
+    /// Index of the answer that Enter would give.
     pub choice: usize,
-    /// State of the user before the lesson, which comes back at its end.
+    /// State before the lesson, restored when it ends.
     pub own: Arc<Past>,
 }
 
-/// The progress of one step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StepProgress {
-    /// The place of the answer given.
+    /// Index of the answer given.
     pub answer: Option<usize>,
-    /// The task is done.
+    /// Whether the step is complete.
     pub done: bool,
 }
 
 impl LessonProgress {
-    /// Returns the progress of the present step.
     pub fn now(&self) -> StepProgress {
         self.steps.get(self.step).copied().unwrap_or_default()
     }
 
-    /// Returns the progress of the present step, to change it.
     pub fn now_mut(&mut self) -> Option<&mut StepProgress> {
         self.steps.get_mut(self.step)
     }
 }
 
-/// The lessons.
 #[derive(Clone, Debug, Default)]
 pub struct Lessons {
-    /// The one under way.
+    /// Progress in the current lesson, if one is open.
     pub progress: Option<LessonProgress>,
-    /// The steps that were done.
+    /// All steps completed so far, in any session.
     pub done: LessonsDone,
 }
 
 impl App {
-    /// Returns the current lesson.
+    /// Returns the open lesson and its progress.
     pub fn current_lesson(&self) -> Option<(&'static Lesson, &LessonProgress)> {
         let progress = self.lessons.progress.as_ref()?;
         Some((lessons::all().get(progress.lesson)?, progress))
     }
 
-    /// Returns the present step of the lesson.
+    /// Returns the current step and its progress.
     pub fn lesson_step(&self) -> Option<(&'static LessonStep, StepProgress)> {
         let (lesson, progress) = self.current_lesson()?;
         Some((lesson.steps.get(progress.step)?, progress.now()))
     }
 
-    /// Returns whether a lesson waits for an answer.
+    /// Returns whether the current step has an unanswered question.
     pub fn is_asked(&self) -> bool {
         let step = self.lesson_step();
         step.is_some_and(|(step, now)| step.question.is_some() && now.answer.is_none())
     }
 
-    /// Records when the step is done: it is answered, and so is its task.
+    /// Marks the current step as done once its question is answered and its task's condition is
+    /// met.
     pub fn check_lesson(&mut self) {
         let Some((step, now)) = self.lesson_step() else { return };
         if now.done || self.is_asked() {
@@ -95,7 +92,7 @@ impl App {
         }
     }
 
-    /// Returns whether the state meets the condition of a task.
+    /// Returns whether the state satisfies a task's condition.
     pub fn meets(&self, condition: &Condition) -> bool {
         let number = |path: &str| knob_of(path)?.number(&self.scene);
         match condition {

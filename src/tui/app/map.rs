@@ -1,4 +1,4 @@
-//! What the map sweeps, and the margins on the screen.
+//! The plan of the map, and the margins on the screen.
 
 use crate::tui::app::{App, cell_of};
 use crate::tui::views::id::ViewId;
@@ -8,40 +8,41 @@ use rubscope_solver::scene::ContactLaw;
 use rubscope_solver::study::MapPlan;
 
 impl App {
-    /// Returns the plan of the map.
+    /// Builds the plan of the map from the chosen axes and the scene.
     ///
     /// # Errors
-    /// The scene has no such map; the reason in one line.
+    /// One line that says why the scene has no such map.
     pub fn map_plan(&self) -> Result<MapPlan, String> {
         self.map_choice().plan(&self.scene)
     }
 
-    /// Returns what was chosen for the map, in the unit in which speeds are shown.
+    /// Returns the chosen axes and law of the map, with the speed unit of the screen.
     pub fn map_choice(&self) -> MapChoice {
         MapChoice { rpm: self.appearance.rpm, ..self.map }
     }
 
-    /// Returns the plan of the map on the screen: the last one, until a new one can be seen.
+    /// Returns the plan of the map on the screen: of the last computed map, until a new one has
+    /// cells.
     pub fn shown_plan(&self) -> Option<MapPlan> {
         let shown = self.results().found.map.as_ref().map(|live| live.map.plan.clone());
         shown.or_else(|| self.map_plan().ok())
     }
 
-    /// Returns the column and row of the cell under the cursor.
+    /// Returns column and row of the cell under the cursor.
     pub fn map_cell(&self) -> Option<[u32; 2]> {
         let cursor = self.cursor_in(ViewId::Map)?;
         let plan = self.shown_plan()?;
         Some([cell_of(cursor.across, plan.x.count), cell_of(cursor.up, plan.y.count)])
     }
 
-    /// Returns the contact law of the map.
+    /// Returns the contact law of the map: the chosen one, or that of the scene.
     pub fn map_law(&self) -> ContactLaw {
         self.map.law.unwrap_or(self.scene.solver.contact)
     }
 }
 
 impl App {
-    /// Returns the margins on the screen, and whether they are of other knobs.
+    /// Returns the latest margins, and whether they are outdated (another scene or speed range).
     pub fn margins(&self) -> Option<(&LiveMargins, bool)> {
         let live = self.results().found.margins.as_deref()?;
         let range = live.survey.as_ref().map(|survey| survey.range_rad_s);

@@ -1,5 +1,5 @@
-//! The state of the explorer, without a terminal: the screen is a function of
-//! this value, and only keys and snapshots change it.
+//! The state of the explorer, without a terminal. The screen is a function of this value; only
+//! input events and snapshots of the engine change it.
 
 mod dialogue;
 mod files;
@@ -39,60 +39,60 @@ use super::views::map::plan::MapChoice;
 use rubscope_solver::model::Machine;
 use rubscope_solver::scene::{CheckedScene, Scene};
 
-/// Origin of a scene.
+/// Where a scene came from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Source {
-    /// Its name or path.
+    /// Name of a built-in scene, or path of a file.
     pub name: String,
-    /// The scene as it was read then; its file is never read again.
+    /// The scene as read when it was opened; the file is not read again.
     pub scene: Scene,
 }
 
-/// End of the explorer.
+/// How the explorer ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
     /// The user quit, or the input ended.
     Done,
-    /// A signal ended it.
+    /// The process received this signal.
     Signal(u8),
 }
 
-/// The explorer: what every part reads, and the parts. Each part has a file with its state and
-/// what can be asked of it; what keys do with it is in `update`.
+/// The state of the explorer. Each part has a file in `app` with its state and queries; the file of
+/// the same name in `update` changes it.
 #[derive(Clone, Debug)]
 pub struct App {
-    /// The scene with the current values of the knobs.
+    /// The scene with the current knob values.
     pub scene: CheckedScene,
-    /// Everything derived from `scene`.
+    /// The machine derived from `scene`.
     pub machine: Machine,
-    /// The effect of the last key.
+    /// Message in the status line, usually about the last key.
     pub status: Option<String>,
-    /// The knobs, and what can be undone.
+    /// The selected knob, and undo.
     pub knobs: Knobs,
-    /// Playing, and the page of time.
+    /// Playback, and the page of time.
     pub play: Play,
-    /// The run, and its forecasts.
+    /// The run, its results and chart ranges.
     pub run: Run,
-    /// The charts on the screen.
+    /// Which views are on the screen.
     pub layout: Layout,
-    /// The cursor: instant that is shown, and place that is read in the large chart.
+    /// The cursor: a time in the run, and a position in the large chart.
     pub reading: Reading,
     /// Axes and contact law of the map.
     pub map: MapChoice,
-    /// The open dialogue, if one is.
+    /// The open dialogue.
     pub dialogue: Dialogue,
-    /// The files, and the open scene.
+    /// The open scene, the list of scenes, and the write under way.
     pub files: Files,
-    /// The lessons.
+    /// Progress in the lessons.
     pub lessons: Lessons,
-    /// The mouse.
+    /// State of the mouse, and the clickable areas of the last frame.
     pub mouse: Mouse,
-    /// Theme and marker.
+    /// Theme, marker and units.
     pub appearance: Appearance,
 }
 
 impl App {
-    /// Creates the explorer on a checked scene.
+    /// Creates the explorer's state for a checked scene.
     pub fn new(scene: CheckedScene, theme: Theme, marker: Marker) -> Self {
         let machine = scene.machine();
         Self {
@@ -113,7 +113,7 @@ impl App {
         }
     }
 
-    /// Returns what the keyboard acts on, as the table of bindings names it.
+    /// Returns the context of the key bindings: which table of keys applies now.
     pub fn context(&self) -> Context {
         match self.dialogue.mode {
             InputMode::Main if self.reading.on => Context::Reading,
@@ -132,7 +132,7 @@ impl App {
         }
     }
 
-    /// Returns the order for the engine.
+    /// Builds the order for the engine from the current state.
     pub fn order(&self) -> Order {
         Order {
             scene: self.scene.clone(),
@@ -158,44 +158,44 @@ impl App {
         }
     }
 
-    /// Returns whether the large chart compares both contact laws, over the whole height.
+    /// Returns whether the large chart shows both contact laws; then it is the only chart.
     pub fn compares(&self) -> bool {
         self.run.compare && self.is_large(ViewId::Response)
     }
 
-    /// Returns the motion that every panel shows: at the cursor, or as it plays.
+    /// Returns the motion at the cursor, or the playing one without a cursor.
     pub fn shown(&self) -> Option<&Moment> {
         let reading = self.results().reading.as_deref();
         let reading = reading.filter(|_| self.reading.at_s.is_some());
         reading.or(self.moment())
     }
 
-    /// Same as [`Self::shown`], once it is computed for the instant that is asked for.
+    /// As [`Self::shown`], but `None` until the engine has computed the requested time.
     pub fn shown_now(&self) -> Option<&Moment> {
         let step = self.scene.solver.step_s;
         self.shown().filter(|moment| (moment.state.t_s - self.now()).abs() <= step)
     }
 
-    /// Returns the rotor speed at the instant that is shown \[rad/s\].
+    /// Returns the rotor speed at the time shown \[rad/s\].
     pub fn speed(&self) -> f64 {
         let moment = self.shown();
         moment.map_or(self.scene.operation.speed_rad_s, |moment| moment.speed)
     }
 
-    /// Returns why the motion stopped.
+    /// Returns why the playing motion failed.
     pub fn failure(&self) -> Option<&String> {
         self.moment()?.failure.as_ref()
     }
 }
 
-/// Bins recorded per page: more than the sub-pixels of a wide screen.
+/// Bins recorded per page: more than a wide screen has sub-pixels.
 const BINS_PER_PAGE: f64 = 1024.0;
 
 #[cfg(test)]
 pub mod tests {
     use super::*;
 
-    /// Returns the paper's scene on a screen of 120 x 40, for the tests of the parts.
+    /// Creates the paper's scene on a screen of 120 x 40.
     pub fn on_screen() -> App {
         let scene = Scene::builtin("paper-nd3").unwrap().checked().unwrap();
         let mut app = App::new(scene, Theme::Mono, Marker::Braille);

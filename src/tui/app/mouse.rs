@@ -1,4 +1,4 @@
-//! The mouse: whether it acts, what it holds, and what is drawn where.
+//! The mouse: the bar being dragged, and what is drawn in which area of the screen.
 
 use std::cell::RefCell;
 
@@ -8,48 +8,48 @@ use super::{App, Cursor};
 use crate::tui::bindings::Action;
 use crate::tui::views::id::ViewId;
 
-/// A knob whose bar is held.
+/// A drag on the bar of a knob.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Grip {
-    /// Its place in the table.
+    /// Index of the knob in `KNOBS`.
     pub knob: usize,
-    /// The column where it was taken.
+    /// Column of the pointer when the drag began.
     pub x: u16,
-    /// Whether it has been turned since: one drag is undone in one step.
+    /// Whether the drag has changed the knob; later changes of the drag merge into one undo step.
     pub turned: bool,
 }
 
-/// Something that is drawn and can be clicked.
+/// Something clickable on the screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Target {
-    /// A key of the last line.
+    /// A key shown in the footer.
     Key(Action),
-    /// The heading of a group of knobs, with its first knob.
+    /// The heading of a group of knobs, with the index of its first knob.
     Group(usize),
-    /// The line of a knob.
+    /// The line of the knob with this index.
     Knob(usize),
-    /// The bar of a knob.
+    /// The bar of the knob with this index.
     Bar(usize),
-    /// A chart that is not the large one.
+    /// A chart beside the large one.
     View(ViewId),
-    /// The data of the large chart, or a part of it: from where to where across, and up.
+    /// The data area of the large chart, as fractions of the whole: `[across, up]`, each from and
+    /// to.
     Chart([(f64, f64); 2]),
-    /// A lesson of the list.
+    /// The lesson with this index in the list.
     Lesson(usize),
 }
 
-/// The mouse.
 #[derive(Clone, Debug)]
 pub struct Mouse {
-    /// Whether the mouse is used.
+    /// Whether mouse events are used.
     pub on: bool,
-    /// The knob whose bar it holds.
+    /// The drag under way.
     pub grip: Option<Grip>,
-    /// Cell of the last click, if the pointer is still there.
+    /// Cell of the last click, until the pointer leaves it.
     pub clicked: Option<(u16, u16)>,
-    /// Cell at which the wheel turned a knob last, and that knob.
+    /// Cell and knob of the last turn of the wheel.
     pub wheeled: Option<((u16, u16), usize)>,
-    /// Areas of the last frame; of those that overlap, the last one is on top.
+    /// Clickable areas of the last frame. Where they overlap, the later one is on top.
     drawn: RefCell<Vec<(Rect, Target)>>,
 }
 
@@ -60,7 +60,7 @@ impl Default for Mouse {
 }
 
 impl Mouse {
-    /// Switches the mouse on or off; returns the message.
+    /// Switches the mouse on or off; returns the status message.
     pub fn toggle(&mut self) -> String {
         (self.on, self.grip) = (!self.on, None);
         let how = match self.on {
@@ -72,24 +72,24 @@ impl Mouse {
 }
 
 impl App {
-    /// Forgets what was drawn, before the next frame.
+    /// Clears the clickable areas before the next frame is drawn.
     pub fn forget_drawn(&self) {
         self.mouse.drawn.take();
     }
 
-    /// Records what is drawn in an area.
+    /// Records that `target` is drawn in `area`.
     pub fn note(&self, area: Rect, target: Target) {
         if let Ok(mut drawn) = self.mouse.drawn.try_borrow_mut() {
             drawn.push((area, target));
         }
     }
 
-    /// Returns what is drawn in a cell of the screen, and its area.
+    /// Returns the topmost target at a cell, with its area.
     pub fn target(&self, at: (u16, u16)) -> Option<(Rect, Target)> {
         self.last_drawn(|(area, _)| area.contains(at.into()))
     }
 
-    /// Returns the area of the bar that is drawn.
+    /// Returns the area of the selected knob's bar.
     pub fn bar_area(&self) -> Option<Rect> {
         self.last_drawn(|(_, target)| matches!(target, Target::Bar(_))).map(|(area, _)| area)
     }
@@ -101,8 +101,7 @@ impl App {
 }
 
 impl Cursor {
-    /// Returns the place in the large chart that is drawn in a cell of an area with these parts
-    /// of it.
+    /// Converts a cell of `area` to chart fractions; `parts` are the fractions that `area` covers.
     pub fn at((x, y): (u16, u16), area: Rect, parts: [(f64, f64); 2]) -> Self {
         let middle = |(low, high): (f64, f64), cells: u16, width: u16| {
             low + (high - low) * (f64::from(cells) + 0.5) / f64::from(width)

@@ -1,5 +1,5 @@
-//! Slow motion and pages of time: a page takes about four seconds to fill,
-//! at any rate, then a new one starts.
+//! Playback in slow motion, and pages of time. A page takes about four seconds to fill at any rate;
+//! then a new one starts.
 
 use super::App;
 use crate::tui::axis::nice_step;
@@ -8,30 +8,29 @@ use crate::tui::engine::PageRecord;
 use crate::tui::history::{Bin, BinHistory};
 use rubscope_solver::scene::Scene;
 
-/// Simulated time per wall-clock time, from 1e-5 to 1.
+/// Rates of playback: simulated time over wall-clock time.
 pub const RATES: &[f64] =
     &[1e-5, 2e-5, 5e-5, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2, 0.1, 0.2, 0.5, 1.0];
 
-/// Five milliseconds of motion per second.
+/// Index of 5e-3: five milliseconds of motion per second.
 const FIRST_RATE: usize = 8;
 
-/// Wall-clock seconds a page takes to fill.
+/// Time to fill a page at zoom 0 \[wall-clock s\].
 const PAGE_SECONDS: f64 = 4.0;
 
-/// Least rate that is called real time.
+/// Rates from here on are called real time.
 const REAL: f64 = 0.95;
 
-/// Wall time that somebody watches a run, at most: the first page of a longer one is all of it
-/// \[s\].
+/// A run that would play longer than this is shown whole on its first page \[wall-clock s\].
 const WATCHED: f64 = 120.0;
 
-/// Zoom steps in either direction.
+/// Largest zoom, in or out.
 const MOST_ZOOM: i32 = 12;
 
-/// Returns the length of a page at a rate and a zoom, a round number \[s\].
+/// Returns the length of a page, rounded to 1, 2 or 5 times a power of ten \[s\].
 pub fn page_length(rate: f64, zoom: i32) -> f64 {
     let usual = nice_step(PAGE_SECONDS * rate, 1).unwrap_or(PAGE_SECONDS * rate);
-    // Every zoom step is one place in the sequence 1, 2, 5, 10, 20, 50, ...
+    // Each zoom step moves one place in the sequence 1, 2, 5, 10, 20, 50, ...
     let power = (usual.log10() + 1e-9).floor();
     let digit = match usual / 10f64.powf(power) {
         x if x < 1.5 => 0,
@@ -40,45 +39,43 @@ pub fn page_length(rate: f64, zoom: i32) -> f64 {
     };
     let place = 3 * power as i32 + digit - zoom;
     let mantissa = ["1", "2", "5"].get(place.rem_euclid(3) as usize).copied().unwrap_or("1");
-    // Text gives the double nearest to the decimal number.
+    // Parsing gives the double nearest to the decimal number; a product would not.
     format!("{mantissa}e{}", place.div_euclid(3)).parse().unwrap_or(usual)
 }
 
-/// Returns where a scene begins to play \[s\].
+/// Returns the time at which a scene starts to play \[s\].
 pub fn begin_s(scene: &Scene) -> f64 {
     scene.view.begin_s.min(scene.solver.end_s)
 }
 
-/// Playing, and the page of time.
 #[derive(Clone, Debug, Default)]
 pub struct Play {
-    /// Whether time passes.
     pub playing: bool,
-    /// Place in `RATES`.
+    /// Index in `RATES`.
     pub rate: usize,
-    /// Page length relative to the usual one, in steps of about two.
+    /// Zoom steps from the usual page length; positive is shorter.
     pub zoom: i32,
-    /// Whether the motion slows down at changes of contact and hurries between.
+    /// Whether playback slows down at changes of contact and speeds up between them.
     pub slow_at_events: bool,
-    /// Instant in the middle of the page, where that is not the one that fills \[s\].
+    /// Centre of the page if it does not follow the motion \[s\].
     pub middle_s: Option<f64>,
-    /// Instant to which the motion goes at once \[s\].
+    /// Target of the latest go-to \[s\].
     pub go_to_s: f64,
     pub goes: u64,
     pub steps: u64,
     pub jumps: u64,
     pub extensions: u64,
-    /// Whether it stopped because the run has come to its end.
+    /// Whether playback stopped because the run ended, not because the user paused it.
     stopped_by_end: bool,
-    /// The page of the last snapshot.
+    /// Page number at the last snapshot.
     pub page: i64,
-    /// Latest jump whose result was reported.
+    /// Number of the latest jump whose result was reported.
     met: u64,
-    /// Number of times that the end of the run was reported.
+    /// Number of times the end of the run was reported.
     ends: u64,
 }
 
-/// Rate of play on the screen, to be restored.
+/// Settings of playback that undo restores.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tempo {
     pub rate: usize,
@@ -87,7 +84,7 @@ pub struct Tempo {
 }
 
 impl Play {
-    /// Creates the state of playing a scene from where it begins.
+    /// Creates the playback of a scene, playing from its start.
     pub fn of(scene: &Scene) -> Self {
         let (playing, slow_at_events, go_to_s) = (true, true, begin_s(scene));
         let mut play =
@@ -96,19 +93,20 @@ impl Play {
         play
     }
 
-    /// Shows the first page of a scene: the whole run, where nobody watches it to its end.
+    /// Sets the zoom for a scene's first page: the whole run if nobody would watch it to the end.
     pub fn open(&mut self, scene: &Scene) {
         let end = scene.solver.end_s;
         self.zoom = if end > WATCHED * self.rate() { self.zoom_for(end) } else { 0 };
     }
 
-    /// Carries out an action on playing; returns the message, if there is one.
+    /// Applies a playback key; returns the status message, if any.
     pub fn act(&mut self, action: Action) -> Option<String> {
         match action {
             Action::Pause => {
                 self.playing = !self.playing;
                 self.stopped_by_end = false;
-                // Told more often than gone on: the motion waits at the end.
+                // We have reported the end more often than the user continued past it, so the
+                // motion is waiting there: continue.
                 if self.playing {
                     self.extensions = self.extensions.max(self.ends);
                 }
@@ -129,33 +127,32 @@ impl Play {
         None
     }
 
-    /// Stops time by hand.
+    /// Pauses at the user's request, so that a restart does not resume.
     pub fn pause(&mut self) {
         (self.playing, self.stopped_by_end) = (false, false);
     }
 
-    /// Resets what belongs to the former run.
+    /// Resets what belonged to the previous run; resumes if only its end had stopped playback.
     pub fn restart(&mut self, go_to_s: f64) {
         self.playing |= std::mem::take(&mut self.stopped_by_end);
         (self.page, self.go_to_s) = (0, go_to_s);
         (self.ends, self.extensions) = (0, 0);
-        // Nobody waits for a jump of the motion before.
+        // A jump requested in the previous run needs no answer.
         self.met = self.jumps;
     }
 
-    /// Returns how fast time passes on the screen.
     pub fn tempo(&self) -> Tempo {
         Tempo { rate: self.rate, zoom: self.zoom, slow_at_events: self.slow_at_events }
     }
 
-    /// Slows down at changes of contact, on pages of this length at least, or of the usual one
+    /// Slows down at changes of contact, on pages at least `page_s` long, or of the usual length
     /// \[s\].
     pub fn show_closely(&mut self, page_s: Option<f64>) {
         self.slow_at_events = true;
         self.zoom = page_s.map_or(0, |length| self.zoom_for(length));
     }
 
-    /// Returns whether this snapshot is the first with the result of the latest jump.
+    /// Returns whether the latest jump's result arrives with this snapshot, which counts `jumps`.
     pub fn is_met(&mut self, jumps: u64) -> bool {
         let is_new = jumps == self.jumps && jumps > self.met;
         if is_new {
@@ -164,7 +161,7 @@ impl Play {
         is_new
     }
 
-    /// Stops where the run has come to its end once more; whether time passed until then.
+    /// Pauses when the run has reached its end once more; returns whether it was playing.
     pub fn stop_at_end(&mut self, ends: u64) -> bool {
         let is_new = ends > self.ends;
         if is_new {
@@ -174,12 +171,12 @@ impl Play {
         is_new && self.stopped_by_end
     }
 
-    /// Returns the motion per wall-clock time.
+    /// Returns simulated time over wall-clock time.
     fn rate(&self) -> f64 {
         RATES.get(self.rate).copied().unwrap_or(5e-3)
     }
 
-    /// Returns the zoom at which a page is as long as this, or a little longer.
+    /// Returns the largest zoom whose page is at least `length` long.
     fn zoom_for(&self, length: f64) -> i32 {
         let mut all = (-MOST_ZOOM..=MOST_ZOOM).rev();
         let long = |zoom: &i32| page_length(self.rate(), *zoom) >= length * (1.0 - 1e-9);
@@ -188,33 +185,33 @@ impl Play {
 }
 
 impl App {
-    /// Returns the motion per wall-clock time.
+    /// Returns the requested rate: simulated time over wall-clock time.
     pub fn rate(&self) -> f64 {
         self.play.rate()
     }
 
-    /// Returns the length of a page, at most that of the run \[s\].
+    /// Returns the length of a page, limited to the run \[s\].
     pub fn page_s(&self) -> f64 {
         page_length(self.rate(), self.play.zoom).min(self.end_s())
     }
 
-    /// Returns the instant that is shown: that of the cursor, or how far the motion is \[s\].
+    /// Returns the time shown: that of the cursor, or of the playing motion \[s\].
     pub fn now(&self) -> f64 {
         self.reading.at_s.unwrap_or(self.played_s())
     }
 
-    /// Returns how far the motion is \[s\].
+    /// Returns the time of the playing motion \[s\].
     pub fn played_s(&self) -> f64 {
         self.moment().map_or(0.0, |moment| moment.state.t_s)
     }
 
-    /// Returns the end of the forecast \[s\].
+    /// Returns the end of the run, with extensions \[s\].
     pub fn end_s(&self) -> f64 {
         let end = self.results().end_s;
         if end > 0.0 { end } else { self.scene.solver.end_s }
     }
 
-    /// Returns the page that is shown, from and to \[s\].
+    /// Returns start and end of the page on the screen \[s\].
     pub fn page(&self) -> (f64, f64) {
         let length = self.page_s();
         let start = match self.play.middle_s {
@@ -224,19 +221,19 @@ impl App {
         (start, start + length)
     }
 
-    /// Returns the instant in the middle of the page \[s\].
+    /// Returns the centre of the page \[s\].
     pub fn middle_s(&self) -> f64 {
         let (from, to) = self.page();
         0.5 * (from + to)
     }
 
-    /// Returns the record of the page that is shown: computed again at its zoom, with what is to
-    /// come, or until that is done what was played at a zoom like it.
+    /// Returns the record of the page on the screen: recomputed at its zoom and including the
+    /// future, or, until that arrives, what was recorded during playback.
     pub fn record(&self) -> &[Bin] {
         self.recorded(self.results().page.as_deref(), &self.run.history)
     }
 
-    /// Returns a record of the page that is shown, or what was played of it.
+    /// Returns the bins of the page from `page` if it matches, otherwise from `played`.
     pub fn recorded<'a>(&self, page: Option<&'a PageRecord>, played: &'a BinHistory) -> &'a [Bin] {
         let (from, to) = self.page();
         match page.filter(|known| known.page == (from, to)) {
@@ -245,32 +242,33 @@ impl App {
         }
     }
 
-    /// Returns the bins of a record that are behind motion and cursor, and those ahead of both.
+    /// Splits a record at [`Self::known_s`].
     pub fn past_and_future<'a>(&self, record: &'a [Bin]) -> (&'a [Bin], &'a [Bin]) {
         let known = self.known_s();
         record.split_at(record.partition_point(|bin| bin.from < known))
     }
 
-    /// Returns the later one of cursor and motion: from there on the run is still to come \[s\].
+    /// Returns the later of cursor and motion: what comes after it is drawn as the future \[s\].
     pub fn known_s(&self) -> f64 {
         self.played_s().max(self.now())
     }
 
-    /// Returns the page of the motion: one that has just become full is shown full.
+    /// Returns the number of the motion's page. A page that is exactly full is still the current
+    /// one.
     pub fn page_number(&self) -> i64 {
-        // The last step may pass the end of the run.
+        // The last step may go past the end of the run.
         let pages = self.played_s().min(self.end_s()) / self.page_s();
         (pages - 1e-9).floor().max(0.0) as i64
     }
 
-    /// Returns the part of the page that is before the instant that is shown, 0 to 1.
+    /// Returns the part of the page before the time shown, 0 to 1.
     pub fn part_of_page(&self) -> f64 {
         let (from, to) = self.page();
         ((self.now() - from) / (to - from)).clamp(0.0, 1.0)
     }
 
-    /// Changes the length of the page. The cursor, or where time is paused, is in its middle, and
-    /// no page leaves the run.
+    /// Changes the zoom. The page is centred on the cursor or the paused motion; it never extends
+    /// past the run.
     pub fn zoom(&mut self, action: Action) {
         let middle = self.reading.at_s.or(self.play.middle_s);
         let middle = middle.or((!self.play.playing).then(|| self.played_s()));
@@ -283,14 +281,14 @@ impl App {
         };
     }
 
-    /// Returns the rate that is reached, in words: `200x slower` than real time; while nothing
-    /// plays the one that is asked for.
+    /// Returns the rate as text, e.g. `200x slower`: the rate reached, or, while paused, the one
+    /// requested.
     pub fn rate_text(&self) -> String {
         let rate = if self.play.playing { self.results().pace.reached } else { Some(self.rate()) };
         let Some(rate) = rate else { return self.appearance.ellipsis().into() };
         match rate {
             rate if rate >= REAL => "real time".into(),
-            // Two digits: the pace is not the same all the time.
+            // Two digits are enough, because the pace fluctuates.
             rate => {
                 let times = 1.0 / rate;
                 let unit = 10f64.powf(times.log10().floor() - 1.0).max(1.0);
@@ -318,7 +316,7 @@ mod tests {
         play.act(Action::Pause);
         assert_eq!((play.playing, play.extensions), (true, 1));
         assert!(play.stop_at_end(2));
-        // Another run plays again, but not where the user has stopped it.
+        // A restart resumes, unless the user had paused.
         play.restart(0.0);
         assert!(play.playing && play.extensions == 0);
         play.act(Action::Step);
@@ -335,7 +333,7 @@ mod tests {
     fn the_rate_in_words_is_the_one_that_is_reached() {
         let scene = rubscope_solver::scene::Scene::base().checked().unwrap();
         let mut app = App::new(scene, crate::tui::Theme::Mono, crate::tui::Marker::Ascii);
-        // Not known yet: what was asked for is no answer.
+        // The rate reached is not known yet.
         assert_eq!(app.rate_text(), "..");
         for (rate, text) in
             [(1.0 / 83.4, "83x slower"), (1.0 / 1234.0, "1200x slower"), (0.97, "real time")]
@@ -343,7 +341,7 @@ mod tests {
             app.run.latest.results.pace.reached = Some(rate);
             assert_eq!(app.rate_text(), text);
         }
-        // While nothing plays there is only the one that is asked for.
+        // While paused, the requested rate is shown.
         app.play.playing = false;
         assert_eq!(app.rate_text(), "200x slower");
     }

@@ -1,47 +1,45 @@
-//! The cursor: an instant of the run, which every panel shows instead of the motion as it plays,
-//! and a place in the large chart, moved by keys or the mouse. What it reads there is up to the
-//! view.
+//! The cursor: a time in the run, which every panel then shows instead of the playing motion, and a
+//! position in the large chart. Each view decides what it reads at that position.
 
 use super::App;
 use crate::tui::views::id::ViewId;
 
-/// A place in the large chart, as parts of its width from the left and of its
-/// height from below, 0 to 1.
+/// A position in the large chart, as fractions 0 to 1 of its width and height.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cursor {
-    /// Distance from the left.
+    /// Fraction of the width, from the left.
     pub across: f64,
-    /// Distance from below.
+    /// Fraction of the height, from the bottom.
     pub up: f64,
 }
 
-/// One step of the cursor where the chart has no cells.
+/// Step of the cursor in charts without cells, as a fraction.
 pub const STEP: f64 = 0.01;
 
-/// Instant that is shown, and place that is read in the large chart.
+/// State of the cursor.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reading {
-    /// The place.
+    /// Position in the large chart.
     pub cursor: Option<Cursor>,
-    /// Whether the arrows move it, not the knobs.
+    /// Whether the arrow keys move the cursor instead of the knobs.
     pub on: bool,
-    /// The instant, while time is paused there and not where the motion is \[s\].
+    /// Time to show; `None` follows the playing motion \[s\].
     pub at_s: Option<f64>,
 }
 
 impl App {
-    /// Returns the cursor in a view, while that is the large chart.
+    /// Returns the cursor if `view` is the large chart.
     pub fn cursor_in(&self, view: ViewId) -> Option<Cursor> {
         self.reading.cursor.filter(|_| self.is_large(view))
     }
 
-    /// Removes the cursor: the motion is shown as it plays, and its page.
+    /// Removes the cursor, so that the page follows the motion again.
     pub fn stop_reading(&mut self) {
         (self.reading, self.play.middle_s) = (Reading::default(), None);
     }
 }
 
-/// Returns the cell of a part, 0 to 1, of a row of cells.
+/// Returns the index of the cell at the fraction `part` of a row of `cells`.
 pub fn cell_of(part: f64, cells: u32) -> u32 {
     ((part * f64::from(cells)) as u32).min(cells.saturating_sub(1))
 }

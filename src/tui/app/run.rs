@@ -1,5 +1,5 @@
-//! The run on the screen and what was computed of it: snapshots of the engine are applied
-//! here. Results of an older run, or of other knob positions, are dropped.
+//! The run on the screen and its results. Snapshots of the engine are applied here; results of an
+//! older run or of other knob values are dropped.
 
 use std::sync::Arc;
 
@@ -13,46 +13,43 @@ use rubscope_solver::model::Machine;
 use rubscope_solver::motion::ActiveSet;
 use rubscope_solver::scene::CheckedScene;
 
-/// Part of a page for which a held corner counts as standing still.
+/// A corner held for this fraction of a page counts as standing still.
 const STILL: f64 = 0.2;
 
-/// The run, and its forecasts.
 #[derive(Clone, Debug)]
 pub struct Run {
-    /// The scene with which it started; knobs may have acted on it since.
+    /// The scene at the start of the run; live changes since then are not in it.
     pub started: CheckedScene,
-    /// The parts of the latest snapshot that belong to this scene.
+    /// The latest snapshot, with results of the current generation only.
     pub latest: Snapshot,
-    /// Whether the other contact law runs too, for comparison.
+    /// Whether the scene also runs under the other contact law.
     pub compare: bool,
-    /// A run pinned to compare with.
+    /// The pinned run that is drawn behind the current one.
     pub baseline: Option<Baseline>,
-    /// Chart ranges.
+    /// Axis ranges of the charts.
     pub ranges: Ranges,
-    /// The record of the running motion.
+    /// Record of the playing motion.
     pub history: BinHistory,
-    /// The record under the other contact law.
+    /// Record of the motion under the other contact law.
     pub comparison: BinHistory,
-    /// The latest verdict there is, of this scene or of an older one.
+    /// The latest known verdict; its scene may be an older one.
     pub answer: Option<Arc<Answer>>,
     pub restarts: u64,
     pub changes: u64,
     pub pulses: u64,
 }
 
-/// A pinned run, drawn behind the next ones.
+/// A pinned run, drawn behind later ones.
 #[derive(Clone, Debug)]
 pub struct Baseline {
-    /// Its record.
     pub history: BinHistory,
-    /// The word of its verdict.
+    /// Verdict as displayed.
     pub word: String,
-    /// Its scene.
     pub scene: CheckedScene,
 }
 
 impl Baseline {
-    /// Returns what was pinned: the knobs in which it differs from the present scene, and its
+    /// Describes the pinned run: up to two knobs that differ from the current scene, and the
     /// verdict.
     pub fn what(&self, app: &App) -> String {
         let differs = |knob: &&Knob| knob.get(&self.scene) != knob.get(&app.scene);
@@ -63,7 +60,7 @@ impl Baseline {
     }
 }
 
-/// Ranges of the charts; they follow the data with hysteresis.
+/// Axis ranges of the charts; they follow the data with hysteresis.
 #[derive(Clone, Copy, Debug)]
 pub struct Ranges {
     /// `u_c`, `u_s` \[m\].
@@ -72,14 +69,14 @@ pub struct Ranges {
     pub blades: AutoRange,
     /// Gaps \[m\].
     pub gaps: AutoRange,
-    /// The wave in the frame of the blades, as their tips see it \[m\].
+    /// Casing displacement relative to the tips, in the frame of the blades \[m\].
     pub rim: AutoRange,
-    /// Whether they follow.
+    /// Whether the ranges follow the data.
     pub follow: bool,
 }
 
 impl Ranges {
-    /// Creates the run of a scene at its start.
+    /// Creates ranges around the clearance \[m\]; it is negative if the blades rub at rest.
     pub fn of(clearance: f64) -> Self {
         let size = clearance.abs();
         let gaps = match clearance < 0.0 {
@@ -97,7 +94,7 @@ impl Ranges {
 }
 
 impl Run {
-    /// Of a scene at its start.
+    /// Creates the run of a scene before its first snapshot.
     pub fn of(scene: &CheckedScene, machine: &Machine) -> Self {
         Self {
             started: scene.clone(),
@@ -114,7 +111,7 @@ impl Run {
         }
     }
 
-    /// Starts the run again. Results of studies stay until there are new ones.
+    /// Clears what belongs to the previous run. Results of studies stay until new ones arrive.
     pub fn restart(&mut self, scene: &CheckedScene) {
         self.restarts += 1;
         self.started = scene.clone();
@@ -127,19 +124,19 @@ impl Run {
         self.latest = Snapshot { results, ..Snapshot::default() };
     }
 
-    /// Records that a knob acts on the motion.
+    /// Counts a live change of the motion.
     fn change(&mut self) {
         self.changes += 1;
         self.forget_forecasts();
     }
 
-    /// Records that the pulse is fired again.
+    /// Counts another firing of the pulse.
     pub fn fire(&mut self) {
         self.pulses += 1;
         self.forget_forecasts();
     }
 
-    /// Drops what was computed for the motion before it was changed.
+    /// Drops the results that a change of the motion makes invalid.
     fn forget_forecasts(&mut self) {
         let results = &mut self.latest.results;
         (results.full_run, results.verdict) = (None, None);
@@ -148,13 +145,13 @@ impl Run {
         results.sensitive = Sensitive::Unknown;
     }
 
-    /// Makes the ranges of the charts follow the data, or stay; returns the message.
+    /// Switches whether the chart ranges follow the data; returns the status message.
     pub fn autoscale(&mut self) -> String {
         self.ranges.follow = !self.ranges.follow;
         format!("scales {}", if self.ranges.follow { "follow the data" } else { "stay fixed" })
     }
 
-    /// Compares the other contact law, or no longer.
+    /// Switches the comparison with the other contact law.
     pub fn set_compare(&mut self, compare: bool) {
         if compare != self.compare {
             self.compare = compare;
@@ -166,18 +163,17 @@ impl Run {
 }
 
 impl App {
-    /// Returns what was computed of the run.
+    /// Returns the results of the current run.
     pub fn results(&self) -> &Results {
         &self.run.latest.results
     }
 
-    /// Returns the motion as it plays.
+    /// Returns the playing motion.
     pub fn moment(&self) -> Option<&Moment> {
         self.run.latest.moment.as_ref()
     }
 
-    /// Makes a scene the current one and starts its run, or, if live, applies
-    /// it to the running motion.
+    /// Replaces the current scene. It restarts the run, or, if `live`, changes the running motion.
     pub fn set_scene(&mut self, scene: CheckedScene, live: bool) {
         let clearance = self.machine.clearance();
         self.scene = scene;
@@ -189,14 +185,14 @@ impl App {
         if live { self.run.change() } else { self.restart() }
     }
 
-    /// Restarts the run. A cursor stays, and its page.
+    /// Restarts the run. A cursor keeps its time and page.
     pub fn restart(&mut self) {
         self.run.restart(&self.scene);
         self.play.restart(begin_s(&self.scene));
         self.play.middle_s = self.play.middle_s.filter(|_| self.reading.at_s.is_some());
     }
 
-    /// Pins the run behind the next ones, or removes what is pinned.
+    /// Pins the run, to be drawn behind later ones, or removes the pinned one.
     pub fn pin(&mut self) {
         if self.run.baseline.take().is_some() {
             self.status = Some("baseline removed".into());
@@ -213,19 +209,19 @@ impl App {
         self.status = Some(format!("pinned behind the next runs: {what}"));
     }
 
-    /// Applies a snapshot; false if it is too old.
+    /// Applies a snapshot; returns false if it belongs to an older run.
     pub fn apply_snapshot(&mut self, mut snapshot: Snapshot) -> bool {
         if snapshot.trouble.is_some() {
             self.run.latest.trouble = snapshot.trouble;
             return true;
         }
-        // A verdict is shown with its value, however old.
+        // The header shows the latest verdict with its knob value, even if it is outdated.
         self.run.answer = snapshot.results.answer.take().or(self.run.answer.take());
         if snapshot.restarts != self.run.restarts {
             return false;
         }
         self.grow_ranges(&snapshot.bins);
-        // Both contact laws have the same axes.
+        // Both contact laws share their axes, for comparison.
         self.grow_ranges(&snapshot.comparison_bins);
         self.run.history.extend(&std::mem::take(&mut snapshot.bins));
         self.run.comparison.extend(&std::mem::take(&mut snapshot.comparison_bins));
@@ -243,10 +239,10 @@ impl App {
         true
     }
 
-    /// Makes the ranges hold the page as it is computed, and the part of the forecast that
-    /// is on it; for a new one they may shrink, too, but not below the clearance.
+    /// Grows the ranges to include the page and the forecast on it. For a new forecast they may
+    /// also shrink, but not below the clearance.
     fn fit_to_forecast(&mut self, is_new: bool) {
-        // Where blades rub at rest there is no play to be seen.
+        // Blades that rub at rest have no clearance to include.
         let clearance = self.machine.clearance().max(0.0);
         let (from, to) = self.page();
         if !self.run.ranges.follow {
@@ -273,12 +269,12 @@ impl App {
         }
     }
 
-    /// Returns the number of the knobs' state.
+    /// Returns the generation of the knobs: see [`generation`].
     fn generation(&self) -> u64 {
         generation(self.run.restarts, self.run.changes, self.run.pulses)
     }
 
-    /// Says what a jump has met, and that the run has come to its end.
+    /// Sets the status message when a jump has arrived or the run has ended.
     fn report_moment(&mut self) {
         let Some(moment) = self.moment() else { return };
         let ((jumps, met), ends) = (moment.met, moment.ends);
@@ -288,13 +284,13 @@ impl App {
                 None => "no change of contact comes soon".into(),
             });
         }
-        // An answer to a key is not covered.
+        // Do not overwrite the message about a key.
         if self.play.stop_at_end(ends) && self.status.is_none() {
             self.status = Some("the end of the run; Space goes on".into());
         }
     }
 
-    /// Grows the ranges to hold new data at once.
+    /// Grows the ranges to include new bins.
     fn grow_ranges(&mut self, bins: &[Bin]) {
         if !self.run.ranges.follow {
             return;
@@ -305,16 +301,16 @@ impl App {
         grow(casing, extremes(bins, CASING));
         grow(blades, extremes(bins, BLADES));
         let most = extremes(bins, [Channel::Amplitude; 2]).map(|(_, most)| most);
-        // The rim passes the clearance where the tips move with it.
+        // With radial coupling the tips move outward, so the amplitude can exceed the clearance.
         grow(rim, most.filter(|most| *most > usual).map(|most| (-most, most)));
-        // The greatest gap is about as far above g0 as the amplitude; in a lining the
-        // smallest is as far below.
+        // The largest gap is about the clearance plus the amplitude. With a lining, gaps can also
+        // be negative.
         let low = if lining { extremes(bins, [Channel::Gap; 2]) } else { None };
         let low = low.map_or(gaps.low, |(low, _)| low.min(gaps.low));
         grow(gaps, most.map(|most| (low, roomiest + most)));
     }
 
-    /// Lets ranges shrink to the data of the old page when a new one starts.
+    /// Fits the ranges to the previous page when a new page starts; they may shrink.
     fn turn_page(&mut self) {
         let page = self.page_number();
         if std::mem::replace(&mut self.play.page, page) == page || !self.run.ranges.follow {
@@ -330,7 +326,7 @@ impl App {
         }
     }
 
-    /// Returns whether the wave is fixed in the frame of the blades: the motion is paused, or a
+    /// Returns whether the wave stands still in the frame of the blades: playback is paused, or a
     /// corner has been held for a while.
     pub fn is_still(&self) -> bool {
         !self.play.playing
@@ -354,7 +350,7 @@ fn wider((a, b): (f64, f64), (low, high): (f64, f64)) -> (f64, f64) {
     (a.min(low), b.max(high))
 }
 
-/// Grows a range at once to hold data.
+/// Extends a range if the data exceed it.
 fn grow(range: &mut AutoRange, data: Option<(f64, f64)>) {
     if let Some((low, high)) = data
         && (low < range.low || high > range.high)
@@ -378,7 +374,7 @@ mod tests {
         app.run.latest.results.full_run = Some(FullRunState::GivenUp(0.2));
         app.pin();
         assert_eq!(app.run.baseline.as_ref().unwrap().word, "NO FORECAST");
-        // What is pinned can be removed at any time.
+        // A pinned run can be removed at any time.
         app.run.latest.results.full_run = None;
         app.pin();
         assert!(app.run.baseline.is_none());

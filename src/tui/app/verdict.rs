@@ -1,5 +1,5 @@
-//! The state of the run in words: its verdict in one sentence, which blades touch and how deep
-//! in a lining, and the speeds of locks and coincidence that it is compared with.
+//! The state of the run in words: its verdict as one sentence, the blades in contact and their
+//! depth in a lining, and the lock and coincidence speeds.
 
 use crate::report::number::count;
 use crate::report::sentence::{Facts, Sentence};
@@ -15,7 +15,7 @@ use rubscope_solver::motion::{ActiveSet, Verdict};
 use rubscope_solver::scene::{ContactLaw, ModelSize};
 
 impl App {
-    /// Returns the full run of the scene's own solver, once it is computed.
+    /// Returns the complete run of the scene's solver, once it is computed.
     pub fn full_run(&self) -> Option<&FullRun> {
         match &self.results().full_run {
             Some(FullRunState::Done(run)) => Some(run),
@@ -23,17 +23,17 @@ impl App {
         }
     }
 
-    /// Returns the verdict of the run, which may be proved before its end.
+    /// Returns the verdict, which may be proved before the run is complete.
     pub fn verdict(&self) -> Option<Verdict> {
         self.full_run().map(|run| run.verdict).or(self.results().verdict)
     }
 
-    /// Returns whether there will be no verdict: the run takes too long.
+    /// Returns whether the run was given up because it takes too long.
     pub fn is_given_up(&self) -> bool {
         matches!(self.results().full_run, Some(FullRunState::GivenUp(_)))
     }
 
-    /// Returns what happens, in words that fit in so many columns.
+    /// Returns the headline of the run, in at most `width` columns.
     pub fn sentence(&self, width: usize) -> Sentence {
         let of = |word: &str, forms: &[String]| Sentence::of(word, forms, &[], width);
         if let Some(trouble) = &self.run.latest.trouble {
@@ -58,13 +58,13 @@ impl App {
         }
     }
 
-    /// Returns the word of the verdict that is proved before the end of the run.
+    /// Returns the verdict that was proved before the end of the run, in capitals.
     fn proved(&self) -> Option<String> {
         Some(self.results().verdict?.as_ref().to_uppercase())
     }
 
-    /// Returns the sentence while the run is computed: what is proved, or the latest verdict, with
-    /// its value.
+    /// Returns the headline while the run is computed: a proved verdict, or the latest older
+    /// verdict with the knob value it belongs to.
     fn computing(&self, part: &str, width: usize) -> Sentence {
         let proved = if self.verdict().is_some() { "Proved. " } else { "" };
         let forms =
@@ -75,13 +75,13 @@ impl App {
         }
     }
 
-    /// Returns the word of the verdict, as `sentence` begins with it.
+    /// Returns the first word of the headline.
     pub fn verdict_word(&self) -> String {
         self.sentence(0).word
     }
 
-    /// Returns the verdict of a scene that differs in one knob, `at 405 rad/s: WHIRL`, or of this
-    /// one before it was changed in another way.
+    /// Returns the latest verdict if its scene differs in at most one knob, as `at 405 rad/s:
+    /// WHIRL`, or `before: WHIRL` if no knob differs.
     fn older_answer(&self) -> Option<String> {
         let Answer { scene, verdict } = self.run.answer.as_deref()?;
         let mut differ = KNOBS.iter().filter(|knob| knob.get(scene) != knob.get(&self.scene));
@@ -93,7 +93,7 @@ impl App {
         Some(format!("{when}: {}", verdict.as_ref().to_uppercase()))
     }
 
-    /// Returns what the sentence of a run says.
+    /// Collects the facts for the sentence about a complete run.
     fn facts(&self, run: &FullRun) -> Facts {
         let contacts = run.multipliers.iter();
         let contacts = contacts.map(|(side, force)| (self.machine.first_of_side(*side), *force));
@@ -109,7 +109,7 @@ impl App {
         }
     }
 
-    /// Returns the blades in contact at the instant that is shown, in words.
+    /// Describes the contact at the time shown, e.g. `blades 6 + 21`.
     pub fn contact_shown(&self) -> String {
         let Some(moment) = self.shown() else { return String::new() };
         if let Some(failure) = &moment.failure {
@@ -125,7 +125,7 @@ impl App {
         }
     }
 
-    /// Returns the state at the instant that is shown: `free`, `touching 12`, `held on 6 + 21`.
+    /// Returns the contact state at the time shown: `free`, `touching 12`, `held on 6 + 21`.
     pub fn state_now(&self) -> String {
         let Some(moment) = self.shown() else { return "starting".into() };
         if moment.failure.is_some() {
@@ -152,7 +152,7 @@ impl App {
         }
     }
 
-    /// Returns a change of contact in words.
+    /// Describes a change of contact, e.g. `impact on 6`.
     pub fn happening(&self, what: Happening) -> String {
         let blades = |sides: ActiveSet| self.numbers_of(sides.sides());
         match what {
@@ -170,13 +170,13 @@ impl App {
         }
     }
 
-    /// Returns the next change of contact: when, and what.
+    /// Returns the next change of contact after the time shown.
     pub fn next_change(&self) -> Option<Mark> {
         let now = self.now();
         self.full_run()?.marks.iter().find(|mark| mark.t_s > now).copied()
     }
 
-    /// Returns the blades of some sides, `blades 6 + 21`.
+    /// Returns the blades of some sides as text, e.g. `blades 6 + 21`.
     pub fn blades_of(&self, sides: impl Iterator<Item = u32>) -> String {
         let numbers = self.numbers_of(sides);
         match numbers.chars().any(|letter| matches!(letter, '+' | ',')) {
@@ -186,7 +186,7 @@ impl App {
         }
     }
 
-    /// Returns the numbers of the blades of some sides, `6 + 21`.
+    /// Returns the blade numbers of some sides as text, e.g. `6 + 21`; at most four sides.
     pub fn numbers_of(&self, sides: impl Iterator<Item = u32>) -> String {
         let mut all: Vec<Vec<u32>> =
             sides.take(4).map(|side| self.machine.first_of_side(side)).collect();
@@ -196,22 +196,23 @@ impl App {
     }
 }
 
-/// Gaps below this part of the clearance are contact, where only their number is
-/// known.
+/// When many blades touch and only their number is known, gaps below this fraction of the clearance
+/// count as contact.
 const CLOSED: f64 = 1e-9;
 
-/// Reach of the chart of the polygon, in amplitudes of a corner.
+/// Half width of the polygon chart, in corner amplitudes.
 const MARGIN: f64 = 1.15;
 
 impl App {
-    /// Returns how far the chart of the polygon reaches while the point is inside \[m\].
+    /// Returns the half width of the polygon chart while the casing is inside \[m\].
     pub fn usual_reach(&self) -> f64 {
         let polygon = &self.machine.polygon;
         let corner = if polygon.has_corners() { polygon.delta.cos() } else { 1.0 };
         MARGIN * (self.roomiest() / corner).abs()
     }
 
-    /// Returns the largest gap that a casing at rest can have \[m\].
+    /// Returns the largest gap of a casing at rest: that of the shortest tip, plus the
+    /// out-of-roundness \[m\].
     pub fn roomiest(&self) -> f64 {
         let machine = &self.machine;
         let gaps =
@@ -219,17 +220,17 @@ impl App {
         gaps.fold(f64::NEG_INFINITY, f64::max) + machine.out_of_round()
     }
 
-    /// Returns whether the casing has an elastic lining.
+    /// Returns whether the contact law is that of an elastic lining.
     pub fn has_lining(&self) -> bool {
         self.scene.solver.contact == ContactLaw::Smooth
     }
 
-    /// Returns whether the blades rub at rest.
+    /// Returns whether the blades rub at rest (negative clearance).
     pub fn is_pressed(&self) -> bool {
         self.machine.clearance() < 0.0
     }
 
-    /// Returns the blades in contact at the instant that is shown, numbered from 1.
+    /// Returns the blades in contact at the time shown, numbered from 1.
     pub fn touching_blades(&self) -> Vec<u32> {
         let Some(moment) = self.shown() else { return Vec::new() };
         let polygon = &self.machine.polygon;
@@ -246,14 +247,13 @@ impl App {
         }
     }
 
-    /// Returns the blade that is deepest in the lining at the instant that is shown, and its gap
-    /// \[m\].
+    /// Returns the blade deepest in the lining at the time shown, and its (negative) gap \[m\].
     pub fn deepest(&self) -> Option<(u32, f64)> {
         let gaps = (1..).zip(self.shown()?.gaps.iter().copied());
         gaps.filter(|(_, gap)| *gap < 0.0).min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// Returns a gap in words: how far a blade is from the casing, or how deep in its lining.
+    /// Describes a gap: the distance to the casing, or the depth in the lining.
     pub fn gap_words(&self, gap: f64) -> String {
         match self.has_lining() && gap < 0.0 {
             true => format!("{} into the lining", readable(-gap, "m")),
@@ -262,7 +262,7 @@ impl App {
         }
     }
 
-    /// Returns the blades in a lining at the instant that is shown, in words.
+    /// Describes which blades are in the lining, and the deepest one.
     pub fn in_the_lining(&self) -> String {
         let touching = self.touching_blades();
         let all = self.machine.polygon.blades as usize;
@@ -283,31 +283,32 @@ impl App {
 }
 
 impl App {
-    /// Returns the speed from which on a lock holds by pushes \[rad/s\], 0 where it does so at
-    /// standstill; none where nothing locks, as where all blades rub.
+    /// Returns the speed from which a lock with pushing contact exists \[rad/s\]; 0 if it exists at
+    /// standstill, `None` if nothing locks (e.g. all blades rub).
     pub fn lock_speed(&self) -> Option<f64> {
         self.lock_window().map(|window| window.from)
     }
 
-    /// Returns the speeds between which a lock holds by pushes.
+    /// Returns the speed range in which a lock with pushing contact exists.
     pub fn lock_window(&self) -> Option<LockWindow> {
         harmonic::lock_window(&self.machine, self.speed())
     }
 
-    /// Returns whether blades and casing drive each other where they touch, so that a coincidence
-    /// is dangerous: tips that move outward, or a lining.
+    /// Returns whether contact couples blade and casing vibration, which makes a coincidence
+    /// dangerous: through radial coupling of the tips, or a lining.
     pub fn is_coupled(&self) -> bool {
         let bends = self.scene.solver.model != ModelSize::Rigid;
         self.has_lining() || (bends && self.machine.radial_coupling != 0.0)
     }
 
-    /// Returns what steady states are of where every blade of the run moves alone, in few words.
+    /// Returns a note if the run has free blades, because the frequency-domain results assume equal
+    /// blades in two modes.
     pub fn tuned_note(&self) -> Option<&'static str> {
         self.scene.tuned_note().map(|_| "of equal blades, two modes")
     }
 
-    /// Returns the coincidence that is dangerous here \[rad/s\]: of the sum of the frequencies, or
-    /// of their difference where friction turns the blades outward.
+    /// Returns the dangerous coincidence speed \[rad/s\]: of the sum of the frequencies, or of
+    /// their difference if `kappa (kappa + mu) < 0`.
     pub fn coincidence(&self) -> Option<f64> {
         self.machine.coincidence_felt_at(self.speed()).map(f64::abs)
     }

@@ -1,6 +1,5 @@
-//! The last line: the effect of the last key, or the keys that can be pressed
-//! now, from the table of bindings. Help and the way out always have their place
-//! at its right end.
+//! The last line: the status message, or the keys that apply now, from the table of bindings. Help
+//! and quit are always at its right end.
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
@@ -10,16 +9,15 @@ use crate::tui::field::Field;
 use crate::tui::text::{columns, pieces, print, shorten};
 use crate::tui::theme::Role;
 
-/// Columns between two entries.
+/// Gap between two entries.
 const GAP: &str = "  ";
 
-/// From this width on there is room for the key of the palette.
+/// Width from which there is room for the key of the palette.
 const PALETTE_FROM: u16 = 60;
 
 /// Hint for new users.
 const TRY: &str = "new here? → turns Ω, g: lessons";
 
-/// Draws the line.
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     let look = &app.appearance;
     let mark = look.ellipsis();
@@ -39,7 +37,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
         return;
     }
     let hint = (app.dialogue.is_new && app.dialogue.mode == InputMode::Main).then_some(TRY);
-    // The list of commands has its message beside what is typed.
+    // The palette shows the message itself, below the typed text.
     let status = app.status.as_ref().filter(|_| app.context() != Context::Palette);
     let message = match (status, hint) {
         (Some(status), _) => Some((look.spell(status), Role::Good)),
@@ -63,7 +61,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     }
 }
 
-/// Keys and what they do, behind a gap.
+/// A binding as shown in the footer: its keys and one word.
 struct Entry {
     binding: &'static Binding,
     gap: &'static str,
@@ -77,7 +75,7 @@ impl Entry {
         self.gap.len() + columns(&app.appearance.spell(self.keys)) + word
     }
 
-    /// Draws it, notes for the mouse where it stands, and returns the rest of the row.
+    /// Draws the entry, makes it clickable, and returns the rest of the row.
     fn draw(&self, app: &App, buffer: &mut Buffer, area: Rect) -> Rect {
         let look = &app.appearance;
         let wide = u16::try_from(self.columns(app)).unwrap_or(area.width).min(area.width);
@@ -90,8 +88,8 @@ impl Entry {
         Rect { x: area.x + wide, width: area.width - wide, ..area }
     }
 
-    /// Records what a click does: on a sign what its key does, on the name of a key and the word
-    /// what the binding does.
+    /// Makes the entry clickable: a single-character key performs its own action, the word and
+    /// named keys (like `Enter`) that of the binding.
     fn note(&self, app: &App, own: Rect) {
         app.note(own, Target::Key(self.binding.action));
         let mut at = own.x;
@@ -109,13 +107,13 @@ impl Entry {
     }
 }
 
-/// Returns whether a binding has its place at the right end.
+/// Returns whether a binding is always shown, at the right end.
 fn is_kept(binding: &Binding) -> bool {
     matches!(binding.action, Action::Palette | Action::Help | Action::Quit)
 }
 
-/// Returns what stands at the right end: words where a message leaves room for them, otherwise keys
-/// alone.
+/// Returns the entries at the right end: with words if the message leaves room, otherwise keys
+/// only.
 fn kept(app: &App, width: u16, message: Option<usize>) -> Vec<Entry> {
     let entries = |words: bool| {
         let mut entries: Vec<Entry> = Vec::new();
@@ -138,18 +136,17 @@ fn kept(app: &App, width: u16, message: Option<usize>) -> Vec<Entry> {
     entries(message.is_none_or(|message| message + GAP.len() + whole <= usize::from(width)))
 }
 
-/// Draws the other keys, the most important first. A key and its word are shown together or not at
-/// all.
+/// Draws the other keys, the most important first, as long as whole entries fit.
 fn keys(app: &App, buffer: &mut Buffer, area: Rect) {
     let mut rest = area;
-    // Those of the main screen have no room beside those of what is open over it.
+    // Keys of the main screen have no room while a dialogue is open over it.
     let own =
         |binding: &&Binding| binding.context == app.context() || binding.context != Context::Main;
     let others = bindings::with_behind(app.context()).filter(own).filter(|b| !is_kept(b));
     for (binding, (keys, word)) in others.filter_map(|binding| Some((binding, binding.footer?))) {
         let word = match binding.action {
             Action::Pause if !app.play.playing => "go on",
-            // Most charts have nothing to open.
+            // Most charts have nothing to open at the cursor.
             Action::OpenPlace => match app.opening().and_then(|opening| opening.word()) {
                 Some(word) => word,
                 None => continue,

@@ -1,7 +1,7 @@
-//! The two lines at the top. The first: what the motion is, in one sentence, and how it came
-//! there; red only where the state itself is wrong. The second: where the motion is now, how
-//! fast it turns beside its limits, and the end of the run. What has no room has a shorter form
-//! or is left out; nothing is cut.
+//! The two lines at the top. The first has the verdict as a sentence and how the run came to it; it
+//! is red only if the result itself is suspect. The second has the current time, the speed relative
+//! to its limits, and the end of the run. If a part does not fit, a shorter form is used or the
+//! part is omitted; text is never cut.
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier, style::Style};
 
@@ -18,10 +18,10 @@ use rubscope_solver::motion::Verdict;
 
 type Parts = Vec<(String, Style)>;
 
-/// Columns of the lines where there is no screen: room for all of them.
+/// Width of the lines without a screen: room for every part.
 const WIDE: u16 = 240;
 
-/// Returns both lines as text, for where there is no screen.
+/// Returns both lines as text, for `--lines`.
 pub fn head_text(app: &App) -> [String; 2] {
     let area = Rect::new(0, 0, WIDE, 2);
     let mut buffer = Buffer::empty(area);
@@ -29,27 +29,26 @@ pub fn head_text(app: &App) -> [String; 2] {
     let row = |y: u16| {
         let cells = (0..WIDE).filter_map(|x| buffer.cell((x, y)));
         let text: String = cells.map(|cell| cell.symbol()).collect();
-        // What stands apart on a screen is parted by three spaces.
+        // Parts that are aligned apart on a screen are separated by three spaces.
         let parts = text.split("   ").map(str::trim).filter(|part| !part.is_empty());
         parts.collect::<Vec<_>>().join("   ")
     };
     [0, 1].map(row)
 }
 
-/// Draws both lines.
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     let used = sentence(app, buffer, area);
-    // In a lesson the title, too, would be an answer.
+    // In a lesson, the title could give the answer away.
     if !app.is_asked() {
         title(app, buffer, area, used);
     }
     second(app, buffer, area);
 }
 
-/// Draws the first line; returns the columns that it takes.
+/// Draws the first line; returns its width in columns.
 fn sentence(app: &App, buffer: &mut Buffer, area: Rect) -> u16 {
     let look = &app.appearance;
-    // A space on each side of the word.
+    // The reversed word has a space on each side.
     let width = usize::from(area.width).saturating_sub(1);
     let (headline, style) = headline(app, width);
     let mut parts = vec![(format!(" {} ", headline.word), style.add_modifier(Modifier::REVERSED))];
@@ -61,10 +60,10 @@ fn sentence(app: &App, buffer: &mut Buffer, area: Rect) -> u16 {
     u16::try_from(parts.iter().map(|(text, _)| columns(text)).sum::<usize>()).unwrap_or(u16::MAX)
 }
 
-/// Returns what is listed of the run in so many columns, and the style of its word.
+/// Returns the headline that fits `width`, and the style of its verdict.
 pub fn headline(app: &App, width: usize) -> (Sentence, Style) {
     let look = &app.appearance;
-    // The end would answer the question of a lesson.
+    // The verdict would answer the open question of a lesson.
     if app.is_asked() {
         let forms = ["Your answer first.".to_string()];
         return (Sentence::of("?", &forms, &[], width), look.style(Role::Quiet));
@@ -80,7 +79,7 @@ pub fn headline(app: &App, width: usize) -> (Sentence, Style) {
     (sentence, style)
 }
 
-/// Returns the one style of the word of a verdict: its colour in the map.
+/// Returns the style of a verdict: its colour in the map, or that of trouble.
 fn verdict_style(look: &Appearance, verdict: Verdict) -> Style {
     let own = colour(look, verdict).filter(|_| look.theme != Theme::Mono);
     let style = match (verdict, own) {
@@ -91,28 +90,28 @@ fn verdict_style(look: &Appearance, verdict: Verdict) -> Style {
     style.add_modifier(Modifier::BOLD)
 }
 
-/// Prints the title of the scene at the right end, if there is room for all of it.
+/// Prints the scene's title at the right end if it fits as a whole.
 fn title(app: &App, buffer: &mut Buffer, area: Rect, used: u16) {
     let look = &app.appearance;
     let title = look.spell(&app.scene.title);
     let wide = u16::try_from(columns(&title)).unwrap_or(u16::MAX);
-    // A part of it beside the sentence would read as one.
+    // A truncated title beside the sentence would read as part of it.
     if wide <= area.width.saturating_sub(used.saturating_add(3)) {
         let right = Rect { x: area.right() - wide, width: wide, ..area };
         print(buffer, right, 0, &title, look.style(Role::Quiet));
     }
 }
 
-/// A part of the second line: its forms from long to short, each with its rank. While the
-/// line is too long, the form of the highest rank is replaced by the next one of its part.
+/// A part of the second line, as forms from long to short, each with a rank. While the line is too
+/// long, the form with the highest rank is replaced by the next shorter form of its part.
 type Part = Vec<(u8, Parts)>;
 
-/// Creates a part of one form and one style.
+/// Creates a part with a single form in one style.
 fn plain(rank: u8, text: String, style: Style) -> Part {
     vec![(rank, vec![(text, style)])]
 }
 
-/// Between two parts.
+/// Gap between two parts.
 const GAP: &str = "   ";
 
 fn second(app: &App, buffer: &mut Buffer, area: Rect) {
@@ -146,7 +145,7 @@ fn second(app: &App, buffer: &mut Buffer, area: Rect) {
     pieces(buffer, area, 1, &line);
 }
 
-/// Returns the present state: `NOW 12.0 ms held on 12 + 19 ► 200x slower`.
+/// Returns time, contact and rate: `NOW 12.0 ms held on 12 + 19 ► 200x slower`.
 fn now(app: &App) -> Part {
     let look = &app.appearance;
     let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
@@ -182,7 +181,7 @@ fn now(app: &App) -> Part {
     ]
 }
 
-/// Returns the speed in parts of its limits: `500 rad/s = 1.71 Ω_c = 1.21 Ω_lock`.
+/// Returns the speed as multiples of its limits: `500 rad/s = 1.71 Ω_c = 1.21 Ω_lock`.
 fn speed(app: &App) -> Part {
     let look = &app.appearance;
     let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
@@ -191,7 +190,7 @@ fn speed(app: &App) -> Part {
         ramp if ramp < 0.0 => "↓",
         _ => "",
     };
-    // A speed that changes keeps its width.
+    // During a ramp, keep the width constant.
     let shown = match arrow {
         "" => digits(rounded(per_speed(app.speed()), 4)),
         _ => format!("{:.1}", per_speed(app.speed())),
@@ -211,14 +210,15 @@ fn speed(app: &App) -> Part {
         }
         most.push(longer);
     }
-    // Each ratio is given up alone, the last one first.
+    // The ratios are dropped one by one, the last one first.
     let ranks = [0, 3, 4, 4];
     let mut forms: Part = ranks.into_iter().zip(most).collect();
     forms.reverse();
     forms
 }
 
-/// Returns the limits of the speed that matter here, the most important first.
+/// Returns the speed limits that matter here, the most important first; `None` if a limit does not
+/// exist.
 fn named_limits(app: &App) -> Vec<(&'static str, Option<f64>)> {
     let (critical, lock) = (("Ω_c", app.machine.critical_speed()), app.lock_speed());
     let lock = (if lock.is_none() { "lock" } else { "Ω_lock" }, lock);
@@ -232,7 +232,7 @@ fn named_limits(app: &App) -> Vec<(&'static str, Option<f64>)> {
     limits
 }
 
-/// Returns the limits as numbers.
+/// Returns the speed limits as numbers.
 fn limits(app: &App) -> Option<Part> {
     let quiet = app.appearance.style(Role::Quiet);
     let to = app.lock_window().and_then(|window| window.to);
@@ -267,8 +267,8 @@ fn end(app: &App) -> Part {
             .map_or("?".into(), |verdict| verdict.to_string());
         return vec![at(1, proved), at(0, String::new())];
     };
-    // Of a whirl or a slip, only the latest change of sides is known; where a tiny change
-    // decides, no instant is known at all.
+    // A whirl or slip changes sides all the time, so its last change means nothing; and in a
+    // sensitive run no time of contact is reliable.
     let known = !app.results().sensitive.known().sensitive;
     let held = run.since.filter(|_| known && run.verdict.is_held());
     let held = held.map(|t| format!("{} since {}", run.verdict, readable(t, "s")));
@@ -280,8 +280,8 @@ fn end(app: &App) -> Part {
     longer.into_iter().chain(shorter).collect()
 }
 
-/// Returns a note where it is not known whether a tiny change changes the outcome, or how to
-/// audit a run that is in doubt and of which steps were skipped.
+/// Returns a note if the sensitivity check was given up, or, for a doubtful verdict with skipped
+/// steps, how to check it.
 fn unsure(app: &App) -> Option<Part> {
     let (results, known) = (app.results(), app.results().sensitive.known());
     let doubtful = known.sensitive || known.depends_on_step == Some(true);
@@ -295,14 +295,14 @@ fn unsure(app: &App) -> Option<Part> {
     Some(plain(rank, text, app.appearance.style(Role::Quiet)))
 }
 
-/// Returns the pinned run, if it ended in another way.
+/// Returns the verdict of the pinned run if it differs.
 fn baseline(app: &App) -> Option<Part> {
     let word = &app.run.baseline.as_ref()?.word;
     let text = format!("pinned: {word}");
     (*word != app.verdict_word()).then(|| plain(3, text, app.appearance.style(Role::Text)))
 }
 
-/// Returns what keys do otherwise than usual: pages of time, and knobs that act at once.
+/// Returns reminders of unusual states: another page, live mode, and modes without data.
 fn modes(app: &App) -> Vec<Part> {
     let focus = app.appearance.style(Role::Focus);
     let ((from, to), now) = (app.page(), app.now().min(app.end_s()));
@@ -314,21 +314,21 @@ fn modes(app: &App) -> Vec<Part> {
     pages.into_iter().chain(live).chain(missing).map(|text| plain(1, text, focus)).collect()
 }
 
-/// Returns the next change of contact.
+/// Returns the next change of contact and the time until then: `next: impact on 6 in 12 µs`.
 fn next(app: &App) -> Option<Part> {
     let next = app.next_change().filter(|_| !app.is_asked())?;
     let (what, after) = (app.happening(next.what), readable(next.t_s - app.now(), "s"));
     Some(plain(8, format!("next: {what} in {after}"), app.appearance.style(Role::Quiet)))
 }
 
-/// Returns how fast the run was computed.
+/// Returns the cost of the run: time per step, skipped steps, total time.
 fn cost(app: &App) -> Option<Part> {
     let pace = &app.results().pace;
     let run = pace.run_s?;
     let mut parts = Vec::new();
     parts.extend(pace.step_s.map(|step| format!("{}/step taken", duration(step))));
     if let Some(part) = pace.skipped {
-        // Rounded down: 100 % means that no step was taken.
+        // Round down, so that 100 % means that no step was taken.
         let percent = (1e3 * part).floor() / 10.0;
         parts.push(format!("{} % skipped", trimmed(&format!("{percent:.1}"))));
     }
@@ -336,7 +336,7 @@ fn cost(app: &App) -> Option<Part> {
     Some(plain(11, parts.join(", "), app.appearance.style(Role::Quiet)))
 }
 
-/// Returns two or three digits are enough for a duration.
+/// Formats a duration with two or three significant digits.
 fn duration(seconds: f64) -> String {
     let scale = crate::tui::axis::SiScale::of(seconds);
     let shown = seconds / scale.factor;

@@ -1,5 +1,4 @@
-//! The help: the view on the screen, every key in groups, and the glossary. What is typed
-//! leaves only the entries that have these words.
+//! The help: the large view, every key by group, and the glossary. Typed words filter the entries.
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 use strum::IntoEnumIterator;
@@ -10,11 +9,10 @@ use crate::tui::glossary;
 use crate::tui::text::{print, shorten, wrap};
 use crate::tui::theme::Role;
 
-/// Rows above the list: what is looked for.
+/// Rows above the list, for the search text.
 const ABOVE: u16 = 1;
 
-/// The headings of the keys that hold elsewhere than on the main screen, without
-/// those that do the same everywhere.
+/// Headings for the keys outside the main screen, without those that do the same everywhere.
 const ELSEWHERE: &[(&str, &[Context])] = &[
     ("While a chart is read", &[Context::Reading]),
     ("While typing", &[Context::Typing, Context::Field]),
@@ -27,11 +25,11 @@ const ELSEWHERE: &[(&str, &[Context])] = &[
     ("In the list of scenes", &[Context::Scenes]),
 ];
 
-/// A key or a word, and what it means.
+/// A key or term, and its meaning.
 struct Entry {
     left: String,
     right: String,
-    /// Other words by which it can be found.
+    /// Further words by which a search matches it.
     also: String,
 }
 
@@ -41,7 +39,7 @@ impl Entry {
         Self { left, right, also: String::new() }
     }
 
-    /// Returns whether it has all these words; a single letter is one that stands alone.
+    /// Returns whether the entry contains all these words. A single letter must be a key by itself.
     fn has(&self, heading: &str, words: &[String]) -> bool {
         let text = format!("{heading} {} {} {}", self.left, self.right, self.also).to_lowercase();
         let is_named = |letter: &str| {
@@ -55,7 +53,7 @@ impl Entry {
     }
 }
 
-/// Returns every section of the help: its heading and its entries.
+/// Returns the sections of the help: heading and entries.
 fn sections(app: &App) -> Vec<(&'static str, Vec<Entry>)> {
     let look = &app.appearance;
     let keys = Group::iter().map(|group| {
@@ -95,14 +93,14 @@ fn here(app: &App) -> Vec<Entry> {
     rows.map(entry).into()
 }
 
-/// A line of the list: left and right column, and whether it is a heading.
+/// A line of the list: left column, right column, and whether it is a heading.
 type Line = (String, String, bool);
 
 fn keys_width(width: u16) -> u16 {
     if width >= 60 { 22 } else { 14 }
 }
 
-/// Returns the lines that the filter leaves, and the number of entries among them.
+/// Returns the lines that match the filter, and the number of matching entries.
 fn lines(app: &App, area: Rect, filter: &str) -> (Vec<Line>, usize) {
     let left = usize::from(keys_width(area.width));
     let width = usize::from(area.width).saturating_sub(left + 1);
@@ -119,7 +117,7 @@ fn lines(app: &App, area: Rect, filter: &str) -> (Vec<Line>, usize) {
         lines.push((heading.to_string(), String::new(), true));
         for entry in found {
             count += 1;
-            // The keys, too, may need more than one line.
+            // The keys may need more than one line too.
             let keys = wrap(&entry.left, left.saturating_sub(1));
             let what = wrap(&entry.right, width);
             for row in 0..keys.len().max(what.len()) {
@@ -131,18 +129,18 @@ fn lines(app: &App, area: Rect, filter: &str) -> (Vec<Line>, usize) {
     (lines, count)
 }
 
-/// Returns the rows of the list in the body of the screen.
+/// Returns the area of the list within the body of the screen.
 fn list(body: Rect) -> Rect {
     Rect { y: body.y + ABOVE, height: body.height.saturating_sub(ABOVE), ..body }
 }
 
-/// Returns the furthest that the help can be scrolled on this screen.
+/// Returns the largest scroll position of the help.
 pub fn help_bottom(app: &App, help: &HelpState) -> usize {
     let area = list(super::body(app));
     lines(app, area, &help.filter.text()).0.len().saturating_sub(usize::from(area.height))
 }
 
-/// Returns what the help says about these words, in lines of so many columns.
+/// Returns the entries of the help that match `words`, as lines of `width` columns.
 pub fn help_text(app: &App, width: u16, words: &str) -> Vec<String> {
     let (lines, _) = lines(app, Rect::new(0, 0, width, 1), words);
     let left = usize::from(keys_width(width));
@@ -152,7 +150,6 @@ pub fn help_text(app: &App, width: u16, words: &str) -> Vec<String> {
         .collect()
 }
 
-/// Draws the help.
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, help: &HelpState) {
     let look = &app.appearance;
     let width = usize::from(area.width);

@@ -1,7 +1,7 @@
-//! The knobs: a column in groups with the selected one explained below, or a single line if
-//! there is no room. The first group and that of the selected knob are open, the others are
-//! folded and show what is changed in them. Only the selected knob has a bar, with the limits on
-//! it; the mouse asks for the same lines.
+//! The knobs: a column of groups with a note on the selected knob, or, without room, a line with
+//! that knob alone. The first group and that of the selected knob are open; the others are folded
+//! and show only changed values. The selected knob has a bar with marks at its limits. The mouse
+//! uses the same layout of lines.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
@@ -15,7 +15,7 @@ use crate::tui::text::{columns, pieces, print, shorten, wrap};
 use crate::tui::theme::Role;
 use rubscope_solver::scene::Allowed;
 
-/// Draws the column.
+/// Draws the knobs as a column.
 pub fn panel(app: &App, buffer: &mut Buffer, area: Rect) {
     let area = inside(area);
     let look = &app.appearance;
@@ -50,7 +50,7 @@ pub fn panel(app: &App, buffer: &mut Buffer, area: Rect) {
     let width = usize::from(area.width);
     let mut row = used;
     for (lines, role) in notes(app, width) {
-        // What has no room is left out, whole.
+        // A note that does not fit is omitted as a whole.
         if row + u16::try_from(lines.len()).unwrap_or(0) > area.height {
             continue;
         }
@@ -65,7 +65,7 @@ pub fn panel(app: &App, buffer: &mut Buffer, area: Rect) {
     }
 }
 
-/// Prints why the value of the knob in this row was refused, below it and over what is there.
+/// Prints why the value of the knob in row `at` was refused, over the rows below it.
 fn refusal(app: &App, buffer: &mut Buffer, area: Rect, at: u16) {
     let Some(refusal) = &app.knobs.refusal else { return };
     let (look, width) = (&app.appearance, usize::from(area.width));
@@ -74,7 +74,7 @@ fn refusal(app: &App, buffer: &mut Buffer, area: Rect, at: u16) {
     }
 }
 
-/// Draws a rule with the name of an open group.
+/// Draws the heading of an open group, within a rule.
 fn heading(app: &App, buffer: &mut Buffer, row: Rect, group: Group) {
     let look = &app.appearance;
     let (rule, quiet) = (look.either("─", "-"), look.style(Role::Quiet));
@@ -84,8 +84,8 @@ fn heading(app: &App, buffer: &mut Buffer, row: Rect, group: Group) {
     pieces(buffer, row, 0, &parts);
 }
 
-/// Draws a folded group: its name, the number of its knobs, and those that differ from the scene;
-/// where they have no room, how many.
+/// Draws a folded group: name, number of knobs, and the values changed since the scene was opened,
+/// or their number if they do not fit.
 fn folded(app: &App, buffer: &mut Buffer, row: Rect, group: Group) {
     let look = &app.appearance;
     let head = look.spell(&format!(" {} {} ▸", group.name(), group.places().count()));
@@ -103,7 +103,7 @@ fn folded(app: &App, buffer: &mut Buffer, row: Rect, group: Group) {
     pieces(buffer, row, 0, &[(head, text), (shown, text.add_modifier(Modifier::BOLD))]);
 }
 
-/// Draws a line with a knob.
+/// Draws a knob: label and value.
 fn knob(app: &App, buffer: &mut Buffer, row: Rect, knob: &Knob, selected: bool) {
     let look = &app.appearance;
     let value = knob.get(&app.scene);
@@ -115,7 +115,7 @@ fn knob(app: &App, buffer: &mut Buffer, row: Rect, knob: &Knob, selected: bool) 
     let room = width.saturating_sub(columns(&label) + 1);
     let shown = match (&app.dialogue.mode, selected) {
         (InputMode::Typing(text), true) => look.spell(&knob.typed(text, room)),
-        // A sign beside the dim colour, for themes without colour.
+        // Brackets mark a knob without effect in themes without colour.
         _ if inert => look.spell(&format!("({})", knob.shown(&value))),
         _ => look.spell(&knob.shown(&value)),
     };
@@ -129,7 +129,8 @@ fn knob(app: &App, buffer: &mut Buffer, row: Rect, knob: &Knob, selected: bool) 
     print(buffer, row, 0, &format!("{label}{}{shown}", " ".repeat(pad)), style);
 }
 
-/// Returns why the selected knob has no effect, what it does, and the limit where it stands.
+/// Returns the notes on the selected knob: why it has no effect, what it does, and which limit it
+/// is at.
 fn notes(app: &App, width: usize) -> Vec<(Vec<String>, Role)> {
     let Some(knob) = app.selected() else { return Vec::new() };
     let range = knob.range(&app.scene, &app.files.opened, &app.machine);
@@ -143,18 +144,18 @@ fn notes(app: &App, width: usize) -> Vec<(Vec<String>, Role)> {
     notes.into_iter().flatten().map(lines).collect()
 }
 
-/// Returns one sentence: what a knob does, and its range.
+/// Describes a knob in one sentence: what it does, and its range.
 fn sentence(knob: &Knob) -> String {
     let text = capital(knob.does);
     match knob.allowed() {
-        // Their words are in it, and nobody comes to these ends.
+        // `does` lists the choices already, and a range beyond +-1e6 is no practical limit.
         Allowed::OneOf(_) => format!("{text}."),
         Allowed::Real { min, max, .. } if min == -max && max >= 1e6 => format!("{text}."),
         _ => format!("{text}; {}.", knob.range_words()),
     }
 }
 
-/// Draws the selected knob alone, with its bar where there is room.
+/// Draws the selected knob as a single line, with its bar if there is room.
 pub fn strip(app: &App, buffer: &mut Buffer, area: Rect) {
     app.note(area, Target::Knob(app.knobs.selected));
     let look = &app.appearance;
@@ -184,13 +185,12 @@ fn strip_text(app: &App, knob: &Knob) -> String {
     app.appearance.spell(&text)
 }
 
-/// The fewest cells of a bar in the line of the selected knob.
+/// Least width of the bar beside a single knob.
 const LEAST_BAR: u16 = 8;
-/// The room that the text of that line has at least, so that the bar stays in its
-/// place while the value changes.
+/// Least width of the text of a single knob, so that its bar does not move while the value changes.
 const TEXT: u16 = 27;
 
-/// Returns the cells of the bar in the line of the selected knob, where there is room.
+/// Returns the area of the bar in the single line, if there is room.
 pub fn strip_bar(app: &App, area: Rect) -> Option<Rect> {
     let text = u16::try_from(columns(&strip_text(app, app.selected()?))).ok()?;
     let start = text.max(TEXT) + 2;
@@ -205,18 +205,18 @@ pub enum ColumnLine {
     Heading(Group),
     /// A folded group.
     Folded(Group),
-    /// A knob.
+    /// The knob with this index.
     Knob(usize),
-    /// The bar of the knob above.
+    /// The bar of this knob, below its line.
     Bar(usize),
 }
 
-/// Most rows kept free for the note on the selected knob.
+/// Rows kept free for the note on the selected knob.
 pub const NOTES: u16 = 5;
 /// Columns of a note.
 const NOTE_WIDTH: usize = 26;
 
-/// Returns the lines of the column in an area of this height, with the selected knob in sight.
+/// Returns the lines of the column for this height, including the selected knob.
 pub fn lines(app: &App, height: u16) -> Vec<ColumnLine> {
     let note = app.selected().map_or(0, |knob| wrap(&sentence(knob), NOTE_WIDTH).len());
     let rows =
@@ -229,20 +229,20 @@ pub fn lines(app: &App, height: u16) -> Vec<ColumnLine> {
     let lines = fitting.unwrap_or_else(|| with(&[chosen], false));
     let here = |line: &ColumnLine| *line == ColumnLine::Knob(app.knobs.selected);
     let selected = lines.iter().position(here).unwrap_or(0);
-    // The bar below it is in sight, too.
+    // Its bar must be visible too.
     let last = (selected + 2).min(lines.len());
     let first = if lines.len() > rows { last.saturating_sub(rows) } else { 0 };
     lines.into_iter().skip(first).take(rows).collect()
 }
 
-/// Returns all lines with these groups open; of what goes beyond the paper, the knobs by which the
-/// scene leaves it are legend_of where there is room.
+/// Returns all lines with the groups in `open` unfolded. With `telling`, folded groups also list
+/// the knobs by which the scene leaves the paper's model.
 fn all(app: &App, open: &[Group], telling: bool) -> Vec<ColumnLine> {
     let mut lines = Vec::new();
     for &group in Group::VARIANTS {
         let open = open.contains(&group);
         match (open, group) {
-            // The first one, where everybody begins, needs no name.
+            // The first group needs no heading.
             (true, Group::Operation) => {}
             (true, _) => lines.push(ColumnLine::Heading(group)),
             (false, _) => lines.push(ColumnLine::Folded(group)),
@@ -261,24 +261,24 @@ fn all(app: &App, open: &[Group], telling: bool) -> Vec<ColumnLine> {
     lines
 }
 
-/// Returns whether a knob turns through a range.
+/// Returns whether a knob has a range to turn through.
 fn has_bar(app: &App, place: usize) -> bool {
     let (scene, opened) = (&app.scene, &app.files.opened);
     KNOBS.get(place).is_some_and(|knob| knob.range(scene, opened, &app.machine).is_some())
 }
 
-/// Returns the columns of the cells of a bar in a line of the panel.
+/// Returns the area of the bar in a line of the column.
 pub fn bar_cells(area: Rect) -> Rect {
     Rect { x: area.x + 2, width: area.width.saturating_sub(3), ..area }
 }
 
-/// Returns the part of the screen that knobs are drawn in, without the gap to the charts.
+/// Returns the area of the knobs without the gap to the charts.
 pub fn inside(area: Rect) -> Rect {
     Rect { width: area.width.saturating_sub(1), ..area }
 }
 
-/// Draws the bar of the selected knob over an area, its two ends outside of it; nothing for
-/// knobs of words.
+/// Draws the bar of the selected knob into `cells`; its end marks are outside. Knobs without a
+/// numeric range have no bar.
 pub fn draw(app: &App, buffer: &mut Buffer, cells: Rect, knob: &Knob) {
     let Some(range) = knob.range(&app.scene, &app.files.opened, &app.machine) else { return };
     if cells.width == 0 {
@@ -305,7 +305,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, cells: Rect, knob: &Knob) {
             match here {
                 Some(here) if x < here => put(x, full, quiet),
                 Some(here) if x == here => put(x, now, look.style(Role::Focus)),
-                // A bar of several rows stands on its lowest one.
+                // A bar of several rows is drawn from its lowest row.
                 _ => put(x, if y == last { empty } else { " " }, quiet),
             }
         }
@@ -316,7 +316,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, cells: Rect, knob: &Knob) {
     }
 }
 
-/// Returns the column of a part, 0 to 1, of a bar.
+/// Returns the column at a fraction of the bar, 0 to 1.
 fn cell(cells: Rect, part: f64) -> u16 {
     cells.x + (part * f64::from(cells.width - 1)).round() as u16
 }

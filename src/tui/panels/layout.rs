@@ -1,4 +1,4 @@
-//! The places of all panels at each screen size.
+//! The areas of all panels for each screen size.
 
 use ratatui::layout::{Constraint, Layout, Rect};
 
@@ -6,41 +6,38 @@ use crate::tui::app::App;
 use crate::tui::panels::presentation;
 use crate::tui::views::{LEAST_ROWS, ViewId};
 
-/// Narrowest screen.
+/// Narrowest screen that is drawn.
 pub const LEAST_WIDTH: u16 = 40;
-/// Lowest screen.
+/// Lowest screen that is drawn.
 pub const LEAST_HEIGHT: u16 = 12;
 
-/// Least width at which the knobs have a separate column.
+/// Width from which the knobs have a column of their own.
 const KNOBS_FROM: u16 = 66;
-/// Width of that column.
+/// Width of the column of knobs.
 const KNOBS_WIDTH: u16 = 27;
-/// Least width at which they stay beside two contact laws that are compared.
+/// Width from which the column of knobs stays when two contact laws are compared.
 const KNOBS_BESIDE_LAWS: u16 = 110;
-/// Least width at which two charts are side by side.
+/// Width from which two charts are side by side.
 const PAIR_FROM: u16 = 76;
 
-/// The places of one frame.
+/// The areas of one frame.
 pub struct Places {
-    /// Scene, verdict, speeds.
+    /// Verdict, title and speeds.
     pub header: Rect,
     /// Everything between header and footer.
     pub body: Rect,
-    /// The knobs.
     pub knobs: Rect,
-    /// Whether they are a column, not the selected one alone.
+    /// Whether the knobs are a column; otherwise only the selected one is shown.
     pub column: bool,
-    /// The charts.
+    /// The views on the screen with their areas.
     pub charts: Vec<(ViewId, Rect)>,
     /// The verdict in large letters, which only a screen for a projector has.
     pub letters: Option<Rect>,
-    /// The current lesson.
     pub lesson: Option<Rect>,
-    /// Keys.
     pub footer: Rect,
 }
 
-/// Returns the places for a screen of this size.
+/// Computes the areas for a screen of this size.
 pub fn places(area: Rect, app: &App) -> Places {
     if presentation::is_shown(app, area) {
         let [letters, body, knobs, footer] = presentation::split(app, area);
@@ -71,12 +68,12 @@ pub fn places(area: Rect, app: &App) -> Places {
     Places { header, body, knobs, column, charts, letters: None, lesson, footer }
 }
 
-/// Returns the first rows of an area, and the rest below.
+/// Splits off the first `rows` rows of an area.
 fn below(area: Rect, rows: u16) -> [Rect; 2] {
     Layout::vertical([Constraint::Length(rows), Constraint::Min(1)]).areas(area)
 }
 
-/// Returns the rows of the current lesson, above the knobs and charts.
+/// Returns the area of the current lesson, and the rest below it.
 fn lesson(body: Rect, app: &App) -> (Option<Rect>, Rect) {
     if app.lessons.progress.is_none() || body.height < 9 {
         return (None, body);
@@ -85,11 +82,11 @@ fn lesson(body: Rect, app: &App) -> (Option<Rect>, Rect) {
     let read = app.lessons.progress.as_ref().is_some_and(|progress| progress.read);
     let rows = match wanted <= most_rows(body.height) {
         true => wanted,
-        // If it is too long to leave room for the charts: first the text, page by
-        // page, then its end.
+        // A step too long to leave room for the charts is shown page by page; once read, only its
+        // end stays above the charts.
         false if !read => wanted.min(page_rows(body.height)),
         false => {
-            // An open question comes before the charts.
+            // An open question has priority over the charts.
             let most = if app.is_asked() { page_rows } else { most_rows };
             super::lesson::end_rows(app, usize::from(body.width)).min(most(body.height)).max(3)
         }
@@ -98,18 +95,18 @@ fn lesson(body: Rect, app: &App) -> (Option<Rect>, Rect) {
     (Some(lesson), body)
 }
 
-/// Rows of the wheel above another chart: it has no axis.
+/// Rows of the wheel above another chart; it needs no axis.
 const WHEEL_ROWS: u16 = 10;
 
-/// Returns one large chart, and as many of the requested smaller ones as can be read. The wheel is
-/// as wide as it is high and has another chart at its side; any other has the whole width.
+/// Splits the area into the large chart and as many smaller ones as remain legible. The wheel is
+/// about square and shares its rows with another chart; any other large chart has the full width.
 fn split(area: Rect, app: &App) -> Vec<(ViewId, Rect)> {
     let views = app.layout.views().iter().copied();
     let beside = u16::try_from(app.layout.beside).unwrap_or(0);
     let wheel = app.is_large(ViewId::Frame);
     let large = if wheel { WHEEL_ROWS } else { LEAST_ROWS };
     let below = area.height.saturating_sub(large) / LEAST_ROWS;
-    // A table has a use for every row.
+    // The margins table can use every row.
     let part = if app.is_large(ViewId::Margins) { 0 } else { LOWER };
     let lower = (area.height * part).div_ceil(100).max(LEAST_ROWS);
     let two = [Constraint::Min(1), Constraint::Length(lower)];
@@ -146,9 +143,9 @@ fn split(area: Rect, app: &App) -> Vec<(ViewId, Rect)> {
     views.zip(areas).collect()
 }
 
-/// Part of the height that the charts below the large one have, in per cent.
+/// Height of the charts below the large one \[%\].
 const LOWER: u16 = 45;
-/// Part of the width that the wheel has, in per cent.
+/// Width of the wheel \[%\].
 const WHEEL_PART: u16 = 44;
 
 /// Returns the rows that a lesson shares with the charts: those between header and footer, which
@@ -161,28 +158,28 @@ fn body_rows(app: &App) -> u16 {
     }
 }
 
-/// Returns the greatest number of rows of a lesson beside the charts.
+/// Returns the largest number of rows of a lesson beside the charts.
 fn most_rows(body: u16) -> u16 {
     body / 2
 }
 
-/// Returns the rows of a page of a lesson in front of the charts.
+/// Returns the rows of a page of a lesson that covers the charts.
 fn page_rows(body: u16) -> u16 {
     body.saturating_sub(1)
 }
 
-/// Returns whether the text of the lesson hides the charts on this screen.
+/// Returns whether the lesson's text is too long to leave room for the charts.
 pub fn lesson_fills(app: &App) -> bool {
     let rows = super::lesson::rows(app, usize::from(app.layout.size.0));
     app.lessons.progress.is_some() && rows > most_rows(body_rows(app))
 }
 
-/// Returns the pages of the text of the lesson where it hides the charts.
+/// Returns the number of pages of the lesson's text where it covers the charts.
 pub fn lesson_pages(app: &App) -> usize {
     super::lesson::pages(app, usize::from(app.layout.size.0), page_rows(body_rows(app)))
 }
 
-/// Returns the room between header and footer on this screen.
+/// Returns the area between header and footer.
 pub fn body(app: &App) -> Rect {
     let area = Rect::new(0, 0, app.layout.size.0, app.layout.size.1);
     places(area, app).body

@@ -1,5 +1,4 @@
-//! The list of lessons, and the current step: its question, or the answer with
-//! the reason.
+//! The list of lessons, and the current step: the question, or the answer with its reason.
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 
@@ -10,10 +9,10 @@ use crate::tui::lessons::{self, LETTERS, LessonStep};
 use crate::tui::text::{columns, print, shorten, whole_parts, wrap};
 use crate::tui::theme::Role;
 
-/// Least width at which the question stays beside its answer.
+/// Width from which the question stays above its answer.
 const WIDE: usize = 110;
 
-/// Draws the list of lessons, one of them selected, with what was done of each.
+/// Draws the list of lessons with the progress in each.
 pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
     let look = &app.appearance;
     let width = usize::from(area.width);
@@ -27,7 +26,7 @@ pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
         app.note(Rect { y: area.y + row, height: 1, ..area }, Target::Lesson(index));
         let (sign, style) = look_of(look, index == place, Role::Text);
         let (done, steps) = (app.lessons.done.count(lesson), lesson.steps.len());
-        // One that was passed over comes before the last that was done.
+        // A step that was skipped comes before the last completed one.
         let passed = app.lessons.done.next(lesson).filter(|next| *next < done);
         let done = if done == steps { "done".to_string() } else { format!("{done}/{steps}") };
         let name = |title: &str| format!("{sign} {done:>4}  {}. {title}", index + 1);
@@ -37,7 +36,7 @@ pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
             Some(step) => format!("{minutes}, step {} is left", step + 1),
             None => format!("{minutes}, needs {}", lesson.needs),
         };
-        // What has no room is left out.
+        // Parts that do not fit are omitted.
         let ways = [whole.clone() + &needs, whole + &minutes, brief.clone() + &minutes, brief];
         let ways = ways.map(|way| look.spell(&way));
         let fits = ways.iter().find(|way| columns(way) <= width);
@@ -45,18 +44,18 @@ pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
     }
 }
 
-/// Lines of the end of a step that are in sight beside a chart, at least.
+/// Rows of the end of a step that stay visible beside a chart.
 const LEAST: usize = 3;
 
-/// A line and its colour.
+/// A line and its role.
 type Line = (String, Role);
 
-/// Returns a text of a lesson as it is shown: its speeds in the unit of speeds.
+/// Returns a text with its speeds in the unit of the screen.
 fn told(app: &App, text: &str) -> String {
     app.appearance.spell(&with_speeds(text))
 }
 
-/// Returns the lines of a step below its head.
+/// Returns the lines of the current step below its head.
 fn lines(app: &App, width: usize) -> Vec<Line> {
     let Some((step, now)) = app.lesson_step() else { return Vec::new() };
     let of = |text: &str, role: Role| -> Vec<Line> {
@@ -74,7 +73,7 @@ fn lines(app: &App, width: usize) -> Vec<Line> {
             });
             let named: Vec<String> = named.map(|text| told(app, &text)).collect();
             let one = named.join("  ");
-            // Side by side if they fit.
+            // The answers share a line if they fit.
             match columns(&one) <= width {
                 true => lines.push((one, Role::Focus)),
                 false => lines.extend(named.iter().flat_map(|line| of(line, Role::Focus))),
@@ -101,7 +100,7 @@ fn lines(app: &App, width: usize) -> Vec<Line> {
     lines
 }
 
-/// Returns which answer is right.
+/// Says whether an answer is right, and which one is.
 fn judged(step: &LessonStep, answer: usize) -> String {
     let right = step.right_place().unwrap_or(0);
     let text = step.answers.get(right).map_or("", String::as_str);
@@ -113,7 +112,7 @@ fn judged(step: &LessonStep, answer: usize) -> String {
     }
 }
 
-/// Returns the head: lesson, step, and the keys that lead on.
+/// Returns the head in two halves: lesson on the left, step and keys on the right.
 fn head(app: &App, width: usize) -> (String, String) {
     let Some((lesson, progress)) = app.current_lesson() else { return Default::default() };
     let look = &app.appearance;
@@ -146,8 +145,8 @@ pub fn rows(app: &App, width: usize) -> u16 {
     u16::try_from(lines(app, width).len() + 2).unwrap_or(u16::MAX)
 }
 
-/// Returns the rows of what must be in sight beside a chart, with the head and a rule: the open
-/// question with its answers, or the end of the step.
+/// Returns the rows that must stay visible beside a chart, with head and rule: the open question
+/// with its answers, or the end of the step.
 pub fn end_rows(app: &App, width: usize) -> u16 {
     let asked = app.lesson_step().filter(|_| app.is_asked());
     let before = asked.map_or(0, |(step, _)| wrap(&told(app, &step.text), width).len());
@@ -155,7 +154,7 @@ pub fn end_rows(app: &App, width: usize) -> u16 {
     u16::try_from(rows + 2).unwrap_or(u16::MAX)
 }
 
-/// Returns the pages the step needs in so many rows, head and rule included.
+/// Returns the number of pages of the step, for pages of `rows` rows with head and rule.
 pub fn pages(app: &App, width: usize, rows: u16) -> usize {
     lines(app, width).len().div_ceil(text_rows(rows))
 }
@@ -164,7 +163,7 @@ fn text_rows(rows: u16) -> usize {
     usize::from(rows.saturating_sub(2)).max(1)
 }
 
-/// Returns the current step as text, in lines of so many columns; nothing without a lesson.
+/// Returns the current step as lines of `width` columns; empty without a lesson.
 pub fn lesson_text(app: &App, width: u16) -> Vec<String> {
     let (left, right) = head(app, usize::from(width));
     let head = [left, right].join("   ");
@@ -173,7 +172,6 @@ pub fn lesson_text(app: &App, width: u16) -> Vec<String> {
     std::iter::once(head).chain(lines).filter(|_| is_open).collect()
 }
 
-/// Draws the current step.
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     let Some(progress) = &app.lessons.progress else { return };
     let look = &app.appearance;
@@ -192,7 +190,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
         let on = if page + 1 < pages { "g goes on" } else { "g: to the charts" };
         (page * room, Some(format!(" page {} of {pages}: {on} ", page + 1)))
     } else {
-        // The end of the step, its answers or its task, must be visible.
+        // The end of the step (its answers or its task) must be visible.
         (all.len().saturating_sub(room), None)
     };
     for (row, (text, role)) in (1..area.height).zip(all.iter().skip(skip).take(room)) {

@@ -1,6 +1,5 @@
-//! The lists that cover the charts: of commands, with what is typed, and of scenes, with
-//! the note of the chosen one; and what all lists share: which entries are in sight, and
-//! how the chosen one looks.
+//! The lists that cover the charts: the command palette, and the scenes with the note of the
+//! selected one. Also what all lists share: scrolling, and the style of the selected entry.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -12,7 +11,7 @@ use crate::tui::commands;
 use crate::tui::text::{columns, print, shorten, wrap};
 use crate::tui::theme::Role;
 
-/// Draws the list of commands.
+/// Draws the command palette.
 pub fn commands(app: &App, buffer: &mut Buffer, area: Rect, palette: &PaletteState) {
     let look = &app.appearance;
     let (width, mark) = (usize::from(area.width), look.ellipsis());
@@ -48,14 +47,14 @@ pub fn commands(app: &App, buffer: &mut Buffer, area: Rect, palette: &PaletteSta
     }
 }
 
-/// Returns the first entry in sight of a list with so many rows, so that the chosen one is in
-/// sight.
+/// Returns the first visible entry of a list with `rows` rows, such that the selected one is
+/// visible.
 pub fn first_in_sight(chosen: usize, rows: usize) -> usize {
     (chosen + 1).saturating_sub(rows)
 }
 
-/// Returns the sign before an entry and its style; one that is not chosen has the colour of its
-/// role.
+/// Returns marker and style of an entry: highlighted if selected, otherwise in the colour of
+/// `role`.
 pub fn look_of(look: &Appearance, is_chosen: bool, role: Role) -> (&'static str, Style) {
     match is_chosen {
         true => (look.either("▸", ">"), look.style(Role::Focus).add_modifier(Modifier::REVERSED)),
@@ -63,14 +62,14 @@ pub fn look_of(look: &Appearance, is_chosen: bool, role: Role) -> (&'static str,
     }
 }
 
-/// Least width at which the note is beside the list.
+/// Width from which the note is beside the list.
 const BESIDE_FROM: u16 = 100;
-/// Widest list beside a note.
+/// Width of the list beside a note.
 const LIST_WIDTH: u16 = 64;
-/// Widest name.
+/// Widest scene name.
 const NAME_WIDTH: usize = 24;
 
-/// Draws the list with the chosen scene; the open one, if none was chosen.
+/// Draws the list of scenes; `chosen` is selected, or else the open scene.
 pub fn scenes(app: &App, buffer: &mut Buffer, area: Rect, chosen: Option<usize>) {
     let look = &app.appearance;
     let mark = look.ellipsis();
@@ -128,7 +127,7 @@ fn rows(app: &App, buffer: &mut Buffer, area: Rect, entries: &[SceneEntry], plac
     }
 }
 
-/// Returns the lines about a scene.
+/// Returns the note of a scene, or why it cannot be opened, as lines.
 fn notes(app: &App, entry: &SceneEntry, width: usize) -> Vec<(String, Role)> {
     let (text, role) = match &entry.scene {
         Ok(scene) if scene.note.is_empty() => ("It has no note.", Role::Quiet),
@@ -138,7 +137,7 @@ fn notes(app: &App, entry: &SceneEntry, width: usize) -> Vec<(String, Role)> {
     wrap(&app.appearance.spell(text), width).into_iter().map(|line| (line, role)).collect()
 }
 
-/// Prints a page of the lines below the name of their scene.
+/// Prints a page of the note below a rule with the scene's name.
 fn note(app: &App, buffer: &mut Buffer, area: Rect, entry: &SceneEntry, lines: &[(String, Role)]) {
     let look = &app.appearance;
     let (width, mark) = (usize::from(area.width), look.ellipsis());

@@ -1,5 +1,5 @@
-//! The screen as a function of the state: where each panel goes, and one file
-//! per panel.
+//! The screen as a function of the state. `layout` says where each panel goes; each panel has a
+//! file.
 
 mod footer;
 mod header;
@@ -22,7 +22,6 @@ pub use help::{help_bottom, help_text};
 pub use layout::{LEAST_HEIGHT, LEAST_WIDTH, body, lesson_fills, lesson_pages};
 pub use lesson::lesson_text;
 
-/// Draws the whole screen.
 pub fn draw(frame: &mut Frame, app: &App) {
     let area = frame.area();
     paint(app, frame.buffer_mut(), area);
@@ -83,7 +82,7 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
         }
     }
     if app.appearance.ascii() {
-        // Names and titles can have any letter.
+        // Names and titles may contain any character.
         let others = buffer.content.iter_mut().filter(|cell| !cell.symbol().is_ascii());
         let plain = |sign: &str| if sign.starts_with(CUT) { '>' } else { '?' };
         others.for_each(|cell| _ = cell.set_char(plain(cell.symbol())));

@@ -1,4 +1,4 @@
-//! Dialogues: scrolling the help, the list of commands, and what is asked for in words.
+//! Dialogues: moving in lists, the command palette, and typed commands.
 
 use super::Effect;
 use crate::report::line::clean;
@@ -11,7 +11,7 @@ use crate::tui::lessons;
 use crate::tui::panels;
 
 impl App {
-    /// Moves in the list that is open, if one is; returns whether the action does that.
+    /// Moves the selection of the open list, or scrolls the help; returns false for other actions.
     pub(super) fn move_in_list(&mut self, action: Action) -> bool {
         let last = |count: usize| count.saturating_sub(1);
         let (from, last) = match &self.dialogue.mode {
@@ -26,7 +26,8 @@ impl App {
             }
             _ => return false,
         };
-        // Further than the end, a key up would do nothing for a while.
+        // A resize can leave the place past the end; then a key up would have no visible effect at
+        // first.
         let from = from.min(last);
         let page = usize::from(panels::body(self).height.saturating_sub(2)).max(1);
         let to = match action {
@@ -50,7 +51,7 @@ impl App {
         true
     }
 
-    /// Edits what is typed; at an end of the text, goes on to that end of the list.
+    /// Edits the text field. Home and End, if they do not move the text cursor, move in the list.
     pub(super) fn edit(&mut self, edit: Edit) {
         match (self.dialogue.typed().is_some_and(|field| field.edit(edit)), edit) {
             (true, Edit::Left | Edit::Right | Edit::Start | Edit::End) => {}
@@ -60,12 +61,13 @@ impl App {
         }
     }
 
-    /// Opens the list with these words.
+    /// Opens the command palette with `typed` as the search text.
     pub(super) fn look_for(&mut self, typed: &str) {
         self.dialogue.open(InputMode::Palette(PaletteState { typed: typed.into(), place: 0 }));
     }
 
-    /// Does what was chosen; where there is nothing to choose, the list stays open.
+    /// Executes the selected command. If nothing matches, the palette stays open and the status
+    /// line says why.
     pub(super) fn choose_command(&mut self, palette: &PaletteState) -> Effect {
         let typed = palette.typed.text();
         let chosen = commands::found(self, &typed).into_iter().nth(palette.place);
@@ -76,10 +78,10 @@ impl App {
         })
     }
 
-    /// Does what was asked for in words.
+    /// Executes a command.
     ///
     /// # Errors
-    /// There is no such instant or blade, or a knob does not take the value, in words.
+    /// One line that says why: no such time or blade, or the knob refuses the value.
     pub fn obey(&mut self, command: Command) -> Result<Effect, String> {
         self.dialogue.close();
         match command {

@@ -1,5 +1,5 @@
-//! Files: writing the scene, the data of the large chart or the screen, and opening a scene of
-//! the list. No file is replaced without a question.
+//! Files: writing the scene, the data of the large chart or the screen, and opening a scene from
+//! the list. No file is replaced without asking.
 
 use super::Effect;
 use crate::tui::app::{App, InputMode, Purpose, SceneEntry, Source, Writing};
@@ -9,7 +9,7 @@ use rubscope_solver::scene::keys::differences;
 use rubscope_solver::scene::{CheckedScene, Scene};
 
 impl App {
-    /// Starts writing a file; where one exists, the result is a question.
+    /// Starts writing a file. If it exists and `replace` is false, the result will ask the user.
     pub(super) fn write(&mut self, purpose: Purpose, name: &str, replace: bool) -> Effect {
         let name = name.trim();
         if name.is_empty() {
@@ -40,7 +40,7 @@ impl App {
         }
     }
 
-    /// Tells how the writing of the file went; whether it is written.
+    /// Handles the result of the write; returns whether the file was written.
     pub fn written(&mut self, result: FileResult) -> bool {
         let Some(Writing { name, purpose, undisturbed }) = self.files.writing.take() else {
             return true;
@@ -52,35 +52,36 @@ impl App {
                 self.dialogue.ask(InputMode::Replacing(purpose, name));
                 None
             }
-            // A key that was meant for something else must not be the answer.
+            // Keys pressed since then were meant for something else and must not answer the
+            // question.
             FileResult::Exists => Some(format!("{name} exists and is as it was; save again")),
         };
         result == FileResult::Written
     }
 
-    /// Records that the screen shows this state: from now on a key can be the answer to its
+    /// Records that a frame has shown the current state, so that keys may now answer an open
     /// question.
     pub fn drawn(&mut self) {
         self.dialogue.asked = true;
     }
 
-    /// Returns the command to copy, and shows it in the last line.
+    /// Returns the command line for the clipboard, and shows it in the status line.
     pub(super) fn copied(&mut self) -> String {
         let command = self.command();
         self.status = Some(format!("copied: {command}"));
         command
     }
 
-    /// Has the files of the directory read.
+    /// Requests the scene files of the directory.
     pub(super) fn find_scenes(&mut self) -> Effect {
         if std::mem::replace(&mut self.files.found.reading, true) {
-            // A folder that does not answer is asked once.
+            // A directory that does not respond is read only once at a time.
             return Effect::None;
         }
         Effect::FindScenes(self.files.directory.clone())
     }
 
-    /// Takes the scenes that were found. The selected one stays selected.
+    /// Applies the list of scenes that were read; the selection stays on the same scene.
     pub fn scenes_found(&mut self, found: FoundScenes) {
         let chosen = match &self.dialogue.mode {
             InputMode::Scenes(Some(place)) => self.scene_entries().get(*place).cloned(),
@@ -93,10 +94,10 @@ impl App {
         }
     }
 
-    /// Opens a scene of the list; undo brings the former one back.
+    /// Opens a scene of the list. Undo returns to the previous one.
     ///
     /// # Errors
-    /// Its file holds none, in one line.
+    /// One line that says why the file has no valid scene.
     pub(super) fn open_entry(&mut self, entry: &SceneEntry) -> Result<(), String> {
         let refused = |why: &String| format!("{} cannot be opened: {why}", entry.name);
         let scene = entry.scene.as_ref().map_err(refused)?;
@@ -110,8 +111,8 @@ impl App {
         Ok(())
     }
 
-    /// Makes another scene the open one, with the charts that it names; undo
-    /// brings the former back.
+    /// Makes another scene the open one and shows the charts that it names. Undo returns to the
+    /// previous one.
     pub fn open_scene(&mut self, name: String, scene: CheckedScene) {
         self.knobs.remember(self.past());
         self.end_lesson();
@@ -125,8 +126,8 @@ impl App {
         self.set_scene(scene, false);
     }
 
-    /// Returns the scene to save. Title and note of the opened scene would be false where knobs
-    /// were turned: then they say what was changed.
+    /// Returns the scene to save. If knobs were turned, the title and note of the opened scene no
+    /// longer apply and are replaced by a list of the changes.
     pub(super) fn scene_to_save(&self) -> Scene {
         let mut scene = self.scene.clone().into_scene();
         let (base, name) = match &self.files.source {
@@ -139,7 +140,7 @@ impl App {
             return scene;
         }
         let fits = |text: String, most: usize| text.chars().take(most).collect::<String>();
-        // Words of the user's own stay.
+        // A title or note given by the user is kept.
         if scene.title == base.title {
             scene.title = fits(format!("changed from {name}"), 200);
         }
@@ -148,7 +149,7 @@ impl App {
                 changes.iter().map(|(path, value)| format!("{path} = {value}")).collect();
             scene.note = fits(format!("changed from {name}: {}", list.join(", ")), 4000);
         }
-        // A name with letters that a title cannot have.
+        // The name has characters that are not allowed in a title.
         if scene.checked().is_err() {
             (scene.title, scene.note) = ("changed".into(), String::new());
         }
@@ -208,13 +209,13 @@ mod tests {
         press(&mut app, KeyCode::Enter);
         assert!(!app.written(FileResult::Exists));
         assert!(matches!(app.dialogue.mode, InputMode::Replacing(..)));
-        // Nor one that came before the screen showed it.
+        // Nor does a key pressed before the question was drawn.
         assert_eq!(press(&mut app, KeyCode::Char('y')), Effect::None);
         assert!(matches!(app.dialogue.mode, InputMode::Replacing(..)));
         app.drawn();
         let Effect::Write(job) = press(&mut app, KeyCode::Char('y')) else { panic!() };
         assert!(job.replace);
-        // Here a key comes before the answer: `y` copies, and is no answer.
+        // A key pressed before the result arrives suppresses the question: `y` copies instead.
         press(&mut app, KeyCode::Char('j'));
         assert!(!app.written(FileResult::Exists));
         assert_eq!(app.dialogue.mode, InputMode::Main);
@@ -245,15 +246,15 @@ mod tests {
         assert_eq!(app.act(Action::Scenes), Effect::None);
         app.act(Action::KnobBelow);
         let chosen = app.scene_entries()[1].name.clone();
-        // A file that comes late leaves the selected scene selected.
+        // A file that arrives late does not move the selection.
         let scene = Ok(Scene::base().checked().unwrap());
         let files = vec![FoundScene { name: "late.toml".into(), scene }];
         app.scenes_found(FoundScenes { files, ..FoundScenes::default() });
-        // Own scenes come first.
+        // Files come before built-in scenes.
         assert_eq!(app.scene_entries()[0].name, "late.toml");
         app.act(Action::Accept);
         assert_eq!(app.files.source.as_ref().unwrap().name, chosen);
-        // Now it is asked again.
+        // The directory is read again.
         assert!(matches!(app.act(Action::Scenes), Effect::FindScenes(_)));
     }
 

@@ -1,4 +1,4 @@
-//! Turning knobs, and coming back to an earlier state.
+//! Turning knobs, undo and redo.
 
 use crossterm::event::KeyEvent;
 
@@ -14,8 +14,8 @@ impl App {
         matches!(lookup(self.context(), Chord::of(key)), Some(Action::Turn { .. }))
     }
 
-    /// Turns the selected knob as often as its key was pressed. Each value is checked: a refused one
-    /// is told, and is the end.
+    /// Turns the selected knob once for each waiting press of its key. It stops at the first
+    /// refused value and shows the reason.
     pub(super) fn turn(&mut self, up: bool, coarse: bool) {
         let again = std::mem::take(&mut self.knobs.again);
         let Some(knob) = self.selected() else { return };
@@ -34,7 +34,7 @@ impl App {
         }
     }
 
-    /// Accepts the typed text; after a refusal it can be corrected.
+    /// Applies the typed text as a value. The prompt stays open if the value is refused.
     pub(super) fn accept(&mut self, text: &str) {
         let Some(knob) = self.selected() else { return };
         match knob.parse(text) {
@@ -47,7 +47,7 @@ impl App {
         }
     }
 
-    /// Makes a scene that differs in knobs the current one; it can be undone.
+    /// Replaces the scene by one with other knob values, as an undoable step.
     pub(super) fn turn_to(&mut self, scene: CheckedScene) {
         if scene != self.scene {
             self.knobs.remember(self.past());
@@ -55,7 +55,7 @@ impl App {
         }
     }
 
-    /// Sets a knob; false where the value was refused.
+    /// Sets a knob; returns false if the value was refused.
     pub(super) fn set(&mut self, knob: &'static Knob, value: Value) -> bool {
         match knob.set(&self.scene, value) {
             Ok((scene, said)) => {
@@ -73,7 +73,8 @@ impl App {
         }
     }
 
-    /// Uses the scene after a turn of a knob: live, if this is enabled and possible.
+    /// Applies a scene with other knob values: to the running motion in live mode if the change can
+    /// act on it, otherwise by a restart.
     pub(super) fn set_turned_scene(&mut self, scene: CheckedScene) {
         let failed = self.failure().is_some();
         let live = self.knobs.live && !failed && Change::acts_live(&self.scene, &scene);
@@ -83,7 +84,7 @@ impl App {
         self.set_scene(scene, live);
     }
 
-    /// Undoes the last change of the scene, or redoes the last that was undone.
+    /// Undoes the last change of the scene, or redoes it.
     pub(super) fn step_back(&mut self, redo: bool) {
         match self.knobs.step_back(redo, self.past()) {
             Some(past) => self.come_back(past),
@@ -94,8 +95,8 @@ impl App {
         }
     }
 
-    /// Makes a state the present one. If only knobs were turned since, their
-    /// turning may act on the running motion; another scene starts from t = 0.
+    /// Restores a state. If only knobs differ, this counts as turning them, which may act on the
+    /// running motion; another scene or lesson step restarts the run.
     pub(super) fn come_back(&mut self, past: Past) {
         self.knobs.refusal = None;
         let step = |lesson: Option<&LessonProgress>| {

@@ -1,4 +1,4 @@
-//! Going through a lesson: its steps and its answers.
+//! Going through a lesson: steps and answers.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use crate::tui::views::id::ViewId;
 use rubscope_solver::scene::Scene;
 
 impl App {
-    /// Opens the list of lessons, or goes to the next page or the next step.
+    /// Opens the list of lessons; in a lesson, goes to the next page of text or the next step.
     pub(super) fn lesson_key(&mut self) {
         let Some((lesson, progress)) = self.current_lesson() else {
             let done = &self.lessons.done;
@@ -35,7 +35,7 @@ impl App {
         }
     }
 
-    /// Goes to the step before.
+    /// Goes back one step.
     pub(super) fn lesson_back(&mut self) {
         match self.lessons.progress.as_ref().map(|progress| (progress.lesson, progress.step)) {
             None => self.status = Some("no lesson is open".into()),
@@ -44,7 +44,7 @@ impl App {
         }
     }
 
-    /// Starts a lesson where it was left, with a scene of its own.
+    /// Starts a lesson at its first unfinished step, with the lesson's own scene.
     pub fn begin_lesson(&mut self, place: usize) {
         self.dialogue.close();
         if let Some(lesson) = lessons::all().get(place) {
@@ -53,17 +53,17 @@ impl App {
         }
     }
 
-    /// Gives the user's own scene back, as it was before the lesson.
+    /// Closes the lesson and restores the user's scene.
     pub(super) fn leave_lesson(&mut self) {
         if let Some(own) = self.lessons.progress.as_ref().map(|progress| Arc::clone(&progress.own))
         {
-            // As it was before the lesson.
+            // Undo can reopen the lesson.
             self.knobs.remember(self.past());
             self.come_back(Past::clone(&own));
         }
     }
 
-    /// Forgets the lesson, but not what it left on the screen.
+    /// Drops the lesson without restoring the scene; the modes it had changed are restored.
     pub(super) fn end_lesson(&mut self) {
         if let Some(progress) = self.lessons.progress.take() {
             self.knobs.live = progress.own.live;
@@ -72,11 +72,11 @@ impl App {
         }
     }
 
-    /// Shows a step, with the answer if one was given before.
+    /// Shows a step; an answer given before stays.
     fn begin_step(&mut self, place: usize, step: usize) {
         let Some(lesson) = lessons::all().get(place) else { return };
         let past = self.past();
-        // A step begins to play, wherever a cursor has paused.
+        // A step starts playing even if the cursor had paused the run.
         self.play.playing |= self.reading.at_s.is_some();
         self.stop_reading();
         let begun = self.lessons.progress.clone().filter(|progress| progress.lesson == place);
@@ -101,7 +101,7 @@ impl App {
         self.show_step(past);
     }
 
-    /// Goes to the answer above or below.
+    /// Selects the answer above or below, cyclically.
     pub(super) fn choose_answer(&mut self, up: bool) {
         if let Some(progress) = &mut self.lessons.progress {
             let by = if up { LETTERS.len() - 1 } else { 1 };
@@ -109,14 +109,14 @@ impl App {
         }
     }
 
-    /// Takes the chosen answer.
+    /// Gives the selected answer.
     pub(super) fn answer_chosen(&mut self) {
         if let Some(choice) = self.lessons.progress.as_ref().map(|progress| progress.choice) {
             self.answer(choice);
         }
     }
 
-    /// Takes an answer: now its scene is run.
+    /// Records an answer and runs the scene that it is about.
     pub(super) fn answer(&mut self, place: usize) {
         if !self.is_asked() {
             self.status = Some("no question is open".into());
@@ -143,7 +143,7 @@ impl App {
         self.show_step(past);
     }
 
-    /// Makes scene and view those of the present step; undo comes back to `past`.
+    /// Applies scene and view of the current step; undo returns to `past`.
     fn show_step(&mut self, past: Past) {
         let Some((lesson, progress)) = self.current_lesson() else { return };
         let Some(step) = lesson.steps.get(progress.step) else { return };
@@ -169,8 +169,8 @@ impl App {
         if let Some(view) = view {
             self.show(view);
         }
-        // A chart that gives the answer away waits for it, and one that takes long
-        // to compute is not needed.
+        // A chart that would reveal the answer goes last until then, and slow studies go after
+        // quick ones.
         let hidden = step.then_view.as_deref().filter(|_| !answered);
         let hidden = hidden.and_then(ViewId::from_word);
         self.layout.order_beside(|view| match view {
@@ -202,7 +202,7 @@ mod tests {
         let now = app.lesson_step().unwrap().1;
         assert_eq!((now.answer, now.done), (Some(2), true));
         assert!(app.lessons.done.has(lesson, 0) && !app.lessons.done.has(lesson, 1));
-        // A second answer is none.
+        // A second answer is ignored.
         app.act(Action::Accept);
         app.answer(0);
         assert_eq!(app.lesson_step().unwrap().1.answer, Some(2));

@@ -1,4 +1,4 @@
-//! The map and the margins: axes, laws, and what Enter opens.
+//! The map and the margins: their axes and law, and what Enter opens.
 
 use crate::report::number::rounded;
 use crate::tui::app::App;
@@ -12,8 +12,8 @@ use rubscope_solver::scene::{Allowed, CheckedScene, Value};
 use rubscope_solver::study::Axis;
 
 impl App {
-    /// Makes a view the large one by a key. The map gives the arrows to its cell
-    /// cursor at once.
+    /// Makes a view the large one at the user's request. The map then gives the arrow keys to its
+    /// cell cursor.
     pub(super) fn walk(&mut self, view: ViewId) {
         self.show(view);
         if view == ViewId::Map && self.dialogue.is_closed() && !self.reading.on {
@@ -30,8 +30,8 @@ impl App {
         });
     }
 
-    /// Puts knobs on the axes of the map, across and up, and shows it. A knob that is on
-    /// the other axis changes places with the one that was here.
+    /// Puts knobs on the axes of the map and shows it. If the knob is already on the other axis,
+    /// the two axes are swapped.
     pub(super) fn put_axes(&mut self, [across, up]: [Option<&'static str>; 2]) {
         let axis = |path: &'static str| {
             let anchor = knob_of(path).and_then(|knob| knob.number(&self.scene)).unwrap_or(0.0);
@@ -61,13 +61,13 @@ impl App {
             Err(reason) => format!("no such map: {reason}"),
         });
         if let (Some(_), Ok(plan)) = (self.reading.cursor, plan) {
-            // The map on the screen is still the one before.
+            // The map on the screen is still the previous one, so place the cursor by the new plan.
             self.reading.cursor = Some(here(self, &plan));
         }
     }
 
-    /// Opens a run of the map from its start, also where knobs act live: only
-    /// then it has the verdict of its cell.
+    /// Opens the run of a map cell. It always restarts, also in live mode, because only a run from
+    /// the start has the verdict of its cell.
     pub(super) fn open_run(&mut self, scene: CheckedScene) {
         let opened = self.shown_plan().map(|plan| {
             let values = [&plan.x, &plan.y].map(|axis| {
@@ -88,13 +88,13 @@ impl App {
         self.status = opened.map(|values| format!("opened {values}, {law}; u undoes"));
     }
 
-    /// Shows the margins of all diameters instead of those of one, or the other way round; from
-    /// another view the survey.
+    /// Switches between the survey over all nodal diameters and the margins of one; from another
+    /// view it opens the survey.
     pub(super) fn turn_survey(&mut self) {
         self.show_survey(!(self.is_large(ViewId::Margins) && self.layout.survey));
     }
 
-    /// Shows the margins of all diameters, or of one.
+    /// Shows the survey over all nodal diameters, or the margins of one.
     pub(super) fn show_survey(&mut self, on: bool) {
         let said = self.layout.turn_survey(on);
         self.stop_reading();
@@ -102,7 +102,7 @@ impl App {
         self.status = Some(said);
     }
 
-    /// Gives a knob exactly the value of a limit, and selects it to go on from there.
+    /// Sets a knob exactly to a limit and selects it.
     pub(super) fn jump_to_limit(&mut self, path: &str, value: f64, to: &str) {
         let Some((place, knob)) = place_of(path).zip(knob_of(path)) else { return };
         self.knobs.select(place);
@@ -113,13 +113,13 @@ impl App {
         if self.set(knob, value_of) {
             let name = knob.label.split(' ').next().unwrap_or(knob.label);
             let jumped = format!("{name} {}: {to}", number(rounded(value, DIGITS), knob.unit()));
-            // A message about what else the turn did stays.
+            // Keep the message about other effects of the turn.
             let more = self.status.take().map_or(String::new(), |said| format!("; {said}"));
             self.status = Some(jumped + &more);
         }
     }
 
-    /// Selects a knob while a chart is read.
+    /// Selects a knob while the cursor has the arrow keys.
     pub(super) fn select_to_turn(&mut self, path: &str) {
         if self.select_path(path)
             && let Some(knob) = self.selected()
@@ -156,7 +156,7 @@ mod tests {
             let plan = app.map_plan().unwrap();
             assert_eq!([plan.x.path.as_str(), plan.y.path.as_str()], wanted);
         }
-        // It is on the screen, with the arrows at the cell of the present knobs.
+        // The map is on the screen, with the cursor in the cell of the current knobs.
         assert!(app.is_large(ViewId::Map) && app.reading.on);
         app.put_axes([Some(CLEARANCE), None]);
         let [column, _] = app.map_cell().unwrap();

@@ -1,5 +1,5 @@
-//! Keys and actions: each changes the state and returns an effect outside it. One file for
-//! each part of the state.
+//! Keys and actions: each changes the state and returns its effect on the outside. There is one
+//! file for each part of the state in `app`.
 
 mod dialogue;
 mod files;
@@ -27,18 +27,18 @@ use crate::tui::knobs::knob_of;
 use crate::tui::views::id::ViewId;
 use crate::tui::worker::other_law;
 
-/// An effect outside the state.
+/// An effect outside the state, which the event loop carries out.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Effect {
-    /// Nothing but a redraw.
+    /// No effect except a redraw.
     None,
-    /// Leave.
+    /// Quit the explorer.
     Quit,
     /// Suspend the job.
     Suspend,
-    /// Draw everything again.
+    /// Redraw the whole screen.
     Redraw,
-    /// Ask the terminal for the mouse, or no longer.
+    /// Switch the terminal's mouse reports on or off.
     Mouse(bool),
     /// Put a text on the clipboard of the terminal.
     Copy(String),
@@ -48,16 +48,16 @@ pub enum Effect {
     FindScenes(PathBuf),
 }
 
-/// Longest text of a typed value.
+/// Longest text that can be typed \[characters\].
 const LONGEST_TYPED: usize = 200;
 
 impl App {
-    /// Handles a key press.
+    /// Handles a key press: an action of the current context, or a letter for the open text field.
     pub fn key(&mut self, event: &KeyEvent) -> Effect {
         self.files.disturb();
         self.dialogue.is_new = false;
         if event.modifiers.contains(KeyModifiers::ALT) && event.code != KeyCode::Esc {
-            // Escape and a key that arrive together look like Alt and that key.
+            // Escape followed quickly by a key arrives as Alt with that key.
             self.act(Action::Close);
         }
         let chord = Chord::of(event);
@@ -71,7 +71,7 @@ impl App {
             return effect;
         }
         let typed = match (self.dialogue.typed(), chord.code, chord.ctrl) {
-            // What is typed begins with what can be seen.
+            // A leading space would be invisible.
             (Some(text), KeyCode::Char(' '), false) if text.text().is_empty() => None,
             (Some(text), KeyCode::Char(letter), false) if line::harmless(letter) == letter => {
                 Some(text.insert(letter.encode_utf8(&mut [0; 4]), LONGEST_TYPED))
@@ -92,13 +92,14 @@ impl App {
         Effect::None
     }
 
-    /// Forgets the message about the text that was typed before.
+    /// Updates what depends on the typed text: the refusal and the place in the list.
     fn typed_on(&mut self) {
         self.knobs.refusal = None;
         self.dialogue.look_again();
     }
 
-    /// Returns what can be seen of this state, without what only a status says.
+    /// Returns everything visible of the state except the status line, to detect a key without
+    /// effect.
     fn seen(&self) -> impl PartialEq + use<> {
         let shown = (self.order(), self.layout.clone(), self.appearance);
         let open = (self.dialogue.mode.clone(), self.lessons.progress.clone());
@@ -106,7 +107,7 @@ impl App {
         (shown, open, read, self.selected().map(|knob| knob.path), self.knobs.refusal.clone())
     }
 
-    /// Returns what to say of a key that has changed nothing.
+    /// Returns the status message for a key without effect.
     fn nothing(&self, chord: Chord, action: Action) -> String {
         match action {
             Action::Close if self.lessons.progress.is_some() => "G leaves the lesson".into(),
@@ -117,10 +118,10 @@ impl App {
         }
     }
 
-    /// Takes a pasted text into the field that is open. It never acts as keys.
+    /// Inserts a pasted text into the open text field. It never acts as keys.
     pub fn paste(&mut self, text: &str) {
         self.files.disturb();
-        // Breaks of lines and other characters that act have no place in a field.
+        // Line breaks and control characters are dropped.
         let text: String =
             text.chars().filter(|&letter| line::harmless(letter) == letter).collect();
         let refused = match self.dialogue.typed() {
@@ -132,7 +133,7 @@ impl App {
         self.status = refused.map(String::from);
     }
 
-    /// Carries out an action.
+    /// Performs an action and returns its effect.
     pub fn act(&mut self, action: Action) -> Effect {
         self.status = None;
         self.appearance.use_speeds();
@@ -146,7 +147,7 @@ impl App {
             (_, Action::SpeedUnit) => self.status = Some(self.appearance.next_speeds()),
             (InputMode::Main, Action::Marker) => {
                 self.status = Some(self.appearance.next_marker());
-                // Some terminals leave parts of octants behind.
+                // Some terminals leave fragments of octant characters behind.
                 return Effect::Redraw;
             }
             (InputMode::Main, Action::Mouse) => {
@@ -158,7 +159,7 @@ impl App {
             (InputMode::Naming(purpose, name), Action::Accept) => {
                 return self.write(purpose, &name.text(), false);
             }
-            // What was typed before the question was seen is no answer to it.
+            // A key typed before the question was drawn does not answer it.
             (InputMode::Replacing(..), Action::Yes) if !self.dialogue.asked => {}
             (InputMode::Replacing(purpose, name), Action::Yes) => {
                 return self.write(purpose, &name, true);
@@ -281,7 +282,7 @@ impl App {
                 self.status = Some("restarted".into());
             }
             Action::Fire => {
-                // It acts on the motion, wherever the cursor is.
+                // The pulse acts on the playing motion, not at the cursor.
                 self.stop_reading();
                 self.run.fire();
                 let pulse = knob_of(PULSE).map(|knob| knob.text(&self.scene));

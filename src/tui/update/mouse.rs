@@ -1,4 +1,5 @@
-//! What a click, a wheel or a drag at a place of the screen does. A key does the same.
+//! Mouse events: what a click, a drag or the wheel does at a position of the screen. Keys can do
+//! the same.
 
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 
@@ -10,12 +11,12 @@ use crate::tui::bindings::Action;
 use crate::tui::knobs::KNOBS;
 use crate::tui::views::id::ViewId;
 
-/// Effect of a mouse event.
+/// What a mouse event did.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum MouseOutcome {
-    /// Nothing on the screen.
+    /// Nothing visible.
     Nothing,
-    /// The reading cursor follows the pointer: the next frame is soon enough.
+    /// The cursor followed the pointer; the next regular frame can show it.
     Pointed,
     /// An action like that of a key, with its effect.
     Acted(Effect),
@@ -34,7 +35,7 @@ impl App {
             _ => None,
         };
         let outcome = match (&self.dialogue.mode, event.kind, key) {
-            // A typed name is finished or left by a key.
+            // These prompts are confirmed or closed by a key only.
             (InputMode::Naming(..) | InputMode::Replacing(..), ..) => MouseOutcome::Nothing,
             (.., Some(action)) => self.acted(action),
             (InputMode::Main | InputMode::Typing(_), kind, _) => self.mouse_main(kind, event, at),
@@ -137,7 +138,8 @@ impl App {
 
     fn wheel(&mut self, at: (u16, u16), up: bool, coarse: bool) -> MouseOutcome {
         let target = self.target(at).map(|(_, target)| target);
-        // A row with or without a bar moves those below under a pointer that stays.
+        // Turning a knob can add or remove the row of its bar, which shifts the rows below under a
+        // resting pointer: keep turning the same knob.
         let same = |(place, knob): &((u16, u16), usize)| {
             let is_chart = matches!(target, Some(Target::Chart(_) | Target::View(_)));
             let path = KNOBS.get(*knob).map(|knob| knob.path);
@@ -157,7 +159,7 @@ impl App {
         }
     }
 
-    /// Chooses an entry of the list that is open.
+    /// Opens the entry of the list that was clicked.
     fn choose(&mut self, at: (u16, u16)) -> MouseOutcome {
         let Some((_, Target::Lesson(place))) = self.target(at) else {
             return MouseOutcome::Nothing;
@@ -166,7 +168,7 @@ impl App {
         self.acted(Action::Accept)
     }
 
-    /// Turns a knob to a place of its bar.
+    /// Sets a knob to a fraction of its bar.
     fn set_part(&mut self, place: usize, part: f64) {
         let Some(knob) = KNOBS.get(place) else { return };
         let range = knob.range(&self.scene, &self.files.opened, &self.machine);
@@ -176,7 +178,7 @@ impl App {
     }
 }
 
-/// Returns the part of a bar at a column, 0 to 1.
+/// Returns the fraction of a bar at a column, 0 to 1.
 fn part(bar: Rect, x: u16) -> f64 {
     let along = f64::from(x.saturating_sub(bar.x)) / f64::from(bar.width.max(2) - 1);
     along.clamp(0.0, 1.0)
@@ -221,7 +223,7 @@ mod tests {
         assert_eq!(app.mouse(&event(LEFT, (5, 39))), MouseOutcome::Nothing);
         assert_eq!(app.mouse(&event(LEFT, (9, 39))), MouseOutcome::Acted(Effect::Quit));
         assert_eq!(app.mouse(&event(MouseEventKind::Moved, (9, 39))), MouseOutcome::Nothing);
-        // A name that is typed is finished by a key.
+        // A name being typed is confirmed by a key only.
         app.dialogue.mode = InputMode::Naming(super::super::Purpose::Save, "a".into());
         assert_eq!(app.mouse(&event(LEFT, (9, 39))), MouseOutcome::Nothing);
     }

@@ -1,25 +1,25 @@
-//! Moving the reading cursor, in the chart and in time.
+//! Moving the cursor, in the chart and in time.
 
 use crate::tui::app::{App, Cursor, STEP, cell_of};
 use crate::tui::axis::instant;
 use crate::tui::views::Opening;
 use crate::tui::views::id::ViewId;
 
-/// A large step of the cursor where the chart has no cells.
+/// Large step of the cursor in charts without cells, as a fraction.
 const LARGE_STEP: f64 = 0.1;
-/// Cells of a large step in a chart of cells.
+/// Large step of the cursor in charts with cells.
 const LARGE_CELLS: i64 = 5;
 
 impl App {
-    /// Makes a view the large one; an instant that is read goes on being read.
+    /// Makes a view the large one; a cursor keeps its time.
     pub(super) fn show(&mut self, view: ViewId) {
         if self.layout.show(view) {
             self.keep_instant();
         }
     }
 
-    /// Puts the cursor at an instant, and pauses there: every panel shows it. The page stays
-    /// where it has that instant.
+    /// Moves the cursor to a time and pauses. Every panel then shows that time. The page moves only
+    /// if it does not include it.
     pub(super) fn go_to(&mut self, t: f64) {
         let ((from, to), middle) = (self.page(), self.middle_s());
         self.play.middle_s = Some(if (from..=to).contains(&t) { middle } else { t });
@@ -28,8 +28,8 @@ impl App {
         self.reading.cursor = self.reading.cursor.map(|_| self.panel().here(self));
     }
 
-    /// Puts the cursor at a place of the large chart, and where that shows an instant pauses at
-    /// it.
+    /// Moves the cursor to a position in the large chart. In a chart over time, it pauses at that
+    /// time.
     pub(super) fn put_cursor(&mut self, cursor: Cursor) {
         let (from, to) = self.page();
         match self.view() {
@@ -40,10 +40,10 @@ impl App {
         self.reading.cursor = Some(cursor);
     }
 
-    /// Reads the gap of a blade, numbered from 1.
+    /// Puts the cursor on a blade in the gaps view; blades are numbered from 1.
     ///
     /// # Errors
-    /// There is no such blade, in words.
+    /// One line if there is no such blade.
     pub(super) fn go_to_blade(&mut self, blade: u32) -> Result<(), String> {
         let all = self.machine.polygon.blades;
         if !(1..=all).contains(&blade) {
@@ -59,7 +59,7 @@ impl App {
         Ok(())
     }
 
-    /// Keeps the instant that is read after a change of the large chart.
+    /// Keeps the cursor's time when the large chart changes.
     pub(super) fn keep_instant(&mut self) {
         match self.reading.at_s {
             Some(_) => self.reading.cursor = self.reading.cursor.map(|_| self.panel().here(self)),
@@ -67,7 +67,7 @@ impl App {
         }
     }
 
-    /// Gives the arrows to the cursor, or back to the knobs.
+    /// Gives the arrow keys to the cursor, or back to the knobs.
     pub(super) fn toggle_reading(&mut self) {
         if self.reading.on {
             self.reading.on = false;
@@ -79,12 +79,12 @@ impl App {
         }
     }
 
-    /// Moves the cursor by some steps; it appears where the motion is.
+    /// Moves the cursor by steps; a new cursor starts at the current time.
     pub(super) fn move_cursor(&mut self, right: i64, up: i64, coarse: bool) {
         let panel = self.panel();
         let mut cursor = self.reading.cursor.unwrap_or_else(|| panel.here(self));
         if self.is_large(ViewId::Response) {
-            // The page may be another one since.
+            // The page may have changed since the last move.
             cursor.across = self.part_of_page();
         }
         let [across, high] = panel.grid(self);
@@ -99,13 +99,13 @@ impl App {
         };
         let (across, up) = (moved(cursor.across, right, across), moved(cursor.up, up, high));
         match right {
-            // Also where the instant is on another page.
+            // A vertical move keeps the time, even if that is on another page.
             0 if self.reading.at_s.is_some() => self.reading.cursor = Some(Cursor { across, up }),
             _ => self.put_cursor(Cursor { across, up }),
         }
     }
 
-    /// Does what the large chart does at the cursor.
+    /// Opens what the large chart offers at the cursor.
     pub(super) fn open_cursor(&mut self) {
         match self.opening() {
             None => self.status = Some("Enter opens nothing in this chart".into()),
@@ -116,7 +116,8 @@ impl App {
         }
     }
 
-    /// Makes the motion go on from the cursor, beginning again where that is behind.
+    /// Resumes the motion from the cursor. If the cursor is behind the motion, the run restarts
+    /// first.
     pub fn depart(&mut self) {
         let Some(t) = self.reading.at_s else { return };
         self.stop_reading();
@@ -127,7 +128,7 @@ impl App {
         self.play.goes += u64::from(t != self.played_s());
     }
 
-    /// Goes a page back, or forward, inside the run.
+    /// Moves the page by its own length, within the run.
     pub(super) fn pan(&mut self, back: bool) {
         let by = if back { -self.page_s() } else { self.page_s() };
         self.play.middle_s = Some(self.middle_s() + by);
@@ -157,7 +158,7 @@ mod tests {
             assert_eq!(app.order().cursor_s, read);
         }
         assert_eq!(app.cursor_in(ViewId::Response), Some(Cursor { across: 0.25, up: 0.5 }));
-        // On a page that it is not on, too, unless the cursor is moved across.
+        // The time is kept even off the page, until the cursor moves across.
         app.play.zoom = 6;
         app.play.middle_s = None;
         assert!(app.page().1 < 5e-3);

@@ -1,32 +1,32 @@
-//! The views by their names: digits, words, and what each shows. What a view draws is in the
-//! table of `views`.
+//! The identifiers of the views, with their digits and words. What they draw is in the table of
+//! `views`.
 
 use rubscope_solver::scene::keys::CHARTS;
 
-/// Names a view, in the order of the digits.
+/// A view; the order is that of the digit keys.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ViewId {
-    /// `u_c`, `u_s`, `alpha_c`, `alpha_s` against time.
+    /// `u_c`, `u_s`, `alpha_c` and `alpha_s` against time.
     Response,
     /// The gap of every blade.
     Gaps,
     /// Multipliers of the locked motion against speed.
     Locked,
-    /// The wave as a point in the frame of the blades, and the wheel.
+    /// The disk as a wheel, and the wave as a point in the frame of the blades.
     Frame,
-    /// Verdicts over speed and pulse.
+    /// Verdicts over two knobs, by default speed and pulse.
     Map,
-    /// Spectrum of the run, and Campbell lines.
+    /// Spectrum of the run, and the lines of the Campbell diagram.
     Spectrum,
-    /// Speed against error of every solver.
+    /// Computing time against error of every solver.
     Precision,
-    /// Margins of the scene to every limit, and the parameters that move them.
+    /// Distance of the scene to every limit, and the parameters that matter most.
     Margins,
-    /// Effect of the coincidence of blades and casing while they touch.
+    /// Effect of the blade/casing coincidence during contact.
     Coincidence,
 }
 
-/// Every view in the order of the digits, and what it shows.
+/// Every view in the order of the digit keys, with its description.
 const VIEWS: [(ViewId, &str); CHARTS.len()] = [
     (ViewId::Response, "response"),
     (ViewId::Gaps, "gaps"),
@@ -40,27 +40,24 @@ const VIEWS: [(ViewId, &str); CHARTS.len()] = [
 ];
 
 impl ViewId {
-    /// Returns all views.
     pub fn all() -> impl Iterator<Item = Self> {
         VIEWS.iter().map(|(id, _)| *id)
     }
 
-    /// Returns its word in scene files, lessons and file names.
+    /// Returns the word for the view in scene files, lessons and file names.
     pub fn word(self) -> &'static str {
         CHARTS[self as usize]
     }
 
-    /// Returns the view a word stands for.
     pub fn from_word(word: &str) -> Option<Self> {
         Self::all().find(|view| view.word() == word)
     }
 
-    /// Returns the digit key that opens it.
     pub fn digit(self) -> u8 {
         self as u8 + 1
     }
 
-    /// Returns what it shows, for the help.
+    /// Returns the description of the view, for the help.
     pub fn what(self) -> &'static str {
         VIEWS[self as usize].1
     }

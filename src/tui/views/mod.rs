@@ -1,6 +1,5 @@
-//! The views: one folder or file each, and the one table of them. To add a
-//! view, write its file, add it here and to the list in `id`, and add its word to
-//! `CHARTS`, the words that a scene file may hold.
+//! The views: one file or folder each, and the table of them. To add a view, write its file, add it
+//! here and to the table in `id`, and add its word to `CHARTS`.
 
 pub mod coincidence;
 mod frame;
@@ -22,7 +21,7 @@ pub use id::ViewId;
 use margins::COLUMNS;
 use rubscope_solver::scene::keys::CHARTS;
 
-/// The table of views.
+/// The views in the order of their digits.
 const VIEWS: [(ViewId, &dyn ViewPanel); CHARTS.len()] = [
     (ViewId::Response, &response::ResponseView),
     (ViewId::Gaps, &gaps::GapsView),
@@ -36,24 +35,24 @@ const VIEWS: [(ViewId, &dyn ViewPanel); CHARTS.len()] = [
 ];
 
 impl ViewId {
-    /// Returns what it draws and exports.
+    /// Returns the implementation of the view.
     pub fn panel(self) -> &'static dyn ViewPanel {
         VIEWS[self as usize].1
     }
 }
 
 impl App {
-    /// Returns what the large chart draws and exports.
+    /// Returns the implementation of the large view.
     pub fn panel(&self) -> &'static dyn ViewPanel {
         self.view().panel()
     }
 
-    /// Returns what Enter does at the reading cursor.
+    /// Returns what Enter would do at the cursor.
     pub fn opening(&self) -> Option<Opening> {
         self.panel().opening(self, self.reading.cursor?)
     }
 
-    /// Returns the column and row of the margins under the cursor; the first row is the upper one.
+    /// Returns column and row of the margins under the cursor; row 0 is at the top.
     pub fn margins_cell(&self) -> Option<[usize; 2]> {
         let cursor = self.cursor_in(ViewId::Margins)?;
         let rows =

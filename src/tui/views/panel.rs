@@ -1,5 +1,5 @@
-//! The trait of a view, and what views share: the title row with its legend, the names of marked
-//! speeds and levels, and CSV text.
+//! The trait of a view, and what views share: the title row with its legend, the labels of marked
+//! speeds and levels, and CSV export.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Rect};
@@ -16,61 +16,60 @@ use crate::tui::theme::Role;
 use crate::tui::views::ViewId;
 use rubscope_solver::scene::CheckedScene;
 
-/// A view: how it is drawn and exported.
+/// A view of the explorer: drawing, export, and its cursor.
 pub trait ViewPanel: Sync {
-    /// Draws it.
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea);
 
-    /// Writes named columns of numbers as CSV text.
+    /// Exports the view's data as CSV.
     ///
     /// # Errors
-    /// There is nothing to export; the reason as text.
+    /// Says why there is nothing to export.
     fn csv(&self, app: &App) -> Result<String, String>;
 
-    /// Returns what it says in lines, without a screen; none where only a picture says it.
+    /// Returns the content as lines for `--lines`; `None` if only a picture can show it.
     fn lines(&self, _: &App, _: usize) -> Option<Vec<String>> {
         None
     }
 
-    /// Cells across and up that the reading cursor goes through one by one; 0
-    /// where it moves freely.
+    /// Returns the numbers of cells across and up through which the cursor moves; 0 if it moves
+    /// freely.
     fn grid(&self, _: &App) -> [u32; 2] {
         [0, 0]
     }
 
-    /// Returns where the reading cursor appears.
+    /// Returns where a new cursor appears.
     fn here(&self, _: &App) -> Cursor {
         Cursor { across: 0.5, up: 0.5 }
     }
 
-    /// Returns what Enter does at a place of the chart.
+    /// Returns what Enter does at a position of the chart.
     fn opening(&self, _: &App, _: Cursor) -> Option<Opening> {
         None
     }
 }
 
-/// Action of Enter at a place of a chart.
+/// What Enter does at a position of a chart.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Opening {
     /// Opens the run of a scene.
     Run(Box<CheckedScene>),
-    /// Gives a knob the value of a limit.
+    /// Sets a knob to the value of a limit.
     Jump {
-        /// The key of the knob.
+        /// Key of the knob.
         path: &'static str,
-        /// The value.
+        /// Value of the limit.
         value: f64,
-        /// The name of the limit.
+        /// Label of the limit.
         to: String,
     },
     /// Selects the knob of a key.
     Select(&'static str),
-    /// Nothing, for this reason.
+    /// Does nothing, for this reason.
     Nothing(String),
 }
 
 impl Opening {
-    /// Returns what Enter does in one word, for the last line.
+    /// Returns one word for the footer.
     pub fn word(&self) -> Option<&'static str> {
         match self {
             Self::Run(_) => Some("open"),
@@ -81,47 +80,47 @@ impl Opening {
     }
 }
 
-/// Rows of a chart that can be read: eight of data, its title, its axis and the labels.
+/// Smallest legible height of a chart: eight rows of data, title, axis and labels.
 pub const LEAST_ROWS: u16 = 11;
-/// Columns of one that has another at its side.
+/// Smallest legible width of a chart beside another.
 const LEAST_COLUMNS: u16 = 38;
 
-/// Area in which a view is drawn, and the beginning of its title.
+/// Where and how a view is drawn.
 #[derive(Clone, Copy, Debug)]
 pub struct ViewArea {
-    /// The part of the screen.
+    /// Area on the screen.
     pub area: Rect,
-    /// The key that opens the view.
+    /// Digit key of the view, shown in its title.
     pub digit: u8,
     /// Whether it is the large chart.
     pub large: bool,
 }
 
 impl ViewArea {
-    /// Notes where data is drawn, so that the mouse can point at it.
+    /// Records the data area of the large chart for the mouse.
     pub fn note(self, app: &App, inner: Rect) {
         if self.large {
             app.note(inner, Target::Chart([(0.0, 1.0); 2]));
         }
     }
 
-    /// Same as [`Self::note`], for an area that shows only a part of the chart: from where to where
-    /// across, and up.
+    /// As [`Self::note`], for an area that covers only the fractions `parts` (across, up) of the
+    /// chart.
     pub fn note_part(self, app: &App, inner: Rect, parts: [(f64, f64); 2]) {
         if self.large && inner.area() > 0 {
             app.note(inner, Target::Chart(parts));
         }
     }
 
-    /// Returns two slots, one above the other; the lower one takes `percent` of the height.
+    /// Splits the area into two rows; the lower one has `percent` of the height.
     pub fn rows(self, percent: u16) -> [Self; 2] {
         let lower = (self.area.height * percent / 100).max(LEAST_ROWS.min(self.area.height / 2));
         let parts = [Constraint::Min(1), Constraint::Length(lower)];
         Layout::vertical(parts).areas(self.area).map(|area| Self { area, ..self })
     }
 
-    /// Returns two charts that can be read, above each other or side by side; one where there is no
-    /// room for two.
+    /// Splits the area for two charts, above each other or side by side; returns a single one if
+    /// two would not be legible.
     pub fn pair(self, percent: u16) -> (Self, Option<Self>) {
         let [first, second] = match self.area {
             area if area.height >= 2 * LEAST_ROWS => self.rows(percent),
@@ -131,15 +130,15 @@ impl ViewArea {
         (first, Some(second))
     }
 
-    /// Returns two slots of equal width, side by side.
+    /// Splits the area into two columns of equal width.
     pub fn columns(self) -> [Self; 2] {
         let halves = [Constraint::Percentage(50), Constraint::Percentage(50)];
         Layout::horizontal(halves).spacing(1).areas(self.area).map(|area| Self { area, ..self })
     }
 }
 
-/// Puts what is read at the cursor before the legend, where it stands in place of the name of the
-/// chart: names and units may have no room beside it. Returns the name that is left.
+/// Puts the values at the cursor in front of the legend, instead of the chart's name, which may
+/// leave them no room. Returns the name to print.
 pub fn read_before<'a>(
     look: &Appearance,
     legend: &mut Vec<(String, Style)>,
@@ -151,8 +150,8 @@ pub fn read_before<'a>(
     ""
 }
 
-/// Draws the title row: a rule with the digit and name of the view and as many entries of its
-/// legend, the first ones first, as fit whole. Returns the rest of the area.
+/// Draws the title row: a rule with digit, name, and the first legend entries that fit as a whole.
+/// Returns the rest of the area.
 pub fn title(
     app: &App,
     buffer: &mut Buffer,
@@ -176,7 +175,7 @@ pub fn title(
     let inside = Rect { x: area.x + 1, width: area.width.saturating_sub(1), ..area };
     let mut left = usize::from(inside.width);
     let mut fits = |(text, _): &(String, Style)| {
-        // A space at the end needs no room.
+        // A trailing space needs no room.
         let fits = columns(text.trim_end_matches(' ')) <= left;
         left -= if fits { columns(text).min(left) } else { 0 };
         fits
@@ -186,7 +185,7 @@ pub fn title(
     Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area }
 }
 
-/// Returns the progress of a study that takes long. The map shows its own.
+/// Returns the progress of the view's study. The map shows its own.
 fn working(app: &App, at: ViewArea) -> Option<(String, Style)> {
     let known = app.results().working.iter().find(|working| working.view.digit() == at.digit)?;
     let text = match known.part {
@@ -196,7 +195,7 @@ fn working(app: &App, at: ViewArea) -> Option<(String, Style)> {
     (known.view != ViewId::Map).then(|| (text, app.appearance.style(Role::Focus)))
 }
 
-/// Returns a legend entry: a stretch of the line and the name of what it shows.
+/// Returns a legend entry: a stretch of the line and its label.
 pub fn entry(look: &Appearance, pen: &Pen, name: &str) -> (String, Style) {
     let stroke = match (look.ascii(), pen.dashed) {
         (true, _) => pen.sign.to_string().repeat(2),
@@ -206,12 +205,12 @@ pub fn entry(look: &Appearance, pen: &Pen, name: &str) -> (String, Style) {
     (format!("{stroke} {name}"), pen.style)
 }
 
-/// Returns a legend entry of what is drawn in single dots.
+/// Returns a legend entry for a dotted line.
 pub fn dots(look: &Appearance, name: &str) -> (String, Style) {
     (format!("{} {name}", look.either("· ·", ". .")), look.style(Role::Quiet))
 }
 
-/// Prints the name of a level on it, as far to the right as the chart is empty.
+/// Prints the label of a horizontal level on it, as far right as the chart is free.
 pub fn name_level(plot: &mut Plot, x: ChartAxis, level: f64, name: &str, style: Style) {
     let Some(row) = plot.row(level) else { return };
     let parts = (0..=LEVEL_PLACES).rev().map(|k| f64::from(k) / f64::from(LEVEL_PLACES));
@@ -222,7 +221,7 @@ pub fn name_level(plot: &mut Plot, x: ChartAxis, level: f64, name: &str, style: 
     }
 }
 
-/// Places along a level that are tried for its name.
+/// Number of positions along a level that are tried for its label.
 const LEVEL_PLACES: u32 = 40;
 
 /// Prints lines above a chart; returns the rest of the area.
@@ -241,7 +240,7 @@ pub fn lines_above(
     Rect { y: inside.y + rows, height: inside.height - rows, ..inside }
 }
 
-/// Shows that the study of a view is not computed yet: those of the run come first.
+/// Prints that the study of a view is not computed yet; studies follow the run.
 pub fn not_yet(app: &App, buffer: &mut Buffer, inside: Rect) {
     let quiet = app.appearance.style(Role::Quiet);
     let text = match app.full_run() {
@@ -251,26 +250,26 @@ pub fn not_yet(app: &App, buffer: &mut Buffer, inside: Rect) {
     print(buffer, inside, 1, text, quiet);
 }
 
-/// Returns a table as CSV text.
+/// Writes a table as CSV.
 ///
 /// # Errors
-/// It cannot be written.
+/// Says why it cannot be written.
 pub fn table_csv(table: &Table) -> Result<String, String> {
     let mut bytes = Vec::new();
     table.write_csv(&mut bytes).map_err(|error| error.to_string())?;
     String::from_utf8(bytes).map_err(|error| error.to_string())
 }
 
-/// Returns a table that has rows as CSV text.
+/// Writes a table as CSV if it has rows.
 ///
 /// # Errors
-/// There are no rows, or it cannot be written.
+/// Says that there are no rows, or why it cannot be written.
 pub fn csv(table: &Table) -> Result<String, String> {
     if table.is_empty() { Err("there is no data yet".into()) } else { table_csv(table) }
 }
 
-/// Names of marked speeds where the chart is empty, as high as possible, or on the axis; one
-/// that covers data is left out, and has its line.
+/// Prints the labels of marked speeds as high as the chart is free, or on the axis. A label that
+/// would cover data is omitted; its line remains.
 pub fn name_speeds(plot: &mut Plot, marks: &[(f64, &str)], app: &App) {
     let style = app.appearance.style(Role::Text);
     for (speed, name) in marks {
@@ -282,7 +281,7 @@ pub fn name_speeds(plot: &mut Plot, marks: &[(f64, &str)], app: &App) {
     }
 }
 
-/// Draws vertical lines at marked speeds, at the present one, and at the one under the cursor.
+/// Draws vertical lines at the marked speeds, the current speed, and the cursor.
 pub fn uprights(plot: &mut Plot, app: &App, marks: &[(f64, &str)], read: Option<f64>) {
     let look = &app.appearance;
     for (speed, _) in marks {

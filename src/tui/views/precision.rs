@@ -1,5 +1,5 @@
-//! View 7: speed against error of every solver on this scene, one letter per
-//! series, as on the command line.
+//! View 7: computing time against error of every solver on this scene, one letter per series, as in
+//! `rubscope precision`.
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
@@ -14,7 +14,6 @@ use crate::tui::theme::Role;
 use rubscope_solver::scene::SolverKind;
 use rubscope_solver::study::precision::{Effort, Measure, Row, Way};
 
-/// The view.
 pub struct PrecisionView;
 
 impl ViewPanel for PrecisionView {
@@ -54,7 +53,7 @@ impl ViewPanel for PrecisionView {
         let placed = || report.rows.iter().filter_map(|row| Some((place(row)?, row)));
         let points: Vec<_> =
             placed().filter_map(|(at, row)| Some(((at.time, at.error?), row))).collect();
-        // A logarithmic axis has no zero, nor a place for a run that gives no number.
+        // A logarithmic axis has no zero, and no position for a run without an error.
         let off = report.rows.len() - points.len();
         let height = inside.height.saturating_sub(u16::from(off > 0));
         if off > 0 {
@@ -73,7 +72,7 @@ impl ViewPanel for PrecisionView {
             app.reading.cursor.filter(|_| at.large).map(|at| (x.at(at.across), y.at(at.up)));
         if let Some(cursor) = cursor {
             plot.point(cursor.0, cursor.1, '+', look.style(Role::Focus));
-            // Both axes are as long.
+            // Distances are relative to the lengths of the axes.
             let [wide, high] = [right - left, top - bottom];
             let far = |(x, y): (f64, f64)| ((x - cursor.0) / wide).hypot((y - cursor.1) / high);
             let nearest = points.iter().min_by(|a, b| far(a.0).total_cmp(&far(b.0)));
@@ -101,7 +100,7 @@ impl ViewPanel for PrecisionView {
     }
 }
 
-/// A row in words: the nearest to the reading cursor.
+/// Describes a row: solver, step, error and time.
 fn told(row: &Row) -> String {
     let step = row.way.step_s.map_or(String::new(), |step| format!(", h {}", readable(step, "s")));
     let error = row.error_final.map_or("-".to_string(), |error| format!("{error:.2e}"));
@@ -109,7 +108,7 @@ fn told(row: &Row) -> String {
     format!("{letter} {series}{step}: error {error} in {}", readable(row.wall_s, "s"))
 }
 
-/// An area without its first row.
+/// Returns an area without its first row.
 fn below(area: Rect) -> Rect {
     Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area }
 }

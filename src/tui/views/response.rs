@@ -1,6 +1,5 @@
-//! View 1: the casing coordinates against time on a page that fills, the blade
-//! coordinates below on the whole screen, and the other contact law or a pinned
-//! run for comparison.
+//! View 1: the casing coordinates over a page of time; the blade coordinates below, if it has the
+//! full screen; and the run under the other contact law or a pinned run, for comparison.
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
@@ -22,14 +21,13 @@ use crate::tui::worker::other_law;
 use rubscope_solver::motion::ActiveSet;
 use rubscope_solver::scene::ModelSize;
 
-/// Sub-pixels between two signs of a pinned run.
+/// Distance of the marks of a pinned run \[sub-pixels\].
 const PINNED: usize = 8;
-/// Most changes of contact on a page that are looked at for their names.
+/// Largest number of changes of contact per page that are considered for labels.
 const MOST_NAMES: usize = 500;
-/// Least width at which two contact laws are side by side.
+/// Width from which two contact laws are side by side.
 const SIDE_BY_SIDE_FROM: u16 = 90;
 
-/// The view.
 pub struct ResponseView;
 
 impl ViewPanel for ResponseView {
@@ -61,7 +59,8 @@ impl ViewPanel for ResponseView {
         Cursor { across: app.part_of_page(), up: 0.5 }
     }
 
-    /// Returns the least and greatest value of every channel in each bin of the page.
+    /// Exports the minimum and maximum of every channel in each bin of the page, up to the current
+    /// time.
     fn csv(&self, app: &App) -> Result<String, String> {
         let channels = [
             (Channel::UC, "u_c_m"),
@@ -89,12 +88,12 @@ impl ViewPanel for ResponseView {
     }
 }
 
-/// Returns whether blades bend at all: those of the rigid model would show round-off.
+/// Returns whether blades bend; in the rigid model their coordinates are only round-off.
 fn bends(app: &App) -> bool {
     app.scene.solver.model != ModelSize::Rigid
 }
 
-/// Content of one chart.
+/// Content of one chart over the page.
 struct Page<'a> {
     name: String,
     names: [&'static str; 2],
@@ -104,7 +103,7 @@ struct Page<'a> {
     record: &'a [Bin],
     /// The run to its end.
     forecast: Option<&'a FullRun>,
-    /// Whether this is the running motion, drawn with its marks.
+    /// Whether this is the scene's own law, with cursor, labels and pinned run.
     own: bool,
 }
 
@@ -123,7 +122,7 @@ impl<'a> Page<'a> {
     }
 }
 
-/// Draws the two contact laws side by side, or one above the other.
+/// Draws the runs under both contact laws, side by side or one above the other.
 fn both_laws(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let [first, second] =
         if at.area.width >= SIDE_BY_SIDE_FROM { at.columns() } else { at.rows(50) };
@@ -145,7 +144,7 @@ fn both_laws(app: &App, buffer: &mut Buffer, at: ViewArea) {
     page(app, buffer, second, &theirs);
 }
 
-/// Draws why the scene cannot have the other law.
+/// Prints why the scene does not allow the other law.
 fn refused(app: &App, buffer: &mut Buffer, at: ViewArea, name: &str, why: &str) {
     let look = &app.appearance;
     let inside = title(app, buffer, at, name, &[]);
@@ -209,7 +208,7 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
         name_level(&mut plot, x, level, name, quiet);
     }
     let cells = usize::from(plot.inner.width);
-    // On the time axis if there is one, so that no data is covered.
+    // Contact marks go on the time axis if there is one, so that they cover no data.
     let row = plot.axis_row().unwrap_or(plot.inner.bottom() - 1);
     let contacts = history::contacts(past, (from, to), cells);
     for (column, _) in (plot.inner.x..).zip(contacts).filter(|(_, touched)| *touched) {
@@ -218,8 +217,7 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
     names_of_marks(app, &mut plot, what);
 }
 
-/// Prints why the motion stopped, in the words of the solver, above the chart; returns the rest of
-/// the area.
+/// Prints the solver's message above the chart if the motion failed; returns the rest of the area.
 fn failed(app: &App, buffer: &mut Buffer, inside: Rect) -> Rect {
     let (look, width) = (&app.appearance, usize::from(inside.width).saturating_sub(2));
     let mut lines = app.failure().map_or(Vec::new(), |failure| wrap(&look.spell(failure), width));
@@ -227,7 +225,8 @@ fn failed(app: &App, buffer: &mut Buffer, inside: Rect) -> Rect {
     lines_above(app, buffer, inside, &lines, Role::Trouble)
 }
 
-/// Returns the clearance, which the casing may pass where the tips move with it, and its name.
+/// Returns the clearance levels with their labels, for scenes beyond the paper, where the casing
+/// can pass them.
 fn clearance_levels(app: &App, what: &Page) -> Vec<(f64, &'static str)> {
     if !app.scene.goes_beyond() || what.unit != "m" {
         return Vec::new();
@@ -237,8 +236,8 @@ fn clearance_levels(app: &App, what: &Page) -> Vec<(f64, &'static str)> {
     [clearance, -clearance].into_iter().zip(names).collect()
 }
 
-/// Returns the values at the reading cursor, computed for that instant. It comes without the
-/// instant where that has no room.
+/// Returns the values at the cursor, recomputed for that time. The time is omitted if it does not
+/// fit.
 fn reading(app: &App, what: &Page, width: usize) -> Option<String> {
     app.reading.at_s?;
     let values = |moment: &Moment| match what.unit {
@@ -246,7 +245,7 @@ fn reading(app: &App, what: &Page, width: usize) -> Option<String> {
         _ => moment.state.u,
     };
     if !what.own {
-        // The other law is not computed again: its bin has least and greatest value.
+        // The motion under the other law is not recomputed; use the middle of its bin.
         let t = app.reading.at_s?;
         let bin = history::bin_at(what.record, t)?;
         let [first, second] = what.channels.map(|channel| readable(bin.middle(channel), what.unit));
@@ -258,17 +257,17 @@ fn reading(app: &App, what: &Page, width: usize) -> Option<String> {
         named.map(|(name, value)| format!("{name} {}", readable(value, what.unit))).collect();
     let values = named.join(", ");
     let whole = format!("at {}: {values}", instant(moment.state.t_s));
-    // The rule, the digit and the gaps of the title take seven.
+    // Rule, digit and gaps of the title take seven columns.
     Some(if columns(&whole) + 7 > width { values } else { whole })
 }
 
-/// Draws the run to come in dots. They are those of the whole page, so that they do not move while
-/// the motion comes to them.
+/// Draws the future of the run as dots. Their positions are fixed on the page, so that they do not
+/// move as the motion advances.
 fn ghost(app: &App, plot: &mut Plot, what: &Page) {
     let (look, ahead) = (&app.appearance, app.known_s());
     let machine = &app.machine;
     let fastest = machine.omega_c.max(machine.omega_bd).max(machine.nu(app.speed().abs()));
-    // Of a wave that turns within a bin the envelope is drawn.
+    // If the wave turns within a bin, draw its envelope.
     let length = what.record.iter().map(|bin| bin.to - bin.from).fold(0.0, f64::max);
     let parts: &[f64] = if length * fastest > 1.0 { &[0.0, 1.0] } else { &[0.5] };
     for (channel, pen) in what.channels.iter().zip([look.first(), look.second()]).rev() {
@@ -284,7 +283,7 @@ fn ghost(app: &App, plot: &mut Plot, what: &Page) {
     }
 }
 
-/// Prints the blades at the first contacts of the page on the time axis.
+/// Prints the blades of the first contacts of the page on the time axis.
 fn names_of_marks(app: &App, plot: &mut Plot, what: &Page) {
     let Some(run) = what.forecast.filter(|_| what.own && what.unit == "m") else { return };
     let (from, to) = app.page();
@@ -292,7 +291,7 @@ fn names_of_marks(app: &App, plot: &mut Plot, what: &Page) {
     let sign = look.either('▲', '^');
     let first = run.marks.partition_point(|mark| mark.t_s < from);
     let on_page = || run.marks.iter().skip(first).take_while(|mark| mark.t_s <= to);
-    // Corners have their names first: they are what lasts.
+    // Corners are labelled first: they last, while impacts are many.
     for corners in [true, false] {
         for mark in on_page().take(MOST_NAMES) {
             let touching = match mark.what {

@@ -1,4 +1,4 @@
-//! Draws the rows of a table on the screen, on the page of the row that is read.
+//! Draws a page of a table on the screen, with the row under the cursor.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -11,27 +11,25 @@ use crate::tui::text::print;
 use crate::tui::theme::Role;
 use crate::tui::views::ViewArea;
 
-/// From this height on, columns have headings.
+/// Height from which columns have headings.
 const HEADING_FROM: u16 = 5;
 
-/// A table and what is read of it.
+/// A table, with its cursor.
 pub struct Rows<'a> {
-    /// The table.
     pub table: &'a Table,
-    /// The columns of the reading cursor: how many columns of the table the first one has, and
-    /// how many there are; each of the others has one.
+    /// Number of table columns in the first cursor column, and number of cursor columns; each
+    /// further cursor column is one table column.
     pub cursor: [usize; 2],
-    /// Column and row under the cursor.
+    /// Cursor column and row under the cursor.
     pub cell: Option<[usize; 2]>,
-    /// The row that is in the middle where nothing is read.
+    /// The row that is centred without a cursor.
     pub home: usize,
-    /// The row with the sign of a special one.
+    /// The row marked with a dot.
     pub marked: Option<usize>,
 }
 
 impl Rows<'_> {
-    /// Draws the rows that have room, in the style that `style` gives for a row and a column;
-    /// returns the height that they take.
+    /// Draws the rows that fit, with `style(row, column)`; returns the height used.
     pub fn draw(
         &self,
         app: &App,
@@ -40,7 +38,7 @@ impl Rows<'_> {
         style: impl Fn(usize, usize) -> Style,
     ) -> u16 {
         let look = &app.appearance;
-        // The first letter is for the cursor.
+        // The first column of the screen is for the cursor sign.
         let spell = |text: &str| look.spell(&greek(text).replace("g_0", "g0"));
         let table = self.table.clone().spelled(spell);
         let lines = table.lines(usize::from(area.width.saturating_sub(1)), 1);
@@ -48,7 +46,7 @@ impl Rows<'_> {
         let Some((headings, rows)) = parts else { return 0 };
         let head = u16::from(area.height >= HEADING_FROM);
         let room = usize::from(area.height - head).max(1);
-        // Pages, on which rows stay where they are while a pointer goes over them.
+        // Scroll by pages, so that rows do not move under the pointer.
         let first =
             self.cell.map_or(self.home.saturating_sub(room / 2), |[_, row]| row / room * room);
         let first = first.min(rows.len().saturating_sub(room));
@@ -84,12 +82,12 @@ impl Rows<'_> {
         head + u16::try_from(last - first).unwrap_or(0)
     }
 
-    /// Returns the column of the table that a column of the cursor begins with.
+    /// Returns the first table column of a cursor column.
     fn leads(&self, column: usize) -> usize {
         if column == 0 { 0 } else { self.cursor[0] + column - 1 }
     }
 
-    /// Notes where a row is, for the mouse.
+    /// Records where a row is, for the mouse.
     fn note(&self, app: &App, at: ViewArea, line: Rect, row: (usize, usize, &[String])) {
         let (place, count, cells) = row;
         let up = [place + 1, place].map(|from_top| 1.0 - from_top as f64 / count as f64);
@@ -107,7 +105,7 @@ impl Rows<'_> {
     }
 }
 
-/// Returns where the cells of a line are.
+/// Returns the areas of the cells of a line.
 fn places(line: Rect, cells: &[String]) -> Vec<Rect> {
     let mut x = line.x.saturating_add(1);
     let place = |cell: &String| {

@@ -1,6 +1,5 @@
-//! A computation that cannot be cut into slices, in a thread of its own.
-//! Neither the motion nor the next order waits for it, and dropping it ends the
-//! thread within a millisecond of its work.
+//! A computation that cannot be divided into slices, in a thread of its own. Neither the playback
+//! nor the next order waits for it; dropping it ends the thread within about a millisecond.
 
 use std::fmt;
 use std::sync::Arc;
@@ -12,24 +11,24 @@ use std::time::Duration;
 use super::thread::WORKER_NAME;
 use rubscope_solver::motion::GoOn;
 
-/// A computation under way that sends its results one by one.
+/// A running computation that sends results one by one.
 pub struct Background<T> {
     results: Option<Receiver<T>>,
     dropped: Arc<AtomicBool>,
 }
 
-/// Most threads for one purpose.
+/// Largest number of threads for one computation.
 const MOST_THREADS: usize = 16;
 
-/// Returns the threads for work in the background: one core is for the screen and the motion.
+/// Returns the number of background threads; one core is left for the screen and the playback.
 pub fn spare_threads() -> usize {
     let cores = available_parallelism().map_or(1, usize::from);
     cores.saturating_sub(1).clamp(1, MOST_THREADS)
 }
 
-/// Does work on these threads: not every core, as the motion plays on.
+/// Runs `work` on a thread pool that leaves one core free, because the playback continues.
 pub fn on_spare_cores<R: Send>(work: impl FnOnce() -> R + Send) -> R {
-    // The panic hook knows these threads, too.
+    // The panic hook must know these threads by name, too.
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(spare_threads())
         .thread_name(|_| WORKER_NAME.to_string())
@@ -41,24 +40,25 @@ pub fn on_spare_cores<R: Send>(work: impl FnOnce() -> R + Send) -> R {
 }
 
 impl<T: Send + 'static> Background<T> {
-    /// Starts `work`, which sends its results and looks at whether to go on.
+    /// Starts `work` in a thread. It sends results and must poll the given `GoOn`, which turns
+    /// false when the computation is dropped.
     pub fn start(work: impl FnOnce(&Sender<T>, GoOn<'_>) + Send + 'static) -> Self {
         let (sender, results) = channel();
         let dropped = Arc::new(AtomicBool::new(false));
         let flag = Arc::clone(&dropped);
-        // The panic hook leaves the screen alone for threads of this name.
+        // The panic hook does not touch the terminal for threads of this name.
         let thread = std::thread::Builder::new().name(WORKER_NAME.to_string());
         let started =
             thread.spawn(move || work(&sender, &|| !flag.load(Ordering::Relaxed))).is_ok();
         Self { results: started.then_some(results), dropped }
     }
 
-    /// Returns the next result, waiting for it no longer than `patience`.
+    /// Returns the next result; waits up to `patience`.
     pub fn receive(&mut self, patience: Duration) -> Option<T> {
         match self.results.as_ref()?.recv_timeout(patience) {
             Ok(result) => Some(result),
             Err(RecvTimeoutError::Timeout) => None,
-            // Done, or the thread ended early: what it sent stays.
+            // The work is complete, or the thread ended early; results already received stay valid.
             Err(RecvTimeoutError::Disconnected) => {
                 self.results = None;
                 None
@@ -66,7 +66,7 @@ impl<T: Send + 'static> Background<T> {
         }
     }
 
-    /// Returns whether no more results come.
+    /// Returns whether no more results will come.
     pub fn is_done(&self) -> bool {
         self.results.is_none()
     }

@@ -1,4 +1,4 @@
-//! The same scene under the other contact law, to compare with.
+//! The motion of the same scene under the other contact law, for comparison.
 
 use super::full_run::FullRunJob;
 use super::page::Page;
@@ -7,22 +7,20 @@ use super::recorder::Recorder;
 use rubscope_solver::motion::{GoOn, Motion};
 use rubscope_solver::scene::{CheckedScene, Scene, SceneError, SolverKind};
 
-/// The same scene under the other contact law, played up to the same time.
+/// The scene under the other contact law, played up to the time of the main motion.
 #[derive(Debug)]
 pub struct Comparison {
-    /// The motion.
     pub motion: Motion,
-    /// Its bins and forces.
+    /// Recorder of its bins and forces.
     pub recorder: Recorder,
-    /// Its full run.
     pub full_run: FullRunJob,
-    /// The page on the screen.
+    /// Record of the page on the screen.
     pub page: Page,
     copies: Copies,
 }
 
 impl Comparison {
-    /// Starts it; none if the scene cannot have the other law.
+    /// Starts the comparison; `None` if the scene does not allow the other law.
     pub fn of(scene: &Scene, page_s: f64) -> Option<Self> {
         let scene = other_law(scene).ok()?;
         let motion = Motion::new(&scene);
@@ -31,20 +29,19 @@ impl Comparison {
         Some(Self { motion, recorder: Recorder::default(), full_run, page, copies })
     }
 
-    /// Records that the motion was changed from outside; its full run is `length` seconds from
-    /// here.
+    /// Restarts the forecast after a change of the motion; the new run is `length` seconds long.
     pub fn changed(&mut self, length: f64) {
         self.copies.changed(&self.motion);
         self.page.forget();
         self.forecast(length);
     }
 
-    /// Starts a new full run from here.
+    /// Starts a new full run from the current time.
     pub fn forecast(&mut self, length: f64) {
         self.full_run = FullRunJob::new(self.motion.clone(), length);
     }
 
-    /// Goes to the latest motion by `t` that is known, if that is ahead.
+    /// Moves to the latest known copy of the motion at or before `t`, if that is ahead.
     pub fn go_to(&mut self, t: f64) {
         if let Some(ahead) = self.before(t).filter(|ahead| ahead.t_s() > self.motion.t_s()) {
             self.motion = ahead;
@@ -52,13 +49,12 @@ impl Comparison {
         }
     }
 
-    /// Returns the latest motion by `t` that is known.
+    /// Returns the latest known copy of the motion at or before `t`.
     pub fn before(&self, t: f64) -> Option<Motion> {
         self.full_run.before(t).or_else(|| self.copies.before(t, &self.motion))
     }
 
-    /// Plays to the time of the other motion; false where it stays behind for
-    /// now, because `go_on` said no.
+    /// Plays up to the time `until` of the main motion; returns false if `go_on` stopped it before.
     pub fn catch_up(&mut self, until: f64, sample: f64, bin: f64, go_on: GoOn<'_>) -> bool {
         loop {
             let state = self.motion.state();
@@ -73,17 +69,17 @@ impl Comparison {
                 Ok(true) if self.motion.t_s() > before && go_on() => {}
                 Ok(true) => return self.motion.t_s() <= before,
                 Ok(false) => return false,
-                // The motion stores a failure; the full run reports it.
+                // The motion stores its failure; the full run reports it.
                 Err(_) => return true,
             }
         }
     }
 }
 
-/// Returns the scene under the other contact law, with the solver that supports both.
+/// Returns the scene under the other contact law, with the explicit solver, which supports both.
 ///
 /// # Errors
-/// The scene cannot have that law; the reason in one line.
+/// Says in one line why the scene does not allow the other law.
 pub fn other_law(scene: &Scene) -> Result<CheckedScene, SceneError> {
     let mut scene = scene.clone();
     scene.solver.kind = SolverKind::Explicit;

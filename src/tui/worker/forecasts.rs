@@ -1,6 +1,6 @@
-//! What is computed beside the motion that plays: the run to its end, the same by the event
-//! solver, whether a small change would change it, and the studies. While a knob is turned
-//! faster than a run takes, an older run goes on, so that verdicts come as often as runs can.
+//! Everything computed besides the playing motion: the run to its end, the reference run with the
+//! event solver, the sensitivity check, and the studies. When a knob is turned faster than a run
+//! takes, one older run continues, so that a verdict still appears as often as a run can finish.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -20,13 +20,12 @@ pub struct Forecasts {
     reference: Option<FullRunJob>,
     sensitive: Option<Sensitive>,
     sensitivity: Option<Background<Certainty>>,
-    /// The studies.
     pub studies: Studies,
     answers: Answers,
 }
 
 impl Forecasts {
-    /// Creates the forecasts for the motion of a scene at its start.
+    /// Creates the forecasts for a motion at the start of its scene.
     pub fn of(motion: &Motion, scene: &Scene, (studies, answers): (Studies, Answers)) -> Self {
         Self {
             full_run: FullRunJob::new(motion.clone(), scene.solver.end_s),
@@ -38,19 +37,20 @@ impl Forecasts {
         }
     }
 
-    /// Stops the studies that are not wanted any more.
+    /// Stops the studies that the order no longer needs.
     pub fn stop_unwanted(&mut self, order: &Order) {
         self.studies.stop_unwanted(order, &self.full_run);
     }
 
-    /// Returns the studies and answers for the next motion; this one was of `scene`.
+    /// Returns studies and answers for the next motion; an unfinished run of `scene` continues in
+    /// the background.
     pub fn hand_over(&mut self, scene: &CheckedScene, motion: &Motion) -> (Studies, Answers) {
         self.changed(scene, motion, 0.0);
         (std::mem::take(&mut self.studies), std::mem::take(&mut self.answers))
     }
 
-    /// Same as [`Self::again`], for a motion of `scene` that has been changed, whose sensitivity is
-    /// not computed.
+    /// Starts a new run after a change of the motion. There is no sensitivity check for it, and the
+    /// run of the previous `scene` continues in the background.
     pub fn changed(&mut self, scene: &CheckedScene, motion: &Motion, length: f64) {
         let run = std::mem::replace(&mut self.full_run, FullRunJob::new(motion.clone(), length));
         self.answers.turned_on(scene, run);
@@ -58,14 +58,14 @@ impl Forecasts {
         (self.sensitivity, self.sensitive) = (None, Some(Sensitive::Unknown));
     }
 
-    /// Starts a new run of `length` seconds from where the motion is. The reference starts from
-    /// rest, so it does not apply to it.
+    /// Starts a new run of `length` seconds from the current time. It has no reference, because the
+    /// reference starts from rest.
     pub fn again(&mut self, motion: &Motion, length: f64) {
         self.full_run = FullRunJob::new(motion.clone(), length);
         self.reference = None;
     }
 
-    /// Returns whether there is more to compute.
+    /// Returns whether any computation is unfinished.
     pub fn is_computing(&self, order: &Order, comparison: Option<&FullRunJob>) -> bool {
         let mut runs = std::iter::once(&self.full_run).chain(&self.reference).chain(comparison);
         runs.any(|run| !run.is_done())
@@ -74,12 +74,12 @@ impl Forecasts {
             || self.studies.is_computing(order, &self.full_run)
     }
 
-    /// Computes one slice.
+    /// Computes for one slice of wall-clock time, the most urgent first.
     pub fn compute(&mut self, order: &Order, comparison: Option<&mut FullRunJob>) {
         self.answers.look();
         let known = self.full_run.verdict().is_some();
-        // First the verdict, then the run that had least time: the quick one does not wait for
-        // the slow one.
+        // The verdict comes first; then the run with the least time so far, so that a quick one
+        // does not wait for a slow one.
         let alone = !known && self.full_run.wall() < ALONE;
         let others = self.reference.iter_mut().chain(comparison).filter(|_| !alone);
         let runs = std::iter::once(&mut self.full_run).chain(others);
@@ -98,7 +98,7 @@ impl Forecasts {
                     let known = job.receive(SLICE);
                     known.map(Sensitive::Known).or(job.is_done().then_some(Sensitive::GivenUp))
                 }
-                // The run itself took too long.
+                // The run itself was given up.
                 None => Some(Sensitive::GivenUp),
             };
             return;
@@ -106,7 +106,7 @@ impl Forecasts {
         self.studies.compute(order, &self.full_run);
     }
 
-    /// Returns what is known so far.
+    /// Returns the results so far.
     pub fn results(&self, order: &Order, comparison: Option<&FullRunJob>) -> Results {
         let done_in = self.full_run.result().map(|_| self.full_run.wall().as_secs_f64());
         Results {
@@ -130,8 +130,8 @@ impl Forecasts {
     }
 }
 
-/// Returns the event solver under unilateral contact, if the scene uses another solver. An
-/// elastic lining is another machine.
+/// Creates the reference run: the event solver with push-only contact. `None` if the scene uses the
+/// event solver already, or has an elastic lining, which is a different machine.
 fn reference(scene: &Scene) -> Option<FullRunJob> {
     if scene.solver.kind == SolverKind::Event || scene.solver.contact == ContactLaw::Smooth {
         return None;
@@ -140,8 +140,8 @@ fn reference(scene: &Scene) -> Option<FullRunJob> {
     Some(FullRunJob::new(Motion::new(&scene), scene.solver.end_s))
 }
 
-/// Finds out whether a tiny change of the pulse, the speed or the motion changes the
-/// outcome of the run that came to this; nothing comes where this takes too long.
+/// Starts the sensitivity check in the background: whether a tiny change of the pulse, the speed or
+/// the motion changes the verdict. It sends nothing if it exceeds the time limit.
 fn sensitivity(scene: &CheckedScene, reached: VerdictReached) -> Background<Certainty> {
     let scene = scene.clone();
     Background::start(move |to, go_on| {
@@ -149,16 +149,16 @@ fn sensitivity(scene: &CheckedScene, reached: VerdictReached) -> Background<Cert
         let go_on = || go_on() && began.elapsed() < FORECAST_LIMIT;
         let found = on_spare_cores(|| certainty(&scene, reached, true, &go_on));
         if let Some(certainty) = found {
-            // Without a receiver nobody asks any more.
+            // Sending fails only if the check was dropped.
             let _ = to.send(certainty);
         }
     })
 }
 
-/// Wall time of a run that has a core for itself, until its verdict is known.
+/// Time for which the run may use its core alone before its verdict is known.
 const ALONE: Duration = Duration::from_millis(200);
 
-/// The latest answer, and the run for the next, which nobody waits for.
+/// The latest verdict, and an older run that is still being finished in the background.
 #[derive(Debug, Default)]
 pub struct Answers {
     latest: Option<Arc<Answer>>,
@@ -166,7 +166,7 @@ pub struct Answers {
 }
 
 impl Answers {
-    /// Takes over a run that is not wanted any more, unless an older one is under way.
+    /// Continues a replaced run in the background, unless another one is already running there.
     pub fn turned_on(&mut self, scene: &CheckedScene, mut run: FullRunJob) {
         if self.older.is_some() || run.verdict().is_some() {
             return;
@@ -175,13 +175,13 @@ impl Answers {
             while run.verdict().is_none() && !run.is_done() && go_on() {
                 run.compute();
             }
-            // Without a receiver nobody asks any more.
+            // Sending fails only if the run was dropped.
             _ = run.verdict().map(|verdict| to.send(verdict));
         });
         self.older = Some((scene.clone(), older));
     }
 
-    /// Takes the verdict of the older run, once it has come.
+    /// Records the verdict of the background run once it is known.
     fn look(&mut self) {
         if let Some((scene, mut older)) = self.older.take() {
             match older.receive(Duration::ZERO) {
@@ -191,8 +191,7 @@ impl Answers {
         }
     }
 
-    /// Notes the verdict of a run, once there is one; that of an older one is not waited for any
-    /// more.
+    /// Records a verdict if there is one, and drops the background run, which is older.
     pub fn note(&mut self, scene: &CheckedScene, verdict: Option<Verdict>) {
         if let Some(verdict) = verdict {
             self.older = None;
@@ -216,7 +215,7 @@ mod tests {
     #[test]
     fn a_held_key_gets_the_answer_of_a_run_that_was_begun() {
         let mut answers = Answers::default();
-        // Each run has a slice before the next turn of the knob, and takes many.
+        // Each run gets one slice before the next turn of the knob, and needs many.
         let mut reported = Vec::new();
         for turn in 0.. {
             let (scene, mut run) = run(400.0 + 1e-3 * f64::from(turn));
@@ -231,7 +230,7 @@ mod tests {
                 break;
             }
         }
-        // Not those of all values, but the next one begins when one is done.
+        // Some values are skipped, but a new run starts whenever one finishes.
         assert!(reported.is_sorted(), "{reported:?}");
     }
 
@@ -248,7 +247,7 @@ mod tests {
         while forecasts.full_run.verdict().is_none() {
             forecasts.compute(&order, None);
         }
-        // The newest that is ready is not followed by an older one.
+        // A verdict is never replaced by that of an older run.
         let latest = forecasts.answers.latest.as_ref();
         assert_eq!(latest.map(|answer| &answer.scene), Some(&quick));
         assert!(forecasts.answers.older.is_none());

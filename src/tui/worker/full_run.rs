@@ -1,5 +1,5 @@
-//! Computes the run to its end ahead of the playback, in slices so short that a
-//! newer order does not wait.
+//! Computes the run to its end ahead of the playback, in slices short enough that a new order is
+//! not delayed.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -12,7 +12,7 @@ use rubscope_solver::motion::{
 };
 use rubscope_solver::tolerances::LAST_PART;
 
-/// A full run that is being computed.
+/// A full run in progress.
 #[derive(Debug)]
 pub struct FullRunJob {
     motion: Motion,
@@ -26,27 +26,27 @@ pub struct FullRunJob {
     wall: Duration,
     slice: Duration,
     limit: Duration,
-    /// Steps taken and skipped before the start.
+    /// Steps taken and skipped before this run began.
     before: [u64; 2],
     /// The verdict, once it is proved.
     proved: Option<Verdict>,
     result: Option<FullRun>,
 }
 
-/// Samples of one run, for its spectrum.
+/// Samples per run, enough for its spectrum.
 const SAMPLES: u32 = 2048;
 
-/// Wall time of one slice.
+/// Wall-clock time of one slice.
 pub(super) const SLICE: Duration = Duration::from_millis(5);
 
 impl FullRunJob {
-    /// Creates a run of `length` seconds from where the motion is.
+    /// Creates a run of `length` seconds from the current time of the motion.
     pub fn new(motion: Motion, length: f64) -> Self {
         let start = motion.t_s();
         let before = steps(&motion).unwrap_or_default();
         Self {
             end: start + length,
-            // As a run from the start to there is judged.
+            // Judge it like a run from t = 0 to the same end.
             window: LAST_PART * (start + length),
             taken: 0,
             points: vec![point(&motion)],
@@ -63,7 +63,7 @@ impl FullRunJob {
         }
     }
 
-    /// Computes one slice.
+    /// Advances the run by one slice of wall-clock time.
     pub fn compute(&mut self) {
         if self.result.is_some() {
             return;
@@ -91,12 +91,12 @@ impl FullRunJob {
         }
     }
 
-    /// Returns `u_c` and `u_s` at equal intervals over the run so far \[m\].
+    /// Returns `u_c` and `u_s` at equal intervals so far \[m\].
     pub fn signal(&self) -> Vec<[f64; 2]> {
         self.points.iter().skip(1).map(|[u_c, u_s, ..]| [*u_c, *u_s]).collect()
     }
 
-    /// Returns the last copy of the motion on the way by `t`.
+    /// Returns the latest copy of the motion at or before `t`.
     pub fn before(&self, t: f64) -> Option<Motion> {
         self.copies.before(t, &self.motion)
     }
@@ -106,33 +106,33 @@ impl FullRunJob {
         &self.marks.seen
     }
 
-    /// Returns how far it is \[s\].
+    /// Returns the time reached \[s\].
     pub fn t_s(&self) -> f64 {
         self.motion.t_s()
     }
 
-    /// Returns the end of the run \[s\].
+    /// Returns the time at which the run ends \[s\].
     pub fn end(&self) -> f64 {
         self.end
     }
 
-    /// Returns what it came to, once it is done: of a run from the start of a scene,
-    /// what changed runs must agree with.
+    /// Returns the outcome of the complete run, with which the sensitivity check compares changed
+    /// runs.
     pub fn reached(&self) -> Option<VerdictReached> {
         Some(VerdictReached::of(&self.motion, self.result()?.verdict))
     }
 
-    /// Returns the verdict, as soon as it is known: it may be proved before the end.
+    /// Returns the verdict, which may be proved before the end.
     pub fn verdict(&self) -> Option<Verdict> {
         self.result().map(|run| run.verdict).or(self.proved)
     }
 
-    /// Returns the result, once it is done.
+    /// Returns the result of the complete run.
     pub fn result(&self) -> Option<&FullRun> {
         self.result.as_ref()
     }
 
-    /// Returns the verdict that is proved by now, if the end would say the same.
+    /// Returns a proved verdict if the judgement at the end would be the same now.
     fn proof(&self) -> Option<Verdict> {
         let end = || judge_end(&self.motion, &self.motion.checks(), self.window).0;
         self.motion.final_verdict().filter(|proved| *proved == end())
@@ -159,7 +159,7 @@ impl FullRunJob {
         }
     }
 
-    /// Returns its progress or its result.
+    /// Returns the progress, or the result.
     pub fn state(&self) -> FullRunState {
         if let Some(run) = &self.result {
             return FullRunState::Done(Box::new(run.clone()));
@@ -172,29 +172,28 @@ impl FullRunJob {
         ((self.motion.t_s() - self.start) / (self.end - self.start)).clamp(0.0, 1.0)
     }
 
-    /// Returns whether it is over.
+    /// Returns whether the run is complete or was given up.
     pub fn is_done(&self) -> bool {
         self.result.is_some() || self.wall >= self.limit
     }
 
-    /// Returns the wall time so far.
     pub fn wall(&self) -> Duration {
         self.wall
     }
 
-    /// Returns the wall time over the number of steps taken \[s\], for a solver that steps.
+    /// Returns the wall-clock time per time step \[s\]; `None` for solvers without steps.
     pub fn step_s(&self) -> Option<f64> {
         let [taken, _] = self.steps()?;
         (taken > 0).then(|| self.wall.as_secs_f64() / taken as f64)
     }
 
-    /// Returns the part of its steps that was skipped, for a solver that steps.
+    /// Returns the fraction of the time steps that was skipped; `None` for solvers without steps.
     pub fn skipped(&self) -> Option<f64> {
         let [taken, skipped] = self.steps()?;
         (taken + skipped > 0).then(|| skipped as f64 / (taken + skipped) as f64)
     }
 
-    /// Returns the steps taken and skipped in this run.
+    /// Returns the numbers of steps taken and skipped since this run began.
     fn steps(&self) -> Option<[u64; 2]> {
         let [taken, skipped] = steps(&self.motion)?;
         let [taken_before, skipped_before] = self.before;
@@ -202,7 +201,7 @@ impl FullRunJob {
     }
 }
 
-/// Returns the steps of a motion taken and skipped so far.
+/// Returns the total numbers of steps taken and skipped by a motion.
 fn steps(motion: &Motion) -> Option<[u64; 2]> {
     Some([motion.steps_taken()?, motion.steps_skipped()?])
 }
@@ -219,7 +218,7 @@ mod tests {
     use rubscope_solver::scene::{Scene, SolverKind};
 
     impl FullRunJob {
-        /// Creates the same run in slices of this length, however fast the machine is.
+        /// Changes the length of a slice, so that a test does not depend on the machine's speed.
         pub(in crate::tui::worker) fn in_slices_of(mut self, slice: Duration) -> Self {
             self.slice = slice;
             self
@@ -279,7 +278,7 @@ mod tests {
         }
         let FullRunState::GivenUp(part) = job.state() else { panic!("{:?}", job.state()) };
         assert!(part > 0.0 && part < 1.0, "{part}");
-        // One slice more than the limit, on a machine that does nothing else.
+        // The last slice may exceed the limit.
         assert!(job.wall >= job.limit);
     }
 }

@@ -1,16 +1,15 @@
-//! The next change of contact of a motion, found to round-off whatever the page
-//! of time on the screen.
+//! Finds the next change of contact of a motion to round-off, independent of the zoom of the page.
 
 use crate::tui::trace::{Mark, Marks};
 use rubscope_solver::motion::{GoOn, Motion};
 
-/// Most steps of the search.
+/// Largest number of search steps.
 const MOST_STEPS: usize = 20_000;
-/// Most halvings of the step in which the change is; doubles need no more.
+/// Largest number of bisections of the step that has the change; doubles need no more.
 const MOST_HALVINGS: usize = 80;
 
-/// Returns when the contact changes next, looked for in steps of `step` \[s\]; none if no change
-/// comes soon, or `go_on` says no.
+/// Returns the time of the next change of contact, searched in steps of `step` \[s\] and refined by
+/// bisection. `None` if no change comes within the search, or `go_on` stops it.
 pub fn next_change(motion: &Motion, step: f64, go_on: GoOn<'_>) -> Option<f64> {
     let log = motion.contacts();
     let before = (log.active_set, log.impact_count);
@@ -49,7 +48,7 @@ pub fn next_change(motion: &Motion, step: f64, go_on: GoOn<'_>) -> Option<f64> {
     None
 }
 
-/// Returns what changed since `marks` began, seen from the motion after it.
+/// Returns the latest change of contact since `marks` was created.
 pub fn met(mut marks: Marks, motion: &Motion) -> Option<Mark> {
     marks.look(motion.contacts());
     marks.seen.last().copied()

@@ -1,5 +1,5 @@
-//! The solver behind the screen: a playback without clock or thread, and the thread
-//! that drives it.
+//! The solver behind the screen: a playback without clock or thread, and the thread that drives it.
+//! Read `playback` first, then `forecasts` and `studies`.
 
 mod background;
 mod comparison;

@@ -1,6 +1,5 @@
-//! How fast the motion plays: slower at changes of contact and faster between
-//! them, and never so far between two frames that a turning wave seems to stand
-//! still or to turn back.
+//! The rate of the playback: slower near changes of contact and faster between them, and limited so
+//! that the wave never turns so far per frame that it seems to stand still or run backward.
 
 use std::f64::consts::TAU;
 
@@ -8,21 +7,22 @@ use super::recorder::in_blade_frame;
 use crate::tui::trace::Mark;
 use rubscope_solver::motion::{Motion, State};
 
-/// Part of a turn of the wave that one frame may show.
+/// Largest turn of the wave per frame, as a fraction of a full turn.
 const TURN: f64 = 0.125;
-/// Amplitude below which nobody sees the wave turn, in clearances.
+/// Amplitude below which the turn of the wave is invisible, in clearances.
 const VISIBLE: f64 = 0.02;
-/// Wall time in which the distance to a change of contact is played \[s\].
+/// Time constant of the slowdown: rate = distance to the nearest change / APPROACH \[wall-clock
+/// s\].
 const APPROACH: f64 = 0.3;
-/// The slowest, in parts of the requested rate,
+/// Slowest rate, relative to the requested one.
 const SLOWEST: f64 = 0.02;
-/// and the fastest.
+/// Fastest rate, relative to the requested one.
 const FASTEST: f64 = 3.0;
-/// Changes that come faster than this are not slowed down for, in wall time at
-/// the requested rate \[s\].
+/// Changes of contact closer together than this, on average, do not slow the playback \[wall-clock
+/// s at the requested rate\].
 const SPARSE: f64 = 0.1;
 
-/// The turn of the wave against the blades since the last frame.
+/// Turn of the wave relative to the blades since the last frame \[rad\].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Turned {
     by: f64,
@@ -30,12 +30,12 @@ pub struct Turned {
 }
 
 impl Turned {
-    /// Records that a frame was drawn.
+    /// Resets the turn: a frame was drawn.
     pub fn drawn(&mut self) {
         self.by = 0.0;
     }
 
-    /// Adds the turn to where the motion is now, in this state.
+    /// Adds the turn since the last call.
     pub fn follow(&mut self, motion: &Motion, state: &State) {
         let machine = motion.machine();
         let turned = machine.nodal_diameters * motion.rotor().angle(state.t_s);
@@ -49,18 +49,18 @@ impl Turned {
         self.phase = phase;
     }
 
-    /// Returns whether the wave must wait for a frame before it turns by `next` more.
+    /// Returns whether a further turn by `next` \[rad\] must wait for a frame.
     pub fn must_wait(&self, next: f64) -> bool {
         self.by > 0.0 && self.by + next > TURN * TAU
     }
 }
 
-/// Wall time over which the rate that is reached is taken \[s\].
+/// Wall-clock time over which the reached rate is averaged \[s\].
 const OVER: f64 = 0.5;
-/// A displayed value that changes by less than this is not redrawn, to avoid flicker.
+/// Relative change below which the displayed rate stays, to avoid flicker.
 const NEAR: f64 = 0.1;
 
-/// The rate that is reached.
+/// The rate reached by the playback.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Reached {
     wall: f64,
@@ -69,7 +69,7 @@ pub struct Reached {
 }
 
 impl Reached {
-    /// Records how much was played in how much wall time.
+    /// Adds simulated time played in some wall-clock time.
     pub fn add(&mut self, wall: f64, played: f64) {
         (self.wall, self.played) = (self.wall + wall, self.played + played);
         if self.wall < OVER {
@@ -82,19 +82,19 @@ impl Reached {
         (self.wall, self.played) = (0.0, 0.0);
     }
 
-    /// Returns the rate, once it is known.
+    /// Returns the displayed rate, once known.
     pub fn rate(&self) -> Option<f64> {
         self.shown
     }
 }
 
-/// Returns the rate of play at an instant, given the changes of contact ahead and behind.
+/// Returns the rate at time `now`, from the distance to the nearest changes of contact.
 pub fn rate_at(now: f64, rate: f64, marks: &[Mark]) -> f64 {
     let next = marks.partition_point(|mark| mark.t_s <= now);
     let ahead = marks.get(next).map(|mark| mark.t_s - now);
     let behind = next.checked_sub(1).and_then(|k| marks.get(k)).map(|mark| now - mark.t_s);
     let around = [ahead, behind].into_iter().flatten();
-    // Where changes follow each other closely, nothing is gained by waiting at each.
+    // Slowing down for closely spaced changes would only make the playback slow throughout.
     let first = next.saturating_sub(2);
     let near: Vec<f64> = marks.iter().skip(first).take(5).map(|mark| mark.t_s).collect();
     let dense = near.len() == 5

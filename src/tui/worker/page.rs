@@ -1,6 +1,6 @@
-//! The page of time on the screen, computed again at its own zoom from a copy of the
-//! motion, in slices: what was played at another zoom has other bins, and what is to
-//! come has none.
+//! The page of time on the screen, recomputed at its own zoom from a copy of the motion, in slices.
+//! The record of the playback is no substitute: at another zoom its bins differ, and it has no
+//! future.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -13,10 +13,10 @@ use rubscope_solver::motion::{Failure, GoOn, Motion};
 
 /// Samples per recorded bin.
 const SAMPLES: f64 = 4.0;
-/// Samples per turn of the wave, at least.
+/// Smallest number of samples per turn of the wave.
 pub const PER_TURN: f64 = 24.0;
 
-/// The page that is wanted, and the latest that is complete.
+/// The requested page, and the latest complete one.
 #[derive(Debug, Default)]
 pub struct Page {
     wanted: Option<((f64, f64), f64)>,
@@ -27,10 +27,10 @@ pub struct Page {
 #[derive(Debug)]
 struct PageJob {
     page: (f64, f64),
-    /// The end of what is computed \[s\].
+    /// End of the computation \[s\].
     until: f64,
     bin: f64,
-    /// The time step \[s\].
+    /// Time step of the solver \[s\].
     step: f64,
     motion: Motion,
     recorder: Option<Recorder>,
@@ -38,8 +38,8 @@ struct PageJob {
 }
 
 impl Page {
-    /// Begins a page, in bins of `bin` seconds and up to `end`, the end of the run, from a
-    /// motion before it; nothing where it is known or under way.
+    /// Requests a page in bins of `bin` seconds, up to the end of the run. `from` gives a motion
+    /// before the page. Does nothing if the page is known or being computed.
     pub fn want(
         &mut self,
         page: (f64, f64),
@@ -56,12 +56,12 @@ impl Page {
         self.job = from().map(|motion| PageJob { page, until, bin, step, motion, recorder, wall });
     }
 
-    /// Returns whether nothing is under way.
+    /// Returns whether no page is being computed.
     pub fn is_done(&self) -> bool {
         self.job.is_none()
     }
 
-    /// Computes one slice.
+    /// Advances the page by one slice of wall-clock time.
     pub fn compute(&mut self) {
         let Some(job) = &mut self.job else { return };
         let began = Instant::now();
@@ -70,50 +70,51 @@ impl Page {
         if whole {
             self.done = Some(Arc::new(job.record()));
         }
-        // Where it is given up, what was played stays on the screen.
+        // If it is given up, the record of the playback stays on the screen.
         if whole || job.wall >= FORECAST_LIMIT {
             self.job = None;
         }
     }
 
-    /// Returns the wall time spent on the one under way.
+    /// Returns the wall-clock time spent on the current page.
     pub fn wall(&self) -> Duration {
         self.job.as_ref().map_or(Duration::ZERO, |job| job.wall)
     }
 
-    /// Forgets all: the motion is another one.
+    /// Drops everything after a change of the motion.
     pub fn forget(&mut self) {
         *self = Self::default();
     }
 
-    /// Returns the latest that is complete.
+    /// Returns the latest complete page.
     pub fn record(&self) -> Option<Arc<PageRecord>> {
         self.done.clone()
     }
 }
 
 impl PageJob {
-    /// Computes until the end is reached; returns false where `go_on` said no.
+    /// Continues the computation; returns true once the page is complete.
     fn go_on(&mut self, go_on: GoOn<'_>) -> bool {
         let Some(recorder) = &mut self.recorder else {
             let reached = self.motion.advance_while(self.page.0, go_on);
             if reached != Ok(false) {
                 let recorder = self.recorder.insert(Recorder::from(&self.motion));
                 let state = self.motion.state();
-                // Where each step is a bin, so is the start: lines go from sample to sample.
+                // If each step fills a bin, close the first one at once: lines are drawn from
+                // sample to sample.
                 let length = if self.step > self.bin { 0.0 } else { self.bin };
                 recorder.record(&mut self.motion, &state, length);
             }
             return false;
         };
         let sample = sample_length(&self.motion, self.bin);
-        // A solver that steps is at its last step before: the next is beyond the page.
+        // A solver with steps stops at the last one before `until`; the next is beyond the page.
         while self.motion.t_s() < self.until {
             let next = (self.motion.t_s() + sample).min(self.until);
             match next_sample(&mut self.motion, next, self.step, go_on) {
                 Ok(true) => {}
                 Ok(false) => return false,
-                // After a failure there is nothing to record.
+                // A failed motion has nothing more to record.
                 Err(_) => return true,
             }
             let state = self.motion.state();
@@ -133,20 +134,21 @@ impl PageJob {
     }
 }
 
-/// Returns the time between two samples of a record in bins of `bin` seconds, in which no turn of
-/// the wave against the blades is lost.
+/// Returns the time between samples for bins of `bin` seconds, short enough to follow the turn of
+/// the wave.
 pub fn sample_length(motion: &Motion, bin: f64) -> f64 {
     (bin / SAMPLES).min(longest_sample(motion)).max(1e-12)
 }
 
-/// Returns the longest sample in which no turn of the wave against the blades is lost.
+/// Returns the longest sample that still follows the wave's turn relative to the blades: 1/24 of a
+/// period at `omega_c + nu`.
 pub fn longest_sample(motion: &Motion) -> f64 {
     let machine = motion.machine();
     let fastest = machine.omega_c + machine.nu(motion.rotor().speed(motion.t_s()).abs());
     std::f64::consts::TAU / fastest.max(f64::MIN_POSITIVE) / PER_TURN
 }
 
-/// Advances to `until`, or to the next time step if that is later.
+/// Advances to `until`, or by one time step if `until` is before the next step.
 ///
 /// # Errors
 /// As `Solver::advance_while`.
@@ -159,7 +161,7 @@ pub fn next_sample(
     let before = motion.t_s();
     let reached = motion.advance_while(until, go_on)?;
     if reached && motion.t_s() <= before {
-        // Half a step more, so that round-off does not leave it where it is.
+        // Half a step more, because round-off could leave the motion where it is.
         return motion.advance_while(before + 1.5 * step, go_on);
     }
     Ok(reached)
@@ -171,7 +173,7 @@ mod tests {
     use crate::tui::history::Channel;
     use rubscope_solver::scene::Scene;
 
-    /// A page over the first millisecond of a scene, computed to its end.
+    /// Computes a page over the first millisecond of a scene, up to `end`.
     fn computed(scene: Scene, end: f64) -> (Page, Motion) {
         let motion = Motion::new(&scene.checked().unwrap());
         let mut page = Page::default();
@@ -228,7 +230,7 @@ mod tests {
         (scene.initial.v_c_m_s, scene.operation.pulse_n) = (-0.05, 0.0);
         let (page, _) = computed(scene, 1e-3);
         let first = page.record().unwrap().record.between(0.0, 1e-5)[0];
-        // The casing moves away from where it starts, and does not come back.
+        // The casing moves away from its start and does not return.
         assert_eq!((first.from, first.high[0]), (0.0, 0.0));
     }
 }

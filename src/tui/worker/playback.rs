@@ -1,5 +1,4 @@
-//! The engine without clock or thread: takes orders, plays the motion, and makes
-//! snapshots.
+//! The engine without clock or thread: it applies orders, plays the motion, and makes snapshots.
 
 mod moves;
 
@@ -21,13 +20,13 @@ use crate::tui::views::id::ViewId;
 use rubscope_solver::motion::{Change, Motion};
 use rubscope_solver::scene::keys::differences;
 
-/// Turn of the wave in the longest sample, at most.
+/// Largest turn of the wave per sample \[rad\].
 const TURN: f64 = std::f64::consts::TAU / PER_TURN;
-/// Longest wall time of one call of `play` in the explorer.
+/// Longest wall-clock time of one call of `play` in the explorer.
 const PLAY_LIMIT: Duration = Duration::from_millis(25);
-/// Most wall time that one tick catches up, for example after a suspension.
+/// Most wall-clock time that one tick makes up for, for example after a suspension.
 const LONGEST_TICK: Duration = Duration::from_millis(100);
-/// A motion being played, and its full runs.
+/// The playing motion, with its forecasts.
 #[derive(Debug)]
 pub struct Playback {
     order: Order,
@@ -37,9 +36,9 @@ pub struct Playback {
     limit: Limit,
     turned: Turned,
     reached: Reached,
-    /// Instant to which the motion goes at once \[s\].
+    /// Target of a go-to under way \[s\].
     going: Option<f64>,
-    /// Steps and jumps that are made from there.
+    /// Numbers of steps and jumps to execute after the go-to.
     owed: [u64; 2],
     copies: Copies,
     reading: Reading,
@@ -49,18 +48,18 @@ pub struct Playback {
     ends: u64,
     forecasts: Forecasts,
     comparison: Option<Comparison>,
-    /// Whether it has not caught up yet.
+    /// Whether the comparison has yet to catch up with the motion.
     behind: bool,
     time_limit: Duration,
 }
 
 impl Playback {
-    /// Starts the scene of the order.
+    /// Starts the scene of an order.
     pub fn new(order: Order) -> Self {
         Self::with_time_limit(order, PLAY_LIMIT)
     }
 
-    /// Same as [`Self::new`]; `play` may take this much wall time per call.
+    /// As [`Self::new`], with another limit on the wall-clock time per call of `play`.
     pub fn with_time_limit(order: Order, time_limit: Duration) -> Self {
         Self::start(order, time_limit, Default::default())
     }
@@ -96,12 +95,13 @@ impl Playback {
         playback
     }
 
-    /// Bounds the number of cells of a map, for tests.
+    /// Limits the number of computed map cells, for tests.
     pub fn bound_maps(&mut self, cells: usize) {
         self.forecasts.studies.most_cells = Some(cells);
     }
 
-    /// Takes a newer order and does what its counters ask for.
+    /// Applies a newer order: compares its counters with those of the last one and executes the
+    /// difference.
     pub fn apply(&mut self, order: &Order) {
         let before = std::mem::replace(&mut self.order, order.clone());
         self.forecasts.stop_unwanted(order);
@@ -155,7 +155,7 @@ impl Playback {
         self.want_page();
     }
 
-    /// Notes what the latest order changed, as `run --at` takes it.
+    /// Records what the latest order changed, as arguments of `run --at`.
     fn note_changes(&mut self, before: &Order) {
         let now = self.motion.t_s();
         if self.order.changes != before.changes {
@@ -167,7 +167,7 @@ impl Playback {
         }
     }
 
-    /// Starts a new forecast from here.
+    /// Starts new full runs from the current time.
     fn forecast(&mut self) {
         let length = self.order.scene.solver.end_s;
         self.forecasts.again(&self.motion, length);
@@ -176,14 +176,14 @@ impl Playback {
         }
     }
 
-    /// Returns whether the motion has come to the end of its forecast.
+    /// Returns whether the motion has reached the end of its run.
     fn is_at_end(&self) -> bool {
         let step = self.motion.steps().map_or(0.0, |_| self.order.scene.solver.step_s);
-        // The explicit solver ends at its last step by then.
+        // The explicit solver stops at its last step before the end.
         self.motion.t_s() + step > self.forecasts.full_run.end() * (1.0 - f64::EPSILON)
     }
 
-    /// Plays the same scene under the other contact law too, if it is wanted.
+    /// Starts the motion under the other contact law, if the order wants it.
     fn start_comparison(&mut self) {
         let (from, to) = self.order.page;
         let other = || Comparison::of(&self.order.scene, to - from);
@@ -202,15 +202,14 @@ impl Playback {
         self.turned.follow(&self.motion, &state);
     }
 
-    /// Records that a frame was drawn: the wave may turn on.
+    /// Reports that a frame was drawn: the wave may turn further.
     pub fn drawn(&mut self) {
         self.turned.drawn();
     }
 
-    /// Plays what is due after `wall` seconds: at the requested rate, slower at
-    /// changes of contact if this is wanted, and never so far that a turning
-    /// picture on the screen could not be followed.
-    /// False where nothing moved.
+    /// Plays what is due after `wall`: at the requested rate, slower near changes of contact if
+    /// wanted, and never so far that a turning picture could not be followed. Returns whether the
+    /// motion advanced.
     pub fn play_paced(&mut self, wall: Duration) -> bool {
         let due = wall.min(LONGEST_TICK).as_secs_f64();
         let (now, rate) = (self.motion.t_s(), self.order.rate);
@@ -225,7 +224,7 @@ impl Playback {
         played != 0.0
     }
 
-    /// Plays `seconds` of motion, or less if the solver is too slow.
+    /// Plays `seconds` of simulated time, or less if the solver is too slow.
     pub fn play(&mut self, seconds: f64) {
         self.play_within(seconds, false);
     }
@@ -250,7 +249,7 @@ impl Playback {
                 (self.limit, self.target) = (Limit::Wave, now);
                 break;
             }
-            // The motion stores a failure, and every snapshot reports it.
+            // The motion stores its failure, and every snapshot reports it.
             if next_sample(&mut self.motion, next, self.order.scene.solver.step_s, &go_on).is_err()
             {
                 break;
@@ -286,8 +285,8 @@ impl Playback {
         });
     }
 
-    /// Plays the motion under the other contact law up to a change, which acts at one instant on
-    /// both motions, or gives it up.
+    /// Brings the comparison to the current time before a change, which must act on both motions at
+    /// the same time; drops the comparison if that takes too long.
     fn level_comparison(&mut self) {
         self.play_comparison(self.time_limit.max(moves::JUMP_LIMIT));
         if std::mem::take(&mut self.behind) {
@@ -295,7 +294,7 @@ impl Playback {
         }
     }
 
-    /// Returns whether there is more to compute.
+    /// Returns whether anything is left to compute.
     pub fn is_computing(&self) -> bool {
         let comparison = self.comparison.as_ref().map(|comparison| &comparison.full_run);
         self.behind
@@ -305,7 +304,8 @@ impl Playback {
             || self.forecasts.is_computing(&self.order, comparison)
     }
 
-    /// Computes one slice of what is not done.
+    /// Computes for one slice of wall-clock time: the comparison if it is behind, otherwise the
+    /// cursor, then a go-to, the page, or the forecasts.
     pub fn compute(&mut self) {
         if self.behind {
             return self.play_comparison(self.time_limit);
@@ -318,7 +318,7 @@ impl Playback {
         self.forecasts.compute(&self.order, comparison);
     }
 
-    /// Returns the present instant and results, and the bins since the last call.
+    /// Returns the current state, the results, and the bins since the last call.
     pub fn snapshot(&mut self) -> Snapshot {
         let now = Moment {
             multipliers: self.recorder.mean_forces(),

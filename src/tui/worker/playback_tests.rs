@@ -1,4 +1,4 @@
-//! What a playback promises, against plain runs.
+//! Tests of the playback against plain runs of the solver.
 
 use super::*;
 use crate::tui::{App, Marker, Theme};
@@ -32,7 +32,7 @@ fn a_turning_picture_turns_an_eighth_between_two_frames_at_most() {
     let (mut frames, mut limited) = (0, 0);
     while playback.motion.t_s() < 0.02 {
         let (before, shown) = phase(&playback);
-        // Several ticks of the clock for one frame.
+        // Several ticks of the clock per frame.
         for _ in 0..5 {
             playback.play_paced(Duration::from_millis(33));
         }
@@ -46,7 +46,7 @@ fn a_turning_picture_turns_an_eighth_between_two_frames_at_most() {
         assert!(frames < 2000);
     }
     assert!(limited > 10, "{limited} of {frames}");
-    // Without such a picture it plays as asked.
+    // Without the wheel or the gaps on the screen, nothing limits the rate.
     order.open = vec![ViewId::Response];
     let mut playback = computed(&order);
     (0..5).for_each(|_| _ = playback.play_paced(Duration::from_millis(33)));
@@ -75,13 +75,13 @@ fn the_motion_waits_at_the_end_of_its_forecast_and_goes_on_when_asked() {
 
 #[test]
 fn a_jump_stops_at_the_change_of_contact_at_any_zoom() {
-    // The first two of the event solver, as the impacts of a run have them.
+    // The first two impacts of the event solver, as a plain run records them.
     let scene = Scene::builtin("rocking").unwrap();
     let mut run = Motion::new(&scene.clone().checked().unwrap());
     run.advance(scene.solver.end_s).unwrap();
     let impacts: Vec<f64> = run.contacts().impacts.iter().map(|impact| impact.t_s).collect();
     for bin_s in [1e-9, 2e-5, 1e-3] {
-        // A page of so many bins, as on the screen.
+        // A page of 1024 bins, as on the screen.
         let mut order = Order { bin_s, page: (0.0, 1024.0 * bin_s), ..order(scene.clone()) };
         let mut playback = computed(&order);
         for (number, impact) in (1..).zip(impacts.iter().take(2)) {
@@ -104,7 +104,7 @@ fn the_reading_cursor_has_the_state_of_a_run_that_stops_there() {
         let mut order = order(scene.clone());
         let mut playback = computed(&order);
         playback.play(8e-3);
-        // Behind the motion, and ahead of it.
+        // Times before and after that of the motion.
         for t in [0.0, 1.8e-3, 7.3e-3, 9.1e-3] {
             order.cursor_s = Some(t);
             playback.apply(&order);
@@ -140,7 +140,7 @@ fn a_comparison_that_is_slow_catches_up_before_a_change_acts_on_both() {
     let mut order = order(scene);
     let mut playback = Playback::with_time_limit(order.clone(), Duration::MAX);
     playback.play(2e-3);
-    // Asked for late, and without time: one sample a call.
+    // The comparison is requested late and has no time: one sample per call.
     playback.time_limit = Duration::ZERO;
     order.compare = true;
     playback.apply(&order);
@@ -155,7 +155,7 @@ fn a_comparison_that_is_slow_catches_up_before_a_change_acts_on_both() {
     }
 }
 
-/// Returns the paper's scene over a millisecond, with both laws.
+/// Returns an order for the paper's scene over one millisecond, with both laws.
 fn short() -> Order {
     let mut scene = Scene::base();
     (scene.solver.step_s, scene.solver.end_s) = (1e-6, 1e-3);
@@ -214,7 +214,7 @@ fn pages_take_turns_with_the_run_ahead_and_wait_for_an_arrival() {
     playback.going = Some(1e-3);
     assert!(!playback.compute_page() && !playback.pages_are_done());
     playback.going = None;
-    // The run ahead has the first slice: its verdict is waited for.
+    // The full run has the first slice, because its verdict is wanted first.
     assert!(!playback.compute_page() && !playback.pages_are_done());
     while !playback.pages_are_done() {
         playback.compute();

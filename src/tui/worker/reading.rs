@@ -1,6 +1,6 @@
-//! The instant of the reading cursor, computed in slices, so that neither the playback nor the
-//! next order waits for it; and the copies of the motion from which any instant of the run can
-//! be computed again exactly.
+//! The state at the time of the cursor, computed in slices, so that neither the playback nor the
+//! next order waits for it; and the copies of the motion from which any time of the run can be
+//! recomputed exactly.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -8,17 +8,17 @@ use std::time::{Duration, Instant};
 use crate::tui::engine::Moment;
 use rubscope_solver::motion::Motion;
 
-/// The instant that is read.
+/// The state at the time of the cursor.
 #[derive(Debug, Default)]
 pub struct Reading {
     done: Option<Arc<Moment>>,
-    /// Instant to reach, and the motion on its way.
+    /// Target time, and the motion on its way there.
     under_way: Option<(f64, Motion)>,
 }
 
 impl Reading {
-    /// Begins another one, from a motion before it; the one before stays until
-    /// this one is done. None if there is nothing to read.
+    /// Starts the computation of a time, from a motion before it. The previous state stays until
+    /// the new one is complete. `None` removes it.
     pub fn begin(&mut self, from: Option<(f64, Motion)>) {
         if from.is_none() {
             self.done = None;
@@ -26,52 +26,52 @@ impl Reading {
         self.under_way = from;
     }
 
-    /// Computes for this much wall time at most.
+    /// Continues for at most `limit` of wall-clock time.
     pub fn go_on(&mut self, limit: Duration) {
         let Some((until, motion)) = &mut self.under_way else { return };
         let began = Instant::now();
         match motion.advance_while(*until, &|| began.elapsed() < limit) {
             Ok(true) => self.done = Some(Arc::new(Moment::of(motion))),
             Ok(false) => return,
-            // After a failure there is nothing to look at.
+            // A failed motion has no state to show.
             Err(_) => self.done = None,
         }
         self.under_way = None;
     }
 
-    /// Returns whether it is complete.
+    /// Returns whether no computation is under way.
     pub fn is_done(&self) -> bool {
         self.under_way.is_none()
     }
 
-    /// Returns the latest that is complete.
+    /// Returns the latest complete state.
     pub fn moment(&self) -> Option<Arc<Moment>> {
         self.done.clone()
     }
 }
 
-/// Most copies between changes; above, every second one goes.
+/// Largest number of copies besides those at changes; beyond it, every second one is dropped.
 const MOST: usize = 128;
-/// Most changes from outside that are remembered.
+/// Largest number of copies at changes.
 const MOST_CHANGES: usize = 500;
-/// Time between two copies at the start, in the length given.
+/// Initial time between two copies, as a fraction of the run.
 const PART: f64 = 1.0 / 64.0;
 
-/// The motion at some instants.
+/// Copies of the motion at some times.
 #[derive(Debug)]
 pub struct Copies {
-    /// In order of time; whether the motion was changed from outside just then.
+    /// In order of time; the flag marks copies made at a change of the motion.
     copies: Vec<(Motion, bool)>,
     spacing: f64,
 }
 
 impl Copies {
-    /// Creates the copies from the start of a motion of which `length` seconds matter.
+    /// Creates the copies for a motion of which the next `length` seconds matter.
     pub fn of(motion: &Motion, length: f64) -> Self {
         Self { copies: vec![(motion.clone(), true)], spacing: length * PART }
     }
 
-    /// Keeps a copy if the last one is old.
+    /// Adds a copy if the last one is older than the spacing.
     pub fn follow(&mut self, motion: &Motion) {
         let last = self.copies.last().map_or(f64::NEG_INFINITY, |(last, _)| last.t_s());
         if motion.t_s() - last < self.spacing {
@@ -88,7 +88,8 @@ impl Copies {
         }
     }
 
-    /// Records that the motion was changed from outside, which earlier copies do not have.
+    /// Adds a copy after a change of the motion and drops copies at or after that time, which lack
+    /// it.
     pub fn changed(&mut self, motion: &Motion) {
         let now = motion.t_s();
         self.copies.retain(|(copy, _)| copy.t_s() < now);
@@ -98,7 +99,7 @@ impl Copies {
         }
     }
 
-    /// Returns the last copy by `t`, to be advanced from there; none before what is remembered.
+    /// Returns the last copy at or before `t`; `None` if the copies of that time were dropped.
     pub fn before(&self, t: f64, now: &Motion) -> Option<Motion> {
         let copies = self.copies.iter().map(|(copy, _)| copy).chain([now]);
         copies.take_while(|copy| copy.t_s() <= t).last().cloned()

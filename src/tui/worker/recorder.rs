@@ -1,19 +1,20 @@
-//! Samples of a motion as bins of least and greatest values, and contact
-//! forces as means between snapshots.
+//! Records samples of a motion as bins of minimum and maximum values, and contact forces as means
+//! between snapshots.
 
 use crate::tui::history::{Bin, CHANNELS, MOST_BINS, thin};
 use rubscope_solver::model::Machine;
 use rubscope_solver::motion::{ActiveSet, ContactLog, Motion, State};
 
-/// Returns `z = (u_c + i u_s) exp(-i n_d theta)` \[m\], with `turned = n_d theta`.
+/// Returns the casing displacement in the frame of the blades, `z = (u_c + i u_s) exp(-i n_d
+/// theta)` \[m\], with `turned = n_d theta`.
 pub fn in_blade_frame(u: [f64; 2], turned: f64) -> [f64; 2] {
     let (sin, cos) = turned.sin_cos();
     [u[0] * cos + u[1] * sin, u[1] * cos - u[0] * sin]
 }
 
-/// Returns the casing as the tips of the blades see it, `w = z - kappa l_b a` \[m\]: the point in
-/// the polygon, with `turned = n_d theta`. It is `z` where tips do not move outward, and where the
-/// disk has other diameters, so that no one point stands for all blades.
+/// Returns the casing displacement relative to the tips, `w = z - kappa l_b a` \[m\]: the point in
+/// the polygon, with `turned = n_d theta`. It equals `z` without radial coupling, and if disk and
+/// casing have different nodal diameters, because then no single point represents all blades.
 pub fn rim_point(machine: &Machine, state: &State, turned: f64) -> [f64; 2] {
     let z = in_blade_frame(state.u, turned);
     let outward = machine.radial_coupling * machine.blade_length;
@@ -24,7 +25,7 @@ pub fn rim_point(machine: &Machine, state: &State, turned: f64) -> [f64; 2] {
     [z[0] - outward * a_c, z[1] - outward * a_s]
 }
 
-/// Records one motion.
+/// Bins and mean contact forces of one motion, as they are recorded.
 #[derive(Debug, Default)]
 pub struct Recorder {
     done: Vec<Bin>,
@@ -38,14 +39,13 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    /// Creates a record that begins where the motion is.
+    /// Creates an empty record that begins at the current time of a motion.
     pub fn from(motion: &Motion) -> Self {
         let log = motion.contacts();
         Self { impacts: log.impact_count, active_set: log.active_set, ..Self::default() }
     }
 
-    /// Records the motion as it is now, in this state; bins are closed after
-    /// `length` seconds.
+    /// Adds a sample of the motion in its current `state`; a bin is closed after `length` seconds.
     pub fn record(&mut self, motion: &mut Motion, state: &State, length: f64) {
         let forces = motion.take_mean_forces();
         let push: f64 = forces.iter().map(|(_, force)| -force).sum();
@@ -85,12 +85,12 @@ impl Recorder {
         }
     }
 
-    /// Returns the first and the last instant of contact since the last sample.
+    /// Returns the first and last time of contact since the previous sample.
     fn contact(&self, log: &ContactLog, from: f64, to: f64) -> Option<(f64, f64)> {
         let known = usize::try_from(self.impacts).unwrap_or(usize::MAX);
         let new = log.impact_count.saturating_sub(self.impacts);
         let impacts = || log.impacts.iter().skip(known).map(|impact| impact.t_s);
-        // Of impacts whose instants are not kept, only the sample is known.
+        // If the times of some impacts were not kept, the whole sample counts as contact.
         let unknown = usize::try_from(new).is_ok_and(|new| impacts().count() < new);
         let [was, is] = [self.active_set, log.active_set].map(|set| set != ActiveSet::Nothing);
         let ended = log.last_contact.filter(|t| *t > from && *t <= to);
@@ -118,19 +118,19 @@ impl Recorder {
         }
     }
 
-    /// Returns the closed bins since last asked.
+    /// Returns the bins closed since the last call.
     pub fn take_bins(&mut self) -> Vec<Bin> {
         std::mem::take(&mut self.done)
     }
 
-    /// Returns all bins, with the one that is open.
+    /// Returns all remaining bins, including the open one.
     pub fn finish(&mut self) -> Vec<Bin> {
         self.done.extend(self.open.take());
         self.take_bins()
     }
 
-    /// Returns the mean force on each side since the last call; the former means if the motion did
-    /// not move since.
+    /// Returns the mean force per side since the last call \[N\]; the previous means if the motion
+    /// has not advanced.
     pub fn mean_forces(&mut self) -> Vec<(u32, f64)> {
         if self.over > 0.0 {
             self.means = self.sums.iter().map(|(side, sum)| (*side, sum / self.over)).collect();

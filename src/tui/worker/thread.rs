@@ -1,6 +1,6 @@
-//! The worker thread: one slot with the latest order, one with the latest snapshot. Neither side
-//! waits for the other: a newer order replaces an older one, and a snapshot that was not taken
-//! is merged with the next.
+//! The worker thread: one slot for the latest order, one for the latest snapshot. Neither side
+//! waits for the other: a newer order replaces an older one, and a snapshot that was not taken is
+//! merged into the next.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -10,17 +10,17 @@ use crate::tui::engine::{Engine, Order, Snapshot, Waker};
 use crate::tui::history::{Bin, MOST_BINS, thin};
 use crate::tui::worker::Playback;
 
-/// Name of the thread: the panic hook leaves the screen alone for it.
+/// Name of the thread, by which the panic hook recognises it.
 pub const WORKER_NAME: &str = "rubscope-worker";
 
-/// Time between two readings of the clock while the motion plays.
+/// Time between two ticks while the motion plays.
 const TICK: Duration = Duration::from_millis(33);
 
 #[derive(Default)]
 struct Slots {
     order: Option<Order>,
     snapshot: Option<Snapshot>,
-    /// A frame was drawn since the thread last looked.
+    /// Whether a frame was drawn since the thread last checked.
     drawn: bool,
     quit: bool,
 }
@@ -32,24 +32,23 @@ struct Shared {
 }
 
 impl Shared {
-    /// Returns a poisoned lock contains plain values that are always replaced as a whole, so they
-    /// are valid.
+    /// Locks the slots. A panic cannot leave them half-written: each is replaced as a whole, so a
+    /// poisoned lock is safe to use.
     fn lock(&self) -> MutexGuard<'_, Slots> {
         self.slots.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-/// A handle on the thread; dropping it ends the thread at its next tick.
+/// Handle of the thread; dropping it ends the thread at its next tick.
 pub struct Worker {
     shared: Arc<Shared>,
 }
 
 impl Worker {
-    /// Starts the thread. `wake` is called when a first snapshot is ready
-    /// after the last one was taken.
+    /// Starts the thread. It calls `wake` when a snapshot is ready and the previous one was taken.
     ///
     /// # Errors
-    /// The system cannot start a thread.
+    /// Fails if the system cannot start a thread.
     pub fn spawn(wake: Waker) -> std::io::Result<Self> {
         let shared = Arc::new(Shared::default());
         let theirs = Arc::clone(&shared);
@@ -127,8 +126,8 @@ fn run(shared: &Shared, wake: &Waker) {
     }
 }
 
-/// Returns the next order, if there is one, and whether a frame was drawn; waits when there is
-/// nothing to do. None if the thread must end.
+/// Returns the next order, if any, and whether a frame was drawn; waits if there is nothing to do.
+/// `None` ends the thread.
 fn next_order(shared: &Shared, busy: bool, playing: bool) -> Option<(Option<Order>, bool)> {
     let mut slots = shared.lock();
     if slots.order.is_none() && !slots.quit && !busy {
@@ -168,7 +167,7 @@ fn publish(shared: &Shared, mut snapshot: Snapshot, wake: &Waker) {
     }
 }
 
-/// Runs `work`; a panic comes back as a line of text.
+/// Runs `work` and turns a panic into one line of text.
 fn catch_panic<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(work)).map_err(|payload| {
         let what = payload
@@ -202,7 +201,7 @@ mod tests {
         for turn in 0..20 {
             worker.order(&order(400.0 + f64::from(turn), u64::from(turn as u32)));
         }
-        // A long limit, not a speed test: the last order must arrive.
+        // The limit is generous, because only the arrival of the last order is tested.
         for _ in 0..60_000 {
             if let Some(snapshot) = worker.take()
                 && snapshot.generation == 19

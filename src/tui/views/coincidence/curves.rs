@@ -1,35 +1,35 @@
-//! What view 9 draws: over a range of speeds around both coincidences, how fast a
-//! small wave grows and how large it becomes, in closed form (docs/theory.md,
-//! section 10).
+//! The curves of view 9: growth rate of a small wave and amplitude of the limit cycle, over a speed
+//! range around both coincidences (docs/theory.md, section 10). They are closed forms, except on a
+//! lining, where each point is a search.
 
 use crate::tui::axis::nice_step;
 use rubscope_solver::harmonic::{CoincidencePoint, coincidence, shifted_coincidence};
 use rubscope_solver::model::{Initial, Machine};
 use rubscope_solver::scene::{ModelSize, Scene, SolverChoice, View};
 
-/// Speeds over the whole range, and around each coincidence.
+/// Number of speeds over the whole range, and around each coincidence.
 const POINTS: u32 = 121;
 const POINTS_NEAR: u32 = 81;
-/// How far around, in parts of the coincidence.
+/// Half width of the finely sampled range around a coincidence, relative to it.
 const NEAR: f64 = 0.15;
-/// How far the range reaches beyond both coincidences.
+/// Margin of the speed range beyond the outermost marked speeds, relative to them.
 const BEYOND: f64 = 0.25;
 
-/// The curves of one scene.
+/// Growth and amplitude of the wave over speed, for one scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CoincidenceCurves {
-    /// The range of speeds \[rad/s\].
+    /// Lower end of the speed range \[rad/s\].
     pub from: f64,
-    /// Its end.
+    /// Upper end of the speed range \[rad/s\].
     pub to: f64,
-    /// Marked speeds and their names, the slowest first \[rad/s\].
+    /// Marked speeds in ascending order \[rad/s\], with their labels.
     pub markers: Vec<(f64, &'static str)>,
-    /// The points, in order of speed; speeds of a rotor that turns backward are below 0.
+    /// Points in order of |speed|; speeds are negative if the rotor turns backward.
     pub points: Vec<CoincidencePoint>,
 }
 
 impl CoincidenceCurves {
-    /// The curves of a scene; none where the wave has no coincidence.
+    /// Computes the curves of a scene; `None` if the wave has no coincidence.
     pub fn of(scene: &Scene) -> Option<Self> {
         let machine = scene.machine();
         let markers = markers(scene, &machine);
@@ -46,7 +46,8 @@ impl CoincidenceCurves {
         Some(Self { from, to, markers, points: points(scene, &speeds) })
     }
 
-    /// A scene without what these curves do not depend on, to know whether they are old.
+    /// Returns the scene without everything that does not affect the curves. Equal keys mean that
+    /// computed curves are still valid.
     pub fn key(scene: &Scene) -> Scene {
         let mut key = scene.clone();
         let machine = scene.machine();
@@ -71,13 +72,13 @@ fn at_rest(scene: &Scene) -> Scene {
     scene
 }
 
-/// Speeds from one to another, with the same steps.
+/// Returns `count` equally spaced speeds.
 fn even(from: f64, to: f64, count: u32) -> Vec<f64> {
     let step = (to - from) / f64::from(count - 1);
     (0..count).map(|k| from + f64::from(k) * step).collect()
 }
 
-/// Both coincidences, and where blades rub at rest that of the machine on its lining.
+/// Returns both coincidences, and that of the machine on its lining if the blades rub at rest.
 fn markers(scene: &Scene, machine: &Machine) -> Vec<(f64, &'static str)> {
     let differences = machine.coincidence_differences().into_iter();
     let mut markers: Vec<_> = differences.map(|speed| (speed, "coincidence (30)")).collect();
@@ -89,7 +90,7 @@ fn markers(scene: &Scene, machine: &Machine) -> Vec<(f64, &'static str)> {
     markers
 }
 
-/// A round range of speeds around the marked ones and the present one.
+/// Returns a rounded speed range around the marked speeds and the current one.
 fn range(scene: &Scene, markers: &[(f64, &'static str)]) -> Option<(f64, f64)> {
     let present = Some(scene.operation.speed_rad_s.abs()).filter(|speed| *speed > 0.0);
     let of_interest = || markers.iter().map(|(speed, _)| *speed).chain(present);
@@ -101,8 +102,8 @@ fn range(scene: &Scene, markers: &[(f64, &'static str)]) -> Option<(f64, f64)> {
     Some((low.max(0.0), ((1.0 + BEYOND) * high / step).ceil() * step))
 }
 
-/// The point at every speed, of the blades that the model of the scene has; empty where
-/// no one wave goes round.
+/// Computes the point at every speed for the blade model of the scene. Speeds without a solution
+/// are left out; the result is empty if the disk has other nodal diameters than the casing.
 pub fn points(scene: &Scene, speeds: &[f64]) -> Vec<CoincidencePoint> {
     let mut scene = scene.clone();
     match scene.solver.model {
@@ -110,7 +111,7 @@ pub fn points(scene: &Scene, speeds: &[f64]) -> Vec<CoincidencePoint> {
         ModelSize::Full => scene.bladed_disk.nodal_diameters = 0,
         ModelSize::Modal => {}
     }
-    // A speed without an answer leaves a hole.
+    // A speed without a solution leaves a gap in the curve.
     let at = |speed: &f64| coincidence(&scene, &[*speed]).ok()?.first().copied();
     speeds.iter().filter_map(at).collect()
 }

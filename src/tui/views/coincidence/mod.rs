@@ -1,6 +1,6 @@
-//! View 9: what a coincidence does to blades that touch: the amplitude of the wave
-//! that lasts against speed, with both coincidences and the running motion, and how fast
-//! rest grows into it.
+//! View 9: the effect of a coincidence on blades in contact. It shows the amplitude of the limit
+//! cycle over speed, both coincidence speeds, the running motion, and the growth rate of a small
+//! wave.
 
 pub mod curves;
 
@@ -24,7 +24,6 @@ use rubscope_solver::harmonic::CoincidencePoint;
 use rubscope_solver::motion::ActiveSet;
 use rubscope_solver::scene::ModelSize;
 
-/// The view.
 pub struct CoincidenceView;
 
 impl ViewPanel for CoincidenceView {
@@ -47,7 +46,7 @@ impl ViewPanel for CoincidenceView {
         }
     }
 
-    /// The present speed.
+    /// Puts the cursor at the current speed.
     fn here(&self, app: &App) -> Cursor {
         let curves = app.results().found.coincidence.as_deref().and_then(Option::as_ref);
         let across = curves
@@ -62,10 +61,10 @@ impl ViewPanel for CoincidenceView {
     }
 }
 
-/// A quantity against speed.
+/// A quantity that is drawn over speed.
 struct Quantity {
     name: &'static str,
-    /// What the curve is called.
+    /// Symbol of the curve in the legend.
     curve: &'static str,
     unit: &'static str,
     of: fn(&CoincidencePoint) -> Option<f64>,
@@ -137,7 +136,7 @@ fn chart(
     }
 }
 
-/// Lines above the chart; returns the rest.
+/// Prints a text above the chart if it is short enough; returns the rest of the area.
 fn tell(app: &App, buffer: &mut Buffer, inside: Rect, text: &str, role: Role) -> Rect {
     let look = &app.appearance;
     let most = usize::from(inside.height / 5).clamp(1, 3);
@@ -148,7 +147,7 @@ fn tell(app: &App, buffer: &mut Buffer, inside: Rect, text: &str, role: Role) ->
     lines_above(app, buffer, inside, &lines, role)
 }
 
-/// What the curve says, in one sentence.
+/// Summarises the curves in one sentence.
 fn sentence(app: &App, curves: &CoincidenceCurves) -> String {
     let waves = curves.points.iter().filter(|point| point.blade_amplitude_rad.is_some());
     let mut speeds = waves.map(|point| point.speed_rad_s.abs());
@@ -179,7 +178,7 @@ fn sentence(app: &App, curves: &CoincidenceCurves) -> String {
     app.tuned_note().map_or(what.clone(), |note| format!("{what} ({note})"))
 }
 
-/// The values at one speed, solved there.
+/// Describes the wave at one speed, solved for that speed.
 fn reading(app: &App, speed: f64) -> String {
     let speed = speed.copysign(app.speed());
     let at = format!("at {}: ", readable(speed, "rad/s"));
@@ -205,7 +204,7 @@ fn reading(app: &App, speed: f64) -> String {
     at + &parts.join(", ")
 }
 
-/// Amplitude of the blades in the running motion while something touches \[rad\].
+/// Returns the blade amplitude of the running motion during contact \[rad\].
 fn now(app: &App) -> Option<f64> {
     let moment = app.run.latest.moment.as_ref()?;
     let [a_c, a_s] = moment.state.alpha;

@@ -1,6 +1,6 @@
-//! View 4: the bladed disk as a wheel in the frame of the blades, inside the casing, whose lobes
-//! are magnified by a stated factor; and where there is room the casing wave as a point in the
-//! same frame, inside the polygon of phase groups, with its trail.
+//! View 4: the bladed disk as a wheel, in the frame of the blades and inside the casing, with gaps
+//! magnified by a stated factor. If there is room, the casing wave is also drawn as a point with
+//! its trail, inside the polygon of the phase groups.
 
 use std::f64::consts::TAU;
 
@@ -20,10 +20,9 @@ use crate::tui::worker::{in_blade_frame, rim_point};
 use rubscope_solver::model::SideLeft;
 use rubscope_solver::motion::ActiveSet;
 
-/// Least width at which the polygon is beside the wheel where nothing else is shown.
+/// Width from which the polygon is drawn beside the wheel, if the view is alone on the screen.
 const BOTH_FROM: u16 = 76;
 
-/// The view.
 pub struct FrameView;
 
 impl ViewPanel for FrameView {
@@ -37,15 +36,16 @@ impl ViewPanel for FrameView {
         }
     }
 
-    /// Returns the trail is among the columns of the response.
+    /// Exports the same CSV as the response view, which includes the trail (`z`).
     fn csv(&self, app: &App) -> Result<String, String> {
         ResponseView.csv(app)
     }
 }
 
-/// Returns a square of half side `reach` fitted into an area of cells twice as high as wide.
+/// Returns axes with equal scales that include a square of half side `reach`; cells are twice as
+/// high as wide.
 fn square(area: Rect, reach: f64) -> (ChartAxis, ChartAxis) {
-    // The labels take about six columns and two rows.
+    // The labels need about six columns and two rows.
     let (width, height) = (
         f64::from(area.width.saturating_sub(6).max(1)),
         2.0 * f64::from(area.height.saturating_sub(2).max(1)),
@@ -58,8 +58,7 @@ fn square(area: Rect, reach: f64) -> (ChartAxis, ChartAxis) {
     (ChartAxis::scaled(-x, x), ChartAxis::scaled(-y, y))
 }
 
-/// Returns the place under the reading cursor, and how far the nearest blade is from it where
-/// blades are rigid.
+/// Describes the position under the cursor: the nearest blade group and its gap, for rigid blades.
 fn reading(app: &App, x: ChartAxis, y: ChartAxis, apothems: &[f64]) -> Option<String> {
     let cursor = app.cursor_in(ViewId::Frame)?;
     let (x, y) = (x.at(cursor.across), y.at(cursor.up));
@@ -74,18 +73,18 @@ fn reading(app: &App, x: ChartAxis, y: ChartAxis, apothems: &[f64]) -> Option<St
     Some(format!("{gap}{to} {blade} at {}, {}", readable(x, "m"), readable(y, "m")))
 }
 
-/// Returns what the point is: the casing, as the tips of the blades see it.
+/// Returns the symbol of the point: the casing displacement `z`, or `w` relative to the tips.
 fn named(app: &App) -> &'static str {
     let machine = &app.machine;
     match machine.radial_coupling == 0.0 {
         true => "z",
         false if machine.blade_diameters == machine.nodal_diameters => "w",
-        // No one point stands for all blades.
+        // With different nodal diameters no single point represents all blades.
         false => "z, blades not bent",
     }
 }
 
-/// Returns which sides touch at the instant that is shown. In a lining the gaps say it.
+/// Returns a test whether a side is in contact at the time shown. With a lining, the gaps decide.
 fn touching_sides(app: &App) -> impl Fn(u32) -> bool {
     let polygon = &app.machine.polygon;
     let active_set = app.shown().map_or(ActiveSet::Nothing, |moment| moment.active_set);
@@ -111,7 +110,7 @@ fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let apothems: Vec<f64> = sides.map(|side| app.machine.apothem_at(side, turned)).collect();
     let mut left = polygon.sides_left(&apothems);
     if left.is_empty() {
-        // No place has every gap open: a side is where its blade lifts off.
+        // No position leaves every gap open, so each side is drawn where its own blade lifts off.
         let inside = if app.is_pressed() { "inside all rub" } else { "some rub everywhere" };
         legend.insert(1, (inside.into(), look.style(Role::Text)));
         let whole = |(side, apothem): (u32, &f64)| {
@@ -128,7 +127,7 @@ fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let outline = Pen { dashed: false, ..look.quiet() };
     let touched = Pen { style: look.style(Role::Contact), sign: '#', dashed: false };
     let touching = touching_sides(app);
-    // An unbounded side is drawn as far as the chart reaches.
+    // An unbounded side is drawn up to the edge of the chart.
     let most = 20.0 * polygon.clearance.abs();
     for pass in [false, true] {
         for SideLeft { side, reach, .. } in left.iter().filter(|left| touching(left.side) == pass) {
@@ -153,26 +152,27 @@ fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
     }
 }
 
-/// The clearance at rest, in radii of the wheel.
+/// Clearance at rest, in radii of the wheel.
 const CLEARANCE: f64 = 0.16;
-/// The largest wave of the wheel, in clearances.
+/// Largest wave that fits the wheel at the usual magnification, in clearances.
 const MOST: f64 = 1.2;
-/// Inner end of the blades, in radii.
+/// Radius of the inner ends of the blades, relative to the wheel.
 const HUB: f64 = 0.5;
-/// Points of the casing outline.
+/// Number of points of the casing outline.
 const OUTLINE: u32 = 240;
-/// Radii at which the numbers of touching blades can stand: in the hub, which has no data.
+/// Radii at which the numbers of touching blades may be printed: within the hub, where nothing is
+/// drawn.
 const NUMBERS: [f64; 3] = [0.76 * HUB, 0.5 * HUB, 0.3 * HUB];
-/// Most numbers.
+/// Largest number of blade numbers printed.
 const MOST_NUMBERS: usize = 8;
 
-/// Draws the wheel.
+/// Draws the disk and the casing as a wheel.
 fn wheel(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let machine = &app.machine;
     let polygon = &machine.polygon;
-    // A wave that passes the clearance is less magnified, so that it stays on the chart.
-    // So do the longest blade and the highest lobe.
+    // A wave larger than the clearance, the longest blade and the highest lobe reduce the
+    // magnification, so that they stay on the chart.
     let most = (app.run.ranges.rim.high / MOST).max(machine.most_uneven());
     let unit = polygon.clearance.abs().max(most).max(f64::MIN_POSITIVE);
     let exaggeration = CLEARANCE * app.scene.bladed_disk.blade_length_m / unit;
@@ -203,7 +203,7 @@ fn wheel(app: &App, buffer: &mut Buffer, at: ViewArea) {
         let radius = 1.0 + CLEARANCE * gap;
         (radius * angle.cos(), radius * angle.sin())
     });
-    // A tip that moves outward meets the casing there.
+    // With radial coupling the tips move outward, and meet the casing there.
     let outward = machine.radial_coupling * machine.blade_length * CLEARANCE / unit;
     let angle_of = |blade: u32| TAU * f64::from(blade - 1) / f64::from(polygon.blades);
     let tip = |blade: u32| {
@@ -224,7 +224,7 @@ fn wheel(app: &App, buffer: &mut Buffer, at: ViewArea) {
     };
     let blades = Pen { style: look.style(Role::Text), sign: '.', dashed: false };
     let touched = Pen { style: look.style(Role::Contact), sign: '#', dashed: false };
-    // Spokes closer than a cell cannot be distinguished.
+    // Spokes closer than a cell would merge.
     let all = polygon.blades <= u32::from(inside.width) * 2;
     let touches = |blade: u32| touching.contains(&blade);
     for blade in (1..=polygon.blades).filter(|blade| all && !touches(*blade)) {
@@ -239,7 +239,7 @@ fn wheel(app: &App, buffer: &mut Buffer, at: ViewArea) {
         let [x, y] = tip(*blade);
         plot.point(x, y, mark, look.style(Role::Contact));
     }
-    // The names of nearly all say nothing.
+    // If most blades touch, their numbers say nothing useful.
     let named = if 2 * touching.len() > polygon.blades as usize { &[][..] } else { &touching };
     for blade in named.iter().copied().take(MOST_NUMBERS) {
         let (sin, cos) = angle_of(blade).sin_cos();
@@ -252,7 +252,7 @@ fn wheel(app: &App, buffer: &mut Buffer, at: ViewArea) {
     }
 }
 
-/// Returns the blade next to the reading cursor, its gap, and the instant that is read.
+/// Describes the blade nearest to the cursor: number, gap, and the time if the cursor has one.
 fn blade_read(app: &App, x: ChartAxis, y: ChartAxis, cursor: Cursor) -> Option<String> {
     let moment = app.shown()?;
     let blades = app.machine.polygon.blades;

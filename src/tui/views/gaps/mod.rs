@@ -1,5 +1,5 @@
-//! View 2: the gap of every blade at one instant, over the fixed zero line of the casing.
-//! Blades in contact have a mark and their number.
+//! View 2: the gap of every blade at one time, above the zero line of the casing. Blades in contact
+//! are marked and numbered.
 
 use ratatui::buffer::Buffer;
 
@@ -12,7 +12,6 @@ use crate::tui::theme::Role;
 use crate::tui::views::ViewId;
 use crate::tui::views::panel::{ViewArea, ViewPanel, csv, name_level, read_before, title};
 
-/// The view.
 pub struct GapsView;
 
 impl ViewPanel for GapsView {
@@ -41,7 +40,7 @@ impl ViewPanel for GapsView {
         plot.level(app.machine.clearance(), look.either('┈', '.'), quiet);
         let Some(moment) = app.shown() else { return };
         let gaps = || (1..=count).map(f64::from).zip(moment.gaps.iter().copied());
-        // There are no values between blades: the line only joins the points.
+        // There are no values between blades; the line only joins the points.
         if app.is_still() || count > u32::from(plot.inner.width) {
             plot.curve(gaps(), &Pen { dashed: false, ..look.quiet() });
             plot.ink();
@@ -55,12 +54,12 @@ impl ViewPanel for GapsView {
             }
         }
         if app.has_lining() {
-            // What the level means must be said where it can be below the other.
+            // With a lining the level of the clearance can be below zero, so it needs a label.
             name_level(&mut plot, x, app.machine.clearance(), "g0", quiet);
         }
         let deep = |blade: u32| moment.gaps.get(blade.saturating_sub(1) as usize).copied();
         for blade in &active_set {
-            // A rigid casing is touched at zero, a lining somewhere inside.
+            // Contact with a rigid casing is at zero, with a lining at some depth.
             let gap = deep(*blade).filter(|_| app.has_lining()).unwrap_or(0.0);
             plot.point(f64::from(*blade), gap.clamp(range.low, range.high), mark, contact);
         }
@@ -89,13 +88,13 @@ impl ViewPanel for GapsView {
     }
 }
 
-/// Returns the blade under the reading cursor, from 0.
+/// Returns the index of the blade under the cursor.
 fn read_blade(app: &App) -> Option<u32> {
     let cursor = app.cursor_in(ViewId::Gaps)?;
     Some(cell_of(cursor.across, app.machine.polygon.blades))
 }
 
-/// Returns the blade under the reading cursor, its gap, and the instant that is read.
+/// Describes the blade under the cursor: number, gap, and the time if the cursor has one.
 fn reading(app: &App) -> Option<String> {
     let moment = app.shown()?;
     let blade = read_blade(app).and_then(|blade| {
@@ -107,7 +106,8 @@ fn reading(app: &App) -> Option<String> {
     (!parts.is_empty()).then(|| parts.join(" "))
 }
 
-/// Numbers of the touching blades on the axis, or under the zero line where it is empty.
+/// Prints the numbers of the touching blades on the axis, or below the zero line where that is
+/// free.
 fn label(plot: &mut Plot, active_set: &[u32], app: &App) {
     if app.has_lining() && 2 * active_set.len() > app.machine.polygon.blades as usize {
         return;

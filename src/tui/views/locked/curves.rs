@@ -1,6 +1,5 @@
-//! What view 3 draws over a round range of speeds: the locked motion, from the
-//! harmonic balance with and without damping, and beyond the paper the push of the
-//! whirl that can last instead.
+//! The curves of view 3 over a rounded speed range: the locked motion from the harmonic balance,
+//! with and without damping, and, with radial coupling, the multiplier of the stable whirl.
 
 use crate::tui::axis::nice_step;
 use rubscope_solver::harmonic::{
@@ -9,36 +8,36 @@ use rubscope_solver::harmonic::{
 use rubscope_solver::model::Machine;
 use rubscope_solver::scene::{ContactLaw, ModelSize, Scene};
 
-/// Speeds of one curve.
+/// Number of speeds per curve.
 const POINTS: u32 = 161;
 
 /// Multipliers over speed of one machine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LockedCurves {
-    /// The end of the speed range, which begins at 0 \[rad/s\].
+    /// End of the speed range, which begins at 0 \[rad/s\].
     pub fastest: f64,
-    /// With the damping of the scene; none where there is no locked motion.
+    /// With the damping of the scene; `None` if there is no locked motion.
     pub damped: Option<Sweep>,
-    /// Without damping, as in the paper; none for a machine without damping.
+    /// Without damping, as in the paper; `None` if the machine has none anyway.
     pub undamped: Option<Sweep>,
-    /// Mean multiplier of the whirl that lasts on a rim of many blades, below 0 for a
-    /// push \[N\], against speed \[rad/s\]. Empty for the paper's machine, on a lining,
-    /// and of unequal tips or a casing out of round, of which it is not known.
+    /// Mean multiplier \[N\] of the stable whirl over speed \[rad/s\]; negative pushes. Computed in
+    /// the limit of many blades. Empty without radial coupling, with a lining, and for unequal tips
+    /// or a casing out of round, where no closed form is known.
     pub whirl: Vec<(f64, f64)>,
-    /// The scales hold the values up to this speed: joined to the blades, the casing has
-    /// a resonance of the lock further on \[rad/s\].
+    /// Speed up to which the scales include the values; beyond it the locked motion can have a
+    /// resonance of casing and blades, which would flatten the rest \[rad/s\].
     pub scaled_to: f64,
-    /// The marked speeds and their names, slowest first \[rad/s\].
+    /// Marked speeds in ascending order \[rad/s\], with their labels.
     pub marks: Vec<(f64, &'static str)>,
 }
 
 impl LockedCurves {
-    /// The curves of a scene's machine.
+    /// Computes the curves of a scene.
     pub fn of(scene: &Scene) -> Self {
         let machine = scene.machine();
         let fastest = speed_range(scene);
         let step = fastest / f64::from(POINTS - 1);
-        // A rotor that turns backwards has its own locked motion; it is drawn over |Ω|.
+        // A rotor that turns backward has its own locked motion, drawn over |Ω|.
         let sense = scene.operation.speed_rad_s.signum();
         let speeds: Vec<f64> = (0..POINTS).map(|k| sense * f64::from(k) * step).collect();
         let open = machine.clearance_at_rest() > 0.0;
@@ -58,13 +57,13 @@ impl LockedCurves {
 }
 
 impl LockedCurves {
-    /// Whether the scales hold the values at a speed \[rad/s\].
+    /// Returns whether the scales include the values at a speed \[rad/s\].
     pub fn scales(&self, speed: f64) -> bool {
         speed.abs() <= self.scaled_to
     }
 }
 
-/// The push of the whirl at every speed that has one.
+/// Returns the multiplier of the stable whirl at every speed that has one.
 fn whirl(scene: &Scene, machine: &Machine, speeds: &[f64]) -> Vec<(f64, f64)> {
     let open = machine.clearance_at_rest() > 0.0;
     let rigid = scene.solver.contact != ContactLaw::Smooth && open;
@@ -80,13 +79,13 @@ fn whirl(scene: &Scene, machine: &Machine, speeds: &[f64]) -> Vec<(f64, f64)> {
     speeds.iter().filter_map(push).collect()
 }
 
-/// Whether the tips of blades that can move drive the casing.
+/// Returns whether flexible blades with radial coupling can drive the casing.
 fn is_coupled(scene: &Scene) -> bool {
     scene.bladed_disk.radial_coupling != 0.0 && scene.solver.model != ModelSize::Rigid
 }
 
-/// The threshold speeds of a scene; beyond the paper a lock has an upper one, too, and
-/// flutters above another.
+/// Returns the threshold speeds of a scene. With radial coupling a lock also has an upper
+/// threshold, and a flutter speed.
 fn marks(scene: &Scene, machine: &Machine) -> Vec<(f64, &'static str)> {
     let toward = scene.operation.speed_rad_s;
     let window = lock_window(machine, toward);
@@ -102,14 +101,14 @@ fn marks(scene: &Scene, machine: &Machine) -> Vec<(f64, &'static str)> {
     .filter_map(|(speed, name)| Some((speed?, name)))
     .collect();
     if machine.locks_from_critical_speed() {
-        // The two thresholds are one.
+        // Both thresholds coincide.
         marks.retain(|(_, name)| *name != "Ω_lock");
     }
     marks.sort_by(|a, b| a.0.total_cmp(&b.0));
     marks
 }
 
-/// Just beyond the lock and the present speed, where tips move outward.
+/// Returns a speed slightly above the lock speeds and the current one, with radial coupling.
 fn scaled_to(scene: &Scene, machine: &Machine) -> Option<f64> {
     if machine.radial_coupling == 0.0 {
         return None;
@@ -119,19 +118,19 @@ fn scaled_to(scene: &Scene, machine: &Machine) -> Option<f64> {
     Some(BESIDE * ends.map(|(speed, _)| speed).fold(present, f64::max))
 }
 
-/// How far beyond them.
+/// The scales include the values up to 5 % past the last marked speed.
 const BESIDE: f64 = 1.05;
-/// How far the range goes for the end of a lock, in parts of what is of interest
+/// The range extends to a lock's upper threshold if that is at most this many times the range
 /// without it.
 const FURTHER: f64 = 1.6;
 
-/// A round speed above every threshold and the present speed \[rad/s\].
+/// Returns a rounded speed above the thresholds and the current speed \[rad/s\].
 pub fn speed_range(scene: &Scene) -> f64 {
     let machine = scene.machine();
     let of_interest =
         [machine.lock_speed(), machine.dangerous_speed(), Some(scene.operation.speed_rad_s.abs())];
     let most = of_interest.into_iter().flatten().filter(|s| s.is_finite()).fold(1.0, f64::max);
-    // The end of a lock can be far away.
+    // The upper end of a lock can be far away.
     let ends = marks(scene, &machine).into_iter().map(|(speed, _)| speed);
     let most = ends.filter(|speed| *speed <= FURTHER * most).fold(most, f64::max);
     let step = nice_step(most * 1.1, 6).unwrap_or(most);
@@ -151,7 +150,7 @@ mod tests {
         let last = *curves.damped.unwrap().points.last().unwrap();
         let closed = machine.locked_multipliers(curves.fastest).unwrap();
         for (lambda, exact) in last.multipliers_n.iter().zip(closed) {
-            // Flexible blades change a multiplier by parts in a million.
+            // Flexible blades change a multiplier by a few parts in a million.
             assert!((lambda - exact).abs() < 1e-4 * exact.abs(), "{lambda} {exact}");
         }
     }
@@ -163,16 +162,16 @@ mod tests {
         scene.bladed_disk.radial_coupling = 0.3;
         let curves = LockedCurves::of(&scene);
         let mark = |name| curves.marks.iter().find(|(_, known)| *known == name).unwrap().0;
-        // The window of docs/theory.md, section 13.
+        // The values of docs/theory.md, section 13.
         assert!((mark("Ω_lock") - 472.117).abs() < 1e-3, "{:?}", curves.marks);
         assert!((mark("lock ends") - 566.259).abs() < 1e-3, "{:?}", curves.marks);
         assert!(curves.fastest > 566.259);
-        // The fold where whirl begins, within one step of the speeds.
+        // The fold at which the whirl begins, within one step of the speeds.
         let step = curves.fastest / f64::from(POINTS - 1);
         let first = curves.whirl.first().unwrap().0;
         assert!((414.3 - 0.1..414.3 + step + 0.1).contains(&first), "{first}");
         assert!(curves.whirl.iter().all(|(_, push)| *push < 0.0));
-        // Rigid blades do not drive it.
+        // Rigid blades cannot drive the whirl.
         scene.solver.model = ModelSize::Rigid;
         assert!(LockedCurves::of(&scene).whirl.is_empty());
     }

@@ -1,10 +1,6 @@
-//! View 3: the multipliers of the locked motion against speed, the speeds
-//! of the thresholds, the present speed, and the forces of the running motion;
-//! blade angles and amplitudes below if there is room.
-//!
-//! The charts of view 3 below the multipliers: blade angles and amplitudes of
-//! the locked motion over the same speeds (the paper's Fig. 10), and the values
-//! of all of them at one speed.
+//! View 3: the multipliers of the locked motion over speed, with threshold speeds, the current
+//! speed, and the forces of the running motion. If there is room, blade angles and amplitudes
+//! follow below over the same speeds (the paper's Fig. 10).
 
 pub mod curves;
 
@@ -27,12 +23,11 @@ use crate::tui::views::panel::{
 use rubscope_solver::harmonic::{Form, LockedPoint, Sweep, lock_windows, locked_motion};
 use rubscope_solver::motion::{ActiveSet, Verdict};
 
-/// From this height on, the large chart shows the undamped curve of the paper too.
+/// Height from which the large chart also shows the undamped curve of the paper.
 const ROOMY: u16 = 14;
-/// Most rows of what the reading cursor reads.
+/// Largest number of rows for the values at the cursor.
 const READ_ROWS: usize = 3;
 
-/// The view.
 pub struct LockedView;
 
 impl ViewPanel for LockedView {
@@ -58,7 +53,7 @@ impl ViewPanel for LockedView {
         }
     }
 
-    /// The present speed.
+    /// Puts the cursor at the current speed.
     fn here(&self, app: &App) -> Cursor {
         let fastest = app.results().found.locked.as_ref().map_or(1.0, |curves| curves.fastest);
         Cursor { across: (app.speed().abs() / fastest).clamp(0.0, 1.0), up: 0.5 }
@@ -75,13 +70,13 @@ impl ViewPanel for LockedView {
     }
 }
 
-/// The chart of the multipliers.
+/// Draws the multipliers.
 fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let quiet = look.style(Role::Quiet);
     let curves = app.results().found.locked.as_deref();
     let roomy = at.large && at.area.height >= ROOMY;
-    // Without damping equal tips push equally.
+    // Without damping, equal tips have equal multipliers: one curve is enough.
     let uneven = app.machine.has_unequal_tips();
     let pair = uneven || curves.is_some_and(|curves| curves.undamped.is_some());
     let point = look.either('◆', '@');
@@ -132,7 +127,7 @@ fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
         return;
     };
     let inside = if at.large { read(app, curves, buffer, inside) } else { inside };
-    // The scale follows the curves: the mean over an impact may be far outside.
+    // The scale follows the curves, because the mean force over an impact can be far outside.
     let y = force_axis(curves, damped).evened(inside, look);
     let x = ChartAxis::speeds(0.0, curves.fastest);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
@@ -163,7 +158,7 @@ fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
     name_speeds(&mut plot, &curves.marks, app);
 }
 
-/// The axis of the forces of locks and whirls.
+/// Returns the force axis, scaled to locks and whirls.
 fn force_axis(curves: &LockedCurves, damped: &Sweep) -> ChartAxis {
     let points = damped.points.iter().filter(|point| curves.scales(point.speed_rad_s));
     let whirl = curves.whirl.iter().filter(|(speed, _)| curves.scales(*speed));
@@ -171,7 +166,7 @@ fn force_axis(curves: &LockedCurves, damped: &Sweep) -> ChartAxis {
     ChartAxis::around(locks.chain(whirl.map(|(_, push)| *push)))
 }
 
-/// What the reading cursor reads, above the chart; returns the rest.
+/// Prints the values at the cursor above the chart; returns the rest of the area.
 fn read(app: &App, curves: &LockedCurves, buffer: &mut Buffer, inside: Rect) -> Rect {
     let look = &app.appearance;
     let Some(speed) = cursor_speed(app, curves) else { return inside };
@@ -182,7 +177,7 @@ fn read(app: &App, curves: &LockedCurves, buffer: &mut Buffer, inside: Rect) -> 
     lines_above(app, buffer, inside, &lines, Role::Focus)
 }
 
-/// The threshold speeds, the present speed and the reading cursor.
+/// Draws the threshold speeds, the current speed and the cursor as vertical lines.
 fn uprights(plot: &mut Plot, app: &App, curves: &LockedCurves) {
     panel::uprights(plot, app, &curves.marks, cursor_speed(app, curves));
 }
@@ -193,7 +188,7 @@ fn curve(plot: &mut Plot, sweep: &Sweep, place: usize, pen: &Pen) {
     plot.curve(sweep.points.iter().filter_map(lambda), pen);
 }
 
-/// Mean multipliers of the running motion, while something touches.
+/// Returns the mean multipliers of the running motion during contact \[N\].
 fn running(app: &App) -> Vec<f64> {
     let Some(moment) = &app.run.latest.moment else { return Vec::new() };
     if moment.active_set == ActiveSet::Nothing {
@@ -202,20 +197,20 @@ fn running(app: &App) -> Vec<f64> {
     moment.multipliers.iter().map(|(_, force)| *force).filter(|force| force.is_finite()).collect()
 }
 
-/// A force in few characters.
+/// Formats a force in few characters.
 fn short(force: f64) -> String {
     if force.abs() < 1e4 { format!("{force:.0}") } else { format!("{:.0}k", force / 1e3) }
 }
 
-/// A quantity of the locked motion.
+/// Symbol and value of a quantity of the locked motion.
 type Quantity = (&'static str, fn(&LockedPoint) -> f64);
 
-/// One chart.
+/// A chart of quantities over speed.
 pub struct Chart {
     name: &'static str,
     unit: &'static str,
     quantities: &'static [Quantity],
-    /// What is said about those that are not drawn.
+    /// Remark in the legend about quantities that are not drawn.
     note: &'static str,
 }
 
@@ -236,7 +231,6 @@ pub const AMPLITUDES: Chart = Chart {
 };
 
 impl Chart {
-    /// Draws it.
     pub fn draw(&self, app: &App, curves: &LockedCurves, buffer: &mut Buffer, at: ViewArea) {
         let look = &app.appearance;
         let quiet = look.style(Role::Quiet);
@@ -269,13 +263,13 @@ impl Chart {
     }
 }
 
-/// The speed under the reading cursor \[rad/s\].
+/// Returns the speed under the cursor \[rad/s\].
 pub fn cursor_speed(app: &App, curves: &LockedCurves) -> Option<f64> {
     let here = app.view() == crate::tui::views::ViewId::Locked;
     app.reading.cursor.filter(|_| here).map(|cursor| cursor.across * curves.fastest)
 }
 
-/// The locked motion at one speed, solved there, in words.
+/// Describes the locked motion at one speed, solved for that speed.
 pub fn reading(app: &App, speed: f64) -> String {
     let speed = speed.copysign(app.speed());
     let at = format!("at {}: ", readable(speed, "rad/s"));
@@ -286,7 +280,7 @@ pub fn reading(app: &App, speed: f64) -> String {
     let value = |name: &str, value: f64, unit: &str| format!("{name} {}", readable(value, unit));
     let ([a, b], [turn_a, turn_b]) = (point.multipliers_n, point.alpha_rad);
     let ratio = point.amplitude_m / app.machine.clearance();
-    // The push of a lining is another one: only its window is known here.
+    // With a lining the forces are different; only the speed range of the lock is known here.
     let lining = app.has_lining();
     let window = lock_windows(&app.machine, speed).into_iter();
     let on_lining = || window.clone().any(|window| window.has(speed.abs()));
@@ -314,7 +308,7 @@ pub fn reading(app: &App, speed: f64) -> String {
     at + &parts.join(", ")
 }
 
-/// That the run of this speed does not come to a lock that can last.
+/// Notes that the run at this speed does not reach the lock, with its verdict.
 fn not_this_run(app: &App, can_last: bool) -> Option<String> {
     let (cursor, here) = (app.reading.cursor?, app.panel().here(app));
     let run = app.full_run().filter(|_| can_last && !app.is_asked())?;

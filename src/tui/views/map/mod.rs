@@ -1,6 +1,5 @@
-//! View 5: the verdict over two knobs, one block or letter for each run, with
-//! the threshold speeds, the present knobs as a cross, and a cursor whose cell
-//! can be read and opened.
+//! View 5: the verdict over two knobs, one block or letter per run, with threshold speeds and the
+//! current knobs as a cross. The cell under the cursor can be read and opened.
 
 mod picture;
 pub use picture::colour;
@@ -20,16 +19,15 @@ use plan::LiveMap;
 use rubscope_solver::study::{Axis, MapPlan};
 use words::Line;
 
-/// Least width at which what the map means stands beside it.
+/// Width from which the legend is a column beside the map.
 const BESIDE_FROM: u16 = 92;
-/// Width of that column.
+/// Width of the legend's column.
 const BESIDE: u16 = 34;
-/// Least height at which there are two rows of words above the map.
+/// Height from which there are two rows of text above the map.
 const TWO_ROWS_FROM: u16 = 14;
-/// Least height at which there is one.
+/// Height from which there is one row of text above the map.
 const ONE_ROW_FROM: u16 = 7;
 
-/// The view.
 pub struct MapView;
 
 impl ViewPanel for MapView {
@@ -55,7 +53,7 @@ impl ViewPanel for MapView {
         app.shown_plan().map_or(Cursor { across: 0.5, up: 0.5 }, |plan| here(app, &plan))
     }
 
-    /// Returns the run of the cell: its knobs, and the law and solver of the map.
+    /// Returns the scene of the cell, with the map's law and solver.
     fn opening(&self, app: &App, _: Cursor) -> Option<Opening> {
         let (plan, [column, row]) = (app.shown_plan()?, app.map_cell()?);
         let scene = plan.scene_of(plan.index(column, row)).ok()?;
@@ -70,7 +68,7 @@ impl ViewPanel for MapView {
     }
 }
 
-/// Returns the cell of a map nearest to the present knobs.
+/// Returns the centre of the map cell nearest to the current knobs.
 pub fn here(app: &App, plan: &MapPlan) -> Cursor {
     let part = |axis: &Axis| {
         let count = f64::from(axis.count.max(1));
@@ -81,8 +79,8 @@ pub fn here(app: &App, plan: &MapPlan) -> Cursor {
     Cursor { across: part(&plan.x), up: part(&plan.y) }
 }
 
-/// Says what the signs mean and what the cursor reads, beside the map or above
-/// it; returns the rest of the area.
+/// Prints the legend and the cell under the cursor, beside the map or above it; returns the rest of
+/// the area.
 fn explain(app: &App, live: &LiveMap, buffer: &mut Buffer, inside: Rect, large: bool) -> Rect {
     let beside = large && inside.width >= BESIDE_FROM;
     let area = match beside {

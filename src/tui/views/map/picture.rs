@@ -1,5 +1,5 @@
-//! The picture of a map: two rows of cells a line by half blocks and colour, or
-//! one letter a cell where there is no colour, and what is drawn over it.
+//! The picture of a map: coloured half blocks, two rows of cells per line, or letters where there
+//! is no colour; and what is drawn over it.
 
 use ratatui::style::{Color, Style};
 use ratatui::{buffer::Buffer, layout::Rect};
@@ -19,12 +19,12 @@ use rubscope_solver::scene::keys::SPEED;
 use rubscope_solver::study::overlay::Curve;
 use rubscope_solver::study::{Axis, Cell};
 
-/// Returns whether cells are letters.
+/// Returns whether cells are letters instead of colours.
 pub fn letters(look: &Appearance) -> bool {
     look.ascii() || look.theme == Theme::Mono
 }
 
-/// Returns the colour of a verdict; none for the quiet one, which is a shade.
+/// Returns the colour of a verdict; `None` for decay, which is drawn as a shade.
 pub fn colour(look: &Appearance, verdict: Verdict) -> Option<Color> {
     let [dark, light, safe, safe_light] = match verdict {
         Verdict::Decay => return None,
@@ -45,7 +45,6 @@ pub fn colour(look: &Appearance, verdict: Verdict) -> Option<Color> {
     })
 }
 
-/// Draws the map in `area`.
 pub fn draw(app: &App, live: &LiveMap, buffer: &mut Buffer, area: Rect, at: ViewArea) {
     let look = &app.appearance;
     let plan = &live.map.plan;
@@ -73,7 +72,7 @@ pub fn draw(app: &App, live: &LiveMap, buffer: &mut Buffer, area: Rect, at: View
     }
 }
 
-/// Returns whether a place on an axis has a cell.
+/// Returns whether a position on an axis (in cells) is within its cells.
 pub fn is_inside(axis: &Axis, place: f64) -> bool {
     (-0.5..=f64::from(axis.count) - 0.5).contains(&place)
 }
@@ -91,7 +90,7 @@ struct Picture<'a> {
     look: &'a Appearance,
     live: &'a LiveMap,
     inner: Rect,
-    /// The colour behind each place.
+    /// Background colour of each character, for signs drawn over it.
     ground: Vec<Option<Color>>,
 }
 
@@ -124,13 +123,13 @@ impl Picture<'_> {
         }
     }
 
-    /// Returns the column of a place on the axis across.
+    /// Returns the screen column of a position on the x axis (in cells).
     fn column(&self, place: f64) -> u16 {
         let part = place / f64::from(self.live.map.plan.x.count.max(2) - 1);
         self.inner.x + spread(part, self.inner.width)
     }
 
-    /// Returns the row of a place on the axis up.
+    /// Returns the screen row of a position on the y axis (in cells).
     fn row(&self, place: f64) -> u16 {
         let part = 1.0 - place / f64::from(self.live.map.plan.y.count.max(2) - 1);
         let from_top = match letters(self.look) {
@@ -140,7 +139,7 @@ impl Picture<'_> {
         self.inner.y + from_top
     }
 
-    /// Draws one sign over the cells, on the colour that is there.
+    /// Draws one sign over the cells, in a colour that contrasts with the cell.
     fn over(&mut self, x: u16, y: u16, sign: char, role: Role) {
         if !(self.inner.y..self.inner.bottom()).contains(&y) {
             return;
@@ -161,7 +160,7 @@ impl Picture<'_> {
         for &(across, up) in &line.points {
             let [across, up] = places(x, y, (across, up));
             if x.path == SPEED && is_inside(x, across) {
-                // One cell up can be several rows.
+                // One cell can be several rows high.
                 let (low, high) = (self.row(up - 0.5), self.row(up + 0.5));
                 let column = self.column(across);
                 for row in high.max(inner.y)..=low.min(inner.bottom().saturating_sub(1)) {
@@ -178,12 +177,12 @@ impl Picture<'_> {
     }
 }
 
-/// Returns the places of a point of a line.
+/// Returns the positions of a point on both axes, in cells.
 fn places(x: &Axis, y: &Axis, (across, up): (f64, f64)) -> [f64; 2] {
     [x.place(across), y.place(up)]
 }
 
-/// Returns the colour of signs on this one.
+/// Returns a colour that contrasts with a background.
 fn ink(look: &Appearance, ground: Color) -> Color {
     match (look.theme, ground) {
         (Theme::Light, _) | (_, Color::Black) => Color::White,
@@ -191,7 +190,7 @@ fn ink(look: &Appearance, ground: Color) -> Color {
     }
 }
 
-/// Returns a part, 0 to 1, as one of so many places.
+/// Maps a fraction, 0 to 1, to one of `places` positions.
 fn spread(part: f64, places: u16) -> u16 {
     let last = f64::from(places.saturating_sub(1));
     (part * last).round().clamp(0.0, last) as u16
@@ -200,7 +199,7 @@ fn spread(part: f64, places: u16) -> u16 {
 fn style(look: &Appearance, cell: Option<Cell>) -> Style {
     let quiet = look.style(Role::Quiet);
     match cell.map(|cell| (cell.verdict, colour(look, cell.verdict))) {
-        // Weights tell letters apart too.
+        // Weight distinguishes the letters in addition.
         Some((verdict, _)) if look.theme == Theme::Mono => match verdict {
             Verdict::Decay | Verdict::Bounce => quiet,
             _ => look.style(Role::Text),
@@ -210,13 +209,13 @@ fn style(look: &Appearance, cell: Option<Cell>) -> Style {
     }
 }
 
-/// Returns two cells, one above the other, as one sign with two colours.
+/// Draws two cells, one above the other, as one character with two colours.
 fn block(look: &Appearance, [above, below]: [Option<Cell>; 2]) -> (char, Style) {
     let of = |cell: Option<Cell>| cell.and_then(|cell| colour(look, cell.verdict));
     let plain = Style::new();
     let pulls = |cell: &Option<Cell>| cell.is_some_and(|cell| cell.verdict == Verdict::Adhesive);
     if let Some(pulling) = [above, below].into_iter().find(pulls) {
-        // A lock that pulls has a sign of its own, not a colour alone.
+        // An adhesive lock has a pattern of its own, not only a colour.
         let other = [above, below].into_iter().find(|cell| !pulls(cell)).and_then(of);
         let style = of(pulling).map_or(plain, |colour| plain.fg(colour));
         return (PULLS, other.map_or(style, |colour| style.bg(colour)));
@@ -231,10 +230,10 @@ fn block(look: &Appearance, [above, below]: [Option<Cell>; 2]) -> (char, Style) 
     }
 }
 
-/// A lock that pulls.
+/// Character of an adhesive lock.
 const PULLS: char = '▒';
 
-/// Returns the sign of a verdict in the legend, as it is on the map.
+/// Returns the sign of a verdict for the legend.
 pub fn sign(look: &Appearance, verdict: Verdict) -> (char, Style) {
     let cell = Some(Cell::of(verdict));
     match (letters(look), colour(look, verdict)) {

@@ -1,6 +1,5 @@
-//! The map of the explorer: two knobs over sensible ranges, under the scene's own contact law,
-//! solver and model or under the other law. It is computed in coarse blocks first, then in finer
-//! ones in a fixed order.
+//! The map of the explorer: two knobs over suitable ranges, under the scene's contact law or the
+//! other one. Cells are computed in coarse blocks first, then in finer ones, in a fixed order.
 
 use std::f64::consts::TAU;
 
@@ -12,29 +11,30 @@ use rubscope_solver::scene::{Allowed, ContactLaw, Scene, SolverKind, keys};
 use rubscope_solver::study::overlay::{Curve, threshold_curves};
 use rubscope_solver::study::{Axis, Cell, Map, MapPlan};
 
-/// Most cells across and up; a tenth of a decade is a cell of four.
+/// Largest number of cells on the x and y axis. On the y axis, four decades of pulse have ten cells
+/// each.
 const CELLS: [u32; 2] = [81, 41];
-/// The key of the torque on the blades.
+/// Key of the engine-order torque on the blades.
 const TORQUE: &str = keys::EXCITATION;
-/// The key of the friction of blades and casing.
+/// Key of the friction between blades and casing.
 const FRICTION: &str = keys::FRICTION;
-/// The slowest speed of a map with friction, in parts of the fastest.
+/// Lowest speed of a map with friction, relative to the highest.
 const SLOWEST: f64 = 0.1;
-/// Pulses of the map \[N\].
+/// Range of the pulse \[N\].
 const PULSES: [f64; 2] = [1e3, 1e7];
-/// The part of a bar that is left out at each end where a scene is refused there.
+/// Fraction cut off each end of a knob's range if the scene is invalid there.
 const REFUSED: f64 = 0.025;
 
-/// Choices for the map.
+/// The choices of the user for the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapChoice {
-    /// The contact law, where it is not the scene's own.
+    /// Contact law, if not that of the scene.
     pub law: Option<ContactLaw>,
-    /// The key across.
+    /// The x axis.
     pub x: MapAxis,
-    /// The key up.
+    /// The y axis.
     pub y: MapAxis,
-    /// Whether speeds are shown in turns a minute, of which the cells are round values.
+    /// Whether speeds are shown in rpm; the cells are then round values in rpm.
     pub rpm: bool,
 }
 
@@ -45,17 +45,17 @@ impl Default for MapChoice {
     }
 }
 
-/// A key on an axis. Its range does not change while the knob is turned.
+/// A knob on an axis. Its range does not follow the knob.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapAxis {
-    /// Dotted path of the key.
+    /// Key of the knob in the scene file.
     pub path: &'static str,
-    /// The value of the key when it was put on the axis.
+    /// Value of the knob when it was put on the axis; the range is built around it.
     pub anchor: f64,
 }
 
 impl MapChoice {
-    /// Creates the same for another opened scene.
+    /// Re-anchors both axes at the values of a newly opened scene.
     pub fn anchored(mut self, scene: &Scene) -> Self {
         for axis in [&mut self.x, &mut self.y] {
             let value = knob_of(axis.path).and_then(|knob| knob.number(scene));
@@ -64,10 +64,10 @@ impl MapChoice {
         self
     }
 
-    /// Returns the map of a scene.
+    /// Builds the plan of the map for a scene.
     ///
     /// # Errors
-    /// The scene has no such map; the reason in one line.
+    /// One line that says why the scene has no such map.
     pub fn plan(&self, scene: &Scene) -> Result<MapPlan, String> {
         let mut scene = scene.clone();
         if let Some(law) = self.law {
@@ -75,10 +75,10 @@ impl MapChoice {
             scene.make_compatible(|key| key == keys::LAW);
         }
         if [self.x, self.y].iter().any(|axis| axis.path == TORQUE) {
-            // The event solver knows no torque on the blades.
+            // The event solver does not support a torque on the blades.
             scene.solver.kind = SolverKind::Explicit;
         }
-        // Friction has no direction while the rotor stands.
+        // Friction has no direction at standstill.
         let slides = scene.contact.friction != 0.0
             || [self.x, self.y].iter().any(|axis| axis.path == FRICTION);
         let plan = |without: f64| {
@@ -87,7 +87,8 @@ impl MapChoice {
             let y = self.y.over(&scene, CELLS[1], slides, without, unit)?;
             let mut scene = scene.clone();
             for axis in [&x, &y] {
-                // The map stays the same while the knobs that it sweeps are turned.
+                // Independent of the current values of the knobs on the axes, so that turning them
+                // keeps the map.
                 axis.apply(&mut scene, 0).map_err(|error| error.to_string())?;
             }
             let plan = MapPlan { scene, x, y, sensitivity: false };
@@ -97,15 +98,15 @@ impl MapChoice {
     }
 }
 
-/// Returns the knobs that can be on an axis.
+/// Returns the knobs with numeric values, which can be on an axis.
 pub fn numeric() -> impl Iterator<Item = &'static Knob> {
     let is_number = |allowed| matches!(allowed, Allowed::Real { .. } | Allowed::Whole { .. });
     KNOBS.iter().filter(move |knob| is_number(knob.allowed()))
 }
 
 impl MapAxis {
-    /// Returns the axis over the bar of the knob, without a part at each end; for speeds, in round
-    /// values of a unit.
+    /// Builds the axis over the knob's range without a fraction `without` at each end. Speeds are
+    /// rounded to multiples of `unit`.
     fn over(
         &self,
         scene: &Scene,
@@ -125,7 +126,7 @@ impl MapAxis {
                     (from, to) = if to > 0.0 { (SLOWEST * to, to) } else { (from, SLOWEST * from) };
                 }
             }
-            // From below the pulse that was opened, if that is a small one.
+            // The axis starts below a small pulse of the opened scene.
             keys::PULSE => {
                 let below = 10f64.powf((0.5 * self.anchor.abs()).log10().floor());
                 from = if self.anchor == 0.0 { PULSES[0] } else { below.min(PULSES[0]) };
@@ -135,7 +136,7 @@ impl MapAxis {
             _ => {}
         }
         let count = match knob.allowed() {
-            // Each whole number once.
+            // One cell per integer.
             Allowed::Whole { .. } => {
                 (from, to) = (from.ceil(), to.floor());
                 ((to - from).max(0.0) as u32).saturating_add(1).min(most)
@@ -148,7 +149,7 @@ impl MapAxis {
                 let [a, b] = [from, to].map(|end| end / step);
                 let [first, last] =
                     if is_speed { [a.floor(), b.ceil()] } else { [a.round(), b.round()] };
-                // Other ends than round ones are those of what the key allows.
+                // If the ends are not round, they are the key's own bounds: keep them.
                 if is_speed || (a - first).abs() + (b - last).abs() < 1e-6 {
                     (from, to) = (first * step, last * step);
                     (last - first) as u32 + 1
@@ -161,8 +162,8 @@ impl MapAxis {
     }
 }
 
-/// Returns the range from rest to above every threshold, and to the present speed if it is far
-/// outside, in the present direction of rotation.
+/// Returns the speed range from standstill to above every threshold, extended to the current speed
+/// if that is far outside, in the current direction of rotation.
 fn speeds(scene: &Scene) -> (f64, f64) {
     let mut scene = scene.clone();
     let speed = scene.operation.speed_rad_s;
@@ -175,25 +176,25 @@ fn speeds(scene: &Scene) -> (f64, f64) {
     if speed < 0.0 { (-fastest, 0.0) } else { (0.0, fastest) }
 }
 
-/// Sides of the blocks that one cell stands for, coarse to fine.
+/// Block sizes of the successive refinements: one computed cell stands for a block of this side.
 const BLOCKS: [u32; 4] = [8, 4, 2, 1];
 
-/// A map that is being computed.
+/// A map in progress.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LiveMap {
-    /// Its plan and the cells so far.
+    /// The plan, and the cells so far.
     pub map: Map,
-    /// Cells that were tried: a cell whose run takes too long stays empty.
+    /// Number of cells attempted; a cell whose run takes too long stays empty.
     pub tried: usize,
-    /// The threshold speeds over the map, where one axis is the speed.
+    /// Threshold speeds over the map, if one axis is the speed.
     pub lines: Vec<Curve>,
 }
 
 impl LiveMap {
-    /// Creates a map with nothing computed.
+    /// Creates an empty map.
     pub fn of(plan: MapPlan) -> Self {
         let mut lines = threshold_curves(&plan);
-        // Without damping two thresholds are one.
+        // Without damping, `Omega_lock` coincides with `Omega_c`.
         let double = |line: &Curve, of: &[Curve]| {
             line.name == "Omega_lock"
                 && of.iter().any(|c| c.name == "Omega_c" && c.points == line.points)
@@ -203,7 +204,8 @@ impl LiveMap {
         Self { lines, map: Map::empty(plan), tried: 0 }
     }
 
-    /// Returns what to draw at a cell: its own verdict, or that of the smallest block around it.
+    /// Returns what to draw at a cell: its own verdict, or that of the smallest computed block
+    /// around it.
     pub fn shown(&self, column: u32, row: u32) -> Option<Cell> {
         let (x, y) = (self.map.plan.x.count, self.map.plan.y.count);
         BLOCKS
@@ -212,19 +214,19 @@ impl LiveMap {
             .find_map(|&block| self.map.at(centre(column, block, x), centre(row, block, y)))
     }
 
-    /// Returns whether all cells were tried.
+    /// Returns whether all cells were attempted.
     pub fn is_complete(&self) -> bool {
         self.tried >= self.map.cells.len()
     }
 }
 
-/// Returns the cell that stands for the block around a cell.
+/// Returns the index of the cell that stands for the block around `cell`.
 fn centre(cell: u32, block: u32, count: u32) -> u32 {
     (cell - cell % block + block / 2).min(count.saturating_sub(1))
 }
 
-/// Returns all cells of a map in the order in which they are computed, and how many of them cover
-/// the whole map as the coarsest blocks.
+/// Returns all cells in order of computation, and how many of them cover the whole map with the
+/// coarsest blocks.
 pub fn coarse_first(plan: &MapPlan) -> (Vec<usize>, usize) {
     let (x, y) = (plan.x.count, plan.y.count);
     let mut taken = vec![false; plan.len()];
@@ -248,21 +250,20 @@ pub fn coarse_first(plan: &MapPlan) -> (Vec<usize>, usize) {
     (order, first)
 }
 
-/// The run of one cell.
+/// The run of one map cell.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CellRun {
-    /// The map that the cell is of.
+    /// Plan of the map.
     pub plan: MapPlan,
-    /// Its column and row.
+    /// Column and row of the cell.
     pub cell: [u32; 2],
     /// Verdict of the run.
     pub verdict: Verdict,
     /// Start of the final contact \[s\].
     pub since: Option<f64>,
-    /// The groups of blades in contact at the end and their multipliers;
-    /// negative is a push \[N\].
+    /// Blade groups in contact at the end and their multipliers; negative pushes \[N\].
     pub contacts: Vec<(Vec<u32>, f64)>,
-    /// Impacts in all.
+    /// Number of impacts.
     pub impacts: u64,
 }
 
@@ -279,7 +280,7 @@ mod tests {
         scene.operation.pulse_n = 5.0;
         scene.operation.speed_rad_s = 100.0;
         assert_eq!(MapChoice::default().plan(&scene).unwrap(), before);
-        // The paper's range, in round steps.
+        // The speed range of the paper, in round steps.
         assert_eq!((before.x.from, before.x.to, before.x.count), (0.0, 600.0, 61));
     }
 
@@ -295,7 +296,7 @@ mod tests {
         }
         let damping = MapAxis { path: keys::CASING_DAMPING, anchor: 0.05 };
         let plan = MapChoice { y: damping, ..MapChoice::default() }.plan(&scene).unwrap();
-        // Steps of 1, 2 or 5 times a power of ten, and so every value.
+        // Steps of 1, 2 or 5 times a power of ten give round values everywhere.
         let step = format!("{:.1e}", plan.y.value(1) - plan.y.value(0));
         assert!(["1.0", "2.0", "5.0"].contains(&&step[..3]) && plan.y.count > 20, "{step}");
     }
@@ -341,25 +342,25 @@ mod tests {
                     let rigid = knob.path == TORQUE && scene.solver.model == ModelSize::Rigid;
                     let plan = match plan {
                         Ok(plan) => plan,
-                        // Rigid blades do not move under a torque, and the start of a
-                        // scene can be too far out for some cells: it says so.
+                        // Rigid blades do not move under a torque. The start of a scene can be too
+                        // far out for some cells; the message then names `initial.`.
                         Err(why) if rigid && why.contains("do not move") => continue,
                         Err(why) if why.starts_with("initial.") => {
                             let given = scene.initial != Scene::base().initial;
                             assert!(given || scene.is_uneven(), "{why}");
                             continue;
                         }
-                        // Each law and model leaves out some of what goes beyond the
-                        // paper, and the event solver its ramps.
-                        // Tips and lobes must leave the casing a place, and lobes have a
-                        // number.
+                        // Each law and model excludes some keys beyond the paper, and the event
+                        // solver excludes ramps.
+                        // Tips and lobes must leave the casing a position with all gaps open, and
+                        // lobes need a number.
                         Err(why) if why.contains("leaves every gap open") => continue,
                         Err(why) if why.starts_with("casing.lobes = 0") => continue,
                         Err(why) if [Group::Beyond, Group::Tips].contains(&knob.group) => {
                             assert!(why.contains("solver."), "{} {why}", knob.path);
                             continue;
                         }
-                        // The direction of friction is fixed.
+                        // The direction of friction must not change.
                         Err(why) if why.contains("where a ramp stops the rotor") => continue,
                         Err(why) if why.starts_with("operation.speed_ramp") => {
                             assert!(scene.goes_beyond(), "{why}");
@@ -393,7 +394,7 @@ mod tests {
             let cell = Some(Cell::of(Verdict::Decay));
             order.iter().take(first).for_each(|&index| live.map.cells.set(index, cell));
             live.tried = first;
-            // They cover the whole map.
+            // The coarsest blocks cover the whole map.
             assert!((0..x).all(|column| (0..y).all(|row| live.shown(column, row) == cell)));
             assert!(first <= (x as usize).div_ceil(8) * (y as usize).div_ceil(8));
             order.sort_unstable();

@@ -1,5 +1,4 @@
-//! The words around a map: what it is a map of, how far it is, what its signs
-//! mean, and what the cell under the cursor says.
+//! The text around a map: its axes, progress and legend, and the cell under the cursor.
 
 use ratatui::style::Style;
 
@@ -17,21 +16,20 @@ use rubscope_solver::scene::keys::SPEED;
 use rubscope_solver::study::overlay::Curve;
 use rubscope_solver::study::{Axis, MapPlan};
 
-/// One line: pieces with their styles.
+/// A line of text pieces with their styles.
 pub type Line = Vec<(String, Style)>;
 
-/// Returns the unit of a key.
 pub fn unit(path: &str) -> &'static str {
     knob_of(path).map_or("", Knob::unit)
 }
 
-/// Returns a value of a key in four digits, with its unit.
+/// Formats a value of a key with four digits and its unit.
 pub fn value_text(path: &str, value: f64) -> String {
     let unit = unit(path);
     number(from_shown(rounded(in_shown_unit(value, unit).0, 4), unit), unit)
 }
 
-/// Same as [`value_text`]; a number without a unit with its symbol, such as `n_d 3`.
+/// As [`value_text`], but a value without a unit is preceded by its symbol, e.g. `n_d 3`.
 fn named_value(axis: &Axis, value: f64) -> String {
     let symbol = knob_of(&axis.path).map(Knob::symbol);
     match symbol.filter(|_| unit(&axis.path).is_empty()) {
@@ -40,7 +38,7 @@ fn named_value(axis: &Axis, value: f64) -> String {
     }
 }
 
-/// Returns the present value of the key on an axis.
+/// Returns the current value of the key on an axis.
 pub fn present(app: &App, axis: &Axis) -> f64 {
     if axis.path == SPEED {
         return app.speed();
@@ -48,13 +46,13 @@ pub fn present(app: &App, axis: &Axis) -> f64 {
     knob_of(&axis.path).and_then(|knob| knob.number(&app.scene)).unwrap_or(f64::NAN)
 }
 
-/// Returns the name of an axis, with the unit that its ticks do not have.
+/// Returns the label of an axis with its unit; logarithmic axes have the unit on their ticks.
 fn axis_name(axis: &Axis) -> String {
     let name = knob_of(&axis.path).map_or(axis.path.as_str(), |knob| knob.label);
     match unit(&axis.path) {
         unit if axis.log || unit.is_empty() => name.to_string(),
         unit => {
-            // The same prefix as the ticks.
+            // Same prefix as the ticks.
             let scale = crate::tui::axis::SiScale::of(axis.from.abs().max(axis.to.abs()));
             let (_, unit) = in_shown_unit(0.0, unit);
             if axis.path == SPEED {
@@ -65,7 +63,7 @@ fn axis_name(axis: &Axis) -> String {
     }
 }
 
-/// Returns the entries of the title: how far the map is, and what it shows.
+/// Returns the entries of the title: progress, law, axes and solver.
 pub fn title(app: &App, live: Option<&LiveMap>, wanted: Option<&MapPlan>) -> Line {
     let look = &app.appearance;
     let Some(plan) = live.map(|live| &live.map.plan).or(wanted) else { return Vec::new() };
@@ -89,7 +87,7 @@ pub fn title(app: &App, live: Option<&LiveMap>, wanted: Option<&MapPlan>) -> Lin
     progress.chain(subjects.map(|text| (text, look.style(Role::Text)))).collect()
 }
 
-/// Returns the verdicts on the map, and the sign of the present knobs.
+/// Returns the legend: the verdicts on the map, and the sign of the current knobs.
 pub fn legend(app: &App, live: &LiveMap) -> Line {
     let look = &app.appearance;
     let mut line: Line = Vec::new();
@@ -107,7 +105,7 @@ fn occurring(live: &LiveMap) -> impl Iterator<Item = Verdict> {
     census.into_iter().filter(|(_, count)| *count > 0).map(|(verdict, _)| verdict)
 }
 
-/// Returns where the present knobs are.
+/// Returns the values of the current knobs, and whether they are on the map.
 fn now(app: &App, live: &LiveMap) -> String {
     let axes = [&live.map.plan.x, &live.map.plan.y];
     let is_inside = axes.iter().all(|axis| is_inside(axis, axis.place(present(app, axis))));
@@ -118,7 +116,7 @@ fn now(app: &App, live: &LiveMap) -> String {
     }
 }
 
-/// Returns the cell under the cursor in one row of so many columns, or the lines over the map.
+/// Returns one row about the cell under the cursor, or the names of the threshold lines.
 pub fn row(app: &App, live: &LiveMap, width: usize) -> Line {
     let look = &app.appearance;
     let Some([head, verdict, detail]) = cell(app, live) else {
@@ -131,14 +129,14 @@ pub fn row(app: &App, live: &LiveMap, width: usize) -> Line {
         shown.map_or((' ', look.style(Role::Text)), |cell| sign(look, cell.verdict));
     vec![
         (format!("[ ] {head}: "), look.style(Role::Text)),
-        // Its colour too, where there is no room for a legend.
+        // The sign has the verdict's colour, where there is no room for a legend.
         (sign.to_string(), style),
         (format!(" {verdict}"), look.style(Role::Focus)),
         (format!(" {detail}"), look.style(Role::Text)),
     ]
 }
 
-/// Returns the values, verdict and details of the cell under the cursor.
+/// Returns values, verdict and details of the cell under the cursor.
 fn cell(app: &App, live: &LiveMap) -> Option<[String; 3]> {
     let [column, row] = app.map_cell()?;
     let plan = &live.map.plan;
@@ -155,7 +153,7 @@ fn cell(app: &App, live: &LiveMap) -> Option<[String; 3]> {
     Some([values.join(", "), verdict, run.map(detail).unwrap_or_default()])
 }
 
-/// Returns the blades, start and forces of the run of a cell.
+/// Describes the run of a cell: blades in contact, start, forces, impacts.
 fn detail(run: &CellRun) -> String {
     let mut out = String::new();
     if let Some(since) = run.since {
@@ -171,7 +169,7 @@ fn detail(run: &CellRun) -> String {
     out + &count(run.impacts, "impact")
 }
 
-/// Returns the column beside the map.
+/// Returns the lines of the column beside the map.
 pub fn column(app: &App, live: &LiveMap, width: usize) -> Vec<Line> {
     let look = &app.appearance;
     let [text, quiet, focus] = [Role::Text, Role::Quiet, Role::Focus].map(|role| look.style(role));
@@ -205,7 +203,7 @@ pub fn column(app: &App, live: &LiveMap, width: usize) -> Vec<Line> {
     lines
 }
 
-/// Returns the names of the lines of a map, in the order of their speeds on its axis.
+/// Returns the labels of the threshold lines, in the order of speed.
 fn lines(live: &LiveMap) -> Vec<String> {
     let on_x = live.map.plan.x.path == SPEED;
     let speed = |line: &&Curve| line.points.first().map_or(0.0, |p| if on_x { p.0 } else { p.1 });
@@ -214,7 +212,7 @@ fn lines(live: &LiveMap) -> Vec<String> {
     lines.into_iter().map(line_name).collect()
 }
 
-/// Returns the name of a line, and its speed where that is the same all over the map.
+/// Returns the label of a threshold line, with its speed if that is constant over the map.
 fn line_name(line: &Curve) -> String {
     let name = line.name.replace("Omega", "Ω");
     let Some(first) = line.points.first() else { return name };

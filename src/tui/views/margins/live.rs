@@ -1,15 +1,15 @@
-//! The margins as they are computed: the closed forms first, then the survey.
+//! The margins in progress: closed forms first, then the survey and the searched changes.
 
 use std::sync::Arc;
 
 use rubscope_solver::study::margins::Margins;
 use rubscope_solver::study::survey::Survey;
 
-/// The margins, and the survey once it is computed.
+/// Margins of a scene, as far as computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LiveMargins {
-    /// Margins of the scene.
+    /// Margins for the scene's own nodal diameters.
     pub margins: Margins,
-    /// Survey of all diameters, once it is computed.
+    /// Survey over all nodal diameters, once computed.
     pub survey: Option<Arc<Survey>>,
 }

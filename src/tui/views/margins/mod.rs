@@ -1,5 +1,5 @@
-//! View 8: how far the run is from another verdict, how far the scene is from every limit, and
-//! what moves each of them most.
+//! View 8: the distance of the run from another verdict, the distance of the scene from every
+//! limit, and the parameters that move each limit most.
 
 pub mod live;
 mod robust;
@@ -18,16 +18,15 @@ use crate::tui::theme::Role;
 use crate::tui::views::table::Rows;
 pub use rows::DIGITS;
 
-/// Columns of the reading cursor: the limit, and the knobs that matter most.
+/// Columns of the cursor: the limit, and its most influential knobs.
 pub const COLUMNS: u32 = margins::STRONGEST as u32 + 1;
 /// Columns of the table before the first knob: limit, value and margin.
 pub const LEADING: usize = 3;
-/// From this height on, a sentence says what the row under the cursor is,
+/// Height from which a line describes the row under the cursor.
 const TOLD_FROM: u16 = 6;
-/// and from this one on it has two lines.
+/// Height from which the description has two lines.
 const TOLD_TWICE_FROM: u16 = 16;
 
-/// The view.
 pub struct MarginsView;
 
 impl ViewPanel for MarginsView {
@@ -64,7 +63,7 @@ impl ViewPanel for MarginsView {
             look.style(if old { Role::Quiet } else { role })
         };
         let height = drawn.draw(app, buffer, (at, above), style);
-        // One row below the table, where there is room.
+        // Leave an empty row below the table if there is room.
         let y = above.y + (height + 1).min(above.height);
         let below = Rect { y, height: told, ..inside };
         let (text, role) = rows::told(app, limits, cell);

@@ -1,5 +1,5 @@
-//! The head of view 8: how far this run is from another verdict, in a sentence and a row for
-//! each quantity, under each contact law that was asked.
+//! The head of view 8: the distance of this run from another verdict, as a sentence and one row per
+//! quantity, under each contact law examined.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -10,13 +10,13 @@ use crate::tui::text::{print, wrap};
 use crate::tui::theme::Role;
 use rubscope_solver::study::margins::Margins;
 
-/// The column of the present value.
+/// Index of the column with the current value.
 const NOW: usize = 2;
-/// Rows of limits below it that are left on a small screen.
+/// Rows of limits that stay visible below on a small screen.
 const LEFT: usize = 6;
 
-/// Draws it at the top of an area; returns the rows that it takes. What was found under the
-/// second law has rows only where all `limits` keep theirs.
+/// Draws the head at the top of an area; returns its height. The rows of the second law are shown
+/// only if all `limits` fit below them.
 pub fn draw(app: &App, margins: &Margins, buffer: &mut Buffer, area: Rect, limits: usize) -> u16 {
     let (look, mut lines) = (&app.appearance, Vec::new());
     let (height, width) = (usize::from(area.height), usize::from(area.width.saturating_sub(1)));
@@ -27,7 +27,7 @@ pub fn draw(app: &App, margins: &Margins, buffer: &mut Buffer, area: Rect, limit
         let ways = [" at ", " "].map(shown).into_iter().find(|rows| !rows.iter().any(wide));
         let rows = ways.unwrap_or_else(|| {
             let mut rows = shown(" ");
-            // The knobs have the present values, too.
+            // The current values are at the knobs too, so drop their column first.
             rows.iter_mut().for_each(|row| drop(row.remove(NOW)));
             rows
         });

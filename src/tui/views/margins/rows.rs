@@ -1,5 +1,5 @@
-//! The words around the margins: the title, what the cell under the cursor says, and what
-//! Enter does on it.
+//! The text around the margins: the title, the description of the cell under the cursor, and what
+//! Enter does there.
 
 use ratatui::style::Style;
 
@@ -11,21 +11,21 @@ use crate::tui::views::Opening;
 use crate::tui::views::margins::LEADING;
 use rubscope_solver::study::margins::{Limit, Quantity, Side};
 
-/// Digits of a limit.
+/// Significant digits of a limit.
 pub const DIGITS: usize = 5;
 
-/// Returns a value of a limit with its unit.
+/// Formats the value of a limit with its unit.
 fn value_text(value: f64, quantity: Quantity) -> String {
     words::value(value, DIGITS, quantity)
 }
 
-/// Why there is no value.
+/// Returns why a limit has no value, if it has none.
 pub fn reason(row: &Limit) -> Option<String> {
     let none = || row.note.as_ref().map_or("none".into(), |note| format!("none: {note}"));
     row.value.is_none().then(none)
 }
 
-/// What Enter does on a column of a row.
+/// Returns what Enter does in a cell.
 pub fn opening(row: &Limit, column: usize, app: &App) -> Opening {
     let nothing = || {
         let why = reason(row).unwrap_or_else(|| "no such knob moves it".into());
@@ -40,7 +40,7 @@ pub fn opening(row: &Limit, column: usize, app: &App) -> Opening {
         (None, None, _) => select(0),
         (None, Some(_), None) => nothing(),
         (None, Some(path), Some(value)) => {
-            // Limits of speed are magnitudes; the rotor keeps its sense.
+            // Limits of speed are magnitudes; keep the rotor's direction.
             let backward = app.scene.operation.speed_rad_s < 0.0;
             let speed = row.quantity == Quantity::Speed;
             let value = if speed && backward { -value } else { value };
@@ -49,20 +49,22 @@ pub fn opening(row: &Limit, column: usize, app: &App) -> Opening {
     }
 }
 
-/// The limit that is nearest to the scene.
+/// Returns the row of the nearest limit.
 pub fn nearest(rows: &[Limit]) -> Option<usize> {
     let margins = rows.iter().enumerate();
     let margins = margins.filter_map(|(place, row)| Some((place, row.margin?.abs())));
     margins.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(place, _)| place)
 }
 
-/// Returns the row that the step of a lesson speaks of, the last one of this name; or the first.
+/// Returns the row that the current lesson step names (the last one of that name), or the first
+/// row.
 pub fn home(app: &App, rows: &[Limit]) -> usize {
     let named = app.lesson_step().and_then(|(step, _)| step.limit);
     rows.iter().rposition(|row| named == Some(row.name)).unwrap_or(0)
 }
 
-/// Returns the colour of a column of a limit: to be beyond a limit is no trouble.
+/// Returns the role of a cell. Being beyond a limit is not trouble by itself: a lock, for
+/// example, needs a speed above `Omega_lock`.
 pub fn role(limit: &Limit, column: usize) -> Role {
     let strongest = limit.sensitivities.strongest(STRONGEST);
     match column.checked_sub(LEADING).and_then(|place| strongest.get(place)) {
@@ -74,7 +76,8 @@ pub fn role(limit: &Limit, column: usize) -> Role {
     }
 }
 
-/// The title: whether the margins are old, and what the signs of the bars mean.
+/// Returns the entries of the title: a note if the margins are outdated, and the sign of the
+/// nearest limit.
 pub fn title(app: &App, width: u16) -> Vec<(String, Style)> {
     let look = &app.appearance;
     let mut line = Vec::new();
@@ -87,7 +90,7 @@ pub fn title(app: &App, width: u16) -> Vec<(String, Style)> {
     line
 }
 
-/// The cell under the cursor in words, or the key that leads to it.
+/// Describes the cell under the cursor, or names the key that starts reading.
 pub fn told(app: &App, rows: &[Limit], cell: Option<[usize; 2]>) -> (String, Role) {
     let found = cell.and_then(|[column, row]| Some((column, rows.get(row)?)));
     let Some((column, row)) = found else {
@@ -103,7 +106,7 @@ pub fn told(app: &App, rows: &[Limit], cell: Option<[usize; 2]>) -> (String, Rol
     (text, Role::Focus)
 }
 
-/// A limit: its value, what it is, and where the scene is.
+/// Describes a limit: value, meaning, and the margin of the scene.
 fn limit(app: &App, row: &Limit) -> String {
     let mut parts = vec![match row.value {
         Some(value) => format!("{} {}", row.name.titles()[0], value_text(value, row.quantity)),
@@ -119,7 +122,7 @@ fn limit(app: &App, row: &Limit) -> String {
     if let Some(note) = reason(row).as_deref().or(row.note.as_deref()) {
         parts.push(format!("; {note}"));
     }
-    // The last line says what Enter does, but not with which knob.
+    // The footer names the action of Enter, but not the knob.
     if let Opening::Select(path) = opening(row, 0, app) {
         let knob = knob_of(path).map_or(path, |knob| knob.label);
         parts.push(format!(". Enter selects {knob}"));
@@ -127,7 +130,7 @@ fn limit(app: &App, row: &Limit) -> String {
     parts.concat()
 }
 
-/// A knob: its present value, and what one per cent more of it does.
+/// Describes the sensitivity to a knob: the change of the limit per 1 % of the knob.
 fn knob(row: &Limit, path: &'static str, by: f64) -> String {
     let label = knob_of(path).map_or(path, |knob| knob.label);
     let part = row.value.map(|value| value_text(value * by / 100.0, row.quantity));

@@ -1,5 +1,5 @@
-//! The survey of all nodal diameters, in the place of the margins of one: a table of what
-//! each can do, below what can lock now.
+//! The survey over all nodal diameters, shown instead of the margins of one: a table with a row per
+//! number of nodal diameters, and above it what can lock now.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -15,11 +15,10 @@ use crate::tui::views::table::Rows;
 use rubscope_solver::scene::keys::DIAMETERS;
 use rubscope_solver::study::survey::{Survey, SurveyRow};
 
-/// From this height on a sentence stands above the table, in so many lines.
+/// Height from which there is a summary above the table.
 const TOLD_FROM: u16 = 6;
 const MOST_TOLD: usize = 2;
 
-/// Draws it.
 pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea, cell: Option<usize>) {
     let look = &app.appearance;
     let quiet = look.style(Role::Quiet);
@@ -49,7 +48,7 @@ fn table(
     let lines = |text: &str| wrap(&look.spell(text), width);
     let mut told = lines(&answer(survey, false));
     told.truncate(if area.height >= TOLD_FROM { MOST_TOLD } else { 0 });
-    // The table stays where it is while rows are read.
+    // Keep the height of the summary while rows are read, so that the table does not move.
     let height = u16::try_from(told.len()).unwrap_or(0);
     let below = Rect { y: area.y + height, height: area.height - height, ..area };
     if let Some(row) = cell.and_then(|place| rows.get(place)) {
@@ -75,7 +74,7 @@ fn table(
         };
         look.style(role)
     });
-    // What must be known of them, where a row is left between.
+    // Notes follow the table if they fit below an empty row.
     let notes = lines(&notes(survey, &rows).join(" "));
     let free = (height + used + 1..area.height).zip(&notes);
     for (row, line) in free.filter(|_| height + used + 1 + notes.len() as u16 <= area.height) {
@@ -83,37 +82,36 @@ fn table(
     }
 }
 
-/// The row of the diameters of the scene.
+/// Returns the row of the scene's own nodal diameters.
 fn own(app: &App, rows: &[&SurveyRow]) -> usize {
     let own = app.scene.operation.nodal_diameters;
     rows.iter().position(|row| row.nodal_diameters == own).unwrap_or(0)
 }
 
-/// The row under the cursor.
+/// Returns the row under the cursor.
 pub fn cell(app: &App) -> Option<usize> {
     let cursor = app.cursor_in(crate::tui::views::ViewId::Margins)?;
     let rows = rows(app);
     (rows > 0).then(|| rows as usize - 1 - crate::tui::app::cell_of(cursor.up, rows) as usize)
 }
 
-/// The rows as they are shown.
+/// Returns the rows of the table.
 fn shown(app: &App) -> Vec<&SurveyRow> {
     let survey = app.margins().and_then(|(live, _)| live.survey.as_deref());
     survey.map_or(Vec::new(), |survey| survey.shown(false))
 }
 
-/// How many rows there are.
 pub fn rows(app: &App) -> u32 {
     u32::try_from(shown(app).len()).unwrap_or(u32::MAX)
 }
 
-/// Where the cursor appears: on the diameters of the scene.
+/// Returns the initial cursor: on the scene's own nodal diameters.
 pub fn here(app: &App) -> Cursor {
     let (own, rows) = (own(app, &shown(app)), f64::from(rows(app).max(1)));
     Cursor { across: 0.5, up: 1.0 - (own as f64 + 0.5) / rows }
 }
 
-/// Enter takes the diameters of the row.
+/// Returns the action of Enter: set the nodal diameters of the row.
 pub fn opening(app: &App) -> Option<Opening> {
     let diameters = shown(app).get(cell(app)?)?.nodal_diameters;
     let to = format!("{diameters} nodal diameters");

@@ -1,14 +1,13 @@
-//! Amplitude spectrum of the casing motion over a whole run: a Hann window, then a real
-//! Fourier transform.
+//! Amplitude spectrum of the casing motion over a run: Hann window, then a real Fourier transform.
 
 use std::f64::consts::TAU;
 
 use realfft::RealFftPlanner;
 
-/// Amplitudes at equal steps of angular frequency, from zero.
+/// Amplitudes at equally spaced angular frequencies, from 0.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Spectrum {
-    /// Distance of two lines \[rad/s\].
+    /// Spacing of the lines \[rad/s\].
     pub resolution: f64,
     /// Amplitude of `u_c` \[m\].
     pub cosine: Vec<f64>,
@@ -28,7 +27,8 @@ impl Spectrum {
     }
 }
 
-/// Returns the amplitude of each line; a sine on a line shows its own amplitude.
+/// Returns the amplitude of each line, scaled such that a sine at a line has its own amplitude.
+/// Empty for fewer than 8 samples, or if one is not finite.
 fn amplitudes_of(mut samples: Vec<f64>) -> Vec<f64> {
     let count = samples.len();
     if count < 8 || samples.iter().any(|x| !x.is_finite()) {
@@ -42,7 +42,8 @@ fn amplitudes_of(mut samples: Vec<f64>) -> Vec<f64> {
     if transform.process(&mut samples, &mut lines).is_err() {
         return Vec::new();
     }
-    // The window halves the amplitude, the transform gives half of count times it.
+    // The Hann window halves a sine's amplitude, and the transform gives count/2 times it: factor
+    // 4/count.
     lines.iter().map(|line| 4.0 * line.norm() / count as f64).collect()
 }
 
@@ -62,7 +63,7 @@ mod tests {
         let spectrum = Spectrum::of(&signal, 0.1);
         let line = (TAU * 240.0 / spectrum.resolution).round() as usize;
         assert_eq!(line, 24);
-        // A Hann window resolves a sine on a line exactly, to round-off.
+        // With a Hann window, a sine at a line keeps its amplitude exactly.
         assert!((spectrum.cosine[24] - 3e-4).abs() < 1e-12);
         assert!((spectrum.sine[24] - 1e-4).abs() < 1e-12);
         assert!(spectrum.cosine[30] < 1e-12);

@@ -1,5 +1,5 @@
-//! View 6: the spectrum of the casing motion over the whole run, and the
-//! Campbell lines that show where frequencies coincide.
+//! View 6: the spectrum of the casing motion over the whole run, and the Campbell diagram, which
+//! shows where frequencies coincide.
 
 pub mod lines;
 
@@ -18,10 +18,9 @@ use crate::tui::views::panel::{
 };
 use crate::tui::views::spectrum::lines::Spectrum;
 
-/// Smallest amplitude shown, as a power of ten of a metre, and the greatest.
+/// Amplitude range, as powers of ten of a metre.
 const DECADES: (f64, f64) = (-10.0, -3.0);
 
-/// The view.
 pub struct SpectrumView;
 
 impl ViewPanel for SpectrumView {
@@ -51,7 +50,7 @@ fn highest(app: &App) -> f64 {
     (1.3 * most / step).ceil() * step
 }
 
-/// Returns the frequencies in the fixed frame, with their names \[rad/s\].
+/// Returns the frequencies in the fixed frame with their labels \[rad/s\].
 fn lines(app: &App, speed: f64) -> [(f64, &'static str); 4] {
     let machine = app.machine.at(speed);
     let wave = machine.nu(speed);
@@ -98,7 +97,7 @@ fn amplitudes(app: &App, buffer: &mut Buffer, at: ViewArea) {
     name_speeds(&mut plot, &marks, app);
 }
 
-/// Returns the line nearest to a frequency.
+/// Describes the spectral line nearest to a frequency.
 fn reading(spectrum: &Spectrum, frequency: f64) -> Option<String> {
     let line = (frequency / spectrum.resolution).round().max(0.0) as usize;
     let (u_c, u_s) = (spectrum.cosine.get(line)?, spectrum.sine.get(line)?);
@@ -119,7 +118,7 @@ fn campbell(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let inside = title(app, buffer, at, "Campbell", &legend);
     let fastest = app.results().found.locked.as_ref().map_or(600.0, |curves| curves.fastest);
     let top = app.machine.nu(fastest).max(1.5 * app.machine.omega_c);
-    // Over the speeds of the present sense of rotation.
+    // The speed axis covers the current direction of rotation.
     let sense = if app.speed() < 0.0 { -1.0 } else { 1.0 };
     let x = ChartAxis::speeds((sense * fastest).min(0.0), (sense * fastest).max(0.0));
     let Some(mut plot) = Plot::new(buffer, inside, x, ChartAxis::frequencies(0.0, top), look)

@@ -1,6 +1,6 @@
-//! Moves of the motion that take less time than they show: a step, a jump to the next change of
-//! contact, and one to an instant of the run ahead; and what is computed again from copies of
-//! the motion: the page on the screen and the instant of the reading cursor.
+//! Moves that are not played at the rate: a step, a jump to the next change of contact, and a
+//! go-to. Also what is recomputed from copies of the motion: the page on the screen and the time of
+//! the cursor.
 
 use std::time::{Duration, Instant};
 
@@ -13,13 +13,13 @@ use crate::tui::worker::playback::Playback;
 use crate::tui::worker::recorder::Recorder;
 use rubscope_solver::motion::Motion;
 
-/// Most samples that a jump to the next change of contact records.
+/// Largest number of samples recorded during a jump.
 const JUMP_SAMPLES: f64 = 20_000.0;
-/// Longest wall time of such a jump; a second press goes on from there.
+/// Longest wall-clock time of a jump; a second key press continues from there.
 pub(super) const JUMP_LIMIT: Duration = Duration::from_secs(1);
 
 impl Playback {
-    /// Makes the steps and jumps that are asked for since an order, once it has arrived.
+    /// Executes the steps and jumps requested since `before`; postponed while a go-to is under way.
     pub(super) fn owe(&mut self, before: &Order) {
         let Self { order, owed: [steps, jumps], .. } = self;
         *steps += order.steps.saturating_sub(before.steps).min(1000);
@@ -34,7 +34,7 @@ impl Playback {
         self.met.0 = self.order.jumps;
     }
 
-    /// Takes one time step, or one sample of a solver without steps.
+    /// Takes one time step, or one sample if the solver has no steps.
     pub(super) fn step(&mut self) {
         let step = match self.motion.steps() {
             Some(_) => self.order.scene.solver.step_s,
@@ -49,7 +49,7 @@ impl Playback {
         self.play_comparison(self.time_limit);
     }
 
-    /// Plays to the next change of contact, exactly.
+    /// Plays exactly to the next change of contact.
     pub(super) fn jump(&mut self) {
         let (began, limit) = (Instant::now(), self.time_limit.max(JUMP_LIMIT));
         let go_on = || began.elapsed() < limit;
@@ -63,7 +63,7 @@ impl Playback {
                 let (next, step) = ((now + sample).min(until), self.order.scene.solver.step_s);
                 let moved = next_sample(&mut self.motion, next, step, &go_on).is_ok();
                 self.record();
-                // The explicit solver may be at its last step by then.
+                // The explicit solver may already be at its last step before `until`.
                 if !moved || self.motion.t_s() <= now || !go_on() {
                     break;
                 }
@@ -77,7 +77,8 @@ impl Playback {
         self.play_comparison(self.time_limit);
     }
 
-    /// Goes on to where the motion is to be; false while the run ahead is not there yet.
+    /// Continues a go-to; returns false while the full run has not reached the target, or without a
+    /// go-to.
     pub(super) fn arrive(&mut self) -> bool {
         let Some(wanted) = self.going else { return false };
         let run = &self.forecasts.full_run;
@@ -85,7 +86,7 @@ impl Playback {
         if reached < wanted && !run.is_done() {
             return false;
         }
-        // A run that was given up, or failed, goes no farther.
+        // A run that failed or was given up ends earlier.
         let until = wanted.min(reached);
         if let Some(ahead) = run.before(until)
             && ahead.t_s() > self.motion.t_s()
@@ -98,7 +99,7 @@ impl Playback {
             return true;
         }
         (self.going, self.target) = (None, self.motion.t_s());
-        // What lies between is not in this record: the page is computed again.
+        // The recorder has nothing of the time in between; the page is recomputed anyway.
         self.recorder = Recorder::from(&self.motion);
         self.record();
         self.ends += u64::from(self.is_at_end());
@@ -113,12 +114,12 @@ impl Playback {
 }
 
 impl Playback {
-    /// Returns the latest motion by `t` that is known: a copy of the run ahead, or of the past.
+    /// Returns the latest known copy of the motion at or before `t`, from the full run or the past.
     fn before(&self, t: f64) -> Option<Motion> {
         self.forecasts.full_run.before(t).or_else(|| self.copies.before(t, &self.motion))
     }
 
-    /// Begins the page on the screen, once its zoom or its part of the run is another.
+    /// Requests the page on the screen, which has changed if its zoom or position has.
     pub(super) fn want_page(&mut self) {
         let (order, step) = (&self.order, self.order.scene.solver.step_s);
         let mut wanted = std::mem::take(&mut self.page);
@@ -133,7 +134,7 @@ impl Playback {
         }
     }
 
-    /// Begins to compute the instant of the reading cursor.
+    /// Starts to compute the state at the time of the cursor.
     pub(super) fn read(&mut self) {
         let at = self.order.cursor_s;
         let from = at.and_then(|t| Some((t, self.before(t)?)));
@@ -141,18 +142,18 @@ impl Playback {
         self.reading.go_on(self.time_limit.min(SLICE));
     }
 
-    /// Returns whether the pages on the screen are computed.
+    /// Returns whether the pages on the screen are complete.
     pub(super) fn pages_are_done(&self) -> bool {
         self.page.is_done() && self.comparison.as_ref().is_none_or(|theirs| theirs.page.is_done())
     }
 
-    /// Computes a slice of the pages on the screen; false where the runs to the end, which
-    /// take turns with them, come first.
+    /// Computes a slice of the pages; returns false if the full runs, with which they alternate,
+    /// come first.
     pub(super) fn compute_page(&mut self) -> bool {
         let theirs = self.comparison.as_mut().map(|theirs| &mut theirs.page);
         let mut pages = std::iter::once(&mut self.page).chain(theirs);
         let Some(page) = pages.find(|page| !page.is_done()) else { return false };
-        // The page is another one after arriving. One of the whole run has a third of the time.
+        // After a go-to the page will be another one. Otherwise a page gets a third of the time.
         let run = &self.forecasts.full_run;
         let first = self.going.is_none() && (run.is_done() || 2 * page.wall() < run.wall());
         if first {

@@ -1,12 +1,12 @@
-//! The curves of the coincidence of one scene, in the background: on a lining each
-//! point is a search.
+//! The coincidence curves of a scene, computed in the background: with a lining each point is a
+//! search.
 
 use super::{Given, Sent, Study};
 use crate::tui::views::coincidence::curves::CoincidenceCurves;
 use crate::tui::views::id::ViewId;
 use rubscope_solver::scene::Scene;
 
-/// The curves; none where the wave has no coincidence.
+/// Computes the curves; `None` if the wave has no coincidence.
 #[derive(Debug)]
 pub struct CoincidenceStudy;
 

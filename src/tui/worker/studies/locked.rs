@@ -1,5 +1,5 @@
-//! The curves of the locked motion of one scene: closed forms, wanted by the header of
-//! several views, so that they are always computed.
+//! The curves of the locked motion. They are closed forms, so they are cheap, and several views use
+//! them, so they are always computed.
 
 use std::sync::Arc;
 
@@ -8,7 +8,6 @@ use crate::tui::views::id::ViewId;
 use crate::tui::views::locked::curves::LockedCurves;
 use rubscope_solver::scene::Scene;
 
-/// The curves of a scene.
 #[derive(Debug)]
 pub struct LockedStudy;
 

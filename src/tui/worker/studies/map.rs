@@ -1,5 +1,5 @@
-//! The study of the map and that of the cell under its cursor, in threads of their own that stop
-//! within a millisecond when nobody wants their results any more.
+//! The map, and the run of the cell under its cursor. Both run in background threads that stop
+//! within about a millisecond once they are no longer wanted.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -14,14 +14,14 @@ use rubscope_solver::motion::{GoOn, Motion, verdict_of};
 use rubscope_solver::study::{Cell, MapPlan};
 use rubscope_solver::tolerances::LAST_PART;
 
-/// Longest wall time of one cell: an ordinary one takes a hundredth of it.
+/// Longest wall-clock time of one cell; a typical one takes a hundredth of it.
 const CELL_LIMIT: Duration = Duration::from_secs(1);
-/// Most cells that are taken over at once.
+/// Largest number of cells collected per slice.
 const MOST_TAKEN: usize = 4096;
 
 type Computed = (usize, Option<Cell>);
 
-/// The map of a plan.
+/// Computes the map of a plan.
 #[derive(Debug)]
 pub struct MapStudy;
 
@@ -41,13 +41,13 @@ impl Study for MapStudy {
     }
 }
 
-/// A map that is being computed.
+/// A map in progress.
 #[derive(Debug)]
 pub struct MapJob {
     live: Arc<LiveMap>,
-    /// The cells to compute, in order.
+    /// Indices of the cells, in order of computation.
     order: Arc<Vec<usize>>,
-    /// Cells after which the whole map can be seen.
+    /// Number of cells after which the whole map is covered by coarse blocks.
     first: usize,
     tried: Vec<bool>,
     threads: Vec<Background<Computed>>,
@@ -61,7 +61,7 @@ impl Job for MapJob {
     }
 
     fn work(&mut self, patience: Duration) {
-        // A thread that ended early, or could not be started, leaves cells.
+        // A thread that ended early or could not be started leaves cells uncomputed.
         if self.threads.iter().all(Background::is_done) && !self.is_done() {
             self.start();
         }
@@ -100,13 +100,13 @@ impl Job for MapJob {
     }
 
     fn pause(&mut self) {
-        // The threads end; the cells so far are kept.
+        // This ends the threads; computed cells stay.
         self.threads.clear();
     }
 }
 
 impl MapJob {
-    /// Creates a map of `plan`; of its cells at most the `most` coarsest are computed.
+    /// Creates the map of `plan`; at most the `most` coarsest cells are computed.
     fn new(plan: &MapPlan, most: usize) -> Self {
         let (mut order, first) = coarse_first(plan);
         order.truncate(most.max(1));
@@ -133,8 +133,8 @@ impl MapJob {
                 {
                     let began = Instant::now();
                     let cell = plan.compute(index, &|| go_on() && began.elapsed() < CELL_LIMIT);
-                    // A cell that takes too long stays empty; without a
-                    // receiver nobody asks any more.
+                    // A cell that takes too long stays empty. Sending fails only if the map was
+                    // dropped.
                     if to.send((index, cell)).is_err() {
                         return;
                     }
@@ -145,7 +145,7 @@ impl MapJob {
     }
 }
 
-/// The run of the cell under the cursor.
+/// Computes the run of the cell under the cursor.
 #[derive(Debug)]
 pub struct CellStudy;
 
@@ -218,7 +218,7 @@ mod tests {
         for index in 0..plan.len() {
             assert_eq!(job.live.map.cells[index], plan.compute(index, &|| true), "{index}");
         }
-        // Of a map that is too much for a test, only the coarse blocks.
+        // A test can limit a map to its coarsest cells.
         let mut coarse = MapJob::new(&plan, 1);
         while !coarse.is_done() {
             coarse.work(Duration::from_millis(5));
@@ -229,7 +229,7 @@ mod tests {
     #[test]
     fn the_run_of_a_cell_says_what_holds_it() {
         let scene = Scene::builtin("paper-nd3").unwrap();
-        // 500 rad/s and 1 MN.
+        // The cell at 500 rad/s and 1 MN.
         let mut job = with_given(&scene, ViewId::Map, |given| {
             CellStudy::begin(&(given.plan.clone().unwrap(), [50, 30]), given)
         });

@@ -1,5 +1,5 @@
-//! The margins of one scene in the background: first those of its own nodal diameters, then
-//! the survey of all of them, then by many runs the nearest changes of its verdict.
+//! The margins of a scene, in the background: first for its own nodal diameters, then the survey
+//! over all nodal diameters, then the nearest changes of the verdict, which take many runs.
 
 use std::sync::Arc;
 
@@ -11,7 +11,6 @@ use rubscope_solver::scene::CheckedScene;
 use rubscope_solver::study::margins::Margins;
 use rubscope_solver::study::survey::Survey;
 
-/// The margins of one scene.
 #[derive(Debug)]
 pub struct MarginsStudy;
 

@@ -1,6 +1,6 @@
-//! Studies for the views: curves, a spectrum, a map, margins, solvers compared. Each has a
-//! file here and a row in the table below, is computed only while it is wanted, in slices,
-//! and is kept while its inputs stay the same.
+//! Studies for the views: curves, spectrum, map, margins, comparison of solvers. Each has a file
+//! here and a row in the table below. It is computed in slices, only while a view needs it, and its
+//! result is kept while its inputs stay the same.
 
 mod coincidence;
 mod locked;
@@ -21,47 +21,46 @@ use crate::tui::views::id::ViewId;
 use rubscope_solver::motion::GoOn;
 use rubscope_solver::study::MapPlan;
 
-/// Wall time after which a study shows its progress.
+/// Wall-clock time after which the progress of a study is shown.
 const LONG: Duration = Duration::from_millis(500);
 
-/// Inputs of the studies.
+/// Inputs common to all studies.
 #[derive(Debug)]
 pub struct Given<'a> {
-    /// Order that is carried out.
+    /// The current order.
     pub order: &'a Order,
-    /// The map that is wanted, if there is one.
+    /// Plan of the map, if its view is open and the scene allows one.
     pub plan: Option<MapPlan>,
     /// The run to its end.
     pub run: &'a FullRunJob,
-    /// Most cells of a map, which only tests bound.
+    /// Limit on the computed map cells, for tests.
     pub most_cells: Option<usize>,
 }
 
-/// One study: its inputs, and what computes its result.
+/// A study: its inputs, and the job that computes its result.
 pub trait Study {
-    /// Its inputs.
+    /// Inputs; the result is kept while they are equal.
     type Key: fmt::Debug + PartialEq;
-    /// Its result.
+    /// The result, as the view draws it.
     type Found: fmt::Debug;
-    /// What computes it.
+    /// The job that computes it.
     type Job: Job<Found = Self::Found>;
     /// The view that shows it.
     const VIEW: ViewId;
-    /// Whether the result before is shown until there is a new one.
+    /// Whether the previous result stays on the screen until a new one arrives.
     const STAYS: bool = true;
-    /// Whether it takes so long that others like it go on beside it.
+    /// Whether it is slow enough to run side by side with other slow studies.
     const BESIDE: bool = false;
-    /// Whether it ends where it is not wanted any more, so that the work of the next order has
-    /// the processor.
+    /// Whether it is dropped, not paused, when it is no longer needed, to free the processor.
     const ENDS: bool = false;
 
-    /// Returns the inputs that are wanted; none where no view shows it.
+    /// Returns the current inputs; `None` if no view needs the study.
     fn key(given: &Given) -> Option<Self::Key>;
 
-    /// Starts it.
+    /// Starts the job.
     fn begin(key: &Self::Key, given: &Given) -> Self::Job;
 
-    /// Returns how far it is, 0 to 1, where that is known.
+    /// Returns the finished fraction, 0 to 1, if known.
     fn part(_: &Self::Found) -> Option<f64> {
         None
     }
@@ -69,29 +68,29 @@ pub trait Study {
 
 /// The computation of a result, in slices.
 pub trait Job: fmt::Debug {
-    /// The result.
+    /// The result; it may be partial while the job is not done.
     type Found;
 
-    /// Returns whether nothing more comes.
+    /// Returns whether the job is complete.
     fn is_done(&self) -> bool;
 
-    /// Does a slice of the work, or takes what a thread of it has found, waiting no longer
-    /// than `patience`.
+    /// Does a slice of the work, or collects results of its threads; waits up to `patience`.
     fn work(&mut self, patience: Duration);
 
-    /// Returns the result, as soon as it can be shown instead of the one before.
+    /// Returns the result once it may replace the previous one.
     fn found(&self) -> Option<&Arc<Self::Found>>;
 
-    /// Returns what to show where there is no result before.
+    /// Returns a partial result to show if there is no previous one.
     fn first(&self) -> Option<&Arc<Self::Found>> {
         None
     }
 
-    /// Leaves the processor to others while the result is not wanted.
+    /// Frees the processor while the result is not needed.
     fn pause(&mut self) {}
 }
 
-/// What a thread sends, of which the latest counts. Dropping it ends the thread.
+/// A job in a background thread; the latest value it sends is the result. Dropping it ends the
+/// thread.
 #[derive(Debug)]
 pub struct Sent<T> {
     coming: Background<T>,
@@ -99,7 +98,7 @@ pub struct Sent<T> {
 }
 
 impl<T: Send + 'static> Sent<T> {
-    /// Starts the thread. Where a result finds no receiver, nobody asks any more.
+    /// Starts the thread. Sending fails only if the job was dropped.
     fn by(work: impl FnOnce(&Sender<T>, GoOn<'_>) + Send + 'static) -> Self {
         Self { coming: Background::start(work), found: None }
     }
@@ -137,12 +136,12 @@ impl<T: fmt::Debug> Job for Arc<T> {
     }
 }
 
-/// A study, and what it found for the inputs before.
+/// A study, with the result for its previous inputs.
 #[derive(Debug)]
 struct StudySlot<S: Study> {
     study: Option<(S::Key, S::Job)>,
     before: Option<Arc<S::Found>>,
-    /// Start of the computation.
+    /// When the current job began.
     since: Option<Instant>,
 }
 
@@ -173,13 +172,13 @@ impl<S: Study> StudySlot<S> {
     }
 }
 
-/// Any study.
+/// A study of any type, as a trait object.
 trait Work {
     fn is_beside(&self) -> bool;
     fn is_done(&self, given: &Given) -> bool;
     fn work(&mut self, given: &Given, patience: Duration);
     fn stop_unwanted(&mut self, given: &Given);
-    /// Returns how far it is, where it takes long.
+    /// Returns the progress if the study has been running for a while.
     fn working(&self, given: &Given) -> Option<Working>;
 }
 
@@ -222,10 +221,10 @@ impl<S: Study> Work for StudySlot<S> {
 
 macro_rules! studies {
     ($($name:ident: $study:ty,)*) => {
-        /// The studies of one scene, in the order in which they are computed.
+        /// The studies of one scene, in order of computation.
         #[derive(Debug, Default)]
         pub struct Studies {
-            /// Most cells of a map, which only tests bound.
+            /// Limit on the computed map cells, for tests.
             pub most_cells: Option<usize>,
             $($name: StudySlot<$study>,)*
         }
@@ -239,7 +238,7 @@ macro_rules! studies {
                 [$(&mut self.$name as &mut dyn Work),*].into_iter()
             }
 
-            /// Returns what they have found so far.
+            /// Collects the results so far.
             pub fn found(&self, order: &Order, run: &FullRunJob) -> Found {
                 let given = self.given(order, run);
                 Found { $($name: self.$name.shown(&given),)* }
@@ -263,25 +262,26 @@ impl Studies {
         Given { order, plan: order.map_plan(), run, most_cells: self.most_cells }
     }
 
-    /// Stops what is not wanted any more, so that what is has the processor.
+    /// Stops unneeded studies, so that the others have the processor.
     pub fn stop_unwanted(&mut self, order: &Order, run: &FullRunJob) {
         let given = self.given(order, run);
         self.all_mut().for_each(|study| study.stop_unwanted(&given));
     }
 
-    /// Returns what takes long.
+    /// Returns the studies that have been running for a while.
     pub fn working(&self, order: &Order, run: &FullRunJob) -> Vec<Working> {
         let given = self.given(order, run);
         self.all().filter_map(|study| study.working(&given)).collect()
     }
 
-    /// Returns whether a study that is needed is missing.
+    /// Returns whether a needed study is incomplete.
     pub fn is_computing(&self, order: &Order, run: &FullRunJob) -> bool {
         let given = self.given(order, run);
         self.all().any(|study| !study.is_done(&given))
     }
 
-    /// Computes one slice of the first that is not done, and of those that go on beside it.
+    /// Computes one slice of the first incomplete study. If that is a slow one, the other slow ones
+    /// also get a slice.
     pub fn compute(&mut self, order: &Order, run: &FullRunJob) {
         let given = &self.given(order, run);
         let mut due: Vec<_> = self.all_mut().filter(|study| !study.is_done(given)).collect();
@@ -289,7 +289,7 @@ impl Studies {
             true => due.retain(|study| study.is_beside()),
             false => due.truncate(1),
         }
-        // Only one of them is waited for.
+        // Wait for results of only one of them.
         while let Some(study) = due.pop() {
             study.work(given, if due.is_empty() { SLICE } else { Duration::ZERO });
         }
@@ -304,7 +304,7 @@ mod tests {
     use rubscope_solver::motion::Motion;
     use rubscope_solver::scene::Scene;
 
-    /// What a study depends on, with a run that is not looked at.
+    /// Calls `with` with the inputs of a study that does not use the run.
     pub(super) fn with_given<T>(scene: &Scene, view: ViewId, with: impl Fn(&Given) -> T) -> T {
         let scene = scene.checked().unwrap();
         let run = FullRunJob::new(Motion::new(&scene), 1.0);
@@ -329,7 +329,7 @@ mod tests {
         studies.stop_unwanted(&order, run);
         assert!(studies.margins.study.is_none() && !studies.is_computing(&order, run));
         assert!(shown(&studies, &order).is_some());
-        // Of another scene the old ones stay until there are new ones.
+        // For another scene, the old result stays until there is a new one.
         order.open.push(ViewId::Margins);
         let mut other = order.scene.clone().into_scene();
         other.casing.damping_ratio = 0.1;

@@ -1,11 +1,10 @@
-//! Speed against error, row by row, in the background: a row can take seconds.
+//! Speed against error of the solvers, row by row in the background: a row can take seconds.
 
 use super::{Given, Sent, Study};
 use crate::tui::views::id::ViewId;
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::precision::{Effort, Measure, Precision, ways};
 
-/// The comparison of the solvers on one scene.
 #[derive(Debug)]
 pub struct PrecisionStudy;
 

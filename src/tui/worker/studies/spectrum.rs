@@ -1,4 +1,5 @@
-//! The spectrum of the run to its end, once that is there.
+//! The spectrum of the full run. Studies run after it, so its samples are complete unless it was
+//! given up.
 
 use std::sync::Arc;
 
@@ -6,12 +7,11 @@ use super::{Given, Study};
 use crate::tui::views::id::ViewId;
 use crate::tui::views::spectrum::lines::Spectrum;
 
-/// The spectrum of a run.
 #[derive(Debug)]
 pub struct SpectrumStudy;
 
 impl Study for SpectrumStudy {
-    /// Identification of the run: the knobs, and its end.
+    /// Generation of the knobs and end of the run, which identify the run.
     type Key = (u64, f64);
     type Found = Spectrum;
     type Job = Arc<Spectrum>;
