@@ -1,6 +1,6 @@
-//! A sum with the part that rounding drops: without error, by Knuth's six operations.
+//! Error-free sum of two numbers (Knuth's two-sum, six operations).
 
-/// The rounded sum of two numbers, and what is left of the exact one.
+/// Returns the rounded sum, and the exact rounding error.
 pub(crate) fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let rest = sum - a;
