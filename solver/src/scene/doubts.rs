@@ -1,5 +1,5 @@
-//! What in a scene looks like a slip: a unit or a decimal point that is off. Each doubt is
-//! a sentence with the key, its value, and what is usual.
+//! Plausibility checks: values that suggest a wrong unit or a misplaced decimal point. Each doubt
+//! is one sentence with the key, its value and the usual range.
 
 use std::f64::consts::TAU;
 
@@ -11,7 +11,7 @@ use crate::tolerances::{
     DOUBTFUL_FREQUENCY, DOUBTFUL_GAP, DOUBTFUL_RADIUS, DOUBTFUL_TIP_SPEED,
 };
 
-/// Casing or disk, and the keys of its numbers.
+/// A structure, casing or disk, and the keys of its values.
 struct Structure {
     name: &'static str,
     modes: &'static str,
@@ -34,22 +34,22 @@ const STRUCTURES: [Structure; 2] = [
     },
 ];
 
-/// What is looked at in a mode.
+/// Checked values of one mode.
 #[derive(Clone, Copy)]
 struct Looked {
     diameters: u32,
     hertz: f64,
-    /// At the rim of the casing, or at the tips \[kg\].
+    /// Modal mass for unit amplitude at the casing rim or at the blade tips \[kg\].
     mass: f64,
     damping: f64,
 }
 
 impl Scene {
-    /// What looks like a slip.
+    /// Returns one sentence for each value that looks like a unit error.
     #[must_use]
     pub fn doubts(&self) -> Vec<String> {
         let radius = self.radius_doubt();
-        // Tips are not too fast where the radius is what is too large.
+        // If the radius is doubtful, it also explains the tip speed.
         let speed = if radius.is_none() { self.speed_doubt() } else { None };
         let doubts =
             [radius, self.clearance_doubt(), speed, self.force_doubt(), self.diameters_doubt()];
@@ -67,7 +67,8 @@ impl Scene {
         all
     }
 
-    /// The modes of a structure, or what it has at the diameters of the scene.
+    /// Returns the values of all modes of a structure, or, if it has no list of modes, of the mode
+    /// in use.
     fn looked(&self, structure: &Structure, own: &[Mode]) -> Vec<Looked> {
         let mut diameters: Vec<u32> = own.iter().map(|mode| mode.nodal_diameters).collect();
         if diameters.is_empty() {
@@ -105,7 +106,7 @@ impl Scene {
         })
     }
 
-    /// Tips, an orbit or lobes that are no small error of a machine.
+    /// Checks tips, eccentricity and lobes against the size of usual imperfections.
     fn tips_doubt(&self) -> Option<String> {
         let most = DOUBTFUL_CLEARANCE * self.casing.radius_m;
         let (key, length) = self.unevenness().into_iter().find(|(_, length)| *length > most)?;
@@ -175,7 +176,7 @@ impl Scene {
     }
 
     fn mass_doubt(&self, structure: &Structure, looked: &[Looked]) -> Option<String> {
-        // The unit of the radius is asked about where it is what is wrong.
+        // If the radius is doubtful, it also explains the mass.
         self.radius_doubt().is_none().then_some(())?;
         let [least, most] = DOUBTFUL_DENSITY.map(|density| density * self.casing.radius_m.powi(3));
         let (mode, at) = first(looked, |mode| !(least..=most).contains(&mode.mass))?;
@@ -188,7 +189,8 @@ impl Scene {
     }
 }
 
-/// The first mode that is doubted, and which it is: one of several, and how many more are.
+/// Returns the first mode that meets the condition, and the words that name it and count the
+/// others.
 fn first(looked: &[Looked], is_doubted: impl Fn(&Looked) -> bool) -> Option<(Looked, String)> {
     let doubted: Vec<&Looked> = looked.iter().filter(|mode| is_doubted(mode)).collect();
     let mode = **doubted.first()?;
@@ -219,8 +221,8 @@ fn damping_doubt(structure: &Structure, looked: &[Looked]) -> Option<String> {
     ))
 }
 
-/// The modes whose frequency or mass lies far from those of the others: frequencies and masses
-/// of a structure go smoothly over the diameters.
+/// Finds modes whose frequency or mass is far from that of the others: both vary smoothly with the
+/// nodal diameters.
 fn course_doubts(structure: &Structure, looked: Vec<Looked>) -> Vec<String> {
     let mut doubts = Vec::new();
     for (what, unit, value) in [
