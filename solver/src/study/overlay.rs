@@ -1,5 +1,5 @@
-//! Curves over a map: the critical speed, those between which a lock holds, and the
-//! smallest pulse that makes any blade touch.
+//! Curves drawn over a map: critical speed, ends of the lock, and the smallest pulse that makes a
+//! blade touch.
 
 use super::MapPlan;
 use super::margins::grazing_pulse;
@@ -8,16 +8,16 @@ use crate::model::Machine;
 use crate::scene::Scene;
 use crate::scene::keys::{PULSE, SPEED};
 
-/// A curve over a map, in the quantities of its axes.
+/// A curve in the quantities of the map's axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
-    /// What it is.
+    /// Name of the curve.
     pub name: &'static str,
-    /// Points `(x, y)`, in order.
+    /// Points `(x, y)` in order along the curve.
     pub points: Vec<(f64, f64)>,
 }
 
-/// The curves that have a meaning on these axes, at the resolution of the map.
+/// Returns the curves that apply to the axes of a map, at its resolution.
 #[must_use]
 pub fn curves(plan: &MapPlan) -> Vec<Curve> {
     let mut curves = speed_curves(plan);
@@ -29,7 +29,7 @@ pub fn curves(plan: &MapPlan) -> Vec<Curve> {
     curves
 }
 
-/// The critical speed and those between which a lock holds, where one axis is the speed.
+/// Returns the critical speed and the ends of the lock, if one axis is the speed.
 #[must_use]
 pub fn speed_curves(plan: &MapPlan) -> Vec<Curve> {
     let Some(of_speed) = AlongOther::of(plan, SPEED) else { return Vec::new() };
@@ -42,7 +42,7 @@ pub fn speed_curves(plan: &MapPlan) -> Vec<Curve> {
     ]
 }
 
-/// As `speed_curves`, and the dangerous coincidence.
+/// As [`speed_curves`], with the dangerous coincidence.
 #[must_use]
 pub fn threshold_curves(plan: &MapPlan) -> Vec<Curve> {
     let mut curves = speed_curves(plan);
@@ -52,10 +52,10 @@ pub fn threshold_curves(plan: &MapPlan) -> Vec<Curve> {
     curves
 }
 
-/// A map with one axis over a given key; curves go along the other axis.
+/// A map with one axis over a given key; curves are traced along the other axis.
 struct AlongOther<'a> {
     plan: &'a MapPlan,
-    /// Whether the key is on the x axis.
+    /// Whether the key is that of the x axis.
     on_x: bool,
 }
 
@@ -65,8 +65,7 @@ impl<'a> AlongOther<'a> {
         (on_x || plan.y.path == path).then_some(Self { plan, on_x })
     }
 
-    /// The line of a threshold, in the sense of rotation in which the map goes
-    /// further.
+    /// Traces a threshold, for the direction of rotation in which the speed axis extends further.
     fn trace_speed(
         &self,
         name: &'static str,

@@ -1,6 +1,6 @@
-//! The reference motion at any time near the end. This is needed because an
-//! explicit run ends at its last step, up to one step before the end of the scene.
-//! A reference by steps is one at an instant that all of its steps reach.
+//! Reference motion at any time near the end, which is needed because an explicit run ends at its
+//! last step, up to one step before the end of the scene. A reference with halved steps is known
+//! only at an instant that all its steps reach.
 
 use std::f64::consts::TAU;
 use std::time::Instant;
@@ -13,10 +13,10 @@ use crate::tolerances::{LAST_PART, LOCK_MOMENT, STEP_ROUND_OFF};
 
 /// Reference for one model size, at the end of the run and shortly before.
 pub(super) struct Track {
-    /// How it was computed: by events, or at the finest of the halved steps.
+    /// Event solver, or explicit solver with the finest of the halved steps.
     pub(super) way: Way,
     pub(super) end: Motion,
-    /// Its verdict; for halved steps, that of the finest step.
+    /// Verdict; for halved steps, that of the finest one.
     pub(super) verdict: Verdict,
     /// Wall time of the run \[s\].
     pub(super) wall_s: f64,
@@ -24,14 +24,14 @@ pub(super) struct Track {
 }
 
 enum Found {
-    /// By events: the motion at a time after which every explicit run takes at least one step.
+    /// Event solver: the motion at a time before which no explicit run ends.
     Events(Motion),
-    /// By halved steps, with the instant at which ends are compared \[s\].
+    /// Halved steps, and the time at which final states are compared \[s\].
     Steps(Settled, f64),
 }
 
 impl Track {
-    /// Runs the event solver; `None` where `go_on` stopped it.
+    /// Runs the event solver; `None` if `go_on` stopped it.
     pub(super) fn by_events(
         way: Way,
         scene: &Scene,
@@ -40,7 +40,7 @@ impl Track {
         let end_s = scene.solver.end_s;
         let started = Instant::now();
         let mut before = way.start(scene)?;
-        // The motion stores a failure, and `at` returns none.
+        // A failure is stored in the motion; [`at`](Self::at) then returns `None`.
         let early = before.advance_while((end_s - 1.01 * LONGEST).max(0.0), go_on);
         let mut end = before.clone();
         if early == Ok(false) || end.advance_while(end_s, go_on) == Ok(false) {
@@ -51,7 +51,7 @@ impl Track {
         Ok(Some(Self { way, end, verdict, wall_s, found: Found::Events(before) }))
     }
 
-    /// Runs the explicit solver at halved steps; `None` where `go_on` stopped it.
+    /// Runs the explicit solver with halved steps; `None` if `go_on` stopped it.
     pub(super) fn by_steps(
         way: Way,
         scene: &Scene,
@@ -81,19 +81,20 @@ impl Track {
         Ok(Some(Self { way, end: run.motion, verdict, wall_s, found }))
     }
 
-    /// Returns whether this is the reference of that kind, at any step.
+    /// Returns whether this is the reference for that solver, law and model size, whatever the
+    /// step.
     pub(super) fn is_of(&self, reference: Result<Way, Way>) -> bool {
         let (Ok(way) | Err(way)) = reference;
         Way { step_s: None, ..self.way } == way
     }
 
-    /// Returns the verdict that a correct row has; `None` where halved steps have several.
+    /// Returns the correct verdict; `None` if the halved steps disagree.
     pub(super) fn right(&self) -> Option<Verdict> {
         let one = self.settled().is_none_or(|settled| settled.one_verdict);
         one.then_some(self.verdict)
     }
 
-    /// Returns the evaluation of the halved steps, if it is a reference by steps.
+    /// Returns the evaluation of the halved steps, if these are the reference.
     pub(super) fn settled(&self) -> Option<&Settled> {
         match &self.found {
             Found::Events(_) => None,
@@ -101,7 +102,7 @@ impl Track {
         }
     }
 
-    /// Returns the instant at which a run is compared with this reference \[s\].
+    /// Returns the time at which a run is compared with this reference \[s\].
     pub(super) fn look_s(&self, scene: &Scene) -> f64 {
         match &self.found {
             Found::Events(_) => scene.solver.end_s,
@@ -109,8 +110,8 @@ impl Track {
         }
     }
 
-    /// Returns the casing displacement at the instant `t` of a run that is compared \[m\]; `None`
-    /// if the reference failed before it, or if nothing is known of that instant.
+    /// Returns the casing displacement at time `t` of the run to be compared \[m\]; `None` if the
+    /// reference failed before, or is not known at that time.
     pub(super) fn at(&self, t: f64) -> Option<[f64; 2]> {
         match &self.found {
             Found::Steps(settled, _) => settled.end.map(|(u, _)| u),
