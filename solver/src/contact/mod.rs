@@ -129,7 +129,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// `W` of two sides of the polygon, an angle `turn` apart.
+    /// Returns `W` for two sides whose normals are `turn` radians apart.
     fn rows(turn: f64) -> [[f64; 2]; 2] {
         [[1.0, turn.cos()], [turn.cos(), 1.0]]
     }
@@ -170,7 +170,7 @@ mod tests {
             several.fill(&gap, |i, j| w[i][j]);
             let general = several.complementary().unwrap();
             for row in 0..2 {
-                // The condition number of W bounds what round-off may change.
+                // The accuracy is limited by the condition number of W.
                 prop_assert!((general[row] - lambda[row]).abs() < 1e-11);
             }
         }

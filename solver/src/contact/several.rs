@@ -137,7 +137,7 @@ mod tests {
         several
     }
 
-    /// A matrix in which the push on the middle row opens its neighbours.
+    /// A matrix with which a push on the middle row opens its neighbours.
     const SOFT: [[f64; 3]; 3] = [[1.0, -0.6, 0.2], [-0.6, 1.0, -0.6], [0.2, -0.6, 1.0]];
 
     #[test]
@@ -150,7 +150,7 @@ mod tests {
                 assert!(lambda[row] <= 0.0 && left > -1e-15, "{gaps:?} {lambda:?} {left}");
                 assert!((lambda[row] * left).abs() < 1e-15, "{gaps:?} {lambda:?} {left}");
             }
-            // From open rows, as many rows begin.
+            // Starting with open rows, as for larger sets, gives the same solution.
             several.begin(|_| false);
             several.pivot(SINGULAR).unwrap();
             for (a, b) in several.multipliers.iter().zip(&lambda) {

@@ -112,8 +112,8 @@ mod tests {
             for part in [-3.0, -0.5, 0.0, 1e-9, 0.1, 0.5, 0.9, 0.999] {
                 let angle_change = corner_angle.at(part * limit).unwrap();
                 let (back, _) = corner_angle.stiffness(angle_change).unwrap();
-                // Next to the fold the rounding of an angle is amplified a
-                // hundred times.
+                // Near the fold the rounding error of an angle is amplified by a factor of a
+                // hundred.
                 assert!((back - part * limit).abs() <= 1e-13 * limit.abs());
                 assert_eq!(angle_change > 0.0, part > 0.0);
             }

@@ -406,7 +406,7 @@ mod tests {
     use super::*;
     use crate::scene::Scene;
 
-    /// Table 1 with `kappa`, `mu`, and both damping ratios.
+    /// Returns the machine of Table 1 with `kappa`, `mu`, and both damping ratios.
     fn machine([kappa, mu, casing, blades]: [f64; 4]) -> Machine {
         let mut scene = Scene::base();
         for (path, value) in [

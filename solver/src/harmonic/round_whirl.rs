@@ -395,7 +395,7 @@ mod tests {
     use crate::model::{BladedDisk, Casing};
     use num_dual::Dual64;
 
-    /// Table 1 with tips of this slope, which carries the derivative.
+    /// Returns the machine of Table 1 with the tip slope `kappa`, which carries the derivative.
     fn inclined(kappa: Dual64) -> Machine<Dual64> {
         let disk = BladedDisk { radial_coupling: kappa, ..BladedDisk::default().to() };
         let casing = Casing::default().to();

@@ -323,13 +323,13 @@ mod tests {
 
     #[test]
     fn a_motion_that_flutters_is_unstable_though_every_coefficient_is_positive() {
-        // (s^2 + p s + 1)(s^2 + q s + 4): grows where p or q is negative.
+        // (s^2 + p s + 1)(s^2 + q s + 4) grows if p or q is negative.
         let polynomial = |p: f64, q: f64| [1.0, p + q, 5.0 + p * q, 4.0 * p + q, 4.0];
         assert_eq!(hurwitz(polynomial(0.1, 0.3)), Some(true));
         assert_eq!(hurwitz(polynomial(-0.01, 0.3)), Some(false));
         assert!(polynomial(-0.01, 0.3).iter().all(|&coefficient| coefficient > 0.0));
         assert_eq!(hurwitz(polynomial(0.3, -0.1)), Some(false));
-        // A pair that neither grows nor decays is decided by the eigenvalues.
+        // A nearly neutral pair is left to the eigenvalues.
         assert_eq!(hurwitz(polynomial(0.0, 0.3)), None);
     }
 }

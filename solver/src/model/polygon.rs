@@ -305,7 +305,7 @@ mod tests {
             let polygon = ContactPolygon::new(sides, 1, 1.0);
             for k in 0..sides {
                 let (c, s) = polygon.direction(k);
-                // The phase itself is rounded: up to half a unit in the last place of 2 pi.
+                // The phase itself is rounded by up to half a unit in the last place of 2 pi.
                 assert!((c - polygon.phase(k).cos()).abs() < 1.5e-15);
                 assert!((s - polygon.phase(k).sin()).abs() < 1.5e-15);
                 let (cm, sm) = polygon.direction((sides - k) % sides);

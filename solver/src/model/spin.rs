@@ -181,7 +181,7 @@ mod tests {
         assert!((machine.at(-500.0).clearance() - 75e-6).abs() < 1e-16);
         assert_eq!(machine.at(500.0).polygon.clearance, machine.at(500.0).clearance());
         assert!((machine.closing_speed().unwrap() - 1e3).abs() < 1e-9);
-        // As often as one likes, and back.
+        // Repeated evaluations do not accumulate, and the way back to rest is exact.
         assert_eq!(*machine.at(500.0).at(0.0), *machine.at(0.0));
         assert_eq!(machine.at(400.0).at(500.0), machine.at(500.0));
     }

@@ -277,7 +277,8 @@ fn integral(r: Plane, s: f64) -> Plane {
 mod tests {
     use super::*;
 
-    /// Classical Runge-Kutta with steps far below round-off in its own error.
+    /// Integrates by the classical Runge-Kutta method, with steps so short that only round-off
+    /// remains.
     fn integrated(c: f64, stiffness: f64, start: [f64; 2], a: f64, s: f64) -> [f64; 2] {
         let steps = 20_000;
         let h = s / f64::from(steps);
@@ -319,7 +320,7 @@ mod tests {
                 let [unit, slope] = integrated(c, stiffness, [0.0, 1.0], 0.0, s);
                 let [ramp, same] = integrated(c, stiffness, [0.0, 0.0], 1.0, s);
                 let [hold, _] = integrated(c, stiffness, [1.0, 0.0], 0.0, s);
-                // The integration itself is good to about 20000 roundings.
+                // The integration accumulates about 20000 rounding errors.
                 for (value, expected) in [
                     (response.unit, unit),
                     (response.slope, slope),

@@ -537,7 +537,7 @@ mod tests {
         assert_eq!(failure.unwrap().reason, FailureReason::BladeAngle { angle_rad: 0.797 });
     }
 
-    /// Pulls are what the bilateral law is for, as long as no lock is said to push.
+    /// Pulls are legitimate under the bilateral law unless the verdict is a lock by pushes.
     #[test]
     fn an_adhesive_contact_of_the_law_that_pulls_is_no_failure() {
         let changes = [("solver.contact", "bilateral"), ("operation.speed_rad_s", "400")];

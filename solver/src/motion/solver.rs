@@ -125,8 +125,10 @@ pub trait Solver: Debug + Send + Sync {
     /// Returns the record of contacts.
     fn contacts(&self) -> &ContactLog;
 
+    /// Returns the machine.
     fn machine(&self) -> &Machine;
 
+    /// Returns the rotor.
     fn rotor(&self) -> &Rotor;
 
     /// Returns the number of time steps so far, computed or skipped; `None` for a solver without

@@ -287,7 +287,7 @@ mod tests {
             Verdict::Locked
         );
         for last in [ActiveSet::Side(2), ActiveSet::Corner(2, 3)] {
-            // A corner held for half of the last part is not held all through it.
+            // A corner that is held during half of the window is not a lock.
             assert_eq!(
                 judged(|log| {
                     log.touch(0.01, ActiveSet::Side(3));
@@ -317,7 +317,7 @@ mod tests {
 mod trend_tests {
     use super::*;
 
-    /// A run to 1 s of an amplitude, looked at every hundredth.
+    /// Records an amplitude every hundredth of a run of 1 s, and extrapolates it.
     fn seen(amplitude: impl Fn(f64) -> f64) -> Option<f64> {
         let mut trend = Trend::over(1.0);
         (0..=100).for_each(|n| trend.see(f64::from(n) / 100.0, amplitude(f64::from(n) / 100.0)));
@@ -330,7 +330,7 @@ mod trend_tests {
         assert!((seen(|t| 0.7 + 2.0 * (-4.0 * t).exp()).unwrap() - 0.7).abs() < 1e-3);
         assert_eq!(seen(|t| 1.0 + t), None);
         assert_eq!(seen(|_| 1.0), None);
-        // Faster and faster.
+        // Falls at an increasing rate.
         assert_eq!(seen(|t| 1.0 - t * t), Some(0.0));
         let mut short = Trend::over(1.0);
         short.see(0.3, 1.0);

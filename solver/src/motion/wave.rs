@@ -95,7 +95,8 @@ mod tests {
     use super::*;
     use crate::scene::Scene;
 
-    /// The speed found of a wave that turns at a constant rate to the end.
+    /// Returns the measured speed of a wave that turns at a constant rate, and the number of
+    /// observations.
     fn found(scene: &CheckedScene, rate: f64) -> (f64, u32) {
         let mut wave = WaveTracker::over(scene, &Script::default());
         let (machine, mut looks) = (scene.machine(), 0);
@@ -110,7 +111,7 @@ mod tests {
 
     #[test]
     fn no_half_turn_hides_in_a_long_run() {
-        // Without steps there may be any end.
+        // The event solver has no limit on the end time.
         let mut scene = Scene::base().as_reference();
         for end in [1e-3, 0.1, 100.0, 1e4, 1e6] {
             scene.solver.end_s = end;

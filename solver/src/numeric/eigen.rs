@@ -213,8 +213,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Every value is one of the matrix up to rounding, by the smallest singular
-    /// value of `A - lambda`, and their sums are the traces.
+    /// Checks that every value is an eigenvalue up to rounding, by the smallest singular value of
+    /// `A - lambda`, and that sums of powers equal the traces.
     fn check(matrix: &DMatrix<f64>) -> Result<(), TestCaseError> {
         let values = eigenvalues(matrix.clone()).unwrap();
         let n = matrix.nrows();
@@ -236,7 +236,8 @@ mod tests {
     #[test]
     fn matrices_that_stall_the_plain_iteration() {
         for n in 2..=8 {
-            // A cycle: every shift by the last two rows is zero.
+            // Without exceptional shifts this cycle never converges: its ordinary shifts are all
+            // zero.
             let cycle = DMatrix::from_fn(n, n, |i, j| f64::from(u8::from(i == (j + 1) % n)));
             check(&cycle).unwrap();
             check(&DMatrix::zeros(n, n)).unwrap();
@@ -267,8 +268,8 @@ mod tests {
             check(&DMatrix::from_fn(n, n, |i, j| entry(8 * i + j)))?;
         }
 
-        /// A casing seen from a rotor of `f` times its frequency, and blades of
-        /// `b` times, over thirty powers of ten; the roots are closed forms.
+        /// A casing in the frame of a rotor at `f` times its frequency, and blades of `b` times its
+        /// frequency, over thirty powers of ten; the roots have closed forms.
         #[test]
         fn turning_oscillators(
             power in -15.0..15.0_f64, blades in -15.0..15.0_f64,
@@ -289,7 +290,7 @@ mod tests {
             (matrix[(4, 5)], matrix[(5, 4)]) = (turn, -turn);
             (matrix[(4, 1)], matrix[(5, 0)]) = (drag, -drag);
             let values = eigenvalues(matrix).unwrap();
-            // A pair that nearly coincides keeps half the digits.
+            // Nearly equal roots are accurate to half the digits.
             let fast = 1.0 + f + (1.0 + damping) * b;
             let near = |expected: Complex<f64>, scale: f64| {
                 let error = 1e-7 * scale + 1e-13 * fast;

@@ -89,7 +89,7 @@ mod tests {
             Some((0..size).map(|k| equations[k * (size + 1) + size]).collect::<Vec<f64>>())
         };
         assert_eq!(solved(Vec::new(), 0), Some(Vec::new()));
-        // A pivot of zero and one that is small beside the others.
+        // One pivot is zero, another one small compared with the other entries.
         let equations = vec![0.0, 2.0, 1.0, 7.0, 1e-20, 1.0, 1.0, 5.0, 4.0, 1.0, -1.0, 3.0];
         assert_eq!(solved(equations, 3), Some(vec![1.0, 2.0, 3.0]));
         assert_eq!(solved(vec![1.0, 2.0, 3.0, 2.0, 4.0, 6.0], 2), None);
@@ -97,7 +97,7 @@ mod tests {
 
     #[test]
     fn the_inverse_times_the_matrix_is_one_and_a_singular_matrix_has_none() {
-        // The first pivot is zero; the last row and column are beyond the three.
+        // The first pivot is zero; the fourth row and column are not used.
         let matrix = [[0.0, 2.0, -1.0, 9.0], [3.0, 0.5, 0.0, 9.0], [1.0, -4.0, 7.0, 9.0], [9.0; 4]];
         let found = inverse(&matrix, 3).unwrap();
         for (row, line) in found.iter().take(3).enumerate() {

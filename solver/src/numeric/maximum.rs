@@ -32,7 +32,7 @@ mod tests {
     #[test]
     fn the_top_is_found_where_it_is_inside_or_at_an_end() {
         let (place, value) = highest([-1.0, 3.0], |x| 2.0 - (x - 0.7) * (x - 0.7));
-        // Round-off of the value leaves its square root of the place.
+        // Near a maximum the position is accurate to the square root of round-off only.
         assert!((place - 0.7).abs() < 3e-8 && value == 2.0, "{place} {value}");
         for (ends, top) in [([0.0, 1.0], 1.0), ([-1.0, 0.0], 0.0)] {
             let (place, value) = highest(ends, |x| x);

@@ -54,7 +54,7 @@ mod tests {
     fn quadrature_is_exact_for_what_the_solver_asks() {
         for (s, rate) in [(1.0, 1.0), (7.0, 1.0), (0.04, 1.0), (3.0, 5.0)] {
             let [a, b] = quadrature(s, rate, |t| [(rate * t).sin(), 1.0]);
-            // Both rules err by round-off at these angles.
+            // At these angles the error of both rules is round-off.
             assert!((a - (1.0 - (rate * s).cos()) / rate).abs() < 1e-13 * s.max(1.0));
             assert!((b - s).abs() < 1e-14 * s);
         }

@@ -172,7 +172,7 @@ fn bisected(on: &impl Fn(Point, Point) -> Coefficients, from: Point, to: Point) 
 mod tests {
     use super::*;
 
-    /// `(x - a)(x - b)` from one point to another.
+    /// Returns the coefficients of `(x - a)(x - b)` on an interval.
     fn pair(a: f64, b: f64) -> impl Fn(Point, Point) -> Coefficients {
         move |from, to| {
             let at = |u: Point, v: Point| {
@@ -207,7 +207,7 @@ mod tests {
 
     #[test]
     fn what_has_no_real_root_gives_none() {
-        // x^2 + e^2 for smaller and smaller e.
+        // x^2 + e^2 with decreasing e.
         for e in [1.0, 1e-4, 1e-8, 1e-12] {
             let on = |u: Point, v: Point| {
                 let at = |u: Point, v: Point| u.p * v.p + e * e * u.q * v.q;

@@ -264,7 +264,7 @@ mod tests {
             stiffening: None,
         };
         let ordinary = vec![family(2, 214.0, 3.9), family(3, 297.5, 2.9), family(8, 378.0, 2.25)];
-        // One that is softer than the springs of the two others alone.
+        // The second mode is softer than the springs fitted to the other two.
         let odd = vec![family(2, 100.0, 3.0), family(6, 60.0, 3.0), family(8, 400.0, 3.0)];
         for disk in [ordinary, odd] {
             for nodal_diameters in [2, 3, 8, 6] {
@@ -283,7 +283,7 @@ mod tests {
 
     #[test]
     fn two_families_of_the_disk_give_the_stiffness_between_blades() {
-        // Those of a disk with given springs.
+        // Modes of a disk with known springs.
         let base = Scene::base();
         let mass = 11.0 * 0.20825 / (0.4999 * 0.4999);
         let of = |diameters: u32| Family {
@@ -329,7 +329,7 @@ mod tests {
             assert_eq!((disk[0].modal_mass_kg, disk.len()), (3.9, 3));
             assert_eq!((disk[2].frequency_hz, disk[2].stiffening), (386.0, None));
         }
-        // It comes back from the scene, at any speed.
+        // The scene reproduces the frequencies at any speed.
         let [_, disk] = read_modes(&format!(
             "{head}\ndisk;5;352;3,9;0\ndisk;5;{};3,9;9500\ndisk;4;300;3;",
             at(9500.0)

@@ -238,7 +238,7 @@ pub(super) fn event(scene: &Scene) -> Result<(), SceneError> {
 mod tests {
     use super::*;
 
-    /// The number after a word in a message.
+    /// Returns the number that follows a word in a message.
     fn number_after(message: &str, word: &str) -> Option<f64> {
         let rest = message.split(word).nth(1)?.trim_start();
         rest.split([' ', ',']).next()?.parse().ok()
@@ -311,7 +311,7 @@ mod tests {
             (-1.234_56e5, -1.235e5, -1.235e5, -1.234e5),
         ] {
             assert_eq!((down(x), up(x)), (under, over), "{x}");
-            // One unit at a power of ten is one of the decade above it.
+            // At a power of ten the next number below is up to a unit of the decade above.
             assert!((below(x) - least_under).abs() <= 1e-3 * x.abs() && below(x) < x, "{x}");
         }
         assert_eq!((down(0.0), down(f64::INFINITY)), (0.0, f64::INFINITY));

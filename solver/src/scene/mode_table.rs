@@ -364,7 +364,8 @@ mod tests {
             let refused = of(names, cells).unwrap_err().to_string();
             assert!(refused.contains(why), "{names}: {refused}");
         }
-        // What is no unit makes another column, the symbol of a prefix alone, too.
+        // A name that ends in something other than a unit is an unknown column, even if it is an SI
+        // prefix.
         for name in
             ["Speed n", "Speed of the test", "Massive", "Damping measured", "speed_k", "Speed µ"]
         {

@@ -250,7 +250,7 @@ mod tests {
         Lining::of(machine, &surface).unwrap()
     }
 
-    /// The definition, by the midpoint rule.
+    /// Evaluates the defining integral by the midpoint rule.
     fn plain(lining: &Lining, r: f64, parts: u32) -> f64 {
         let sum: f64 = (0..parts)
             .map(|k| {

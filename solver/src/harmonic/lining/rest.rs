@@ -393,7 +393,7 @@ mod tests {
     use proptest::prelude::*;
 
     impl Quartic {
-        /// Returns the residual of a root \[rad/s\] over the size of its terms.
+        /// Returns the residual of a root relative to the magnitude of its terms.
         fn residual(&self, s: Complex<f64>) -> f64 {
             let t = s / self.scale;
             let terms = |[square, rate]: [f64; 2], at: f64| at * at + rate * at + square;
@@ -431,7 +431,7 @@ mod tests {
             let tangent = [[rest.stiffness_n_per_m, 0.0], [0.0, rest.stiffness_n_per_m]];
             let values = small_motions(&joint, [joint.nu, 0.0], tangent).unwrap();
             let growth = values.iter().map(|value| value.re).fold(f64::MIN, f64::max);
-            // Of two roots that meet, half the digits are known.
+            // Nearly equal roots are accurate to half the digits.
             let near = rest.roots.iter().flat_map(|a| rest.roots.iter().map(move |b| (a, b)));
             let apart = near.filter(|(a, b)| a != b)
                 .map(|(a, b)| (a.s_rad_s - b.s_rad_s).hypot(a.growth_1_s - b.growth_1_s))

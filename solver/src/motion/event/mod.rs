@@ -143,7 +143,7 @@ mod tests {
         for _ in 0..1_000_000 {
             clock.pass(0.1);
         }
-        // A tenth as a number is 0.1 + 5.55e-18.
+        // The floating-point number 0.1 is 0.1 + 5.55e-18.
         assert!((clock.elapsed(1e5 + 1.0) - (1.0 - 5.551_115_123e-12)).abs() < 1e-15 * 10.0);
         assert_eq!(clock.now, clock.start());
         clock.begin_at(7.0);

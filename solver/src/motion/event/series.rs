@@ -212,7 +212,7 @@ mod looks_tests {
             (1.0, 1.0, 0.0, -1.0, 0.1),
             (1.0, -1.0, 0.0, 0.0, 1.0),
             (1.0, -3.0, 8.0, -6.0, 0.5),
-            // It nearly closes, opens again, and closes then.
+            // Nearly closes, opens again, and then closes.
             (1.01, -4.0, 8.0, 0.0, 60.0),
             (1e-12, -1.0, 2.0, 30.0, 1.0),
             (1e-3, 0.0, 0.0, -1.0, 1.0),

@@ -184,8 +184,8 @@ mod tests {
     use crate::motion::ActiveSet;
     use crate::motion::Verdict;
 
-    /// Runs at seven halvings of a step of one second, whose ends are these, with as many
-    /// impacts as `impacts` says.
+    /// Returns runs with successively halved steps, starting at one second; `end` gives the final
+    /// displacement for a step, `impacts` the number of impacts.
     fn runs(end: impl Fn(f64) -> f64, impacts: impl Fn(usize) -> u64) -> Vec<Halved> {
         (0..REFERENCE_STEPS)
             .map(|n| {
@@ -215,14 +215,15 @@ mod tests {
             let (u, error) = found.end.unwrap();
             assert!((u[0] - 3.0).abs() <= error && error < 1e-5, "{order}: {} {error}", u[0] - 3.0);
         }
-        // Third order is of no scheme here, and half an order of no use.
+        // No scheme here has third order, and half an order is not accepted.
         assert_ne!(settled(|h| 1e-3 * h.powi(3)).method, Method::Extrapolated);
         assert_ne!(settled(|h| 1e-3 * h.sqrt()).method, Method::Extrapolated);
     }
 
     #[test]
     fn impacts_between_steps_leave_the_finest_step_with_a_bound_of_its_error() {
-        // The second instant is just behind one that all steps share: an order is seen.
+        // The second instant is just after one that all steps share, so the changes suggest an
+        // order.
         for (instant, order) in [(0.618_033_9, false), (0.500_001, true)] {
             let end = |h: f64| 1.0 + 2e-4 * (h * (instant / h).ceil() - instant);
             let all = runs(end, |_| 5);
@@ -232,7 +233,7 @@ mod tests {
             assert_eq!(u[0], end(0.5_f64.powi(REFERENCE_STEPS as i32 - 1)));
             assert!((u[0] - 1.0).abs() <= error && error < 1e-5, "{instant}: {error:e}");
             assert_eq!(settled(end).method == Method::Extrapolated, order);
-            // Other impacts at another step: not the same motion.
+            // The number of impacts differs between steps, so the motions differ.
             let other = runs(end, |n| n as u64);
             assert_eq!(settle(&other, 1.0, 1.0, true).method, Method::None(Lack::OtherMotions));
         }
@@ -244,7 +245,7 @@ mod tests {
         let lack = Method::None(Lack::NotFalling);
         assert_eq!((found.method, found.end, found.order), (lack, None, None));
         assert_eq!(found.changes.len(), REFERENCE_STEPS - 1);
-        // Nor does an error of a tenth of the clearance.
+        // An error of a tenth of the clearance is no reference, either.
         let far = settled(|h| 100.0 * h * (1.0 + (97.0 / h).sin()));
         assert_eq!(far.method, Method::None(Lack::TooFar));
     }
@@ -263,7 +264,7 @@ mod tests {
             assert_eq!(found.changes, whole.changes[failed.len()..]);
             assert!(found.one_verdict);
         }
-        // Four changes that go on, and four that fall as no order does.
+        // Four changes that do not decrease, and four that decrease with too low an order.
         let last = |end: fn(f64) -> f64| settle(&runs(end, |_| 5)[3..], 1.0, 1.0, true).method;
         assert_eq!(last(|h| (11.7 / h).sin()), Method::None(Lack::NotFalling));
         assert_eq!(last(f64::sqrt), Method::None(Lack::TooFew));
@@ -277,7 +278,7 @@ mod tests {
     #[test]
     fn round_off_is_no_change_and_takes_no_order_away() {
         assert_eq!(settled(|_| 0.7).end, Some(([0.7, 0.0], 0.0)));
-        // Second order down to a floor.
+        // Second order down to a noise floor.
         let found = settled(|h| h * h + if h < 0.02 { 1e-6 * (97.0 / h).sin() } else { 0.0 });
         let (u, error) = found.end.unwrap();
         assert_eq!(found.method, Method::Extrapolated);

@@ -357,7 +357,7 @@ mod tests {
         let errors: Vec<f64> = rows.iter().map(|row| row.error_final.unwrap()).collect();
         assert_eq!(errors.len(), 4);
         assert!(errors.windows(2).all(|pair| pair[1] < pair[0]), "{errors:?}");
-        // Order one in contact: two decades of step, two decades of error.
+        // First order in contact: two decades of step give two decades of error.
         assert!((errors[0] / errors[3]).log10() > 1.7, "{errors:?}");
         assert!(rows.iter().all(|row| row.verdict_right == Some(true)));
     }

@@ -143,8 +143,8 @@ mod tests {
         (track, settled, look_s)
     }
 
-    /// An excitation too small to be felt is not for the event solver, which knows the
-    /// same scene without it.
+    /// A negligible excitation excludes the event solver, which supplies the exact result without
+    /// it.
     #[test]
     fn a_reference_by_steps_is_as_near_to_the_event_solver_as_it_says() {
         let mut found = Vec::new();
@@ -166,13 +166,14 @@ mod tests {
                 found.push(Some(settled.method));
             }
         }
-        // Most have a reference, with and without an order.
+        // Most scenes have a reference, some with an order and some without.
         let of = |method| found.iter().filter(|other| **other == method).count();
         assert!(of(None) < 8 && of(Some(Method::FinestStep)) > 3, "{found:?}");
         assert!(of(Some(Method::Extrapolated)) > 0, "{found:?}");
     }
 
-    /// By a Runge-Kutta method of eighth order, with the full angles of the blades.
+    /// The expected values come from a Runge-Kutta method of eighth order with the blade angles in
+    /// the gaps.
     #[test]
     fn a_reference_on_a_lining_is_that_of_a_method_of_high_order() {
         let mut scene = Scene::builtin("coincidence").unwrap();
@@ -181,14 +182,15 @@ mod tests {
         assert!((look_s - 0.05).abs() < 1e-12);
         let (u, error) = settled.end.unwrap();
         let off = distance(u, [-2.684_877_616e-7, 4.302_712_028e-7]);
-        // Of ten digits.
+        // The expected values have ten digits.
         assert!(off < 1e-15 && error < 1e-9, "{off:e} {error:e}");
         assert_eq!(settled.method, Method::Extrapolated);
         assert!((settled.order.unwrap() - 2.0).abs() < 0.01, "{settled:?}");
         assert_eq!(track.right(), Some(track.verdict));
     }
 
-    /// Single blades that move contact are another model than the disk of two modes.
+    /// With inclined or rubbing tips single blades affect the contact, so two disk modes are no
+    /// reference.
     #[test]
     fn single_blades_beyond_the_paper_are_their_own_reference() {
         let by_events = |changes: &[(&str, &str)]| {
@@ -205,7 +207,8 @@ mod tests {
         assert_eq!(by_events(&[("solver.contact", "smooth")]), [false; 3]);
         let ramp = [pushes, ("operation.speed_ramp_rad_s2", "10"), ("contact.friction", "0.1")];
         assert_eq!(by_events(&ramp), [true, false, false]);
-        // Too long for that: its rows are left out, and the others stay.
+        // The full model is too long for a reference with halved steps and has no rows; the others
+        // stay.
         let mut long = Scene::builtin("friction-lock").unwrap().as_reference();
         long.solver.end_s = 200.0;
         let models: Vec<_> = ways(&long, EFFORT).iter().map(|way| way.model).collect();

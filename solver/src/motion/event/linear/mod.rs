@@ -327,8 +327,8 @@ impl Solver for LinearEvents {
 
 #[cfg(test)]
 mod tests {
-    //! Motions that start in a corner with blades bent as they are there: more than a scene
-    //! can say.
+    //! Motions that start in a corner with bent blades, an initial state that a scene cannot
+    //! describe.
 
     use super::*;
     use crate::motion::ActiveSet;
@@ -344,7 +344,7 @@ mod tests {
         scene.checked().unwrap()
     }
 
-    /// `kappa`, `mu`, `tau` and the speed.
+    /// Returns the keys of `kappa`, `mu`, `tau` and the speed.
     fn keys([kappa, mu, tau, speed]: [f64; 4]) -> [(&'static str, f64); 4] {
         [
             ("bladed_disk.radial_coupling", kappa),
@@ -354,7 +354,8 @@ mod tests {
         ]
     }
 
-    /// Locked in the corner of sides 0 and 1: the closed form, from the joint compliance.
+    /// Starts a motion locked in the corner of sides 0 and 1, from the closed form with the joint
+    /// compliance.
     fn locked(scene: &CheckedScene) -> LinearEvents {
         let parameters = Parameters::new(scene);
         let (machine, nu) = (&parameters.machine, parameters.nu);
@@ -414,9 +415,10 @@ mod tests {
             ([-0.1, 0.3, 0.0], 406.867471),
         ] {
             let tau = if mu > 0.0 { casing_friction / mu } else { 0.0 };
-            // As many digits as are printed.
+            // One unit of the last digit given above.
             let digit = if speed == 414.855 { 1e-3 } else { 2e-6 };
-            // A push of round-off's size proves nothing: so near only the held corner is certain.
+            // Very close to the limit a contact force is within round-off, so the lock is not
+            // proved.
             for (at, kept) in [(speed + digit, true), (speed - digit, false), (speed + 0.5, true)] {
                 let mut motion = locked(&scene(&keys([kappa, mu, tau, at])));
                 motion.advance(0.3).unwrap();
@@ -451,7 +453,7 @@ mod tests {
 
     #[test]
     fn a_growing_motion_is_told_as_one() {
-        // Above the flutter of the joined structures (516 rad/s at most here).
+        // Above the flutter speed, which is at most 516 rad/s here.
         let scene = scene(&keys([0.5, 0.0, 0.0, 560.0]));
         let mut motion = locked(&scene);
         let failure = motion.advance(5.0).unwrap_err();

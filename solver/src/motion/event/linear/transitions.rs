@@ -498,7 +498,7 @@ mod tests {
         assert_eq!(met, [(2, -1e-3), (3, 0.0)]);
     }
 
-    /// Gaps that have just opened go on with digits of their own, but as the motion does.
+    /// A gap that has just opened is stored separately, but must agree with the motion.
     #[test]
     fn an_opened_gap_is_small_and_moves_as_the_motion_whatever_changes_on_the_way() {
         let keys = [
