@@ -9,8 +9,8 @@ use crate::model::Machine;
 use crate::numeric::is_zero;
 use crate::scene::{ContactLaw, Scene};
 
-/// Line of a Campbell diagram, `frequency = +-sqrt(at_standstill^2 + stiffening Omega^2) + slope
-/// Omega`.
+/// Line of a Campbell diagram,
+/// `frequency = +-sqrt(at_standstill^2 + stiffening Omega^2) + slope Omega`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Line {
     /// Label.

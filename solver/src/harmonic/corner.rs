@@ -124,8 +124,8 @@ impl Corner {
     }
 }
 
-/// Displacements of casing and blades: `z` in units of `g0`, and the modal blade angles `n_d
-/// alpha_c`, `n_d alpha_s` \[rad\].
+/// Displacements of casing and blades: `z` in units of `g0`, and the modal blade angles
+/// `n_d alpha_c`, `n_d alpha_s` \[rad\].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Configuration {
     pub z: (f64, f64),

@@ -1,8 +1,8 @@
 //! Equations of the lock (docs/theory.md, section 8): two neighbouring phase groups hold the casing
 //! wave in a corner of the polygon, in the blade frame.
 //!
-//! Lengths are in units of `g0`, contact forces in `k_c g0`. With `z = x + i y`, the direction `b_i
-//! = psi_i + n_d alpha_i` of a group and `A_i = n_d Im[z exp(-i b_i)]`:
+//! Lengths are in units of `g0`, contact forces in `k_c g0`. With `z = x + i y`, the direction
+//! `b_i = psi_i + n_d alpha_i` of a group and `A_i = n_d Im[z exp(-i b_i)]`:
 //!
 //! - rows 1-2, closed gaps: `1 + Re[z exp(-i b_i)] - kappa l_b alpha_i = 0`
 //! - rows 3-4, casing: `(stiffness + i drag) z = (1 + i mu_c) sum P_i exp(i b_i)`
@@ -36,8 +36,8 @@ use crate::tolerances::{
 /// Scaled unknowns `[x, y, P_a, P_b, alpha_a, alpha_b]`.
 pub(super) type Unknowns<T = f64> = [T; 6];
 
-/// Casing impedance at one speed: `stiffness = 1 - (nu/omega_c)^2` and `drag = 2 zeta_c
-/// nu/omega_c`.
+/// Casing impedance at one speed: `stiffness = 1 - (nu/omega_c)^2` and
+/// `drag = 2 zeta_c nu/omega_c`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Wave<T = f64> {
     pub stiffness: T,
@@ -108,8 +108,8 @@ pub(super) struct Equations<T = f64> {
     share: [[T; 2]; 2],
 }
 
-/// A group in contact: its direction `(cos b, sin b)`, and real and imaginary part of `z exp(-i
-/// b)`.
+/// A group in contact: its direction `(cos b, sin b)`, and real and imaginary part of
+/// `z exp(-i b)`.
 struct Touch<T> {
     direction: (T, T),
     along: T,

@@ -5,9 +5,9 @@
 //! rotor speed on this motion grows. That is also where the contact forces of a whirl become
 //! infinite, `B(omega) = 0` at a real frequency.
 //!
-//! Dimensionless, with `x = omega/omega_c`, `y = s/omega_bd`, `c = c2 k_c/k_a`: `c (1 - x^2 + 2 i
-//! zeta_c x) + (1 + i mu_c)(1 - y^2 + 2 i zeta_bd y) = 0` and `nu/omega_c = x - (omega_bd/omega_c)
-//! y`. At a stability limit `x` and `y` are real:
+//! Dimensionless, with `x = omega/omega_c`, `y = s/omega_bd`, `c = c2 k_c/k_a`:
+//! `c (1 - x^2 + 2 i zeta_c x) + (1 + i mu_c)(1 - y^2 + 2 i zeta_bd y) = 0` and
+//! `nu/omega_c = x - (omega_bd/omega_c) y`. At a stability limit `x` and `y` are real:
 //!
 //! - real part: `c (1 - x^2) + 1 - y^2 - 2 mu_c zeta_bd y = 0`
 //! - imaginary part: `2 c zeta_c x + 2 zeta_bd y + mu_c (1 - y^2) = 0`
@@ -67,16 +67,16 @@ impl<'a> Joint<'a> {
         machine.polygon.has_corners() && (meets(1.0) || meets(-1.0))
     }
 
-    /// Returns the dynamic stiffness of the casing at a frequency in the stationary frame, `k_c -
-    /// omega^2 m_c + i omega d_c` \[N/m\].
+    /// Returns the dynamic stiffness of the casing at a frequency in the stationary frame,
+    /// `k_c - omega^2 m_c + i omega d_c` \[N/m\].
     #[must_use]
     pub fn casing_stiffness(&self, omega: f64) -> Complex<f64> {
         let m = &*self.machine;
         Complex::new(m.casing_stiffness - omega * omega * m.casing_mass, omega * m.casing_damping)
     }
 
-    /// Returns the dynamic stiffness of the blade modes at a frequency in the blade frame, `k_a -
-    /// s^2 m_a + i s d_a` \[N m/rad\].
+    /// Returns the dynamic stiffness of the blade modes at a frequency in the blade frame,
+    /// `k_a - s^2 m_a + i s d_a` \[N m/rad\].
     #[must_use]
     pub fn blade_stiffness(&self, s: f64) -> Complex<f64> {
         let m = &*self.machine;
@@ -106,10 +106,10 @@ impl<'a> Joint<'a> {
     }
 }
 
-/// Returns the flutter speed without any damping, as a magnitude \[rad/s\]: `Omega_f = sqrt[(1/m_c
-/// + c2/m_a)(k_c + k_a/c2)]/n_d`, which is never below the dangerous coincidence. `None` if the
-/// tips do not couple blades and casing, or the lock never flutters. The sign of `toward` is the
-/// direction of rotation.
+/// Returns the flutter speed without any damping, as a magnitude \[rad/s\]:
+/// `Omega_f = sqrt[(1/m_c + c2/m_a)(k_c + k_a/c2)]/n_d`, which is never below the dangerous
+/// coincidence. `None` if the tips do not couple blades and casing, or the lock never flutters. The
+/// sign of `toward` is the direction of rotation.
 #[must_use]
 pub fn undamped_flutter_speed<T: Number>(machine: &Machine<T>, toward: f64) -> Option<T> {
     let pair = HeldPair::of(&machine.at(T::zero()), toward)?;

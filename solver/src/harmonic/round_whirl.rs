@@ -4,9 +4,9 @@
 //! and its threshold appear as a pair.
 //!
 //! The relative displacement of casing and tips, `w = z - kappa l_b a`, has a constant magnitude
-//! and turns at `s` in the blade frame. The force `p = w/B(omega)` must point against it, so `Im B
-//! = 0` and `Re B < 0`. `Im B |L_c|^2 |L_a|^2` is a polynomial of degree six in `omega`, all of
-//! whose roots are found.
+//! and turns at `s` in the blade frame. The force `p = w/B(omega)` must point against it, so
+//! `Im B = 0` and `Re B < 0`. `Im B |L_c|^2 |L_a|^2` is a polynomial of degree six in `omega`, all
+//! of whose roots are found.
 //!
 //! Read [`round_whirls`] (the waves at a speed), then [`whirl_onsets`] (the folds over speed).
 

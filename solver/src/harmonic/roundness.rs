@@ -1,9 +1,9 @@
 //! How round a casing must be to keep a lock (docs/theory.md, section 11).
 //!
-//! Lobes `e cos(m phi - psi)` move the corner of the lock. Both gaps stay closed, so that `z = z_0
-//! + z_1 exp(i m Omega t) + z_2 exp(-i m Omega t)`, which needs the forces `L_c(nu + m Omega) z_1`
-//! and `L_c(nu - m Omega) z_2`. The lock persists as long as no contact force vanishes and no other
-//! side reaches the corner.
+//! Lobes `e cos(m phi - psi)` move the corner of the lock. Both gaps stay closed, so that
+//! `z = z_0 + z_1 exp(i m Omega t) + z_2 exp(-i m Omega t)`, which needs the forces
+//! `L_c(nu + m Omega) z_1` and `L_c(nu - m Omega) z_2`. The lock persists as long as no contact
+//! force vanishes and no other side reaches the corner.
 
 use nalgebra::Complex;
 

@@ -3,8 +3,8 @@
 //!
 //! The state is a single number, the speed just after a corner. A lasting slip is a fixed point of
 //! the map from corner to corner; its wave turns slower than the rotor. Above the critical speed
-//! the motion along a side has a saddle point. With lengths in `g0`, time in `1/omega_c` and `f =
-//! nu/omega_c`:
+//! the motion along a side has a saddle point. With lengths in `g0`, time in `1/omega_c` and
+//! `f = nu/omega_c`:
 //!
 //! - `y'' + 2 zeta y' + (1 - f^2) y = 2 zeta f`
 //! - contact force `N = f^2 - 1 - 2 f y' - 2 zeta f y`, in `k_c g0`

@@ -2,16 +2,17 @@
 //! with the contacts kept (docs/theory.md, section 8).
 //!
 //! Coordinates are `(x, y, alpha_c, alpha_s)`, lengths in `g0`, blade coordinates in units that
-//! make their stiffness one, time in `1/omega_c`: `M w'' + C w' + K w + sum Lambda_k grad g_k(w) =
-//! 0` with `g_k(w) = 0`. Writing `w = w_0 + Z q + ...`, where `Z` spans the null space of the
-//! constraint gradients, leaves `Z^T M Z q'' + Z^T C Z q' + Z^T (K + sum Lambda_k H_k) Z q = 0`,
-//! `H_k` being the second derivatives of the gaps. The casing damping is fixed in the stationary
-//! frame, so `K` contains its circulatory part.
+//! make their stiffness one, time in `1/omega_c`:
+//! `M w'' + C w' + K w + sum Lambda_k grad g_k(w) = 0` with `g_k(w) = 0`. Writing
+//! `w = w_0 + Z q + ...`, where `Z` spans the null space of the constraint gradients, leaves
+//! `Z^T M Z q'' + Z^T C Z q' + Z^T (K + sum Lambda_k H_k) Z q = 0`, `H_k` being the second
+//! derivatives of the gaps. The casing damping is fixed in the stationary frame, so `K` contains
+//! its circulatory part.
 //!
 //! If tips are inclined or rub (section 10), the forces do not act along the gradients, and the
 //! equations are projected onto the null space of the force directions instead. For gaps that do
-//! not turn with the blade angle this is the coupled motion of casing and blades, `L_c(s) + (1 + i
-//! mu_c) L_a(s)/c2 = 0`.
+//! not turn with the blade angle this is the coupled motion of casing and blades,
+//! `L_c(s) + (1 + i mu_c) L_a(s)/c2 = 0`.
 
 use nalgebra::{Complex, DMatrix, DVector, Matrix2, Matrix4, Matrix4x2, Vector4};
 

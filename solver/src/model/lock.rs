@@ -6,9 +6,9 @@
 //! With `K = k_c - nu^2 m_c`, `D = d_c nu`, `c = c2/k_a` and `mu_c = mu tau`, `1/H` is a positive
 //! number times `K + c (K^2 + D^2) + mu_c D + i (D - mu_c K)`.
 //!
-//! On a lining with the group stiffness `k` (no smoothing) both push where `-tan(delta) Re H - |Im
-//! H| >= 1/(k sin 2 delta)`, which adds the term `(K^2 + D^2)/(k sin 2 delta)` to the condition on
-//! `1/H`.
+//! On a lining with the group stiffness `k` (no smoothing) both push where
+//! `-tan(delta) Re H - |Im H| >= 1/(k sin 2 delta)`, which adds the term
+//! `(K^2 + D^2)/(k sin 2 delta)` to the condition on `1/H`.
 //!
 //! If the blades stiffen with speed, `c` becomes `c/(1 + b x^2)`. If they grow with speed, every
 //! window ends where the clearance closes.
@@ -58,8 +58,9 @@ impl<T: Number> Machine<T> {
     /// Returns the lock speed: the lowest speed at which both multipliers of the locked motion are
     /// compressive, for forward rotation \[rad/s\].
     ///
-    /// Without friction, inclined tips and lining, `Omega_lock = Omega_c [zeta cot delta + sqrt(1 +
-    /// zeta^2 cot^2 delta)]`. `None` without corners, or if no speed has a lock.
+    /// Without friction, inclined tips and lining,
+    /// `Omega_lock = Omega_c [zeta cot delta + sqrt(1 + zeta^2 cot^2 delta)]`. `None` without
+    /// corners, or if no speed has a lock.
     #[must_use]
     pub fn lock_speed(&self) -> Option<T> {
         self.lock_windows(1.0).first().map(|window| window.from)
@@ -224,11 +225,11 @@ impl<T: Number> Machine<T> {
     /// Returns the group multipliers `[lambda_a, lambda_b]` of the locked motion at a constant
     /// speed, `psi_b = psi_a + 2 delta`; negative is a push \[N\].
     ///
-    /// For rigid contact and blades that are rigid in rotation they are `(g0/2 cos
-    /// delta)(Re(1/H)/cos delta -+ Im(1/H)/sin delta)`. Without friction and inclined tips `1/H = K
-    /// + i D` with `K = k_c - nu^2 m_c` and `D = d_c nu`. `None` without corners, with an
-    /// interference fit, and if inclined tips have modes with other nodal diameters than the
-    /// casing.
+    /// For rigid contact and blades that are rigid in rotation they are
+    /// `(g0/2 cos delta)(Re(1/H)/cos delta -+ Im(1/H)/sin delta)`. Without friction and inclined
+    /// tips `1/H = K + i D` with `K = k_c - nu^2 m_c` and `D = d_c nu`. `None` without corners,
+    /// with an interference fit, and if inclined tips have modes with other nodal diameters than
+    /// the casing.
     #[must_use]
     pub fn locked_multipliers(&self, speed: T) -> Option<[T; 2]> {
         let here = self.at(speed);

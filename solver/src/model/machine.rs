@@ -49,8 +49,8 @@ pub struct Machine<T = f64> {
     pub has_sine_mode: bool,
     /// Blade length `l_b` \[m\].
     pub blade_length: T,
-    /// Slope `kappa` of the tip path: a blade angle `alpha` moves the tip outward by `kappa l_b
-    /// alpha`.
+    /// Slope `kappa` of the tip path: a blade angle `alpha` moves the tip outward by
+    /// `kappa l_b alpha`.
     pub radial_coupling: T,
     /// Nodal diameters `n_b` of the disk modes, as a floating-point number.
     pub blade_diameters: f64,
@@ -197,8 +197,8 @@ impl<T: Number> Machine<T> {
         self.friction_at(speed) * self.tangential_ratio
     }
 
-    /// Returns the first-order coupling of blades and casing through the contact, `c2 = kappa
-    /// (kappa + mu) l_b^2` \[m^2\]. It is zero for the paper's tips.
+    /// Returns the first-order coupling of blades and casing through the contact,
+    /// `c2 = kappa (kappa + mu) l_b^2` \[m^2\]. It is zero for the paper's tips.
     #[must_use]
     pub fn coupling_product_at(&self, speed: T) -> T {
         let kappa = self.radial_coupling;
@@ -276,8 +276,8 @@ impl<T: Number> Machine<T> {
         speed * self.nodal_diameters
     }
 
-    /// Returns the critical speed `Omega_c = omega_c/n_d`, Eq. (17) \[rad/s\]; `None` for `n_d =
-    /// 0`.
+    /// Returns the critical speed `Omega_c = omega_c/n_d`, Eq. (17) \[rad/s\]; `None` for
+    /// `n_d = 0`.
     #[must_use]
     pub fn critical_speed(&self) -> Option<T> {
         (self.nodal_diameters > 0.0).then(|| self.omega_c / self.nodal_diameters)
@@ -313,12 +313,13 @@ impl<T: Number> Machine<T> {
         self.meetings(self.omega_c, self.omega_bd_at_rest()).1
     }
 
-    /// Returns the speeds at which a casing wave and a blade wave coincide, `casing = n Omega +-
-    /// blades`, for the frequencies `casing` and `blades` (at rest) \[rad/s\]: first the
-    /// differences, negative if the blades are faster, then the sum.
+    /// Returns the speeds at which a casing wave and a blade wave coincide,
+    /// `casing = n Omega +- blades`, for the frequencies `casing` and `blades` (at rest) \[rad/s\]:
+    /// first the differences, negative if the blades are faster, then the sum.
     ///
-    /// With stiffening `B` the speeds are the roots of `(n^2 - B) Omega^2 - 2 n casing Omega +
-    /// casing^2 - blades^2 = 0`; the sum is the root with `n Omega > casing`.
+    /// With stiffening `B` the speeds are the roots of
+    /// `(n^2 - B) Omega^2 - 2 n casing Omega + casing^2 - blades^2 = 0`; the sum is the root with
+    /// `n Omega > casing`.
     #[must_use]
     pub fn meetings(&self, casing: T, blades: T) -> (Vec<T>, Option<T>) {
         let (n, stiffening) = (self.nodal_diameters, self.stiffening());
@@ -345,8 +346,8 @@ impl<T: Number> Machine<T> {
     }
 
     /// Returns the coincidence that is dangerous for the tips of this machine \[rad/s\]: the sum,
-    /// Eq. (31), or the difference of Eq. (30) if the friction is self-locking, `kappa (kappa + mu)
-    /// < 0`. The sign is that of `speed`.
+    /// Eq. (31), or the difference of Eq. (30) if the friction is self-locking,
+    /// `kappa (kappa + mu) < 0`. The sign is that of `speed`.
     #[must_use]
     pub fn coincidence_felt_at(&self, speed: T) -> Option<T> {
         let digs_in = self.coupling_product_at(speed).re() < 0.0;
@@ -364,8 +365,8 @@ impl<T: Number> Machine<T> {
     }
 }
 
-/// Returns the blade frequency at rest for `nodal_diameters`, from `omega_bd^2 = (k_b + 2 k_bb (1 -
-/// cos(2 pi n_d/N)))/m_b` \[rad/s\].
+/// Returns the blade frequency at rest for `nodal_diameters`, from
+/// `omega_bd^2 = (k_b + 2 k_bb (1 - cos(2 pi n_d/N)))/m_b` \[rad/s\].
 #[must_use]
 pub fn blade_frequency<T: Number>(disk: &BladedDisk<T>, nodal_diameters: u32) -> T {
     let angle = TAU * f64::from(nodal_diameters % disk.blades.max(1)) / f64::from(disk.blades);

@@ -136,11 +136,11 @@ pub struct BladedDisk<T = f64> {
     pub coupling_nm_per_rad: T,
     /// Viscous damping ratio of every blade mode at rest, `zeta_bd`.
     pub damping_ratio: T,
-    /// Centrifugal stiffening `B`: at the speed `Omega` every blade frequency is `sqrt(omega^2 + B
-    /// Omega^2)`.
+    /// Centrifugal stiffening `B`: at the speed `Omega` every blade frequency is
+    /// `sqrt(omega^2 + B Omega^2)`.
     pub centrifugal_stiffening: T,
-    /// Slope `kappa` of the tip path: a blade angle `alpha` moves the tip outward by `kappa l_b
-    /// alpha`; 0 for the paper's tips.
+    /// Slope `kappa` of the tip path: a blade angle `alpha` moves the tip outward by
+    /// `kappa l_b alpha`; 0 for the paper's tips.
     pub radial_coupling: T,
     /// Nodal diameters `n_b` of the disk modes; 0 means those of the casing.
     pub nodal_diameters: u32,

@@ -144,8 +144,8 @@ impl<T: Number> Machine<T> {
 }
 
 impl Machine {
-    /// Returns the difference of a blade's gap from the clearance at the rotor angle `theta`, `e
-    /// cos(m (theta + Phi_i) - psi) - b_i` \[m\]. The blade is numbered from 0.
+    /// Returns the difference of a blade's gap from the clearance at the rotor angle `theta`,
+    /// `e cos(m (theta + Phi_i) - psi) - b_i` \[m\]. The blade is numbered from 0.
     #[must_use]
     pub fn uneven_at(&self, blade: u32, theta: f64) -> f64 {
         let phi = theta + TAU * f64::from(blade) / f64::from(self.polygon.blades);
@@ -220,9 +220,9 @@ impl Machine {
     }
 }
 
-/// Returns the point nearest to `from` that satisfies every gap condition `offset + Re[z
-/// conj(normal)] >= 0`. Incremental (Seidel): each violated condition moves the point along its own
-/// line, within the range that the earlier conditions leave.
+/// Returns the point nearest to `from` that satisfies every gap condition
+/// `offset + Re[z conj(normal)] >= 0`. Incremental (Seidel): each violated condition moves the
+/// point along its own line, within the range that the earlier conditions leave.
 fn nearest(rows: &[(Plane, f64)], from: Plane) -> Option<Plane> {
     let mut place = from;
     for (k, &(normal, offset)) in rows.iter().enumerate() {

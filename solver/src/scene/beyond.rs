@@ -203,8 +203,8 @@ pub(super) fn tips(scene: &Scene) -> Result<(), SceneError> {
 
 /// Rejects tips whose contact force closes its own gap.
 ///
-/// A contact force opens its gap only if `1/m_c + c2/m_a > 0`, and in a time step also with `m + d
-/// h/2` in place of `m`. Otherwise no contact force, or more than one, closes the gap.
+/// A contact force opens its gap only if `1/m_c + c2/m_a > 0`, and in a time step also with
+/// `m + d h/2` in place of `m`. Otherwise no contact force, or more than one, closes the gap.
 fn opening(scene: &Scene) -> Result<(), SceneError> {
     let machine = scene.machine();
     let step = match scene.solver.kind {

@@ -101,8 +101,8 @@ impl Lining<'_> {
 pub(super) type Tangent = [[f64; 2]; 2];
 
 /// Returns the eigenvalues, growth rate and frequency, of the motions about a wave with the casing
-/// frequency `omega` and the blade frequency `s` \[rad/s\], whose contact force changes by `dp =
-/// -tangent dw` \[N/m\]; `None` if the eigenvalues overflow.
+/// frequency `omega` and the blade frequency `s` \[rad/s\], whose contact force changes by
+/// `dp = -tangent dw` \[N/m\]; `None` if the eigenvalues overflow.
 pub(super) fn small_motions(
     joint: &Joint,
     [omega, s]: [f64; 2],

@@ -2,11 +2,11 @@
 //! (docs/theory.md, section 10).
 //!
 //! `P = 0` for `g >= 0`, `k_p g^2/(2 eps)` for `-eps < g < 0`, `k_p (-g - eps/2)` below. A wave
-//! with the gap amplitude `r` encounters the stiffness `S(r) = (N/(2 pi r)) int P(g0 - r cos f) cos
-//! f df`, which is evaluated here without quadrature error: `S(r) = (N k_p/2 pi) mean(-g0/r,
-//! eps/r)`, the mean of `f - sin f cos f`, `cos f = -x`, over `x` from `(-g0 - eps)/r` to `-g0/r`.
-//! For a wide range it is a difference of closed forms, for a narrow one a sum without
-//! cancellation.
+//! with the gap amplitude `r` encounters the stiffness
+//! `S(r) = (N/(2 pi r)) int P(g0 - r cos f) cos f df`, which is evaluated here without quadrature
+//! error: `S(r) = (N k_p/2 pi) mean(-g0/r, eps/r)`, the mean of `f - sin f cos f`, `cos f = -x`,
+//! over `x` from `(-g0 - eps)/r` to `-g0/r`. For a wide range it is a difference of closed forms,
+//! for a narrow one a sum without cancellation.
 
 use crate::scene::keys;
 use std::borrow::Cow;

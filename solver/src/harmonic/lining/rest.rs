@@ -2,9 +2,9 @@
 //! about it, the speeds at which the fastest of them begins or ceases to grow (Hopf points), the
 //! coincidence shifted by the lining, and the softest lining with growth.
 //!
-//! With `S0 = N k_p/2` the roots `s` of `e^{ist}` in the blade frame solve `L_c L_a + S0 [(1 + i
-//! mu_c) L_a + c2 L_c] = 0`, with `L_c = k_c - m_c (s + nu)^2 + i d_c (s + nu)` and `L_a = k_a -
-//! m_a s^2 + i d_a s`.
+//! With `S0 = N k_p/2` the roots `s` of `e^{ist}` in the blade frame solve
+//! `L_c L_a + S0 [(1 + i mu_c) L_a + c2 L_c] = 0`, with
+//! `L_c = k_c - m_c (s + nu)^2 + i d_c (s + nu)` and `L_a = k_a - m_a s^2 + i d_a s`.
 //!
 //! The growth rate varies over a range of speed that is set by damping and coupling. The scan has
 //! eight points in each such range around every coincidence, and a thousand over the whole
@@ -205,9 +205,9 @@ pub struct LeastStiffness {
 }
 
 /// Returns the coincidence of a machine on a lining with the total stiffness `stiffness` \[N/m\],
-/// for the direction of rotation given by the sign of `sense` \[rad/s\]: `(omega_c' +-
-/// omega_bd')/n_d`, with minus for a negative coupling product. `None` if the blades have no
-/// restoring stiffness.
+/// for the direction of rotation given by the sign of `sense` \[rad/s\]:
+/// `(omega_c' +- omega_bd')/n_d`, with minus for a negative coupling product. `None` if the blades
+/// have no restoring stiffness.
 fn shifted(machine: &Machine, stiffness: f64, sense: f64) -> Option<f64> {
     let product = machine.coupling_product_at(sense);
     let [casing, blades] = pressed(machine, stiffness, product)?;

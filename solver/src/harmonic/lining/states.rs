@@ -7,11 +7,12 @@
 //! linear for each set of groups in contact, and all sets of neighbours are tried. From these
 //! solutions, and from a grid of points, Newton's method continues to `eps > 0`.
 //!
-//! For blades that do not turn the gap, a pair of groups holds the wave if `-tan(delta) Re H - |Im
-//! H| >= 1/(k sin 2 delta)`, where `H = B(nu)` is the joint compliance and `k` the stiffness of one
-//! group; without friction and inclined tips `|K| tan delta >= D + (K^2 + D^2)/(k sin 2 delta)`. A
-//! lock therefore needs a minimum stiffness at each speed, and a lining softer than the least of
-//! these never holds one. Above the last speed of two groups three may hold the wave.
+//! For blades that do not turn the gap, a pair of groups holds the wave if
+//! `-tan(delta) Re H - |Im H| >= 1/(k sin 2 delta)`, where `H = B(nu)` is the joint compliance and
+//! `k` the stiffness of one group; without friction and inclined tips
+//! `|K| tan delta >= D + (K^2 + D^2)/(k sin 2 delta)`. A lock therefore needs a minimum stiffness
+//! at each speed, and a lining softer than the least of these never holds one. Above the last speed
+//! of two groups three may hold the wave.
 
 use std::borrow::Cow;
 
@@ -107,8 +108,8 @@ impl<'a> Balance<'a> {
         })
     }
 
-    /// Returns the contact force of all blades at a displacement, and its derivative: `dp =
-    /// -tangent dw`.
+    /// Returns the contact force of all blades at a displacement, and its derivative:
+    /// `dp = -tangent dw`.
     fn pushes(&self, w: Vector2<f64>) -> (Vector2<f64>, Matrix2<f64>) {
         let each = f64::from(self.lining.machine.polygon.blades_per_side);
         self.gaps(w).fold((Vector2::zeros(), Matrix2::zeros()), |(push, slope), (_, n, gap)| {
