@@ -15,11 +15,11 @@ pub enum HarmonicError {
          phase groups; a corner needs three sides (N = {blades} gives {sides} here)"
     )]
     NoCorner {
-        /// `n_d`.
+        /// Nodal diameters `n_d`.
         nodal_diameters: u32,
-        /// `N`.
+        /// Number of blades `N`.
         blades: u32,
-        /// `N'`.
+        /// Number of sides `N'`.
         sides: u32,
     },
     /// The two blades are not neighbours in phase, so that they cannot hold a wave between them.

@@ -264,15 +264,15 @@ pub fn lock_roots(joint: &Joint) -> Vec<Complex<f64>> {
 /// Blades and casing that move together in a corner, in units of their stiffnesses, for forward
 /// rotation. The speed is `turn = nu/omega_c`.
 struct HeldPair<T> {
-    /// `c = c2 k_c/k_a`.
+    /// Coupling `c = c2 k_c/k_a`.
     coupling: T,
-    /// `omega_bd/omega_c`.
+    /// Frequency ratio `omega_bd/omega_c`.
     rate: T,
-    /// `2 zeta_c`.
+    /// Casing damping `2 zeta_c`.
     casing: T,
-    /// `2 zeta_bd`.
+    /// Blade damping `2 zeta_bd`.
     blades: T,
-    /// `mu_c`.
+    /// Friction on the casing mode, `mu_c`.
     friction: T,
 }
 

@@ -199,7 +199,7 @@ const STEPS: [Step; TERMS] = {
 /// Free motion of the casing from rest to its first contact, with rigid blades.
 #[derive(Clone, Copy, Debug)]
 pub struct FreeFlight<'a, T> {
-    /// The machine.
+    /// Machine, whose blades are taken as rigid.
     pub machine: &'a Machine<T>,
     /// Rotor speed and pulse.
     pub operation: &'a Operation<T>,

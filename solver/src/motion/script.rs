@@ -52,8 +52,8 @@ impl Change {
         }
     }
 
-    /// Returns whether a running motion can take over all differences between two scenes and each
-    /// of them has an effect on it.
+    /// Returns whether a running motion can take over all differences between two scenes. A
+    /// difference in the initial state needs a new motion.
     #[must_use]
     pub fn acts_live(before: &Scene, now: &Scene) -> bool {
         let mut differing = keys::differing(before, now).map(|key| key.live);

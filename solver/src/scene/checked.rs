@@ -55,7 +55,7 @@ impl CheckedScene {
     /// Checks that the event solver supports the contact law, the model size and the excitation.
     ///
     /// # Errors
-    /// It does not; the reason in one line.
+    /// States in one line what is not supported.
     pub fn suits_events(&self) -> Result<(), SceneError> {
         check::event(&self.0)
     }
@@ -63,7 +63,7 @@ impl CheckedScene {
     /// Checks that the tips and their contact are those of the paper.
     ///
     /// # Errors
-    /// The scene has other ones; in one line.
+    /// The scene has other tips or another contact.
     pub fn is_of_the_paper(&self) -> Result<(), SceneError> {
         if !self.has_other_tips() {
             return Ok(());
