@@ -176,8 +176,8 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     by_events(scene)
 }
 
-/// Rejects a list of tip lengths that does not match the number of blades, lobes without a number,
-/// and tips or lobes that leave no room in rigid contact.
+/// Rejects a list of tip lengths that does not match the number of blades, a lobe height with a
+/// lobe count of zero, and tips or lobes that leave no room in rigid contact.
 pub(super) fn tips(scene: &Scene) -> Result<(), SceneError> {
     let (disk, casing) = (&scene.bladed_disk, &scene.casing);
     let (given, blades) = (disk.tips_m.len(), disk.blades as usize);

@@ -138,8 +138,8 @@ fn force<T: Number>(flight: &FreeFlight<'_, T>, side: u32, t: T) -> T {
     -flight.machine.clearance() / flight.gap_by_pulse(side, t)
 }
 
-/// Refines the instant at which the side needs the smallest force; at the end of the search
-/// interval, that end.
+/// Refines the instant at which the side needs the smallest force. If there is no minimum nearby,
+/// the end of the search interval is the instant.
 fn polished(all: &Parameters<Dual64>, look: Look, sense: f64, step: f64) -> FirstTouch {
     let machine = all.machine();
     let flight = all.flight(&machine);
