@@ -24,7 +24,7 @@ pub(super) struct CornerAngle<T = f64> {
 impl<T: Number> CornerAngle<T> {
     /// Creates the equation for a machine.
     pub fn of(machine: &Machine<T>) -> Self {
-        let scales = Scales::of(machine);
+        let scales = Scales::new(machine);
         Self::new(machine.polygon.delta, scales.softness * scales.share)
     }
 

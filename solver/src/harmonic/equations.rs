@@ -72,7 +72,7 @@ pub(super) struct Scales<T = f64> {
 
 impl<T: Number> Scales<T> {
     /// Creates the units of a machine.
-    pub fn of(machine: &Machine<T>) -> Self {
+    pub fn new(machine: &Machine<T>) -> Self {
         let length = machine.clearance();
         let force = machine.casing_stiffness * length;
         let stiffness = machine.blade_inertia * machine.omega_bd * machine.omega_bd;
@@ -121,7 +121,7 @@ impl<T: Number> Equations<T> {
     /// `wave`.
     pub fn new(machine: &Machine<T>, corner: Corner, form: Form, wave: Wave<T>, speed: T) -> Self {
         let polygon = &machine.polygon;
-        let scales = Scales::of(machine);
+        let scales = Scales::new(machine);
         let reach = machine.blade_length / (machine.clearance() * machine.nodal_diameters);
         let lever = (machine.radial_coupling + machine.friction_at(speed)) * reach;
         let each = 1.0 / f64::from(polygon.blades_per_side);

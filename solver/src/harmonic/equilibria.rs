@@ -191,7 +191,7 @@ pub fn equilibrium(
         return Ok(None);
     }
     let wave = Wave::at(machine, speed, damped);
-    let scales = Scales::of(machine);
+    let scales = Scales::new(machine);
     let loads = match kind {
         Kind::Rest => Some(((0.0, 0.0), Vec::new())),
         Kind::Side => on_side(machine, &scales, wave, side),
@@ -261,7 +261,7 @@ pub(super) fn judged(
     configuration: &Configuration,
     loads: &[(u32, f64, f64)],
 ) -> Result<Equilibrium, HarmonicError> {
-    let (polygon, scales) = (&machine.polygon, Scales::of(machine));
+    let (polygon, scales) = (&machine.polygon, Scales::new(machine));
     let sides: Vec<u32> = loads.iter().map(|load| load.0).collect();
     let held: Vec<_> =
         loads.iter().map(|load| configuration.held(polygon, load.0, load.1)).collect();

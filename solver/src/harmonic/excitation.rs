@@ -131,7 +131,7 @@ fn at(
     let state = judged(machine, Kind::Corner, speed, true, &configuration, &loads)?;
     let motion = Linearised::about(machine, speed, true, &held);
 
-    let scales = Scales::of(machine);
+    let scales = Scales::new(machine);
     let angle = blade_scale(machine) / machine.nodal_diameters;
     let torque = excitation.amplitude_nm * angle / (scales.force * scales.length);
     let frequency = f64::from(excitation.order) * speed;

@@ -43,11 +43,11 @@ impl<'a> Joint<'a> {
     /// Creates the joint at a rotor speed \[rad/s\].
     #[must_use]
     pub fn at(machine: &'a Machine, speed: f64) -> Self {
-        Self::of(machine.at(speed), speed)
+        Self::new(machine.at(speed), speed)
     }
 
     /// Creates the joint of a machine that is already evaluated at that speed.
-    pub(super) fn of(machine: Cow<'a, Machine>, speed: f64) -> Self {
+    pub(super) fn new(machine: Cow<'a, Machine>, speed: f64) -> Self {
         Self {
             nu: machine.nu(speed),
             casing_friction: machine.casing_friction_at(speed),
@@ -112,7 +112,7 @@ impl<'a> Joint<'a> {
 /// sign of `toward` is the direction of rotation.
 #[must_use]
 pub fn undamped_flutter_speed<T: Number>(machine: &Machine<T>, toward: f64) -> Option<T> {
-    let pair = HeldPair::of(&machine.at(T::zero()), toward)?;
+    let pair = HeldPair::new(&machine.at(T::zero()), toward)?;
     let rate = pair.rate * pair.rate;
     let square = (pair.coupling * rate + 1.0) * (pair.coupling.recip() + 1.0);
     let critical = machine.critical_speed()?;
@@ -140,7 +140,7 @@ pub fn flutter_speed<T: Number>(machine: &Machine<T>, toward: f64) -> Option<T> 
 /// `FLUTTER_FURTHEST` critical speeds and before the clearance closes.
 #[must_use]
 pub fn flutters<T: Number>(machine: &Machine<T>, toward: f64) -> Vec<LockWindow<T>> {
-    let (Some(pair), Some(critical)) = (HeldPair::of(machine, toward), machine.critical_speed())
+    let (Some(pair), Some(critical)) = (HeldPair::new(machine, toward), machine.critical_speed())
     else {
         return Vec::new();
     };
@@ -152,7 +152,7 @@ pub fn flutters<T: Number>(machine: &Machine<T>, toward: f64) -> Vec<LockWindow<
     }
     let plain = machine.plain();
     let grows = |speed: f64| {
-        HeldPair::of(&plain.at(speed), toward).is_some_and(|pair| {
+        HeldPair::new(&plain.at(speed), toward).is_some_and(|pair| {
             pair.roots(plain.nu(speed) / plain.omega_c).iter().any(|root| root.re > 0.0)
         })
     };
@@ -213,7 +213,7 @@ fn derived<T: Number>(machine: &Machine<T>, root: f64, toward: f64) -> Option<T>
 /// Returns the distance of the wave frequency at `speed` from the nearest stability limit of the
 /// machine there, in units of `omega_c`.
 fn apart<T: Number>(machine: &Machine<T>, speed: T, toward: f64) -> Option<T> {
-    let pair = HeldPair::of(&machine.at(speed), toward)?;
+    let pair = HeldPair::new(&machine.at(speed), toward)?;
     let turn = machine.nu(speed) / machine.omega_c;
     let limits = pair.limits().into_iter().map(|limit| limit - turn);
     let finite = limits.filter(|apart| apart.re().is_finite());
@@ -255,7 +255,7 @@ pub fn lock_growth(machine: &Machine, speed: f64) -> Option<f64> {
 /// blade angle \[1/s\]. Empty if the tips do not couple blades and casing.
 #[must_use]
 pub fn lock_roots(joint: &Joint) -> Vec<Complex<f64>> {
-    let Some(pair) = HeldPair::of(&joint.machine, joint.nu) else { return Vec::new() };
+    let Some(pair) = HeldPair::new(&joint.machine, joint.nu) else { return Vec::new() };
     let omega_c = joint.machine.omega_c;
     let turned = if joint.nu < 0.0 { Complex::conj } else { |value: &Complex<f64>| *value };
     pair.roots(joint.nu.abs() / omega_c).iter().map(|root| turned(root) * omega_c).collect()
@@ -278,7 +278,7 @@ struct HeldPair<T> {
 
 impl<T: Number> HeldPair<T> {
     /// Creates the pair; `None` if the corner cannot move because bending does not lift the tips.
-    fn of(machine: &Machine<T>, toward: f64) -> Option<Self> {
+    fn new(machine: &Machine<T>, toward: f64) -> Option<Self> {
         // A rotor that turns backward is the mirror image of one that turns forward.
         let coupling = machine.coupling_product_at(T::from(toward)) * machine.casing_stiffness
             / machine.blade_modal_stiffness;

@@ -133,7 +133,7 @@ impl Locked {
         let equations = Equations::new(&machine, self.corner, self.form, wave, speed);
         let found = Some(&equations).filter(|_| machine.clearance() > 0.0);
         let unknowns = found.and_then(Equations::locked).ok_or_else(|| {
-            HarmonicError::NotFound { speed, softness: Scales::of(&machine).softness }
+            HarmonicError::NotFound { speed, softness: Scales::new(&machine).softness }
         })?;
         Ok(self.point(&machine, speed, &equations, &unknowns))
     }
@@ -178,7 +178,7 @@ impl Locked {
             growth = motion.growth();
             growth.is_some()
         });
-        let Scales { length, force, .. } = Scales::of(machine);
+        let Scales { length, force, .. } = Scales::new(machine);
         let residual = equations.residual(unknowns).map(f64::abs);
         let torque = machine.nodal_diameters * force * length * equations.torque(unknowns);
         let [x, y] = [x * length, y * length];
@@ -274,7 +274,7 @@ pub fn lock_loads<T: Number>(machine: &Machine<T>, speed: T) -> Option<LockLoads
     let equations = Equations::new(machine, corner, Form::Modal, wave, speed);
     let unknowns = equations.locked_with_derivatives()?;
     let [x, y, push_a, push_b, alpha_a, alpha_b] = unknowns;
-    let Scales { length, force, .. } = Scales::of(machine);
+    let Scales { length, force, .. } = Scales::new(machine);
     let torque = equations.torque(&unknowns) * force * length * machine.nodal_diameters;
     let amplitude = (x * x + y * y).sqrt() * length;
     let angles = [alpha_a * equations.angle, alpha_b * equations.angle];

@@ -53,7 +53,7 @@ pub fn round_whirls(joint: &Joint) -> Vec<RoundWhirl> {
     if !Joint::has_one_wave(machine) {
         return Vec::new();
     }
-    let scaled = Scaled::of(joint);
+    let scaled = Scaled::new(joint);
     let breaks = [
         0.0,
         1.0,
@@ -129,7 +129,7 @@ struct Scaled {
 }
 
 impl Scaled {
-    fn of(joint: &Joint) -> Self {
+    fn new(joint: &Joint) -> Self {
         let machine = &*joint.machine;
         Self {
             turn: joint.nu / machine.omega_c,

@@ -161,7 +161,7 @@ struct Units {
 }
 
 impl Units {
-    fn of(machine: &Machine) -> Self {
+    fn new(machine: &Machine) -> Self {
         let length = machine.clearance();
         Self { speed: machine.omega_c * length, force: machine.casing_stiffness * length }
     }
@@ -173,10 +173,10 @@ fn contraction(slide: &SaddleFlow, arc: &Arc) -> f64 {
 }
 
 fn orbit(machine: &Machine, speed: f64, slide: &SaddleFlow, arc: &Arc) -> SlipOrbit {
-    let units = Units::of(machine);
+    let units = Units::new(machine);
     let [after, before] = slide.end_speeds(arc);
     let impulse = before * slide.struck;
-    let means = Means::of(slide, arc);
+    let means = Means::new(slide, arc);
     // Torque = sum Lambda A with Lambda = -N, A = n_d y; the impulse acts at y = -end.
     let moment_arm = -means.push_lever + impulse * slide.end / arc.time;
     let unit = units.force * machine.clearance();
@@ -207,7 +207,7 @@ struct Means {
 }
 
 impl Means {
-    fn of(slide: &SaddleFlow, arc: &Arc) -> Self {
+    fn new(slide: &SaddleFlow, arc: &Arc) -> Self {
         let [up, down] = slide.roots;
         let rates = [0.0, up, down];
         let y = [slide.saddle, arc.grow, arc.decay];

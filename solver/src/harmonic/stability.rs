@@ -267,7 +267,7 @@ pub(super) fn largest_growth(values: &[Complex<f64>]) -> f64 {
 
 /// Returns the factor `n_d alpha_i` per unit of scaled blade coordinate.
 pub(super) fn blade_scale(machine: &Machine) -> f64 {
-    let scales = Scales::of(machine);
+    let scales = Scales::new(machine);
     (scales.softness * scales.share).sqrt()
 }
 

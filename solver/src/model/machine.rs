@@ -122,12 +122,12 @@ impl<T: Number> Machine<T> {
             spin: None,
             tips: None,
         };
-        machine.tips = Tips::of(disk, casing, &machine.polygon).map(Arc::new);
+        machine.tips = Tips::new(disk, casing, &machine.polygon).map(Arc::new);
         if machine.has_unequal_tips() {
             let longer = (0..machine.polygon.sides).map(|side| machine.longest_of_side(side).re());
             machine.polygon.longer = longer.collect();
         }
-        machine.spin = Spin::of(disk, casing, &machine);
+        machine.spin = Spin::new(disk, casing, &machine);
         machine
     }
 

@@ -84,7 +84,7 @@ fn own_part(modes: &mut [Mode], diameters: u32, part: ModePart) -> Option<&mut f
 /// Returns `4 k_bb sin^2(pi n/N)`, the contribution of the blade-to-blade stiffness to `k_b` at `n`
 /// nodal diameters \[N m/rad\].
 #[must_use]
-pub(crate) fn of_neighbours(coupling: f64, diameters: u32, blades: u32) -> f64 {
+pub(crate) fn neighbour_stiffness(coupling: f64, diameters: u32, blades: u32) -> f64 {
     let sine = (PI * f64::from(diameters) / f64::from(blades)).sin();
     4.0 * coupling * sine * sine
 }
@@ -189,7 +189,7 @@ impl BladedDisk {
         let of = |part, own: f64| mode.and_then(|mode| mode.part(part)).unwrap_or(own);
         let inertia_kg_m2 = of(ModePart::Mass, self.inertia_kg_m2);
         let by_frequency = frequency_of(&self.modes, diameters).map(|hertz| {
-            let neighbours = of_neighbours(self.coupling_nm_per_rad, diameters, self.blades);
+            let neighbours = neighbour_stiffness(self.coupling_nm_per_rad, diameters, self.blades);
             inertia_kg_m2 * (TAU * hertz).powi(2) - neighbours
         });
         let stiffness = || of(ModePart::Stiffness, self.stiffness_nm_per_rad);

@@ -26,7 +26,7 @@ pub(super) struct Spin<T> {
 
 impl<T: Number> Spin<T> {
     /// Takes the values of a machine at rest; `None` if nothing changes with speed.
-    pub fn of(disk: &BladedDisk<T>, casing: &Casing<T>, machine: &Machine<T>) -> Option<Self> {
+    pub fn new(disk: &BladedDisk<T>, casing: &Casing<T>, machine: &Machine<T>) -> Option<Self> {
         let (stiffening, clearance_loss) =
             (disk.centrifugal_stiffening, casing.clearance_loss_m_s2);
         (stiffening.re() != 0.0 || clearance_loss.re() != 0.0).then(|| Self {

@@ -29,7 +29,7 @@ pub(crate) struct Tips<T = f64> {
 
 impl<T: Number> Tips<T> {
     /// Creates the tips of a machine; `None` for equal tips in a round casing.
-    pub fn of(disk: &BladedDisk<T>, casing: &Casing<T>, polygon: &ContactPolygon) -> Option<Self> {
+    pub fn new(disk: &BladedDisk<T>, casing: &Casing<T>, polygon: &ContactPolygon) -> Option<Self> {
         let numbers = [disk.tip_scatter_m, disk.longest_tip_m, disk.orbit_m, casing.out_of_round_m];
         let own = disk.tips_m.iter().any(|b| *b != 0.0);
         if !own && numbers.iter().all(|number| number.re() == 0.0) {
@@ -182,8 +182,8 @@ impl Machine {
     #[must_use]
     pub fn apothem_at(&self, side: u32, theta: f64) -> f64 {
         let blades = self.polygon.blades_of_side(side).into_iter();
-        let beside = blades.map(|blade| self.uneven_at(blade - 1, theta));
-        self.clearance + beside.reduce(f64::min).unwrap_or(0.0)
+        let unevenness = blades.map(|blade| self.uneven_at(blade - 1, theta));
+        self.clearance + unevenness.reduce(f64::min).unwrap_or(0.0)
     }
 
     /// Returns the point nearest to `from` at which every gap is open, in the blade frame at the

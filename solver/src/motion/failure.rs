@@ -9,7 +9,7 @@ use thiserror::Error;
 
 /// A run that stopped before its end.
 #[derive(Clone, Debug, Error, PartialEq)]
-#[error("failed at t = {:e} s: {reason}", told(*t_s))]
+#[error("failed at t = {:e} s: {reason}", shown_time(*t_s))]
 pub struct Failure {
     /// Time at which it stopped \[s\].
     pub t_s: f64,
@@ -18,7 +18,7 @@ pub struct Failure {
 }
 
 /// Rounds a time to the digits that messages show.
-fn told(t_s: f64) -> f64 {
+fn shown_time(t_s: f64) -> f64 {
     rounded(t_s, 6)
 }
 
@@ -27,7 +27,7 @@ impl Failure {
     /// breakdown of the computation.
     #[must_use]
     pub fn as_growth(&self) -> String {
-        format!("left the range of the model at t = {:e} s: {}", told(self.t_s), self.reason)
+        format!("left the range of the model at t = {:e} s: {}", shown_time(self.t_s), self.reason)
     }
 
     /// Returns the verdict for a model beyond the paper: unbounded growth is a possible behaviour

@@ -105,24 +105,26 @@ pub fn certainty(
         (*change, Some(differs))
     };
     let all = TinyChange::all(scene);
-    let told: Vec<_> = match rayon::current_thread_index() {
+    let differences: Vec<_> = match rayon::current_thread_index() {
         Some(_) => all.par_iter().with_max_len(1).map(difference).collect(),
         None => all.iter().map(difference).collect(),
     };
     // A run that was stopped has no result.
     if found.load(Ordering::Relaxed) {
-        let ends_otherwise = told.iter().any(|(_, told)| *told == Some(Difference::End));
+        let ends_otherwise =
+            differences.iter().any(|(_, difference)| *difference == Some(Difference::End));
         return Some(Certainty { sensitive: true, ends_otherwise, depends_on_step: None });
     }
-    let told = told.into_iter().map(|(change, told)| Some((change, told?)));
-    Some(Certainty::of(told.collect::<Option<Vec<_>>>()?.into_iter()))
+    let differences =
+        differences.into_iter().map(|(change, difference)| Some((change, difference?)));
+    Some(Certainty::from_differences(differences.collect::<Option<Vec<_>>>()?.into_iter()))
 }
 
 impl Certainty {
     /// Combines the differences of all perturbed runs.
-    fn of(told: impl Iterator<Item = (TinyChange, Difference)>) -> Self {
+    fn from_differences(differences: impl Iterator<Item = (TinyChange, Difference)>) -> Self {
         let mut certainty = Self::default();
-        for (change, difference) in told {
+        for (change, difference) in differences {
             if change == TinyChange::Step {
                 certainty.depends_on_step = Some(difference == Difference::End);
             } else {
@@ -145,10 +147,10 @@ impl RunReport {
         let changed: Option<Vec<_>> = all.par_iter().with_max_len(1).map(run).collect();
         let Some(changed) = changed else { return };
         let moment = moment(&self.scene);
-        let told = changed
+        let differences = changed
             .iter()
             .map(|(change, other)| (*change, other.reached.difference(self.reached, moment)));
-        let certainty = Certainty::of(told);
+        let certainty = Certainty::from_differences(differences);
         let changed: Vec<_> = changed.into_iter().map(|(_, other)| other).collect();
         self.outcome.spread = Some(Spread::of(self, &changed));
         self.outcome.sensitive = Some(certainty.sensitive);
@@ -232,8 +234,8 @@ impl TinyChange {
         let mut wave = WaveTracker::over(scene, script);
         let (mut motion, _) = self.run(scene, script, Some(&mut wave), go_on)?;
         // A run whose verdict is known early continues to the end; a failed one stays where it is.
-        let arrived = motion.advance_while(scene.solver.end_s, go_on).unwrap_or(true);
-        arrived.then(|| report(scene, &motion, &wave))
+        let finished = motion.advance_while(scene.solver.end_s, go_on).unwrap_or(true);
+        finished.then(|| report(scene, &motion, &wave))
     }
 
     /// Applies the perturbation to a scene.

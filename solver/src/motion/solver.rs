@@ -71,8 +71,8 @@ pub trait Solver: Debug + Send + Sync {
         let gap = |(blade, angle): (u32, f64)| {
             let (c, s) = polygon.direction(polygon.side_of_blade(blade));
             let normal = Plane::new(c, s) * Plane::cis(diameters * angle);
-            let beside = machine.uneven_at(blade - 1, theta + angle);
-            machine.clearance() + beside + (z * normal.conj()).re - rise * angle
+            let unevenness = machine.uneven_at(blade - 1, theta + angle);
+            machine.clearance() + unevenness + (z * normal.conj()).re - rise * angle
         };
         (1..=polygon.blades).zip(self.blade_angles()).map(gap).collect()
     }
@@ -174,7 +174,7 @@ pub trait Solver: Debug + Send + Sync {
     /// Returns reason and time of an early stop, in words.
     fn stopped(&self) -> Option<String> {
         let failure = self.failure()?;
-        let told = match self.final_verdict() {
+        let message = match self.final_verdict() {
             Some(Verdict::Divergent) => failure.as_growth(),
             _ => failure.to_string(),
         };
@@ -182,9 +182,9 @@ pub trait Solver: Debug + Send + Sync {
         let digs_in = self.machine().coupling_product_at(speed) < 0.0;
         Some(match failure.reason {
             FailureReason::Singular { .. } if digs_in => format!(
-                "{told}; where kappa (kappa + mu) < 0, a push may close the gap that it is to open"
+                "{message}; where kappa (kappa + mu) < 0, a push may close the gap that it is to open"
             ),
-            _ => told,
+            _ => message,
         })
     }
 

@@ -87,15 +87,15 @@ impl Iteration {
         let h = &self.h;
         let coupling = h[(row, row - 1)].abs();
         let (above, here) = (h[(row - 1, row - 1)], h[(row, row)]);
-        let mut beside = above.abs() + here.abs();
-        if beside == 0.0 {
-            beside += if row >= 2 { h[(row - 1, row - 2)].abs() } else { 0.0 };
-            beside += if row < last { h[(row + 1, row)].abs() } else { 0.0 };
+        let mut neighbours = above.abs() + here.abs();
+        if neighbours == 0.0 {
+            neighbours += if row >= 2 { h[(row - 1, row - 2)].abs() } else { 0.0 };
+            neighbours += if row < last { h[(row + 1, row)].abs() } else { 0.0 };
         }
         if coupling <= f64::MIN_POSITIVE / f64::EPSILON || coupling <= f64::EPSILON * whole {
             return true;
         }
-        if coupling > f64::EPSILON * beside {
+        if coupling > f64::EPSILON * neighbours {
             return false;
         }
         // Test of Ahues and Tisseur, which is accurate for graded matrices.
@@ -120,7 +120,7 @@ impl Iteration {
         } else {
             [h[(last - 1, last - 1)], h[(last - 1, last)], h[(last, last - 1)], h[(last, last)]]
         };
-        let [one, other] = of_two([a, b, c, d]);
+        let [one, other] = eigenvalues_2x2([a, b, c, d]);
         if one.im != 0.0 {
             return [one, other];
         }
@@ -170,7 +170,7 @@ impl Iteration {
     /// Returns the eigenvalues of the 2x2 block that begins at row `first`.
     fn pair(&self, first: usize) -> [Complex<f64>; 2] {
         let (i, j) = (first, first + 1);
-        of_two([self.h[(i, i)], self.h[(i, j)], self.h[(j, i)], self.h[(j, j)]])
+        eigenvalues_2x2([self.h[(i, i)], self.h[(i, j)], self.h[(j, i)], self.h[(j, j)]])
     }
 }
 
@@ -194,7 +194,7 @@ fn reflector(v: &[f64]) -> Option<([f64; 3], f64)> {
 }
 
 /// Returns the eigenvalues of the matrix `[[a, b], [c, d]]`.
-fn of_two([a, b, c, d]: [f64; 4]) -> [Complex<f64>; 2] {
+fn eigenvalues_2x2([a, b, c, d]: [f64; 4]) -> [Complex<f64>; 2] {
     let half = 0.5 * (a - d);
     let product = b * c;
     let discriminant = half * half + product;

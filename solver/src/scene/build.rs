@@ -11,7 +11,7 @@ use crate::numeric::rounding::rounded;
 
 use super::mode_table::STIFFENING;
 use super::{Scene, SceneError, keys};
-use crate::model::of_neighbours;
+use crate::model::neighbour_stiffness;
 
 /// Mode of a modal analysis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -174,7 +174,7 @@ impl ModalData {
     /// most. It is 0 with one mode, if the fit is negative, or if `k_bb` alone would exceed the
     /// stiffness of another mode.
     fn springs(&self, mode: &Family, length: f64) -> (f64, f64) {
-        let part = |mode: &Family| of_neighbours(1.0, mode.nodal_diameters, self.blades);
+        let part = |mode: &Family| neighbour_stiffness(1.0, mode.nodal_diameters, self.blades);
         let whole = |mode: &Family| self.inertia(mode, length) * (TAU * mode.frequency_hz).powi(2);
         let far = |other: &&Family| (part(other) - part(mode)).abs();
         let other = self.disk.iter().max_by(|a, b| far(a).total_cmp(&far(b)));

@@ -12,7 +12,7 @@ use toml::{Table, Value as Toml};
 
 use super::units::{Quantity, UnitError};
 use super::{Scene, SceneError, Value, file, keys};
-use crate::model::{BladedDisk, Casing, Mode, ModePart, frequency_of, of_neighbours};
+use crate::model::{BladedDisk, Casing, Mode, ModePart, frequency_of, neighbour_stiffness};
 use crate::numeric::rounding::rounded;
 
 /// Names of a mode's values in the file.
@@ -301,7 +301,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     let Some(mode) = disk.modes.iter().find(|mode| stiffness(mode) <= 0.0) else { return Ok(()) };
     let inertia = mode.mass.unwrap_or(disk.inertia_kg_m2);
     let (diameters, coupling) = (mode.nodal_diameters, disk.coupling_nm_per_rad);
-    let neighbours = of_neighbours(coupling, diameters, disk.blades);
+    let neighbours = neighbour_stiffness(coupling, diameters, disk.blades);
     let hertz = |stiffness: f64| (stiffness / inertia).sqrt() / TAU;
     let given = hertz(neighbours + stiffness(mode));
     let least = hertz(neighbours);
@@ -358,7 +358,7 @@ impl Scene {
         let (key, stiffness) = match which {
             0 => (keys::CASING_STIFFNESS, self.casing_in_use().modal_mass_kg * square),
             _ => {
-                let neighbours = of_neighbours(coupling_nm_per_rad, diameters, blades);
+                let neighbours = neighbour_stiffness(coupling_nm_per_rad, diameters, blades);
                 (keys::BLADE_STIFFNESS, inertia_kg_m2 * square - neighbours)
             }
         };

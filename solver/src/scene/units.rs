@@ -186,7 +186,7 @@ impl Quantity {
         }
         let end = number_end(text);
         let (number, unit) = text.split_at_checked(end).unwrap_or((text, ""));
-        let decimal = Decimal::of(number).ok_or(UnitError::NoNumber)?;
+        let decimal = Decimal::parse(number).ok_or(UnitError::NoNumber)?;
         let after = unit.strip_prefix(',');
         if after.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit())) {
             return Err(UnitError::Comma);
@@ -324,7 +324,7 @@ struct Decimal<'a> {
 }
 
 impl<'a> Decimal<'a> {
-    fn of(text: &'a str) -> Option<Self> {
+    fn parse(text: &'a str) -> Option<Self> {
         let (digits, power) = match text.split_once(['e', 'E']) {
             Some((digits, power)) => (digits, power.parse().ok()?),
             None => (text, 0),

@@ -21,7 +21,7 @@ pub struct Curve {
 #[must_use]
 pub fn curves(plan: &MapPlan) -> Vec<Curve> {
     let mut curves = speed_curves(plan);
-    if let Some(of_pulse) = AlongOther::of(plan, PULSE) {
+    if let Some(of_pulse) = AlongOther::new(plan, PULSE) {
         let most = plan.x.to.abs().max(plan.y.to.abs());
         curves.push(of_pulse.trace("grazing pulse", |scene| grazing_pulse(scene, most)));
     }
@@ -32,7 +32,7 @@ pub fn curves(plan: &MapPlan) -> Vec<Curve> {
 /// Returns the critical speed and the ends of the lock, if one axis is the speed.
 #[must_use]
 pub fn speed_curves(plan: &MapPlan) -> Vec<Curve> {
-    let Some(of_speed) = AlongOther::of(plan, SPEED) else { return Vec::new() };
+    let Some(of_speed) = AlongOther::new(plan, SPEED) else { return Vec::new() };
     vec![
         of_speed.trace_speed("Omega_c", |machine, _| machine.critical_speed()),
         of_speed.trace_speed("Omega_lock", |machine, toward| {
@@ -46,7 +46,7 @@ pub fn speed_curves(plan: &MapPlan) -> Vec<Curve> {
 #[must_use]
 pub fn threshold_curves(plan: &MapPlan) -> Vec<Curve> {
     let mut curves = speed_curves(plan);
-    if let Some(of_speed) = AlongOther::of(plan, SPEED) {
+    if let Some(of_speed) = AlongOther::new(plan, SPEED) {
         curves.push(of_speed.trace_speed("coincidence", |machine, _| machine.dangerous_speed()));
     }
     curves
@@ -60,7 +60,7 @@ struct AlongOther<'a> {
 }
 
 impl<'a> AlongOther<'a> {
-    fn of(plan: &'a MapPlan, path: &str) -> Option<Self> {
+    fn new(plan: &'a MapPlan, path: &str) -> Option<Self> {
         let on_x = plan.x.path == path;
         (on_x || plan.y.path == path).then_some(Self { plan, on_x })
     }

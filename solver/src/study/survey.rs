@@ -300,9 +300,9 @@ fn row(
     let machine = scene.machine();
     let own = 1_f64.copysign(scene.operation.speed_rad_s);
     let asked = searched(range, &scene);
-    let found = Speeds::of(&scene, own, by);
+    let found = Speeds::new(&scene, own, by);
     // Limits depend on the direction of rotation only with friction.
-    let other = (scene.contact.friction != 0.0).then(|| Speeds::of(&scene, -own, by));
+    let other = (scene.contact.friction != 0.0).then(|| Speeds::new(&scene, -own, by));
     let of = |sense: f64| match &other {
         Some(other) if sense != own => other,
         _ => &found,
@@ -332,7 +332,7 @@ struct Speeds {
 }
 
 impl Speeds {
-    fn of(scene: &Scene, sense: f64, by: Option<&Parameter>) -> Self {
+    fn new(scene: &Scene, sense: f64, by: Option<&Parameter>) -> Self {
         let mut turned = scene.clone();
         turned.operation.speed_rad_s = sense * scene.operation.speed_rad_s.abs().max(1.0);
         let by = by.map_or(Vec::new(), |by| speed_sensitivities(&turned, by));

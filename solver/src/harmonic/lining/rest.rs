@@ -239,7 +239,7 @@ fn width(machine: &Machine, stiffness: f64, sense: f64) -> f64 {
 }
 
 /// Fraction of the fastest speed below which the rotor counts as standing still.
-const BESIDE_REST: f64 = 1e-9;
+const STANDSTILL: f64 = 1e-9;
 
 impl Lining<'_> {
     /// Returns the coincidence at which rest grows fastest, for a rotor that turns in the direction
@@ -263,7 +263,7 @@ impl Lining<'_> {
         // Friction reverses with the rotor; the growth rate jumps there, which is not a Hopf point.
         if from <= 0.0 && to >= 0.0 && self.machine.friction != 0.0 {
             let mut points = Vec::new();
-            for [from, to] in [[from, from * BESIDE_REST], [to * BESIDE_REST, to]] {
+            for [from, to] in [[from, from * STANDSTILL], [to * STANDSTILL, to]] {
                 if from < to {
                     points.extend(self.hopf_points([from, to])?);
                 }

@@ -89,7 +89,7 @@ impl<'a> Balance<'a> {
     fn at(lining: &Lining<'a>, speed: f64) -> Self {
         let lining = lining.at(speed);
         let machine = &*lining.machine;
-        let joint = Joint::of(lining.machine.clone(), speed);
+        let joint = Joint::new(lining.machine.clone(), speed);
         let casing = joint.casing_stiffness(joint.nu);
         let turned = Complex::new(1.0, joint.casing_friction);
         let pushed = turned + casing * (joint.coupling_product / machine.blade_modal_stiffness);

@@ -163,7 +163,7 @@ fn by_events(scene: &CheckedScene) -> Option<String> {
 
 /// Draws Fig. 4: `u_c` with three time steps.
 pub fn steps(scene: &CheckedScene) -> Figure {
-    let (mut lines, mut endings, mut told) = (Vec::new(), Vec::new(), String::new());
+    let (mut lines, mut endings, mut conditions) = (Vec::new(), Vec::new(), String::new());
     for (index, (step, scene)) in at_steps(scene).enumerate() {
         let (report, samples) = sampled(&scene, false);
         // Line styles as in the paper: dotted, dashed and solid.
@@ -172,7 +172,7 @@ pub fn steps(scene: &CheckedScene) -> Figure {
         let line = series(&step_words(step), style, &samples, |sample| sample.state.u[0]);
         lines.push(line.named(format!("u_c_h{step:e}")));
         endings.push(format!("{}: {}", step_words(step), ending(&report)));
-        told = note(&scene, &report);
+        conditions = note(&scene, &report);
     }
     endings.extend(by_events(scene));
     let [from, to] = PARTING;
@@ -185,7 +185,7 @@ pub fn steps(scene: &CheckedScene) -> Figure {
         Panel::new("(a) whole run", Quantity::TIME, U_C, lines),
         Panel::new("(b) where the phases part", Quantity::TIME, U_C, parting),
     ];
-    let mut figure = Figure::new("Casing displacement u_c at three time steps", told, panels);
+    let mut figure = Figure::new("Casing displacement u_c at three time steps", conditions, panels);
     figure.caption.push(format!("{}.", endings.join("; ")));
     figure.caption.push(format!(
         "Agrees with the paper: the motion is locked from about 0.08 s at each of its three \

@@ -31,10 +31,10 @@ pub fn zone(scene: &CheckedScene) -> Figure {
     let mut caption = Vec::new();
     if let Ok(four) = Scene::builtin("paper-nd4") {
         panels.extend(both_laws(&four, ["(c)", "(d)"]));
-        let told = panels.first().map(thresholds).unwrap_or_default();
+        let limits = panels.first().map(thresholds).unwrap_or_default();
         caption.push(format!(
             "Agrees with the paper: with its algorithm and its Table 1 (a), interaction needs a \
-             speed above Ω_c, where every pulse above a threshold lasts: {told}. Some smaller ones \
+             speed above Ω_c, where every pulse above a threshold lasts: {limits}. Some smaller ones \
              last too, in islands. Nothing lasts below Ω_c; a cell reaches to the middle between \
              its speed and the next."
         ));

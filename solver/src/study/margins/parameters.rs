@@ -5,7 +5,9 @@ use std::f64::consts::TAU;
 
 use num_dual::Dual64;
 
-use crate::model::{BladedDisk, Casing, LiningLaw, Machine, Number, Operation, of_neighbours};
+use crate::model::{
+    BladedDisk, Casing, LiningLaw, Machine, Number, Operation, neighbour_stiffness,
+};
 use crate::motion::FreeFlight;
 use crate::scene::{Allowed, ContactLaw, Key, MOST_HZ, ModelSize, Scene, SceneError, Value, keys};
 
@@ -300,7 +302,7 @@ impl<T: Number> Parameters<T> {
         }
         if let Some(square) = of_disk {
             let diameters = disk.diameters_beside(self.operation.nodal_diameters);
-            let share = of_neighbours(1.0, diameters, disk.blades);
+            let share = neighbour_stiffness(1.0, diameters, disk.blades);
             disk.stiffness_nm_per_rad =
                 disk.inertia_kg_m2 * square - disk.coupling_nm_per_rad * share;
         }

@@ -184,8 +184,8 @@ impl Solver for LinearEvents {
         let gap = |(blade, angle): (u32, f64)| {
             let (cos, sin) = polygon.direction(polygon.side_of_blade(blade));
             let open = parameters.clearance() + cos * point.z.re + sin * point.z.im;
-            let beside = parameters.machine.uneven_at(blade - 1, 0.0);
-            open + beside - parameters.arm() * angle
+            let unevenness = parameters.machine.uneven_at(blade - 1, 0.0);
+            open + unevenness - parameters.arm() * angle
         };
         (1..=polygon.blades).zip(self.blade_angles()).map(gap).collect()
     }
@@ -289,7 +289,7 @@ impl Solver for LinearEvents {
         self.swings.forget();
         self.intervene(|motion, point| {
             motion.run.rotor.change(motion.run.clock.now, speed, ramp);
-            motion.take_speed(speed, point);
+            motion.change_speed(speed, point);
         });
         if ramp != 0.0 {
             self.fail(0.0, FailureReason::Ramp);

@@ -256,7 +256,7 @@ impl LinearEvents {
     /// Changes the machine to another speed. The change of blade stiffness at the present angles is
     /// work of the rotor. If a smaller clearance would leave tips inside the casing, all
     /// displacements are reduced by a common factor, which is work of the growing blades.
-    pub(super) fn take_speed(&mut self, speed: f64, point: &mut Point) {
+    pub(super) fn change_speed(&mut self, speed: f64, point: &mut Point) {
         let parameters = &mut self.parameters;
         // The energies refer to the present frame; the casing rate is converted to the new frame
         // afterwards.
