@@ -23,7 +23,7 @@ pub use number::Number;
 pub use parameters::{
     BladedDisk, Casing, ContactSurface, Excitation, Initial, Mode, ModePart, Operation,
 };
-pub(crate) use parameters::{frequency_of, neighbour_stiffness};
+pub(crate) use parameters::{given_frequency, neighbour_stiffness};
 pub use polygon::{ContactPolygon, SideLeft};
 pub(crate) use polygon::{fraction_of_turn, gcd};
 pub use tip_corner::TipCorner;

@@ -40,7 +40,7 @@ pub enum ModePart {
 }
 
 /// Returns the frequency given for the mode with these nodal diameters, if any \[Hz\].
-pub(crate) fn frequency_of(modes: &[Mode], diameters: u32) -> Option<f64> {
+pub(crate) fn given_frequency(modes: &[Mode], diameters: u32) -> Option<f64> {
     mode_of(modes, diameters)?.frequency_hz
 }
 
@@ -188,7 +188,7 @@ impl BladedDisk {
         let mode = mode_of(&self.modes, diameters);
         let of = |part, own: f64| mode.and_then(|mode| mode.part(part)).unwrap_or(own);
         let inertia_kg_m2 = of(ModePart::Mass, self.inertia_kg_m2);
-        let by_frequency = frequency_of(&self.modes, diameters).map(|hertz| {
+        let by_frequency = given_frequency(&self.modes, diameters).map(|hertz| {
             let neighbours = neighbour_stiffness(self.coupling_nm_per_rad, diameters, self.blades);
             inertia_kg_m2 * (TAU * hertz).powi(2) - neighbours
         });
@@ -304,7 +304,7 @@ impl Casing {
         let mode = mode_of(&self.modes, diameters);
         let of = |part, own: f64| mode.and_then(|mode| mode.part(part)).unwrap_or(own);
         let modal_mass_kg = of(ModePart::Mass, self.modal_mass_kg);
-        let by_frequency = frequency_of(&self.modes, diameters);
+        let by_frequency = given_frequency(&self.modes, diameters);
         let stiffness = || of(ModePart::Stiffness, self.modal_stiffness_n_per_m);
         Self {
             modal_mass_kg,

@@ -112,7 +112,7 @@ fn initial_state(scene: &Scene) -> Result<(), SceneError> {
 fn excitation(scene: &Scene) -> Result<(), SceneError> {
     let amplitude = scene.excitation.amplitude_nm;
     let allowed = match (scene.solver.kind, scene.solver.model) {
-        (SolverKind::Event, _) => return undriven(scene),
+        (SolverKind::Event, _) => return check_no_excitation(scene),
         (_, ModelSize::Modal) => return Ok(()),
         (_, ModelSize::Rigid) => "0 with solver.model = \"rigid\", whose blades do not move",
         (_, ModelSize::Full) => "0 with solver.model = \"full\"; with solver.model = \"modal\" any",
@@ -214,7 +214,7 @@ fn unit(x: f64) -> f64 {
 }
 
 /// Rejects a blade excitation in the event solver.
-fn undriven(scene: &Scene) -> Result<(), SceneError> {
+fn check_no_excitation(scene: &Scene) -> Result<(), SceneError> {
     let some = scene.excitation.amplitude_nm;
     refuse_if(some != 0.0, keys::EXCITATION, some, "0 with solver.kind = \"event\"")
 }
@@ -224,7 +224,7 @@ fn undriven(scene: &Scene) -> Result<(), SceneError> {
 /// # Errors
 /// The scene has an excitation, a law other than the unilateral one, or the full model.
 pub(super) fn event(scene: &Scene) -> Result<(), SceneError> {
-    undriven(scene)?;
+    check_no_excitation(scene)?;
     let law = scene.solver.contact;
     if let Some(why) = law.lacks_events() {
         let allowed = format!("\"unilateral\" with solver.kind = \"event\" ({why})");

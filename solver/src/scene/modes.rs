@@ -12,7 +12,7 @@ use toml::{Table, Value as Toml};
 
 use super::units::{Quantity, UnitError};
 use super::{Scene, SceneError, Value, file, keys};
-use crate::model::{BladedDisk, Casing, Mode, ModePart, frequency_of, neighbour_stiffness};
+use crate::model::{BladedDisk, Casing, Mode, ModePart, given_frequency, neighbour_stiffness};
 use crate::numeric::rounding::rounded;
 
 /// Names of a mode's values in the file.
@@ -335,8 +335,8 @@ impl Scene {
     /// stiffness \[Hz\].
     pub(crate) fn frequencies_in_use(&self) -> [Option<f64>; 2] {
         [
-            frequency_of(&self.casing.modes, self.operation.nodal_diameters),
-            frequency_of(&self.bladed_disk.modes, self.disk_diameters()),
+            given_frequency(&self.casing.modes, self.operation.nodal_diameters),
+            given_frequency(&self.bladed_disk.modes, self.disk_diameters()),
         ]
     }
 

@@ -53,7 +53,7 @@ use Quantity::{
 /// A unit: its quantity, its symbol, and its size in SI units as `factor` times a power of ten. The
 /// factor is 1 for decimal units.
 struct Unit {
-    of: Quantity,
+    quantity: Quantity,
     name: &'static str,
     power: i32,
     factor: f64,
@@ -61,35 +61,35 @@ struct Unit {
     prefixed: bool,
 }
 
-const fn unit(of: Quantity, name: &'static str, power: i32) -> Unit {
-    Unit { of, name, power, factor: 1.0, prefixed: true }
+const fn unit(quantity: Quantity, name: &'static str, power: i32) -> Unit {
+    Unit { quantity, name, power, factor: 1.0, prefixed: true }
 }
 
-const fn whole(of: Quantity, name: &'static str, factor: f64) -> Unit {
-    Unit { of, name, power: 0, factor, prefixed: false }
+const fn whole(quantity: Quantity, name: &'static str, factor: f64) -> Unit {
+    Unit { quantity, name, power: 0, factor, prefixed: false }
 }
 
 /// All units, the SI unit of each quantity first.
 const UNITS: &[Unit] = &[
-    Unit { of: Plain, name: "%", power: -2, factor: 1.0, prefixed: false },
+    Unit { quantity: Plain, name: "%", power: -2, factor: 1.0, prefixed: false },
     whole(Speed, "rad/s", 1.0),
-    Unit { of: Speed, name: "rpm", power: 0, factor: TAU / 60.0, prefixed: true },
-    Unit { of: Speed, name: "Hz", power: 0, factor: TAU, prefixed: true },
+    Unit { quantity: Speed, name: "rpm", power: 0, factor: TAU / 60.0, prefixed: true },
+    Unit { quantity: Speed, name: "Hz", power: 0, factor: TAU, prefixed: true },
     whole(Acceleration, "rad/s^2", 1.0),
     whole(Acceleration, "rpm/s", TAU / 60.0),
     unit(Force, "N", 0),
     unit(Length, "m", 0),
     unit(Time, "s", 0),
     unit(Velocity, "m/s", 0),
-    Unit { of: Mass, name: "kg", power: 0, factor: 1.0, prefixed: false },
+    Unit { quantity: Mass, name: "kg", power: 0, factor: 1.0, prefixed: false },
     unit(Mass, "g", -3),
-    Unit { of: Mass, name: "t", power: 3, factor: 1.0, prefixed: false },
+    Unit { quantity: Mass, name: "t", power: 3, factor: 1.0, prefixed: false },
     unit(Stiffness, "N/m", 0),
     unit(Stiffness, "N/mm", 3),
-    Unit { of: Inertia, name: "kg m^2", power: 0, factor: 1.0, prefixed: false },
-    Unit { of: Inertia, name: "kg cm^2", power: -4, factor: 1.0, prefixed: false },
-    Unit { of: Inertia, name: "kg mm^2", power: -6, factor: 1.0, prefixed: false },
-    Unit { of: Inertia, name: "g m^2", power: -3, factor: 1.0, prefixed: false },
+    Unit { quantity: Inertia, name: "kg m^2", power: 0, factor: 1.0, prefixed: false },
+    Unit { quantity: Inertia, name: "kg cm^2", power: -4, factor: 1.0, prefixed: false },
+    Unit { quantity: Inertia, name: "kg mm^2", power: -6, factor: 1.0, prefixed: false },
+    Unit { quantity: Inertia, name: "g m^2", power: -3, factor: 1.0, prefixed: false },
     unit(Torque, "N m", 0),
     unit(Torque, "N mm", -3),
     unit(TorsionalStiffness, "N m/rad", 0),
@@ -116,7 +116,7 @@ pub enum UnitError {
     #[error("a number has a decimal point and no comma")]
     Comma,
     /// The unit belongs to another quantity.
-    #[error("this is {is}; {}", takes(*.wanted))]
+    #[error("this is {is}; {}", accepted_units(*.wanted))]
     Other {
         /// Quantity of the given unit.
         is: &'static str,
@@ -124,7 +124,7 @@ pub enum UnitError {
         wanted: Quantity,
     },
     /// The unit is unknown.
-    #[error("no unit {unit}; {}", takes(*.wanted))]
+    #[error("no unit {unit}; {}", accepted_units(*.wanted))]
     Unknown {
         /// The unit as given.
         unit: String,
@@ -138,7 +138,7 @@ impl Quantity {
     /// text.
     #[must_use]
     pub fn of(unit: &str) -> Self {
-        UNITS.iter().find(|known| known.name == unit).map_or(Plain, |known| known.of)
+        UNITS.iter().find(|known| known.name == unit).map_or(Plain, |known| known.quantity)
     }
 
     /// Returns the name of the quantity, with an article.
@@ -167,7 +167,7 @@ impl Quantity {
     #[must_use]
     pub fn units(self) -> String {
         let names: Vec<&str> =
-            UNITS.iter().filter(|unit| unit.of == self).map(|unit| unit.name).collect();
+            UNITS.iter().filter(|unit| unit.quantity == self).map(|unit| unit.name).collect();
         match names.as_slice() {
             [first @ .., last] if !first.is_empty() => format!("{} or {last}", first.join(", ")),
             one => one.concat(),
@@ -207,7 +207,7 @@ impl Quantity {
     /// Returns the size, in SI units, of a unit of this quantity with its prefix, or of a prefix
     /// alone.
     fn scale(self, written: &str) -> Option<(i32, f64)> {
-        let of_unit = UNITS.iter().filter(|unit| unit.of == self).find_map(|unit| {
+        let of_unit = UNITS.iter().filter(|unit| unit.quantity == self).find_map(|unit| {
             let prefix = written.strip_suffix(plain(unit.name).as_str());
             // RPM and hz are accepted too, since they cannot mean anything else.
             let prefix = prefix.or_else(|| any_case(unit, written));
@@ -225,7 +225,7 @@ impl Quantity {
         if !written.chars().all(|c| c.is_alphanumeric() || matches!(c, '/' | '%')) {
             return UnitError::NoNumber;
         }
-        let other = UNITS.iter().map(|unit| unit.of).find(|of| {
+        let other = UNITS.iter().map(|unit| unit.quantity).find(|of| {
             let named = power_of(written).is_none() || written == "m";
             named && of.scale(written).is_some()
         });
@@ -263,7 +263,7 @@ pub fn read_ends(text: &str, of: Quantity) -> Result<([f64; 2], Option<&str>), R
 }
 
 /// Describes the accepted units in words.
-fn takes(quantity: Quantity) -> String {
+fn accepted_units(quantity: Quantity) -> String {
     format!("it takes {}", quantity.units())
 }
 
@@ -271,7 +271,7 @@ fn takes(quantity: Quantity) -> String {
 fn any_case<'a>(unit: &Unit, written: &'a str) -> Option<&'a str> {
     let at = written.len().checked_sub(unit.name.len())?;
     let (prefix, name) = written.split_at_checked(at)?;
-    let known = unit.of == Speed && unit.name.eq_ignore_ascii_case(name);
+    let known = unit.quantity == Speed && unit.name.eq_ignore_ascii_case(name);
     known.then_some(prefix)
 }
 
@@ -427,9 +427,15 @@ mod tests {
     #[test]
     fn every_unit_is_of_one_quantity() {
         for unit in UNITS {
-            for other in UNITS.iter().filter(|other| other.of != unit.of) {
+            for other in UNITS.iter().filter(|other| other.quantity != unit.quantity) {
                 let written = plain(unit.name);
-                assert_eq!(other.of.scale(&written), None, "{} {:?}", unit.name, other.of);
+                assert_eq!(
+                    other.quantity.scale(&written),
+                    None,
+                    "{} {:?}",
+                    unit.name,
+                    other.quantity
+                );
             }
         }
     }

@@ -208,9 +208,9 @@ pub struct LeastStiffness {
 /// for the direction of rotation given by the sign of `sense` \[rad/s\]:
 /// `(omega_c' +- omega_bd')/n_d`, with minus for a negative coupling product. `None` if the blades
 /// have no restoring stiffness.
-fn shifted(machine: &Machine, stiffness: f64, sense: f64) -> Option<f64> {
+fn shifted_speed(machine: &Machine, stiffness: f64, sense: f64) -> Option<f64> {
     let product = machine.coupling_product_at(sense);
-    let [casing, blades] = pressed(machine, stiffness, product)?;
+    let [casing, blades] = frequencies_on_lining(machine, stiffness, product)?;
     let (differences, sum) = machine.meetings(casing, blades);
     let speed = if product < 0.0 { differences.first().copied() } else { sum }?;
     Some(speed.copysign(sense))
@@ -218,7 +218,7 @@ fn shifted(machine: &Machine, stiffness: f64, sense: f64) -> Option<f64> {
 
 /// Returns the frequencies at rest of casing and blades on this total stiffness \[rad/s\]; `None`
 /// if the blades have no restoring stiffness.
-fn pressed(machine: &Machine, stiffness: f64, product: f64) -> Option<[f64; 2]> {
+fn frequencies_on_lining(machine: &Machine, stiffness: f64, product: f64) -> Option<[f64; 2]> {
     let blades = machine.blade_stiffness_at_rest() + stiffness * product;
     if product == 0.0 || blades < 0.0 {
         return None;
@@ -247,7 +247,7 @@ impl Lining<'_> {
     #[must_use]
     pub fn shifted_coincidence(&self, speed: f64) -> Option<f64> {
         let stiffness = self.at(speed).stiffness_at_rest();
-        (stiffness > 0.0).then(|| shifted(&self.machine, stiffness, speed)).flatten()
+        (stiffness > 0.0).then(|| shifted_speed(&self.machine, stiffness, speed)).flatten()
     }
 
     /// Returns every speed in an interval at which the largest growth rate about rest changes its
@@ -271,7 +271,7 @@ impl Lining<'_> {
             return Ok(points);
         }
         let mut rests: Vec<Rest> =
-            self.places([from, to]).into_iter().map(|speed| self.rest(speed)).collect();
+            self.scan_speeds([from, to]).into_iter().map(|speed| self.rest(speed)).collect();
         let extremes: Vec<Rest> = rests
             .windows(3)
             .filter_map(|three| self.extreme([three[0], three[1], three[2]]))
@@ -295,7 +295,7 @@ impl Lining<'_> {
     }
 
     /// Returns the speeds of the scan, in increasing order.
-    fn places(&self, [from, to]: [f64; 2]) -> Vec<f64> {
+    fn scan_speeds(&self, [from, to]: [f64; 2]) -> Vec<f64> {
         let mut linings = vec![self.at(from).stiffness_at_rest(), self.at(to).stiffness_at_rest()];
         linings.dedup();
         let part = |k: u32| f64::from(k) / f64::from(GROWTH_SCAN);
@@ -304,7 +304,8 @@ impl Lining<'_> {
         let (reach, fine) = TONGUE_SCAN;
         for (&stiffness, sense) in linings.iter().flat_map(|of| [(of, -1.0), (of, 1.0)]) {
             let product = self.machine.coupling_product_at(sense);
-            let Some([casing, blades]) = pressed(&self.machine, stiffness, product) else {
+            let Some([casing, blades]) = frequencies_on_lining(&self.machine, stiffness, product)
+            else {
                 continue;
             };
             let stride = width(&self.machine, stiffness, sense) / fine;
@@ -343,7 +344,7 @@ impl Lining<'_> {
 #[must_use]
 pub fn growth_threshold(machine: &Machine, sense: f64) -> Option<LeastStiffness> {
     let product = machine.coupling_product_at(sense).abs();
-    let speed_rad_s = shifted(machine, 0.0, sense)?;
+    let speed_rad_s = shifted_speed(machine, 0.0, sense)?;
     let inertia = machine.casing_mass * machine.omega_c * machine.blade_modal_mass;
     let damping = machine.casing_damping_ratio * machine.omega_c * machine.blade_damping_ratio;
     // Estimate for weak coupling, at the coincidence.
@@ -372,7 +373,7 @@ pub fn growth_threshold(machine: &Machine, sense: f64) -> Option<LeastStiffness>
 /// Returns the speed of fastest growth near a coincidence, and the growth rate there \[rad/s,
 /// 1/s\].
 fn peak(machine: &Machine, stiffness: f64, sense: f64) -> Option<(f64, f64)> {
-    let middle = shifted(machine, stiffness, sense)?;
+    let middle = shifted_speed(machine, stiffness, sense)?;
     let reach = PEAK_REACH * width(machine, stiffness, sense);
     let growth = |speed: f64| {
         Quartic::new(&Joint::at(machine, speed), stiffness).rest(speed).worst().growth_1_s

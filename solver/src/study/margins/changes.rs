@@ -82,14 +82,14 @@ impl VerdictChange {
 
 /// Returns the scenes to be examined: the given one, and for the bilateral law also that with
 /// contact that only pushes.
-pub(super) fn asked(scene: &CheckedScene) -> Vec<CheckedScene> {
-    let mut asked = vec![scene.clone()];
+pub(super) fn scenes_to_run(scene: &CheckedScene) -> Vec<CheckedScene> {
+    let mut scenes = vec![scene.clone()];
     if scene.solver.contact == ContactLaw::Bilateral {
         let mut by_steps = Scene::clone(scene);
         by_steps.solver.contact = ContactLaw::Unilateral;
-        asked.extend(scene.as_reference().checked().or_else(|_| by_steps.checked()).ok());
+        scenes.extend(scene.as_reference().checked().or_else(|_| by_steps.checked()).ok());
     }
-    asked
+    scenes
 }
 
 /// Returns the rows for a scene: quantity, name, and unit of the search steps.
@@ -124,15 +124,15 @@ impl Search<'_> {
         let (path, present) = (by.path, by.of(self.scene));
         let down = || match present == 0.0 {
             true => Some((None, present)),
-            false => self.one(-1.0),
+            false => self.search_side(-1.0),
         };
-        let (below, above) = rayon::join(down, || self.one(1.0));
+        let (below, above) = rayon::join(down, || self.search_side(1.0));
         let ((below, low), (above, high)) = (below?, above?);
         Some(VerdictChange { path, name, present, below, above, tried: [low, high] })
     }
 
     /// Searches on one side: outward until the verdict changes, then by bisection.
-    fn one(&self, sense: f64) -> Option<(Option<ChangedVerdict>, f64)> {
+    fn search_side(&self, sense: f64) -> Option<(Option<ChangedVerdict>, f64)> {
         let (by, _, step) = self.row;
         // Rounded, so that the value can be typed.
         let value = |steps: f64| rounded(by.of(self.scene) + sense * steps * step, CHANGE_DIGITS);
@@ -145,7 +145,7 @@ impl Search<'_> {
                 (None, None) => break,
             };
             runs += 1;
-            match self.ends(value(steps))? {
+            match self.run_with(value(steps))? {
                 None => break,
                 Some((_, reached)) if reached.verdict == self.verdict => same = steps,
                 Some(run) => found = Some((steps, run)),
@@ -166,7 +166,7 @@ impl Search<'_> {
 
     /// Runs the scene with this value; the inner `None` if the value is not allowed, the outer one
     /// if `go_on` stopped it.
-    fn ends(&self, value: f64) -> Option<Option<(CheckedScene, VerdictReached)>> {
+    fn run_with(&self, value: f64) -> Option<Option<(CheckedScene, VerdictReached)>> {
         (self.go_on)().then_some(())?;
         let scene = self.row.0.set(self.scene, value).and_then(|scene| scene.checked());
         let Ok(scene) = scene else { return Some(None) };

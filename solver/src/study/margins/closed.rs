@@ -51,11 +51,11 @@ const SELDOM: [LimitName; 6] = [
 /// Returns the first value of every closed form, in the order of [`CLOSED`]; `None` if the machine
 /// has no such limit.
 pub(super) fn values<T: Number>(parameters: &Parameters<T>) -> [Option<T>; CLOSED.len()] {
-    every(parameters).map(|found| found.first().copied())
+    all_values(parameters).map(|found| found.first().copied())
 }
 
 /// Returns all values of every closed form; a machine that changes with speed can have several.
-fn every<T: Number>(parameters: &Parameters<T>) -> [Vec<T>; CLOSED.len()] {
+fn all_values<T: Number>(parameters: &Parameters<T>) -> [Vec<T>; CLOSED.len()] {
     let machine = parameters.machine();
     let speed = parameters.operation.speed_rad_s;
     // In the rigid model the contact forces do not bend the blades.
@@ -155,10 +155,10 @@ fn every_speed<T: Number>(scene: &Scene, parameters: &Parameters<T>) -> Vec<(Lim
 /// Returns the limits of a scene in closed form, with their sensitivities.
 pub(super) fn limits(scene: &CheckedScene) -> Vec<Limit> {
     let parameters = Parameters::<f64>::of(scene);
-    let mut found = every(&parameters);
+    let mut found = all_values(&parameters);
     keep_known(scene, &mut found);
     let derived: Vec<[Vec<Dual64>; CLOSED.len()]> =
-        acting(scene).map(|parameter| every(&parameter.seeded(scene))).collect();
+        acting(scene).map(|parameter| all_values(&parameter.seeded(scene))).collect();
     let present = |name: LimitName| match name.quantity() {
         Quantity::Height => Some(scene.casing.out_of_round_m),
         quantity => quantity.path().map(|_| scene.operation.speed_rad_s.abs()),

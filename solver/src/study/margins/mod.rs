@@ -87,7 +87,7 @@ impl Margins {
     /// Returns the number of rows that [`ask_runs`](Self::ask_runs) computes for a scene.
     #[must_use]
     pub fn rows_asked(scene: &CheckedScene) -> usize {
-        changes::asked(scene).iter().map(|scene| changes::rows(scene).len()).sum()
+        changes::scenes_to_run(scene).iter().map(|scene| changes::rows(scene).len()).sum()
     }
 
     /// Determines the robustness of the verdict by runs, with each quantity between zero and twice
@@ -95,7 +95,7 @@ impl Margins {
     /// pulls, `pushes_only`. `None` if `go_on` returned false; the rows computed until then stay.
     pub fn ask_runs(&mut self, go_on: GoOn<'_>, known: &mut dyn FnMut(&Self)) -> Option<()> {
         let start = Instant::now();
-        for (place, scene) in changes::asked(&self.scene).iter().enumerate() {
+        for (place, scene) in changes::scenes_to_run(&self.scene).iter().enumerate() {
             let rows = changes::rows(scene);
             let mut found = Robustness {
                 contact: scene.solver.contact,

@@ -20,10 +20,10 @@ pub(super) struct Track {
     pub(super) verdict: Verdict,
     /// Wall time of the run \[s\].
     pub(super) wall_s: f64,
-    found: Found,
+    solution: Solution,
 }
 
-enum Found {
+enum Solution {
     /// Event solver: the motion at a time before which no explicit run ends.
     Events(Motion),
     /// Halved steps, and the time at which final states are compared \[s\].
@@ -48,7 +48,7 @@ impl Track {
         }
         let wall_s = started.elapsed().as_secs_f64();
         let verdict = verdict_of(&end, LAST_PART * end_s);
-        Ok(Some(Self { way, end, verdict, wall_s, found: Found::Events(before) }))
+        Ok(Some(Self { way, end, verdict, wall_s, solution: Solution::Events(before) }))
     }
 
     /// Runs the explicit solver with halved steps; `None` if `go_on` stopped it.
@@ -77,8 +77,8 @@ impl Track {
         let rigid = scene.solver.contact != ContactLaw::Smooth;
         let settled = halving::settle(&runs, machine.clearance().abs(), moment, rigid);
         let (verdict, wall_s) = (run.verdict, run.wall_s);
-        let found = Found::Steps(settled, look_s);
-        Ok(Some(Self { way, end: run.motion, verdict, wall_s, found }))
+        let solution = Solution::Steps(settled, look_s);
+        Ok(Some(Self { way, end: run.motion, verdict, wall_s, solution }))
     }
 
     /// Returns whether this is the reference for that solver, law and model size, whatever the
@@ -96,31 +96,31 @@ impl Track {
 
     /// Returns the evaluation of the halved steps, if these are the reference.
     pub(super) fn settled(&self) -> Option<&Settled> {
-        match &self.found {
-            Found::Events(_) => None,
-            Found::Steps(settled, _) => Some(settled),
+        match &self.solution {
+            Solution::Events(_) => None,
+            Solution::Steps(settled, _) => Some(settled),
         }
     }
 
     /// Returns the time at which a run is compared with this reference \[s\].
     pub(super) fn look_s(&self, scene: &Scene) -> f64 {
-        match &self.found {
-            Found::Events(_) => scene.solver.end_s,
-            Found::Steps(_, look_s) => *look_s,
+        match &self.solution {
+            Solution::Events(_) => scene.solver.end_s,
+            Solution::Steps(_, look_s) => *look_s,
         }
     }
 
     /// Returns the casing displacement at time `t` of the run to be compared \[m\]; `None` if the
     /// reference failed before, or is not known at that time.
     pub(super) fn at(&self, t: f64) -> Option<[f64; 2]> {
-        match &self.found {
-            Found::Steps(settled, _) => settled.end.map(|(u, _)| u),
-            Found::Events(before) if t >= before.t_s() => {
+        match &self.solution {
+            Solution::Steps(settled, _) => settled.end.map(|(u, _)| u),
+            Solution::Events(before) if t >= before.t_s() => {
                 let mut motion = before.clone();
                 motion.advance(t).ok()?;
                 Some(motion.state().u)
             }
-            Found::Events(_) => None,
+            Solution::Events(_) => None,
         }
     }
 }
