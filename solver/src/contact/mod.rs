@@ -1,8 +1,9 @@
-//! Contact laws, which solve one step on predicted gaps: the corrected gaps are
-//! `g = g* - W lambda` (docs/theory.md, section 6). A multiplier below zero pushes.
+//! Contact laws. A law determines the multipliers of one time step from the predicted gaps `g*`;
+//! the corrected gaps are `g = g* - W lambda` (docs/theory.md, section 6). A negative multiplier is
+//! a push.
 //!
-//! At most one corner of the polygon touches in every ordinary step, so a law
-//! solves two rows by cases; larger sets go to `several`.
+//! In nearly every step at most two sides touch, so two rows are solved by cases ([`pair`],
+//! [`complementary_pair`]); larger sets are solved in `several`.
 
 mod several;
 
@@ -11,7 +12,7 @@ use strum::{AsRefStr, Display, EnumString, IntoStaticStr, VariantNames};
 
 pub use several::Several;
 
-/// Which contact law closes the predicted penetrations.
+/// Contact law: which multipliers close the predicted penetrations.
 #[derive(
     Clone,
     Copy,
@@ -28,16 +29,17 @@ pub use several::Several;
 #[serde(rename_all = "lowercase")]
 #[strum(serialize_all = "lowercase")]
 pub enum ContactLaw {
-    /// Signorini: multipliers may only push.
+    /// Signorini conditions: multipliers can only push.
     Unilateral,
-    /// The paper's Eqs. (11)-(13): every penetration is an equality, pull or push.
+    /// The paper's Eqs. (11)-(13): every predicted penetration is closed as an equality, with a
+    /// push or a pull.
     Bilateral,
-    /// An elastic lining: contact forces grow with the depth (docs/theory.md, section 10).
+    /// Elastic lining: the contact force grows with the depth (docs/theory.md, section 10).
     Smooth,
 }
 
 impl ContactLaw {
-    /// Returns the law to compare with.
+    /// Returns the law that comparison runs use.
     #[must_use]
     pub fn other(self) -> Self {
         match self {
@@ -46,7 +48,7 @@ impl ContactLaw {
         }
     }
 
-    /// Returns why the event solver does not know the law; `None` where it does.
+    /// Returns the reason why the event solver does not support the law; `None` if it does.
     #[must_use]
     pub fn lacks_events(self) -> Option<&'static str> {
         match self {
@@ -56,42 +58,43 @@ impl ContactLaw {
         }
     }
 
-    /// Returns whether a multiplier may pull. A lining has the rigid law of its stiff limit.
+    /// Returns whether a multiplier may pull. On a lining none can, as in its stiff limit.
     #[must_use]
     pub fn pulls(self) -> bool {
         self == Self::Bilateral
     }
 
-    /// Solves two rows of different sides; `None` where they cannot be told apart (singular
-    /// equations).
+    /// Solves two rows that belong to different sides; `None` if the equations are singular.
     #[must_use]
     pub fn pair(self, w: [[f64; 2]; 2], gap: [f64; 2]) -> Option<[f64; 2]> {
         if self.pulls() { Some(pair(w, gap)) } else { complementary_pair(w, gap) }
     }
 
-    /// Solves any number of rows of different sides, as `pair`.
+    /// Solves any number of rows that belong to different sides; `None` as for
+    /// [`pair`](Self::pair).
     #[must_use]
     pub fn several(self, rows: &mut Several) -> Option<&[f64]> {
         if self.pulls() { rows.all_closed() } else { rows.complementary() }
     }
 
-    /// Returns the force that keeps a corner closed, for the multipliers of its sides and the
-    /// cosine of the angle between them; the corner opens where it is zero \[N\]. It lasts while
-    /// both sides push, or, where they may pull, are predicted to penetrate.
+    /// Returns the margin to the opening of a corner \[N\]: positive while the corner stays closed,
+    /// zero where it opens. Takes the multipliers of both sides and the cosine of the angle between
+    /// them. Without pulls a corner stays closed while both sides push; with pulls, while both
+    /// sides would penetrate if let go.
     #[must_use]
     pub fn hold(self, [a, b]: [f64; 2], cos: f64) -> f64 {
         if self.pulls() { (-(a + cos * b)).min(-(b + cos * a)) } else { (-a).min(-b) }
     }
 }
 
-/// Returns the multiplier of one row alone, `lambda = g/W`.
+/// Returns the multiplier of a single row, `lambda = g/W`.
 #[must_use]
 pub fn single(w: f64, gap: f64) -> f64 {
     gap / w
 }
 
-/// Returns the multipliers of two rows closed as equalities, which are not finite where the
-/// rows are dependent.
+/// Returns the multipliers that close two rows as equalities. They are not finite if the rows are
+/// linearly dependent.
 #[must_use]
 pub fn pair(w: [[f64; 2]; 2], gap: [f64; 2]) -> [f64; 2] {
     let determinant = w[0][0] * w[1][1] - w[0][1] * w[1][0];
@@ -102,8 +105,8 @@ pub fn pair(w: [[f64; 2]; 2], gap: [f64; 2]) -> [f64; 2] {
 }
 
 /// Solves the complementarity problem of two rows, `g >= 0`, `lambda <= 0`, `g lambda = 0`
-/// (Signorini; docs/theory.md, section 2), by cases: neither, the first, the second,
-/// both. `None` where no case holds (dependent rows).
+/// (Signorini; docs/theory.md, section 2), by cases: none closed, the first, the second, both.
+/// `None` if no case applies (linearly dependent rows).
 #[must_use]
 pub fn complementary_pair(w: [[f64; 2]; 2], gap: [f64; 2]) -> Option<[f64; 2]> {
     if gap[0] >= 0.0 && gap[1] >= 0.0 {
@@ -126,7 +129,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// `W` of two sides of the polygon, an angle `turn` apart.
+    /// Returns `W` for two sides whose normals are `turn` radians apart.
     fn rows(turn: f64) -> [[f64; 2]; 2] {
         [[1.0, turn.cos()], [turn.cos(), 1.0]]
     }
@@ -167,7 +170,7 @@ mod tests {
             several.fill(&gap, |i, j| w[i][j]);
             let general = several.complementary().unwrap();
             for row in 0..2 {
-                // The condition number of W bounds what round-off may change.
+                // The accuracy is limited by the condition number of W.
                 prop_assert!((general[row] - lambda[row]).abs() < 1e-11);
             }
         }

@@ -1,29 +1,31 @@
-//! Contact rows of three sides or more at once: very compliant blades, or a step too long.
-//! An error of round-off times the condition of `W`; the work of a solve is that of the
-//! eliminations that it tries, `MOST_PIVOTING` at most.
+//! Contact of three or more sides at once, which occurs with very compliant blades or a step that
+//! is too long.
+//!
+//! Relative error: round-off times the condition number of `W`. Cost: that of the eliminations
+//! tried, at most `MOST_PIVOTING`.
 
 use crate::numeric::elimination::eliminate;
 use crate::tolerances::{FEW_ROWS, MOST_PIVOTING, ROUND_OFF, SINGULAR};
 
-/// The rows of one step, filled anew in each, in memory that stays.
+/// Rows of one step. The memory is reused from step to step.
 #[derive(Clone, Debug, Default)]
 pub struct Several {
-    /// `W`, row by row \[m/N\].
+    /// Matrix `W`, row by row \[m/N\].
     w: Vec<f64>,
     /// Predicted gaps \[m\].
     gaps: Vec<f64>,
-    /// The rows that are closed.
+    /// Whether each row is treated as closed.
     closed: Vec<bool>,
     chosen: Vec<usize>,
-    /// The equations of the chosen rows, and behind each its right side.
+    /// Equations of the closed rows, each followed by its right-hand side.
     equations: Vec<f64>,
-    /// Of every row; zero where it is open \[N\].
+    /// Multiplier of every row; zero for open rows \[N\].
     multipliers: Vec<f64>,
 }
 
 impl Several {
-    /// Fills in rows with these gaps \[m\], where a unit multiplier of row `b` closes the gap of row
-    /// `a` by `entry(a, b)` \[m/N\].
+    /// Sets the predicted gaps \[m\] and the matrix `W`: a unit multiplier of row `b` reduces the
+    /// gap of row `a` by `entry(a, b)` \[m/N\].
     pub fn fill(&mut self, gaps: &[f64], entry: impl Fn(usize, usize) -> f64) {
         let rows = gaps.len();
         self.gaps.clear();
@@ -34,19 +36,20 @@ impl Several {
         }
     }
 
-    /// Closes every row as an equality, Eq. (13a). `None` where `W` is singular, to the
-    /// digits it has: more rows than coordinates that could close them.
+    /// Closes every row as an equality, Eq. (13a). `None` if `W` is singular to working precision,
+    /// which happens with more rows than coordinates to close them.
     pub fn all_closed(&mut self) -> Option<&[f64]> {
         self.begin(|_| true);
         self.close(SINGULAR)?;
         Some(&self.multipliers)
     }
 
-    /// Solves the complementarity problem of these rows by principal pivoting with the least
-    /// index (Murty), which ends for every positive definite `W`. Few rows begin with all
-    /// penetrations closed, which is nearly always the answer; where this has none, and
-    /// for more rows, they begin open. `None` where it does not end within its bound or a
-    /// choice of rows is singular.
+    /// Solves the complementarity problem by principal pivoting with the least index (Murty), which
+    /// terminates for every positive definite `W`.
+    ///
+    /// With few rows the search begins with all penetrations closed, which is nearly always the
+    /// solution. If that fails, and with more rows, it begins with all rows open. `None` if the
+    /// work limit is reached or a set of closed rows is singular.
     pub fn complementary(&mut self) -> Option<&[f64]> {
         let few = self.gaps.iter().filter(|gap| **gap < 0.0).count() <= FEW_ROWS;
         let found = few && {
@@ -60,18 +63,18 @@ impl Several {
         Some(&self.multipliers)
     }
 
-    /// Begins with the rows of these gaps closed.
+    /// Starts with the rows closed whose gap satisfies `is_closed`.
     fn begin(&mut self, is_closed: impl Fn(f64) -> bool) {
         self.closed.clear();
         self.closed.extend(self.gaps.iter().map(|&gap| is_closed(gap)));
     }
 
-    /// Returns the largest predicted gap or penetration \[m\].
+    /// Returns the largest magnitude of a predicted gap \[m\].
     fn scale(&self) -> f64 {
         self.gaps.iter().fold(0.0_f64, |most, gap| most.max(gap.abs()))
     }
 
-    /// Closes and opens rows until none is wrong.
+    /// Opens and closes rows until every row satisfies its condition.
     fn pivot(&mut self, singular: f64) -> Option<()> {
         let rows = self.gaps.len();
         let round_off = ROUND_OFF * self.scale();
@@ -94,15 +97,15 @@ impl Several {
         None
     }
 
-    /// Returns the gap of a row after the contact forces \[m\].
+    /// Returns the gap of a row after the correction \[m\].
     fn left(&self, row: usize) -> f64 {
         let rows = self.gaps.len();
         let moved = self.w[row * rows..].iter().zip(&self.multipliers);
         self.gaps[row] - moved.map(|(w, lambda)| w * lambda).sum::<f64>()
     }
 
-    /// Finds the multipliers that close the chosen rows. `None` where more than the part `singular`
-    /// of the largest gap is left of them.
+    /// Computes the multipliers that close the chosen rows. `None` if a residual gap exceeds
+    /// `singular` times the largest gap.
     fn close(&mut self, singular: f64) -> Option<()> {
         let rows = self.gaps.len();
         self.chosen.clear();
@@ -134,7 +137,7 @@ mod tests {
         several
     }
 
-    /// A matrix in which the push on the middle row opens its neighbours.
+    /// A matrix with which a push on the middle row opens its neighbours.
     const SOFT: [[f64; 3]; 3] = [[1.0, -0.6, 0.2], [-0.6, 1.0, -0.6], [0.2, -0.6, 1.0]];
 
     #[test]
@@ -147,7 +150,7 @@ mod tests {
                 assert!(lambda[row] <= 0.0 && left > -1e-15, "{gaps:?} {lambda:?} {left}");
                 assert!((lambda[row] * left).abs() < 1e-15, "{gaps:?} {lambda:?} {left}");
             }
-            // From open rows, as many rows begin.
+            // Starting with open rows, as for larger sets, gives the same solution.
             several.begin(|_| false);
             several.pivot(SINGULAR).unwrap();
             for (a, b) in several.multipliers.iter().zip(&lambda) {

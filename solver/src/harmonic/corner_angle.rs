@@ -1,13 +1,9 @@
-//! Very soft blades: the wave opens its corner, the stiffness is exhausted at some speed,
-//! and the branch of the corner turns back there (docs/theory.md, section 8).
+//! The corner of very soft blades: contact forces open it until, at some speed, the branch folds
+//! back (docs/theory.md, section 8).
 //!
-//! The corner is one equation for its corner angle `Delta`, explicit in it, folds included:
-//! `stiffness = -(Delta - delta) cos^3 Delta/(c sin Delta)`, `c` the theory's `chi`.
-//!
-//! The branch is followed by arc length, so that it passes a fold and does not miss it.
-//! Points are spaced in the plane of speed (over `Omega_c`) and corner angle, and each is
-//! exact. Up to the fold both coordinates only grow; behind it the speed only falls. So the
-//! end of each leg is known in advance: the points hit an end or a fold exactly.
+//! The corner is described by one equation for its half angle `Delta`, explicit in the stiffness:
+//! `stiffness = -(Delta - delta) cos^3 Delta/(c sin Delta)`, where `c` is `chi` in the theory.
+//! [`CornerAngle::at`] solves it for `Delta`, [`CornerAngle::at_fold`] finds its fold.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -16,30 +12,29 @@ use crate::model::{Machine, Number};
 use crate::numeric::bisection::bisected;
 use crate::tolerances::{AS_GOOD_AS_RIGID, CONVERGED};
 
-/// The corner angle of one polygon's corners.
+/// Equation for the half angle of a corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct CornerAngle<T = f64> {
-    /// Half angle of the unbent corner, `delta` \[rad\].
+    /// Half angle with rigid blades, `delta` \[rad\].
     pub delta: f64,
-    /// `c` above.
+    /// Compliance `c` of the equation above.
     compliance: T,
 }
 
 impl<T: Number> CornerAngle<T> {
-    /// Creates the corner angle of a machine.
+    /// Creates the equation for a machine.
     pub fn of(machine: &Machine<T>) -> Self {
-        let scales = Scales::of(machine);
+        let scales = Scales::new(machine);
         Self::new(machine.polygon.delta, scales.softness * scales.share)
     }
 
-    /// Creates the corner angle from the (dimensionless) softness of the blades times their
-    /// share.
+    /// Creates the equation from the dimensionless compliance `bend`, softness times share.
     pub fn new(delta: f64, bend: T) -> Self {
         Self { delta, compliance: bend * delta.sin().powi(2) }
     }
 
-    /// Returns `stiffness` at the fold, where the branch turns back: `at_fold` depends on
-    /// `delta` alone, so `stiffness` goes with one over the compliance.
+    /// Returns `stiffness` at the fold. The angle there depends on `delta` alone, so `stiffness` is
+    /// inversely proportional to the compliance.
     pub fn fold_stiffness(&self) -> Option<T> {
         let plain = CornerAngle { delta: self.delta, compliance: self.compliance.re() };
         let (stiffness, _) = plain.stiffness(plain.at_fold())?;
@@ -48,11 +43,11 @@ impl<T: Number> CornerAngle<T> {
 }
 
 impl CornerAngle {
-    /// Returns the change of the corner angle `Delta - delta` \[rad\] at `stiffness`, on the
-    /// branch of stiff blades; `None` beyond its fold.
+    /// Returns the opening `Delta - delta` at `stiffness` on the branch of stiff blades; `None`
+    /// beyond its fold \[rad\].
     pub fn at(&self, stiffness: f64) -> Option<f64> {
         let mut angle_change = 0.0;
-        // Steps shrink at least by half (at the fold), until they are rounding.
+        // Newton steps shrink at least by half (at the fold) until they are round-off.
         let mut last = f64::INFINITY;
         for _ in 0..100 {
             let angle = self.delta + angle_change;
@@ -60,8 +55,8 @@ impl CornerAngle {
             let pull = self.compliance * stiffness / (cos * cos);
             let value = angle_change + pull * sin / cos;
             let slope = 1.0 + pull * (1.0 + 2.0 * sin * sin) / (cos * cos);
-            // The slope vanishes at the fold. Newton's steps from delta stay on
-            // the near side of the root: the equation is convex there.
+            // The slope vanishes at the fold. The equation is convex, so Newton steps from delta
+            // stay on the near side of the root.
             if slope <= 0.0 {
                 return None;
             }
@@ -81,8 +76,8 @@ impl CornerAngle {
         None
     }
 
-    /// Returns `stiffness` at a change of the corner angle, and its slope; `None` if the
-    /// blades are too stiff for such an opening.
+    /// Returns `stiffness` at an opening of the corner, and its slope; `None` if the blades are too
+    /// stiff to open that far.
     pub fn stiffness(&self, angle_change: f64) -> Option<(f64, f64)> {
         if self.compliance < AS_GOOD_AS_RIGID {
             return None;
@@ -94,8 +89,7 @@ impl CornerAngle {
         (stiffness.is_finite() && slope.is_finite()).then_some((stiffness, slope))
     }
 
-    /// Returns the change of the corner angle at the fold \[rad\]: it depends on
-    /// `delta` alone.
+    /// Returns the opening at the fold, which depends on `delta` alone \[rad\].
     pub fn at_fold(&self) -> f64 {
         let falls = |angle_change: f64| {
             let (sin, cos) = (self.delta + angle_change).sin_cos();
@@ -118,8 +112,8 @@ mod tests {
             for part in [-3.0, -0.5, 0.0, 1e-9, 0.1, 0.5, 0.9, 0.999] {
                 let angle_change = corner_angle.at(part * limit).unwrap();
                 let (back, _) = corner_angle.stiffness(angle_change).unwrap();
-                // Next to the fold the rounding of an angle is amplified a
-                // hundred times.
+                // Near the fold the rounding error of an angle is amplified by a factor of a
+                // hundred.
                 assert!((back - part * limit).abs() <= 1e-13 * limit.abs());
                 assert_eq!(angle_change > 0.0, part > 0.0);
             }

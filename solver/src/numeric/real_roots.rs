@@ -1,16 +1,18 @@
-//! Every real root of a polynomial that is a product of quadratics, found surely: by
-//! signs of its Bernstein coefficients (Descartes' rule on an interval). Each to
-//! neighbouring numbers, and a double root to the square root of round-off.
+//! All real roots of a polynomial that is a sum of products of quadratics, found reliably:
+//! intervals are bisected until Descartes' rule of signs, applied to the Bernstein coefficients,
+//! leaves at most one root in each (Vincent, Collins and Akritas).
 //!
-//! At most [`MOST_HALVINGS`] of an interval on the way to a root, and as many to end it.
+//! Simple roots are located to adjacent floating-point numbers, double roots to the square root of
+//! round-off. Costs at most [`MOST_HALVINGS`] bisections to isolate a root, and as many to locate
+//! it.
 //!
-//! The coefficients are made afresh on every interval from the factors, so that they
-//! keep their digits next to lightly damped resonances, where the polynomial is tiny.
-//! Points are homogeneous, `x = p/q`, so that an interval may end at infinity.
+//! On every interval the coefficients are computed anew from the quadratic factors, which preserves
+//! their relative accuracy near lightly damped resonances, where the polynomial is tiny. Points are
+//! homogeneous, `x = p/q`, so that an interval can end at infinity.
 
 use super::bisection::MOST_HALVINGS;
 
-/// A point `x = p/q` of the real line, `q >= 0`; infinite for `q = 0`.
+/// Point `x = p/q` of the real line, `q >= 0`; infinite for `q = 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Point {
     pub p: f64,
@@ -31,11 +33,11 @@ impl Point {
     }
 }
 
-/// Coefficients of the largest polynomial: degree six.
+/// Number of coefficients of the largest polynomial, which has degree six.
 const MOST: usize = 7;
 
-/// Bernstein coefficients times binomials: products are convolutions. They are made
-/// many thousand times a second, so they are not on the heap.
+/// Bernstein coefficients multiplied by the binomial coefficients, so that products of polynomials
+/// are convolutions. Stored inline, because they are computed many thousand times a second.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Coefficients {
     values: [f64; MOST],
@@ -51,20 +53,20 @@ impl std::ops::Deref for Coefficients {
 }
 
 impl Coefficients {
-    /// A quadratic of this polar form, from one point to another.
+    /// Creates the coefficients of a quadratic on an interval from its polar form.
     pub fn quadratic(from: Point, to: Point, of: impl Fn(Point, Point) -> f64) -> Self {
         Self::from([of(from, from), 2.0 * of(from, to), of(to, to)])
     }
 }
 
-/// A quadratic.
+/// Takes the three coefficients of a quadratic.
 impl From<[f64; 3]> for Coefficients {
     fn from([first, middle, last]: [f64; 3]) -> Self {
         Self { values: [first, middle, last, 0.0, 0.0, 0.0, 0.0], count: 3 }
     }
 }
 
-/// The product of two polynomials on one interval.
+/// Multiplies two polynomials given on the same interval.
 pub(crate) fn product(a: &[f64], b: &[f64]) -> Coefficients {
     debug_assert!(a.len() + b.len() <= MOST + 1, "no room for the highest terms");
     let mut values = [0.0; MOST];
@@ -76,7 +78,7 @@ pub(crate) fn product(a: &[f64], b: &[f64]) -> Coefficients {
     Coefficients { values, count: (a.len() + b.len()).saturating_sub(1) }
 }
 
-/// `first a + second b` of two polynomials of one degree.
+/// Returns `first a + second b` for two polynomials of the same degree.
 pub(crate) fn sum(first: f64, a: &[f64], second: f64, b: &[f64]) -> Coefficients {
     let mut values = [0.0; MOST];
     for (slot, (x, y)) in values.iter_mut().zip(a.iter().zip(b)) {
@@ -85,9 +87,9 @@ pub(crate) fn sum(first: f64, a: &[f64], second: f64, b: &[f64]) -> Coefficients
     Coefficients { values, count: a.len().min(b.len()) }
 }
 
-/// The real roots of a polynomial in no order. `on` gives its coefficients from one
-/// point to another, `breaks` are finite points where it may change its scale. Of two
-/// roots that round-off does not tell apart none is found.
+/// Returns the real roots of a polynomial in no particular order. `on` gives its coefficients on an
+/// interval; `breaks` are finite points at which its scale may change. A pair of roots that
+/// round-off cannot separate is not returned.
 pub(crate) fn real_roots(on: &impl Fn(Point, Point) -> Coefficients, breaks: &[f64]) -> Vec<f64> {
     let mut finite: Vec<f64> = breaks.iter().copied().filter(|x| x.is_finite()).collect();
     finite.sort_by(f64::total_cmp);
@@ -122,19 +124,20 @@ pub(crate) fn real_roots(on: &impl Fn(Point, Point) -> Coefficients, breaks: &[f
     roots
 }
 
-/// A finite point where the polynomial is zero is a root.
+/// Records `at` if the polynomial vanishes at this finite point.
 fn vanishes(on: &impl Fn(Point, Point) -> Coefficients, at: Point, roots: &mut Vec<f64>) {
     if at.q > 0.0 && end(on, at) == 0.0 {
         roots.push(at.value());
     }
 }
 
-/// The value at a point, with the same rounding as at the end of any interval there.
+/// Evaluates the polynomial at a point, with the same rounding as the coefficients of any interval
+/// that ends there.
 fn end(on: &impl Fn(Point, Point) -> Coefficients, at: Point) -> f64 {
     on(at, at).first().copied().unwrap_or(0.0)
 }
 
-/// Sign changes among the coefficients that are not zero.
+/// Counts the sign changes among the nonzero coefficients.
 fn sign_changes(coefficients: &[f64]) -> usize {
     let mut signs = coefficients.iter().filter(|value| **value != 0.0).map(|value| *value > 0.0);
     let Some(mut last) = signs.next() else { return 0 };
@@ -146,9 +149,9 @@ fn sign_changes(coefficients: &[f64]) -> usize {
     changes
 }
 
-/// The one root inside an interval.
+/// Locates the single root inside an interval.
 fn bisected(on: &impl Fn(Point, Point) -> Coefficients, from: Point, to: Point) -> Point {
-    // The sign next to the first end, where the value itself may be zero.
+    // Sign just inside the first end, where the value itself may be zero.
     let first = on(from, to).iter().copied().find(|value| *value != 0.0).unwrap_or(0.0) > 0.0;
     let (mut low, mut high) = (from, to);
     for _ in 0..MOST_HALVINGS {
@@ -169,7 +172,7 @@ fn bisected(on: &impl Fn(Point, Point) -> Coefficients, from: Point, to: Point) 
 mod tests {
     use super::*;
 
-    /// `(x - a)(x - b)` from one point to another.
+    /// Returns the coefficients of `(x - a)(x - b)` on an interval.
     fn pair(a: f64, b: f64) -> impl Fn(Point, Point) -> Coefficients {
         move |from, to| {
             let at = |u: Point, v: Point| {
@@ -204,7 +207,7 @@ mod tests {
 
     #[test]
     fn what_has_no_real_root_gives_none() {
-        // x^2 + e^2 for smaller and smaller e.
+        // x^2 + e^2 with decreasing e.
         for e in [1.0, 1e-4, 1e-8, 1e-12] {
             let on = |u: Point, v: Point| {
                 let at = |u: Point, v: Point| u.p * v.p + e * e * u.q * v.q;

@@ -1,21 +1,21 @@
-//! Which shortcuts the explicit solver may take.
+//! Shortcuts of the explicit solver.
 
-/// Shortcuts of the explicit solver, all of which are taken by default. Each gives the result
-/// of plain steps, to round-off; without them a result can be audited.
+/// Shortcuts of the explicit solver. All are on by default. Each reproduces the result of plain
+/// steps to round-off; runs without them serve to verify that.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shortcuts {
-    /// Leaps over free flight.
+    /// Skip steps of free flight.
     pub flight: bool,
-    /// Leaps over a held lock.
+    /// Skip steps of a held lock.
     pub lock: bool,
-    /// Short steps of a wave that slides along one side.
+    /// Take cheaper steps while the wave slides along one side.
     pub slide: bool,
-    /// Verdicts that nothing to come can change, before the end of the run.
+    /// End the run once its verdict is proved.
     pub proofs: bool,
 }
 
 impl Shortcuts {
-    /// No shortcut: every step is taken, and the verdict is that of the whole run.
+    /// No shortcuts: every step is computed, and the verdict is that of the whole run.
     pub const NONE: Self = Self { flight: false, lock: false, slide: false, proofs: false };
 }
 

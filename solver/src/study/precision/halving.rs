@@ -1,13 +1,15 @@
-//! The reference of what the event solver does not know: the explicit solver at steps
-//! that are halved. Where each halving moves the end by the same part of the one before,
-//! that part is the order, and the end is extrapolated to a step of zero (Richardson);
-//! where the changes fall without such a rule, the finest step is the reference; where they
-//! do not fall, there is none.
+//! Reference solution for scenes that the event solver does not support: the explicit solver with
+//! successively halved time steps.
 //!
-//! An impact is late by what is left of its step. A halved step moves it by half a step or
-//! not at all, so the largest change in proportion to its step bounds the error; and an
-//! instant just behind one that all steps share looks like first order, and its limit is
-//! that shared one. After rigid impacts nothing is extrapolated.
+//! If each halving changes the final state by a constant fraction of the previous change, that
+//! fraction gives the order of convergence, and the final state is extrapolated to a step of zero
+//! (Richardson). If the changes decrease without such a rule, the finest step is the reference; if
+//! they do not decrease, there is none.
+//!
+//! An impact is late by the rest of its step. Halving the step moves it by half a step or not at
+//! all, so the largest ratio of change to step bounds the error; and an impact just after a time
+//! that all step grids share looks like first order, but converges to that shared time. Therefore
+//! nothing is extrapolated after rigid impacts.
 
 use super::ways::{Effort, LONGEST, Way};
 use super::{Lack, Method, distance};
@@ -19,33 +21,33 @@ use crate::tolerances::{
     REFERENCE_WORST,
 };
 
-/// Result of the run at one step.
+/// Result of the run with one step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Halved {
     pub(super) step_s: f64,
-    /// The casing at the instant compared \[m\].
+    /// Casing displacement at the time of comparison \[m\].
     pub(super) u: [f64; 2],
-    /// Verdict with its times; none where the run failed.
+    /// Verdict with its times; `None` if the run failed.
     pub(super) reached: Option<VerdictReached>,
 }
 
-/// What the runs at all steps show together.
+/// Combined result of the runs with all steps.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Settled {
     pub(super) method: Method,
-    /// Observed order of convergence; none where all changes are round-off.
+    /// Observed order of convergence; `None` if all changes are round-off.
     pub(super) order: Option<f64>,
-    /// Casing displacement of the reference \[m\] and a bound on its error, in clearances; none
-    /// without a reference.
+    /// Casing displacement of the reference \[m\], and a bound on its error in units of the
+    /// clearance; `None` without a reference.
     pub(super) end: Option<([f64; 2], f64)>,
-    /// Change of the casing displacement by each halving, in clearances.
+    /// Change of the casing displacement by each halving, in units of the clearance.
     pub(super) changes: Vec<f64>,
-    /// Whether the finest runs have the same verdict.
+    /// Whether the finest runs agree in their verdict.
     pub(super) one_verdict: bool,
 }
 
-/// Returns the steps, each half of the one before, down to the finest that `effort` allows,
-/// without those that the scene refuses; no steps where too few are left.
+/// Returns the steps, each half of the previous one, down to the finest that `effort` allows,
+/// without those that the scene does not allow; none if too few are left.
 pub(super) fn steps(way: Way, scene: &Scene, effort: Effort) -> Vec<f64> {
     let end = scene.solver.end_s;
     let least = effort.finest_s.max(end / effort.most_steps);
@@ -59,18 +61,18 @@ pub(super) fn steps(way: Way, scene: &Scene, effort: Effort) -> Vec<f64> {
     steps
 }
 
-/// Returns the steps of the rows: the finest ones that determine the order, except the last,
-/// which is the reference or next to it.
+/// Returns the steps used for rows of the comparison: the finest ones that determine the order,
+/// without the last, which is the reference or close to it.
 pub(super) fn rows(way: Way, scene: &Scene, effort: Effort) -> Vec<f64> {
     let mut steps = steps(way, scene, effort);
     _ = steps.pop();
     steps.split_off(steps.len().saturating_sub(CHANGES_ASKED))
 }
 
-/// Rejects a run that is too long for a reference by steps within this effort.
+/// Rejects a run that is too long for a reference with halved steps within this effort.
 ///
 /// # Errors
-/// The end of the scene.
+/// States the end of the scene.
 pub(super) fn check(way: Way, scene: &Scene, effort: Effort) -> Result<(), SceneError> {
     if !steps(way, scene, effort).is_empty() {
         return Ok(());
@@ -82,14 +84,14 @@ pub(super) fn check(way: Way, scene: &Scene, effort: Effort) -> Result<(), Scene
     Err(SceneError::refused(keys::END, scene.solver.end_s, allowed))
 }
 
-/// Evaluates runs at halved steps, on a rigid casing or a lining. Lock times may differ by up to
-/// `moment` \[s\].
+/// Evaluates runs with halved steps, with rigid contact or on a lining. Lock times may differ by up
+/// to `moment` \[s\].
 pub(super) fn settle(runs: &[Halved], clearance: f64, moment: f64, rigid: bool) -> Settled {
     let none = |lack, changes, one_verdict| {
         let method = Method::None(lack);
         Settled { method, order: None, end: None, changes, one_verdict }
     };
-    // Steps that are too long for a motion tell nothing of shorter ones.
+    // Failed runs with coarse steps say nothing about finer steps.
     let solved = runs.iter().take_while(|run| run.reached.is_none()).count();
     let runs = runs.get(solved..).unwrap_or_default();
     if runs.iter().any(|run| run.reached.is_none()) {
@@ -125,7 +127,7 @@ pub(super) fn settle(runs: &[Halved], clearance: f64, moment: f64, rigid: bool) 
     }
 }
 
-/// Returns whether each change is smaller than the one before.
+/// Returns whether each change is smaller than the previous one.
 fn falls(changes: &[f64]) -> bool {
     changes.windows(2).all(|pair| pair[1] < pair[0])
 }
@@ -134,10 +136,10 @@ fn verdict(run: &Halved) -> Option<crate::motion::Verdict> {
     run.reached.map(|reached| reached.verdict)
 }
 
-/// Returns the order, the end extrapolated with it, and the distance of that end from the one
-/// extrapolated at twice the step, for the finest steps at which two successive orders round to
-/// the same whole number. At finer steps the order may be lost in round-off, but the changes may
-/// not grow.
+/// Returns the order, the final state extrapolated with it, and the distance of that state from the
+/// one extrapolated at twice the step. Uses the finest steps at which two successive orders round
+/// to the same whole number; with even finer steps the order can be lost in round-off, but the
+/// changes must not grow.
 fn extrapolate(runs: &[Halved], changes: &[f64], clearance: f64) -> Option<(f64, [f64; 2], f64)> {
     let to_zero = |finer: usize, whole: f64| -> Option<[f64; 2]> {
         let (coarse, fine) = (runs.get(finer.checked_sub(1)?)?.u, runs.get(finer)?.u);
@@ -157,10 +159,10 @@ fn extrapolate(runs: &[Halved], changes: &[f64], clearance: f64) -> Option<(f64,
     })
 }
 
-/// Returns the mean order with which the last changes fall, from the largest of the first three
-/// to the larger of the last two, and a bound on the remaining error of the finest step if they
-/// continue to fall in this way. There is no order where only round-off is left. `None` where the
-/// changes do not fall.
+/// Returns the mean order with which the last changes decrease, from the largest of the first three
+/// to the larger of the last two, and a bound on the error of the finest step if they continue to
+/// decrease in this way. The order is `None` if only round-off is left. Returns `None` if the
+/// changes do not decrease.
 fn falling(runs: &[Halved], changes: &[f64]) -> Option<(Option<f64>, f64)> {
     let first = changes.len().checked_sub(CHANGES_ASKED)?;
     let (changes, runs) = (changes.get(first..)?, runs.get(first..)?);
@@ -170,7 +172,7 @@ fn falling(runs: &[Halved], changes: &[f64]) -> Option<(Option<f64>, f64)> {
     }
     let (coarse, fine) = (changes.get(..3)?, changes.get(CHANGES_ASKED - 2..)?);
     let order = (largest(coarse) / largest(fine)).log2() / (CHANGES_ASKED - 2) as f64;
-    // Each change is at most in this proportion to its step.
+    // Largest ratio of change to step.
     let rates = runs.iter().zip(changes).map(|(run, change)| change / run.step_s);
     let error = 2.0 * rates.fold(0.0, f64::max) * runs.last()?.step_s;
     (order >= ORDER_LEAST).then_some((Some(order).filter(|order| order.is_finite()), error))
@@ -182,8 +184,8 @@ mod tests {
     use crate::motion::ActiveSet;
     use crate::motion::Verdict;
 
-    /// Runs at seven halvings of a step of one second, whose ends are these, with as many
-    /// impacts as `impacts` says.
+    /// Returns runs with successively halved steps, starting at one second; `end` gives the final
+    /// displacement for a step, `impacts` the number of impacts.
     fn runs(end: impl Fn(f64) -> f64, impacts: impl Fn(usize) -> u64) -> Vec<Halved> {
         (0..REFERENCE_STEPS)
             .map(|n| {
@@ -213,14 +215,15 @@ mod tests {
             let (u, error) = found.end.unwrap();
             assert!((u[0] - 3.0).abs() <= error && error < 1e-5, "{order}: {} {error}", u[0] - 3.0);
         }
-        // Third order is of no scheme here, and half an order of no use.
+        // No scheme here has third order, and half an order is not accepted.
         assert_ne!(settled(|h| 1e-3 * h.powi(3)).method, Method::Extrapolated);
         assert_ne!(settled(|h| 1e-3 * h.sqrt()).method, Method::Extrapolated);
     }
 
     #[test]
     fn impacts_between_steps_leave_the_finest_step_with_a_bound_of_its_error() {
-        // The second instant is just behind one that all steps share: an order is seen.
+        // The second instant is just after one that all steps share, so the changes suggest an
+        // order.
         for (instant, order) in [(0.618_033_9, false), (0.500_001, true)] {
             let end = |h: f64| 1.0 + 2e-4 * (h * (instant / h).ceil() - instant);
             let all = runs(end, |_| 5);
@@ -230,7 +233,7 @@ mod tests {
             assert_eq!(u[0], end(0.5_f64.powi(REFERENCE_STEPS as i32 - 1)));
             assert!((u[0] - 1.0).abs() <= error && error < 1e-5, "{instant}: {error:e}");
             assert_eq!(settled(end).method == Method::Extrapolated, order);
-            // Other impacts at another step: not the same motion.
+            // The number of impacts differs between steps, so the motions differ.
             let other = runs(end, |n| n as u64);
             assert_eq!(settle(&other, 1.0, 1.0, true).method, Method::None(Lack::OtherMotions));
         }
@@ -242,7 +245,7 @@ mod tests {
         let lack = Method::None(Lack::NotFalling);
         assert_eq!((found.method, found.end, found.order), (lack, None, None));
         assert_eq!(found.changes.len(), REFERENCE_STEPS - 1);
-        // Nor does an error of a tenth of the clearance.
+        // An error of a tenth of the clearance is no reference, either.
         let far = settled(|h| 100.0 * h * (1.0 + (97.0 / h).sin()));
         assert_eq!(far.method, Method::None(Lack::TooFar));
     }
@@ -261,7 +264,7 @@ mod tests {
             assert_eq!(found.changes, whole.changes[failed.len()..]);
             assert!(found.one_verdict);
         }
-        // Four changes that go on, and four that fall as no order does.
+        // Four changes that do not decrease, and four that decrease with too low an order.
         let last = |end: fn(f64) -> f64| settle(&runs(end, |_| 5)[3..], 1.0, 1.0, true).method;
         assert_eq!(last(|h| (11.7 / h).sin()), Method::None(Lack::NotFalling));
         assert_eq!(last(f64::sqrt), Method::None(Lack::TooFew));
@@ -275,7 +278,7 @@ mod tests {
     #[test]
     fn round_off_is_no_change_and_takes_no_order_away() {
         assert_eq!(settled(|_| 0.7).end, Some(([0.7, 0.0], 0.0)));
-        // Second order down to a floor.
+        // Second order down to a noise floor.
         let found = settled(|h| h * h + if h < 0.02 { 1e-6 * (97.0 / h).sin() } else { 0.0 });
         let (u, error) = found.end.unwrap();
         assert_eq!(found.method, Method::Extrapolated);

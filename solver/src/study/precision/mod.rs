@@ -1,13 +1,13 @@
-//! Speed against error: every solver, law and model size on one scene, each
-//! over its steps or tolerances, against a reference: the event solver, and at halved
-//! steps what that does not know (a lining, an excitation, ramps and single blades beyond
-//! the paper).
+//! Accuracy against cost: every combination of solver, contact law and model size for one scene,
+//! with several steps or tolerances, compared with a reference. The reference is the event solver
+//! or, if that does not support the scene (a lining, an excitation, speed ramps and single blades
+//! beyond the paper), halved time steps.
 //!
-//! An explicit run ends at its last step, up to a step before the end of the
-//! scene, so the reference is evaluated at the time that each run really
-//! reached. The reference itself is checked by halving its tolerance or its step. Where a
-//! tiny change of the pulse changes the outcome (a *sensitive* scene), or halving the step
-//! goes on moving the end, end states mean nothing, and only verdicts are compared.
+//! An explicit run ends at its last step, up to a step before the end of the scene, so the
+//! reference is evaluated at the time that each run reached. The error of the reference is
+//! estimated by halving its tolerance or its step. If a tiny change of the pulse alters the outcome
+//! (a *sensitive* scene), or if halving the step keeps changing the final state, final states are
+//! not meaningful and only verdicts are compared.
 
 mod halving;
 mod track;
@@ -24,116 +24,116 @@ use crate::tolerances;
 use track::Track;
 use ways::{by_events, reference};
 
-/// Impacts whose times are compared.
+/// Number of impacts whose times are compared.
 const FIRST_IMPACTS: usize = 4;
 
 /// Result and cost of one way to solve the scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
-    /// How it was solved.
+    /// Solver, law, model size, and step or tolerance.
     #[serde(flatten)]
     pub way: Way,
-    /// `|u - u_ref|/g0` at the last instant this run reached; none on a
-    /// sensitive scene, or where this run or the reference failed. Rates are
-    /// not compared: in contact those of the explicit scheme are means over a
-    /// step.
+    /// Error `|u - u_ref|/g0` at the last instant that this run reached; `None` for a sensitive
+    /// scene, or if this run or the reference failed. Velocities are not compared, because in
+    /// contact those of the explicit scheme are averages over a step.
     pub error_final: Option<f64>,
-    /// Largest error in the times of the first impacts \[s\]; none if the
-    /// blades differ.
+    /// Largest error of the times of the first impacts; `None` if they involve other blades \[s\].
     pub error_impact_time_s: Option<f64>,
-    /// Deepest penetration of an accepted state \[m\].
+    /// Deepest penetration of a corrected state \[m\].
     pub max_penetration_m: f64,
     /// Median wall time \[s\].
     pub wall_s: f64,
-    /// Wall time over the number of steps taken \[ns\].
+    /// Wall time divided by the number of computed steps \[ns\].
     pub ns_per_step: Option<f64>,
-    /// Time steps taken: computed one by one.
+    /// Number of time steps computed one by one.
     pub steps: Option<u64>,
-    /// Time steps skipped: done many at once; the run has the sum of both.
+    /// Number of time steps skipped; the run consists of both.
     pub steps_skipped: Option<u64>,
-    /// Changes of mode.
+    /// Number of events.
     pub events: Option<u64>,
-    /// The verdict.
+    /// Verdict of the run.
     pub verdict: Verdict,
-    /// Whether it equals the verdict of the reference of its model size; none where that
-    /// has none.
+    /// Whether it equals the verdict of the reference of this model size; `None` if that has none.
     pub verdict_right: Option<bool>,
-    /// Whether the contact law differs from that of the reference: a solution
-    /// of another problem, which may correctly differ.
+    /// Whether the contact law differs from that of the reference. The run then solves another
+    /// problem and may correctly have another result.
     pub other_law: bool,
 }
 
 impl Row {
-    /// Returns whether it solves the same problem as the reference and has another verdict.
+    /// Returns whether the run solves the same problem as the reference with another verdict.
     #[must_use]
     pub fn is_wrong(&self) -> bool {
         !self.other_law && self.verdict_right == Some(false)
     }
 }
 
-/// How a reference was found.
+/// Method of computing a reference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr, Serialize)]
 #[serde(into = "&'static str")]
 #[strum(serialize_all = "snake_case")]
 pub enum Method {
-    /// From contact to contact in closed form.
+    /// Event solver.
     Events,
-    /// From the ends at halved steps, whose order is seen, to a step of zero.
+    /// Final states at halved steps, with a clear order of convergence, extrapolated to a step of
+    /// zero.
     Extrapolated,
-    /// The end at the finest step: halving it moves the end less and less.
+    /// Final state at the finest step; halving the step changes it less and less.
     FinestStep,
-    /// There is none.
+    /// No reference exists.
     None(Lack),
 }
 
-/// Why there is no reference.
+/// Reason why there is no reference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lack {
-    /// Halving the step moves the end no less than before.
+    /// Halving the step changes the final state no less than before.
     NotFalling,
-    /// It does, though by too much still at the finest step.
+    /// The changes decrease, but are still too large at the finest step.
     TooFar,
-    /// It does, though the impacts or the verdict change with the step.
+    /// The changes decrease, but impacts or verdict depend on the step.
     OtherMotions,
     /// Too few steps are short enough for the motion.
     TooFew,
-    /// A step shorter than one that was solved was not.
+    /// A run failed with a shorter step than one that succeeded.
     StepsFailed,
     /// The event solver failed.
     EventsFailed,
 }
 
-/// Reference of the comparison; other model sizes have their own.
+/// Reference of the comparison; other model sizes have references of their own.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reference {
-    /// The event solver under unilateral contact, or the finest of halved steps.
+    /// Event solver with unilateral contact, or explicit solver with the finest of the halved
+    /// steps.
     #[serde(flatten)]
     pub way: Way,
-    /// How it was found.
+    /// Method.
     pub method: Method,
-    /// Its verdict; without a reference, that at the finest step.
+    /// Verdict; without a reference, that of the finest step.
     pub verdict: Verdict,
-    /// Its impacts.
+    /// Number of impacts.
     pub impact_count: u64,
-    /// Whether the scene is sensitive; not asked where it is by steps, which tell it.
+    /// Whether the scene is sensitive. `None` with halved steps, which show it by themselves.
     pub sensitive: Option<bool>,
-    /// How far its end may be from the exact one, in clearances; none without a reference.
+    /// Estimated error of the final state, in units of the clearance; `None` without a reference.
     pub error: Option<f64>,
-    /// How far half the tolerance, or the last halving of the step, moves the end, in
-    /// clearances; none where it failed.
+    /// Change of the final state by half the tolerance, or by the last halving of the step, in
+    /// units of the clearance; `None` if that failed.
     pub error_halved: Option<f64>,
-    /// The order that halved steps show.
+    /// Observed order of convergence with halved steps.
     pub order: Option<f64>,
-    /// How far each halving of the step moves the end, coarse to fine, in clearances.
+    /// Change of the final state by each halving of the step, from coarse to fine, in units of the
+    /// clearance.
     pub changes: Vec<f64>,
-    /// Wall time of its run \[s\].
+    /// Wall time of the reference run \[s\].
     pub wall_s: f64,
 }
 
-/// The whole comparison.
+/// The complete comparison.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Precision {
-    /// The scene; its solver settings are not used.
+    /// Scene; its solver settings are not used.
     pub scene: Scene,
     /// Reference of the comparison.
     pub reference: Reference,
@@ -141,17 +141,17 @@ pub struct Precision {
     pub rows: Vec<Row>,
 }
 
-/// One run to the end.
+/// A run to the end.
 struct TimedRun {
     motion: Motion,
-    /// Where it was looked at.
+    /// State at the time of comparison.
     state: State,
     verdict: Verdict,
     failed: bool,
     wall_s: f64,
 }
 
-/// The reference for each model size.
+/// Reference solutions for each model size.
 pub struct Measure {
     scene: Scene,
     reference: Reference,
@@ -160,21 +160,21 @@ pub struct Measure {
 
 impl Measure {
     /// Rejects a scene that the event solver does not support and that is too long for a reference
-    /// by halved steps.
+    /// with halved steps.
     ///
     /// # Errors
-    /// The end of the scene.
+    /// States the end of the scene.
     pub fn check(scene: &Scene, effort: Effort) -> Result<(), SceneError> {
         reference(scene, scene.solver.model)
             .map(|_| ())
             .or_else(|by_steps| halving::check(by_steps, scene, effort))
     }
 
-    /// Finds the references of a scene, for every model size among its ways; `None` where `go_on`
+    /// Computes the references of a scene for every model size among its ways; `None` if `go_on`
     /// stopped it.
     ///
     /// # Errors
-    /// Same as for `check`.
+    /// As [`check`](Self::check).
     pub fn new(scene: &Scene, effort: Effort, go_on: GoOn<'_>) -> Result<Option<Self>, SceneError> {
         let own = scene.solver.model;
         Self::check(scene, effort)?;
@@ -205,10 +205,11 @@ impl Measure {
         &self.reference
     }
 
-    /// Solves the scene one way, repeatedly, and compares; `None` where `go_on` stopped it.
+    /// Solves the scene in one way, repeatedly, and compares the result; `None` if `go_on` stopped
+    /// it.
     ///
     /// # Errors
-    /// This way does not suit the scene.
+    /// The scene does not allow this way.
     pub fn row(
         &self,
         way: Way,
@@ -251,7 +252,7 @@ impl Measure {
         }))
     }
 
-    /// Creates the report of these rows.
+    /// Combines the rows to a report.
     #[must_use]
     pub fn report(self, rows: Vec<Row>) -> Precision {
         let Self { scene, reference, .. } = self;
@@ -259,7 +260,7 @@ impl Measure {
     }
 }
 
-/// Describes the reference of the scene's own model size; `None` where `go_on` stopped it.
+/// Describes the reference for the scene's own model size; `None` if `go_on` stopped it.
 fn described(
     track: &Track,
     scene: &Scene,
@@ -305,8 +306,8 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// Returns the largest difference in the times of the first impacts, if they are of the same
-/// blades \[s\].
+/// Returns the largest difference in the times of the first impacts \[s\]; `None` if they involve
+/// other blades.
 fn impact_error(reference: &Motion, motion: &Motion) -> Option<f64> {
     let (expected, found) = (&reference.contacts().impacts, &motion.contacts().impacts);
     let count = expected.len().min(FIRST_IMPACTS);
@@ -356,7 +357,7 @@ mod tests {
         let errors: Vec<f64> = rows.iter().map(|row| row.error_final.unwrap()).collect();
         assert_eq!(errors.len(), 4);
         assert!(errors.windows(2).all(|pair| pair[1] < pair[0]), "{errors:?}");
-        // Order one in contact: two decades of step, two decades of error.
+        // First order in contact: two decades of step give two decades of error.
         assert!((errors[0] / errors[3]).log10() > 1.7, "{errors:?}");
         assert!(rows.iter().all(|row| row.verdict_right == Some(true)));
     }

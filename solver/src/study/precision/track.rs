@@ -1,6 +1,6 @@
-//! The reference motion at any time near the end. This is needed because an
-//! explicit run ends at its last step, up to one step before the end of the scene.
-//! A reference by steps is one at an instant that all of its steps reach.
+//! Reference motion at any time near the end, which is needed because an explicit run ends at its
+//! last step, up to one step before the end of the scene. A reference with halved steps is known
+//! only at an instant that all its steps reach.
 
 use std::f64::consts::TAU;
 use std::time::Instant;
@@ -13,25 +13,25 @@ use crate::tolerances::{LAST_PART, LOCK_MOMENT, STEP_ROUND_OFF};
 
 /// Reference for one model size, at the end of the run and shortly before.
 pub(super) struct Track {
-    /// How it was computed: by events, or at the finest of the halved steps.
+    /// Event solver, or explicit solver with the finest of the halved steps.
     pub(super) way: Way,
     pub(super) end: Motion,
-    /// Its verdict; for halved steps, that of the finest step.
+    /// Verdict; for halved steps, that of the finest one.
     pub(super) verdict: Verdict,
     /// Wall time of the run \[s\].
     pub(super) wall_s: f64,
-    found: Found,
+    solution: Solution,
 }
 
-enum Found {
-    /// By events: the motion at a time after which every explicit run takes at least one step.
+enum Solution {
+    /// Event solver: the motion at a time before which no explicit run ends.
     Events(Motion),
-    /// By halved steps, with the instant at which ends are compared \[s\].
+    /// Halved steps, and the time at which final states are compared \[s\].
     Steps(Settled, f64),
 }
 
 impl Track {
-    /// Runs the event solver; `None` where `go_on` stopped it.
+    /// Runs the event solver; `None` if `go_on` stopped it.
     pub(super) fn by_events(
         way: Way,
         scene: &Scene,
@@ -40,7 +40,7 @@ impl Track {
         let end_s = scene.solver.end_s;
         let started = Instant::now();
         let mut before = way.start(scene)?;
-        // The motion stores a failure, and `at` returns none.
+        // A failure is stored in the motion; [`at`](Self::at) then returns `None`.
         let early = before.advance_while((end_s - 1.01 * LONGEST).max(0.0), go_on);
         let mut end = before.clone();
         if early == Ok(false) || end.advance_while(end_s, go_on) == Ok(false) {
@@ -48,10 +48,10 @@ impl Track {
         }
         let wall_s = started.elapsed().as_secs_f64();
         let verdict = verdict_of(&end, LAST_PART * end_s);
-        Ok(Some(Self { way, end, verdict, wall_s, found: Found::Events(before) }))
+        Ok(Some(Self { way, end, verdict, wall_s, solution: Solution::Events(before) }))
     }
 
-    /// Runs the explicit solver at halved steps; `None` where `go_on` stopped it.
+    /// Runs the explicit solver with halved steps; `None` if `go_on` stopped it.
     pub(super) fn by_steps(
         way: Way,
         scene: &Scene,
@@ -77,49 +77,50 @@ impl Track {
         let rigid = scene.solver.contact != ContactLaw::Smooth;
         let settled = halving::settle(&runs, machine.clearance().abs(), moment, rigid);
         let (verdict, wall_s) = (run.verdict, run.wall_s);
-        let found = Found::Steps(settled, look_s);
-        Ok(Some(Self { way, end: run.motion, verdict, wall_s, found }))
+        let solution = Solution::Steps(settled, look_s);
+        Ok(Some(Self { way, end: run.motion, verdict, wall_s, solution }))
     }
 
-    /// Returns whether this is the reference of that kind, at any step.
+    /// Returns whether this is the reference for that solver, law and model size, whatever the
+    /// step.
     pub(super) fn is_of(&self, reference: Result<Way, Way>) -> bool {
         let (Ok(way) | Err(way)) = reference;
         Way { step_s: None, ..self.way } == way
     }
 
-    /// Returns the verdict that a correct row has; `None` where halved steps have several.
+    /// Returns the correct verdict; `None` if the halved steps disagree.
     pub(super) fn right(&self) -> Option<Verdict> {
         let one = self.settled().is_none_or(|settled| settled.one_verdict);
         one.then_some(self.verdict)
     }
 
-    /// Returns the evaluation of the halved steps, if it is a reference by steps.
+    /// Returns the evaluation of the halved steps, if these are the reference.
     pub(super) fn settled(&self) -> Option<&Settled> {
-        match &self.found {
-            Found::Events(_) => None,
-            Found::Steps(settled, _) => Some(settled),
+        match &self.solution {
+            Solution::Events(_) => None,
+            Solution::Steps(settled, _) => Some(settled),
         }
     }
 
-    /// Returns the instant at which a run is compared with this reference \[s\].
+    /// Returns the time at which a run is compared with this reference \[s\].
     pub(super) fn look_s(&self, scene: &Scene) -> f64 {
-        match &self.found {
-            Found::Events(_) => scene.solver.end_s,
-            Found::Steps(_, look_s) => *look_s,
+        match &self.solution {
+            Solution::Events(_) => scene.solver.end_s,
+            Solution::Steps(_, look_s) => *look_s,
         }
     }
 
-    /// Returns the casing displacement at the instant `t` of a run that is compared \[m\]; `None`
-    /// if the reference failed before it, or if nothing is known of that instant.
+    /// Returns the casing displacement at time `t` of the run to be compared \[m\]; `None` if the
+    /// reference failed before, or is not known at that time.
     pub(super) fn at(&self, t: f64) -> Option<[f64; 2]> {
-        match &self.found {
-            Found::Steps(settled, _) => settled.end.map(|(u, _)| u),
-            Found::Events(before) if t >= before.t_s() => {
+        match &self.solution {
+            Solution::Steps(settled, _) => settled.end.map(|(u, _)| u),
+            Solution::Events(before) if t >= before.t_s() => {
                 let mut motion = before.clone();
                 motion.advance(t).ok()?;
                 Some(motion.state().u)
             }
-            Found::Events(_) => None,
+            Solution::Events(_) => None,
         }
     }
 }
@@ -142,8 +143,8 @@ mod tests {
         (track, settled, look_s)
     }
 
-    /// An excitation too small to be felt is not for the event solver, which knows the
-    /// same scene without it.
+    /// A negligible excitation excludes the event solver, which supplies the exact result without
+    /// it.
     #[test]
     fn a_reference_by_steps_is_as_near_to_the_event_solver_as_it_says() {
         let mut found = Vec::new();
@@ -165,13 +166,14 @@ mod tests {
                 found.push(Some(settled.method));
             }
         }
-        // Most have a reference, with and without an order.
+        // Most scenes have a reference, some with an order and some without.
         let of = |method| found.iter().filter(|other| **other == method).count();
         assert!(of(None) < 8 && of(Some(Method::FinestStep)) > 3, "{found:?}");
         assert!(of(Some(Method::Extrapolated)) > 0, "{found:?}");
     }
 
-    /// By a Runge-Kutta method of eighth order, with the full angles of the blades.
+    /// The expected values come from a Runge-Kutta method of eighth order with the blade angles in
+    /// the gaps.
     #[test]
     fn a_reference_on_a_lining_is_that_of_a_method_of_high_order() {
         let mut scene = Scene::builtin("coincidence").unwrap();
@@ -180,14 +182,15 @@ mod tests {
         assert!((look_s - 0.05).abs() < 1e-12);
         let (u, error) = settled.end.unwrap();
         let off = distance(u, [-2.684_877_616e-7, 4.302_712_028e-7]);
-        // Of ten digits.
+        // The expected values have ten digits.
         assert!(off < 1e-15 && error < 1e-9, "{off:e} {error:e}");
         assert_eq!(settled.method, Method::Extrapolated);
         assert!((settled.order.unwrap() - 2.0).abs() < 0.01, "{settled:?}");
         assert_eq!(track.right(), Some(track.verdict));
     }
 
-    /// Single blades that move contact are another model than the disk of two modes.
+    /// With inclined or rubbing tips single blades affect the contact, so two disk modes are no
+    /// reference.
     #[test]
     fn single_blades_beyond_the_paper_are_their_own_reference() {
         let by_events = |changes: &[(&str, &str)]| {
@@ -204,7 +207,8 @@ mod tests {
         assert_eq!(by_events(&[("solver.contact", "smooth")]), [false; 3]);
         let ramp = [pushes, ("operation.speed_ramp_rad_s2", "10"), ("contact.friction", "0.1")];
         assert_eq!(by_events(&ramp), [true, false, false]);
-        // Too long for that: its rows are left out, and the others stay.
+        // The full model is too long for a reference with halved steps and has no rows; the others
+        // stay.
         let mut long = Scene::builtin("friction-lock").unwrap().as_reference();
         long.solver.end_s = 200.0;
         let models: Vec<_> = ways(&long, EFFORT).iter().map(|way| way.model).collect();

@@ -1,5 +1,5 @@
-//! The ways to solve a scene: solver, contact law, model size, and a step or
-//! a tolerance.
+//! The ways to solve a scene: combinations of solver, contact law, model size, and step or
+//! tolerance.
 
 use std::time::Instant;
 
@@ -10,13 +10,13 @@ use crate::motion::{ExactEvents, GoOn, Motion, verdict_of};
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, Scene, SceneError, SolverKind};
 use crate::tolerances::{self, LAST_PART};
 
-/// Longest time step tried \[s\].
+/// Longest time step used \[s\].
 pub(super) const LONGEST: f64 = 1e-5;
-/// Time steps tried \[s\].
+/// Time steps used \[s\].
 const STEPS: [f64; 5] = [LONGEST, 1e-6, 5e-7, 1e-7, 1e-8];
-/// Tolerances of the event solver tried, relative to the size of the motion.
+/// Tolerances used with the event solver, relative to the magnitude of the motion.
 const TOLERANCES: [f64; 4] = [1e-6, 1e-9, 1e-12, 1e-15];
-/// One way to solve the scene.
+/// A way to solve the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Way {
     /// Solver.
@@ -25,9 +25,9 @@ pub struct Way {
     pub contact: ContactLaw,
     /// Model size.
     pub model: ModelSize,
-    /// Time step; none for the event solver \[s\].
+    /// Time step; `None` for the event solver \[s\].
     pub step_s: Option<f64>,
-    /// Tolerance; none for the explicit solver.
+    /// Tolerance; `None` for the explicit solver.
     pub tolerance: Option<f64>,
 }
 
@@ -36,11 +36,11 @@ pub struct Way {
 pub struct Effort {
     /// Number of runs of each row, for the median.
     pub repeats: u32,
-    /// Smallest time step tried \[s\].
+    /// Smallest time step used \[s\].
     pub finest_s: f64,
-    /// Time after which a row is no longer repeated \[s\].
+    /// Total time after which a row is not repeated any more \[s\].
     pub seconds: f64,
-    /// Largest number of steps of a run where the reference is found by halved steps.
+    /// Largest number of steps of a run if the reference uses halved steps.
     pub most_steps: f64,
 }
 
@@ -55,9 +55,9 @@ impl Effort {
     pub const QUICK: Self = Self { repeats: 1, finest_s: 1e-7, seconds: 0.0, most_steps: 5e5 };
 }
 
-/// Returns every way to solve a scene, coarse to fine, without steps beyond the stability limit
-/// or the end and without other refused combinations. Where the reference is found by halved
-/// steps, these are the finest of its steps except the last.
+/// Returns every way to solve a scene, from coarse to fine, without steps beyond the stability
+/// limit or the end, and without other combinations that are not allowed. If the reference uses
+/// halved steps, their finest ones except the last are used.
 #[must_use]
 pub fn ways(scene: &Scene, effort: Effort) -> Vec<Way> {
     let laws: &[ContactLaw] = match scene.solver.contact {
@@ -88,7 +88,7 @@ pub fn ways(scene: &Scene, effort: Effort) -> Vec<Way> {
         }
     }
     ways.retain(|way| match way.of(scene) {
-        // Beyond the paper the event solver has one tolerance, its own.
+        // Beyond the paper the event solver has a fixed tolerance.
         Ok(scene) if scene.has_other_tips() => {
             way.tolerance.is_none_or(|tolerance| tolerance <= tolerances::EVENT)
         }
@@ -97,7 +97,7 @@ pub fn ways(scene: &Scene, effort: Effort) -> Vec<Way> {
     ways
 }
 
-/// Returns the event solver on one model size.
+/// Returns the event solver with a model size and a tolerance.
 pub(super) fn by_events(model: ModelSize, tolerance: f64) -> Way {
     Way {
         solver: SolverKind::Event,
@@ -108,11 +108,12 @@ pub(super) fn by_events(model: ModelSize, tolerance: f64) -> Way {
     }
 }
 
-/// Returns what the runs of one model size are compared with: the event solver. It represents all
-/// blades by the modes of the disk as long as single blades do not matter to contact.
+/// Returns the reference for runs of a model size: the event solver. It represents the blades of
+/// the full model by two modes, which is exact as long as single blades do not affect the contact.
 ///
 /// # Errors
-/// The event solver does not support this scene: the way to solve at halved steps instead.
+/// The event solver does not support this scene; returns the explicit solver to be used with halved
+/// steps.
 pub(super) fn reference(scene: &Scene, model: ModelSize) -> Result<Way, Way> {
     let smooth = scene.solver.contact == ContactLaw::Smooth;
     let contact = if smooth { ContactLaw::Smooth } else { ContactLaw::Unilateral };
@@ -128,10 +129,10 @@ pub(super) fn reference(scene: &Scene, model: ModelSize) -> Result<Way, Way> {
 }
 
 impl Way {
-    /// Returns the scene with the settings of this way.
+    /// Returns the scene with these solver settings.
     ///
     /// # Errors
-    /// This way does not suit the scene.
+    /// The scene does not allow them.
     pub fn of(&self, scene: &Scene) -> Result<CheckedScene, SceneError> {
         let mut scene = scene.clone();
         scene.solver.kind = self.solver;
@@ -143,7 +144,7 @@ impl Way {
         scene.checked()
     }
 
-    /// Returns the same way at another step.
+    /// Returns the same way with another time step.
     pub(super) fn at_step(self, step_s: f64) -> Self {
         Self { step_s: Some(step_s), ..self }
     }
@@ -158,7 +159,7 @@ impl Way {
         })
     }
 
-    /// Runs to the end with a stop at the instant `look_s`, and measures the time; `None` where
+    /// Runs to the end, records the state at time `look_s`, and measures the wall time; `None` if
     /// `go_on` stopped it.
     pub(super) fn run(
         &self,
