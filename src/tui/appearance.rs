@@ -18,8 +18,6 @@ pub struct Appearance {
     pub follows_ground: bool,
     /// Marker of points.
     pub marker: Marker,
-    /// Whether the screen is for a projector: lines are two sub-pixels thick.
-    pub wide: bool,
     /// Whether `m` comes to octants.
     pub octants: bool,
     /// Whether speeds are shown in rpm.
@@ -29,7 +27,7 @@ pub struct Appearance {
 impl Appearance {
     /// Creates the appearance for a screen in front of the user.
     pub fn new(theme: Theme, marker: Marker) -> Self {
-        Self { theme, follows_ground: false, marker, wide: false, octants: false, rpm: false }
+        Self { theme, follows_ground: false, marker, octants: false, rpm: false }
     }
 
     /// Changes to a theme; returns the message.

@@ -84,26 +84,19 @@ struct Dots {
 pub struct Raster {
     area: Rect,
     marker: Marker,
-    wide: bool,
     dots: Vec<Dots>,
 }
 
 impl Raster {
-    /// Creates an empty raster over `area`; lines are two sub-pixels thick if `wide`, unless those
-    /// are whole cells.
-    pub fn new(area: Rect, marker: Marker, wide: bool) -> Self {
-        let wide = wide && marker.grain() != (1, 1);
-        Self { area, marker, wide, dots: vec![Dots::default(); area.area() as usize] }
+    /// Creates an empty raster over `area`.
+    pub fn new(area: Rect, marker: Marker) -> Self {
+        Self { area, marker, dots: vec![Dots::default(); area.area() as usize] }
     }
 
     /// Returns whether a dashed pen draws at this place along a line. In ASCII the sign of a series
     /// tells it from others, and gaps would look like missing data.
     fn is_dash(&self, along: i64, pen: &Pen) -> bool {
-        let [dash, period] = match (self.marker.grain(), self.wide) {
-            ((1, _), _) => [1, 2],
-            (_, true) => [6, 12],
-            (_, false) => [3, 6],
-        };
+        let [dash, period] = if self.marker.grain().0 == 1 { [1, 2] } else { [3, 6] };
         !pen.dashed || self.marker == Marker::Ascii || along.rem_euclid(period) < dash
     }
 
@@ -144,16 +137,6 @@ impl Raster {
         }
     }
 
-    /// Draws one sub-pixel of a line, or a block of four if lines are wide.
-    pub fn blot(&mut self, x: i64, y: i64, pen: &Pen) {
-        self.set(x, y, pen);
-        if self.wide {
-            for (right, down) in [(1, 0), (0, 1), (1, 1)] {
-                self.set(x + right, y + down, pen);
-            }
-        }
-    }
-
     /// Draws a straight line, dashed where the pen says so: by columns where it is flat, by rows
     /// where it is steep, so that pieces of one curve have one spacing.
     pub fn line(&mut self, from: (i64, i64), to: (i64, i64), pen: &Pen) {
@@ -166,7 +149,7 @@ impl Raster {
             let x = x0 + ((x1 - x0) * k + (x1 - x0).signum() * steps / 2) / steps;
             let y = y0 + ((y1 - y0) * k + (y1 - y0).signum() * steps / 2) / steps;
             if self.is_dash(if steep { y } else { x }, pen) {
-                self.blot(x, y, pen);
+                self.set(x, y, pen);
             }
         }
     }
@@ -220,7 +203,7 @@ mod tests {
 
     fn drawn(marker: Marker, draw: impl Fn(&mut Raster)) -> String {
         let area = Rect::new(0, 0, 4, 2);
-        let mut raster = Raster::new(area, marker, false);
+        let mut raster = Raster::new(area, marker);
         draw(&mut raster);
         let mut buffer = Buffer::empty(area);
         raster.draw(&mut buffer);
@@ -275,8 +258,7 @@ mod tests {
         for to in [(7, 0), (0, 7), (3, 7), (7, 3), (7, 7)] {
             for mirror in [false, true] {
                 let area = Rect::new(0, 0, 4, 2);
-                let [mut solid, mut dashes] =
-                    [0, 1].map(|_| Raster::new(area, Marker::Braille, false));
+                let [mut solid, mut dashes] = [0, 1].map(|_| Raster::new(area, Marker::Braille));
                 let place = |(x, y)| if mirror { (x, 7 - y) } else { (x, y) };
                 solid.line(place((0, 0)), place(to), &PEN);
                 dashes.line(place((0, 0)), place(to), &dotted);
@@ -284,15 +266,5 @@ mod tests {
                 assert_eq!((count(&solid), count(&dashes)), (8, 5), "{to:?} {mirror}");
             }
         }
-    }
-
-    #[test]
-    fn a_wide_line_is_two_sub_pixels_thick() {
-        let area = Rect::new(0, 0, 4, 2);
-        let mut raster = Raster::new(area, Marker::HalfBlock, true);
-        raster.line((0, 1), (2, 1), &PEN);
-        let mut buffer = Buffer::empty(area);
-        raster.draw(&mut buffer);
-        assert_eq!(buffer, Buffer::with_lines(["▄▄▄▄", "▀▀▀▀"]));
     }
 }

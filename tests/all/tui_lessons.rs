@@ -225,8 +225,7 @@ fn assert_header_is_shown(session: &mut Session, step: &LessonStep) -> bool {
 const SPEAKS: [&str; 6] =
     ["row of", "rows of", "margins have", "gaps show", "beside it", "go with"];
 
-/// What the text of a step names stands on the screen: at 80x24, also for a projector, and at
-/// 40x12.
+/// What the text of a step names stands on the screen, at 80x24 and at 40x12.
 fn assert_named_is_shown(session: &mut Session, step: &LessonStep) {
     let named = shown(step);
     let answered = [Some(&step.text), step.reason.as_ref()];
@@ -237,8 +236,7 @@ fn assert_named_is_shown(session: &mut Session, step: &LessonStep) {
         "nothing checks what stands on the screen: {}",
         step.text
     );
-    for (size, wide) in [((80, 24), false), ((80, 24), true), ((40, 12), false)] {
-        session.app.appearance.wide = wide;
+    for size in [(80, 24), (40, 12)] {
         session.resize(size);
         read_on(session);
         let text = session.text();
@@ -246,7 +244,6 @@ fn assert_named_is_shown(session: &mut Session, step: &LessonStep) {
             assert!(text.contains(&one.shown), "{} is not in {text}", one.shown);
         }
     }
-    session.app.appearance.wide = false;
     session.resize((120, 40));
 }
 
@@ -409,30 +406,6 @@ fn a_step_that_was_passed_over_is_named_in_the_list() {
     assert!(left.contains(" 3/4 ") && left.contains("step 2 is left"), "{left}");
 }
 
-#[test]
-fn a_lesson_is_shown_on_a_projector_and_goes_on_there() {
-    for size in [(80, 24), (120, 40)] {
-        let mut session = begin(size.0, size.1, 1);
-        session.press("P");
-        let text = session.text();
-        assert!(
-            text.contains("The lock speed, and") && text.contains("[b] in the centre"),
-            "{text}"
-        );
-        assert!(!text.contains("pulse F      ") && text.contains("pulse F = 0 N"), "{text}");
-        // The verdict in large letters comes with the answer.
-        let large = |text: &str| text.matches('█').count();
-        let before = large(&text);
-        session.press(&keys_of(right(0)));
-        let text = session.text();
-        assert!(text.contains("Your answer c is right") && large(&text) > before, "{text}");
-        session.press("g");
-        assert!(session.app.is_asked() && session.app.appearance.wide);
-        session.press("P");
-        assert!(session.text().contains("diameters n_d"), "{}", session.text());
-    }
-}
-
 /// The right answer of a step of the second lesson.
 fn right(step: usize) -> char {
     lessons::all()[1].steps[step].right.unwrap()
@@ -494,14 +467,14 @@ fn the_knob_that_a_task_asks_for_is_in_the_row_that_its_text_names() {
     for step in &lessons::all()[place].steps[..3] {
         session.press(&(keys_of(step.right.unwrap()) + "g"));
     }
-    session.press("P");
+    session.press("f");
     let row = |session: &Session| {
         let text = session.text();
         text.lines().find(|line| line.contains("Ω_lock      411.934")).unwrap().to_string()
     };
     assert!(row(&session).contains("ζ_c +0.33 %"), "{}", session.text());
     // Where its column has no room, i reads it.
-    session.press("Pi↓↓→→→");
+    session.press("fi↓↓→→→");
     assert!(!row(&session).contains("ζ_c"), "{}", session.text());
     assert!(session.text().contains("of damping ζ_c: Ω_lock +0.33 %"), "{}", session.text());
 }

@@ -127,7 +127,7 @@ impl App {
 
     /// Returns whether only the large chart is on the screen.
     pub fn is_alone(&self) -> bool {
-        self.layout.full_screen || self.appearance.wide || self.compares()
+        self.layout.full_screen || self.compares()
     }
 }
 

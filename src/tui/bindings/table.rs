@@ -78,7 +78,6 @@ const BEFORE_VIEWS: &[Binding] = &[
     bind!(Main: [letter(']')], Action::Faster, "faster motion"),
     bind!(Main: [letter('z')], Action::SlowAtEvents, "slower at changes of contact and faster between, or not"),
     bind!(Main: [letter('f')], Action::FullScreen, "one chart over the whole screen, or back", "f" "full"),
-    bind!(Main: [letter('P')], Action::Present, "presentation: the screen for a projector, or back"),
     bind!(Main: [letter('M')], Action::Mouse, "mouse on or off; Shift selects text while it is on"),
     bind!(Main: [letter('.')], Action::Step, "one step (pauses)", "." "step"),
     bind!(Main: [key(Backspace)], Action::Reset, "back to the scene's value"),

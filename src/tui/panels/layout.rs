@@ -3,7 +3,6 @@
 use ratatui::layout::{Constraint, Layout, Rect};
 
 use crate::tui::app::App;
-use crate::tui::panels::presentation;
 use crate::tui::views::{LEAST_ROWS, ViewId};
 
 /// Narrowest screen.
@@ -32,8 +31,6 @@ pub struct Places {
     pub column: bool,
     /// The charts.
     pub charts: Vec<(ViewId, Rect)>,
-    /// The verdict in large letters, which only a screen for a projector has.
-    pub letters: Option<Rect>,
     /// The current lesson.
     pub lesson: Option<Rect>,
     /// Keys.
@@ -42,20 +39,6 @@ pub struct Places {
 
 /// Returns the places for a screen of this size.
 pub fn places(area: Rect, app: &App) -> Places {
-    if presentation::is_shown(app, area) {
-        let [letters, body, knobs, footer] = presentation::split(app, area);
-        let (lesson, charts) = lesson(body, app);
-        return Places {
-            header: Rect::default(),
-            body: area,
-            knobs,
-            column: false,
-            charts: vec![(app.view(), charts)],
-            letters: Some(letters),
-            lesson,
-            footer,
-        };
-    }
     let [header, body, footer] =
         Layout::vertical([Constraint::Length(2), Constraint::Min(1), Constraint::Length(1)])
             .areas(area);
@@ -68,7 +51,7 @@ pub fn places(area: Rect, app: &App) -> Places {
         below(rest, 1)
     };
     let charts = if app.is_alone() { vec![(app.view(), charts)] } else { split(charts, app) };
-    Places { header, body, knobs, column, charts, letters: None, lesson, footer }
+    Places { header, body, knobs, column, charts, lesson, footer }
 }
 
 /// Returns the first rows of an area, and the rest below.
@@ -151,14 +134,9 @@ const LOWER: u16 = 45;
 /// Part of the width that the wheel has, in per cent.
 const WHEEL_PART: u16 = 44;
 
-/// Returns the rows that a lesson shares with the charts: those between header and footer, which
-/// take three, or less for a projector.
+/// Returns the rows between header and footer, which a lesson shares with the charts.
 fn body_rows(app: &App) -> u16 {
-    let area = Rect::new(0, 0, app.layout.size.0, app.layout.size.1);
-    match presentation::is_shown(app, area) {
-        true => presentation::split(app, area)[1].height,
-        false => area.height.saturating_sub(3),
-    }
+    app.layout.size.1.saturating_sub(3)
 }
 
 /// Returns the greatest number of rows of a lesson beside the charts.
