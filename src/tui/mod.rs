@@ -61,7 +61,7 @@ pub use options::{Color, ExploreOptions};
 pub use raster::Marker;
 pub use run::run;
 pub use theme::{Theme, ThemeChoice};
-pub use update::{Effect, MouseOutcome};
+pub use update::Effect;
 
 use crate::report::line::clean;
 use anyhow::Context;

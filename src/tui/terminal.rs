@@ -9,9 +9,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64};
 use std::time::{Duration, Instant};
 
 use crossterm::cursor::{Hide, Show};
-use crossterm::event::{
-    DisableBracketedPaste, DisableMouseCapture, EnableBracketedPaste, EnableMouseCapture,
-};
+use crossterm::event::{DisableBracketedPaste, EnableBracketedPaste};
 use crossterm::queue;
 use crossterm::style::{Attribute, SetAttribute};
 use crossterm::terminal::{EnterAlternateScreen, LeaveAlternateScreen};
@@ -43,6 +41,11 @@ static WHOLE: AtomicBool = AtomicBool::new(false);
 /// has all of it. One that does not know the mode ignores it.
 const BEGIN_FRAME: &[u8] = b"\x1b[?2026h";
 const END_FRAME: &[u8] = b"\x1b[?2026l";
+
+/// Asks for clicks and the wheel, without moves (mode 1000), in the encoding that has no
+/// greatest column (1006), and no longer.
+const MOUSE_ON: &[u8] = b"\x1b[?1000h\x1b[?1006h";
+const MOUSE_OFF: &[u8] = b"\x1b[?1006l\x1b[?1000l";
 
 /// Bytes sent so far.
 static SENT: AtomicU64 = AtomicU64::new(0);
@@ -93,7 +96,7 @@ fn enter() -> Result<(), Error> {
     let mut bytes = Vec::new();
     queue!(bytes, EnterAlternateScreen, Hide, EnableBracketedPaste)?;
     if MOUSE.load(SeqCst) {
-        queue!(bytes, EnableMouseCapture)?;
+        bytes.extend_from_slice(MOUSE_ON);
     }
     write(&bytes)
 }
@@ -108,12 +111,7 @@ pub fn set_mouse(on: bool) -> Result<(), Error> {
     if !HELD.load(SeqCst) {
         return Ok(());
     }
-    let mut bytes = Vec::new();
-    match on {
-        true => queue!(bytes, EnableMouseCapture)?,
-        false => queue!(bytes, DisableMouseCapture)?,
-    }
-    write(&bytes)
+    write(if on { MOUSE_ON } else { MOUSE_OFF })
 }
 
 /// Sends frames as synchronized updates from now on, or not.
@@ -136,11 +134,11 @@ pub fn leave() {
             // A frame that was cut has not ended its update.
             bytes.extend_from_slice(END_FRAME);
         }
+        // Also where it was never asked for: which frame was cut is not known.
+        bytes.extend_from_slice(MOUSE_OFF);
         // A vector takes everything.
         let _ = queue!(
             bytes,
-            // Also where it was never asked for: which frame was cut is not known.
-            DisableMouseCapture,
             DisableBracketedPaste,
             LeaveAlternateScreen,
             Show,

@@ -1,4 +1,4 @@
-//! The mouse: whether it acts, what it holds, and what is drawn where.
+//! The mouse: whether it acts, and what is drawn where.
 
 use std::cell::RefCell;
 
@@ -7,17 +7,6 @@ use ratatui::layout::Rect;
 use super::{App, Cursor};
 use crate::tui::bindings::Action;
 use crate::tui::views::id::ViewId;
-
-/// A knob whose bar is held.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Grip {
-    /// Its place in the table.
-    pub knob: usize,
-    /// The column where it was taken.
-    pub x: u16,
-    /// Whether it has been turned since: one drag is undone in one step.
-    pub turned: bool,
-}
 
 /// Something that is drawn and can be clicked.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,10 +32,6 @@ pub enum Target {
 pub struct Mouse {
     /// Whether the mouse is used.
     pub on: bool,
-    /// The knob whose bar it holds.
-    pub grip: Option<Grip>,
-    /// Cell of the last click, if the pointer is still there.
-    pub clicked: Option<(u16, u16)>,
     /// Cell at which the wheel turned a knob last, and that knob.
     pub wheeled: Option<((u16, u16), usize)>,
     /// Areas of the last frame; of those that overlap, the last one is on top.
@@ -55,16 +40,16 @@ pub struct Mouse {
 
 impl Default for Mouse {
     fn default() -> Self {
-        Self { on: true, grip: None, clicked: None, wheeled: None, drawn: RefCell::default() }
+        Self { on: true, wheeled: None, drawn: RefCell::default() }
     }
 }
 
 impl Mouse {
     /// Switches the mouse on or off; returns the message.
     pub fn toggle(&mut self) -> String {
-        (self.on, self.grip) = (!self.on, None);
+        self.on = !self.on;
         let how = match self.on {
-            true => "mouse on: click, drag, wheel; with Shift it selects text",
+            true => "mouse on: click, wheel; with Shift it selects text",
             false => "mouse off: it selects text",
         };
         how.into()
@@ -86,17 +71,8 @@ impl App {
 
     /// Returns what is drawn in a cell of the screen, and its area.
     pub fn target(&self, at: (u16, u16)) -> Option<(Rect, Target)> {
-        self.last_drawn(|(area, _)| area.contains(at.into()))
-    }
-
-    /// Returns the area of the bar that is drawn.
-    pub fn bar_area(&self) -> Option<Rect> {
-        self.last_drawn(|(_, target)| matches!(target, Target::Bar(_))).map(|(area, _)| area)
-    }
-
-    fn last_drawn(&self, is_wanted: impl Fn(&(Rect, Target)) -> bool) -> Option<(Rect, Target)> {
         let drawn = self.mouse.drawn.try_borrow().ok()?;
-        drawn.iter().rev().copied().find(|noted| is_wanted(noted))
+        drawn.iter().rev().copied().find(|(area, _)| area.contains(at.into()))
     }
 }
 

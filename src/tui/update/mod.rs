@@ -9,8 +9,6 @@ mod map;
 mod mouse;
 mod reading;
 
-pub use mouse::MouseOutcome;
-
 use rubscope_solver::scene::keys::PULSE;
 use std::path::PathBuf;
 
