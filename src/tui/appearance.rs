@@ -18,8 +18,6 @@ pub struct Appearance {
     pub follows_ground: bool,
     /// Marker of points.
     pub marker: Marker,
-    /// Whether `m` comes to octants.
-    pub octants: bool,
     /// Whether speeds are shown in rpm.
     pub rpm: bool,
 }
@@ -27,7 +25,7 @@ pub struct Appearance {
 impl Appearance {
     /// Creates the appearance for a screen in front of the user.
     pub fn new(theme: Theme, marker: Marker) -> Self {
-        Self { theme, follows_ground: false, marker, octants: false, rpm: false }
+        Self { theme, follows_ground: false, marker, rpm: false }
     }
 
     /// Changes to a theme; returns the message.
@@ -45,7 +43,7 @@ impl Appearance {
 
     /// Changes to the next marker; returns the message.
     pub fn next_marker(&mut self) -> String {
-        self.marker = self.marker.next(self.octants);
+        self.marker = self.marker.next();
         format!("marker {}", self.marker)
     }
 

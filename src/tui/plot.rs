@@ -554,7 +554,7 @@ mod tests {
             width in 12u16..90, height in 4u16..50, part in 0.0f64..=1.0, other in 0.0f64..=1.0,
             marker in 0usize..5, low in -1e6f64..1e6, span in 1e-6f64..1e6,
         ) {
-            let marker = (0..marker).fold(Marker::Braille, |marker, _| marker.next(true));
+            let marker = (0..marker).fold(Marker::Braille, |marker, _| marker.next());
             let look = Appearance::new(Theme::Dark, marker);
             let mut buffer = Buffer::empty(Rect::new(0, 0, width, height));
             let area = *buffer.area();

@@ -110,7 +110,7 @@ const AFTER_VIEWS: &[Binding] = &[
     bind!(Main: [letter('-')], Action::ZoomOut, "a longer page of time"),
     bind!(Main: [letter('=')], Action::ZoomReset, "the usual page of time, where NOW is"),
     bind!(Main: [letter('a')], Action::Autoscale, "scales follow the data, or stay fixed"),
-    bind!(Main: [letter('m')], Action::Marker, "next marker (braille, halfblock, dot, ascii; octant with --marker octant)"),
+    bind!(Main: [letter('m')], Action::Marker, "next marker (braille, halfblock, dot, ascii)"),
     bind!(Main: [letter('t')], Action::Theme, "next theme (dark, light, colour-blind on dark or light, mono)"),
     bind!(Main: [letter('U')], Action::SpeedUnit, "units: speeds in rpm, or in rad/s"),
     bind!(Main: [ctrl('z')], Action::Suspend, "suspend"),

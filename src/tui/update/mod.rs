@@ -144,8 +144,6 @@ impl App {
             (_, Action::SpeedUnit) => self.status = Some(self.appearance.next_speeds()),
             (InputMode::Main, Action::Marker) => {
                 self.status = Some(self.appearance.next_marker());
-                // Some terminals leave parts of octants behind.
-                return Effect::Redraw;
             }
             (InputMode::Main, Action::Mouse) => {
                 self.status = Some(self.mouse.toggle());
