@@ -17,10 +17,6 @@ pub struct LessonProgress {
     pub step: usize,
     /// Answers given, and tasks done, by step.
     pub steps: Vec<StepProgress>,
-    /// Page of the text, if it hides the charts.
-    pub page: usize,
-    /// The last page has been read.
-    pub read: bool,
     /// The place of the answer that Enter gives.
     pub choice: usize,
     /// State of the user before the lesson, which comes back at its end.

@@ -64,19 +64,9 @@ fn lesson(body: Rect, app: &App) -> (Option<Rect>, Rect) {
     if app.lessons.progress.is_none() || body.height < 9 {
         return (None, body);
     }
-    let wanted = super::lesson::rows(app, usize::from(body.width));
-    let read = app.lessons.progress.as_ref().is_some_and(|progress| progress.read);
-    let rows = match wanted <= most_rows(body.height) {
-        true => wanted,
-        // If it is too long to leave room for the charts: first the text, page by
-        // page, then its end.
-        false if !read => wanted.min(page_rows(body.height)),
-        false => {
-            // An open question comes before the charts.
-            let most = if app.is_asked() { page_rows } else { most_rows };
-            super::lesson::end_rows(app, usize::from(body.width)).min(most(body.height)).max(3)
-        }
-    };
+    // An open question comes before the charts.
+    let most = if app.is_asked() { body.height - 1 } else { body.height / 2 };
+    let rows = super::lesson::rows(app, usize::from(body.width)).min(most);
     let [lesson, body] = below(body, rows);
     (Some(lesson), body)
 }
@@ -133,32 +123,6 @@ fn split(area: Rect, app: &App) -> Vec<(ViewId, Rect)> {
 const LOWER: u16 = 45;
 /// Part of the width that the wheel has, in per cent.
 const WHEEL_PART: u16 = 44;
-
-/// Returns the rows between header and footer, which a lesson shares with the charts.
-fn body_rows(app: &App) -> u16 {
-    app.layout.size.1.saturating_sub(3)
-}
-
-/// Returns the greatest number of rows of a lesson beside the charts.
-fn most_rows(body: u16) -> u16 {
-    body / 2
-}
-
-/// Returns the rows of a page of a lesson in front of the charts.
-fn page_rows(body: u16) -> u16 {
-    body.saturating_sub(1)
-}
-
-/// Returns whether the text of the lesson hides the charts on this screen.
-pub fn lesson_fills(app: &App) -> bool {
-    let rows = super::lesson::rows(app, usize::from(app.layout.size.0));
-    app.lessons.progress.is_some() && rows > most_rows(body_rows(app))
-}
-
-/// Returns the pages of the text of the lesson where it hides the charts.
-pub fn lesson_pages(app: &App) -> usize {
-    super::lesson::pages(app, usize::from(app.layout.size.0), page_rows(body_rows(app)))
-}
 
 /// Returns the room between header and footer on this screen.
 pub fn body(app: &App) -> Rect {

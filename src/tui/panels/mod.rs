@@ -18,7 +18,7 @@ use super::theme::Role;
 use super::views::ViewArea;
 pub use header::head_text;
 pub use help::{help_bottom, help_text};
-pub use layout::{LEAST_HEIGHT, LEAST_WIDTH, body, lesson_fills, lesson_pages};
+pub use layout::{LEAST_HEIGHT, LEAST_WIDTH, body};
 pub use lesson::lesson_text;
 
 /// Draws the whole screen.
