@@ -31,7 +31,7 @@ pub struct ExploreCommand {
     #[arg(long, value_name = "THEME",
           value_parser = choice::<tui::ThemeChoice>(), hide_possible_values = true)]
     theme: Option<tui::ThemeChoice>,
-    /// How points are drawn: braille, octant, halfblock, dot or ascii [default:
+    /// How points are drawn: braille, halfblock, dot or ascii [default:
     /// ascii where TERM is linux, vt100 or similar, or the locale is not UTF-8,
     /// otherwise the last one chosen with `m`, or braille]
     #[arg(long, value_name = "MARKER",

@@ -124,5 +124,5 @@ fn write(
     out: &mut dyn Write,
     content: impl Fn(&mut dyn Write) -> std::io::Result<()>,
 ) -> anyhow::Result<Written> {
-    output::replace_or_print(path, out, &content, &content)
+    output::replace_or_print(path, out, &content)
 }

@@ -112,12 +112,11 @@ impl HbmCommand {
         if self.json {
             json::write_as("rubscope.hbm/1", &self.command(scene), &answer.json, out)?;
         }
-        if let Some(path) = &self.out {
-            let rows = format!("{} rows", answer.file.len());
-            output::save(path, &rows, out, |out| answer.file.write_csv(out))?;
+        if let Some((path, file)) = self.out.as_ref().zip(answer.file()) {
+            output::save(path, &format!("{} rows", file.len()), out, |out| file.write_csv(out))?;
         }
         // The locked motion is the subject of the view without an option.
-        let sweep = request.sweep.as_deref().filter(|_| view.option.is_empty());
+        let sweep = request.sweep.as_ref().filter(|_| view.option.is_empty());
         if !self.json {
             let (machine, speed) = (&request.machine, request.fastest());
             let damped = damped || view.always_damped;

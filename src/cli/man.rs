@@ -119,8 +119,8 @@ const EXAMPLES: &[(&str, &str)] = &[
     ("rubscope map --speed 250:500:51 --pulse 1e4:1e6:25", "Which pulses lock at which speeds."),
     ("rubscope figures --out figures", "The figures of the paper."),
     (
-        "rubscope run my.toml --set bladed_disk.blades=24 --out history.npz",
-        "A scene file with one key changed; the history goes to a file for numpy.",
+        "rubscope run my.toml --set bladed_disk.blades=24 --out history.csv",
+        "A scene file with one key changed; the history goes to a CSV file.",
     ),
 ];
 

@@ -7,7 +7,7 @@ use clap::Args;
 
 use super::options::SceneOptions;
 use super::status::{self, Refusal, Status};
-use super::{Done, gone, output, sign};
+use super::{Done, output, sign};
 use crate::report::number::with_typed_unit;
 use crate::report::{CommandLine, Provenance, json, margins as report};
 use rubscope_solver::motion::to_the_end;
@@ -47,10 +47,7 @@ impl MarginsCommand {
         self.options.note_assumed(&scene);
         let target = match (&self.target(), &self.by) {
             (Some(target), Some(by)) => {
-                let name = target.split('=').next().unwrap_or_default().trim();
-                let refused = |error: TargetError| {
-                    Refusal::because(gone::name("margins", name).unwrap_or(error.to_string()))
-                };
+                let refused = |error: TargetError| Refusal::because(error.to_string());
                 Some(Target::parse(target, by).map_err(refused)?)
             }
             _ => None,

@@ -6,7 +6,6 @@
 mod check;
 mod explore;
 mod figures;
-mod gone;
 mod hbm;
 mod man;
 mod map;

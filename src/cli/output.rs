@@ -51,21 +51,7 @@ pub fn save(
     out: &mut dyn Write,
     content: impl Fn(&mut dyn Write) -> std::io::Result<()>,
 ) -> anyhow::Result<()> {
-    save_or(path, what, out, &content, &content)
-}
-
-/// Same as [`save`], with a text in place of a file that is none.
-///
-/// # Errors
-/// As `save`.
-pub fn save_or(
-    path: &Path,
-    what: &str,
-    out: &mut dyn Write,
-    content: &dyn Fn(&mut dyn Write) -> std::io::Result<()>,
-    text: &dyn Fn(&mut dyn Write) -> std::io::Result<()>,
-) -> anyhow::Result<()> {
-    let written = replace_or_print(path, out, content, text)?;
+    let written = replace_or_print(path, out, &content)?;
     say_written(written, what, &path.display());
     Ok(())
 }
@@ -78,12 +64,11 @@ pub fn replace_or_print(
     path: &Path,
     out: &mut dyn Write,
     content: &dyn Fn(&mut dyn Write) -> std::io::Result<()>,
-    text: &dyn Fn(&mut dyn Write) -> std::io::Result<()>,
 ) -> anyhow::Result<Written> {
     // The file may be standard output itself, and comes after what is there.
     out.flush()?;
     file::replace(path, content)
-        .map_err(|error| print_instead(path, error, "its text is on standard output", out, text))
+        .map_err(|error| print_instead(path, error, "its text is on standard output", out, content))
 }
 
 /// Returns the error of a file that could not be written, after what was meant for it was printed;

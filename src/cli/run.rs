@@ -12,7 +12,7 @@ use super::sign::LongRun;
 use super::status::{self, Refusal, Status};
 use super::{Done, output, sign};
 use crate::report::history::HISTORY_VALUES;
-use crate::report::{CommandLine, History, Provenance, Wall, json, npz, summary};
+use crate::report::{CommandLine, History, Wall, json, summary};
 use rubscope_solver::motion::{CHANGED_RUNS, Sample, Sampling, Verdict, run_to_end, to_the_end};
 use rubscope_solver::scene::{Scene, Shortcuts, SolverKind};
 
@@ -24,7 +24,7 @@ pub struct RunCommand {
     /// Print the report as JSON (rubscope.run/1)
     #[arg(long)]
     json: bool,
-    /// Write the history to FILE: .csv, or .npz for numpy
+    /// Write the history to FILE: .csv
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Samples of the history
@@ -57,7 +57,7 @@ impl RunCommand {
         }
         let script = RequestedScript::resolve(&script::parse(&self.at)?, &scene)?;
         let acts = script.changes();
-        let format = output::format(self.out.as_deref(), &["csv", "npz"])?;
+        output::format(self.out.as_deref(), &["csv"])?;
         let gaps = if self.gaps { scene.bladed_disk.blades } else { 0 };
         let most = History::most_samples(gaps);
         if self.samples > most {
@@ -69,7 +69,7 @@ impl RunCommand {
         }
         let mut history = History::new(gaps);
         // Both ends are samples. The smallest gap needs the gaps of all blades.
-        let sampling = match format {
+        let sampling = match self.out {
             Some(_) => Sampling { intervals: self.samples - 1, gaps: true },
             None => Sampling::default(),
         };
@@ -92,17 +92,9 @@ impl RunCommand {
         if self.json {
             json::write_run(&report, &command, wall, changes, out)?;
         }
-        if let Some((path, format)) = self.out.as_ref().zip(format) {
+        if let Some(path) = &self.out {
             let samples = format!("{} samples", history.len());
-            let csv = |out: &mut dyn Write| history.write_csv(out);
-            let command = command
-                .option("--samples", self.samples)
-                .flag("--gaps", self.gaps)
-                .option("--out", "history.npz");
-            let origin = Provenance { command, scene: scene.clone().into_scene() };
-            let npz = |out: &mut dyn Write| npz::write(&history, &origin, out);
-            let content: &dyn Fn(&mut dyn Write) -> _ = if format == "csv" { &csv } else { &npz };
-            output::save_or(path, &samples, out, content, &csv)?;
+            output::save(path, &samples, out, |out| history.write_csv(out))?;
         }
         if !self.json {
             summary::write(&report, wall, out)?;

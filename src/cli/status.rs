@@ -8,7 +8,7 @@ use std::sync::{Mutex, PoisonError};
 use clap::error::ErrorKind as Usage;
 use thiserror::Error;
 
-use super::{gone, sign};
+use super::sign;
 use crate::report::line::clean;
 use rubscope_solver::scene::SceneError;
 
@@ -106,8 +106,7 @@ pub fn usage(error: &clap::Error, arguments: &[OsString]) -> u8 {
             Err(failure) => exit(Err(failure.into())),
         },
         _ => {
-            let known = gone::argument(error, arguments).or_else(|| file(error, arguments));
-            let line = known.unwrap_or_else(|| in_one_line(&error.to_string()));
+            let line = file(error, arguments).unwrap_or_else(|| in_one_line(&error.to_string()));
             say(&format!("rubscope: {line}"));
             2
         }

@@ -1,4 +1,4 @@
-//! The history of a run as named columns, the same in every file format.
+//! The history of a run as named columns.
 
 use std::io::{Result, Write};
 

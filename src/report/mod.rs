@@ -10,7 +10,6 @@ pub mod json;
 pub mod line;
 pub mod map;
 pub mod margins;
-pub mod npz;
 pub mod number;
 pub mod part;
 pub mod precision;

@@ -1,11 +1,8 @@
 //! A table: headings with names for files and words for people, rows of cells, and notes.
-//! Text, CSV, the page and the screen are written from it. Its rows are there, or are made as
-//! they are written: all cells at once take a hundred times the memory of the numbers that
-//! they show.
+//! Text, CSV, the page and the screen are written from it.
 
 use std::borrow::Cow;
 use std::io::{Result, Write};
-use std::rc::Rc;
 
 use super::line::wrapped;
 use super::number::{exact, per_speed, rounded, short, speed_unit};
@@ -158,37 +155,8 @@ pub type Column<'a, T, H = &'a str> = (H, fn(&T) -> TableCell);
 #[derive(Clone, Debug, Default)]
 pub struct Table {
     headings: Vec<Heading>,
-    rows: Rows,
+    rows: Vec<Vec<TableCell>>,
     notes: Vec<String>,
-}
-
-/// Makes the rows of one place of a list.
-type RowsAt = Rc<dyn Fn(usize) -> Result<Vec<Vec<TableCell>>>>;
-
-#[derive(Clone)]
-enum Rows {
-    There(Vec<Vec<TableCell>>),
-    /// So many rows, made place by place of a list.
-    Made {
-        count: usize,
-        places: usize,
-        at: RowsAt,
-    },
-}
-
-impl Default for Rows {
-    fn default() -> Self {
-        Self::There(Vec::new())
-    }
-}
-
-impl std::fmt::Debug for Rows {
-    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::There(rows) => rows.fmt(out),
-            Self::Made { count, .. } => write!(out, "{count} rows"),
-        }
-    }
 }
 
 impl Table {
@@ -196,16 +164,6 @@ impl Table {
     pub fn new<H: Into<Heading>>(headings: impl IntoIterator<Item = H>) -> Self {
         let headings = headings.into_iter().map(Into::into).collect();
         Self { headings, ..Self::default() }
-    }
-
-    /// Creates a table of rows that are made as they are written: so many over all of so many
-    /// places, of which each has those that `at` makes.
-    pub fn made<H: Into<Heading>>(
-        headings: impl IntoIterator<Item = H>,
-        [places, count]: [usize; 2],
-        at: impl Fn(usize) -> Result<Vec<Vec<TableCell>>> + 'static,
-    ) -> Self {
-        Self { rows: Rows::Made { count, places, at: Rc::new(at) }, ..Self::new(headings) }
     }
 
     /// Creates a table with a row for each item.
@@ -217,21 +175,18 @@ impl Table {
         table
     }
 
-    /// Adds a row, one cell for each column, to those that are there.
+    /// Adds a row, one cell for each column.
     pub fn push(&mut self, mut row: Vec<TableCell>) {
         row.resize(self.headings.len(), TableCell::Empty);
-        if let Rows::There(rows) = &mut self.rows {
-            rows.push(row);
-        }
+        self.rows.push(row);
     }
 
-    /// Writes every word of it as `spell` does, in the rows that are there.
+    /// Writes every word of it as `spell` does.
     pub fn spelled(mut self, spell: impl Fn(&str) -> String) -> Self {
         for words in self.headings.iter_mut().filter_map(|heading| heading.words.as_mut()) {
             *words = spell(words).into();
         }
-        let Rows::There(rows) = &mut self.rows else { return self };
-        for cell in rows.iter_mut().flatten() {
+        for cell in self.rows.iter_mut().flatten() {
             if let TableCell::Told(_, text) | TableCell::Word(text) = cell {
                 *text = spell(text);
             }
@@ -251,77 +206,47 @@ impl Table {
 
     /// Returns the number of rows.
     pub fn len(&self) -> usize {
-        match &self.rows {
-            Rows::There(rows) => rows.len(),
-            Rows::Made { count, .. } => *count,
-        }
+        self.rows.len()
     }
 
     /// Returns whether there is no row.
     pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    fn each(&self, mut row: impl FnMut(&[TableCell]) -> Result<()>) -> Result<()> {
-        match &self.rows {
-            Rows::There(rows) => rows.iter().try_for_each(|cells| row(cells)),
-            Rows::Made { places, at, .. } => (0..*places)
-                .try_for_each(|place| at(place)?.iter().try_for_each(|cells| row(cells))),
-        }
+        self.rows.is_empty()
     }
 
     /// Returns the rows as people see them, in padded cells, headings first; columns that do
     /// not fit into `room` letters with `apart` of them between columns are left out from the
     /// right.
     pub fn lines(&self, room: usize, apart: usize) -> Vec<Vec<String>> {
-        let mut lines = Vec::new();
-        let keep = |line| {
-            lines.push(line);
-            Ok(())
-        };
-        // Rows that are there have no error.
-        let _ = self.each_line(room, apart, keep);
-        lines
-    }
-
-    fn each_line(
-        &self,
-        room: usize,
-        apart: usize,
-        mut told: impl FnMut(Vec<String>) -> Result<()>,
-    ) -> Result<()> {
         let mut layout = Layout::of(&self.headings);
-        self.each(|row| {
-            layout.meet(row);
-            Ok(())
-        })?;
+        self.rows.iter().for_each(|row| layout.meet(row));
         let mut used = 0;
         layout.columns.retain(|(_, _, width, _)| {
             used += width + apart;
             used <= room.saturating_add(apart)
         });
-        told(layout.headings())?;
-        self.each(|row| told(layout.line(row)))
+        let rows = self.rows.iter().map(|row| layout.line(row));
+        std::iter::once(layout.headings()).chain(rows).collect()
     }
 
     /// Writes CSV of the columns that have a name in files: a header line, then numbers that read
     /// back as themselves.
     ///
     /// # Errors
-    /// An error of the writer, or of what makes a row.
+    /// An error of the writer.
     pub fn write_csv(&self, out: &mut dyn Write) -> Result<()> {
         let mut csv = csv::Writer::from_writer(out);
         csv.write_record(self.headings.iter().filter_map(|heading| heading.name.as_deref()))?;
-        self.each(|row| {
+        for row in &self.rows {
             let cells = row.iter().zip(&self.headings);
             let filed = cells.filter(|(_, heading)| heading.name.is_some());
-            Ok(csv.write_record(filed.map(|(cell, _)| cell.in_csv()))?)
-        })?;
+            csv.write_record(filed.map(|(cell, _)| cell.in_csv()))?;
+        }
         csv.flush()
     }
 
     /// Writes aligned text: numbers to the right, words to the left, `-` for a missing
-    /// number; below it the notes. Rows that are made are made twice.
+    /// number; below it the notes.
     ///
     /// # Errors
     /// As `write_csv`.
@@ -336,7 +261,9 @@ impl Table {
     pub fn write_text_in(&self, room: usize, out: &mut dyn Write) -> Result<()> {
         if !self.headings.is_empty() {
             let apart = " ".repeat(APART);
-            self.each_line(room, APART, |line| writeln!(out, "{}", line.join(&apart).trim_end()))?;
+            for line in self.lines(room, APART) {
+                writeln!(out, "{}", line.join(&apart).trim_end())?;
+            }
         }
         let notes = self.notes.iter().flat_map(|note| wrapped(note, WIDTH));
         notes.into_iter().try_for_each(|line| writeln!(out, "{line}"))
@@ -436,45 +363,5 @@ mod tests {
         table().write_text(&mut out).unwrap();
         let text = String::from_utf8(out).unwrap();
         assert_eq!(text, "speed_rad_s  state\n   0.333333  locked, a\n          -  -\n");
-    }
-}
-
-#[cfg(test)]
-mod made_table_tests {
-    use super::*;
-
-    const COLUMNS: &[Column<'_, f64>] =
-        &[("x_m", |x| (*x).into()), ("word", |x| if *x > 1.0 { "large, so" } else { "" }.into())];
-
-    fn made() -> Table {
-        // Of each place none, one or two.
-        let items = |place: usize| (0..place).map(move |k| place as f64 + k as f64 / 3.0);
-        let cells = |x: f64| COLUMNS.iter().map(|column| (column.1)(&x)).collect();
-        let headings = COLUMNS.iter().map(|column| column.0);
-        Table::made(headings, [3, 3], move |place| Ok(items(place).map(cells).collect()))
-    }
-
-    fn told(write: impl Fn(&mut dyn Write) -> Result<()>) -> String {
-        let mut text = Vec::new();
-        write(&mut text).unwrap();
-        String::from_utf8(text).unwrap()
-    }
-
-    #[test]
-    fn it_is_written_as_a_table_of_all_rows() {
-        let (made, whole) = (made(), Table::of(&[1.0, 2.0, 2.0 + 1.0 / 3.0], COLUMNS));
-        assert_eq!(told(|out| made.write_csv(out)), told(|out| whole.write_csv(out)));
-        assert_eq!(told(|out| made.write_text(out)), told(|out| whole.write_text(out)));
-        assert_eq!((made.len(), whole.len()), (3, 3));
-        let none = Table::default();
-        assert!(none.is_empty() && told(|out| none.write_text(out)).is_empty());
-    }
-
-    #[test]
-    fn a_row_that_cannot_be_made_is_an_error() {
-        let fails = |_| Err(std::io::Error::other("no such row"));
-        let failing = Table::made(["x_m"], [1, 1], fails);
-        assert!(failing.write_csv(&mut Vec::new()).is_err());
-        assert!(failing.write_text(&mut Vec::new()).is_err());
     }
 }

@@ -18,10 +18,6 @@ pub struct Appearance {
     pub follows_ground: bool,
     /// Marker of points.
     pub marker: Marker,
-    /// Whether the screen is for a projector: lines are two sub-pixels thick.
-    pub wide: bool,
-    /// Whether `m` comes to octants.
-    pub octants: bool,
     /// Whether speeds are shown in rpm.
     pub rpm: bool,
 }
@@ -29,7 +25,7 @@ pub struct Appearance {
 impl Appearance {
     /// Creates the appearance for a screen in front of the user.
     pub fn new(theme: Theme, marker: Marker) -> Self {
-        Self { theme, follows_ground: false, marker, wide: false, octants: false, rpm: false }
+        Self { theme, follows_ground: false, marker, rpm: false }
     }
 
     /// Changes to a theme; returns the message.
@@ -47,7 +43,7 @@ impl Appearance {
 
     /// Changes to the next marker; returns the message.
     pub fn next_marker(&mut self) -> String {
-        self.marker = self.marker.next(self.octants);
+        self.marker = self.marker.next();
         format!("marker {}", self.marker)
     }
 

@@ -61,7 +61,7 @@ pub use options::{Color, ExploreOptions};
 pub use raster::Marker;
 pub use run::run;
 pub use theme::{Theme, ThemeChoice};
-pub use update::{Effect, MouseOutcome};
+pub use update::Effect;
 
 use crate::report::line::clean;
 use anyhow::Context;
@@ -117,7 +117,6 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
     app.appearance.follows_ground = choice.follows_ground();
     app.files.source.clone_from(&options.source);
     app.mouse.on = options.mouse;
-    app.appearance.octants = options.marker == Some(Marker::Octant);
     app.appearance.rpm = options.rpm;
     memory.prepare(&mut app);
     terminal::set_mouse(app.mouse.on)?;

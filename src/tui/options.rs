@@ -88,10 +88,8 @@ impl ExploreOptions {
     /// file.
     pub(super) fn marker(&self, config: &Config, only_ascii: bool) -> Marker {
         let usual = if only_ascii { Marker::Ascii } else { Marker::Braille };
-        // Few terminals draw octants, and another one may be used now.
-        let is_shown = |marker: &Marker| {
-            *marker == Marker::Ascii || (*marker != Marker::Octant && !only_ascii)
-        };
+        // Another terminal may be used now.
+        let is_shown = |marker: &Marker| *marker == Marker::Ascii || !only_ascii;
         self.marker.or(config.marker.filter(is_shown)).unwrap_or(usual)
     }
 
@@ -151,10 +149,9 @@ mod tests {
     fn a_remembered_marker_is_used_where_the_terminal_shows_it() {
         let config = |marker| Config { marker: Some(marker), ..Config::default() };
         let options = ExploreOptions::default();
-        let given = ExploreOptions { marker: Some(Marker::Octant), ..ExploreOptions::default() };
+        let given = ExploreOptions { marker: Some(Marker::HalfBlock), ..ExploreOptions::default() };
         assert_eq!(options.marker(&config(Marker::Dot), false), Marker::Dot);
-        assert_eq!(options.marker(&config(Marker::Octant), false), Marker::Braille);
         assert_eq!(options.marker(&config(Marker::Dot), true), Marker::Ascii);
-        assert_eq!(given.marker(&config(Marker::Dot), true), Marker::Octant);
+        assert_eq!(given.marker(&config(Marker::Dot), true), Marker::HalfBlock);
     }
 }

@@ -34,7 +34,7 @@ impl<'a> Plot<'a> {
         look: &Appearance,
     ) -> Option<Self> {
         let sound = x.is_sound() && y.is_sound() && area.width > 1 && area.height > 1;
-        let raster = Raster::new(area, look.marker, look.wide);
+        let raster = Raster::new(area, look.marker);
         sound.then_some(Self { buffer, raster, inner: area, x, y, rule: false })
     }
 
@@ -60,7 +60,7 @@ impl<'a> Plot<'a> {
         let gutter = u16::try_from(gutter).unwrap_or(6).min(area.width / 2) + 1;
         let inner = Rect::new(area.x + gutter, area.y, area.width - gutter, rows);
         let quiet = look.style(Role::Quiet);
-        let raster = Raster::new(inner, look.marker, look.wide);
+        let raster = Raster::new(inner, look.marker);
         let mut plot = Self { buffer, raster, inner, x, y, rule };
         let [side, side_tick, ..] = look.axis_signs();
         for row in inner.y..inner.bottom() {
@@ -212,7 +212,7 @@ impl<'a> Plot<'a> {
             gone = (length - (at - stride)).clamp(0.0, stride);
         }
         for (x, y) in dots {
-            self.raster.blot(x.round() as i64, y.round() as i64, pen);
+            self.raster.set(x.round() as i64, y.round() as i64, pen);
         }
     }
 
@@ -554,7 +554,7 @@ mod tests {
             width in 12u16..90, height in 4u16..50, part in 0.0f64..=1.0, other in 0.0f64..=1.0,
             marker in 0usize..5, low in -1e6f64..1e6, span in 1e-6f64..1e6,
         ) {
-            let marker = (0..marker).fold(Marker::Braille, |marker, _| marker.next(true));
+            let marker = (0..marker).fold(Marker::Braille, |marker, _| marker.next());
             let look = Appearance::new(Theme::Dark, marker);
             let mut buffer = Buffer::empty(Rect::new(0, 0, width, height));
             let area = *buffer.area();

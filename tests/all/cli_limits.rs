@@ -225,35 +225,3 @@ fn an_end_below_one_step_is_refused_and_one_step_is_not() {
         text(&words(line));
     }
 }
-
-/// Rows are made as they are written: what a speed takes in memory is its numbers, some two
-/// hundred bytes, and not the words of its row.
-#[cfg(target_os = "linux")]
-#[test]
-fn many_speeds_take_little_memory() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("l.csv");
-    let file = ["--out", file.to_str().unwrap()];
-    let driven = ["--excitation", "--json", "--set", "excitation.amplitude_nm=10"];
-    for view in [
-        &["--json"][..],
-        &["--branches", "--json"],
-        &["--slip", "--json"],
-        &["--campbell", "--json"],
-        &["--coincidence", "--json"],
-        &["--whirl", "--json"],
-        &driven,
-        &["--compliance", "--json"],
-    ] {
-        // With 40 MB of data and no more: a program that wants more is aborted.
-        let run = std::process::Command::new("sh")
-            .args(["-c", "ulimit -d 40000; exec \"$0\" \"$@\""])
-            .arg(env!("CARGO_BIN_EXE_rubscope"))
-            .args(["hbm", "--zeta-casing", "0.01", "--speed", "0:500:10000"])
-            .args(view)
-            .args(file)
-            .stdout(std::process::Stdio::null())
-            .status();
-        assert!(run.unwrap().success(), "{view:?}");
-    }
-}

@@ -89,9 +89,8 @@ fn is_kept(output: &Output, folder: &Path, name: &str, start: &str) {
 }
 
 /// What is written, where, and how its text begins.
-const WRITERS: [(&str, &str, &str); 6] = [
+const WRITERS: [(&str, &str, &str); 5] = [
     (SMALL, "h.csv", "t_s,theta_rad"),
-    (SMALL, "h.npz", "t_s,theta_rad"),
     ("hbm --speed 0:500:2000", "h.csv", "speed_rad_s"),
     (MAP, "m.csv", "{"),
     (MAP, "m.json", "{"),

@@ -165,10 +165,6 @@ fn what_has_no_meaning_ends_with_status_2_and_one_line() {
         (vec!["--blades", "six"], "rubscope: --blades = six: allowed is I,J"),
         (vec!["--form", "round"], "rubscope: --form = round: allowed is one of printed"),
         (vec!["--excitation"], "rubscope: excitation.amplitude_nm = 0: allowed is above 0"),
-        (vec!["--harmonics", "4"], "rubscope: hbm --harmonics is gone: hbm --slip gives"),
-        (vec!["--follow", "a.b", "--over", "1:2"], "rubscope: hbm --follow is gone: hbm --smooth"),
-        (vec!["slip", "--fold"], "rubscope: hbm --fold is gone: hbm --branches says from"),
-        (vec!["--slip", "--zetas", "0:99:2"], "rubscope: hbm --zetas is gone"),
         (vec!["--out", "a.txt"], "rubscope: --out = a.txt: allowed is"),
         (vec!["--slip", "--branches"], "rubscope: the argument '--slip' cannot be used with"),
     ] {

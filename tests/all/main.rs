@@ -84,7 +84,6 @@ mod tui_loop;
 mod tui_map;
 mod tui_margins;
 mod tui_mouse;
-mod tui_presentation;
 mod tui_random;
 mod tui_scenes;
 mod tui_screens;

@@ -64,8 +64,6 @@ fn what_has_no_meaning_is_refused_in_one_line() {
         ),
         (&["--target", "omega_c=1"], "rubscope: "),
         (&["--out", "a.txt"], "rubscope: --out = a.txt"),
-        (&["--tolerance", "clearance=5"], "rubscope: margins --tolerance is gone: "),
-        (&["--target", "lasting_pulse=1e5", "--by", DAMPING], "rubscope: lasting_pulse is gone: "),
     ] {
         let told = refusal(&[&["margins"], arguments].concat());
         assert!(told.starts_with(start), "{told}");

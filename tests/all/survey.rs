@@ -338,7 +338,7 @@ fn a_range_that_is_none_is_refused_by_name() {
         ("survey --range 0:3kN", "rubscope: --range = 0:3kN: this is a force; it takes rad/s, rpm"),
         ("survey --range 0:nan", "rubscope: --range = 0:nan: allowed is FROM:TO"),
         ("survey --by casing", "rubscope: parameter casing: allowed is one of clearance, "),
-        ("survey --out x.npz", "rubscope: --out"),
+        ("survey --out x.txt", "rubscope: --out"),
     ] {
         let said = refusal(&words.split(' ').collect::<Vec<_>>());
         assert!(said.starts_with(start), "{said}");

@@ -3,7 +3,7 @@
 
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use rubscope::tui::bindings::Action;
-use rubscope::tui::{Effect, Marker, MouseOutcome, Theme};
+use rubscope::tui::{Effect, Marker, Theme};
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::margins::{LimitName, Margins};
 
@@ -135,7 +135,7 @@ fn a_click_reads_a_row_and_a_second_one_jumps() {
         heard
     };
     let coincidence = session.find("388.31");
-    assert_eq!(click(&mut session, coincidence), MouseOutcome::Acted(Effect::None));
+    assert_eq!(click(&mut session, coincidence), Some(Effect::None));
     assert_eq!(cell(&session), [0, 3]);
     click(&mut session, coincidence);
     let speed = session.app.machine.dangerous_speed().unwrap();

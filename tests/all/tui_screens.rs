@@ -299,3 +299,31 @@ fn an_oval_casing_lies_or_stands_as_its_lobes_do() {
     let (lying, standing) = (width(0.0), width(std::f64::consts::PI));
     assert!(lying > standing + 6, "{lying} {standing}");
 }
+
+/// Rows of the screen that a chart's upright axis goes through, by its column.
+fn axis_rows(session: &Session, column: usize) -> usize {
+    let is_axis = |sign: char| "│┤".contains(sign);
+    session.text().lines().filter(|line| line.chars().nth(column).is_some_and(is_axis)).count()
+}
+
+#[test]
+fn two_laws_have_the_whole_height_and_the_same_axes() {
+    let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
+    session.press("c");
+    session.press("");
+    let text = session.text();
+    assert!(text.contains("bilateral: LOCKED") && text.contains("unilateral: DECAY"), "{text}");
+    assert!(!text.contains("2 gaps") && !text.contains("pulse F"), "{text}");
+    insta::assert_snapshot!("laws_80x24", text);
+    let column = text.lines().find(|line| line.contains("0┤")).unwrap();
+    let column = column.chars().position(|sign| sign == '┤').unwrap();
+    assert!(axis_rows(&session, column) >= 14, "{text}");
+    let mut session = Session::open(120, 40, scene(), Theme::Dark, Marker::Braille);
+    session.press("c");
+    session.press("");
+    let text = session.text();
+    assert!(text.contains("pulse F") && !text.contains("2 gaps"), "{text}");
+    insta::assert_snapshot!("laws_120x40", text);
+    let row = text.lines().find(|line| line.contains("bilateral: LOCKED")).unwrap();
+    assert!(row.contains("unilateral: DECAY"), "{text}");
+}

@@ -1,10 +1,8 @@
 //! Every equilibrium, its stability, and where branches change.
 
-use std::rc::Rc;
-
 use serde_json::json;
 
-use super::{Answer, LockBeside, Parts, Request, Rows, View};
+use super::{Answer, LockBeside, Parts, Request, View};
 use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{
     Branches, Corner, Equilibrium, Form, HarmonicError, Kind, Locked, LockedPoint, Threshold,
@@ -27,21 +25,18 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     if machine.has_unequal_tips() {
         return corners(request);
     }
-    let branches = Rc::new(Branches::over(machine, speeds, *damped)?);
-    let of = Rc::clone(&branches);
-    let rows = Rows::new([branches.speeds(), branches.count], move |place| of.states_at(place));
-    let json = Parts::default().with("thresholds", &branches.thresholds).with_rows(
-        "states",
-        &rows,
-        |state| json!(state),
-    );
+    let branches = Branches::over(machine, speeds, *damped)?;
+    let states: Vec<Vec<Equilibrium>> =
+        (0..branches.speeds()).map(|place| branches.states_at(place)).collect::<Result<_, _>>()?;
+    let states = states.concat();
+    let json = Parts::default().with("thresholds", &branches.thresholds).with("states", &states);
     let damping = if *damped { "with damping" } else { "without damping" };
     let changes = format!("Where branches change between these speeds, {damping}:");
     let tables = vec![
         (changes, Table::of(&branches.thresholds, THRESHOLDS)),
-        ("Equilibria of the blade frame:".to_string(), rows.table(STATES)),
+        ("Equilibria of the blade frame:".to_string(), Table::of(&states, STATES)),
     ];
-    Ok(Answer::of(Parts::default().with_parts("branches", json), tables))
+    Ok(Answer::of(Parts::default().with("branches", json), tables))
 }
 
 /// A corner of unequal tips that is held at some speeds, by the blades of its sides, at one of them.
@@ -73,9 +68,8 @@ fn corners(request: &Request<'_>) -> Result<Answer, HarmonicError> {
             .collect::<Vec<_>>()
     );
     let title = "Every corner of these tips that is held at some speed:".to_string();
-    let rows = Rows::of(found);
-    let json = Parts::default().with_parts("branches", Parts::default().with("corners", json));
-    Ok(Answer::of(json, vec![(title, rows.table(CORNERS))]))
+    let json = Parts::default().with("branches", Parts::default().with("corners", json));
+    Ok(Answer::of(json, vec![(title, Table::of(&found, CORNERS))]))
 }
 
 /// Columns of corners of unequal tips.

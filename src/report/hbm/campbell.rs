@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{Answer, LockBeside, Parts, Request, Rows, View};
+use super::{Answer, LockBeside, Parts, Request, View};
 use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{Campbell, Coincidence, HarmonicError, Line};
 
@@ -29,13 +29,10 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
         orders.push(excitation.order);
     }
     let campbell = Campbell::of(&request.machine, &orders, request.fastest())?;
-    let (lines, speeds) = (campbell.lines, request.speeds.to_vec());
+    let (lines, speeds) = (&campbell.lines, request.speeds);
     let json = Parts::default()
-        .with("speed_rad_s", &speeds)
-        .with_rows("lines", &Rows::of(lines.clone()), {
-            let speeds = speeds.clone();
-            move |line| value(line, &speeds)
-        })
+        .with("speed_rad_s", speeds)
+        .with_rows("lines", lines, |line| value(line, speeds))
         .with("coincidences", &campbell.coincidences);
     let coincidences = "Coincidences +-omega_c = n_d Omega +- omega_bd, Eq. (30):".to_string();
     let title = "Frequencies in the standing frame [rad/s]:".to_string();
@@ -43,7 +40,7 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
         (coincidences, Table::of(&campbell.coincidences, COINCIDENCES)),
         (title, table(lines, speeds)),
     ];
-    Ok(Answer::of(Parts::default().with_parts("campbell", json), tables))
+    Ok(Answer::of(Parts::default().with("campbell", json), tables))
 }
 
 fn value(line: &Line, speeds: &[f64]) -> Value {
@@ -57,16 +54,14 @@ fn value(line: &Line, speeds: &[f64]) -> Value {
 }
 
 /// Returns the lines over speed, one per column.
-fn table(lines: Vec<Line>, speeds: Vec<f64>) -> Table {
+fn table(lines: &[Line], speeds: &[f64]) -> Table {
     let names = lines.iter().map(|line| line.name.clone());
-    let names: Vec<_> = std::iter::once("speed_rad_s".to_string()).chain(names).collect();
-    Table::made(names, [speeds.len(); 2], move |place| {
-        let row = |&speed: &f64| {
-            let lines = lines.iter().map(|line| line.at(speed));
-            std::iter::once(speed).chain(lines).map(TableCell::from).collect()
-        };
-        Ok(speeds.get(place).map(row).into_iter().collect())
-    })
+    let mut table = Table::new(std::iter::once("speed_rad_s".to_string()).chain(names));
+    for &speed in speeds {
+        let lines = lines.iter().map(|line| line.at(speed));
+        table.push(std::iter::once(speed).chain(lines).map(TableCell::from).collect());
+    }
+    table
 }
 
 /// Columns of the coincidences.

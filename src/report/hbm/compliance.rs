@@ -4,7 +4,7 @@
 use nalgebra::Complex;
 use serde_json::{Value, json};
 
-use super::{Answer, LockBeside, Parts, Request, Rows, View};
+use super::{Answer, LockBeside, Parts, Request, View};
 use crate::report::number::speed;
 use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{HarmonicError, Joint, RoundWhirl, RoundWhirlLoads, round_whirls};
@@ -35,7 +35,7 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let waves: Vec<Wave> =
         round_whirls(&joint).into_iter().map(|wave| (wave, wave.loads(&joint))).collect();
     let at = |omega: f64| (omega, omega - joint.nu, joint.compliance(omega));
-    let points: Rows<Point> = Rows::of(beyond_resonance(&joint).into_iter().map(at).collect());
+    let points: Vec<Point> = beyond_resonance(&joint).into_iter().map(at).collect();
     let json = Parts::default()
         .with("speed_rad_s", joint.nu / joint.machine.nodal_diameters)
         .with_rows("omega_rad_s", &points, |point| json!(point.0))
@@ -51,8 +51,8 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     // On a lining that blades press at rest the amplitude decides.
     let columns = if joint.machine.clearance() <= 0.0 { PRESSED } else { WAVES };
     let tables = vec![(crossings, Table::of(&waves, columns))];
-    let json = Parts::default().with_parts("compliance", json);
-    Ok(Answer { json, tables, file: points.table(POINTS) })
+    let json = Parts::default().with("compliance", json);
+    Ok(Answer { json, tables, file: Some(Table::of(&points, POINTS)) })
 }
 
 /// A wave that blades and casing carry round together.

@@ -1,11 +1,9 @@
 //! The locked motion, the view without an option.
 
-use std::rc::Rc;
-
 use serde_json::{Value, json};
 
-use super::{Answer, LockBeside, Parts, Request, Rows, View};
-use crate::report::table::{Column, TableCell};
+use super::{Answer, LockBeside, Parts, Request, View};
+use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{HarmonicError, LockedPoint, Sweep};
 use rubscope_solver::model::ContactPolygon;
 
@@ -21,21 +19,16 @@ pub const LOCKED: View = View {
 
 /// Makes the two tables of the locked motion: a short one to read, every number for files.
 fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
-    let rows = request.sweep.as_ref().map_or_else(|| Rows::of(Vec::new()), rows);
-    let tables = vec![(String::new(), rows.table(SUMMARY))];
-    Ok(Answer { json: Parts::default(), tables, file: rows.table(FILE) })
-}
-
-fn rows(sweep: &Rc<Sweep>) -> Rows<LockedPoint> {
-    let (count, sweep) = (sweep.points.len(), Rc::clone(sweep));
-    Rows::new([count; 2], move |place| Ok(sweep.points.get(place).copied().into_iter().collect()))
+    let points = request.sweep.as_ref().map_or(&[][..], |sweep| &sweep.points);
+    let tables = vec![(String::new(), Table::of(points, SUMMARY))];
+    Ok(Answer { json: Parts::default(), tables, file: Some(Table::of(points, FILE)) })
 }
 
 /// Adds the locked motion to the JSON of a view.
-pub fn points(json: Parts, polygon: &ContactPolygon, sweep: &Rc<Sweep>) -> Parts {
+pub fn points(json: Parts, polygon: &ContactPolygon, sweep: &Sweep) -> Parts {
     let blades = sweep.corner.sides().map(|side| polygon.blades_of_side(side));
     json.with("missing_rad_s", &sweep.missing)
-        .with_rows("points", &rows(sweep), move |point| with_groups(point, &blades))
+        .with_rows("points", &sweep.points, |point| with_groups(point, &blades))
 }
 
 /// Returns a locked motion with its multipliers and angles by phase group.

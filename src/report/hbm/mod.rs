@@ -1,8 +1,6 @@
 //! Steady states against speed (`rubscope hbm`): what each view computes, and its tables and
 //! JSON (`rubscope.hbm/1`). A view is one file with one [`View`], which is in [`VIEWS`].
 
-use std::rc::Rc;
-
 mod branches;
 mod campbell;
 pub mod coincidence;
@@ -11,15 +9,14 @@ mod excitation;
 mod forced;
 mod heading;
 pub mod locked;
-mod rows;
+mod parts;
 mod slip;
 mod smooth;
 mod whirl;
 
 pub use heading::Heading;
 pub use locked::LOCKED;
-pub use rows::Parts;
-use rows::Rows;
+pub use parts::Parts;
 
 use super::number::{per_speed, short};
 use super::table::Table;
@@ -83,7 +80,7 @@ pub struct Request<'a> {
     /// Machine of the scene, with rigid contact where the view has it.
     pub machine: Machine,
     /// The locked motion, where there is one and the view has rigid contact.
-    pub sweep: Option<Rc<Sweep>>,
+    pub sweep: Option<Sweep>,
 }
 
 impl Request<'_> {
@@ -124,7 +121,7 @@ impl Request<'_> {
                 Ok(mut sweep) => {
                     let points = sweep.points.iter_mut().filter(|_| rigid);
                     points.for_each(|point| point.alpha_rad = [0.0; 2]);
-                    self.sweep = Some(Rc::new(sweep));
+                    self.sweep = Some(sweep);
                 }
                 Err(error) if tolerates(&error) => {}
                 Err(error) => return Err(error),
@@ -193,15 +190,19 @@ pub struct Answer {
     pub json: Parts,
     /// Its tables, each below a title.
     pub tables: Vec<(String, Table)>,
-    /// The table for files.
-    pub file: Table,
+    /// The table for files, where it is none of those.
+    file: Option<Table>,
 }
 
 impl Answer {
     /// Creates an answer whose last table is the one for files.
     fn of(json: Parts, tables: Vec<(String, Table)>) -> Self {
-        let file = tables.last().map(|(_, table)| table.clone()).unwrap_or_default();
-        Self { json, tables, file }
+        Self { json, tables, file: None }
+    }
+
+    /// Returns the table for files.
+    pub fn file(&self) -> Option<&Table> {
+        self.file.as_ref().or(self.tables.last().map(|(_, table)| table))
     }
 }
 

@@ -2,9 +2,9 @@
 
 use serde_json::{Value, json};
 
-use super::{Answer, LockBeside, Parts, Request, Rows, View};
+use super::{Answer, LockBeside, Parts, Request, View};
 use crate::report::number::speed;
-use crate::report::table::{Column, TableCell};
+use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{
     HarmonicError, SlipLimit, SlipOrbit, SlipPoint, slip_limits, slip_over,
 };
@@ -25,9 +25,8 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let limits = slip_limits(machine, speeds)?;
     let title = heading(&points, &limits);
     let limits: Vec<f64> = limits.iter().map(|limit| limit.speed_rad_s).collect();
-    let points = Rows::of(points);
     let json = Parts::default().with_rows("slip", &points, value).with("slip_limits_rad_s", limits);
-    Ok(Answer::of(json, vec![(title, points.table(SLIPS))]))
+    Ok(Answer::of(json, vec![(title, Table::of(&points, SLIPS))]))
 }
 
 fn heading(points: &[SlipPoint], limits: &[SlipLimit]) -> String {

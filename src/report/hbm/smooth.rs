@@ -86,7 +86,7 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
         }
         tables.push((title, Table::of(&states, STATES)));
     }
-    Ok(Answer::of(Parts::default().with_parts("smooth", json), tables))
+    Ok(Answer::of(Parts::default().with("smooth", json), tables))
 }
 
 fn pressed_title(lining: &Lining<'_>, shifted: Option<f64>, hopf: &[HopfPoint]) -> String {

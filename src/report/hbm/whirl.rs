@@ -3,9 +3,9 @@
 
 use serde_json::{Value, json};
 
-use super::{Answer, LockBeside, Parts, Request, Rows, View, speeds_of};
+use super::{Answer, LockBeside, Parts, Request, View, speeds_of};
 use crate::report::number::{speed, speed_unit};
-use crate::report::table::{Column, TableCell};
+use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{
     HarmonicError, Joint, RoundWhirl, RoundWhirlLoads, flutters, lock_window, round_whirls,
     undamped_flutter_speed, whirl_onset,
@@ -26,7 +26,7 @@ pub const WHIRL: View = View {
 fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let (machine, toward) = (&request.machine, request.fastest());
     let rows = request.speeds.iter().map(|&speed| WhirlRow::at(machine, speed));
-    let rows = Rows::of(rows.collect());
+    let rows: Vec<WhirlRow> = rows.collect();
     let (onset, flutter) = (whirl_onset(machine, toward), flutters(machine, toward));
     let window = lock_window(machine, toward);
     let mut title = match onset {
@@ -50,7 +50,7 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
         .with("flutter_undamped_rad_s", undamped_flutter_speed(machine, toward))
         .with("lock_window_rad_s", window.map(|window| [Some(window.from), window.to]))
         .with_rows("whirl", &rows, value);
-    Ok(Answer::of(json, vec![(title, rows.table(WHIRLS))]))
+    Ok(Answer::of(json, vec![(title, Table::of(&rows, WHIRLS))]))
 }
 
 /// Returns a range of speeds in words.

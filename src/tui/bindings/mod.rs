@@ -43,7 +43,6 @@ pub enum Action {
     ZoomReset,
     Autoscale,
     FullScreen,
-    Present,
     Mouse,
     Marker,
     Theme,
@@ -276,7 +275,6 @@ impl Action {
             | Self::Survey
             | Self::Charts
             | Self::FullScreen
-            | Self::Present
             | Self::Autoscale
             | Self::Pin
             | Self::OtherLaw

@@ -459,7 +459,7 @@ mod tests {
             .map(|(up, coarse)| real(speed.turned(&start, up, coarse, &scene)));
         let up = speed.turned(&typed[0], true, false, &scene);
         let back = speed.turned(&up, false, false, &scene);
-        let dragged = real(speed.near(470.0).unwrap());
+        let clicked = real(speed.near(470.0).unwrap());
         let (words, prompt) = (speed.range_words(), speed.typed(&"45".into(), 20));
         let refused = speed.set(&scene, speed.parse("1e9").unwrap()).unwrap_err();
         let refused = speed.refusal(&refused);
@@ -471,7 +471,7 @@ mod tests {
             assert!((turned - round).abs() < 1e-9, "{turned} {round}");
         }
         assert_eq!((real(up.clone()).round(), &back), (4550.0, &typed[0]));
-        assert!((dragged - 4500.0).abs() < 1e-9, "{dragged}");
+        assert!((clicked - 4500.0).abs() < 1e-9, "{clicked}");
         assert_eq!(
             (words.as_str(), prompt.as_str()),
             ("from -9.5493e6 to 9.5493e6 rpm", "45_ rpm")

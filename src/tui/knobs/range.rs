@@ -1,6 +1,6 @@
 //! The bar of a knob as numbers: its usual range, which is a column of the table, the limits
-//! marked on it, among them the pulse from which on a blade touches, and the value at a place of
-//! the bar.
+//! marked on it (of the speed, and the pulse from which on a blade touches), and the value at a
+//! place of the bar.
 
 use crate::report::number::rounded;
 use crate::tui::knobs::{Knob, Turn};
@@ -206,9 +206,7 @@ pub mod bars {
     }
 
     pub fn disk_diameters(case: &Case) -> KnobRange {
-        let own = Some(case.machine.nodal_diameters).filter(|own| *own > 0.0);
         KnobRange::linear(0.0, (case.blades() / 2.0).floor().max(2.0))
-            .marked(&[("that of the casing", own)])
     }
 
     pub fn order(case: &Case) -> KnobRange {
@@ -230,7 +228,7 @@ pub mod bars {
     pub fn clearance(case: &Case) -> KnobRange {
         let most = 0.5 * AROUND * case.usual();
         match case.has_lining() {
-            true => KnobRange::linear(-PRESSED * most, most).marked(&[("zero", Some(0.0))]),
+            true => KnobRange::linear(-PRESSED * most, most),
             false => case.around(),
         }
     }
@@ -251,19 +249,6 @@ pub mod bars {
     pub fn velocity(case: &Case) -> KnobRange {
         let most = 2.0 * case.clearance() * case.machine.omega_c;
         KnobRange::linear(-most, most)
-    }
-
-    pub fn slope(case: &Case) -> KnobRange {
-        // Between -mu and 0 friction turns leading blades outward.
-        let from = Some(-case.scene.contact.friction).filter(|from| *from < 0.0);
-        let names = [("where blades turn outward", from), ("zero", Some(0.0))];
-        KnobRange::linear(-1.0, 1.0).marked(&names)
-    }
-
-    pub fn tangential(case: &Case) -> KnobRange {
-        // A ring that does not stretch.
-        KnobRange::linear(0.0, 1.0)
-            .marked(&[("a ring: 1/n_d", Some(1.0 / case.machine.nodal_diameters))])
     }
 }
 
@@ -295,8 +280,7 @@ impl Knob {
         }
     }
 
-    /// Returns the value that the knob would be turned to next to a number, for a bar that is
-    /// dragged.
+    /// Returns the value that the knob would be turned to next to a number, for a click in its bar.
     pub fn near(&self, x: f64) -> Option<Value> {
         match (self.turn, self.allowed()) {
             (Turn::Linear(fine, _), _) => Some(Value::Real(self.stepped(x, fine, None))),
@@ -370,7 +354,7 @@ mod tests {
     }
 
     #[test]
-    fn a_dragged_bar_gives_round_values() {
+    fn a_click_in_a_bar_gives_a_round_value() {
         let of = |path: &str, x| knob_of(path).unwrap().near(x);
         assert_eq!(of("operation.speed_rad_s", 431.7), Some(Value::Real(430.0)));
         assert_eq!(of("casing.damping_ratio", 0.0512), Some(Value::Real(0.05)));

@@ -209,7 +209,7 @@ pub const KNOBS: &[Knob] = &[
         Linear(0.05, 0.1),
         "radial coupling: a blade tip moves outward by κ l_b α; 0 in the paper",
     )
-    .bar(Of(bars::slope))
+    .bar(From(-1.0, 1.0))
     .unless(inert::rigid),
     knob(
         Beyond,
@@ -227,7 +227,7 @@ pub const KNOBS: &[Knob] = &[
         Linear(0.05, 0.1),
         "tangential over radial motion of the casing: 1/n_d for a ring",
     )
-    .bar(Of(bars::tangential))
+    .bar(From(0.0, 1.0))
     .unless(inert::tangential),
     knob(
         Beyond,
