@@ -37,7 +37,7 @@ pub enum HarmonicError {
     Refused {
         /// Name of the parameter.
         key: &'static str,
-        /// Its value.
+        /// Value as given.
         value: String,
         /// Allowed values, in words.
         allowed: String,

@@ -97,7 +97,7 @@ impl<'a> Joint<'a> {
         casing + self.blade_stiffness(omega - self.nu).inv() * self.coupling_product
     }
 
-    /// Returns the lever arm of a contact force about the blade root, `|kappa + mu| l_b` \[m\].
+    /// Returns the lever arm of a contact force on the blade modes, `|kappa + mu| l_b` \[m\].
     #[must_use]
     pub fn blade_lever(&self) -> f64 {
         let machine = &*self.machine;

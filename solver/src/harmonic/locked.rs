@@ -314,7 +314,7 @@ pub fn lock_fold_speed<T: Number>(machine: &Machine<T>) -> Option<T> {
         let slope = smaller * (smaller - (x - 1.0) * 2.0 / closed) + stiffness * stiffer;
         (value, slope)
     };
-    // It has at most one maximum between the critical speed and the loss of the clearance.
+    // `left` has at most one maximum between the critical speed and the loss of the clearance.
     let last = closed.re();
     if last <= 1.0 {
         return None;

@@ -41,8 +41,8 @@ pub enum NoSlip {
 /// A lasting slip: the periodic motion from corner to corner.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct SlipOrbit {
-    /// Rotor-equivalent speed of the casing wave, its frequency divided by `n_d`; between zero and
-    /// the rotor speed \[rad/s\].
+    /// Rotational speed of the casing wave, its frequency divided by `n_d`; between zero and the
+    /// rotor speed \[rad/s\].
     pub wave_speed_rad_s: f64,
     /// Time to cross one side \[s\].
     pub period_s: f64,

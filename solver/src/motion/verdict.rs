@@ -143,9 +143,10 @@ pub struct Outcome {
     /// the blades that hold the wave, the number of impacts or the time of the lock; `None` if not
     /// determined.
     pub sensitive: Option<bool>,
-    /// Whether it alters the verdict or the blades that hold the wave.
+    /// Whether such a change alters the verdict or the blades that hold the wave.
     pub ends_otherwise: Option<bool>,
-    /// Whether another time step alters them; `None` also without time steps.
+    /// Whether another time step alters the verdict or those blades; `None` also without time
+    /// steps.
     pub depends_on_step: Option<bool>,
     /// Verdict of the event solver, if it differs from that of a run with time steps.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -52,7 +52,7 @@ pub enum SceneError {
     GoneScene {
         /// The name as given.
         name: String,
-        /// Its replacement.
+        /// Scene or command that replaces it.
         instead: &'static str,
     },
     /// The name is neither a built-in scene nor a file.

@@ -99,15 +99,15 @@ impl std::fmt::Display for Allowed {
 /// Whether a running motion accepts a new value of a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Live {
-    /// With both solvers.
+    /// Both solvers accept a new value.
     Always,
-    /// With the explicit solver only.
+    /// Only the explicit solver accepts a new value.
     Steps,
-    /// No; a new value needs a new motion.
+    /// A new value needs a new motion.
     Never,
-    /// No; the key describes the initial state.
+    /// A new value has no effect, because the key describes the initial state.
     Start,
-    /// Not relevant: the key does not affect the motion.
+    /// The key does not affect the motion.
     Aside,
 }
 

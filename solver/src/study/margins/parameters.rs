@@ -142,7 +142,8 @@ pub fn parameter(path: &str) -> Option<&'static Parameter> {
 }
 
 impl Parameter {
-    /// Returns whether the parameter is a frequency: 0 for the casing, 1 for the disk.
+    /// Returns 0 for the casing frequency, 1 for the disk frequency, and `None` for any other
+    /// parameter.
     fn frequency(&self) -> Option<usize> {
         FREQUENCIES.iter().position(|(path, _)| *path == self.path)
     }

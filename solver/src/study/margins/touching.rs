@@ -139,7 +139,7 @@ fn force<T: Number>(flight: &FreeFlight<'_, T>, side: u32, t: T) -> T {
 }
 
 /// Refines the instant at which the side needs the smallest force. If there is no minimum nearby,
-/// the end of the search interval is the instant.
+/// the given instant is kept.
 fn polished(all: &Parameters<Dual64>, look: Look, sense: f64, step: f64) -> FirstTouch {
     let machine = all.machine();
     let flight = all.flight(&machine);

@@ -109,7 +109,7 @@ pub(super) fn by_events(model: ModelSize, tolerance: f64) -> Way {
 }
 
 /// Returns the reference for runs of a model size: the event solver. It represents the blades of
-/// the full model by two modes, which is exact as long as single blades do not affect the contact.
+/// the full model by two modes, which is valid as long as single blades do not affect the contact.
 ///
 /// # Errors
 /// The event solver does not support this scene; returns the explicit solver to be used with halved
