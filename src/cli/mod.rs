@@ -20,7 +20,6 @@ mod run;
 mod scenes;
 pub mod script;
 mod sign;
-mod signals;
 pub mod status;
 mod survey;
 mod words;
@@ -28,7 +27,6 @@ mod words;
 use std::ffi::OsString;
 use std::io::{BufWriter, Write};
 
-use anyhow::Context;
 use clap::{Parser, Subcommand};
 
 use status::Status;
@@ -89,10 +87,6 @@ pub fn main(args: impl IntoIterator<Item = OsString>) -> u8 {
 }
 
 fn dispatch(cli: Cli, out: &mut dyn Write) -> Done {
-    // The explorer has signals of its own on a screen.
-    if cli.command.is_some() || cli.explore.is_in_lines() {
-        signals::watch().context("cannot watch signals")?;
-    }
     // A sign of life would wipe the questions of `new`.
     if !matches!(cli.command, None | Some(Command::New(_))) {
         sign::begin();
