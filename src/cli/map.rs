@@ -163,7 +163,7 @@ impl MapCommand {
         let cells = map.cells.len();
         let whole = Shard { number: 1, count: 1 };
         let indices = shard.unwrap_or(whole).indices(cells);
-        let form = "{spinner} {bar:30} {pos}/{len} cells{rate}";
+        let form = "{spinner} {bar:30} {pos}/{len} cells, {per_sec}, {eta} left";
         let bar = sign::bar(indices.len() as u64, form);
         let count = |_, _| bar.inc(1);
         builder.build()?.install(|| map.fill(indices, &|| true, &count));

@@ -87,8 +87,14 @@ pub fn main(args: impl IntoIterator<Item = OsString>) -> u8 {
 }
 
 fn dispatch(cli: Cli, out: &mut dyn Write) -> Done {
-    // A sign of life would wipe the questions of `new`.
-    if !matches!(cli.command, None | Some(Command::New(_))) {
+    // The spinner would wipe the questions of `new`; the others end at once.
+    let unseen = |command: &Command| {
+        matches!(
+            command,
+            Command::New(_) | Command::Scenes(_) | Command::Completions(_) | Command::Man(_)
+        )
+    };
+    if !cli.command.as_ref().is_none_or(unseen) {
         sign::begin();
     }
     match cli.command {
