@@ -6,13 +6,10 @@
 
 use serde::Serialize;
 
-use super::corner_angle::CornerAngle;
 use super::equations::{Equations, Scales, Unknowns, Wave};
 use super::stability::Linearised;
 use super::{Character, Corner, Form, HarmonicError, error, lining};
 use crate::model::{Machine, Number};
-use crate::numeric::bisection::bisected;
-use crate::numeric::maximum::highest;
 
 /// The locked motion at one rotor speed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -285,51 +282,6 @@ pub fn lock_loads<T: Number>(machine: &Machine<T>, speed: T) -> Option<LockLoads
     })
 }
 
-/// Returns the largest speed with a lock \[rad/s\]: blades that are soft bend out of it above.
-/// None without corners, with tips that are inclined or rub, on a lining, and where it is
-/// beyond any speed that a number can square.
-#[must_use]
-pub fn lock_fold_speed<T: Number>(machine: &Machine<T>) -> Option<T> {
-    if machine.tips_incline_or_rub() || machine.has_other_diameters() || machine.lining.is_some() {
-        return None;
-    }
-    let (still, critical) = (machine.at(T::zero()), machine.critical_speed()?);
-    let stiffness =
-        CornerAngle::of(&still).fold_stiffness().filter(|_| machine.polygon.has_corners())?;
-    if !machine.changes_with_speed() {
-        return Some(critical * (-stiffness + 1.0).sqrt());
-    }
-    // `1 - x = stiffness (1 + b x)/(1 - e x)^2` of the square `x` of the speed, in `Omega_c`:
-    // blades stiffen, and the wave gets smaller.
-    let stiffer = machine.stiffening() * (critical / machine.omega_bd_at_rest()).powi(2);
-    let Some(closed) = machine.closing_speed().map(|closed| (closed / critical).powi(2)) else {
-        let square = (-stiffness + 1.0) / (stiffness * stiffer + 1.0);
-        return (square.re() > 0.0).then(|| critical * square.sqrt());
-    };
-    let left = |x: T| {
-        let smaller = -(x / closed) + 1.0;
-        let value = (x - 1.0) * smaller * smaller + stiffness * (stiffer * x + 1.0);
-        let slope = smaller * (smaller - (x - 1.0) * 2.0 / closed) + stiffness * stiffer;
-        (value, slope)
-    };
-    // It has one maximum at most, between the critical speed and the loss of the clearance.
-    let last = closed.re();
-    if last <= 1.0 {
-        return None;
-    }
-    let (highest, most) = highest([1.0, last], |x| left(T::from(x)).0.re());
-    if most <= 0.0 {
-        return None;
-    }
-    let [low, high] = bisected([1.0, highest], |x| left(T::from(x)).0.re() > 0.0);
-    let mut x = T::from(0.5 * (low + high));
-    for _ in 0..2 {
-        let (value, slope) = left(x);
-        x -= value / slope;
-    }
-    Some(critical * x.sqrt())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -380,7 +332,6 @@ mod tests {
         for diameters in ["0", "11"] {
             let machine = machine(&[("operation.nodal_diameters", diameters)]);
             assert_eq!(lock_loads(&machine, 500.0), None);
-            assert_eq!(lock_fold_speed(&machine), None);
         }
     }
 }

@@ -6,27 +6,22 @@ use num_dual::Dual64;
 use super::limit::{Limit, LimitName, Quantity, Sensitivities};
 use super::parameters::{Parameter, Parameters, acting, sensitivity};
 use crate::harmonic::{
-    flutters, lobes_of, lock_fold_speed, lock_growth, lock_loads, lock_windows, roundness,
-    whirl_beginnings, whirl_onset,
+    flutters, lobes_of, lock_growth, lock_loads, lock_windows, roundness, whirl_beginnings,
+    whirl_onset,
 };
 use crate::model::{Machine, Number};
 use crate::numeric::rounding::rounded;
 use crate::scene::{CheckedScene, ModelSize, Scene};
 
-/// How far beyond the speeds of interest the end of the branch of a lock is told, as a
-/// factor: stiff blades bend out of a lock at speeds that no rotor has.
-const FAR: f64 = 10.0;
-
 /// How many of the closed forms are speeds; they come first.
-const SPEEDS: usize = 10;
+const SPEEDS: usize = 9;
 
 /// The closed forms, in the order in which they are shown.
-pub(super) const CLOSED: [LimitName; 15] = [
+pub(super) const CLOSED: [LimitName; 14] = [
     LimitName::OmegaC,
     LimitName::OmegaAdhesive,
     LimitName::OmegaLock,
     LimitName::LockEnds,
-    LimitName::LockFold,
     LimitName::Coincidence,
     LimitName::CoincidenceDifference,
     LimitName::WhirlOnset,
@@ -40,9 +35,8 @@ pub(super) const CLOSED: [LimitName; 15] = [
 ];
 
 /// Those that few machines have, shown where they are.
-const SELDOM: [LimitName; 6] = [
+const SELDOM: [LimitName; 5] = [
     LimitName::LockEnds,
-    LimitName::LockFold,
     LimitName::WhirlOnset,
     LimitName::FlutterSpeed,
     LimitName::FirstTouch,
@@ -95,7 +89,6 @@ fn speed_values<T: Number>(machine: &Machine<T>, speed: T) -> [Vec<T>; SPEEDS] {
         one(machine.adhesive_speed()),
         windows.iter().map(|window| window.from).collect(),
         windows.iter().filter_map(|window| window.to).collect(),
-        one(fold(machine, speed)),
         one(machine.dangerous_speed()),
         machine.coincidence_differences(),
         whirls.into_iter().map(|onset| onset * sense).collect(),
@@ -106,13 +99,6 @@ fn speed_values<T: Number>(machine: &Machine<T>, speed: T) -> [Vec<T>; SPEEDS] {
 
 fn one<T>(value: Option<T>) -> Vec<T> {
     value.into_iter().collect()
-}
-
-/// Returns the end of the branch of the lock, where a rotor may come near it.
-fn fold<T: Number>(machine: &Machine<T>, speed: T) -> Option<T> {
-    let lock = machine.lock_windows(speed.re()).first()?.from;
-    let far = lock.re().max(speed.re().abs()) * FAR;
-    lock_fold_speed(machine).filter(|fold| fold.re() < far)
 }
 
 /// Limits that need no contact.

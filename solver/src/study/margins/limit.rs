@@ -36,8 +36,6 @@ pub enum LimitName {
     Coincidence,
     /// The other coincidence of (30), of the difference of the frequencies.
     CoincidenceDifference,
-    /// The speed above which very soft blades bend out of the lock.
-    LockFold,
     /// The speed from which inclined tips whirl with the casing.
     WhirlOnset,
     /// The speed from which a lock of inclined tips flutters; 0 where it does from rest on.
@@ -263,7 +261,7 @@ const fn entry(
 
 /// Every limit, in the order of the names.
 #[rustfmt::skip]
-const LIMITS: [Entry; 16] = {
+const LIMITS: [Entry; 15] = {
     use LimitName::*;
     use Quantity::{Pulse, Push, Speed};
     [
@@ -273,7 +271,6 @@ const LIMITS: [Entry; 16] = {
         entry(OmegaAdhesive, Speed, "Ω_adhesive", ["adhesive limit", "adhesive"], "above it the bilateral law holds, if one blade pulls"),
         entry(Coincidence, Speed, "Ω_coincidence", ["coincidence"; 2], "dangerous coincidence (31), of the sum of frequencies"),
         entry(CoincidenceDifference, Speed, "Ω_difference", ["coincidence (30)", "coinc. (30)"], "coincidence (30) of their difference"),
-        entry(LockFold, Speed, "Ω_fold", ["blades bend out", "bend out"], "above it soft blades bend out of the lock"),
         entry(WhirlOnset, Speed, "Ω_whirl", ["whirl begins", "whirl"], "above it blades and casing whirl, on a rim of many blades"),
         entry(FlutterSpeed, Speed, "Ω_flutter", ["lock flutters", "flutter"], "from it on a lock of inclined tips flutters"),
         entry(FirstTouch, Speed, "Ω_touch", ["first touch"; 2], "at it blades that grow touch a casing at rest"),
