@@ -56,11 +56,6 @@ impl VerdictReached {
             Difference::Nothing
         }
     }
-
-    /// Whether two runs that should be the same are not.
-    pub(crate) fn differs_from(self, other: Self, moment: f64) -> bool {
-        self.difference(other, moment) != Difference::Nothing
-    }
 }
 
 /// As `run_to_verdict`, and what changed runs say of it, up to the first that differs.
