@@ -3,7 +3,7 @@
 //! A result that cannot be written goes to standard output instead.
 
 use std::fs::File;
-use std::io::{BufReader, IsTerminal, Write};
+use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
@@ -58,7 +58,7 @@ pub struct MapCommand {
     /// Number of threads [default: every core]
     #[arg(long, value_name = "COUNT", value_parser = threads)]
     threads: Option<usize>,
-    /// Compute only share K of COUNT, counted from 1, for map merge; into --out FILE.csv
+    /// Compute only share K of COUNT, counted from 1, for map merge; needs --out FILE.csv
     #[arg(long, value_name = "K/COUNT", requires = "out")]
     shard: Option<String>,
     #[command(flatten)]
@@ -78,13 +78,13 @@ struct ResultOptions {
 
 #[derive(Subcommand, Debug)]
 enum MapSubcommand {
-    /// Join the parts that shards computed
+    /// Join the shares that --shard computed
     Merge(Merge),
 }
 
 #[derive(Args, Debug)]
 struct Merge {
-    /// Parts of one map
+    /// Shares of one map
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
     #[command(flatten)]
@@ -103,7 +103,7 @@ impl MapCommand {
         }
         let shard = self.shard()?;
         let format = match shard {
-            Some(_) => self.result.format(&["csv", "part"])?,
+            Some(_) => self.result.format(&["csv"])?,
             None => self.result.format(&WHOLE)?,
         };
         let plan = self.plan()?;
@@ -112,9 +112,9 @@ impl MapCommand {
         let mut map = Map::empty(plan);
         self.compute(&mut map, shard)?;
         match (shard, &self.result.out) {
-            (Some(shard), Some(path)) => {
+            (Some(_), Some(path)) => {
                 let what = format!("{} cells", map.runs);
-                output::save(path, &what, out, |out| part::write(&map, shard, out))?;
+                output::save(path, &what, out, |out| part::write(&map, out))?;
             }
             _ => self.result.deliver(&map, format, out)?,
         }
@@ -163,7 +163,7 @@ impl MapCommand {
         let cells = map.cells.len();
         let whole = Shard { number: 1, count: 1 };
         let indices = shard.unwrap_or(whole).indices(cells);
-        let form = "{spinner} {bar:30} {pos}/{len} cells{rate}";
+        let form = "{spinner} {bar:30} {pos}/{len} cells, {per_sec}, {eta} left";
         let bar = sign::bar(indices.len() as u64, form);
         let count = |_, _| bar.inc(1);
         builder.build()?.install(|| map.fill(indices, &|| true, &count));
@@ -174,7 +174,7 @@ impl MapCommand {
 impl Merge {
     fn run(&self, out: &mut dyn Write) -> Done {
         let format = self.result.format(&WHOLE)?;
-        let map = read_parts(&self.files)?;
+        let map = read_shares(&self.files)?;
         check_picture(&map.plan, format)?;
         self.result.deliver(&map, format, out)?;
         Ok(Status::Done)
@@ -190,16 +190,15 @@ fn check_picture(plan: &MapPlan, format: Option<&str>) -> Result<(), Refusal> {
     Err(Refusal::of("--out", cells, format!("up to {MOST_DRAWN} cells in a picture")))
 }
 
-fn read_parts(files: &[PathBuf]) -> anyhow::Result<Map> {
-    let mut parts = Vec::new();
+fn read_shares(files: &[PathBuf]) -> anyhow::Result<Map> {
+    let mut shares = Vec::new();
     for path in files {
         let shown = path.display().to_string();
         let file = File::open(path)
             .map_err(|error| Refusal::because(format!("cannot read {shown}: {error}")))?;
-        parts.push((shown, BufReader::new(file)));
+        shares.push((shown, file));
     }
-    let map = part::read_all(parts).map_err(|error| Refusal::because(error.to_string()))?;
-    map.ok_or_else(|| Refusal::because("no part of a map was given").into())
+    Ok(part::read_all(shares).map_err(Refusal::because)?)
 }
 
 impl ResultOptions {

@@ -19,7 +19,6 @@ mod run;
 mod scenes;
 pub mod script;
 mod sign;
-mod signals;
 pub mod status;
 mod survey;
 mod words;
@@ -27,7 +26,6 @@ mod words;
 use std::ffi::OsString;
 use std::io::{BufWriter, Write};
 
-use anyhow::Context;
 use clap::{Parser, Subcommand};
 
 use status::Status;
@@ -88,12 +86,14 @@ pub fn main(args: impl IntoIterator<Item = OsString>) -> u8 {
 }
 
 fn dispatch(cli: Cli, out: &mut dyn Write) -> Done {
-    // The explorer has signals of its own on a screen.
-    if cli.command.is_some() || cli.explore.is_in_lines() {
-        signals::watch().context("cannot watch signals")?;
-    }
-    // A sign of life would wipe the questions of `new`.
-    if !matches!(cli.command, None | Some(Command::New(_))) {
+    // The spinner would wipe the questions of `new`; the others end at once.
+    let unseen = |command: &Command| {
+        matches!(
+            command,
+            Command::New(_) | Command::Scenes(_) | Command::Completions(_) | Command::Man(_)
+        )
+    };
+    if !cli.command.as_ref().is_none_or(unseen) {
         sign::begin();
     }
     match cli.command {

@@ -78,9 +78,11 @@ impl PrecisionCommand {
         if !self.json {
             report::write(measured, out)?;
         }
-        let Method::None(lack) = measured.reference.method else { return Ok(Status::Done) };
+        if measured.reference.method != Method::None {
+            return Ok(Status::Done);
+        }
         out.flush()?;
-        say(&format!("rubscope: nothing to compare with: {}", report::why_none(lack)));
+        say(&format!("rubscope: nothing to compare with: {}", report::WHY_NONE));
         Ok(Status::Failed)
     }
 }

@@ -8,7 +8,6 @@ use clap::Args;
 
 use super::options::SceneOptions;
 use super::script::{self, RequestedScript};
-use super::sign::LongRun;
 use super::status::{self, Refusal, Status};
 use super::{Done, output, sign};
 use crate::report::history::HISTORY_VALUES;
@@ -75,10 +74,9 @@ impl RunCommand {
         };
         status::say_noted();
         let changed_runs = if self.no_sensitivity { 0 } else { CHANGED_RUNS };
-        let mut shown = LongRun::of(&scene, changed_runs);
         let started = Instant::now();
         let mut sink = |sample: &Sample| history.push(sample);
-        let mut report = run_to_end(&scene, &acts, sampling, &mut sink, &mut shown);
+        let mut report = run_to_end(&scene, &acts, sampling, &mut sink);
         let mut wall = Wall { run_s: started.elapsed().as_secs_f64(), certainty_s: None };
         if changed_runs > 0 {
             sign::doing("changed runs find out which digits hold");

@@ -7,7 +7,7 @@ use super::summary::OF_WHAT;
 use super::table::{Column, Heading, Table, TableCell};
 use rubscope_solver::scene::{ContactLaw, ModelSize, SolverKind};
 use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
-use rubscope_solver::study::precision::{Lack, Method, Precision, Reference, Row, Way};
+use rubscope_solver::study::precision::{Method, Precision, Reference, Row, Way};
 
 /// Letter of a series on the screen: solver, law and model size.
 pub fn letter(way: &Way) -> char {
@@ -43,73 +43,33 @@ fn remark(row: &Row) -> &'static str {
 
 /// How a reference was found.
 fn found(reference: &Reference) -> String {
-    let Way { contact, model, .. } = reference.way;
-    let step = short(reference.way.step_s.unwrap_or_default());
-    match reference.method {
-        Method::Extrapolated => {
-            format!(
-                "explicit solver, {contact}, {model} model, halved steps to {step} s, extrapolated"
-            )
-        }
-        Method::FinestStep => {
-            format!("explicit solver, {contact}, {model} model, the finest step, {step} s")
-        }
-        Method::None(_) if reference.way.step_s.is_some() => {
-            format!("none; explicit solver, {contact}, {model} model, {step} s")
-        }
-        _ => format!("event solver, {contact}, {model} model"),
-    }
+    let Way { solver, contact, model, step_s, .. } = reference.way;
+    let step = step_s.map_or(String::new(), |step| format!(", the finest step, {} s", short(step)));
+    format!("{solver} solver, {contact}, {model} model{step}")
 }
 
-/// Returns why there is no reference.
-pub fn why_none(lack: Lack) -> &'static str {
-    match lack {
-        Lack::NotFalling => "the end does not settle with the step",
-        Lack::TooFar => "the end settles with the step, but not yet at the finest",
-        Lack::OtherMotions => "the impacts change with the step",
-        Lack::TooFew => "too few steps are short enough for the motion",
-        Lack::StepsFailed => "runs at fine steps fail",
-        Lack::EventsFailed => "the event solver fails before the end",
-    }
-}
+/// Why there is no reference.
+pub const WHY_NONE: &str = "the run of the reference fails before its end";
 
 /// How good a reference is.
 fn goodness(reference: &Reference) -> String {
-    let told = |x: f64| short(rounded(x, 2));
-    let changes: Vec<String> = reference.changes.iter().map(|change| told(*change)).collect();
-    let changes = changes.join(", ");
-    let error = told(reference.error.unwrap_or_default());
-    match (reference.method, reference.order) {
-        (Method::None(lack), _) => {
-            let moved = match changes.as_str() {
-                "" => String::new(),
-                _ => format!("Halving the step moves the end by {changes} of the clearance. "),
-            };
-            format!("{moved}Ends cannot be compared: {}.", why_none(lack))
-        }
-        (Method::Events, _) => {
-            format!("Halving its tolerance moves the end by {error} of the clearance.")
-        }
-        (_, Some(order)) => format!(
-            "Halving the step moves the end by {changes} of the clearance: order {order:.2}. Its \
-             error is about {error} of the clearance; smaller ones are not known."
-        ),
-        (_, None) => {
-            format!("Halving the step moves the end by no more than {error} of the clearance.")
-        }
-    }
+    let Some(error) = reference.error.filter(|_| reference.method != Method::None) else {
+        return format!("Ends cannot be compared: {WHY_NONE}.");
+    };
+    let change =
+        if reference.way.step_s.is_some() { "Twice its step" } else { "Half its tolerance" };
+    format!("{change} moves its end by {} of the clearance.", short(rounded(error, 2)))
 }
 
 /// A reference in some words, for a line of a screen.
 pub fn reference_words(reference: &Reference) -> String {
     let verdict = reference.verdict;
-    let error = reference.error.map(|error| short(rounded(error, 1))).unwrap_or_default();
-    let order = reference.order.map(|order| format!(", order {order:.1}")).unwrap_or_default();
+    let error = reference.error.map(|error| format!(", error {} g0", short(rounded(error, 1))));
+    let error = error.unwrap_or_default();
     match reference.method {
         Method::Events => format!("{verdict}, by events"),
-        Method::Extrapolated => format!("{verdict}, extrapolated{order}, error {error} g0"),
-        Method::FinestStep => format!("{verdict}, finest step{order}, error {error} g0"),
-        Method::None(lack) => format!("none: {}", why_none(lack)),
+        Method::FinestStep => format!("{verdict}, finest step{error}"),
+        Method::None => format!("none: {WHY_NONE}"),
     }
 }
 
@@ -180,7 +140,7 @@ pub fn write(report: &Precision, out: &mut dyn Write) -> Result<()> {
              explicit solver keeps; errors do not fall below that."
         )?;
     }
-    if reference.sensitive == Some(true) {
+    if reference.sensitive {
         let same_law = || report.rows.iter().filter(|row| !row.other_law);
         let right = same_law().filter(|row| !row.is_wrong()).count();
         writeln!(
@@ -231,8 +191,8 @@ pub fn figure(report: &Precision) -> std::result::Result<Figure, String> {
             _ if !placed.is_empty() => {
                 return Err("every error is 0, which a logarithmic axis cannot show".to_string());
             }
-            Method::None(lack) => why_none(lack),
-            _ if report.reference.sensitive == Some(true) => "the scene is sensitive",
+            Method::None => WHY_NONE,
+            _ if report.reference.sensitive => "the scene is sensitive",
             _ => "every run fails",
         };
         return Err(format!("{why}: there are no errors to draw"));

@@ -121,7 +121,7 @@ impl Config {
         if path.symlink_metadata().is_ok() {
             file::replace(path, write).map(drop)
         } else {
-            file::create_private(path, write)
+            file::create(path, write)
         }
     }
 }

@@ -6,9 +6,7 @@ use std::io::{ErrorKind, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
-use std::sync::mpsc::channel;
 use std::thread;
-use std::time::Duration;
 
 use crate::file;
 use crate::report::line::clean;
@@ -16,9 +14,6 @@ use rubscope_solver::scene::{BUILTIN, CheckedScene, Scene};
 
 /// Name of the thread: the panic hook leaves the screen alone for it.
 pub const FILES_NAME: &str = "rubscope-files";
-
-/// Longest wait for files at the end of the program.
-const MOMENT: Duration = Duration::from_millis(500);
 
 /// A file to write.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -82,21 +77,6 @@ pub fn aside<T: Send + 'static>(
     };
     let started = thread::Builder::new().name(FILES_NAME.into()).spawn(work);
     started.err().map(|error| failed(error.to_string()))
-}
-
-/// Finishes the change of a file that is under way, and removes what an
-/// unfinished one would leave behind; waits only a moment for a disk or a network
-/// that does not answer.
-pub fn tidy_up() {
-    let (done, wait) = channel();
-    let work = move || {
-        file::settle(MOMENT);
-        // Without a receiver the moment is over.
-        let _ = done.send(());
-    };
-    if thread::Builder::new().name(FILES_NAME.into()).spawn(work).is_ok() {
-        let _ = wait.recv_timeout(MOMENT);
-    }
 }
 
 /// Most files that are read; a directory of scenes has some dozens.

@@ -140,9 +140,6 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
         // Writing fails only if the terminal is gone; then nobody can read it.
         let _ = writeln!(std::io::stderr(), "rubscope: {}", clean(&why));
     }
-    if app.files.writing.is_some() {
-        files::tidy_up();
-    }
     match (ending::ended_by(), ended) {
         (Some(signal), _) | (None, Ok(Exit::Signal(signal))) => Ok(128 + signal),
         (None, Ok(Exit::Done)) => match (app.files.writing, shell.unseen) {

@@ -105,7 +105,7 @@ fn see(scene: &CheckedScene, changes: &[String], instants: Option<&[f64]>) -> Se
         let state = &sample.state;
         states.push(Instant { t_s: state.t_s, u: state.u, alpha: state.alpha, within: None });
     };
-    let report = run_to_end(scene, &script.changes(), sampling, &mut keep, &mut ());
+    let report = run_to_end(scene, &script.changes(), sampling, &mut keep);
     let end = scene.solver.end_s;
     let times = match instants {
         Some(times) => times.to_vec(),

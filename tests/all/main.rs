@@ -126,5 +126,5 @@ fn told(report: &RunReport) -> String {
 
 /// A scene run to its end once, without the changed runs that say how far to trust it.
 fn run_once(scene: &CheckedScene) -> RunReport {
-    run_to_end(scene, &Script::default(), Sampling::default(), &mut |_| {}, &mut ())
+    run_to_end(scene, &Script::default(), Sampling::default(), &mut |_| {})
 }

@@ -138,11 +138,8 @@ fn speed_against_error_names_its_reference() {
     let mut session = Session::open(120, 40, scene, Theme::Dark, Marker::Braille);
     session.press("7f");
     let text = session.text();
-    assert!(
-        text.contains("reference (smooth law) locked, extrapolated, order 2.0, error "),
-        "{text}"
-    );
-    assert!(text.contains("; 0 of its 18 differ"), "{text}");
+    assert!(text.contains("reference (smooth law) locked, finest step, error "), "{text}");
+    assert!(text.contains("; 0 of its 12 differ"), "{text}");
 }
 
 #[test]

@@ -7,13 +7,10 @@
 
 use serde::Serialize;
 
-use super::corner_angle::CornerAngle;
 use super::equations::{Equations, Scales, Unknowns, Wave};
 use super::stability::Linearised;
 use super::{Character, Corner, Form, HarmonicError, error, lining};
 use crate::model::{Machine, Number};
-use crate::numeric::bisection::bisected;
-use crate::numeric::maximum::highest;
 
 /// Locked motion at one rotor speed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -287,51 +284,6 @@ pub fn lock_loads<T: Number>(machine: &Machine<T>, speed: T) -> Option<LockLoads
     })
 }
 
-/// Returns the highest speed with a lock \[rad/s\]: above it soft blades can no longer hold the
-/// wave (fold of the branch). `None` without corners, with inclined or rubbing tips, on a lining,
-/// and if the fold is beyond the range of floating-point numbers.
-#[must_use]
-pub fn lock_fold_speed<T: Number>(machine: &Machine<T>) -> Option<T> {
-    if machine.tips_incline_or_rub() || machine.has_other_diameters() || machine.lining.is_some() {
-        return None;
-    }
-    let (still, critical) = (machine.at(T::zero()), machine.critical_speed()?);
-    let stiffness =
-        CornerAngle::of(&still).fold_stiffness().filter(|_| machine.polygon.has_corners())?;
-    if !machine.changes_with_speed() {
-        return Some(critical * (-stiffness + 1.0).sqrt());
-    }
-    // Solves `1 - x = stiffness (1 + b x)/(1 - e x)^2`, where `x` is the squared speed in units of
-    // `Omega_c`: `b` stiffens the blades, `e` reduces the clearance.
-    let stiffer = machine.stiffening() * (critical / machine.omega_bd_at_rest()).powi(2);
-    let Some(closed) = machine.closing_speed().map(|closed| (closed / critical).powi(2)) else {
-        let square = (-stiffness + 1.0) / (stiffness * stiffer + 1.0);
-        return (square.re() > 0.0).then(|| critical * square.sqrt());
-    };
-    let left = |x: T| {
-        let smaller = -(x / closed) + 1.0;
-        let value = (x - 1.0) * smaller * smaller + stiffness * (stiffer * x + 1.0);
-        let slope = smaller * (smaller - (x - 1.0) * 2.0 / closed) + stiffness * stiffer;
-        (value, slope)
-    };
-    // `left` has at most one maximum between the critical speed and the loss of the clearance.
-    let last = closed.re();
-    if last <= 1.0 {
-        return None;
-    }
-    let (highest, most) = highest([1.0, last], |x| left(T::from(x)).0.re());
-    if most <= 0.0 {
-        return None;
-    }
-    let [low, high] = bisected([1.0, highest], |x| left(T::from(x)).0.re() > 0.0);
-    let mut x = T::from(0.5 * (low + high));
-    for _ in 0..2 {
-        let (value, slope) = left(x);
-        x -= value / slope;
-    }
-    Some(critical * x.sqrt())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -382,7 +334,6 @@ mod tests {
         for diameters in ["0", "11"] {
             let machine = machine(&[("operation.nodal_diameters", diameters)]);
             assert_eq!(lock_loads(&machine, 500.0), None);
-            assert_eq!(lock_fold_speed(&machine), None);
         }
     }
 }

@@ -48,9 +48,7 @@ pub use lining::{
     Cycle, Forced, GroupPush, HopfPoint, LeastStiffness, Lining, LiningState, Rest, RestRoot,
     growth_threshold, least_lock_stiffness,
 };
-pub use locked::{
-    LockLoads, Locked, LockedPoint, Sweep, lock_fold_speed, lock_loads, locked_motion,
-};
+pub use locked::{LockLoads, Locked, LockedPoint, Sweep, lock_loads, locked_motion};
 pub use round_whirl::{
     RoundWhirl, RoundWhirlLoads, WhirlOnset, round_whirls, whirl_beginnings, whirl_onset,
     whirl_onsets,

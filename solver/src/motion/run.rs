@@ -317,36 +317,17 @@ fn decay_rate(motion: &Motion, verdict: Verdict) -> Option<f64> {
 #[must_use]
 pub fn simulate(scene: &CheckedScene) -> RunReport {
     let script = Script::default();
-    let mut report = run_to_end(scene, &script, Sampling::default(), &mut |_| {}, &mut ());
+    let mut report = run_to_end(scene, &script, Sampling::default(), &mut |_| {});
     report.ask_changed_runs(&script, &to_the_end);
     report
 }
 
-/// Observer of a run, which does not influence it.
-pub trait Watch: Sync {
-    /// Returns whether the run may continue without calling [`look`](Self::look).
-    fn goes_on(&self) -> bool;
-
-    /// Inspects the motion, after which the run continues.
-    fn look(&mut self, motion: &Motion);
-}
-
-impl Watch for () {
-    fn goes_on(&self) -> bool {
-        true
-    }
-
-    fn look(&mut self, _: &Motion) {}
-}
-
-/// Runs a scene to its end with a script of changes, passes samples to `sink`, and lets `watch`
-/// observe the run (`&mut ()` does not).
+/// Runs a scene to its end with changes on the way and hands samples to `sink`.
 pub fn run_to_end(
     scene: &CheckedScene,
     script: &Script,
     sampling: Sampling,
     sink: &mut dyn FnMut(&Sample),
-    watch: &mut dyn Watch,
 ) -> RunReport {
     let mut scripted = Scripted::new(Motion::new(scene), script);
     let end = scene.solver.end_s;
@@ -359,13 +340,7 @@ pub fn run_to_end(
             n => end * (f64::from(sample) / f64::from(n)),
         };
         let until = sample_time.min(wave.next_look()).min(end);
-        let advanced = loop {
-            match scripted.advance_while(until, &|| watch.goes_on()) {
-                Ok(false) => watch.look(&scripted.motion),
-                other => break other,
-            }
-        };
-        if advanced.is_err() {
+        if scripted.advance_while(until, &to_the_end).is_err() {
             break;
         }
         if until >= wave.next_look() {
@@ -542,8 +517,7 @@ mod tests {
     fn an_adhesive_contact_of_the_law_that_pulls_is_no_failure() {
         let changes = [("solver.contact", "bilateral"), ("operation.speed_rad_s", "400")];
         let scene = Scene::builtin("paper-nd3").unwrap().with(&changes).unwrap();
-        let report =
-            run_to_end(&scene, &Script::default(), Sampling::default(), &mut |_| {}, &mut ());
+        let report = run_to_end(&scene, &Script::default(), Sampling::default(), &mut |_| {});
         assert_eq!(report.outcome.verdict, Verdict::Adhesive);
         assert!(report.outcome.contacts.iter().any(|contact| contact.multiplier_n > 1.0));
         assert_eq!(report.failure, None);

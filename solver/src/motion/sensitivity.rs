@@ -57,11 +57,6 @@ impl VerdictReached {
             Difference::Nothing
         }
     }
-
-    /// Returns whether two runs that should agree do not.
-    pub(crate) fn differs_from(self, other: Self, moment: f64) -> bool {
-        self.difference(other, moment) != Difference::Nothing
-    }
 }
 
 /// As [`run_to_verdict`], with the certainty of the verdict. Stops at the first perturbed run that

@@ -90,9 +90,7 @@ fn the_largest_blade_angle_does_not_depend_on_who_looks() {
     let angles = [0, 7, 4001].map(|intervals| {
         let sampling = Sampling { intervals, gaps: false };
         let scene = scene.checked().unwrap();
-        run_to_end(&scene, &Script::default(), sampling, &mut |_| {}, &mut ())
-            .checks
-            .max_blade_angle_rad
+        run_to_end(&scene, &Script::default(), sampling, &mut |_| {}).checks.max_blade_angle_rad
     });
     assert_eq!(angles[0], angles[1]);
     assert_eq!(angles[0], angles[2]);

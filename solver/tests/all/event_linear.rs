@@ -226,7 +226,7 @@ fn a_divergent_run_ends_in_one_state_with_its_energy() {
     let mut last = None;
     let sampling = Sampling { intervals: 200_000, gaps: false };
     let mut keep = |sample: &Sample| last = Some(sample.state);
-    let report = run_to_end(&scene, &Script::default(), sampling, &mut keep, &mut ());
+    let report = run_to_end(&scene, &Script::default(), sampling, &mut keep);
     assert_eq!(report.outcome.verdict, Verdict::Divergent);
     let (last, end) = (last.unwrap(), &report.r#final);
     // A quarter of a microsecond between samples: nothing moves far.

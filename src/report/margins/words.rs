@@ -129,9 +129,6 @@ pub fn check(found: &Found, scene: &Scene) -> Option<CommandLine> {
         LimitName::WhirlOnset | LimitName::FlutterSpeed => {
             hbm.option("--speed", speed).flag("--whirl", true)
         }
-        LimitName::LockFold => {
-            hbm.option("--speed", format!("0:{}:2", 2.0 * reached)).flag("--branches", true)
-        }
         _ => hbm.option("--speed", speed),
     })
 }

@@ -152,8 +152,7 @@ fn every_verdict_law_failure_and_history_has_whole_sentences_at_every_width() {
 fn every_built_in_scene_ends_in_a_whole_sentence() {
     for scene in BUILTIN {
         let scene = Scene::builtin(scene.name).unwrap().checked().unwrap();
-        let report =
-            run_to_end(&scene, &Script::default(), Sampling::default(), &mut |_| {}, &mut ());
+        let report = run_to_end(&scene, &Script::default(), Sampling::default(), &mut |_| {});
         let facts = Facts::of(&report);
         assert_eq!(facts.verdict, report.outcome.verdict);
         assert_reads_well(&facts);

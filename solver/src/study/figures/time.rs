@@ -36,13 +36,13 @@ fn sampled(scene: &CheckedScene, gaps: bool) -> (RunReport, Vec<Sample>) {
     let mut samples = Vec::new();
     let sampling = Sampling { intervals: INTERVALS, gaps };
     let mut keep = |sample: &Sample| samples.push(sample.clone());
-    let report = run_to_end(scene, &Script::default(), sampling, &mut keep, &mut ());
+    let report = run_to_end(scene, &Script::default(), sampling, &mut keep);
     (report, samples)
 }
 
 /// Runs a scene without samples.
 fn plain(scene: &CheckedScene) -> RunReport {
-    run_to_end(scene, &Script::default(), Sampling::default(), &mut |_| {}, &mut ())
+    run_to_end(scene, &Script::default(), Sampling::default(), &mut |_| {})
 }
 
 /// Describes the end of a run: "locked from 76.9 ms on #6 and #21".

@@ -5,27 +5,22 @@ use num_dual::Dual64;
 use super::limit::{Limit, LimitName, Quantity, Sensitivities};
 use super::parameters::{Parameter, Parameters, acting, sensitivity};
 use crate::harmonic::{
-    flutters, lobes_of, lock_fold_speed, lock_growth, lock_loads, lock_windows, roundness,
-    whirl_beginnings, whirl_onset,
+    flutters, lobes_of, lock_growth, lock_loads, lock_windows, roundness, whirl_beginnings,
+    whirl_onset,
 };
 use crate::model::{Machine, Number};
 use crate::numeric::rounding::rounded;
 use crate::scene::{CheckedScene, ModelSize, Scene};
 
-/// A fold of the lock branch is reported if it lies within this factor of the speeds of interest.
-/// Stiff blades have theirs at speeds that no rotor reaches.
-const FAR: f64 = 10.0;
+/// How many of the closed forms are speeds; they come first.
+const SPEEDS: usize = 9;
 
-/// Number of closed forms that are speeds; they come first.
-const SPEEDS: usize = 10;
-
-/// Closed forms in the order in which they are shown.
-pub(super) const CLOSED: [LimitName; 15] = [
+/// The closed forms, in the order in which they are shown.
+pub(super) const CLOSED: [LimitName; 14] = [
     LimitName::OmegaC,
     LimitName::OmegaAdhesive,
     LimitName::OmegaLock,
     LimitName::LockEnds,
-    LimitName::LockFold,
     LimitName::Coincidence,
     LimitName::CoincidenceDifference,
     LimitName::WhirlOnset,
@@ -38,10 +33,9 @@ pub(super) const CLOSED: [LimitName; 15] = [
     LimitName::Roundness,
 ];
 
-/// Limits that few machines have; shown only if they exist.
-const SELDOM: [LimitName; 6] = [
+/// Those that few machines have, shown where they are.
+const SELDOM: [LimitName; 5] = [
     LimitName::LockEnds,
-    LimitName::LockFold,
     LimitName::WhirlOnset,
     LimitName::FlutterSpeed,
     LimitName::FirstTouch,
@@ -93,7 +87,6 @@ fn speed_values<T: Number>(machine: &Machine<T>, speed: T) -> [Vec<T>; SPEEDS] {
         one(machine.adhesive_speed()),
         windows.iter().map(|window| window.from).collect(),
         windows.iter().filter_map(|window| window.to).collect(),
-        one(fold(machine, speed)),
         one(machine.dangerous_speed()),
         machine.coincidence_differences(),
         whirls.into_iter().map(|onset| onset * sense).collect(),
@@ -106,14 +99,7 @@ fn one<T>(value: Option<T>) -> Vec<T> {
     value.into_iter().collect()
 }
 
-/// Returns the fold of the lock branch, if a rotor can come near it.
-fn fold<T: Number>(machine: &Machine<T>, speed: T) -> Option<T> {
-    let lock = machine.lock_windows(speed.re()).first()?.from;
-    let far = lock.re().max(speed.re().abs()) * FAR;
-    lock_fold_speed(machine).filter(|fold| fold.re() < far)
-}
-
-/// Limits that do not involve contact.
+/// Limits that need no contact.
 const OF_NO_CONTACT: [LimitName; 3] =
     [LimitName::OmegaC, LimitName::Coincidence, LimitName::CoincidenceDifference];
 

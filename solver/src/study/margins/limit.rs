@@ -37,9 +37,7 @@ pub enum LimitName {
     Coincidence,
     /// Other coincidence of Eq. (30), that of the frequency difference.
     CoincidenceDifference,
-    /// Speed above which blades this soft can no longer hold a lock (fold of the branch).
-    LockFold,
-    /// Speed above which inclined tips whirl with the casing.
+    /// The speed from which inclined tips whirl with the casing.
     WhirlOnset,
     /// Speed above which a lock of inclined tips flutters; 0 if it does from rest on.
     FlutterSpeed,
@@ -263,7 +261,7 @@ const fn entry(
 
 /// All limits in the order of [`LimitName`].
 #[rustfmt::skip]
-const LIMITS: [Entry; 16] = {
+const LIMITS: [Entry; 15] = {
     use LimitName::*;
     use Quantity::{Pulse, Push, Speed};
     [
@@ -273,7 +271,6 @@ const LIMITS: [Entry; 16] = {
         entry(OmegaAdhesive, Speed, "Ω_adhesive", ["adhesive limit", "adhesive"], "above it the bilateral law holds, if one blade pulls"),
         entry(Coincidence, Speed, "Ω_coincidence", ["coincidence"; 2], "dangerous coincidence (31), of the sum of frequencies"),
         entry(CoincidenceDifference, Speed, "Ω_difference", ["coincidence (30)", "coinc. (30)"], "coincidence (30) of their difference"),
-        entry(LockFold, Speed, "Ω_fold", ["blades bend out", "bend out"], "above it soft blades bend out of the lock"),
         entry(WhirlOnset, Speed, "Ω_whirl", ["whirl begins", "whirl"], "above it blades and casing whirl, on a rim of many blades"),
         entry(FlutterSpeed, Speed, "Ω_flutter", ["lock flutters", "flutter"], "from it on a lock of inclined tips flutters"),
         entry(FirstTouch, Speed, "Ω_touch", ["first touch"; 2], "at it blades that grow touch a casing at rest"),

@@ -1,15 +1,14 @@
-//! Accuracy against cost: every combination of solver, contact law and model size for one scene,
-//! with several steps or tolerances, compared with a reference. The reference is the event solver
-//! or, if that does not support the scene (a lining, an excitation, speed ramps and single blades
-//! beyond the paper), halved time steps.
+//! Speed against error: every solver, law and model size on one scene, each
+//! over its steps or tolerances, against a reference: the event solver, and where that does
+//! not know the scene (a lining, an excitation, ramps and single blades beyond the paper) the
+//! explicit solver at its finest step.
 //!
-//! An explicit run ends at its last step, up to a step before the end of the scene, so the
-//! reference is evaluated at the time that each run reached. The error of the reference is
-//! estimated by halving its tolerance or its step. If a tiny change of the pulse alters the outcome
-//! (a *sensitive* scene), or if halving the step keeps changing the final state, final states are
-//! not meaningful and only verdicts are compared.
+//! An explicit run ends at its last step, up to a step before the end of the
+//! scene, so the reference is evaluated at the time that each run really
+//! reached. The reference itself is checked by half its tolerance or twice its step. Where a
+//! tiny change of the pulse changes the outcome (a *sensitive* scene), end states mean
+//! nothing, and only verdicts are compared.
 
-mod halving;
 mod track;
 mod ways;
 
@@ -18,11 +17,10 @@ use strum::IntoStaticStr;
 
 pub use ways::{Effort, Way, ways};
 
-use crate::motion::{GoOn, Motion, State, Verdict, VerdictReached, certainty};
-use crate::scene::{Scene, SceneError};
-use crate::tolerances;
+use crate::motion::{GoOn, Motion, Verdict, VerdictReached, certainty};
+use crate::scene::{Scene, SceneError, SolverKind, keys};
 use track::Track;
-use ways::{by_events, reference};
+use ways::reference;
 
 /// Number of impacts whose times are compared.
 const FIRST_IMPACTS: usize = 4;
@@ -53,7 +51,7 @@ pub struct Row {
     pub events: Option<u64>,
     /// Verdict of the run.
     pub verdict: Verdict,
-    /// Whether it equals the verdict of the reference of this model size; `None` if that has none.
+    /// Whether it equals the verdict of the reference of its model size; none without one.
     pub verdict_right: Option<bool>,
     /// Whether the contact law differs from that of the reference. The run then solves another
     /// problem and may correctly have another result.
@@ -75,58 +73,30 @@ impl Row {
 pub enum Method {
     /// Event solver.
     Events,
-    /// Final states at halved steps, with a clear order of convergence, extrapolated to a step of
-    /// zero.
-    Extrapolated,
-    /// Final state at the finest step; halving the step changes it less and less.
+    /// By the explicit solver at the finest step.
     FinestStep,
-    /// No reference exists.
-    None(Lack),
-}
-
-/// Reason why there is no reference.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Lack {
-    /// Halving the step changes the final state no less than before.
-    NotFalling,
-    /// The changes decrease, but are still too large at the finest step.
-    TooFar,
-    /// The changes decrease, but impacts or verdict depend on the step.
-    OtherMotions,
-    /// Too few steps are short enough for the motion.
-    TooFew,
-    /// A run failed with a shorter step than one that succeeded.
-    StepsFailed,
-    /// The event solver failed.
-    EventsFailed,
+    /// There is none: its run failed.
+    None,
 }
 
 /// Reference of the comparison; other model sizes have references of their own.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reference {
-    /// Event solver with unilateral contact, or explicit solver with the finest of the halved
-    /// steps.
+    /// The event solver under unilateral contact, or the explicit solver at the finest step.
     #[serde(flatten)]
     pub way: Way,
     /// Method.
     pub method: Method,
-    /// Verdict; without a reference, that of the finest step.
+    /// Its verdict.
     pub verdict: Verdict,
     /// Number of impacts.
     pub impact_count: u64,
-    /// Whether the scene is sensitive. `None` with halved steps, which show it by themselves.
-    pub sensitive: Option<bool>,
-    /// Estimated error of the final state, in units of the clearance; `None` without a reference.
+    /// Whether the scene is sensitive.
+    pub sensitive: bool,
+    /// How far half the tolerance, or twice the step, moves its end, in clearances; none where
+    /// either run failed.
     pub error: Option<f64>,
-    /// Change of the final state by half the tolerance, or by the last halving of the step, in
-    /// units of the clearance; `None` if that failed.
-    pub error_halved: Option<f64>,
-    /// Observed order of convergence with halved steps.
-    pub order: Option<f64>,
-    /// Change of the final state by each halving of the step, from coarse to fine, in units of the
-    /// clearance.
-    pub changes: Vec<f64>,
-    /// Wall time of the reference run \[s\].
+    /// Wall time of its run \[s\].
     pub wall_s: f64,
 }
 
@@ -144,8 +114,6 @@ pub struct Precision {
 /// A run to the end.
 struct TimedRun {
     motion: Motion,
-    /// State at the time of comparison.
-    state: State,
     verdict: Verdict,
     failed: bool,
     wall_s: f64,
@@ -159,15 +127,20 @@ pub struct Measure {
 }
 
 impl Measure {
-    /// Rejects a scene that the event solver does not support and that is too long for a reference
-    /// with halved steps.
+    /// Rejects a scene that the event solver does not support and that is too long for the
+    /// explicit solver.
     ///
     /// # Errors
     /// States the end of the scene.
     pub fn check(scene: &Scene, effort: Effort) -> Result<(), SceneError> {
-        reference(scene, scene.solver.model)
-            .map(|_| ())
-            .or_else(|by_steps| halving::check(by_steps, scene, effort))
+        if reference(scene, scene.solver.model, effort).is_some() {
+            return Ok(());
+        }
+        let allowed = format!(
+            "fewer than {:e} steps of those the scene allows, for a reference by steps",
+            effort.most_steps
+        );
+        Err(SceneError::refused(keys::END, scene.solver.end_s, allowed))
     }
 
     /// Computes the references of a scene for every model size among its ways; `None` if `go_on`
@@ -176,22 +149,16 @@ impl Measure {
     /// # Errors
     /// As [`check`](Self::check).
     pub fn new(scene: &Scene, effort: Effort, go_on: GoOn<'_>) -> Result<Option<Self>, SceneError> {
-        let own = scene.solver.model;
         Self::check(scene, effort)?;
-        let mut models = vec![own];
+        let mut models = vec![scene.solver.model];
         models.extend(ways(scene, effort).iter().map(|way| way.model));
         models.dedup();
         let mut tracks: Vec<Track> = Vec::new();
-        for model in models {
-            let way = reference(scene, model);
-            if tracks.iter().any(|track| track.is_of(way)) {
+        for way in models.into_iter().filter_map(|model| reference(scene, model, effort)) {
+            if tracks.iter().any(|track| track.way == way) {
                 continue;
             }
-            let track = match way {
-                Ok(exact) => Track::by_events(exact, scene, go_on)?,
-                Err(by_steps) => Track::by_steps(by_steps, scene, effort, go_on)?,
-            };
-            let Some(track) = track else { return Ok(None) };
+            let Some(track) = Track::run(way, scene, go_on)? else { return Ok(None) };
             tracks.push(track);
         }
         let Some(first) = tracks.first() else { return Ok(None) };
@@ -216,10 +183,9 @@ impl Measure {
         effort: Effort,
         go_on: GoOn<'_>,
     ) -> Result<Option<Row>, SceneError> {
-        let of_size = reference(&self.scene, way.model);
-        let track = self.tracks.iter().find(|track| track.is_of(of_size));
-        let look_s = track.map_or(self.scene.solver.end_s, |track| track.look_s(&self.scene));
-        let run = || way.run(&self.scene, look_s, go_on);
+        let of_size = reference(&self.scene, way.model, effort);
+        let track = self.tracks.iter().find(|track| Some(track.way) == of_size);
+        let run = || way.run(&self.scene, go_on);
         let Some(first) = run()? else { return Ok(None) };
         let mut walls = vec![first.wall_s];
         while walls.len() < effort.repeats as usize
@@ -229,12 +195,13 @@ impl Measure {
             walls.push(again.wall_s);
         }
         let wall_s = median(&mut walls);
-        let comparable = self.reference.sensitive != Some(true) && !first.failed;
+        let comparable = !self.reference.sensitive && !first.failed;
         let clearance = first.motion.machine().clearance().abs();
+        let state = first.motion.state();
         let error_final = track
             .filter(|_| comparable)
-            .and_then(|track| track.at(first.state.t_s))
-            .map(|exact| distance(exact, first.state.u) / clearance);
+            .and_then(|track| track.at(state.t_s))
+            .map(|exact| distance(exact, state.u) / clearance);
         let steps = first.motion.steps_taken();
         Ok(Some(Row {
             way,
@@ -247,7 +214,7 @@ impl Measure {
             steps_skipped: first.motion.steps_skipped(),
             events: first.motion.events(),
             verdict: first.verdict,
-            verdict_right: track.and_then(Track::right).map(|right| first.verdict == right),
+            verdict_right: track.map(|track| first.verdict == track.verdict),
             other_law: way.contact != self.reference.way.contact,
         }))
     }
@@ -266,39 +233,31 @@ fn described(
     scene: &Scene,
     go_on: GoOn<'_>,
 ) -> Result<Option<Reference>, SceneError> {
-    let mut reference = Reference {
-        way: track.way,
-        method: Method::Events,
-        verdict: track.verdict,
-        impact_count: track.end.contacts().impact_count,
-        sensitive: None,
-        error: None,
-        error_halved: None,
-        order: None,
-        changes: Vec::new(),
-        wall_s: track.wall_s,
+    let changed = Way {
+        step_s: track.way.step_s.map(|step| 2.0 * step),
+        tolerance: track.way.tolerance.map(|tolerance| 0.5 * tolerance),
+        ..track.way
     };
-    if let Some(settled) = track.settled() {
-        reference.method = settled.method;
-        reference.error = settled.end.map(|(_, error)| error);
-        reference.error_halved = settled.changes.last().copied();
-        reference.order = settled.order;
-        reference.changes.clone_from(&settled.changes);
-        return Ok(Some(reference));
-    }
-    let halved = by_events(track.way.model, 0.5 * tolerances::EVENT);
-    let Some(halved) = halved.run(scene, scene.solver.end_s, go_on)? else { return Ok(None) };
-    if track.end.failure().is_none() && !halved.failed {
-        let moved = distance(track.end.state().u, halved.state.u);
-        reference.error = Some(moved / track.end.machine().clearance());
-        reference.error_halved = reference.error;
-    } else {
-        reference.method = Method::None(Lack::EventsFailed);
-    }
+    let Some(other) = changed.run(scene, go_on)? else { return Ok(None) };
+    let state = other.motion.state();
+    let clearance = track.end.machine().clearance().abs();
+    let end = track.at(state.t_s).filter(|_| !other.failed);
+    let method = match track.way.solver {
+        _ if track.end.failure().is_some() => Method::None,
+        SolverKind::Event => Method::Events,
+        SolverKind::Explicit => Method::FinestStep,
+    };
     let reached = VerdictReached::of(&track.end, track.verdict);
     let certainty = certainty(&track.way.of(scene)?, reached, false, go_on);
-    reference.sensitive = certainty.map(|certainty| certainty.sensitive);
-    Ok(reference.sensitive.map(|_| reference))
+    Ok(certainty.map(|certainty| Reference {
+        way: track.way,
+        method,
+        verdict: track.verdict,
+        impact_count: track.end.contacts().impact_count,
+        sensitive: certainty.sensitive,
+        error: end.map(|end| distance(end, state.u) / clearance),
+        wall_s: track.wall_s,
+    }))
 }
 
 /// Returns `|u_a - u_b|` \[m\].
@@ -334,7 +293,7 @@ fn median(values: &mut [f64]) -> f64 {
 mod tests {
     use super::*;
     use crate::motion::to_the_end;
-    use crate::scene::{ContactLaw, ModelSize, SolverKind};
+    use crate::scene::{ContactLaw, ModelSize};
 
     fn rows(scene: &Scene, chosen: impl Fn(&Way) -> bool) -> (Reference, Vec<Row>) {
         let measure = Measure::new(scene, Effort::QUICK, &to_the_end).unwrap().unwrap();
@@ -353,7 +312,7 @@ mod tests {
                 && way.contact == ContactLaw::Unilateral
                 && way.solver == SolverKind::Explicit
         });
-        assert!(reference.error_halved.unwrap() < 1e-12 && reference.sensitive == Some(false));
+        assert!(reference.error.unwrap() < 1e-12 && !reference.sensitive);
         let errors: Vec<f64> = rows.iter().map(|row| row.error_final.unwrap()).collect();
         assert_eq!(errors.len(), 4);
         assert!(errors.windows(2).all(|pair| pair[1] < pair[0]), "{errors:?}");

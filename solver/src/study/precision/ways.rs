@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use serde::Serialize;
 
-use super::{TimedRun, halving};
+use super::TimedRun;
 use crate::motion::{ExactEvents, GoOn, Motion, verdict_of};
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, Scene, SceneError, SolverKind};
 use crate::tolerances::{self, LAST_PART};
@@ -40,7 +40,7 @@ pub struct Effort {
     pub finest_s: f64,
     /// Total time after which a row is not repeated any more \[s\].
     pub seconds: f64,
-    /// Largest number of steps of a run if the reference uses halved steps.
+    /// Largest number of steps of a reference.
     pub most_steps: f64,
 }
 
@@ -55,9 +55,9 @@ impl Effort {
     pub const QUICK: Self = Self { repeats: 1, finest_s: 1e-7, seconds: 0.0, most_steps: 5e5 };
 }
 
-/// Returns every way to solve a scene, from coarse to fine, without steps beyond the stability
-/// limit or the end, and without other combinations that are not allowed. If the reference uses
-/// halved steps, their finest ones except the last are used.
+/// Returns every way to solve a scene, coarse to fine, without steps beyond the stability limit
+/// or the end and without other refused combinations. Where the reference is the explicit
+/// solver, its step is the finest.
 #[must_use]
 pub fn ways(scene: &Scene, effort: Effort) -> Vec<Way> {
     let laws: &[ContactLaw] = match scene.solver.contact {
@@ -65,12 +65,11 @@ pub fn ways(scene: &Scene, effort: Effort) -> Vec<Way> {
         _ => &[ContactLaw::Unilateral, ContactLaw::Bilateral],
     };
     let mut ways = Vec::new();
-    let allowed = effort.finest_s..=scene.solver.end_s;
     for model in [ModelSize::Rigid, ModelSize::Modal, ModelSize::Full] {
-        let mut steps: Vec<f64> = STEPS.into_iter().filter(|step| allowed.contains(step)).collect();
-        if let Err(by_steps) = reference(scene, model) {
-            steps = halving::rows(by_steps, scene, effort);
-        }
+        let Some(compared) = reference(scene, model, effort) else { continue };
+        let finest = compared.step_s.unwrap_or(effort.finest_s);
+        let allowed = finest..=scene.solver.end_s;
+        let steps: Vec<f64> = STEPS.into_iter().filter(|step| allowed.contains(step)).collect();
         for &contact in laws {
             let solver = SolverKind::Explicit;
             ways.extend(steps.iter().map(|&step| Way {
@@ -83,7 +82,7 @@ pub fn ways(scene: &Scene, effort: Effort) -> Vec<Way> {
         }
     }
     for model in [ModelSize::Rigid, ModelSize::Modal] {
-        if reference(scene, model).is_ok() {
+        if reference(scene, model, effort).is_some_and(|way| way.solver == SolverKind::Event) {
             ways.extend(TOLERANCES.map(|tolerance| by_events(model, tolerance)));
         }
     }
@@ -108,24 +107,29 @@ pub(super) fn by_events(model: ModelSize, tolerance: f64) -> Way {
     }
 }
 
-/// Returns the reference for runs of a model size: the event solver. It represents the blades of
-/// the full model by two modes, which is valid as long as single blades do not affect the contact.
-///
-/// # Errors
-/// The event solver does not support this scene; returns the explicit solver to be used with halved
-/// steps.
-pub(super) fn reference(scene: &Scene, model: ModelSize) -> Result<Way, Way> {
+/// Returns what the runs of one model size are compared with: the event solver where it
+/// supports the scene, else the explicit solver at the finest step within `effort`; `None`
+/// where the run is too long for that. The event solver represents all blades by the modes of
+/// the disk as long as single blades do not matter to contact.
+pub(super) fn reference(scene: &Scene, model: ModelSize, effort: Effort) -> Option<Way> {
     let smooth = scene.solver.contact == ContactLaw::Smooth;
     let contact = if smooth { ContactLaw::Smooth } else { ContactLaw::Unilateral };
-    let by_steps =
-        Way { solver: SolverKind::Explicit, contact, model, step_s: None, tolerance: None };
     let mut blades = scene.clone();
     (blades.solver.model, blades.solver.contact) = (model, contact);
     blades.contact.restitution = 0.0;
     let own = model == ModelSize::Full && blades.has_other_tips();
     let size = if model == ModelSize::Rigid { ModelSize::Rigid } else { ModelSize::Modal };
     let exact = by_events(size, tolerances::EVENT);
-    if smooth || own || exact.of(scene).is_err() { Err(by_steps) } else { Ok(exact) }
+    if !smooth && !own && exact.of(scene).is_ok() {
+        return Some(exact);
+    }
+    let end = scene.solver.end_s;
+    let allowed = effort.finest_s.max(end / effort.most_steps)..=end;
+    let solver = SolverKind::Explicit;
+    let steps = STEPS.into_iter().rev().filter(|step| allowed.contains(step));
+    let mut ways =
+        steps.map(|step| Way { solver, contact, model, step_s: Some(step), tolerance: None });
+    ways.find(|way| way.of(scene).is_ok())
 }
 
 impl Way {
@@ -144,11 +148,6 @@ impl Way {
         scene.checked()
     }
 
-    /// Returns the same way with another time step.
-    pub(super) fn at_step(self, step_s: f64) -> Self {
-        Self { step_s: Some(step_s), ..self }
-    }
-
     pub(super) fn start(&self, scene: &Scene) -> Result<Motion, SceneError> {
         let scene = self.of(scene)?;
         Ok(match self.tolerance {
@@ -159,24 +158,20 @@ impl Way {
         })
     }
 
-    /// Runs to the end, records the state at time `look_s`, and measures the wall time; `None` if
-    /// `go_on` stopped it.
+    /// Runs to the end, and measures the time; `None` where `go_on` stopped it.
     pub(super) fn run(
         &self,
         scene: &Scene,
-        look_s: f64,
         go_on: GoOn<'_>,
     ) -> Result<Option<TimedRun>, SceneError> {
         let started = Instant::now();
         let mut motion = self.start(scene)?;
-        let looked = motion.advance_while(look_s, go_on);
-        let state = motion.state();
-        let reached = looked.and_then(|_| motion.advance_while(scene.solver.end_s, go_on));
+        let reached = motion.advance_while(scene.solver.end_s, go_on);
         if reached == Ok(false) {
             return Ok(None);
         }
         let wall_s = started.elapsed().as_secs_f64();
         let verdict = verdict_of(&motion, LAST_PART * scene.solver.end_s);
-        Ok(Some(TimedRun { verdict, failed: reached.is_err(), state, wall_s, motion }))
+        Ok(Some(TimedRun { verdict, failed: reached.is_err(), wall_s, motion }))
     }
 }
