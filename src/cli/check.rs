@@ -1,4 +1,4 @@
-//! `rubscope check`: what follows from a scene, what is not known, and what looks like a slip.
+//! `rubscope check`: derived values of a scene, missing data and likely unit errors, in sentences.
 
 use std::io::Write;
 

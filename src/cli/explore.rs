@@ -1,4 +1,5 @@
-//! `rubscope [SCENE]`: the explorer, which needs a terminal, or with `--lines` none.
+//! `rubscope [SCENE]`: opens the explorer on a terminal; with `--lines` it reads commands from
+//! standard input instead.
 
 use std::io::{IsTerminal, Write};
 use std::str::FromStr;
@@ -60,7 +61,7 @@ fn frames(text: &str) -> Result<f64, String> {
     fps.ok_or_else(|| "allowed is a number from 0.1 to 60".to_string())
 }
 
-/// Returns one of the words of a choice.
+/// Creates a parser for the words of an option's enum; shell completion offers the same words.
 fn choice<T>() -> impl TypedValueParser<Value = T>
 where
     T: FromStr + VariantNames + Clone + Send + Sync + 'static,
@@ -71,7 +72,7 @@ where
 }
 
 impl ExploreCommand {
-    /// Returns whether it is without a screen.
+    /// Returns whether the explorer runs without a screen.
     pub(super) fn is_in_lines(&self) -> bool {
         self.lines || tui::is_dumb_terminal()
     }
@@ -107,7 +108,7 @@ impl ExploreCommand {
         }
     }
 
-    /// Refuses the name of a command after options, which is read as a scene.
+    /// Refuses a command name that follows an option: clap has read it as the name of a scene.
     fn refuse_command(&self) -> Result<(), Refusal> {
         let name = self.options.name().unwrap_or_default();
         if Cli::command().get_subcommands().any(|command| command.get_name() == name) {

@@ -39,7 +39,7 @@ impl FiguresCommand {
         std::fs::create_dir_all(&self.out).with_context(|| format!("cannot make {shown}"))?;
         for which in &asked {
             let stem = which.stem();
-            // One letter for each of several panels.
+            // A figure with several panels has one data file per panel: a, b, c, d.
             let data = ["", "a", "b", "c", "d"].map(|letter| format!("{stem}{letter}.csv"));
             let text = self.no_caption.then(|| format!("{stem}.txt"));
             for name in data.iter().chain([&format!("{stem}.svg")]).chain(&text) {
@@ -76,7 +76,8 @@ impl FiguresCommand {
         scene: Scene,
         out: &mut dyn Write,
     ) -> anyhow::Result<()> {
-        // The folder is the user's; the same figure is the same file in each.
+        // The recorded command names a fixed directory instead of the user's, so that the same
+        // figure gives the same file everywhere.
         let command = CommandLine::without_scene("figures")
             .option("--only", which)
             .option("--out", "figures");
@@ -118,7 +119,7 @@ impl FiguresCommand {
     }
 }
 
-/// Writes a file; its content goes to standard output if that fails.
+/// Writes a file. If that fails, its content goes to standard output.
 fn write(
     path: &Path,
     out: &mut dyn Write,

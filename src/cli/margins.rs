@@ -95,7 +95,7 @@ impl MarginsCommand {
         Ok(())
     }
 
-    /// The target with the unit of its value.
+    /// Returns the target with a unit appended to its value if it had none.
     fn target(&self) -> Option<String> {
         let text = self.target.as_ref()?;
         let parts = text.split_once('=');
@@ -109,7 +109,7 @@ impl MarginsCommand {
         })
     }
 
-    /// The command that gives the same answer again.
+    /// Returns the command that reproduces the answer.
     fn command(&self, scene: &CheckedScene) -> CommandLine {
         CommandLine::new("margins", scene)
             .optional("--target", self.target())

@@ -1,4 +1,4 @@
-//! `rubscope precision`: speed against error of every solver on one scene.
+//! `rubscope precision`: run time against error of every solver on one scene.
 
 use std::io::Write;
 use std::path::PathBuf;

@@ -1,4 +1,4 @@
-//! `rubscope run`: one time simulation, as a summary, JSON or a file.
+//! `rubscope run`: simulates a scene in time; prints a summary or JSON, and writes the history.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -68,7 +68,7 @@ impl RunCommand {
             return Err(Refusal::of("--samples", self.samples, allowed).into());
         }
         let mut history = History::new(gaps);
-        // Both ends are samples. The smallest gap needs the gaps of all blades.
+        // The first and the last instant are samples. The smallest gap needs all blades' gaps.
         let sampling = match format {
             Some(_) => Sampling { intervals: self.samples - 1, gaps: true },
             None => Sampling::default(),
@@ -116,7 +116,7 @@ impl RunCommand {
         })
     }
 
-    /// Returns the command that gives the same result again.
+    /// Returns the command that reproduces the result.
     fn command(&self, scene: &Scene) -> CommandLine {
         let start = CommandLine::new("run", scene);
         let line = self.at.iter().fold(start, |line, change| line.option("--at", change));

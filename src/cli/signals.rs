@@ -1,11 +1,11 @@
-//! Signals that end a command. What it is changing on the disk is finished first,
-//! and nothing unfinished stays.
+//! Signals that end a command. A file change in progress is finished first, and temporary files
+//! are removed.
 
-/// Starts the thread that waits for signals; a signal that is ignored, as under
-/// `nohup`, stays so.
+/// Starts the thread that waits for SIGINT, SIGTERM, SIGHUP and SIGQUIT. A signal that was ignored
+/// at the start, as under `nohup`, stays ignored.
 ///
 /// # Errors
-/// The system cannot start a thread or watch signals.
+/// The thread or the signal handlers cannot be set up.
 pub(super) fn watch() -> std::io::Result<()> {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGQUIT, SIGTERM};
     let ignored = ignored();
@@ -16,7 +16,7 @@ pub(super) fn watch() -> std::io::Result<()> {
     let wait = move || {
         if let Some(signal) = signals.forever().next() {
             crate::file::settle(LONGEST_CHANGE);
-            // The shell sees that it was ended by the signal, and ends its loop.
+            // Ending by the signal itself lets a shell loop end as well.
             let _ = signal_hook::low_level::emulate_default_handler(signal);
             signal_hook::low_level::exit(128 + signal);
         }
@@ -24,11 +24,11 @@ pub(super) fn watch() -> std::io::Result<()> {
     std::thread::Builder::new().name("rubscope-signals".into()).spawn(wait).map(|_| ())
 }
 
-/// Longest wait for the change of a file at the end: a disk may not answer.
+/// Longest wait for a file change to finish: the disk may not respond.
 const LONGEST_CHANGE: std::time::Duration = std::time::Duration::from_secs(2);
 
-/// Returns the signals that were ignored when the program started, a bit each from signal 1 on;
-/// none where the system does not tell.
+/// Returns the signals that were ignored when the program started, as a bit mask from signal 1 on;
+/// 0 if `/proc` is missing.
 fn ignored() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));

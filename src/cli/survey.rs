@@ -77,7 +77,7 @@ impl SurveyCommand {
         Ok(Status::Done)
     }
 
-    /// The range with its units.
+    /// Returns the range with units appended to speeds typed without one.
     fn range(&self) -> Option<String> {
         self.range.as_ref().map(|text| with_typed_unit(text, Quantity::Speed))
     }
