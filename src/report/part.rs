@@ -1,9 +1,8 @@
-//! Parts of a map: the cells that one shard computed, as CSV, and how they join to a map.
+//! Parts of a map: the cells that one shard computed, as CSV, and how parts are merged.
 //!
-//! The first line of a part begins with `#` and tells where the cells come from: the version
-//! and the commit of the program, the scene, the axes and the shard. Then comes a table with
-//! a row for each cell. Anyone may have written or cut such a file: nothing in it is used
-//! before it is checked, and no line is read beyond the length that it can have.
+//! The first line begins with `#` and records the version and the commit of the program, the
+//! scene, the axes and the shard. A table with one row per cell follows. A part is untrusted
+//! input: every value is checked before use, and lines have a maximum length.
 
 use std::io::{BufRead, Read, Result, Write};
 
@@ -19,31 +18,31 @@ use rubscope_solver::study::{Axis, AxisError, Cell, Map, MapPlan};
 const VERSION: &str = env!("RUBSCOPE_VERSION");
 /// Start of the first line, before the version.
 const PROGRAM: &str = "# rubscope ";
-/// What stands between the version and the origin of the cells.
+/// Separates the version from the origin of the cells.
 const COMMAND: &str = " map ";
-/// Longest first line \[bytes\]; the usual ones have about 1500.
+/// Longest first line \[bytes\]; a usual one has about 1500.
 const LONGEST_FIRST: u64 = 1 << 20;
 /// Longest line of the table \[bytes\].
 const LONGEST_ROW: u64 = 256;
 
-/// One machine's share of a map: cells `number - 1, number - 1 + count, ...`.
+/// One shard of a map: cells `number - 1`, `number - 1 + count`, and so on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Shard {
-    /// Number of the share, counted from 1.
+    /// Number of the shard, counted from 1.
     pub number: u32,
-    /// Number of shares.
+    /// Number of shards.
     pub count: u32,
 }
 
 impl Shard {
-    /// Reads `K/COUNT`, counted from 1.
+    /// Parses `K/COUNT`, counted from 1.
     pub fn parse(text: &str) -> Option<Self> {
         let (number, count) = text.split_once('/')?;
         let shard = Self { number: number.trim().parse().ok()?, count: count.trim().parse().ok()? };
         shard.is_valid().then_some(shard)
     }
 
-    /// Returns the cells of this share.
+    /// Iterates over the indices of this shard's cells.
     pub fn indices(self, cells: usize) -> impl IndexedParallelIterator<Item = usize> {
         (self.number as usize - 1..cells).into_par_iter().step_by(self.count as usize)
     }
@@ -57,7 +56,7 @@ impl Shard {
     }
 }
 
-/// Reason why a file is no part of the map, or why the parts do not make a whole one.
+/// Why a file is not a part of the map, or why the parts do not form a complete map.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error("{file}: {reason}")]
 pub struct PartError {
@@ -65,7 +64,7 @@ pub struct PartError {
     reason: String,
 }
 
-/// Everything that determines the cells of a part.
+/// Everything that determines the cells of a part, as JSON in its first line.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Origin {
@@ -82,7 +81,7 @@ impl Origin {
         Self { scene: plan.scene.to_toml(), x, y, sensitivity: plan.sensitivity, shard }
     }
 
-    /// Returns the plan, completely checked.
+    /// Returns the plan, fully checked.
     fn plan(&self) -> std::result::Result<MapPlan, AxisError> {
         let axis = |axis: &Axis| Axis::new(&axis.path, axis.from, axis.to, axis.count, axis.log);
         let scene = Scene::from_toml_unchecked(&self.scene)?;
@@ -92,7 +91,7 @@ impl Origin {
         Ok(plan)
     }
 
-    /// Names the first difference that keeps two parts from being of one map.
+    /// Names the first difference that makes two parts belong to different maps.
     fn difference(&self, other: &Self) -> Option<&'static str> {
         [
             ("the x axis", self.x != other.x),
@@ -109,7 +108,7 @@ impl Origin {
 /// Writes the cells of one shard.
 ///
 /// # Errors
-/// An error of the writer.
+/// The writer failed.
 pub fn write(map: &Map, shard: Shard, out: &mut dyn Write) -> Result<()> {
     let plan = &map.plan;
     let origin = serde_json::to_string(&Origin::of(plan, shard))?;
@@ -128,7 +127,7 @@ fn columns(plan: &MapPlan) -> String {
     format!("cell,{x},{y},verdict,sensitive,depends_on_step")
 }
 
-/// Returns the columns of a row that do not depend on the result.
+/// Returns the columns of a row that the plan determines; a part must match them exactly.
 fn start_of_row(plan: &MapPlan, index: usize) -> String {
     let columns = plan.x.count as usize;
     let x = plan.x.value((index % columns) as u32);
@@ -136,11 +135,10 @@ fn start_of_row(plan: &MapPlan, index: usize) -> String {
     format!("{index},{x},{y},")
 }
 
-/// Reads the parts of one map and joins them.
+/// Reads and merges the parts of one map; returns `None` if `parts` is empty.
 ///
 /// # Errors
-/// A file that is no part, parts that do not belong together, and a cell that is missing or
-/// there twice. `None` where there is no part at all.
+/// A file is not a part, the parts belong to different maps, or a cell is missing or occurs twice.
 pub fn read_all<R: BufRead>(
     parts: impl IntoIterator<Item = (String, R)>,
 ) -> std::result::Result<Option<Map>, PartError> {
@@ -181,10 +179,10 @@ pub fn read_all<R: BufRead>(
     })
 }
 
-/// Lines of a part, none longer than allowed.
+/// Reads the lines of a part, none longer than allowed.
 struct Lines<R> {
     reader: R,
-    /// Number of the line read last, counted from 1.
+    /// Number of the last line read, counted from 1.
     number: usize,
     text: Vec<u8>,
 }
@@ -213,7 +211,7 @@ impl<R: BufRead> Lines<R> {
         Ok(origin)
     }
 
-    /// Adds the cells of the last of these parts to the map.
+    /// Reads all rows of this part into the map.
     fn add_to(
         &mut self,
         map: &mut Map,
@@ -241,7 +239,7 @@ impl<R: BufRead> Lines<R> {
         }
     }
 
-    /// Reads the next line and returns it without its end; `None` at the end of the file.
+    /// Reads the next line, without its line ending; `None` at the end of the file.
     fn next(&mut self, most: u64) -> std::result::Result<Option<&str>, String> {
         self.number += 1;
         self.text.clear();
@@ -255,7 +253,7 @@ impl<R: BufRead> Lines<R> {
         }
         let line = std::str::from_utf8(&self.text)
             .map_err(|_| format!("line {} is not UTF-8 text", self.number))?;
-        // A file that went through Windows has `\r\n`.
+        // A file edited on Windows has `\r\n`.
         Ok(Some(line.trim_end_matches(['\r', '\n'])))
     }
 }

@@ -1,7 +1,6 @@
-//! A table: headings with names for files and words for people, rows of cells, and notes.
-//! Text, CSV, the page and the screen are written from it. Its rows are there, or are made as
-//! they are written: all cells at once take a hundred times the memory of the numbers that
-//! they show.
+//! A table: headings with names for files and words for the screen, rows of cells, and notes. It is
+//! written as aligned text, CSV, a page or a screen panel. Rows are stored, or computed while they
+//! are written, because all cells at once need a hundred times the memory of their numbers.
 
 use std::borrow::Cow;
 use std::io::{Result, Write};
@@ -10,44 +9,44 @@ use std::rc::Rc;
 use super::line::wrapped;
 use super::number::{exact, per_speed, rounded, short, speed_unit};
 
-/// Letters between two columns of text.
+/// Spaces between two columns of text.
 const APART: usize = 2;
 
-/// Widest line of the notes below a table.
+/// Line width of the notes below a table.
 pub const WIDTH: usize = 100;
 
 /// One cell of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TableCell {
-    /// A number; what is no finite number is left empty.
+    /// A number; a number that is not finite leaves the cell empty.
     Number(f64),
-    /// A number for files, and how people read it; what is no finite number is left empty there.
+    /// A number for files, and its text for people; one that is not finite is empty in files.
     Told(f64, String),
     /// A word or two.
     Word(String),
-    /// No such figure.
+    /// No value.
     Empty,
 }
 
-/// Columns of speeds, which text has in the unit of speeds. CSV has them as they are.
+/// Columns of speeds, which text shows in the chosen unit. CSV keeps rad/s.
 const SPEEDS: [&str; 3] = ["speed_rad_s", "wave_speed_rad_s", "speed [rad/s]"];
 
 /// The heading of a column.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Heading {
-    /// Name in files, with the SI unit, such as `speed_rad_s`; `None` for a column that only
-    /// people see.
+    /// Name in files, with the SI unit, such as `speed_rad_s`; `None` for a column that is only
+    /// shown.
     name: Option<Cow<'static, str>>,
-    /// Words for people; `None` for a column of files alone.
+    /// Heading shown to people; `None` for a column that only files have.
     words: Option<Cow<'static, str>>,
-    /// Whether its numbers are speeds, which people see in the unit of speeds.
+    /// Whether the numbers are speeds, shown in the chosen unit.
     speeds: bool,
-    /// Most significant digits for people.
+    /// Largest number of significant digits shown.
     digits: usize,
 }
 
 impl<S: Into<Cow<'static, str>>> From<S> for Heading {
-    /// Creates the heading of a column that has the same name in files and for people.
+    /// Creates a heading with the same name in files and on the screen.
     fn from(name: S) -> Self {
         let name = name.into();
         let speeds = SPEEDS.contains(&name.as_ref());
@@ -60,31 +59,31 @@ impl<S: Into<Cow<'static, str>>> From<S> for Heading {
     }
 }
 
-/// Significant digits for people where a heading asks for no other number of them.
+/// Default number of significant digits shown.
 const DIGITS: usize = 6;
 
 impl Heading {
-    /// Creates the heading of a column that only people see.
+    /// Creates the heading of a column that files omit.
     pub fn shown(words: impl Into<Cow<'static, str>>) -> Self {
         Self { name: None, ..Self::from(words) }
     }
 
-    /// Creates the heading of a column of files alone.
+    /// Creates the heading of a column that only files have.
     pub fn filed(name: impl Into<Cow<'static, str>>) -> Self {
         Self { words: None, ..Self::from(name) }
     }
 
-    /// Sets the words for people.
+    /// Sets the heading shown to people.
     pub fn words(self, words: impl Into<Cow<'static, str>>) -> Self {
         Self { words: Some(words.into()), ..self }
     }
 
-    /// Sets the most significant digits for people.
+    /// Sets the largest number of significant digits shown.
     pub fn digits(self, digits: usize) -> Self {
         Self { digits, ..self }
     }
 
-    /// Returns what people read of a cell.
+    /// Formats a cell for people.
     fn text(&self, cell: &TableCell) -> String {
         match cell {
             TableCell::Number(x) => {
@@ -137,8 +136,8 @@ impl From<String> for TableCell {
     }
 }
 
-/// Writes rows of cells as CSV, under a header line. Numbers are the shortest
-/// that read back as themselves, and what is no figure is left empty.
+/// Writes a header line and rows as CSV. Numbers have the fewest digits that read back exactly; a
+/// cell without a finite number is empty.
 pub(crate) fn write_csv<R: IntoIterator<Item = TableCell>>(
     names: impl IntoIterator<Item = impl AsRef<[u8]>>,
     rows: impl IntoIterator<Item = R>,
@@ -151,7 +150,7 @@ pub(crate) fn write_csv<R: IntoIterator<Item = TableCell>>(
     csv.flush()
 }
 
-/// A column of a table: its heading, and what it shows of an item.
+/// A column of a table: its heading, and the function that makes its cell from an item.
 pub type Column<'a, T, H = &'a str> = (H, fn(&T) -> TableCell);
 
 /// Rows under headings, with notes below.
@@ -162,13 +161,13 @@ pub struct Table {
     notes: Vec<String>,
 }
 
-/// Makes the rows of one place of a list.
+/// Computes the rows of one item, given its index.
 type RowsAt = Rc<dyn Fn(usize) -> Result<Vec<Vec<TableCell>>>>;
 
 #[derive(Clone)]
 enum Rows {
     There(Vec<Vec<TableCell>>),
-    /// So many rows, made place by place of a list.
+    /// `count` rows in all, computed for one item after another; an item may give several.
     Made {
         count: usize,
         places: usize,
@@ -198,8 +197,8 @@ impl Table {
         Self { headings, ..Self::default() }
     }
 
-    /// Creates a table of rows that are made as they are written: so many over all of so many
-    /// places, of which each has those that `at` makes.
+    /// Creates a table whose `count` rows are computed while they are written: `at` returns the
+    /// rows of each of `places` items.
     pub fn made<H: Into<Heading>>(
         headings: impl IntoIterator<Item = H>,
         [places, count]: [usize; 2],
@@ -217,7 +216,7 @@ impl Table {
         table
     }
 
-    /// Adds a row, one cell for each column, to those that are there.
+    /// Adds a row, one cell per column, to a table of stored rows.
     pub fn push(&mut self, mut row: Vec<TableCell>) {
         row.resize(self.headings.len(), TableCell::Empty);
         if let Rows::There(rows) = &mut self.rows {
@@ -225,7 +224,7 @@ impl Table {
         }
     }
 
-    /// Writes every word of it as `spell` does, in the rows that are there.
+    /// Applies `spell` to the headings and to the texts of stored rows.
     pub fn spelled(mut self, spell: impl Fn(&str) -> String) -> Self {
         for words in self.headings.iter_mut().filter_map(|heading| heading.words.as_mut()) {
             *words = spell(words).into();
@@ -257,7 +256,7 @@ impl Table {
         }
     }
 
-    /// Returns whether there is no row.
+    /// Returns whether there are no rows.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -270,16 +269,15 @@ impl Table {
         }
     }
 
-    /// Returns the rows as people see them, in padded cells, headings first; columns that do
-    /// not fit into `room` letters with `apart` of them between columns are left out from the
-    /// right.
+    /// Returns the headings and rows as padded cells. The columns on the right that do not fit into
+    /// `room` characters, with `apart` characters between columns, are left out.
     pub fn lines(&self, room: usize, apart: usize) -> Vec<Vec<String>> {
         let mut lines = Vec::new();
         let keep = |line| {
             lines.push(line);
             Ok(())
         };
-        // Rows that are there have no error.
+        // Only computed rows can fail.
         let _ = self.each_line(room, apart, keep);
         lines
     }
@@ -304,11 +302,11 @@ impl Table {
         self.each(|row| told(layout.line(row)))
     }
 
-    /// Writes CSV of the columns that have a name in files: a header line, then numbers that read
-    /// back as themselves.
+    /// Writes the columns that have a name in files as CSV: a header line, then numbers that read
+    /// back exactly.
     ///
     /// # Errors
-    /// An error of the writer, or of what makes a row.
+    /// The writer failed, or a row could not be computed.
     pub fn write_csv(&self, out: &mut dyn Write) -> Result<()> {
         let mut csv = csv::Writer::from_writer(out);
         csv.write_record(self.headings.iter().filter_map(|heading| heading.name.as_deref()))?;
@@ -320,8 +318,8 @@ impl Table {
         csv.flush()
     }
 
-    /// Writes aligned text: numbers to the right, words to the left, `-` for a missing
-    /// number; below it the notes. Rows that are made are made twice.
+    /// Writes aligned text and the notes: numbers to the right, words to the left, `-` for a
+    /// missing number. Computed rows are computed twice, first to measure the columns.
     ///
     /// # Errors
     /// As `write_csv`.
@@ -329,7 +327,7 @@ impl Table {
         self.write_text_in(usize::MAX, out)
     }
 
-    /// Writes text as [`Table::write_text`] does, of the columns that fit into `room` letters.
+    /// As [`Table::write_text`], with only the columns that fit into `room` characters.
     ///
     /// # Errors
     /// As `write_csv`.
@@ -343,11 +341,11 @@ impl Table {
     }
 }
 
-/// How people see the columns of a table: their widths are those of the cells met.
+/// The columns of a table as shown; their widths grow with the cells measured.
 #[derive(Clone, Debug)]
 struct Layout {
-    /// The columns for people: their place in the table, heading and width, and whether they
-    /// have words, which stand to the left.
+    /// For each shown column: index in the table, heading, width, and whether it contains words,
+    /// which are aligned to the left.
     columns: Vec<(usize, Heading, usize, bool)>,
 }
 
@@ -360,7 +358,7 @@ impl Layout {
         Self { columns: shown.collect() }
     }
 
-    /// Makes room for a row.
+    /// Widens the columns to fit a row.
     fn meet(&mut self, row: &[TableCell]) {
         for (place, heading, width, word) in &mut self.columns {
             let Some(cell) = row.get(*place) else { continue };
@@ -447,7 +445,7 @@ mod made_table_tests {
         &[("x_m", |x| (*x).into()), ("word", |x| if *x > 1.0 { "large, so" } else { "" }.into())];
 
     fn made() -> Table {
-        // Of each place none, one or two.
+        // Item `n` has `n` rows.
         let items = |place: usize| (0..place).map(move |k| place as f64 + k as f64 / 3.0);
         let cells = |x: f64| COLUMNS.iter().map(|column| (column.1)(&x)).collect();
         let headings = COLUMNS.iter().map(|column| column.0);

@@ -1,4 +1,4 @@
-//! Frequencies against speed, engine orders, and the coincidences (30).
+//! The view `--campbell`: frequencies against speed, engine orders, and the coincidences (30).
 
 use serde_json::{Value, json};
 
@@ -6,20 +6,19 @@ use super::{Answer, LockBeside, Parts, Request, Rows, View};
 use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{Campbell, Coincidence, HarmonicError, Line};
 
-/// View: frequencies against speed.
 pub const CAMPBELL: View = View {
     option: "campbell",
     help: "View: frequencies against speed, engine orders, and the coincidences (30)",
     always_damped: false,
     one_speed: false,
-    // Frequencies need no corner, no rigid contact and no balance of one harmonic.
+    // Frequencies exist without a corner, rigid contact or a harmonic balance.
     lock: LockBeside::Rigid(|error| {
         matches!(error, HarmonicError::NoCorner { .. } | HarmonicError::Refused { .. })
     }),
     answer,
 };
 
-/// Engine orders in addition to that of the scene.
+/// Engine orders drawn in addition to the scene's.
 const ORDERS: [u32; 4] = [1, 2, 3, 4];
 
 fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
@@ -56,7 +55,7 @@ fn value(line: &Line, speeds: &[f64]) -> Value {
     })
 }
 
-/// Returns the lines over speed, one per column.
+/// Returns a table over speed, with one column per line of the diagram.
 fn table(lines: Vec<Line>, speeds: Vec<f64>) -> Table {
     let names = lines.iter().map(|line| line.name.clone());
     let names: Vec<_> = std::iter::once("speed_rad_s".to_string()).chain(names).collect();
@@ -69,7 +68,6 @@ fn table(lines: Vec<Line>, speeds: Vec<f64>) -> Table {
     })
 }
 
-/// Columns of the coincidences.
 const COINCIDENCES: &[Column<'_, Coincidence>] = &[
     ("speed_rad_s", |found| found.speed_rad_s.into()),
     ("casing_rad_s", |found| found.casing_rad_s.into()),

@@ -1,4 +1,5 @@
-//! What the coincidences do: growth of rest and the wave that lasts, against speed.
+//! The view `--coincidence`: growth from rest near the coincidences, and the wave that lasts,
+//! against speed.
 
 use serde_json::json;
 
@@ -9,7 +10,6 @@ use rubscope_solver::harmonic::{
     CoincidencePoint, HarmonicError, coincidence, shifted_coincidence,
 };
 
-/// View: what the coincidences do.
 pub const COINCIDENCE: View = View {
     option: "coincidence",
     help: "View: what the coincidences do: growth of rest and the wave that lasts, against speed",
@@ -43,7 +43,6 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     Ok(Answer::of(json, vec![(title, points.table(CURVE))]))
 }
 
-/// Columns of a coincidence against speed.
 pub const CURVE: &[Column<'_, CoincidencePoint>] = &[
     ("speed_rad_s", |point| point.speed_rad_s.into()),
     ("growth_1_s", |point| point.growth_1_s.into()),

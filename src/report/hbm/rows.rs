@@ -1,5 +1,5 @@
-//! Rows that are made as they are written, for tables and for JSON: all at once take a
-//! hundred times the memory of the numbers that they show. And JSON objects by their parts.
+//! Rows that are computed while they are written, for tables and JSON, because all rows at once
+//! need a hundred times the memory of their numbers; and JSON objects built from parts.
 
 use std::io;
 use std::rc::Rc;
@@ -11,10 +11,10 @@ use serde_json::{Value, json};
 use crate::report::table::{Column, Table};
 use rubscope_solver::harmonic::HarmonicError;
 
-/// Makes the rows of one place of a list.
+/// Computes the rows of one item, given its index.
 type RowsAt<T> = Rc<dyn Fn(usize) -> Result<Vec<T>, HarmonicError>>;
 
-/// Rows made place by place of a list.
+/// Rows that are computed for one item after another.
 #[derive(Clone)]
 pub struct Rows<T> {
     places: usize,
@@ -23,7 +23,7 @@ pub struct Rows<T> {
 }
 
 impl<T: 'static> Rows<T> {
-    /// Creates `count` rows over so many places, of which each has those that `at` makes.
+    /// Creates `count` rows, computed by `at` for each of `places` items.
     pub fn new(
         [places, count]: [usize; 2],
         at: impl Fn(usize) -> Result<Vec<T>, HarmonicError> + 'static,
@@ -31,7 +31,7 @@ impl<T: 'static> Rows<T> {
         Self { places, count, at: Rc::new(at) }
     }
 
-    /// Creates a row for each item.
+    /// Stores one row per item.
     pub fn of(items: Vec<T>) -> Self
     where
         T: Clone,
@@ -41,7 +41,7 @@ impl<T: 'static> Rows<T> {
         })
     }
 
-    /// Returns the table with these columns.
+    /// Returns the rows as a table with these columns.
     pub fn table(&self, columns: &'static [Column<'static, T>]) -> Table {
         let at = Rc::clone(&self.at);
         let cells = |item: &T| columns.iter().map(|column| (column.1)(item)).collect();
@@ -52,14 +52,14 @@ impl<T: 'static> Rows<T> {
     }
 }
 
-/// A JSON object, by its parts in order.
+/// A JSON object, as a list of fields in order.
 #[derive(Default)]
 pub struct Parts(Vec<(&'static str, Part)>);
 
-/// The value of one name.
+/// Value of one field.
 enum Part {
     Whole(Value),
-    /// An array that is made as it is written.
+    /// An array that is computed while it is written.
     Rows(Rows<Value>),
     Parts(Parts),
 }
@@ -103,13 +103,13 @@ impl Parts {
         self
     }
 
-    /// Adds an object below this one.
+    /// Adds a nested object.
     pub fn with_parts(mut self, name: &'static str, parts: Self) -> Self {
         self.0.push((name, Part::Parts(parts)));
         self
     }
 
-    /// Adds an array with what `value` makes of each row.
+    /// Adds an array with `value` of each row.
     pub fn with_rows<T: 'static>(
         mut self,
         name: &'static str,
@@ -122,7 +122,7 @@ impl Parts {
         self
     }
 
-    /// Adds the parts of another object behind those of this one.
+    /// Appends the fields of another object.
     pub fn and(mut self, other: Self) -> Self {
         self.0.extend(other.0);
         self
@@ -144,7 +144,7 @@ mod tests {
     #[test]
     fn rows_are_written_as_an_array_of_them_all() {
         for count in [0, 1, 3] {
-            // Of each place none, one or two.
+            // Item `n` has `n` rows.
             let at = |place: usize| (0..place).map(|k| json!({ "place": place, "k": k })).collect();
             let whole: Vec<Value> =
                 (0..count).flat_map(|place| -> Vec<Value> { at(place) }).collect();
