@@ -239,7 +239,7 @@ pub(super) fn read_scene(name: &str) -> Result<Scene, SceneError> {
     Scene::load_unchecked(name)
 }
 
-/// Words the message about a key that was adjusted to fit the options.
+/// Returns the message about a key that was adjusted to fit the options.
 fn followed(made: &Adjustment) -> String {
     let Adjustment { key, from, to, why } = made;
     format!("rubscope: took {key} = {to:?} instead of the scene's {from:?}, which {why}")

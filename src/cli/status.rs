@@ -114,7 +114,7 @@ pub fn usage(error: &clap::Error, arguments: &[OsString]) -> u8 {
     }
 }
 
-/// Words the hint for a file whose name begins with `-`, which clap takes for an option.
+/// Returns a hint if an unknown option looks like the name of a file that begins with `-`.
 fn file(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
     let is_file = |name: &&str| {
         let ending = std::path::Path::new(name).extension();

@@ -133,7 +133,7 @@ fn limits(margins: &Margins) -> String {
     told.join(" ")
 }
 
-/// Words which modes are missing and what replaces them; `None` if all are given.
+/// Says which modes are missing and what replaces them; `None` if all are given.
 fn unknown(scene: &CheckedScene) -> Option<String> {
     let half = scene.bladed_disk.blades / 2;
     let known = |modes: &[rubscope_solver::model::Mode]| {

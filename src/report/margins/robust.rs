@@ -17,7 +17,7 @@ pub fn asked(margins: &Margins) -> impl Iterator<Item = &Robustness> {
     margins.robust.iter().chain(&margins.pushes_only)
 }
 
-/// Words the verdict of the run and the nearest change of a quantity that was found to alter it.
+/// States the verdict of the run, and the nearest change of a quantity that was found to alter it.
 pub fn sentence(found: &Robustness, scene: &Scene) -> String {
     let law = match found.contact {
         ContactLaw::Unilateral if found.solver != scene.solver.kind => "pushes only, by events",

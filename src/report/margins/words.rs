@@ -66,7 +66,7 @@ pub fn note(margins: &Margins) -> Option<String> {
     (!notes.is_empty()).then(|| notes.join(" "))
 }
 
-/// Words the answer to `--target`: the value of the parameter that puts the limit there.
+/// Returns the answer to `--target` as a sentence: the parameter value that puts the limit there.
 pub fn target(found: &Found, margins: &Margins) -> String {
     let Found { name, by, .. } = *found;
     let changed = parameter(by);

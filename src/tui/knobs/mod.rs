@@ -155,7 +155,7 @@ impl Knob {
         Ok((changed, said))
     }
 
-    /// Words the message about keys that changed together with this knob.
+    /// Returns the message about keys that changed together with this knob.
     fn followed(&self, made: &[Adjustment], law: ContactLaw) -> Option<String> {
         let first = made.first()?;
         Some(match (first.key, self.path) {
@@ -306,7 +306,7 @@ impl Knob {
         format!("{text} {unit}").trim_end().to_string()
     }
 
-    /// Words a refused value for the panel, without the keys of the scene file.
+    /// Returns the message for a refused value, with labels in place of the keys of the file.
     pub fn refusal(&self, error: &SceneError) -> String {
         if let SceneError::Unit { value, why, .. } = error {
             return format!("{}: {value} cannot be read: {why}", self.label);
