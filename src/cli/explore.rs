@@ -20,10 +20,10 @@ use rubscope_solver::scene::DEFAULT;
 pub struct ExploreCommand {
     #[command(flatten)]
     options: SceneOptions,
-    /// Most frames a second while the motion plays
+    /// Largest number of frames per second while the motion plays
     #[arg(long, value_name = "COUNT", default_value_t = 10.0, value_parser = frames)]
     fps: f64,
-    /// Colours: where the terminal has them, always, or never
+    /// Colours: auto (if the terminal has them), always or never
     #[arg(long, value_name = "WHEN", default_value = "auto",
           value_parser = choice::<tui::Color>(), hide_possible_values = true)]
     color: tui::Color,
@@ -38,14 +38,14 @@ pub struct ExploreCommand {
     #[arg(long, value_name = "MARKER",
           value_parser = choice::<tui::Marker>(), hide_possible_values = true)]
     marker: Option<tui::Marker>,
-    /// How much the line to the terminal carries: thin (at most 5 kB a second while the
-    /// motion plays: a larger window has fewer frames, down to one in ten seconds), full,
-    /// or auto: thin over SSH or where the terminal is slow
+    /// How much the connection to the terminal carries: thin (at most 5 kB/s while the motion
+    /// plays, so that a larger window has fewer frames, down to one in ten seconds), full, or
+    /// auto (thin over SSH or if the terminal is slow)
     #[arg(long, value_name = "LINE", default_value = "auto",
           value_parser = choice::<tui::Line>(), hide_possible_values = true)]
     line: tui::Line,
-    /// Without a screen: what `:` takes comes from standard input, one command a
-    /// line, and is answered in lines; also where TERM is dumb
+    /// Run without a screen: read commands from standard input, one per line, and print
+    /// answers as text (default if TERM=dumb)
     #[arg(long)]
     lines: bool,
     /// Leave the mouse to the terminal

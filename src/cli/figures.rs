@@ -16,9 +16,9 @@ use rubscope_solver::study::figures::{Figure, Which};
 
 /// Reproduce the paper's Figs. 4 to 10 as SVG, with their data as CSV.
 ///
-/// Every figure has the built-in scene that gives what the paper says of it
-/// (paper-figs-4-6, paper-fig-7, paper-fig-8, paper-nd3), and a caption that says what
-/// agrees and what differs.
+/// Each figure uses the built-in scene that reproduces the paper's description of it
+/// (paper-figs-4-6, paper-fig-7, paper-fig-8, paper-nd3). Its caption says what agrees with
+/// the paper and what differs.
 #[derive(Args, Debug)]
 pub struct FiguresCommand {
     /// Directory of the files; created if missing
@@ -27,7 +27,7 @@ pub struct FiguresCommand {
     /// Only these figures, such as 4,9
     #[arg(long, value_name = "FIGURES", value_delimiter = ',')]
     only: Vec<String>,
-    /// Pictures without captions, which go beside them as text (.txt)
+    /// Write the captions to text files (.txt) instead of into the pictures
     #[arg(long)]
     no_caption: bool,
 }

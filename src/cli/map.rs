@@ -36,7 +36,7 @@ const ROWS_OF_PULSE: &str = "Rows: forces of the pulse on the casing [N] [defaul
 /// Width of the text map if standard output is not a terminal \[characters\].
 const WIDTH: usize = 115;
 
-/// Map how the motion lasts over pulse and speed, or any two keys.
+/// Map the verdict over two parameters (default: pulse and speed).
 #[derive(Args, Debug)]
 #[command(args_conflicts_with_subcommands = true)]
 #[command(mut_arg("speed", |speed| speed.help(COLUMNS_OF_SPEED).value_name("FROM:TO:COUNT")))]
@@ -52,7 +52,7 @@ pub struct MapCommand {
     /// Rows: PATH=FROM:TO:COUNT or PATH=log:FROM:TO:COUNT [default: the pulse]
     #[arg(long, value_name = "AXIS", conflicts_with = "pulse")]
     y: Option<String>,
-    /// Do not look for sensitive cells: takes fewer runs
+    /// Skip the search for sensitive cells, which needs more runs
     #[arg(long)]
     no_sensitivity: bool,
     /// Number of threads [default: every core]

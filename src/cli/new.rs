@@ -24,14 +24,14 @@ const PULSE: f64 = 2.0;
 /// Significant digits to which that pulse is rounded.
 const DIGITS: usize = 2;
 
-/// Write a scene file of a machine of one's own, and survey it.
+/// Write a scene file for your own machine, and survey it.
 ///
-/// From the number of blades, radius and clearance, and frequencies and modal masses of a
-/// modal analysis. What is not given is asked for on a terminal. Modal masses are of mode
-/// shapes with the amplitude 1 at the rim of the casing, and at the tips of the blades.
+/// Needs the number of blades, radius and clearance, and frequencies and modal masses from a
+/// modal analysis. On a terminal, missing values are asked for. Modal masses belong to mode
+/// shapes with amplitude 1 at the rim of the casing and at the blade tips.
 #[derive(Args, Debug)]
 pub struct NewCommand {
-    /// The file to write, FILE.toml; one that exists is left alone
+    /// The file to write, FILE.toml; an existing file is not replaced
     #[arg(value_name = "FILE")]
     file: String,
     /// Modes as CSV: structure (casing or disk), nodal_diameters, frequency_hz, modal_mass_kg
@@ -48,11 +48,10 @@ pub struct NewCommand {
     /// Clearance of the blade tips, such as 0.3mm
     #[arg(long, value_name = "LENGTH")]
     clearance: Option<String>,
-    /// The speed that the scene begins with, such as 9500rpm; the middle of the range if not
-    /// given
+    /// Rotor speed of the scene, such as 9500rpm [default: the middle of the range]
     #[arg(long, value_name = "SPEED", allow_hyphen_values = true)]
     speed: Option<String>,
-    /// Nodal diameters that the scene begins with
+    /// Nodal diameters of the scene
     #[arg(long, value_name = "COUNT")]
     nd: Option<String>,
     /// A mode of the casing: nodal diameters, frequency, modal mass, such as 3:139.8Hz:2kg;

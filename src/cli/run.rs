@@ -37,10 +37,10 @@ pub struct RunCommand {
     /// Change the running motion: TIME:PATH=VALUE or TIME:pulse, TIME in seconds; repeatable
     #[arg(long, value_name = "TIME:CHANGE", allow_hyphen_values = true)]
     at: Vec<String>,
-    /// Do not find out whether the run is sensitive and which digits hold: one run, not several
+    /// Skip the sensitivity check (one run instead of five)
     #[arg(long)]
     no_sensitivity: bool,
-    /// Take every step of the explicit solver, without a leap or an early verdict
+    /// Compute every step of the explicit solver: skip none, and give no early verdict
     #[arg(long)]
     plain: bool,
 }
