@@ -253,7 +253,7 @@ impl Digits {
     /// A `spread` of `None` means that some changed run has no such number.
     pub fn shown(&self, x: f64, spread: Option<f64>, show: impl Fn(f64) -> String) -> String {
         let spread = if self.known { spread.unwrap_or(f64::INFINITY) } else { 0.0 };
-        match held(x, spread) {
+        match reliable_digits(x, spread) {
             MOST.. => show(x),
             0 => {
                 self.none.set(true);
@@ -282,7 +282,7 @@ impl Digits {
 
 /// Returns how many digits of `x` are reliable, at most [`MOST`]: `spread` is no more than half a
 /// unit of the last one.
-fn held(x: f64, spread: f64) -> u32 {
+fn reliable_digits(x: f64, spread: f64) -> u32 {
     // Zero has no digits to lose.
     if spread == 0.0 || x == 0.0 {
         return MOST;

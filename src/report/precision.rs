@@ -42,7 +42,7 @@ fn remark(row: &Row) -> &'static str {
 }
 
 /// Describes how the reference was computed.
-fn found(reference: &Reference) -> String {
+fn reference_origin(reference: &Reference) -> String {
     let Way { contact, model, .. } = reference.way;
     let step = short(reference.way.step_s.unwrap_or_default());
     match reference.method {
@@ -167,7 +167,7 @@ pub fn write(report: &Precision, out: &mut dyn Write) -> Result<()> {
     writeln!(
         out,
         "Reference: {}: {}, {}, {}.",
-        found(reference),
+        reference_origin(reference),
         reference.verdict,
         count(reference.impact_count, "impact"),
         time(reference.wall_s),

@@ -87,7 +87,7 @@ impl Sentence {
             wrong: false,
         };
         let fits = |sentence: &Self| sentence.to_string().chars().count() <= width;
-        // Pairs in order of total shortening; within one, the longest sentence comes first.
+        // Both are shortened step by step, the sentence before the history.
         let pairs = (0..forms.len() + histories.len()).flat_map(|shorter| {
             let pair =
                 move |place: usize| Some((forms.get(shorter - place)?, histories.get(place)?));

@@ -140,7 +140,7 @@ pub fn answer(survey: &Survey, all: bool) -> String {
 }
 
 /// Formats a speed with four digits, or more if its whole part has more.
-fn told(omega: f64) -> String {
+fn shown_speed(omega: f64) -> String {
     let shown = per_speed(omega);
     short(if shown.abs() < 1e3 { rounded(shown, 4) } else { shown.round() })
 }
@@ -151,9 +151,9 @@ fn verdict(survey: &Survey, row: &SurveyRow) -> [String; 2] {
     let span = |[from, to]: &[f64; 2]| match (*from <= least, *to >= most) {
         (true, true) if survey.range_rad_s.is_none() => "at every speed".to_string(),
         (true, true) => "whole range".to_string(),
-        (true, false) => format!("up to {} {unit}", told(*to)),
-        (false, true) => format!("from {} {unit}", told(*from)),
-        (false, false) => format!("{} to {} {unit}", told(*from), told(*to)),
+        (true, false) => format!("up to {} {unit}", shown_speed(*to)),
+        (false, true) => format!("from {} {unit}", shown_speed(*from)),
+        (false, false) => format!("{} to {} {unit}", shown_speed(*from), shown_speed(*to)),
     };
     let locks = match &row.locks_in_range {
         None => "not known: runs have it".to_string(),
@@ -166,7 +166,7 @@ fn verdict(survey: &Survey, row: &SurveyRow) -> [String; 2] {
     let onset = row.limits.iter().any(|limit| limit.name == LimitName::WhirlOnset);
     let from = if onset { "from " } else { "" };
     let whirls = row.whirls_in_range.first();
-    [locks, whirls.map_or(String::new(), |omega| format!("{from}{} {unit}", told(*omega)))]
+    [locks, whirls.map_or(String::new(), |omega| format!("{from}{} {unit}", shown_speed(*omega)))]
 }
 
 /// Returns the speed range covered by the bar: the range, or from rest to beyond the present speed.
@@ -197,7 +197,7 @@ fn bar(survey: &Survey, row: &SurveyRow) -> String {
 /// Explains how unequal tips move the lock speed.
 pub fn of_scatter(scene: &Scene, scattered: &Scattered) -> String {
     let speeds = [scattered.mean_rad_s, scattered.equal_rad_s];
-    let [mean, equal] = speeds.map(|omega| format!("{} {}", told(omega), speed_unit()));
+    let [mean, equal] = speeds.map(|omega| format!("{} {}", shown_speed(omega), speed_unit()));
     let of = match scene.is_uneven() {
         true => "the tips and the casing of the scene. Equal tips in a round casing lock last",
         false => "equal tips in a round casing, which lock last",
@@ -230,7 +230,7 @@ fn at_speed(survey: &Survey) -> String {
 /// the sense of rotation of the survey.
 pub fn rows(survey: &Survey, shown: &[&SurveyRow]) -> Table {
     let limits: Vec<_> = present(shown).collect();
-    let [from, to] = ends(survey).map(told);
+    let [from, to] = ends(survey).map(shown_speed);
     let of_bar = format!("{from:<0$}{to}", BAR.saturating_sub(to.len()));
     // Whirl has its own column, because both in one would be wider than a small screen.
     let whirls = shown.iter().any(|row| !row.whirls_in_range.is_empty());

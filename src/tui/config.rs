@@ -125,7 +125,7 @@ impl Config {
 }
 
 /// Overwrites the stored setting only if it changed during this session.
-fn take<T: PartialEq>(began: &T, ended: T, kept: &mut T) {
+fn keep_if_changed<T: PartialEq>(began: &T, ended: T, kept: &mut T) {
     if ended != *began {
         *kept = ended;
     }
@@ -216,11 +216,11 @@ impl Memory {
         config.steps_done.join(ended.steps_done);
         config.introduced |= ended.introduced;
         let Some(began) = &self.began else { return config };
-        take(&began.theme, ended.theme, &mut config.theme);
-        take(&began.marker, ended.marker, &mut config.marker);
-        take(&began.charts, ended.charts, &mut config.charts);
-        take(&began.mouse, ended.mouse, &mut config.mouse);
-        take(&began.units, ended.units, &mut config.units);
+        keep_if_changed(&began.theme, ended.theme, &mut config.theme);
+        keep_if_changed(&began.marker, ended.marker, &mut config.marker);
+        keep_if_changed(&began.charts, ended.charts, &mut config.charts);
+        keep_if_changed(&began.mouse, ended.mouse, &mut config.mouse);
+        keep_if_changed(&began.units, ended.units, &mut config.units);
         config
     }
 }

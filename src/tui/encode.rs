@@ -19,7 +19,7 @@ pub fn write_cells<'a>(
     // Position and style are unknown at first: the previous frame may have been interrupted.
     let (mut at, mut last): (_, Option<&Cell>) = (None, None);
     for (x, y, cell) in cells {
-        out.write_all(way(at, (x, y)).as_bytes())?;
+        out.write_all(cursor_move(at, (x, y)).as_bytes())?;
         if last.is_none_or(|last| last.style() != cell.style()) {
             out.write_all(change(last.map(codes), codes(cell)).as_bytes())?;
         }
@@ -35,7 +35,7 @@ pub fn write_cells<'a>(
 }
 
 /// Returns the shortest escape sequence that moves the cursor from one (column, row) to another.
-fn way(from: Option<(u16, u16)>, (x, y): (u16, u16)) -> String {
+fn cursor_move(from: Option<(u16, u16)>, (x, y): (u16, u16)) -> String {
     let (start, across) = match from {
         Some((at, row)) if row == y && at <= x => ("", x - at),
         // A line feed alone may or may not return to column 0, depending on terminal settings.

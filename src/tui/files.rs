@@ -71,7 +71,7 @@ impl FileJob {
 
 /// Runs `work` in a new thread and passes its result to `done`; after a panic, `failed` makes the
 /// result. If the thread cannot start, returns the failure instead of calling `done`.
-pub fn aside<T: Send + 'static>(
+pub fn run_in_thread<T: Send + 'static>(
     work: impl FnOnce() -> T + Send + 'static,
     failed: fn(String) -> T,
     done: impl FnOnce(T) + Send + 'static,
@@ -157,14 +157,14 @@ impl FoundScenes {
         names.sort_unstable();
         let more = names.len().saturating_sub(MOST_FILES);
         names.truncate(MOST_FILES);
-        let files = names.into_iter().filter_map(|name| found(here, name)).collect();
+        let files = names.into_iter().filter_map(|name| load_scene(here, name)).collect();
         let missing = (more > 0).then(|| format!("and {more} more files, which are not read"));
         Self { files, missing, reading: false }
     }
 }
 
 /// Loads a scene file; `None` if it is not a regular file.
-fn found(directory: &Path, name: String) -> Option<FoundScene> {
+fn load_scene(directory: &Path, name: String) -> Option<FoundScene> {
     let path = directory.join(&name);
     if !std::fs::metadata(&path).is_ok_and(|kind| kind.is_file()) {
         return None;

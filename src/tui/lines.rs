@@ -50,7 +50,7 @@ struct Lines {
     engine: Option<Playback>,
     ordered: Option<Order>,
     /// The view whose results are printed.
-    told: Option<ViewId>,
+    printed_view: Option<ViewId>,
 }
 
 /// Executes commands until the input ends or one of them quits. `prompt` shows a prompt.
@@ -120,14 +120,14 @@ impl Lines {
         let mut app = App::new(scene, Theme::Mono, marker);
         app.layout.size = (WIDTH, ROWS);
         app.play.playing = false;
-        Self { app, engine: None, ordered: None, told: None }
+        Self { app, engine: None, ordered: None, printed_view: None }
     }
 
     /// Runs the engine until it has computed everything that the explorer shows.
     fn settle(&mut self) {
         for _ in 0..ORDERS {
             // Charts are not drawn, so only the study that is printed is computed.
-            let open = self.told.into_iter().collect();
+            let open = self.printed_view.into_iter().collect();
             let order = Order { playing: false, open, ..self.app.order() };
             if self.ordered.as_ref() == Some(&order) {
                 return;
@@ -160,16 +160,16 @@ impl Lines {
             Ok(found) => found,
             Err(refused) => return self.refuse(&refused, out).map(|()| true),
         };
-        self.told = match found.command {
+        self.printed_view = match found.command {
             commands::Command::Act(Action::View(view)) => {
-                Some(view).filter(|view| TOLD.contains(view))
+                Some(view).filter(|view| PRINTED.contains(view))
             }
             commands::Command::Act(Action::Survey) | commands::Command::Range(_) => {
                 Some(ViewId::Margins)
             }
             _ => None,
         };
-        if self.told.is_none() && needs_screen(&found) {
+        if self.printed_view.is_none() && needs_screen(&found) {
             let refused = format!("only a screen shows this: {}", found.what);
             return self.refuse(&refused, out).map(|()| true);
         }
@@ -185,7 +185,7 @@ impl Lines {
         self.settle();
         self.app.check_lesson();
         self.tell(out)?;
-        if let Some(view) = self.told {
+        if let Some(view) = self.printed_view {
             self.app.status = None;
             let lines = view.panel().lines(&self.app, usize::from(WIDTH)).unwrap_or_default();
             return lines
@@ -314,7 +314,7 @@ impl Lines {
 }
 
 /// Views whose results can be printed as text.
-const TOLD: [ViewId; 2] = [ViewId::Locked, ViewId::Margins];
+const PRINTED: [ViewId; 2] = [ViewId::Locked, ViewId::Margins];
 
 /// Returns whether a command has an effect on the screen only.
 fn needs_screen(found: &Found) -> bool {

@@ -73,7 +73,7 @@ impl KnobRange {
     }
 
     /// Describes a value that is near a marked limit: `just above Ω_lock`.
-    pub fn beside(&self, value: f64) -> Option<String> {
+    pub fn near_mark(&self, value: f64) -> Option<String> {
         let here = self.place(value)?;
         let near = self.marks.iter().map(|(name, at)| (name, here - at));
         let (name, apart) = near.min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
@@ -349,7 +349,7 @@ mod tests {
         let back = range("operation.speed_rad_s", &scene).unwrap();
         assert_eq!(back.marks, forward.marks);
         for (range, sign) in [(&forward, 1.0), (&back, -1.0)] {
-            let beside = |speed: f64| range.beside(sign * speed);
+            let beside = |speed: f64| range.near_mark(sign * speed);
             assert_eq!(beside(430.0).as_deref(), Some("just above Ω_lock"));
             assert_eq!(beside(405.0).as_deref(), Some("just below Ω_lock"));
             assert_eq!((beside(100.0), beside(500.0)), (None, None));
