@@ -182,8 +182,8 @@ fn hull(first: Option<(f64, f64)>, second: Option<(f64, f64)>) -> Option<(f64, f
     }
 }
 
-/// Splits the time between samples into bins of `length`, joined by straight lines, within
-/// `[from, to]`. A time-stepping solver gives no values between its steps.
+/// Splits bins much longer than `length` into shorter ones with linearly interpolated values,
+/// within `[from, to]`. A time-stepping solver gives no values between its steps.
 pub fn interpolated(bins: &[Bin], length: f64, (from, to): (f64, f64)) -> Vec<Bin> {
     let mut out = Vec::with_capacity(bins.len());
     let mut last: Option<&Bin> = None;
