@@ -10,6 +10,7 @@ use rubscope_solver::harmonic::{
     CoincidencePoint, HarmonicError, coincidence, shifted_coincidence,
 };
 
+/// The view: growth and lasting wave against speed.
 pub const COINCIDENCE: View = View {
     option: "coincidence",
     help: "View: what the coincidences do: growth of rest and the wave that lasts, against speed",
@@ -43,6 +44,7 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     Ok(Answer::of(json, vec![(title, points.table(CURVE))]))
 }
 
+/// Columns of growth and wave, one row per speed.
 pub const CURVE: &[Column<'_, CoincidencePoint>] = &[
     ("speed_rad_s", |point| point.speed_rad_s.into()),
     ("growth_1_s", |point| point.growth_1_s.into()),
