@@ -33,7 +33,7 @@ use status::Status;
 /// Version and commit of the program (`build.rs`), for `--version`.
 const VERSION: &str = env!("RUBSCOPE_VERSION");
 
-/// The result of a command: how it ended, or why it could not run.
+/// Result of a command: its exit status, or the error that prevented it.
 pub type Done = anyhow::Result<Status>;
 
 /// See a flexible bladed disk rub against its flexible casing.
@@ -74,8 +74,8 @@ pub fn main(args: impl IntoIterator<Item = OsString>) -> u8 {
         Ok(cli) => cli,
         Err(error) => return status::usage(&error, &arguments),
     };
-    // No lock for the whole program: it would stop every other thread that
-    // writes, for as long as the output is blocked.
+    // Standard output is not locked for the whole run: other threads that write would have to
+    // wait while the output is blocked.
     let mut out = BufWriter::new(sign::Out);
     let done = dispatch(cli, &mut out).and_then(|status| {
         out.flush()?;

@@ -1,4 +1,4 @@
-//! `rubscope run`: one time simulation, as a summary, JSON or a file.
+//! `rubscope run`: simulates a scene in time; prints a summary or JSON, and writes the history.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -36,10 +36,10 @@ pub struct RunCommand {
     /// Change the running motion: TIME:PATH=VALUE or TIME:pulse, TIME in seconds; repeatable
     #[arg(long, value_name = "TIME:CHANGE", allow_hyphen_values = true)]
     at: Vec<String>,
-    /// Do not find out whether the run is sensitive and which digits hold: one run, not several
+    /// Skip the sensitivity check (one run instead of five)
     #[arg(long)]
     no_sensitivity: bool,
-    /// Take every step of the explicit solver, without a leap or an early verdict
+    /// Compute every step of the explicit solver: skip none, and give no early verdict
     #[arg(long)]
     plain: bool,
 }
@@ -106,7 +106,7 @@ impl RunCommand {
         })
     }
 
-    /// Returns the command that gives the same result again.
+    /// Returns the command that reproduces the result.
     fn command(&self, scene: &Scene) -> CommandLine {
         let start = CommandLine::new("run", scene);
         let line = self.at.iter().fold(start, |line, change| line.option("--at", change));

@@ -30,14 +30,14 @@ pub struct Shard {
 }
 
 impl Shard {
-    /// Reads `K/COUNT`, counted from 1.
+    /// Parses `K/COUNT`, counted from 1.
     pub fn parse(text: &str) -> Option<Self> {
         let (number, count) = text.split_once('/')?;
         let shard = Self { number: number.trim().parse().ok()?, count: count.trim().parse().ok()? };
         (1..=shard.count).contains(&shard.number).then_some(shard)
     }
 
-    /// Returns the cells of this share.
+    /// Iterates over the indices of this shard's cells.
     pub fn indices(self, cells: usize) -> impl IndexedParallelIterator<Item = usize> {
         (self.number - 1..cells).into_par_iter().step_by(self.count)
     }

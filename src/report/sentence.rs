@@ -1,6 +1,5 @@
-//! What the motion of a run is, in one sentence of plain words, and how it came there in a
-//! second one. Every sentence has shorter forms: what is told is the longest that has
-//! room whole, so nothing is ever cut.
+//! One sentence on the motion of a run, and a second one on its history. Every sentence has several
+//! forms, from long to short; the longest that fits is shown, so that no text is ever cut.
 
 use std::fmt;
 
@@ -11,9 +10,9 @@ use rubscope_solver::model::Machine;
 use rubscope_solver::motion::{Certainty, Failure, FailureReason, RunReport, Verdict};
 use rubscope_solver::scene::{ContactLaw, ModelSize, Scene};
 
-/// Between the word of the verdict and its sentence, and between two sentences.
+/// Separators: after the verdict, and between the two sentences.
 const APART: [&str; 2] = ["  ", " "];
-/// Most blades that are named one by one.
+/// Blades are named one by one up to this number, and counted above it.
 const NAMED: usize = 4;
 
 /// Facts of a run from which its sentences are made.
@@ -21,48 +20,48 @@ const NAMED: usize = 4;
 pub struct Facts {
     /// Verdict of the run.
     pub verdict: Verdict,
-    /// The blades in contact at the end.
+    /// Blades in contact at the end.
     pub blades: Vec<u32>,
-    /// Blades of these whose contact force pulls.
+    /// Those of `blades` whose contact force pulls.
     pub pulling: Vec<u32>,
-    /// Impacts in all.
+    /// Total number of impacts.
     pub touches: u64,
     /// The contact law.
     pub law: ContactLaw,
     /// Whether all blades rub the lining at rest.
     pub pressed: bool,
-    /// Whether the casing is damped: left alone, it comes to rest.
+    /// Whether the casing is damped, so that it comes to rest after the last contact.
     pub damped: bool,
     /// Rotor speed at which a lock separated during the run \[rad/s\].
     pub broken: Option<f64>,
     /// Rotor speed at which a run-up (true) or run-down came to its last contact \[rad/s\].
     pub caught: Option<(f64, bool)>,
-    /// Why the run stopped early.
+    /// Why the run stopped early, if it did.
     pub failure: Option<Failure>,
-    /// Whether contact pulled on the way.
+    /// Whether a contact force pulled during the run.
     pub pulled: bool,
-    /// Verdict of the event solver, whose contact only pushes, where it is known.
+    /// Verdict of the event solver, whose contact only pushes, if it is known.
     pub other: Option<Verdict>,
-    /// What changed runs say.
+    /// Result of the sensitivity check.
     pub certainty: Certainty,
-    /// Rate at which the lock grows, which is unstable at a constant speed \[1/s\].
+    /// Growth rate of a deviation from an unstable lock at constant speed \[1/s\].
     pub growth: Option<f64>,
-    /// Roundness of the casing that the lock needs, where it is much \[m\].
+    /// Largest out-of-roundness of the casing that allows the lock, if that is demanding \[m\].
     pub round: Option<f64>,
-    /// Whether the tips differ, so that the angles of the blades matter.
+    /// Whether the tips differ in length, so that errors of the blade angles matter.
     pub angles: bool,
 }
 
-/// A verdict in words that fit in a width.
+/// A verdict in words that fit a given width.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Sentence {
-    /// One word in capitals.
+    /// The verdict, one word in capitals.
     pub word: String,
-    /// Sentence on what the motion is.
+    /// Sentence on the motion at the end.
     pub what: String,
-    /// Sentence on how it came there, if there is one and it has room.
+    /// Sentence on how the motion got there, if there is one and it fits.
     pub history: Option<String>,
-    /// Whether this says that the state itself is wrong.
+    /// Whether the history says that the result is suspect (shown in red).
     pub wrong: bool,
 }
 
@@ -78,8 +77,8 @@ impl fmt::Display for Sentence {
 }
 
 impl Sentence {
-    /// Creates the word with the longest of these forms that fit in so many columns, each list from
-    /// long to short. A history in few words goes before a longer sentence.
+    /// Combines `word` with the longest sentence and history that fit into `width` columns. Both
+    /// lists go from long to short. A short history is preferred to a longer sentence.
     pub fn of(word: &str, forms: &[String], histories: &[String], width: usize) -> Self {
         let sentence = |what: &str, history: Option<&String>| Self {
             word: word.to_string(),
@@ -88,7 +87,7 @@ impl Sentence {
             wrong: false,
         };
         let fits = |sentence: &Self| sentence.to_string().chars().count() <= width;
-        // Both get shorter in turn, the sentence first.
+        // Both are shortened step by step, the sentence before the history.
         let pairs = (0..forms.len() + histories.len()).flat_map(|shorter| {
             let pair =
                 move |place: usize| Some((forms.get(shorter - place)?, histories.get(place)?));
@@ -101,8 +100,8 @@ impl Sentence {
 }
 
 impl Facts {
-    /// Creates what scene and machine say of a run that ended so at this speed, with these groups
-    /// of blades in contact and their forces; the rest is empty.
+    /// Creates the facts known from the scene, the machine and the groups in contact (blades and
+    /// contact force) at the end; all others are empty.
     pub fn at(
         verdict: Verdict,
         (scene, machine, speed): (&Scene, &Machine, f64),
@@ -156,18 +155,18 @@ impl Facts {
         }
     }
 
-    /// Returns the sentences in at most so many columns; from 40 on there is always one.
+    /// Returns the sentences in at most `width` columns; from 40 columns on, one always fits.
     pub fn sentence(&self, width: usize) -> Sentence {
         let (word, forms) = (self.verdict.as_ref().to_uppercase(), self.forms());
         let (notes, wrong) = self.notes();
-        // All of them where there is room, the later ones in fewer words; else the first.
+        // Prefer all notes, the later ones shortened; if they do not fit, only the first.
         let all = notes.iter().cloned().reduce(|first, next| joined(&first, &next));
         let tried = [all.unwrap_or_default(), notes.into_iter().next().unwrap_or_default()];
         let [all, first] = tried.map(|note| Sentence::of(&word, &forms, &note, width));
         Sentence { wrong, ..if all.history.is_some() { all } else { first } }
     }
 
-    /// Returns what the motion is, from the longest form to the shortest.
+    /// Returns the sentence on the motion, from the longest form to the shortest.
     fn forms(&self) -> Vec<String> {
         if let (Some(speed), Some(after)) = (self.broken, self.after_a_lock()) {
             let at = rad_s(speed);
@@ -222,7 +221,7 @@ impl Facts {
         }
     }
 
-    /// Returns what follows a lock that broke.
+    /// Describes the motion after a lock broke.
     fn after_a_lock(&self) -> Option<&'static str> {
         match self.verdict {
             Verdict::Decay => Some(self.rest()),
@@ -234,7 +233,7 @@ impl Facts {
         }
     }
 
-    /// Returns how a casing ends that nothing touches.
+    /// Describes the final motion of a casing without contact.
     fn rest(&self) -> &'static str {
         if self.damped { "the casing comes to rest" } else { "the casing swings on freely" }
     }
@@ -336,8 +335,8 @@ impl Facts {
         ]
     }
 
-    /// Returns how the motion came there, each note from the longest form to the shortest, the
-    /// most serious first; and whether the first says that the state itself is wrong.
+    /// Returns the notes on the history, the most serious first, each from the longest form to the
+    /// shortest, and whether the first one makes the result suspect.
     fn notes(&self) -> (Vec<Vec<String>>, bool) {
         let mut notes: Vec<Vec<String>> = self.growth.map(grows).into_iter().collect();
         let sensitive = self.certainty.sensitive;
@@ -375,7 +374,7 @@ impl Facts {
         (notes, wrong)
     }
 
-    /// Returns what contact that only pushes does, where this one pulled on the way.
+    /// Notes what push-only contact would have done, for a run in which contact pulled.
     fn pushes_only(&self) -> Vec<String> {
         let locked = self.verdict == Verdict::Locked;
         let ends = if locked { "would not catch it" } else { "ends otherwise" };
@@ -389,7 +388,7 @@ impl Facts {
         }
     }
 
-    /// Returns that the event solver finds another end.
+    /// Notes that the event solver gives another verdict.
     fn differs(&self, other: Verdict) -> Vec<String> {
         let why = if self.angles { "step or angles are too large" } else { "the step is too long" };
         let fails = other == Verdict::Failed;
@@ -399,7 +398,7 @@ impl Facts {
             format!("The exact solver {does}."),
             format!("Exact: {other}."),
         ];
-        // A run that stops has said why.
+        // The verdict of a failed run has given the reason already.
         if self.verdict == Verdict::Failed {
             forms.remove(0);
         }
@@ -407,7 +406,7 @@ impl Facts {
     }
 }
 
-/// Returns that a lock is unstable.
+/// Notes that the lock is unstable, with its growth rate.
 fn grows(growth: f64) -> Vec<String> {
     let grows = format!("it grows by {}", with_unit(growth, 3, "1/s"));
     vec![
@@ -417,12 +416,12 @@ fn grows(growth: f64) -> Vec<String> {
     ]
 }
 
-/// Returns a speed in the digits of a sentence.
+/// Formats a speed with four digits.
 fn rad_s(speed: f64) -> String {
     with_unit(speed, 4, "rad/s")
 }
 
-/// Returns two notes one after the other, from long to short: the second gets shorter first.
+/// Joins two notes, from long to short: the second is shortened first.
 fn joined(first: &[String], next: &[String]) -> Vec<String> {
     let shorter = first.iter().skip(1).zip(next.last().into_iter().cycle());
     let pairs = first.iter().take(1).flat_map(|first| next.iter().map(move |next| (first, next)));
@@ -430,17 +429,16 @@ fn joined(first: &[String], next: &[String]) -> Vec<String> {
     pairs.chain(shorter).map(|(first, next)| format!("{first}{between}{next}")).collect()
 }
 
-/// Counts touches: `1 touch`, `5 touches`.
+/// Formats a number of touches: `1 touch`, `5 touches`.
 fn touches(count: u64) -> String {
     format!("{} touch{}", grouped(count), if count == 1 { "" } else { "es" })
 }
 
-/// Returns constant forms.
 fn plain(forms: &[&str]) -> Vec<String> {
     forms.iter().map(ToString::to_string).collect()
 }
 
-/// Names blades: `Blades 12 and 19`, or without the noun `12 and 19`; many are counted.
+/// Names blades: `Blades 12 and 19`, or `12 and 19` without the noun; many are counted.
 fn named(blades: &[u32], with_noun: bool) -> String {
     let mut blades = blades.to_vec();
     blades.sort_unstable();
@@ -459,7 +457,7 @@ fn named(blades: &[u32], with_noun: bool) -> String {
     }
 }
 
-/// Names one or two blades, `12 + 19`, and counts more.
+/// Names one or two blades, as in `12 + 19`, and counts more.
 fn counted(blades: &[u32]) -> String {
     match blades {
         [] => "Some blades".into(),
@@ -469,7 +467,7 @@ fn counted(blades: &[u32]) -> String {
     }
 }
 
-/// Returns why a run stopped, in plain words.
+/// Explains why a run failed.
 fn why(reason: &FailureReason) -> &'static str {
     match reason {
         FailureReason::BladeAngle { .. }

@@ -7,44 +7,44 @@ use std::io::{Result, Write};
 use super::line::wrapped;
 use super::number::{exact, per_speed, rounded, short, speed_unit};
 
-/// Letters between two columns of text.
+/// Spaces between two columns of text.
 const APART: usize = 2;
 
-/// Widest line of the notes below a table.
+/// Line width of the notes below a table.
 pub const WIDTH: usize = 100;
 
 /// One cell of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TableCell {
-    /// A number; what is no finite number is left empty.
+    /// A number; a number that is not finite leaves the cell empty.
     Number(f64),
-    /// A number for files, and how people read it; what is no finite number is left empty there.
+    /// A number for files, and its text for people; one that is not finite is empty in files.
     Told(f64, String),
     /// A word or two.
     Word(String),
-    /// No such figure.
+    /// No value.
     Empty,
 }
 
-/// Columns of speeds, which text has in the unit of speeds. CSV has them as they are.
+/// Columns of speeds, which text shows in the chosen unit. CSV keeps rad/s.
 const SPEEDS: [&str; 3] = ["speed_rad_s", "wave_speed_rad_s", "speed [rad/s]"];
 
 /// The heading of a column.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Heading {
-    /// Name in files, with the SI unit, such as `speed_rad_s`; `None` for a column that only
-    /// people see.
+    /// Name in files, with the SI unit, such as `speed_rad_s`; `None` for a column that is only
+    /// shown.
     name: Option<Cow<'static, str>>,
-    /// Words for people; `None` for a column of files alone.
+    /// Heading shown to people; `None` for a column that only files have.
     words: Option<Cow<'static, str>>,
-    /// Whether its numbers are speeds, which people see in the unit of speeds.
+    /// Whether the numbers are speeds, shown in the chosen unit.
     speeds: bool,
-    /// Most significant digits for people.
+    /// Largest number of significant digits shown.
     digits: usize,
 }
 
 impl<S: Into<Cow<'static, str>>> From<S> for Heading {
-    /// Creates the heading of a column that has the same name in files and for people.
+    /// Creates a heading with the same name in files and on the screen.
     fn from(name: S) -> Self {
         let name = name.into();
         let speeds = SPEEDS.contains(&name.as_ref());
@@ -57,31 +57,31 @@ impl<S: Into<Cow<'static, str>>> From<S> for Heading {
     }
 }
 
-/// Significant digits for people where a heading asks for no other number of them.
+/// Default number of significant digits shown.
 const DIGITS: usize = 6;
 
 impl Heading {
-    /// Creates the heading of a column that only people see.
+    /// Creates the heading of a column that files omit.
     pub fn shown(words: impl Into<Cow<'static, str>>) -> Self {
         Self { name: None, ..Self::from(words) }
     }
 
-    /// Creates the heading of a column of files alone.
+    /// Creates the heading of a column that only files have.
     pub fn filed(name: impl Into<Cow<'static, str>>) -> Self {
         Self { words: None, ..Self::from(name) }
     }
 
-    /// Sets the words for people.
+    /// Sets the heading shown to people.
     pub fn words(self, words: impl Into<Cow<'static, str>>) -> Self {
         Self { words: Some(words.into()), ..self }
     }
 
-    /// Sets the most significant digits for people.
+    /// Sets the largest number of significant digits shown.
     pub fn digits(self, digits: usize) -> Self {
         Self { digits, ..self }
     }
 
-    /// Returns what people read of a cell.
+    /// Formats a cell for people.
     fn text(&self, cell: &TableCell) -> String {
         match cell {
             TableCell::Number(x) => {
@@ -134,8 +134,8 @@ impl From<String> for TableCell {
     }
 }
 
-/// Writes rows of cells as CSV, under a header line. Numbers are the shortest
-/// that read back as themselves, and what is no figure is left empty.
+/// Writes a header line and rows as CSV. Numbers have the fewest digits that read back exactly; a
+/// cell without a finite number is empty.
 pub(crate) fn write_csv<R: IntoIterator<Item = TableCell>>(
     names: impl IntoIterator<Item = impl AsRef<[u8]>>,
     rows: impl IntoIterator<Item = R>,
@@ -148,7 +148,7 @@ pub(crate) fn write_csv<R: IntoIterator<Item = TableCell>>(
     csv.flush()
 }
 
-/// A column of a table: its heading, and what it shows of an item.
+/// A column of a table: its heading, and the function that makes its cell from an item.
 pub type Column<'a, T, H = &'a str> = (H, fn(&T) -> TableCell);
 
 /// Rows under headings, with notes below.
@@ -209,14 +209,13 @@ impl Table {
         self.rows.len()
     }
 
-    /// Returns whether there is no row.
+    /// Returns whether there are no rows.
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
 
-    /// Returns the rows as people see them, in padded cells, headings first; columns that do
-    /// not fit into `room` letters with `apart` of them between columns are left out from the
-    /// right.
+    /// Returns the headings and rows as padded cells. The columns on the right that do not fit into
+    /// `room` characters, with `apart` characters between columns, are left out.
     pub fn lines(&self, room: usize, apart: usize) -> Vec<Vec<String>> {
         let mut layout = Layout::of(&self.headings);
         self.rows.iter().for_each(|row| layout.meet(row));
@@ -229,8 +228,8 @@ impl Table {
         std::iter::once(layout.headings()).chain(rows).collect()
     }
 
-    /// Writes CSV of the columns that have a name in files: a header line, then numbers that read
-    /// back as themselves.
+    /// Writes the columns that have a name in files as CSV: a header line, then numbers that read
+    /// back exactly.
     ///
     /// # Errors
     /// An error of the writer.
@@ -254,7 +253,7 @@ impl Table {
         self.write_text_in(usize::MAX, out)
     }
 
-    /// Writes text as [`Table::write_text`] does, of the columns that fit into `room` letters.
+    /// As [`Table::write_text`], with only the columns that fit into `room` characters.
     ///
     /// # Errors
     /// As `write_csv`.
@@ -270,11 +269,11 @@ impl Table {
     }
 }
 
-/// How people see the columns of a table: their widths are those of the cells met.
+/// The columns of a table as shown; their widths grow with the cells measured.
 #[derive(Clone, Debug)]
 struct Layout {
-    /// The columns for people: their place in the table, heading and width, and whether they
-    /// have words, which stand to the left.
+    /// For each shown column: index in the table, heading, width, and whether it contains words,
+    /// which are aligned to the left.
     columns: Vec<(usize, Heading, usize, bool)>,
 }
 
@@ -287,7 +286,7 @@ impl Layout {
         Self { columns: shown.collect() }
     }
 
-    /// Makes room for a row.
+    /// Widens the columns to fit a row.
     fn meet(&mut self, row: &[TableCell]) {
         for (place, heading, width, word) in &mut self.columns {
             let Some(cell) = row.get(*place) else { continue };

@@ -11,7 +11,7 @@ use ratatui::{
 use serde::{Deserialize, Serialize};
 use strum::{Display, EnumString, VariantNames};
 
-/// Marker of points.
+/// Characters with which curves are drawn.
 #[derive(
     Clone,
     Copy,
@@ -28,14 +28,14 @@ use strum::{Display, EnumString, VariantNames};
 #[strum(serialize_all = "lowercase")]
 #[serde(rename_all = "lowercase")]
 pub enum Marker {
-    /// Two by four dots a cell.
+    /// Two by four dots per cell.
     #[default]
     Braille,
     /// One by two blocks a cell.
     HalfBlock,
-    /// One round dot a cell.
+    /// One round dot per cell.
     Dot,
-    /// One ASCII sign a cell, a different one for each series.
+    /// One ASCII character per cell, a different one for each series.
     Ascii,
 }
 
@@ -50,7 +50,7 @@ impl Marker {
         }
     }
 
-    /// Returns the sub-pixels of one cell, across and down.
+    /// Returns the number of sub-pixels in a cell, horizontally and vertically.
     pub fn grain(self) -> (usize, usize) {
         match self {
             Self::Braille => (2, 4),
@@ -60,14 +60,14 @@ impl Marker {
     }
 }
 
-/// Style of one series.
+/// How a series is drawn.
 #[derive(Clone, Copy, Debug)]
 pub struct Pen {
     /// Colour and weight.
     pub style: Style,
-    /// The sign of this series where only ASCII is drawn.
+    /// Character of this series if only ASCII is drawn.
     pub sign: char,
-    /// Drawn in dashes, so that two series differ without colour.
+    /// Whether lines are dashed, so that two series differ without colour.
     pub dashed: bool,
 }
 
@@ -91,17 +91,17 @@ impl Raster {
         Self { area, marker, dots: vec![Dots::default(); area.area() as usize] }
     }
 
-    /// Returns whether a dashed pen draws at this place along a line. In ASCII the sign of a series
-    /// tells it from others, and gaps would look like missing data.
+    /// Returns whether a pen draws at position `along` of its dash pattern. In ASCII, lines are
+    /// solid: series differ by character, and gaps would look like missing data.
     fn is_dash(&self, along: i64, pen: &Pen) -> bool {
         let [dash, period] = if self.marker.grain().0 == 1 { [1, 2] } else { [3, 6] };
         !pen.dashed || self.marker == Marker::Ascii || along.rem_euclid(period) < dash
     }
 
-    /// Returns the sub-pixels of one cell, across and down.
+    /// Returns the number of sub-pixels in a cell, horizontally and vertically.
     pub fn grain(&self) -> (i64, i64) {
         let (across, down) = self.marker.grain();
-        // Two and four at most.
+        // At most two and four, so the casts are exact.
         (across as i64, down as i64)
     }
 
@@ -111,7 +111,7 @@ impl Raster {
         (usize::from(self.area.width) * across, usize::from(self.area.height) * down)
     }
 
-    /// Returns whether something is drawn in a cell of the screen.
+    /// Returns whether anything is drawn in a cell of the screen.
     pub fn is_drawn(&self, x: u16, y: u16) -> bool {
         let at = |x: u16, y: u16| usize::from(y) * usize::from(self.area.width) + usize::from(x);
         let place = x.checked_sub(self.area.x).zip(y.checked_sub(self.area.y));
@@ -119,7 +119,7 @@ impl Raster {
         dots.is_some_and(|dots| dots.bits != 0)
     }
 
-    /// Sets one sub-pixel, counted from the top left; outside is ignored.
+    /// Sets one sub-pixel, counted from the top left; positions outside are ignored.
     pub fn set(&mut self, x: i64, y: i64, pen: &Pen) {
         let (width, height) = self.size();
         let (Ok(x), Ok(y)) = (usize::try_from(x), usize::try_from(y)) else { return };
@@ -138,7 +138,7 @@ impl Raster {
     /// Draws a straight line, dashed where the pen says so: by columns where it is flat, by rows
     /// where it is steep, so that pieces of one curve have one spacing.
     pub fn line(&mut self, from: (i64, i64), to: (i64, i64), pen: &Pen) {
-        // Ends far outside are not visible, and would take many steps.
+        // Far ends are not visible, and would take many steps.
         let bound = |v: i64| v.clamp(-20_000, 20_000);
         let (x0, y0, x1, y1) = (bound(from.0), bound(from.1), bound(to.0), bound(to.1));
         let steps = (x1 - x0).abs().max((y1 - y0).abs()).max(1);
@@ -152,7 +152,7 @@ impl Raster {
         }
     }
 
-    /// Writes the dots into the buffer; cells without dots are left alone.
+    /// Draws the grid into the buffer; empty cells are left unchanged.
     pub fn draw(&self, buffer: &mut Buffer) {
         for (index, dots) in self.dots.iter().enumerate().filter(|(_, dots)| dots.bits != 0) {
             let width = usize::from(self.area.width).max(1);
@@ -240,7 +240,7 @@ mod tests {
         assert_eq!(drawn(Marker::Dot, |r| r.line((0, 0), (3, 0), &PEN)), "••••    ");
         assert_eq!(drawn(Marker::Dot, |r| r.line((0, 0), (3, 0), &dotted)), "• •     ");
         assert_eq!(drawn(Marker::Ascii, |r| r.line((0, 0), (3, 0), &dotted)), "****    ");
-        // Also where it is steep, and whatever its pieces are.
+        // ASCII lines have no gaps either when they are steep.
         for to in [(7, 0), (0, 7), (3, 7), (7, 3), (7, 7)] {
             for mirror in [false, true] {
                 let area = Rect::new(0, 0, 4, 2);

@@ -1,4 +1,4 @@
-//! Every equilibrium, its stability, and where branches change.
+//! The view `--branches`: every equilibrium, its stability, and the speeds where branches change.
 
 use serde_json::json;
 
@@ -9,13 +9,12 @@ use rubscope_solver::harmonic::{
 };
 use rubscope_solver::model::{LockWindow, TipCorner};
 
-/// View: every equilibrium.
 pub const BRANCHES: View = View {
     option: "branches",
     help: "View: every equilibrium, its stability, and the thresholds of each branch",
     always_damped: false,
     one_speed: false,
-    // Rest and side are there without corners, too.
+    // Rest and sliding on one side exist even if there is no corner to lock in.
     lock: LockBeside::Rigid(|error| matches!(error, HarmonicError::NoCorner { .. })),
     answer,
 };
@@ -39,10 +38,11 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     Ok(Answer::of(Parts::default().with("branches", json), tables))
 }
 
-/// A corner of unequal tips that is held at some speeds, by the blades of its sides, at one of them.
+/// A corner of unequal tips at one speed: the blades of its two sides, the corner, the speeds at
+/// which it holds, and the locked motion.
 type CornerRow = ([Vec<u32>; 2], TipCorner, LockWindow, LockedPoint);
 
-/// Returns every corner of unequal tips: where it is held, and what it takes at each speed.
+/// Answers for unequal tips: every corner, the speeds at which it holds, and its loads there.
 fn corners(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let Request { machine, speeds, damped, .. } = request;
     let polygon = machine.polygon.clone();
@@ -72,7 +72,6 @@ fn corners(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     Ok(Answer::of(json, vec![(title, Table::of(&found, CORNERS))]))
 }
 
-/// Columns of corners of unequal tips.
 const CORNERS: &[Column<'_, CornerRow>] = &[
     ("speed_rad_s", |row| row.3.speed_rad_s.into()),
     ("blade_a", |row| row.0[0].first().map(|blade| f64::from(*blade)).into()),
@@ -85,7 +84,6 @@ const CORNERS: &[Column<'_, CornerRow>] = &[
     ("character", |row| row.3.character.as_ref().into()),
 ];
 
-/// Columns of the speeds where branches appear, vanish or change.
 const THRESHOLDS: &[Column<'_, Threshold>] = &[
     ("speed_rad_s", |threshold| threshold.speed_rad_s.into()),
     ("state", |threshold| threshold.kind.as_ref().into()),
@@ -97,7 +95,6 @@ fn multiplier(state: &Equilibrium, index: usize) -> TableCell {
     state.contacts.get(index).map(|contact| contact.multiplier_n).into()
 }
 
-/// Columns of equilibria.
 const STATES: &[Column<'_, Equilibrium>] = &[
     ("speed_rad_s", |state| state.speed_rad_s.into()),
     ("state", |state| state.kind.as_ref().into()),
@@ -105,13 +102,13 @@ const STATES: &[Column<'_, Equilibrium>] = &[
     ("multiplier_a_n", |state| multiplier(state, 0)),
     ("multiplier_b_n", |state| multiplier(state, 1)),
     ("amplitude_m", |state| state.amplitude_m.into()),
-    // At rest nothing is driven.
+    // At rest there is no drive power.
     ("power_w", |state| (state.kind != Kind::Rest).then_some(state.power_w).into()),
     ("growth_per_s", |state| growth(state).into()),
 ];
 
-/// Returns the growth rate to read: 0 for an undamped motion, which grows or decays only by
-/// round-off.
+/// Returns the growth rate, with round-off shown as 0: an undamped motion neither grows nor
+/// decays.
 fn growth(state: &Equilibrium) -> f64 {
     let fastest = state.eigenvalues_per_s.iter().map(|value| value.norm()).fold(0.0, f64::max);
     if state.growth_per_s.abs() > 1e-13 * fastest { state.growth_per_s } else { 0.0 }

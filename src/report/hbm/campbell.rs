@@ -1,4 +1,4 @@
-//! Frequencies against speed, engine orders, and the coincidences (30).
+//! The view `--campbell`: frequencies against speed, engine orders, and the coincidences (30).
 
 use serde_json::{Value, json};
 
@@ -6,20 +6,19 @@ use super::{Answer, LockBeside, Parts, Request, View};
 use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{Campbell, Coincidence, HarmonicError, Line};
 
-/// View: frequencies against speed.
 pub const CAMPBELL: View = View {
     option: "campbell",
     help: "View: frequencies against speed, engine orders, and the coincidences (30)",
     always_damped: false,
     one_speed: false,
-    // Frequencies need no corner, no rigid contact and no balance of one harmonic.
+    // Frequencies exist without a corner, rigid contact or a harmonic balance.
     lock: LockBeside::Rigid(|error| {
         matches!(error, HarmonicError::NoCorner { .. } | HarmonicError::Refused { .. })
     }),
     answer,
 };
 
-/// Engine orders in addition to that of the scene.
+/// Engine orders drawn in addition to the scene's.
 const ORDERS: [u32; 4] = [1, 2, 3, 4];
 
 fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
@@ -64,7 +63,6 @@ fn table(lines: &[Line], speeds: &[f64]) -> Table {
     table
 }
 
-/// Columns of the coincidences.
 const COINCIDENCES: &[Column<'_, Coincidence>] = &[
     ("speed_rad_s", |found| found.speed_rad_s.into()),
     ("casing_rad_s", |found| found.casing_rad_s.into()),

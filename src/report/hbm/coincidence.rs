@@ -1,4 +1,5 @@
-//! What the coincidences do: growth of rest and the wave that lasts, against speed.
+//! The view `--coincidence`: growth from rest near the coincidences, and the wave that lasts,
+//! against speed.
 
 use super::{Answer, LockBeside, Parts, Request, View};
 use crate::report::number::{per_speed, short, speed, speed_unit};
@@ -7,7 +8,7 @@ use rubscope_solver::harmonic::{
     CoincidencePoint, HarmonicError, coincidence, shifted_coincidence,
 };
 
-/// View: what the coincidences do.
+/// The view: growth and lasting wave against speed.
 pub const COINCIDENCE: View = View {
     option: "coincidence",
     help: "View: what the coincidences do: growth of rest and the wave that lasts, against speed",
@@ -41,7 +42,7 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     Ok(Answer::of(json, vec![(title, Table::of(&points, CURVE))]))
 }
 
-/// Columns of a coincidence against speed.
+/// Columns of growth and wave, one row per speed.
 pub const CURVE: &[Column<'_, CoincidencePoint>] = &[
     ("speed_rad_s", |point| point.speed_rad_s.into()),
     ("growth_1_s", |point| point.growth_1_s.into()),

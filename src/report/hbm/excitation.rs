@@ -1,4 +1,4 @@
-//! The response of the damped lock to the engine order of the scene.
+//! The view `--excitation`: response of the damped lock to the engine order of the scene.
 
 use serde_json::{Value, json};
 
@@ -8,7 +8,6 @@ use crate::report::table::{Column, Table};
 use rubscope_solver::harmonic::{ExcitedLock, ExcitedLocks, HarmonicError, drives};
 use rubscope_solver::scene::keys;
 
-/// View: response of the lock to the engine order.
 pub const EXCITATION: View = View {
     option: "excitation",
     help: "View: response of the damped lock to the scene's engine-order excitation",
@@ -45,7 +44,7 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     Ok(Answer::of(json, vec![(title, Table::of(&locks, RESPONSE))]))
 }
 
-/// Returns the response at one speed as JSON: amplitudes of oscillation.
+/// Returns the response at one speed as JSON, with amplitudes of the oscillation.
 fn value(lock: &ExcitedLock) -> Value {
     json!({
         "speed_rad_s": lock.state.speed_rad_s,
@@ -61,7 +60,6 @@ fn value(lock: &ExcitedLock) -> Value {
     })
 }
 
-/// Columns of the response to an engine order.
 const RESPONSE: &[Column<'_, ExcitedLock>] = &[
     ("speed_rad_s", |lock| lock.state.speed_rad_s.into()),
     ("frequency_rad_s", |lock| lock.frequency_rad_s.into()),

@@ -1,4 +1,5 @@
-//! The wave that a casing out of round drives where all blades rub it.
+//! The view `--forced`: the wave that an out-of-round casing drives while all blades rub its
+//! lining.
 
 use super::{Answer, LockBeside, Parts, Request, View};
 use crate::report::number::count;
@@ -6,7 +7,6 @@ use crate::report::table::{Column, Table};
 use rubscope_solver::harmonic::{Forced, HarmonicError, Lining};
 use rubscope_solver::scene::{ContactLaw, keys};
 
-/// View: the wave that a casing out of round drives.
 pub const FORCED: View = View {
     option: "forced",
     help: "View: the wave that a casing out of round drives where all blades rub its lining",
@@ -47,7 +47,6 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     Ok(Answer::of(json, vec![(title, Table::of(&forced, POINTS))]))
 }
 
-/// Columns of a driven wave.
 const POINTS: &[Column<'_, Forced>] = &[
     ("speed_rad_s", |point| point.speed_rad_s.into()),
     ("s_rad_s", |point| point.s_rad_s.into()),

@@ -1,4 +1,4 @@
-//! The locked motion, the view without an option.
+//! The locked motion, which is shown without the option of a view.
 
 use serde_json::{Value, json};
 
@@ -7,7 +7,7 @@ use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{HarmonicError, LockedPoint, Sweep};
 use rubscope_solver::model::ContactPolygon;
 
-/// The view without an option.
+/// The default view: the locked motion.
 pub const LOCKED: View = View {
     option: "",
     help: "",
@@ -17,7 +17,7 @@ pub const LOCKED: View = View {
     answer,
 };
 
-/// Makes the two tables of the locked motion: a short one to read, every number for files.
+/// Returns two tables of the locked motion: a short one for the screen, a full one for files.
 fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let points = request.sweep.as_ref().map_or(&[][..], |sweep| &sweep.points);
     let tables = vec![(String::new(), Table::of(points, SUMMARY))];
@@ -31,7 +31,7 @@ pub fn points(json: Parts, polygon: &ContactPolygon, sweep: &Sweep) -> Parts {
         .with_rows("points", &sweep.points, |point| with_groups(point, &blades))
 }
 
-/// Returns a locked motion with its multipliers and angles by phase group.
+/// Returns a point as JSON, with its multipliers and angles grouped by side.
 fn with_groups(point: &LockedPoint, blades: &[Vec<u32>; 2]) -> Value {
     let mut value = json!(point);
     if let Some(map) = value.as_object_mut() {
@@ -46,12 +46,12 @@ fn with_groups(point: &LockedPoint, blades: &[Vec<u32>; 2]) -> Value {
     value
 }
 
-/// Returns one word for a point: its character, or locked.
+/// Returns `locked` for a stable point, or else the kind of its instability.
 fn state(point: &LockedPoint) -> TableCell {
     if point.stable { "locked" } else { point.character.as_ref() }.into()
 }
 
-/// Columns of the locked motion to read.
+/// Columns for the screen.
 const SUMMARY: &[Column<'_, LockedPoint>] = &[
     ("speed [rad/s]", |point| point.speed_rad_s.into()),
     ("multiplier a [N]", |point| point.multipliers_n[0].into()),
@@ -62,7 +62,7 @@ const SUMMARY: &[Column<'_, LockedPoint>] = &[
     ("state", state),
 ];
 
-/// Columns of the locked motion with every number.
+/// Columns for files: every number.
 pub const FILE: &[Column<'_, LockedPoint>] = &[
     ("speed_rad_s", |point| point.speed_rad_s.into()),
     ("multiplier_a_n", |point| point.multipliers_n[0].into()),

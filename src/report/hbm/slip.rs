@@ -1,4 +1,4 @@
-//! Lasting slip, and where it exists.
+//! The view `--slip`: lasting slip, and the speeds at which it exists.
 
 use serde_json::{Value, json};
 
@@ -9,7 +9,6 @@ use rubscope_solver::harmonic::{
     HarmonicError, SlipLimit, SlipOrbit, SlipPoint, slip_limits, slip_over,
 };
 
-/// View: lasting slip.
 pub const SLIP: View = View {
     option: "slip",
     help: "View: lasting slip, the fixed point of the map from corner to corner",
@@ -46,7 +45,7 @@ fn heading(points: &[SlipPoint], limits: &[SlipLimit]) -> String {
     }
 }
 
-/// Returns slip at one speed as JSON, with `null` for each figure where there is none.
+/// Returns the slip at one speed as JSON, with `null` for a value that does not exist.
 fn value(point: &SlipPoint) -> Value {
     let mut value = json!({
         "speed_rad_s": point.speed_rad_s,
@@ -62,7 +61,6 @@ fn value(point: &SlipPoint) -> Value {
     value
 }
 
-/// Columns of slip.
 const SLIPS: &[Column<'_, SlipPoint>] = &[
     ("speed_rad_s", |point| point.speed_rad_s.into()),
     ("slip", |point| match point.outcome {

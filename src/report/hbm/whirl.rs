@@ -1,5 +1,5 @@
-//! Whirl of inclined tips in the limit of many blades, where it begins, and where a lock
-//! flutters.
+//! The view `--whirl`: whirl of inclined tips in the limit of many blades, its onset, and the speed
+//! at which a lock begins to flutter.
 
 use serde_json::{Value, json};
 
@@ -12,7 +12,6 @@ use rubscope_solver::harmonic::{
 };
 use rubscope_solver::model::{LockWindow, Machine};
 
-/// View: whirl against speed.
 pub const WHIRL: View = View {
     option: "whirl",
     help: "View: whirl of inclined tips in the limit of many blades, where it begins, and where \
@@ -53,7 +52,7 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     Ok(Answer::of(json, vec![(title, Table::of(&rows, WHIRLS))]))
 }
 
-/// Returns a range of speeds in words.
+/// Describes a range of speeds.
 fn between(range: LockWindow) -> String {
     match (range.from, range.to) {
         (0.0, None) => "at every speed".to_string(),
@@ -63,7 +62,7 @@ fn between(range: LockWindow) -> String {
     }
 }
 
-/// The lasting whirl at one speed, if there is one, with its loads.
+/// The lasting whirl at one speed, if it exists, and its loads.
 #[derive(Clone, Copy, Debug)]
 struct WhirlRow {
     speed_rad_s: f64,
@@ -71,18 +70,17 @@ struct WhirlRow {
 }
 
 impl WhirlRow {
-    /// Finds the lasting whirl of a machine at a speed \[rad/s\].
     fn at(machine: &Machine, speed: f64) -> Self {
         let joint = Joint::at(machine, speed);
         let lasting = RoundWhirl::lasting(&round_whirls(&joint));
-        // Without a coupling every undamped resonance would do.
+        // Without coupling, every undamped resonance would count as a whirl.
         let rubs = joint.machine.clearance() > 0.0 && joint.coupling_product != 0.0;
         let open = lasting.filter(|_| rubs);
         Self { speed_rad_s: speed, wave: open.map(|wave| (wave, wave.loads(&joint))) }
     }
 }
 
-/// Returns the whirl at one speed as JSON, with `null` for each figure where there is none.
+/// Returns the whirl at one speed as JSON, with `null` for a value that does not exist.
 fn value(row: &WhirlRow) -> Value {
     let figure = |of: fn(&(RoundWhirl, RoundWhirlLoads)) -> f64| row.wave.as_ref().map(of);
     json!({
@@ -101,7 +99,6 @@ fn value(row: &WhirlRow) -> Value {
     })
 }
 
-/// Columns of whirl against speed.
 const WHIRLS: &[Column<'_, WhirlRow>] = &[
     ("speed_rad_s", |row| row.speed_rad_s.into()),
     ("whirl", |row| if row.wave.is_some() { "attracts" } else { "none" }.into()),

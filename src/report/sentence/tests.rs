@@ -42,9 +42,9 @@ fn failures() -> Vec<FailureReason> {
     ]
 }
 
-/// Asserts whole sentences that fit, of at most fourteen words each.
-/// Looks at the sentences of all widths. One that has room in a width is the one of every
-/// width down to its own: what does not fit above does not fit there.
+/// Checks the sentences of all widths: each fits and has at most fourteen words. The sentence of a
+/// width must stay the same down to its own length, because a longer one that did not fit still
+/// does not.
 fn assert_reads_well(facts: &Facts) {
     let mut width = *WIDTHS.end();
     while WIDTHS.contains(&width) {
@@ -84,11 +84,10 @@ fn assert_is_whole(told: &Sentence, width: usize) {
     }
 }
 
-/// A change of the facts of a run.
 type Change = fn(&mut Facts);
 
-/// Every kind of history, each as a change of the facts of a run, and whether it is of a
-/// state that is wrong.
+/// Every kind of history, as a change of the facts of a run, and whether it makes the result
+/// suspect.
 fn histories() -> Vec<(bool, Change)> {
     vec![
         (false, |_| {}),
@@ -169,7 +168,7 @@ fn a_run_that_pulls_is_called_sensitive_too_where_it_is() {
     );
     assert_eq!(history(80), "Contact that only pushes: decay. Sensitive.");
     assert_eq!(history(60), "Pushes only: decay. Sensitive.");
-    // The first alone, where there is no room for two.
+    // Only the first note, because two do not fit.
     assert_eq!(history(50), "Pushes only: decay.");
 }
 

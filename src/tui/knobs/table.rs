@@ -1,5 +1,5 @@
-//! The table of knobs, in the order of the panel, group after group: what each is, how it
-//! turns, the range of its bar, and where it changes nothing.
+//! The table of knobs in the order of the panel, group after group: label, key, steps, description,
+//! range of the bar, and when the knob has no effect.
 
 use super::inert::{self, Inert};
 use super::number::{CLEARANCE, LEAST};
@@ -34,8 +34,7 @@ impl Knob {
     }
 }
 
-/// Every knob, in the order of the panel. The first five, which a newcomer turns,
-/// come first.
+/// Every knob, in the order of the panel. The five that a new user needs come first.
 pub const KNOBS: &[Knob] = &[
     knob(
         Operation,
