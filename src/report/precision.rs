@@ -41,8 +41,8 @@ fn remark(row: &Row) -> &'static str {
     }
 }
 
-/// How a reference was found.
-fn found(reference: &Reference) -> String {
+/// Names the run that is the reference.
+fn reference_origin(reference: &Reference) -> String {
     let Way { solver, contact, model, step_s, .. } = reference.way;
     let step = step_s.map_or(String::new(), |step| format!(", the finest step, {} s", short(step)));
     format!("{solver} solver, {contact}, {model} model{step}")
