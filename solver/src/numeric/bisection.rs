@@ -8,7 +8,7 @@ use std::convert::Infallible;
 
 /// Halving an interval as often ends at neighbouring numbers, from any scale to any other
 /// that occurs.
-pub(crate) const MOST_HALVINGS: usize = 200;
+const MOST_HALVINGS: usize = 200;
 
 /// As `bisected`, to `part` of the far end, with an answer that may fail.
 ///
