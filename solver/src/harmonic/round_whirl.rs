@@ -3,12 +3,10 @@
 //! frequency, and the rotor speeds at which it begins. These are folds, where an attracting wave
 //! and its threshold appear as a pair.
 //!
-//! The relative displacement of casing and tips, `w = z - kappa l_b a`, has a constant magnitude
-//! and turns at `s` in the blade frame. The force `p = w/B(omega)` must point against it, so
-//! `Im B = 0` and `Re B < 0`. `Im B |L_c|^2 |L_a|^2` is a polynomial of degree six in `omega`, all
-//! of whose roots are found.
-//!
-//! Read [`round_whirls`] (the waves at a speed), then [`whirl_onsets`] (the folds over speed).
+//! The distance between tips and casing, `w = z - kappa l_b a`, has constant size and
+//! turns at `s` in the frame of the blades; `p = w/B(omega)` must point against it, so
+//! `Im B = 0` and `Re B < 0`. `Im B |casing|^2 |blades|^2` is a polynomial of degree six
+//! in `omega`, whose real roots are found by a scan.
 
 use nalgebra::{Complex, DMatrix};
 use serde::Serialize;
@@ -17,7 +15,7 @@ use super::joint::Joint;
 use crate::model::{Machine, Number};
 use crate::numeric::bisection::bisected;
 use crate::numeric::eigen::eigenvalues;
-use crate::numeric::real_roots::{Coefficients, Point, product, real_roots, sum};
+use crate::numeric::real_roots::real_roots;
 use crate::tolerances::{
     BESIDE_A_FOLD, BRANCH_CHANGES, ONSET_FURTHEST, ONSET_STRIDE, REAL_COMPLIANCE,
 };
@@ -53,8 +51,8 @@ pub fn round_whirls(joint: &Joint) -> Vec<RoundWhirl> {
     if !Joint::has_one_wave(machine) {
         return Vec::new();
     }
-    let scaled = Scaled::new(joint);
-    let breaks = [
+    let scaled = Scaled::of(joint);
+    let resonances = [
         0.0,
         1.0,
         -1.0,
@@ -62,7 +60,7 @@ pub fn round_whirls(joint: &Joint) -> Vec<RoundWhirl> {
         scaled.turn + scaled.blade_rate,
         scaled.turn - scaled.blade_rate,
     ];
-    let roots = real_roots(&|from, to| scaled.imaginary(from, to), &breaks);
+    let roots = real_roots(|x| scaled.imaginary(x), &resonances);
     let waves = roots.iter().filter_map(|root| scaled.wave(joint, root * machine.omega_c));
     let mut waves: Vec<RoundWhirl> = waves.collect();
     waves.sort_by(|a, b| a.stiffness_n_per_m.total_cmp(&b.stiffness_n_per_m));
@@ -142,27 +140,15 @@ impl Scaled {
         }
     }
 
-    /// Returns `Im B |L_c|^2 |L_a|^2` on an interval of frequencies.
-    fn imaginary(&self, from: Point, to: Point) -> Coefficients {
-        // Frequency seen by the blades, y = s/omega_bd.
-        let seen = |u: Point| (u.p - self.turn * u.q) / self.blade_rate;
-        let stiff = |x: f64, y: f64, u: Point, v: Point| u.q * v.q - x * y;
-        let drag = |x: f64, y: f64, u: Point, v: Point| 0.5 * (x * v.q + y * u.q);
-        let quadratic = |of: &dyn Fn(Point, Point) -> f64| Coefficients::quadratic(from, to, of);
-        let casing = [
-            quadratic(&|u, v| stiff(u.p, v.p, u, v)),
-            quadratic(&|u, v| self.casing_damping * drag(u.p, v.p, u, v)),
-        ];
-        let blades = [
-            quadratic(&|u, v| stiff(seen(u), seen(v), u, v)),
-            quadratic(&|u, v| self.blade_damping * drag(seen(u), seen(v), u, v)),
-        ];
-        let square =
-            |[re, im]: &[Coefficients; 2]| sum(1.0, &product(re, re), 1.0, &product(im, im));
-        let driven = sum(self.casing_friction, &casing[0], -1.0, &casing[1]);
-        let casing_part = product(&driven, &square(&blades));
-        let blade_part = product(&blades[1], &square(&casing));
-        sum(1.0, &casing_part, -self.coupling, &blade_part)
+    /// Returns `Im B |casing|^2 |blades|^2` at a frequency.
+    fn imaginary(&self, x: f64) -> f64 {
+        // The frequency that the blades feel, in their own.
+        let y = (x - self.turn) / self.blade_rate;
+        let casing = [1.0 - x * x, self.casing_damping * x];
+        let blades = [1.0 - y * y, self.blade_damping * y];
+        let square = |[re, im]: [f64; 2]| re * re + im * im;
+        (self.casing_friction * casing[0] - casing[1]) * square(blades)
+            - self.coupling * blades[1] * square(casing)
     }
 
     /// Returns the wave at a root \[rad/s\]; `None` if it would have to pull.

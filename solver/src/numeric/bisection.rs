@@ -6,9 +6,9 @@
 
 use std::convert::Infallible;
 
-/// Enough to reduce any interval that occurs to adjacent floating-point numbers, whatever the
-/// scales of its ends.
-pub(crate) const MOST_HALVINGS: usize = 200;
+/// Halving an interval as often ends at neighbouring numbers, from any scale to any other
+/// that occurs.
+const MOST_HALVINGS: usize = 200;
 
 /// As [`bisected`], but stops at the relative width `part` of the far end, and with a predicate
 /// that can fail.
