@@ -51,7 +51,7 @@ pub fn round_whirls(joint: &Joint) -> Vec<RoundWhirl> {
     if !Joint::has_one_wave(machine) {
         return Vec::new();
     }
-    let scaled = Scaled::of(joint);
+    let scaled = Scaled::new(joint);
     let resonances = [
         0.0,
         1.0,
