@@ -186,29 +186,6 @@ fn titles_are_of_characters_that_are_seen() {
 }
 
 #[test]
-fn a_refusal_says_what_would_be_taken() {
-    for (command, expected) in [
-        (
-            "map --x operation.pulse_n=log:1e-300:1e6:4",
-            "rubscope: axis operation.pulse_n = log:1e-300:1e6:4: allowed is log: with ends that \
-             differ by a factor of at most 1e30",
-        ),
-        (
-            "map --x operation.pulse_n=1:1000:4",
-            "rubscope: map = operation.pulse_n on both axes: allowed is two different keys; \
-             columns (x) are the speed and rows (y) the pulse by default",
-        ),
-        (
-            "map --y casing.damping_ratio=0:1:2 --x casing.damping_ratio=0:0.1:4",
-            "rubscope: map = casing.damping_ratio on both axes: allowed is two different keys; \
-             columns (x) are the speed and rows (y) the pulse by default",
-        ),
-    ] {
-        assert_eq!(refusal(&command.split(' ').collect::<Vec<_>>()), expected);
-    }
-}
-
-#[test]
 fn an_end_below_one_step_is_refused_and_one_step_is_not() {
     let lines = [
         "run --end 1e-8 --step 1e-7",

@@ -136,16 +136,6 @@ fn history_options_without_a_file_are_refused() {
 }
 
 #[test]
-fn run_and_map_agree_on_a_lock_that_was_caught_by_a_pull() {
-    // The bilateral law pulls in the two steps that catch the wave, and never again.
-    let report = json(&["run", "--pulse", "51742", "--json"]);
-    assert_eq!(report["outcome"]["verdict"], "locked");
-    assert_eq!(report["checks"]["tensile_steps"], 2);
-    let map = json(&["map", "--speed", "500:500:1", "--pulse", "51742:51742:1", "--json"]);
-    assert_eq!(map["verdict"], serde_json::json!([["locked"]]));
-}
-
-#[test]
 fn every_penetration_above_round_off_is_told() {
     let mut scene = Scene::base();
     scene.solver.end_s = 1e-4;

@@ -1,5 +1,5 @@
-//! The margins of the explorer: its rows are those of `Margins`, Enter jumps to a
-//! limit or selects a knob, and no scene and no size is too odd for it.
+//! The margins of the explorer: Enter jumps to a limit or selects a knob, and no scene and no
+//! size is too odd for it.
 
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use rubscope::tui::bindings::Action;
@@ -41,14 +41,6 @@ fn cell(session: &Session) -> [usize; 2] {
 
 fn selected(session: &Session) -> &'static str {
     session.app.selected().unwrap().path
-}
-
-#[test]
-fn the_rows_are_the_margins_of_the_scene_with_their_knobs() {
-    let session = open((120, 50), short());
-    let (live, old) = session.app.margins().unwrap();
-    assert!(!old);
-    assert_eq!(live.margins.limits, Margins::of(&session.app.scene).limits);
 }
 
 #[test]
