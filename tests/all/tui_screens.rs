@@ -26,6 +26,17 @@ fn each_view_and_the_help_in_ascii() {
 }
 
 #[test]
+fn scenes_of_each_kind_of_end_at_two_sizes() {
+    for name in ["slip", "rub", "grazing"] {
+        for (width, height) in [(80, 24), (120, 40)] {
+            let scene = Scene::builtin(name).unwrap();
+            let session = Session::open(width, height, scene, Theme::Dark, Marker::Braille);
+            insta::assert_snapshot!(format!("{name}_{width}x{height}"), session.text());
+        }
+    }
+}
+
+#[test]
 fn an_adhesive_lock_is_never_called_locked_without_saying_so() {
     let mut scene = Scene::builtin("adhesive").unwrap();
     scene.solver.step_s = 2e-7;
