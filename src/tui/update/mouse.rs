@@ -63,7 +63,7 @@ impl App {
     }
 
     fn click(&mut self, at: (u16, u16)) -> Option<Effect> {
-        let Some((area, target)) = self.target(at) else { return None };
+        let (area, target) = self.target(at)?;
         if matches!(&self.dialogue.mode, InputMode::Typing(_)) {
             self.act(Action::Close);
         }
