@@ -199,7 +199,7 @@ fn difference(expected: &Seen, seen: &Seen) -> Option<String> {
     expected.states.iter().zip(&seen.states).find_map(|(right, state)| {
         let [most_u, most_alpha] = right.within?;
         let far = |a: [f64; 2], b: [f64; 2], most: f64| {
-            (0..2).any(|k| !((a[k] - b[k]).abs() <= most))
+            (0..2).any(|k| a[k].is_nan() || (a[k] - b[k]).abs() > most)
         };
         let wrong = far(state.u, right.u, most_u) || far(state.alpha, right.alpha, most_alpha);
         let (t, u, a) = (right.t_s, state.u, state.alpha);
