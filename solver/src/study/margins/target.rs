@@ -67,9 +67,10 @@ pub struct Found {
     pub from: f64,
     /// Nearest value of the parameter that gives the wanted limit; `None` if none was found.
     pub to: Option<f64>,
-    /// Value of the limit there.
+    /// Value of the limit at `to`; `None` if `to` is.
     pub reached: Option<f64>,
-    /// Smallest and largest value of the limit found during the search.
+    /// Smallest and largest value of the limit found during the search; `None` if the limit did not
+    /// exist anywhere.
     pub met: Option<[f64; 2]>,
     /// Smallest and largest value of the parameter used in the search.
     pub tried: [f64; 2],
