@@ -130,8 +130,8 @@ impl Serialize for Sensitivities {
 }
 
 impl Sensitivities {
-    /// Returns the sensitivity to one parameter; `None` if the scene does not have the parameter, or
-    /// if there is no derivative.
+    /// Returns the sensitivity to one parameter; `None` if the scene does not have the parameter,
+    /// or if there is no derivative.
     #[must_use]
     pub fn by(&self, path: &str) -> Option<f64> {
         self.0.iter().find(|(by, _)| *by == path)?.1

@@ -61,8 +61,11 @@ pub struct LinearEvents {
     energies: Energies,
     /// Phase `n_d theta` at the start of the stretch, modulo a full turn \[rad\].
     phase: f64,
+    /// Rows in contact.
     held: Held,
+    /// Gaps that have just opened.
     opened: Vec<OpenedGap>,
+    /// Present stretch of the motion.
     stretch: Stretch,
     /// Event that ends the stretch, and its time after the start of the stretch \[s\].
     next: (f64, Ending),

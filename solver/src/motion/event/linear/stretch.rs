@@ -19,6 +19,7 @@ use crate::tolerances::{EVENT, MOST_HALVINGS, MOST_HELD, PEAK_LOOKS, ROUND_OFF};
 /// Rows in contact.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Held {
+    /// Index of each row.
     pub rows: Vec<usize>,
     /// Directions of their contact forces.
     directions: [Plane; MOST_HELD],
@@ -115,8 +116,11 @@ pub(super) struct Stretch {
     pub length: f64,
     /// Point at the start.
     from: Point,
+    /// Casing displacement \[m\].
     z: Wave,
+    /// Blade angle \[rad\].
     a: Wave,
+    /// Pulse force per unit casing mass, in the blade frame \[m/s^2\].
     force: Wave,
     /// Contact forces of the rows per unit casing mass \[m/s^2\].
     pub pushes: [Terms; MOST_HELD],
