@@ -371,7 +371,8 @@ fn changes(
     found
 }
 
-/// Returns the stiffer of the two waves that are nearest to each other in frequency.
+/// Returns the stiffer of the two waves, neighbours in stiffness, that are nearest to each other in
+/// frequency; `None` for fewer than two waves.
 fn closest(waves: &[RoundWhirl]) -> Option<RoundWhirl> {
     let apart = |pair: &[RoundWhirl]| match pair {
         [one, other] => (one.omega_rad_s - other.omega_rad_s).abs(),

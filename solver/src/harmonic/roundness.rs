@@ -11,14 +11,14 @@ use super::Corner;
 use crate::model::{Machine, Number};
 use crate::tolerances::ROUND_ENOUGH;
 
-/// Returns the lobe counts for which the roundness of a lock is reported.
+/// Returns the lobe counts for which the roundness of a lock is reported: 1 to 4, and `diameters`.
 pub(crate) fn lobes_of(diameters: u32) -> impl Iterator<Item = u32> {
     (1..=4).chain((diameters > 4).then_some(diameters))
 }
 
-/// Returns the lobe height up to which the lock of a machine persists at a speed, for every lobe
-/// count of [`lobes_of`] \[m\]. `None` if it is unknown, larger than in any usual casing, or if
-/// tips or casing are uneven already.
+/// Returns the lobe height up to which the lock of a machine persists at a speed, for 1 to 4 and
+/// for `n_d` lobes \[m\]. `None` if it is unknown, larger than in any usual casing, or if tips or
+/// casing are uneven already.
 #[must_use]
 pub fn roundness_needed(machine: &Machine, speed: f64) -> Option<f64> {
     let lobes = lobes_of(machine.polygon.nodal_diameters);

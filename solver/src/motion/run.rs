@@ -123,11 +123,11 @@ pub struct RunReport {
     #[serde(skip)]
     pub end_machine: Machine,
     /// Longest hold of a corner that ended during the run, and the rotor speed when it ended
-    /// \[rad/s\].
+    /// \[rad/s\]; `None` as in [`lock_that_broke`].
     #[serde(skip)]
     pub broken: Option<(Hold, f64)>,
     /// Rotor speed at which the present contact began during a speed ramp \[rad/s\], and whether
-    /// the rotor accelerates.
+    /// the rotor accelerates; `None` as in [`caught_at`].
     #[serde(skip)]
     pub caught: Option<(f64, bool)>,
     /// Verdict of the event solver with unilateral contact, if it was requested.
@@ -470,17 +470,18 @@ fn accumulation(scene: &CheckedScene, log: &ContactLog, machine: &Machine) -> Op
     rests.map(|(from, _)| from).reduce(f64::min).filter(|_| rigid)
 }
 
-/// Returns the longest hold of a corner that ended during the run, if it lasted for at least a
-/// casing period, and the rotor speed when it ended \[rad/s\]; `None` if the speed was changed
-/// after that.
+/// Returns the longest hold of a corner that ended during the run, and the rotor speed when it
+/// ended \[rad/s\]; `None` if no hold lasted for at least a casing period, or if the speed was
+/// changed after that.
 pub fn lock_that_broke(motion: &Motion) -> Option<(Hold, f64)> {
     let period = TAU / motion.machine().omega_c;
     let hold = motion.contacts().longest_hold.filter(|hold| hold.length() >= period)?;
     Some((hold, motion.rotor().known_speed(hold.ended)?))
 }
 
-/// Returns the rotor speed at which the present contact began, if the speed is ramped \[rad/s\],
-/// and whether the rotor accelerates; `None` if the ramp was changed after that.
+/// Returns the rotor speed at which the present contact began \[rad/s\], and whether the rotor
+/// accelerates; `None` without a speed ramp, for a contact since the start of the run, and if speed
+/// or ramp were changed after the contact began.
 pub fn caught_at(motion: &Motion) -> Option<(f64, bool)> {
     let (since, ramp) = (motion.contacts().since, motion.rotor().ramp());
     let speed = motion.rotor().known_speed(since)?;

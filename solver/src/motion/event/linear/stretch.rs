@@ -362,6 +362,7 @@ pub(super) enum Ending {
 /// A gap that has just opened, stored separately to keep its relative accuracy.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OpenedGap {
+    /// Index of the row.
     pub row: usize,
     /// Gap \[m\].
     pub gap: f64,
@@ -409,7 +410,7 @@ fn grown(order: usize, left: &Terms, x: f64) -> (f64, f64) {
     (power(order) * value, grows + power(order) * rate)
 }
 
-/// Returns the first `x` up to `end` at which the series falls to `noise`.
+/// Returns the first `x` up to `end` at which the series falls to `noise`; `None` if it does not.
 fn first_zero(terms: &Terms, noise: f64, end: f64) -> Option<f64> {
     let falls: f64 = terms.iter().skip(1).map(|term| term.abs()).sum();
     if terms[0] > falls {
@@ -472,7 +473,8 @@ pub(super) fn seek(
     (end * stretch.length, what)
 }
 
-/// Returns the fraction of the stretch at which a contact force vanishes, before `end`.
+/// Returns the fraction of the stretch at which a contact force vanishes; `None` if it does not
+/// before `end`, or if the force is entirely round-off.
 fn vanishes(stretch: &Stretch, terms: &Terms, tolerance: f64, end: f64) -> Option<f64> {
     if stretch.is_noise(terms) {
         // A row in contact without a force is not opened by round-off.
