@@ -359,7 +359,7 @@ impl<T: Number> Machine<T> {
 
     /// Returns the dangerous coincidence for a rotor that turns in the direction of the sign of
     /// `speed` \[rad/s\]. Backward rotation exchanges the two directions of every wave, so it is
-    /// `-(omega_c + omega_bd)/n_d`.
+    /// `-(omega_c + omega_bd)/n_d`. `None` as in [`dangerous_speed`](Self::dangerous_speed).
     #[must_use]
     pub fn dangerous_speed_toward(&self, speed: f64) -> Option<T> {
         self.dangerous_speed().map(|forward| if speed < 0.0 { -forward } else { forward })

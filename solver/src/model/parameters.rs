@@ -148,7 +148,7 @@ pub struct BladedDisk<T = f64> {
     pub mistuning: T,
     /// Seed of the random stiffnesses.
     pub mistuning_seed: u32,
-    /// Excess length of each blade over `blade_length_m`, one value for each blade; empty if none is
+    /// Excess length of each blade over `blade_length_m`, one value for each blade; empty if not
     /// given \[m\].
     pub tips_m: Vec<f64>,
     /// Standard deviation of a random excess length that is added to `tips_m` \[m\].

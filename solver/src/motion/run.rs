@@ -130,7 +130,7 @@ pub struct RunReport {
     /// the rotor accelerates; `None` as in [`caught_at`].
     #[serde(skip)]
     pub caught: Option<(f64, bool)>,
-    /// Verdict of the event solver with unilateral contact, if it was requested.
+    /// Verdict of the event solver with unilateral contact; `None` if it was not determined.
     #[serde(skip)]
     pub pushes_only: Option<Verdict>,
     /// Reason why the run failed or stopped early; `None` if it did neither.

@@ -149,7 +149,8 @@ pub struct Outcome {
     /// Whether another time step alters the verdict or those blades; `None` if not determined, and
     /// for the event solver, which has no steps.
     pub depends_on_step: Option<bool>,
-    /// Verdict of the event solver, if it differs from that of a run with time steps.
+    /// Verdict of the event solver, if it differs from that of a run with time steps under the
+    /// unilateral law; `None` if it agrees or was not determined.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub by_events: Option<Verdict>,
     /// Deviation of the final numbers under such changes; `None` if not determined.

@@ -143,7 +143,8 @@ pub struct SurveyLimit {
     pub margin: Option<f64>,
     /// Whether the limit lies in the range; `None` without a range.
     pub in_range: Option<bool>,
-    /// Sensitivity to the requested parameter: change in per cent for one per cent of it.
+    /// Sensitivity of the limit to the requested parameter, in per cent for one per cent of it;
+    /// `None` if not requested, or if there is no derivative.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub by: Option<f64>,
 }

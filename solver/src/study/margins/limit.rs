@@ -114,7 +114,7 @@ pub struct Limit {
     /// Sensitivities `d ln(value)/d ln(parameter)` to every parameter of the scene; `None` above
     /// `MOST_SENSITIVE`.
     pub sensitivities: Sensitivities,
-    /// Additional information, such as the reason why there is no value.
+    /// What the closed form neglects, or why there is no value; `None` if there is nothing to say.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
 }

@@ -44,7 +44,7 @@ pub(super) struct Parameters<T> {
     pub law: ContactLaw,
     pub model: ModelSize,
     pub operation: Operation<T>,
-    /// Frequencies of casing and disk, if they replace a stiffness \[Hz\].
+    /// Frequencies of casing and disk; `None` where the scene gives a stiffness \[Hz\].
     pub frequencies: [Option<T>; 2],
 }
 

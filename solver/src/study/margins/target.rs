@@ -120,6 +120,7 @@ struct Walk<'a> {
     target: Target,
     scene: &'a CheckedScene,
     go_on: GoOn<'a>,
+    /// As in [`Found`], up to now.
     met: Option<[f64; 2]>,
     tried: [f64; 2],
 }
@@ -151,7 +152,8 @@ impl Walk<'_> {
     }
 
     /// Returns two neighbouring values between which the limit passes the wanted one, the nearest
-    /// to the present value.
+    /// to the present value. The inner `None` if there are none, the outer one if `go_on` stopped
+    /// the search.
     fn bracket(&mut self, from: f64) -> Option<Option<[Place; 2]>> {
         // If the present value is zero, the search goes only upward, from a value small enough for
         // any unit.

@@ -69,7 +69,8 @@ pub struct LinearEvents {
     stretch: Stretch,
     /// Event that ends the stretch, and its time after the start of the stretch \[s\].
     next: (f64, Ending),
-    /// Result of the proof that the present contact is permanent; computed on demand.
+    /// Bounds that can prove the present contact permanent, computed on demand; `None` if it has no
+    /// stable equilibrium.
     rest: OnceLock<Option<Rest>>,
     swings: Swings,
 }
