@@ -208,8 +208,8 @@ pub fn equilibrium(
 /// Scaled `z` and contact forces (side, multiplier, lever) of an equilibrium.
 type Loaded = ((f64, f64), Vec<(u32, f64, f64)>);
 
-/// Returns the state with contact on one side; `None` at the critical speed, where its contact
-/// force is infinite. `(stiffness + i drag) z = -Lambda exp(i phi)` and
+/// Returns the state with contact on one side; `None` with damping at the critical speed, where its
+/// contact force is infinite. `(stiffness + i drag) z = -Lambda exp(i phi)` and
 /// the closed gap give `Lambda = (stiffness^2 + drag^2)/stiffness` and the lever `drag/stiffness`;
 /// the blade angle only turns the direction.
 fn on_side(machine: &Machine, scales: &Scales, wave: Wave, side: u32) -> Option<Loaded> {

@@ -113,7 +113,7 @@ pub struct RunReport {
     pub r#final: FinalState,
     /// Largest errors of the run.
     pub checks: Checks,
-    /// Energy account, for models beyond the paper.
+    /// Energy account of a model beyond the paper; `None` within the paper's model.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy: Option<EnergyAccount>,
     /// Rotor speed at the end \[rad/s\].

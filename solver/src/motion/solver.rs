@@ -191,7 +191,8 @@ pub trait Solver: Debug + Send + Sync {
     /// Returns the largest penetration, blade angle and energy error so far.
     fn checks(&self) -> Checks;
 
-    /// Returns the energy account, for models beyond the paper.
+    /// Returns the energy account of a model beyond the paper; `None` within the paper's model, and
+    /// after [`forgo_checks`](Self::forgo_checks).
     fn energy_account(&self) -> Option<EnergyAccount> {
         None
     }

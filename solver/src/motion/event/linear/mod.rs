@@ -70,7 +70,7 @@ pub struct LinearEvents {
     /// Event that ends the stretch, and its time after the start of the stretch \[s\].
     next: (f64, Ending),
     /// Bounds that can prove the present contact permanent, computed on demand; `None` if it has no
-    /// stable equilibrium.
+    /// stable equilibrium, or would not last there.
     rest: OnceLock<Option<Rest>>,
     swings: Swings,
 }
