@@ -13,7 +13,7 @@ use crate::scene::{ContactLaw, Scene};
 /// `frequency = +-sqrt(at_standstill^2 + stiffening Omega^2) + slope Omega`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Line {
-    /// Label.
+    /// Label: the formula of the line, such as `n_d Omega + omega_bd`.
     pub name: String,
     /// Frequency at standstill \[rad/s\].
     pub at_standstill_rad_s: f64,
@@ -127,9 +127,10 @@ pub struct CoincidencePoint {
     pub growth_1_s: Option<f64>,
     /// Blade amplitude of the wave that persists; `None` if every wave decays \[rad\].
     pub blade_amplitude_rad: Option<f64>,
-    /// Casing amplitude of that wave \[m\].
+    /// Casing amplitude of the wave that persists; `None` if every wave decays \[m\].
     pub casing_amplitude_m: Option<f64>,
-    /// Frequency of that wave in the stationary frame \[rad/s\].
+    /// Frequency of the wave that persists, in the stationary frame; `None` if every wave decays
+    /// \[rad/s\].
     pub omega_rad_s: Option<f64>,
     /// Whether waves of any amplitude stay bounded in this model.
     pub bounded: bool,
@@ -157,7 +158,8 @@ pub fn coincidence(scene: &Scene, speeds: &[f64]) -> Result<Vec<CoincidencePoint
 }
 
 /// Returns the coincidence as shifted by the lining of a scene, for a rotor that turns in the
-/// direction of the sign of `speed` \[rad/s\]; `None` if no blade rubs at rest.
+/// direction of the sign of `speed` \[rad/s\]. `None` for rigid contact, if no blade rubs at rest,
+/// and if casing and blades are not coupled by a single travelling wave.
 #[must_use]
 pub fn shifted_coincidence(scene: &Scene, speed: f64) -> Option<f64> {
     let machine = scene.machine();

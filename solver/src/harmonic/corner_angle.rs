@@ -1,8 +1,9 @@
 //! The corner of very soft blades: contact forces open it until, at some speed, the branch folds
 //! back (docs/theory.md, section 8).
 //!
-//! The corner is one equation for its corner angle `Delta`, explicit in it, folds included:
-//! `stiffness = -(Delta - delta) cos^3 Delta/(c sin Delta)`, `c` the theory's `chi`.
+//! The half angle `Delta` of the open corner satisfies one equation, which gives the scaled casing
+//! stiffness as a function of `Delta`, folds included:
+//! `stiffness = -(Delta - delta) cos^3 Delta/(c sin Delta)`, with `c` the theory's `chi`.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -13,7 +14,7 @@ use crate::tolerances::CONVERGED;
 pub(super) struct CornerAngle {
     /// Half angle of the unbent corner, `delta` \[rad\].
     pub delta: f64,
-    /// `c` above.
+    /// Factor `c` of the equation above: softness times share times `sin^2 delta`.
     compliance: f64,
 }
 
@@ -24,8 +25,9 @@ impl CornerAngle {
         Self { delta, compliance: bend * delta.sin().powi(2) }
     }
 
-    /// Returns the change of the corner angle `Delta - delta` \[rad\] at `stiffness`, on the
-    /// branch of stiff blades; `None` beyond its fold.
+    /// Returns the change of the corner angle, `Delta - delta`, at the scaled casing stiffness
+    /// `stiffness` \[rad\], on the branch of stiff blades. `None` beyond its fold, and where the
+    /// angle would leave the range from 0 to `pi/2`.
     pub fn at(&self, stiffness: f64) -> Option<f64> {
         let mut angle_change = 0.0;
         // Newton steps shrink at least by half (at the fold) until they are round-off.

@@ -102,9 +102,10 @@ pub(super) struct Equations<T = f64> {
     lever: T,
     /// Unit of blade angles \[rad\].
     pub angle: T,
-    /// Factor `n_d alpha` per unit of scaled blade angle.
+    /// Phase angle `n_d alpha` \[rad\] at a scaled blade angle of 1; 0 for rigid blades.
     pub softness: T,
-    /// Response of both blade angles to the torques `P (A - lever)/n_d` of both groups.
+    /// Response of both scaled blade angles (rows) to the scaled torques `P (A/n_d - lever)` of
+    /// both groups (columns).
     share: [[T; 2]; 2],
 }
 
@@ -206,7 +207,7 @@ impl<T: Number> Equations<T> {
     }
 
     /// Attaches derivatives to a solution of the plain equations: one Newton step with the plain
-    /// Jacobian.
+    /// Jacobian. `None` if that is singular.
     fn derived(&self, plain: &Equations, unknowns: &Unknowns) -> Option<Unknowns<T>> {
         let inverse = plain.jacobian(unknowns).try_inverse()?;
         let mut derived = unknowns.map(T::from);
@@ -219,7 +220,8 @@ impl<T: Number> Equations<T> {
         Some(derived)
     }
 
-    /// Returns the locked solution with derivatives; `None` if there is none.
+    /// Returns the locked solution with derivatives; `None` where `locked` returns `None`, or if
+    /// the Jacobian is singular there.
     pub fn locked_with_derivatives(&self) -> Option<Unknowns<T>> {
         let plain = self.map(|value| value.re());
         self.derived(&plain, &plain.locked()?)
@@ -347,8 +349,9 @@ impl Equations {
         start.iter().all(|value| value.is_finite()).then_some(start)
     }
 
-    /// Solves the equations by Newton's method; `None` if the first step exceeds the fraction
-    /// `largest` of the unknowns, or if steps do not shrink.
+    /// Solves the equations by Newton's method. It stops early if the first step exceeds about the
+    /// fraction `largest` of the unknowns, if a step turns a group by more than `largest` \[rad\]
+    /// or if steps do not shrink; `None` if the residual is not small then.
     fn newton(&self, start: Unknowns, largest: f64) -> Option<Unknowns> {
         // The rows are of order one, so the attainable residual is a few units in the last place of
         // the largest term.

@@ -116,13 +116,15 @@ pub struct Equilibrium {
     pub alpha_c_rad: f64,
     /// Sine coordinate of the blades, `alpha_s` \[rad\].
     pub alpha_s_rad: f64,
-    /// Smallest gap of the groups that are not in contact \[m\].
+    /// Smallest gap of the groups that are not in contact; negative if one penetrates, infinite if
+    /// there are none \[m\].
     pub smallest_gap_m: f64,
     /// Torque of the rotor, `sum Lambda A` \[N m\].
     pub torque_nm: f64,
     /// Power of the rotor, equal to that of the casing damping, `d_c nu^2 |z|^2` \[W\].
     pub power_w: f64,
-    /// Largest real part of the eigenvalues \[1/s\].
+    /// Largest real part of the eigenvalues; negative if every motion that keeps the contacts
+    /// decays \[1/s\].
     pub growth_per_s: f64,
     /// Eigenvalues of the motion that keeps the contacts \[1/s\]; written as `[real, imaginary]` in
     /// reports.
@@ -171,7 +173,7 @@ pub fn equilibria(
 }
 
 /// Returns the equilibrium of one kind at a speed \[rad/s\], on `side` or in the corner between it
-/// and the next one; `None` if there is none.
+/// and the next one; `None` if there is none, or if the blades have grown into the casing.
 ///
 /// # Errors
 /// As [`equilibria`].
@@ -206,7 +208,8 @@ pub fn equilibrium(
 /// Scaled `z` and contact forces (side, multiplier, lever) of an equilibrium.
 type Loaded = ((f64, f64), Vec<(u32, f64, f64)>);
 
-/// Returns the state with contact on one side. `(stiffness + i drag) z = -Lambda exp(i phi)` and
+/// Returns the state with contact on one side; `None` with damping at the critical speed, where its
+/// contact force is infinite. `(stiffness + i drag) z = -Lambda exp(i phi)` and
 /// the closed gap give `Lambda = (stiffness^2 + drag^2)/stiffness` and the lever `drag/stiffness`;
 /// the blade angle only turns the direction.
 fn on_side(machine: &Machine, scales: &Scales, wave: Wave, side: u32) -> Option<Loaded> {
@@ -310,7 +313,7 @@ pub(super) fn judged(
 pub struct Threshold {
     /// Rotor speed, to the last digit \[rad/s\].
     pub speed_rad_s: f64,
-    /// Branch.
+    /// Kind of the equilibria on the branch.
     pub kind: Kind,
     /// Character below this speed.
     pub below: Character,

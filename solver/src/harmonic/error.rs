@@ -42,8 +42,8 @@ pub enum HarmonicError {
         /// Allowed values, in words.
         allowed: String,
     },
-    /// Newton's method found no equilibrium: the blades are so soft that the branch folds back
-    /// before this speed.
+    /// There is no locked motion: the blades are so soft that the branch folds back before this
+    /// speed, or they have grown into the casing.
     #[error(
         "no locked motion at speed = {speed} rad/s: the branch of these blades (softness {softness:e}) \
          ends before it"

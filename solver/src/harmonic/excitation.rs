@@ -19,7 +19,7 @@ use crate::model::{Excitation, Machine};
 pub struct ExcitedLock {
     /// Locked motion without the excitation.
     pub state: Equilibrium,
-    /// Frequency in the blade frame, `E |Omega|` \[rad/s\].
+    /// Frequency of the excitation in the blade frame, `E |Omega|` \[rad/s\].
     pub frequency_rad_s: f64,
     /// Complex amplitudes, the coefficients of `exp(i frequency t)`, of `x`, `y` (casing in the
     /// blade frame) \[m\] and of `alpha_c`, `alpha_s` \[rad\].
@@ -36,7 +36,7 @@ pub struct ExcitedLock {
 }
 
 impl ExcitedLock {
-    /// Returns the amplitude of the casing response \[m\].
+    /// Returns the norm of the casing response, `sqrt(|x|^2 + |y|^2)` \[m\].
     #[must_use]
     pub fn casing_m(&self) -> f64 {
         self.response[0].norm().hypot(self.response[1].norm())
@@ -100,10 +100,11 @@ impl ExcitedLocks {
     }
 
     /// Returns the excited locked motion at a speed, given by its index in the list; `None` if
-    /// there is none.
+    /// there is no lock or no clearance at that speed, at an undamped resonance, and for an index
+    /// beyond the list.
     ///
     /// # Errors
-    /// None, because [`over`](Self::over) has computed it before.
+    /// Does not fail, because [`over`](Self::over) has computed every speed before.
     pub fn lock_at(&self, place: usize) -> Result<Option<ExcitedLock>, HarmonicError> {
         let Some(&speed) = self.speeds.get(place) else { return Ok(None) };
         error::refuse_endless(&[speed])?;

@@ -33,7 +33,7 @@ pub struct Joint<'a> {
     pub machine: Cow<'a, Machine>,
     /// Wave frequency in the blade frame, `nu = n_d Omega` \[rad/s\].
     pub nu: f64,
-    /// Friction that acts on the casing mode, `mu_c`.
+    /// Friction that acts on the casing mode, `mu_c`; negative for backward rotation.
     pub casing_friction: f64,
     /// Coupling product `c2 = kappa (kappa + mu) l_b^2` \[m^2\].
     pub coupling_product: f64,
@@ -108,8 +108,9 @@ impl<'a> Joint<'a> {
 
 /// Returns the flutter speed without any damping, as a magnitude \[rad/s\]:
 /// `Omega_f = sqrt[(1/m_c + c2/m_a)(k_c + k_a/c2)]/n_d`, which is never below the dangerous
-/// coincidence. `None` if the tips do not couple blades and casing, or the lock never flutters. The
-/// sign of `toward` is the direction of rotation.
+/// coincidence. `None` without corners, with disk modes of other nodal diameters, if the tips do
+/// not couple blades and casing, or if the lock never flutters. The sign of `toward` is the
+/// direction of rotation.
 #[must_use]
 pub fn undamped_flutter_speed<T: Number>(machine: &Machine<T>, toward: f64) -> Option<T> {
     let pair = HeldPair::new(&machine.at(T::zero()), toward)?;
@@ -128,8 +129,8 @@ pub fn undamped_flutter_speed<T: Number>(machine: &Machine<T>, toward: f64) -> O
 
 /// Returns the lowest rotor speed at which the damped lock flutters, as a magnitude \[rad/s\]; 0 if
 /// it does from rest on. It is lower than without damping by a finite amount, however small the
-/// damping (Ziegler's paradox). `None` if the tips do not couple blades and casing, or the lock
-/// never flutters. The sign of `toward` is the direction of rotation.
+/// damping (Ziegler's paradox). `None` as in [`undamped_flutter_speed`]. The sign of `toward` is
+/// the direction of rotation.
 #[must_use]
 pub fn flutter_speed<T: Number>(machine: &Machine<T>, toward: f64) -> Option<T> {
     flutters(machine, toward).first().map(|flutter| flutter.from)
@@ -200,7 +201,7 @@ fn searched_limits(grows: &dyn Fn(f64) -> bool, critical: f64, last: f64) -> Vec
 }
 
 /// Attaches derivatives to a stability limit: one Newton step from the root, with the machine at
-/// that speed.
+/// that speed. `None` where [`apart`] finds no limit.
 fn derived<T: Number>(machine: &Machine<T>, root: f64, toward: f64) -> Option<T> {
     let plain = machine.plain();
     let moving = Dual64::from(root).derivative();
@@ -211,7 +212,7 @@ fn derived<T: Number>(machine: &Machine<T>, root: f64, toward: f64) -> Option<T>
 }
 
 /// Returns the distance of the wave frequency at `speed` from the nearest stability limit of the
-/// machine there, in units of `omega_c`.
+/// machine there, in units of `omega_c`; `None` if the machine has no such limit.
 fn apart<T: Number>(machine: &Machine<T>, speed: T, toward: f64) -> Option<T> {
     let pair = HeldPair::new(&machine.at(speed), toward)?;
     let turn = machine.nu(speed) / machine.omega_c;
@@ -220,7 +221,7 @@ fn apart<T: Number>(machine: &Machine<T>, speed: T, toward: f64) -> Option<T> {
     finite.min_by(|a, b| a.re().abs().total_cmp(&b.re().abs()))
 }
 
-/// Returns the window of [`lock_windows`] with the lowest speeds.
+/// Returns the window of [`lock_windows`] with the lowest speeds; `None` if there is no window.
 #[must_use]
 pub fn lock_window<T: Number>(machine: &Machine<T>, toward: f64) -> Option<LockWindow<T>> {
     lock_windows(machine, toward).into_iter().next()
@@ -252,7 +253,8 @@ pub fn lock_growth(machine: &Machine, speed: f64) -> Option<f64> {
 }
 
 /// Returns the roots `l = i s` of the motion that keeps a lock, with gaps that do not turn with the
-/// blade angle \[1/s\]. Empty if the tips do not couple blades and casing.
+/// blade angle \[1/s\]. Empty without corners, with disk modes of other nodal diameters, and if the
+/// tips do not couple blades and casing.
 #[must_use]
 pub fn lock_roots(joint: &Joint) -> Vec<Complex<f64>> {
     let Some(pair) = HeldPair::new(&joint.machine, joint.nu) else { return Vec::new() };
@@ -311,7 +313,7 @@ impl<T: Number> HeldPair<T> {
     }
 
     /// Without friction the imaginary part is `2 c zeta_c x = -2 zeta_bd y`; with it the real part
-    /// gives the magnitude of both.
+    /// gives the magnitude of both. `None` without damping, or if no real magnitude exists.
     fn limit_without_friction(&self) -> Option<T> {
         let c = self.coupling;
         let square = (c + 1.0) / (c * (c * self.casing * self.casing + self.blades * self.blades));

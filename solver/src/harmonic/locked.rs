@@ -45,7 +45,8 @@ pub struct LockedPoint {
     pub admissible: bool,
     /// Whether the state is admissible and no motion that keeps both contacts grows.
     pub stable: bool,
-    /// Largest growth rate of those motions, if one grows \[1/s\].
+    /// Largest growth rate of the motions that keep both contacts; `None` if none grows, if the
+    /// state is not admissible, or if the eigenvalues cannot be computed \[1/s\].
     pub growth_1_s: Option<f64>,
     /// Largest residual of the eight equations (27), dimensionless: torques in `n_d k_c g0^2`, gaps
     /// in `g0`, forces in `k_c g0`.
@@ -254,8 +255,9 @@ pub struct LockLoads<T = f64> {
     pub power_w: T,
 }
 
-/// Returns the loads of the lock at a speed \[rad/s\]. `None` without corners or clearance, beyond
-/// the fold of very soft blades, and on a lining if no two groups alone hold the wave.
+/// Returns the loads of the lock at a speed \[rad/s\]. `None` without corners or clearance, with
+/// disk modes of other nodal diameters, if no corner of unequal tips is held, beyond the fold of
+/// very soft blades, and on a lining if no two groups alone hold the wave.
 #[must_use]
 pub fn lock_loads<T: Number>(machine: &Machine<T>, speed: T) -> Option<LockLoads<T>> {
     let machine = &*machine.at(speed);

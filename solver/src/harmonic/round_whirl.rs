@@ -23,7 +23,7 @@ use crate::tolerances::{
 /// A wave that runs round both structures, per unit of `|w|`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct RoundWhirl {
-    /// Frequency in the stationary frame; negative turns backward \[rad/s\].
+    /// Frequency in the stationary frame; negative if the wave turns backward \[rad/s\].
     pub omega_rad_s: f64,
     /// Frequency in the blade frame, `s = omega - nu`; negative if the contact passes backward over
     /// the blades of a rotor that turns forward \[rad/s\].
@@ -106,7 +106,8 @@ impl RoundWhirl {
         }
     }
 
-    /// Returns the stiffest wave that attracts.
+    /// Returns the stiffest of these waves that attracts; `None` if none does. The waves are given
+    /// by increasing stiffness.
     #[must_use]
     pub fn lasting(waves: &[Self]) -> Option<Self> {
         waves.iter().rev().find(|wave| wave.attracts).copied()
@@ -119,8 +120,11 @@ struct Scaled {
     turn: f64,
     /// Blade frequency, `omega_bd/omega_c`.
     blade_rate: f64,
+    /// Twice the damping ratio of the casing, `2 zeta_c`.
     casing_damping: f64,
+    /// Twice the damping ratio of the blades, `2 zeta_bd`.
     blade_damping: f64,
+    /// Friction on the casing mode, `mu_c`; negative for backward rotation.
     casing_friction: f64,
     /// Coupling, `c2 k_c/k_a`.
     coupling: f64,
@@ -140,9 +144,9 @@ impl Scaled {
         }
     }
 
-    /// Returns `Im B |casing|^2 |blades|^2` at a frequency.
+    /// Returns `Im B |casing|^2 |blades|^2` at the casing frequency `x`.
     fn imaginary(&self, x: f64) -> f64 {
-        // The frequency that the blades feel, in their own.
+        // Frequency in the blade frame, in units of `omega_bd`.
         let y = (x - self.turn) / self.blade_rate;
         let casing = [1.0 - x * x, self.casing_damping * x];
         let blades = [1.0 - y * y, self.blade_damping * y];
@@ -151,7 +155,8 @@ impl Scaled {
             - self.coupling * blades[1] * square(casing)
     }
 
-    /// Returns the wave at a root \[rad/s\]; `None` if it would have to pull.
+    /// Returns the wave at a root `omega` \[rad/s\]; `None` if it would have to pull, at an
+    /// undamped resonance, and if its growth rate cannot be computed.
     fn wave(&self, joint: &Joint, omega: f64) -> Option<RoundWhirl> {
         let compliance = joint.compliance(omega);
         // At an undamped resonance both parts of B change sign through infinity; such roots are
@@ -175,7 +180,8 @@ impl Scaled {
         })
     }
 
-    /// Returns the growth rate of small motions about a wave, in units of `omega_c`. If the wave
+    /// Returns the growth rate of the least stable small motion about a wave, in units of
+    /// `omega_c`; `None` if the eigenvalues cannot be computed. If the wave
     /// runs slightly ahead, the contact force keeps its direction; with `G = 1/B` and the growth
     /// rate `l`, `G(x - i l) + conj G(x - i conj l) = 2 G(x)`. One root is zero, the shift in time,
     /// and is removed.
@@ -232,7 +238,7 @@ fn convolved(a: &[Complex<f64>], b: &[Complex<f64>]) -> Vec<Complex<f64>> {
 pub struct WhirlOnset {
     /// Rotor speed; negative for backward rotation \[rad/s\].
     pub speed_rad_s: f64,
-    /// Whether the pair exists above this speed and not below.
+    /// Whether the pair exists at speeds of larger magnitude and not at those of smaller magnitude.
     pub appears: bool,
     /// One of the two waves, which are equal there.
     pub wave: RoundWhirl,
@@ -264,7 +270,7 @@ fn beginnings<T: Number>(machine: &Machine<T>, toward: f64, first: bool) -> Vec<
     onsets.filter(|onset| onset.appears).filter_map(|onset| derived(machine, &onset)).collect()
 }
 
-/// Attaches derivatives to the speed of a fold.
+/// Attaches derivatives to the speed of a fold; `None` if the lining is too soft for its wave.
 fn derived<T: Number>(machine: &Machine<T>, onset: &WhirlOnset) -> Option<T> {
     // The wave stiffness of a lining never exceeds N k/4 by lift-off for half of each revolution.
     let softest = machine.lining.map(|lining| lining.stiffness_n_per_m.re());
@@ -365,7 +371,8 @@ fn changes(
     found
 }
 
-/// Returns the stiffer of the two waves that are nearest to each other in frequency.
+/// Returns the stiffer of the two waves, neighbours in stiffness, that are nearest to each other in
+/// frequency; `None` for fewer than two waves.
 fn closest(waves: &[RoundWhirl]) -> Option<RoundWhirl> {
     let apart = |pair: &[RoundWhirl]| match pair {
         [one, other] => (one.omega_rad_s - other.omega_rad_s).abs(),

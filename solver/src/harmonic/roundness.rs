@@ -11,13 +11,14 @@ use super::Corner;
 use crate::model::{Machine, Number};
 use crate::tolerances::ROUND_ENOUGH;
 
-/// Returns the lobe counts for which the roundness of a lock is reported.
+/// Returns the lobe counts for which the roundness of a lock is reported: 1 to 4, and `diameters`.
 pub(crate) fn lobes_of(diameters: u32) -> impl Iterator<Item = u32> {
     (1..=4).chain((diameters > 4).then_some(diameters))
 }
 
-/// Returns the lobe height up to which the lock of a machine persists at a speed whatever the
-/// number of lobes \[m\]. `None` if it is unknown, or larger than in any usual casing.
+/// Returns the lobe height up to which the lock of a machine persists at a speed, for 1 to 4 and
+/// for `n_d` lobes \[m\]. `None` if it is unknown, larger than in any usual casing, or if tips or
+/// casing are uneven already.
 #[must_use]
 pub fn roundness_needed(machine: &Machine, speed: f64) -> Option<f64> {
     let lobes = lobes_of(machine.polygon.nodal_diameters);
@@ -26,8 +27,9 @@ pub fn roundness_needed(machine: &Machine, speed: f64) -> Option<f64> {
 }
 
 /// Returns the largest height of `lobes` lobes with which the machine stays locked at a speed
-/// \[m\]. `None` if there is no lock at that speed, and where no closed form exists: several blades
-/// on a side, inclined tips, friction on the casing, and a lining.
+/// \[m\]. `None` if there is no lock at that speed, if the height would not be below the locked
+/// amplitude, at standstill, and where no closed form exists: several blades on a side, inclined
+/// tips, friction on the casing, and a lining.
 #[must_use]
 pub fn roundness<T: Number>(machine: &Machine<T>, speed: T, lobes: u32) -> Option<T> {
     let machine = &*machine.at(speed);

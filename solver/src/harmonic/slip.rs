@@ -246,15 +246,15 @@ struct SaddleFlow {
     zeta: f64,
     /// Speed ratio `nu/omega_c`, above one.
     ratio: f64,
-    /// Half the length of the side, `tan delta`.
+    /// Half the length of the side in units of `g0`, `tan delta`.
     end: f64,
-    /// Position of the saddle point, `y*`.
+    /// Position `y*` of the saddle point along the side, in units of `g0`.
     saddle: f64,
-    /// Growing and decaying eigenvalue.
+    /// Growing and decaying eigenvalue `s+`, `s-` of the saddle point, in units of `omega_c`.
     roots: [f64; 2],
     /// Factor on the speed at a corner, `cos 2 delta`; 0 if the corner stops the wave.
     kept: f64,
-    /// Part of the speed that the impact at a corner removes, `sin 2 delta`.
+    /// Impulse of the impact at a corner per unit of the speed before it, `sin 2 delta`.
     struck: f64,
 }
 
@@ -357,7 +357,7 @@ impl SaddleFlow {
 }
 
 /// Returns the first time from which a condition is true, to the last digit: doubling from `guess`,
-/// then bisection.
+/// then bisection. `None` if it is still false after 200 doublings.
 fn first_time(holds: impl Fn(f64) -> bool, guess: f64) -> Option<f64> {
     let (mut below, mut above) = (0.0, guess);
     let mut doublings = 0;

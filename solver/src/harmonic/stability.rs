@@ -44,8 +44,10 @@ pub(super) struct Linearised {
     gradients: Vec<Vector4<f64>>,
     forces: Vec<Vector4<f64>>,
     multipliers: Vec<f64>,
+    /// Whether the disk has a sine mode, `alpha_s`.
     sine_mode: bool,
     damped: bool,
+    /// Unit of frequencies and growth rates, `omega_c` \[rad/s\].
     rate: f64,
 }
 
@@ -172,21 +174,22 @@ impl Linearised {
         &self.gradients
     }
 
-    /// Returns the dynamic stiffness `K + i ratio C - ratio^2 M`.
+    /// Returns the dynamic stiffness `K + i ratio C - ratio^2 M` at a frequency of `ratio` times
+    /// `omega_c`.
     pub fn dynamic_stiffness(&self, ratio: f64) -> Matrix4<Complex<f64>> {
         let static_part = self.stiffness - Matrix4::from_diagonal(&self.mass) * (ratio * ratio);
         static_part.zip_map(&(self.damping * ratio), Complex::new)
     }
 
     /// Returns a basis of the two motions that remain in a corner: those of the blades, which the
-    /// casing follows.
+    /// casing follows. `None` unless exactly two sides are in contact.
     pub fn corner_basis(&self) -> Option<Matrix4x2<f64>> {
         let [a, b] = self.gradients.as_slice() else { return None };
         Some(follow(a, b))
     }
 
     /// Returns `M, C, K` of the two blade motions in a corner, projected onto the directions in
-    /// which the contact forces do no work.
+    /// which the contact forces do no work. `None` unless exactly two sides are in contact.
     fn corner_motion(&self) -> Option<[Matrix2<f64>; 3]> {
         let basis = self.corner_basis()?;
         let [a, b] = self.forces.as_slice() else { return None };
@@ -265,7 +268,7 @@ pub(super) fn largest_growth(values: &[Complex<f64>]) -> f64 {
     values.iter().map(|value| value.re).fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// Returns the factor `n_d alpha_i` per unit of scaled blade coordinate.
+/// Returns the phase angle `n_d alpha` \[rad\] at a scaled blade coordinate of 1.
 pub(super) fn blade_scale(machine: &Machine) -> f64 {
     let scales = Scales::new(machine);
     (scales.softness * scales.share).sqrt()

@@ -70,8 +70,9 @@ impl<T: Number> Machine<T> {
     /// for a rotor that turns in the direction of the sign of `toward`. Whether such a lock is
     /// stable is decided by `harmonic::lock_windows`.
     ///
-    /// Empty if the blades rub at rest, or if inclined tips have modes with other nodal diameters
-    /// than the casing: then no single wave closes both gaps.
+    /// Empty without corners, if the blades rub at rest, and where unequal tips or an out-of-round
+    /// casing have no closed form. Also empty if inclined tips have modes with other nodal
+    /// diameters than the casing: then no single wave closes both gaps.
     #[must_use]
     pub fn lock_windows(&self, toward: f64) -> Vec<LockWindow<T>> {
         let slope = self.polygon.delta.tan();
@@ -123,8 +124,9 @@ impl<T: Number> Machine<T> {
 
     /// Returns the adhesive speed: the lowest speed at which the paper's equality algorithm holds a
     /// lock, one multiplier being tensile \[rad/s\]. The formula is that of
-    /// [`lock_speed`](Self::lock_speed) with `tan delta` for `cot delta`. `None` with friction,
-    /// because a pull has none, and on a lining, which cannot pull.
+    /// [`lock_speed`](Self::lock_speed) with `tan delta` for `cot delta`. `None` without corners,
+    /// without clearance at rest, with friction, because a pull has none, and on a lining, which
+    /// cannot pull. For unequal tips also `None` if a lock of pushes begins at a lower speed.
     #[must_use]
     pub fn adhesive_speed(&self) -> Option<T> {
         if self.lining.is_some() || self.clearance_at_rest().re() <= 0.0 {
@@ -211,8 +213,8 @@ impl<T: Number> Machine<T> {
     }
 
     /// Returns the amplitude of the locked casing wave, `g0/cos delta` \[m\]. `None` without
-    /// corners or clearance, and with inclined tips or a lining, where the amplitude depends on the
-    /// speed.
+    /// corners or clearance, if no corner of unequal tips is held, and with inclined tips or a
+    /// lining, where the amplitude depends on the speed.
     #[must_use]
     pub fn locked_amplitude(&self) -> Option<T> {
         let corners = self.polygon.has_corners() && self.clearance().re() > 0.0;
@@ -230,8 +232,8 @@ impl<T: Number> Machine<T> {
     /// For rigid contact and blades that are rigid in rotation they are
     /// `(g0/2 cos delta)(Re(1/H)/cos delta -+ Im(1/H)/sin delta)`. Without friction and inclined
     /// tips `1/H = K + i D` with `K = k_c - nu^2 m_c` and `D = d_c nu`. `None` without corners,
-    /// with an interference fit, and if inclined tips have modes with other nodal diameters than
-    /// the casing.
+    /// with an interference fit, if inclined tips have modes with other nodal diameters than the
+    /// casing, and if no corner of unequal tips is held.
     #[must_use]
     pub fn locked_multipliers(&self, speed: T) -> Option<[T; 2]> {
         let here = self.at(speed);
@@ -277,12 +279,15 @@ impl<T: Number> Machine<T> {
 struct Balance<T> {
     /// Slope and sign of the condition of each side.
     sides: [(T, T); 2],
+    /// Twice the damping ratio of the casing, `2 zeta_c`.
     damping: T,
+    /// Friction on the casing mode, `mu_c`.
     friction: T,
     /// `c k_c` of the blades at rest.
     coupling: T,
     /// Centrifugal stiffening `b`: the blade stiffness grows by the factor `1 + b x^2`.
     stiffening: T,
+    /// `k_c/(k sin 2 delta)` with the stiffness `k` of the lining under one group; 0 without one.
     lining: T,
 }
 

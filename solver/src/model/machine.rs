@@ -315,7 +315,8 @@ impl<T: Number> Machine<T> {
 
     /// Returns the speeds at which a casing wave and a blade wave coincide,
     /// `casing = n Omega +- blades`, for the frequencies `casing` and `blades` (at rest) \[rad/s\]:
-    /// first the differences, negative if the blades are faster, then the sum.
+    /// first the differences, negative if the blades are faster, then the sum; `None` if it does
+    /// not exist.
     ///
     /// With stiffening `B` the speeds are the roots of
     /// `(n^2 - B) Omega^2 - 2 n casing Omega + casing^2 - blades^2 = 0`; the sum is the root with
@@ -347,7 +348,7 @@ impl<T: Number> Machine<T> {
 
     /// Returns the coincidence that is dangerous for the tips of this machine \[rad/s\]: the sum,
     /// Eq. (31), or the difference of Eq. (30) if the friction is self-locking,
-    /// `kappa (kappa + mu) < 0`. The sign is that of `speed`.
+    /// `kappa (kappa + mu) < 0`. The sign is that of `speed`. `None` if it does not exist.
     #[must_use]
     pub fn coincidence_felt_at(&self, speed: T) -> Option<T> {
         let digs_in = self.coupling_product_at(speed).re() < 0.0;
@@ -358,7 +359,7 @@ impl<T: Number> Machine<T> {
 
     /// Returns the dangerous coincidence for a rotor that turns in the direction of the sign of
     /// `speed` \[rad/s\]. Backward rotation exchanges the two directions of every wave, so it is
-    /// `-(omega_c + omega_bd)/n_d`.
+    /// `-(omega_c + omega_bd)/n_d`. `None` as in [`dangerous_speed`](Self::dangerous_speed).
     #[must_use]
     pub fn dangerous_speed_toward(&self, speed: f64) -> Option<T> {
         self.dangerous_speed().map(|forward| if speed < 0.0 { -forward } else { forward })

@@ -148,13 +148,14 @@ pub struct BladedDisk<T = f64> {
     pub mistuning: T,
     /// Seed of the random stiffnesses.
     pub mistuning_seed: u32,
-    /// Excess length of each tip, `b_i`; one value a blade, or none \[m\].
+    /// Excess length of each blade over `blade_length_m`, one value for each blade; empty if not
+    /// given \[m\].
     pub tips_m: Vec<f64>,
-    /// Standard deviation of random tip lengths \[m\].
+    /// Standard deviation of a random excess length that is added to `tips_m` \[m\].
     pub tip_scatter_m: T,
     /// Seed of the random tip lengths.
     pub tip_seed: u32,
-    /// Excess length of blade 1 \[m\].
+    /// Excess length of blade 1, in addition to the two above \[m\].
     pub longest_tip_m: T,
     /// Distance of the rotor centre from the axis \[m\].
     pub orbit_m: T,

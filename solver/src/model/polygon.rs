@@ -224,7 +224,7 @@ impl ContactPolygon {
     }
 }
 
-/// `exp(i 2 pi k/parts)` for `k < parts`, exact at multiples of a quarter turn.
+/// Returns cosine and sine of `2 pi k/parts` for `k < parts`, exact at multiples of a quarter turn.
 pub(crate) fn fraction_of_turn(k: u32, parts: u32) -> (f64, f64) {
     // Reduction to the first octant makes symmetric points exact mirror images.
     let (k, n) = (u64::from(k) * 8, u64::from(parts));

@@ -4,7 +4,7 @@
 //! neighbours meet at other angles. This module finds the corners and the speeds at which pushes
 //! hold them: with the angle `gamma` from the outward normal of side `a` to the corner and the
 //! angle `beta` to the normal of side `b`, both sides push where `gamma - beta <= theta <= gamma`,
-//! `theta = -arg(-1/H)`.
+//! `theta = -arg(-1/H)`, with the response `H` of the casing as in `lock.rs`.
 
 use std::f64::consts::{PI, TAU};
 
@@ -15,7 +15,8 @@ use super::{LockWindow, Machine, Number};
 pub struct TipCorner<T = f64> {
     /// Sides `a` and `b`, in the direction of increasing phase.
     pub sides: [u32; 2],
-    /// Angle from the normal of `a` to the corner \[rad\].
+    /// Angle from the outward normal of `a` to the corner, positive towards increasing phase
+    /// \[rad\].
     pub gamma: T,
     /// Angle between both normals \[rad\].
     pub beta: f64,
@@ -33,7 +34,7 @@ impl<T: Number> TipCorner<T> {
 
     /// Returns the speeds, in units of `omega_c/n_d`, at which both sides push for the casing
     /// damping ratio `damping`, without friction and inclined tips. The sign of `toward` is the
-    /// direction of rotation.
+    /// direction of rotation. `None` if pushes hold the corner at no speed.
     pub(super) fn window(&self, damping: T, toward: f64) -> Option<LockWindow<T>> {
         let gamma = if toward < 0.0 { -self.gamma + self.beta } else { self.gamma };
         let at = |angle: T| {
@@ -106,8 +107,8 @@ impl<T: Number> Machine<T> {
         self.polygon.has_corners() && self.lining.is_none() && self.clearance_loss().re() == 0.0
     }
 
-    /// Returns the disjoint windows of speeds at which at least one corner is held, in increasing
-    /// order.
+    /// Returns the disjoint windows of speeds at which pushes hold at least one corner, in
+    /// increasing order; empty where there is no closed form.
     pub(super) fn windows_of_tips(&self, toward: f64) -> Vec<LockWindow<T>> {
         if !self.knows_tip_corners() {
             return Vec::new();
@@ -128,7 +129,8 @@ impl<T: Number> Machine<T> {
         apart
     }
 
-    /// Returns the windows of speeds at which one corner is held.
+    /// Returns the windows of speeds at which pushes hold one corner, for a rotor that turns in the
+    /// direction of the sign of `toward`.
     #[must_use]
     pub fn windows_of(&self, corner: &TipCorner<T>, toward: f64) -> Vec<LockWindow<T>> {
         if self.casing_feels_tips() {

@@ -16,7 +16,8 @@ type Plane = Complex<f64>;
 /// Excess lengths of the tips, and the shape of the casing.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Tips<T = f64> {
-    /// Excess length `b_i` of each blade \[m\].
+    /// Excess length `b_i` of each blade over the nominal one, including the share of an eccentric
+    /// rotor centre \[m\].
     longer: Vec<T>,
     /// Largest excess length on each side \[m\].
     of_sides: Vec<T>,
@@ -221,8 +222,8 @@ impl Machine {
 }
 
 /// Returns the point nearest to `from` that satisfies every gap condition
-/// `offset + Re[z conj(normal)] >= 0`. Incremental (Seidel): each violated condition moves the
-/// point along its own line, within the range that the earlier conditions leave.
+/// `offset + Re[z conj(normal)] >= 0`; `None` if no point does. Incremental (Seidel): each violated
+/// condition moves the point to its own line, within the range that the earlier conditions leave.
 fn nearest(rows: &[(Plane, f64)], from: Plane) -> Option<Plane> {
     let mut place = from;
     for (k, &(normal, offset)) in rows.iter().enumerate() {

@@ -121,19 +121,19 @@ pub struct ContactLog {
     pub active_set: ActiveSet,
     /// Start of the present `active_set` \[s\].
     pub since: f64,
-    /// Longest hold of a corner before the present contact.
+    /// Longest hold of a corner before the present contact; `None` if there was none.
     pub longest_hold: Option<Hold>,
-    /// Start of the present unbroken contact of any sides \[s\].
+    /// Start of the present unbroken contact of any sides; `None` while no blade touches \[s\].
     pub unbroken_since: Option<f64>,
-    /// End of the latest contact; now, while in contact \[s\].
+    /// End of the latest contact; now, while in contact; `None` before the first contact \[s\].
     pub last_contact: Option<f64>,
-    /// Latest step with a tensile multiplier \[s\].
+    /// Time of the latest step with a tensile multiplier; `None` if there was none \[s\].
     pub last_tensile: Option<f64>,
     /// Number of steps with a tensile multiplier.
     pub tensile_steps: u64,
-    /// The first impacts, in order of time.
+    /// The first impacts, up to `IMPACTS_KEPT`, in order of time.
     pub impacts: Vec<Impact>,
-    /// Number of impacts.
+    /// Number of all impacts.
     pub impact_count: u64,
 }
 

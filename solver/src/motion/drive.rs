@@ -32,9 +32,13 @@ impl State {
 /// Rotor angle with a constant acceleration since some instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rotor {
+    /// Time of the last change of speed or acceleration \[s\].
     since: f64,
+    /// Angle at that time \[rad\].
     angle: f64,
+    /// Speed at that time \[rad/s\].
     speed: f64,
+    /// Acceleration since that time \[rad/s^2\].
     ramp: f64,
 }
 

@@ -172,7 +172,7 @@ pub enum FailureReason {
         /// Clearance \[m\].
         clearance_m: f64,
     },
-    /// A motion that can only push ended with a pull.
+    /// A contact that can only push pulls at the end of the run.
     #[error(
         "a contact that only pushes ended with a pull of {force_n:.6} N, so the result is wrong; \
          run --plain takes every step"

@@ -61,11 +61,11 @@ pub struct SolverReport {
     /// Whether the blade angles are neglected in the phases of the gaps. Reported only if true.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub linearised: bool,
-    /// Number of time steps computed one by one.
+    /// Number of time steps computed one by one; `None` for the event solver.
     pub steps: Option<u64>,
-    /// Number of time steps skipped; the run consists of both.
+    /// Number of time steps skipped; the run consists of both. `None` for the event solver.
     pub steps_skipped: Option<u64>,
-    /// Number of events computed.
+    /// Number of events computed; `None` for the explicit solver.
     pub events: Option<u64>,
 }
 
@@ -106,14 +106,14 @@ pub struct RunReport {
     pub impacts: Vec<ImpactReport>,
     /// Number of impacts; in an infinite series only those that were computed are counted.
     pub impact_count: u64,
-    /// Time at which infinitely many impacts accumulate \[s\].
+    /// First time at which infinitely many impacts accumulate; `None` if they never do \[s\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub impacts_accumulate_at_s: Option<f64>,
     /// State at the end.
     pub r#final: FinalState,
     /// Largest errors of the run.
     pub checks: Checks,
-    /// Energy account, for models beyond the paper.
+    /// Energy account of a model beyond the paper; `None` within the paper's model.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy: Option<EnergyAccount>,
     /// Rotor speed at the end \[rad/s\].
@@ -123,17 +123,17 @@ pub struct RunReport {
     #[serde(skip)]
     pub end_machine: Machine,
     /// Longest hold of a corner that ended during the run, and the rotor speed when it ended
-    /// \[rad/s\].
+    /// \[rad/s\]; `None` as in [`lock_that_broke`].
     #[serde(skip)]
     pub broken: Option<(Hold, f64)>,
     /// Rotor speed at which the present contact began during a speed ramp \[rad/s\], and whether
-    /// the rotor accelerates.
+    /// the rotor accelerates; `None` as in [`caught_at`].
     #[serde(skip)]
     pub caught: Option<(f64, bool)>,
-    /// Verdict of the event solver with unilateral contact, if it was requested.
+    /// Verdict of the event solver with unilateral contact; `None` if it was not determined.
     #[serde(skip)]
     pub pushes_only: Option<Verdict>,
-    /// Reason why the run stopped early.
+    /// Reason why the run failed or stopped early; `None` if it did neither.
     #[serde(skip)]
     pub failure: Option<Failure>,
     /// Values that a perturbed run must reproduce if this one is not sensitive.
@@ -151,9 +151,9 @@ pub struct VerdictReached {
     /// Whether a corner was held for at least a casing period. It is then reached by infinitely
     /// many impacts, and their number is not meaningful.
     pub rested: bool,
-    /// Time since which the wave is locked \[s\].
+    /// Time since which the same blades hold the wave; `None` if they do not \[s\].
     pub locked_s: Option<f64>,
-    /// Sides that hold the wave.
+    /// Sides that hold the wave; none if the wave is not held.
     pub held: ActiveSet,
 }
 
@@ -250,7 +250,7 @@ fn proven_or_lasting(motion: &Motion, window: f64) -> Verdict {
 }
 
 /// Returns the pull that contradicts a verdict: any pull under a law that only pushes; in a lock
-/// also under the bilateral law.
+/// also under the bilateral law. `None` without such a pull, and if the run has already failed.
 fn wrong_pull(motion: &Motion, verdict: Verdict) -> Option<FailureReason> {
     if motion.failure().is_some() || (motion.pulls() && verdict != Verdict::Locked) {
         return None;
@@ -261,7 +261,8 @@ fn wrong_pull(motion: &Motion, verdict: Verdict) -> Option<FailureReason> {
     pull_beyond(PULL_ROUND_OFF * machine.casing_stiffness * reach, forces)
 }
 
-/// Returns an error with the largest contact force if it pulls by more than `most` \[N\].
+/// Returns the reason of failure if the largest of these multipliers, positive for a pull, exceeds
+/// `most` \[N\].
 fn pull_beyond(most: f64, forces: impl Iterator<Item = f64>) -> Option<FailureReason> {
     let force_n = forces.fold(f64::NEG_INFINITY, f64::max);
     (force_n > most).then_some(FailureReason::Pull { force_n })
@@ -285,7 +286,7 @@ pub fn judge_end(motion: &Motion, checks: &Checks, window: f64) -> (Verdict, Opt
     }
 }
 
-/// Returns the basis of the verdict; `None` if the run stopped early.
+/// Returns the basis of the verdict; `None` for a failed or divergent run.
 fn basis(motion: &Motion, verdict: Verdict, window: f64) -> Option<Basis> {
     let (log, to_s) = (motion.contacts(), motion.t_s());
     let (by, since_s) = match verdict {
@@ -302,7 +303,8 @@ fn basis(motion: &Motion, verdict: Verdict, window: f64) -> Option<Basis> {
     Some(Basis::Proved { by, since_s })
 }
 
-/// Returns the decay rate of free motion or of the wave about a linear rest \[1/s\].
+/// Returns the decay rate of free motion or of the wave about a linear rest; `None` while contact
+/// can still occur without such a rest, and for a failed or divergent run \[1/s\].
 fn decay_rate(motion: &Motion, verdict: Verdict) -> Option<f64> {
     if matches!(verdict, Verdict::Failed | Verdict::Divergent) {
         return None;
@@ -451,9 +453,10 @@ pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) 
     }
 }
 
-/// Returns the time at which impacts accumulate \[s\]. Rigid contact comes to rest in a corner, and
-/// with restitution also on a side, through infinitely many impacts. The rest must last for at
-/// least a casing period to count.
+/// Returns the first time at which impacts accumulate \[s\]. Rigid contact comes to rest in a
+/// corner, and with restitution also on a side, through infinitely many impacts. The rest must last
+/// for at least a casing period to count; `None` without such a rest, and for any law other than
+/// the unilateral one.
 fn accumulation(scene: &CheckedScene, log: &ContactLog, machine: &Machine) -> Option<f64> {
     let lasts = |(from, until): &(f64, f64)| until - from >= TAU / machine.omega_c;
     let now = |from: f64| Some((from, log.last_contact?));
@@ -467,17 +470,18 @@ fn accumulation(scene: &CheckedScene, log: &ContactLog, machine: &Machine) -> Op
     rests.map(|(from, _)| from).reduce(f64::min).filter(|_| rigid)
 }
 
-/// Returns the longest hold of a corner that ended during the run, if it lasted for at least a
-/// casing period, and the rotor speed when it ended \[rad/s\]; `None` if the speed was changed
-/// after that.
+/// Returns the longest hold of a corner that ended during the run, and the rotor speed when it
+/// ended \[rad/s\]; `None` if no hold lasted for at least a casing period, or if the speed was
+/// changed after that.
 pub fn lock_that_broke(motion: &Motion) -> Option<(Hold, f64)> {
     let period = TAU / motion.machine().omega_c;
     let hold = motion.contacts().longest_hold.filter(|hold| hold.length() >= period)?;
     Some((hold, motion.rotor().known_speed(hold.ended)?))
 }
 
-/// Returns the rotor speed at which the present contact began, if the speed is ramped \[rad/s\],
-/// and whether the rotor accelerates; `None` if the ramp was changed after that.
+/// Returns the rotor speed at which the present contact began \[rad/s\], and whether the rotor
+/// accelerates; `None` without a speed ramp, for a contact since the start of the run, and if speed
+/// or ramp were changed after the contact began.
 pub fn caught_at(motion: &Motion) -> Option<(f64, bool)> {
     let (since, ramp) = (motion.contacts().since, motion.rotor().ramp());
     let speed = motion.rotor().known_speed(since)?;

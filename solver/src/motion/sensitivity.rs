@@ -60,7 +60,7 @@ impl VerdictReached {
 }
 
 /// As [`run_to_verdict`], with the certainty of the verdict. Stops at the first perturbed run that
-/// differs.
+/// differs. `None` if `go_on` returned false.
 #[must_use]
 pub fn run_with_certainty(
     scene: &CheckedScene,
@@ -202,7 +202,8 @@ impl TinyChange {
         [Self::Weaker, Self::Faster, Self::Stronger, last]
     }
 
-    /// Runs a scene with this perturbation until its verdict is known.
+    /// Runs a scene with this perturbation until its verdict is known; `None` if `go_on` returned
+    /// false.
     fn run(
         self,
         scene: &CheckedScene,
@@ -219,7 +220,7 @@ impl TinyChange {
         run_motion_to_verdict(motion, &script, scene.solver.end_s, noise, wave, go_on)
     }
 
-    /// Runs a scene with this perturbation to its end.
+    /// Runs a scene with this perturbation to its end; `None` if `go_on` returned false.
     fn run_to_end(
         self,
         scene: &CheckedScene,
@@ -284,7 +285,7 @@ pub(super) fn sign(n: u64) -> f64 {
 }
 
 /// Largest deviation of each final number over the perturbed runs; `None` if one of the runs does
-/// not have it.
+/// not have the number, or if the deviation is not finite.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Spread {
     /// Deviation of the lock time \[s\].

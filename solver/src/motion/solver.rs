@@ -93,7 +93,7 @@ pub trait Solver: Debug + Send + Sync {
     fn over(&self) -> bool;
 
     /// Returns the verdict once it is proved: no contact can occur any more, or a corner can never
-    /// open.
+    /// open. `None` until then.
     fn final_verdict(&self) -> Option<Verdict>;
 
     /// Returns the linear motion about rest, if it is known and all blades have been in contact
@@ -137,12 +137,12 @@ pub trait Solver: Debug + Send + Sync {
         None
     }
 
-    /// Returns the number of skipped time steps.
+    /// Returns the number of skipped time steps; `None` for a solver without steps.
     fn steps_skipped(&self) -> Option<u64> {
         None
     }
 
-    /// Returns the number of time steps computed one by one.
+    /// Returns the number of time steps computed one by one; `None` for a solver without steps.
     fn steps_taken(&self) -> Option<u64> {
         Some(self.steps()?.saturating_sub(self.steps_skipped()?))
     }
@@ -171,7 +171,7 @@ pub trait Solver: Debug + Send + Sync {
     /// Returns the failure that ended the run, if any.
     fn failure(&self) -> Option<&Failure>;
 
-    /// Returns reason and time of an early stop, in words.
+    /// Returns reason and time of an early stop, in words; `None` if the run has not failed.
     fn stopped(&self) -> Option<String> {
         let failure = self.failure()?;
         let message = match self.final_verdict() {
@@ -191,7 +191,8 @@ pub trait Solver: Debug + Send + Sync {
     /// Returns the largest penetration, blade angle and energy error so far.
     fn checks(&self) -> Checks;
 
-    /// Returns the energy account, for models beyond the paper.
+    /// Returns the energy account of a model beyond the paper; `None` within the paper's model, and
+    /// after [`forgo_checks`](Self::forgo_checks).
     fn energy_account(&self) -> Option<EnergyAccount> {
         None
     }

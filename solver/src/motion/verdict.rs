@@ -81,7 +81,7 @@ impl Verdict {
 /// A phase group in contact.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Contact {
-    /// Blades of the group, numbered from 1.
+    /// Blades of the group that can touch, those with its longest tip, numbered from 1.
     pub blades: Vec<u32>,
     /// Sum of the group's multipliers; negative is a push \[N\].
     pub multiplier_n: f64,
@@ -134,36 +134,40 @@ pub struct LinearRest {
 pub struct Outcome {
     /// Verdict.
     pub verdict: Verdict,
-    /// Basis of the verdict; `None` if the run stopped early.
+    /// Basis of the verdict; `None` for a failed or divergent run.
     pub basis: Option<Basis>,
     /// Decay rate of the wave in free motion, or about a linear rest on a lining; negative if it
-    /// grows, `None` otherwise \[1/s\].
+    /// grows. `None` in any other motion, and for a failed or divergent run \[1/s\].
     pub decay_rate_per_s: Option<f64>,
     /// Whether a tiny change of the excitation, or of the rate during the run, alters the verdict,
     /// the blades that hold the wave, the number of impacts or the time of the lock; `None` if not
     /// determined.
     pub sensitive: Option<bool>,
-    /// Whether such a change alters the verdict or the blades that hold the wave.
+    /// Whether such a change alters the verdict or the blades that hold the wave; `None` if not
+    /// determined.
     pub ends_otherwise: Option<bool>,
-    /// Whether another time step alters the verdict or those blades; `None` also without time
-    /// steps.
+    /// Whether another time step alters the verdict or those blades; `None` if not determined, and
+    /// for the event solver, which has no steps.
     pub depends_on_step: Option<bool>,
-    /// Verdict of the event solver, if it differs from that of a run with time steps.
+    /// Verdict of the event solver, if it differs from that of a run with time steps under the
+    /// unilateral law; `None` if it agrees or was not determined.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub by_events: Option<Verdict>,
     /// Deviation of the final numbers under such changes; `None` if not determined.
     pub spread: Option<Spread>,
-    /// Reason of a failure.
+    /// Why the run failed or stopped early; `None` if it did neither.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub message: Option<String>,
-    /// Time since which the final sides are locked \[s\].
+    /// Time since which the final sides hold the wave; `None` unless the verdict is locked or
+    /// adhesive \[s\].
     pub lock_time_s: Option<f64>,
     /// Groups in contact at the end, in phase order (`psi_a`, `psi_b`).
     pub contacts: Vec<Contact>,
-    /// Amplitude `|u|` at the end \[m\].
+    /// Amplitude `|u|` of the casing wave at the end \[m\].
     pub amplitude_m: f64,
     /// Mean frequency of the casing wave over the last part of the run, divided by `n_d`; equal to
-    /// the rotor speed if locked \[rad/s\].
+    /// the rotor speed if locked, adhesive or forced. `None` for a decaying, failed or divergent
+    /// motion, and if the wave was not observed \[rad/s\].
     pub wave_speed_rad_s: Option<f64>,
 }
 
@@ -172,13 +176,15 @@ pub struct Outcome {
 pub struct Checks {
     /// Deepest penetration of a corrected state \[m\].
     pub max_penetration_m: f64,
-    /// Deepest predicted penetration, before correction (explicit solver only) \[m\].
+    /// Deepest predicted penetration, before correction; `None` for the event solver and on a
+    /// lining \[m\].
     pub max_predicted_penetration_m: Option<f64>,
     /// Number of steps with a tensile multiplier.
     pub tensile_steps: u64,
     /// Largest blade angle \[rad\].
     pub max_blade_angle_rad: f64,
-    /// Work of pulse and rotor minus energy stored, dissipated and lost \[J\].
+    /// Work of pulse and rotor minus energy stored, dissipated and lost; `None` if the solver keeps
+    /// no energy account \[J\].
     pub energy_residual_j: Option<f64>,
 }
 
@@ -207,6 +213,7 @@ pub fn judge(log: &ContactLog, now: f64, window: f64) -> Verdict {
 pub(super) struct Trend {
     /// End of the run \[s\].
     end: f64,
+    /// Amplitude in the middle of the run and at three quarters of it; `None` before that time.
     marks: [Option<f64>; 2],
 }
 
@@ -216,7 +223,8 @@ impl Trend {
         Self { end, marks: [None; 2] }
     }
 
-    /// Records the amplitude at time `t`, its largest value over a preceding interval \[s\].
+    /// Records `value` as the amplitude at the time `t` \[s\]: its largest value over a preceding
+    /// interval.
     pub fn see(&mut self, t: f64, value: f64) {
         let [middle, later] = &mut self.marks;
         if t >= 0.5 * self.end {
@@ -232,7 +240,7 @@ impl Trend {
         self.marks = [None; 2];
     }
 
-    /// Returns whether both values are known.
+    /// Returns whether the amplitudes of both earlier instants are known.
     pub fn is_known(&self) -> bool {
         self.marks[1].is_some()
     }

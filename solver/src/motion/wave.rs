@@ -13,12 +13,17 @@ use crate::tolerances::{LAST_PART, WAVE_LOOKS, WAVE_LOOKS_A_TURN};
 /// end as the limit on evaluations allows.
 #[derive(Clone, Debug)]
 pub(super) struct WaveTracker {
+    /// End of the run \[s\].
     end: f64,
+    /// Time between observations \[s\].
     interval: f64,
     /// Time of the next observation; infinite after the end \[s\].
     next: f64,
+    /// Time \[s\] and wave angle \[rad\] of the first observation; `None` before it.
     first: Option<(f64, f64)>,
+    /// Time \[s\] and wave angle \[rad\] of the latest observation.
     last: (f64, f64),
+    /// Angle through which the wave has turned from the first to the latest observation \[rad\].
     turned: f64,
 }
 
@@ -82,7 +87,8 @@ impl WaveTracker {
         self.last = (state.t_s, angle);
     }
 
-    /// Returns the mean frequency of the wave divided by `n_d` \[rad/s\].
+    /// Returns the mean frequency of the wave divided by `n_d`; `None` before the second
+    /// observation, and for `n_d = 0` \[rad/s\].
     pub fn speed(&self, machine: &Machine) -> Option<f64> {
         let elapsed = self.last.0 - self.first?.0;
         let speed = self.turned / elapsed / machine.nodal_diameters;

@@ -6,8 +6,8 @@
 
 use std::convert::Infallible;
 
-/// Halving an interval as often ends at neighbouring numbers, from any scale to any other
-/// that occurs.
+/// Largest number of halvings: enough to get from any interval that occurs to two adjacent
+/// floating-point numbers.
 const MOST_HALVINGS: usize = 200;
 
 /// As [`bisected`], but stops at the relative width `part` of the far end, and with a predicate

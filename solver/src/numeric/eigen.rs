@@ -16,7 +16,7 @@ use nalgebra::{Complex, DMatrix, Hessenberg};
 /// Maximum number of QR steps for one eigenvalue or pair; three are usual.
 const STEPS: usize = 60;
 
-/// Every so many QR steps an exceptional shift is used, as in LAPACK.
+/// Number of QR steps from one exceptional shift to the next, as in LAPACK.
 const EXCEPTIONAL: usize = 10;
 
 /// From this QR step on, a subdiagonal entry also counts as zero if it is round-off of the largest
@@ -65,7 +65,7 @@ impl Iteration {
     }
 
     /// Iterates until the last row, or the last two, are decoupled; returns the first of these
-    /// rows.
+    /// rows, `None` if [`STEPS`] steps do not suffice.
     fn deflate(&mut self, last: usize) -> Option<usize> {
         for iteration in 0..STEPS {
             let whole = if iteration < LAST_RESORT { 0.0 } else { self.h.amax() };

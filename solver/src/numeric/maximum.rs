@@ -3,7 +3,7 @@
 //! The position is accurate to the square root of round-off, the value to round-off. Costs
 //! [`STEPS`] + 2 evaluations. If there are several local maxima, one of them is returned.
 
-/// Each step leaves 0.618 of the interval; after all of them 3e-13 of it is left.
+/// Number of golden-section steps. Each leaves 0.618 of the interval, all of them 3e-13.
 const STEPS: usize = 60;
 
 /// Returns the position of the maximum in the interval, and the value there.

@@ -8,13 +8,13 @@
 use super::bisection::bisected;
 use super::maximum::highest;
 
-/// Powers of ten of the distances from a resonance: the least and the largest.
+/// Smallest and largest distance from a resonance that is scanned, as powers of ten.
 const DISTANCES: [i32; 2] = [-7, 4];
-/// Places of the scan for each of them, on either side.
+/// Points of the scan per power of ten of the distance, on either side of a resonance.
 const PER_DECADE: i32 = 5;
 
-/// The real roots in no order, up to 1e4 from the resonances, in units in which these are of
-/// order one. Of two roots that round-off does not tell apart none is found.
+/// Returns the real roots up to 1e4 from the resonances, unordered. The unit of `x` must make the
+/// resonances of order one. Two roots that round-off does not separate are both missed.
 pub(crate) fn real_roots(of: impl Fn(f64) -> f64, resonances: &[f64]) -> Vec<f64> {
     let [least, largest] = DISTANCES.map(|power| power * PER_DECADE);
     let powers = (least..=largest).map(|k| 10_f64.powf(f64::from(k) / f64::from(PER_DECADE)));

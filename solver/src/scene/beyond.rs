@@ -65,7 +65,8 @@ impl Scene {
     }
 
     /// Returns, for the full model, the note that steady states and limits are computed for equal
-    /// blades in the modes of one number of nodal diameters, other than the runs.
+    /// blades in the modes of one number of nodal diameters, while runs treat every blade alone;
+    /// `None` for the other models.
     #[must_use]
     pub fn tuned_note(&self) -> Option<String> {
         let disk = &self.bladed_disk;
@@ -82,10 +83,10 @@ impl Scene {
         })
     }
 
-    /// Returns the note that the contact forces of this scene are not unique. With friction, radial
-    /// tips and several single blades on a side, the product of the blade levers `A (A - mu l_b)`
-    /// is negative for `0 < A < mu l_b`, so the blades can share a contact force in more than one
-    /// way.
+    /// Returns the note that the contact forces of this scene are not unique; `None` if they are.
+    /// With friction, radial tips and several blades with an angle of their own on a side, the
+    /// product of the blade levers `A (A - mu l_b)` is negative for `0 < A < mu l_b`, so the blades
+    /// can share a contact force in more than one way.
     #[must_use]
     pub fn share_note(&self) -> Option<&'static str> {
         let rubs = self.contact.friction != 0.0 && self.bladed_disk.radial_coupling == 0.0;

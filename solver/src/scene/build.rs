@@ -22,9 +22,9 @@ pub struct Family {
     pub frequency_hz: f64,
     /// Modal mass \[kg\].
     pub modal_mass_kg: f64,
-    /// Damping ratio, if known.
+    /// Damping ratio; `None` if the analysis does not give it.
     pub damping_ratio: Option<f64>,
-    /// Centrifugal stiffening `B`, if known.
+    /// Centrifugal stiffening `B` of a disk mode; `None` if the analysis does not give it.
     pub stiffening: Option<f64>,
 }
 

@@ -200,7 +200,7 @@ impl Scene {
         machine.nearest_open((0.0, 0.0), 0.0, |_| 0.0).unwrap_or_default()
     }
 
-    /// Returns a note if the initial casing position is not the given one.
+    /// Returns a note that the initial casing position is not the given one; `None` if it is.
     #[must_use]
     pub fn start_note(&self) -> Option<String> {
         let (x, y) = self.start();

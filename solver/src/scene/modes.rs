@@ -332,7 +332,7 @@ impl Scene {
     }
 
     /// Returns the frequencies that the modes in use of casing and disk give in place of a
-    /// stiffness \[Hz\].
+    /// stiffness; `None` where no mode gives one \[Hz\].
     pub(crate) fn frequencies_in_use(&self) -> [Option<f64>; 2] {
         [
             given_frequency(&self.casing.modes, self.operation.nodal_diameters),

@@ -197,7 +197,8 @@ impl Quantity {
         Ok(if factor == 1.0 { scaled } else { scaled * factor })
     }
 
-    /// Reads a number without a unit; a prefix is allowed: `1200`, `1.2k`.
+    /// Reads a number without a unit; a prefix is allowed: `1200`, `1.2k`. `None` for any other
+    /// text, per cent included.
     #[must_use]
     pub fn bare(text: &str) -> Option<f64> {
         let is_part = text.contains('%') || text.contains("percent");
@@ -205,7 +206,7 @@ impl Quantity {
     }
 
     /// Returns the size, in SI units, of a unit of this quantity with its prefix, or of a prefix
-    /// alone.
+    /// alone, as a power of ten and a factor; `None` for any other text.
     fn scale(self, written: &str) -> Option<(i32, f64)> {
         let of_unit = UNITS.iter().filter(|unit| unit.quantity == self).find_map(|unit| {
             let prefix = written.strip_suffix(plain(unit.name).as_str());
@@ -267,7 +268,8 @@ fn accepted_units(quantity: Quantity) -> String {
     format!("it takes {}", quantity.units())
 }
 
-/// Returns the text before `rpm` or `Hz`, ignoring case.
+/// Returns the prefix before a unit of speed, ignoring case; `None` for a unit of another quantity,
+/// and for text that does not end with the unit.
 fn any_case<'a>(unit: &Unit, written: &'a str) -> Option<&'a str> {
     let at = written.len().checked_sub(unit.name.len())?;
     let (prefix, name) = written.split_at_checked(at)?;

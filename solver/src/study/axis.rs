@@ -70,9 +70,9 @@ pub fn parse_range(text: &str, of: Quantity) -> Result<(f64, f64, usize), RangeE
 pub struct Axis {
     /// Dotted path of the key.
     pub path: String,
-    /// First value.
+    /// First value, in the unit of the key.
     pub from: f64,
-    /// Last value.
+    /// Last value, in the unit of the key.
     pub to: f64,
     /// Number of values.
     pub count: u32,

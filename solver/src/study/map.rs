@@ -34,9 +34,9 @@ pub struct Map {
     pub plan: MapPlan,
     /// Cells row by row; `None` if not computed.
     pub cells: Cells,
-    /// Number of cells computed by a run.
+    /// Number of cells that [`fill`](Self::fill) has computed.
     pub runs: u64,
-    /// Wall time of this computation \[s\].
+    /// Wall time that [`fill`](Self::fill) has taken \[s\].
     pub wall_s: f64,
 }
 
@@ -155,7 +155,7 @@ impl Map {
         self.cells.iter().all(Option::is_some)
     }
 
-    /// Returns the cell of a column and a row.
+    /// Returns the cell of a column and a row; `None` if it is not computed or outside the map.
     #[must_use]
     pub fn at(&self, column: u32, row: u32) -> Option<Cell> {
         *self.cells.get(self.plan.index(column, row))?

@@ -13,7 +13,7 @@ use crate::scene::keys::{PULSE, SPEED};
 pub struct Curve {
     /// Name of the curve.
     pub name: &'static str,
-    /// Points `(x, y)` in order along the curve.
+    /// Points `(x, y)` in order along the curve, in the units of the axes' keys.
     pub points: Vec<(f64, f64)>,
 }
 

@@ -55,7 +55,8 @@ fn is_range([from, to]: [f64; 2]) -> bool {
 pub struct Survey {
     /// Scene; its own nodal diameters are among the rows.
     pub scene: CheckedScene,
-    /// Requested range of speeds \[rad/s\].
+    /// Requested range of speeds; `None` for all speeds in the scene's direction of rotation
+    /// \[rad/s\].
     pub range_rad_s: Option<[f64; 2]>,
     /// Parameter for which each limit has a sensitivity, if requested.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -63,7 +64,7 @@ pub struct Survey {
     /// Simplification of the limits compared with the scene, if any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
-    /// Effect of random tip lengths on the lock of the scene, if it has one.
+    /// Effect of random tip lengths on the lock of the scene; `None` as in [`Scattered::of`].
     pub scattered: Option<Scattered>,
     /// One row for each number of nodal diameters, from 0.
     pub rows: Vec<SurveyRow>,
@@ -85,8 +86,8 @@ pub struct Scattered {
 }
 
 impl Scattered {
-    /// Evaluates random rotors for a scene; `None` if the machine with equal tips has no lock, or
-    /// one on a lining.
+    /// Evaluates random rotors for a scene; `None` if the machine with equal tips has no lock, on a
+    /// lining, and with a clearance that changes with speed.
     #[must_use]
     pub fn of(scene: &Scene) -> Option<Self> {
         const ROTORS: u32 = 200;
@@ -136,18 +137,21 @@ pub struct SurveyLimit {
     pub name: LimitName,
     /// Speed; negative for backward rotation \[rad/s\].
     pub value: f64,
-    /// Relative distance of the scene beyond the limit; `None` for the other direction of rotation.
+    /// Speed of the scene divided by the limit, minus 1; `None` for the other direction of rotation
+    /// and for a limit at standstill.
     #[serde(serialize_with = "shown_margin")]
     pub margin: Option<f64>,
     /// Whether the limit lies in the range; `None` without a range.
     pub in_range: Option<bool>,
-    /// Sensitivity to the requested parameter: change in per cent for one per cent of it.
+    /// Sensitivity of the limit to the requested parameter, in per cent for one per cent of it;
+    /// `None` if not requested, or if there is no derivative.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub by: Option<f64>,
 }
 
 impl SurveyRow {
-    /// Returns a limit for forward or backward rotation.
+    /// Returns a limit for forward or backward rotation; `None` if these nodal diameters have none
+    /// of this name.
     #[must_use]
     pub fn limit(&self, name: LimitName, forward: bool) -> Option<&SurveyLimit> {
         self.limits

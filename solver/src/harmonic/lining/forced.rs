@@ -11,11 +11,12 @@ use crate::harmonic::Joint;
 pub struct Forced {
     /// Rotor speed \[rad/s\].
     pub speed_rad_s: f64,
-    /// Frequency in the blade frame \[rad/s\].
+    /// Frequency of the wave in the blade frame; negative if it runs backward over the blades
+    /// \[rad/s\].
     pub s_rad_s: f64,
     /// Frequency in the stationary frame \[rad/s\].
     pub omega_rad_s: f64,
-    /// Amplitude `|z|` of the casing wave \[m\].
+    /// Amplitude `|z|` of the casing wave; 0 if the lobes drive none \[m\].
     pub amplitude_m: f64,
     /// Largest blade angle \[rad\].
     pub blade_angle_rad: f64,

@@ -38,7 +38,7 @@ pub struct RestRoot {
 pub struct Rest {
     /// Rotor speed \[rad/s\].
     pub speed_rad_s: f64,
-    /// Stiffness of all blades together, `S0` \[N/m\].
+    /// Stiffness of the lining under all blades, `S0`; 0 with a clearance \[N/m\].
     pub stiffness_n_per_m: f64,
     /// The four motions.
     pub roots: [RestRoot; 4],
@@ -67,14 +67,19 @@ impl Lining<'_> {
 /// The quartic equation in the dimensionless frequency `t = s/scale`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Quartic {
-    /// Largest frequency, the unit of `t` \[rad/s\].
+    /// Unit of `t`: the largest of `|nu|` and the frequencies of casing and blades with the
+    /// stiffness of the lining \[rad/s\].
     pub scale: f64,
+    /// Stiffness of the lining under all blades, `S0` \[N/m\].
     stiffness: f64,
+    /// Wave frequency `n_d Omega`, in units of `scale`.
     nu: f64,
-    /// For casing and blades: squared frequency and twice the damping rate.
+    /// Squared frequency and twice the decay rate of the casing and of the blades without lining,
+    /// in units of `scale`.
     casing: [f64; 2],
     blades: [f64; 2],
-    /// Stiffness of the lining on casing and blades, `S0 (1 + i mu_c)/m_c` and `S0 c2/m_a`.
+    /// Stiffness of the lining on casing and blades, `S0 (1 + i mu_c)/m_c` and `S0 c2/m_a`, in
+    /// units of `scale` squared.
     on_casing: Complex<f64>,
     on_blades: f64,
 }
@@ -189,7 +194,7 @@ pub struct HopfPoint {
     pub s_rad_s: f64,
     /// Frequency of the wave in the stationary frame \[rad/s\].
     pub omega_rad_s: f64,
-    /// Whether it grows above this speed.
+    /// Whether the wave grows just above this speed; if not, it grows just below.
     pub grows_above: bool,
 }
 
@@ -207,7 +212,8 @@ pub struct LeastStiffness {
 /// Returns the coincidence of a machine on a lining with the total stiffness `stiffness` \[N/m\],
 /// for the direction of rotation given by the sign of `sense` \[rad/s\]:
 /// `(omega_c' +- omega_bd')/n_d`, with minus for a negative coupling product. `None` if the blades
-/// have no restoring stiffness.
+/// are not coupled to the casing, if they have no restoring stiffness on the lining, or if
+/// centrifugal stiffening leaves no such coincidence.
 fn shifted_speed(machine: &Machine, stiffness: f64, sense: f64) -> Option<f64> {
     let product = machine.coupling_product_at(sense);
     let [casing, blades] = frequencies_on_lining(machine, stiffness, product)?;
@@ -216,8 +222,8 @@ fn shifted_speed(machine: &Machine, stiffness: f64, sense: f64) -> Option<f64> {
     Some(speed.copysign(sense))
 }
 
-/// Returns the frequencies at rest of casing and blades on this total stiffness \[rad/s\]; `None`
-/// if the blades have no restoring stiffness.
+/// Returns the frequencies at rest of casing and blades on a lining of this total stiffness
+/// \[rad/s\]; `None` if the blades are not coupled to the casing, or have no restoring stiffness.
 fn frequencies_on_lining(machine: &Machine, stiffness: f64, product: f64) -> Option<[f64; 2]> {
     let blades = machine.blade_stiffness_at_rest() + stiffness * product;
     if product == 0.0 || blades < 0.0 {
@@ -243,7 +249,8 @@ const STANDSTILL: f64 = 1e-9;
 
 impl Lining<'_> {
     /// Returns the coincidence at which rest grows fastest, for a rotor that turns in the direction
-    /// of the sign of `speed` \[rad/s\]; `None` with a clearance.
+    /// of the sign of `speed` \[rad/s\]; `None` with a clearance, if the blades are not coupled to
+    /// the casing, and if no such coincidence exists.
     #[must_use]
     pub fn shifted_coincidence(&self, speed: f64) -> Option<f64> {
         let stiffness = self.at(speed).stiffness_at_rest();
@@ -340,7 +347,8 @@ impl Lining<'_> {
 
 /// Returns the smallest stiffness `S0` (all blades together) of a lining under preload at which
 /// rest grows near the coincidence, for a rotor that turns in the direction of the sign of `sense`.
-/// Zero if casing or blades are undamped; `None` if they are not coupled.
+/// Zero if casing or blades are undamped; `None` if they are not coupled, have no coincidence, or
+/// no stiffness that can be built makes rest grow.
 #[must_use]
 pub fn growth_threshold(machine: &Machine, sense: f64) -> Option<LeastStiffness> {
     let product = machine.coupling_product_at(sense).abs();
@@ -370,8 +378,8 @@ pub fn growth_threshold(machine: &Machine, sense: f64) -> Option<LeastStiffness>
     None
 }
 
-/// Returns the speed of fastest growth near a coincidence, and the growth rate there \[rad/s,
-/// 1/s\].
+/// Returns the speed \[rad/s\] of fastest growth near the coincidence on a lining of this total
+/// stiffness, and the growth rate there \[1/s\]; `None` without a coincidence.
 fn peak(machine: &Machine, stiffness: f64, sense: f64) -> Option<(f64, f64)> {
     let middle = shifted_speed(machine, stiffness, sense)?;
     let reach = PEAK_REACH * width(machine, stiffness, sense);

@@ -72,9 +72,11 @@ pub struct GroupPush {
 struct Balance<'a> {
     lining: Lining<'a>,
     joint: Joint<'a>,
+    /// Rotor speed \[rad/s\].
     speed: f64,
-    /// `L_c` at `nu`, and the factor of the contact forces.
+    /// `L_c` at `nu` \[N/m\].
     casing: Complex<f64>,
+    /// Factor of the contact forces, `(1 + i mu_c) + c2 L_c/k_a`.
     pushed: Complex<f64>,
     /// Magnitude of both terms per unit of `w` \[N/m\].
     scale: f64,
@@ -162,7 +164,7 @@ impl<'a> Balance<'a> {
     }
 
     /// Returns the displacement that the first `sides` neighbouring sides would hold if they were
-    /// springs (`eps = 0`).
+    /// springs (`eps = 0`) \[m\]; `None` if the equations are singular.
     fn sprung(&self, sides: u32) -> Option<Vector2<f64>> {
         let machine = &*self.lining.machine;
         let each = self.lining.stiffness_n_per_m * f64::from(machine.polygon.blades_per_side);
@@ -345,7 +347,8 @@ pub(in crate::harmonic) fn lock_loads<T: Number>(
     })
 }
 
-/// Returns the stiffness that a lining needs at a speed; infinite if no lock exists \[N/m\].
+/// Returns the smallest stiffness under one blade with which a lining holds a lock at a speed;
+/// infinite if no lock exists \[N/m\].
 fn needed(machine: &Machine, speed: f64) -> f64 {
     let polygon = &machine.polygon;
     let joint = Joint::at(machine, speed);
@@ -376,7 +379,8 @@ pub fn least_lock_stiffness(machine: &Machine) -> Option<LeastStiffness> {
     Some(LeastStiffness { stiffness_n_per_m: needed(machine, speed_rad_s), speed_rad_s })
 }
 
-/// Finds the minimum of the needed stiffness, which is unimodal in speed.
+/// Returns the `excess` of [`speed_at`] at which the stiffness of [`needed`], which is unimodal in
+/// speed, is smallest.
 fn bottom(machine: &Machine, lock: f64) -> f64 {
     let of = |excess: f64| needed(machine, speed_at(lock, excess));
     let [low, high] = WINDOW_REACH;

@@ -22,6 +22,7 @@ use crate::tolerances::{AN_INSTANT, MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS
 pub(super) struct Clock {
     /// Sum of both parts: the second one contains the rounding error of the first.
     start: (f64, f64),
+    /// Present instant.
     pub now: f64,
 }
 
@@ -75,6 +76,7 @@ struct Run {
     widest: f64,
     /// Whether energies, the largest angle and the deepest penetration are recorded.
     checked: bool,
+    /// Failure that ended the run; `None` if it has not failed.
     failure: Option<Failure>,
 }
 

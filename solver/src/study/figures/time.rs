@@ -155,7 +155,8 @@ fn still_swings(panel: Option<&Panel>) -> String {
     format!("still swings by {:.0} nrad about it at the end", 1e9 * swing)
 }
 
-/// Describes the end of the same run with the event solver.
+/// Describes the end of the same run with the event solver; `None` if that does not support the
+/// scene.
 fn by_events(scene: &CheckedScene) -> Option<String> {
     let reference = scene.as_reference().checked().ok()?;
     Some(format!("event solver: {}", ending(&plain(&reference))))

@@ -48,9 +48,9 @@ pub struct VerdictChange {
     pub name: &'static str,
     /// Value in the scene.
     pub present: f64,
-    /// Nearest change found below.
+    /// Nearest change found below `present`; `None` if none was found.
     pub below: Option<ChangedVerdict>,
-    /// Nearest change found above.
+    /// Nearest change found above `present`; `None` if none was found.
     pub above: Option<ChangedVerdict>,
     /// On each side, the last value up to which every run that was tried has the same verdict, or
     /// the change itself.
@@ -69,8 +69,8 @@ pub struct ChangedVerdict {
 }
 
 impl VerdictChange {
-    /// Returns the nearer of both changes, and its distance relative to the present value; `None`
-    /// if that value is zero.
+    /// Returns the nearer of both changes, and its distance relative to the present value, negative
+    /// if it is below; `None` without a change, or if the present value is zero.
     #[must_use]
     pub fn nearest(&self) -> Option<(ChangedVerdict, f64)> {
         let part =
@@ -131,7 +131,9 @@ impl Search<'_> {
         Some(VerdictChange { path, name, present, below, above, tried: [low, high] })
     }
 
-    /// Searches on one side: outward until the verdict changes, then by bisection.
+    /// Searches on one side: outward until the verdict changes, then by bisection. Returns the
+    /// change, if one was found, and the value for `VerdictChange::tried`; the outer `None` if
+    /// `go_on` stopped the search.
     fn search_side(&self, sense: f64) -> Option<(Option<ChangedVerdict>, f64)> {
         let (by, _, step) = self.row;
         // Rounded, so that the value can be typed.

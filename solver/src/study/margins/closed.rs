@@ -12,7 +12,7 @@ use crate::model::{Machine, Number};
 use crate::numeric::rounding::rounded;
 use crate::scene::{CheckedScene, ModelSize, Scene};
 
-/// How many of the closed forms are speeds; they come first.
+/// Number of the closed forms that are speeds; these come first in [`CLOSED`].
 const SPEEDS: usize = 9;
 
 /// The closed forms, in the order in which they are shown.
@@ -33,7 +33,7 @@ pub(super) const CLOSED: [LimitName; 14] = [
     LimitName::Roundness,
 ];
 
-/// Those that few machines have, shown where they are.
+/// Limits that few machines have; a limit of these is listed only if it exists.
 const SELDOM: [LimitName; 5] = [
     LimitName::LockEnds,
     LimitName::WhirlOnset,
@@ -120,7 +120,8 @@ pub(in crate::study) fn speeds(scene: &Scene) -> Vec<(LimitName, f64)> {
     every_speed(scene, &Parameters::<f64>::of(scene))
 }
 
-/// Returns their sensitivities to one parameter, in the same order.
+/// Returns the sensitivities of the limits of [`speeds`] to one parameter, in the same order;
+/// `None` as in [`sensitivity`].
 pub(in crate::study) fn speed_sensitivities(
     scene: &Scene,
     parameter: &Parameter,

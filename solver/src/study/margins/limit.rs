@@ -97,7 +97,7 @@ pub enum Side {
 pub struct Limit {
     /// Name of the limit.
     pub name: LimitName,
-    /// Number of casing lobes that it refers to.
+    /// Number of casing lobes to which a limit of roundness refers; `None` for all other limits.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lobes: Option<u32>,
     /// Physical quantity of the value.
@@ -107,14 +107,14 @@ pub struct Limit {
     /// Value of the scene that is compared with the limit, speeds as magnitudes; `None` for loads
     /// of the lock.
     pub present: Option<f64>,
-    /// Margin `present/value - 1`, negative if the scene is below the limit. `null` in JSON above
-    /// `MOST_TIMES`.
+    /// Margin `present/value - 1`, negative if the scene is below the limit; `None` if one of the
+    /// two is missing, or the limit is 0. `null` in JSON above `MOST_TIMES`.
     #[serde(serialize_with = "shown_margin")]
     pub margin: Option<f64>,
     /// Sensitivities `d ln(value)/d ln(parameter)` to every parameter of the scene; `None` above
     /// `MOST_SENSITIVE`.
     pub sensitivities: Sensitivities,
-    /// Additional information, such as the reason why there is no value.
+    /// What the closed form neglects, or why there is no value; `None` if there is nothing to say.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
 }
@@ -130,7 +130,8 @@ impl Serialize for Sensitivities {
 }
 
 impl Sensitivities {
-    /// Returns the sensitivity to one parameter.
+    /// Returns the sensitivity to one parameter; `None` if the scene does not have the parameter,
+    /// or if there is no derivative.
     #[must_use]
     pub fn by(&self, path: &str) -> Option<f64> {
         self.0.iter().find(|(by, _)| *by == path)?.1
@@ -199,7 +200,7 @@ impl Limit {
         }
     }
 
-    /// Returns the position of the scene relative to the limit.
+    /// Returns the position of the scene relative to the limit; `None` without a margin.
     #[must_use]
     pub fn side(&self) -> Option<Side> {
         Some(match self.margin? {
@@ -306,7 +307,7 @@ impl Quantity {
         }
     }
 
-    /// Returns the key of the scene that is compared with the limit.
+    /// Returns the key whose value is compared with the limit; `None` for the loads of a lock.
     #[must_use]
     pub fn path(self) -> Option<&'static str> {
         match self {

@@ -51,7 +51,8 @@ pub struct Margins {
     /// Robustness of the verdict, if requested.
     #[serde(flatten)]
     pub robust: Option<Robustness>,
-    /// Robustness with contact that only pushes, if the law of the scene pulls.
+    /// Robustness with contact that only pushes; `None` unless requested for a scene whose law
+    /// pulls.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pushes_only: Option<Robustness>,
     /// Limits in the order in which they are shown.

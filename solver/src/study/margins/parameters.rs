@@ -44,7 +44,7 @@ pub(super) struct Parameters<T> {
     pub law: ContactLaw,
     pub model: ModelSize,
     pub operation: Operation<T>,
-    /// Frequencies of casing and disk, if they replace a stiffness \[Hz\].
+    /// Frequencies of casing and disk; `None` where the scene gives a stiffness \[Hz\].
     pub frequencies: [Option<T>; 2],
 }
 
@@ -153,7 +153,8 @@ impl Parameter {
         keys::find(if self.path == CLEARANCE { RADIUS } else { self.path })
     }
 
-    /// Returns the line of a scene file that sets the parameter, and the table that contains it.
+    /// Returns the line of a scene file that sets the parameter, and the table that contains it;
+    /// `None` if the key does not allow the value.
     #[must_use]
     pub fn line(&self, scene: &Scene, value: f64) -> Option<String> {
         let changed = self.set(scene, value).ok()?;

@@ -67,9 +67,10 @@ pub struct Found {
     pub from: f64,
     /// Nearest value of the parameter that gives the wanted limit; `None` if none was found.
     pub to: Option<f64>,
-    /// Value of the limit there.
+    /// Value of the limit at `to`; `None` if `to` is.
     pub reached: Option<f64>,
-    /// Smallest and largest value of the limit found during the search.
+    /// Smallest and largest value of the limit found during the search; `None` if the limit did not
+    /// exist anywhere.
     pub met: Option<[f64; 2]>,
     /// Smallest and largest value of the parameter used in the search.
     pub tried: [f64; 2],
@@ -119,6 +120,7 @@ struct Walk<'a> {
     target: Target,
     scene: &'a CheckedScene,
     go_on: GoOn<'a>,
+    /// As in [`Found`], up to now.
     met: Option<[f64; 2]>,
     tried: [f64; 2],
 }
@@ -150,7 +152,8 @@ impl Walk<'_> {
     }
 
     /// Returns two neighbouring values between which the limit passes the wanted one, the nearest
-    /// to the present value.
+    /// to the present value. The inner `None` if there are none, the outer one if `go_on` stopped
+    /// the search.
     fn bracket(&mut self, from: f64) -> Option<Option<[Place; 2]>> {
         // If the present value is zero, the search goes only upward, from a value small enough for
         // any unit.

@@ -26,8 +26,9 @@ pub struct FirstTouch {
 }
 
 /// Returns the smallest pulse force that makes a blade touch, for the scene's pulse duration and
-/// rigid blades, with the sign of `most` \[N\]. `None` if a pulse of `most` does not touch, or if
-/// the casing does not start from rest.
+/// rigid blades, with the sign of `most` \[N\]. `None` if no pulse up to `most` touches within the
+/// run, without a clearance, for unequal tips or an out-of-round casing, and if the casing does not
+/// start from rest.
 #[must_use]
 pub fn grazing_pulse(scene: &Scene, most: f64) -> Option<f64> {
     first_touch(scene, most).map(|touch| touch.pulse_n)
@@ -40,14 +41,15 @@ pub fn first_touch(scene: &Scene, most: f64) -> Option<FirstTouch> {
     least(scene, sense).filter(|touch| touch.pulse_n.abs() <= most.abs())
 }
 
-/// Returns the smallest pulse that touches, with the sign of the scene's pulse, if the key allows
-/// it.
+/// Returns the smallest pulse that touches, with the sign of the scene's pulse; `None` as in
+/// [`grazing_pulse`], with the largest pulse that the key allows.
 pub(super) fn smallest(scene: &Scene) -> Option<FirstTouch> {
     let most = parameter(PULSE).map_or(f64::MAX, Parameter::largest);
     first_touch(scene, if scene.operation.pulse_n < 0.0 { -most } else { most })
 }
 
-/// Returns whether there is a clearance and the casing starts at rest at the centre.
+/// Returns whether there is a clearance, tips are equal, the casing is round and starts at rest at
+/// the centre, and the event solver supports the scene with rigid blades.
 fn starts_at_rest(scene: &Scene) -> bool {
     let mut scene = scene.as_reference();
     scene.solver.model = ModelSize::Rigid;

@@ -35,23 +35,24 @@ pub struct Row {
     /// scene, or if this run or the reference failed. Velocities are not compared, because in
     /// contact those of the explicit scheme are averages over a step.
     pub error_final: Option<f64>,
-    /// Largest error of the times of the first impacts; `None` if they involve other blades \[s\].
+    /// Largest error of the times of the first impacts; `None` without a reference, and if this run
+    /// has fewer of them or on other blades \[s\].
     pub error_impact_time_s: Option<f64>,
     /// Deepest penetration of a corrected state \[m\].
     pub max_penetration_m: f64,
     /// Median wall time \[s\].
     pub wall_s: f64,
-    /// Wall time divided by the number of computed steps \[ns\].
+    /// Wall time divided by the number of computed steps; `None` if there are none \[ns\].
     pub ns_per_step: Option<f64>,
-    /// Number of time steps computed one by one.
+    /// Number of time steps computed one by one; `None` for the event solver.
     pub steps: Option<u64>,
-    /// Number of time steps skipped; the run consists of both.
+    /// Number of time steps skipped; the run consists of both. `None` for the event solver.
     pub steps_skipped: Option<u64>,
-    /// Number of events.
+    /// Number of events; `None` for the explicit solver.
     pub events: Option<u64>,
     /// Verdict of the run.
     pub verdict: Verdict,
-    /// Whether it equals the verdict of the reference of its model size; none without one.
+    /// Whether the verdict equals that of the reference of its model size; `None` without one.
     pub verdict_right: Option<bool>,
     /// Whether the contact law differs from that of the reference. The run then solves another
     /// problem and may correctly have another result.
@@ -73,7 +74,7 @@ impl Row {
 pub enum Method {
     /// Event solver.
     Events,
-    /// By the explicit solver at the finest step.
+    /// Explicit solver at the finest step.
     FinestStep,
     /// There is none: its run failed.
     None,
@@ -93,8 +94,8 @@ pub struct Reference {
     pub impact_count: u64,
     /// Whether the scene is sensitive.
     pub sensitive: bool,
-    /// How far half the tolerance, or twice the step, moves its end, in clearances; none where
-    /// either run failed.
+    /// Distance of the final casing position from that with half the tolerance or twice the step,
+    /// in clearances; `None` if either run failed.
     pub error: Option<f64>,
     /// Wall time of its run \[s\].
     pub wall_s: f64,
@@ -265,8 +266,8 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// Returns the largest difference in the times of the first impacts \[s\]; `None` if they involve
-/// other blades.
+/// Returns the largest difference in the times of the first impacts \[s\]; `None` if the reference
+/// has no impact, or if the motion has fewer of them or on other blades.
 fn impact_error(reference: &Motion, motion: &Motion) -> Option<f64> {
     let (expected, found) = (&reference.contacts().impacts, &motion.contacts().impacts);
     let count = expected.len().min(FIRST_IMPACTS);

@@ -27,7 +27,8 @@ pub struct Way {
     pub model: ModelSize,
     /// Time step; `None` for the event solver \[s\].
     pub step_s: Option<f64>,
-    /// Tolerance; `None` for the explicit solver.
+    /// Tolerance of the event solver for closed gaps, as a part of the motion's size; `None` for
+    /// the explicit solver.
     pub tolerance: Option<f64>,
 }
 

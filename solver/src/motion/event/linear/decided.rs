@@ -20,8 +20,9 @@ pub(super) struct Rest {
     point: Point,
     /// Matrix `Q`, in states of `units`.
     bound: DMatrix<f64>,
-    /// For each contact force and each open gap: its value at equilibrium, and the largest change
-    /// per unit of `sqrt(x^T Q x)`.
+    /// For each contact force, each open gap and the blade angle: the distance of its value at
+    /// equilibrium from the value that it must not reach, and its largest change per unit of
+    /// `sqrt(x^T Q x)`.
     rooms: Vec<(f64, f64)>,
 }
 

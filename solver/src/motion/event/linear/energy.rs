@@ -121,11 +121,15 @@ fn dot(a: Plane, b: Plane) -> f64 {
 /// Largest blade amplitude over the last one or two casing periods.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Swings {
+    /// Casing period `2 pi/omega_c` \[s\].
     period: f64,
     /// End of the present period \[s\].
     end: f64,
+    /// Largest amplitude in the previous period \[rad\].
     before: f64,
+    /// Largest amplitude so far in the present period \[rad\].
     now: f64,
+    /// Trend of the largest amplitudes of whole periods.
     trend: Trend,
 }
 

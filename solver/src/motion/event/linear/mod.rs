@@ -61,12 +61,16 @@ pub struct LinearEvents {
     energies: Energies,
     /// Phase `n_d theta` at the start of the stretch, modulo a full turn \[rad\].
     phase: f64,
+    /// Rows in contact.
     held: Held,
+    /// Gaps that have just opened.
     opened: Vec<OpenedGap>,
+    /// Present stretch of the motion.
     stretch: Stretch,
     /// Event that ends the stretch, and its time after the start of the stretch \[s\].
     next: (f64, Ending),
-    /// Result of the proof that the present contact is permanent; computed on demand.
+    /// Bounds that can prove the present contact permanent, computed on demand; `None` if it has no
+    /// stable equilibrium, or would not last there.
     rest: OnceLock<Option<Rest>>,
     swings: Swings,
 }

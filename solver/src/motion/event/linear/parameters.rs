@@ -16,7 +16,7 @@ use crate::motion::propagator::Propagator;
 use crate::scene::{ModelSize, Scene};
 use crate::tolerances;
 
-/// Constants of the blade modes; absent with rigid blades.
+/// Constants of the blade modes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Blades {
     /// Free response of the blades.
@@ -27,7 +27,7 @@ pub(super) struct Blades {
     pub arm: f64,
     /// Lever arm of a contact force, `(kappa + mu) l_b` \[m\].
     pub moment: f64,
-    /// Lever arm divided by the mass ratio \[1/m\].
+    /// `moment` divided by `mass` \[1/m\].
     pub lever: f64,
 }
 
@@ -38,9 +38,9 @@ pub(super) struct Parameters {
     /// Rotor speed \[rad/s\], and `nu = n_d` times it.
     pub speed: f64,
     pub nu: f64,
-    /// Coefficient `2 zeta_c omega_c + 2 i nu` of the casing rate.
+    /// Coefficient `2 zeta_c omega_c + 2 i nu` of the casing rate \[1/s\].
     pub drag: Plane,
-    /// Coefficient `omega_c^2 - nu^2 + 2 i nu zeta_c omega_c` of the casing displacement.
+    /// Coefficient `omega_c^2 - nu^2 + 2 i nu zeta_c omega_c` of the casing displacement \[1/s^2\].
     pub spring: Plane,
     /// Direction `1 + i mu_c` of a contact force with its friction.
     pub turn: Plane,
@@ -48,6 +48,7 @@ pub(super) struct Parameters {
     pub friction: f64,
     /// Free response of the casing in the stationary frame.
     pub casing: Propagator,
+    /// Constants of the blade modes; `None` for rigid blades.
     pub blades: Option<Blades>,
     /// Direction `exp(i psi)` in which a contact force of each row acts on casing and blade modes.
     pub rows: Vec<Plane>,
@@ -153,7 +154,8 @@ impl Parameters {
         omega.max(own)
     }
 
-    /// Returns the change of a row's gap by the displacements `z` and `a`.
+    /// Returns the change of a row's gap by the casing displacement `z` and the blade angle `a`
+    /// \[m\].
     pub(super) fn along(&self, row: usize, z: Plane, a: Plane) -> f64 {
         self.rows.get(row).map_or(0.0, |direction| along(*direction, self.arm(), z, a))
     }

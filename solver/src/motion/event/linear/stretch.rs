@@ -19,6 +19,7 @@ use crate::tolerances::{EVENT, MOST_HALVINGS, MOST_HELD, PEAK_LOOKS, ROUND_OFF};
 /// Rows in contact.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Held {
+    /// Index of each row.
     pub rows: Vec<usize>,
     /// Directions of their contact forces.
     directions: [Plane; MOST_HELD],
@@ -115,8 +116,11 @@ pub(super) struct Stretch {
     pub length: f64,
     /// Point at the start.
     from: Point,
+    /// Casing displacement \[m\].
     z: Wave,
+    /// Blade angle \[rad\].
     a: Wave,
+    /// Pulse force per unit casing mass, in the blade frame \[m/s^2\].
     force: Wave,
     /// Contact forces of the rows per unit casing mass \[m/s^2\].
     pub pushes: [Terms; MOST_HELD],
@@ -358,6 +362,7 @@ pub(super) enum Ending {
 /// A gap that has just opened, stored separately to keep its relative accuracy.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OpenedGap {
+    /// Index of the row.
     pub row: usize,
     /// Gap \[m\].
     pub gap: f64,
@@ -405,7 +410,7 @@ fn grown(order: usize, left: &Terms, x: f64) -> (f64, f64) {
     (power(order) * value, grows + power(order) * rate)
 }
 
-/// Returns the first `x` up to `end` at which the series falls to `noise`.
+/// Returns the first `x` up to `end` at which the series falls to `noise`; `None` if it does not.
 fn first_zero(terms: &Terms, noise: f64, end: f64) -> Option<f64> {
     let falls: f64 = terms.iter().skip(1).map(|term| term.abs()).sum();
     if terms[0] > falls {
@@ -468,7 +473,8 @@ pub(super) fn seek(
     (end * stretch.length, what)
 }
 
-/// Returns the fraction of the stretch at which a contact force vanishes, before `end`.
+/// Returns the fraction of the stretch at which a contact force vanishes; `None` if it does not
+/// before `end`, or if the force is entirely round-off.
 fn vanishes(stretch: &Stretch, terms: &Terms, tolerance: f64, end: f64) -> Option<f64> {
     if stretch.is_noise(terms) {
         // A row in contact without a force is not opened by round-off.
