@@ -25,7 +25,7 @@ const PULSE: &str = "pulse";
 pub enum RequestedChange {
     /// Fires the pulse.
     Pulse,
-    /// Sets a key of the scene.
+    /// Sets a key of the scene to a value.
     Set {
         /// Dotted path of the key.
         path: String,
@@ -78,13 +78,13 @@ fn parse_one(text: &str) -> Result<(f64, RequestedChange), Refusal> {
 /// A checked change, and the scene with it applied.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RequestedStep {
-    /// Instant \[s\].
+    /// Simulated time of the change \[s\].
     pub t_s: f64,
-    /// The requested change.
+    /// The change as the user requested it.
     pub change: RequestedChange,
     /// The scene with this and all earlier changes applied.
     pub scene: CheckedScene,
-    /// The same change as the solver's operations.
+    /// The operations of the solver that make the change.
     acts: Vec<motion::Change>,
 }
 
@@ -131,13 +131,13 @@ impl RequestedStep {
     }
 }
 
-/// Returns whether a key may change while the motion runs.
+/// Returns whether a key may change while the motion of a scene runs with the solver of the scene.
 fn acts_live(key: &Key, scene: &CheckedScene) -> bool {
     let by_steps = scene.solver.kind == SolverKind::Explicit;
     key.live == Live::Always || (by_steps && key.live == Live::Steps)
 }
 
-/// Lists what may change while the motion runs, for error messages.
+/// Lists the changes that the running motion of a scene accepts, for error messages.
 fn live_keys(scene: &CheckedScene) -> String {
     let keys: Vec<&str> =
         KEYS.iter().filter(|key| acts_live(key, scene)).map(|key| key.path).collect();
