@@ -140,8 +140,8 @@ pub fn only(app: &App, typed: &str) -> Result<Found, String> {
     }
 }
 
-/// Returns whether the description of an entry contains each of `words` as a whole word. `words` are
-/// in lower case.
+/// Returns whether the description of an entry contains each of `words` as a whole word. They must
+/// be in lower case.
 fn is_own(item: &Found, words: &[&str]) -> bool {
     let what = item.what.to_lowercase();
     words.iter().all(|word| what.split_whitespace().any(|own| own == *word))

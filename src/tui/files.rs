@@ -12,8 +12,8 @@ use crate::file;
 use crate::report::line::clean;
 use rubscope_solver::scene::{BUILTIN, CheckedScene, Scene};
 
-/// Name of the threads that read and write files. The panic hook recognises it: their panics neither
-/// reset the screen nor are reported.
+/// Name of the threads that read and write files, by which the panic hook knows them: their panics
+/// neither reset the screen nor are reported.
 pub const FILES_NAME: &str = "rubscope-files";
 
 /// A file to write.

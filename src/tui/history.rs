@@ -4,13 +4,13 @@
 /// Recorded quantities. The number of a channel is its index in `Bin::low` and `Bin::high`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Channel {
-    /// Cosine displacement of the casing, `u_c` \[m\].
+    /// Cosine coordinate of the casing, `u_c` \[m\].
     UC,
-    /// Sine displacement of the casing, `u_s` \[m\].
+    /// Sine coordinate of the casing, `u_s` \[m\].
     US,
-    /// Cosine component of the blade angles, `alpha_c` \[rad\].
+    /// Cosine coordinate of the blades, `alpha_c` \[rad\].
     AlphaC,
-    /// Sine component of the blade angles, `alpha_s` \[rad\].
+    /// Sine coordinate of the blades, `alpha_s` \[rad\].
     AlphaS,
     /// The smallest gap of any blade \[m\].
     Gap,

@@ -35,15 +35,16 @@ pub struct ExploreOptions {
     pub theme: Option<ThemeChoice>,
     /// The marker; `None` leaves it to the config file, the terminal and the locale.
     pub marker: Option<Marker>,
-    /// Whether the mouse is used.
+    /// Whether the explorer uses the mouse; false leaves it to the terminal.
     pub mouse: bool,
     /// How much the connection to the terminal carries.
     pub line: Line,
     /// Whether the config file is read and written.
     pub config: bool,
-    /// Whether speeds are shown in rpm.
+    /// Whether speeds are shown in rpm; otherwise in the unit of the config file.
     pub rpm: bool,
-    /// Where the scene comes from, for the command line that repeats the run.
+    /// Name of the opened scene and the scene as it was read, for the command line that repeats the
+    /// run.
     pub source: Option<Source>,
 }
 
