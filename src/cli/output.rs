@@ -35,7 +35,7 @@ pub fn format(
 /// Checks that a file can be written at `path`.
 ///
 /// # Errors
-/// The reason why it cannot be written.
+/// No file can be written at `path`, for the reason in the message.
 pub fn try_place(path: &Path) -> anyhow::Result<()> {
     file::check_place(path).with_context(|| format!("cannot write {}", path.display()))
 }

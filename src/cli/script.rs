@@ -173,7 +173,7 @@ impl RequestedScript {
         self.0.is_empty()
     }
 
-    /// Returns the changes in the form that the solver takes.
+    /// Returns the changes as operations of the solver, each with its time.
     pub fn changes(&self) -> motion::Script {
         let acts =
             |step: &RequestedStep| step.acts.iter().map(|act| (step.t_s, act.clone())).collect();
@@ -197,7 +197,7 @@ impl Serialize for RequestedScript {
     }
 }
 
-/// Returns a change as it appears in JSON reports.
+/// Returns a change as it appears in JSON reports, with the checked value of its key.
 fn as_json(step: &RequestedStep) -> serde_json::Value {
     let t_s = step.t_s;
     match &step.change {

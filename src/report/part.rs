@@ -93,8 +93,8 @@ pub fn write(map: &Map, out: &mut dyn Write) -> std::io::Result<()> {
 /// Reads named shares of one map and joins them.
 ///
 /// # Errors
-/// A file that is no share, shares of different maps, and a cell that is missing or there
-/// twice.
+/// A file is not a share, shares belong to different maps, or a cell is missing or there twice. The
+/// message names the file.
 pub fn read_all<R: Read>(shares: impl IntoIterator<Item = (String, R)>) -> Result<Map, String> {
     let mut joined: Option<(String, Map)> = None;
     for (name, reader) in shares {

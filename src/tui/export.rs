@@ -102,7 +102,8 @@ fn drawn_row(cells: &[Cell], y: u32, ink: &Ink) -> String {
     out
 }
 
-/// Returns the dots of a row of cells as one path of round points in relative coordinates.
+/// Returns the braille dots of adjacent cells as one SVG path of round points in relative
+/// coordinates; the first cell is at `left`, `top` \[px\].
 fn dots(run: &[(Look, &Cell)], left: u32, top: u32, fill: &str) -> String {
     let mut points = String::new();
     let mut from = (0, 0);

@@ -63,7 +63,7 @@ pub struct LessonStep {
     pub doing: Settings,
     /// Name of the view shown; `None` leaves the view.
     pub view: Option<String>,
-    /// Name of the view shown with the answer; `None` leaves the view.
+    /// Name of the view shown once the question is answered; `None` keeps `view`.
     pub then_view: Option<String>,
     /// The limit on which the margins view is centred.
     pub limit: Option<LimitName>,

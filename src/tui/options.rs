@@ -11,11 +11,11 @@ use super::line::Line;
 use super::raster::Marker;
 use super::theme::ThemeChoice;
 
-/// Use of colour.
+/// When the explorer uses colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, EnumString, VariantNames)]
 #[strum(serialize_all = "lowercase")]
 pub enum Color {
-    /// Colours if the terminal supports them and `NO_COLOR` does not forbid them.
+    /// Unless the environment variable `NO_COLOR` is not empty or `TERM` is `dumb`.
     #[default]
     Auto,
     /// Always.
@@ -29,7 +29,7 @@ pub enum Color {
 pub struct ExploreOptions {
     /// Largest number of frames per second while the motion plays.
     pub fps: f64,
-    /// Use of colour.
+    /// When colours are used.
     pub color: Color,
     /// The theme; `None` leaves it to the config file and the terminal.
     pub theme: Option<ThemeChoice>,
@@ -65,8 +65,8 @@ impl Default for ExploreOptions {
 }
 
 impl ExploreOptions {
-    /// Returns the theme to use. Options take precedence over environment variables, and these over
-    /// the config file.
+    /// Returns the theme to use. Options take precedence over environment variables, whose values
+    /// `variable` returns, and these over the config file.
     pub(super) fn theme(&self, config: &Config, variable: &dyn Fn(&str) -> String) -> ThemeChoice {
         let plain = match self.color {
             Color::Always => false,
@@ -87,12 +87,13 @@ impl ExploreOptions {
     /// and these over the config file.
     pub(super) fn marker(&self, config: &Config, only_ascii: bool) -> Marker {
         let usual = if only_ascii { Marker::Ascii } else { Marker::Braille };
-        // Another terminal may be used now.
+        // The marker may have been saved on another terminal, which showed more than ASCII.
         let is_shown = |marker: &Marker| *marker == Marker::Ascii || !only_ascii;
         self.marker.or(config.marker.filter(is_shown)).unwrap_or(usual)
     }
 
-    /// Returns the kind of connection: thin over SSH, unless an option says otherwise.
+    /// Returns how much the connection to the terminal carries: thin over SSH, unless an option
+    /// says otherwise.
     pub(super) fn line(&self, variable: &dyn Fn(&str) -> String) -> Line {
         if self.line == Line::Auto && is_remote(variable) { Line::Thin } else { self.line }
     }

@@ -31,7 +31,7 @@ static HELD: AtomicBool = AtomicBool::new(false);
 static CUT: AtomicBool = AtomicBool::new(false);
 /// Whether a frame was abandoned in its middle, perhaps within an escape sequence.
 static TORN: AtomicBool = AtomicBool::new(false);
-/// Whether mouse events are wanted.
+/// Whether the explorer wants mouse reports of the terminal.
 static MOUSE: AtomicBool = AtomicBool::new(false);
 
 /// Whether frames are sent as synchronized updates.
@@ -52,7 +52,7 @@ static SENT: AtomicU64 = AtomicU64::new(0);
 /// Whether any write had to wait for the terminal.
 static SLOW: AtomicBool = AtomicBool::new(false);
 
-/// A write that takes longer than this has waited for the terminal.
+/// A write that takes longer than this counts as having waited for the terminal.
 const AT_ONCE: Duration = Duration::from_millis(60);
 
 /// Longest wait for the terminal to take the restoring bytes. It applies twice: before and after
@@ -66,10 +66,10 @@ const BACKGROUND: Duration = Duration::from_secs(1);
 /// Cancels an escape sequence of which the terminal has received only the beginning.
 const CANCEL: &[u8] = b"\x18\x1b\\";
 
-/// Largest number of columns and rows drawn: two buffers of this size take 50 MB.
+/// Largest numbers of columns and rows drawn: two buffers of this size take 50 MB.
 pub const MOST: (u16, u16) = (1000, 500);
 
-/// Columns and rows if the terminal reports none, as a serial line does.
+/// Numbers of columns and rows drawn if the terminal reports none, as a serial line does.
 const USUAL: (u16, u16) = (80, 24);
 
 /// The screen type of the explorer.

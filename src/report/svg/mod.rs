@@ -65,7 +65,7 @@ pub fn write_text(text: &str, origin: &Provenance, out: &mut dyn Write) -> Resul
     writeln!(out, "</svg>")
 }
 
-/// Returns the origin of a picture as a `<desc>` element.
+/// Returns the origin of a picture as a `<desc>` element of SVG.
 pub fn describe(origin: &Provenance) -> String {
     // A file name may contain any character.
     let plain = |c: char| if c == '\n' { c } else { harmless(c) };
