@@ -83,7 +83,7 @@ pub struct Resolved {
     /// The range of `--speed` \[rad/s\]; a single speed is a range of one value. `None` if the
     /// option is missing or the command accepts no range.
     pub speeds: Option<Range>,
-    /// The range of `--pulse` \[N\], in the same way.
+    /// The range of `--pulse` \[N\]; one value and `None` as for `speeds`.
     pub pulses: Option<Range>,
 }
 

@@ -10,7 +10,7 @@ pub use crate::report::ticks::{nice_step, ticks};
 pub struct ChartAxis {
     /// Lower end, in SI units or as an exponent of ten.
     pub low: f64,
-    /// Upper end, likewise.
+    /// Upper end, in the unit of `low`.
     pub high: f64,
     /// Prefix or unit of the labels: a label is the value divided by its factor.
     pub scale: SiScale,
@@ -114,7 +114,8 @@ pub fn number(x: f64, unit: &str) -> String {
     format!("{text} {}{unit}", scale.prefix).trim_end().to_string()
 }
 
-/// Formats a number with four significant digits and an SI prefix, such as `228.2 µ`.
+/// Formats a number in the SI unit `unit` with four significant digits and a prefix, such as
+/// `228.2 µm`.
 pub fn readable(value: f64, unit: &str) -> String {
     prefixed(value, 4, unit)
 }
@@ -124,7 +125,8 @@ pub fn instant(t: f64) -> String {
     prefixed(t, 6, "s")
 }
 
-/// Formats a number with `digits` significant digits and an SI prefix.
+/// Formats a number in the SI unit `unit` with `digits` significant digits and a prefix; `-` stands
+/// for one that is not finite.
 fn prefixed(value: f64, digits: usize, unit: &str) -> String {
     if !value.is_finite() {
         return format!("- {unit}").trim_end().to_string();

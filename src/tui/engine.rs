@@ -131,7 +131,7 @@ pub enum FullRunState {
     Computing(f64),
     /// Given up at this fraction, because it takes too long.
     GivenUp(f64),
-    /// Complete.
+    /// Complete, with its result.
     Done(Box<FullRun>),
 }
 

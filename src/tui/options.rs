@@ -18,7 +18,7 @@ pub enum Color {
     /// Unless the environment variable `NO_COLOR` is not empty or `TERM` is `dumb`.
     #[default]
     Auto,
-    /// Always.
+    /// Always, whatever the environment says.
     Always,
     /// Never; bold, reverse and dim remain.
     Never,

@@ -363,7 +363,7 @@ fn rows(area: Rect) -> u16 {
     area.height.saturating_sub(if has_rule(area) { 2 } else { 1 })
 }
 
-/// Returns the largest number of ticks on a vertical axis of this many rows.
+/// Returns the largest number of ticks on a vertical axis of `rows` rows.
 fn most_levels(rows: u16) -> usize {
     usize::from(rows.div_ceil(2)).clamp(1, 7)
 }

@@ -93,7 +93,7 @@ impl Request<'_> {
         self.speeds.iter().copied().max_by(further).unwrap_or(self.scene.operation.speed_rad_s)
     }
 
-    /// Returns the lowest and the highest speed \[rad/s\].
+    /// Returns the lowest and the highest of the speeds, by their signed values \[rad/s\].
     fn span(&self) -> [f64; 2] {
         let least = self.speeds.iter().copied().fold(f64::INFINITY, f64::min);
         [least, self.speeds.iter().copied().fold(f64::NEG_INFINITY, f64::max)]
