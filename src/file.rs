@@ -14,19 +14,18 @@ use tempfile::NamedTempFile;
 /// Outcome of writing a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Written {
-    /// There was no file, or it is a device or a pipe.
+    /// Nothing was replaced: there was no file at the path, or it is a device or a pipe.
     New,
-    /// A file was replaced.
+    /// An existing file was replaced.
     Replaced,
 }
 
-/// Replaces the file at `path`, if there is one, by what `write` writes, completely or not
-/// at all. Its mode stays, and links to it are followed. A device or a pipe is written to
-/// directly.
+/// Writes a file with what `write` writes, completely or not at all. A file at `path` is replaced:
+/// its mode stays, and links to it are followed. A device or a pipe is written to directly.
 ///
 /// # Errors
-/// An error of the system or of `write`, a file that is read-only, or a folder that takes
-/// no file; what was there is then unchanged.
+/// The system or `write` returned an error, the file at `path` is read-only, or no file can be
+/// created in its folder. A file at `path` is then unchanged.
 pub fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<Written> {
     let Some(old) = existing(path)? else {
         complete(path, None, write)?.persist(path)?;
@@ -40,11 +39,11 @@ pub fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) ->
     Ok(Written::Replaced)
 }
 
-/// Creates a file, completely or not at all.
+/// Creates a file with what `write` writes, completely or not at all. Replaces nothing.
 ///
 /// # Errors
-/// `AlreadyExists` where there is anything of this name, also if it came while `write` was
-/// at work; an error of the system or of `write`.
+/// `AlreadyExists` if there is anything at `path`, even if it appeared while `write` was running;
+/// otherwise the error of the system or of `write`.
 pub fn create(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
     if path.symlink_metadata().is_ok() {
         let exists = format!("{} exists", path.display());
@@ -54,11 +53,12 @@ pub fn create(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> 
     Ok(())
 }
 
-/// Tries whether a file can be written there; nothing that is tried stays.
+/// Checks that a file can be written at `path`, by creating a hidden file next to it and removing
+/// it.
 ///
 /// # Errors
-/// The folder does not exist, is none or takes no file; the path is a folder, or a file
-/// that is read-only.
+/// The folder does not exist, is not a folder, or no file can be created in it; or `path` is a
+/// folder or a read-only file.
 pub fn check_place(path: &Path) -> Result<()> {
     match existing(path)? {
         Some(old) if old.is_file() => beside(&path.canonicalize()?, None).map(drop),
@@ -67,7 +67,8 @@ pub fn check_place(path: &Path) -> Result<()> {
     }
 }
 
-/// Returns what is at `path`, with links followed; refuses what no file can replace.
+/// Returns the metadata of what is at `path`, with links followed; `None` if there is nothing.
+/// Refuses an empty path, a folder and a read-only file.
 fn existing(path: &Path) -> Result<Option<Metadata>> {
     if path.as_os_str().is_empty() {
         return Err(Error::new(ErrorKind::InvalidInput, "the name is empty"));
@@ -80,21 +81,22 @@ fn existing(path: &Path) -> Result<Option<Metadata>> {
     if old.is_dir() {
         return Err(ErrorKind::IsADirectory.into());
     }
-    // A superuser could replace the file all the same: the mode says what is wanted.
+    // A superuser could replace it nevertheless, but the mode says that the owner does not want it.
     if old.permissions().readonly() {
         return Err(Error::new(ErrorKind::PermissionDenied, "the file is read-only"));
     }
     Ok(Some(old))
 }
 
-/// Creates the hidden file, with the mode of the file that it is to replace, or of a new one.
+/// Creates the hidden file in the folder of `path`, with the mode of the file that it will replace;
+/// without one, with the usual mode of a new file.
 fn beside(path: &Path, mode: Option<Permissions>) -> Result<NamedTempFile> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));
     if path.as_os_str().as_encoded_bytes().ends_with(b"/") {
         return Err(ErrorKind::IsADirectory.into());
     }
-    // A missing folder is refused in the words of the system.
+    // If the folder is missing, `metadata` returns the system's own error.
     if !folder.metadata()?.is_dir() {
         return Err(ErrorKind::NotADirectory.into());
     }
@@ -112,7 +114,7 @@ fn complete(
 ) -> Result<NamedTempFile> {
     let file = beside(path, mode.clone())?;
     fill(file.as_file(), write)?;
-    // The mask of the user has taken bits of the mode.
+    // Creating the file has cleared the bits of the umask, so the old mode is set again.
     mode.map_or(Ok(()), |mode| file.as_file().set_permissions(mode))?;
     file.as_file().sync_all()?;
     Ok(file)

@@ -119,7 +119,7 @@ impl FiguresCommand {
     }
 }
 
-/// Writes a file. If that fails, its content goes to standard output.
+/// Writes a file, completely or not at all. If that fails, its content goes to standard output.
 fn write(
     path: &Path,
     out: &mut dyn Write,

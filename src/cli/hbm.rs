@@ -17,9 +17,9 @@ use crate::report::{CommandLine, json};
 use rubscope_solver::harmonic::{Form, HarmonicError, Sweep};
 use rubscope_solver::scene::Scene;
 
-/// Default number of speeds of a sweep.
+/// Number of speeds of the default sweep, from standstill to the speed of the scene.
 const SPEEDS: usize = 51;
-/// Help of `--speed`, which may be a range for this command.
+/// Help text of `--speed`, which may be a range for this command.
 const SWEPT_SPEED: &str =
     "Rotor speed, or speeds as FROM:TO:COUNT; negative turns the other way [rad/s]";
 
@@ -57,7 +57,7 @@ pub struct HbmCommand {
     out: Option<PathBuf>,
 }
 
-/// The view chosen by its option; the locked motion without one.
+/// The view chosen by its option; the locked motion without such an option.
 #[derive(Clone, Debug)]
 struct RequestedView(&'static View);
 

@@ -12,7 +12,8 @@ use super::{Cli, Done};
 use crate::tui::bindings::{self, Context, keys_text};
 use rubscope_solver::scene::BUILTIN;
 
-/// Date of the last change of content. A page without a date shows its source there instead.
+/// Date of the last change of content, shown at the foot of the manual pages. Without a date,
+/// viewers show the source of the page there instead.
 const DATE: &str = "2026-11-22";
 
 /// Print the manual page, or that of one command.
@@ -60,7 +61,7 @@ fn page_of(whole: &clap::Command, name: &str) -> Result<clap::Command, Refusal> 
     })
 }
 
-/// Meaning of each exit status.
+/// Each exit status and its meaning.
 const EXIT_STATUS: &[(&str, &str)] = &[
     ("0", "Done."),
     ("1", "Failed: a file could not be written, or the computation broke down."),
@@ -68,7 +69,7 @@ const EXIT_STATUS: &[(&str, &str)] = &[
     ("128+n", "Ended by signal n."),
 ];
 
-/// Environment variables that the explorer reads.
+/// Environment variables that the explorer reads, and what they do.
 const ENVIRONMENT: &[(&str, &str)] = &[
     (
         "NO_COLOR",
@@ -100,7 +101,7 @@ const ENVIRONMENT: &[(&str, &str)] = &[
     ),
 ];
 
-/// Files that the program reads or writes without being asked.
+/// Files that the program reads or writes without being asked, and what they contain.
 const FILES: &[(&str, &str)] = &[(
     "~/.config/rubscope/config.toml",
     "What the explorer remembers: theme, marker, number of charts, mouse. Options win over it; \
@@ -157,7 +158,7 @@ fn list(page: &mut Roff, heading: &str, entries: impl Iterator<Item = (String, &
 /// Print completions for a shell.
 #[derive(Args, Debug)]
 pub struct CompletionsCommand {
-    /// The shell
+    /// Shell that the completions are for
     shell: Shell,
 }
 

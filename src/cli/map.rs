@@ -20,16 +20,16 @@ use crate::report::{Provenance, json, map as report, svg};
 use rubscope_solver::scene::keys;
 use rubscope_solver::study::{Axis, AxisError, Map, MapPlan, overlay};
 
-/// Upper bound of `--threads`, above the number of cores of any machine.
+/// Upper bound of `--threads`, above the number of cores of usual machines.
 const MOST_THREADS: usize = 1024;
 /// Largest number of cells in a picture; each takes about a hundred bytes of SVG.
 const MOST_DRAWN: usize = 1_000_000;
-/// File formats of a complete map.
+/// Endings of the files that a complete map can be written to.
 const WHOLE: [&str; 3] = ["csv", "json", "svg"];
-/// Default number of columns and rows: steps of 10 rad/s and 50 kN.
+/// Default number of columns and rows: steps of 10 rad/s (or 100 rpm) and 50 kN.
 const COLUMNS: u32 = 51;
 const ROWS: u32 = 21;
-/// Help of `--speed` and `--pulse`, which are ranges for this command.
+/// Help texts of `--speed` and `--pulse`, which are ranges for this command.
 const COLUMNS_OF_SPEED: &str =
     "Columns: rotor speeds; negative turns the other way [rad/s] [default: 0:500:51]";
 const ROWS_OF_PULSE: &str = "Rows: forces of the pulse on the casing [N] [default: 0:1e6:21]";
@@ -206,8 +206,8 @@ impl ResultOptions {
         output::format(self.out.as_deref(), endings)
     }
 
-    /// Prints and writes the finished map. If it cannot be written, it goes
-    /// to standard output as JSON, so that nothing computed is lost.
+    /// Prints the finished map and, with `--out`, writes it. If it cannot be written, it goes to
+    /// standard output as JSON, so that nothing computed is lost.
     fn deliver(&self, map: &Map, format: Option<&str>, out: &mut dyn Write) -> anyhow::Result<()> {
         if self.json {
             json::write(&report::MapJson { map, with_time: true }, out)?;
@@ -234,7 +234,8 @@ impl ResultOptions {
     }
 }
 
-/// Returns the width of the text map: that of the terminal, if there is one.
+/// Returns the width of the text map \[characters\]: that of the terminal if standard output is
+/// one, otherwise [`WIDTH`].
 fn width() -> usize {
     let size = crossterm::terminal::size().ok().filter(|_| std::io::stdout().is_terminal());
     size.map_or(WIDTH, |(columns, _)| usize::from(columns))

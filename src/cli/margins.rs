@@ -92,7 +92,8 @@ impl MarginsCommand {
         Ok(())
     }
 
-    /// Returns the target with a unit appended to its value if it had none.
+    /// Returns the text of `--target`, with `rpm` appended to a speed without a unit if `--rpm` is
+    /// given; `None` without the option.
     fn target(&self) -> Option<String> {
         let text = self.target.as_ref()?;
         let parts = text.split_once('=');

@@ -19,9 +19,9 @@ use rubscope_solver::study::survey::{Survey, speed_range};
 
 /// Largest size of a mode table \[bytes\].
 const LARGEST_TABLE: u64 = 1 << 20;
-/// Pulse of the new scene, as a multiple of the smallest pulse that makes contact.
+/// Pulse force of the new scene, as a multiple of the smallest force that makes contact.
 const PULSE: f64 = 2.0;
-/// Significant digits to which that pulse is rounded.
+/// Significant digits to which the pulse force of the new scene is rounded.
 const DIGITS: usize = 2;
 
 /// Write a scene file for your own machine, and survey it.
@@ -218,10 +218,11 @@ impl NewCommand {
     }
 }
 
-/// Damping ratio if none is given.
+/// Damping ratio of casing and disk, as typed, if none is given.
 const USUAL_DAMPING: &str = "0.01";
 
-/// Reads the mode table: the casing's modes, then the disk's.
+/// Reads the mode table and returns the casing's modes, then the disk's; remarks on the table are
+/// noted for standard error.
 fn table(path: &Path) -> anyhow::Result<[Vec<Family>; 2]> {
     let shown = path.display();
     let text = file::read_text(path, LARGEST_TABLE)
@@ -232,7 +233,7 @@ fn table(path: &Path) -> anyhow::Result<[Vec<Family>; 2]> {
     Ok(table.modes)
 }
 
-/// Parses a mode given as `DIAMETERS:FREQUENCY:MASS`.
+/// Parses a mode given with `option` as `DIAMETERS:FREQUENCY:MASS`.
 fn family(option: &str, text: &str) -> Result<Family, SceneError> {
     let parts: Vec<&str> = text.split(':').collect();
     if parts.len() != 3 {
@@ -247,18 +248,19 @@ fn family(option: &str, text: &str) -> Result<Family, SceneError> {
     Family::read(&given, &|name| format!("{option} {text}: {name}"))
 }
 
-/// Parses a number within the bounds of the key `path`, with its unit.
+/// Parses a number given with `option`, with or without a unit, within the bounds of the key
+/// `path`; returns it in the unit of the key.
 fn number(option: &str, text: &str, path: &str) -> anyhow::Result<f64> {
     let key = keys::find(path)?;
     Ok(key.number(option, &with_typed_unit(text, key.quantity()))?)
 }
 
-/// The user answered that the file should not be written.
+/// Error that ends the command after the user answered that the file should not be written.
 #[derive(Debug, thiserror::Error)]
 #[error("nothing is written")]
 struct Stop;
 
-/// Asks questions if standard input is a terminal.
+/// Asks the user for missing values if standard input is a terminal.
 struct Asking {
     answers: bool,
 }
@@ -268,8 +270,9 @@ impl Asking {
         Self { answers: stdin().is_terminal() }
     }
 
-    /// Parses `given`, or else an answer to the question `what`; Enter gives `usual`. Repeats the
-    /// question until the answer parses. Without a terminal, takes `usual` or fails.
+    /// Parses the text `given` with `option` or, without it, an answer to the question `what`;
+    /// Enter alone gives `usual`. Repeats the question until the answer parses. Without a
+    /// terminal, takes `usual` or fails.
     fn value<T>(
         &self,
         option: &'static str,

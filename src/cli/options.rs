@@ -66,12 +66,12 @@ pub struct SceneOptions {
 
 const HEADING: &str = "Options that change the scene";
 
-/// Options that a command accepts as a range `FROM:TO:COUNT`.
+/// Which options a command accepts as a range `FROM:TO:COUNT`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Swept {
-    /// `--speed` may be a range.
+    /// Whether `--speed` may be a range.
     pub speed: bool,
-    /// `--pulse` may be a range.
+    /// Whether `--pulse` may be a range.
     pub pulse: bool,
 }
 
@@ -80,14 +80,15 @@ pub struct Swept {
 pub struct Resolved {
     /// The scene; a swept key has the first value of its range.
     pub scene: CheckedScene,
-    /// The range of `--speed`; a single speed is a range of one value.
+    /// The range of `--speed` \[rad/s\]; a single speed is a range of one value. `None` if the
+    /// option is missing or the command accepts no range.
     pub speeds: Option<Range>,
-    /// The range of `--pulse`, likewise.
+    /// The range of `--pulse` \[N\]; one value and `None` as for `speeds`.
     pub pulses: Option<Range>,
 }
 
 impl SceneOptions {
-    /// Returns the scene as given: a name or a path.
+    /// Returns the name or the path of the scene as typed; `None` if the user gave none.
     pub fn name(&self) -> Option<&str> {
         self.scene.as_deref()
     }
@@ -97,7 +98,8 @@ impl SceneOptions {
         self.rpm
     }
 
-    /// Returns the speed or range given with `--speed`, with its unit.
+    /// Returns the speed or range given with `--speed`, as typed, with `rpm` appended if `--rpm`
+    /// applies to it; `None` without the option.
     pub fn speed(&self) -> Option<String> {
         self.speed.as_ref().map(|text| with_typed_unit(text, Quantity::Speed))
     }
@@ -203,12 +205,13 @@ impl SceneOptions {
         Ok(Resolved { scene, speeds, pulses })
     }
 
-    /// Returns every option that sets one key, with that key.
+    /// Returns the name of every option that sets exactly one key, and that key.
     pub fn keys() -> [(&'static str, &'static str); 10] {
         Self::default().named().map(|(option, key, _)| (option, key))
     }
 
-    /// Returns every option that sets one key, with the key and the text given, if any.
+    /// Returns the name of every option that sets exactly one key, that key, and the text given
+    /// with the option; `None` for an option that is missing.
     fn named(&self) -> [(&'static str, &'static str, Option<&String>); 10] {
         [
             ("--speed", keys::SPEED, self.speed.as_ref()),
@@ -239,7 +242,7 @@ pub(super) fn read_scene(name: &str) -> Result<Scene, SceneError> {
     Scene::load_unchecked(name)
 }
 
-/// Returns the message about a key that was adjusted to fit the options.
+/// Returns the message about a key that was changed because another option requires it.
 fn followed(made: &Adjustment) -> String {
     let Adjustment { key, from, to, why } = made;
     format!("rubscope: took {key} = {to:?} instead of the scene's {from:?}, which {why}")

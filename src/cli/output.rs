@@ -7,7 +7,8 @@ use super::status::{Refusal, say};
 use crate::file::{self, Written};
 use anyhow::Context;
 
-/// Returns the ending of `path`, which must be in `endings`, and checks that a file can be written.
+/// Returns the ending of `path`, which must be one of `endings`, and checks that a file can be
+/// written there. `None` if there is no path: nothing is written.
 ///
 /// # Errors
 /// The ending is another one, or no file can be written at `path`.
@@ -34,14 +35,14 @@ pub fn format(
 /// Checks that a file can be written at `path`.
 ///
 /// # Errors
-/// The reason why it cannot be written.
+/// No file can be written at `path`, for the reason in the message.
 pub fn try_place(path: &Path) -> anyhow::Result<()> {
     file::check_place(path).with_context(|| format!("cannot write {}", path.display()))
 }
 
-/// Writes a file, completely or not at all, and prints `what` it contains and whether it replaced
-/// another. If it cannot be written, its text goes to standard output, so that the result of a
-/// long computation is not lost.
+/// Writes a file, completely or not at all, and reports on standard error `what` it contains and
+/// whether it replaced another. If it cannot be written, its text goes to standard output, so that
+/// the result of a long computation is not lost.
 ///
 /// # Errors
 /// The file could not be written.
@@ -56,7 +57,7 @@ pub fn save(
     Ok(())
 }
 
-/// Writes a file. If that fails, `text` goes to standard output.
+/// Writes a file, completely or not at all. If that fails, its content goes to standard output.
 ///
 /// # Errors
 /// The file could not be written.

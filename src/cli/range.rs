@@ -5,10 +5,10 @@ use rubscope_solver::scene::Quantity;
 use rubscope_solver::scene::units::RangeError;
 use rubscope_solver::study::parse_range;
 
-/// Largest number of values in a range.
+/// Largest number of values in a range of an option.
 const MOST: usize = 100_000;
 
-/// Evenly spaced values, both ends included.
+/// Evenly spaced values of a quantity in its SI unit, both ends included.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
     /// First value.

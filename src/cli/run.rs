@@ -67,7 +67,8 @@ impl RunCommand {
             return Err(Refusal::of("--samples", self.samples, allowed).into());
         }
         let mut history = History::new(gaps);
-        // Both ends are samples. The smallest gap needs the gaps of all blades.
+        // Both ends are samples, so there is one interval fewer. The smallest gap needs the gaps
+        // of all blades, also if they have no columns.
         let sampling = match self.out {
             Some(_) => Sampling { intervals: self.samples - 1, gaps: true },
             None => Sampling::default(),

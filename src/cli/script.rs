@@ -25,7 +25,7 @@ const PULSE: &str = "pulse";
 pub enum RequestedChange {
     /// Fires the pulse.
     Pulse,
-    /// Sets a key of the scene.
+    /// Sets a key of the scene to a value.
     Set {
         /// Dotted path of the key.
         path: String,
@@ -78,13 +78,13 @@ fn parse_one(text: &str) -> Result<(f64, RequestedChange), Refusal> {
 /// A checked change, and the scene with it applied.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RequestedStep {
-    /// Instant \[s\].
+    /// Simulated time of the change \[s\].
     pub t_s: f64,
-    /// The requested change.
+    /// The change as the user requested it.
     pub change: RequestedChange,
     /// The scene with this and all earlier changes applied.
     pub scene: CheckedScene,
-    /// The same change as the solver's operations.
+    /// The operations of the solver that make the change.
     acts: Vec<motion::Change>,
 }
 
@@ -131,13 +131,13 @@ impl RequestedStep {
     }
 }
 
-/// Returns whether a key may change while the motion runs.
+/// Returns whether a key may change while the motion of a scene runs with the solver of the scene.
 fn acts_live(key: &Key, scene: &CheckedScene) -> bool {
     let by_steps = scene.solver.kind == SolverKind::Explicit;
     key.live == Live::Always || (by_steps && key.live == Live::Steps)
 }
 
-/// Lists what may change while the motion runs, for error messages.
+/// Lists the changes that the running motion of a scene accepts, for error messages.
 fn live_keys(scene: &CheckedScene) -> String {
     let keys: Vec<&str> =
         KEYS.iter().filter(|key| acts_live(key, scene)).map(|key| key.path).collect();
@@ -173,7 +173,7 @@ impl RequestedScript {
         self.0.is_empty()
     }
 
-    /// Returns the changes in the form that the solver takes.
+    /// Returns the changes as operations of the solver, each with its time.
     pub fn changes(&self) -> motion::Script {
         let acts =
             |step: &RequestedStep| step.acts.iter().map(|act| (step.t_s, act.clone())).collect();
@@ -197,7 +197,7 @@ impl Serialize for RequestedScript {
     }
 }
 
-/// Returns a change as it appears in JSON reports.
+/// Returns a change as it appears in JSON reports, with the checked value of its key.
 fn as_json(step: &RequestedStep) -> serde_json::Value {
     let t_s = step.t_s;
     match &step.change {

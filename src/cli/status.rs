@@ -23,7 +23,7 @@ pub enum Status {
     Signal(u8),
 }
 
-/// Refused input that is not part of the scene, such as an option; one line.
+/// Reason, in one line, why input that is not part of the scene is refused, such as an option.
 #[derive(Debug, Error)]
 #[error("{0}")]
 pub struct Refusal(String);
@@ -40,10 +40,11 @@ impl Refusal {
     }
 }
 
-/// Number of SIGPIPE, which is the same on every Unix.
+/// Signal number of SIGPIPE, which is the same on every Unix.
 const BROKEN_PIPE: u8 = 13;
 
-/// Prints the message of a command's error, if any, and returns its exit status.
+/// Prints the notes held back and the error of a command, if any; returns the exit status. If the
+/// input was refused, the notes are dropped.
 pub fn exit(done: super::Done) -> u8 {
     if done.is_ok() {
         say_noted();
@@ -113,7 +114,8 @@ pub fn usage(error: &clap::Error, arguments: &[OsString]) -> u8 {
     }
 }
 
-/// Returns a hint if an unknown option looks like the name of a file that begins with `-`.
+/// Returns a message with a hint if clap refuses an unknown option and an argument looks like the
+/// name of a file that begins with `-`; otherwise `None`.
 fn file(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
     let is_file = |name: &&str| {
         let ending = std::path::Path::new(name).extension();

@@ -77,7 +77,8 @@ impl SurveyCommand {
         Ok(Status::Done)
     }
 
-    /// Returns the range with units appended to speeds typed without one.
+    /// Returns the text of `--range`, with `rpm` appended to speeds without a unit if `--rpm` is
+    /// given; `None` without the option.
     fn range(&self) -> Option<String> {
         self.range.as_ref().map(|text| with_typed_unit(text, Quantity::Speed))
     }

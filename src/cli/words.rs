@@ -9,7 +9,7 @@ use strum::VariantNames;
 
 use rubscope_solver::scene::BUILTIN;
 
-/// Parser that accepts any text; shell completion offers these words.
+/// Parser of an argument that accepts any text. The words are only what shell completion offers.
 #[derive(Clone, Debug)]
 pub struct Words(Vec<&'static str>);
 

@@ -33,12 +33,12 @@ pub fn write(scene: &CheckedScene, out: &mut dyn Write) -> Result<()> {
     write_doubts(&doubts, out)
 }
 
-/// Closing paragraph when no value looks like a unit error: what was checked.
+/// Closing paragraph if no value looks like a unit error: the list of what was checked.
 const CHECKED: &str = "Checked: radius, clearance, tip speed, pulse and the push of a tip by their \
     size; frequency, modal mass and damping ratio of every mode, and their course over the \
     diameters. Nothing looks like a slip of a unit or a decimal point.";
 
-/// Writes the likely unit errors, if there are any.
+/// Writes the likely unit errors as a list, each in a sentence; nothing if there are none.
 ///
 /// # Errors
 /// The writer failed.
@@ -133,7 +133,8 @@ fn limits(margins: &Margins) -> String {
     told.join(" ")
 }
 
-/// Says which modes are missing and what replaces them; `None` if all are given.
+/// Says for which nodal diameters the casing's modes are missing and what replaces them; `None` if
+/// all are given. A note of the scene on its modes takes precedence.
 fn unknown(scene: &CheckedScene) -> Option<String> {
     let half = scene.bladed_disk.blades / 2;
     let known = |modes: &[rubscope_solver::model::Mode]| {

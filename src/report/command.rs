@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use rubscope_solver::scene::keys::{differences, view_differences};
 use rubscope_solver::scene::{BUILTIN, DEFAULT, Scene};
 
-/// Name of the program in files.
+/// Name of the program, as it is typed and as files record it.
 pub const PROGRAM: &str = "rubscope";
 /// Version of the program.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
@@ -16,13 +16,13 @@ pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// (`build.rs`). Another commit may give other verdicts.
 pub const COMMIT: &str = env!("RUBSCOPE_COMMIT");
 
-/// A command line of this program, quoted for a shell.
+/// A command line of this program that can be pasted into a shell: words are quoted where needed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CommandLine(String);
 
 impl CommandLine {
     /// Creates `rubscope COMMAND NAME`, with `--set` for every key in which `scene` differs from
-    /// `base`, the scene of that name. Keys of charts are left out.
+    /// `base`, the scene of that name. Keys that affect only what charts show are left out.
     pub fn from_base(command: &str, name: &str, base: &Scene, scene: &Scene) -> Self {
         // A file name that begins with - would be read as an option.
         let here = if name.starts_with('-') { "./" } else { "" };
@@ -37,8 +37,8 @@ impl CommandLine {
     }
 
     /// As [`Self::from_base`], based on the built-in scene of the same title, or else on the one
-    /// that differs in the fewest keys, so that the command needs no scene file. Keys of charts
-    /// are set too, so that the scene is the same in every key.
+    /// that differs in the fewest keys, so that the command needs no scene file. Keys that affect
+    /// only what charts show are set too, so that the scene is the same in every key.
     pub fn new(command: &str, scene: &Scene) -> Self {
         let known = |name| Scene::builtin(name).ok().map(|base| (name, base));
         let far = |base: &Scene| (base.title != scene.title, differences(base, scene).count());
@@ -64,7 +64,7 @@ impl CommandLine {
         }
     }
 
-    /// Adds an option that has no value, if it is given.
+    /// Adds an option that has no value, if `given`.
     pub fn flag(mut self, name: &str, given: bool) -> Self {
         if given {
             self.0.push_str(&format!(" {name}"));
@@ -94,7 +94,7 @@ fn quoted(word: &str) -> String {
     }
 }
 
-/// Where a result comes from.
+/// Origin of a result, which its files record.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Provenance {
     /// The command that reproduces it.

@@ -3,8 +3,8 @@
 use super::table::{Table, TableCell};
 use rubscope_solver::study::figures::Panel;
 
-/// Returns the data of a panel. If all series share x, there is one column for x and one per
-/// series; otherwise one row per point, with the name of its series.
+/// Returns the data of a panel. If all series have points at the same x, there is one column for x
+/// and one per series; otherwise one row per point, with the name of its series.
 pub fn table(panel: &Panel) -> Table {
     if panel.shares_x() { wide(panel) } else { long(panel) }
 }

@@ -5,10 +5,12 @@ use std::io::{Result, Write};
 use super::table::{TableCell, write_csv};
 use rubscope_solver::motion::Sample;
 
-/// Largest number of values in a history: 800 MB. With more, the system may end the program.
+/// Largest number of values in a history, all columns together: 800 MB. With more, the system may
+/// run out of memory and end the program.
 pub const HISTORY_VALUES: usize = 100_000_000;
 
-/// Columns before the gaps of the individual blades.
+/// Names of the columns before the gaps of the individual blades. The multipliers are the sum, the
+/// smallest and the largest over the blade groups in contact, and 0 without contact.
 const COLUMNS: [&str; 11] = [
     "t_s",
     "theta_rad",
@@ -26,14 +28,14 @@ const COLUMNS: [&str; 11] = [
 /// One named column.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HistoryColumn {
-    /// The name, with the unit.
+    /// Name in the CSV file; it ends in the SI unit.
     pub name: String,
     /// One value per sample.
     pub values: Vec<f64>,
 }
 
-/// A run as sampled columns. The multipliers (contact forces) are sums over a blade group, averaged
-/// since the previous sample; a negative one pushes.
+/// A run as sampled columns. A multiplier (contact force \[N\]) belongs to a blade group; it is the
+/// mean since the previous sample, and negative for a push.
 #[derive(Clone, Debug, PartialEq)]
 pub struct History {
     columns: Vec<HistoryColumn>,
@@ -47,14 +49,16 @@ impl History {
         Self { columns: names.map(|name| HistoryColumn { name, values: Vec::new() }).collect() }
     }
 
-    /// Returns the largest number of samples that a history with this many gap columns can have.
+    /// Returns the largest number of samples that a history with a gap column for each of `blades`
+    /// blades can have.
     pub fn most_samples(blades: u32) -> u32 {
         let columns = COLUMNS.len() + blades as usize;
         u32::try_from(HISTORY_VALUES / columns).unwrap_or(u32::MAX)
     }
 
-    /// Adds a sample, which must contain the gaps of all blades. A sample with a number that is not
-    /// finite is skipped.
+    /// Adds a sample, which must contain the gaps of all blades, even if the history has no column
+    /// for them: the smallest gap is taken from them. A sample with a number that is not finite is
+    /// skipped.
     pub fn push(&mut self, sample: &Sample) {
         let forces = || sample.mean_forces.iter().map(|(_, force)| *force);
         let gap_min = sample.gaps.iter().copied().fold(f64::INFINITY, f64::min);

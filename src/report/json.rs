@@ -19,8 +19,8 @@ pub fn write(report: &impl Serialize, mut out: &mut dyn Write) -> std::io::Resul
     writeln!(out)
 }
 
-/// Writes a report with the name of its schema and the command that reproduces it. The scene is
-/// part of the report.
+/// Writes a report with the name of its schema, and the program, version and command that reproduce
+/// it. The scene must be part of the report.
 ///
 /// # Errors
 /// The writer failed.

@@ -3,7 +3,7 @@
 
 use rubscope_solver::scene::keys::is_plain;
 
-/// A longer message keeps this many characters at each end.
+/// A message of more than twice this many characters keeps only this many at each end.
 const SHOWN: usize = 800;
 
 /// Makes a message safe to print: replaces control characters, line breaks and direction marks, and
@@ -18,7 +18,7 @@ pub fn clean(text: &str) -> String {
     head.chain(" ... ".chars()).chain(tail).collect()
 }
 
-/// Capitalises the first letter.
+/// Capitalises the first letter of a text if it is an ASCII letter.
 pub fn capital(text: &str) -> String {
     let mut text = text.to_string();
     if let Some(first) = text.get_mut(..1) {
@@ -27,7 +27,7 @@ pub fn capital(text: &str) -> String {
     text
 }
 
-/// Replaces a character that is not plain text by a space.
+/// Replaces a character that is not plain text, such as a control character, by a space.
 pub fn harmless(c: char) -> char {
     if is_plain(c) { c } else { ' ' }
 }
@@ -36,8 +36,8 @@ pub fn harmless(c: char) -> char {
 /// there.
 const HELD: char = '\u{a0}';
 
-/// Wraps a text to lines of at most `most` columns. Lines break at spaces, though not before a per
-/// cent sign, and inside words longer than a line.
+/// Wraps a text to lines of at most `most` columns of the screen. Lines break at spaces, though not
+/// before a per cent sign, and inside words longer than a line. An empty text has no lines.
 pub fn wrapped(text: &str, most: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     let mut used = 0;
@@ -68,7 +68,8 @@ pub fn wrapped(text: &str, most: usize) -> Vec<String> {
     lines
 }
 
-/// Returns the display width of a character: two columns for East Asian scripts and pictographs.
+/// Returns the number of columns that a character takes on the screen: two for East Asian scripts
+/// and pictographs, otherwise one.
 fn columns(c: char) -> usize {
     let wide = matches!(
         c,

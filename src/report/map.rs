@@ -17,7 +17,7 @@ use rubscope_solver::study::{Axis, Cell, Map, MapPlan, overlay};
 
 /// Largest number of rows of the text map.
 const TEXT_ROWS: usize = 40;
-/// Characters to the left of the cells, and on both sides together.
+/// Number of characters to the left of a row of cells (label and frame), and on both sides of it.
 const INDENT: usize = 14;
 const FRAME: usize = INDENT + 1;
 
@@ -27,7 +27,7 @@ const FRAME: usize = INDENT + 1;
 pub struct MapJson<'a> {
     /// The map.
     pub map: &'a Map,
-    /// Whether to include the wall time.
+    /// Whether to include the wall time of the computation; otherwise it is `null`.
     pub with_time: bool,
 }
 
@@ -53,7 +53,7 @@ impl Serialize for MapJson<'_> {
     }
 }
 
-/// Returns the command that computes this map in one run.
+/// Returns the command that computes this map, all of its shares at once.
 pub fn command(map: &Map) -> CommandLine {
     let plan = &map.plan;
     CommandLine::new("map", &plan.scene)
@@ -62,7 +62,7 @@ pub fn command(map: &Map) -> CommandLine {
         .flag("--no-sensitivity", !plan.sensitivity)
 }
 
-/// One value per cell, row by row; `null` for a cell that is not computed.
+/// One value of each cell, as an array of rows in JSON; `null` for a cell that is not computed.
 struct Rows<'a, T> {
     map: &'a Map,
     value: fn(Cell) -> T,
@@ -91,7 +91,8 @@ pub fn leaf(axis: &Axis) -> &str {
     axis.path.rsplit('.').next().unwrap_or(&axis.path)
 }
 
-/// Returns the column names of both axes: full keys if their last parts are equal.
+/// Returns the names of the x and the y axis in files: the last parts of their keys, or the full
+/// keys if the last parts are equal.
 pub(super) fn names(plan: &MapPlan) -> [&str; 2] {
     let MapPlan { x, y, .. } = plan;
     if leaf(x) == leaf(y) { [&x.path, &y.path] } else { [leaf(x), leaf(y)] }
@@ -119,7 +120,7 @@ pub fn write_csv(map: &Map, out: &mut dyn Write) -> Result<()> {
     table::write_csv([first, second, "verdict", "sensitive", "depends_on_step"], rows, out)
 }
 
-/// Returns the factor from SI to the unit shown on an axis.
+/// Returns the factor from the SI unit of an axis to the unit shown: 1 except for speeds in rpm.
 fn factor(axis: &Axis) -> f64 {
     if axis.path == keys::SPEED { per_speed(1.0) } else { 1.0 }
 }
@@ -174,8 +175,8 @@ pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
     Figure::new(title, note, vec![Panel::new("", quantity(x), quantity(y), series)])
 }
 
-/// Returns the character of a cell: a mark for the verdict, or a letter if the verdict is sensitive
-/// or depends on the step.
+/// Returns the character of a cell: a sign for its verdict, or a letter if the verdict is sensitive
+/// or depends on the step; a space for a cell that is not computed.
 pub fn mark(cell: Option<Cell>) -> char {
     let Some(cell) = cell else { return ' ' };
     let (sure, doubtful) = match cell.verdict {
@@ -192,8 +193,8 @@ pub fn mark(cell: Option<Cell>) -> char {
     if cell.is_doubtful() { doubtful } else { sure }
 }
 
-/// Writes the map as text with a legend, the highest row first. A row of cells is at most `width`
-/// wide; larger maps are thinned.
+/// Writes the map as text with a legend, the row of the largest y first. If it is wider than
+/// `width` characters or has more than `TEXT_ROWS` rows, only every n-th column or row is shown.
 ///
 /// # Errors
 /// The writer failed.
@@ -230,7 +231,8 @@ pub fn write_text(map: &Map, width: usize, out: &mut dyn Write) -> Result<()> {
     write_legend(map, out)
 }
 
-/// Marks the columns of the critical speed and the lock speed, if they are the same in every row.
+/// Marks the columns of the critical speed and the lock speed below a map with speeds to the right,
+/// unless they depend on the row. Every `across`-th column of the map is shown.
 fn write_speeds(map: &Map, across: usize, columns: usize, out: &mut dyn Write) -> Result<()> {
     for curve in overlay::speed_curves(&map.plan) {
         let Some(&(speed, _)) = curve.points.first() else { continue };
@@ -250,7 +252,7 @@ fn write_speeds(map: &Map, across: usize, columns: usize, out: &mut dyn Write) -
     Ok(())
 }
 
-/// Explains a verdict in a few words.
+/// Explains a verdict in a few words, for the legend.
 pub fn means(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Decay => "contact ends",

@@ -29,6 +29,7 @@ pub use history::History;
 pub struct Wall {
     /// Wall time of the run itself \[s\].
     pub run_s: f64,
-    /// Wall time of the runs with changed input that check the sensitivity, if any \[s\].
+    /// Wall time of the runs with changed input that check the sensitivity \[s\]; `None` if the
+    /// check was skipped.
     pub certainty_s: Option<f64>,
 }

@@ -55,7 +55,8 @@ pub fn with_unit(x: f64, digits: usize, unit: &str) -> String {
     scaled(x, x, digits, unit).join(" ").trim_end().to_string()
 }
 
-/// As [`with_unit`], as two strings, with the prefix chosen for `of` instead of `x`.
+/// As [`with_unit`], but returns number and unit as two strings, with the SI prefix that suits `of`
+/// instead of `x`, so that several numbers can share a unit.
 pub fn scaled(x: f64, of: f64, digits: usize, unit: &str) -> [String; 2] {
     let ((x, _), (of, unit)) = (in_shown_unit(x, unit), in_shown_unit(of, unit));
     let scale = SiScale::before(unit, of);
@@ -63,11 +64,11 @@ pub fn scaled(x: f64, of: f64, digits: usize, unit: &str) -> [String; 2] {
 }
 
 thread_local! {
-    /// Whether this thread shows speeds in rpm.
+    /// Whether this thread shows speeds in rpm; otherwise in rad/s.
     static IN_RPM: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Switches this thread to show speeds in rpm or in rad/s.
+/// Makes this thread show speeds in rpm (true) or in rad/s.
 pub fn tell_in_rpm(rpm: bool) {
     IN_RPM.set(rpm);
 }
@@ -120,12 +121,13 @@ pub fn per_frequency(omega: f64) -> f64 {
     if IN_RPM.get() { omega / TAU } else { omega }
 }
 
-/// Converts a speed to the shown unit, and leaves numbers of other units alone.
+/// Converts a number in rad/s to the unit in which speeds are shown; numbers of other units stay.
+/// Returns the number and its unit.
 pub fn in_shown_unit(x: f64, unit: &str) -> (f64, &str) {
     if unit == RAD_S { (per_speed(x), speed_unit()) } else { (x, unit) }
 }
 
-/// Converts a shown number back to its SI unit: the inverse of [`in_shown_unit`].
+/// Converts a shown number back to `unit`, its SI unit: the inverse of [`in_shown_unit`].
 pub fn from_shown(x: f64, unit: &str) -> f64 {
     if unit == RAD_S && IN_RPM.get() { x * (TAU / 60.0) } else { x }
 }
@@ -171,16 +173,17 @@ pub fn trimmed(digits: &str) -> &str {
     if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { digits }
 }
 
-/// An SI prefix, for one number or a whole axis.
+/// An SI prefix, or a change of unit, for one number or a whole axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SiScale {
-    /// Value of one shown unit in the base unit, such as 1e3 for `k`.
+    /// Size of the shown unit in the base unit, such as 1e3 for `k`. The shown number is the value
+    /// divided by it.
     pub factor: f64,
-    /// The prefix in front of the unit.
+    /// Prefix in front of the unit; may be empty.
     pub prefix: &'static str,
 }
 
-/// Prefixes in increasing order.
+/// Factors and their SI prefixes, in increasing order.
 const PREFIXES: &[(f64, &str)] = &[
     (1e-15, "f"),
     (1e-12, "p"),
@@ -194,7 +197,8 @@ const PREFIXES: &[(f64, &str)] = &[
 ];
 
 impl SiScale {
-    /// Returns the prefix under which `magnitude` reads as 1 to 999.
+    /// Returns the prefix with which a number of this magnitude reads as 1 to 999, within the range
+    /// of `PREFIXES`.
     pub fn of(magnitude: f64) -> Self {
         let magnitude = magnitude.abs() * (1.0 + 1e-9);
         let (factor, prefix) = PREFIXES
@@ -206,7 +210,8 @@ impl SiScale {
         Self { factor, prefix }
     }
 
-    /// Returns the prefix for a number of this unit; none for units that take no prefix.
+    /// Returns the prefix that suits a number of this magnitude and unit; the empty one for units
+    /// that take no prefix.
     pub fn before(unit: &str, magnitude: f64) -> Self {
         if WITH_PREFIX.contains(&unit) { Self::of(magnitude) } else { Self::plain() }
     }
@@ -231,26 +236,28 @@ impl SiScale {
 /// Units that take a prefix.
 const WITH_PREFIX: [&str; 9] = ["m", "s", "N", "N/m", "m/s", "N m/rad", "N m", "W", "J"];
 
-/// Digits shown when all of them are reliable.
+/// Largest number of reliable digits that are counted: as many as are shown.
 const MOST: u32 = 6;
 
 /// Number format of one run: shows only the digits that its sensitivity leaves reliable.
 #[derive(Debug, Default)]
 pub struct Digits {
-    /// Whether the spread of the numbers under tiny changes is known.
+    /// Whether runs with tiny changes were made, so that the spread of the numbers is known.
     known: bool,
     left_out: Cell<bool>,
     none: Cell<bool>,
 }
 
 impl Digits {
-    /// Creates the format; with `known`, a number without a spread has no reliable digit.
+    /// Creates the format. If spreads are `known`, a number without one has no reliable digit;
+    /// otherwise all digits are shown.
     pub fn of(known: bool) -> Self {
         Self { known, ..Self::default() }
     }
 
-    /// Formats `x` with `show`, rounded to the digits that a deviation of `spread` leaves reliable.
-    /// A `spread` of `None` means that some changed run has no such number.
+    /// Formats `x` with `show`, rounded to the digits that a deviation of `spread` (in the unit of
+    /// `x`) leaves reliable; without any, to one digit after "about". A `spread` of `None` means
+    /// that some changed run has no such number.
     pub fn shown(&self, x: f64, spread: Option<f64>, show: impl Fn(f64) -> String) -> String {
         let spread = if self.known { spread.unwrap_or(f64::INFINITY) } else { 0.0 };
         match reliable_digits(x, spread) {
@@ -266,7 +273,7 @@ impl Digits {
         }
     }
 
-    /// Returns the remark on digits that were left out so far, if any were.
+    /// Returns the remark on digits that were left out; `None` if no number so far lost a digit.
     pub fn note(&self) -> Option<&'static str> {
         if self.none.get() {
             Some(

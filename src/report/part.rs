@@ -15,9 +15,9 @@ use rubscope_solver::study::{Axis, AxisError, Cell, Map, MapPlan};
 
 /// Start of the first line; the origin of the cells follows as JSON.
 const START: &str = concat!("# rubscope ", env!("RUBSCOPE_VERSION"), " map ");
-/// Longest first line \[bytes\]; the usual ones have about 1500.
+/// Largest length of the first line of a share \[bytes\]; usually it is about 1500.
 const LONGEST_FIRST: u64 = 1 << 20;
-/// Largest table \[bytes\]: the largest map has about 64 bytes for a cell.
+/// Largest size of the table of a share \[bytes\]: about 64 for each cell of the largest map.
 const LARGEST_TABLE: u64 = 1 << 30;
 
 /// One machine's share of a map: cells `number - 1, number - 1 + count, ...`.
@@ -30,20 +30,20 @@ pub struct Shard {
 }
 
 impl Shard {
-    /// Parses `K/COUNT`, counted from 1.
+    /// Parses `K/COUNT`; `None` unless both are numbers and K is from 1 to COUNT.
     pub fn parse(text: &str) -> Option<Self> {
         let (number, count) = text.split_once('/')?;
         let shard = Self { number: number.trim().parse().ok()?, count: count.trim().parse().ok()? };
         (1..=shard.count).contains(&shard.number).then_some(shard)
     }
 
-    /// Iterates over the indices of this shard's cells.
+    /// Iterates over the indices of this shard's cells in a map of `cells` cells.
     pub fn indices(self, cells: usize) -> impl IndexedParallelIterator<Item = usize> {
         (self.number - 1..cells).into_par_iter().step_by(self.count)
     }
 }
 
-/// Everything that determines the cells of a map.
+/// Everything that determines the cells of a map; part of the first line of a share.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Origin {
@@ -65,7 +65,7 @@ impl Origin {
     }
 }
 
-/// Writes the cells that were computed.
+/// Writes the cells of the map that were computed, as a share.
 ///
 /// # Errors
 /// An error of the writer.
@@ -93,8 +93,8 @@ pub fn write(map: &Map, out: &mut dyn Write) -> std::io::Result<()> {
 /// Reads named shares of one map and joins them.
 ///
 /// # Errors
-/// A file that is no share, shares of different maps, and a cell that is missing or there
-/// twice.
+/// A file is not a share, shares belong to different maps, or a cell is missing or there twice. The
+/// message names the file.
 pub fn read_all<R: Read>(shares: impl IntoIterator<Item = (String, R)>) -> Result<Map, String> {
     let mut joined: Option<(String, Map)> = None;
     for (name, reader) in shares {

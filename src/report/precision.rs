@@ -9,7 +9,7 @@ use rubscope_solver::scene::{ContactLaw, ModelSize, SolverKind};
 use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
 use rubscope_solver::study::precision::{Method, Precision, Reference, Row, Way};
 
-/// Returns the letter of a series on the screen, by solver, contact law and model.
+/// Returns the character of a series on the screen, by solver, contact law and model.
 pub fn letter(way: &Way) -> char {
     let base = match (way.solver, way.contact) {
         (SolverKind::Event, _) => 'e',
@@ -27,12 +27,13 @@ pub fn letter(way: &Way) -> char {
     }
 }
 
-/// Returns the name of a series.
+/// Returns the name of a series: solver, contact law and model.
 pub fn series(way: &Way) -> String {
     format!("{} {} {}", way.solver, way.contact, way.model)
 }
 
-/// Returns the remark on a row's verdict.
+/// Returns the remark on a row's verdict, which may be empty: the row has another contact law than
+/// the reference, or another verdict.
 fn remark(row: &Row) -> &'static str {
     match row {
         Row { other_law: true, .. } => "other law",
@@ -48,7 +49,7 @@ fn reference_origin(reference: &Reference) -> String {
     format!("{solver} solver, {contact}, {model} model{step}")
 }
 
-/// Why there is no reference.
+/// Reason why there is no reference, as the end of a sentence.
 pub const WHY_NONE: &str = "the run of the reference fails before its end";
 
 /// Describes how accurate the reference is.
@@ -61,7 +62,7 @@ fn goodness(reference: &Reference) -> String {
     format!("{change} moves its end by {} of the clearance.", short(rounded(error, 2)))
 }
 
-/// Describes the reference in a few words, for one line of the screen.
+/// Describes verdict, method and error of the reference in a few words, for one line of the screen.
 pub fn reference_words(reference: &Reference) -> String {
     let verdict = reference.verdict;
     let error = reference.error.map(|error| format!(", error {} g0", short(rounded(error, 1))));
@@ -160,18 +161,20 @@ pub fn write(report: &Precision, out: &mut dyn Write) -> Result<()> {
 pub struct PlotPlace {
     /// log10 of the wall time in seconds.
     pub time: f64,
-    /// log10 of the error; `None` for an error of zero, which has no logarithm.
+    /// log10 of the error at the end, which is relative to the clearance; `None` for an error of
+    /// zero, which has no logarithm.
     pub error: Option<f64>,
 }
 
-/// Returns the position of a row in the chart; `None` for a row without an error.
+/// Returns the position of a row in the chart; `None` if its error or its time was not measured.
 pub fn place(row: &Row) -> Option<PlotPlace> {
     let error = row.error_final?;
     let error = (error > 0.0).then(|| error.log10());
     (row.wall_s > 0.0).then(|| PlotPlace { time: row.wall_s.log10(), error })
 }
 
-/// Returns the whole powers of ten that enclose some exponents; `None` without any.
+/// Returns the two whole exponents, at least 1 apart, that enclose some exponents of ten; `None` if
+/// there are none.
 pub fn decades(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
         (low.min(value), high.max(value))
@@ -179,7 +182,7 @@ pub fn decades(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     (low <= high).then(|| (low.floor(), high.ceil().max(low.floor() + 1.0)))
 }
 
-/// Returns the figure: log error against log run time.
+/// Returns the figure: error at the end against wall time, both on logarithmic axes.
 ///
 /// # Errors
 /// There is nothing to draw, for this reason.
@@ -220,7 +223,7 @@ fn name(row: &Row) -> String {
     format!("{}{law}", series(&row.way))
 }
 
-/// Returns the style of a series: colour by solver and law, disc size by model.
+/// Returns the style of a series: colour and marker by solver and law, size by model.
 fn style(way: &Way) -> Style {
     let colour = match (way.solver, way.contact) {
         (SolverKind::Event, _) => 0,

@@ -15,10 +15,10 @@ const APART: [&str; 2] = ["  ", " "];
 /// A sentence in its long and its short form.
 type Forms = [String; 2];
 
-/// Most blades that are named one by one.
+/// Largest number of blades that are named one by one; more are counted.
 const NAMED: usize = 4;
 
-/// Facts of a run from which its sentences are made.
+/// Facts of a run from which its sentences are made. Blades are numbered from 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Facts {
     /// Verdict of the run.
@@ -27,44 +27,51 @@ pub struct Facts {
     pub blades: Vec<u32>,
     /// Those of `blades` whose contact force pulls.
     pub pulling: Vec<u32>,
-    /// Total number of impacts.
+    /// Number of impacts during the run.
     pub touches: u64,
-    /// The contact law.
+    /// Contact law of the scene.
     pub law: ContactLaw,
-    /// Whether all blades rub the lining at rest.
+    /// Whether the clearance is negative, so that all blades rub the lining at rest.
     pub pressed: bool,
     /// Whether the casing is damped, so that it comes to rest after the last contact.
     pub damped: bool,
-    /// Rotor speed at which a lock separated during the run \[rad/s\].
+    /// Rotor speed at which the longest lock that ended during the run broke \[rad/s\]; `None` if
+    /// no lock broke.
     pub broken: Option<f64>,
-    /// Rotor speed at which a run-up (true) or run-down came to its last contact \[rad/s\].
+    /// Rotor speed at which the contact at the end began \[rad/s\], and whether the rotor was
+    /// accelerating then; `None` at constant speed.
     pub caught: Option<(f64, bool)>,
-    /// Why the run stopped early, if it did.
+    /// Why the run stopped early; `None` if it reached its end.
     pub failure: Option<Failure>,
-    /// Whether a contact force pulled during the run.
+    /// Whether a contact force pulled at any time of the run.
     pub pulled: bool,
-    /// Verdict of the event solver, whose contact only pushes, if it is known.
+    /// Verdict of the event solver, whose contact only pushes; `None` if it was not requested or
+    /// is not known yet.
     pub other: Option<Verdict>,
     /// Result of the sensitivity check.
     pub certainty: Certainty,
-    /// Growth rate of a deviation from an unstable lock at constant speed \[1/s\].
+    /// Growth rate of a deviation from the lock at the end \[1/s\]; `None` if the run does not end
+    /// in a lock, the lock is stable or on a lining, the speed changes, or the model is rigid.
     pub growth: Option<f64>,
-    /// Largest out-of-roundness of the casing that allows the lock, if that is demanding \[m\].
+    /// Largest out-of-roundness of the casing that leaves the lock intact \[m\]; `None` if the run
+    /// does not end in a lock, if it is unknown, or if usual casings are rounder.
     pub round: Option<f64>,
     /// Whether the tips differ in length, so that errors of the blade angles matter.
     pub angles: bool,
 }
 
-/// A verdict in words that fit a given width.
+/// The verdict of a run as a word and at most two sentences, chosen to fit a given width.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Sentence {
     /// The verdict, one word in capitals.
     pub word: String,
-    /// Sentence on the motion at the end.
+    /// Sentence on the motion at the end; may be empty.
     pub what: String,
-    /// Sentence on how the motion got there, if there is one and it fits.
+    /// Sentences on how the motion got there and how far to trust it; `None` if there is nothing to
+    /// say or no room.
     pub history: Option<String>,
-    /// Whether the history says that the result is suspect (shown in red).
+    /// Whether the result is suspect, which is shown in red: the lock is unstable, or another step
+    /// or the event solver gives another verdict.
     pub wrong: bool,
 }
 
@@ -80,13 +87,14 @@ impl fmt::Display for Sentence {
 }
 
 impl Sentence {
-    /// Creates the word with the long form of a sentence, or the short one where the long one
-    /// does not fit in so many columns.
+    /// Creates the word with the long form of a sentence, or with the short one if the long one is
+    /// wider than `width` columns.
     pub fn of(word: &str, forms: Forms, width: usize) -> Self {
         Self::with_notes(word, forms, &[], width)
     }
 
-    /// Same, with the first of these texts that fits beside one of the forms.
+    /// As [`Self::of`], with the first of `notes` that fits behind the long or the short form. If
+    /// none fits, there is no history.
     fn with_notes(word: &str, forms: Forms, notes: &[String], width: usize) -> Self {
         let sentence = |what: &String, history: Option<&String>| Self {
             word: word.to_string(),
@@ -158,7 +166,8 @@ impl Facts {
         }
     }
 
-    /// Returns the sentences for so many columns; from 40 on they fit.
+    /// Returns the verdict and its sentences in at most `width` columns. The shortest forms need up
+    /// to 40; below that, the result may be wider.
     pub fn sentence(&self, width: usize) -> Sentence {
         let word = self.verdict.as_ref().to_uppercase();
         let (notes, wrong) = self.notes();
@@ -170,7 +179,7 @@ impl Facts {
         Sentence { wrong, ..Sentence::with_notes(&word, self.forms(), &texts, width) }
     }
 
-    /// Returns what the motion is.
+    /// Describes the motion at the end of the run.
     fn forms(&self) -> Forms {
         if let (Some(speed), Some(after)) = (self.broken, self.after_a_lock()) {
             let at = rad_s(speed);
@@ -210,7 +219,7 @@ impl Facts {
         }
     }
 
-    /// Describes the motion after a lock broke.
+    /// Describes the motion after a lock broke; `None` if it locked again, diverged or failed.
     fn after_a_lock(&self) -> Option<&'static str> {
         match self.verdict {
             Verdict::Decay => Some(self.rest()),
@@ -222,7 +231,7 @@ impl Facts {
         }
     }
 
-    /// Describes the final motion of a casing without contact.
+    /// Describes the motion of the casing after the last contact.
     fn rest(&self) -> &'static str {
         if self.damped { "the casing comes to rest" } else { "the casing swings on freely" }
     }
@@ -292,8 +301,8 @@ impl Facts {
         [format!("The computation stops at {at}: {why}."), "The computation stops.".into()]
     }
 
-    /// Returns how the motion came there, the most serious note first; and whether the first
-    /// says that the state itself is wrong.
+    /// Returns the notes on how the motion got there, the most serious first, and whether the first
+    /// one says that the result is suspect.
     fn notes(&self) -> (Vec<Forms>, bool) {
         let mut notes: Vec<Forms> = self.growth.map(grows).into_iter().collect();
         let sensitive = self.certainty.sensitive;
@@ -333,7 +342,7 @@ impl Facts {
         (notes, wrong)
     }
 
-    /// Returns what contact that only pushes does, where this one pulled on the way.
+    /// Says that contact pulled during the run, and what a contact that only pushes gives instead.
     fn pushes_only(&self) -> Forms {
         let locked = self.verdict == Verdict::Locked;
         let ends = if locked { "would not catch it" } else { "ends otherwise" };
@@ -346,13 +355,13 @@ impl Facts {
         }
     }
 
-    /// Returns that the event solver finds another end.
+    /// Says that the event solver gives another verdict than the time steps.
     fn differs(&self, other: Verdict) -> Forms {
         let why = if self.angles { "step or angles are too large" } else { "the step is too long" };
         let fails = other == Verdict::Failed;
         let does = if fails { "fails".into() } else { format!("says {other}") };
         let short = format!("The exact solver {does}.");
-        // A run that stops has said why.
+        // The sentence on a failed run already gives its reason.
         if self.verdict == Verdict::Failed {
             return [short.clone(), short];
         }
@@ -360,13 +369,13 @@ impl Facts {
     }
 }
 
-/// Returns that a lock is unstable.
+/// Says that a lock is unstable: a deviation grows at this rate \[1/s\].
 fn grows(growth: f64) -> Forms {
     let growth = with_unit(growth, 3, "1/s");
     [format!("But this lock is unstable: it grows by {growth}."), "It is unstable.".into()]
 }
 
-/// Formats a speed with four digits.
+/// Formats a rotor speed \[rad/s\] with four digits, in the shown unit.
 fn rad_s(speed: f64) -> String {
     with_unit(speed, 4, "rad/s")
 }
@@ -376,12 +385,12 @@ fn touches(count: u64) -> String {
     format!("{} touch{}", grouped(count), if count == 1 { "" } else { "es" })
 }
 
-/// Returns constant forms.
+/// Creates the long and the short form from constant text.
 fn plain(forms: [&str; 2]) -> Forms {
     forms.map(String::from)
 }
 
-/// Names blades: `Blades 12 and 19`; many are counted.
+/// Names up to [`NAMED`] blades in order, as in `Blades 12 and 19`; counts more, as [`counted`].
 fn named(blades: &[u32]) -> String {
     let mut blades = blades.to_vec();
     blades.sort_unstable();
@@ -394,7 +403,7 @@ fn named(blades: &[u32]) -> String {
     }
 }
 
-/// Names one or two blades, as in `12 + 19`, and counts more.
+/// Names one or two blades, as in `Blade 7` or `12 + 19`, and counts more: `5 blades`.
 fn counted(blades: &[u32]) -> String {
     match blades {
         [] => "Some blades".into(),

@@ -12,16 +12,16 @@ use rubscope_solver::model::Machine;
 use rubscope_solver::motion::{Basis, Contact, Proof, RunReport};
 use rubscope_solver::scene::{ContactLaw, SolverKind};
 
-/// What is changed to test whether a run is sensitive.
+/// The inputs that are changed to test whether a run is sensitive, as the end of a phrase.
 pub(super) const OF_WHAT: &str = "of the pulse, the speed or the motion";
 
-/// Impacts are listed one by one up to this number.
+/// Number of impacts that are listed one by one, the first of the run; the others are counted.
 const IMPACTS_TOLD: usize = 4;
 
-/// Contacts are listed one by one up to this number.
+/// Largest number of groups in contact at the end that are listed one by one; more are summarised.
 const CONTACTS_TOLD: usize = 4;
-/// Penetration, relative to the clearance, that closing a gap in double precision may leave: a few
-/// hundred units in the last place.
+/// Penetration, relative to the clearance, up to which it counts as round-off: closing a gap in
+/// double precision may leave a few hundred units in the last place.
 const ROUND_OFF: f64 = 1e-13;
 
 /// Writes the summary of a run and its wall times.
@@ -113,7 +113,7 @@ fn doubts(report: &RunReport) -> Vec<String> {
     doubts
 }
 
-/// Describes the evidence for the verdict.
+/// Describes the evidence for the verdict: a proof, or the interval of the run that was judged.
 fn basis(basis: Basis) -> String {
     match basis {
         Basis::Proved { by, since_s } => {
@@ -180,7 +180,7 @@ fn motion(report: &RunReport, machine: &Machine, out: &mut dyn Write) -> Result<
     writeln!(out, "{}", impacts(report))
 }
 
-/// Names the length that penetrations are compared with.
+/// Names the length that penetrations are compared with: a negative clearance is an interference.
 fn room(machine: &Machine) -> &'static str {
     if machine.clearance() < 0.0 { "interference" } else { "clearance" }
 }
@@ -216,7 +216,8 @@ fn touch(contact: &Contact, moved: Option<f64>, digits: &Digits) -> String {
     format!("{who} {verb} with {force} N at the end.")
 }
 
-/// Compares the rotor speed with the critical and lock speeds.
+/// Compares the rotor speed at the end of the run with the critical speed and the lock speed, where
+/// these exist.
 fn speeds(report: &RunReport, machine: &Machine) -> String {
     let now = report.end_speed_rad_s;
     let lock = lock_window(machine, now);
@@ -311,7 +312,8 @@ fn cost(report: &RunReport, wall: Wall) -> String {
     format!("Cost: {what}run {}{each}{certainty}.", time(wall.run_s))
 }
 
-/// Lists numbers: "6", "6 and 17", "1, 2 and 3", "1, 3, 5 and 8 more".
+/// Lists up to four blade numbers, or the first three and the count of the others: "6", "6 and 17",
+/// "1, 2 and 3", "1, 3, 5 and 8 more".
 fn listed(blades: &[u32]) -> String {
     let names = |blades: &[u32]| -> String {
         blades.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")

@@ -14,12 +14,13 @@ use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
 use rubscope_solver::study::margins::LimitName;
 use rubscope_solver::study::survey::{Scattered, Survey, SurveyRow};
 
-/// Largest number of rows and of columns of the text.
+/// Largest number of rows of the text, one per nodal diameter, and largest width of the table
+/// \[characters\].
 const ROWS: usize = 64;
 const WIDEST: usize = 110;
 /// Width of the range bar \[characters\].
 const BAR: usize = 20;
-/// The answer lists this many nodal diameters, and counts more.
+/// Largest number of nodal diameters that the answer lists; more are counted.
 const LISTED: usize = 8;
 
 /// Limits with a column in the text, the most important first, and their headings.
@@ -32,7 +33,7 @@ const LIMITS: [(LimitName, &str); 6] = [
     (LimitName::OmegaC, "Omega_c"),
 ];
 
-/// Returns those of [`LIMITS`] that some row has.
+/// Returns those of [`LIMITS`] that at least one of the rows has.
 fn present<'a>(
     rows: &'a [&'a SurveyRow],
 ) -> impl Iterator<Item = &'static (LimitName, &'static str)> + 'a {
@@ -95,7 +96,7 @@ pub fn write(survey: &Survey, all: bool, out: &mut dyn Write) -> Result<()> {
     writeln!(out, "Computed in {}.", time(rounded(survey.wall_s, 2)))
 }
 
-/// Returns remarks that apply to any of the rows shown.
+/// Returns the remarks of the survey, and those that apply to at least one of the rows shown.
 pub fn notes(survey: &Survey, shown: &[&SurveyRow]) -> Vec<String> {
     let any = |has: fn(&SurveyRow) -> bool, note: &str| {
         shown.iter().any(|row| has(row)).then(|| note.to_string())
@@ -108,7 +109,8 @@ pub fn notes(survey: &Survey, shown: &[&SurveyRow]) -> Vec<String> {
     tuned.chain(scattered).chain(of_rows.into_iter().flatten()).collect()
 }
 
-/// Says which nodal diameters can lock, in the range or at the scene's speed.
+/// Says which nodal diameters can lock: somewhere in the range or, without a range, at the scene's
+/// speed. `all` includes nodal diameters without modes of their own.
 pub fn answer(survey: &Survey, all: bool) -> String {
     let now = survey.scene.operation.speed_rad_s;
     let at = match survey.range_rad_s {
@@ -139,13 +141,15 @@ pub fn answer(survey: &Survey, all: bool) -> String {
     format!("{at} {which}{unknown}.")
 }
 
-/// Formats a speed with four digits, or more if its whole part has more.
+/// Formats a speed \[rad/s\] in the shown unit, without naming it: with four digits, or as a whole
+/// number from 1000 on.
 fn shown_speed(omega: f64) -> String {
     let shown = per_speed(omega);
     short(if shown.abs() < 1e3 { rounded(shown, 4) } else { shown.round() })
 }
 
-/// Says at which speeds of the range a row can lock, and where it whirls.
+/// Says at which speeds of the range the waves of a row can lock; and, as a second text that may be
+/// empty, the speed at which they whirl.
 fn verdict(survey: &Survey, row: &SurveyRow) -> [String; 2] {
     let ([least, most], unit) = (survey.speeds(), speed_unit());
     let span = |[from, to]: &[f64; 2]| match (*from <= least, *to >= most) {
@@ -169,13 +173,15 @@ fn verdict(survey: &Survey, row: &SurveyRow) -> [String; 2] {
     [locks, whirls.map_or(String::new(), |omega| format!("{from}{} {unit}", shown_speed(*omega)))]
 }
 
-/// Returns the speed range covered by the bar: the range, or from rest to beyond the present speed.
+/// Returns the speed range covered by the bar, the lower end first \[rad/s\]: the range of the
+/// survey or, without one, from rest to [`REACH`] times the scene's speed.
 fn ends(survey: &Survey) -> [f64; 2] {
     let far = REACH * survey.scene.operation.speed_rad_s;
     survey.range_rad_s.unwrap_or([far.min(0.0), far.max(0.0)])
 }
 
-/// Draws the range bar: `#` where the wave can lock, `w` where whirl begins.
+/// Draws the range bar: `w` where whirl begins, `#` where the wave can lock at the middle of the
+/// character's range, `.` elsewhere.
 fn bar(survey: &Survey, row: &SurveyRow) -> String {
     let [from, to] = ends(survey);
     let part = (to - from) / BAR as f64;
@@ -194,7 +200,7 @@ fn bar(survey: &Survey, row: &SurveyRow) -> String {
     (0..BAR).map(sign).collect()
 }
 
-/// Explains how unequal tips move the lock speed.
+/// Explains how tips that differ by 1 % of the clearance move the lock speed.
 pub fn of_scatter(scene: &Scene, scattered: &Scattered) -> String {
     let speeds = [scattered.mean_rad_s, scattered.equal_rad_s];
     let [mean, equal] = speeds.map(|omega| format!("{} {}", shown_speed(omega), speed_unit()));
@@ -261,7 +267,8 @@ pub fn rows(survey: &Survey, shown: &[&SurveyRow]) -> Table {
 
 /// Colour number of lines that are not limits.
 const INK: usize = 5;
-/// Limits are drawn up to this multiple of the fastest speed of interest.
+/// Without a range, the bar ends at this multiple of the scene's speed. The chart leaves out limits
+/// above this multiple of the fastest of the scene's speed and the ends of the range.
 const REACH: f64 = 2.0;
 
 /// Returns the interference chart: the frequencies and the lines `n_d Omega` over `n_d`, and below

@@ -4,7 +4,7 @@
 use rubscope_solver::scene::keys;
 use rubscope_solver::study::margins::CLEARANCE;
 
-/// Ending of the description of an initial value.
+/// Ending of the description of a key that is an initial value, such as `u_c at t = 0`.
 const AT_START: &str = " at t = 0";
 
 /// Returns the symbol of a parameter in ASCII: `zeta_c`, `Omega`, `u_c(0)`. A path that is no key
@@ -30,7 +30,8 @@ pub fn symbol(path: &str) -> String {
     key.what.rsplit(' ').next().unwrap_or(path).to_string()
 }
 
-/// Replaces the ASCII names of Greek letters in a text by the letters.
+/// Replaces the ASCII names of Greek letters in a text by the letters, and `g0` by `g_0`, which
+/// pictures show with a subscript.
 pub fn greek(text: &str) -> String {
     let letter = |word: &str| {
         match word {

@@ -7,26 +7,28 @@ use std::io::{Result, Write};
 use super::line::wrapped;
 use super::number::{exact, per_speed, rounded, short, speed_unit};
 
-/// Spaces between two columns of text.
+/// Number of spaces between two columns of the text.
 const APART: usize = 2;
 
-/// Line width of the notes below a table.
+/// Width to which the notes below a table and the sentences of reports are wrapped \[characters\].
 pub const WIDTH: usize = 100;
 
 /// One cell of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TableCell {
-    /// A number; a number that is not finite leaves the cell empty.
+    /// A number in SI units; files leave the cell empty if it is not finite.
     Number(f64),
-    /// A number for files, and its text for people; one that is not finite is empty in files.
+    /// A number for files, which leave the cell empty if it is not finite, and its text for the
+    /// screen.
     Told(f64, String),
     /// A word or two.
     Word(String),
-    /// No value.
+    /// No value: empty in files, `-` on the screen.
     Empty,
 }
 
-/// Columns of speeds, which text shows in the chosen unit. CSV keeps rad/s.
+/// Names of columns of rotor or wave speeds, which text shows in the unit the user chose. CSV keeps
+/// rad/s.
 const SPEEDS: [&str; 3] = ["speed_rad_s", "wave_speed_rad_s", "speed [rad/s]"];
 
 /// The heading of a column.
@@ -35,16 +37,17 @@ pub struct Heading {
     /// Name in files, with the SI unit, such as `speed_rad_s`; `None` for a column that is only
     /// shown.
     name: Option<Cow<'static, str>>,
-    /// Heading shown to people; `None` for a column that only files have.
+    /// Heading on the screen; `None` for a column that only files have.
     words: Option<Cow<'static, str>>,
-    /// Whether the numbers are speeds, shown in the chosen unit.
+    /// Whether the numbers are speeds \[rad/s\], which the screen shows in the unit the user chose.
     speeds: bool,
-    /// Largest number of significant digits shown.
+    /// Largest number of significant digits on the screen; files have all digits.
     digits: usize,
 }
 
 impl<S: Into<Cow<'static, str>>> From<S> for Heading {
-    /// Creates a heading with the same name in files and on the screen.
+    /// Creates a heading with the same name in files and on the screen, where a speed has the unit
+    /// that the user chose.
     fn from(name: S) -> Self {
         let name = name.into();
         let speeds = SPEEDS.contains(&name.as_ref());
@@ -57,7 +60,7 @@ impl<S: Into<Cow<'static, str>>> From<S> for Heading {
     }
 }
 
-/// Default number of significant digits shown.
+/// Default number of significant digits on the screen.
 const DIGITS: usize = 6;
 
 impl Heading {
@@ -71,17 +74,17 @@ impl Heading {
         Self { words: None, ..Self::from(name) }
     }
 
-    /// Sets the heading shown to people.
+    /// Sets the heading on the screen.
     pub fn words(self, words: impl Into<Cow<'static, str>>) -> Self {
         Self { words: Some(words.into()), ..self }
     }
 
-    /// Sets the largest number of significant digits shown.
+    /// Sets the largest number of significant digits on the screen.
     pub fn digits(self, digits: usize) -> Self {
         Self { digits, ..self }
     }
 
-    /// Formats a cell for people.
+    /// Formats a cell of this column for the screen.
     fn text(&self, cell: &TableCell) -> String {
         match cell {
             TableCell::Number(x) => {
@@ -175,13 +178,14 @@ impl Table {
         table
     }
 
-    /// Adds a row, one cell for each column.
+    /// Adds a row, one cell for each column; missing cells at its end are empty.
     pub fn push(&mut self, mut row: Vec<TableCell>) {
         row.resize(self.headings.len(), TableCell::Empty);
         self.rows.push(row);
     }
 
-    /// Writes every word of it as `spell` does.
+    /// Replaces the headings and all text of the cells by what `spell` makes of them, for example
+    /// in ASCII. The notes stay.
     pub fn spelled(mut self, spell: impl Fn(&str) -> String) -> Self {
         for words in self.headings.iter_mut().filter_map(|heading| heading.words.as_mut()) {
             *words = spell(words).into();
@@ -214,8 +218,9 @@ impl Table {
         self.rows.is_empty()
     }
 
-    /// Returns the headings and rows as padded cells. The columns on the right that do not fit into
-    /// `room` characters, with `apart` characters between columns, are left out.
+    /// Returns the headings and then the rows as cells padded to the width of their column. The
+    /// columns on the right that do not fit into `room` characters, with `apart` spaces between
+    /// columns, are left out.
     pub fn lines(&self, room: usize, apart: usize) -> Vec<Vec<String>> {
         let mut layout = Layout::of(&self.headings);
         self.rows.iter().for_each(|row| layout.meet(row));
@@ -244,8 +249,8 @@ impl Table {
         csv.flush()
     }
 
-    /// Writes aligned text: numbers to the right, words to the left, `-` for a missing
-    /// number; below it the notes.
+    /// Writes aligned text: numbers to the right, words to the left, `-` for a missing number; and
+    /// below it the notes.
     ///
     /// # Errors
     /// As `write_csv`.
@@ -272,8 +277,8 @@ impl Table {
 /// The columns of a table as shown; their widths grow with the cells measured.
 #[derive(Clone, Debug)]
 struct Layout {
-    /// For each shown column: index in the table, heading, width, and whether it contains words,
-    /// which are aligned to the left.
+    /// For each column on the screen: index in the table, heading, width \[characters\], and
+    /// whether it contains words, which are aligned to the left.
     columns: Vec<(usize, Heading, usize, bool)>,
 }
 

@@ -1,8 +1,8 @@
 //! Round ticks: steps of 1, 2 or 5 times a power of ten, and powers of ten on
 //! logarithmic axes.
 
-/// Returns a step of 1, 2 or 5 times a power of ten that puts at most `most` ticks in `span`;
-/// `None` if `span` is not positive.
+/// Returns the smallest step of 1, 2 or 5 times a power of ten that divides `span` into at most
+/// `most` parts; `None` if `span` is not positive and finite, or `most` is 0.
 pub fn nice_step(span: f64, most: usize) -> Option<f64> {
     if !(span.is_finite() && span > 0.0) || most == 0 {
         return None;
@@ -17,8 +17,8 @@ pub fn nice_step(span: f64, most: usize) -> Option<f64> {
     (step.is_finite() && step > 0.0).then_some(step)
 }
 
-/// Returns the round values in `[low, high]`, at most about `most`, and their spacing. There are
-/// none if the range is empty, reversed or not finite.
+/// Returns the round values in `[low, high]`, at most `most + 1`, and their spacing. There are none
+/// if the range is empty, reversed or not finite.
 pub fn ticks(low: f64, high: f64, most: usize) -> (Vec<f64>, f64) {
     let Some(step) = nice_step(high - low, most.max(1)) else { return (Vec::new(), 1.0) };
     let slack = 1e-9 * step;
@@ -36,8 +36,9 @@ pub fn ticks(low: f64, high: f64, most: usize) -> (Vec<f64>, f64) {
     (values, step)
 }
 
-/// Returns ticks of a logarithmic axis, as exponents of ten: whole powers, thinned to about `most`.
-/// A range of less than a decade also has 2 and 5 times a power.
+/// Returns ticks of a logarithmic axis between the exponents `low` and `high`, as exponents of ten:
+/// whole powers, thinned to about `most`. A range of less than two decades also has ticks at 2 and
+/// 5 times each power. There are none if the range is reversed or spans a thousand decades.
 pub fn log_ticks(low: f64, high: f64, most: usize) -> Vec<f64> {
     let decades = high - low;
     if !(decades.is_finite() && (0.0..1e3).contains(&decades)) {

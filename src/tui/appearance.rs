@@ -8,45 +8,46 @@ use super::raster::{Marker, Pen};
 use super::theme::{Role, Theme};
 use crate::report::number::{speed_unit, tell_in_rpm};
 
-/// Theme and marker.
+/// Theme, marker and unit of speeds that the screen uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Appearance {
-    /// Colours by role.
+    /// Theme: the colour of each role.
     pub theme: Theme,
     /// Whether the theme follows the background of the terminal, until a key chooses one.
     pub follows_ground: bool,
     /// Characters with which curves are drawn.
     pub marker: Marker,
-    /// Whether speeds are shown in rpm.
+    /// Whether speeds are shown in rpm; otherwise in rad/s.
     pub rpm: bool,
 }
 
 impl Appearance {
-    /// Creates an appearance with the usual line width, without octants, and speeds in rad/s.
+    /// Creates an appearance with a fixed theme and speeds in rad/s.
     pub fn new(theme: Theme, marker: Marker) -> Self {
         Self { theme, follows_ground: false, marker, rpm: false }
     }
 
-    /// Switches to a theme; returns the message.
+    /// Switches to a theme, which no longer follows the background; returns the message for the
+    /// status line.
     pub fn use_theme(&mut self, theme: Theme) -> String {
         (self.theme, self.follows_ground) = (theme, false);
         format!("theme {}", self.theme.name())
     }
 
-    /// Adapts the theme to the background that the terminal reported.
+    /// Adapts the theme to the background that the terminal reported, unless the user chose one.
     pub fn use_ground(&mut self, ground: Ground) {
         if self.follows_ground {
             self.theme = self.theme.on(ground);
         }
     }
 
-    /// Switches to the next marker; returns the message.
+    /// Switches to the next marker; returns the message for the status line.
     pub fn next_marker(&mut self) -> String {
         self.marker = self.marker.next();
         format!("marker {}", self.marker)
     }
 
-    /// Switches speeds between rpm and rad/s; returns the message.
+    /// Switches speeds between rpm and rad/s; returns the message for the status line.
     pub fn next_speeds(&mut self) -> String {
         self.rpm = !self.rpm;
         self.use_speeds();
@@ -78,7 +79,7 @@ impl Appearance {
         self.either("…", "..")
     }
 
-    /// Replaces Greek letters and signs in a text, if only ASCII may be written.
+    /// Replaces Greek letters and signs in a text by ASCII, if only ASCII may be written.
     pub fn spell(&self, text: &str) -> String {
         if !self.ascii() {
             return text.to_string();

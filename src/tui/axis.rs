@@ -8,15 +8,15 @@ pub use crate::report::ticks::{nice_step, ticks};
 /// The axis of a chart: its range and the prefix of its labels.
 #[derive(Clone, Copy, Debug)]
 pub struct ChartAxis {
-    /// Lower end.
+    /// Lower end, in SI units or as an exponent of ten.
     pub low: f64,
-    /// Upper end.
+    /// Upper end, in the unit of `low`.
     pub high: f64,
-    /// Prefix of the labels.
+    /// Prefix or unit of the labels: a label is the value divided by its factor.
     pub scale: SiScale,
     /// Whether the values are exponents of powers of ten.
     powers: bool,
-    /// Unit of the powers, if they are labelled with one.
+    /// Unit with which powers of ten are labelled; `None` for labels such as `1e5`.
     unit: Option<&'static str>,
     /// Whether the values are speeds, with ticks that are round in the shown unit.
     speeds: bool,
@@ -64,7 +64,8 @@ impl ChartAxis {
         Self { unit: Some(unit), ..Self::powers(low, high) }
     }
 
-    /// Returns about `most` round values at most, and their spacing; for powers, whole exponents.
+    /// Returns the round values on the axis, at most `most + 1`, and their spacing; on a
+    /// logarithmic axis, whole exponents.
     pub(super) fn ticks(&self, most: usize) -> (Vec<f64>, f64) {
         let unit = if self.speeds { self.scale.factor } else { 1.0 };
         if unit != 1.0 {
@@ -78,7 +79,7 @@ impl ChartAxis {
         (values.into_iter().filter(|v| (v - v.round()).abs() < 1e-9).collect(), 1.0)
     }
 
-    /// Returns the label of a tick.
+    /// Returns the label of a tick at `value`; ticks are `step` apart.
     pub(super) fn label(&self, value: f64, step: f64) -> String {
         match (self.powers, self.unit) {
             (true, Some(unit)) => number(10f64.powi(value.round() as i32), unit),
@@ -98,8 +99,8 @@ impl ChartAxis {
     }
 }
 
-/// Formats a number with up to seven digits, without trailing zeros, and with a prefix if the unit
-/// takes one.
+/// Formats a number in the SI unit `unit` with up to seven digits, without trailing zeros, and with
+/// a prefix if the unit takes one. Speeds are converted to the unit the user chose.
 pub fn number(x: f64, unit: &str) -> String {
     let (x, unit) = in_shown_unit(x, unit);
     let scale = SiScale::before(unit, x);
@@ -113,17 +114,19 @@ pub fn number(x: f64, unit: &str) -> String {
     format!("{text} {}{unit}", scale.prefix).trim_end().to_string()
 }
 
-/// Formats a number with four significant digits and an SI prefix, such as `228.2 µ`.
+/// Formats a number in the SI unit `unit` with four significant digits and a prefix, such as
+/// `228.2 µm`.
 pub fn readable(value: f64, unit: &str) -> String {
     prefixed(value, 4, unit)
 }
 
-/// Formats an instant with six significant digits, enough to type it in elsewhere.
+/// Formats a simulated time \[s\] with six significant digits, enough to type it in elsewhere.
 pub fn instant(t: f64) -> String {
     prefixed(t, 6, "s")
 }
 
-/// Formats a number with `digits` significant digits and an SI prefix.
+/// Formats a number in the SI unit `unit` with `digits` significant digits and a prefix; `-` stands
+/// for one that is not finite.
 fn prefixed(value: f64, digits: usize, unit: &str) -> String {
     if !value.is_finite() {
         return format!("- {unit}").trim_end().to_string();
@@ -140,13 +143,13 @@ fn prefixed(value: f64, digits: usize, unit: &str) -> String {
 /// become much smaller.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AutoRange {
-    /// Lower end.
+    /// Lower end of the range.
     pub low: f64,
-    /// Upper end.
+    /// Upper end of the range.
     pub high: f64,
 }
 
-/// The range shrinks when the data covers less than this fraction of it.
+/// A range shrinks when the data covers less than this fraction of it.
 const SHRINK_BELOW: f64 = 0.35;
 
 impl AutoRange {

@@ -21,23 +21,23 @@ use rubscope_solver::study::survey::speed_range;
 pub enum Command {
     /// An action that also has a key.
     Act(Action),
-    /// Open a scene by name.
+    /// Open a scene, given by its name.
     Scene(String),
-    /// Begin a lesson, given by index.
+    /// Begin a lesson, given by index in [`lessons::all`].
     Lesson(usize),
-    /// Select a knob, given by index.
+    /// Select a knob, given by index in [`KNOBS`].
     Select(usize),
-    /// Set a knob, given by index, to a value as typed.
+    /// Set a knob, given by index in [`KNOBS`], to a value as typed.
     Set(usize, String),
-    /// Go to an instant \[s\].
+    /// Go to a simulated time \[s\].
     GoTo(f64),
-    /// Show the gap of a blade.
+    /// Show the gap of a blade, numbered from 1.
     Blade(u32),
-    /// Choose the keys on the axes of the map: horizontal, vertical.
+    /// Choose the keys on the horizontal and the vertical axis of the map; `None` leaves that axis.
     Axes([Option<&'static str>; 2]),
-    /// Survey all nodal diameters over a range of speeds, or over all speeds \[rad/s\].
+    /// Survey all nodal diameters over a range of rotor speeds \[rad/s\]; `None` for all speeds.
     Range(Option<[f64; 2]>),
-    /// Write a file.
+    /// Write a file of the given kind to a path.
     Write(Purpose, String),
     /// Use a theme.
     Theme(Theme),
@@ -50,7 +50,8 @@ pub struct Found {
     pub kind: &'static str,
     /// Description of what it does.
     pub what: String,
-    /// The key that does the same, or the present value of a knob.
+    /// Text shown beside the entry, such as the key that does the same or the present value of a
+    /// knob; may be empty.
     pub beside: String,
     /// The command to execute.
     pub command: Command,
@@ -139,7 +140,8 @@ pub fn only(app: &App, typed: &str) -> Result<Found, String> {
     }
 }
 
-/// Returns whether the description of an entry contains every one of these words.
+/// Returns whether the description of an entry contains each of `words` as a whole word. They must
+/// be in lower case.
 fn is_own(item: &Found, words: &[&str]) -> bool {
     let what = item.what.to_lowercase();
     words.iter().all(|word| what.split_whitespace().any(|own| own == *word))
@@ -166,8 +168,8 @@ fn alone(app: &App, typed: &str) -> Result<Found, String> {
 /// Largest number of candidates listed for an ambiguous name.
 const CANDIDATES: usize = 4;
 
-/// Returns why the named knob or target refuses the value that follows, and how well the name
-/// matches.
+/// Returns how well a name matches, and why the named knob or target refuses the value after it;
+/// `None` if nothing is named or the value is accepted.
 fn refused(app: &App, typed: &str) -> Option<(Fit, String)> {
     let words: Vec<&str> = typed.split([' ', '=']).filter(|word| !word.is_empty()).collect();
     match words.as_slice() {
@@ -197,7 +199,8 @@ fn is_numeric(word: &str) -> bool {
     word.starts_with(|first: char| first.is_ascii_digit() || first == '-')
 }
 
-/// Returns the entries that an introductory word leads to; `None` if there is no such word.
+/// Returns the entries that an introductory word such as `blade` or `scene` leads to; `None` if the
+/// text begins with no such word.
 fn directed(app: &App, typed: &str) -> Option<Vec<Found>> {
     let typed = typed.trim_start();
     let (first, rest) = typed.split_once(char::is_whitespace)?;
@@ -273,7 +276,7 @@ fn surveyed(text: &str) -> Result<Found, SceneError> {
     Ok(Found::of("go", format!("survey of all diameters over {ends}"), Command::Range(range)))
 }
 
-/// Returns the entries that contain these words, the best first.
+/// Returns those of the entries that match all of `words`, the best first.
 fn those_with(all: impl Iterator<Item = Found>, words: &str) -> Vec<Found> {
     let words: Vec<&str> = words.split_whitespace().collect();
     let is_exact = |item: &Found| item.what.split(':').next() != words.first().copied();
@@ -284,7 +287,8 @@ fn those_with(all: impl Iterator<Item = Found>, words: &str) -> Vec<Found> {
     found.into_iter().map(|(.., item)| item).collect()
 }
 
-/// Parses `axes clearance pulse`: the horizontal, then the vertical axis of the map.
+/// Parses the words after `axes`, such as `clearance pulse`: the horizontal, then the vertical axis
+/// of the map. `None` unless they name two different knobs.
 fn both_axes(words: &str) -> Option<Found> {
     let words: Vec<&str> = words.split_whitespace().filter(|word| *word != "over").collect();
     let knob = |words: &[&str]| best(numeric(), words).map(|(_, knob)| knob);
@@ -295,7 +299,8 @@ fn both_axes(words: &str) -> Option<Found> {
     Some(Found::of("go", what, Command::Axes([Some(x.path), Some(y.path)])))
 }
 
-/// Returns the knobs that fit on one axis of the map and match the words.
+/// Returns the numeric knobs that match the words, each as a command that puts it on an axis of the
+/// map: on the horizontal one if `first` is `across`, otherwise on the vertical one.
 fn one_axis(app: &App, first: &str, words: &str) -> Vec<Found> {
     let words: Vec<&str> = words.split_whitespace().collect();
     let across = first == "across";
@@ -313,7 +318,7 @@ fn one_axis(app: &App, first: &str, words: &str) -> Vec<Found> {
     fitting.into_iter().map(|(_, knob)| item(knob)).collect()
 }
 
-/// Parses `t 0.3 ms`, or `0.3 ms` alone, as an instant to go to.
+/// Parses `t 0.3 ms`, or `0.3 ms` alone, as a simulated time to go to; `None` for any other text.
 fn going_to(app: &App, typed: &str) -> Option<Found> {
     let named = typed.trim().strip_prefix(['t', 'T']);
     let text = named.map(|text| text.trim_start_matches(['=', ' ']));
@@ -369,7 +374,7 @@ fn lessons() -> impl Iterator<Item = Found> {
     })
 }
 
-/// Returns the entry of a key binding.
+/// Returns the list entry of a key binding.
 fn action(binding: &Binding) -> Found {
     let key = binding.keys.first().map(ToString::to_string).unwrap_or_default();
     let also = bindings::keys_text(binding);

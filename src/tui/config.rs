@@ -21,23 +21,23 @@ use crate::report::line::clean;
 
 /// Largest file that is read \[bytes\].
 const MOST_BYTES: u64 = 64 * 1024;
-/// Largest number of charts next to the large one.
+/// Largest number of small charts next to the large one.
 const MOST_CHARTS: usize = 3;
 
 /// Contents of the config file. A missing field has its default; unknown fields are kept.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Config {
-    /// The theme, if one was chosen by key.
+    /// Theme saved in the file, by a key press or by hand; `None` if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub theme: Option<ThemeChoice>,
-    /// The marker, if one was chosen by key.
+    /// Marker of the curves saved in the file, by a key press or by hand; `None` if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub marker: Option<Marker>,
-    /// Charts next to the large one.
+    /// Number of small charts next to the large one; `None` for the default.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub charts: Option<usize>,
-    /// Whether the mouse is used.
+    /// Whether the explorer uses the mouse; `None` counts as true.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mouse: Option<bool>,
     /// Whether the user has pressed a key and so no longer sees the line for new users.
@@ -45,10 +45,10 @@ pub struct Config {
     /// Units in which numbers are shown.
     #[serde(skip_serializing_if = "Units::are_usual")]
     pub units: Units,
-    /// Completed steps of the lessons.
+    /// Steps of the lessons that the user has completed.
     #[serde(skip_serializing_if = "LessonsDone::is_empty")]
     pub steps_done: LessonsDone,
-    /// Fields that this version does not know.
+    /// Fields that this version does not know. They are written back unchanged.
     #[serde(flatten)]
     pub others: toml::Table,
 }
@@ -57,7 +57,7 @@ pub struct Config {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, expecting = "for units a table: units.speed = \"rpm\" or \"rad/s\"")]
 pub struct Units {
-    /// Unit of speeds.
+    /// Unit in which speeds are shown; `None` for rad/s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed: Option<SpeedUnit>,
 }
@@ -131,7 +131,7 @@ fn keep_if_changed<T: PartialEq>(began: &T, ended: T, kept: &mut T) {
     }
 }
 
-/// Returns whether a directory may be created: not if its home directory does not exist.
+/// Returns whether a directory may be created: not in a home directory that does not exist.
 fn is_at_home(folder: &Path, home: &Path) -> bool {
     home.is_dir() || !folder.starts_with(home)
 }
@@ -139,13 +139,14 @@ fn is_at_home(folder: &Path, home: &Path) -> bool {
 /// The config file during a session.
 #[derive(Debug)]
 pub struct Memory {
-    /// Path of the file; `None` if nothing is remembered.
+    /// Path of the file; `None` if nothing is remembered: the user does not want it, there is no
+    /// config directory, or the file has an error.
     path: Option<PathBuf>,
     /// Contents at the start of the session.
     pub config: Config,
-    /// Reason why the file was not used.
+    /// Message on why the file was not used; `None` if it was read or does not exist.
     pub complaint: Option<String>,
-    /// Settings of the explorer at the start, to detect changes.
+    /// Settings of the explorer at the start, to detect changes; `None` before [`Self::prepare`].
     began: Option<Config>,
 }
 
@@ -187,8 +188,8 @@ impl Memory {
         self.began = Some(Config::of(app));
     }
 
-    /// Writes the settings that changed during the session; returns the error if that fails. Gives
-    /// up after `patience` if the disk does not respond.
+    /// Writes the settings that changed during the session. Returns the message if that fails;
+    /// `None` if it succeeds, nothing is remembered, or the disk takes longer than `patience`.
     pub fn keep(self, app: &App, patience: Duration) -> Option<String> {
         let path = self.path.clone()?;
         let ended = Config::of(app);

@@ -7,7 +7,7 @@ use crossterm::style::Colored;
 use ratatui::backend::IntoCrossterm;
 use ratatui::buffer::{Cell, CellWidth};
 
-/// Writes the changed cells of a frame, row by row, for a terminal of this width.
+/// Writes the changed cells of a frame, row by row, for a terminal of `columns` columns.
 ///
 /// # Errors
 /// Writing failed, usually because the terminal was closed.
@@ -34,7 +34,8 @@ pub fn write_cells<'a>(
     last.map_or(Ok(()), |_| out.write_all(b"\x1b[m"))
 }
 
-/// Returns the shortest escape sequence that moves the cursor from one (column, row) to another.
+/// Returns the shortest escape sequence that moves the cursor from one (column, row) to another;
+/// `from` is `None` if the position of the cursor is not known.
 fn cursor_move(from: Option<(u16, u16)>, (x, y): (u16, u16)) -> String {
     let (start, across) = match from {
         Some((at, row)) if row == y && at <= x => ("", x - at),
@@ -46,7 +47,8 @@ fn cursor_move(from: Option<(u16, u16)>, (x, y): (u16, u16)) -> String {
     if across == 0 { start.into() } else { format!("{start}\x1b[{count}C") }
 }
 
-/// Returns the escape sequence that switches from one style to another, given by their codes.
+/// Returns the escape sequence that switches from one style to another, given by their SGR codes;
+/// `old` is `None` if the style of the terminal is not known.
 fn change(old: Option<Vec<String>>, mut new: Vec<String>) -> String {
     // Codes can only be added or replaced by one of the same kind, otherwise a reset is needed. A
     // bright colour must replace a bright one, because some consoles keep its bold attribute.

@@ -15,7 +15,7 @@ pub fn end(signal: u8) {
     let _ = ENDED_BY.compare_exchange(0, signal, SeqCst, SeqCst);
 }
 
-/// Returns the deadly signal received, if any.
+/// Returns the number of the first deadly signal received; `None` if there was none.
 pub fn ended_by() -> Option<u8> {
     Some(ENDED_BY.load(SeqCst)).filter(|signal| *signal != 0)
 }

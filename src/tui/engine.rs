@@ -26,15 +26,15 @@ use rubscope_solver::study::precision::Precision;
 pub struct Order {
     /// The scene with the current values of the knobs.
     pub scene: CheckedScene,
-    /// Number of restarts of the run.
+    /// Number of restarts of the run that the user has caused.
     pub restarts: u64,
-    /// Number of live changes of the running motion.
+    /// Number of changes of knobs that acted on the running motion.
     pub changes: u64,
-    /// Number of requests for a single step.
+    /// Number of requests for a single time step.
     pub steps: u64,
-    /// Number of go-tos; their target is `go_to_s`.
+    /// Number of requests to go to a simulated time, the latest to `go_to_s`.
     pub goes: u64,
-    /// Target of a go-to, and start of the playback after a restart \[s\].
+    /// Simulated time to go to, at which the playback also starts after a restart \[s\].
     pub go_to_s: f64,
     /// Number of requests to jump to the next change of contact.
     pub jumps: u64,
@@ -44,9 +44,10 @@ pub struct Order {
     pub playing: bool,
     /// Number of times the user continued past the end of the run.
     pub extensions: u64,
-    /// Simulated time per wall-clock time: 5e-3 plays five milliseconds per second.
+    /// Rate of the playback, simulated time per wall-clock time: 5e-3 plays five milliseconds per
+    /// second.
     pub rate: f64,
-    /// Length of one recorded bin \[s\].
+    /// Length of one recorded bin, in simulated time \[s\].
     pub bin_s: f64,
     /// Start and end of the page on the screen \[s\].
     pub page: (f64, f64),
@@ -54,15 +55,16 @@ pub struct Order {
     pub compare: bool,
     /// Whether playback slows down at changes of contact and speeds up between them.
     pub slow_at_events: bool,
-    /// Time of the cursor, for which the motion is recomputed \[s\].
+    /// Simulated time of the reading cursor, for which the motion is recomputed \[s\]; `None` if
+    /// no chart is being read.
     pub cursor_s: Option<f64>,
     /// The views on the screen; only their studies run.
     pub open: Vec<ViewId>,
     /// Axes and contact law of the map.
     pub map: MapChoice,
-    /// Column and row of the map cell whose run is wanted.
+    /// Column and row of the map cell whose run is wanted; `None` if no cell is selected.
     pub cell: Option<[u32; 2]>,
-    /// Speed range of the survey; `None` covers all speeds \[rad/s\].
+    /// Range of rotor speeds of the survey \[rad/s\]; `None` for all speeds.
     pub range: Option<[f64; 2]>,
 }
 
@@ -72,7 +74,8 @@ impl Order {
         self.open.contains(&view)
     }
 
-    /// Returns the plan of the map if its view is on the screen and the scene allows one.
+    /// Returns the plan of the map; `None` if its view is not on the screen or the scene allows no
+    /// map of these axes.
     pub fn map_plan(&self) -> Option<MapPlan> {
         self.shows(ViewId::Map).then(|| self.map.plan(&self.scene).ok()).flatten()
     }
@@ -91,13 +94,15 @@ pub fn generation(restarts: u64, changes: u64, pulses: u64) -> u64 {
 /// Speed of the solver and of the playback.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pace {
-    /// Wall-clock time per time step taken; `None` for solvers without steps \[s\].
+    /// Wall-clock time per time step taken \[s\]; `None` for solvers without steps, and until it
+    /// is measured.
     pub step_s: Option<f64>,
-    /// Fraction of the steps that was skipped in blocks.
+    /// Fraction of the time steps that was skipped in blocks, 0 to 1; `None` for solvers without
+    /// steps.
     pub skipped: Option<f64>,
-    /// Wall-clock time of the whole run to `solver.end_s` \[s\].
+    /// Wall-clock time of the whole run to `solver.end_s` \[s\]; `None` until it is complete.
     pub run_s: Option<f64>,
-    /// Rate reached by the playback: simulated time over wall-clock time.
+    /// Rate reached by the playback, simulated time per wall-clock time; `None` if it is not known.
     pub reached: Option<f64>,
     /// Why the playback is slower than requested.
     pub limit: Limit,
@@ -126,7 +131,7 @@ pub enum FullRunState {
     Computing(f64),
     /// Given up at this fraction, because it takes too long.
     GivenUp(f64),
-    /// Complete.
+    /// Complete, with its result.
     Done(Box<FullRun>),
 }
 
@@ -135,34 +140,34 @@ pub enum FullRunState {
 pub struct FullRun {
     /// The coordinates over the run.
     pub trace: Arc<Trace>,
-    /// The first changes of contact, in order of time.
+    /// The first changes of contact of the run, in order of time.
     pub marks: Arc<Vec<Mark>>,
-    /// The longest hold of a corner that ended during the run, if it lasted at least a casing
-    /// period, and the rotor speed at its end \[rad/s\].
+    /// The longest hold of a corner that ended during the run, and the rotor speed at its end
+    /// \[rad/s\]; `None` if no hold of at least a period of the casing ended.
     pub broken: Option<(Hold, f64)>,
-    /// Rotor speed at which the final contact began in a run-up (true) or run-down (false)
-    /// \[rad/s\].
+    /// Rotor speed at which the contact at the end began \[rad/s\], and whether the rotor was
+    /// accelerating then; `None` at constant speed.
     pub caught: Option<(f64, bool)>,
     /// Verdict of the run.
     pub verdict: Verdict,
-    /// Start of the final contact \[s\].
+    /// Simulated time at which the contact at the end began \[s\].
     pub since: Option<f64>,
-    /// Sides in contact and their multipliers; negative pushes \[N\].
+    /// Sides in contact at the end and their multipliers; negative pushes \[N\].
     pub multipliers: Vec<(u32, f64)>,
-    /// Number of impacts.
+    /// Number of impacts during the run.
     pub impacts: u64,
     /// Checks of the solver: penetration, pulls and others.
     pub checks: Checks,
-    /// The solver's message if the run failed.
+    /// The solver's message on why the run stopped early; `None` if it reached its end.
     pub stopped: Option<String>,
-    /// Why the run failed.
+    /// Why and when the run stopped early; `None` if it reached its end.
     pub failure: Option<Failure>,
 }
 
 /// Record of one page at the page's own zoom, up to the end of the run.
 #[derive(Clone, Debug)]
 pub struct PageRecord {
-    /// Start and end \[s\].
+    /// Start and end of the page, in simulated time \[s\].
     pub page: (f64, f64),
     /// Bins of the page.
     pub record: BinHistory,
@@ -171,23 +176,24 @@ pub struct PageRecord {
 /// The state of a motion at one time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Moment {
-    /// Coordinates and velocities.
+    /// Coordinates and velocities of casing and blades, and their time.
     pub state: State,
     /// Rotor angle \[rad\].
     pub angle: f64,
     /// Rotor speed \[rad/s\].
     pub speed: f64,
-    /// Sides in contact.
+    /// Sides of the polygon in contact.
     pub active_set: ActiveSet,
-    /// Start of the current contact \[s\].
+    /// Simulated time at which the sides in contact last changed \[s\].
     pub since: f64,
-    /// Gap of every blade; positive is open \[m\].
+    /// Gap between the casing and the tip of every blade; positive is open \[m\].
     pub gaps: Vec<f64>,
     /// Sides in contact and their mean multipliers; negative pushes \[N\].
     pub multipliers: Vec<(u32, f64)>,
-    /// Why the motion failed.
+    /// The solver's message on why the motion stopped; `None` if it can go on.
     pub failure: Option<String>,
-    /// Number of the latest jump, and the change of contact it reached, if any.
+    /// Number of the latest jump, and the change of contact it reached; `None` if it is under way
+    /// or met none.
     pub met: (u64, Option<Mark>),
     /// Number of times the motion has reached the end of the run, where it pauses.
     pub ends: u64,
@@ -225,9 +231,9 @@ pub struct Answer {
 pub struct Working {
     /// The view that shows its result.
     pub view: ViewId,
-    /// Finished fraction, 0 to 1, if known.
+    /// Finished fraction, 0 to 1; `None` if it is not known.
     pub part: Option<f64>,
-    /// Seconds since it began.
+    /// Wall-clock time since it began, in whole seconds.
     pub seconds: u64,
 }
 
@@ -243,7 +249,7 @@ pub enum Sensitive {
     GivenUp,
 }
 
-/// Results of the studies, one per view.
+/// Results of the studies, one per view; `None` until a study has a first result.
 #[derive(Clone, Debug, Default)]
 pub struct Found {
     /// Locked motion against rotor speed.
@@ -272,7 +278,7 @@ impl Sensitive {
     }
 }
 
-/// Results for one generation of the knobs.
+/// Results for one generation of the knobs; `None` for what is not known yet or not wanted.
 #[derive(Clone, Debug, Default)]
 pub struct Results {
     /// The run to `solver.end_s`.
@@ -281,7 +287,7 @@ pub struct Results {
     pub verdict: Option<Verdict>,
     /// The latest known verdict, possibly of an older scene.
     pub answer: Option<Arc<Answer>>,
-    /// End of the run, with extensions \[s\].
+    /// Simulated time at which the playback ends, with extensions \[s\].
     pub end_s: f64,
     /// Whether a tiny change of the pulse, the speed or the motion changes the verdict.
     pub sensitive: Sensitive,
@@ -312,7 +318,7 @@ pub struct Snapshot {
     pub generation: u64,
     /// Number of restarts before the run to which the bins belong.
     pub restarts: u64,
-    /// The latest state of the playing motion.
+    /// The latest state of the playing motion; `None` until there is one.
     pub moment: Option<Moment>,
     /// Bins recorded since the last snapshot.
     pub bins: Vec<Bin>,
@@ -320,7 +326,7 @@ pub struct Snapshot {
     pub comparison_bins: Vec<Bin>,
     /// Results for this generation.
     pub results: Results,
-    /// Message if the engine itself failed.
+    /// Message on an internal error of the engine; `None` if it works.
     pub trouble: Option<String>,
 }
 
@@ -328,7 +334,7 @@ pub struct Snapshot {
 pub trait Engine {
     /// Replaces the current order.
     fn order(&mut self, order: &Order);
-    /// Returns the latest snapshot if it was not returned before.
+    /// Returns the latest snapshot; `None` if it was returned before or there is none.
     fn take(&mut self) -> Option<Snapshot>;
     /// Reports that a frame was drawn. The turn of the wave per frame limits the playback rate.
     fn drawn(&mut self) {}

@@ -22,7 +22,7 @@ pub enum ScreenEvent {
     Resize,
     /// The engine has a new snapshot.
     Fresh,
-    /// A signal that ends the program has arrived.
+    /// A signal with this number, which ends the program, has arrived.
     Signal(u8),
     /// SIGTSTP has arrived: suspend the job.
     Suspend,
@@ -34,20 +34,20 @@ pub enum ScreenEvent {
     Pasted(String),
     /// A file was written, or writing failed.
     Written(FileResult),
-    /// The scene files of the directory were read.
+    /// The scene files of the directory that the list of scenes shows were read.
     Scenes(FoundScenes),
     /// The input is closed: the terminal is gone.
     InputClosed,
 }
 
 impl ScreenEvent {
-    /// Returns whether it is Ctrl-C, which quits in every dialogue.
+    /// Returns whether the event is Ctrl-C, which quits in every dialogue.
     pub fn is_interrupt(&self) -> bool {
         let interrupt = (KeyCode::Char('c'), KeyModifiers::CONTROL);
         matches!(self, Self::Key(key) if (key.code, key.modifiers) == interrupt)
     }
 
-    /// Returns whether it comes from the keyboard or the mouse.
+    /// Returns whether the event is a key, a paste or from the mouse.
     pub fn is_input(&self) -> bool {
         matches!(self, Self::Key(_) | Self::Pasted(_) | Self::Mouse(_))
     }

@@ -30,7 +30,7 @@ pub fn svg(app: &App) -> String {
     out
 }
 
-/// Returns the start of a picture: its size, with `below` more rows than the screen, the elements
+/// Returns the start of a picture with `below` more rows than the screen: its size, the elements in
 /// `with`, and the background.
 pub fn opening(app: &App, below: u32, with: &str) -> String {
     let (columns, rows) = (u32::from(app.layout.size.0), u32::from(app.layout.size.1) + below);
@@ -102,7 +102,8 @@ fn drawn_row(cells: &[Cell], y: u32, ink: &Ink) -> String {
     out
 }
 
-/// Returns the dots of a row of cells as one path of round points in relative coordinates.
+/// Returns the braille dots of adjacent cells as one SVG path of round points in relative
+/// coordinates; the first cell is at `left`, `top` \[px\].
 fn dots(run: &[(Look, &Cell)], left: u32, top: u32, fill: &str) -> String {
     let mut points = String::new();
     let mut from = (0, 0);
@@ -131,7 +132,7 @@ fn block(x: u32, y: u32, width: u32, height: u32, fill: &str) -> String {
     format!("<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" fill=\"{fill}\"/>\n")
 }
 
-/// How a cell is drawn.
+/// Kind of SVG element that draws a cell.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Shape {
     Blank,
@@ -175,7 +176,7 @@ impl Look {
     }
 }
 
-/// The colours of a theme.
+/// Colours of a picture: background and text of the theme, as SVG colours.
 struct Ink {
     ground: &'static str,
     text: &'static str,

@@ -39,7 +39,8 @@ impl Field {
         format!("{}{}", self.before, self.after)
     }
 
-    /// Inserts a text at the cursor, unless the whole would exceed `most` bytes.
+    /// Inserts a text at the cursor, unless the whole would exceed `most` bytes; returns whether it
+    /// did.
     pub fn insert(&mut self, text: &str, most: usize) -> bool {
         let fits = self.text().len().saturating_add(text.len()) <= most;
         self.before.push_str(if fits { text } else { "" });
@@ -74,7 +75,8 @@ impl Field {
         *self != old
     }
 
-    /// Returns the part around the cursor that fits into this many columns, with the cursor.
+    /// Returns the part around the cursor that fits into `columns` characters, with the cursor: an
+    /// underlined letter, or `_` at the end.
     pub fn shown(&self, columns: usize) -> String {
         let mut rest = self.after.chars();
         let under = rest.next().map_or("_".into(), |letter| format!("{letter}{CURSOR}"));

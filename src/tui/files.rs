@@ -12,7 +12,8 @@ use crate::file;
 use crate::report::line::clean;
 use rubscope_solver::scene::{BUILTIN, CheckedScene, Scene};
 
-/// Name of the threads. The panic hook recognises it and does not reset the screen.
+/// Name of the threads that read and write files, by which the panic hook knows them: their panics
+/// neither reset the screen nor are reported.
 pub const FILES_NAME: &str = "rubscope-files";
 
 /// A file to write.
@@ -79,7 +80,7 @@ pub fn run_in_thread<T: Send + 'static>(
     started.err().map(|error| failed(error.to_string()))
 }
 
-/// Most files that are read; a directory of scenes has some dozens.
+/// Largest number of scene files of a directory that are read; usually there are some dozens.
 const MOST_FILES: usize = 200;
 /// Largest number of directory entries that are examined.
 const MOST_NAMES: usize = 20_000;
@@ -87,7 +88,7 @@ const MOST_NAMES: usize = 20_000;
 /// A scene file in the list of scenes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FoundScene {
-    /// Name of the file.
+    /// Name of the file in its directory, or of the built-in scene.
     pub name: String,
     /// The scene, or the reason in one line why the file contains none.
     pub scene: Result<CheckedScene, String>,
@@ -109,14 +110,14 @@ pub fn builtin_scenes() -> &'static [FoundScene] {
 pub struct FoundScenes {
     /// The scene files, sorted by name.
     pub files: Vec<FoundScene>,
-    /// Remark on scenes that the list omits.
+    /// Remark on scenes that the list omits, or why it is empty; `None` if it is complete.
     pub missing: Option<String>,
     /// Whether the directory is still being read.
     pub reading: bool,
 }
 
 impl FoundScenes {
-    /// Returns an empty list with the reason.
+    /// Creates an empty list with the reason why it is empty.
     pub fn failed(reason: String) -> Self {
         Self { missing: Some(reason), ..Self::default() }
     }
@@ -144,7 +145,7 @@ impl FoundScenes {
     }
 }
 
-/// Loads a scene file; `None` if it is not a regular file.
+/// Loads a scene file; `None` if it is not a regular file or its path is not UTF-8.
 fn load_scene(directory: &Path, name: String) -> Option<FoundScene> {
     let path = directory.join(&name);
     if !std::fs::metadata(&path).is_ok_and(|kind| kind.is_file()) {

@@ -15,10 +15,10 @@ use rubscope_solver::harmonic::Joint;
 /// The text of the glossary.
 const TEXT: &str = include_str!("../../assets/glossary.toml");
 
-/// A value computed from the scene: name of the term, unit, and function.
+/// A value computed from the present scene: ASCII name of the term, SI unit, and function.
 type Value = (&'static str, &'static str, fn(&App) -> Option<f64>);
 
-/// Placeholder for the unit in which angular frequencies are shown.
+/// Stands for the unit of an angular frequency, which is shown in rad/s or Hz.
 const FREQUENCY: &str = "frequency";
 
 /// Values of the terms that are not knobs.
@@ -67,16 +67,16 @@ pub struct Section {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Term {
-    /// Symbol as it is written.
+    /// Symbol as the screen shows it.
     pub symbol: String,
-    /// The symbol in ASCII, if it contains other characters.
+    /// The symbol in ASCII; `None` if it is ASCII already.
     name: Option<String>,
-    /// Meaning.
+    /// Meaning of the term, in words.
     pub meaning: String,
-    /// Equation or condition; may be empty.
+    /// Equation or condition that defines the term; may be empty.
     #[serde(default)]
     pub equation: String,
-    /// Key of the knob that the term names, if it is one.
+    /// Key of the knob that the term names; `None` if it is not a knob.
     knob: Option<String>,
 }
 
@@ -85,11 +85,11 @@ pub struct Term {
 #[serde(deny_unknown_fields)]
 pub struct ViewWords {
     name: String,
-    /// What is drawn.
+    /// What the view draws.
     pub drawn: String,
-    /// What to look for.
+    /// What to look for in the view.
     pub look: String,
-    /// Its keys.
+    /// The keys that act on the view.
     pub keys: String,
 }
 
@@ -101,13 +101,13 @@ pub fn sections() -> &'static [Section] {
     &GLOSSARY.section
 }
 
-/// Returns the description of a view.
+/// Returns the description of a view; `None` if the glossary has none.
 pub fn view(view: ViewId) -> Option<&'static ViewWords> {
     GLOSSARY.view.iter().find(|words| words.name == view.word())
 }
 
 impl Term {
-    /// Returns the meaning, equation and value as one text.
+    /// Returns the meaning, the equation and the value in the present scene as one text.
     pub fn text(&self, app: &App) -> String {
         let mut text = self.meaning.clone();
         if !self.equation.is_empty() {
@@ -136,7 +136,6 @@ impl Term {
             FREQUENCY => (per_frequency(value), frequency_unit()),
             unit => in_shown_unit(value, unit),
         };
-        // Four digits are enough for a glance.
         let rounded: f64 = format!("{value:.3e}").parse().ok()?;
         Some(number(rounded, unit))
     }

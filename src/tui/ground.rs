@@ -1,32 +1,32 @@
-//! The background of the terminal, dark or light: what the environment says, or
-//! what the terminal reports when it is asked (OSC 11). Nothing waits for the report:
-//! it comes among the keys.
+//! The background of the terminal, dark or light: what the environment says, or what the terminal
+//! reports on request (OSC 11). Nothing waits for the report, which arrives among the keys.
 
-/// The background.
+/// The background of the terminal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Ground {
-    /// Light text is readable on it.
+    /// Dark: light text is readable on it.
     #[default]
     Dark,
-    /// Dark text is readable on it.
+    /// Light: dark text is readable on it.
     Light,
 }
 
-/// Asks the terminal for the colour of its background.
+/// Escape sequence that asks the terminal for the colour of its background.
 pub const QUESTION: &[u8] = b"\x1b]11;?\x07";
 
-/// The beginning of the report, after `ESC ]`.
+/// Beginning of the terminal's report, after `ESC ]`.
 const BEGINNING: &[u8] = b"11;rgb";
 
-/// Most bytes of a report.
+/// Largest length of a report, without `ESC ]` and its end \[bytes\].
 const LONGEST: usize = 40;
 
-/// Luminance of the grey half-way between black and white as the eye sees it.
+/// Relative luminance (0 black, 1 white) above which a background counts as light: that of the grey
+/// which looks half-way between black and white.
 const MIDDLE: f64 = 0.184;
 
 impl Ground {
-    /// Returns the background that `COLORFGBG` names, such as `15;0`: the last number is
-    /// its colour.
+    /// Returns the background that a value of `COLORFGBG` names, such as `15;0`: its last number is
+    /// the colour. `None` unless that is 0 to 15.
     pub fn named(variable: &str) -> Option<Self> {
         match variable.rsplit(';').next()?.parse::<u8>().ok()? {
             0..=6 | 8 => Some(Self::Dark),
@@ -35,8 +35,8 @@ impl Ground {
         }
     }
 
-    /// Reads a complete report without its beginning and its end, such as
-    /// `11;rgb:ffff/ffff/ffff`.
+    /// Parses a report without `ESC ]` and its end, such as `11;rgb:ffff/ffff/ffff`; `None` if it
+    /// has another form.
     pub fn reported(report: &[u8]) -> Option<Self> {
         let text = std::str::from_utf8(report.strip_prefix(BEGINNING)?).ok()?;
         let (_, colours) = text.split_once(':')?;
@@ -50,7 +50,7 @@ impl Ground {
     }
 }
 
-/// Returns whether these bytes can be the beginning of a report.
+/// Returns whether `bytes` can be the beginning of a report, after `ESC ]`.
 pub fn begins_report(bytes: &[u8]) -> bool {
     let rest = bytes.iter().skip(BEGINNING.len());
     bytes.len() <= LONGEST

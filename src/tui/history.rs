@@ -1,16 +1,16 @@
 //! The recorded run as time bins with the minimum and maximum of each channel, so that a contact
 //! peak of a single step is visible at any zoom.
 
-/// The recorded quantities; each is an index into `Bin::low` and `Bin::high`.
+/// Recorded quantities. The number of a channel is its index in `Bin::low` and `Bin::high`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Channel {
-    /// `u_c` \[m\].
+    /// Cosine coordinate of the casing, `u_c` \[m\].
     UC,
-    /// `u_s` \[m\].
+    /// Sine coordinate of the casing, `u_s` \[m\].
     US,
-    /// `alpha_c` \[rad\].
+    /// Cosine coordinate of the blades, `alpha_c` \[rad\].
     AlphaC,
-    /// `alpha_s` \[rad\].
+    /// Sine coordinate of the blades, `alpha_s` \[rad\].
     AlphaS,
     /// The smallest gap of any blade \[m\].
     Gap,
@@ -20,29 +20,29 @@ pub enum Channel {
     Push,
     /// Real part of the casing wave in the blade frame, `Re z` \[m\].
     X,
-    /// Imaginary part, `Im z` \[m\].
+    /// Imaginary part of the casing wave in the blade frame, `Im z` \[m\].
     Y,
     /// Real part of the casing wave relative to the blade tips, `Re w` \[m\].
     RimX,
-    /// Imaginary part, `Im w` \[m\].
+    /// Imaginary part of the casing wave relative to the blade tips, `Im w` \[m\].
     RimY,
 }
 
 /// Number of channels.
 pub const CHANNELS: usize = 11;
 
-/// Minimum and maximum of every channel over an interval.
+/// Minimum and maximum of every channel over an interval of simulated time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bin {
-    /// Start \[s\].
+    /// Start of the interval \[s\].
     pub from: f64,
-    /// End \[s\].
+    /// End of the interval \[s\].
     pub to: f64,
     /// Minimum of every channel.
     pub low: [f64; CHANNELS],
     /// Maximum of every channel.
     pub high: [f64; CHANNELS],
-    /// First and last instant of contact in the interval \[s\].
+    /// First and last time of contact in the interval \[s\]; `None` if nothing touches.
     pub contact: Option<(f64, f64)>,
 }
 
@@ -76,10 +76,11 @@ impl Bin {
     }
 }
 
-/// Largest number of bins; beyond it, neighbours are merged, which halves the resolution.
+/// Largest number of bins of a run; beyond it, neighbours are merged in pairs, which halves the
+/// resolution.
 pub const MOST_BINS: usize = 1 << 15;
 
-/// Longest bin that is drawn, as a fraction of the page.
+/// Largest length of a bin in [`BinHistory::fine_between`], as a fraction of the page.
 const PART_OF_PAGE: f64 = 1.0 / 400.0;
 
 /// The bins of one run, in order of time.
@@ -88,7 +89,7 @@ pub struct BinHistory {
     bins: Vec<Bin>,
 }
 
-/// Minimum and maximum of one column of a chart, if it has data.
+/// Minimum and maximum of the data in one column of a chart; `None` for a column without data.
 pub type Span = Option<(f64, f64)>;
 
 impl BinHistory {
@@ -119,14 +120,15 @@ impl BinHistory {
     }
 }
 
-/// Returns the bin at an instant, for reading values at the cursor.
+/// Returns the bin that contains the time `t` \[s\], for reading values at the cursor; `None` if
+/// nothing was recorded there.
 pub fn bin_at(bins: &[Bin], t: f64) -> Option<&Bin> {
     bins.get(bins.partition_point(|bin| bin.to < t)).filter(|bin| bin.from <= t)
 }
 
 /// Reduces one channel of some bins over `[from, to]` to `columns` columns; `None` for a column
-/// without data. Values that are not finite are ignored. A bin also counts in the columns back to
-/// the end of the bin before it, so that curves have no gaps.
+/// without data. Bins with values that are not finite are skipped. The span of a bin is widened to
+/// meet that of the bin that ends where it starts, so that curves have no gaps.
 pub fn columns(
     bins: &[Bin],
     channel: Channel,
@@ -174,7 +176,7 @@ pub fn contacts(bins: &[Bin], (from, to): (f64, f64), columns: usize) -> Vec<boo
     out
 }
 
-/// Returns the smallest interval that contains both.
+/// Returns the smallest interval that contains both; `None` if there is neither.
 fn hull(first: Option<(f64, f64)>, second: Option<(f64, f64)>) -> Option<(f64, f64)> {
     match (first, second) {
         (Some((a, b)), Some((c, d))) => Some((a.min(c), b.max(d))),
@@ -182,8 +184,8 @@ fn hull(first: Option<(f64, f64)>, second: Option<(f64, f64)>) -> Option<(f64, f
     }
 }
 
-/// Splits bins much longer than `length` into shorter ones with linearly interpolated values,
-/// within `[from, to]`. A time-stepping solver gives no values between its steps.
+/// Splits bins longer than 1.5 times `length` into shorter ones with linearly interpolated values,
+/// within `[from, to]` (all in seconds). A time-stepping solver gives no values between its steps.
 pub fn interpolated(bins: &[Bin], length: f64, (from, to): (f64, f64)) -> Vec<Bin> {
     let mut out = Vec::with_capacity(bins.len());
     let mut last: Option<&Bin> = None;
@@ -214,7 +216,7 @@ pub fn interpolated(bins: &[Bin], length: f64, (from, to): (f64, f64)) -> Vec<Bi
     out
 }
 
-/// Merges neighbours in pairs.
+/// Merges neighbouring bins in pairs, which halves their number.
 pub fn thin(bins: &mut Vec<Bin>) {
     let joined = bins
         .chunks(2)

@@ -39,7 +39,8 @@ pub trait Host {
     fn mouse(&mut self, on: bool);
     /// Writes a file. `None` means that the result will arrive as an event.
     fn write(&mut self, job: FileJob) -> Option<FileResult>;
-    /// Records why a file was not written; `None` once a frame has shown the reason.
+    /// Records why a file was not written, to be printed on exit; `None` once a frame has shown the
+    /// reason.
     fn unseen(&mut self, reason: Option<String>);
     /// Reads the scenes of a directory. `None` means that they will arrive as an event.
     fn find_scenes(&mut self, directory: PathBuf) -> Option<FoundScenes>;
@@ -50,7 +51,7 @@ pub trait Host {
 pub struct Shell {
     /// Channel for the results of file operations.
     pub events: Sender<ScreenEvent>,
-    /// Why a file was not written, until a frame has shown the reason.
+    /// Why a file was not written; `None` if it was, or once a frame has shown the reason.
     pub unseen: Option<String>,
     /// Limit on the bytes sent to the terminal.
     pub line: Line,

@@ -11,7 +11,7 @@ use super::ending::ended_by;
 /// Whether a request to stop is pending; a request to continue clears it.
 static WANTED: AtomicBool = AtomicBool::new(false);
 
-/// Limit on the number of ancestors that are examined.
+/// Largest number of ancestors of this process that are examined.
 const GENERATIONS: usize = 64;
 
 /// Records a request to stop (true) or to continue (false).

@@ -13,7 +13,7 @@ use rubscope_solver::study::margins::LimitName;
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Lesson {
-    /// Name of the lesson, which is that of its file.
+    /// Name of the lesson: that of its file, without `.toml`.
     #[serde(skip)]
     pub name: &'static str,
     /// Subject of the lesson.
@@ -22,7 +22,7 @@ pub struct Lesson {
     pub needs: String,
     /// The built-in scene at the start.
     pub scene: String,
-    /// Its steps.
+    /// Steps of the lesson, in order.
     #[serde(rename = "step")]
     pub steps: Vec<LessonStep>,
 }
@@ -34,19 +34,19 @@ pub type Settings = Vec<(String, String)>;
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct LessonStep {
-    /// Explanation of what is visible.
+    /// Explanation of what the screen shows.
     pub text: String,
-    /// Keys that are set when the step begins, before the question.
+    /// Keys of the scene that are set when the step begins, before the question.
     #[serde(default)]
     pub begin: Settings,
-    /// Question about what will happen.
+    /// Question about what will happen; `None` for a step that only explains or has a task.
     pub question: Option<String>,
-    /// The possible answers, for the keys a, b and c.
+    /// The possible answers to the question, for the keys a, b and c.
     #[serde(default)]
     pub answers: Vec<String>,
-    /// Letter of the right answer.
+    /// Letter of the right answer, a, b or c; `None` without a question.
     pub right: Option<char>,
-    /// Explanation of the answer, shown with the run.
+    /// Explanation of the right answer, shown with the run after the question is answered.
     pub reason: Option<String>,
     /// The equation behind the explanation.
     pub equation: Option<String>,
@@ -56,20 +56,20 @@ pub struct LessonStep {
     pub set: Settings,
     /// The task, if the step has one.
     pub task: Option<String>,
-    /// Condition that completes the task.
+    /// Condition that completes the task; `None` if the step has none.
     pub until: Option<Condition>,
-    /// Settings that complete the task; the next step starts from them.
+    /// Settings of the scene that complete the task; the next step starts from them.
     #[serde(default)]
     pub doing: Settings,
-    /// The view shown.
+    /// Name of the view shown; `None` leaves the view.
     pub view: Option<String>,
-    /// The view shown with the answer, if it is another one.
+    /// Name of the view shown once the question is answered; `None` keeps `view`.
     pub then_view: Option<String>,
     /// The limit on which the margins view is centred.
     pub limit: Option<LimitName>,
     /// Minimum length of the time page \[s\].
     pub page_s: Option<f64>,
-    /// The knob that is selected.
+    /// Key of the knob that is selected; `None` leaves the selection.
     pub knob: Option<String>,
     /// Whether knobs act on the running motion.
     #[serde(default)]
@@ -92,18 +92,18 @@ pub enum Condition {
     View(String),
     /// The run is compared with the other contact law, or not.
     Compare(bool),
-    /// A key has a value above this number.
+    /// A key of the scene has a value above this number, in its SI unit.
     Above(String, f64),
-    /// A key has a value below this number.
+    /// A key of the scene has a value below this number, in its SI unit.
     Below(String, f64),
-    /// A limit is above this number.
+    /// A limit of the scene is above this number, in its SI unit.
     Limit(LimitName, f64),
-    /// A key has this word as its value.
+    /// A key of the scene has this word as its value.
     Is(String, String),
 }
 
 impl LessonStep {
-    /// Returns the index of the right answer.
+    /// Returns the index of the right answer; `None` if the step has no question.
     pub fn right_place(&self) -> Option<usize> {
         let right = self.right?;
         LETTERS.iter().position(|letter| *letter == right)
@@ -112,9 +112,9 @@ impl LessonStep {
 
 /// Reading speed, including looks at the chart \[words/minute\].
 const WORDS_A_MINUTE: usize = 100;
-/// Time for a question \[minutes\].
+/// Time to think about a question, besides reading it \[minutes\].
 const QUESTION: f64 = 0.5;
-/// Time for a task \[minutes\].
+/// Time to do a task, besides reading it \[minutes\].
 const TASK: f64 = 2.0;
 
 impl Lesson {
@@ -124,7 +124,7 @@ impl Lesson {
         end.and_then(|end| self.title.get(..end)).unwrap_or(&self.title)
     }
 
-    /// Estimates the time that the lesson takes \[minutes\].
+    /// Estimates the time that a reader needs for the lesson \[minutes\].
     pub fn minutes(&self) -> u32 {
         let of = |step: &LessonStep| {
             let texts = [&step.question, &step.reason, &step.task].into_iter().flatten();
@@ -196,7 +196,7 @@ impl LessonsDone {
         (0..lesson.steps.len()).filter(|step| self.has(lesson, *step)).count()
     }
 
-    /// Returns the first step of a lesson that is not completed.
+    /// Returns the first step of a lesson that is not completed, counted from 0; `None` if all are.
     pub fn next(&self, lesson: &Lesson) -> Option<usize> {
         (0..lesson.steps.len()).find(|step| !self.has(lesson, *step))
     }

@@ -10,7 +10,7 @@ use strum::{EnumString, VariantNames};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, EnumString, VariantNames)]
 #[strum(serialize_all = "lowercase")]
 pub enum Line {
-    /// Full, until a write had to wait; over SSH it is thin.
+    /// Full until a write has to wait for the terminal, then thin; over SSH thin from the start.
     #[default]
     Auto,
     /// At most five kilobytes a second while the motion plays.
@@ -19,15 +19,16 @@ pub enum Line {
     Full,
 }
 
-/// Rate of frames while the motion plays \[bytes/s\].
+/// Rate on a thin line of frames that the motion causes, and of all frames if writes have to wait
+/// \[bytes/s\].
 const THIN: f64 = 4500.0;
-/// Rate of answers to keys, unless writes have to wait \[bytes/s\].
+/// Rate on a thin line of frames that answer keys, unless writes have to wait \[bytes/s\].
 const KEYS: f64 = 20_000.0;
-/// Answers to keys may be sent this much ahead of their rate.
+/// Frames that answer keys may be sent this much earlier than the rate allows.
 const AHEAD: Duration = Duration::from_secs(1);
-/// Longest delay of an answer to a key.
+/// Longest delay of a frame that answers a key, unless writes have to wait.
 const SOON: Duration = Duration::from_millis(200);
-/// Longest delay of an answer to a key if writes have to wait.
+/// Longest delay of a frame that answers a key, if writes have to wait.
 const LATEST: Duration = Duration::from_secs(2);
 /// Longest delay caused by one frame. At the thin rate it corresponds to 45 kB, most of a window of
 /// 400 columns and 100 rows.
@@ -37,10 +38,10 @@ const LONGEST: Duration = Duration::from_secs(10);
 #[derive(Debug)]
 pub struct Throttle {
     line: Line,
-    /// Time at which the bytes sent so far have passed the line.
+    /// Time at which the line, at its limited rate, has carried the bytes sent so far.
     free: Instant,
     sent: u64,
-    /// Whether writes have to wait.
+    /// Whether any write had to wait for the terminal.
     slow: bool,
 }
 
@@ -50,7 +51,8 @@ impl Throttle {
         Self { line, free: now, sent, slow: false }
     }
 
-    /// Records a frame. `sent` is the total number of bytes; `slow` says that writes had to wait.
+    /// Records a frame drawn at `now`, `by_key` if it answers a key. `sent` is the number of bytes
+    /// of all frames so far; `slow` says that a write had to wait.
     pub fn spend(&mut self, sent: u64, by_key: bool, slow: bool, now: Instant) {
         let bytes = sent.saturating_sub(self.sent) as f64;
         (self.sent, self.slow) = (sent, slow);
@@ -63,7 +65,7 @@ impl Throttle {
         self.free = self.free.max(now).min(now + LONGEST) + spent;
     }
 
-    /// Returns how long the next frame must wait from `now`.
+    /// Returns how long after `now` the next frame may be drawn; `by_key` if it answers a key.
     pub fn wait(&self, by_key: bool, now: Instant) -> Duration {
         let wait = self.free.saturating_duration_since(now);
         // An answer to a key has a bounded delay, whatever was sent before.

@@ -31,7 +31,7 @@ const ORDERS: usize = 8;
 const WIDTH: u16 = 80;
 /// Height of the virtual screen: tall enough that lesson text is never paged.
 const ROWS: u16 = 1000;
-/// Columns and rows of the screen when it is written as a picture.
+/// Number of columns and rows of the screen when it is written as a picture.
 const PICTURE: (u16, u16) = (120, 40);
 
 /// Answer to `help`.
@@ -49,11 +49,12 @@ struct Lines {
     app: App,
     engine: Option<Playback>,
     ordered: Option<Order>,
-    /// The view whose results are printed.
+    /// View whose results the present command prints; `None` if it prints the changes instead.
     printed_view: Option<ViewId>,
 }
 
-/// Executes commands until the input ends or one of them quits. `prompt` shows a prompt.
+/// Executes the commands of `input` until it ends or one of them quits. `prompt` says whether a
+/// prompt is printed before each.
 ///
 /// # Errors
 /// The input cannot be read, or the output cannot be written.
@@ -94,7 +95,7 @@ pub fn lines(
     }
 }
 
-/// Reads a line; `None` at the end of the input, and a reason for a line that is refused.
+/// Reads a line; `None` at the end of the input, and the reason if a line is refused.
 fn read(input: &mut dyn BufRead) -> Result<Option<Result<String, &'static str>>, Error> {
     let mut bytes = Vec::new();
     // Plus its newline.
@@ -268,7 +269,7 @@ impl Lines {
         writeln!(out, "refused: {}", self.spelled(&clean(why)))
     }
 
-    /// Prints every scene, or every lesson, that can be opened.
+    /// Prints every scene or every lesson that can be opened; `kind` is `scene` or `lesson`.
     fn list(&self, kind: &str, out: &mut dyn Write) -> Result<(), Error> {
         for found in commands::found(&self.app, &format!("{kind} ")) {
             writeln!(out, "{}", self.spelled(&format!("{kind} {}", found.what)))?;
@@ -276,12 +277,13 @@ impl Lines {
         Ok(())
     }
 
-    /// Prints the two lines at the top of the screen.
+    /// Prints the two header lines of the screen.
     fn tell(&self, out: &mut dyn Write) -> Result<(), Error> {
         panels::head_text(&self.app).iter().try_for_each(|line| writeln!(out, "{line}"))
     }
 
-    /// Returns the knobs that changed, with their values, and the text of the status line.
+    /// Returns a line with the knobs that changed since `before` and their old and new values, and
+    /// a line with the text of the status line, as far as there are any.
     fn changed(&self, before: &Scene) -> Vec<String> {
         let differ = KNOBS.iter().filter(|knob| knob.get(before) != knob.get(&self.app.scene));
         let parts: Vec<String> = differ

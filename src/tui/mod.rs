@@ -76,7 +76,7 @@ pub fn is_dumb_terminal() -> bool {
 /// Checks that standard output is a terminal and that a keyboard can be read.
 ///
 /// # Errors
-/// Says what is missing.
+/// The message says which of the two is missing.
 pub fn check_terminal() -> Result<(), &'static str> {
     if !std::io::stdout().is_terminal() {
         return Err("the explorer needs a terminal on standard output; without one, use \

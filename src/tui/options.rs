@@ -11,14 +11,14 @@ use super::line::Line;
 use super::raster::Marker;
 use super::theme::ThemeChoice;
 
-/// Use of colour.
+/// When the explorer uses colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, EnumString, VariantNames)]
 #[strum(serialize_all = "lowercase")]
 pub enum Color {
-    /// Colours if the terminal supports them and `NO_COLOR` does not forbid them.
+    /// Unless the environment variable `NO_COLOR` is not empty or `TERM` is `dumb`.
     #[default]
     Auto,
-    /// Always.
+    /// Always, whatever the environment says.
     Always,
     /// Never; bold, reverse and dim remain.
     Never,
@@ -29,21 +29,22 @@ pub enum Color {
 pub struct ExploreOptions {
     /// Largest number of frames per second while the motion plays.
     pub fps: f64,
-    /// Use of colour.
+    /// When colours are used.
     pub color: Color,
     /// The theme; `None` leaves it to the config file and the terminal.
     pub theme: Option<ThemeChoice>,
     /// The marker; `None` leaves it to the config file, the terminal and the locale.
     pub marker: Option<Marker>,
-    /// Whether the mouse is used.
+    /// Whether the explorer uses the mouse; false leaves it to the terminal.
     pub mouse: bool,
     /// How much the connection to the terminal carries.
     pub line: Line,
     /// Whether the config file is read and written.
     pub config: bool,
-    /// Whether speeds are shown in rpm.
+    /// Whether speeds are shown in rpm; otherwise in the unit of the config file.
     pub rpm: bool,
-    /// Where the scene comes from, for the command line that repeats the run.
+    /// Name of the opened scene and the scene as it was read, for the command line that repeats the
+    /// run.
     pub source: Option<Source>,
 }
 
@@ -64,8 +65,8 @@ impl Default for ExploreOptions {
 }
 
 impl ExploreOptions {
-    /// Returns the theme to use. Options take precedence over environment variables, and these over
-    /// the config file.
+    /// Returns the theme to use. Options take precedence over environment variables, whose values
+    /// `variable` returns, and these over the config file.
     pub(super) fn theme(&self, config: &Config, variable: &dyn Fn(&str) -> String) -> ThemeChoice {
         let plain = match self.color {
             Color::Always => false,
@@ -86,12 +87,13 @@ impl ExploreOptions {
     /// and these over the config file.
     pub(super) fn marker(&self, config: &Config, only_ascii: bool) -> Marker {
         let usual = if only_ascii { Marker::Ascii } else { Marker::Braille };
-        // Another terminal may be used now.
+        // The marker may have been saved on another terminal, which showed more than ASCII.
         let is_shown = |marker: &Marker| *marker == Marker::Ascii || !only_ascii;
         self.marker.or(config.marker.filter(is_shown)).unwrap_or(usual)
     }
 
-    /// Returns the kind of connection: thin over SSH, unless an option says otherwise.
+    /// Returns how much the connection to the terminal carries: thin over SSH, unless an option
+    /// says otherwise.
     pub(super) fn line(&self, variable: &dyn Fn(&str) -> String) -> Line {
         if self.line == Line::Auto && is_remote(variable) { Line::Thin } else { self.line }
     }

@@ -17,7 +17,7 @@ use super::theme::Role;
 pub struct Plot<'a> {
     buffer: &'a mut Buffer,
     raster: Raster,
-    /// Area of the data.
+    /// Area of the data, inside the axes \[cells\].
     pub inner: Rect,
     x: ChartAxis,
     y: ChartAxis,
@@ -25,7 +25,8 @@ pub struct Plot<'a> {
 }
 
 impl<'a> Plot<'a> {
-    /// Creates a chart without axes, for drawings.
+    /// Creates a chart without axes, for drawings; `None` if the area is too small or a range is
+    /// empty or not finite.
     pub fn bare(
         buffer: &'a mut Buffer,
         area: Rect,
@@ -112,13 +113,14 @@ impl<'a> Plot<'a> {
         }
     }
 
-    /// Returns the row of the horizontal axis line, if the chart is tall enough to have one.
+    /// Returns the row of the horizontal axis line on the screen; `None` if the chart is not tall
+    /// enough to have one.
     pub fn axis_row(&self) -> Option<u16> {
         self.rule.then(|| self.inner.bottom())
     }
 
-    /// Returns the column of an x value inside the chart. It is derived from the sub-pixel, so that
-    /// ticks, signs and curves agree.
+    /// Returns the column of an x value on the screen; `None` outside the chart. It is derived from
+    /// the sub-pixel, so that ticks, signs and curves agree.
     pub fn column(&self, value: f64) -> Option<u16> {
         let (across, _) = self.raster.grain();
         let pixel = self.pixel_x(value).filter(|_| is_inside(&self.x, value))?;
@@ -126,7 +128,8 @@ impl<'a> Plot<'a> {
         Some(self.inner.x + column.min(self.inner.width.saturating_sub(1)))
     }
 
-    /// Returns the row of a y value inside the chart, derived from the sub-pixel.
+    /// Returns the row of a y value on the screen, derived from the sub-pixel; `None` outside the
+    /// chart.
     pub fn row(&self, value: f64) -> Option<u16> {
         let (_, down) = self.raster.grain();
         let pixel = self.pixel_y(value).filter(|_| is_inside(&self.y, value))?;
@@ -146,13 +149,15 @@ impl<'a> Plot<'a> {
         (0..count).map(|k| self.x.low + (k as f64 + 0.5) * width).collect()
     }
 
-    /// Returns the sub-pixel column of an x value, which may lie outside the chart.
+    /// Returns the sub-pixel column of an x value, which may lie outside the chart; `None` if it is
+    /// not finite.
     fn pixel_x(&self, value: f64) -> Option<i64> {
         let across = (value - self.x.low) / (self.x.high - self.x.low);
         whole(across * (self.raster.size().0.saturating_sub(1)) as f64)
     }
 
-    /// Returns the sub-pixel row of a y value, which may lie outside the chart.
+    /// Returns the sub-pixel row of a y value, which may lie outside the chart; `None` if it is not
+    /// finite.
     fn pixel_y(&self, value: f64) -> Option<i64> {
         let up = (value - self.y.low) / (self.y.high - self.y.low);
         whole((1.0 - up) * (self.raster.size().1.saturating_sub(1)) as f64)
@@ -170,8 +175,8 @@ impl<'a> Plot<'a> {
         }
     }
 
-    /// Draws a polyline as evenly spaced dots, `sparse` times as far apart as usual. Dots before
-    /// `from` are omitted; the others keep their places while `from` grows.
+    /// Draws a polyline as evenly spaced dots, `sparse` times as far apart as usual. Dots at x
+    /// values below `from` are omitted; the others keep their places while `from` grows.
     pub fn dotted(
         &mut self,
         points: impl IntoIterator<Item = (f64, f64)>,
@@ -358,12 +363,12 @@ fn rows(area: Rect) -> u16 {
     area.height.saturating_sub(if has_rule(area) { 2 } else { 1 })
 }
 
-/// Returns the largest number of ticks on a vertical axis of this many rows.
+/// Returns the largest number of ticks on a vertical axis of `rows` rows.
 fn most_levels(rows: u16) -> usize {
     usize::from(rows.div_ceil(2)).clamp(1, 7)
 }
 
-/// An axis may grow by at most this fraction to make its ticks evenly spaced.
+/// A vertical axis may grow by at most this fraction to make its ticks evenly spaced.
 const GROWS: f64 = 0.3;
 
 impl ChartAxis {
@@ -396,8 +401,9 @@ impl ChartAxis {
     }
 }
 
-/// Returns the largest set of at most `most` ticks that are evenly spaced on the screen, and their
-/// step. The axis has `cells` cells of `grain` sub-pixels; spacings may differ by `slack` cells.
+/// Returns the ticks of the smallest round step (at most `most` steps on the axis) that are evenly
+/// spaced on the screen, and that step. The axis has `cells` cells of `grain` sub-pixels; spacings
+/// may differ by `slack` cells.
 fn even(
     axis: &ChartAxis,
     most: usize,
@@ -419,7 +425,7 @@ fn even(
         .rev()
         .map(|most| axis.ticks(most))
         .find(|(values, _)| values.len() > 1 && is_even(values));
-    // Without such a set, only the two outermost ticks are kept.
+    // Without such a step, only the two outermost ticks are kept.
     found.unwrap_or_else(|| {
         let (values, step) = axis.ticks(most);
         let ends = [values.first(), values.last()].into_iter().flatten();
@@ -429,7 +435,7 @@ fn even(
     })
 }
 
-/// Distance between the dots of a dotted line \[cells\].
+/// Usual distance between the dots of a dotted line \[columns\].
 const DOTS: f64 = 1.5;
 /// Largest number of dots in one line.
 const MOST_DOTS: usize = 20_000;
@@ -439,8 +445,9 @@ fn is_inside(axis: &ChartAxis, value: f64) -> bool {
     (-1e-9..=1.0 + 1e-9).contains(&part)
 }
 
-/// Rounds to a sub-pixel. The small offset keeps values that differ by round-off, such as a
-/// clearance and its tick, in one sub-pixel when they are half-way between two.
+/// Rounds to a sub-pixel; `None` for a value that is not finite. The small offset keeps values that
+/// differ by round-off, such as a clearance and its tick, in one sub-pixel when they are half-way
+/// between two.
 fn whole(pixel: f64) -> Option<i64> {
     pixel.is_finite().then(|| (pixel + 1e-6).round().clamp(-1e5, 1e5) as i64)
 }

@@ -28,10 +28,10 @@ use strum::{Display, EnumString, VariantNames};
 #[strum(serialize_all = "lowercase")]
 #[serde(rename_all = "lowercase")]
 pub enum Marker {
-    /// Two by four dots per cell.
+    /// Two columns of four dots per cell.
     #[default]
     Braille,
-    /// One by two blocks a cell.
+    /// Two blocks per cell, one above the other.
     HalfBlock,
     /// One round dot per cell.
     Dot,
@@ -65,7 +65,7 @@ impl Marker {
 pub struct Pen {
     /// Colour and weight.
     pub style: Style,
-    /// Character of this series if only ASCII is drawn.
+    /// Character of this series with the marker [`Marker::Ascii`].
     pub sign: char,
     /// Whether lines are dashed, so that two series differ without colour.
     pub dashed: bool,
@@ -91,8 +91,8 @@ impl Raster {
         Self { area, marker, dots: vec![Dots::default(); area.area() as usize] }
     }
 
-    /// Returns whether a pen draws at position `along` of its dash pattern. In ASCII, lines are
-    /// solid: series differ by character, and gaps would look like missing data.
+    /// Returns whether a pen draws at position `along` of its dash pattern \[sub-pixels\]. In
+    /// ASCII, lines are solid: series differ by character, and gaps would look like missing data.
     fn is_dash(&self, along: i64, pen: &Pen) -> bool {
         let [dash, period] = if self.marker.grain().0 == 1 { [1, 2] } else { [3, 6] };
         !pen.dashed || self.marker == Marker::Ascii || along.rem_euclid(period) < dash
@@ -105,13 +105,13 @@ impl Raster {
         (across as i64, down as i64)
     }
 
-    /// Returns the width and height in sub-pixels.
+    /// Returns the width and height of the raster \[sub-pixels\].
     pub fn size(&self) -> (usize, usize) {
         let (across, down) = self.marker.grain();
         (usize::from(self.area.width) * across, usize::from(self.area.height) * down)
     }
 
-    /// Returns whether anything is drawn in a cell of the screen.
+    /// Returns whether anything is drawn in the cell at column `x` and row `y` of the screen.
     pub fn is_drawn(&self, x: u16, y: u16) -> bool {
         let at = |x: u16, y: u16| usize::from(y) * usize::from(self.area.width) + usize::from(x);
         let place = x.checked_sub(self.area.x).zip(y.checked_sub(self.area.y));
@@ -119,7 +119,8 @@ impl Raster {
         dots.is_some_and(|dots| dots.bits != 0)
     }
 
-    /// Sets one sub-pixel, counted from the top left; positions outside are ignored.
+    /// Draws one sub-pixel, at `x` from the left and `y` from the top of the raster; positions
+    /// outside are ignored.
     pub fn set(&mut self, x: i64, y: i64, pen: &Pen) {
         let (width, height) = self.size();
         let (Ok(x), Ok(y)) = (usize::try_from(x), usize::try_from(y)) else { return };
@@ -135,8 +136,8 @@ impl Raster {
         }
     }
 
-    /// Draws a straight line, dashed where the pen says so: by columns where it is flat, by rows
-    /// where it is steep, so that pieces of one curve have one spacing.
+    /// Draws a straight line between two sub-pixels. Dashes are counted by columns if it is flat
+    /// and by rows if it is steep, so that they continue over the pieces of a curve.
     pub fn line(&mut self, from: (i64, i64), to: (i64, i64), pen: &Pen) {
         // Far ends are not visible, and would take many steps.
         let bound = |v: i64| v.clamp(-20_000, 20_000);
@@ -178,8 +179,8 @@ impl Raster {
     }
 }
 
-/// Returns the sub-pixels of a sign of braille, two across and four down, for viewers whose fonts
-/// have none; `None` for any other sign.
+/// Returns the dots of a braille character as (column, row), counted from 0 at the top left, for
+/// viewers whose fonts have no braille; `None` for any other text.
 pub fn sub_pixels(sign: &str) -> Option<impl Iterator<Item = (u32, u32)>> {
     let mut signs = sign.chars();
     let (Some(sign), None) = (signs.next(), signs.next()) else { return None };

@@ -16,7 +16,8 @@ use super::line::Throttle;
 use super::panels::{self, LEAST_HEIGHT, LEAST_WIDTH};
 use super::update::Effect;
 
-/// Longest time between two frames. A frame is how the program notices that the terminal is gone.
+/// Longest time between two frames. Only by drawing does the program notice that the terminal is
+/// gone.
 const HEARTBEAT: Duration = Duration::from_secs(1);
 /// Shortest time between two frames that answer keys.
 const KEY_FRAME: Duration = Duration::from_millis(16);
@@ -39,7 +40,8 @@ struct Events<'a> {
 }
 
 impl Events<'_> {
-    /// Returns the next event without waiting. A Ctrl-C behind a long burst of input comes first.
+    /// Returns the next event without waiting; `None` if none has arrived. A Ctrl-C behind more
+    /// than [`MOST_AHEAD`] events discards the input before it.
     fn next(&mut self) -> Option<ScreenEvent> {
         // Bounded, because events may arrive as fast as they are received.
         for event in self.from.try_iter().take(100 * MOST_AHEAD) {
@@ -75,7 +77,8 @@ enum Due {
 }
 
 impl Due {
-    /// Returns the shortest time since the last frame at which the next one may be drawn.
+    /// Returns the shortest time between the last frame and the next one; `frame` is that between
+    /// two frames of the playing motion.
     fn pause(self, frame: Duration) -> Duration {
         match self {
             Self::Later => HEARTBEAT,
@@ -199,7 +202,7 @@ fn show<B: Backend>(
     app.layout.size = (size.width, size.height);
     terminal.draw(|frame| panels::draw(frame, app))?;
     engine.drawn();
-    // A screen that is too small shows only a note about its size, so no message was seen.
+    // A screen that is too small shows only a note about its size, and no message.
     if size.width >= LEAST_WIDTH && size.height >= LEAST_HEIGHT {
         app.drawn();
         host.unseen(None);

@@ -31,7 +31,7 @@ static HELD: AtomicBool = AtomicBool::new(false);
 static CUT: AtomicBool = AtomicBool::new(false);
 /// Whether a frame was abandoned in its middle, perhaps within an escape sequence.
 static TORN: AtomicBool = AtomicBool::new(false);
-/// Whether mouse events are wanted.
+/// Whether the explorer wants mouse reports of the terminal.
 static MOUSE: AtomicBool = AtomicBool::new(false);
 
 /// Whether frames are sent as synchronized updates.
@@ -42,33 +42,34 @@ static WHOLE: AtomicBool = AtomicBool::new(false);
 const BEGIN_FRAME: &[u8] = b"\x1b[?2026h";
 const END_FRAME: &[u8] = b"\x1b[?2026l";
 
-/// Asks for clicks and the wheel, without moves (mode 1000), in the encoding that has no
-/// greatest column (1006), and no longer.
+/// Switch mouse reports on and off: clicks and the wheel, without moves (mode 1000), in the
+/// encoding without a largest column (mode 1006).
 const MOUSE_ON: &[u8] = b"\x1b[?1000h\x1b[?1006h";
 const MOUSE_OFF: &[u8] = b"\x1b[?1006l\x1b[?1000l";
 
-/// Bytes sent so far.
+/// Number of bytes sent to the terminal so far.
 static SENT: AtomicU64 = AtomicU64::new(0);
 /// Whether any write had to wait for the terminal.
 static SLOW: AtomicBool = AtomicBool::new(false);
 
-/// A write that takes longer than this has waited for the terminal.
+/// A write that takes longer than this counts as having waited for the terminal.
 const AT_ONCE: Duration = Duration::from_millis(60);
 
 /// Longest wait for the terminal to take the restoring bytes. It applies twice: before and after
 /// the pending output is discarded.
 const ROOM: Duration = Duration::from_millis(200);
 
-/// Time to wait for a signal after the process was continued in the background.
+/// After the process was continued in the background, time to wait for the foreground or for a
+/// deadly signal before it stops again.
 const BACKGROUND: Duration = Duration::from_secs(1);
 
 /// Cancels an escape sequence of which the terminal has received only the beginning.
 const CANCEL: &[u8] = b"\x18\x1b\\";
 
-/// Largest number of columns and rows drawn: two buffers of this size take 50 MB.
+/// Largest numbers of columns and rows drawn: two buffers of this size take 50 MB.
 pub const MOST: (u16, u16) = (1000, 500);
 
-/// Columns and rows if the terminal reports none, as a serial line does.
+/// Numbers of columns and rows drawn if the terminal reports none, as a serial line does.
 const USUAL: (u16, u16) = (80, 24);
 
 /// The screen type of the explorer.
@@ -132,9 +133,9 @@ pub fn leave() {
             // An abandoned frame may have begun an update without ending it.
             bytes.extend_from_slice(END_FRAME);
         }
-        // Also where it was never asked for: which frame was cut is not known.
+        // Sent even if mouse reports are off: the sequence that switched them off may be lost.
         bytes.extend_from_slice(MOUSE_OFF);
-        // A vector takes everything.
+        // Writing into a vector cannot fail.
         let _ = queue!(
             bytes,
             DisableBracketedPaste,
@@ -144,7 +145,7 @@ pub fn leave() {
         );
         let from = if TORN.load(SeqCst) { 0 } else { CANCEL.len() };
         if !tty.send_within(bytes.get(from..).unwrap_or(&bytes), ROOM) && front {
-            // What is discarded may end within a sequence, so `CANCEL` is sent too.
+            // The discarded output may have been cut within a sequence, so `CANCEL` is sent too.
             tty.drop_pending();
             tty.send_within(&bytes, ROOM);
         }
@@ -196,7 +197,8 @@ pub fn cut_frame() {
     CUT.store(true, SeqCst);
 }
 
-/// Writes a frame, or a sequence between frames, unless it is abandoned.
+/// Writes a frame, or a sequence between frames, and waits for the terminal; an abandoned frame is
+/// not written to its end.
 ///
 /// # Errors
 /// Fails if the terminal is closed.
@@ -214,7 +216,8 @@ pub fn write(bytes: &[u8]) -> Result<(), Error> {
     Ok(())
 }
 
-/// Reads typed bytes. Waits up to `wait`, or without limit; `None` if nothing arrived.
+/// Reads typed bytes and returns their number; `None` if nothing arrived. Waits up to `wait`, or
+/// without limit if that is `None`.
 ///
 /// # Errors
 /// Fails if the terminal is closed.

@@ -25,7 +25,7 @@ pub fn print(buffer: &mut Buffer, area: Rect, row: u16, text: &str, style: Style
     }
 }
 
-/// Returns the width of a text in columns.
+/// Returns the number of columns that a text takes on the screen.
 pub fn columns(text: &str) -> usize {
     ratatui::text::Span::raw(text).width()
 }
@@ -70,7 +70,8 @@ pub fn wrap(text: &str, width: usize) -> Vec<String> {
     if lines.is_empty() { vec![String::new()] } else { lines }
 }
 
-/// Returns the first `rows` lines; if more are left, the last one ends in `mark`.
+/// Returns the first `rows` lines. If there are more, the last one continues with them, up to
+/// `width`, and ends in `mark`.
 pub fn first_lines(mut lines: Vec<String>, width: usize, rows: usize, mark: &str) -> Vec<String> {
     if lines.len() > rows && rows > 0 {
         let rest = lines.split_off(rows - 1).join(" ");
@@ -80,7 +81,8 @@ pub fn first_lines(mut lines: Vec<String>, width: usize, rows: usize, mark: &str
     lines
 }
 
-/// Wraps a text, and drops parts at its end, each after a comma, until it fits into `rows` lines.
+/// Wraps a text to lines no wider than `width`, and drops parts at its end, each after a comma,
+/// until it has at most `rows` lines or one part.
 pub fn whole_parts(text: &str, width: usize, rows: usize) -> Vec<String> {
     let lines = wrap(text, width);
     match text.rsplit_once(", ") {
@@ -89,7 +91,7 @@ pub fn whole_parts(text: &str, width: usize, rows: usize) -> Vec<String> {
     }
 }
 
-/// Lists blade numbers; after three, the rest is `..`.
+/// Lists the first three blade numbers, as in `1,2,3`; `,..` stands for more.
 pub fn few(blades: &[u32]) -> String {
     let names: Vec<String> = blades.iter().take(3).map(ToString::to_string).collect();
     format!("{}{}", names.join(","), if blades.len() > 3 { ",.." } else { "" })

@@ -7,12 +7,12 @@ use strum::{EnumString, VariantNames};
 
 use super::ground::Ground;
 
-/// Purpose of a colour.
+/// Purpose of a text or a sign, which determines its colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// Ordinary text.
     Text,
-    /// Axes, frames, units.
+    /// Axes, frames, units, and other text in the background.
     Quiet,
     /// The selected knob, the cursor, the open prompt.
     Focus,
@@ -22,7 +22,7 @@ pub enum Role {
     Second,
     /// Blades in contact, and their forces.
     Contact,
-    /// Successes.
+    /// Successes, such as a completed step of a lesson.
     Good,
     /// Errors and doubts only: tension, failures, refused values.
     Trouble,
@@ -54,7 +54,7 @@ impl ThemeChoice {
         matches!(self, Self::Auto | Self::ColorBlind)
     }
 
-    /// Returns the theme for this background.
+    /// Returns the theme of this choice for a background.
     pub fn theme(self, ground: Ground) -> Theme {
         match self {
             Self::Dark => Theme::Dark,
@@ -65,7 +65,7 @@ impl ThemeChoice {
         }
     }
 
-    /// Returns the choice that gives this theme.
+    /// Returns the choice that gives this theme on its background.
     pub fn of(theme: Theme) -> Self {
         match theme {
             Theme::Dark => Self::Dark,
@@ -97,12 +97,12 @@ impl Theme {
     pub const ALL: [Self; 5] =
         [Self::Dark, Self::Light, Self::ColourBlind, Self::ColourBlindLight, Self::Mono];
 
-    /// Returns the name on screen.
+    /// Returns the name of the theme on the screen.
     pub fn name(self) -> &'static str {
         ["dark", "light", "colour-blind on dark", "colour-blind on light", "mono"][self as usize]
     }
 
-    /// Returns the theme of the same kind for another background.
+    /// Returns the theme of the same kind for this background.
     pub fn on(self, ground: Ground) -> Self {
         match (self, ground) {
             (Self::Dark | Self::Light, Ground::Dark) => Self::Dark,

@@ -9,16 +9,17 @@ const MOST_MARKS: usize = 2000;
 /// The coordinates `u_c`, `u_s` \[m\], `alpha_c`, `alpha_s` \[rad\] at equal intervals.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Trace {
-    /// The first instant \[s\].
+    /// Simulated time of the first point \[s\].
     pub from: f64,
-    /// Interval between two points \[s\].
+    /// Simulated time between two points \[s\].
     pub step: f64,
-    /// The coordinates, one entry per instant.
+    /// The four coordinates at each time, in the order given above.
     pub points: Vec<[f64; 4]>,
 }
 
 impl Trace {
-    /// Returns one coordinate over `[from, to]` as (time, value) points.
+    /// Returns the coordinate with index `place` over `[from, to]` as points (time \[s\], value),
+    /// up to one point beyond each end.
     pub fn between(
         &self,
         place: usize,
@@ -38,18 +39,18 @@ impl Trace {
 /// A change of contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Happening {
-    /// A blade group touched the casing and left it at once.
+    /// A blade group, given by its side of the polygon, touched the casing and left it at once.
     Impact(u32),
     /// The set of sides in contact changed, from the first to the second.
     Contact(ActiveSet, ActiveSet),
-    /// The last sides in contact separated: these.
+    /// The last sides in contact, given here, separated.
     Release(ActiveSet),
 }
 
-/// A change of contact with its instant.
+/// A change of contact and its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mark {
-    /// Instant \[s\].
+    /// Simulated time of the change \[s\].
     pub t_s: f64,
     /// What changed.
     pub what: Happening,
@@ -58,7 +59,7 @@ pub struct Mark {
 /// Collects the contact changes of a motion whose log is read from time to time.
 #[derive(Clone, Debug, Default)]
 pub struct Marks {
-    /// Changes found so far.
+    /// Changes found so far, in order of time, at most `MOST_MARKS`.
     pub seen: Vec<Mark>,
     active_set: ActiveSet,
     impacts: u64,

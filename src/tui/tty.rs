@@ -1,7 +1,6 @@
-//! The terminal as a device: its settings, its size, and writing to it without
-//! ever waiting in the kernel. A terminal that accepts no output (a frozen ssh
-//! client, the copy mode of screen, a pseudo-terminal nobody reads) would keep
-//! a waiting thread for ever.
+//! The terminal as a device: its settings, its size, and writing to it without ever blocking in the
+//! kernel. A terminal that accepts no output (a frozen SSH client, the copy mode of `screen`, a
+//! pseudo-terminal that nobody reads) would block a thread for ever.
 
 use std::fs::File;
 use std::io::{ErrorKind, Result};
@@ -17,30 +16,29 @@ use rustix::fs::OFlags;
 use rustix::io::Errno;
 use rustix::termios::{self, LocalModes, OptionalActions, QueueSelector, Termios};
 
-/// Time between two looks of a writer that waits for room whether it should go on.
+/// While a write waits for the terminal, time after which it checks again whether to give up.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// Most bytes of one write where the kernel could make it wait: below the
-/// count from which it reports that there is room.
+/// Largest number of bytes of one write if it could block: less than the free space at which the
+/// kernel reports the terminal as writable.
 const CAUTIOUS: usize = 128;
 
-/// An open terminal.
+/// An open terminal: the output, and the keyboard, which may be another device.
 pub struct Tty {
     out: OwnedFd,
     keys: OwnedFd,
-    /// Whether a write returns when there is no room.
+    /// Whether a write to `out` returns instead of blocking if the terminal accepts no output.
     returns: bool,
-    /// The settings before the screen was set up. Nobody holds this lock while
-    /// writing to the terminal.
+    /// Settings of the terminal before the screen was set up; `None` until then. No thread holds
+    /// this lock while it writes to the terminal.
     before: RwLock<Option<Termios>>,
 }
 
 impl Tty {
-    /// Opens the terminal of standard output for writing, and that of the keys
-    /// for its settings.
+    /// Opens the terminal of standard output for writing and that of the keyboard for reading.
     ///
     /// # Errors
-    /// There is no terminal.
+    /// A file descriptor cannot be duplicated.
     pub fn open() -> Result<Self> {
         let (out, returns) = match reopened() {
             Some(file) => (file.into(), true),
@@ -58,11 +56,11 @@ impl Tty {
         Ok(Self { out, keys, returns, before: RwLock::new(None) })
     }
 
-    /// Makes the terminal send every key as it is pressed. The settings before are kept, unless this screen made
-    /// them.
+    /// Makes the terminal send every key as it is pressed. Its present settings are stored for
+    /// [`Self::put_back`], unless they are `ours`, from an earlier call.
     ///
     /// # Errors
-    /// The terminal refuses.
+    /// The terminal rejects the settings.
     pub fn make_raw(&self, ours: bool) -> Result<()> {
         let mut settings = termios::tcgetattr(&self.keys)?;
         if let Ok(mut before) = self.before.write()
@@ -74,17 +72,17 @@ impl Tty {
         Ok(termios::tcsetattr(&self.keys, OptionalActions::Now, &settings)?)
     }
 
-    /// Puts the settings back. Does not wait for output.
+    /// Restores the settings that [`Self::make_raw`] stored, without waiting for pending output.
     pub fn put_back(&self) {
-        // The lock is held for one assignment at most.
+        // Another thread holds the lock for one assignment at most, so a few attempts suffice.
         let before = (0..1000).find_map(|_| self.before.try_read().ok());
         if let Some(before) = before.as_ref().and_then(|before| before.as_ref()) {
             let _ = termios::tcsetattr(&self.keys, OptionalActions::Now, before);
         }
     }
 
-    /// Writes, and waits for room until `stop` says so; the number of bytes
-    /// that were written.
+    /// Writes bytes and returns how many were written. If the terminal accepts no output, waits
+    /// until it does or `stop` returns true.
     ///
     /// # Errors
     /// The terminal is closed.
@@ -102,8 +100,8 @@ impl Tty {
                 Ok(count) => sent += count,
                 Err(Errno::INTR) => {}
                 Err(Errno::AGAIN) => {
-                    // Another process that writes to the terminal can have the
-                    // room: without a pause this would be a busy loop.
+                    // Another process that writes to the terminal may take the free space first:
+                    // without a pause this would be a busy loop.
                     if self.has_room()? {
                         std::thread::sleep(Duration::from_millis(1));
                     }
@@ -114,16 +112,16 @@ impl Tty {
         Ok(sent)
     }
 
-    /// Writes for at most this long; whether all was written.
+    /// Writes bytes for at most `limit`; returns whether all were written.
     pub fn send_within(&self, bytes: &[u8], limit: Duration) -> bool {
         let began = Instant::now();
-        // At least one try, however late it is.
+        // At least one attempt, however short the limit is.
         let tried = std::cell::Cell::new(false);
         let stop = || tried.replace(true) && began.elapsed() >= limit;
         self.send(bytes, stop).is_ok_and(|sent| sent == bytes.len())
     }
 
-    /// Waits a moment for room.
+    /// Waits up to [`LOOK`] until the terminal accepts output; returns whether it does.
     fn has_room(&self) -> Result<bool> {
         let wait = Timespec { tv_sec: 0, tv_nsec: i64::from(LOOK.subsec_nanos()) };
         let mut fds = [PollFd::new(&self.out, PollFlags::OUT)];
@@ -134,14 +132,14 @@ impl Tty {
         }
     }
 
-    /// Takes what was typed, and waits for it this long or for ever; none if there
-    /// was nothing.
+    /// Reads typed bytes and returns their number; `None` if nothing arrived. Waits up to `wait`,
+    /// or without limit if that is `None`.
     ///
     /// # Errors
     /// The terminal is closed.
     pub fn read(&self, bytes: &mut [u8], wait: Option<Duration>) -> Result<Option<usize>> {
         let wait = wait.and_then(|wait| Timespec::try_from(wait).ok());
-        // Each poll reports bytes that are still there.
+        // After an interruption nothing is lost: the next poll reports the same bytes.
         match poll(&mut [PollFd::new(&self.keys, PollFlags::IN)], wait.as_ref()) {
             Ok(0) | Err(Errno::INTR) => return Ok(None),
             Ok(_) => {}
@@ -152,7 +150,7 @@ impl Tty {
             Ok(count) => Ok(Some(count)),
             Err(Errno::INTR) => Ok(None),
             Err(Errno::AGAIN) => {
-                // Some systems cannot tell what a terminal is ready for.
+                // On some systems `poll` reports a terminal as readable when it is not.
                 std::thread::sleep(LOOK);
                 Ok(None)
             }
@@ -160,12 +158,13 @@ impl Tty {
         }
     }
 
-    /// Drops what was written and not yet taken by the terminal.
+    /// Discards the output that was written but not yet accepted by the terminal.
     pub fn drop_pending(&self) {
         let _ = termios::tcflush(&self.out, QueueSelector::OFlush);
     }
 
-    /// Returns the columns and rows, as the terminal reports them.
+    /// Returns the numbers of columns and rows, as the terminal reports them; a serial line reports
+    /// 0.
     ///
     /// # Errors
     /// The terminal is closed.
@@ -174,34 +173,35 @@ impl Tty {
         Ok((size.ws_col, size.ws_row))
     }
 
-    /// Returns whether this process is in the foreground: in the background, a change of the
-    /// settings stops it.
+    /// Returns whether this process is in the foreground of the terminal. In the background, the
+    /// system stops it if it changes the settings.
     pub fn in_foreground(&self) -> bool {
-        // Without job control on this terminal there is no background.
+        // The call fails if the terminal has no job control; then there is no background.
         nix::unistd::tcgetpgrp(&self.keys).map_or(true, |front| front == nix::unistd::getpgrp())
     }
 
-    /// Returns whether what the terminal reports comes among the keys: both are one terminal.
+    /// Returns whether keyboard and output are the same terminal, so that its reports arrive among
+    /// the keys.
     pub fn hears_itself(&self) -> bool {
         let device = |file: &OwnedFd| rustix::fs::fstat(file).ok().map(|state| state.st_rdev);
         device(&self.keys).is_some_and(|keys| Some(keys) == device(&self.out))
     }
 
-    /// Returns whether a process in the background may write.
+    /// Returns whether a process in the background may write to the terminal (`TOSTOP` is off).
     pub fn may_write_from_background(&self) -> bool {
         termios::tcgetattr(&self.keys)
             .is_ok_and(|settings| !settings.local_modes.contains(LocalModes::TOSTOP))
     }
 }
 
-/// Returns the terminal of standard output, opened anew: writes that do not wait are a property of
-/// the open file, which the shell shares with standard output.
+/// Opens the terminal of standard output again, because non-blocking writes are a property of the
+/// open file, and the shell shares that of standard output. `None` if it cannot be opened.
 fn reopened() -> Option<File> {
     let out = std::io::stdout();
     let named = termios::ttyname(&out, Vec::new()).ok();
     let named = named.map(|name| PathBuf::from(std::ffi::OsString::from_vec(name.into_bytes())));
-    // Without a name (another root directory), it is the controlling terminal
-    // if it has a foreground group.
+    // The terminal may have no name here (another root directory). It is the controlling terminal
+    // if it has a foreground process group.
     let ours = termios::tcgetpgrp(&out).is_ok().then(|| "/dev/tty".into());
     let ways = [named, Some("/proc/self/fd/1".into()), ours];
     ways.into_iter().flatten().find_map(|path| opened(&path))

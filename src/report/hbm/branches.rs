@@ -38,8 +38,8 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     Ok(Answer::of(Parts::default().with("branches", json), tables))
 }
 
-/// A corner of unequal tips at one speed: the blades of its two sides, the corner, the speeds at
-/// which it holds, and the locked motion.
+/// A corner of unequal tips at one of the speeds: the blades of its two sides, the corner, the
+/// window of rotor speeds in which it holds the wave, and the locked motion at this speed.
 type CornerRow = ([Vec<u32>; 2], TipCorner, LockWindow, LockedPoint);
 
 /// Answers for unequal tips: every corner, the speeds at which it holds, and its loads there.
@@ -107,8 +107,8 @@ const STATES: &[Column<'_, Equilibrium>] = &[
     ("growth_per_s", |state| growth(state).into()),
 ];
 
-/// Returns the growth rate, with round-off shown as 0: an undamped motion neither grows nor
-/// decays.
+/// Returns the growth rate of a deviation from an equilibrium \[1/s\], negative if it decays. It is
+/// 0 within round-off of the eigenvalues: an undamped motion neither grows nor decays.
 fn growth(state: &Equilibrium) -> f64 {
     let fastest = state.eigenvalues_per_s.iter().map(|value| value.norm()).fold(0.0, f64::max);
     if state.growth_per_s.abs() > 1e-13 * fastest { state.growth_per_s } else { 0.0 }

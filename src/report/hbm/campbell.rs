@@ -52,7 +52,7 @@ fn value(line: &Line, speeds: &[f64]) -> Value {
     })
 }
 
-/// Returns the lines over speed, one per column.
+/// Returns the frequencies against rotor speed: one row per speed, one column per line.
 fn table(lines: &[Line], speeds: &[f64]) -> Table {
     let names = lines.iter().map(|line| line.name.clone());
     let mut table = Table::new(std::iter::once("speed_rad_s".to_string()).chain(names));

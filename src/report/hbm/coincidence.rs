@@ -42,7 +42,7 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     Ok(Answer::of(json, vec![(title, Table::of(&points, CURVE))]))
 }
 
-/// Columns of growth and wave, one row per speed.
+/// Columns of the growth from rest and of the lasting wave, one row per rotor speed.
 pub const CURVE: &[Column<'_, CoincidencePoint>] = &[
     ("speed_rad_s", |point| point.speed_rad_s.into()),
     ("growth_1_s", |point| point.growth_1_s.into()),

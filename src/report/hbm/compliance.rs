@@ -23,9 +23,9 @@ pub const COMPLIANCE: View = View {
     answer,
 };
 
-/// Number of frequencies in the table.
+/// Number of frequencies in the table, odd so that 0 is one of them.
 const FREQUENCIES: usize = 201;
-/// The table extends to this multiple of the highest resonance.
+/// The table extends to this multiple of the highest resonance, in both directions of travel.
 const BEYOND: f64 = 1.5;
 
 fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
@@ -57,10 +57,12 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
 /// A whirl (a wave that blades and casing carry round together), and its loads.
 type Wave = (RoundWhirl, RoundWhirlLoads);
 
-/// Frequencies of the casing and the blades \[rad/s\], and the compliance \[m/N\].
+/// Frequency of the wave in the fixed frame and in the frame of the blades \[rad/s\], and the joint
+/// compliance there \[m/N\].
 type Point = (f64, f64, Complex<f64>);
 
-/// Returns evenly spaced frequencies up to beyond every resonance \[rad/s\].
+/// Returns evenly spaced frequencies in the fixed frame \[rad/s\], symmetric about 0 and up to
+/// beyond every resonance. Negative ones belong to waves that travel backward.
 fn beyond_resonance(joint: &Joint) -> Vec<f64> {
     let machine = &joint.machine;
     let reach = BEYOND * machine.omega_c.max(joint.nu.abs() + machine.omega_bd);
@@ -72,7 +74,8 @@ fn finite(value: f64) -> Option<f64> {
     Some(value).filter(|value| value.is_finite())
 }
 
-/// Returns a whirl as JSON; loads exist only with a clearance.
+/// Returns a whirl as JSON. Its loads and its stability are `null` if the loads are negative, which
+/// means that they do not exist: there is no clearance.
 fn value((wave, loads): &Wave) -> Value {
     let over = loads.casing_m >= 0.0;
     let loaded = |load: f64| over.then_some(load);

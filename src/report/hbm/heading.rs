@@ -13,15 +13,15 @@ use rubscope_solver::scene::Scene;
 /// The heading of one view.
 #[derive(Debug)]
 pub struct Heading<'a> {
-    /// The scene.
+    /// Scene of the view.
     pub scene: &'a Scene,
-    /// The machine as the view models it.
+    /// Machine of the scene; without its lining if the view uses rigid contact.
     pub machine: &'a Machine,
-    /// Speed that determines the sense of rotation \[rad/s\].
+    /// Rotor speed of largest magnitude in the view; its sign is the sense of rotation \[rad/s\].
     pub speed: f64,
     /// Whether the equations include the damping of the scene.
     pub damped: bool,
-    /// The locked motion, if it is the subject of the view.
+    /// The locked motion; `None` for a view with an option, whose subject is another one.
     pub sweep: Option<&'a Sweep>,
 }
 

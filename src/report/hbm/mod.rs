@@ -46,21 +46,21 @@ pub struct View {
     pub help: &'static str,
     /// Whether the view always includes damping, so that `--undamped` is refused.
     pub always_damped: bool,
-    /// Whether the view needs a single speed.
+    /// Whether the view is at a single speed, by default that of the scene.
     pub one_speed: bool,
-    /// How the JSON of the view includes the lock of rigid contact.
+    /// Whether the view uses rigid contact, with its lock added, or the contact law of the scene.
     pub lock: LockBeside,
-    /// Computes the view.
+    /// Computes the tables of the view and its own JSON fields.
     pub answer: fn(&Request<'_>) -> Result<Answer, HarmonicError>,
 }
 
-/// Whether the lock of rigid contact is added to a view.
+/// Contact that a view uses, and whether the lock of rigid contact is added to its JSON.
 #[derive(Debug)]
 pub enum LockBeside {
     /// The view uses the contact law of the scene; no lock is added.
     OfScene,
-    /// The view uses rigid contact, and the lock is added. If computing the lock fails with an
-    /// error that the function accepts, the view is shown without it.
+    /// The view uses rigid contact, and the locked motion is added. If computing it fails with an
+    /// error that the function accepts, the view is shown without it; any other error is returned.
     Rigid(fn(&HarmonicError) -> bool),
 }
 
@@ -69,28 +69,31 @@ pub enum LockBeside {
 pub struct Request<'a> {
     /// The scene.
     pub scene: &'a Scene,
-    /// Rotor speeds \[rad/s\].
+    /// Rotor speeds, at least one; negative turns the other way \[rad/s\].
     pub speeds: &'a [f64],
     /// Form of the lock's equations.
     pub form: Form,
     /// Whether the equations include the damping of the scene.
     pub damped: bool,
-    /// The two blades that hold the wave, if the user chose them.
+    /// Numbers of the two blades that hold the wave; `None` for the default corner
+    /// ([`Corner::paper`]).
     pub pair: Option<[u32; 2]>,
-    /// Machine of the scene, with rigid contact if the view uses it.
+    /// Machine of the scene; without its lining if the view uses rigid contact.
     pub machine: Machine,
-    /// The locked motion, where there is one and the view has rigid contact.
+    /// The locked motion of rigid contact over `speeds`; `None` before the view is computed, if the
+    /// view uses the contact law of the scene, or if it tolerates that there is no lock.
     pub sweep: Option<Sweep>,
 }
 
 impl Request<'_> {
-    /// Returns the speed of largest magnitude, which determines the sense of rotation \[rad/s\].
+    /// Returns the speed of largest magnitude, with its sign, which determines the sense of
+    /// rotation \[rad/s\].
     pub fn fastest(&self) -> f64 {
         let further = |a: &f64, b: &f64| a.abs().total_cmp(&b.abs());
         self.speeds.iter().copied().max_by(further).unwrap_or(self.scene.operation.speed_rad_s)
     }
 
-    /// Returns the lowest and the highest speed \[rad/s\].
+    /// Returns the lowest and the highest of the speeds, by their signed values \[rad/s\].
     fn span(&self) -> [f64; 2] {
         let least = self.speeds.iter().copied().fold(f64::INFINITY, f64::min);
         [least, self.speeds.iter().copied().fold(f64::NEG_INFINITY, f64::max)]
@@ -101,10 +104,12 @@ impl Request<'_> {
         self.pair.map_or_else(|| Corner::paper(polygon), |pair| Corner::of_blades(polygon, pair))
     }
 
-    /// Computes a view, and puts the JSON fields common to all views before its own.
+    /// Computes a view, first the lock of rigid contact if the view uses it. The JSON fields common
+    /// to all views come before the view's own.
     ///
     /// # Errors
-    /// The scene has a key, named in the error, that the view cannot handle.
+    /// The scene has a key, named in the error, that the view cannot handle; or the lock or the
+    /// view cannot be computed.
     pub fn answer(&mut self, view: &View) -> Result<Answer, HarmonicError> {
         self.knows_tips(view)?;
         if let LockBeside::Rigid(tolerates) = view.lock {
@@ -185,11 +190,11 @@ impl Request<'_> {
 /// Result of a view.
 #[derive(Debug)]
 pub struct Answer {
-    /// Its own fields in JSON.
+    /// The JSON report; before [`Request::answer`] adds the common fields, only the view's own.
     pub json: Parts,
-    /// Tables to show, each with its title.
+    /// Tables to show, each under its title, which may be empty.
     pub tables: Vec<(String, Table)>,
-    /// The table for files, where it is none of those.
+    /// The table for files; `None` if it is the last one shown.
     file: Option<Table>,
 }
 
@@ -199,7 +204,7 @@ impl Answer {
         Self { json, tables, file: None }
     }
 
-    /// Returns the table for files.
+    /// Returns the table for files; `None` if the answer has no table at all.
     pub fn file(&self) -> Option<&Table> {
         self.file.as_ref().or(self.tables.last().map(|(_, table)| table))
     }
@@ -225,7 +230,8 @@ pub fn notes(scene: &Scene, machine: &Machine) -> Vec<String> {
     hard.into_iter().chain(scene.tuned_note()).collect()
 }
 
-/// Formats a speed window: `472.117 to 566.259`, or only its start if it has no upper end.
+/// Formats the window of lock speeds in the shown unit, which is not named: `472.117 to 566.259`,
+/// or only its start if it has no upper end.
 pub fn speeds_of(window: LockWindow) -> String {
     match window.to {
         Some(to) => format!("{} to {}", short(per_speed(window.from)), short(per_speed(to))),

@@ -45,7 +45,7 @@ fn heading(points: &[SlipPoint], limits: &[SlipLimit]) -> String {
     }
 }
 
-/// Returns the slip at one speed as JSON, with `null` for a value that does not exist.
+/// Returns the slip at one speed as JSON; the values of the orbit are `null` if there is no slip.
 fn value(point: &SlipPoint) -> Value {
     let mut value = json!({
         "speed_rad_s": point.speed_rad_s,

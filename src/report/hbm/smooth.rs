@@ -22,7 +22,8 @@ pub const SMOOTH: View = View {
     answer,
 };
 
-/// Rest at one speed, whether large waves stay bounded, and the wave that lasts.
+/// Rest at one rotor speed, whether large waves stay bounded there, and the stable wave of constant
+/// amplitude, if there is one.
 type RestRow = (Rest, bool, Option<Cycle>);
 
 fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {

@@ -52,7 +52,7 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     Ok(Answer::of(json, vec![(title, Table::of(&rows, WHIRLS))]))
 }
 
-/// Describes a range of speeds.
+/// Describes a range of rotor speeds, which may have no upper end.
 fn between(range: LockWindow) -> String {
     match (range.from, range.to) {
         (0.0, None) => "at every speed".to_string(),
@@ -62,7 +62,8 @@ fn between(range: LockWindow) -> String {
     }
 }
 
-/// The lasting whirl at one speed, if it exists, and its loads.
+/// A rotor speed \[rad/s\], and the whirl that attracts there with its loads. `None` if none lasts,
+/// if there is no clearance, or if the tips do not couple casing and blades.
 #[derive(Clone, Copy, Debug)]
 struct WhirlRow {
     speed_rad_s: f64,
@@ -80,7 +81,7 @@ impl WhirlRow {
     }
 }
 
-/// Returns the whirl at one speed as JSON, with `null` for a value that does not exist.
+/// Returns the whirl at one speed as JSON; its values are `null` if there is no whirl.
 fn value(row: &WhirlRow) -> Value {
     let figure = |of: fn(&(RoundWhirl, RoundWhirlLoads)) -> f64| row.wave.as_ref().map(of);
     json!({

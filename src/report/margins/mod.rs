@@ -15,15 +15,15 @@ use super::table::{Heading, Table, TableCell, WIDTH};
 use super::{Provenance, svg};
 use rubscope_solver::study::margins::{LimitName, Margins, acting};
 
-/// Number of parameters listed with each limit.
+/// Number of parameters listed with each limit: those that move it most.
 pub const STRONGEST: usize = 3;
 
-/// Returns one row per limit, with its name in files.
+/// Returns a table with one row per limit, under its name in files.
 pub fn table(margins: &Margins) -> Table {
     titled(margins, |name| name.to_string())
 }
 
-/// As [`table`], with the names that `title` gives.
+/// As [`table`], with `title` making the name of each limit.
 pub fn titled(margins: &Margins, title: fn(LimitName) -> String) -> Table {
     let parameters: Vec<&str> = acting(&margins.scene).map(|parameter| parameter.path).collect();
     let people = ["+1 % of", "each", "moves it by"].map(Heading::shown);
@@ -62,7 +62,7 @@ pub fn titled(margins: &Margins, title: fn(LimitName) -> String) -> Table {
     table
 }
 
-/// Groups the notes: each with the names of the limits that have it.
+/// Groups equal notes of the limits: each note, and the names of the limits that have it.
 fn notes(margins: &Margins) -> Vec<(String, String)> {
     let mut found: Vec<(String, String)> = Vec::new();
     for limit in &margins.limits {

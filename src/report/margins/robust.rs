@@ -6,13 +6,14 @@ use crate::report::table::{Heading, Table, TableCell};
 use rubscope_solver::scene::{ContactLaw, Scene, keys};
 use rubscope_solver::study::margins::{ChangedVerdict, Margins, Robustness, parameter};
 
-/// Digits of a value; the search tries values with this many digits.
+/// Significant digits shown of a value, as many as the values that the search tries have.
 const DIGITS: usize = 4;
 
-/// Explanation of the mark `?`.
+/// Explanation of the mark `?`, added to a sentence.
 const MARKED: &str = " A ? marks a doubt (a tiny change, another step): run --plain.";
 
-/// Iterates over the searches: with the contact law of the scene, then with push-only contact.
+/// Iterates over the searches for another verdict: with the contact law of the scene, then with
+/// push-only contact, as far as they were made.
 pub fn asked(margins: &Margins) -> impl Iterator<Item = &Robustness> {
     margins.robust.iter().chain(&margins.pushes_only)
 }
@@ -56,12 +57,13 @@ pub fn sentence(found: &Robustness, scene: &Scene) -> String {
     format!("{}.{foot}", parts.join("; "))
 }
 
-/// Returns the mark of an altered verdict that is itself sensitive.
+/// Returns the mark of an altered verdict: `?` if it is itself sensitive, otherwise nothing.
 fn mark(changed: ChangedVerdict) -> &'static str {
     if changed.sensitive { "?" } else { "" }
 }
 
-/// Returns one row per quantity, all values of a row in one unit. `at` joins verdict and value.
+/// Returns a table with one row per quantity: the nearest values below and above the present one at
+/// which another verdict was found, all in one unit. `at` joins verdict and value.
 pub fn table(found: &Robustness, at: &str) -> Table {
     let headings = ["what", "found below", "now", "found above"];
     let mut table = Table::new(headings.map(Heading::shown));
@@ -83,7 +85,7 @@ pub fn table(found: &Robustness, at: &str) -> Table {
     table
 }
 
-/// Formats a value and its unit, with the prefix chosen for `of`.
+/// Returns a value of the key `path` and its unit as text, with the SI prefix that suits `of`.
 fn amount(path: &str, value: f64, of: f64) -> [String; 2] {
     match parameter(path).map_or("", |by| by.unit()) {
         "" | "-" => [short(rounded(value, DIGITS)), String::new()],

@@ -7,15 +7,16 @@ use crate::report::table::TableCell;
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::margins::{Found, LimitName, MOST_TIMES, Margins, Quantity, parameter};
 
-/// From this margin on, it is given as a factor instead of per cent.
+/// Margin from which on the ratio of scene to limit is shown (here `10 x`) instead of per cent.
 const FACTORS: f64 = 9.0;
 
-/// Formats the value of a limit with its unit.
+/// Formats the value of a limit, in SI units, with `digits` significant digits and its unit.
 pub fn value(x: f64, digits: usize, quantity: Quantity) -> String {
     with_unit(x, digits, quantity.unit())
 }
 
-/// Formats a margin: in per cent of the limit, or as a factor if the scene is far beyond it.
+/// Formats a margin, given as a fraction of the limit (negative if the scene is below it): in per
+/// cent, or as the ratio of scene to limit if the scene is far beyond it.
 pub fn margin(part: f64) -> String {
     if part > MOST_TIMES {
         return format!("> {} x", 1.0 + MOST_TIMES);
@@ -27,7 +28,8 @@ pub fn margin(part: f64) -> String {
     if percent.abs() < 99.95 { format!("{percent:+.1} %") } else { format!("{percent:+.0} %") }
 }
 
-/// Returns a margin as a cell; above `MOST_TIMES`, files leave it empty.
+/// Returns a margin as a cell, which is empty in files if the margin is above `MOST_TIMES`; `None`
+/// gives an empty cell.
 pub fn margin_cell(part: Option<f64>) -> TableCell {
     let shown = |part: f64| if part > MOST_TIMES { f64::NAN } else { part };
     part.map_or(TableCell::Empty, |part| TableCell::Told(shown(part), margin(part)))
@@ -58,7 +60,8 @@ pub fn conditions(margins: &Margins) -> String {
     )
 }
 
-/// Says which effects of the scene the closed-form limits ignore.
+/// Returns the notes on the modes of the scene and on what its closed-form limits ignore; `None` if
+/// there are none.
 pub fn note(margins: &Margins) -> Option<String> {
     let tuned = margins.note.as_ref().map(|note| format!("Speeds and loads are {note}."));
     let modes = margins.scene.modes_note().map(|note| format!("{}.", capital(&note)));
@@ -66,7 +69,8 @@ pub fn note(margins: &Margins) -> Option<String> {
     (!notes.is_empty()).then(|| notes.join(" "))
 }
 
-/// Returns the answer to `--target` as a sentence: the parameter value that puts the limit there.
+/// Returns the answer to `--target` as a sentence: the parameter value at which the limit has the
+/// wanted value, or why none was found.
 pub fn target(found: &Found, margins: &Margins) -> String {
     let Found { name, by, .. } = *found;
     let changed = parameter(by);

@@ -13,16 +13,16 @@ use super::table;
 use paper::{Drawn, FINE, TEXT, letters_in, write_at};
 use rubscope_solver::study::figures::Figure;
 
-/// Width of a figure with one panel per row, and of each further panel \[px\].
+/// Width of a figure with one panel per row, and what each further panel in a row adds \[px\].
 const WIDTH: u32 = 960;
 const WIDTH_MORE: u32 = 240;
 /// Height of a panel \[px\].
 const PANEL: u32 = 400;
 /// Font size of the title \[px\].
 const TITLE: i32 = 21;
-/// Height of a line of text \[px\].
+/// Distance between lines of text, also in legends \[px\].
 const LINE: u32 = 19;
-/// Left margin of the text \[px\].
+/// Left margin of titles, conditions and caption \[px\].
 const LEFT: i32 = 20;
 /// Width and height of a character on a page of text \[px\].
 const LETTER: [usize; 2] = [9, 19];
@@ -65,7 +65,7 @@ pub fn write_text(text: &str, origin: &Provenance, out: &mut dyn Write) -> Resul
     writeln!(out, "</svg>")
 }
 
-/// Returns the origin of a picture as a `<desc>` element.
+/// Returns the origin of a picture as a `<desc>` element of SVG.
 pub fn describe(origin: &Provenance) -> String {
     // A file name may contain any character.
     let plain = |c: char| if c == '\n' { c } else { harmless(c) };

@@ -19,7 +19,7 @@ const SAMPLE: u32 = 26;
 const APART: u32 = 18;
 /// Width of the tick labels and the axis label, left of the axis \[px\].
 const LABELS: i32 = 72;
-/// Half the width of a bar, in units of x.
+/// Half the width of a bar of [`Style::Bars`], in units of x.
 const HALF: f64 = 0.3;
 
 /// Returns the fill of a bar, pale enough for marks on it to stay visible.
@@ -236,7 +236,7 @@ fn draw_sample(style: Style, (left, top): (i32, i32), area: &Area) -> Drawn<()> 
 /// Largest number of ticks on an axis.
 const MOST_TICKS: usize = 8;
 
-/// The range of an axis.
+/// Range of an axis, in its coordinates: shown unit, and logarithm on a logarithmic axis.
 #[derive(Clone, Copy, Debug)]
 pub struct Scale<'a> {
     quantity: &'a Quantity,
@@ -245,8 +245,9 @@ pub struct Scale<'a> {
 }
 
 impl<'a> Scale<'a> {
-    /// Creates the range of the cells, or, without cells, of all points, widened by the fraction
-    /// `margin`; a logarithmic axis without cells covers whole decades.
+    /// Creates the range of the cells or, without cells, of all points, widened at each end by the
+    /// fraction `margin`. A logarithmic axis without cells covers whole decades instead. `of`
+    /// returns the coordinate of a point on this axis.
     pub fn of(
         panel: &Panel,
         quantity: &'a Quantity,
@@ -295,7 +296,7 @@ impl<'a> Scale<'a> {
         Axis { range: RangedCoordf64::from(self.low..self.high), ticks }
     }
 
-    /// Formats the label of a tick.
+    /// Formats the label of a tick, given in axis coordinates.
     pub fn label(&self, tick: f64) -> String {
         if self.quantity.log {
             return power_of_ten(tick);
@@ -344,7 +345,8 @@ fn ranging(panel: &Panel) -> impl Iterator<Item = &(f64, f64)> {
     panel.series.iter().filter(move |series| chosen(series.style)).flat_map(|series| &series.points)
 }
 
-/// Returns the number of steps between the distinct values of x and of y, at least one each.
+/// Returns the number of steps between the distinct values of x, and of those of y, at least one
+/// each: on a map, one less than its columns and rows.
 pub fn tiles(panel: &Panel) -> (usize, usize) {
     let count = |of: fn(&(f64, f64)) -> f64| {
         let mut values: Vec<f64> = ranging(panel).map(of).collect();

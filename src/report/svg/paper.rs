@@ -11,7 +11,7 @@ use rubscope_solver::study::figures::Style;
 /// Ratio of drawing units to displayed pixels. The backend rounds to whole units, which would make
 /// smooth lines jagged at a scale of 1.
 pub const FINE: u32 = 4;
-/// Font size \[px\].
+/// Font size of all text except titles \[px\].
 pub const TEXT: i32 = 15;
 /// Average width of a character relative to the font size: an upper estimate, for wide fonts.
 const LETTER: f64 = 0.47;
@@ -47,7 +47,7 @@ pub fn write_at(area: &Area, text: &str, (x, y): (i32, i32), size: i32) -> Drawn
     Ok(area.draw_text(&text, &style, (px(x), px(y)))?)
 }
 
-/// Returns how many characters of a font size fit into a width.
+/// Returns how many characters of font size `size` \[px\] fit into `width` \[px\].
 pub fn letters_in(width: u32, size: i32) -> usize {
     (f64::from(width) / (LETTER * f64::from(size))) as usize
 }

@@ -80,7 +80,7 @@ pub enum Action {
 /// Where a binding is valid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Context {
-    /// The charts and the knobs.
+    /// Charts and knobs, with no dialogue open.
     Main,
     /// Reading a chart: the arrows move the cursor; other keys as in `Main`.
     Reading,
@@ -100,7 +100,7 @@ pub enum Context {
     Question,
     /// Choosing a scene.
     Scenes,
-    /// Any text field: the editing keys.
+    /// Any text field: its editing keys.
     Field,
     /// Any list: the keys that move in it.
     List,
@@ -111,7 +111,7 @@ pub enum Context {
 /// A key with its modifiers. For a letter, Shift is part of the character.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Chord {
-    /// The key.
+    /// The key without its modifiers; a letter is a capital if Shift is held.
     pub code: KeyCode,
     /// Whether Control is held.
     pub ctrl: bool,
@@ -136,7 +136,8 @@ impl Chord {
     }
 }
 
-/// The key that a character stands for in the footer and in scripts: an arrow sign, or the letter.
+/// Creates the key that a character stands for in the footer and in `--lines`: that of an arrow
+/// sign, or of the character itself.
 impl From<char> for Chord {
     fn from(sign: char) -> Self {
         let code = match sign {
@@ -177,13 +178,13 @@ impl std::fmt::Display for Chord {
 pub struct Binding {
     /// Context in which the binding is valid.
     pub context: Context,
-    /// The keys.
+    /// Keys that do the action; the help lists all of them.
     pub keys: &'static [Chord],
-    /// What the keys do.
+    /// Action of the keys.
     pub action: Action,
     /// The action in a few words, for the help.
     pub what: &'static str,
-    /// Keys and word in the footer, if the binding appears there.
+    /// Keys and word in the footer, such as `↑↓` and `knob`; `None` if it is not shown there.
     pub footer: Option<(&'static str, &'static str)>,
 }
 
@@ -201,7 +202,7 @@ impl Context {
     }
 }
 
-/// Returns the action of a key in a context.
+/// Returns the action of a key in a context or those behind it; `None` if the key has none.
 pub fn lookup(context: Context, chord: Chord) -> Option<Action> {
     let found = with_behind(context).find(|binding| binding.keys.contains(&chord));
     found.map(|binding| binding.action)
@@ -217,7 +218,7 @@ pub fn of(context: Context) -> impl Iterator<Item = &'static Binding> {
     BINDINGS.iter().filter(move |binding| binding.context == context)
 }
 
-/// Lists the keys of a binding, as in `Up, k`.
+/// Lists the keys of a binding as text, such as `Up, k`.
 pub fn keys_text(binding: &Binding) -> String {
     binding.keys.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }

@@ -6,13 +6,13 @@ use std::sync::LazyLock;
 use crate::tui::knobs::{Group, Knob};
 use rubscope_solver::scene::{ContactLaw, ModelSize, Scene, SolverKind};
 
-/// Returns why a knob has no effect in a scene; `None` if it has one.
+/// Function that returns why a knob has no effect in a scene; `None` if it has an effect.
 pub type Inert = fn(&Scene) -> Option<&'static str>;
 
 const STILL: &str = "the blades of the rigid model do not move";
 
 impl Knob {
-    /// Returns why this knob has no effect on the run of a scene; `None` if it has one.
+    /// Returns why this knob has no effect on the run of a scene; `None` if it has an effect.
     pub fn inert(&self, scene: &Scene) -> Option<&'static str> {
         (self.inert)(scene)
     }
@@ -26,7 +26,7 @@ fn is_event(scene: &Scene) -> bool {
     scene.solver.kind == SolverKind::Event
 }
 
-/// Defines functions that return a reason if a condition on the scene holds.
+/// Defines functions of type [`Inert`], each by a condition on the scene and a reason.
 macro_rules! inert {
     ($($name:ident: |$scene:ident| $when:expr => $why:expr;)+) => {
         $(pub fn $name($scene: &Scene) -> Option<&'static str> { ($when).then_some($why) })+
@@ -80,12 +80,13 @@ pub fn order(scene: &Scene) -> Option<&'static str> {
     torque(scene).or(none)
 }
 
-/// The scene with the paper's values.
+/// The base scene, which has the paper's values.
 static PAPER: LazyLock<Scene> = LazyLock::new(Scene::base);
 
 impl Knob {
-    /// Returns whether the knob takes the scene beyond the paper's model: it belongs to that group
-    /// and differs from the paper's value, or it describes a lining that the scene uses.
+    /// Returns whether the knob takes the scene beyond the paper's model: it is of the group
+    /// [`Group::Beyond`], and its value differs from the paper's or describes the lining of the
+    /// scene.
     pub fn leaves_the_paper(&self, scene: &Scene) -> bool {
         let lining = self.path.starts_with("contact.s");
         self.group == Group::Beyond

@@ -32,13 +32,15 @@ const LAWS: [&str; 3] = ["bilateral", "unilateral", "smooth"];
 /// How a knob steps through its values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Turn {
-    /// Equal steps: fine and coarse.
+    /// Equal steps of a real number, fine and coarse, in the unit of the key; steps in rpm are ten
+    /// times as many rpm.
     Linear(f64, f64),
-    /// Round mantissas in each decade; the value below this magnitude is zero.
+    /// Round mantissas in each decade. A step below this magnitude, in the unit of the key, leads
+    /// to zero.
     Decades(f64),
-    /// Whole steps: fine and coarse.
+    /// Equal steps of a whole number, fine and coarse.
     Whole(u64, u64),
-    /// The next word of a list.
+    /// Steps through a list of words, and from its end to its start.
     Words,
 }
 
@@ -87,21 +89,22 @@ pub fn knob_of(path: &str) -> Option<&'static Knob> {
 /// An entry of the knob table.
 #[derive(Debug)]
 pub struct Knob {
-    /// Its group.
+    /// Group of the panel that lists the knob.
     pub group: Group,
-    /// Short name.
+    /// Short name, which usually ends in the symbol.
     pub label: &'static str,
-    /// The key that it sets.
+    /// Dotted key of the scene that the knob sets.
     pub path: &'static str,
-    /// How it steps.
+    /// How the knob steps through its values.
     pub turn: Turn,
     /// Effect of turning the knob, in one sentence.
     pub does: &'static str,
-    /// The usual range, shown as a bar.
+    /// How the range of the knob's bar is chosen.
     bar: Bar,
-    /// Usual magnitude, for the bar of a knob that is 0 in the opened scene.
+    /// Usual magnitude of the value, in the unit of the key, for the bar of a knob that is 0 in the
+    /// opened scene.
     usual: f64,
-    /// Returns why it has no effect in a scene, if it has none.
+    /// Returns why the knob has no effect in a scene; `None` if it has an effect.
     inert: Inert,
 }
 
@@ -110,7 +113,7 @@ impl Knob {
         keys::KEYS.iter().find(|key| key.path == self.path)
     }
 
-    /// Returns the value in a scene.
+    /// Returns the value of the knob in a scene.
     pub fn get(&self, scene: &Scene) -> Value {
         self.key().map_or_else(
             || {
@@ -122,8 +125,9 @@ impl Knob {
         )
     }
 
-    /// Returns the scene with this value, checked, and a message if solver, contact law or model
-    /// had to change with it; then the nearest combination that works is chosen.
+    /// Returns the scene with this value, checked. If the value needs another solver, contact law
+    /// or model, the nearest combination that works is chosen, and the message says so; otherwise
+    /// it is `None`.
     ///
     /// # Errors
     /// The value is refused, for this reason.
@@ -155,7 +159,7 @@ impl Knob {
         Ok((changed, said))
     }
 
-    /// Returns the message about keys that changed together with this knob.
+    /// Returns the message about keys that changed together with this knob; `None` if none did.
     fn followed(&self, made: &[Adjustment], law: ContactLaw) -> Option<String> {
         let first = made.first()?;
         Some(match (first.key, self.path) {
@@ -181,7 +185,7 @@ impl Knob {
         })
     }
 
-    /// Returns the value one step up or down.
+    /// Returns the value one step above or below `value`, within the bounds of the knob.
     pub fn turned(&self, value: &Value, up: bool, coarse: bool, scene: &Scene) -> Value {
         match (value, self.turn) {
             (Value::Real(x), Turn::Linear(fine, large)) => {
@@ -250,17 +254,17 @@ impl Knob {
         self.key().map_or(number::ALLOWED, |key| key.allowed)
     }
 
-    /// Returns the unit; empty for words and counts.
+    /// Returns the SI unit of the knob; empty for words and counts.
     pub fn unit(&self) -> &'static str {
         self.key().map_or("m", |key| key.unit).trim_matches('-')
     }
 
-    /// Formats the value in a scene.
+    /// Formats the value of the knob in a scene, with prefix and unit.
     pub fn text(&self, scene: &Scene) -> String {
         self.shown(&self.get(scene))
     }
 
-    /// Formats a value with its prefix and unit.
+    /// Formats a value of this knob, with prefix and unit.
     pub fn shown(&self, value: &Value) -> String {
         match value {
             Value::Real(x) => axis::number(*x, self.unit()),
@@ -269,12 +273,12 @@ impl Knob {
         }
     }
 
-    /// Returns the symbol, which is the last word of the label.
+    /// Returns the last word of the label, which is the symbol if the knob has one.
     pub fn symbol(&self) -> &'static str {
         self.label.split(' ').next_back().unwrap_or(self.label)
     }
 
-    /// Returns the label without its symbol.
+    /// Returns the label without its symbol; the whole label if it has none.
     pub fn name(&self) -> &'static str {
         let is_word = |word: &str| word.len() > 1 && word.bytes().all(|b| b.is_ascii_lowercase());
         match self.label.rsplit_once(' ') {
@@ -283,8 +287,7 @@ impl Knob {
         }
     }
 
-    /// Describes the allowed values, with the unit; empty for a list of words, which the
-    /// description of the knob names.
+    /// Describes the allowed values: the words, or the bounds with the unit shown.
     pub fn range_words(&self) -> String {
         let (factor, unit) = in_shown_unit(1.0, self.unit());
         let words = match self.allowed() {
@@ -299,14 +302,15 @@ impl Knob {
         format!("{words} {unit}").trim_end().to_string()
     }
 
-    /// Returns the text typed so far, with a cursor and the unit of a plain number.
+    /// Returns the text typed so far in at most `columns` columns, with a cursor and the unit that
+    /// a plain number gets.
     pub fn typed(&self, text: &Field, columns: usize) -> String {
         let unit = in_shown_unit(0.0, self.unit()).1;
         let text = text.shown(columns.saturating_sub(unit.chars().count() + 1));
         format!("{text} {unit}").trim_end().to_string()
     }
 
-    /// Returns the message for a refused value, with labels in place of the keys of the file.
+    /// Returns the message for a refused value, with the labels of knobs in place of keys.
     pub fn refusal(&self, error: &SceneError) -> String {
         if let SceneError::Unit { value, why, .. } = error {
             return format!("{}: {value} cannot be read: {why}", self.label);
@@ -344,7 +348,7 @@ impl Knob {
         Quantity::of(self.unit())
     }
 
-    /// Parses typed text: a number, optionally with a unit or an SI prefix, or a word or its
+    /// Parses typed text: a number, with or without a unit or an SI prefix, or a word or its
     /// beginning.
     ///
     /// # Errors

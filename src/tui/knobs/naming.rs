@@ -9,20 +9,20 @@ use rubscope_solver::scene::keys;
 /// Quality of a match, the best first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Fit {
-    /// The label, with or without its symbol, or the key.
+    /// The typed words are the label, with or without its symbol, or the key.
     Name,
-    /// The symbol; a single letter must match in case.
+    /// The typed words are the symbol; a single letter must match in case.
     Symbol,
-    /// One word of the label.
+    /// The typed word is one word of the label.
     Word,
     /// Every typed word begins a word of the label or of the key.
     Begins,
 }
 
-/// Parts of a key that are units.
+/// Parts of a key that are units, which do not name a knob.
 const UNITS: [&str; 9] = ["n", "m", "s", "rad", "s2", "kg", "m2", "nm", "per"];
 
-/// Rates how well typed words name a knob; Greek letters may be spelled out. `None`: not at all.
+/// Rates how well typed words name a knob; `None` if they do not. Greek letters may be spelled out.
 pub fn fit(knob: &Knob, words: &[&str]) -> Option<Fit> {
     let typed = words.join(" ");
     let lower = typed.to_lowercase();
@@ -52,7 +52,7 @@ pub fn fit(knob: &Knob, words: &[&str]) -> Option<Fit> {
     (!words.is_empty() && words.iter().all(begins)).then_some(Fit::Begins)
 }
 
-/// Returns the knob with the best match.
+/// Returns the knob that the typed words name best, and how well; `None` if they name none.
 pub fn best(
     mut knobs: impl Iterator<Item = &'static Knob>,
     words: &[&str],
@@ -61,8 +61,8 @@ pub fn best(
     fitting.min_by_key(|(fit, _)| *fit)
 }
 
-/// Returns the index of the knob that a line consists of: its name, the first word of it, or its
-/// symbol.
+/// Returns the index in [`KNOBS`] of the knob that a whole line names by its label, the first word
+/// of its label, or its symbol; `None` for any other text.
 pub fn called(typed: &str) -> Option<usize> {
     let words: Vec<&str> = typed.split_whitespace().collect();
     let place = |wanted: Fit, has: fn(&Knob) -> bool| {

@@ -15,7 +15,8 @@ pub(super) fn mantissas(coarse: bool) -> &'static [f64] {
     if coarse { COARSE } else { FINE }
 }
 
-/// Returns the next number up or down with a mantissa of the list; below `least`, zero.
+/// Returns the next number above or below `x` with one of `mantissas`. Magnitudes below `least` are
+/// skipped: a step down from `least` leads to zero.
 pub(super) fn decades(x: f64, up: bool, mantissas: &[f64], least: f64) -> f64 {
     if x.abs() < least * (1.0 - 1e-9) {
         return if up { least } else { 0.0 };
@@ -42,18 +43,19 @@ pub(super) fn decades(x: f64, up: bool, mantissas: &[f64], least: f64) -> f64 {
     }
 }
 
-/// Name of the clearance, used instead of a key.
+/// Name of the clearance, which stands for a key in the knob table.
 pub(super) use rubscope_solver::scene::keys::CLEARANCE;
 
-/// Allowed clearances; rigid contact also refuses zero and negative ones.
+/// Allowed clearances \[m\]. Zero is refused too, and so are negative ones without a lining.
 pub(super) const ALLOWED: Allowed = Allowed::Real { min: -1e3, max: 1e3, above: false };
 
-/// Smallest clearance that steps reach \[m\].
+/// Smallest positive clearance that steps reach, without a lining \[m\].
 pub(super) const LEAST: f64 = 1e-9;
-/// The same on a lining; one more step down changes the sign.
+/// Smallest positive clearance that steps reach on a lining \[m\]; one more step down changes its
+/// sign.
 const LEAST_ON_LINING: f64 = 1e-6;
 
-/// Returns the clearance one step up or down. Steps skip zero.
+/// Returns the clearance one step above or below `x` \[m\]. On a lining, steps skip zero.
 pub(super) fn turned(x: f64, up: bool, coarse: bool, scene: &Scene) -> f64 {
     let lining = scene.solver.contact == ContactLaw::Smooth;
     let least = if lining { LEAST_ON_LINING } else { LEAST };

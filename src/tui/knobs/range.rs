@@ -1,13 +1,13 @@
-//! The bar of a knob as numbers: its usual range, which is a column of the table, the limits
-//! marked on it (of the speed, and the pulse from which on a blade touches), and the value at a
-//! place of the bar.
+//! The bar of a knob as numbers: its usual range, the limits marked on it (speed limits, and the
+//! smallest pulse that makes a blade touch), and the value at a position on the bar.
 
 use crate::report::number::rounded;
 use crate::tui::knobs::{Knob, Turn};
 use rubscope_solver::model::Machine;
 use rubscope_solver::scene::{Allowed, ContactLaw, Scene, Value};
 
-/// The range that a bar covers, for a knob or a limit. Values may lie outside.
+/// The range of values that a bar covers, for a knob or a limit. Values outside it are shown at its
+/// ends.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KnobRange {
     low: f64,
@@ -16,7 +16,7 @@ pub struct KnobRange {
     log: bool,
     /// -1 if the bar shows the magnitudes of negative values, otherwise 1.
     sign: f64,
-    /// Limits marked on the bar: name and position, 0 to 1.
+    /// Limits marked on the bar: name and position, from 0 (left) to 1.
     pub marks: Vec<(&'static str, f64)>,
 }
 
@@ -44,14 +44,14 @@ impl KnobRange {
         self
     }
 
-    /// Returns the two ends, the lower first, with the fraction `without` cut off at each end, and
-    /// whether the scale is logarithmic.
+    /// Returns the two ends, the lower first, with the fraction `without` of the bar cut off at
+    /// each, and whether an axis between them can be logarithmic.
     pub fn ends(&self, without: f64) -> (f64, f64, bool) {
         let (low, high) = (self.at(without), self.at(1.0 - without));
         (low.min(high), high.max(low), self.log && self.sign > 0.0)
     }
 
-    /// Returns whether positions on the range are defined.
+    /// Returns whether the range is finite and not empty, and positive if it is logarithmic.
     pub fn is_sound(&self) -> bool {
         let ends = self.low.is_finite() && self.high.is_finite() && self.high > self.low;
         ends && (!self.log || self.low > 0.0)
@@ -73,7 +73,7 @@ impl KnobRange {
         (!self.log || value != 0.0).then(|| self.part(value))
     }
 
-    /// Describes a value that is near a marked limit: `just above Ω_lock`.
+    /// Describes a value near a marked limit, as in `just above Ω_lock`; `None` if none is near.
     pub fn near_mark(&self, value: f64) -> Option<String> {
         let here = self.place(value)?;
         let near = self.marks.iter().map(|(name, at)| (name, here - at));
@@ -100,17 +100,18 @@ impl KnobRange {
 
 /// Largest distance at which a value counts as near a limit, as a fraction of the bar.
 const NEAR: f64 = 0.1;
-/// Ratio of the upper end to the usual value, and of that to the lower end.
+/// Ratio of the upper end of a logarithmic bar to the usual value, and of that to the lower end.
 const AROUND: f64 = 10.0;
 
 /// How the range of a knob's bar is chosen.
 #[derive(Clone, Copy, Debug)]
 pub enum Bar {
-    /// Logarithmic, a decade on each side of the value in the opened scene.
+    /// A decade on each side of the value in the opened scene, on a logarithmic scale; for a whole
+    /// number, from half to twice that value on a linear scale.
     Around,
-    /// Linear, between two values.
+    /// Between two values in the unit of the key, on a linear scale.
     From(f64, f64),
-    /// Computed from the scene.
+    /// Computed from the scene by this function.
     Of(fn(&Case) -> KnobRange),
 }
 
@@ -119,7 +120,7 @@ pub enum Bar {
 pub struct Case<'a> {
     knob: &'a Knob,
     value: f64,
-    /// Value in the scene as it was opened.
+    /// Value of the knob in the scene as it was opened.
     opened: f64,
     scene: &'a Scene,
     machine: &'a Machine,
@@ -138,7 +139,7 @@ impl Case<'_> {
         self.scene.solver.contact == ContactLaw::Smooth
     }
 
-    /// Returns the magnitude in the opened scene, or the knob's usual one if that is 0.
+    /// Returns the magnitude of the knob in the opened scene, or its usual one if that is 0.
     fn usual(&self) -> f64 {
         if self.opened == 0.0 { self.knob.usual } else { self.opened.abs() }
     }
@@ -163,9 +164,10 @@ pub mod bars {
     /// The largest interference on the bar, relative to the largest clearance. It is not 1, so that
     /// zero lies between two cells of a map.
     const PRESSED: f64 = 0.9;
-    /// The first touch is searched for within this many periods of the casing.
+    /// The smallest pulse that makes a blade touch is sought in this many periods of the casing.
     const PERIODS: f64 = 20.0;
-    /// Upper end of the speed bar, as a multiple of the highest threshold.
+    /// Upper end of the speed bar, as a multiple of the highest of critical speed, lock speed and
+    /// coincidence.
     const BEYOND: f64 = 1.5;
 
     pub fn speed(case: &Case) -> KnobRange {
@@ -252,14 +254,14 @@ pub mod bars {
 }
 
 impl Knob {
-    /// Returns the range of the knob's bar with its marks; `None` for words. It depends on the
-    /// opened scene and the machine, not on the present value, so that the scale stays put while
-    /// the knob turns.
+    /// Returns the range of the knob's bar with its marks; `None` for words, and for a range that
+    /// is empty or not finite. It follows from the opened scene and the machine, and hardly from
+    /// the present value except for its sign, so that the scale stays put while the knob turns.
     pub fn range(&self, scene: &Scene, opened: &Scene, machine: &Machine) -> Option<KnobRange> {
         self.range_around(self.number(opened)?, scene, machine)
     }
 
-    /// As [`Self::range`], with another value in place of the opened scene's.
+    /// As [`Self::range`], with `opened` in place of the value in the opened scene.
     pub fn range_around(&self, opened: f64, scene: &Scene, machine: &Machine) -> Option<KnobRange> {
         let case = Case { knob: self, value: self.number(scene)?, opened, scene, machine };
         let range = match self.bar {
@@ -270,7 +272,7 @@ impl Knob {
         Some(range).filter(KnobRange::is_sound)
     }
 
-    /// Returns the value as a number; `None` for words.
+    /// Returns the value of the knob in a scene as a number; `None` for words.
     pub fn number(&self, scene: &Scene) -> Option<f64> {
         match self.get(scene) {
             Value::Real(x) => Some(x),
@@ -279,7 +281,8 @@ impl Knob {
         }
     }
 
-    /// Returns the value that the knob would be turned to next to a number, for a click in its bar.
+    /// Returns the value nearest to `x` that turning the knob can give, for a click in its bar;
+    /// `None` for words.
     pub fn near(&self, x: f64) -> Option<Value> {
         match (self.turn, self.allowed()) {
             (Turn::Linear(fine, _), _) => Some(Value::Real(self.stepped(x, fine, None))),
