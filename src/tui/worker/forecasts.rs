@@ -1,6 +1,7 @@
-//! Everything computed besides the playing motion: the run to its end, the reference run with the
-//! event solver, the sensitivity check, and the studies. When a knob is turned faster than a run
-//! takes, one older run continues, so that a verdict still appears as often as a run can finish.
+//! The computations that look ahead of the playing motion: the run to its end, the reference run
+//! with the event solver, the sensitivity check, and the studies. When a knob is turned faster than
+//! a run takes, one older run continues, so that a verdict still appears as often as a run can
+//! finish.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};

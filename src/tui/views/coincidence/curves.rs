@@ -22,7 +22,7 @@ pub struct CoincidenceCurves {
     pub from: f64,
     /// Upper end of the speed range \[rad/s\].
     pub to: f64,
-    /// Marked speeds in ascending order \[rad/s\], with their labels.
+    /// Marked speeds, as magnitudes in ascending order \[rad/s\], with their labels.
     pub markers: Vec<(f64, &'static str)>,
     /// Points in order of |speed|; speeds are negative if the rotor turns backward.
     pub points: Vec<CoincidencePoint>,
