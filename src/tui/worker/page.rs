@@ -154,8 +154,8 @@ pub fn longest_sample(motion: &Motion) -> f64 {
     std::f64::consts::TAU / fastest.max(f64::MIN_POSITIVE) / PER_TURN
 }
 
-/// Advances to the time `until` \[s\], or by one time step of `step` seconds if `until` is before the
-/// next step. Returns false if `go_on` stopped it before.
+/// Advances to the time `until` \[s\], or by one time step of `step` seconds if `until` is before
+/// the next step. Returns false if `go_on` stopped it before.
 ///
 /// # Errors
 /// As `Solver::advance_while`.

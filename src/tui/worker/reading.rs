@@ -17,8 +17,8 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// Starts to compute the state at a time \[s\], from a motion at or before it. The previous state
-    /// stays until the new one is complete; `None` removes it.
+    /// Starts to compute the state at a time \[s\], from a motion at or before it. The previous
+    /// state stays until the new one is complete; `None` removes it.
     pub fn begin(&mut self, from: Option<(f64, Motion)>) {
         if from.is_none() {
             self.done = None;
