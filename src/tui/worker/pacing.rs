@@ -95,9 +95,9 @@ impl Reached {
     }
 }
 
-/// Returns the playback rate at the time `now` \[s\]: proportional to the time to the nearest change
-/// of contact in `marks`, within limits around the requested `rate`; `rate` itself where the
-/// changes are dense.
+/// Returns the playback rate at the time `now` \[s\]: proportional to the time to the nearest
+/// change of contact in `marks`, within limits around the requested `rate`; `rate` itself where
+/// the changes are dense.
 pub fn rate_at(now: f64, rate: f64, marks: &[Mark]) -> f64 {
     let next = marks.partition_point(|mark| mark.t_s <= now);
     let ahead = marks.get(next).map(|mark| mark.t_s - now);
