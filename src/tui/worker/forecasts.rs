@@ -55,7 +55,8 @@ impl Forecasts {
     }
 
     /// Starts a new run of `length` seconds after a change of the motion. It has neither a
-    /// reference nor a sensitivity check. The run of the previous `scene` continues in the background.
+    /// reference nor a sensitivity check. The run of the previous `scene` continues in the
+    /// background.
     pub fn changed(&mut self, scene: &CheckedScene, motion: &Motion, length: f64) {
         let run = std::mem::replace(&mut self.full_run, FullRunJob::new(motion.clone(), length));
         self.answers.turned_on(scene, run);

@@ -26,7 +26,6 @@ const TURN: f64 = std::f64::consts::TAU / PER_TURN;
 const PLAY_LIMIT: Duration = Duration::from_millis(25);
 /// Most wall-clock time that one tick makes up for, for example after a suspension.
 const LONGEST_TICK: Duration = Duration::from_millis(100);
-
 /// The playing motion, with its forecasts.
 #[derive(Debug)]
 pub struct Playback {

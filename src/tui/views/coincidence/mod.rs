@@ -67,6 +67,7 @@ struct Quantity {
     /// Symbol of the curve in the legend.
     curve: &'static str,
     unit: &'static str,
+    /// Its value at a point; `None` leaves a gap in the curve.
     of: fn(&CoincidencePoint) -> Option<f64>,
 }
 
@@ -204,7 +205,8 @@ fn reading(app: &App, speed: f64) -> String {
     at + &parts.join(", ")
 }
 
-/// Returns the blade amplitude of the running motion during contact \[rad\].
+/// Returns the blade amplitude of the running motion \[rad\]; `None` without contact, and with
+/// rigid blades.
 fn now(app: &App) -> Option<f64> {
     let moment = app.run.latest.moment.as_ref()?;
     let [a_c, a_s] = moment.state.alpha;

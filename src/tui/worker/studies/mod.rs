@@ -180,7 +180,7 @@ trait Work {
     fn is_done(&self, given: &Given) -> bool;
     fn work(&mut self, given: &Given, patience: Duration);
     fn stop_unwanted(&mut self, given: &Given);
-    /// Returns the progress; `None` unless the study has been running for longer than [`LONG`].
+    /// Returns the progress; `None` unless the study has been running for longer than `LONG`.
     fn working(&self, given: &Given) -> Option<Working>;
 }
 
@@ -270,7 +270,7 @@ impl Studies {
         self.all_mut().for_each(|study| study.stop_unwanted(&given));
     }
 
-    /// Returns the progress of the studies that have been running for longer than [`LONG`].
+    /// Returns the progress of the studies that have been running for longer than `LONG`.
     pub fn working(&self, order: &Order, run: &FullRunJob) -> Vec<Working> {
         let given = self.given(order, run);
         self.all().filter_map(|study| study.working(&given)).collect()
