@@ -163,8 +163,8 @@ impl App {
         self.run.compare && self.is_large(ViewId::Response)
     }
 
-    /// Returns the state of the motion at the cursor; without a cursor, or until that state is
-    /// computed, the state of the playing motion. `None` before the first snapshot.
+    /// Returns the state last computed for the cursor; without a cursor, or before there is one,
+    /// the state of the playing motion. `None` before the first snapshot.
     pub fn shown(&self) -> Option<&Moment> {
         let reading = self.results().reading.as_deref();
         let reading = reading.filter(|_| self.reading.at_s.is_some());

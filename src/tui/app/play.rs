@@ -69,7 +69,7 @@ pub struct Play {
     pub steps: u64,
     /// Number of jumps to the next change of contact requested.
     pub jumps: u64,
-    /// Number of times that the user continued past the end of the run.
+    /// Number of times that the user continued past the end of this run.
     pub extensions: u64,
     /// Whether playback stopped because the run ended, not because the user paused it.
     stopped_by_end: bool,
@@ -77,7 +77,7 @@ pub struct Play {
     pub page: i64,
     /// Number of the latest jump whose result was reported.
     met: u64,
-    /// Number of times the end of the run was reported.
+    /// Number of times that the end of this run was reported.
     ends: u64,
 }
 
