@@ -307,8 +307,8 @@ impl App {
         self.has_lining() || (bends && self.machine.radial_coupling != 0.0)
     }
 
-    /// Returns a note that the frequency-domain results assume equal blades in two modes; `None` if
-    /// the run assumes the same.
+    /// Returns a note that the frequency-domain results assume equal blades in two modes; `None`
+    /// unless the run computes every blade (the full model).
     pub fn tuned_note(&self) -> Option<&'static str> {
         self.scene.tuned_note().map(|_| "of equal blades, two modes")
     }

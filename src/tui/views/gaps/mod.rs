@@ -88,7 +88,7 @@ impl ViewPanel for GapsView {
     }
 }
 
-/// Returns the index of the blade under the cursor.
+/// Returns the index of the blade under the cursor, from 0; `None` without a cursor in this view.
 fn read_blade(app: &App) -> Option<u32> {
     let cursor = app.cursor_in(ViewId::Gaps)?;
     Some(cell_of(cursor.across, app.machine.polygon.blades))
