@@ -119,7 +119,7 @@ fn split(area: Rect, app: &App) -> Vec<(ViewId, Rect)> {
     views.zip(areas).collect()
 }
 
-/// Height of the charts below the large one \[% of the area of all charts\].
+/// Height of the charts below the large one on a wide screen \[% of the height of all charts\].
 const LOWER: u16 = 45;
 /// Width of the wheel beside another chart \[% of the width of both\].
 const WHEEL_PART: u16 = 44;

@@ -59,6 +59,7 @@ fn square(area: Rect, reach: f64) -> (ChartAxis, ChartAxis) {
 }
 
 /// Describes the position under the cursor: the nearest blade group and its gap, for rigid blades.
+/// `None` without a cursor in this view.
 fn reading(app: &App, x: ChartAxis, y: ChartAxis, apothems: &[f64]) -> Option<String> {
     let cursor = app.cursor_in(ViewId::Frame)?;
     let (x, y) = (x.at(cursor.across), y.at(cursor.up));

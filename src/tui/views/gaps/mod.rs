@@ -94,7 +94,8 @@ fn read_blade(app: &App) -> Option<u32> {
     Some(cell_of(cursor.across, app.machine.polygon.blades))
 }
 
-/// Describes the blade under the cursor: number, gap, and the time if the cursor has one.
+/// Describes the blade under the cursor: number, gap, and the time if the cursor has one. `None`
+/// with neither, and before the first snapshot.
 fn reading(app: &App) -> Option<String> {
     let moment = app.shown()?;
     let blade = read_blade(app).and_then(|blade| {
