@@ -28,6 +28,7 @@ pub enum Target {
     Lesson(usize),
 }
 
+/// The state of the mouse.
 #[derive(Clone, Debug)]
 pub struct Mouse {
     /// Whether mouse events are used.

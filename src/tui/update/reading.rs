@@ -18,8 +18,8 @@ impl App {
         }
     }
 
-    /// Moves the cursor to the time `t` \[s\] and pauses. Every panel then shows that time. The page
-    /// stays if it includes `t`; otherwise it is centred on `t`.
+    /// Moves the cursor to the time `t` \[s\] and pauses. Every panel then shows that time. The
+    /// page stays if it includes `t`; otherwise it is centred on `t`.
     pub(super) fn go_to(&mut self, t: f64) {
         let ((from, to), middle) = (self.page(), self.middle_s());
         self.play.middle_s = Some(if (from..=to).contains(&t) { middle } else { t });
@@ -29,8 +29,8 @@ impl App {
     }
 
     /// Moves the cursor to a position in the large chart. In the response, the motion pauses and
-    /// every panel shows the time of that position; in the gaps and the wheel, it pauses at the time
-    /// shown.
+    /// every panel shows the time of that position; in the gaps and the wheel, it pauses at the
+    /// time shown.
     pub(super) fn put_cursor(&mut self, cursor: Cursor) {
         let (from, to) = self.page();
         match self.view() {

@@ -18,6 +18,7 @@ use rubscope_solver::scene::CheckedScene;
 
 /// A view of the explorer: drawing, export, and its cursor.
 pub trait ViewPanel: Sync {
+    /// Draws the view.
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea);
 
     /// Exports the view's data as CSV.

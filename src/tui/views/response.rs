@@ -28,6 +28,7 @@ const MOST_NAMES: usize = 500;
 /// Width from which two contact laws are side by side.
 const SIDE_BY_SIDE_FROM: u16 = 90;
 
+/// The view of casing and blade coordinates over time.
 pub struct ResponseView;
 
 impl ViewPanel for ResponseView {

@@ -24,6 +24,7 @@ use rubscope_solver::harmonic::CoincidencePoint;
 use rubscope_solver::motion::ActiveSet;
 use rubscope_solver::scene::ModelSize;
 
+/// The view of blade amplitude and growth rate over speed.
 pub struct CoincidenceView;
 
 impl ViewPanel for CoincidenceView {

@@ -23,6 +23,7 @@ use rubscope_solver::motion::ActiveSet;
 /// Width from which the polygon is drawn beside the wheel, if the view is alone on the screen.
 const BOTH_FROM: u16 = 76;
 
+/// The view of the wheel, and of the wave in the frame of the blades.
 pub struct FrameView;
 
 impl ViewPanel for FrameView {

@@ -12,6 +12,7 @@ use crate::tui::theme::Role;
 use crate::tui::views::ViewId;
 use crate::tui::views::panel::{ViewArea, ViewPanel, csv, name_level, read_before, title};
 
+/// The view of the gap of every blade.
 pub struct GapsView;
 
 impl ViewPanel for GapsView {

@@ -28,6 +28,7 @@ const ROOMY: u16 = 14;
 /// Largest number of rows for the values at the cursor.
 const READ_ROWS: usize = 3;
 
+/// The view of the locked motion over speed.
 pub struct LockedView;
 
 impl ViewPanel for LockedView {
@@ -232,6 +233,7 @@ pub const AMPLITUDES: Chart = Chart {
 };
 
 impl Chart {
+    /// Draws the chart; nothing if there is no locked motion.
     pub fn draw(&self, app: &App, curves: &LockedCurves, buffer: &mut Buffer, at: ViewArea) {
         let look = &app.appearance;
         let quiet = look.style(Role::Quiet);

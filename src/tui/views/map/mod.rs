@@ -28,6 +28,7 @@ const TWO_ROWS_FROM: u16 = 14;
 /// Height from which there is one row of text above the map.
 const ONE_ROW_FROM: u16 = 7;
 
+/// The view of the verdict over two knobs.
 pub struct MapView;
 
 impl ViewPanel for MapView {

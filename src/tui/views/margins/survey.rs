@@ -20,6 +20,7 @@ const TOLD_FROM: u16 = 6;
 /// Largest number of lines of the summary.
 const MOST_TOLD: usize = 2;
 
+/// Draws the survey; `cell` is the index of the row under the cursor, `None` without one.
 pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea, cell: Option<usize>) {
     let look = &app.appearance;
     let quiet = look.style(Role::Quiet);

@@ -21,6 +21,7 @@ use crate::tui::views::spectrum::lines::Spectrum;
 /// Ends of the amplitude axis, as powers of ten of a metre.
 const DECADES: (f64, f64) = (-10.0, -3.0);
 
+/// The view of the spectrum, above the Campbell diagram.
 pub struct SpectrumView;
 
 impl ViewPanel for SpectrumView {
