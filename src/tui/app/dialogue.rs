@@ -9,6 +9,7 @@ pub enum InputMode {
     Main,
     /// Typing a value for the selected knob.
     Typing(Field),
+    /// The help, with its search.
     Help(HelpState),
     /// The command palette: commands are searched by name.
     Palette(PaletteState),
@@ -22,7 +23,7 @@ pub enum InputMode {
     Scenes(Option<usize>),
 }
 
-/// What the file will contain whose name is being typed.
+/// What will be written to the file whose name is being typed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// The scene as a TOML file.
@@ -31,10 +32,13 @@ pub enum Purpose {
     Export,
 }
 
+/// The state of the dialogues.
 #[derive(Clone, Debug)]
 pub struct Dialogue {
+    /// What the keyboard acts on.
     pub mode: InputMode,
-    /// Page of the selected scene's note, if the note is longer than its area.
+    /// How often the note of the selected scene was turned to its next page; after the last page
+    /// follows the first.
     pub note_page: usize,
     /// Whether this is the first start and no key was pressed yet: the footer then says what to
     /// try.
@@ -69,7 +73,7 @@ impl Dialogue {
         self.mode = InputMode::Main;
     }
 
-    /// Returns the text field that has the keyboard, if there is one.
+    /// Returns the text field that has the keyboard; `None` if no dialogue with one is open.
     pub fn typed(&mut self) -> Option<&mut Field> {
         match &mut self.mode {
             InputMode::Typing(text) | InputMode::Naming(_, text) => Some(text),
@@ -89,6 +93,7 @@ impl Dialogue {
     }
 }
 
+/// The open help.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct HelpState {
     /// Search words: only entries that contain all of them are listed.
@@ -103,6 +108,7 @@ pub struct HelpState {
 /// The open command palette.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PaletteState {
+    /// The command or search words typed so far.
     pub typed: Field,
     /// Index of the selected entry among the matches.
     pub place: usize,

@@ -8,24 +8,28 @@ use crate::tui::app::{App, Purpose, Source};
 use crate::tui::files::{FoundScene, FoundScenes, builtin_scenes};
 use rubscope_solver::scene::{CheckedScene, DEFAULT, Scene};
 
+/// A file that is being written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Writing {
     /// File name as typed.
     pub name: String,
+    /// What is written to it.
     pub purpose: Purpose,
     /// Whether no key was pressed since the write began.
     pub undisturbed: bool,
 }
 
+/// The open scene, and the files of the directory.
 #[derive(Clone, Debug)]
 pub struct Files {
-    /// Directory for written files; empty means the working directory.
+    /// Directory in which scenes are found and files are written; empty means the working
+    /// directory.
     pub directory: PathBuf,
     /// The scene as opened; `Backspace` restores its values.
     pub opened: CheckedScene,
-    /// Where the scene came from; the command line needs it.
+    /// Where the scene came from, for the command line; `None` for the built-in default.
     pub source: Option<Source>,
-    /// The write under way, if there is one.
+    /// The write under way; `None` if there is none.
     pub writing: Option<Writing>,
     /// The scene files of the directory, as last read.
     pub found: FoundScenes,
@@ -53,7 +57,7 @@ impl Files {
 }
 
 impl App {
-    /// Returns the command line as one string.
+    /// Returns the command line that repeats the run, as one string.
     pub fn command(&self) -> String {
         self.command_line().to_string()
     }
@@ -88,6 +92,7 @@ pub struct SceneEntry {
     pub scene: Result<CheckedScene, String>,
     /// Whether it is a file; otherwise it is built in.
     pub file: bool,
+    /// Whether it is the open scene.
     pub open: bool,
 }
 

@@ -9,11 +9,12 @@ use crate::tui::knobs::{KNOBS, Knob, place_of};
 use crate::tui::views::id::ViewId;
 use rubscope_solver::scene::{CheckedScene, SceneError};
 
+/// The selected knob, and the states that undo and redo restore.
 #[derive(Clone, Debug, Default)]
 pub struct Knobs {
-    /// Index in `KNOBS`.
+    /// Index in `KNOBS` of the selected knob.
     pub selected: usize,
-    /// Why the last value typed or turned was refused.
+    /// Why the last value typed or turned was refused; `None` if it was not.
     pub refusal: Option<String>,
     /// Whether knobs act on the running motion instead of restarting it.
     pub live: bool,
@@ -26,15 +27,24 @@ pub struct Knobs {
 /// Number of changes that can be undone.
 const KEPT: usize = 1000;
 
+/// A state that undo restores.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Past {
+    /// The scene with its knob values.
     pub scene: CheckedScene,
+    /// The scene as opened.
     pub opened: CheckedScene,
+    /// Where it came from; `None` for the built-in default.
     pub source: Option<Source>,
+    /// The views, the large one first.
     pub views: Vec<ViewId>,
+    /// Settings of playback.
     pub tempo: Tempo,
+    /// Whether knobs acted on the running motion.
     pub live: bool,
+    /// Whether the scene also ran under the other contact law.
     pub compare: bool,
+    /// Progress in the open lesson; `None` if none was open.
     pub lesson: Option<LessonProgress>,
 }
 
@@ -74,8 +84,8 @@ impl Knobs {
         self.redo.clear();
     }
 
-    /// Returns the state before, or after, this one, and records this one; `None` where there is no
-    /// such state.
+    /// Returns the state before `now`, or the one after it if `redo`, and records `now`. `None` if
+    /// there is no such state.
     pub fn step_back(&mut self, redo: bool, now: Past) -> Option<Past> {
         let Self { undo, redo: redone, .. } = self;
         let (from, to) = if redo { (redone, undo) } else { (undo, redone) };

@@ -9,6 +9,7 @@ use rubscope_solver::scene::Scene;
 /// Largest number of charts beside the large one.
 const MOST_BESIDE: usize = 3;
 
+/// Which views are on the screen, and where.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layout {
     /// All views: the large one, then the others in screen order. Only the first `1 + beside` are
@@ -18,7 +19,7 @@ pub struct Layout {
     pub beside: usize,
     /// Whether the margins view shows the survey over all nodal diameters.
     pub survey: bool,
-    /// Speed range of the survey; `None` covers all speeds \[rad/s\].
+    /// Speed range of the survey \[rad/s\]; `None` covers all speeds.
     pub range: Option<[f64; 2]>,
     /// Whether the large chart fills the screen.
     pub full_screen: bool,
@@ -47,10 +48,12 @@ impl Layout {
         self.views = views;
     }
 
+    /// Returns the large view.
     pub fn view(&self) -> ViewId {
         self.views.first().copied().unwrap_or(ViewId::Response)
     }
 
+    /// Returns all views: the large one, then the others in screen order.
     pub fn views(&self) -> &[ViewId] {
         &self.views
     }

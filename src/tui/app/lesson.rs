@@ -17,46 +17,50 @@ pub struct LessonProgress {
     pub step: usize,
     /// Answer and task of every step.
     pub steps: Vec<StepProgress>,
-    /// The place of the answer that Enter gives.
+    /// Index of the answer that Enter gives.
     pub choice: usize,
     /// State before the lesson, restored when it ends.
     pub own: Arc<Past>,
 }
 
+/// Progress in one step of a lesson.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StepProgress {
-    /// Index of the answer given.
+    /// Index of the answer given; `None` before that, and without a question.
     pub answer: Option<usize>,
-    /// Whether the step is complete.
+    /// Whether the question is answered and the task done.
     pub done: bool,
 }
 
 impl LessonProgress {
+    /// Returns the progress in the current step.
     pub fn now(&self) -> StepProgress {
         self.steps.get(self.step).copied().unwrap_or_default()
     }
 
+    /// As [`Self::now`], to change it; `None` if there is no such step.
     pub fn now_mut(&mut self) -> Option<&mut StepProgress> {
         self.steps.get_mut(self.step)
     }
 }
 
+/// The open lesson, and the steps completed in all lessons.
 #[derive(Clone, Debug, Default)]
 pub struct Lessons {
-    /// Progress in the current lesson, if one is open.
+    /// Progress in the open lesson; `None` if none is open.
     pub progress: Option<LessonProgress>,
     /// All steps completed so far, in any session.
     pub done: LessonsDone,
 }
 
 impl App {
-    /// Returns the open lesson and its progress.
+    /// Returns the open lesson and its progress; `None` if none is open.
     pub fn current_lesson(&self) -> Option<(&'static Lesson, &LessonProgress)> {
         let progress = self.lessons.progress.as_ref()?;
         Some((lessons::all().get(progress.lesson)?, progress))
     }
 
-    /// Returns the current step and its progress.
+    /// Returns the current step and its progress; `None` if no lesson is open.
     pub fn lesson_step(&self) -> Option<(&'static LessonStep, StepProgress)> {
         let (lesson, progress) = self.current_lesson()?;
         Some((lesson.steps.get(progress.step)?, progress.now()))

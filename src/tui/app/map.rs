@@ -21,14 +21,15 @@ impl App {
         MapChoice { rpm: self.appearance.rpm, ..self.map }
     }
 
-    /// Returns the plan of the map on the screen: of the last computed map, until a new one has
-    /// cells.
+    /// Returns the plan of the map on the screen, which is the previous map until a new one covers
+    /// it. `None` if there is no map yet and the scene allows none.
     pub fn shown_plan(&self) -> Option<MapPlan> {
         let shown = self.results().found.map.as_ref().map(|live| live.map.plan.clone());
         shown.or_else(|| self.map_plan().ok())
     }
 
-    /// Returns column and row of the cell under the cursor.
+    /// Returns column and row of the map cell under the cursor, both from 0, row 0 at the bottom.
+    /// `None` without a map, and if the cursor is not in it.
     pub fn map_cell(&self) -> Option<[u32; 2]> {
         let cursor = self.cursor_in(ViewId::Map)?;
         let plan = self.shown_plan()?;
@@ -42,7 +43,8 @@ impl App {
 }
 
 impl App {
-    /// Returns the latest margins, and whether they are outdated (another scene or speed range).
+    /// Returns the latest margins, and whether they are outdated (another scene or speed range);
+    /// `None` if none were computed yet.
     pub fn margins(&self) -> Option<(&LiveMargins, bool)> {
         let live = self.results().found.margins.as_deref()?;
         let range = live.survey.as_ref().map(|survey| survey.range_rad_s);

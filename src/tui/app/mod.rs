@@ -65,7 +65,7 @@ pub struct App {
     pub scene: CheckedScene,
     /// The machine derived from `scene`.
     pub machine: Machine,
-    /// Message in the status line, usually about the last key.
+    /// Message in the status line, usually about the last key; `None` shows the keys instead.
     pub status: Option<String>,
     /// The selected knob, and undo.
     pub knobs: Knobs,
@@ -163,7 +163,8 @@ impl App {
         self.run.compare && self.is_large(ViewId::Response)
     }
 
-    /// Returns the motion at the cursor, or the playing one without a cursor.
+    /// Returns the state last computed for the cursor; without a cursor, or before there is one,
+    /// the state of the playing motion. `None` before the first snapshot.
     pub fn shown(&self) -> Option<&Moment> {
         let reading = self.results().reading.as_deref();
         let reading = reading.filter(|_| self.reading.at_s.is_some());
@@ -176,13 +177,13 @@ impl App {
         self.shown().filter(|moment| (moment.state.t_s - self.now()).abs() <= step)
     }
 
-    /// Returns the rotor speed at the time shown \[rad/s\].
+    /// Returns the rotor speed at the time shown \[rad/s\]; negative if the rotor turns backward.
     pub fn speed(&self) -> f64 {
         let moment = self.shown();
         moment.map_or(self.scene.operation.speed_rad_s, |moment| moment.speed)
     }
 
-    /// Returns why the playing motion failed.
+    /// Returns why the playing motion failed; `None` if it did not.
     pub fn failure(&self) -> Option<&String> {
         self.moment()?.failure.as_ref()
     }

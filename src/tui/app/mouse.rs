@@ -28,11 +28,13 @@ pub enum Target {
     Lesson(usize),
 }
 
+/// The state of the mouse.
 #[derive(Clone, Debug)]
 pub struct Mouse {
     /// Whether mouse events are used.
     pub on: bool,
-    /// Cell at which the wheel turned a knob last, and that knob.
+    /// Screen cell at which the wheel turned a knob last, and the index of that knob; `None` before
+    /// the first turn.
     pub wheeled: Option<((u16, u16), usize)>,
     /// Clickable areas of the last frame. Where they overlap, the later one is on top.
     drawn: RefCell<Vec<(Rect, Target)>>,
@@ -69,7 +71,7 @@ impl App {
         }
     }
 
-    /// Returns the topmost target at a cell, with its area.
+    /// Returns the topmost target at a cell, with its area; `None` if nothing there can be clicked.
     pub fn target(&self, at: (u16, u16)) -> Option<(Rect, Target)> {
         let drawn = self.mouse.drawn.try_borrow().ok()?;
         drawn.iter().rev().copied().find(|(area, _)| area.contains(at.into()))

@@ -48,8 +48,10 @@ pub fn begin_s(scene: &Scene) -> f64 {
     scene.view.begin_s.min(scene.solver.end_s)
 }
 
+/// The state of the playback.
 #[derive(Clone, Debug, Default)]
 pub struct Play {
+    /// Whether the motion plays; otherwise it is paused.
     pub playing: bool,
     /// Index in `RATES`.
     pub rate: usize,
@@ -57,13 +59,17 @@ pub struct Play {
     pub zoom: i32,
     /// Whether playback slows down at changes of contact and speeds up between them.
     pub slow_at_events: bool,
-    /// Centre of the page if it does not follow the motion \[s\].
+    /// Centre of the page \[s\]; `None` if the page follows the motion.
     pub middle_s: Option<f64>,
     /// Target of the latest go-to \[s\].
     pub go_to_s: f64,
+    /// Number of go-tos requested.
     pub goes: u64,
+    /// Number of time steps requested.
     pub steps: u64,
+    /// Number of jumps to the next change of contact requested.
     pub jumps: u64,
+    /// Number of times that the user continued past the end of this run.
     pub extensions: u64,
     /// Whether playback stopped because the run ended, not because the user paused it.
     stopped_by_end: bool,
@@ -71,15 +77,18 @@ pub struct Play {
     pub page: i64,
     /// Number of the latest jump whose result was reported.
     met: u64,
-    /// Number of times the end of the run was reported.
+    /// Number of times that the end of this run was reported.
     ends: u64,
 }
 
 /// Settings of playback that undo restores.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tempo {
+    /// Index in `RATES`.
     pub rate: usize,
+    /// Zoom steps from the usual page length; positive is shorter.
     pub zoom: i32,
+    /// Whether playback slows down at changes of contact.
     pub slow_at_events: bool,
 }
 
@@ -141,12 +150,13 @@ impl Play {
         self.met = self.jumps;
     }
 
+    /// Returns the settings that undo restores.
     pub fn tempo(&self) -> Tempo {
         Tempo { rate: self.rate, zoom: self.zoom, slow_at_events: self.slow_at_events }
     }
 
-    /// Slows down at changes of contact, on pages at least `page_s` long, or of the usual length
-    /// \[s\].
+    /// Slows down at changes of contact, on pages of at least `page_s` seconds; `None` sets the
+    /// usual length.
     pub fn show_closely(&mut self, page_s: Option<f64>) {
         self.slow_at_events = true;
         self.zoom = page_s.map_or(0, |length| self.zoom_for(length));
@@ -176,7 +186,8 @@ impl Play {
         RATES.get(self.rate).copied().unwrap_or(5e-3)
     }
 
-    /// Returns the largest zoom whose page is at least `length` long.
+    /// Returns the largest zoom whose page is at least `length` seconds long, or the smallest zoom
+    /// if no page is.
     fn zoom_for(&self, length: f64) -> i32 {
         let mut all = (-MOST_ZOOM..=MOST_ZOOM).rev();
         let long = |zoom: &i32| page_length(self.rate(), *zoom) >= length * (1.0 - 1e-9);
@@ -200,7 +211,7 @@ impl App {
         self.reading.at_s.unwrap_or(self.played_s())
     }
 
-    /// Returns the time of the playing motion \[s\].
+    /// Returns the time of the playing motion \[s\]; 0 before the first snapshot.
     pub fn played_s(&self) -> f64 {
         self.moment().map_or(0.0, |moment| moment.state.t_s)
     }
@@ -253,8 +264,8 @@ impl App {
         self.played_s().max(self.now())
     }
 
-    /// Returns the number of the motion's page. A page that is exactly full is still the current
-    /// one.
+    /// Returns the number of the page that the motion is on, from 0. A page that is exactly full is
+    /// still the current one.
     pub fn page_number(&self) -> i64 {
         // The last step may go past the end of the run.
         let pages = self.played_s().min(self.end_s()) / self.page_s();

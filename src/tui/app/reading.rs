@@ -13,22 +13,22 @@ pub struct Cursor {
     pub up: f64,
 }
 
-/// Step of the cursor in charts without cells, as a fraction.
+/// Step of the cursor in charts without cells, as a fraction of the width or height.
 pub const STEP: f64 = 0.01;
 
 /// State of the cursor.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reading {
-    /// Position in the large chart.
+    /// Position in the large chart; `None` if there is no cursor.
     pub cursor: Option<Cursor>,
-    /// Whether the arrow keys move the cursor instead of the knobs.
+    /// Whether the arrow keys move the cursor instead of turning and selecting knobs.
     pub on: bool,
-    /// Time to show; `None` follows the playing motion \[s\].
+    /// Time that all panels show \[s\]; `None` follows the playing motion.
     pub at_s: Option<f64>,
 }
 
 impl App {
-    /// Returns the cursor if `view` is the large chart.
+    /// Returns the cursor; `None` if there is none, or `view` is not the large chart.
     pub fn cursor_in(&self, view: ViewId) -> Option<Cursor> {
         self.reading.cursor.filter(|_| self.is_large(view))
     }
@@ -39,7 +39,7 @@ impl App {
     }
 }
 
-/// Returns the index of the cell at the fraction `part` of a row of `cells`.
+/// Returns the index of the cell at the fraction `part`, 0 to 1, of a row of `cells` cells.
 pub fn cell_of(part: f64, cells: u32) -> u32 {
     ((part * f64::from(cells)) as u32).min(cells.saturating_sub(1))
 }

@@ -16,6 +16,7 @@ use rubscope_solver::scene::CheckedScene;
 /// A corner held for this fraction of a page counts as standing still.
 const STILL: f64 = 0.2;
 
+/// The run on the screen, and what is compared with it.
 #[derive(Clone, Debug)]
 pub struct Run {
     /// The scene at the start of the run; live changes since then are not in it.
@@ -24,7 +25,7 @@ pub struct Run {
     pub latest: Snapshot,
     /// Whether the scene also runs under the other contact law.
     pub compare: bool,
-    /// The pinned run that is drawn behind the current one.
+    /// The pinned run that is drawn behind the current one; `None` if none is pinned.
     pub baseline: Option<Baseline>,
     /// Axis ranges of the charts.
     pub ranges: Ranges,
@@ -32,19 +33,24 @@ pub struct Run {
     pub history: BinHistory,
     /// Record of the motion under the other contact law.
     pub comparison: BinHistory,
-    /// The latest known verdict; its scene may be an older one.
+    /// The latest known verdict, whose scene may be an older one; `None` before the first.
     pub answer: Option<Arc<Answer>>,
+    /// Number of restarts in this session.
     pub restarts: u64,
+    /// Number of live changes of knobs in this session.
     pub changes: u64,
+    /// Number of pulses fired by a key in this session.
     pub pulses: u64,
 }
 
 /// A pinned run, drawn behind later ones.
 #[derive(Clone, Debug)]
 pub struct Baseline {
+    /// Record of its motion, up to the time at which it was pinned.
     pub history: BinHistory,
-    /// Verdict as displayed.
+    /// Its verdict as displayed.
     pub word: String,
+    /// The scene with the knob values at that time.
     pub scene: CheckedScene,
 }
 
@@ -67,7 +73,7 @@ pub struct Ranges {
     pub casing: AutoRange,
     /// `alpha_c`, `alpha_s` \[rad\].
     pub blades: AutoRange,
-    /// Gaps \[m\].
+    /// Gaps between tips and casing \[m\]; negative in a lining.
     pub gaps: AutoRange,
     /// Casing displacement relative to the tips, in the frame of the blades \[m\].
     pub rim: AutoRange,
@@ -168,7 +174,7 @@ impl App {
         &self.run.latest.results
     }
 
-    /// Returns the playing motion.
+    /// Returns the state of the playing motion; `None` before the first snapshot of the run.
     pub fn moment(&self) -> Option<&Moment> {
         self.run.latest.moment.as_ref()
     }
@@ -239,8 +245,8 @@ impl App {
         true
     }
 
-    /// Grows the ranges to include the page and the forecast on it. For a new forecast they may
-    /// also shrink, but not below the clearance.
+    /// Grows the ranges of casing and blades to include the page and the forecast on it. For a new
+    /// forecast they may also shrink, that of the casing not below the clearance.
     fn fit_to_forecast(&mut self, is_new: bool) {
         // Blades that rub at rest have no clearance to include.
         let clearance = self.machine.clearance().max(0.0);
@@ -274,7 +280,7 @@ impl App {
         generation(self.run.restarts, self.run.changes, self.run.pulses)
     }
 
-    /// Sets the status message when a jump has arrived or the run has ended.
+    /// Sets the status message when a jump is complete or the run has ended.
     fn report_moment(&mut self) {
         let Some(moment) = self.moment() else { return };
         let ((jumps, met), ends) = (moment.met, moment.ends);
@@ -341,6 +347,7 @@ const CASING: [Channel; 2] = [Channel::UC, Channel::US];
 const RIM: [Channel; 2] = [Channel::RimX, Channel::RimY];
 const BLADES: [Channel; 2] = [Channel::AlphaC, Channel::AlphaS];
 
+/// Returns the lowest and highest value of some channels; `None` if no bin has finite values.
 fn extremes(bins: &[Bin], channels: [Channel; 2]) -> Option<(f64, f64)> {
     let spans = bins.iter().flat_map(|bin| channels.map(|channel| bin.span(channel)));
     spans.filter(|(low, high)| low.is_finite() && high.is_finite()).reduce(wider)

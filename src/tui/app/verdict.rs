@@ -15,7 +15,7 @@ use rubscope_solver::motion::{ActiveSet, Verdict};
 use rubscope_solver::scene::{ContactLaw, ModelSize};
 
 impl App {
-    /// Returns the complete run of the scene's solver, once it is computed.
+    /// Returns the run to its end; `None` until it is complete, and if it was given up.
     pub fn full_run(&self) -> Option<&FullRun> {
         match &self.results().full_run {
             Some(FullRunState::Done(run)) => Some(run),
@@ -23,7 +23,7 @@ impl App {
         }
     }
 
-    /// Returns the verdict, which may be proved before the run is complete.
+    /// Returns the verdict; `None` until the run is complete or its verdict is proved.
     pub fn verdict(&self) -> Option<Verdict> {
         self.full_run().map(|run| run.verdict).or(self.results().verdict)
     }
@@ -57,7 +57,8 @@ impl App {
         }
     }
 
-    /// Returns the verdict that was proved before the end of the run, in capitals.
+    /// Returns the verdict in capitals, which may be proved before the end of the run; `None` if it
+    /// is not known.
     fn proved(&self) -> Option<String> {
         Some(self.results().verdict?.as_ref().to_uppercase())
     }
@@ -82,8 +83,8 @@ impl App {
         self.sentence(0).word
     }
 
-    /// Returns the latest verdict if its scene differs in at most one knob, as `at 405 rad/s:
-    /// WHIRL`, or `before: WHIRL` if no knob differs.
+    /// Returns the latest verdict as `at 405 rad/s: WHIRL` if its scene differs in one knob, or as
+    /// `before: WHIRL` if no knob differs. `None` if more knobs differ, or no verdict is known.
     fn older_answer(&self) -> Option<String> {
         let Answer { scene, verdict } = self.run.answer.as_deref()?;
         let mut differ = KNOBS.iter().filter(|knob| knob.get(scene) != knob.get(&self.scene));
@@ -172,7 +173,8 @@ impl App {
         }
     }
 
-    /// Returns the next change of contact after the time shown.
+    /// Returns the next change of contact after the time shown; `None` if there is none, or the run
+    /// is not complete.
     pub fn next_change(&self) -> Option<Mark> {
         let now = self.now();
         self.full_run()?.marks.iter().find(|mark| mark.t_s > now).copied()
@@ -198,8 +200,8 @@ impl App {
     }
 }
 
-/// When many blades touch and only their number is known, gaps below this fraction of the clearance
-/// count as contact.
+/// Gaps below this fraction of the clearance count as contact, where the contact state does not say
+/// which blades touch.
 const CLOSED: f64 = 1e-9;
 
 /// Half width of the polygon chart, in corner amplitudes.
@@ -213,8 +215,8 @@ impl App {
         MARGIN * (self.roomiest() / corner).abs()
     }
 
-    /// Returns the largest gap of a casing at rest: that of the shortest tip, plus the
-    /// out-of-roundness \[m\].
+    /// Returns the largest gap between a tip and the casing at rest \[m\]: that of the shortest
+    /// tip, plus the out-of-roundness.
     pub fn roomiest(&self) -> f64 {
         let machine = &self.machine;
         let gaps =
@@ -249,13 +251,14 @@ impl App {
         }
     }
 
-    /// Returns the blade deepest in the lining at the time shown, and its (negative) gap \[m\].
+    /// Returns the blade deepest in the lining at the time shown, and its (negative) gap \[m\];
+    /// `None` if no blade is in it.
     pub fn deepest(&self) -> Option<(u32, f64)> {
         let gaps = (1..).zip(self.shown()?.gaps.iter().copied());
         gaps.filter(|(_, gap)| *gap < 0.0).min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// Describes a gap: the distance to the casing, or the depth in the lining.
+    /// Describes a gap \[m\]: the distance to the casing, or the depth in the lining if negative.
     pub fn gap_words(&self, gap: f64) -> String {
         match self.has_lining() && gap < 0.0 {
             true => format!("{} into the lining", readable(-gap, "m")),
@@ -291,7 +294,8 @@ impl App {
         self.lock_window().map(|window| window.from)
     }
 
-    /// Returns the speed range in which a lock with pushing contact exists.
+    /// Returns the speed range in which a lock with pushing contact exists, for the current
+    /// direction of rotation; `None` if nothing locks.
     pub fn lock_window(&self) -> Option<LockWindow> {
         harmonic::lock_window(&self.machine, self.speed())
     }
@@ -303,14 +307,15 @@ impl App {
         self.has_lining() || (bends && self.machine.radial_coupling != 0.0)
     }
 
-    /// Returns a note if the run has free blades, because the frequency-domain results assume equal
-    /// blades in two modes.
+    /// Returns a note that the frequency-domain results assume equal blades in two modes; `None`
+    /// unless the run computes every blade (the full model).
     pub fn tuned_note(&self) -> Option<&'static str> {
         self.scene.tuned_note().map(|_| "of equal blades, two modes")
     }
 
-    /// Returns the dangerous coincidence speed \[rad/s\]: of the sum of the frequencies, or of
-    /// their difference if `kappa (kappa + mu) < 0`.
+    /// Returns the dangerous coincidence speed, as a magnitude \[rad/s\]: that of the sum of the
+    /// frequencies of casing and blades, or of their difference if `kappa (kappa + mu) < 0`. `None`
+    /// if there is none.
     pub fn coincidence(&self) -> Option<f64> {
         self.machine.coincidence_felt_at(self.speed()).map(f64::abs)
     }

@@ -1,7 +1,7 @@
-//! The two lines at the top. The first: what the motion is, in one sentence, and how it came
-//! there; red only where the state itself is wrong. The second: where the motion is now, how
-//! fast it turns beside its limits, and the end of the run. What has no room is said in a
-//! short form or left out; nothing is cut.
+//! The two lines at the top. The first says in one sentence how the run ends and how it came to
+//! that; it is red only if the result is suspect. The second gives the time and contact state now,
+//! the rotor speed relative to its limits, and the end of the run. A part that does not fit has a
+//! short form or is left out; no part is cut.
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier, style::Style};
 
@@ -18,7 +18,7 @@ use rubscope_solver::motion::Verdict;
 
 type Parts = Vec<(String, Style)>;
 
-/// Width of the lines without a screen: room for every part.
+/// Width of both lines for `--lines`, where there is no screen \[columns\]: room for every part.
 const WIDE: u16 = 240;
 
 /// Returns both lines as text, for `--lines`.
@@ -105,16 +105,17 @@ fn title(app: &App, buffer: &mut Buffer, area: Rect, used: u16) {
 /// A part of the second line. While the line is too long, the last part of the highest rank is
 /// left out.
 struct Part {
+    /// 0 for the most important parts.
     rank: u8,
-    /// What stands between it and the part before.
+    /// Text between the previous part and this one.
     gap: &'static str,
     pieces: Parts,
 }
 
-/// Between two parts that are apart.
+/// Text between two parts that do not belong together.
 const GAP: &str = "   ";
 
-/// Creates a part that stands apart, of one style.
+/// Creates a part of one style, separated from the previous one by [`GAP`].
 fn plain(rank: u8, text: String, style: Style) -> Part {
     Part { rank, gap: GAP, pieces: vec![(text, style)] }
 }
@@ -179,7 +180,7 @@ fn now(app: &App) -> Vec<Part> {
     ]
 }
 
-/// Returns the speed in parts of its limits: `500 rad/s = 1.71 Ω_c = 1.21 Ω_lock`.
+/// Returns the rotor speed, also as a multiple of its limits: `500 rad/s = 1.71 Ω_c = 1.21 Ω_lock`.
 fn speed(app: &App) -> Vec<Part> {
     let look = &app.appearance;
     let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
@@ -209,8 +210,8 @@ fn speed(app: &App) -> Vec<Part> {
     parts
 }
 
-/// Returns the speed limits that matter here, the most important first; `None` if a limit does not
-/// exist.
+/// Returns the limits of the rotor speed that matter for this scene \[rad/s\], the most important
+/// first; `None` if a limit does not exist.
 fn named_limits(app: &App) -> Vec<(&'static str, Option<f64>)> {
     let (critical, lock) = (("Ω_c", app.machine.critical_speed()), app.lock_speed());
     let lock = (if lock.is_none() { "lock" } else { "Ω_lock" }, lock);
@@ -224,7 +225,7 @@ fn named_limits(app: &App) -> Vec<(&'static str, Option<f64>)> {
     limits
 }
 
-/// Returns the speed limits as numbers.
+/// Returns the limits of the rotor speed as numbers; `None` if there are none.
 fn limits(app: &App) -> Option<Part> {
     let quiet = app.appearance.style(Role::Quiet);
     let to = app.lock_window().and_then(|window| window.to);
@@ -275,7 +276,7 @@ fn end(app: &App) -> Vec<Part> {
 }
 
 /// Returns a note if the sensitivity check was given up, or, for a doubtful verdict with skipped
-/// steps, how to check it.
+/// steps, how to check it; `None` otherwise.
 fn unsure(app: &App) -> Option<Part> {
     let (results, known) = (app.results(), app.results().sensitive.known());
     let doubtful = known.sensitive || known.depends_on_step == Some(true);
@@ -289,14 +290,16 @@ fn unsure(app: &App) -> Option<Part> {
     Some(plain(rank, text, app.appearance.style(Role::Quiet)))
 }
 
-/// Returns the verdict of the pinned run if it differs.
+/// Returns the verdict of the pinned run; `None` if it is that of the current run, or no run is
+/// pinned.
 fn baseline(app: &App) -> Option<Part> {
     let word = &app.run.baseline.as_ref()?.word;
     let text = format!("pinned: {word}");
     (*word != app.verdict_word()).then(|| plain(3, text, app.appearance.style(Role::Text)))
 }
 
-/// Returns reminders of unusual states: another page, live mode, and modes without data.
+/// Returns reminders of unusual states: the motion is not on the page shown, knobs are live, and no
+/// own mode is known for the number of nodal diameters.
 fn modes(app: &App) -> Vec<Part> {
     let focus = app.appearance.style(Role::Focus);
     let ((from, to), now) = (app.page(), app.now().min(app.end_s()));
@@ -308,14 +311,16 @@ fn modes(app: &App) -> Vec<Part> {
     pages.into_iter().chain(live).chain(missing).map(|text| plain(1, text, focus)).collect()
 }
 
-/// Returns the next change of contact and the time until then: `next: impact on 6 in 12 µs`.
+/// Returns the next change of contact and the time until then: `next: impact on 6 in 12 µs`. `None`
+/// if there is none, the run is not complete, or a question is open.
 fn next(app: &App) -> Option<Part> {
     let next = app.next_change().filter(|_| !app.is_asked())?;
     let (what, after) = (app.happening(next.what), readable(next.t_s - app.now(), "s"));
     Some(plain(8, format!("next: {what} in {after}"), app.appearance.style(Role::Quiet)))
 }
 
-/// Returns the cost of the run: time per step, skipped steps, total time.
+/// Returns the cost of the run: wall-clock time per step taken, fraction of skipped steps, and
+/// wall-clock time in all. `None` until the run is complete.
 fn cost(app: &App) -> Option<Part> {
     let pace = &app.results().pace;
     let run = pace.run_s?;

@@ -191,7 +191,7 @@ const LEAST_BAR: u16 = 8;
 /// Least width of the text of a single knob, so that its bar does not move while the value changes.
 const TEXT: u16 = 27;
 
-/// Returns the area of the bar in the single line, if there is room.
+/// Returns the area of the bar in the single line; `None` if there is no room for it.
 pub fn strip_bar(app: &App, area: Rect) -> Option<Rect> {
     let text = u16::try_from(columns(&strip_text(app, app.selected()?))).ok()?;
     let start = text.max(TEXT) + 2;
@@ -214,7 +214,7 @@ pub enum ColumnLine {
 
 /// Rows kept free for the note on the selected knob.
 pub const NOTES: u16 = 5;
-/// Columns of a note.
+/// Width of a note \[columns\].
 const NOTE_WIDTH: usize = 26;
 
 /// Returns the lines of the column for this height, including the selected knob.
@@ -262,7 +262,7 @@ fn all(app: &App, open: &[Group], telling: bool) -> Vec<ColumnLine> {
     lines
 }
 
-/// Returns whether a knob has a range to turn through.
+/// Returns whether the knob at this index has a numeric range, and so a bar.
 fn has_bar(app: &App, place: usize) -> bool {
     let (scene, opened) = (&app.scene, &app.files.opened);
     KNOBS.get(place).is_some_and(|knob| knob.range(scene, opened, &app.machine).is_some())

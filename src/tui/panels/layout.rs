@@ -5,9 +5,9 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use crate::tui::app::App;
 use crate::tui::views::{LEAST_ROWS, ViewId};
 
-/// Narrowest screen that is drawn.
+/// Smallest width of a screen that is drawn \[columns\].
 pub const LEAST_WIDTH: u16 = 40;
-/// Lowest screen that is drawn.
+/// Smallest height of a screen that is drawn \[rows\].
 pub const LEAST_HEIGHT: u16 = 12;
 
 /// Width from which the knobs have a column of their own.
@@ -25,13 +25,15 @@ pub struct Places {
     pub header: Rect,
     /// Everything between header and footer.
     pub body: Rect,
+    /// The knobs: a column, or a line with the selected one.
     pub knobs: Rect,
     /// Whether the knobs are a column; otherwise only the selected one is shown.
     pub column: bool,
     /// The views on the screen with their areas.
     pub charts: Vec<(ViewId, Rect)>,
-    /// The current lesson.
+    /// The current lesson; `None` if none is open, or the screen is too low for it.
     pub lesson: Option<Rect>,
+    /// Status message or keys.
     pub footer: Rect,
 }
 
@@ -69,7 +71,7 @@ fn lesson(body: Rect, app: &App) -> (Option<Rect>, Rect) {
     (Some(lesson), body)
 }
 
-/// Rows of the wheel above another chart; it needs no axis.
+/// Smallest height of the wheel above another chart \[rows\]; it needs no axis.
 const WHEEL_ROWS: u16 = 10;
 
 /// Splits the area into the large chart and as many smaller ones as remain legible. The wheel is
@@ -117,9 +119,9 @@ fn split(area: Rect, app: &App) -> Vec<(ViewId, Rect)> {
     views.zip(areas).collect()
 }
 
-/// Height of the charts below the large one \[%\].
+/// Height of the charts below the large one on a wide screen \[% of the height of all charts\].
 const LOWER: u16 = 45;
-/// Width of the wheel \[%\].
+/// Width of the wheel beside another chart \[% of the width of both\].
 const WHEEL_PART: u16 = 44;
 
 /// Returns the room between header and footer on this screen.

@@ -142,7 +142,7 @@ pub fn rows(app: &App, width: usize) -> u16 {
     u16::try_from(lines(app, width).len() + 2).unwrap_or(u16::MAX)
 }
 
-/// Returns the current step as text, in lines of so many columns; nothing without a lesson.
+/// Returns the current step as text, in lines of `width` columns; empty if no lesson is open.
 pub fn lesson_text(app: &App, width: u16) -> Vec<String> {
     let (left, right) = head(app, usize::from(width));
     let head = [left, right].join("   ");

@@ -21,6 +21,7 @@ pub use help::{help_bottom, help_text};
 pub use layout::{LEAST_HEIGHT, LEAST_WIDTH, body};
 pub use lesson::lesson_text;
 
+/// Draws the whole screen into a frame of the terminal.
 pub fn draw(frame: &mut Frame, app: &App) {
     let area = frame.area();
     paint(app, frame.buffer_mut(), area);

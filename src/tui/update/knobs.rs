@@ -14,8 +14,8 @@ impl App {
         matches!(lookup(self.context(), Chord::of(key)), Some(Action::Turn { .. }))
     }
 
-    /// Turns the selected knob once for each waiting press of its key. It stops at the first
-    /// refused value and shows the reason.
+    /// Turns the selected knob once for this press of its key and once for each further press that
+    /// is waiting. It stops at the first refused value and shows the reason.
     pub(super) fn turn(&mut self, up: bool, coarse: bool) {
         let again = std::mem::take(&mut self.knobs.again);
         let Some(knob) = self.selected() else { return };
@@ -55,7 +55,7 @@ impl App {
         }
     }
 
-    /// Sets a knob; returns false if the value was refused.
+    /// Sets a knob as an undoable step; returns false if the value was refused.
     pub(super) fn set(&mut self, knob: &'static Knob, value: Value) -> bool {
         match knob.set(&self.scene, value) {
             Ok((scene, said)) => {

@@ -121,7 +121,7 @@ impl App {
         self.acted(Action::Accept)
     }
 
-    /// Sets a knob to a fraction of its bar.
+    /// Sets the knob at index `place` to the value at the fraction `part` of its bar, 0 to 1.
     fn set_part(&mut self, place: usize, part: f64) {
         let Some(knob) = KNOBS.get(place) else { return };
         let range = knob.range(&self.scene, &self.files.opened, &self.machine);

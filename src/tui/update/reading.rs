@@ -5,9 +5,9 @@ use crate::tui::axis::instant;
 use crate::tui::views::Opening;
 use crate::tui::views::id::ViewId;
 
-/// Large step of the cursor in charts without cells, as a fraction.
+/// Large step of the cursor in charts without cells, as a fraction of the width or height.
 const LARGE_STEP: f64 = 0.1;
-/// Large step of the cursor in charts with cells.
+/// Large step of the cursor in charts with cells \[cells\].
 const LARGE_CELLS: i64 = 5;
 
 impl App {
@@ -18,8 +18,8 @@ impl App {
         }
     }
 
-    /// Moves the cursor to a time and pauses. Every panel then shows that time. The page moves only
-    /// if it does not include it.
+    /// Moves the cursor to the time `t` \[s\] and pauses. Every panel then shows that time. The
+    /// page stays if it includes `t`; otherwise it is centred on `t`.
     pub(super) fn go_to(&mut self, t: f64) {
         let ((from, to), middle) = (self.page(), self.middle_s());
         self.play.middle_s = Some(if (from..=to).contains(&t) { middle } else { t });
@@ -28,8 +28,9 @@ impl App {
         self.reading.cursor = self.reading.cursor.map(|_| self.panel().here(self));
     }
 
-    /// Moves the cursor to a position in the large chart. In a chart over time, it pauses at that
-    /// time.
+    /// Moves the cursor to a position in the large chart. In the response, the motion pauses and
+    /// every panel shows the time of that position; in the gaps and the wheel, it pauses at the
+    /// time shown.
     pub(super) fn put_cursor(&mut self, cursor: Cursor) {
         let (from, to) = self.page();
         match self.view() {
@@ -59,7 +60,7 @@ impl App {
         Ok(())
     }
 
-    /// Keeps the cursor's time when the large chart changes.
+    /// Keeps the cursor's time when the large chart changes; removes a cursor without a time.
     pub(super) fn keep_instant(&mut self) {
         match self.reading.at_s {
             Some(_) => self.reading.cursor = self.reading.cursor.map(|_| self.panel().here(self)),
@@ -79,7 +80,7 @@ impl App {
         }
     }
 
-    /// Moves the cursor by steps; a new cursor starts at the current time.
+    /// Moves the cursor by steps; a new cursor starts where the view puts it.
     pub(super) fn move_cursor(&mut self, right: i64, up: i64, coarse: bool) {
         let panel = self.panel();
         let mut cursor = self.reading.cursor.unwrap_or_else(|| panel.here(self));
@@ -116,8 +117,8 @@ impl App {
         }
     }
 
-    /// Resumes the motion from the cursor. If the cursor is behind the motion, the run restarts
-    /// first.
+    /// Removes the cursor and moves the motion to its time. If that time is before the motion, the
+    /// run restarts first.
     pub fn depart(&mut self) {
         let Some(t) = self.reading.at_s else { return };
         self.stop_reading();

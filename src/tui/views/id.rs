@@ -49,6 +49,7 @@ impl ViewId {
         CHARTS[self as usize]
     }
 
+    /// Returns the view of a word; `None` if no view has it.
     pub fn from_word(word: &str) -> Option<Self> {
         Self::all().find(|view| view.word() == word)
     }

@@ -47,12 +47,14 @@ impl App {
         self.view().panel()
     }
 
-    /// Returns what Enter would do at the cursor.
+    /// Returns what Enter would do at the cursor; `None` without a cursor, and if the large view
+    /// has nothing to open there.
     pub fn opening(&self) -> Option<Opening> {
         self.panel().opening(self, self.reading.cursor?)
     }
 
-    /// Returns column and row of the margins under the cursor; row 0 is at the top.
+    /// Returns column and row of the margins under the cursor; row 0 is at the top. `None` without
+    /// a cursor in the margins, and until there are margins.
     pub fn margins_cell(&self) -> Option<[usize; 2]> {
         let cursor = self.cursor_in(ViewId::Margins)?;
         let rows =

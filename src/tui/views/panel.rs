@@ -18,6 +18,7 @@ use rubscope_solver::scene::CheckedScene;
 
 /// A view of the explorer: drawing, export, and its cursor.
 pub trait ViewPanel: Sync {
+    /// Draws the view.
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea);
 
     /// Exports the view's data as CSV.
@@ -31,8 +32,8 @@ pub trait ViewPanel: Sync {
         None
     }
 
-    /// Returns the numbers of cells across and up through which the cursor moves; 0 if it moves
-    /// freely.
+    /// Returns how many cells the chart has across and up, if its cursor moves from cell to cell;
+    /// 0 if the cursor moves freely.
     fn grid(&self, _: &App) -> [u32; 2] {
         [0, 0]
     }
@@ -42,7 +43,7 @@ pub trait ViewPanel: Sync {
         Cursor { across: 0.5, up: 0.5 }
     }
 
-    /// Returns what Enter does at a position of the chart.
+    /// Returns what Enter does at a position of the chart; `None` if the view has nothing to open.
     fn opening(&self, _: &App, _: Cursor) -> Option<Opening> {
         None
     }
@@ -69,7 +70,7 @@ pub enum Opening {
 }
 
 impl Opening {
-    /// Returns one word for the footer.
+    /// Returns the word that the footer shows for Enter; `None` if Enter does nothing.
     pub fn word(&self) -> Option<&'static str> {
         match self {
             Self::Run(_) => Some("open"),
@@ -185,7 +186,8 @@ pub fn title(
     Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area }
 }
 
-/// Returns the progress of the view's study. The map shows its own.
+/// Returns the progress of the view's study; `None` if it is not running for long, and for the map,
+/// which shows its progress itself.
 fn working(app: &App, at: ViewArea) -> Option<(String, Style)> {
     let known = app.results().working.iter().find(|working| working.view.digit() == at.digit)?;
     let text = match known.part {
@@ -210,7 +212,8 @@ pub fn dots(look: &Appearance, name: &str) -> (String, Style) {
     (format!("{} {name}", look.either("· ·", ". .")), look.style(Role::Quiet))
 }
 
-/// Prints the label of a horizontal level on it, as far right as the chart is free.
+/// Prints the label of a horizontal level in the row of its line, at the rightmost free position;
+/// prints nothing if none is free.
 pub fn name_level(plot: &mut Plot, x: ChartAxis, level: f64, name: &str, style: Style) {
     let Some(row) = plot.row(level) else { return };
     let parts = (0..=LEVEL_PLACES).rev().map(|k| f64::from(k) / f64::from(LEVEL_PLACES));
@@ -268,8 +271,8 @@ pub fn csv(table: &Table) -> Result<String, String> {
     if table.is_empty() { Err("there is no data yet".into()) } else { table_csv(table) }
 }
 
-/// Prints the labels of marked speeds as high as the chart is free, or on the axis. A label that
-/// would cover data is omitted; its line remains.
+/// Prints the labels of marked speeds, each in the highest free row of the chart, otherwise on the
+/// axis line. A label that would cover something is left out; its line remains.
 pub fn name_speeds(plot: &mut Plot, marks: &[(f64, &str)], app: &App) {
     let style = app.appearance.style(Role::Text);
     for (speed, name) in marks {
@@ -281,7 +284,8 @@ pub fn name_speeds(plot: &mut Plot, marks: &[(f64, &str)], app: &App) {
     }
 }
 
-/// Draws vertical lines at the marked speeds, the current speed, and the cursor.
+/// Draws vertical lines at the marked speeds, the magnitude of the current speed, and the cursor
+/// speed `read`, all in rad/s.
 pub fn uprights(plot: &mut Plot, app: &App, marks: &[(f64, &str)], read: Option<f64>) {
     let look = &app.appearance;
     for (speed, _) in marks {

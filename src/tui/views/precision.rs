@@ -14,6 +14,7 @@ use crate::tui::theme::Role;
 use rubscope_solver::scene::SolverKind;
 use rubscope_solver::study::precision::{Effort, Measure, Row, Way};
 
+/// The view of computing time against error.
 pub struct PrecisionView;
 
 impl ViewPanel for PrecisionView {

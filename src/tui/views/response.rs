@@ -21,13 +21,14 @@ use crate::tui::worker::other_law;
 use rubscope_solver::motion::ActiveSet;
 use rubscope_solver::scene::ModelSize;
 
-/// Distance of the marks of a pinned run \[sub-pixels\].
+/// Distance along the time axis between the `+` marks of a pinned run \[sub-pixels\].
 const PINNED: usize = 8;
 /// Largest number of changes of contact per page that are considered for labels.
 const MOST_NAMES: usize = 500;
 /// Width from which two contact laws are side by side.
 const SIDE_BY_SIDE_FROM: u16 = 90;
 
+/// The view of casing and blade coordinates over time.
 pub struct ResponseView;
 
 impl ViewPanel for ResponseView {
@@ -95,12 +96,14 @@ fn bends(app: &App) -> bool {
 /// Content of one chart over the page.
 struct Page<'a> {
     name: String,
+    /// Labels of the two curves.
     names: [&'static str; 2],
     channels: [Channel; 2],
     range: AutoRange,
     unit: &'static str,
+    /// The bins of the page.
     record: &'a [Bin],
-    /// The run to its end.
+    /// The run to its end; `None` until it is complete.
     forecast: Option<&'a FullRun>,
     /// Whether this is the scene's own law, with cursor, labels and pinned run.
     own: bool,
@@ -224,8 +227,8 @@ fn failed(app: &App, buffer: &mut Buffer, inside: Rect) -> Rect {
     lines_above(app, buffer, inside, &lines, Role::Trouble)
 }
 
-/// Returns the clearance levels with their labels, for scenes beyond the paper, where the casing
-/// can pass them.
+/// Returns the clearance levels \[m\] with their labels, for scenes beyond the paper, where the
+/// casing can pass them; empty otherwise, and for the chart of the blades.
 fn clearance_levels(app: &App, what: &Page) -> Vec<(f64, &'static str)> {
     if !app.scene.goes_beyond() || what.unit != "m" {
         return Vec::new();
@@ -235,8 +238,9 @@ fn clearance_levels(app: &App, what: &Page) -> Vec<(f64, &'static str)> {
     [clearance, -clearance].into_iter().zip(names).collect()
 }
 
-/// Returns the values at the cursor, recomputed for that time. The time is omitted if it does not
-/// fit.
+/// Returns the values at the cursor, recomputed for that time; under the other law the middle of
+/// the bin there. The time is omitted if it does not fit. `None` without a cursor, and until the
+/// values are known.
 fn reading(app: &App, what: &Page, width: usize) -> Option<String> {
     app.reading.at_s?;
     let values = |moment: &Moment| match what.unit {

@@ -20,11 +20,11 @@ pub struct Rows<'a> {
     /// Number of table columns in the first cursor column, and number of cursor columns; each
     /// further cursor column is one table column.
     pub cursor: [usize; 2],
-    /// Cursor column and row under the cursor.
+    /// Cursor column and row under the cursor; `None` without a cursor.
     pub cell: Option<[usize; 2]>,
-    /// The row that is centred without a cursor.
+    /// Index of the row that is centred without a cursor.
     pub home: usize,
-    /// The row marked with a dot.
+    /// Index of the row marked with a dot; `None` marks no row.
     pub marked: Option<usize>,
 }
 

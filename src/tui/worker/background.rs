@@ -13,7 +13,9 @@ use rubscope_solver::motion::GoOn;
 
 /// A running computation that sends results one by one.
 pub struct Background<T> {
+    /// Where the results arrive; `None` once no more will come.
     results: Option<Receiver<T>>,
+    /// Whether this handle was dropped, which tells the thread to stop.
     dropped: Arc<AtomicBool>,
 }
 
@@ -53,7 +55,8 @@ impl<T: Send + 'static> Background<T> {
         Self { results: started.then_some(results), dropped }
     }
 
-    /// Returns the next result; waits up to `patience`.
+    /// Returns the next result; waits for it up to `patience`. `None` if none arrives in that time,
+    /// or no more will come.
     pub fn receive(&mut self, patience: Duration) -> Option<T> {
         match self.results.as_ref()?.recv_timeout(patience) {
             Ok(result) => Some(result),

@@ -10,9 +10,11 @@ use rubscope_solver::scene::{CheckedScene, Scene, SceneError, SolverKind};
 /// The scene under the other contact law, played up to the time of the main motion.
 #[derive(Debug)]
 pub struct Comparison {
+    /// The motion under the other law.
     pub motion: Motion,
     /// Recorder of its bins and forces.
     pub recorder: Recorder,
+    /// The run under the other law to its end.
     pub full_run: FullRunJob,
     /// Record of the page on the screen.
     pub page: Page,
@@ -20,7 +22,8 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Starts the comparison; `None` if the scene does not allow the other law.
+    /// Starts the comparison, for pages of `page_s` seconds; `None` if the scene does not allow the
+    /// other law.
     pub fn of(scene: &Scene, page_s: f64) -> Option<Self> {
         let scene = other_law(scene).ok()?;
         let motion = Motion::new(&scene);
@@ -36,7 +39,7 @@ impl Comparison {
         self.forecast(length);
     }
 
-    /// Starts a new full run from the current time.
+    /// Starts a new full run of `length` seconds from the current time.
     pub fn forecast(&mut self, length: f64) {
         self.full_run = FullRunJob::new(self.motion.clone(), length);
     }
@@ -49,7 +52,7 @@ impl Comparison {
         }
     }
 
-    /// Returns the latest known copy of the motion at or before `t`.
+    /// Returns the latest known copy of the motion at or before `t` \[s\]; `None` if all are later.
     pub fn before(&self, t: f64) -> Option<Motion> {
         self.full_run.before(t).or_else(|| self.copies.before(t, &self.motion))
     }

@@ -1,6 +1,7 @@
-//! Everything computed besides the playing motion: the run to its end, the reference run with the
-//! event solver, the sensitivity check, and the studies. When a knob is turned faster than a run
-//! takes, one older run continues, so that a verdict still appears as often as a run can finish.
+//! The computations that look ahead of the playing motion: the run to its end, the reference run
+//! with the event solver, the sensitivity check, and the studies. When a knob is turned faster than
+//! a run takes, one older run continues, so that a verdict still appears as often as a run can
+//! finish.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -17,9 +18,13 @@ use rubscope_solver::scene::{CheckedScene, ContactLaw, Scene, SolverKind};
 pub struct Forecasts {
     /// The run to its end.
     pub full_run: FullRunJob,
+    /// The reference run; `None` if the scene has none, or the motion was changed.
     reference: Option<FullRunJob>,
+    /// Outcome of the sensitivity check; `None` until it is complete or given up.
     sensitive: Option<Sensitive>,
+    /// The sensitivity check; `None` before it starts, which is after the run.
     sensitivity: Option<Background<Certainty>>,
+    /// The studies for the open views.
     pub studies: Studies,
     answers: Answers,
 }
@@ -49,8 +54,9 @@ impl Forecasts {
         (std::mem::take(&mut self.studies), std::mem::take(&mut self.answers))
     }
 
-    /// Starts a new run after a change of the motion. There is no sensitivity check for it, and the
-    /// run of the previous `scene` continues in the background.
+    /// Starts a new run of `length` seconds after a change of the motion. It has neither a
+    /// reference nor a sensitivity check. The run of the previous `scene` continues in the
+    /// background.
     pub fn changed(&mut self, scene: &CheckedScene, motion: &Motion, length: f64) {
         let run = std::mem::replace(&mut self.full_run, FullRunJob::new(motion.clone(), length));
         self.answers.turned_on(scene, run);
@@ -131,7 +137,8 @@ impl Forecasts {
 }
 
 /// Creates the reference run: the event solver with push-only contact. `None` if the scene uses the
-/// event solver already, or has an elastic lining, which is a different machine.
+/// event solver already, has an elastic lining, which is a different machine, or has something else
+/// that the event solver does not support.
 fn reference(scene: &Scene) -> Option<FullRunJob> {
     if scene.solver.kind == SolverKind::Event || scene.solver.contact == ContactLaw::Smooth {
         return None;
@@ -161,12 +168,15 @@ const ALONE: Duration = Duration::from_millis(200);
 /// The latest verdict, and an older run that is still being finished in the background.
 #[derive(Debug, Default)]
 pub struct Answers {
+    /// The latest verdict, with its scene; `None` before the first.
     latest: Option<Arc<Answer>>,
+    /// The older run and its scene; `None` if none is being finished.
     older: Option<(CheckedScene, Background<Verdict>)>,
 }
 
 impl Answers {
-    /// Continues a replaced run in the background, unless another one is already running there.
+    /// Continues a replaced run of `scene` in the background, unless another one is already running
+    /// there or the verdict of this one is known.
     pub fn turned_on(&mut self, scene: &CheckedScene, mut run: FullRunJob) {
         if self.older.is_some() || run.verdict().is_some() {
             return;

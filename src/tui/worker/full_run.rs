@@ -16,20 +16,29 @@ use rubscope_solver::tolerances::LAST_PART;
 #[derive(Debug)]
 pub struct FullRunJob {
     motion: Motion,
+    /// Time at which the run begins \[s\].
     start: f64,
+    /// Time at which the run ends \[s\].
     end: f64,
+    /// Length of the last part of the run, which the verdict describes \[s\].
     window: f64,
+    /// Number of samples taken after the start.
     taken: u32,
+    /// `u_c`, `u_s` \[m\], `alpha_c` and `alpha_s` \[rad\] at the start and at every sample.
     points: Vec<[f64; 4]>,
     marks: Marks,
     copies: Copies,
+    /// Wall-clock time spent on the run.
     wall: Duration,
+    /// Wall-clock time of one slice.
     slice: Duration,
+    /// Wall-clock time after which the run is given up.
     limit: Duration,
     /// Steps taken and skipped before this run began.
     before: [u64; 2],
-    /// The verdict, once it is proved.
+    /// The verdict proved before the end; `None` until then.
     proved: Option<Verdict>,
+    /// The result; `None` until the run is complete.
     result: Option<FullRun>,
 }
 
@@ -91,12 +100,12 @@ impl FullRunJob {
         }
     }
 
-    /// Returns `u_c` and `u_s` at equal intervals so far \[m\].
+    /// Returns `u_c` and `u_s` of the casing at equal intervals after the start, so far \[m\].
     pub fn signal(&self) -> Vec<[f64; 2]> {
         self.points.iter().skip(1).map(|[u_c, u_s, ..]| [*u_c, *u_s]).collect()
     }
 
-    /// Returns the latest copy of the motion at or before `t`.
+    /// Returns the latest copy of the motion at or before `t` \[s\]; `None` before the run begins.
     pub fn before(&self, t: f64) -> Option<Motion> {
         self.copies.before(t, &self.motion)
     }
@@ -116,23 +125,24 @@ impl FullRunJob {
         self.end
     }
 
-    /// Returns the outcome of the complete run, with which the sensitivity check compares changed
-    /// runs.
+    /// Returns the outcome with which the sensitivity check compares changed runs; `None` until the
+    /// run is complete.
     pub fn reached(&self) -> Option<VerdictReached> {
         Some(VerdictReached::of(&self.motion, self.result()?.verdict))
     }
 
-    /// Returns the verdict, which may be proved before the end.
+    /// Returns the verdict; `None` until the run is complete or its verdict is proved.
     pub fn verdict(&self) -> Option<Verdict> {
         self.result().map(|run| run.verdict).or(self.proved)
     }
 
-    /// Returns the result of the complete run.
+    /// Returns the result; `None` until the run is complete.
     pub fn result(&self) -> Option<&FullRun> {
         self.result.as_ref()
     }
 
-    /// Returns a proved verdict if the judgement at the end would be the same now.
+    /// Returns the proved verdict if judging the run now would give the same; `None` otherwise, and
+    /// while nothing is proved.
     fn proof(&self) -> Option<Verdict> {
         let end = || judge_end(&self.motion, &self.motion.checks(), self.window).0;
         self.motion.final_verdict().filter(|proved| *proved == end())
@@ -177,23 +187,27 @@ impl FullRunJob {
         self.result.is_some() || self.wall >= self.limit
     }
 
+    /// Returns the wall-clock time spent on the run so far.
     pub fn wall(&self) -> Duration {
         self.wall
     }
 
-    /// Returns the wall-clock time per time step \[s\]; `None` for solvers without steps.
+    /// Returns the wall-clock time per time step that was taken, not skipped \[s\]; `None` for
+    /// solvers without steps, and before the first one.
     pub fn step_s(&self) -> Option<f64> {
         let [taken, _] = self.steps()?;
         (taken > 0).then(|| self.wall.as_secs_f64() / taken as f64)
     }
 
-    /// Returns the fraction of the time steps that was skipped; `None` for solvers without steps.
+    /// Returns the fraction of the time steps that was skipped, 0 to 1; `None` for solvers without
+    /// steps, and before the first one.
     pub fn skipped(&self) -> Option<f64> {
         let [taken, skipped] = self.steps()?;
         (taken + skipped > 0).then(|| skipped as f64 / (taken + skipped) as f64)
     }
 
-    /// Returns the numbers of steps taken and skipped since this run began.
+    /// Returns the numbers of steps taken and skipped since this run began; `None` for solvers
+    /// without steps.
     fn steps(&self) -> Option<[u64; 2]> {
         let [taken, skipped] = steps(&self.motion)?;
         let [taken_before, skipped_before] = self.before;
@@ -201,7 +215,8 @@ impl FullRunJob {
     }
 }
 
-/// Returns the total numbers of steps taken and skipped by a motion.
+/// Returns the numbers of steps that a motion has taken and skipped; `None` for solvers without
+/// steps.
 fn steps(motion: &Motion) -> Option<[u64; 2]> {
     Some([motion.steps_taken()?, motion.steps_skipped()?])
 }

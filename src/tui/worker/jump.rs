@@ -8,8 +8,9 @@ const MOST_STEPS: usize = 20_000;
 /// Largest number of bisections of the step that has the change; doubles need no more.
 const MOST_HALVINGS: usize = 80;
 
-/// Returns the time of the next change of contact, searched in steps of `step` \[s\] and refined by
-/// bisection. `None` if no change comes within the search, or `go_on` stops it.
+/// Returns the time of the next change of contact \[s\], searched in steps of `step` seconds and
+/// refined by bisection. `None` if no change comes within the search, the motion ends or fails
+/// before it, its verdict is already proved, or `go_on` stops the search.
 pub fn next_change(motion: &Motion, step: f64, go_on: GoOn<'_>) -> Option<f64> {
     let log = motion.contacts();
     let before = (log.active_set, log.impact_count);
@@ -48,7 +49,7 @@ pub fn next_change(motion: &Motion, step: f64, go_on: GoOn<'_>) -> Option<f64> {
     None
 }
 
-/// Returns the latest change of contact since `marks` was created.
+/// Returns the latest change of contact since `marks` was created; `None` if there was none.
 pub fn met(mut marks: Marks, motion: &Motion) -> Option<Mark> {
     marks.look(motion.contacts());
     marks.seen.last().copied()

@@ -7,9 +7,9 @@ use super::recorder::in_blade_frame;
 use crate::tui::trace::Mark;
 use rubscope_solver::motion::{Motion, State};
 
-/// Largest turn of the wave per frame, as a fraction of a full turn.
+/// Largest turn of the wave relative to the blades per frame, as a fraction of a full turn.
 const TURN: f64 = 0.125;
-/// Amplitude below which the turn of the wave is invisible, in clearances.
+/// Amplitude of the casing below which the turn of the wave is invisible, in clearances.
 const VISIBLE: f64 = 0.02;
 /// Time constant of the slowdown: rate = distance to the nearest change / APPROACH \[wall-clock
 /// s\].
@@ -22,10 +22,13 @@ const FASTEST: f64 = 3.0;
 /// s at the requested rate\].
 const SPARSE: f64 = 0.1;
 
-/// Turn of the wave relative to the blades since the last frame \[rad\].
+/// Turn of the wave relative to the blades since the last frame.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Turned {
+    /// Sum of the turns in either direction, each counted as positive \[rad\].
     by: f64,
+    /// Phase of the wave in the frame of the blades at the last sample \[rad\]; `None` while its
+    /// amplitude is too small to be visible.
     phase: Option<f64>,
 }
 
@@ -63,13 +66,16 @@ const NEAR: f64 = 0.1;
 /// The rate reached by the playback.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Reached {
+    /// Wall-clock time since the rate was last averaged \[s\].
     wall: f64,
+    /// Simulated time played since then \[s\].
     played: f64,
+    /// The displayed rate; `None` before the first average, and while the motion stands.
     shown: Option<f64>,
 }
 
 impl Reached {
-    /// Adds simulated time played in some wall-clock time.
+    /// Adds `played` seconds of simulated time that took `wall` seconds of wall-clock time.
     pub fn add(&mut self, wall: f64, played: f64) {
         (self.wall, self.played) = (self.wall + wall, self.played + played);
         if self.wall < OVER {
@@ -82,13 +88,16 @@ impl Reached {
         (self.wall, self.played) = (0.0, 0.0);
     }
 
-    /// Returns the displayed rate, once known.
+    /// Returns the displayed rate, simulated time over wall-clock time; `None` before the first
+    /// average, and while the motion stands.
     pub fn rate(&self) -> Option<f64> {
         self.shown
     }
 }
 
-/// Returns the rate at time `now`, from the distance to the nearest changes of contact.
+/// Returns the playback rate at the time `now` \[s\]: proportional to the time to the nearest
+/// change of contact in `marks`, within limits around the requested `rate`; `rate` itself where
+/// the changes are dense.
 pub fn rate_at(now: f64, rate: f64, marks: &[Mark]) -> f64 {
     let next = marks.partition_point(|mark| mark.t_s <= now);
     let ahead = marks.get(next).map(|mark| mark.t_s - now);

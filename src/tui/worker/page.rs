@@ -13,22 +13,27 @@ use rubscope_solver::motion::{Failure, GoOn, Motion};
 
 /// Samples per recorded bin.
 const SAMPLES: f64 = 4.0;
-/// Smallest number of samples per turn of the wave.
+/// Smallest number of samples per turn of the wave relative to the blades.
 pub const PER_TURN: f64 = 24.0;
 
 /// The requested page, and the latest complete one.
 #[derive(Debug, Default)]
 pub struct Page {
+    /// The latest request: the page (from, to), and the end of its computation \[s\].
     wanted: Option<((f64, f64), f64)>,
+    /// The computation of the requested page; `None` if it is complete or was given up.
     job: Option<PageJob>,
+    /// The latest complete page, which may be an earlier one.
     done: Option<Arc<PageRecord>>,
 }
 
 #[derive(Debug)]
 struct PageJob {
+    /// First and last time of the page \[s\].
     page: (f64, f64),
     /// End of the computation \[s\].
     until: f64,
+    /// Length of a bin \[s\].
     bin: f64,
     /// Time step of the solver \[s\].
     step: f64,
@@ -38,8 +43,9 @@ struct PageJob {
 }
 
 impl Page {
-    /// Requests a page in bins of `bin` seconds, up to the end of the run. `from` gives a motion
-    /// before the page. Does nothing if the page is known or being computed.
+    /// Requests a page (from, to) \[s\] in bins of `bin` seconds, up to the end of the run. `from`
+    /// gives a motion at or before the start of the page; if it gives none, nothing is computed.
+    /// Does nothing if this page was the last one requested.
     pub fn want(
         &mut self,
         page: (f64, f64),
@@ -76,17 +82,17 @@ impl Page {
         }
     }
 
-    /// Returns the wall-clock time spent on the current page.
+    /// Returns the wall-clock time spent on the page being computed; 0 if there is none.
     pub fn wall(&self) -> Duration {
         self.job.as_ref().map_or(Duration::ZERO, |job| job.wall)
     }
 
-    /// Drops everything after a change of the motion.
+    /// Discards the request, the computation and the record, because the motion has changed.
     pub fn forget(&mut self) {
         *self = Self::default();
     }
 
-    /// Returns the latest complete page.
+    /// Returns the latest complete page; `None` if none was completed since the motion changed.
     pub fn record(&self) -> Option<Arc<PageRecord>> {
         self.done.clone()
     }
@@ -148,7 +154,8 @@ pub fn longest_sample(motion: &Motion) -> f64 {
     std::f64::consts::TAU / fastest.max(f64::MIN_POSITIVE) / PER_TURN
 }
 
-/// Advances to `until`, or by one time step if `until` is before the next step.
+/// Advances to the time `until` \[s\], or by one time step of `step` seconds if `until` is before
+/// the next step. Returns false if `go_on` stopped it before.
 ///
 /// # Errors
 /// As `Solver::advance_while`.

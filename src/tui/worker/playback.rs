@@ -20,7 +20,7 @@ use crate::tui::views::id::ViewId;
 use rubscope_solver::motion::{Change, Motion};
 use rubscope_solver::scene::keys::differences;
 
-/// Largest turn of the wave per sample \[rad\].
+/// Largest turn of the wave relative to the blades per sample \[rad\].
 const TURN: f64 = std::f64::consts::TAU / PER_TURN;
 /// Longest wall-clock time of one call of `play` in the explorer.
 const PLAY_LIMIT: Duration = Duration::from_millis(25);
@@ -32,24 +32,32 @@ pub struct Playback {
     order: Order,
     motion: Motion,
     recorder: Recorder,
+    /// Time up to which the motion is due to be played \[s\].
     target: f64,
+    /// What kept the last call of `play` from reaching the target.
     limit: Limit,
     turned: Turned,
     reached: Reached,
-    /// Target of a go-to under way \[s\].
+    /// Target of a go-to \[s\]; `None` if none is under way.
     going: Option<f64>,
     /// Numbers of steps and jumps to execute after the go-to.
     owed: [u64; 2],
     copies: Copies,
     reading: Reading,
     page: Page,
+    /// The live changes of this run: time \[s\], and the argument of `run --at`.
     applied: Vec<(f64, String)>,
+    /// Number of jumps executed, and the change of contact that the last one met; `None` if it met
+    /// none.
     met: (u64, Option<Mark>),
+    /// Number of times that the motion has reached the end of the run.
     ends: u64,
     forecasts: Forecasts,
+    /// The motion under the other contact law; `None` if it is not wanted or not possible.
     comparison: Option<Comparison>,
     /// Whether the comparison has yet to catch up with the motion.
     behind: bool,
+    /// Longest wall-clock time of one call of `play`.
     time_limit: Duration,
 }
 

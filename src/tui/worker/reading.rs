@@ -12,13 +12,13 @@ use rubscope_solver::motion::Motion;
 #[derive(Debug, Default)]
 pub struct Reading {
     done: Option<Arc<Moment>>,
-    /// Target time, and the motion on its way there.
+    /// Time of the cursor \[s\], and the motion on its way there.
     under_way: Option<(f64, Motion)>,
 }
 
 impl Reading {
-    /// Starts the computation of a time, from a motion before it. The previous state stays until
-    /// the new one is complete. `None` removes it.
+    /// Starts to compute the state at a time \[s\], from a motion at or before it. The previous
+    /// state stays until the new one is complete; `None` removes it.
     pub fn begin(&mut self, from: Option<(f64, Motion)>) {
         if from.is_none() {
             self.done = None;
@@ -44,7 +44,8 @@ impl Reading {
         self.under_way.is_none()
     }
 
-    /// Returns the latest complete state.
+    /// Returns the latest complete state; `None` without a cursor, before the first state is
+    /// complete, and if the motion failed on the way.
     pub fn moment(&self) -> Option<Arc<Moment>> {
         self.done.clone()
     }
@@ -54,7 +55,7 @@ impl Reading {
 const MOST: usize = 128;
 /// Largest number of copies at changes.
 const MOST_CHANGES: usize = 500;
-/// Initial time between two copies, as a fraction of the run.
+/// Initial time between two copies, as a fraction of the length given to [`Copies::of`].
 const PART: f64 = 1.0 / 64.0;
 
 /// Copies of the motion at some times.
@@ -62,6 +63,7 @@ const PART: f64 = 1.0 / 64.0;
 pub struct Copies {
     /// In order of time; the flag marks copies made at a change of the motion.
     copies: Vec<(Motion, bool)>,
+    /// Smallest time between a copy and the next, except at changes \[s\].
     spacing: f64,
 }
 
@@ -71,7 +73,8 @@ impl Copies {
         Self { copies: vec![(motion.clone(), true)], spacing: length * PART }
     }
 
-    /// Adds a copy if the last one is older than the spacing.
+    /// Adds a copy if the last one is at least the spacing earlier. If there are then too many, the
+    /// spacing is doubled and the copies are thinned out.
     pub fn follow(&mut self, motion: &Motion) {
         let last = self.copies.last().map_or(f64::NEG_INFINITY, |(last, _)| last.t_s());
         if motion.t_s() - last < self.spacing {
@@ -88,8 +91,8 @@ impl Copies {
         }
     }
 
-    /// Adds a copy after a change of the motion and drops copies at or after that time, which lack
-    /// it.
+    /// Adds a copy after a change of the motion and drops the copies at or after that time, which
+    /// lack the change.
     pub fn changed(&mut self, motion: &Motion) {
         let now = motion.t_s();
         self.copies.retain(|(copy, _)| copy.t_s() < now);
@@ -99,7 +102,8 @@ impl Copies {
         }
     }
 
-    /// Returns the last copy at or before `t`; `None` if the copies of that time were dropped.
+    /// Returns the last copy at or before `t` \[s\], or the motion `now` itself if that is nearer;
+    /// `None` if the first remaining copy is after `t`.
     pub fn before(&self, t: f64, now: &Motion) -> Option<Motion> {
         let copies = self.copies.iter().map(|(copy, _)| copy).chain([now]);
         copies.take_while(|copy| copy.t_s() <= t).last().cloned()

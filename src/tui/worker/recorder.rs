@@ -28,13 +28,21 @@ pub fn rim_point(machine: &Machine, state: &State, turned: f64) -> [f64; 2] {
 /// Bins and mean contact forces of one motion, as they are recorded.
 #[derive(Debug, Default)]
 pub struct Recorder {
+    /// Closed bins that have not been taken.
     done: Vec<Bin>,
+    /// The bin being filled; `None` before its first sample.
     open: Option<Bin>,
+    /// Number of impacts of the motion up to the last sample.
     impacts: u64,
+    /// Sides in contact at the last sample.
     active_set: ActiveSet,
+    /// Time of the last sample \[s\]; `None` before the first.
     last: Option<f64>,
+    /// Impulse on each side since the last call of `mean_forces` \[N s\]; negative pushes.
     sums: Vec<(u32, f64)>,
+    /// Time over which the impulses were summed \[s\].
     over: f64,
+    /// The latest mean force on each side \[N\]; negative pushes.
     means: Vec<(u32, f64)>,
 }
 
@@ -85,7 +93,8 @@ impl Recorder {
         }
     }
 
-    /// Returns the first and last time of contact since the previous sample.
+    /// Returns the first and last time of contact between two samples, at `from` and `to` \[s\];
+    /// `None` if nothing touched.
     fn contact(&self, log: &ContactLog, from: f64, to: f64) -> Option<(f64, f64)> {
         let known = usize::try_from(self.impacts).unwrap_or(usize::MAX);
         let new = log.impact_count.saturating_sub(self.impacts);
@@ -129,8 +138,8 @@ impl Recorder {
         self.take_bins()
     }
 
-    /// Returns the mean force per side since the last call \[N\]; the previous means if the motion
-    /// has not advanced.
+    /// Returns the mean force per side since the last call \[N\], negative where it pushes; the
+    /// previous means if the motion has not advanced.
     pub fn mean_forces(&mut self) -> Vec<(u32, f64)> {
         if self.over > 0.0 {
             self.means = self.sums.iter().map(|(side, sum)| (*side, sum / self.over)).collect();

@@ -7,8 +7,9 @@ use rubscope_solver::harmonic::{CoincidencePoint, coincidence, shifted_coinciden
 use rubscope_solver::model::{Initial, Machine};
 use rubscope_solver::scene::{ModelSize, Scene, SolverChoice, View};
 
-/// Number of speeds over the whole range, and around each coincidence.
+/// Number of equally spaced speeds over the whole range.
 const POINTS: u32 = 121;
+/// Number of further speeds around each coincidence.
 const POINTS_NEAR: u32 = 81;
 /// Half width of the finely sampled range around a coincidence, relative to it.
 const NEAR: f64 = 0.15;
@@ -18,11 +19,11 @@ const BEYOND: f64 = 0.25;
 /// Growth and amplitude of the wave over speed, for one scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CoincidenceCurves {
-    /// Lower end of the speed range \[rad/s\].
+    /// Lower end of the speed range, as a magnitude \[rad/s\].
     pub from: f64,
-    /// Upper end of the speed range \[rad/s\].
+    /// Upper end of the speed range, as a magnitude \[rad/s\].
     pub to: f64,
-    /// Marked speeds in ascending order \[rad/s\], with their labels.
+    /// Marked speeds, as magnitudes in ascending order \[rad/s\], with their labels.
     pub markers: Vec<(f64, &'static str)>,
     /// Points in order of |speed|; speeds are negative if the rotor turns backward.
     pub points: Vec<CoincidencePoint>,
@@ -90,7 +91,8 @@ fn markers(scene: &Scene, machine: &Machine) -> Vec<(f64, &'static str)> {
     markers
 }
 
-/// Returns a rounded speed range around the marked speeds and the current one.
+/// Returns a rounded speed range around the marked speeds and the current one, as magnitudes
+/// \[rad/s\]; `None` without a marked speed.
 fn range(scene: &Scene, markers: &[(f64, &'static str)]) -> Option<(f64, f64)> {
     let present = Some(scene.operation.speed_rad_s.abs()).filter(|speed| *speed > 0.0);
     let of_interest = || markers.iter().map(|(speed, _)| *speed).chain(present);

@@ -24,6 +24,7 @@ use rubscope_solver::harmonic::CoincidencePoint;
 use rubscope_solver::motion::ActiveSet;
 use rubscope_solver::scene::ModelSize;
 
+/// The view of blade amplitude and growth rate over speed.
 pub struct CoincidenceView;
 
 impl ViewPanel for CoincidenceView {
@@ -67,6 +68,7 @@ struct Quantity {
     /// Symbol of the curve in the legend.
     curve: &'static str,
     unit: &'static str,
+    /// Its value at a point; `None` leaves a gap in the curve.
     of: fn(&CoincidencePoint) -> Option<f64>,
 }
 
@@ -204,7 +206,8 @@ fn reading(app: &App, speed: f64) -> String {
     at + &parts.join(", ")
 }
 
-/// Returns the blade amplitude of the running motion during contact \[rad\].
+/// Returns the blade amplitude of the running motion \[rad\]; `None` without contact, and with
+/// rigid blades.
 fn now(app: &App) -> Option<f64> {
     let moment = app.run.latest.moment.as_ref()?;
     let [a_c, a_s] = moment.state.alpha;

@@ -23,6 +23,7 @@ use rubscope_solver::motion::ActiveSet;
 /// Width from which the polygon is drawn beside the wheel, if the view is alone on the screen.
 const BOTH_FROM: u16 = 76;
 
+/// The view of the wheel, and of the wave in the frame of the blades.
 pub struct FrameView;
 
 impl ViewPanel for FrameView {
@@ -59,6 +60,7 @@ fn square(area: Rect, reach: f64) -> (ChartAxis, ChartAxis) {
 }
 
 /// Describes the position under the cursor: the nearest blade group and its gap, for rigid blades.
+/// `None` without a cursor in this view.
 fn reading(app: &App, x: ChartAxis, y: ChartAxis, apothems: &[f64]) -> Option<String> {
     let cursor = app.cursor_in(ViewId::Frame)?;
     let (x, y) = (x.at(cursor.across), y.at(cursor.up));
@@ -152,16 +154,16 @@ fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
     }
 }
 
-/// Clearance at rest, in radii of the wheel.
+/// Clearance at rest as drawn at the usual magnification, in radii of the wheel.
 const CLEARANCE: f64 = 0.16;
-/// Largest wave that fits the wheel at the usual magnification, in clearances.
+/// Largest amplitude of the wave that fits the wheel at the usual magnification, in clearances.
 const MOST: f64 = 1.2;
-/// Radius of the inner ends of the blades, relative to the wheel.
+/// Radius of the inner ends of the blades, in radii of the wheel.
 const HUB: f64 = 0.5;
 /// Number of points of the casing outline.
 const OUTLINE: u32 = 240;
-/// Radii at which the numbers of touching blades may be printed: within the hub, where nothing is
-/// drawn.
+/// Radii at which the numbers of touching blades may be printed, in radii of the wheel: within the
+/// hub, where nothing is drawn.
 const NUMBERS: [f64; 3] = [0.76 * HUB, 0.5 * HUB, 0.3 * HUB];
 /// Largest number of blade numbers printed.
 const MOST_NUMBERS: usize = 8;

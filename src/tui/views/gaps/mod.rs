@@ -12,6 +12,7 @@ use crate::tui::theme::Role;
 use crate::tui::views::ViewId;
 use crate::tui::views::panel::{ViewArea, ViewPanel, csv, name_level, read_before, title};
 
+/// The view of the gap of every blade.
 pub struct GapsView;
 
 impl ViewPanel for GapsView {
@@ -88,13 +89,14 @@ impl ViewPanel for GapsView {
     }
 }
 
-/// Returns the index of the blade under the cursor.
+/// Returns the index of the blade under the cursor, from 0; `None` without a cursor in this view.
 fn read_blade(app: &App) -> Option<u32> {
     let cursor = app.cursor_in(ViewId::Gaps)?;
     Some(cell_of(cursor.across, app.machine.polygon.blades))
 }
 
-/// Describes the blade under the cursor: number, gap, and the time if the cursor has one.
+/// Describes the blade under the cursor: number, gap, and the time if the cursor has one. `None`
+/// with neither, and before the first snapshot.
 fn reading(app: &App) -> Option<String> {
     let moment = app.shown()?;
     let blade = read_blade(app).and_then(|blade| {

@@ -14,20 +14,22 @@ const POINTS: u32 = 161;
 /// Multipliers over speed of one machine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LockedCurves {
-    /// End of the speed range, which begins at 0 \[rad/s\].
+    /// End of the speed range, which begins at 0, as a magnitude \[rad/s\].
     pub fastest: f64,
-    /// With the damping of the scene; `None` if there is no locked motion.
+    /// The locked motion with the damping of the scene; `None` if the machine has no locked motion.
     pub damped: Option<Sweep>,
-    /// Without damping, as in the paper; `None` if the machine has none anyway.
+    /// The locked motion without damping, as in the paper; `None` if the machine has no locked
+    /// motion, or has neither casing damping nor inclined tips nor friction.
     pub undamped: Option<Sweep>,
-    /// Mean multiplier \[N\] of the stable whirl over speed \[rad/s\]; negative pushes. Computed in
-    /// the limit of many blades. Empty without radial coupling, with a lining, and for unequal tips
-    /// or a casing out of round, where no closed form is known.
+    /// Magnitude of the speed \[rad/s\], and mean multiplier of the stable whirl there \[N\];
+    /// negative pushes. Computed in the limit of many blades. Empty without radial coupling, with
+    /// rigid blades or a lining, and for unequal tips or a casing out of round, where no closed
+    /// form is known.
     pub whirl: Vec<(f64, f64)>,
-    /// Speed up to which the scales include the values; beyond it the locked motion can have a
-    /// resonance of casing and blades, which would flatten the rest \[rad/s\].
+    /// Magnitude of the speed up to which the scales include the values \[rad/s\]. Beyond it the
+    /// locked motion can have a resonance of casing and blades, which would flatten the rest.
     pub scaled_to: f64,
-    /// Marked speeds in ascending order \[rad/s\], with their labels.
+    /// Marked speeds, as magnitudes in ascending order \[rad/s\], with their labels.
     pub marks: Vec<(f64, &'static str)>,
 }
 
@@ -63,7 +65,7 @@ impl LockedCurves {
     }
 }
 
-/// Returns the multiplier of the stable whirl at every speed that has one.
+/// Returns speed \[rad/s\] and multiplier \[N\] of the stable whirl, for every speed that has one.
 fn whirl(scene: &Scene, machine: &Machine, speeds: &[f64]) -> Vec<(f64, f64)> {
     let open = machine.clearance_at_rest() > 0.0;
     let rigid = scene.solver.contact != ContactLaw::Smooth && open;
@@ -84,8 +86,8 @@ fn is_coupled(scene: &Scene) -> bool {
     scene.bladed_disk.radial_coupling != 0.0 && scene.solver.model != ModelSize::Rigid
 }
 
-/// Returns the threshold speeds of a scene. With radial coupling a lock also has an upper
-/// threshold, and a flutter speed.
+/// Returns the threshold speeds of a scene \[rad/s\], with their labels. With radial coupling a
+/// lock can also have an upper threshold, and rest a flutter speed.
 fn marks(scene: &Scene, machine: &Machine) -> Vec<(f64, &'static str)> {
     let toward = scene.operation.speed_rad_s;
     let window = lock_window(machine, toward);
@@ -108,7 +110,8 @@ fn marks(scene: &Scene, machine: &Machine) -> Vec<(f64, &'static str)> {
     marks
 }
 
-/// Returns a speed slightly above the lock speeds and the current one, with radial coupling.
+/// Returns a speed slightly above the marked speeds, except the flutter speed, and the current one
+/// \[rad/s\]; `None` without radial coupling.
 fn scaled_to(scene: &Scene, machine: &Machine) -> Option<f64> {
     if machine.radial_coupling == 0.0 {
         return None;
@@ -120,8 +123,8 @@ fn scaled_to(scene: &Scene, machine: &Machine) -> Option<f64> {
 
 /// The scales include the values up to 5 % past the last marked speed.
 const BESIDE: f64 = 1.05;
-/// The range extends to a lock's upper threshold if that is at most this many times the range
-/// without it.
+/// The range extends to a marked speed, such as a lock's upper threshold, if that is at most this
+/// many times the highest speed without it.
 const FURTHER: f64 = 1.6;
 
 /// Returns a rounded speed above the thresholds and the current speed \[rad/s\].

@@ -28,6 +28,7 @@ const ROOMY: u16 = 14;
 /// Largest number of rows for the values at the cursor.
 const READ_ROWS: usize = 3;
 
+/// The view of the locked motion over speed.
 pub struct LockedView;
 
 impl ViewPanel for LockedView {
@@ -188,7 +189,8 @@ fn curve(plot: &mut Plot, sweep: &Sweep, place: usize, pen: &Pen) {
     plot.curve(sweep.points.iter().filter_map(lambda), pen);
 }
 
-/// Returns the mean multipliers of the running motion during contact \[N\].
+/// Returns the mean multipliers of the running motion \[N\]; negative pushes. Empty without
+/// contact.
 fn running(app: &App) -> Vec<f64> {
     let Some(moment) = &app.run.latest.moment else { return Vec::new() };
     if moment.active_set == ActiveSet::Nothing {
@@ -231,6 +233,7 @@ pub const AMPLITUDES: Chart = Chart {
 };
 
 impl Chart {
+    /// Draws the chart; nothing if there is no locked motion.
     pub fn draw(&self, app: &App, curves: &LockedCurves, buffer: &mut Buffer, at: ViewArea) {
         let look = &app.appearance;
         let quiet = look.style(Role::Quiet);
@@ -263,7 +266,8 @@ impl Chart {
     }
 }
 
-/// Returns the speed under the cursor \[rad/s\].
+/// Returns the speed under the cursor, as a magnitude \[rad/s\]; `None` without a cursor, and if
+/// this is not the large view.
 pub fn cursor_speed(app: &App, curves: &LockedCurves) -> Option<f64> {
     let here = app.view() == crate::tui::views::ViewId::Locked;
     app.reading.cursor.filter(|_| here).map(|cursor| cursor.across * curves.fastest)
@@ -308,7 +312,8 @@ pub fn reading(app: &App, speed: f64) -> String {
     at + &parts.join(", ")
 }
 
-/// Notes that the run at this speed does not reach the lock, with its verdict.
+/// Notes that the run at this speed does not reach the lock, with its verdict. `None` if it does,
+/// if no lock can last here, if the cursor is at another speed, and without a verdict to show.
 fn not_this_run(app: &App, can_last: bool) -> Option<String> {
     let (cursor, here) = (app.reading.cursor?, app.panel().here(app));
     let run = app.full_run().filter(|_| can_last && !app.is_asked())?;

@@ -28,6 +28,7 @@ const TWO_ROWS_FROM: u16 = 14;
 /// Height from which there is one row of text above the map.
 const ONE_ROW_FROM: u16 = 7;
 
+/// The view of the verdict over two knobs.
 pub struct MapView;
 
 impl ViewPanel for MapView {
@@ -53,7 +54,7 @@ impl ViewPanel for MapView {
         app.shown_plan().map_or(Cursor { across: 0.5, up: 0.5 }, |plan| here(app, &plan))
     }
 
-    /// Returns the scene of the cell, with the map's law and solver.
+    /// Opens the run of the cell under the cursor, with the map's law and solver.
     fn opening(&self, app: &App, _: Cursor) -> Option<Opening> {
         let (plan, [column, row]) = (app.shown_plan()?, app.map_cell()?);
         let scene = plan.scene_of(plan.index(column, row)).ok()?;

@@ -72,7 +72,8 @@ pub fn draw(app: &App, live: &LiveMap, buffer: &mut Buffer, area: Rect, at: View
     }
 }
 
-/// Returns whether a position on an axis (in cells) is within its cells.
+/// Returns whether a position on an axis is within its cells. Positions count in cells; the centre
+/// of the first cell is 0.
 pub fn is_inside(axis: &Axis, place: f64) -> bool {
     (-0.5..=f64::from(axis.count) - 0.5).contains(&place)
 }
@@ -90,7 +91,8 @@ struct Picture<'a> {
     look: &'a Appearance,
     live: &'a LiveMap,
     inner: Rect,
-    /// Background colour of each character, for signs drawn over it.
+    /// Background colour of each character of the data area, row by row, for signs drawn over it;
+    /// `None` where the background has no colour.
     ground: Vec<Option<Color>>,
 }
 

@@ -18,9 +18,9 @@ const CELLS: [u32; 2] = [81, 41];
 const TORQUE: &str = keys::EXCITATION;
 /// Key of the friction between blades and casing.
 const FRICTION: &str = keys::FRICTION;
-/// Lowest speed of a map with friction, relative to the highest.
+/// Lowest speed of a map with friction, as a fraction of the highest.
 const SLOWEST: f64 = 0.1;
-/// Range of the pulse \[N\].
+/// Ends of the axis of the pulse \[N\]; the lower end is reduced for a scene with a smaller pulse.
 const PULSES: [f64; 2] = [1e3, 1e7];
 /// Fraction cut off each end of a knob's range if the scene is invalid there.
 const REFUSED: f64 = 0.025;
@@ -28,7 +28,7 @@ const REFUSED: f64 = 0.025;
 /// The choices of the user for the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapChoice {
-    /// Contact law, if not that of the scene.
+    /// Contact law of the map; `None` is that of the scene.
     pub law: Option<ContactLaw>,
     /// The x axis.
     pub x: MapAxis,
@@ -50,7 +50,8 @@ impl Default for MapChoice {
 pub struct MapAxis {
     /// Key of the knob in the scene file.
     pub path: &'static str,
-    /// Value of the knob when it was put on the axis; the range is built around it.
+    /// Value of the knob when it was put on the axis or the scene was opened, in the unit of its
+    /// key; the range is built around it.
     pub anchor: f64,
 }
 
@@ -162,8 +163,8 @@ impl MapAxis {
     }
 }
 
-/// Returns the speed range from standstill to above every threshold, extended to the current speed
-/// if that is far outside, in the current direction of rotation.
+/// Returns both ends of the speed axis \[rad/s\]: from standstill to above every threshold, or
+/// above the current speed if that is outside. The speeds are negative if the rotor turns backward.
 fn speeds(scene: &Scene) -> (f64, f64) {
     let mut scene = scene.clone();
     let speed = scene.operation.speed_rad_s;
@@ -176,7 +177,8 @@ fn speeds(scene: &Scene) -> (f64, f64) {
     if speed < 0.0 { (-fastest, 0.0) } else { (0.0, fastest) }
 }
 
-/// Block sizes of the successive refinements: one computed cell stands for a block of this side.
+/// Block sizes of the successive refinements: one computed cell stands for a square block with this
+/// many cells on a side.
 const BLOCKS: [u32; 4] = [8, 4, 2, 1];
 
 /// A map in progress.
@@ -186,7 +188,7 @@ pub struct LiveMap {
     pub map: Map,
     /// Number of cells attempted; a cell whose run takes too long stays empty.
     pub tried: usize,
-    /// Threshold speeds over the map, if one axis is the speed.
+    /// Threshold speeds over the map; empty if no axis is the speed.
     pub lines: Vec<Curve>,
 }
 
@@ -205,7 +207,7 @@ impl LiveMap {
     }
 
     /// Returns what to draw at a cell: its own verdict, or that of the smallest computed block
-    /// around it.
+    /// around it; `None` if no such block is computed.
     pub fn shown(&self, column: u32, row: u32) -> Option<Cell> {
         let (x, y) = (self.map.plan.x.count, self.map.plan.y.count);
         BLOCKS
@@ -220,7 +222,8 @@ impl LiveMap {
     }
 }
 
-/// Returns the index of the cell that stands for the block around `cell`.
+/// Returns, along an axis of `count` cells, the index of the cell that stands for the block of
+/// `block` cells around `cell`.
 fn centre(cell: u32, block: u32, count: u32) -> u32 {
     (cell - cell % block + block / 2).min(count.saturating_sub(1))
 }
@@ -259,11 +262,11 @@ pub struct CellRun {
     pub cell: [u32; 2],
     /// Verdict of the run.
     pub verdict: Verdict,
-    /// Start of the final contact \[s\].
+    /// Start of the contact that lasts to the end of the run \[s\]; `None` if none does.
     pub since: Option<f64>,
-    /// Blade groups in contact at the end and their multipliers; negative pushes \[N\].
+    /// Blade groups in contact at the end of the run, and their multipliers \[N\]; negative pushes.
     pub contacts: Vec<(Vec<u32>, f64)>,
-    /// Number of impacts.
+    /// Number of impacts in the run.
     pub impacts: u64,
 }
 

@@ -19,6 +19,7 @@ use rubscope_solver::study::{Axis, MapPlan};
 /// A line of text pieces with their styles.
 pub type Line = Vec<(String, Style)>;
 
+/// Returns the unit of a key; empty if it has none, or no knob.
 pub fn unit(path: &str) -> &'static str {
     knob_of(path).map_or("", Knob::unit)
 }
@@ -38,7 +39,8 @@ fn named_value(axis: &Axis, value: f64) -> String {
     }
 }
 
-/// Returns the current value of the key on an axis.
+/// Returns the current value of the key on an axis, in its unit; of the speed, that at the time
+/// shown. NaN if the key has no number.
 pub fn present(app: &App, axis: &Axis) -> f64 {
     if axis.path == SPEED {
         return app.speed();
@@ -136,7 +138,8 @@ pub fn row(app: &App, live: &LiveMap, width: usize) -> Line {
     ]
 }
 
-/// Returns values, verdict and details of the cell under the cursor.
+/// Returns values, verdict and details of the cell under the cursor; `None` without a cursor in the
+/// map.
 fn cell(app: &App, live: &LiveMap) -> Option<[String; 3]> {
     let [column, row] = app.map_cell()?;
     let plan = &live.map.plan;

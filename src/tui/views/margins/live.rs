@@ -10,6 +10,6 @@ use rubscope_solver::study::survey::Survey;
 pub struct LiveMargins {
     /// Margins for the scene's own nodal diameters.
     pub margins: Margins,
-    /// Survey over all nodal diameters, once computed.
+    /// Survey over all nodal diameters; `None` until it is computed, and if the scene allows none.
     pub survey: Option<Arc<Survey>>,
 }

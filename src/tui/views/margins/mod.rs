@@ -27,6 +27,7 @@ const TOLD_FROM: u16 = 6;
 /// Height from which the description has two lines.
 const TOLD_TWICE_FROM: u16 = 16;
 
+/// The view of the margins, or of the survey over all nodal diameters.
 pub struct MarginsView;
 
 impl ViewPanel for MarginsView {

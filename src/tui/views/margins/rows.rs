@@ -19,7 +19,7 @@ fn value_text(value: f64, quantity: Quantity) -> String {
     words::value(value, DIGITS, quantity)
 }
 
-/// Returns why a limit has no value, if it has none.
+/// Returns why a limit has no value; `None` if it has one.
 pub fn reason(row: &Limit) -> Option<String> {
     let none = || row.note.as_ref().map_or("none".into(), |note| format!("none: {note}"));
     row.value.is_none().then(none)
@@ -49,7 +49,8 @@ pub fn opening(row: &Limit, column: usize, app: &App) -> Opening {
     }
 }
 
-/// Returns the row of the nearest limit.
+/// Returns the index of the row with the smallest margin, as a magnitude; `None` if no limit has a
+/// margin.
 pub fn nearest(rows: &[Limit]) -> Option<usize> {
     let margins = rows.iter().enumerate();
     let margins = margins.filter_map(|(place, row)| Some((place, row.margin?.abs())));

@@ -17,8 +17,10 @@ use rubscope_solver::study::survey::{Survey, SurveyRow};
 
 /// Height from which there is a summary above the table.
 const TOLD_FROM: u16 = 6;
+/// Largest number of lines of the summary.
 const MOST_TOLD: usize = 2;
 
+/// Draws the survey; `cell` is the index of the row under the cursor, `None` without one.
 pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea, cell: Option<usize>) {
     let look = &app.appearance;
     let quiet = look.style(Role::Quiet);
@@ -82,13 +84,13 @@ fn table(
     }
 }
 
-/// Returns the row of the scene's own nodal diameters.
+/// Returns the index of the row of the scene's own nodal diameters; 0 if there is none.
 fn own(app: &App, rows: &[&SurveyRow]) -> usize {
     let own = app.scene.operation.nodal_diameters;
     rows.iter().position(|row| row.nodal_diameters == own).unwrap_or(0)
 }
 
-/// Returns the row under the cursor.
+/// Returns the index of the row under the cursor, from the top; `None` without a cursor or rows.
 pub fn cell(app: &App) -> Option<usize> {
     let cursor = app.cursor_in(crate::tui::views::ViewId::Margins)?;
     let rows = rows(app);
@@ -101,6 +103,7 @@ fn shown(app: &App) -> Vec<&SurveyRow> {
     survey.map_or(Vec::new(), |survey| survey.shown(false))
 }
 
+/// Returns the number of rows of the table.
 pub fn rows(app: &App) -> u32 {
     u32::try_from(shown(app).len()).unwrap_or(u32::MAX)
 }
@@ -111,7 +114,8 @@ pub fn here(app: &App) -> Cursor {
     Cursor { across: 0.5, up: 1.0 - (own as f64 + 0.5) / rows }
 }
 
-/// Returns the action of Enter: set the nodal diameters of the row.
+/// Returns what Enter does: it sets the nodal diameters of the row. `None` without a row under the
+/// cursor.
 pub fn opening(app: &App) -> Option<Opening> {
     let diameters = shown(app).get(cell(app)?)?.nodal_diameters;
     let to = format!("{diameters} nodal diameters");

@@ -9,14 +9,15 @@ use realfft::RealFftPlanner;
 pub struct Spectrum {
     /// Spacing of the lines \[rad/s\].
     pub resolution: f64,
-    /// Amplitude of `u_c` \[m\].
+    /// Amplitude of `u_c` in each line \[m\].
     pub cosine: Vec<f64>,
-    /// Amplitude of `u_s` \[m\].
+    /// Amplitude of `u_s` in each line \[m\].
     pub sine: Vec<f64>,
 }
 
 impl Spectrum {
-    /// Computes the spectrum of samples at equal intervals over `length` seconds.
+    /// Computes the spectrum of samples of `u_c` and `u_s` \[m\] at equal intervals over `length`
+    /// seconds. Empty for fewer than 8 samples.
     pub fn of(signal: &[[f64; 2]], length: f64) -> Self {
         let of = |place: usize| {
             let samples: Vec<f64> =
@@ -27,7 +28,8 @@ impl Spectrum {
     }
 }
 
-/// Returns the amplitude of each line, scaled such that a sine at a line has its own amplitude.
+/// Returns the amplitude of each line, scaled such that a sine at the frequency of a line gives its
+/// own amplitude there.
 /// Empty for fewer than 8 samples, or if one is not finite.
 fn amplitudes_of(mut samples: Vec<f64>) -> Vec<f64> {
     let count = samples.len();

@@ -18,9 +18,10 @@ use crate::tui::views::panel::{
 };
 use crate::tui::views::spectrum::lines::Spectrum;
 
-/// Amplitude range, as powers of ten of a metre.
+/// Ends of the amplitude axis, as powers of ten of a metre.
 const DECADES: (f64, f64) = (-10.0, -3.0);
 
+/// The view of the spectrum, above the Campbell diagram.
 pub struct SpectrumView;
 
 impl ViewPanel for SpectrumView {
@@ -50,7 +51,8 @@ fn highest(app: &App) -> f64 {
     (1.3 * most / step).ceil() * step
 }
 
-/// Returns the frequencies in the fixed frame with their labels \[rad/s\].
+/// Returns the frequencies of the wave, the casing and the blades in the fixed frame at a speed
+/// \[rad/s\], as magnitudes \[rad/s\] with their labels.
 fn lines(app: &App, speed: f64) -> [(f64, &'static str); 4] {
     let machine = app.machine.at(speed);
     let wave = machine.nu(speed);
@@ -97,7 +99,7 @@ fn amplitudes(app: &App, buffer: &mut Buffer, at: ViewArea) {
     name_speeds(&mut plot, &marks, app);
 }
 
-/// Describes the spectral line nearest to a frequency.
+/// Describes the spectral line nearest to a frequency \[rad/s\]; `None` beyond the last line.
 fn reading(spectrum: &Spectrum, frequency: f64) -> Option<String> {
     let line = (frequency / spectrum.resolution).round().max(0.0) as usize;
     let (u_c, u_s) = (spectrum.cosine.get(line)?, spectrum.sine.get(line)?);

@@ -19,7 +19,8 @@ const JUMP_SAMPLES: f64 = 20_000.0;
 pub(super) const JUMP_LIMIT: Duration = Duration::from_secs(1);
 
 impl Playback {
-    /// Executes the steps and jumps requested since `before`; postponed while a go-to is under way.
+    /// Executes the steps and jumps requested since the order `before`, at most 1000 steps and 10
+    /// jumps; postponed while a go-to is under way.
     pub(super) fn owe(&mut self, before: &Order) {
         let Self { order, owed: [steps, jumps], .. } = self;
         *steps += order.steps.saturating_sub(before.steps).min(1000);
@@ -49,7 +50,7 @@ impl Playback {
         self.play_comparison(self.time_limit);
     }
 
-    /// Plays exactly to the next change of contact.
+    /// Plays to the next change of contact, if one comes soon.
     pub(super) fn jump(&mut self) {
         let (began, limit) = (Instant::now(), self.time_limit.max(JUMP_LIMIT));
         let go_on = || began.elapsed() < limit;
@@ -114,12 +115,13 @@ impl Playback {
 }
 
 impl Playback {
-    /// Returns the latest known copy of the motion at or before `t`, from the full run or the past.
+    /// Returns the latest known copy of the motion at or before `t` \[s\], from the full run or
+    /// otherwise from the past; `None` if the copies of that time were dropped.
     fn before(&self, t: f64) -> Option<Motion> {
         self.forecasts.full_run.before(t).or_else(|| self.copies.before(t, &self.motion))
     }
 
-    /// Requests the page on the screen, which has changed if its zoom or position has.
+    /// Requests the page on the screen, for both motions if there is a comparison.
     pub(super) fn want_page(&mut self) {
         let (order, step) = (&self.order, self.order.scene.solver.step_s);
         let mut wanted = std::mem::take(&mut self.page);

@@ -8,6 +8,7 @@ use crate::tui::views::id::ViewId;
 use crate::tui::views::locked::curves::LockedCurves;
 use rubscope_solver::scene::Scene;
 
+/// Computes the curves of view 3.
 #[derive(Debug)]
 pub struct LockedStudy;
 

@@ -19,6 +19,7 @@ const CELL_LIMIT: Duration = Duration::from_secs(1);
 /// Largest number of cells collected per slice.
 const MOST_TAKEN: usize = 4096;
 
+/// Index and result of a cell; `None` if its run took too long or was stopped.
 type Computed = (usize, Option<Cell>);
 
 /// Computes the map of a plan.
@@ -49,6 +50,7 @@ pub struct MapJob {
     order: Arc<Vec<usize>>,
     /// Number of cells after which the whole map is covered by coarse blocks.
     first: usize,
+    /// Whether each cell was computed or given up, by its index.
     tried: Vec<bool>,
     threads: Vec<Background<Computed>>,
 }

@@ -11,10 +11,12 @@ use rubscope_solver::scene::CheckedScene;
 use rubscope_solver::study::margins::Margins;
 use rubscope_solver::study::survey::Survey;
 
+/// Computes the margins of a scene, and the survey over a speed range.
 #[derive(Debug)]
 pub struct MarginsStudy;
 
 impl Study for MarginsStudy {
+    /// The scene, and the speed range of the survey \[rad/s\]; `None` covers all speeds.
     type Key = (CheckedScene, Option<[f64; 2]>);
     type Found = LiveMargins;
     type Job = Sent<LiveMargins>;

@@ -29,11 +29,11 @@ const LONG: Duration = Duration::from_millis(500);
 pub struct Given<'a> {
     /// The current order.
     pub order: &'a Order,
-    /// Plan of the map, if its view is open and the scene allows one.
+    /// Plan of the map; `None` if its view is closed or the scene does not allow a map.
     pub plan: Option<MapPlan>,
     /// The run to its end.
     pub run: &'a FullRunJob,
-    /// Limit on the computed map cells, for tests.
+    /// Largest number of computed map cells, for tests; `None` computes all.
     pub most_cells: Option<usize>,
 }
 
@@ -60,7 +60,7 @@ pub trait Study {
     /// Starts the job.
     fn begin(key: &Self::Key, given: &Given) -> Self::Job;
 
-    /// Returns the finished fraction, 0 to 1, if known.
+    /// Returns the finished fraction, 0 to 1; `None` if the study cannot tell.
     fn part(_: &Self::Found) -> Option<f64> {
         None
     }
@@ -77,10 +77,10 @@ pub trait Job: fmt::Debug {
     /// Does a slice of the work, or collects results of its threads; waits up to `patience`.
     fn work(&mut self, patience: Duration);
 
-    /// Returns the result once it may replace the previous one.
+    /// Returns the result; `None` until it may replace the previous one.
     fn found(&self) -> Option<&Arc<Self::Found>>;
 
-    /// Returns a partial result to show if there is no previous one.
+    /// Returns a partial result to show if there is no previous one; `None` if the job has none.
     fn first(&self) -> Option<&Arc<Self::Found>> {
         None
     }
@@ -139,9 +139,11 @@ impl<T: fmt::Debug> Job for Arc<T> {
 /// A study, with the result for its previous inputs.
 #[derive(Debug)]
 struct StudySlot<S: Study> {
+    /// The inputs and their job; `None` before the first, and after one that was dropped.
     study: Option<(S::Key, S::Job)>,
+    /// The result for earlier inputs; `None` if there is none.
     before: Option<Arc<S::Found>>,
-    /// When the current job began.
+    /// When the current job began; `None` before the first.
     since: Option<Instant>,
 }
 
@@ -178,7 +180,7 @@ trait Work {
     fn is_done(&self, given: &Given) -> bool;
     fn work(&mut self, given: &Given, patience: Duration);
     fn stop_unwanted(&mut self, given: &Given);
-    /// Returns the progress if the study has been running for a while.
+    /// Returns the progress; `None` unless the study has been running for longer than `LONG`.
     fn working(&self, given: &Given) -> Option<Working>;
 }
 
@@ -224,7 +226,7 @@ macro_rules! studies {
         /// The studies of one scene, in order of computation.
         #[derive(Debug, Default)]
         pub struct Studies {
-            /// Limit on the computed map cells, for tests.
+            /// Largest number of computed map cells, for tests; `None` computes all.
             pub most_cells: Option<usize>,
             $($name: StudySlot<$study>,)*
         }
@@ -268,7 +270,7 @@ impl Studies {
         self.all_mut().for_each(|study| study.stop_unwanted(&given));
     }
 
-    /// Returns the studies that have been running for a while.
+    /// Returns the progress of the studies that have been running for longer than `LONG`.
     pub fn working(&self, order: &Order, run: &FullRunJob) -> Vec<Working> {
         let given = self.given(order, run);
         self.all().filter_map(|study| study.working(&given)).collect()

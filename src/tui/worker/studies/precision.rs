@@ -5,6 +5,7 @@ use crate::tui::views::id::ViewId;
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::precision::{Effort, Measure, Precision, ways};
 
+/// Measures the solvers on the scene of the order.
 #[derive(Debug)]
 pub struct PrecisionStudy;
 

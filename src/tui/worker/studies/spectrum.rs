@@ -7,11 +7,12 @@ use super::{Given, Study};
 use crate::tui::views::id::ViewId;
 use crate::tui::views::spectrum::lines::Spectrum;
 
+/// Computes the spectrum of the casing's motion in the full run.
 #[derive(Debug)]
 pub struct SpectrumStudy;
 
 impl Study for SpectrumStudy {
-    /// Generation of the knobs and end of the run, which identify the run.
+    /// Generation of the knobs and end of the run \[s\], which identify the run.
     type Key = (u64, f64);
     type Found = Spectrum;
     type Job = Arc<Spectrum>;
