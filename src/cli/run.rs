@@ -14,7 +14,7 @@ use super::{Done, output, sign};
 use crate::report::history::HISTORY_VALUES;
 use crate::report::{CommandLine, History, Provenance, Wall, json, npz, summary};
 use rubscope_solver::motion::{CHANGED_RUNS, Sample, Sampling, Verdict, run_to_end, to_the_end};
-use rubscope_solver::scene::{Scene, Shortcuts, SolverKind};
+use rubscope_solver::scene::{Scene, SolverKind};
 
 /// Simulate a scene in time and report how it ends.
 #[derive(Args, Debug)]
@@ -53,7 +53,7 @@ impl RunCommand {
                 let reason = "--plain: of --solver explicit only; the event solver has no steps";
                 return Err(Refusal::because(reason).into());
             }
-            scene = scene.with_shortcuts(Shortcuts::NONE);
+            scene = scene.by_every_step();
         }
         let script = RequestedScript::resolve(&script::parse(&self.at)?, &scene)?;
         let acts = script.changes();

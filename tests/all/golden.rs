@@ -18,7 +18,7 @@ use std::path::PathBuf;
 use rayon::prelude::*;
 use rubscope::cli::script::{self, RequestedScript};
 use rubscope_solver::motion::{Sampling, run_to_end};
-use rubscope_solver::scene::{CheckedScene, ContactLaw, Scene, Shortcuts, SolverKind};
+use rubscope_solver::scene::{CheckedScene, ContactLaw, Scene, SolverKind};
 use serde::{Deserialize, Serialize};
 
 /// Instants at which a run is sampled.
@@ -125,10 +125,11 @@ fn see(scene: &CheckedScene, changes: &[String], instants: Option<&[f64]>) -> Se
     }
 }
 
-fn by_steps(scene: &Scene, shortcuts: Shortcuts) -> CheckedScene {
+fn by_steps(scene: &Scene, plain: bool) -> CheckedScene {
     let mut scene = scene.clone();
     scene.solver.kind = SolverKind::Explicit;
-    scene.checked().unwrap().with_shortcuts(shortcuts)
+    let scene = scene.checked().unwrap();
+    if plain { scene.by_every_step() } else { scene }
 }
 
 /// None where the event solver refuses the scene or its changes.
@@ -224,7 +225,7 @@ fn the_golden_scenes() {
         let mut cases = read(file);
         cases.par_iter_mut().for_each(|case| {
             let (scene, changes) = parse(&case.scene);
-            let plain = |scene: &Scene| by_steps(scene, Shortcuts::NONE);
+            let plain = |scene: &Scene| by_steps(scene, true);
             case.plain = Some(measure(&scene, &changes, &plain));
             let events = |scene: &Scene| by_events(scene, &changes).unwrap();
             case.event = by_events(&scene, &changes).map(|_| measure(&scene, &changes, &events));
@@ -241,8 +242,8 @@ fn the_golden_scenes() {
 fn failures(case: &Case) -> Vec<String> {
     let (scene, changes) = parse(&case.scene);
     let runs = [
-        ("plain", case.plain.as_ref(), Some(by_steps(&scene, Shortcuts::NONE))),
-        ("default", case.plain.as_ref(), Some(by_steps(&scene, Shortcuts::default()))),
+        ("plain", case.plain.as_ref(), Some(by_steps(&scene, true))),
+        ("default", case.plain.as_ref(), Some(by_steps(&scene, false))),
         ("event", case.event.as_ref(), by_events(&scene, &changes)),
     ];
     let mut wrong = Vec::new();

@@ -4,14 +4,14 @@
 use std::fmt::Debug;
 use std::ops::{Deref, DerefMut};
 
-use super::explicit::{Explicit, FullBlades, ModalBlades, RigidBlades};
+use super::explicit::Explicit;
 use super::verdict::judge;
 use super::{
     Checks, ContactLog, EnergyAccount, ExactEvents, Failure, FailureReason, LinearEvents,
-    LinearRest, Plane, Pulse, Rotor, State, Verdict,
+    Plane, Pulse, Rotor, State, Verdict,
 };
 use crate::model::Machine;
-use crate::scene::{CheckedScene, ModelSize, SolverKind};
+use crate::scene::{CheckedScene, SolverKind};
 use crate::tolerances::WHIRL_SWING;
 
 /// Asked on the way whether work shall go on: a flag that a signal sets, or a
@@ -97,9 +97,10 @@ pub trait Solver: Debug + Send + Sync {
     /// again, or a corner can never let go.
     fn final_verdict(&self) -> Option<Verdict>;
 
-    /// The linear motion about rest, where all blades press a lining at constant speed, stay so
-    /// through the whole beat, and it is known.
-    fn linear_rest(&self) -> Option<LinearRest> {
+    /// The rate at which the slowest wave that moves the tips in a lining dies, where all blades
+    /// press it at constant speed and stay so through the whole beat; negative where it grows, 0
+    /// where it does neither beyond round-off \[1/s\].
+    fn rest_rate(&self) -> Option<f64> {
         None
     }
 
@@ -241,12 +242,10 @@ impl Motion {
     /// The motion of a scene at t = 0, by the solver and model size it names.
     #[must_use]
     pub fn new(scene: &CheckedScene) -> Self {
-        match (scene.solver.kind, scene.solver.model) {
-            (SolverKind::Event, _) if scene.has_other_tips() => LinearEvents::new(scene).into(),
-            (SolverKind::Event, _) => ExactEvents::of(scene).into(),
-            (SolverKind::Explicit, ModelSize::Rigid) => Explicit::<RigidBlades>::new(scene).into(),
-            (SolverKind::Explicit, ModelSize::Modal) => Explicit::<ModalBlades>::new(scene).into(),
-            (SolverKind::Explicit, ModelSize::Full) => Explicit::<FullBlades>::new(scene).into(),
+        match scene.solver.kind {
+            SolverKind::Event if scene.has_other_tips() => LinearEvents::new(scene).into(),
+            SolverKind::Event => ExactEvents::of(scene).into(),
+            SolverKind::Explicit => Explicit::new(scene).into(),
         }
     }
 }

@@ -115,18 +115,6 @@ pub enum Proof {
     NoContact,
     /// The forces of the blades that hold the wave cannot change their signs.
     HeldCorner,
-    /// All blades press a lining, and a wave this small dies there.
-    LinearRest,
-}
-
-/// The linear motion about rest of casing and blades that all press a lining.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LinearRest {
-    /// Rate at which the slowest wave that moves the tips in the lining dies; negative
-    /// where it grows, 0 where it does neither beyond round-off \[1/s\].
-    pub rate_per_s: f64,
-    /// Since when all blades press \[s\].
-    pub since_s: f64,
 }
 
 /// How a run ended.
