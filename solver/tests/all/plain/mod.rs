@@ -147,7 +147,7 @@ impl Plain {
             law: scene.solver.contact,
             casing: casing_of(scene, h),
             casing_radius: scene.casing.radius_m,
-            disk: Disk::new(scene, h),
+            disk: Disk::new(scene, h).starting(h),
             u: [Coordinate::default(); 2],
             rotor: Rotor {
                 since: 0,
