@@ -79,6 +79,7 @@ impl Explicit {
     /// Forgets what a change makes invalid.
     pub(super) fn forget(&mut self) {
         self.lasting.forget();
+        self.strides.forget();
         self.rest = OnceLock::new();
     }
 

@@ -122,9 +122,8 @@ impl Disk {
             four.lost[lane] = oscillator.lost();
         }
         let excitation = EngineOrderTorque::of(scene);
-        let is_driven = |label: &Label| {
-            excitation.is_some_and(|torque| torque.drives(label.diameters))
-        };
+        let is_driven =
+            |label: &Label| excitation.is_some_and(|torque| torque.drives(label.diameters));
         let driven = fixed.labels.iter().enumerate().filter(|(_, label)| is_driven(label));
         let driven = driven.map(|(m, _)| (m, 0.0)).collect();
         let turn = oscillators.iter().map(Oscillator::turn).fold(f64::MIN_POSITIVE, f64::max);
@@ -344,7 +343,9 @@ impl Disk {
     }
 
     fn shown(&self, of: impl Fn(&Modes) -> Four) -> [f64; 2] {
-        self.fixed.shown.map(|mode| mode.map_or(0.0, |(m, sign)| sign * of(&self.modes[m / 4])[m % 4]))
+        self.fixed
+            .shown
+            .map(|mode| mode.map_or(0.0, |(m, sign)| sign * of(&self.modes[m / 4])[m % 4]))
     }
 
     /// Returns the angles of blades that differ.
@@ -370,7 +371,8 @@ impl Disk {
         self.see_all();
         let (members, rows) = (&self.seen.angles, angles.len());
         let mean = |row: usize| {
-            let each = (0..self.fixed.per_row as usize).map(|k| members[(row + k * rows) % members.len()]);
+            let each =
+                (0..self.fixed.per_row as usize).map(|k| members[(row + k * rows) % members.len()]);
             each.sum::<f64>() / f64::from(self.fixed.per_row)
         };
         angles.iter_mut().enumerate().for_each(|(row, angle)| *angle = mean(row));
@@ -452,6 +454,40 @@ impl Disk {
         let first = self.oscillators.first().filter(|_| self.fixed.is_pair)?;
         let second = if self.oscillators.len() > 1 { self.at(1) } else { Coordinate::default() };
         Some((first, [self.at(0), second]))
+    }
+
+    /// Returns whether its modes are independent of each other, and none is so damped that the
+    /// step before cannot be told from a step.
+    pub fn flies(&self) -> bool {
+        self.fixed.springs.is_empty() && self.oscillators.iter().all(|mode| mode.ratio > 0.5)
+    }
+
+    /// Returns the largest phase that a mode turns in a step \[rad\].
+    pub fn fastest_turn(&self) -> f64 {
+        self.oscillators.iter().map(Oscillator::turn).fold(0.0, f64::max)
+    }
+
+    /// Returns the change of each mode in a free step, `[x, increment]` by `[x, increment]`.
+    pub fn changes_of_modes(&self) -> Vec<[f64; 4]> {
+        self.oscillators.iter().map(Oscillator::change).collect()
+    }
+
+    /// Takes free steps at once that change the modes by these.
+    pub fn fly(&mut self, changes: &[[f64; 4]]) {
+        for (m, ([a, b, c, d], oscillator)) in
+            changes.iter().zip(self.oscillators.iter()).enumerate()
+        {
+            let (four, k) = (&mut self.modes[m / 4], m % 4);
+            let (x, increment) = (four.x[k], four.increment[k]);
+            four.x[k] += a * x + b * increment;
+            four.increment[k] += c * x + d * increment;
+            let at = Coordinate { x: four.x[k], increment: four.increment[k] };
+            four.before[k] = oscillator.increment_before(at);
+        }
+        if !self.fixed.is_pair {
+            (self.seen.slack, self.seen.steps) = (f64::INFINITY, u32::MAX);
+            self.room = f64::NEG_INFINITY;
+        }
     }
 
     /// Returns the shapes of the two modes at a row, for a pair.

@@ -242,9 +242,7 @@ mod tests {
         let scene = scene.unwrap();
         let mut motion = Explicit::new(&scene);
         motion.advance(1.9e-3).unwrap();
-        let known = |motion: &Explicit| {
-            motion.lasting.trends.map(|trend| trend.is_known())
-        };
+        let known = |motion: &Explicit| motion.lasting.trends.map(|trend| trend.is_known());
         assert_eq!(known(&motion), [true; 3]);
         let turns: [Turn; 3] = [
             |motion, _| motion.fire(),

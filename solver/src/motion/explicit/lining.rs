@@ -306,7 +306,8 @@ impl Explicit {
 
     /// Adds the work of the rotor and the heat of the pushes over the last two half steps.
     pub(super) fn count_lining(&mut self) {
-        let Some(lining) = self.lining.as_ref().filter(|l| self.ledger.counts && l.presses()) else {
+        let Some(lining) = self.lining.as_ref().filter(|l| self.ledger.counts && l.presses())
+        else {
             return;
         };
         let Sums { force, push, torque, .. } = lining.sums;

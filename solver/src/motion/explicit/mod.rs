@@ -5,7 +5,7 @@
 //! One step serves every scene; the paper's is that without slope, friction and restitution
 //! (`kappa = mu = e = 0`). Read `oscillator` (one coordinate), `disk` (the blades as oscillators
 //! and their shapes), `row` (gap and directions of a tip), `step` (section 4.2 of the paper line
-//! by line), `lining` (a push by the gap in place of the multiplier); then `drive`, `record` and
+//! by line), `lining` (a push by the gap in place of the multiplier), `strides` (many steps at once); then `drive`, `record` and
 //! `lasting` (what drives a motion and what it leaves behind), `changes` (a machine that changes on
 //! the way), `rest` and `proofs` (verdicts before the end). `solver` puts them together.
 
@@ -22,6 +22,7 @@ mod row;
 mod shapes;
 mod solver;
 mod step;
+mod strides;
 
 use std::sync::{Arc, OnceLock};
 
@@ -38,6 +39,7 @@ use oscillator::{Coordinate, Oscillator};
 use record::{Ledger, Record};
 use rest::Rest;
 use row::{Row, TipLaw, Tips};
+use strides::Strides;
 
 /// The explicit solver of one scene, at some step.
 #[derive(Clone, Debug)]
@@ -84,6 +86,7 @@ pub(super) struct Explicit {
     ledger: Ledger,
     /// The linear motion about rest at this speed, once asked for.
     rest: OnceLock<Option<Rest>>,
+    strides: Strides,
     /// Steps done many at once.
     skipped: u64,
     failure: Option<Failure>,
@@ -133,6 +136,7 @@ impl Explicit {
             next_look: 0,
             steps_unseen: steps_unseen(scene, &machine),
             rest: OnceLock::new(),
+            strides: Strides::default(),
             skipped: 0,
             failure: None,
             machine,

@@ -73,6 +73,16 @@ impl Oscillator {
         Coordinate { x: at.x + increment, increment }
     }
 
+    /// Returns the change of a free coordinate in a step, `[x, increment]` by `[x, increment]`.
+    pub fn change(&self) -> [f64; 4] {
+        [-self.pull, self.ratio, -self.pull, -self.loss]
+    }
+
+    /// Returns the increment of the step before, where no force acted in the last one.
+    pub fn increment_before(&self, at: Coordinate) -> f64 {
+        (at.increment + self.pull * (at.x - at.increment)) / self.ratio
+    }
+
     /// Returns twice the discrete energy, `m (increment/h)^2 + k x[n] x[n-1]`, which free steps
     /// never increase.
     pub fn twice_energy(&self, at: Coordinate) -> f64 {

@@ -30,7 +30,11 @@ impl Explicit {
     pub(super) fn decided(&self) -> Option<Verdict> {
         if let Some(failure) = &self.failure {
             let beyond = self.scene.goes_beyond();
-            return Some(if beyond { failure.verdict_beyond(&self.drive.pulse) } else { Verdict::Failed });
+            return Some(if beyond {
+                failure.verdict_beyond(&self.drive.pulse)
+            } else {
+                Verdict::Failed
+            });
         }
         if self.scene.solver.plain {
             None

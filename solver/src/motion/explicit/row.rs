@@ -12,7 +12,7 @@
 //! (docs/theory.md, sections 10 and 11).
 
 use crate::model::Machine;
-use crate::motion::Plane;
+use crate::motion::{ActiveSet, Plane};
 use crate::tolerances::{SERIES_PHASE, SMALL_PHASE};
 
 /// Geometry and friction of the tips at the current rotor speed.
@@ -133,6 +133,15 @@ impl Tips {
         }
     }
 
+    /// Returns the least gap of blades at rest in a round casing at `z`, but for those of sides that
+    /// are held \[m\].
+    pub fn least_gap(&self, z: Plane, law: &TipLaw, held: ActiveSet) -> f64 {
+        let rows = self.side.iter().zip(&self.longer).zip(self.cosine.iter().zip(&self.sine));
+        let open = rows.filter(|((side, _), _)| !held.includes(**side));
+        let gaps = open.map(|((_, longer), (c, s))| z.re * c + z.im * s - longer);
+        law.clearance + gaps.fold(f64::INFINITY, f64::min)
+    }
+
     /// Returns `s` and `ds/dalpha` of a row, where the lobes have turned by `turn` against the
     /// rotor and its blades by `angle` \[m\].
     #[inline]
@@ -166,10 +175,7 @@ pub(super) fn turned(direction: Plane, phase: f64) -> Plane {
     } else {
         phase.sin_cos()
     };
-    Plane::new(
-        direction.re * cos - direction.im * sin,
-        direction.im * cos + direction.re * sin,
-    )
+    Plane::new(direction.re * cos - direction.im * sin, direction.im * cos + direction.re * sin)
 }
 
 /// Returns sine and cosine of a phase below `SERIES_PHASE`.
@@ -177,7 +183,8 @@ pub(super) fn turned(direction: Plane, phase: f64) -> Plane {
 pub(super) fn series(phase: f64) -> (f64, f64) {
     let q = phase * phase;
     let sin = q * (1.0 / 6.0) * (1.0 - q * (1.0 / 20.0) * (1.0 - q * (1.0 / 42.0)));
-    let cos = q * 0.5 * (1.0 - q * (1.0 / 12.0) * (1.0 - q * (1.0 / 30.0) * (1.0 - q * (1.0 / 56.0))));
+    let cos =
+        q * 0.5 * (1.0 - q * (1.0 / 12.0) * (1.0 - q * (1.0 / 30.0) * (1.0 - q * (1.0 / 56.0))));
     (phase - phase * sin, 1.0 - cos)
 }
 

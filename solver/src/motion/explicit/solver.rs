@@ -2,20 +2,15 @@
 
 use super::lasting::Surface;
 use super::{Coordinate, Disk, Explicit};
+use crate::model::Machine;
 use crate::motion::{
     ActiveSet, Checks, ContactLog, EnergyAccount, Failure, GoOn, Pulse, Rotor, Solver, State,
     Verdict,
 };
-use crate::model::Machine;
 use crate::scene::CheckedScene;
 use crate::tolerances::{STEP_ROUND_OFF, UPDATES_UNASKED};
 
 impl Explicit {
-    /// Takes many steps at once, up to step `target`, where that is possible. Returns how many.
-    fn stride(&mut self, _target: u64) -> Option<u64> {
-        None
-    }
-
     /// Returns casing and blades one step on from the latest, before rigid contact corrects them.
     fn ahead(&self) -> ([Coordinate; 2], Disk) {
         let (force, push, mut disk) =

@@ -40,7 +40,8 @@ impl Explicit {
     fn predict(&mut self, force: f64) {
         let push = self.lining_push();
         self.before = self.u.map(|at| at.increment);
-        self.u = [self.casing.step(self.u[0], force + push.re), self.casing.step(self.u[1], push.im)];
+        self.u =
+            [self.casing.step(self.u[0], force + push.re), self.casing.step(self.u[1], push.im)];
         self.disk.predict(self.drive.driven(self.n));
         self.n += 1;
         if self.lining.is_some() {
@@ -193,8 +194,8 @@ impl Explicit {
         }
         let depth = -row.apart;
         // Of the blades of a side that turn alike only the deepest can hold.
-        let alone = self.tips_of_rows.row_of_side.is_empty()
-            && (tips.rise == 0.0 || self.disk.is_pair());
+        let alone =
+            self.tips_of_rows.row_of_side.is_empty() && (tips.rise == 0.0 || self.disk.is_pair());
         match self.rows.iter_mut().find(|known| alone && known.side == row.side) {
             Some(known) if row.apart < known.apart => *known = row,
             Some(_) => {}
@@ -221,7 +222,8 @@ impl Explicit {
         } else {
             lcp.fill(rows.iter().map(|row| row.apart), |a, b| entry(&rows[a], &rows[b]));
             // Without a slope, three tips may meet in one place of the casing.
-            let found = if law.pulls() { lcp.equality() } else { lcp.complementary(tips.rise == 0.0) };
+            let found =
+                if law.pulls() { lcp.equality() } else { lcp.complementary(tips.rise == 0.0) };
             let found = found.ok_or(FailureReason::Singular { rows: count })?;
             rows.iter_mut().zip(found).for_each(|(row, lambda)| row.lambda = *lambda);
         }
@@ -324,7 +326,7 @@ impl Explicit {
     }
 
     /// Records how far the tips swing, as often as needed.
-    fn look_at_swing(&mut self) {
+    pub(super) fn look_at_swing(&mut self) {
         if self.n < self.next_look {
             return;
         }
