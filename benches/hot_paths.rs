@@ -163,15 +163,14 @@ fn record(criterion: &mut Criterion) {
     let slip = scene(&[SLIP[0], SLIP[1], MICROSECOND]);
     group.bench_function("slip, no history", |bencher| {
         let none = Sampling::default();
-        bencher
-            .iter(|| run_to_end(black_box(&slip), &Script::default(), none, &mut |_| {}, &mut ()));
+        bencher.iter(|| run_to_end(black_box(&slip), &Script::default(), none, &mut |_| {}));
     });
     group.bench_function("slip, 2000 samples", |bencher| {
         let sampling = Sampling { intervals: 2000, gaps: true };
         bencher.iter(|| {
             let mut sum = 0.0;
             let mut add = |sample: &Sample| sum += sample.state.u[0];
-            run_to_end(black_box(&slip), &Script::default(), sampling, &mut add, &mut ());
+            run_to_end(black_box(&slip), &Script::default(), sampling, &mut add);
             sum
         });
     });

@@ -1,30 +1,30 @@
-//! Blade-tip/casing rub of a flexible bladed disk in a flexible casing, after
-//! Legrand, Pierre and Peseux (2010).
+//! Blade-tip/casing rub of a flexible bladed disk in a flexible casing, after Legrand, Pierre and
+//! Peseux (2010).
 //!
-//! Begin with a [`scene::Scene`]: a built-in one, a file ([`scene::Scene::load`]), or your own
+//! Start with a [`scene::Scene`]: a built-in one, a file ([`scene::Scene::load`]), or your own
 //! machine from a table of modes ([`scene::read_modes`], [`scene::ModalData::to_toml`],
-//! [`scene::Scene::from_toml`]). [`scene::Scene::checked`] refuses what cannot be solved, and
-//! names it; all below takes what it returns, which is a scene, too.
+//! [`scene::Scene::from_toml`]). [`scene::Scene::checked`] validates it: the error names the key
+//! that is wrong, and the result dereferences to the scene and is the input of everything below.
 //!
-//! | to find | ask |
+//! | to compute | use |
 //! |---|---|
 //! | frequencies, critical and coincidence speeds | [`model::Machine`] |
-//! | how a run ends, and whether a tiny change ends otherwise | [`motion::simulate`] |
-//! | only how it ends | [`motion::run_to_verdict`], with [`motion::to_the_end`] |
-//! | the state on the way, with changes of speed, pulse and damping | [`motion::Motion`] |
+//! | the verdict of a run, and whether a tiny change alters it | [`motion::simulate`] |
+//! | the verdict alone | [`motion::run_to_verdict`], with [`motion::to_the_end`] |
+//! | the state step by step, with changes of speed, pulse and damping | [`motion::Motion`] |
 //! | the locked motion against speed | [`harmonic::locked_motion`] of [`scene::Scene::machine`] |
 //! | slip, whirl, flutter, rest on a lining | [`harmonic`] |
-//! | verdicts over two parameters | [`study::MapPlan::compute`] a cell, [`study::Map::fill`] all |
-//! | the distance to every limit, and what moves it | [`study::margins::Margins::of`] |
-//! | the nearest changes of a verdict | [`study::margins::Margins::ask_runs`] |
-//! | another clearance | [`scene::Scene::set_clearance`]; all keys: [`scene::Scene::set`] |
+//! | verdicts over two parameters | [`study::MapPlan::compute`] (one cell), [`study::Map::fill`] (all) |
+//! | the distance to every limit, and its sensitivities | [`study::margins::Margins::of`] |
+//! | the nearest changes that alter a verdict | [`study::margins::Margins::ask_runs`] |
+//! | another clearance, or any other key | [`scene::Scene::set_clearance`], [`scene::Scene::set`] |
 //! | every number of nodal diameters | [`study::survey::Survey::of`] |
 //!
-//! Units are SI. A multiplier is negative where the contact pushes. The package's `examples`
-//! are whole programs; `docs/theory.md` has the equations that are cited by number. Nothing
-//! here knows a terminal, prints, or formats a report: the package `rubscope` does. Errors may get
-//! new cases (`non_exhaustive`); a `match` on a verdict, a law or a solver is whole, so that the
-//! compiler names what another version has more.
+//! Units are SI. A multiplier is negative where the contact pushes. The package's `examples` are
+//! complete programs; `docs/theory.md` contains the equations that comments cite by number. This
+//! crate prints nothing and formats no reports: that is the package `rubscope`. Error types can
+//! gain variants (`non_exhaustive`). Verdicts, laws and solvers are exhaustive enums, so that the
+//! compiler reports a `match` that lacks a variant of a newer version.
 //!
 //! ```
 //! use rubscope_solver::motion::{Verdict, simulate};

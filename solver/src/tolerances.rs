@@ -8,7 +8,6 @@ mod explicit;
 mod harmonic;
 mod lining;
 mod margins;
-mod precision;
 
 pub(crate) use doubts::*;
 pub(crate) use event::*;
@@ -17,7 +16,6 @@ pub(crate) use explicit::*;
 pub(crate) use harmonic::*;
 pub(crate) use lining::*;
 pub(crate) use margins::*;
-pub(crate) use precision::*;
 
 // Round-off.
 

@@ -1,4 +1,4 @@
-//! `rubscope check`: what follows from a scene, what is not known, and what looks like a slip.
+//! `rubscope check`: derived values of a scene, missing data and likely unit errors, in sentences.
 
 use std::io::Write;
 
@@ -9,7 +9,7 @@ use super::options::SceneOptions;
 use super::status::{self, Status};
 use crate::report::check as report;
 
-/// Say in sentences what follows from a scene, what is unknown, and what looks like a slip.
+/// Summarise a scene in words: derived values, missing data, likely unit mistakes.
 #[derive(Args, Debug)]
 pub struct CheckCommand {
     #[command(flatten)]

@@ -1,4 +1,5 @@
-//! `rubscope [SCENE]`: the explorer, which needs a terminal, or with `--lines` none.
+//! `rubscope [SCENE]`: opens the explorer on a terminal; with `--lines` it reads commands from
+//! standard input instead.
 
 use std::io::{IsTerminal, Write};
 use std::str::FromStr;
@@ -19,10 +20,10 @@ use rubscope_solver::scene::DEFAULT;
 pub struct ExploreCommand {
     #[command(flatten)]
     options: SceneOptions,
-    /// Most frames a second while the motion plays
+    /// Largest number of frames per second while the motion plays
     #[arg(long, value_name = "COUNT", default_value_t = 10.0, value_parser = frames)]
     fps: f64,
-    /// Colours: where the terminal has them, always, or never
+    /// Colours: auto (if the terminal has them), always or never
     #[arg(long, value_name = "WHEN", default_value = "auto",
           value_parser = choice::<tui::Color>(), hide_possible_values = true)]
     color: tui::Color,
@@ -31,20 +32,20 @@ pub struct ExploreCommand {
     #[arg(long, value_name = "THEME",
           value_parser = choice::<tui::ThemeChoice>(), hide_possible_values = true)]
     theme: Option<tui::ThemeChoice>,
-    /// How points are drawn: braille, octant, halfblock, dot or ascii [default:
+    /// How points are drawn: braille, halfblock, dot or ascii [default:
     /// ascii where TERM is linux, vt100 or similar, or the locale is not UTF-8,
     /// otherwise the last one chosen with `m`, or braille]
     #[arg(long, value_name = "MARKER",
           value_parser = choice::<tui::Marker>(), hide_possible_values = true)]
     marker: Option<tui::Marker>,
-    /// How much the line to the terminal carries: thin (at most 5 kB a second while the
-    /// motion plays: a larger window has fewer frames, down to one in ten seconds), full,
-    /// or auto: thin over SSH or where the terminal is slow
+    /// How much the connection to the terminal carries: thin (at most 5 kB/s while the motion
+    /// plays, so that a larger window has fewer frames, down to one in ten seconds), full, or
+    /// auto (thin over SSH or if the terminal is slow)
     #[arg(long, value_name = "LINE", default_value = "auto",
           value_parser = choice::<tui::Line>(), hide_possible_values = true)]
     line: tui::Line,
-    /// Without a screen: what `:` takes comes from standard input, one command a
-    /// line, and is answered in lines; also where TERM is dumb
+    /// Run without a screen: read commands from standard input, one per line, and print
+    /// answers as text (default if TERM=dumb)
     #[arg(long)]
     lines: bool,
     /// Leave the mouse to the terminal
@@ -60,7 +61,7 @@ fn frames(text: &str) -> Result<f64, String> {
     fps.ok_or_else(|| "allowed is a number from 0.1 to 60".to_string())
 }
 
-/// Returns one of the words of a choice.
+/// Creates a parser for the words of an option's enum; shell completion offers the same words.
 fn choice<T>() -> impl TypedValueParser<Value = T>
 where
     T: FromStr + VariantNames + Clone + Send + Sync + 'static,
@@ -71,7 +72,7 @@ where
 }
 
 impl ExploreCommand {
-    /// Returns whether it is without a screen.
+    /// Returns whether the explorer runs without a screen.
     pub(super) fn is_in_lines(&self) -> bool {
         self.lines || tui::is_dumb_terminal()
     }
@@ -107,7 +108,7 @@ impl ExploreCommand {
         }
     }
 
-    /// Refuses the name of a command after options, which is read as a scene.
+    /// Refuses a command name that follows an option: clap has read it as the name of a scene.
     fn refuse_command(&self) -> Result<(), Refusal> {
         let name = self.options.name().unwrap_or_default();
         if Cli::command().get_subcommands().any(|command| command.get_name() == name) {

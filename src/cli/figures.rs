@@ -16,9 +16,9 @@ use rubscope_solver::study::figures::{Figure, Which};
 
 /// Reproduce the paper's Figs. 4 to 10 as SVG, with their data as CSV.
 ///
-/// Every figure has the built-in scene that gives what the paper says of it
-/// (paper-figs-4-6, paper-fig-7, paper-fig-8, paper-nd3), and a caption that says what
-/// agrees and what differs.
+/// Each figure uses the built-in scene that reproduces the paper's description of it
+/// (paper-figs-4-6, paper-fig-7, paper-fig-8, paper-nd3). Its caption says what agrees with
+/// the paper and what differs.
 #[derive(Args, Debug)]
 pub struct FiguresCommand {
     /// Directory of the files; created if missing
@@ -27,7 +27,7 @@ pub struct FiguresCommand {
     /// Only these figures, such as 4,9
     #[arg(long, value_name = "FIGURES", value_delimiter = ',')]
     only: Vec<String>,
-    /// Pictures without captions, which go beside them as text (.txt)
+    /// Write the captions to text files (.txt) instead of into the pictures
     #[arg(long)]
     no_caption: bool,
 }
@@ -39,7 +39,7 @@ impl FiguresCommand {
         std::fs::create_dir_all(&self.out).with_context(|| format!("cannot make {shown}"))?;
         for which in &asked {
             let stem = which.stem();
-            // One letter for each of several panels.
+            // A figure with several panels has one data file per panel: a, b, c, d.
             let data = ["", "a", "b", "c", "d"].map(|letter| format!("{stem}{letter}.csv"));
             let text = self.no_caption.then(|| format!("{stem}.txt"));
             for name in data.iter().chain([&format!("{stem}.svg")]).chain(&text) {
@@ -76,7 +76,8 @@ impl FiguresCommand {
         scene: Scene,
         out: &mut dyn Write,
     ) -> anyhow::Result<()> {
-        // The folder is the user's; the same figure is the same file in each.
+        // The recorded command names a fixed directory instead of the user's, so that the same
+        // figure gives the same file everywhere.
         let command = CommandLine::without_scene("figures")
             .option("--only", which)
             .option("--out", "figures");
@@ -118,11 +119,11 @@ impl FiguresCommand {
     }
 }
 
-/// Writes a file; its content goes to standard output if that fails.
+/// Writes a file. If that fails, its content goes to standard output.
 fn write(
     path: &Path,
     out: &mut dyn Write,
     content: impl Fn(&mut dyn Write) -> std::io::Result<()>,
 ) -> anyhow::Result<Written> {
-    output::replace_or_print(path, out, &content, &content)
+    output::replace_or_print(path, out, &content)
 }

@@ -19,7 +19,7 @@ use rubscope_solver::scene::Scene;
 
 /// Default number of speeds of a sweep.
 const SPEEDS: usize = 51;
-/// What `--speed` takes here.
+/// Help of `--speed`, which may be a range for this command.
 const SWEPT_SPEED: &str =
     "Rotor speed, or speeds as FROM:TO:COUNT; negative turns the other way [rad/s]";
 
@@ -57,7 +57,7 @@ pub struct HbmCommand {
     out: Option<PathBuf>,
 }
 
-/// The view of the command line.
+/// The view chosen by its option; the locked motion without one.
 #[derive(Clone, Debug)]
 struct RequestedView(&'static View);
 
@@ -112,12 +112,11 @@ impl HbmCommand {
         if self.json {
             json::write_as("rubscope.hbm/1", &self.command(scene), &answer.json, out)?;
         }
-        if let Some(path) = &self.out {
-            let rows = format!("{} rows", answer.file.len());
-            output::save(path, &rows, out, |out| answer.file.write_csv(out))?;
+        if let Some((path, file)) = self.out.as_ref().zip(answer.file()) {
+            output::save(path, &format!("{} rows", file.len()), out, |out| file.write_csv(out))?;
         }
         // The locked motion is the subject of the view without an option.
-        let sweep = request.sweep.as_deref().filter(|_| view.option.is_empty());
+        let sweep = request.sweep.as_ref().filter(|_| view.option.is_empty());
         if !self.json {
             let (machine, speed) = (&request.machine, request.fastest());
             let damped = damped || view.always_damped;
@@ -134,7 +133,7 @@ impl HbmCommand {
         Ok(Status::Done)
     }
 
-    /// Returns the command that gives the same table again.
+    /// Returns the command that reproduces the table.
     fn command(&self, scene: &Scene) -> CommandLine {
         let command = CommandLine::new("hbm", scene)
             .optional("--speed", self.options.speed())
@@ -163,10 +162,10 @@ impl HbmCommand {
     }
 }
 
-/// Turns an input that has no meaning into refused input: it is not a failure.
+/// Turns an error of the harmonic solver into a refusal (exit status 2): the input was wrong.
 fn refused(error: HarmonicError) -> Refusal {
     let message = error.to_string();
-    // The option as typed, where the library names the argument.
+    // The library names its argument `blades`; the user typed `--blades`.
     Refusal::because(match error {
         HarmonicError::Blades { .. } => format!("--{message}"),
         _ => message,

@@ -1,5 +1,5 @@
-//! `rubscope man` and `rubscope completions`: the manual pages, with some sections added
-//! here, and the completions of a shell, made from the definition of the command line.
+//! `rubscope man` and `rubscope completions`: manual pages and shell completions generated from
+//! the clap definition. Some sections of the pages are written here.
 
 use std::io::Write;
 
@@ -12,8 +12,7 @@ use super::{Cli, Done};
 use crate::tui::bindings::{self, Context, keys_text};
 use rubscope_solver::scene::BUILTIN;
 
-/// When the text of the pages last changed in more than its wording. A page without
-/// a date has its source in the place of the date.
+/// Date of the last change of content. A page without a date shows its source there instead.
 const DATE: &str = "2026-11-22";
 
 /// Print the manual page, or that of one command.
@@ -61,7 +60,7 @@ fn page_of(whole: &clap::Command, name: &str) -> Result<clap::Command, Refusal> 
     })
 }
 
-/// The meaning of each exit status.
+/// Meaning of each exit status.
 const EXIT_STATUS: &[(&str, &str)] = &[
     ("0", "Done."),
     ("1", "Failed: a file could not be written, or the computation broke down."),
@@ -69,7 +68,7 @@ const EXIT_STATUS: &[(&str, &str)] = &[
     ("128+n", "Ended by signal n."),
 ];
 
-/// The environment variables that the explorer reads.
+/// Environment variables that the explorer reads.
 const ENVIRONMENT: &[(&str, &str)] = &[
     (
         "NO_COLOR",
@@ -101,7 +100,7 @@ const ENVIRONMENT: &[(&str, &str)] = &[
     ),
 ];
 
-/// The files that the program knows by itself.
+/// Files that the program reads or writes without being asked.
 const FILES: &[(&str, &str)] = &[(
     "~/.config/rubscope/config.toml",
     "What the explorer remembers: theme, marker, number of charts, mouse. Options win over it; \
@@ -119,12 +118,12 @@ const EXAMPLES: &[(&str, &str)] = &[
     ("rubscope map --speed 250:500:51 --pulse 1e4:1e6:25", "Which pulses lock at which speeds."),
     ("rubscope figures --out figures", "The figures of the paper."),
     (
-        "rubscope run my.toml --set bladed_disk.blades=24 --out history.npz",
-        "A scene file with one key changed; the history goes to a file for numpy.",
+        "rubscope run my.toml --set bladed_disk.blades=24 --out history.csv",
+        "A scene file with one key changed; the history goes to a CSV file.",
     ),
 ];
 
-/// Returns the sections that are not in the definition of the command line.
+/// Returns the sections that clap does not generate.
 fn added() -> Roff {
     let mut page = Roff::new();
     page.control("SH", ["SCENES"]);
@@ -164,7 +163,7 @@ pub struct CompletionsCommand {
 
 impl CompletionsCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
-        // Into memory first: clap_complete panics when it cannot write.
+        // Into memory first, because clap_complete panics when it cannot write.
         let mut text = Vec::new();
         clap_complete::generate(self.shell, &mut Cli::command(), "rubscope", &mut text);
         out.write_all(&text)?;

@@ -1,9 +1,9 @@
-//! `rubscope map`: the verdicts over two quantities of a scene.
+//! `rubscope map`: the verdicts over two parameters of a scene.
 //!
 //! A result that cannot be written goes to standard output instead.
 
 use std::fs::File;
-use std::io::{BufReader, IsTerminal, Write};
+use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
@@ -20,23 +20,23 @@ use crate::report::{Provenance, json, map as report, svg};
 use rubscope_solver::scene::keys;
 use rubscope_solver::study::{Axis, AxisError, Map, MapPlan, overlay};
 
-/// Largest number of threads, above the number of cores of any machine.
+/// Upper bound of `--threads`, above the number of cores of any machine.
 const MOST_THREADS: usize = 1024;
-/// Largest number of cells in a picture, which takes about a hundred bytes per cell.
+/// Largest number of cells in a picture; each takes about a hundred bytes of SVG.
 const MOST_DRAWN: usize = 1_000_000;
-/// Endings of the files of a whole map.
+/// File formats of a complete map.
 const WHOLE: [&str; 3] = ["csv", "json", "svg"];
-/// Columns and rows of a map by default: steps of 10 rad/s and 50 kN.
+/// Default number of columns and rows: steps of 10 rad/s and 50 kN.
 const COLUMNS: u32 = 51;
 const ROWS: u32 = 21;
-/// What `--speed` and `--pulse` take here.
+/// Help of `--speed` and `--pulse`, which are ranges for this command.
 const COLUMNS_OF_SPEED: &str =
     "Columns: rotor speeds; negative turns the other way [rad/s] [default: 0:500:51]";
 const ROWS_OF_PULSE: &str = "Rows: forces of the pulse on the casing [N] [default: 0:1e6:21]";
-/// Width of a map if standard output is not a terminal.
+/// Width of the text map if standard output is not a terminal \[characters\].
 const WIDTH: usize = 115;
 
-/// Map how the motion lasts over pulse and speed, or any two keys.
+/// Map the verdict over two parameters (default: pulse and speed).
 #[derive(Args, Debug)]
 #[command(args_conflicts_with_subcommands = true)]
 #[command(mut_arg("speed", |speed| speed.help(COLUMNS_OF_SPEED).value_name("FROM:TO:COUNT")))]
@@ -52,20 +52,20 @@ pub struct MapCommand {
     /// Rows: PATH=FROM:TO:COUNT or PATH=log:FROM:TO:COUNT [default: the pulse]
     #[arg(long, value_name = "AXIS", conflicts_with = "pulse")]
     y: Option<String>,
-    /// Do not look for sensitive cells: takes fewer runs
+    /// Skip the search for sensitive cells, which needs more runs
     #[arg(long)]
     no_sensitivity: bool,
     /// Number of threads [default: every core]
     #[arg(long, value_name = "COUNT", value_parser = threads)]
     threads: Option<usize>,
-    /// Compute only share K of COUNT, counted from 1, for map merge; into --out FILE.csv
+    /// Compute only share K of COUNT, counted from 1, for map merge; needs --out FILE.csv
     #[arg(long, value_name = "K/COUNT", requires = "out")]
     shard: Option<String>,
     #[command(flatten)]
     result: ResultOptions,
 }
 
-/// Where a finished map goes.
+/// Output options of a finished map.
 #[derive(Args, Debug)]
 struct ResultOptions {
     /// Print the map as JSON (rubscope.map/1)
@@ -78,13 +78,13 @@ struct ResultOptions {
 
 #[derive(Subcommand, Debug)]
 enum MapSubcommand {
-    /// Join the parts that shards computed
+    /// Join the shares that --shard computed
     Merge(Merge),
 }
 
 #[derive(Args, Debug)]
 struct Merge {
-    /// Parts of one map
+    /// Shares of one map
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
     #[command(flatten)]
@@ -103,7 +103,7 @@ impl MapCommand {
         }
         let shard = self.shard()?;
         let format = match shard {
-            Some(_) => self.result.format(&["csv", "part"])?,
+            Some(_) => self.result.format(&["csv"])?,
             None => self.result.format(&WHOLE)?,
         };
         let plan = self.plan()?;
@@ -112,9 +112,9 @@ impl MapCommand {
         let mut map = Map::empty(plan);
         self.compute(&mut map, shard)?;
         match (shard, &self.result.out) {
-            (Some(shard), Some(path)) => {
+            (Some(_), Some(path)) => {
                 let what = format!("{} cells", map.runs);
-                output::save(path, &what, out, |out| part::write(&map, shard, out))?;
+                output::save(path, &what, out, |out| part::write(&map, out))?;
             }
             _ => self.result.deliver(&map, format, out)?,
         }
@@ -136,7 +136,7 @@ impl MapCommand {
             axis.map_err(|error: AxisError| Refusal::because(error.to_string()))
         };
         let scene = resolved.scene;
-        // Round in the unit shown.
+        // The default range ends at a round number in the unit shown.
         let fastest = if self.options.in_rpm() { from_shown(5000.0, "rad/s") } else { 500.0 };
         let plan = MapPlan {
             x: axis(&self.x, keys::SPEED, resolved.speeds, 0.0, fastest, COLUMNS)?,
@@ -163,7 +163,7 @@ impl MapCommand {
         let cells = map.cells.len();
         let whole = Shard { number: 1, count: 1 };
         let indices = shard.unwrap_or(whole).indices(cells);
-        let form = "{spinner} {bar:30} {pos}/{len} cells{rate}";
+        let form = "{spinner} {bar:30} {pos}/{len} cells, {per_sec}, {eta} left";
         let bar = sign::bar(indices.len() as u64, form);
         let count = |_, _| bar.inc(1);
         builder.build()?.install(|| map.fill(indices, &|| true, &count));
@@ -174,14 +174,14 @@ impl MapCommand {
 impl Merge {
     fn run(&self, out: &mut dyn Write) -> Done {
         let format = self.result.format(&WHOLE)?;
-        let map = read_parts(&self.files)?;
+        let map = read_shares(&self.files)?;
         check_picture(&map.plan, format)?;
         self.result.deliver(&map, format, out)?;
         Ok(Status::Done)
     }
 }
 
-/// Refuses a picture with more cells than can be seen.
+/// Refuses a picture with too many cells.
 fn check_picture(plan: &MapPlan, format: Option<&str>) -> Result<(), Refusal> {
     if format != Some("svg") || plan.len() <= MOST_DRAWN {
         return Ok(());
@@ -190,16 +190,15 @@ fn check_picture(plan: &MapPlan, format: Option<&str>) -> Result<(), Refusal> {
     Err(Refusal::of("--out", cells, format!("up to {MOST_DRAWN} cells in a picture")))
 }
 
-fn read_parts(files: &[PathBuf]) -> anyhow::Result<Map> {
-    let mut parts = Vec::new();
+fn read_shares(files: &[PathBuf]) -> anyhow::Result<Map> {
+    let mut shares = Vec::new();
     for path in files {
         let shown = path.display().to_string();
         let file = File::open(path)
             .map_err(|error| Refusal::because(format!("cannot read {shown}: {error}")))?;
-        parts.push((shown, BufReader::new(file)));
+        shares.push((shown, file));
     }
-    let map = part::read_all(parts).map_err(|error| Refusal::because(error.to_string()))?;
-    map.ok_or_else(|| Refusal::because("no part of a map was given").into())
+    Ok(part::read_all(shares).map_err(Refusal::because)?)
 }
 
 impl ResultOptions {
@@ -216,7 +215,7 @@ impl ResultOptions {
             report::write_text(map, width(), out)?;
         }
         let (Some(path), Some(format)) = (&self.out, format) else { return Ok(()) };
-        // The file may be standard output itself, and comes after what is there.
+        // `path` may be standard output itself: the text printed above must come first.
         out.flush()?;
         let error = match write_file(map, format, path) {
             Ok(written) => {
@@ -228,14 +227,14 @@ impl ResultOptions {
         };
         let kept = "the whole map is on standard output as JSON";
         Err(output::print_instead(path, error, kept, out, |out| match self.json {
-            // It is there already.
+            // `--json` has printed it already.
             true => Ok(()),
             false => json::write(&report::MapJson { map, with_time: false }, out),
         }))
     }
 }
 
-/// Returns the width that a map in text may have.
+/// Returns the width of the text map: that of the terminal, if there is one.
 fn width() -> usize {
     let size = crossterm::terminal::size().ok().filter(|_| std::io::stdout().is_terminal());
     size.map_or(WIDTH, |(columns, _)| usize::from(columns))

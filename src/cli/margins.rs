@@ -7,7 +7,7 @@ use clap::Args;
 
 use super::options::SceneOptions;
 use super::status::{self, Refusal, Status};
-use super::{Done, gone, output, sign};
+use super::{Done, output, sign};
 use crate::report::number::with_typed_unit;
 use crate::report::{CommandLine, Provenance, json, margins as report};
 use rubscope_solver::motion::to_the_end;
@@ -16,9 +16,9 @@ use rubscope_solver::study::margins::{LimitName, Margins, Target, TargetError};
 
 /// Find how far a run is from another verdict and from every limit, and what moves each limit most.
 ///
-/// First the nearest changes of its verdict that are found, by speed, pulse, damping and clearance.
-/// Speeds, pulses and the loads of the locked motion, each with its change in per cent
-/// by one per cent of every parameter of the scene.
+/// Prints the nearest changes of speed, pulse, damping and clearance found to alter the verdict.
+/// The limits follow: speeds, pulses and loads of the locked motion, each with its change in per
+/// cent if a parameter of the scene changes by one per cent.
 #[derive(Args, Debug)]
 pub struct MarginsCommand {
     #[command(flatten)]
@@ -29,13 +29,13 @@ pub struct MarginsCommand {
     /// Write the limits to FILE: .csv, or .svg for a page of the text
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Find the value of a parameter that puts a limit there, such as omega_lock=450
+    /// Find the parameter value at which a limit has this value, such as omega_lock=450
     #[arg(long, value_name = "NAME=VALUE", requires = "by", allow_hyphen_values = true)]
     target: Option<String>,
     /// The parameter for --target, such as casing.damping_ratio
     #[arg(long, value_name = "PATH", requires = "target")]
     by: Option<String>,
-    /// Leave out the nearest changes of the verdict, which are found by many runs
+    /// Skip the search for the nearest changes of the verdict, which needs many runs
     #[arg(long)]
     no_search: bool,
 }
@@ -47,10 +47,7 @@ impl MarginsCommand {
         self.options.note_assumed(&scene);
         let target = match (&self.target(), &self.by) {
             (Some(target), Some(by)) => {
-                let name = target.split('=').next().unwrap_or_default().trim();
-                let refused = |error: TargetError| {
-                    Refusal::because(gone::name("margins", name).unwrap_or(error.to_string()))
-                };
+                let refused = |error: TargetError| Refusal::because(error.to_string());
                 Some(Target::parse(target, by).map_err(refused)?)
             }
             _ => None,
@@ -95,7 +92,7 @@ impl MarginsCommand {
         Ok(())
     }
 
-    /// The target with the unit of its value.
+    /// Returns the target with a unit appended to its value if it had none.
     fn target(&self) -> Option<String> {
         let text = self.target.as_ref()?;
         let parts = text.split_once('=');
@@ -109,7 +106,7 @@ impl MarginsCommand {
         })
     }
 
-    /// The command that gives the same answer again.
+    /// Returns the command that reproduces the answer.
     fn command(&self, scene: &CheckedScene) -> CommandLine {
         CommandLine::new("margins", scene)
             .optional("--target", self.target())

@@ -6,7 +6,6 @@
 mod check;
 mod explore;
 mod figures;
-mod gone;
 mod hbm;
 mod man;
 mod map;
@@ -20,7 +19,6 @@ mod run;
 mod scenes;
 pub mod script;
 mod sign;
-mod signals;
 pub mod status;
 mod survey;
 mod words;
@@ -28,7 +26,6 @@ mod words;
 use std::ffi::OsString;
 use std::io::{BufWriter, Write};
 
-use anyhow::Context;
 use clap::{Parser, Subcommand};
 
 use status::Status;
@@ -36,7 +33,7 @@ use status::Status;
 /// Version and commit of the program (`build.rs`), for `--version`.
 const VERSION: &str = env!("RUBSCOPE_VERSION");
 
-/// The result of a command: how it ended, or why it could not run.
+/// Result of a command: its exit status, or the error that prevented it.
 pub type Done = anyhow::Result<Status>;
 
 /// See a flexible bladed disk rub against its flexible casing.
@@ -77,8 +74,8 @@ pub fn main(args: impl IntoIterator<Item = OsString>) -> u8 {
         Ok(cli) => cli,
         Err(error) => return status::usage(&error, &arguments),
     };
-    // No lock for the whole program: it would stop every other thread that
-    // writes, for as long as the output is blocked.
+    // Standard output is not locked for the whole run: other threads that write would have to
+    // wait while the output is blocked.
     let mut out = BufWriter::new(sign::Out);
     let done = dispatch(cli, &mut out).and_then(|status| {
         out.flush()?;
@@ -89,12 +86,14 @@ pub fn main(args: impl IntoIterator<Item = OsString>) -> u8 {
 }
 
 fn dispatch(cli: Cli, out: &mut dyn Write) -> Done {
-    // The explorer has signals of its own on a screen.
-    if cli.command.is_some() || cli.explore.is_in_lines() {
-        signals::watch().context("cannot watch signals")?;
-    }
-    // A sign of life would wipe the questions of `new`.
-    if !matches!(cli.command, None | Some(Command::New(_))) {
+    // The spinner would wipe the questions of `new`; the others end at once.
+    let unseen = |command: &Command| {
+        matches!(
+            command,
+            Command::New(_) | Command::Scenes(_) | Command::Completions(_) | Command::Man(_)
+        )
+    };
+    if !cli.command.as_ref().is_none_or(unseen) {
         sign::begin();
     }
     match cli.command {

@@ -1,4 +1,4 @@
-//! `rubscope new`: a scene file from what an engineer has. What no option gives is asked for
+//! `rubscope new`: writes a scene file from modal data. Values that no option gives are asked for
 //! on a terminal.
 
 use std::io::{BufRead, IsTerminal, Write, stderr, stdin};
@@ -17,21 +17,21 @@ use rubscope_solver::scene::{Family, ModalData, Quantity, Scene, SceneError, key
 use rubscope_solver::study::margins::{LimitName, Margins};
 use rubscope_solver::study::survey::{Survey, speed_range};
 
-/// Largest table of modes \[bytes\].
+/// Largest size of a mode table \[bytes\].
 const LARGEST_TABLE: u64 = 1 << 20;
-/// Pulse of the new scene over the smallest pulse that makes contact.
+/// Pulse of the new scene, as a multiple of the smallest pulse that makes contact.
 const PULSE: f64 = 2.0;
-/// Digits of that pulse.
+/// Significant digits to which that pulse is rounded.
 const DIGITS: usize = 2;
 
-/// Write a scene file of a machine of one's own, and survey it.
+/// Write a scene file for your own machine, and survey it.
 ///
-/// From the number of blades, radius and clearance, and frequencies and modal masses of a
-/// modal analysis. What is not given is asked for on a terminal. Modal masses are of mode
-/// shapes with the amplitude 1 at the rim of the casing, and at the tips of the blades.
+/// Needs the number of blades, radius and clearance, and frequencies and modal masses from a
+/// modal analysis. On a terminal, missing values are asked for. Modal masses belong to mode
+/// shapes with amplitude 1 at the rim of the casing and at the blade tips.
 #[derive(Args, Debug)]
 pub struct NewCommand {
-    /// The file to write, FILE.toml; one that exists is left alone
+    /// The file to write, FILE.toml; an existing file is not replaced
     #[arg(value_name = "FILE")]
     file: String,
     /// Modes as CSV: structure (casing or disk), nodal_diameters, frequency_hz, modal_mass_kg
@@ -48,11 +48,10 @@ pub struct NewCommand {
     /// Clearance of the blade tips, such as 0.3mm
     #[arg(long, value_name = "LENGTH")]
     clearance: Option<String>,
-    /// The speed that the scene begins with, such as 9500rpm; the middle of the range if not
-    /// given
+    /// Rotor speed of the scene, such as 9500rpm [default: the middle of the range]
     #[arg(long, value_name = "SPEED", allow_hyphen_values = true)]
     speed: Option<String>,
-    /// Nodal diameters that the scene begins with
+    /// Nodal diameters of the scene
     #[arg(long, value_name = "COUNT")]
     nd: Option<String>,
     /// A mode of the casing: nodal diameters, frequency, modal mass, such as 3:139.8Hz:2kg;
@@ -107,7 +106,7 @@ impl NewCommand {
         Ok(Status::Done)
     }
 
-    /// Shows what looks like a slip, and asks whether it is one.
+    /// Prints likely unit errors, and asks whether to write the scene anyway.
     fn ask_about(&self, doubts: &[String], asking: &Asking) -> anyhow::Result<()> {
         write_doubts(doubts, &mut stderr())?;
         if doubts.is_empty() || !asking.answers {
@@ -121,7 +120,7 @@ impl NewCommand {
         })
     }
 
-    /// Returns everything that was given, and what is asked for.
+    /// Collects the data from the mode table, the options and, on a terminal, the user's answers.
     fn data(&self, asking: &Asking) -> anyhow::Result<ModalData> {
         let [mut casing, mut disk] = match &self.modes {
             Some(path) => table(path)?,
@@ -219,10 +218,10 @@ impl NewCommand {
     }
 }
 
-/// Damping ratio where none is given.
+/// Damping ratio if none is given.
 const USUAL_DAMPING: &str = "0.01";
 
-/// Returns the modes of a table.
+/// Reads the mode table: the casing's modes, then the disk's.
 fn table(path: &Path) -> anyhow::Result<[Vec<Family>; 2]> {
     let shown = path.display();
     let text = file::read_text(path, LARGEST_TABLE)
@@ -233,7 +232,7 @@ fn table(path: &Path) -> anyhow::Result<[Vec<Family>; 2]> {
     Ok(table.modes)
 }
 
-/// Returns a mode from `DIAMETERS:FREQUENCY:MASS`.
+/// Parses a mode given as `DIAMETERS:FREQUENCY:MASS`.
 fn family(option: &str, text: &str) -> Result<Family, SceneError> {
     let parts: Vec<&str> = text.split(':').collect();
     if parts.len() != 3 {
@@ -248,18 +247,18 @@ fn family(option: &str, text: &str) -> Result<Family, SceneError> {
     Family::read(&given, &|name| format!("{option} {text}: {name}"))
 }
 
-/// Reads a number that a key takes.
+/// Parses a number within the bounds of the key `path`, with its unit.
 fn number(option: &str, text: &str, path: &str) -> anyhow::Result<f64> {
     let key = keys::find(path)?;
     Ok(key.number(option, &with_typed_unit(text, key.quantity()))?)
 }
 
-/// The user does not want the file.
+/// The user answered that the file should not be written.
 #[derive(Debug, thiserror::Error)]
 #[error("nothing is written")]
 struct Stop;
 
-/// Who answers questions: a user at a terminal, or nobody.
+/// Asks questions if standard input is a terminal.
 struct Asking {
     answers: bool,
 }
@@ -269,8 +268,8 @@ impl Asking {
         Self { answers: stdin().is_terminal() }
     }
 
-    /// Returns what was given, or the answer to a question, as it is read; an empty answer is the
-    /// usual one, and what cannot be read is asked for again.
+    /// Parses `given`, or else an answer to the question `what`; Enter gives `usual`. Repeats the
+    /// question until the answer parses. Without a terminal, takes `usual` or fails.
     fn value<T>(
         &self,
         option: &'static str,

@@ -66,7 +66,7 @@ pub struct SceneOptions {
 
 const HEADING: &str = "Options that change the scene";
 
-/// Which options a command takes as a range `FROM:TO:COUNT`.
+/// Options that a command accepts as a range `FROM:TO:COUNT`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Swept {
     /// `--speed` may be a range.
@@ -75,14 +75,14 @@ pub struct Swept {
     pub pulse: bool,
 }
 
-/// A checked scene, and the ranges among the options.
+/// A checked scene, and the ranges given with `--speed` and `--pulse`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Resolved {
-    /// The checked scene; a swept key has the first value of its range.
+    /// The scene; a swept key has the first value of its range.
     pub scene: CheckedScene,
-    /// The range given with `--speed`; of one value for a single one.
+    /// The range of `--speed`; a single speed is a range of one value.
     pub speeds: Option<Range>,
-    /// The range given with `--pulse`, in the same way.
+    /// The range of `--pulse`, likewise.
     pub pulses: Option<Range>,
 }
 
@@ -102,16 +102,16 @@ impl SceneOptions {
         self.speed.as_ref().map(|text| with_typed_unit(text, Quantity::Speed))
     }
 
-    /// Returns the scene that these options describe. A key that had to be changed to fit them is
-    /// named on standard error.
+    /// Returns the scene that these options describe. If a key had to be adjusted to fit them,
+    /// a message on standard error says so.
     ///
     /// # Errors
-    /// No such scene, or the first key, value or combination that is refused.
+    /// There is no such scene, or a key, value or combination is refused.
     pub fn scene(&self) -> anyhow::Result<CheckedScene> {
         Ok(self.resolve(Swept::default())?.scene)
     }
 
-    /// Notes each damping ratio that neither the file of the scene nor an option gives.
+    /// Notes each damping ratio that is a default: neither the scene file nor an option sets it.
     pub(super) fn note_assumed(&self, scene: &Scene) {
         let file = self.name().filter(|name| name.contains(['.', '/']));
         let file = file.filter(|name| std::fs::metadata(name).is_ok_and(|found| found.is_file()));
@@ -134,15 +134,15 @@ impl SceneOptions {
         }
     }
 
-    /// Returns the scene these options describe, and the ranges among them.
+    /// As [`Self::scene`], with the ranges among the options.
     ///
     /// # Errors
-    /// As `scene`; the scene is checked at both ends of each range.
+    /// As `scene`, which is checked at both ends of each range.
     pub fn resolve(&self, swept: Swept) -> anyhow::Result<Resolved> {
         self.apply(read_scene(self.scene.as_deref().unwrap_or(DEFAULT))?, swept)
     }
 
-    /// Returns the given scene, instead of the named one, changed by these options.
+    /// Applies these options to `scene` instead of the scene they name.
     ///
     /// # Errors
     /// As `scene`.
@@ -203,12 +203,12 @@ impl SceneOptions {
         Ok(Resolved { scene, speeds, pulses })
     }
 
-    /// Returns every named option, and the key it sets.
+    /// Returns every option that sets one key, with that key.
     pub fn keys() -> [(&'static str, &'static str); 10] {
         Self::default().named().map(|(option, key, _)| (option, key))
     }
 
-    /// Returns every named option, the key it sets, and its text.
+    /// Returns every option that sets one key, with the key and the text given, if any.
     fn named(&self) -> [(&'static str, &'static str, Option<&String>); 10] {
         [
             ("--speed", keys::SPEED, self.speed.as_ref()),
@@ -225,21 +225,21 @@ impl SceneOptions {
     }
 }
 
-/// Returns the scene of this name or file. A pipe in a folder is read as soon as somebody writes to
-/// it, which is said: it may be nobody. Other pipes have their writers.
+/// Reads a built-in scene or a scene file. Reading a named pipe blocks until someone writes to it,
+/// so a message says that the program is waiting.
 ///
 /// # Errors
 /// As `Scene::load_unchecked`.
 pub(super) fn read_scene(name: &str) -> Result<Scene, SceneError> {
     let is_pipe = std::fs::metadata(name).is_ok_and(|found| found.file_type().is_fifo());
-    // That of a shell has no name of its own there.
+    // A shell's own pipe (`<(...)`) has a path in these directories, and a writer.
     if is_pipe && !["/dev/", "/proc/"].iter().any(|folder| name.starts_with(folder)) {
         say(&format!("rubscope: {name} is a pipe: waiting for its writer"));
     }
     Scene::load_unchecked(name)
 }
 
-/// Returns what to say about a key that follows the options.
+/// Returns the message about a key that was adjusted to fit the options.
 fn followed(made: &Adjustment) -> String {
     let Adjustment { key, from, to, why } = made;
     format!("rubscope: took {key} = {to:?} instead of the scene's {from:?}, which {why}")

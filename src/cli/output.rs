@@ -1,4 +1,4 @@
-//! What commands write besides their data: files in the format of their ending.
+//! Output files of the commands: the format follows from the file ending.
 
 use std::io::Write;
 use std::path::Path;
@@ -7,10 +7,10 @@ use super::status::{Refusal, say};
 use crate::file::{self, Written};
 use anyhow::Context;
 
-/// Returns the ending of the file of `--out`, if it is given: one of these. The place is tried.
+/// Returns the ending of `path`, which must be in `endings`, and checks that a file can be written.
 ///
 /// # Errors
-/// Another ending, or a path where no file can be written.
+/// The ending is another one, or no file can be written at `path`.
 pub fn format(
     path: Option<&Path>,
     endings: &[&'static str],
@@ -31,63 +31,48 @@ pub fn format(
     Ok(Some(known))
 }
 
-/// Tries whether a file can be written there.
+/// Checks that a file can be written at `path`.
 ///
 /// # Errors
-/// It cannot.
+/// The reason why it cannot be written.
 pub fn try_place(path: &Path) -> anyhow::Result<()> {
     file::check_place(path).with_context(|| format!("cannot write {}", path.display()))
 }
 
-/// Writes a file, completely or not at all, and prints what is in it, and whether
-/// it replaced another. If it cannot be written, its text goes to standard output,
-/// so that nothing computed is lost.
+/// Writes a file, completely or not at all, and prints `what` it contains and whether it replaced
+/// another. If it cannot be written, its text goes to standard output, so that the result of a
+/// long computation is not lost.
 ///
 /// # Errors
-/// An error of the system.
+/// The file could not be written.
 pub fn save(
     path: &Path,
     what: &str,
     out: &mut dyn Write,
     content: impl Fn(&mut dyn Write) -> std::io::Result<()>,
 ) -> anyhow::Result<()> {
-    save_or(path, what, out, &content, &content)
-}
-
-/// Same as [`save`], with a text in place of a file that is none.
-///
-/// # Errors
-/// As `save`.
-pub fn save_or(
-    path: &Path,
-    what: &str,
-    out: &mut dyn Write,
-    content: &dyn Fn(&mut dyn Write) -> std::io::Result<()>,
-    text: &dyn Fn(&mut dyn Write) -> std::io::Result<()>,
-) -> anyhow::Result<()> {
-    let written = replace_or_print(path, out, content, text)?;
+    let written = replace_or_print(path, out, &content)?;
     say_written(written, what, &path.display());
     Ok(())
 }
 
-/// Writes a file; if that fails, its text goes to standard output.
+/// Writes a file. If that fails, `text` goes to standard output.
 ///
 /// # Errors
-/// An error of the system.
+/// The file could not be written.
 pub fn replace_or_print(
     path: &Path,
     out: &mut dyn Write,
     content: &dyn Fn(&mut dyn Write) -> std::io::Result<()>,
-    text: &dyn Fn(&mut dyn Write) -> std::io::Result<()>,
 ) -> anyhow::Result<Written> {
-    // The file may be standard output itself, and comes after what is there.
+    // `path` may be standard output itself: what was printed before must come first.
     out.flush()?;
     file::replace(path, content)
-        .map_err(|error| print_instead(path, error, "its text is on standard output", out, text))
+        .map_err(|error| print_instead(path, error, "its text is on standard output", out, content))
 }
 
-/// Returns the error of a file that could not be written, after what was meant for it was printed;
-/// if that fails too, the error says so.
+/// Prints the content of a file that could not be written, and returns the error, which also says
+/// if printing failed.
 pub fn print_instead(
     path: &Path,
     error: std::io::Error,
@@ -104,7 +89,7 @@ pub fn print_instead(
     }
 }
 
-/// Says what is in a file that was written.
+/// Reports a written file on standard error.
 pub fn say_written(written: Written, what: &str, shown: &impl std::fmt::Display) {
     say(&match written {
         Written::New => format!("rubscope: wrote {what} to {shown}"),
@@ -112,10 +97,10 @@ pub fn say_written(written: Written, what: &str, shown: &impl std::fmt::Display)
     });
 }
 
-/// Lets a write beyond the limit of file sizes fail, as on a full disk. Without
-/// this the system ends the program there.
+/// Makes a write beyond the file size limit (`ulimit -f`) fail with an error. By default SIGXFSZ
+/// ends the program.
 pub fn outlive_size_limit() {
     let seen = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(false));
-    // If it cannot be had, all else still works.
+    // If the handler cannot be installed, only this limit is affected.
     let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, seen);
 }

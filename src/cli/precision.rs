@@ -1,4 +1,4 @@
-//! `rubscope precision`: speed against error of every solver on one scene.
+//! `rubscope precision`: run time against error of every solver on one scene.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -23,7 +23,7 @@ pub struct PrecisionCommand {
     /// Write the measurements to FILE: .csv, or .svg for the chart
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Runs of which the median time is taken
+    /// Number of runs for the median time
     #[arg(long, value_name = "COUNT", default_value_t = 5,
           value_parser = clap::value_parser!(u32).range(1..=1000))]
     repeat: u32,
@@ -78,9 +78,11 @@ impl PrecisionCommand {
         if !self.json {
             report::write(measured, out)?;
         }
-        let Method::None(lack) = measured.reference.method else { return Ok(Status::Done) };
+        if measured.reference.method != Method::None {
+            return Ok(Status::Done);
+        }
         out.flush()?;
-        say(&format!("rubscope: nothing to compare with: {}", report::why_none(lack)));
+        say(&format!("rubscope: nothing to compare with: {}", report::WHY_NONE));
         Ok(Status::Failed)
     }
 }

@@ -5,7 +5,7 @@ use rubscope_solver::scene::Quantity;
 use rubscope_solver::scene::units::RangeError;
 use rubscope_solver::study::parse_range;
 
-/// Most values of one range.
+/// Largest number of values in a range.
 const MOST: usize = 100_000;
 
 /// Evenly spaced values, both ends included.
@@ -15,15 +15,15 @@ pub struct Range {
     pub from: f64,
     /// Last value.
     pub to: f64,
-    /// How many values, at least one.
+    /// Number of values, at least one.
     pub count: usize,
 }
 
 impl Range {
-    /// Reads `FROM:TO:COUNT`, given for `name` (an option as typed), with ends of a quantity.
+    /// Parses `FROM:TO:COUNT`. `name` is the option as typed, for the error message.
     ///
     /// # Errors
-    /// Text of another form, ends that are not finite numbers of the quantity, or a count
+    /// The text has another form, an end is not a finite number of the quantity, or the count is
     /// outside 1 to 100,000.
     pub fn parse(name: &str, text: &str, of: Quantity) -> Result<Self, Refusal> {
         match parse_range(text, of) {

@@ -1,4 +1,4 @@
-//! `rubscope run`: one time simulation, as a summary, JSON or a file.
+//! `rubscope run`: simulates a scene in time; prints a summary or JSON, and writes the history.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -8,11 +8,10 @@ use clap::Args;
 
 use super::options::SceneOptions;
 use super::script::{self, RequestedScript};
-use super::sign::LongRun;
 use super::status::{self, Refusal, Status};
 use super::{Done, output, sign};
 use crate::report::history::HISTORY_VALUES;
-use crate::report::{CommandLine, History, Provenance, Wall, json, npz, summary};
+use crate::report::{CommandLine, History, Wall, json, summary};
 use rubscope_solver::motion::{CHANGED_RUNS, Sample, Sampling, Verdict, run_to_end, to_the_end};
 use rubscope_solver::scene::{Scene, SolverKind};
 
@@ -24,7 +23,7 @@ pub struct RunCommand {
     /// Print the report as JSON (rubscope.run/1)
     #[arg(long)]
     json: bool,
-    /// Write the history to FILE: .csv, or .npz for numpy
+    /// Write the history to FILE: .csv
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Samples of the history
@@ -37,10 +36,10 @@ pub struct RunCommand {
     /// Change the running motion: TIME:PATH=VALUE or TIME:pulse, TIME in seconds; repeatable
     #[arg(long, value_name = "TIME:CHANGE", allow_hyphen_values = true)]
     at: Vec<String>,
-    /// Do not find out whether the run is sensitive and which digits hold: one run, not several
+    /// Skip the sensitivity check (one run instead of five)
     #[arg(long)]
     no_sensitivity: bool,
-    /// Take every step of the explicit solver, without a leap or an early verdict
+    /// Compute every step of the explicit solver: skip none, and give no early verdict
     #[arg(long)]
     plain: bool,
 }
@@ -57,7 +56,7 @@ impl RunCommand {
         }
         let script = RequestedScript::resolve(&script::parse(&self.at)?, &scene)?;
         let acts = script.changes();
-        let format = output::format(self.out.as_deref(), &["csv", "npz"])?;
+        output::format(self.out.as_deref(), &["csv"])?;
         let gaps = if self.gaps { scene.bladed_disk.blades } else { 0 };
         let most = History::most_samples(gaps);
         if self.samples > most {
@@ -69,16 +68,15 @@ impl RunCommand {
         }
         let mut history = History::new(gaps);
         // Both ends are samples. The smallest gap needs the gaps of all blades.
-        let sampling = match format {
+        let sampling = match self.out {
             Some(_) => Sampling { intervals: self.samples - 1, gaps: true },
             None => Sampling::default(),
         };
         status::say_noted();
         let changed_runs = if self.no_sensitivity { 0 } else { CHANGED_RUNS };
-        let mut shown = LongRun::of(&scene, changed_runs);
         let started = Instant::now();
         let mut sink = |sample: &Sample| history.push(sample);
-        let mut report = run_to_end(&scene, &acts, sampling, &mut sink, &mut shown);
+        let mut report = run_to_end(&scene, &acts, sampling, &mut sink);
         let mut wall = Wall { run_s: started.elapsed().as_secs_f64(), certainty_s: None };
         if changed_runs > 0 {
             sign::doing("changed runs find out which digits hold");
@@ -92,17 +90,9 @@ impl RunCommand {
         if self.json {
             json::write_run(&report, &command, wall, changes, out)?;
         }
-        if let Some((path, format)) = self.out.as_ref().zip(format) {
+        if let Some(path) = &self.out {
             let samples = format!("{} samples", history.len());
-            let csv = |out: &mut dyn Write| history.write_csv(out);
-            let command = command
-                .option("--samples", self.samples)
-                .flag("--gaps", self.gaps)
-                .option("--out", "history.npz");
-            let origin = Provenance { command, scene: scene.clone().into_scene() };
-            let npz = |out: &mut dyn Write| npz::write(&history, &origin, out);
-            let content: &dyn Fn(&mut dyn Write) -> _ = if format == "csv" { &csv } else { &npz };
-            output::save_or(path, &samples, out, content, &csv)?;
+            output::save(path, &samples, out, |out| history.write_csv(out))?;
         }
         if !self.json {
             summary::write(&report, wall, out)?;
@@ -116,7 +106,7 @@ impl RunCommand {
         })
     }
 
-    /// Returns the command that gives the same result again.
+    /// Returns the command that reproduces the result.
     fn command(&self, scene: &Scene) -> CommandLine {
         let start = CommandLine::new("run", scene);
         let line = self.at.iter().fold(start, |line, change| line.option("--at", change));

@@ -1,4 +1,4 @@
-//! `rubscope scenes`: the built-in scenes, or the file of one.
+//! `rubscope scenes`: lists the built-in scenes, or prints the file of one.
 
 use std::io::Write;
 
@@ -21,7 +21,7 @@ impl ScenesCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
         match &self.name {
             Some(name) => {
-                // Uses the same checks as every other command.
+                // Refuses an unknown name with the same message as every other command.
                 Scene::builtin(name)?;
                 let file = BUILTIN.iter().find(|scene| scene.name == name).map(|scene| scene.toml);
                 writeln!(out, "{}", file.unwrap_or_default().trim_end())?;

@@ -15,9 +15,9 @@ use rubscope_solver::scene::keys::{self, Live, SPEED};
 use rubscope_solver::scene::units::UnitError;
 use rubscope_solver::scene::{CheckedScene, KEYS, Key, Quantity, SolverKind, Value};
 
-/// The option, as it is named in refusals.
+/// Name of the option, for error messages.
 const OPTION: &str = "--at";
-/// The word in place of a key that fires the pulse.
+/// Word that fires the pulse, in place of a key.
 const PULSE: &str = "pulse";
 
 /// One change of a running motion.
@@ -43,11 +43,11 @@ impl std::fmt::Display for RequestedChange {
     }
 }
 
-/// Reads the options into changes in order of time \[s\]; changes at the same
-/// time stay in the given order.
+/// Parses the `--at` options and sorts them by time \[s\]; changes at the same time keep their
+/// order.
 ///
 /// # Errors
-/// An option of another form.
+/// An option is not `TIME:PATH=VALUE` or `TIME:pulse`.
 pub fn parse(options: &[String]) -> Result<Vec<(f64, RequestedChange)>, Refusal> {
     let mut changes = options.iter().map(|text| parse_one(text)).collect::<Result<Vec<_>, _>>()?;
     changes.sort_by(|(one, _), (other, _)| one.total_cmp(other));
@@ -71,20 +71,20 @@ fn parse_one(text: &str) -> Result<(f64, RequestedChange), Refusal> {
         None if change.trim() == PULSE => RequestedChange::Pulse,
         None => return Err(form()),
     };
-    // Adding zero makes -0 and 0 the same time.
+    // Adding zero turns -0 into 0, which sorts as the same time.
     Ok((time + 0.0, change))
 }
 
-/// A checked change, and the scene after it.
+/// A checked change, and the scene with it applied.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RequestedStep {
     /// Instant \[s\].
     pub t_s: f64,
     /// The requested change.
     pub change: RequestedChange,
-    /// The scene after it.
+    /// The scene with this and all earlier changes applied.
     pub scene: CheckedScene,
-    /// Changes of the motion.
+    /// The same change as the solver's operations.
     acts: Vec<motion::Change>,
 }
 
@@ -108,7 +108,8 @@ impl RequestedStep {
         }
         let mut running = before.clone().into_scene();
         if t_s > 0.0 {
-            // What closes the gaps on the way is for the motion to meet, wherever it began.
+            // A change of the gaps is checked at rest, because the displacement at time t is
+            // unknown; the solver handles any overlap.
             (running.initial.u_c_m, running.initial.u_s_m) = (0.0, 0.0);
         }
         let scene = running.with(&[(path, value)]).map_err(refused)?;
@@ -121,7 +122,7 @@ impl RequestedStep {
         }
         let mut acts = motion::Change::between(before, &scene);
         if path == SPEED && before.operation.speed_rad_s == scene.operation.speed_rad_s {
-            // Setting the same speed again is a change if the rotor ramps.
+            // With a speed ramp, setting the initial speed again still changes the motion.
             let (speed, ramp) =
                 (Some(scene.operation.speed_rad_s), scene.operation.speed_ramp_rad_s2);
             acts.insert(0, motion::Change::Rotor { speed, ramp });
@@ -130,13 +131,13 @@ impl RequestedStep {
     }
 }
 
-/// Returns whether a key can act on a running motion of this scene.
+/// Returns whether a key may change while the motion runs.
 fn acts_live(key: &Key, scene: &CheckedScene) -> bool {
     let by_steps = scene.solver.kind == SolverKind::Explicit;
     key.live == Live::Always || (by_steps && key.live == Live::Steps)
 }
 
-/// Returns what can act on a running motion of this scene, for error messages.
+/// Lists what may change while the motion runs, for error messages.
 fn live_keys(scene: &CheckedScene) -> String {
     let keys: Vec<&str> =
         KEYS.iter().filter(|key| acts_live(key, scene)).map(|key| key.path).collect();
@@ -149,12 +150,11 @@ fn live_keys(scene: &CheckedScene) -> String {
 pub struct RequestedScript(Vec<RequestedStep>);
 
 impl RequestedScript {
-    /// Checks changes, in order of time, on the scene that the motion starts
-    /// with; each is checked on the scene after those before it.
+    /// Checks changes that are sorted by time, each on the scene with the earlier ones applied.
     ///
     /// # Errors
-    /// The first change that is refused: a time outside the run, a key that
-    /// does not exist or needs another motion, or a value that is not allowed.
+    /// The first change that is refused: its time is outside the run, its key does not exist or
+    /// cannot change during this run, or its value is not allowed.
     pub fn resolve(
         changes: &[(f64, RequestedChange)],
         scene: &CheckedScene,
@@ -173,7 +173,7 @@ impl RequestedScript {
         self.0.is_empty()
     }
 
-    /// Returns the changes of the motion.
+    /// Returns the changes in the form that the solver takes.
     pub fn changes(&self) -> motion::Script {
         let acts =
             |step: &RequestedStep| step.acts.iter().map(|act| (step.t_s, act.clone())).collect();
@@ -197,7 +197,7 @@ impl Serialize for RequestedScript {
     }
 }
 
-/// Returns a step as JSON reports tell it.
+/// Returns a change as it appears in JSON reports.
 fn as_json(step: &RequestedStep) -> serde_json::Value {
     let t_s = step.t_s;
     match &step.change {

@@ -8,42 +8,42 @@ use std::sync::{Mutex, PoisonError};
 use clap::error::ErrorKind as Usage;
 use thiserror::Error;
 
-use super::{gone, sign};
+use super::sign;
 use crate::report::line::clean;
 use rubscope_solver::scene::SceneError;
 
-/// Outcome of a command.
+/// How a command ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// Success.
+    /// The command succeeded.
     Done,
-    /// Failure of the computation; the output gives the reason.
+    /// The computation failed; the output gives the reason.
     Failed,
-    /// End by this signal.
+    /// A signal with this number ended the command.
     Signal(u8),
 }
 
-/// Input other than the scene that is refused, in one line.
+/// Refused input that is not part of the scene, such as an option; one line.
 #[derive(Debug, Error)]
 #[error("{0}")]
 pub struct Refusal(String);
 
 impl Refusal {
-    /// Creates a refusal of `value` for `name`, an option or argument as typed.
+    /// Refuses the `value` of `name` (an option or argument as typed), and says what is allowed.
     pub fn of(name: &str, value: impl std::fmt::Display, allowed: impl std::fmt::Display) -> Self {
         Self(format!("{name} = {value}: allowed is {allowed}"))
     }
 
-    /// Creates a refusal with this reason.
+    /// Refuses the input with this reason.
     pub fn because(reason: impl Into<String>) -> Self {
         Self(reason.into())
     }
 }
 
-/// SIGPIPE, which has this number on every Unix.
+/// Number of SIGPIPE, which is the same on every Unix.
 const BROKEN_PIPE: u8 = 13;
 
-/// Returns the exit status of a command, after its message if it has one.
+/// Prints the message of a command's error, if any, and returns its exit status.
 pub fn exit(done: super::Done) -> u8 {
     if done.is_ok() {
         say_noted();
@@ -60,13 +60,13 @@ pub fn exit(done: super::Done) -> u8 {
         return 128 + BROKEN_PIPE;
     }
     if error.is::<SceneError>() || error.is::<Refusal>() {
-        // What would have been done is of no interest: the refusal stands alone.
+        // The notes describe a computation that does not take place.
         noted().clear();
         say(&format!("rubscope: {error:#}"));
         return 2;
     }
     say_noted();
-    // Files have a context: what has none is standard output.
+    // File errors carry a context; a bare I/O error comes from standard output.
     let place = if error.chain().count() == 1 && error.is::<std::io::Error>() {
         "cannot write standard output: "
     } else {
@@ -76,14 +76,14 @@ pub fn exit(done: super::Done) -> u8 {
     1
 }
 
-/// Lines that are printed once nothing in the input can be refused any more.
+/// Notes held back until the input is known to be valid.
 static NOTED: Mutex<Vec<String>> = Mutex::new(Vec::new());
 
 fn noted() -> std::sync::MutexGuard<'static, Vec<String>> {
     NOTED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Keeps a line until nothing in the input can be refused any more.
+/// Adds a note, to be printed once the input is known to be valid. Repeated notes appear once.
 pub fn note(line: String) {
     let mut noted = noted();
     if !noted.contains(&line) {
@@ -91,14 +91,14 @@ pub fn note(line: String) {
     }
 }
 
-/// Says what was noted: the input is accepted.
+/// Prints the notes held back.
 pub fn say_noted() {
     let lines = std::mem::take(&mut *noted());
     lines.iter().for_each(|line| say(line));
 }
 
-/// Returns the exit status of a command line that clap did not turn into a command: help and
-/// version on standard output, anything else refused in one line.
+/// Handles what clap returns instead of a command: prints help or the version, or refuses the
+/// command line in one line. Returns the exit status.
 pub fn usage(error: &clap::Error, arguments: &[OsString]) -> u8 {
     match error.kind() {
         Usage::DisplayHelp | Usage::DisplayVersion => match error.print() {
@@ -106,15 +106,14 @@ pub fn usage(error: &clap::Error, arguments: &[OsString]) -> u8 {
             Err(failure) => exit(Err(failure.into())),
         },
         _ => {
-            let known = gone::argument(error, arguments).or_else(|| file(error, arguments));
-            let line = known.unwrap_or_else(|| in_one_line(&error.to_string()));
+            let line = file(error, arguments).unwrap_or_else(|| in_one_line(&error.to_string()));
             say(&format!("rubscope: {line}"));
             2
         }
     }
 }
 
-/// Returns how a file is named that was taken for an option, as its name begins with `-`.
+/// Returns a hint if an unknown option looks like the name of a file that begins with `-`.
 fn file(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
     let is_file = |name: &&str| {
         let ending = std::path::Path::new(name).extension();
@@ -141,7 +140,7 @@ fn in_one_line(message: &str) -> String {
     format!("{line} (see rubscope --help)")
 }
 
-/// Writes one line on standard error; errors of writing are ignored.
+/// Writes one line to standard error. A failure to write is ignored.
 pub fn say(line: &str) {
     let _ = sign::aside(|| writeln!(std::io::stderr(), "{}", clean(line)));
 }

@@ -16,8 +16,8 @@ use rubscope_solver::study::survey::{Survey, speed_range};
 
 /// Find which nodal diameters can lock in a range of speeds, and their limits.
 ///
-/// Frequencies of casing and disk, critical and lock speeds, coincidences, whirl and
-/// flutter, each by the modes that the scene has for that number of diameters.
+/// Prints frequencies of casing and disk, critical and lock speeds, coincidences, whirl and
+/// flutter, computed with the modes that the scene has for each nodal diameter.
 #[derive(Args, Debug)]
 pub struct SurveyCommand {
     #[command(flatten)]
@@ -25,10 +25,10 @@ pub struct SurveyCommand {
     /// The speeds of the machine, such as 6000rpm:11000rpm
     #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true)]
     range: Option<String>,
-    /// Also how much 1 % of this parameter moves each limit, such as casing.modal_mass_kg
+    /// Also show how a 1 % change of this parameter moves each limit, such as casing.modal_mass_kg
     #[arg(long, value_name = "PATH")]
     by: Option<String>,
-    /// Show nodal diameters without modes of their own, too
+    /// Also show nodal diameters without modes of their own
     #[arg(long)]
     all: bool,
     /// Print everything as JSON (rubscope.survey/1)
@@ -77,7 +77,7 @@ impl SurveyCommand {
         Ok(Status::Done)
     }
 
-    /// The range with its units.
+    /// Returns the range with units appended to speeds typed without one.
     fn range(&self) -> Option<String> {
         self.range.as_ref().map(|text| with_typed_unit(text, Quantity::Speed))
     }

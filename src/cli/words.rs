@@ -1,5 +1,5 @@
-//! Words for shell completion, for options and arguments that the scene or the
-//! command checks itself.
+//! Words for shell completion, for options and arguments whose values are checked later, by the
+//! scene or the command.
 
 use std::ffi::OsStr;
 
@@ -9,17 +9,17 @@ use strum::VariantNames;
 
 use rubscope_solver::scene::BUILTIN;
 
-/// Accepts any text; the shell offers these words.
+/// Parser that accepts any text; shell completion offers these words.
 #[derive(Clone, Debug)]
 pub struct Words(Vec<&'static str>);
 
 impl Words {
-    /// Creates the words of a choice.
+    /// Offers the variants of an enum.
     pub fn of<T: VariantNames>() -> Self {
         Self(T::VARIANTS.to_vec())
     }
 
-    /// Creates the names of the built-in scenes.
+    /// Offers the names of the built-in scenes.
     pub fn scenes() -> Self {
         Self(BUILTIN.iter().map(|scene| scene.name).collect())
     }

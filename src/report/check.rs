@@ -1,5 +1,5 @@
-//! What follows from a scene, in sentences: the machine, its frequencies and limits, what is
-//! not known, and what looks like a slip.
+//! The text of `rubscope check`: the machine, its frequencies and limits, missing data, and likely
+//! unit errors, in sentences.
 
 use std::f64::consts::TAU;
 use std::io::{Result, Write};
@@ -13,10 +13,10 @@ use rubscope_solver::scene::{CheckedScene, ModelSize};
 use rubscope_solver::study::margins::{LimitName, Margins, Quantity};
 use rubscope_solver::study::survey::Scattered;
 
-/// Writes the sentences, a paragraph for each matter.
+/// Writes the sentences, one paragraph per subject.
 ///
 /// # Errors
-/// An error of the writer.
+/// The writer failed.
 pub fn write(scene: &CheckedScene, out: &mut dyn Write) -> Result<()> {
     let margins = Margins::of(scene);
     let mut paragraphs =
@@ -33,15 +33,15 @@ pub fn write(scene: &CheckedScene, out: &mut dyn Write) -> Result<()> {
     write_doubts(&doubts, out)
 }
 
-/// What was checked where nothing is doubted.
+/// Closing paragraph when no value looks like a unit error: what was checked.
 const CHECKED: &str = "Checked: radius, clearance, tip speed, pulse and the push of a tip by their \
     size; frequency, modal mass and damping ratio of every mode, and their course over the \
     diameters. Nothing looks like a slip of a unit or a decimal point.";
 
-/// Writes what looks like a slip, if anything does.
+/// Writes the likely unit errors, if there are any.
 ///
 /// # Errors
-/// An error of the writer.
+/// The writer failed.
 pub fn write_doubts(doubts: &[String], out: &mut dyn Write) -> Result<()> {
     match doubts.len() {
         0 => return Ok(()),
@@ -108,7 +108,7 @@ fn frequencies(scene: &CheckedScene) -> String {
     )
 }
 
-/// Returns where the scene stands.
+/// Compares the scene with its limits: critical and lock speeds, touching pulse, tip force.
 fn limits(margins: &Margins) -> String {
     let scene = &margins.scene;
     let now = speed(scene.operation.speed_rad_s);
@@ -133,7 +133,7 @@ fn limits(margins: &Margins) -> String {
     told.join(" ")
 }
 
-/// Returns what the scene does not say.
+/// Says which modes are missing and what replaces them; `None` if all are given.
 fn unknown(scene: &CheckedScene) -> Option<String> {
     let half = scene.bladed_disk.blades / 2;
     let known = |modes: &[rubscope_solver::model::Mode]| {

@@ -1,5 +1,5 @@
-//! The command line that gives a result again, and what a file says of its
-//! origin: program, version, command and scene.
+//! The command line that reproduces a result, and the origin that output files record: program,
+//! version, command and scene.
 
 use std::fmt::{Display, Formatter};
 
@@ -10,10 +10,10 @@ use rubscope_solver::scene::{BUILTIN, DEFAULT, Scene};
 
 /// Name of the program in files.
 pub const PROGRAM: &str = "rubscope";
-/// Its version.
+/// Version of the program.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
-/// Its commit, with a hash of its sources where they are of none (`build.rs`): another one may
-/// judge a motion in another way.
+/// Commit of the program; a build from other sources than a commit adds a hash of them
+/// (`build.rs`). Another commit may give other verdicts.
 pub const COMMIT: &str = env!("RUBSCOPE_COMMIT");
 
 /// A command line of this program, quoted for a shell.
@@ -21,10 +21,10 @@ pub const COMMIT: &str = env!("RUBSCOPE_COMMIT");
 pub struct CommandLine(String);
 
 impl CommandLine {
-    /// Creates `rubscope COMMAND NAME`, with `--set` for every key in which the scene
-    /// differs from the one of that name; charts are not counted.
+    /// Creates `rubscope COMMAND NAME`, with `--set` for every key in which `scene` differs from
+    /// `base`, the scene of that name. Keys of charts are left out.
     pub fn from_base(command: &str, name: &str, base: &Scene, scene: &Scene) -> Self {
-        // A file whose name begins with - would be taken for an option.
+        // A file name that begins with - would be read as an option.
         let here = if name.starts_with('-') { "./" } else { "" };
         let start = Self(format!("{PROGRAM} {command} {}", quoted(&format!("{here}{name}"))));
         let set = |(path, text)| format!("{path}={text}");
@@ -36,9 +36,9 @@ impl CommandLine {
         Self(format!("{PROGRAM} {command}"))
     }
 
-    /// Same as [`Self::from_base`] with the built-in scene of the same title, or else the one
-    /// that differs in the fewest keys, so that the command needs no scene file.
-    /// Charts are set too: the scene is the same in every key.
+    /// As [`Self::from_base`], based on the built-in scene of the same title, or else on the one
+    /// that differs in the fewest keys, so that the command needs no scene file. Keys of charts
+    /// are set too, so that the scene is the same in every key.
     pub fn new(command: &str, scene: &Scene) -> Self {
         let known = |name| Scene::builtin(name).ok().map(|base| (name, base));
         let far = |base: &Scene| (base.title != scene.title, differences(base, scene).count());
@@ -72,7 +72,7 @@ impl CommandLine {
         self
     }
 
-    /// Returns the program, its version and commit and the command, as `program` in JSON.
+    /// Returns program, version, commit and command: the field `program` of JSON reports.
     pub fn program(&self) -> Value {
         json!({ "name": PROGRAM, "version": VERSION, "commit": COMMIT, "command": self.0 })
     }
@@ -84,7 +84,7 @@ impl Display for CommandLine {
     }
 }
 
-/// Returns a word, quoted for the shell.
+/// Quotes a word for the shell, if it needs quotes.
 fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=+:,".contains(c);
     if !word.is_empty() && word.chars().all(plain) {
@@ -94,18 +94,18 @@ fn quoted(word: &str) -> String {
     }
 }
 
-/// Origin of a result.
+/// Where a result comes from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Provenance {
-    /// The command that gives it again.
+    /// The command that reproduces it.
     pub command: CommandLine,
     /// The scene, with every key.
     pub scene: Scene,
 }
 
 impl Provenance {
-    /// Returns all of it as text: a line with program, version and commit, the command, and the scene as a
-    /// scene file.
+    /// Returns the origin as text: program, version and commit on the first line, then the command
+    /// and the scene file.
     pub fn text(&self) -> String {
         format!("{PROGRAM} {VERSION} {COMMIT}\n{}\n\n{}", self.command, self.scene.to_toml())
     }

@@ -1,9 +1,9 @@
-//! The data of a figure as a table, one for each panel.
+//! The data of a figure as tables, one per panel.
 
 use super::table::{Table, TableCell};
 use rubscope_solver::study::figures::Panel;
 
-/// Returns the data as a table: if all series share x, a column for x and one for each
+/// Returns the data of a panel. If all series share x, there is one column for x and one per
 /// series; otherwise one row per point, with the name of its series.
 pub fn table(panel: &Panel) -> Table {
     if panel.shares_x() { wide(panel) } else { long(panel) }

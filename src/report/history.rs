@@ -1,14 +1,14 @@
-//! The history of a run as named columns, the same in every file format.
+//! The history of a run as named columns.
 
 use std::io::{Result, Write};
 
 use super::table::{TableCell, write_csv};
 use rubscope_solver::motion::Sample;
 
-/// Most values of a history: 800 MB. More: the system ends the program.
+/// Largest number of values in a history: 800 MB. With more, the system may end the program.
 pub const HISTORY_VALUES: usize = 100_000_000;
 
-/// Columns before the gaps of the single blades.
+/// Columns before the gaps of the individual blades.
 const COLUMNS: [&str; 11] = [
     "t_s",
     "theta_rad",
@@ -26,35 +26,35 @@ const COLUMNS: [&str; 11] = [
 /// One named column.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HistoryColumn {
-    /// Its name, with the unit.
+    /// The name, with the unit.
     pub name: String,
     /// One value per sample.
     pub values: Vec<f64>,
 }
 
-/// A run, sample by sample. Multipliers are group sums, averaged since the
-/// previous sample; negative is a push.
+/// A run as sampled columns. The multipliers (contact forces) are sums over a blade group, averaged
+/// since the previous sample; a negative one pushes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct History {
     columns: Vec<HistoryColumn>,
 }
 
 impl History {
-    /// Creates an empty history; `blades` gap columns are added, none for 0.
+    /// Creates an empty history with one gap column for each of `blades` blades.
     pub fn new(blades: u32) -> Self {
         let gaps = (1..=blades).map(|blade| format!("gap_{blade}_m"));
         let names = COLUMNS.into_iter().map(String::from).chain(gaps);
         Self { columns: names.map(|name| HistoryColumn { name, values: Vec::new() }).collect() }
     }
 
-    /// Returns the greatest number of samples with the gaps of this many blades.
+    /// Returns the largest number of samples that a history with this many gap columns can have.
     pub fn most_samples(blades: u32) -> u32 {
         let columns = COLUMNS.len() + blades as usize;
         u32::try_from(HISTORY_VALUES / columns).unwrap_or(u32::MAX)
     }
 
-    /// Adds a sample, which must carry the gaps of all blades. A sample with a
-    /// number that is not finite is left out.
+    /// Adds a sample, which must contain the gaps of all blades. A sample with a number that is not
+    /// finite is skipped.
     pub fn push(&mut self, sample: &Sample) {
         let forces = || sample.mean_forces.iter().map(|(_, force)| *force);
         let gap_min = sample.gaps.iter().copied().fold(f64::INFINITY, f64::min);
@@ -81,25 +81,25 @@ impl History {
         }
     }
 
-    /// Returns the columns, all of one length.
+    /// Returns the columns, all of the same length.
     pub fn columns(&self) -> &[HistoryColumn] {
         &self.columns
     }
 
-    /// Returns how many samples there are.
+    /// Returns the number of samples.
     pub fn len(&self) -> usize {
         self.columns.first().map_or(0, |column| column.values.len())
     }
 
-    /// Returns whether there is no sample.
+    /// Returns whether there are no samples.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Writes CSV: a header line, then one line a sample.
+    /// Writes CSV: a header line, then one line per sample.
     ///
     /// # Errors
-    /// An error of the writer.
+    /// The writer failed.
     pub fn write_csv(&self, out: &mut dyn Write) -> Result<()> {
         let value =
             |row: usize| move |column: &HistoryColumn| column.values.get(row).copied().into();

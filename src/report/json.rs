@@ -1,5 +1,5 @@
-//! Reports as JSON: SI units in the names, numbers that read back as the same
-//! value, `null` where a figure does not exist.
+//! Reports as JSON: names end in the SI unit, numbers round-trip exactly, and `null` stands for a
+//! number that does not exist.
 
 use std::io::Write;
 
@@ -10,20 +10,20 @@ use super::sentence::Facts;
 use super::{CommandLine, Wall};
 use rubscope_solver::motion::RunReport;
 
-/// Writes a report, indented, with a newline at its end.
+/// Writes a report as indented JSON and a newline.
 ///
 /// # Errors
-/// An error of the writer.
+/// The writer failed.
 pub fn write(report: &impl Serialize, mut out: &mut dyn Write) -> std::io::Result<()> {
     serde_json::to_writer_pretty(&mut out, report)?;
     writeln!(out)
 }
 
-/// Writes a report under the name of its schema, with the command that gives
-/// it again. The scene is part of the report.
+/// Writes a report with the name of its schema and the command that reproduces it. The scene is
+/// part of the report.
 ///
 /// # Errors
-/// An error of the writer.
+/// The writer failed.
 pub fn write_as(
     schema: &'static str,
     command: &CommandLine,
@@ -41,11 +41,10 @@ pub fn write_as(
     write(&Named { schema, program: command.program(), report }, out)
 }
 
-/// Writes a run (`rubscope.run/1`) with the wall times it took, and the changes during
-/// the run, if there are any.
+/// Writes a run (`rubscope.run/1`), with its wall times and any changes made during the run.
 ///
 /// # Errors
-/// An error of the writer.
+/// The writer failed.
 pub fn write_run(
     report: &RunReport,
     command: &CommandLine,

@@ -1,13 +1,13 @@
-//! Text from outside (names, titles, refused values) made safe to show in one
-//! line of a terminal.
+//! Text from outside (file names, titles, refused values) made safe to print on one line of a
+//! terminal.
 
 use rubscope_solver::scene::keys::is_plain;
 
-/// Characters of a message that are shown at each end of a very long one.
+/// A longer message keeps this many characters at each end.
 const SHOWN: usize = 800;
 
-/// Returns a message without what quoted input must not do to a terminal: no control characters, no
-/// breaks of lines or of their direction, no endless text.
+/// Makes a message safe to print: replaces control characters, line breaks and direction marks, and
+/// shortens a very long text in the middle.
 pub fn clean(text: &str) -> String {
     let count = text.chars().count();
     if count <= 2 * SHOWN {
@@ -18,7 +18,7 @@ pub fn clean(text: &str) -> String {
     head.chain(" ... ".chars()).chain(tail).collect()
 }
 
-/// Returns a text with its first letter in upper case.
+/// Capitalises the first letter.
 pub fn capital(text: &str) -> String {
     let mut text = text.to_string();
     if let Some(first) = text.get_mut(..1) {
@@ -27,16 +27,17 @@ pub fn capital(text: &str) -> String {
     text
 }
 
-/// Returns a plain character; a space in place of any other.
+/// Replaces a character that is not plain text by a space.
 pub fn harmless(c: char) -> char {
     if is_plain(c) { c } else { ' ' }
 }
 
-/// Stands for the space between a number and its per cent, where no line ends.
+/// Stands for the space before a per cent sign while a text is wrapped, so that no line breaks
+/// there.
 const HELD: char = '\u{a0}';
 
-/// Returns a text in lines of at most so many columns, broken at spaces, but not before a per
-/// cent, and within words that are longer than a line.
+/// Wraps a text to lines of at most `most` columns. Lines break at spaces, though not before a per
+/// cent sign, and inside words longer than a line.
 pub fn wrapped(text: &str, most: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     let mut used = 0;
@@ -67,7 +68,7 @@ pub fn wrapped(text: &str, most: usize) -> Vec<String> {
     lines
 }
 
-/// Returns the columns that a character takes: two in the scripts of East Asia, and of pictures.
+/// Returns the display width of a character: two columns for East Asian scripts and pictographs.
 fn columns(c: char) -> usize {
     let wide = matches!(
         c,

@@ -1,5 +1,5 @@
-//! The interaction map as JSON (`rubscope.map/1`), as CSV, as a figure with the curves that
-//! bound its zones, and as text with one character per cell.
+//! The interaction map as JSON (`rubscope.map/1`), as CSV, as a figure with the boundary curves of
+//! its zones, and as text with one character per cell.
 
 use std::io::{Result, Write};
 
@@ -15,20 +15,19 @@ use rubscope_solver::scene::{Key, keys};
 use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
 use rubscope_solver::study::{Axis, Cell, Map, MapPlan, overlay};
 
-/// Most rows of the text map.
+/// Largest number of rows of the text map.
 const TEXT_ROWS: usize = 40;
-/// Number of characters to the left of the cells, and of those on both sides.
+/// Characters to the left of the cells, and on both sides together.
 const INDENT: usize = 14;
 const FRAME: usize = INDENT + 1;
 
-/// The map as JSON, written cell by cell: it may be much larger than the map in
-/// memory. The wall time is given on standard output only, so that the same map
-/// gives the same file.
+/// The map as JSON, written cell by cell, because the text may be much larger than the map in
+/// memory. Files omit the wall time, so that the same map gives the same file.
 #[derive(Clone, Copy, Debug)]
 pub struct MapJson<'a> {
     /// The map.
     pub map: &'a Map,
-    /// Whether to give the wall time.
+    /// Whether to include the wall time.
     pub with_time: bool,
 }
 
@@ -54,7 +53,7 @@ impl Serialize for MapJson<'_> {
     }
 }
 
-/// Returns the command that gives this map in one run.
+/// Returns the command that computes this map in one run.
 pub fn command(map: &Map) -> CommandLine {
     let plan = &map.plan;
     CommandLine::new("map", &plan.scene)
@@ -63,7 +62,7 @@ pub fn command(map: &Map) -> CommandLine {
         .flag("--no-sensitivity", !plan.sensitivity)
 }
 
-/// Values of the cells in rows; `null` for a cell that is not computed.
+/// One value per cell, row by row; `null` for a cell that is not computed.
 struct Rows<'a, T> {
     map: &'a Map,
     value: fn(Cell) -> T,
@@ -87,12 +86,12 @@ impl<T: Serialize> Serialize for Row<'_, T> {
     }
 }
 
-/// Returns the last part of the key of an axis, such as `speed_rad_s`.
+/// Returns the last part of an axis key, such as `speed_rad_s`.
 pub fn leaf(axis: &Axis) -> &str {
     axis.path.rsplit('.').next().unwrap_or(&axis.path)
 }
 
-/// Returns the names of both axes in a file, which always differ.
+/// Returns the column names of both axes: full keys if their last parts are equal.
 pub(super) fn names(plan: &MapPlan) -> [&str; 2] {
     let MapPlan { x, y, .. } = plan;
     if leaf(x) == leaf(y) { [&x.path, &y.path] } else { [leaf(x), leaf(y)] }
@@ -101,7 +100,7 @@ pub(super) fn names(plan: &MapPlan) -> [&str; 2] {
 /// Writes the map as CSV, one line per cell.
 ///
 /// # Errors
-/// An error of the writer.
+/// The writer failed.
 pub fn write_csv(map: &Map, out: &mut dyn Write) -> Result<()> {
     let (x, y) = (&map.plan.x, &map.plan.y);
     let [first, second] = names(&map.plan);
@@ -109,7 +108,7 @@ pub fn write_csv(map: &Map, out: &mut dyn Write) -> Result<()> {
     let rows = places.map(|(row, column)| {
         let cell = map.at(column, row);
         [
-            // Values of an axis are never written with a power of ten.
+            // A plain number: `to_string` never uses a power of ten.
             x.value(column).to_string().into(),
             y.value(row).to_string().into(),
             cell.map(|cell| cell.verdict.to_string()).into(),
@@ -120,18 +119,18 @@ pub fn write_csv(map: &Map, out: &mut dyn Write) -> Result<()> {
     table::write_csv([first, second, "verdict", "sensitive", "depends_on_step"], rows, out)
 }
 
-/// Returns the number of shown units of an axis in one SI unit.
+/// Returns the factor from SI to the unit shown on an axis.
 fn factor(axis: &Axis) -> f64 {
     if axis.path == keys::SPEED { per_speed(1.0) } else { 1.0 }
 }
 
-/// Returns the name of an axis, with the unit shown.
+/// Returns the label of an axis, with the unit shown.
 fn label(axis: &Axis) -> String {
     let title = greek(&keys::find(&axis.path).map_or_else(|_| axis.path.clone(), Key::title));
     if axis.path == keys::SPEED { title.replace("rad/s", speed_unit()) } else { title }
 }
 
-/// Returns the map as a figure, with these curves.
+/// Returns the map as a figure, with the boundary curves `curves`.
 pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
     let (scene, x, y) = (&map.plan.scene, &map.plan.x, &map.plan.y);
     let quantity = |axis: &Axis| Quantity {
@@ -175,8 +174,8 @@ pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
     Figure::new(title, note, vec![Panel::new("", quantity(x), quantity(y), series)])
 }
 
-/// Returns the character of a cell: a mark for the verdict, or a letter if the cell is
-/// sensitive or depends on the step.
+/// Returns the character of a cell: a mark for the verdict, or a letter if the verdict is sensitive
+/// or depends on the step.
 pub fn mark(cell: Option<Cell>) -> char {
     let Some(cell) = cell else { return ' ' };
     let (sure, doubtful) = match cell.verdict {
@@ -193,11 +192,11 @@ pub fn mark(cell: Option<Cell>) -> char {
     if cell.is_doubtful() { doubtful } else { sure }
 }
 
-/// Writes the map as text, highest row first and no line of cells wider than `width`, with a
-/// legend.
+/// Writes the map as text with a legend, the highest row first. A row of cells is at most `width`
+/// wide; larger maps are thinned.
 ///
 /// # Errors
-/// An error of the writer.
+/// The writer failed.
 pub fn write_text(map: &Map, width: usize, out: &mut dyn Write) -> Result<()> {
     let (x, y) = (&map.plan.x, &map.plan.y);
     let most = width.saturating_sub(FRAME).max(10);
@@ -217,7 +216,7 @@ pub fn write_text(map: &Map, width: usize, out: &mut dyn Write) -> Result<()> {
     }
     let columns = (x.count as usize).div_ceil(across);
     let (first, last) = (told(x, 0), told(x, x.count - 1));
-    // Below few columns the last label goes beyond them.
+    // On a map of very few columns, the last label extends past the cells.
     let room = columns.saturating_sub(first.len()).max(last.len() + 1);
     writeln!(out, "{:>INDENT$}{first}{last:>room$}", "")?;
     write_speeds(map, across, columns, out)?;
@@ -231,8 +230,7 @@ pub fn write_text(map: &Map, width: usize, out: &mut dyn Write) -> Result<()> {
     write_legend(map, out)
 }
 
-/// Marks the columns of the critical and the lock speed, if they are the same for all
-/// rows.
+/// Marks the columns of the critical speed and the lock speed, if they are the same in every row.
 fn write_speeds(map: &Map, across: usize, columns: usize, out: &mut dyn Write) -> Result<()> {
     for curve in overlay::speed_curves(&map.plan) {
         let Some(&(speed, _)) = curve.points.first() else { continue };
@@ -252,7 +250,7 @@ fn write_speeds(map: &Map, across: usize, columns: usize, out: &mut dyn Write) -
     Ok(())
 }
 
-/// Returns what a verdict means, in a few words.
+/// Explains a verdict in a few words.
 pub fn means(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Decay => "contact ends",
@@ -313,7 +311,7 @@ mod tests {
         let drawn = &figure(&map, &curves).panels[0].series;
         let names: Vec<_> = drawn.iter().map(|series| &*series.name).collect();
         assert_eq!(names, ["Omega_c", "Omega_lock", "lock ends", "grazing pulse"]);
-        // The limits of the speed; the pulse goes across them.
+        // The curves of speed limits differ in style; the pulse curve crosses them.
         let kinds: Vec<_> = drawn[..3].iter().map(|it| std::mem::discriminant(&it.style)).collect();
         assert!(kinds[0] != kinds[1] && kinds[1] != kinds[2] && kinds[2] != kinds[0]);
     }

@@ -1,5 +1,5 @@
-//! Reports: one file per format. A report takes what a computation returned
-//! and a place to write to; it computes nothing itself.
+//! Reports: one file per format. A report formats the result of a computation and writes it; it
+//! computes nothing itself.
 
 pub mod check;
 pub mod command;
@@ -10,7 +10,6 @@ pub mod json;
 pub mod line;
 pub mod map;
 pub mod margins;
-pub mod npz;
 pub mod number;
 pub mod part;
 pub mod precision;
@@ -25,11 +24,11 @@ pub mod ticks;
 pub use command::{CommandLine, Provenance};
 pub use history::History;
 
-/// Wall times of a run \[s\].
+/// Wall times of a run and of its sensitivity check.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Wall {
-    /// Wall time of the run \[s\].
+    /// Wall time of the run itself \[s\].
     pub run_s: f64,
-    /// Wall time of the changed runs that test its sensitivity, if there were any \[s\].
+    /// Wall time of the runs with changed input that check the sensitivity, if any \[s\].
     pub certainty_s: Option<f64>,
 }

@@ -1,5 +1,5 @@
-//! Numbers and quantities as text: short or exact ones, SI prefixes, and the digits that hold
-//! under tiny changes.
+//! Numbers and quantities as text: rounded or exact, with SI prefixes, and limited to the digits
+//! that tiny changes of the input do not affect.
 
 use std::cell::Cell;
 use std::f64::consts::TAU;
@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 pub use rubscope_solver::numeric::rounding::rounded;
 use rubscope_solver::scene::Quantity;
 
-/// Returns a number in at most six significant digits.
+/// Formats a number with at most six significant digits.
 ///
 /// ```
 /// use rubscope::report::number::short;
@@ -38,7 +38,7 @@ pub fn exact(x: f64) -> String {
     if x != 0.0 && !(1e-4..1e15).contains(&x.abs()) { format!("{x:e}") } else { x.to_string() }
 }
 
-/// Returns a time \[s\] in the unit that suits it.
+/// Formats a time \[s\] with the prefix that suits it.
 pub fn time(seconds: f64) -> String {
     let (factor, unit) = match seconds.abs() {
         x if x == 0.0 || x >= 1.0 => (1.0, "s"),
@@ -49,13 +49,13 @@ pub fn time(seconds: f64) -> String {
     format!("{} {unit}", short(seconds * factor))
 }
 
-/// Returns a number in at most so many significant digits, in its unit with the prefix that suits
-/// it; in letters of ASCII.
+/// Formats a number with at most `digits` significant digits and its unit, with a suitable SI
+/// prefix, in ASCII (`u` for micro).
 pub fn with_unit(x: f64, digits: usize, unit: &str) -> String {
     scaled(x, x, digits, unit).join(" ").trim_end().to_string()
 }
 
-/// Returns a number and its unit as [`with_unit`] does, with the prefix that suits `of`.
+/// As [`with_unit`], as two strings, with the prefix chosen for `of` instead of `x`.
 pub fn scaled(x: f64, of: f64, digits: usize, unit: &str) -> [String; 2] {
     let ((x, _), (of, unit)) = (in_shown_unit(x, unit), in_shown_unit(of, unit));
     let scale = SiScale::before(unit, of);
@@ -63,11 +63,11 @@ pub fn scaled(x: f64, of: f64, digits: usize, unit: &str) -> [String; 2] {
 }
 
 thread_local! {
-    /// Whether this thread tells speeds in turns a minute.
+    /// Whether this thread shows speeds in rpm.
     static IN_RPM: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Makes this thread show speeds in rpm, or in rad/s again.
+/// Switches this thread to show speeds in rpm or in rad/s.
 pub fn tell_in_rpm(rpm: bool) {
     IN_RPM.set(rpm);
 }
@@ -77,24 +77,24 @@ pub fn speed_unit() -> &'static str {
     if IN_RPM.get() { "rpm" } else { RAD_S }
 }
 
-/// Returns a speed \[rad/s\] in the unit in which speeds are shown.
+/// Converts a speed from rad/s to the unit in which speeds are shown.
 pub fn per_speed(omega: f64) -> f64 {
     if IN_RPM.get() { omega * 60.0 / TAU } else { omega }
 }
 
-/// Returns a speed with its unit, in at most six significant digits.
+/// Formats a speed \[rad/s\] with at most six significant digits and its unit.
 pub fn speed(omega: f64) -> String {
     format!("{} {}", short(per_speed(omega)), speed_unit())
 }
 
-/// Writes a speed as it is shown, with one decimal, or three where it is small.
+/// Formats a speed that is already in the shown unit: one decimal, or three below 10.
 pub fn in_tenths(speed: f64) -> String {
     let decimals = if speed.abs() < 10.0 { 3 } else { 1 };
     trimmed(&format!("{speed:.decimals$}")).to_string()
 }
 
-/// Returns a text with its marked speeds as they are shown: `{411.934}`, `{500 rad/s}` with its
-/// unit, and `{878.635 1/s}`, a frequency with its unit.
+/// Replaces the speeds marked in a text by their values in the shown unit: `{411.934}` without the
+/// unit, `{500 rad/s}` with it, and `{878.635 1/s}` as an angular frequency with its unit.
 pub fn with_speeds(text: &str) -> String {
     let told = |(place, part): (usize, &str)| {
         let (number, unit) = part.split_once(' ').unwrap_or((part, ""));
@@ -110,28 +110,28 @@ pub fn with_speeds(text: &str) -> String {
     text.split(['{', '}']).enumerate().map(told).collect()
 }
 
-/// Returns the unit in which angular frequencies are shown: hertz where speeds are in rpm.
+/// Returns the unit in which angular frequencies are shown: Hz if speeds are in rpm.
 pub fn frequency_unit() -> &'static str {
     if IN_RPM.get() { "Hz" } else { RAD_S }
 }
 
-/// Returns an angular frequency \[rad/s\] in that unit.
+/// Converts an angular frequency from rad/s to the unit in which frequencies are shown.
 pub fn per_frequency(omega: f64) -> f64 {
     if IN_RPM.get() { omega / TAU } else { omega }
 }
 
-/// Returns a number and its unit as they are shown.
+/// Converts a speed to the shown unit, and leaves numbers of other units alone.
 pub fn in_shown_unit(x: f64, unit: &str) -> (f64, &str) {
     if unit == RAD_S { (per_speed(x), speed_unit()) } else { (x, unit) }
 }
 
-/// Returns a number as it is shown, in its own unit of SI: the inverse of [`in_shown_unit`].
+/// Converts a shown number back to its SI unit: the inverse of [`in_shown_unit`].
 pub fn from_shown(x: f64, unit: &str) -> f64 {
     if unit == RAD_S && IN_RPM.get() { x * (TAU / 60.0) } else { x }
 }
 
-/// Returns a number of a quantity, or a range of them, as it was typed: a speed without a unit of
-/// its own gets the unit in which speeds are shown.
+/// Appends the unit in which speeds are shown to a typed speed, or to the ends of a typed range, if
+/// they have no unit of their own.
 pub fn with_typed_unit(text: &str, of: Quantity) -> String {
     if of != Quantity::Speed || !IN_RPM.get() {
         return text.to_string();
@@ -148,12 +148,12 @@ pub fn with_typed_unit(text: &str, of: Quantity) -> String {
 
 const RAD_S: &str = "rad/s";
 
-/// Writes a count with its noun: "1 step", "2 steps", "1,000,000 steps".
+/// Formats a count with its noun: "1 step", "2 steps", "1,000,000 steps".
 pub fn count(n: u64, noun: &str) -> String {
     format!("{} {noun}{}", grouped(n), if n == 1 { "" } else { "s" })
 }
 
-/// Returns a whole number with a comma between thousands.
+/// Formats a whole number with commas between thousands.
 pub fn grouped(n: u64) -> String {
     let digits = n.to_string();
     let mut grouped = String::new();
@@ -166,21 +166,21 @@ pub fn grouped(n: u64) -> String {
     grouped
 }
 
-/// Removes zeros at the end of decimal digits.
+/// Removes trailing zeros after a decimal point.
 pub fn trimmed(digits: &str) -> &str {
     if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { digits }
 }
 
-/// One SI prefix, of a number or for a whole axis.
+/// An SI prefix, for one number or a whole axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SiScale {
-    /// Value of one shown unit.
+    /// Value of one shown unit in the base unit, such as 1e3 for `k`.
     pub factor: f64,
     /// The prefix in front of the unit.
     pub prefix: &'static str,
 }
 
-/// Prefixes in increasing order; micro is written `u` where only ASCII is allowed.
+/// Prefixes in increasing order.
 const PREFIXES: &[(f64, &str)] = &[
     (1e-15, "f"),
     (1e-12, "p"),
@@ -194,7 +194,7 @@ const PREFIXES: &[(f64, &str)] = &[
 ];
 
 impl SiScale {
-    /// Creates the prefix under which the largest magnitude reads as 1 to 999.
+    /// Returns the prefix under which `magnitude` reads as 1 to 999.
     pub fn of(magnitude: f64) -> Self {
         let magnitude = magnitude.abs() * (1.0 + 1e-9);
         let (factor, prefix) = PREFIXES
@@ -206,17 +206,17 @@ impl SiScale {
         Self { factor, prefix }
     }
 
-    /// Creates the prefix of a number of this unit, where one is usual in front of it.
+    /// Returns the prefix for a number of this unit; none for units that take no prefix.
     pub fn before(unit: &str, magnitude: f64) -> Self {
         if WITH_PREFIX.contains(&unit) { Self::of(magnitude) } else { Self::plain() }
     }
 
-    /// Returns no prefix, for angles, speeds and counts.
+    /// Returns the empty prefix, for angles, speeds and counts.
     pub const fn plain() -> Self {
         Self { factor: 1.0, prefix: "" }
     }
 
-    /// Returns the label of a tick, with the decimals that its spacing needs.
+    /// Formats a tick label with as many decimals as the tick spacing `step` needs.
     pub fn label(&self, value: f64, step: f64) -> String {
         let shown = step / self.factor;
         let decimals = if shown > 0.0 && shown.is_finite() {
@@ -228,32 +228,32 @@ impl SiScale {
     }
 }
 
-/// Units in front of which a prefix is usual.
+/// Units that take a prefix.
 const WITH_PREFIX: [&str; 9] = ["m", "s", "N", "N/m", "m/s", "N m/rad", "N m", "W", "J"];
 
-/// Digits that are shown where all of them hold.
+/// Digits shown when all of them are reliable.
 const MOST: u32 = 6;
 
-/// Number format of one run, with the digits that its sensitivity leaves.
+/// Number format of one run: shows only the digits that its sensitivity leaves reliable.
 #[derive(Debug, Default)]
 pub struct Digits {
-    /// Whether it is known how far changes move them.
+    /// Whether the spread of the numbers under tiny changes is known.
     known: bool,
     left_out: Cell<bool>,
     none: Cell<bool>,
 }
 
 impl Digits {
-    /// Creates the number format of a run for which it is `known` how far changes move its numbers.
+    /// Creates the format; with `known`, a number without a spread has no reliable digit.
     pub fn of(known: bool) -> Self {
         Self { known, ..Self::default() }
     }
 
-    /// `x` as `show` writes it, in the digits that hold where changes move it by
-    /// `spread`, or make that there is no such number.
+    /// Formats `x` with `show`, rounded to the digits that a deviation of `spread` leaves reliable.
+    /// A `spread` of `None` means that some changed run has no such number.
     pub fn shown(&self, x: f64, spread: Option<f64>, show: impl Fn(f64) -> String) -> String {
         let spread = if self.known { spread.unwrap_or(f64::INFINITY) } else { 0.0 };
-        match held(x, spread) {
+        match reliable_digits(x, spread) {
             MOST.. => show(x),
             0 => {
                 self.none.set(true);
@@ -266,7 +266,7 @@ impl Digits {
         }
     }
 
-    /// Returns what was not told, if there is such.
+    /// Returns the remark on digits that were left out so far, if any were.
     pub fn note(&self) -> Option<&'static str> {
         if self.none.get() {
             Some(
@@ -280,9 +280,9 @@ impl Digits {
     }
 }
 
-/// Returns how many digits of `x` hold, up to all that are shown: changes move it by no more than
-/// half a unit of the last of them.
-fn held(x: f64, spread: f64) -> u32 {
+/// Returns how many digits of `x` are reliable, at most [`MOST`]: `spread` is no more than half a
+/// unit of the last one.
+fn reliable_digits(x: f64, spread: f64) -> u32 {
     // Zero has no digits to lose.
     if spread == 0.0 || x == 0.0 {
         return MOST;
@@ -394,7 +394,7 @@ mod digits_tests {
         assert_eq!((digits.shown(1.25, Some(0.0), short), digits.note()), ("1.25".into(), None));
         let _ = digits.shown(1.25, Some(0.04), short);
         assert!(digits.note().unwrap().contains("left out"));
-        // A run that changes have none of has no number that holds.
+        // A number that does not exist in a changed run has no reliable digit.
         let _ = digits.shown(1.25, None, short);
         assert!(digits.note().unwrap().contains("No digit holds"));
         assert_eq!(Digits::of(false).shown(1.25, None, short), "1.25");

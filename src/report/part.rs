@@ -1,71 +1,49 @@
-//! Parts of a map: the cells that one shard computed, as CSV, and how they join to a map.
+//! Shares of a map: the cells of one shard as CSV, and how they join to a map.
 //!
-//! The first line of a part begins with `#` and tells where the cells come from: the version
-//! and the commit of the program, the scene, the axes and the shard. Then comes a table with
-//! a row for each cell. Anyone may have written or cut such a file: nothing in it is used
-//! before it is checked, and no line is read beyond the length that it can have.
+//! The first line of a share begins with `#` and names the version and commit of the
+//! program, the scene and the axes. It is the same in every share of a map.
 
-use std::io::{BufRead, Read, Result, Write};
+use std::fmt::Display;
+use std::io::{BufRead, BufReader, Read, Write};
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
-use super::map::names;
+use super::{map::names, table};
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::{Axis, AxisError, Cell, Map, MapPlan};
 
-/// Version and commit of the program.
-const VERSION: &str = env!("RUBSCOPE_VERSION");
-/// Start of the first line, before the version.
-const PROGRAM: &str = "# rubscope ";
-/// What stands between the version and the origin of the cells.
-const COMMAND: &str = " map ";
+/// Start of the first line; the origin of the cells follows as JSON.
+const START: &str = concat!("# rubscope ", env!("RUBSCOPE_VERSION"), " map ");
 /// Longest first line \[bytes\]; the usual ones have about 1500.
 const LONGEST_FIRST: u64 = 1 << 20;
-/// Longest line of the table \[bytes\].
-const LONGEST_ROW: u64 = 256;
+/// Largest table \[bytes\]: the largest map has about 64 bytes for a cell.
+const LARGEST_TABLE: u64 = 1 << 30;
 
 /// One machine's share of a map: cells `number - 1, number - 1 + count, ...`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
     /// Number of the share, counted from 1.
-    pub number: u32,
+    pub number: usize,
     /// Number of shares.
-    pub count: u32,
+    pub count: usize,
 }
 
 impl Shard {
-    /// Reads `K/COUNT`, counted from 1.
+    /// Parses `K/COUNT`, counted from 1.
     pub fn parse(text: &str) -> Option<Self> {
         let (number, count) = text.split_once('/')?;
         let shard = Self { number: number.trim().parse().ok()?, count: count.trim().parse().ok()? };
-        shard.is_valid().then_some(shard)
+        (1..=shard.count).contains(&shard.number).then_some(shard)
     }
 
-    /// Returns the cells of this share.
+    /// Iterates over the indices of this shard's cells.
     pub fn indices(self, cells: usize) -> impl IndexedParallelIterator<Item = usize> {
-        (self.number as usize - 1..cells).into_par_iter().step_by(self.count as usize)
-    }
-
-    fn is_valid(self) -> bool {
-        (1..=self.count).contains(&self.number)
-    }
-
-    fn has(self, index: usize) -> bool {
-        index % self.count as usize == self.number as usize - 1
+        (self.number - 1..cells).into_par_iter().step_by(self.count)
     }
 }
 
-/// Reason why a file is no part of the map, or why the parts do not make a whole one.
-#[derive(Clone, Debug, Error, PartialEq, Eq)]
-#[error("{file}: {reason}")]
-pub struct PartError {
-    file: String,
-    reason: String,
-}
-
-/// Everything that determines the cells of a part.
+/// Everything that determines the cells of a map.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Origin {
@@ -73,244 +51,137 @@ struct Origin {
     x: Axis,
     y: Axis,
     sensitivity: bool,
-    shard: Shard,
 }
 
 impl Origin {
-    fn of(plan: &MapPlan, shard: Shard) -> Self {
-        let (x, y) = (plan.x.clone(), plan.y.clone());
-        Self { scene: plan.scene.to_toml(), x, y, sensitivity: plan.sensitivity, shard }
-    }
-
     /// Returns the plan, completely checked.
-    fn plan(&self) -> std::result::Result<MapPlan, AxisError> {
-        let axis = |axis: &Axis| Axis::new(&axis.path, axis.from, axis.to, axis.count, axis.log);
+    fn plan(self) -> Result<MapPlan, AxisError> {
+        let axis = |axis: Axis| Axis::new(&axis.path, axis.from, axis.to, axis.count, axis.log);
         let scene = Scene::from_toml_unchecked(&self.scene)?;
-        let (x, y) = (axis(&self.x)?, axis(&self.y)?);
+        let (x, y) = (axis(self.x)?, axis(self.y)?);
         let plan = MapPlan { scene, x, y, sensitivity: self.sensitivity };
         plan.check()?;
         Ok(plan)
     }
-
-    /// Names the first difference that keeps two parts from being of one map.
-    fn difference(&self, other: &Self) -> Option<&'static str> {
-        [
-            ("the x axis", self.x != other.x),
-            ("the y axis", self.y != other.y),
-            ("the scene", self.scene != other.scene),
-            ("--no-sensitivity", self.sensitivity != other.sensitivity),
-            ("the number of shards", self.shard.count != other.shard.count),
-        ]
-        .into_iter()
-        .find_map(|(what, differs)| differs.then_some(what))
-    }
 }
 
-/// Writes the cells of one shard.
+/// Writes the cells that were computed.
 ///
 /// # Errors
 /// An error of the writer.
-pub fn write(map: &Map, shard: Shard, out: &mut dyn Write) -> Result<()> {
-    let plan = &map.plan;
-    let origin = serde_json::to_string(&Origin::of(plan, shard))?;
-    writeln!(out, "{PROGRAM}{VERSION}{COMMAND}{origin}\n{}", columns(plan))?;
-    for (index, cell) in map.cells.iter().enumerate() {
-        if let Some(Cell { verdict, sensitive, depends_on_step }) = cell {
-            let start = start_of_row(plan, index);
-            writeln!(out, "{start}{verdict},{sensitive},{depends_on_step}")?;
-        }
-    }
-    Ok(())
+pub fn write(map: &Map, out: &mut dyn Write) -> std::io::Result<()> {
+    let MapPlan { scene, x, y, sensitivity } = &map.plan;
+    let (scene, sensitivity) = (scene.to_toml(), *sensitivity);
+    let origin = Origin { scene, x: x.clone(), y: y.clone(), sensitivity };
+    writeln!(out, "{START}{}", serde_json::to_string(&origin)?)?;
+    let computed = map.cells.iter().enumerate().filter_map(|(index, cell)| Some((index, (*cell)?)));
+    let rows = computed.map(|(index, cell)| {
+        let (row, column) = (index / x.count as usize, index % x.count as usize);
+        [
+            index.to_string().into(),
+            x.value(column as u32).to_string().into(),
+            y.value(row as u32).to_string().into(),
+            cell.verdict.to_string().into(),
+            cell.sensitive.into(),
+            cell.depends_on_step.into(),
+        ]
+    });
+    let [x, y] = names(&map.plan);
+    table::write_csv(["cell", x, y, "verdict", "sensitive", "depends_on_step"], rows, out)
 }
 
-fn columns(plan: &MapPlan) -> String {
-    let [x, y] = names(plan);
-    format!("cell,{x},{y},verdict,sensitive,depends_on_step")
-}
-
-/// Returns the columns of a row that do not depend on the result.
-fn start_of_row(plan: &MapPlan, index: usize) -> String {
-    let columns = plan.x.count as usize;
-    let x = plan.x.value((index % columns) as u32);
-    let y = plan.y.value((index / columns) as u32);
-    format!("{index},{x},{y},")
-}
-
-/// Reads the parts of one map and joins them.
+/// Reads named shares of one map and joins them.
 ///
 /// # Errors
-/// A file that is no part, parts that do not belong together, and a cell that is missing or
-/// there twice. `None` where there is no part at all.
-pub fn read_all<R: BufRead>(
-    parts: impl IntoIterator<Item = (String, R)>,
-) -> std::result::Result<Option<Map>, PartError> {
-    let mut map: Option<Map> = None;
-    let mut known: Vec<(String, Origin)> = Vec::new();
-    for (file, reader) in parts {
-        let mut lines = Lines { reader, number: 0, text: Vec::new() };
-        let refused = |reason| PartError { file: file.clone(), reason };
-        let origin = lines.origin().map_err(refused)?;
-        if let Some((first, other)) = known.first()
-            && let Some(what) = origin.difference(other)
-        {
-            let reason = format!("does not belong to {first}: they differ in {what}");
-            return Err(refused(reason));
-        }
-        if map.is_none() {
-            let plan = origin.plan();
-            let plan = plan.map_err(|error| refused(format!("not a part of a map: {error}")))?;
-            map = Some(Map::empty(plan));
-        }
-        known.push((file.clone(), origin));
-        if let Some(map) = &mut map {
-            lines.add_to(map, &known).map_err(refused)?;
-        }
-    }
-    let Some(map) = map else { return Ok(None) };
-    let Some(missing) = map.cells.iter().position(Option::is_none) else { return Ok(Some(map)) };
-    let all = map.cells.iter().filter(|cell| cell.is_none()).count();
-    let reason = format!("cell {missing} is missing, and {} others", all - 1);
-    Err(match known.iter().find(|(_, origin)| origin.shard.has(missing)) {
-        Some((file, _)) => PartError { file: file.clone(), reason },
-        None => {
-            let count = known.first().map_or(1, |(_, origin)| origin.shard.count);
-            let number = missing % count as usize + 1;
-            let file = format!("no part is shard {number}/{count}");
-            PartError { file, reason }
-        }
-    })
-}
-
-/// Lines of a part, none longer than allowed.
-struct Lines<R> {
-    reader: R,
-    /// Number of the line read last, counted from 1.
-    number: usize,
-    text: Vec<u8>,
-}
-
-impl<R: BufRead> Lines<R> {
-    /// Reads the first line.
-    fn origin(&mut self) -> std::result::Result<Origin, String> {
-        let fault = |reason: String| format!("not a part of a map: {reason}");
-        let line = self.next(LONGEST_FIRST).map_err(fault)?.unwrap_or_default();
-        let form = || fault(format!("its first line does not begin with {PROGRAM}"));
-        let (version, origin) = line
-            .strip_prefix(PROGRAM)
-            .and_then(|rest| rest.split_once(COMMAND))
-            .ok_or_else(form)?;
-        if version != VERSION {
-            return Err(format!(
-                "was written by rubscope {version}, and this is {VERSION}: allowed are parts of \
-                 the same version and commit"
-            ));
-        }
-        let origin: Origin =
-            serde_json::from_str(origin).map_err(|error| fault(error.to_string()))?;
-        if !origin.shard.is_valid() {
-            return Err(fault("its shard is not K/COUNT with K from 1 to COUNT".into()));
-        }
-        Ok(origin)
-    }
-
-    /// Adds the cells of the last of these parts to the map.
-    fn add_to(
-        &mut self,
-        map: &mut Map,
-        known: &[(String, Origin)],
-    ) -> std::result::Result<(), String> {
-        let Some(((_, origin), before)) = known.split_last() else { return Ok(()) };
-        let columns = columns(&map.plan);
-        if self.next(LONGEST_ROW)? != Some(&columns) {
-            return Err(format!("line 2 is not {columns}"));
-        }
-        loop {
-            let number = self.number + 1;
-            let Some(line) = self.next(LONGEST_ROW)? else { return Ok(()) };
-            let row = parse_row(line, &map.plan).filter(|(index, _)| origin.shard.has(*index));
-            let (index, cell) =
-                row.ok_or_else(|| format!("line {number} is not a row of this shard: {line:?}"))?;
+/// A file that is no share, shares of different maps, and a cell that is missing or there
+/// twice.
+pub fn read_all<R: Read>(shares: impl IntoIterator<Item = (String, R)>) -> Result<Map, String> {
+    let mut joined: Option<(String, Map)> = None;
+    for (name, reader) in shares {
+        let refused = |reason: &dyn Display| format!("{name}: {reason}");
+        let mut reader = BufReader::new(reader);
+        let mut first = String::new();
+        let read = reader.by_ref().take(LONGEST_FIRST).read_line(&mut first);
+        read.map_err(|error| refused(&error))?;
+        let (known, mut map) = match joined {
+            Some((known, map)) if known == first.trim_end() => (known, map),
+            Some(_) => return Err(refused(&"its first line is not that of the file before it")),
+            None => {
+                let plan = plan(&first)
+                    .map_err(|reason| refused(&format!("not a share of a map: {reason}")))?;
+                (first.trim_end().to_string(), Map::empty(plan))
+            }
+        };
+        let table = csv::Reader::from_reader(reader.take(LARGEST_TABLE));
+        for (row, read) in table.into_records().enumerate() {
+            let line = row + 3;
+            let (index, cell) = read
+                .ok()
+                .and_then(|record| parse_row(&record))
+                .filter(|(index, _)| *index < map.plan.len())
+                .ok_or_else(|| refused(&format!("line {line} is not a row of this map")))?;
             if map.cells[index].is_some() {
-                let other = before.iter().find(|(_, origin)| origin.shard.has(index));
-                let place =
-                    other.map_or("in it twice".into(), |(file, _)| format!("in {file}, too"));
-                return Err(format!("cell {index} (line {number}) is {place}"));
+                return Err(refused(&format!("cell {index} (line {line}) is there twice")));
             }
             map.cells.set(index, Some(cell));
             map.runs += 1;
         }
+        joined = Some((known, map));
     }
-
-    /// Reads the next line and returns it without its end; `None` at the end of the file.
-    fn next(&mut self, most: u64) -> std::result::Result<Option<&str>, String> {
-        self.number += 1;
-        self.text.clear();
-        let mut line = self.reader.by_ref().take(most + 1);
-        line.read_until(b'\n', &mut self.text).map_err(|error| error.to_string())?;
-        if self.text.is_empty() {
-            return Ok(None);
-        }
-        if self.text.len() as u64 > most {
-            return Err(format!("line {} has over {most} bytes", self.number));
-        }
-        let line = std::str::from_utf8(&self.text)
-            .map_err(|_| format!("line {} is not UTF-8 text", self.number))?;
-        // A file that went through Windows has `\r\n`.
-        Ok(Some(line.trim_end_matches(['\r', '\n'])))
+    let (_, map) = joined.ok_or("no share of a map was given")?;
+    let mut missing = (0..map.cells.len()).filter(|index| map.cells[*index].is_none());
+    if let Some(first) = missing.next() {
+        return Err(format!("cell {first} is missing, and {} others", missing.count()));
     }
+    Ok(map)
 }
 
-fn parse_row(line: &str, plan: &MapPlan) -> Option<(usize, Cell)> {
-    let (index, _) = line.split_once(',')?;
-    let index = index.parse().ok().filter(|index| *index < plan.len())?;
-    let mut columns = line.strip_prefix(&start_of_row(plan, index))?.split(',');
-    let verdict = columns.next()?.parse().ok()?;
-    let mut fact = || columns.next()?.parse().ok();
-    let cell = Cell { verdict, sensitive: fact()?, depends_on_step: fact()? };
-    columns.next().is_none().then_some((index, cell))
+fn plan(first: &str) -> Result<MapPlan, String> {
+    let origin = first
+        .strip_prefix(START)
+        .ok_or_else(|| format!("its first line does not begin with {START}"))?;
+    let origin: Origin = serde_json::from_str(origin).map_err(|error| error.to_string())?;
+    origin.plan().map_err(|error| error.to_string())
+}
+
+fn parse_row(record: &csv::StringRecord) -> Option<(usize, Cell)> {
+    let (verdict, sensitive) = (record.get(3)?.parse().ok()?, record.get(4)?.parse().ok()?);
+    let depends_on_step = record.get(5)?.parse().ok()?;
+    Some((record.get(0)?.parse().ok()?, Cell { verdict, sensitive, depends_on_step }))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn part(number: u32, count: u32) -> String {
+    fn share(number: usize, count: usize) -> String {
         let mut scene = Scene::base();
         scene.solver.end_s = 2e-3;
         scene.solver.step_s = 1e-6;
         let x = Axis::parse("operation.speed_rad_s=300:500:5").unwrap();
         let y = Axis::parse("operation.pulse_n=0:40000:4").unwrap();
         let mut map = Map::empty(MapPlan { scene, x, y, sensitivity: false });
-        let shard = Shard { number, count };
-        map.fill(shard.indices(20), &|| true, &|_, _| {});
+        map.fill(Shard { number, count }.indices(20), &|| true, &|_, _| {});
         let mut out = Vec::new();
-        write(&map, shard, &mut out).unwrap();
+        write(&map, &mut out).unwrap();
         String::from_utf8(out).unwrap()
     }
 
-    fn read(parts: &[String]) -> std::result::Result<Map, String> {
-        let named =
-            parts.iter().enumerate().map(|(i, part)| (format!("part {i}"), part.as_bytes()));
-        read_all(named).map(Option::unwrap).map_err(|error| error.to_string())
+    fn read(shares: &[String]) -> Result<Map, String> {
+        read_all(
+            shares.iter().enumerate().map(|(i, share)| (format!("share {i}"), share.as_bytes())),
+        )
     }
 
     #[test]
     fn shards_join_to_the_map_of_one_run() {
-        let whole = read(&[part(1, 1)]).unwrap();
-        let mut parts: Vec<String> = (1..=7).rev().map(|number| part(number, 7)).collect();
-        assert_eq!(read(&parts).unwrap(), whole);
-        let lacking = parts.pop().unwrap();
-        let missing = "no part is shard 1/7: cell 0 is missing, and 2 others";
-        assert_eq!(read(&parts).unwrap_err(), missing);
-        let cut = lacking.trim_end().rsplit_once('\n').unwrap().0.to_string();
-        parts.push(cut);
-        assert_eq!(read(&parts).unwrap_err(), "part 6: cell 14 is missing, and 0 others");
-        parts[6] = lacking.clone();
-        parts.push(lacking.clone());
-        assert_eq!(read(&parts).unwrap_err(), "part 7: cell 0 (line 3) is in part 6, too");
-        let row = lacking.lines().nth(2).unwrap();
-        let twice = "part 0: cell 0 (line 6) is in it twice";
-        assert_eq!(read(&[format!("{lacking}{row}\n")]).unwrap_err(), twice);
+        let whole = read(&[share(1, 1)]).unwrap();
+        let mut shares: Vec<String> = (1..=7).rev().map(|number| share(number, 7)).collect();
+        assert_eq!(read(&shares).unwrap(), whole);
+        let lacking = shares.pop().unwrap();
+        assert_eq!(read(&shares).unwrap_err(), "cell 0 is missing, and 2 others");
+        shares.extend([lacking.clone(), lacking]);
+        assert_eq!(read(&shares).unwrap_err(), "share 7: cell 0 (line 3) is there twice");
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Speed against error as a table, as CSV, and as a figure: log error against log time.
+//! Run time against error of the solvers: as a table, as CSV, and as a log-log figure.
 
 use std::io::{Result, Write};
 
@@ -7,9 +7,9 @@ use super::summary::OF_WHAT;
 use super::table::{Column, Heading, Table, TableCell};
 use rubscope_solver::scene::{ContactLaw, ModelSize, SolverKind};
 use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
-use rubscope_solver::study::precision::{Lack, Method, Precision, Reference, Row, Way};
+use rubscope_solver::study::precision::{Method, Precision, Reference, Row, Way};
 
-/// Letter of a series on the screen: solver, law and model size.
+/// Returns the letter of a series on the screen, by solver, contact law and model.
 pub fn letter(way: &Way) -> char {
     let base = match (way.solver, way.contact) {
         (SolverKind::Event, _) => 'e',
@@ -27,12 +27,12 @@ pub fn letter(way: &Way) -> char {
     }
 }
 
-/// Name of a series.
+/// Returns the name of a series.
 pub fn series(way: &Way) -> String {
     format!("{} {} {}", way.solver, way.contact, way.model)
 }
 
-/// The remark on the verdict of a row.
+/// Returns the remark on a row's verdict.
 fn remark(row: &Row) -> &'static str {
     match row {
         Row { other_law: true, .. } => "other law",
@@ -41,79 +41,39 @@ fn remark(row: &Row) -> &'static str {
     }
 }
 
-/// How a reference was found.
-fn found(reference: &Reference) -> String {
-    let Way { contact, model, .. } = reference.way;
-    let step = short(reference.way.step_s.unwrap_or_default());
-    match reference.method {
-        Method::Extrapolated => {
-            format!(
-                "explicit solver, {contact}, {model} model, halved steps to {step} s, extrapolated"
-            )
-        }
-        Method::FinestStep => {
-            format!("explicit solver, {contact}, {model} model, the finest step, {step} s")
-        }
-        Method::None(_) if reference.way.step_s.is_some() => {
-            format!("none; explicit solver, {contact}, {model} model, {step} s")
-        }
-        _ => format!("event solver, {contact}, {model} model"),
-    }
+/// Names the run that is the reference.
+fn reference_origin(reference: &Reference) -> String {
+    let Way { solver, contact, model, step_s, .. } = reference.way;
+    let step = step_s.map_or(String::new(), |step| format!(", the finest step, {} s", short(step)));
+    format!("{solver} solver, {contact}, {model} model{step}")
 }
 
-/// Returns why there is no reference.
-pub fn why_none(lack: Lack) -> &'static str {
-    match lack {
-        Lack::NotFalling => "the end does not settle with the step",
-        Lack::TooFar => "the end settles with the step, but not yet at the finest",
-        Lack::OtherMotions => "the impacts change with the step",
-        Lack::TooFew => "too few steps are short enough for the motion",
-        Lack::StepsFailed => "runs at fine steps fail",
-        Lack::EventsFailed => "the event solver fails before the end",
-    }
-}
+/// Why there is no reference.
+pub const WHY_NONE: &str = "the run of the reference fails before its end";
 
-/// How good a reference is.
+/// Describes how accurate the reference is.
 fn goodness(reference: &Reference) -> String {
-    let told = |x: f64| short(rounded(x, 2));
-    let changes: Vec<String> = reference.changes.iter().map(|change| told(*change)).collect();
-    let changes = changes.join(", ");
-    let error = told(reference.error.unwrap_or_default());
-    match (reference.method, reference.order) {
-        (Method::None(lack), _) => {
-            let moved = match changes.as_str() {
-                "" => String::new(),
-                _ => format!("Halving the step moves the end by {changes} of the clearance. "),
-            };
-            format!("{moved}Ends cannot be compared: {}.", why_none(lack))
-        }
-        (Method::Events, _) => {
-            format!("Halving its tolerance moves the end by {error} of the clearance.")
-        }
-        (_, Some(order)) => format!(
-            "Halving the step moves the end by {changes} of the clearance: order {order:.2}. Its \
-             error is about {error} of the clearance; smaller ones are not known."
-        ),
-        (_, None) => {
-            format!("Halving the step moves the end by no more than {error} of the clearance.")
-        }
-    }
+    let Some(error) = reference.error.filter(|_| reference.method != Method::None) else {
+        return format!("Ends cannot be compared: {WHY_NONE}.");
+    };
+    let change =
+        if reference.way.step_s.is_some() { "Twice its step" } else { "Half its tolerance" };
+    format!("{change} moves its end by {} of the clearance.", short(rounded(error, 2)))
 }
 
-/// A reference in some words, for a line of a screen.
+/// Describes the reference in a few words, for one line of the screen.
 pub fn reference_words(reference: &Reference) -> String {
     let verdict = reference.verdict;
-    let error = reference.error.map(|error| short(rounded(error, 1))).unwrap_or_default();
-    let order = reference.order.map(|order| format!(", order {order:.1}")).unwrap_or_default();
+    let error = reference.error.map(|error| format!(", error {} g0", short(rounded(error, 1))));
+    let error = error.unwrap_or_default();
     match reference.method {
         Method::Events => format!("{verdict}, by events"),
-        Method::Extrapolated => format!("{verdict}, extrapolated{order}, error {error} g0"),
-        Method::FinestStep => format!("{verdict}, finest step{order}, error {error} g0"),
-        Method::None(lack) => format!("none: {}", why_none(lack)),
+        Method::FinestStep => format!("{verdict}, finest step{error}"),
+        Method::None => format!("none: {WHY_NONE}"),
     }
 }
 
-/// Returns the rows: every figure for files, and most of them for people.
+/// Returns the measurements as a table; files get more columns than the screen.
 pub fn table(report: &Precision) -> Table {
     let head = |name, words, digits| Heading::from(name).words(words).digits(digits);
     let columns: &[Column<'_, Row, Heading>] = &[
@@ -157,17 +117,17 @@ fn count_of(steps: Option<u64>) -> TableCell {
     steps.map(|n| n as f64).into()
 }
 
-/// Writes reference and table, to read.
+/// Writes the reference and the table as text.
 ///
 /// # Errors
-/// An error of the writer.
+/// The writer failed.
 pub fn write(report: &Precision, out: &mut dyn Write) -> Result<()> {
     let reference = &report.reference;
     writeln!(out, "{}", report.scene.title)?;
     writeln!(
         out,
         "Reference: {}: {}, {}, {}.",
-        found(reference),
+        reference_origin(reference),
         reference.verdict,
         count(reference.impact_count, "impact"),
         time(reference.wall_s),
@@ -180,7 +140,7 @@ pub fn write(report: &Precision, out: &mut dyn Write) -> Result<()> {
              explicit solver keeps; errors do not fall below that."
         )?;
     }
-    if reference.sensitive == Some(true) {
+    if reference.sensitive {
         let same_law = || report.rows.iter().filter(|row| !row.other_law);
         let right = same_law().filter(|row| !row.is_wrong()).count();
         writeln!(
@@ -195,23 +155,23 @@ pub fn write(report: &Precision, out: &mut dyn Write) -> Result<()> {
     table(report).write_text(out)
 }
 
-/// The place of a row in a chart with two logarithmic axes.
+/// Position of a row in a chart with two logarithmic axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlotPlace {
     /// log10 of the wall time in seconds.
     pub time: f64,
-    /// log10 of the error; none for an error of zero, which such an axis cannot show.
+    /// log10 of the error; `None` for an error of zero, which has no logarithm.
     pub error: Option<f64>,
 }
 
-/// The place of a row that has an error.
+/// Returns the position of a row in the chart; `None` for a row without an error.
 pub fn place(row: &Row) -> Option<PlotPlace> {
     let error = row.error_final?;
     let error = (error > 0.0).then(|| error.log10());
     (row.wall_s > 0.0).then(|| PlotPlace { time: row.wall_s.log10(), error })
 }
 
-/// Whole powers of ten around some values; none where there is no value.
+/// Returns the whole powers of ten that enclose some exponents; `None` without any.
 pub fn decades(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
         (low.min(value), high.max(value))
@@ -219,10 +179,10 @@ pub fn decades(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     (low <= high).then(|| (low.floor(), high.ceil().max(low.floor() + 1.0)))
 }
 
-/// The figure: log error against log time.
+/// Returns the figure: log error against log run time.
 ///
 /// # Errors
-/// The reason why there is nothing to draw.
+/// There is nothing to draw, for this reason.
 pub fn figure(report: &Precision) -> std::result::Result<Figure, String> {
     let placed: Vec<&Row> = report.rows.iter().filter(|row| place(row).is_some()).collect();
     let is_zero = |row: &Row| row.error_final == Some(0.0);
@@ -231,8 +191,8 @@ pub fn figure(report: &Precision) -> std::result::Result<Figure, String> {
             _ if !placed.is_empty() => {
                 return Err("every error is 0, which a logarithmic axis cannot show".to_string());
             }
-            Method::None(lack) => why_none(lack),
-            _ if report.reference.sensitive == Some(true) => "the scene is sensitive",
+            Method::None => WHY_NONE,
+            _ if report.reference.sensitive => "the scene is sensitive",
             _ => "every run fails",
         };
         return Err(format!("{why}: there are no errors to draw"));
@@ -254,13 +214,13 @@ pub fn figure(report: &Precision) -> std::result::Result<Figure, String> {
     Ok(Figure::new(title, "", vec![Panel::new("", x, y, all)]))
 }
 
-/// Name of a series, with a remark if its law is not that of the reference.
+/// Returns the name of a series, with a remark if its contact law is not the reference's.
 fn name(row: &Row) -> String {
     let law = if row.other_law { ", other law" } else { "" };
     format!("{}{law}", series(&row.way))
 }
 
-/// Colour by solver and law, size of the discs by that of the model.
+/// Returns the style of a series: colour by solver and law, disc size by model.
 fn style(way: &Way) -> Style {
     let colour = match (way.solver, way.contact) {
         (SolverKind::Event, _) => 0,

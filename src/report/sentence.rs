@@ -1,6 +1,5 @@
 //! What the motion of a run is, in one sentence of plain words, and how it came there in a
-//! second one. Every sentence has shorter forms: what is told is the longest that has
-//! room whole, so nothing is ever cut.
+//! second one. Every sentence has a long and a short form.
 
 use std::fmt;
 
@@ -11,8 +10,11 @@ use rubscope_solver::model::Machine;
 use rubscope_solver::motion::{Certainty, Failure, FailureReason, RunReport, Verdict};
 use rubscope_solver::scene::{ContactLaw, ModelSize, Scene};
 
-/// Between the word of the verdict and its sentence, and between two sentences.
+/// Separators: after the verdict, and between the two sentences.
 const APART: [&str; 2] = ["  ", " "];
+/// A sentence in its long and its short form.
+type Forms = [String; 2];
+
 /// Most blades that are named one by one.
 const NAMED: usize = 4;
 
@@ -21,48 +23,48 @@ const NAMED: usize = 4;
 pub struct Facts {
     /// Verdict of the run.
     pub verdict: Verdict,
-    /// The blades in contact at the end.
+    /// Blades in contact at the end.
     pub blades: Vec<u32>,
-    /// Blades of these whose contact force pulls.
+    /// Those of `blades` whose contact force pulls.
     pub pulling: Vec<u32>,
-    /// Impacts in all.
+    /// Total number of impacts.
     pub touches: u64,
     /// The contact law.
     pub law: ContactLaw,
     /// Whether all blades rub the lining at rest.
     pub pressed: bool,
-    /// Whether the casing is damped: left alone, it comes to rest.
+    /// Whether the casing is damped, so that it comes to rest after the last contact.
     pub damped: bool,
     /// Rotor speed at which a lock separated during the run \[rad/s\].
     pub broken: Option<f64>,
     /// Rotor speed at which a run-up (true) or run-down came to its last contact \[rad/s\].
     pub caught: Option<(f64, bool)>,
-    /// Why the run stopped early.
+    /// Why the run stopped early, if it did.
     pub failure: Option<Failure>,
-    /// Whether contact pulled on the way.
+    /// Whether a contact force pulled during the run.
     pub pulled: bool,
-    /// Verdict of the event solver, whose contact only pushes, where it is known.
+    /// Verdict of the event solver, whose contact only pushes, if it is known.
     pub other: Option<Verdict>,
-    /// What changed runs say.
+    /// Result of the sensitivity check.
     pub certainty: Certainty,
-    /// Rate at which the lock grows, which is unstable at a constant speed \[1/s\].
+    /// Growth rate of a deviation from an unstable lock at constant speed \[1/s\].
     pub growth: Option<f64>,
-    /// Roundness of the casing that the lock needs, where it is much \[m\].
+    /// Largest out-of-roundness of the casing that allows the lock, if that is demanding \[m\].
     pub round: Option<f64>,
-    /// Whether the tips differ, so that the angles of the blades matter.
+    /// Whether the tips differ in length, so that errors of the blade angles matter.
     pub angles: bool,
 }
 
-/// A verdict in words that fit in a width.
+/// A verdict in words that fit a given width.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Sentence {
-    /// One word in capitals.
+    /// The verdict, one word in capitals.
     pub word: String,
-    /// Sentence on what the motion is.
+    /// Sentence on the motion at the end.
     pub what: String,
-    /// Sentence on how it came there, if there is one and it has room.
+    /// Sentence on how the motion got there, if there is one and it fits.
     pub history: Option<String>,
-    /// Whether this says that the state itself is wrong.
+    /// Whether the history says that the result is suspect (shown in red).
     pub wrong: bool,
 }
 
@@ -78,31 +80,31 @@ impl fmt::Display for Sentence {
 }
 
 impl Sentence {
-    /// Creates the word with the longest of these forms that fit in so many columns, each list from
-    /// long to short. A history in few words goes before a longer sentence.
-    pub fn of(word: &str, forms: &[String], histories: &[String], width: usize) -> Self {
-        let sentence = |what: &str, history: Option<&String>| Self {
+    /// Creates the word with the long form of a sentence, or the short one where the long one
+    /// does not fit in so many columns.
+    pub fn of(word: &str, forms: Forms, width: usize) -> Self {
+        Self::with_notes(word, forms, &[], width)
+    }
+
+    /// Same, with the first of these texts that fits beside one of the forms.
+    fn with_notes(word: &str, forms: Forms, notes: &[String], width: usize) -> Self {
+        let sentence = |what: &String, history: Option<&String>| Self {
             word: word.to_string(),
-            what: what.to_string(),
+            what: what.clone(),
             history: history.cloned(),
             wrong: false,
         };
         let fits = |sentence: &Self| sentence.to_string().chars().count() <= width;
-        // Both get shorter in turn, the sentence first.
-        let pairs = (0..forms.len() + histories.len()).flat_map(|shorter| {
-            let pair =
-                move |place: usize| Some((forms.get(shorter - place)?, histories.get(place)?));
-            (0..=shorter).filter_map(pair)
-        });
-        let both = pairs.map(|(what, history)| sentence(what, Some(history)));
-        let alone = forms.iter().map(|what| sentence(what, None));
-        both.chain(alone).find(fits).unwrap_or_else(|| sentence("", None))
+        let both = notes.iter().flat_map(|note| forms.iter().map(move |what| (what, Some(note))));
+        let mut all = both.chain(forms.iter().map(|what| (what, None)));
+        let fitting = all.find_map(|(what, note)| Some(sentence(what, note)).filter(&fits));
+        fitting.unwrap_or_else(|| sentence(&forms[1], None))
     }
 }
 
 impl Facts {
-    /// Creates what scene and machine say of a run that ended so at this speed, with these groups
-    /// of blades in contact and their forces; the rest is empty.
+    /// Creates the facts known from the scene, the machine and the groups in contact (blades and
+    /// contact force) at the end; all others are empty.
     pub fn at(
         verdict: Verdict,
         (scene, machine, speed): (&Scene, &Machine, f64),
@@ -156,73 +158,59 @@ impl Facts {
         }
     }
 
-    /// Returns the sentences in at most so many columns; from 40 on there is always one.
+    /// Returns the sentences for so many columns; from 40 on they fit.
     pub fn sentence(&self, width: usize) -> Sentence {
-        let (word, forms) = (self.verdict.as_ref().to_uppercase(), self.forms());
+        let word = self.verdict.as_ref().to_uppercase();
         let (notes, wrong) = self.notes();
-        // All of them where there is room, the later ones in fewer words; else the first.
-        let all = notes.iter().cloned().reduce(|first, next| joined(&first, &next));
-        let tried = [all.unwrap_or_default(), notes.into_iter().next().unwrap_or_default()];
-        let [all, first] = tried.map(|note| Sentence::of(&word, &forms, &note, width));
-        Sentence { wrong, ..if all.history.is_some() { all } else { first } }
+        let [_, between] = APART;
+        let all = |form: usize| notes.iter().map(|note| note[form].as_str()).collect::<Vec<_>>();
+        let mut texts: Vec<String> = [0, 1].map(|form| all(form).join(between)).into();
+        texts.extend(notes.first().map(|first| first[1].clone()));
+        texts.retain(|text| !text.is_empty());
+        Sentence { wrong, ..Sentence::with_notes(&word, self.forms(), &texts, width) }
     }
 
-    /// Returns what the motion is, from the longest form to the shortest.
-    fn forms(&self) -> Vec<String> {
+    /// Returns what the motion is.
+    fn forms(&self) -> Forms {
         if let (Some(speed), Some(after)) = (self.broken, self.after_a_lock()) {
             let at = rad_s(speed);
-            return vec![
-                format!("The lock breaks at {at}; then {after}."),
-                format!("The lock breaks at {at}."),
-                "The lock breaks.".into(),
-            ];
+            return [format!("The lock breaks at {at}; then {after}."), "The lock breaks.".into()];
         }
         match self.verdict {
             Verdict::Locked => self.held(),
             Verdict::Adhesive => self.pulled(),
-            Verdict::Slip if self.pressed => plain(&[
+            Verdict::Slip if self.pressed => plain([
                 "All blades press the lining, and the wave slips along them.",
-                "The wave slips along the pressed blades.",
                 "The wave slips.",
             ]),
-            Verdict::Slip => plain(&[
+            Verdict::Slip => plain([
                 "A blade always touches, and the wave slips along the blades.",
                 "The wave slips along the blades.",
-                "The wave slips.",
             ]),
-            Verdict::Whirl => plain(&[
+            Verdict::Whirl => plain([
                 "The contact runs from blade to blade and keeps them swinging.",
-                "The contact runs round and swings the blades.",
                 "The contact swings the blades.",
-                "The blades swing.",
             ]),
-            Verdict::Forced if self.pressed => plain(&[
+            Verdict::Forced if self.pressed => plain([
                 "All blades press the lining, and the longer ones drag the wave.",
                 "Longer blades drag the wave.",
-                "Blades drag it.",
             ]),
-            Verdict::Forced => plain(&[
+            Verdict::Forced => plain([
                 "One blade or group presses without a break and drags the wave.",
-                "One blade drags the casing's wave.",
                 "One blade drags it.",
             ]),
             Verdict::Bounce => self.bounced(),
             Verdict::Decay => self.decayed(),
             Verdict::Divergent => {
                 let why = self.failure.as_ref().map(|failure| why(&failure.reason));
-                let mut forms = Vec::new();
-                if let Some(why) = why {
-                    forms.push(format!("The motion grows without end: {why}."));
-                    forms.push(format!("It grows without end: {why}."));
-                }
-                forms.extend(plain(&["It grows without end.", "It only grows."]));
-                forms
+                let why = why.map_or(String::new(), |why| format!(": {why}"));
+                [format!("The motion grows without end{why}."), "It grows without end.".into()]
             }
             Verdict::Failed => self.failed(),
         }
     }
 
-    /// Returns what follows a lock that broke.
+    /// Describes the motion after a lock broke.
     fn after_a_lock(&self) -> Option<&'static str> {
         match self.verdict {
             Verdict::Decay => Some(self.rest()),
@@ -234,118 +222,85 @@ impl Facts {
         }
     }
 
-    /// Returns how a casing ends that nothing touches.
+    /// Describes the final motion of a casing without contact.
     fn rest(&self) -> &'static str {
         if self.damped { "the casing comes to rest" } else { "the casing swings on freely" }
     }
 
-    fn held(&self) -> Vec<String> {
+    fn held(&self) -> Forms {
         let [hold, push] = match self.blades.len() {
             1 => ["holds", "it pushes"],
             2 => ["hold", "both push"],
             _ => ["hold", "all push"],
         };
-        let [who, few] = [true, false].map(|noun| named(&self.blades, noun));
-        let fewest = counted(&self.blades);
-        vec![
-            format!("{who} {hold} the casing's wave; {push}."),
-            format!("{who} {hold} the wave; {push}."),
-            format!("{few} {hold} the wave; {push}."),
-            format!("{fewest} {hold} it; {push}."),
-            format!("{fewest} {hold} it."),
-        ]
+        let [who, few] = [named(&self.blades), counted(&self.blades)];
+        [format!("{who} {hold} the casing's wave; {push}."), format!("{few} {hold} it; {push}.")]
     }
 
-    fn pulled(&self) -> Vec<String> {
+    fn pulled(&self) -> Forms {
         let pulls = match self.pulling.as_slice() {
             [] => "one blade pulls".to_string(),
             [blade] => format!("blade {blade} pulls"),
             several => format!("{} blades pull", several.len()),
         };
-        let mut forms = vec![
-            format!("{}: no real contact can.", capital(&pulls)),
-            "A pull holds the wave.".into(),
-            "A pull holds it.".into(),
-        ];
         let pushing = self.blades.iter().find(|blade| !self.pulling.contains(blade));
-        if let (Some(push), [_, _], [_]) = (pushing, &*self.blades, &*self.pulling) {
-            for [wave, it] in [["", ""], [" the wave", " it"]] {
-                forms.insert(
-                    0,
-                    format!("Blade {push} pushes{wave} and {pulls}{it}: no real contact can."),
-                );
+        let long = match (pushing, &*self.blades, &*self.pulling) {
+            (Some(push), [_, _], [_]) => {
+                format!("Blade {push} pushes the wave and {pulls} it: no real contact can.")
             }
-        }
-        forms
+            _ => format!("{}: no real contact can.", capital(&pulls)),
+        };
+        [long, "A pull holds the wave.".into()]
     }
 
-    fn bounced(&self) -> Vec<String> {
+    fn bounced(&self) -> Forms {
         if self.touches == 0 {
-            return plain(&["Blades and casing meet and part again.", "They meet and part."]);
+            return plain(["Blades and casing meet and part again.", "They meet and part."]);
         }
         let again = if self.touches > 1 { " again and again" } else { "" };
         let touches = touches(self.touches);
-        vec![
+        [
             format!("Blades and casing meet and part{again}: {touches}."),
-            format!("Blades and casing meet and part: {touches}."),
-            format!("They meet and part: {touches}."),
             "They meet and part.".into(),
         ]
     }
 
-    fn decayed(&self) -> Vec<String> {
+    fn decayed(&self) -> Forms {
         let rest = self.rest();
         if self.pressed {
-            return plain(&[
+            return plain([
                 "The wave dies away; the blades rub the lining as at rest.",
-                "The wave dies; the blades rub as at rest.",
                 "The wave dies away.",
             ]);
         }
         if self.touches == 0 {
-            return vec![
-                format!("No blade touches; {rest}."),
-                "No blade touches the casing.".into(),
-                "No blade touches.".into(),
-            ];
+            return [format!("No blade touches; {rest}."), "No blade touches.".into()];
         }
         let touches = touches(self.touches);
         let who = match self.law {
             ContactLaw::Smooth => "Blades leave the lining",
             ContactLaw::Unilateral | ContactLaw::Bilateral => "The blades let go",
         };
-        vec![
-            format!("{who} after {touches}; {rest}."),
-            format!("{who} after {touches}."),
-            format!("They let go after {touches}."),
-            "The blades let go.".into(),
-        ]
+        [format!("{who} after {touches}; {rest}."), "The blades let go.".into()]
     }
 
-    fn failed(&self) -> Vec<String> {
+    fn failed(&self) -> Forms {
         let Some(failure) = &self.failure else {
-            return plain(&["The computation stops before the end.", "The computation stops."]);
+            return plain(["The computation stops before the end.", "The computation stops."]);
         };
         let (at, why) = (with_unit(failure.t_s, 3, "s"), why(&failure.reason));
-        vec![
-            format!("The computation stops at {at}: {why}."),
-            format!("Stopped at {at}: {why}."),
-            format!("Stopped: {why}."),
-            format!("{}.", capital(why)),
-            "The computation stops.".into(),
-        ]
+        [format!("The computation stops at {at}: {why}."), "The computation stops.".into()]
     }
 
-    /// Returns how the motion came there, each note from the longest form to the shortest, the
-    /// most serious first; and whether the first says that the state itself is wrong.
-    fn notes(&self) -> (Vec<Vec<String>>, bool) {
-        let mut notes: Vec<Vec<String>> = self.growth.map(grows).into_iter().collect();
+    /// Returns how the motion came there, the most serious note first; and whether the first
+    /// says that the state itself is wrong.
+    fn notes(&self) -> (Vec<Forms>, bool) {
+        let mut notes: Vec<Forms> = self.growth.map(grows).into_iter().collect();
         let sensitive = self.certainty.sensitive;
         if self.certainty.depends_on_step == Some(true) {
-            notes.push(plain(&[
+            notes.push(plain([
                 "Another step ends otherwise: the step is too long.",
                 "Another step ends otherwise.",
-                "Step too long.",
             ]));
         }
         if let Some(other) = self.other.filter(|other| *other != self.verdict)
@@ -361,73 +316,59 @@ impl Facts {
         }
         if let Some((speed, up)) = self.caught.filter(|_| self.verdict == Verdict::Locked) {
             let at = format!("{} at {}", if up { "run-up" } else { "run-down" }, rad_s(speed));
-            notes.push(vec![format!("Caught in a {at}."), format!("{}.", capital(&at))]);
+            notes.push([format!("Caught in a {at}."), format!("{}.", capital(&at))]);
         }
         if sensitive {
             let ends = self.certainty.ends_otherwise;
             let does = if ends { "ends otherwise" } else { "gives other impacts" };
-            notes.push(vec![format!("A tiny change {does}."), "Sensitive.".into()]);
+            notes.push([format!("A tiny change {does}."), "Sensitive.".into()]);
         }
         if let Some(round) = self.round.filter(|_| notes.is_empty()) {
             let round = format!("{} um", short(rounded(1e6 * round, 2)));
-            notes.push(vec![format!("It needs a casing round to {round}.")]);
+            notes.push([
+                format!("It needs a casing round to {round}."),
+                format!("Round to {round}."),
+            ]);
         }
         (notes, wrong)
     }
 
     /// Returns what contact that only pushes does, where this one pulled on the way.
-    fn pushes_only(&self) -> Vec<String> {
+    fn pushes_only(&self) -> Forms {
         let locked = self.verdict == Verdict::Locked;
         let ends = if locked { "would not catch it" } else { "ends otherwise" };
         match self.other {
-            None | Some(Verdict::Failed) => plain(&["Contact pulled on the way."]),
-            Some(other) => vec![
+            None | Some(Verdict::Failed) => plain(["Contact pulled on the way."; 2]),
+            Some(other) => [
                 format!("Contact that only pushes {ends}: {other}."),
-                format!("Contact that only pushes: {other}."),
                 format!("Pushes only: {other}."),
             ],
         }
     }
 
     /// Returns that the event solver finds another end.
-    fn differs(&self, other: Verdict) -> Vec<String> {
+    fn differs(&self, other: Verdict) -> Forms {
         let why = if self.angles { "step or angles are too large" } else { "the step is too long" };
         let fails = other == Verdict::Failed;
         let does = if fails { "fails".into() } else { format!("says {other}") };
-        let mut forms = vec![
-            format!("The exact solver {does}: {why}."),
-            format!("The exact solver {does}."),
-            format!("Exact: {other}."),
-        ];
+        let short = format!("The exact solver {does}.");
         // A run that stops has said why.
         if self.verdict == Verdict::Failed {
-            forms.remove(0);
+            return [short.clone(), short];
         }
-        forms
+        [format!("The exact solver {does}: {why}."), short]
     }
 }
 
 /// Returns that a lock is unstable.
-fn grows(growth: f64) -> Vec<String> {
-    let grows = format!("it grows by {}", with_unit(growth, 3, "1/s"));
-    vec![
-        format!("But this lock is unstable: {grows}."),
-        format!("{}.", capital(&grows)),
-        "It is unstable.".into(),
-    ]
+fn grows(growth: f64) -> Forms {
+    let growth = with_unit(growth, 3, "1/s");
+    [format!("But this lock is unstable: it grows by {growth}."), "It is unstable.".into()]
 }
 
-/// Returns a speed in the digits of a sentence.
+/// Formats a speed with four digits.
 fn rad_s(speed: f64) -> String {
     with_unit(speed, 4, "rad/s")
-}
-
-/// Returns two notes one after the other, from long to short: the second gets shorter first.
-fn joined(first: &[String], next: &[String]) -> Vec<String> {
-    let shorter = first.iter().skip(1).zip(next.last().into_iter().cycle());
-    let pairs = first.iter().take(1).flat_map(|first| next.iter().map(move |next| (first, next)));
-    let [_, between] = APART;
-    pairs.chain(shorter).map(|(first, next)| format!("{first}{between}{next}")).collect()
 }
 
 /// Counts touches: `1 touch`, `5 touches`.
@@ -436,30 +377,24 @@ fn touches(count: u64) -> String {
 }
 
 /// Returns constant forms.
-fn plain(forms: &[&str]) -> Vec<String> {
-    forms.iter().map(ToString::to_string).collect()
+fn plain(forms: [&str; 2]) -> Forms {
+    forms.map(String::from)
 }
 
-/// Names blades: `Blades 12 and 19`, or without the noun `12 and 19`; many are counted.
-fn named(blades: &[u32], with_noun: bool) -> String {
+/// Names blades: `Blades 12 and 19`; many are counted.
+fn named(blades: &[u32]) -> String {
     let mut blades = blades.to_vec();
     blades.sort_unstable();
-    let noun = match (with_noun, blades.len()) {
-        (false, _) => "",
-        (true, 1) => "Blade ",
-        (true, _) => "Blades ",
-    };
     match blades.as_slice() {
-        [only] => format!("{noun}{only}"),
-        [head @ .., last] if blades.len() <= NAMED => {
+        [head @ .., last] if (2..=NAMED).contains(&blades.len()) => {
             let head: Vec<String> = head.iter().map(ToString::to_string).collect();
-            format!("{noun}{} and {last}", head.join(", "))
+            format!("Blades {} and {last}", head.join(", "))
         }
         _ => counted(&blades),
     }
 }
 
-/// Names one or two blades, `12 + 19`, and counts more.
+/// Names one or two blades, as in `12 + 19`, and counts more.
 fn counted(blades: &[u32]) -> String {
     match blades {
         [] => "Some blades".into(),
@@ -469,7 +404,7 @@ fn counted(blades: &[u32]) -> String {
     }
 }
 
-/// Returns why a run stopped, in plain words.
+/// Explains why a run failed.
 fn why(reason: &FailureReason) -> &'static str {
     match reason {
         FailureReason::BladeAngle { .. }

@@ -1,4 +1,4 @@
-//! The summary of a run in plain sentences, one fact per line.
+//! The text summary of a run, one fact per line.
 
 use std::io::{Result, Write};
 
@@ -12,22 +12,22 @@ use rubscope_solver::model::Machine;
 use rubscope_solver::motion::{Basis, Contact, Proof, RunReport};
 use rubscope_solver::scene::{ContactLaw, SolverKind};
 
-/// Quantities of which tiny changes change the outcome of a sensitive run.
+/// What is changed to test whether a run is sensitive.
 pub(super) const OF_WHAT: &str = "of the pulse, the speed or the motion";
 
-/// Most impacts that are listed one by one.
+/// Impacts are listed one by one up to this number.
 const IMPACTS_TOLD: usize = 4;
 
-/// Most contacts that are listed one by one.
+/// Contacts are listed one by one up to this number.
 const CONTACTS_TOLD: usize = 4;
-/// Penetration, as a part of the clearance, that closing a gap in double
-/// precision may leave: a few hundred units in the last place.
+/// Penetration, relative to the clearance, that closing a gap in double precision may leave: a few
+/// hundred units in the last place.
 const ROUND_OFF: f64 = 1e-13;
 
-/// Writes the summary of a run that took these wall times.
+/// Writes the summary of a run and its wall times.
 ///
 /// # Errors
-/// An error of the writer.
+/// The writer failed.
 pub fn write(report: &RunReport, wall: Wall, out: &mut dyn Write) -> Result<()> {
     let machine = report.scene.machine();
     if !report.scene.title.is_empty() {
@@ -61,7 +61,7 @@ pub fn write(report: &RunReport, wall: Wall, out: &mut dyn Write) -> Result<()> 
     writeln!(out, "{}", cost(report, wall))
 }
 
-/// Writes solver, contact law, model, and the conditions of the run.
+/// Describes the solver, the contact law, the model and the conditions of the run.
 fn how(report: &RunReport) -> String {
     let scene = &report.scene;
     let step = match report.solver.kind {
@@ -94,7 +94,7 @@ fn how(report: &RunReport) -> String {
     )
 }
 
-/// Returns the numbers of what makes the verdict doubtful, one line each.
+/// Lists the measured reasons to doubt the verdict, one line each.
 fn doubts(report: &RunReport) -> Vec<String> {
     let outcome = &report.outcome;
     let mut doubts = Vec::new();
@@ -103,7 +103,7 @@ fn doubts(report: &RunReport) -> Vec<String> {
         let so = if ends { "do not rely on this outcome" } else { "the verdict stays" };
         doubts.push(format!("Sensitive to a change of 1e-9 {OF_WHAT}: {so}."));
     }
-    // Events have no steps, and a run that takes each has been told so.
+    // The event solver has no steps, and a run with `--plain` has skipped none.
     let doubtful = outcome.depends_on_step == Some(true) || outcome.by_events.is_some();
     if (doubtful || !doubts.is_empty())
         && report.solver.steps_skipped.is_some_and(|skipped| skipped > 0)
@@ -113,7 +113,7 @@ fn doubts(report: &RunReport) -> Vec<String> {
     doubts
 }
 
-/// Returns what the verdict rests on.
+/// Describes the evidence for the verdict.
 fn basis(basis: Basis) -> String {
     match basis {
         Basis::Proved { by, since_s } => {
@@ -177,12 +177,12 @@ fn motion(report: &RunReport, machine: &Machine, out: &mut dyn Write) -> Result<
     writeln!(out, "{}", impacts(report))
 }
 
-/// Returns what a length is a part of.
+/// Names the length that penetrations are compared with.
 fn room(machine: &Machine) -> &'static str {
     if machine.clearance() < 0.0 { "interference" } else { "clearance" }
 }
 
-/// Contacts on a lining, where many blades touch at once.
+/// Summarises the contacts on a lining, where many blades touch at once.
 fn many_touch(
     contacts: &[Contact],
     moved: &dyn Fn(usize) -> Option<f64>,
@@ -213,7 +213,7 @@ fn touch(contact: &Contact, moved: Option<f64>, digits: &Digits) -> String {
     format!("{who} {verb} with {force} N at the end.")
 }
 
-/// Returns the rotor speed, compared with the threshold speeds.
+/// Compares the rotor speed with the critical and lock speeds.
 fn speeds(report: &RunReport, machine: &Machine) -> String {
     let now = report.end_speed_rad_s;
     let lock = lock_window(machine, now);
@@ -224,7 +224,7 @@ fn speeds(report: &RunReport, machine: &Machine) -> String {
     };
     parts.extend(machine.critical_speed().map(|critical| part_of("Omega_c", critical) + ")"));
     if let Some(lock) = lock.filter(|lock| lock.from > 0.0) {
-        // More groups may hold a wave on a lining, elsewhere.
+        // On a lining, groups of more blades may lock at other speeds.
         let groups = if machine.lining.is_some() { " of two groups" } else { "" };
         let ends = match lock.to {
             Some(to) => {

@@ -1,5 +1,5 @@
-//! The survey of all nodal diameters: aligned text for people, a table of every limit
-//! (CSV), and the interference chart (SVG).
+//! The survey of all nodal diameters: aligned text, a table of every limit (CSV), and the
+//! interference chart (SVG).
 
 use std::borrow::Cow;
 use std::f64::consts::TAU;
@@ -14,15 +14,15 @@ use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
 use rubscope_solver::study::margins::LimitName;
 use rubscope_solver::study::survey::{Scattered, Survey, SurveyRow};
 
-/// Most rows of the text, and its widest line.
+/// Largest number of rows and of columns of the text.
 const ROWS: usize = 64;
 const WIDEST: usize = 110;
-/// Letters of the range as a line.
+/// Width of the range bar \[characters\].
 const BAR: usize = 20;
-/// Most nodal diameters that the answer lists.
+/// The answer lists this many nodal diameters, and counts more.
 const LISTED: usize = 8;
 
-/// The limits that are shown with their heading, the most important first.
+/// Limits with a column in the text, the most important first, and their headings.
 const LIMITS: [(LimitName, &str); 6] = [
     (LimitName::OmegaLock, "Omega_lock"),
     (LimitName::LockEnds, "ends"),
@@ -32,7 +32,7 @@ const LIMITS: [(LimitName, &str); 6] = [
     (LimitName::OmegaC, "Omega_c"),
 ];
 
-/// Returns the limits that any of these nodal diameters has.
+/// Returns those of [`LIMITS`] that some row has.
 fn present<'a>(
     rows: &'a [&'a SurveyRow],
 ) -> impl Iterator<Item = &'static (LimitName, &'static str)> + 'a {
@@ -40,7 +40,7 @@ fn present<'a>(
     LIMITS.iter().filter(move |(name, _)| rows.iter().any(|row| has(row, *name)))
 }
 
-/// Every limit, one row each; a number of diameters without any has one row, too.
+/// Returns the table for files: one row per limit, and one for nodal diameters without any.
 pub fn table(survey: &Survey) -> Table {
     let names = "nodal_diameters,omega_c_rad_s,omega_bd_rad_s,name,value_rad_s,margin,in_range,by";
     let mut table = Table::new(names.split(','));
@@ -67,10 +67,10 @@ pub fn table(survey: &Survey) -> Table {
     table
 }
 
-/// Writes the survey for people; with `all` also of diameters without modes of their own.
+/// Writes the survey as text; with `all`, also nodal diameters without modes of their own.
 ///
 /// # Errors
-/// An error of the writer.
+/// The writer failed.
 pub fn write(survey: &Survey, all: bool, out: &mut dyn Write) -> Result<()> {
     let scene = &survey.scene;
     let mut tell =
@@ -95,7 +95,7 @@ pub fn write(survey: &Survey, all: bool, out: &mut dyn Write) -> Result<()> {
     writeln!(out, "Computed in {}.", time(rounded(survey.wall_s, 2)))
 }
 
-/// Returns what must be known of these rows, in sentences.
+/// Returns remarks that apply to any of the rows shown.
 pub fn notes(survey: &Survey, shown: &[&SurveyRow]) -> Vec<String> {
     let any = |has: fn(&SurveyRow) -> bool, note: &str| {
         shown.iter().any(|row| has(row)).then(|| note.to_string())
@@ -108,7 +108,7 @@ pub fn notes(survey: &Survey, shown: &[&SurveyRow]) -> Vec<String> {
     tuned.chain(scattered).chain(of_rows.into_iter().flatten()).collect()
 }
 
-/// Which diameters can lock: in the range, or at the speed of the scene.
+/// Says which nodal diameters can lock, in the range or at the scene's speed.
 pub fn answer(survey: &Survey, all: bool) -> String {
     let now = survey.scene.operation.speed_rad_s;
     let at = match survey.range_rad_s {
@@ -139,21 +139,21 @@ pub fn answer(survey: &Survey, all: bool) -> String {
     format!("{at} {which}{unknown}.")
 }
 
-/// A speed in words, in four digits and not less than whole ones.
-fn told(omega: f64) -> String {
+/// Formats a speed with four digits, or more if its whole part has more.
+fn shown_speed(omega: f64) -> String {
     let shown = per_speed(omega);
     short(if shown.abs() < 1e3 { rounded(shown, 4) } else { shown.round() })
 }
 
-/// What a row can do in the range, in words: where it can lock, and whirl.
+/// Says at which speeds of the range a row can lock, and where it whirls.
 fn verdict(survey: &Survey, row: &SurveyRow) -> [String; 2] {
     let ([least, most], unit) = (survey.speeds(), speed_unit());
     let span = |[from, to]: &[f64; 2]| match (*from <= least, *to >= most) {
         (true, true) if survey.range_rad_s.is_none() => "at every speed".to_string(),
         (true, true) => "whole range".to_string(),
-        (true, false) => format!("up to {} {unit}", told(*to)),
-        (false, true) => format!("from {} {unit}", told(*from)),
-        (false, false) => format!("{} to {} {unit}", told(*from), told(*to)),
+        (true, false) => format!("up to {} {unit}", shown_speed(*to)),
+        (false, true) => format!("from {} {unit}", shown_speed(*from)),
+        (false, false) => format!("{} to {} {unit}", shown_speed(*from), shown_speed(*to)),
     };
     let locks = match &row.locks_in_range {
         None => "not known: runs have it".to_string(),
@@ -166,16 +166,16 @@ fn verdict(survey: &Survey, row: &SurveyRow) -> [String; 2] {
     let onset = row.limits.iter().any(|limit| limit.name == LimitName::WhirlOnset);
     let from = if onset { "from " } else { "" };
     let whirls = row.whirls_in_range.first();
-    [locks, whirls.map_or(String::new(), |omega| format!("{from}{} {unit}", told(*omega)))]
+    [locks, whirls.map_or(String::new(), |omega| format!("{from}{} {unit}", shown_speed(*omega)))]
 }
 
-/// The speeds of the line of letters: the range, or from rest to beyond the present speed.
+/// Returns the speed range covered by the bar: the range, or from rest to beyond the present speed.
 fn ends(survey: &Survey) -> [f64; 2] {
     let far = REACH * survey.scene.operation.speed_rad_s;
     survey.range_rad_s.unwrap_or([far.min(0.0), far.max(0.0)])
 }
 
-/// Speeds as a line of letters: `#` where a wave can lock, `w` where whirl begins.
+/// Draws the range bar: `#` where the wave can lock, `w` where whirl begins.
 fn bar(survey: &Survey, row: &SurveyRow) -> String {
     let [from, to] = ends(survey);
     let part = (to - from) / BAR as f64;
@@ -194,10 +194,10 @@ fn bar(survey: &Survey, row: &SurveyRow) -> String {
     (0..BAR).map(sign).collect()
 }
 
-/// What the limits are of, and what tips that differ do to the lock.
+/// Explains how unequal tips move the lock speed.
 pub fn of_scatter(scene: &Scene, scattered: &Scattered) -> String {
     let speeds = [scattered.mean_rad_s, scattered.equal_rad_s];
-    let [mean, equal] = speeds.map(|omega| format!("{} {}", told(omega), speed_unit()));
+    let [mean, equal] = speeds.map(|omega| format!("{} {}", shown_speed(omega), speed_unit()));
     let of = match scene.is_uneven() {
         true => "the tips and the casing of the scene. Equal tips in a round casing lock last",
         false => "equal tips in a round casing, which lock last",
@@ -209,7 +209,7 @@ pub fn of_scatter(scene: &Scene, scattered: &Scattered) -> String {
     )
 }
 
-/// The machine and the units in a sentence.
+/// Describes the machine and the units, in a sentence.
 fn head(survey: &Survey) -> String {
     let blades = survey.scene.bladed_disk.blades;
     let most = count(u64::from(blades / 2), "nodal diameter");
@@ -219,20 +219,20 @@ fn head(survey: &Survey) -> String {
     format!("{blades} blades, 0 to {most}; speeds in {unit}{back}; frequencies in Hz{disk}.")
 }
 
-/// At which speed the frequencies of a disk are that stiffens.
+/// Says at which speed the disk frequencies apply, if the blades stiffen with speed.
 fn at_speed(survey: &Survey) -> String {
     let stiffens = survey.scene.bladed_disk.stiffens();
     let now = survey.scene.operation.speed_rad_s.abs();
     if stiffens { format!(" at {}", speed(now)) } else { String::new() }
 }
 
-/// Returns a row for each of these nodal diameters: what it can do, modes \[Hz\], and the
-/// limits of the sense of rotation that is looked at.
+/// Returns a row for each of these nodal diameters: verdict, bar, modes \[Hz\], and the limits for
+/// the sense of rotation of the survey.
 pub fn rows(survey: &Survey, shown: &[&SurveyRow]) -> Table {
     let limits: Vec<_> = present(shown).collect();
-    let [from, to] = ends(survey).map(told);
+    let [from, to] = ends(survey).map(shown_speed);
     let of_bar = format!("{from:<0$}{to}", BAR.saturating_sub(to.len()));
-    // A column of its own, as both together are wider than a small screen.
+    // Whirl has its own column, because both in one would be wider than a small screen.
     let whirls = shown.iter().any(|row| !row.whirls_in_range.is_empty());
     let heads = ["n_d", "verdict"].into_iter().chain(whirls.then_some("whirl"));
     let heads = heads.chain([of_bar.as_str(), "casing", "disk"]);
@@ -259,13 +259,13 @@ pub fn rows(survey: &Survey, shown: &[&SurveyRow]) -> Table {
     table
 }
 
-/// Colour number of the lines, apart from those of the limits.
+/// Colour number of lines that are not limits.
 const INK: usize = 5;
-/// How far limits are drawn, as a factor of the fastest speed of interest.
+/// Limits are drawn up to this multiple of the fastest speed of interest.
 const REACH: f64 = 2.0;
 
-/// The interference chart: frequencies and the lines `n_d Omega` over the numbers of
-/// diameters, and below it the limits over them, with the speeds at which waves can lock.
+/// Returns the interference chart: the frequencies and the lines `n_d Omega` over `n_d`, and below
+/// them the limits and the speeds at which waves can lock.
 pub fn figure(survey: &Survey, all: bool) -> Figure {
     let rows = survey.shown(all);
     let at = |row: &SurveyRow| f64::from(row.nodal_diameters);
@@ -279,7 +279,7 @@ pub fn figure(survey: &Survey, all: bool) -> Figure {
     let disk: fn(&SurveyRow) -> f64 = |row| row.omega_bd_rad_s;
     let of_disk = format!("disk ω_bd{}", at_speed(survey));
     for (label, number, radius, of) in [("casing ω_c", 0, 4, casing), (&of_disk, 1, 3, disk)] {
-        // A disc of the colour of this number.
+        // A multiple of 7 gives a filled disc, and (with six colours) the colour of `number`.
         frequencies.push(Series::new(label, Style::Discs(7 * number, radius), over(of, true)));
         let assumed = format!("{label}, assumed");
         frequencies.push(Series::new(assumed, Style::Rings(number, radius), over(of, false)));
@@ -287,7 +287,7 @@ pub fn figure(survey: &Survey, all: bool) -> Figure {
     let last = rows.iter().map(|row| at(row)).fold(0.0, f64::max);
     let most =
         rows.iter().fold(0.0_f64, |most, row| most.max(row.omega_c_rad_s + row.omega_bd_rad_s));
-    // A line goes as far as the frequencies do.
+    // The lines end at the highest frequency.
     let turning = |omega: f64| {
         let end = if omega > 0.0 { (most / omega).min(last) } else { last };
         [(0.0, 0.0), (end, end * omega)]

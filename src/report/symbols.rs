@@ -1,20 +1,20 @@
-//! The symbols of parameters, as the paper and the documents write them: taken from
-//! what the table of keys says of each.
+//! Symbols of parameters as the paper and the documents write them, taken from the descriptions in
+//! the key table.
 
 use rubscope_solver::scene::keys;
 use rubscope_solver::study::margins::CLEARANCE;
 
-/// End of the name of a key that is an initial value.
+/// Ending of the description of an initial value.
 const AT_START: &str = " at t = 0";
 
-/// Returns the symbol of a parameter, in letters of ASCII: `zeta_c`, `Omega`, `u_c(0)`. The path
-/// itself of what is no key.
+/// Returns the symbol of a parameter in ASCII: `zeta_c`, `Omega`, `u_c(0)`. A path that is no key
+/// is returned unchanged.
 pub fn symbol(path: &str) -> String {
     match path {
         CLEARANCE => return "g0".to_string(),
         "casing.frequency_hz" => return "f_c".to_string(),
         "bladed_disk.frequency_hz" => return "f_bd".to_string(),
-        // These are told in words.
+        // The descriptions of these keys contain no symbol.
         keys::PULSE => return "F".to_string(),
         keys::SPEED_RAMP => return "ramp".to_string(),
         keys::STEP => return "h".to_string(),
@@ -30,7 +30,7 @@ pub fn symbol(path: &str) -> String {
     key.what.rsplit(' ').next().unwrap_or(path).to_string()
 }
 
-/// Symbols in Greek letters.
+/// Replaces the ASCII names of Greek letters in a text by the letters.
 pub fn greek(text: &str) -> String {
     let letter = |word: &str| {
         match word {

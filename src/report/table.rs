@@ -1,53 +1,50 @@
 //! A table: headings with names for files and words for people, rows of cells, and notes.
-//! Text, CSV, the page and the screen are written from it. Its rows are there, or are made as
-//! they are written: all cells at once take a hundred times the memory of the numbers that
-//! they show.
+//! Text, CSV, the page and the screen are written from it.
 
 use std::borrow::Cow;
 use std::io::{Result, Write};
-use std::rc::Rc;
 
 use super::line::wrapped;
 use super::number::{exact, per_speed, rounded, short, speed_unit};
 
-/// Letters between two columns of text.
+/// Spaces between two columns of text.
 const APART: usize = 2;
 
-/// Widest line of the notes below a table.
+/// Line width of the notes below a table.
 pub const WIDTH: usize = 100;
 
 /// One cell of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TableCell {
-    /// A number; what is no finite number is left empty.
+    /// A number; a number that is not finite leaves the cell empty.
     Number(f64),
-    /// A number for files, and how people read it; what is no finite number is left empty there.
+    /// A number for files, and its text for people; one that is not finite is empty in files.
     Told(f64, String),
     /// A word or two.
     Word(String),
-    /// No such figure.
+    /// No value.
     Empty,
 }
 
-/// Columns of speeds, which text has in the unit of speeds. CSV has them as they are.
+/// Columns of speeds, which text shows in the chosen unit. CSV keeps rad/s.
 const SPEEDS: [&str; 3] = ["speed_rad_s", "wave_speed_rad_s", "speed [rad/s]"];
 
 /// The heading of a column.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Heading {
-    /// Name in files, with the SI unit, such as `speed_rad_s`; `None` for a column that only
-    /// people see.
+    /// Name in files, with the SI unit, such as `speed_rad_s`; `None` for a column that is only
+    /// shown.
     name: Option<Cow<'static, str>>,
-    /// Words for people; `None` for a column of files alone.
+    /// Heading shown to people; `None` for a column that only files have.
     words: Option<Cow<'static, str>>,
-    /// Whether its numbers are speeds, which people see in the unit of speeds.
+    /// Whether the numbers are speeds, shown in the chosen unit.
     speeds: bool,
-    /// Most significant digits for people.
+    /// Largest number of significant digits shown.
     digits: usize,
 }
 
 impl<S: Into<Cow<'static, str>>> From<S> for Heading {
-    /// Creates the heading of a column that has the same name in files and for people.
+    /// Creates a heading with the same name in files and on the screen.
     fn from(name: S) -> Self {
         let name = name.into();
         let speeds = SPEEDS.contains(&name.as_ref());
@@ -60,31 +57,31 @@ impl<S: Into<Cow<'static, str>>> From<S> for Heading {
     }
 }
 
-/// Significant digits for people where a heading asks for no other number of them.
+/// Default number of significant digits shown.
 const DIGITS: usize = 6;
 
 impl Heading {
-    /// Creates the heading of a column that only people see.
+    /// Creates the heading of a column that files omit.
     pub fn shown(words: impl Into<Cow<'static, str>>) -> Self {
         Self { name: None, ..Self::from(words) }
     }
 
-    /// Creates the heading of a column of files alone.
+    /// Creates the heading of a column that only files have.
     pub fn filed(name: impl Into<Cow<'static, str>>) -> Self {
         Self { words: None, ..Self::from(name) }
     }
 
-    /// Sets the words for people.
+    /// Sets the heading shown to people.
     pub fn words(self, words: impl Into<Cow<'static, str>>) -> Self {
         Self { words: Some(words.into()), ..self }
     }
 
-    /// Sets the most significant digits for people.
+    /// Sets the largest number of significant digits shown.
     pub fn digits(self, digits: usize) -> Self {
         Self { digits, ..self }
     }
 
-    /// Returns what people read of a cell.
+    /// Formats a cell for people.
     fn text(&self, cell: &TableCell) -> String {
         match cell {
             TableCell::Number(x) => {
@@ -137,8 +134,8 @@ impl From<String> for TableCell {
     }
 }
 
-/// Writes rows of cells as CSV, under a header line. Numbers are the shortest
-/// that read back as themselves, and what is no figure is left empty.
+/// Writes a header line and rows as CSV. Numbers have the fewest digits that read back exactly; a
+/// cell without a finite number is empty.
 pub(crate) fn write_csv<R: IntoIterator<Item = TableCell>>(
     names: impl IntoIterator<Item = impl AsRef<[u8]>>,
     rows: impl IntoIterator<Item = R>,
@@ -151,44 +148,15 @@ pub(crate) fn write_csv<R: IntoIterator<Item = TableCell>>(
     csv.flush()
 }
 
-/// A column of a table: its heading, and what it shows of an item.
+/// A column of a table: its heading, and the function that makes its cell from an item.
 pub type Column<'a, T, H = &'a str> = (H, fn(&T) -> TableCell);
 
 /// Rows under headings, with notes below.
 #[derive(Clone, Debug, Default)]
 pub struct Table {
     headings: Vec<Heading>,
-    rows: Rows,
+    rows: Vec<Vec<TableCell>>,
     notes: Vec<String>,
-}
-
-/// Makes the rows of one place of a list.
-type RowsAt = Rc<dyn Fn(usize) -> Result<Vec<Vec<TableCell>>>>;
-
-#[derive(Clone)]
-enum Rows {
-    There(Vec<Vec<TableCell>>),
-    /// So many rows, made place by place of a list.
-    Made {
-        count: usize,
-        places: usize,
-        at: RowsAt,
-    },
-}
-
-impl Default for Rows {
-    fn default() -> Self {
-        Self::There(Vec::new())
-    }
-}
-
-impl std::fmt::Debug for Rows {
-    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::There(rows) => rows.fmt(out),
-            Self::Made { count, .. } => write!(out, "{count} rows"),
-        }
-    }
 }
 
 impl Table {
@@ -196,16 +164,6 @@ impl Table {
     pub fn new<H: Into<Heading>>(headings: impl IntoIterator<Item = H>) -> Self {
         let headings = headings.into_iter().map(Into::into).collect();
         Self { headings, ..Self::default() }
-    }
-
-    /// Creates a table of rows that are made as they are written: so many over all of so many
-    /// places, of which each has those that `at` makes.
-    pub fn made<H: Into<Heading>>(
-        headings: impl IntoIterator<Item = H>,
-        [places, count]: [usize; 2],
-        at: impl Fn(usize) -> Result<Vec<Vec<TableCell>>> + 'static,
-    ) -> Self {
-        Self { rows: Rows::Made { count, places, at: Rc::new(at) }, ..Self::new(headings) }
     }
 
     /// Creates a table with a row for each item.
@@ -217,21 +175,18 @@ impl Table {
         table
     }
 
-    /// Adds a row, one cell for each column, to those that are there.
+    /// Adds a row, one cell for each column.
     pub fn push(&mut self, mut row: Vec<TableCell>) {
         row.resize(self.headings.len(), TableCell::Empty);
-        if let Rows::There(rows) = &mut self.rows {
-            rows.push(row);
-        }
+        self.rows.push(row);
     }
 
-    /// Writes every word of it as `spell` does, in the rows that are there.
+    /// Writes every word of it as `spell` does.
     pub fn spelled(mut self, spell: impl Fn(&str) -> String) -> Self {
         for words in self.headings.iter_mut().filter_map(|heading| heading.words.as_mut()) {
             *words = spell(words).into();
         }
-        let Rows::There(rows) = &mut self.rows else { return self };
-        for cell in rows.iter_mut().flatten() {
+        for cell in self.rows.iter_mut().flatten() {
             if let TableCell::Told(_, text) | TableCell::Word(text) = cell {
                 *text = spell(text);
             }
@@ -251,77 +206,46 @@ impl Table {
 
     /// Returns the number of rows.
     pub fn len(&self) -> usize {
-        match &self.rows {
-            Rows::There(rows) => rows.len(),
-            Rows::Made { count, .. } => *count,
-        }
+        self.rows.len()
     }
 
-    /// Returns whether there is no row.
+    /// Returns whether there are no rows.
     pub fn is_empty(&self) -> bool {
-        self.len() == 0
+        self.rows.is_empty()
     }
 
-    fn each(&self, mut row: impl FnMut(&[TableCell]) -> Result<()>) -> Result<()> {
-        match &self.rows {
-            Rows::There(rows) => rows.iter().try_for_each(|cells| row(cells)),
-            Rows::Made { places, at, .. } => (0..*places)
-                .try_for_each(|place| at(place)?.iter().try_for_each(|cells| row(cells))),
-        }
-    }
-
-    /// Returns the rows as people see them, in padded cells, headings first; columns that do
-    /// not fit into `room` letters with `apart` of them between columns are left out from the
-    /// right.
+    /// Returns the headings and rows as padded cells. The columns on the right that do not fit into
+    /// `room` characters, with `apart` characters between columns, are left out.
     pub fn lines(&self, room: usize, apart: usize) -> Vec<Vec<String>> {
-        let mut lines = Vec::new();
-        let keep = |line| {
-            lines.push(line);
-            Ok(())
-        };
-        // Rows that are there have no error.
-        let _ = self.each_line(room, apart, keep);
-        lines
-    }
-
-    fn each_line(
-        &self,
-        room: usize,
-        apart: usize,
-        mut told: impl FnMut(Vec<String>) -> Result<()>,
-    ) -> Result<()> {
         let mut layout = Layout::of(&self.headings);
-        self.each(|row| {
-            layout.meet(row);
-            Ok(())
-        })?;
+        self.rows.iter().for_each(|row| layout.meet(row));
         let mut used = 0;
         layout.columns.retain(|(_, _, width, _)| {
             used += width + apart;
             used <= room.saturating_add(apart)
         });
-        told(layout.headings())?;
-        self.each(|row| told(layout.line(row)))
+        let rows = self.rows.iter().map(|row| layout.line(row));
+        std::iter::once(layout.headings()).chain(rows).collect()
     }
 
-    /// Writes CSV of the columns that have a name in files: a header line, then numbers that read
-    /// back as themselves.
+    /// Writes the columns that have a name in files as CSV: a header line, then numbers that read
+    /// back exactly.
     ///
     /// # Errors
-    /// An error of the writer, or of what makes a row.
+    /// An error of the writer.
     pub fn write_csv(&self, out: &mut dyn Write) -> Result<()> {
         let mut csv = csv::Writer::from_writer(out);
         csv.write_record(self.headings.iter().filter_map(|heading| heading.name.as_deref()))?;
-        self.each(|row| {
+        for row in &self.rows {
             let cells = row.iter().zip(&self.headings);
             let filed = cells.filter(|(_, heading)| heading.name.is_some());
-            Ok(csv.write_record(filed.map(|(cell, _)| cell.in_csv()))?)
-        })?;
+            csv.write_record(filed.map(|(cell, _)| cell.in_csv()))?;
+        }
         csv.flush()
     }
 
     /// Writes aligned text: numbers to the right, words to the left, `-` for a missing
-    /// number; below it the notes. Rows that are made are made twice.
+    /// number; below it the notes.
     ///
     /// # Errors
     /// As `write_csv`.
@@ -329,25 +253,27 @@ impl Table {
         self.write_text_in(usize::MAX, out)
     }
 
-    /// Writes text as [`Table::write_text`] does, of the columns that fit into `room` letters.
+    /// As [`Table::write_text`], with only the columns that fit into `room` characters.
     ///
     /// # Errors
     /// As `write_csv`.
     pub fn write_text_in(&self, room: usize, out: &mut dyn Write) -> Result<()> {
         if !self.headings.is_empty() {
             let apart = " ".repeat(APART);
-            self.each_line(room, APART, |line| writeln!(out, "{}", line.join(&apart).trim_end()))?;
+            for line in self.lines(room, APART) {
+                writeln!(out, "{}", line.join(&apart).trim_end())?;
+            }
         }
         let notes = self.notes.iter().flat_map(|note| wrapped(note, WIDTH));
         notes.into_iter().try_for_each(|line| writeln!(out, "{line}"))
     }
 }
 
-/// How people see the columns of a table: their widths are those of the cells met.
+/// The columns of a table as shown; their widths grow with the cells measured.
 #[derive(Clone, Debug)]
 struct Layout {
-    /// The columns for people: their place in the table, heading and width, and whether they
-    /// have words, which stand to the left.
+    /// For each shown column: index in the table, heading, width, and whether it contains words,
+    /// which are aligned to the left.
     columns: Vec<(usize, Heading, usize, bool)>,
 }
 
@@ -360,7 +286,7 @@ impl Layout {
         Self { columns: shown.collect() }
     }
 
-    /// Makes room for a row.
+    /// Widens the columns to fit a row.
     fn meet(&mut self, row: &[TableCell]) {
         for (place, heading, width, word) in &mut self.columns {
             let Some(cell) = row.get(*place) else { continue };
@@ -436,45 +362,5 @@ mod tests {
         table().write_text(&mut out).unwrap();
         let text = String::from_utf8(out).unwrap();
         assert_eq!(text, "speed_rad_s  state\n   0.333333  locked, a\n          -  -\n");
-    }
-}
-
-#[cfg(test)]
-mod made_table_tests {
-    use super::*;
-
-    const COLUMNS: &[Column<'_, f64>] =
-        &[("x_m", |x| (*x).into()), ("word", |x| if *x > 1.0 { "large, so" } else { "" }.into())];
-
-    fn made() -> Table {
-        // Of each place none, one or two.
-        let items = |place: usize| (0..place).map(move |k| place as f64 + k as f64 / 3.0);
-        let cells = |x: f64| COLUMNS.iter().map(|column| (column.1)(&x)).collect();
-        let headings = COLUMNS.iter().map(|column| column.0);
-        Table::made(headings, [3, 3], move |place| Ok(items(place).map(cells).collect()))
-    }
-
-    fn told(write: impl Fn(&mut dyn Write) -> Result<()>) -> String {
-        let mut text = Vec::new();
-        write(&mut text).unwrap();
-        String::from_utf8(text).unwrap()
-    }
-
-    #[test]
-    fn it_is_written_as_a_table_of_all_rows() {
-        let (made, whole) = (made(), Table::of(&[1.0, 2.0, 2.0 + 1.0 / 3.0], COLUMNS));
-        assert_eq!(told(|out| made.write_csv(out)), told(|out| whole.write_csv(out)));
-        assert_eq!(told(|out| made.write_text(out)), told(|out| whole.write_text(out)));
-        assert_eq!((made.len(), whole.len()), (3, 3));
-        let none = Table::default();
-        assert!(none.is_empty() && told(|out| none.write_text(out)).is_empty());
-    }
-
-    #[test]
-    fn a_row_that_cannot_be_made_is_an_error() {
-        let fails = |_| Err(std::io::Error::other("no such row"));
-        let failing = Table::made(["x_m"], [1, 1], fails);
-        assert!(failing.write_csv(&mut Vec::new()).is_err());
-        assert!(failing.write_text(&mut Vec::new()).is_err());
     }
 }

@@ -1,15 +1,15 @@
 //! Round ticks: steps of 1, 2 or 5 times a power of ten, and powers of ten on
 //! logarithmic axes.
 
-/// Returns a step of 1, 2 or 5 times a power of ten that puts at most `most` ticks in `span`; none
-/// for a span that is not a positive number.
+/// Returns a step of 1, 2 or 5 times a power of ten that puts at most `most` ticks in `span`;
+/// `None` if `span` is not positive.
 pub fn nice_step(span: f64, most: usize) -> Option<f64> {
     if !(span.is_finite() && span > 0.0) || most == 0 {
         return None;
     }
     let raw = span / most as f64;
     let power = 10f64.powf(raw.log10().floor());
-    // The logarithm of a power of ten may round to either side.
+    // Rounding in the logarithm may put a power of ten in either decade.
     let step = [1.0, 2.0, 5.0, 10.0, 20.0]
         .into_iter()
         .map(|m| m * power)
@@ -17,14 +17,14 @@ pub fn nice_step(span: f64, most: usize) -> Option<f64> {
     (step.is_finite() && step > 0.0).then_some(step)
 }
 
-/// Returns the round values inside `[low, high]`, at most about `most` of them, with their spacing;
-/// empty where the range is empty, reversed or not finite.
+/// Returns the round values in `[low, high]`, at most about `most`, and their spacing. There are
+/// none if the range is empty, reversed or not finite.
 pub fn ticks(low: f64, high: f64, most: usize) -> (Vec<f64>, f64) {
     let Some(step) = nice_step(high - low, most.max(1)) else { return (Vec::new(), 1.0) };
     let slack = 1e-9 * step;
     let first = ((low - slack) / step).ceil();
     let last = ((high + slack) / step).floor();
-    // A range far from zero and narrower than its round-off has no ticks.
+    // Far from zero, a range narrower than round-off has no ticks.
     if !(last - first).is_finite() || last - first > 1e3 {
         return (Vec::new(), step);
     }
@@ -36,9 +36,8 @@ pub fn ticks(low: f64, high: f64, most: usize) -> (Vec<f64>, f64) {
     (values, step)
 }
 
-/// Ticks of a logarithmic axis between two exponents of ten: whole powers, every
-/// so many that about `most` remain; with less than a decade, also 2 and 5 times
-/// a power. Values are exponents.
+/// Returns ticks of a logarithmic axis, as exponents of ten: whole powers, thinned to about `most`.
+/// A range of less than a decade also has 2 and 5 times a power.
 pub fn log_ticks(low: f64, high: f64, most: usize) -> Vec<f64> {
     let decades = high - low;
     if !(decades.is_finite() && (0.0..1e3).contains(&decades)) {
@@ -53,8 +52,8 @@ pub fn log_ticks(low: f64, high: f64, most: usize) -> Vec<f64> {
     powers.flat_map(|power| parts.iter().map(move |m| power + m.log10())).filter(within).collect()
 }
 
-/// Returns a value of a logarithmic axis, given by its exponent of ten: `10⁵`, and `2·10⁵` between
-/// whole powers.
+/// Formats a value of a logarithmic axis, given by its exponent: `10⁵`, or `2·10⁵` between whole
+/// powers.
 pub fn power_of_ten(exponent: f64) -> String {
     let whole = (exponent + 1e-9).floor();
     let digits: String = format!("{whole}").chars().map(raised).collect();
@@ -64,7 +63,7 @@ pub fn power_of_ten(exponent: f64) -> String {
     }
 }
 
-/// Returns a number as a multiple of a power of ten: `2.5·10⁵`, `10⁶`.
+/// Formats a number with a power of ten: `2.5·10⁵`, `10⁶`.
 pub fn scientific(x: f64) -> String {
     let text = format!("{x:.5e}");
     let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
@@ -76,7 +75,7 @@ pub fn scientific(x: f64) -> String {
     }
 }
 
-/// Returns a digit or sign as an exponent.
+/// Returns the superscript of a digit or sign.
 fn raised(c: char) -> char {
     let digits = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     match c.to_digit(10).and_then(|digit| digits.get(digit as usize)) {

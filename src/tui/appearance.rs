@@ -1,5 +1,4 @@
-//! The appearance: a theme and a marker, and the characters, which are plain
-//! ASCII if the marker is.
+//! The appearance of the screen: theme, marker and characters, which are ASCII if the marker is.
 
 use ratatui::style::Style;
 
@@ -14,51 +13,47 @@ use crate::report::number::{speed_unit, tell_in_rpm};
 pub struct Appearance {
     /// Colours by role.
     pub theme: Theme,
-    /// Whether the theme follows the background of the terminal: none was chosen by a key.
+    /// Whether the theme follows the background of the terminal, until a key chooses one.
     pub follows_ground: bool,
-    /// Marker of points.
+    /// Characters with which curves are drawn.
     pub marker: Marker,
-    /// Whether the screen is for a projector: lines are two sub-pixels thick.
-    pub wide: bool,
-    /// Whether `m` comes to octants.
-    pub octants: bool,
     /// Whether speeds are shown in rpm.
     pub rpm: bool,
 }
 
 impl Appearance {
-    /// Creates the appearance for a screen in front of the user.
+    /// Creates an appearance with the usual line width, without octants, and speeds in rad/s.
     pub fn new(theme: Theme, marker: Marker) -> Self {
-        Self { theme, follows_ground: false, marker, wide: false, octants: false, rpm: false }
+        Self { theme, follows_ground: false, marker, rpm: false }
     }
 
-    /// Changes to a theme; returns the message.
+    /// Switches to a theme; returns the message.
     pub fn use_theme(&mut self, theme: Theme) -> String {
         (self.theme, self.follows_ground) = (theme, false);
         format!("theme {}", self.theme.name())
     }
 
-    /// Uses the theme for the background that the terminal has reported.
+    /// Adapts the theme to the background that the terminal reported.
     pub fn use_ground(&mut self, ground: Ground) {
         if self.follows_ground {
             self.theme = self.theme.on(ground);
         }
     }
 
-    /// Changes to the next marker; returns the message.
+    /// Switches to the next marker; returns the message.
     pub fn next_marker(&mut self) -> String {
-        self.marker = self.marker.next(self.octants);
+        self.marker = self.marker.next();
         format!("marker {}", self.marker)
     }
 
-    /// Changes the unit of speeds, rpm or rad/s; returns the message.
+    /// Switches speeds between rpm and rad/s; returns the message.
     pub fn next_speeds(&mut self) -> String {
         self.rpm = !self.rpm;
         self.use_speeds();
         format!("speeds in {}", speed_unit())
     }
 
-    /// Uses the chosen unit for all speeds that are shown from now on.
+    /// Makes this thread format speeds in the chosen unit.
     pub fn use_speeds(&self) {
         tell_in_rpm(self.rpm);
     }
@@ -73,17 +68,17 @@ impl Appearance {
         self.marker == Marker::Ascii
     }
 
-    /// Returns the Unicode or the ASCII way to write something.
+    /// Returns the first value, or the second if only ASCII may be written.
     pub fn either<T>(&self, unicode: T, ascii: T) -> T {
         if self.ascii() { ascii } else { unicode }
     }
 
-    /// Says that a text is cut.
+    /// Returns the mark of a text that is cut off.
     pub fn ellipsis(&self) -> &'static str {
         self.either("…", "..")
     }
 
-    /// Returns the text with Greek letters and signs spelled out where only ASCII is drawn.
+    /// Replaces Greek letters and signs in a text, if only ASCII may be written.
     pub fn spell(&self, text: &str) -> String {
         if !self.ascii() {
             return text.to_string();
@@ -132,7 +127,7 @@ impl Appearance {
         out
     }
 
-    /// Returns the signs of the axis lines: upright, its tick, the corner, level, its tick.
+    /// Returns the signs of the axes: vertical line and tick, corner, horizontal line and tick.
     pub fn axis_signs(&self) -> [char; 5] {
         self.either(['│', '┤', '└', '─', '┬'], ['|', '+', '+', '-', '+'])
     }
@@ -147,7 +142,7 @@ impl Appearance {
         Pen { style: self.style(Role::Second), sign: 'o', dashed: true }
     }
 
-    /// Returns the pen for data to compare with.
+    /// Returns the pen for data shown for comparison.
     pub fn quiet(&self) -> Pen {
         Pen { style: self.style(Role::Quiet), sign: '.', dashed: true }
     }

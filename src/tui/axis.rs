@@ -1,5 +1,5 @@
-//! Axes: round ticks (1-2-5), labels under one SI prefix per axis, and ranges
-//! that follow the data with hysteresis, so that the scale does not jump.
+//! Axes: round ticks (steps of 1, 2 or 5), labels with one SI prefix per axis, and ranges that
+//! follow the data with hysteresis, so that the scale does not jump.
 
 pub use crate::report::number::SiScale;
 use crate::report::number::{in_shown_unit, per_frequency, per_speed, trimmed};
@@ -14,21 +14,21 @@ pub struct ChartAxis {
     pub high: f64,
     /// Prefix of the labels.
     pub scale: SiScale,
-    /// Whether the range is that of the exponents of powers of ten.
+    /// Whether the values are exponents of powers of ten.
     powers: bool,
-    /// The unit that these powers have.
+    /// Unit of the powers, if they are labelled with one.
     unit: Option<&'static str>,
-    /// Whether it is one of speeds, whose ticks are round in the unit of speeds.
+    /// Whether the values are speeds, with ticks that are round in the shown unit.
     speeds: bool,
 }
 
 impl ChartAxis {
-    /// Creates an axis whose labels carry the prefix of its greatest magnitude.
+    /// Creates an axis with the prefix of its largest magnitude.
     pub fn scaled(low: f64, high: f64) -> Self {
         Self { scale: SiScale::of(low.abs().max(high.abs())), ..Self::plain(low, high) }
     }
 
-    /// Creates an axis with round ends around values and zero.
+    /// Creates an axis with round ends that includes zero and all values.
     pub fn around(values: impl Iterator<Item = f64>) -> Self {
         let (low, high) = values
             .filter(|value| value.is_finite())
@@ -42,29 +42,29 @@ impl ChartAxis {
         Self { low, high, scale: SiScale::plain(), powers: false, unit: None, speeds: false }
     }
 
-    /// Creates an axis of speeds \[rad/s\], in the unit in which they are in_shown_unit.
+    /// Creates an axis of speeds \[rad/s\], in the unit the user chose.
     pub fn speeds(low: f64, high: f64) -> Self {
         let scale = SiScale { factor: 1.0 / per_speed(1.0), prefix: "" };
         Self { scale, speeds: true, ..Self::plain(low, high) }
     }
 
-    /// Same as [`Self::speeds`], of angular frequencies.
+    /// Creates an axis of angular frequencies \[rad/s\], in the unit the user chose.
     pub fn frequencies(low: f64, high: f64) -> Self {
         let scale = SiScale { factor: 1.0 / per_frequency(1.0), prefix: "" };
         Self { scale, ..Self::speeds(low, high) }
     }
 
-    /// Creates an axis of powers of ten, from one exponent to another.
+    /// Creates a logarithmic axis between two exponents of ten.
     pub fn powers(low: f64, high: f64) -> Self {
         Self { powers: true, ..Self::plain(low, high) }
     }
 
-    /// Same as [`Self::powers`], with a unit and its prefix: `100 kN` for `1e5`.
+    /// As [`Self::powers`], with labels in a unit: `100 kN` for `1e5`.
     pub fn powers_of(low: f64, high: f64, unit: &'static str) -> Self {
         Self { unit: Some(unit), ..Self::powers(low, high) }
     }
 
-    /// Returns the round values and their spacing; for powers only whole exponents.
+    /// Returns about `most` round values at most, and their spacing; for powers, whole exponents.
     pub(super) fn ticks(&self, most: usize) -> (Vec<f64>, f64) {
         let unit = if self.speeds { self.scale.factor } else { 1.0 };
         if unit != 1.0 {
@@ -87,19 +87,19 @@ impl ChartAxis {
         }
     }
 
-    /// Returns the value at a part of the axis, 0 to 1.
+    /// Returns the value at a fraction of the axis, 0 to 1.
     pub fn at(&self, part: f64) -> f64 {
         self.low + part * (self.high - self.low)
     }
 
-    /// Returns whether it is a proper range.
+    /// Returns whether the range is finite and not empty.
     pub(super) fn is_sound(&self) -> bool {
         self.low.is_finite() && self.high.is_finite() && self.high > self.low
     }
 }
 
-/// Returns a number in readable form: up to seven digits, a prefix for units that take one,
-/// no trailing zeros.
+/// Formats a number with up to seven digits, without trailing zeros, and with a prefix if the unit
+/// takes one.
 pub fn number(x: f64, unit: &str) -> String {
     let (x, unit) = in_shown_unit(x, unit);
     let scale = SiScale::before(unit, x);
@@ -113,17 +113,17 @@ pub fn number(x: f64, unit: &str) -> String {
     format!("{text} {}{unit}", scale.prefix).trim_end().to_string()
 }
 
-/// Returns a number with four significant digits and its SI prefix, such as `228.2 µ`.
+/// Formats a number with four significant digits and an SI prefix, such as `228.2 µ`.
 pub fn readable(value: f64, unit: &str) -> String {
     prefixed(value, 4, unit)
 }
 
-/// Returns an instant with six significant digits, enough to type it elsewhere.
+/// Formats an instant with six significant digits, enough to type it in elsewhere.
 pub fn instant(t: f64) -> String {
     prefixed(t, 6, "s")
 }
 
-/// Returns a number with so many significant digits and its SI prefix.
+/// Formats a number with `digits` significant digits and an SI prefix.
 fn prefixed(value: f64, digits: usize, unit: &str) -> String {
     if !value.is_finite() {
         return format!("- {unit}").trim_end().to_string();
@@ -136,8 +136,8 @@ fn prefixed(value: f64, digits: usize, unit: &str) -> String {
     format!("{shown:.decimals$} {}{unit}", scale.prefix).trim_end().to_string()
 }
 
-/// A range that grows at once, shrinks only when the data is much smaller, and
-/// always has round ends.
+/// A range with round ends that follows data: it grows at once, and shrinks only when the data has
+/// become much smaller.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AutoRange {
     /// Lower end.
@@ -146,16 +146,16 @@ pub struct AutoRange {
     pub high: f64,
 }
 
-/// The data must be this much smaller than the range before it shrinks.
+/// The range shrinks when the data covers less than this fraction of it.
 const SHRINK_BELOW: f64 = 0.35;
 
 impl AutoRange {
-    /// Creates a range to begin with.
+    /// Creates the initial range.
     pub const fn new(low: f64, high: f64) -> Self {
         Self { low, high }
     }
 
-    /// Follows data between `low` and `high`; anything not finite is ignored.
+    /// Adapts to data between `low` and `high`; values that are not finite are ignored.
     pub fn follow(&mut self, low: f64, high: f64) {
         if !(low.is_finite() && high.is_finite() && high >= low) {
             return;
@@ -172,7 +172,7 @@ impl AutoRange {
     }
 }
 
-/// Returns the smallest range with round ends that holds `[low, high]`.
+/// Returns the smallest range with round ends that contains `[low, high]`.
 fn round_out(low: f64, high: f64) -> (f64, f64) {
     match nice_step(high - low, 8) {
         Some(step) => ((low / step).floor() * step, (high / step).ceil() * step),
@@ -266,7 +266,7 @@ mod tests {
                 prop_assert!(pair[1] > pair[0]);
             }
             for value in values {
-                // Half a step: the ends have the round-off of a large offset.
+                // Half a step of tolerance for the round-off of a large offset.
                 prop_assert!(value >= low - 0.5 * step && value <= low + span + 0.5 * step);
             }
         }

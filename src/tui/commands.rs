@@ -1,7 +1,6 @@
-//! What can be asked for in words: one list of everything that can be done, and one reader
-//! of what is typed, for the list of `:` on the screen and for `--lines` without one. A
-//! word that goes somewhere (`t 0.3 ms`, `blade 7`, `scene rub`) or a knob with a value
-//! comes first, then whatever else has these words.
+//! Commands in words: one list of everything that can be done and one parser of typed text, for the
+//! list opened by `:` and for `--lines`. A word that introduces a target (`t 0.3 ms`, `blade 7`,
+//! `scene rub`) or a knob with a value takes precedence over entries that contain the words.
 
 use super::app::{App, Purpose};
 use super::axis::readable;
@@ -17,26 +16,26 @@ use rubscope_solver::scene::keys;
 use rubscope_solver::scene::{Quantity, Scene, SceneError};
 use rubscope_solver::study::survey::speed_range;
 
-/// Something that can be asked for.
+/// Something that can be done by typing it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
     /// An action that also has a key.
     Act(Action),
-    /// Open a scene of the list.
+    /// Open a scene by name.
     Scene(String),
-    /// Begin a lesson.
+    /// Begin a lesson, given by index.
     Lesson(usize),
-    /// Select a knob.
+    /// Select a knob, given by index.
     Select(usize),
-    /// Give a knob the value of a text.
+    /// Set a knob, given by index, to a value as typed.
     Set(usize, String),
     /// Go to an instant \[s\].
     GoTo(f64),
-    /// Read the gap of a blade.
+    /// Show the gap of a blade.
     Blade(u32),
-    /// Put knobs on the axes of the map, across and up.
+    /// Choose the keys on the axes of the map: horizontal, vertical.
     Axes([Option<&'static str>; 2]),
-    /// Survey all diameters over these speeds, or over all \[rad/s\].
+    /// Survey all nodal diameters over a range of speeds, or over all speeds \[rad/s\].
     Range(Option<[f64; 2]>),
     /// Write a file.
     Write(Purpose, String),
@@ -44,18 +43,18 @@ pub enum Command {
     Theme(Theme),
 }
 
-/// Something that can be asked for, in words.
+/// A command as an entry of the list.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
-    /// The kind of thing that it is.
+    /// Kind of the command, such as `scene` or `knob`.
     pub kind: &'static str,
     /// Description of what it does.
     pub what: String,
     /// The key that does the same, or the present value of a knob.
     pub beside: String,
-    /// The thing.
+    /// The command to execute.
     pub command: Command,
-    /// Other words by which it can be found.
+    /// Other words that match the entry.
     also: String,
 }
 
@@ -73,7 +72,7 @@ impl Found {
     }
 }
 
-/// Returns what fits the typed words, the best first.
+/// Returns the entries that match the typed words, the best first.
 pub fn found(app: &App, typed: &str) -> Vec<Found> {
     if let Some(found) = directed(app, typed) {
         return found;
@@ -84,7 +83,7 @@ pub fn found(app: &App, typed: &str) -> Vec<Found> {
     let words: Vec<&str> = typed.split_whitespace().collect();
     let fits = |item: Found| rank(&item, &words).map(|rank| (rank, item));
     let mut others: Vec<_> = everything(app).filter_map(fits).collect();
-    // A name that is typed in full comes first; the order of equals is that of the list.
+    // An exact name comes first; entries of equal rank keep the order of the list.
     let place = |item: &Found| match &item.command {
         Command::Scene(name) if name == typed.trim() => 0,
         Command::Act(Action::View(view)) if view.word() == typed.trim() => 1,
@@ -96,10 +95,10 @@ pub fn found(app: &App, typed: &str) -> Vec<Found> {
     all
 }
 
-/// Returns the one thing that a whole line asks for, or why there is none. A sign alone is its key.
+/// Returns the command of a whole line. A single character is a key.
 ///
 /// # Errors
-/// One line that says what is wrong.
+/// One line that explains why the line is no command.
 pub fn only(app: &App, typed: &str) -> Result<Found, String> {
     let typed = typed.trim();
     let mut signs = typed.chars();
@@ -108,7 +107,7 @@ pub fn only(app: &App, typed: &str) -> Result<Found, String> {
     {
         return Ok(Found::of("key", typed, Command::Act(action)));
     }
-    // A knob by its name alone is asked for its value.
+    // The name of a knob alone selects it, which prints its value.
     if let Some(place) = called(typed) {
         return Ok(Found::of("knob", typed, Command::Select(place)));
     }
@@ -118,8 +117,8 @@ pub fn only(app: &App, typed: &str) -> Result<Found, String> {
     let first = found(app, typed).into_iter().next();
     match (first, refusal) {
         (Some(Found { command: Command::Set(..), .. }), _) => alone(app, typed),
-        // To select a knob is no answer to a value that it does not take; nor is another
-        // thing that only happens to have these words.
+        // If a knob was named but refuses the value, that error is better than an entry that
+        // selects the knob or contains the same words by chance.
         (Some(Found { command: Command::Select(_), .. }), Some((_, why))) => Err(why),
         (Some(item), Some((fit, why)))
             if fit < Fit::Begins
@@ -140,13 +139,13 @@ pub fn only(app: &App, typed: &str) -> Result<Found, String> {
     }
 }
 
-/// Returns whether something has every one of these words in what it does.
+/// Returns whether the description of an entry contains every one of these words.
 fn is_own(item: &Found, words: &[&str]) -> bool {
     let what = item.what.to_lowercase();
     words.iter().all(|word| what.split_whitespace().any(|own| own == *word))
 }
 
-/// Returns the one knob that is set, where no other is named as well.
+/// Returns the knob setting that the words name; an error if several knobs match equally well.
 fn alone(app: &App, typed: &str) -> Result<Found, String> {
     let fitting = assignments(app, typed);
     let best = fitting.first().map(|(fit, _)| *fit);
@@ -164,11 +163,11 @@ fn alone(app: &App, typed: &str) -> Result<Found, String> {
     alike.pop().filter(|_| alike.is_empty()).ok_or(which)
 }
 
-/// Most knobs that are named where it is not clear which is meant.
+/// Largest number of candidates listed for an ambiguous name.
 const CANDIDATES: usize = 4;
 
-/// Returns why a knob, or what else was named, does not take the value that follows its name, and
-/// how well it is named.
+/// Returns why the named knob or target refuses the value that follows, and how well the name
+/// matches.
 fn refused(app: &App, typed: &str) -> Option<(Fit, String)> {
     let words: Vec<&str> = typed.split([' ', '=']).filter(|word| !word.is_empty()).collect();
     match words.as_slice() {
@@ -193,12 +192,12 @@ fn refused(app: &App, typed: &str) -> Option<(Fit, String)> {
     named.min_by_key(|(fit, _)| *fit)
 }
 
-/// Returns whether a word is meant as a number.
+/// Returns whether a word looks like a number.
 fn is_numeric(word: &str) -> bool {
     word.starts_with(|first: char| first.is_ascii_digit() || first == '-')
 }
 
-/// Returns what a first word of its own leads to.
+/// Returns the entries that an introductory word leads to; `None` if there is no such word.
 fn directed(app: &App, typed: &str) -> Option<Vec<Found>> {
     let typed = typed.trim_start();
     let (first, rest) = typed.split_once(char::is_whitespace)?;
@@ -215,7 +214,7 @@ fn directed(app: &App, typed: &str) -> Option<Vec<Found>> {
             match rest.parse() {
                 Ok(number) => vec![blade(number)],
                 Err(_) if is_numeric(rest) => Vec::new(),
-                // A knob of the blades.
+                // "blade" also begins the name of knobs.
                 Err(_) => return None,
             }
         }
@@ -260,9 +259,9 @@ fn directed(app: &App, typed: &str) -> Option<Vec<Found>> {
     })
 }
 
-/// Reads the speeds of the survey: `200:600`, `200 600`, or `all` of them.
+/// Parses the speed range of a survey: `200:600`, `200 600` or `all`.
 fn surveyed(text: &str) -> Result<Found, SceneError> {
-    // A unit may stand apart from its number.
+    // A space may also separate a number from its unit, so the second number is searched for.
     let second = |&at: &usize| text.get(at + 1..).is_some_and(is_numeric);
     let spaces = text.match_indices(' ').map(|(at, _)| at);
     let ends = match spaces.filter(|_| !text.contains(':')).find(second) {
@@ -274,7 +273,7 @@ fn surveyed(text: &str) -> Result<Found, SceneError> {
     Ok(Found::of("go", format!("survey of all diameters over {ends}"), Command::Range(range)))
 }
 
-/// Returns those that have these words, the best first.
+/// Returns the entries that contain these words, the best first.
 fn those_with(all: impl Iterator<Item = Found>, words: &str) -> Vec<Found> {
     let words: Vec<&str> = words.split_whitespace().collect();
     let is_exact = |item: &Found| item.what.split(':').next() != words.first().copied();
@@ -285,7 +284,7 @@ fn those_with(all: impl Iterator<Item = Found>, words: &str) -> Vec<Found> {
     found.into_iter().map(|(.., item)| item).collect()
 }
 
-/// Reads `axes clearance pulse`: the knob across, then the one up.
+/// Parses `axes clearance pulse`: the horizontal, then the vertical axis of the map.
 fn both_axes(words: &str) -> Option<Found> {
     let words: Vec<&str> = words.split_whitespace().filter(|word| *word != "over").collect();
     let knob = |words: &[&str]| best(numeric(), words).map(|(_, knob)| knob);
@@ -296,7 +295,7 @@ fn both_axes(words: &str) -> Option<Found> {
     Some(Found::of("go", what, Command::Axes([Some(x.path), Some(y.path)])))
 }
 
-/// Returns the knobs that can be on one axis.
+/// Returns the knobs that fit on one axis of the map and match the words.
 fn one_axis(app: &App, first: &str, words: &str) -> Vec<Found> {
     let words: Vec<&str> = words.split_whitespace().collect();
     let across = first == "across";
@@ -314,7 +313,7 @@ fn one_axis(app: &App, first: &str, words: &str) -> Vec<Found> {
     fitting.into_iter().map(|(_, knob)| item(knob)).collect()
 }
 
-/// Reads `t 0.3 ms`, or `0.3 ms` alone: an instant to go to.
+/// Parses `t 0.3 ms`, or `0.3 ms` alone, as an instant to go to.
 fn going_to(app: &App, typed: &str) -> Option<Found> {
     let named = typed.trim().strip_prefix(['t', 'T']);
     let text = named.map(|text| text.trim_start_matches(['=', ' ']));
@@ -326,8 +325,8 @@ fn going_to(app: &App, typed: &str) -> Option<Found> {
     )
 }
 
-/// Returns the knobs that the first words name, set to what follows them, the best named first; a
-/// number alone, or with a unit of speeds, is a speed.
+/// Returns the knobs that the first words name, set to the value that follows, the best match
+/// first. A number alone, or with a unit of speed, sets the speed.
 fn assignments(app: &App, typed: &str) -> Vec<(Fit, Found)> {
     let typed = typed.replacen('=', " ", 1);
     let words: Vec<&str> = typed.split_whitespace().collect();
@@ -336,7 +335,7 @@ fn assignments(app: &App, typed: &str) -> Vec<(Fit, Found)> {
     for (place, knob) in KNOBS.iter().enumerate() {
         let splits = (1..words.len()).rev().filter_map(|at| words.split_at_checked(at));
         let named = splits.filter_map(|(name, value)| Some((fit(knob, name)?, value.join(" "))));
-        // One digit is the key of a view.
+        // A single digit is the key of a view.
         let is_number = nameless.len() > 1 && nameless.parse().is_ok_and(f64::is_finite);
         let alone = knob.path == keys::SPEED
             && (is_number || ["rpm", "Hz", "rad/s"].iter().any(|unit| nameless.ends_with(unit)));
@@ -370,7 +369,7 @@ fn lessons() -> impl Iterator<Item = Found> {
     })
 }
 
-/// Returns what the keys of a binding do.
+/// Returns the entry of a key binding.
 fn action(binding: &Binding) -> Found {
     let key = binding.keys.first().map(ToString::to_string).unwrap_or_default();
     let also = bindings::keys_text(binding);
@@ -390,8 +389,7 @@ fn everything(app: &App) -> impl Iterator<Item = Found> {
     actions.map(action).chain(knobs).chain(scenes(app)).chain(lessons())
 }
 
-/// Returns how well a line fits all the words, the best first, as a sum over the words; none if it
-/// does not.
+/// Rates how well an entry matches all the words: lower is better, `None` if some word is missing.
 fn rank(item: &Found, words: &[&str]) -> Option<usize> {
     let what = item.what.to_lowercase();
     let all = format!("{} {what} {}", item.kind, item.also.to_lowercase());

@@ -1,6 +1,5 @@
-//! The config file: what the explorer remembers from one start to the next. It is
-//! written only when that changed; without a folder for it, nothing is
-//! remembered.
+//! The config file, in which the explorer remembers settings between sessions. It is written only
+//! if they changed. Without a config directory, nothing is remembered.
 
 use std::io::ErrorKind::NotADirectory;
 use std::io::Write;
@@ -20,20 +19,19 @@ use super::theme::ThemeChoice;
 use crate::file;
 use crate::report::line::clean;
 
-/// Largest file that is read.
+/// Largest file that is read \[bytes\].
 const MOST_BYTES: u64 = 64 * 1024;
-/// Most charts next to the large one.
+/// Largest number of charts next to the large one.
 const MOST_CHARTS: usize = 3;
 
-/// Contents of the config file. A field that is missing in the file has its default;
-/// fields that are not known here are kept.
+/// Contents of the config file. A missing field has its default; unknown fields are kept.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Config {
-    /// The theme, once one was chosen by key.
+    /// The theme, if one was chosen by key.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub theme: Option<ThemeChoice>,
-    /// The marker, once one was chosen by key.
+    /// The marker, if one was chosen by key.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub marker: Option<Marker>,
     /// Charts next to the large one.
@@ -42,20 +40,20 @@ pub struct Config {
     /// Whether the mouse is used.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mouse: Option<bool>,
-    /// Whether a key was pressed below the line for new users.
+    /// Whether the user has pressed a key and so no longer sees the line for new users.
     pub introduced: bool,
     /// Units in which numbers are shown.
     #[serde(skip_serializing_if = "Units::are_usual")]
     pub units: Units,
-    /// The steps of the lessons that were done.
+    /// Completed steps of the lessons.
     #[serde(skip_serializing_if = "LessonsDone::is_empty")]
     pub steps_done: LessonsDone,
-    /// Fields of other versions.
+    /// Fields that this version does not know.
     #[serde(flatten)]
     pub others: toml::Table,
 }
 
-/// Units in which numbers are shown.
+/// Units for display.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, expecting = "for units a table: units.speed = \"rpm\" or \"rad/s\"")]
 pub struct Units {
@@ -82,12 +80,12 @@ impl Units {
 }
 
 impl Config {
-    /// Returns what is to be remembered of the explorer as it is now.
+    /// Collects the settings of a running explorer.
     fn of(app: &App) -> Self {
         let look = app.appearance;
         let speed = if look.rpm { SpeedUnit::Rpm } else { SpeedUnit::Radians };
         Self {
-            // None while it follows the background of the terminal.
+            // `None` while the theme follows the background of the terminal.
             theme: (!look.follows_ground).then(|| ThemeChoice::of(look.theme)),
             marker: Some(look.marker),
             charts: Some(app.layout.beside),
@@ -101,7 +99,7 @@ impl Config {
 
     fn read(path: &Path) -> Result<Self, String> {
         match path.metadata() {
-            // A pipe would keep the program waiting.
+            // Reading a pipe could block forever.
             Ok(found) if !found.is_file() => return Err("it is not a file".into()),
             Err(_) => return Ok(Self::default()),
             Ok(_) => {}
@@ -112,7 +110,7 @@ impl Config {
     }
 
     fn write(&self, path: &Path) -> std::io::Result<()> {
-        // Plain values come before tables in a table, as the format needs it.
+        // TOML needs plain values before tables; converting to a `Table` sorts them.
         let table = toml::Table::try_from(self).map_err(std::io::Error::other)?;
         if let Some(folder) = path.parent() {
             std::fs::DirBuilder::new().recursive(true).mode(0o700).create(folder)?;
@@ -121,38 +119,38 @@ impl Config {
         if path.symlink_metadata().is_ok() {
             file::replace(path, write).map(drop)
         } else {
-            file::create_private(path, write)
+            file::create(path, write)
         }
     }
 }
 
-/// Keeps what is other at the end than it was at the beginning.
-fn take<T: PartialEq>(began: &T, ended: T, kept: &mut T) {
+/// Overwrites the stored setting only if it changed during this session.
+fn keep_if_changed<T: PartialEq>(began: &T, ended: T, kept: &mut T) {
     if ended != *began {
         *kept = ended;
     }
 }
 
-/// Returns whether a folder may be made: not below a home that does not exist.
+/// Returns whether a directory may be created: not if its home directory does not exist.
 fn is_at_home(folder: &Path, home: &Path) -> bool {
     home.is_dir() || !folder.starts_with(home)
 }
 
-/// The config file of this start.
+/// The config file during a session.
 #[derive(Debug)]
 pub struct Memory {
-    /// Its path; `None` where nothing is remembered.
+    /// Path of the file; `None` if nothing is remembered.
     path: Option<PathBuf>,
-    /// Contents at the start.
+    /// Contents at the start of the session.
     pub config: Config,
-    /// Reason why it was not used.
+    /// Reason why the file was not used.
     pub complaint: Option<String>,
-    /// What there was to remember at the start.
+    /// Settings of the explorer at the start, to detect changes.
     began: Option<Config>,
 }
 
 impl Memory {
-    /// Reads the file of the user, or does without.
+    /// Reads the config file if `wanted`; otherwise the defaults apply.
     pub fn recall(wanted: bool) -> Self {
         let places = choose_base_strategy().ok().filter(|_| wanted);
         let folder = places.and_then(|places| {
@@ -171,12 +169,12 @@ impl Memory {
                 (Config::default(), Some(clean(&format!("config.toml is not used: {why}"))))
             }
         };
-        // A file with a mistake in it is the user's to mend.
+        // A file with an error is not overwritten, so that the user can repair it.
         let path = path.filter(|_| complaint.is_none());
         Self { path, config, complaint, began: None }
     }
 
-    /// Gives the state what is remembered, and notes where it began.
+    /// Applies the stored settings to the explorer, and notes the state from which changes count.
     pub fn prepare(&mut self, app: &mut App) {
         if let Some(charts) = self.config.charts {
             app.layout.beside = charts;
@@ -189,25 +187,25 @@ impl Memory {
         self.began = Some(Config::of(app));
     }
 
-    /// Remembers what was changed since the beginning, for the next start; returns why it could
-    /// not. Waits no longer than this for a disk that does not answer.
+    /// Writes the settings that changed during the session; returns the error if that fails. Gives
+    /// up after `patience` if the disk does not respond.
     pub fn keep(self, app: &App, patience: Duration) -> Option<String> {
         let path = self.path.clone()?;
         let ended = Config::of(app);
         let (done, wait) = channel();
         let work = move || {
-            // Another explorer may have written it meanwhile.
+            // Read again, because another explorer may have written the file meanwhile.
             let kept = Config::read(&path).and_then(|config| {
                 let changed = self.changed(config.clone(), ended);
                 let is_new = changed != config;
                 let written = if is_new { changed.write(&path) } else { Ok(()) };
-                // A place that is no folder is meant to keep nothing.
+                // A user may put a file in place of the directory to prevent writing.
                 let told = written.err().filter(|error| error.kind() != NotADirectory);
                 told.map_or(Ok(()), |error| Err(error.to_string()))
             });
             let failed =
                 |why| format!("nothing is remembered: cannot write {}: {why}", path.display());
-            // Without a receiver nobody waits any more.
+            // Sending fails if `keep` has given up.
             let _ = done.send(kept.err().map(failed));
         };
         std::thread::Builder::new().name(FILES_NAME.into()).spawn(work).ok()?;
@@ -218,11 +216,11 @@ impl Memory {
         config.steps_done.join(ended.steps_done);
         config.introduced |= ended.introduced;
         let Some(began) = &self.began else { return config };
-        take(&began.theme, ended.theme, &mut config.theme);
-        take(&began.marker, ended.marker, &mut config.marker);
-        take(&began.charts, ended.charts, &mut config.charts);
-        take(&began.mouse, ended.mouse, &mut config.mouse);
-        take(&began.units, ended.units, &mut config.units);
+        keep_if_changed(&began.theme, ended.theme, &mut config.theme);
+        keep_if_changed(&began.marker, ended.marker, &mut config.marker);
+        keep_if_changed(&began.charts, ended.charts, &mut config.charts);
+        keep_if_changed(&began.mouse, ended.mouse, &mut config.mouse);
+        keep_if_changed(&began.units, ended.units, &mut config.units);
         config
     }
 }

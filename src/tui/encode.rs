@@ -1,5 +1,5 @@
-//! The bytes of a frame: the shortest that all terminals take for the same cells. Over SSH they
-//! are what the user waits for.
+//! Encodes a frame in as few bytes as possible, using only sequences that all terminals interpret
+//! alike. Over SSH, the number of bytes determines the delay.
 
 use std::io::{Error, Write};
 
@@ -7,38 +7,38 @@ use crossterm::style::Colored;
 use ratatui::backend::IntoCrossterm;
 use ratatui::buffer::{Cell, CellWidth};
 
-/// Writes cells with their places, row by row, for a terminal with so many columns.
+/// Writes the changed cells of a frame, row by row, for a terminal of this width.
 ///
 /// # Errors
-/// The terminal is closed.
+/// Writing failed, usually because the terminal was closed.
 pub fn write_cells<'a>(
     out: &mut impl Write,
     columns: u16,
     cells: impl Iterator<Item = (u16, u16, &'a Cell)>,
 ) -> Result<(), Error> {
-    // Unknown at first: the frame before may have been given up.
+    // Position and style are unknown at first: the previous frame may have been interrupted.
     let (mut at, mut last): (_, Option<&Cell>) = (None, None);
     for (x, y, cell) in cells {
-        out.write_all(way(at, (x, y)).as_bytes())?;
+        out.write_all(cursor_move(at, (x, y)).as_bytes())?;
         if last.is_none_or(|last| last.style() != cell.style()) {
             out.write_all(change(last.map(codes), codes(cell)).as_bytes())?;
         }
         out.write_all(cell.symbol().as_bytes())?;
-        // Terminals differ in what they do after the last column, and in the width of signs
-        // that are combined or new.
+        // After the last column, and after combined or recent characters, terminals disagree on
+        // the position of the cursor.
         let is_usual = cell.symbol().len() < 4 && cell.symbol().chars().nth(1).is_none();
         let is_known = is_usual && cell.cell_width() == 1 && x + 1 < columns;
         (at, last) = (is_known.then_some((x + 1, y)), Some(cell));
     }
-    // Without a change nothing is sent, not even a reset.
+    // If no cell changed, nothing is sent, not even a reset.
     last.map_or(Ok(()), |_| out.write_all(b"\x1b[m"))
 }
 
-/// Returns what takes the cursor from one place, column and row, to another.
-fn way(from: Option<(u16, u16)>, (x, y): (u16, u16)) -> String {
+/// Returns the shortest escape sequence that moves the cursor from one (column, row) to another.
+fn cursor_move(from: Option<(u16, u16)>, (x, y): (u16, u16)) -> String {
     let (start, across) = match from {
         Some((at, row)) if row == y && at <= x => ("", x - at),
-        // A line feed alone stays in its column, or not, by the settings of the terminal.
+        // A line feed alone may or may not return to column 0, depending on terminal settings.
         Some((_, row)) if row + 1 == y => ("\r\n", x),
         _ => return format!("\x1b[{};{}H", y + 1, x + 1),
     };
@@ -46,10 +46,10 @@ fn way(from: Option<(u16, u16)>, (x, y): (u16, u16)) -> String {
     if across == 0 { start.into() } else { format!("{start}\x1b[{count}C") }
 }
 
-/// Returns the sequence for a change between the codes of two styles.
+/// Returns the escape sequence that switches from one style to another, given by their codes.
 fn change(old: Option<Vec<String>>, mut new: Vec<String>) -> String {
-    // Each old code must stay or be replaced by one of its kind, such as a bright colour by a
-    // bright one: on some consoles it would be bold too until a reset.
+    // Codes can only be added or replaced by one of the same kind, otherwise a reset is needed. A
+    // bright colour must replace a bright one, because some consoles keep its bold attribute.
     let kind = |code: &String| (code.len(), code.chars().next());
     match old.filter(|old| old.iter().all(|old| new.iter().any(|new| kind(new) == kind(old)))) {
         Some(old) => new.retain(|new| !old.contains(new)),
@@ -58,16 +58,17 @@ fn change(old: Option<Vec<String>>, mut new: Vec<String>) -> String {
     format!("\x1b[{}m", new.join(";"))
 }
 
-/// Returns the codes of a style: modifiers, and colours that are not the default.
+/// Returns the SGR codes of a cell's style: modifiers, then colours other than the default.
 fn codes(cell: &Cell) -> Vec<String> {
-    // The modifiers are in the order of their codes.
+    // The bits of the modifiers are in the order of their SGR codes.
     let modifiers = (0..9).filter(|k| cell.modifier.bits() >> k & 1 == 1);
     let [front, back] = [cell.fg, cell.bg].map(IntoCrossterm::into_crossterm);
     let colours = [Colored::ForegroundColor(front), Colored::BackgroundColor(back)].map(code);
     modifiers.map(|k| (k + 1).to_string()).chain(colours.into_iter().flatten()).collect()
 }
 
-/// Returns the code of a colour, short for the first sixteen; none for the default.
+/// Returns the SGR code of a colour, in the short form for the first sixteen; `None` for the
+/// default colour.
 fn code(colour: Colored) -> Option<String> {
     let long = colour.to_string();
     match long.split_once(";5;").map(|(kind, index)| (kind.parse(), index.parse())) {
@@ -92,10 +93,10 @@ mod tests {
     use ratatui::style::{Color, Modifier, Style};
     use std::num::NonZeroU16;
 
-    /// One cell of a frame: its place, what it shows, and the style that it shows it with.
+    /// One cell of a frame: position, symbol, foreground, background and modifiers.
     type Drawn = (u16, u16, &'static str, Color, Color, Modifier);
 
-    /// Narrow, wide, combined, and new signs, and those of the charts.
+    /// Narrow, wide, combined and recent characters, and those of charts.
     const SIGNS: [&str; 14] = [
         " ",
         " ",
@@ -133,7 +134,7 @@ mod tests {
         ]
     }
 
-    /// The parser of the test knows these; of bold and dim it keeps the last.
+    /// Modifiers that the test's terminal parser supports; it keeps only the later of bold and dim.
     fn modifier() -> impl Strategy<Value = Modifier> {
         let weight = prop::sample::select(vec![Modifier::empty(), Modifier::BOLD, Modifier::DIM]);
         let others = [Modifier::ITALIC, Modifier::UNDERLINED, Modifier::REVERSED];
@@ -160,7 +161,7 @@ mod tests {
         vt100::Parser::new(of(size.height), of(size.width), 0)
     }
 
-    /// Everything that the terminal shows, and with which style, but the place of the cursor.
+    /// Returns every cell with its style, without the position of the cursor.
     fn shown(parser: &vt100::Parser, size: Rect) -> Vec<Option<vt100::Cell>> {
         let screen = parser.screen();
         size.positions().map(|place| screen.cell(place.y, place.x).cloned()).collect()
@@ -177,7 +178,7 @@ mod tests {
             crossterm::style::force_color_output(true);
             let (mut usual, mut short) = (terminal(size), terminal(size));
             if torn {
-                // A frame that was given up has left its style and its place.
+                // An interrupted frame has changed the style and the cursor position.
                 short.process(b"\x1b[1;4;7;31;42m\x1b[2;2H");
             }
             let mut before = Buffer::empty(size);
@@ -215,7 +216,7 @@ mod tests {
         assert!(4 * short.len() < 3 * usual.len(), "{} of {}", short.len(), usual.len());
     }
 
-    /// The bytes of cells with signs one after the other from a place, each with its style.
+    /// Returns the bytes for consecutive cells with their styles.
     fn bytes_of(cells: &[(u16, u16, &'static str, Color, Modifier)]) -> String {
         crossterm::style::force_color_output(true);
         let cell = |&(x, y, sign, fg, modifier): &(u16, u16, &'static str, Color, Modifier)| {
@@ -257,7 +258,7 @@ mod tests {
             a(Color::LightCyan, none),
             a(Color::LightGreen, bold),
             a(Color::DarkGray, none),
-            // A console for which bright is bold must forget it.
+            // A reset is needed, because a console may show a bright colour as bold.
             a(Color::Blue, none),
             a(Color::Reset, none),
             a(Color::Reset, bold),

@@ -98,7 +98,7 @@ fn screen_event(event: std::io::Result<Event>) -> Option<ScreenEvent> {
 /// # Errors
 /// Fails if the system cannot start a thread or watch signals.
 pub fn watch_signals(to: Sender<ScreenEvent>) -> std::io::Result<()> {
-    use super::{ending, files, job, terminal};
+    use super::{ending, job, terminal};
     use signal_hook::consts::{SIGCONT, SIGTSTP, SIGWINCH};
     let watched = deadly_signals().into_iter().chain([SIGTSTP, SIGCONT, SIGWINCH]);
     let mut signals = signal_hook::iterator::Signals::new(watched)?;
@@ -123,7 +123,6 @@ pub fn watch_signals(to: Sender<ScreenEvent>) -> std::io::Result<()> {
                         thread::sleep(GRACE);
                     }
                     terminal::leave();
-                    files::tidy_up();
                     std::process::exit(128 + deadly);
                 }
             }

@@ -13,12 +13,12 @@ use super::theme::Theme;
 use crate::report::Provenance;
 use crate::report::svg::{describe, escaped};
 
-/// Size of a cell in the picture.
+/// Size of a cell in the picture \[px\].
 const CELL: (u32, u32) = (8, 17);
-/// Diameter of a dot of a curve.
+/// Diameter of the dots of a curve \[px\].
 const DOT: f64 = 2.8;
 
-/// Returns the screen as a picture, without what is typed or said for a moment.
+/// Returns the screen as an SVG picture, without prompts and messages.
 pub fn svg(app: &App) -> String {
     let mut plain = app.clone();
     plain.dialogue.mode = InputMode::Main;
@@ -30,8 +30,8 @@ pub fn svg(app: &App) -> String {
     out
 }
 
-/// Returns the first lines of a picture: its size with so many more rows below the screen, what
-/// comes with it, and the background of its theme.
+/// Returns the start of a picture: its size, with `below` more rows than the screen, the elements
+/// `with`, and the background.
 pub fn opening(app: &App, below: u32, with: &str) -> String {
     let (columns, rows) = (u32::from(app.layout.size.0), u32::from(app.layout.size.1) + below);
     let (width, height) = (columns * CELL.0, rows * CELL.1);
@@ -43,7 +43,7 @@ pub fn opening(app: &App, below: u32, with: &str) -> String {
     )
 }
 
-/// Returns the rows of the screen as it stands, from the top, each as a part of a picture.
+/// Returns the rows of the screen from the top, each as SVG elements.
 pub fn rows(app: &App) -> Vec<String> {
     let area = Rect::new(0, 0, app.layout.size.0, app.layout.size.1);
     let ink = Ink::of(app.appearance.theme);
@@ -54,8 +54,8 @@ pub fn rows(app: &App) -> Vec<String> {
     cells.map(|(row, cells)| drawn_row(cells, row * CELL.1, &ink)).collect()
 }
 
-/// Returns one row of cells: what has the same look in one element, words with the space between
-/// them. Browsers make one space of several, so an element has no more.
+/// Returns a row of cells as SVG, with one element per run of equal style. An element contains no
+/// double spaces, which browsers would collapse.
 fn drawn_row(cells: &[Cell], y: u32, ink: &Ink) -> String {
     let mut looks: Vec<(Look, &Cell)> = Vec::with_capacity(cells.len());
     for cell in cells {
@@ -77,7 +77,7 @@ fn drawn_row(cells: &[Cell], y: u32, ink: &Ink) -> String {
         }
         match look.shape {
             Shape::Blank => {}
-            // The halves of a block meet; letters of most fonts do not.
+            // Blocks become rectangles, because block characters of most fonts leave gaps.
             Shape::Full => out.push_str(&block(x, y, width, CELL.1, look.fill)),
             Shape::Upper => out.push_str(&block(x, y, width, CELL.1 / 2, look.fill)),
             Shape::Lower => {
@@ -91,7 +91,7 @@ fn drawn_row(cells: &[Cell], y: u32, ink: &Ink) -> String {
                 let text: String = run.iter().map(|(_, cell)| escaped(cell.symbol())).collect();
                 let weight = if look.bold { " font-weight=\"bold\"" } else { "" };
                 let (base, fill, width) = (y + CELL.1 - 4, look.fill, cells_wide(run.len()));
-                // Letters keep to their cells where the font is wider or narrower.
+                // `textLength` keeps characters in their cells whatever the font's width.
                 out.push_str(&format!(
                     "<text x=\"{x}\" y=\"{base}\" textLength=\"{width}\" fill=\"{fill}\"{weight}>{text}</text>\n"
                 ));
@@ -102,14 +102,14 @@ fn drawn_row(cells: &[Cell], y: u32, ink: &Ink) -> String {
     out
 }
 
-/// Returns the dots of a row of cells as one path of round points, each from the one before.
+/// Returns the dots of a row of cells as one path of round points in relative coordinates.
 fn dots(run: &[(Look, &Cell)], left: u32, top: u32, fill: &str) -> String {
     let mut points = String::new();
     let mut from = (0, 0);
     for (index, (_, cell)) in (0..).zip(run) {
         for (across, down) in sub_pixels(cell.symbol()).into_iter().flatten() {
             let x = i64::from(left + CELL.0 * index + CELL.0 * (2 * across + 1) / 4);
-            // In tenths, so that no error adds up.
+            // In tenths of a pixel, so that rounding errors do not add up.
             let y = i64::from(10 * top + 10 * CELL.1 * (2 * down + 1) / 8);
             let (right, below) = (x - from.0, y - from.1);
             let sign = if below < 0 { "-" } else { "" };
@@ -127,12 +127,11 @@ fn dots(run: &[(Look, &Cell)], left: u32, top: u32, fill: &str) -> String {
     )
 }
 
-/// Returns a filled rectangle.
 fn block(x: u32, y: u32, width: u32, height: u32, fill: &str) -> String {
     format!("<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" fill=\"{fill}\"/>\n")
 }
 
-/// Content of a cell.
+/// How a cell is drawn.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Shape {
     Blank,
@@ -143,7 +142,7 @@ enum Shape {
     Letters,
 }
 
-/// Appearance of a cell.
+/// Shape, colours and weight of a cell.
 #[derive(Clone, Copy, PartialEq, Eq)]
 struct Look {
     shape: Shape,
@@ -165,7 +164,7 @@ impl Look {
             _ => Shape::Letters,
         };
         let behind = ink.of_colour(cell.bg).or(reversed.then_some(colour));
-        // Blank cells look the same in every colour.
+        // A blank cell looks the same in every text colour, so runs can be longer.
         let fill = match (shape, reversed) {
             (Shape::Blank, _) => ink.text,
             (Shape::Full | Shape::Upper | Shape::Lower, _) | (_, false) => colour,
@@ -193,8 +192,8 @@ impl Ink {
         }
     }
 
-    /// Returns a named colour for its background: light on dark, dark on light. None for the
-    /// default colour of the text.
+    /// Returns the shade of a named colour that suits the background; `None` for the terminal's
+    /// default text colour.
     fn of_colour(&self, colour: Color) -> Option<&'static str> {
         let [on_dark, on_light] = match colour {
             Color::DarkGray => ["#7f8790", "#6b7280"],
@@ -236,7 +235,7 @@ mod tests {
         let texts = || svg.lines().filter(|line| line.starts_with("<text"));
         assert!(texts().count() > 20);
         assert_eq!(texts().find(|text| text.contains("  ")), None);
-        // The fonts of most viewers have no braille: curves are dots.
+        // Most viewers lack braille fonts, so curves are drawn as dots.
         assert!(svg.contains("<path "));
         assert!(!svg.contains(|c: char| ('\u{2801}'..='\u{28ff}').contains(&c)));
         assert!(svg.contains("[operation]") && svg.contains("rubscope run paper-nd3"));

@@ -1,15 +1,15 @@
-//! The text of a prompt, edited as a shell does.
+//! The text of a prompt, with the editing keys of a shell.
 
 use std::mem::take;
 
-/// A text that is being typed, with its cursor.
+/// A text being typed, with its cursor.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Field {
     before: String,
     after: String,
 }
 
-/// A change of the text or of the place of the cursor.
+/// An edit of the text, or a move of the cursor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Edit {
     Left,
@@ -23,7 +23,7 @@ pub enum Edit {
     DeleteToEnd,
 }
 
-/// Follows the letter that the cursor is on, in its cell, until the screen is complete.
+/// Combining underline that marks the cursor's letter until the screen is drawn.
 pub const CURSOR: char = '\u{332}';
 
 impl<T: Into<String>> From<T> for Field {
@@ -39,7 +39,7 @@ impl Field {
         format!("{}{}", self.before, self.after)
     }
 
-    /// Inserts a text at the cursor, if the whole is no longer than so many bytes then.
+    /// Inserts a text at the cursor, unless the whole would exceed `most` bytes.
     pub fn insert(&mut self, text: &str, most: usize) -> bool {
         let fits = self.text().len().saturating_add(text.len()) <= most;
         self.before.push_str(if fits { text } else { "" });
@@ -74,7 +74,7 @@ impl Field {
         *self != old
     }
 
-    /// Returns the part around the cursor that fits into so many columns, with the cursor.
+    /// Returns the part around the cursor that fits into this many columns, with the cursor.
     pub fn shown(&self, columns: usize) -> String {
         let mut rest = self.after.chars();
         let under = rest.next().map_or("_".into(), |letter| format!("{letter}{CURSOR}"));

@@ -1,24 +1,19 @@
-//! Reading and writing files in threads of their own: a pipe without a reader or a network that
-//! does not answer blocks such a thread, not the screen. Of a directory only regular files are
-//! opened, and a limited number of them.
+//! Reads and writes files in separate threads, because a pipe without a reader or an unreachable
+//! network drive would block the screen. In a directory, only regular files are opened, up to a
+//! limit.
 
 use std::io::{ErrorKind, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
-use std::sync::mpsc::channel;
 use std::thread;
-use std::time::Duration;
 
 use crate::file;
 use crate::report::line::clean;
 use rubscope_solver::scene::{BUILTIN, CheckedScene, Scene};
 
-/// Name of the thread: the panic hook leaves the screen alone for it.
+/// Name of the threads. The panic hook recognises it and does not reset the screen.
 pub const FILES_NAME: &str = "rubscope-files";
-
-/// Longest wait for files at the end of the program.
-const MOMENT: Duration = Duration::from_millis(500);
 
 /// A file to write.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -27,24 +22,24 @@ pub struct FileJob {
     pub path: PathBuf,
     /// Content of the file.
     pub content: String,
-    /// Whether a file that exists may be replaced.
+    /// Whether an existing file may be replaced.
     pub replace: bool,
 }
 
 /// Outcome of writing a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FileResult {
-    /// The file is complete.
+    /// The file was written completely.
     Written,
-    /// There is a file already; nothing was written.
+    /// The file exists already; nothing was written.
     Exists,
-    /// The reason; nothing was written.
+    /// Nothing was written, for this reason.
     Failed(String),
 }
 
 impl FileJob {
-    /// Writes the file, completely or not at all. Only a regular file is
-    /// replaced; anything else is not even opened.
+    /// Writes the file, completely or not at all. Replaces regular files only; anything else is not
+    /// opened.
     pub fn run(&self) -> FileResult {
         let kind = std::fs::metadata(&self.path);
         match kind {
@@ -69,9 +64,9 @@ impl FileJob {
     }
 }
 
-/// Does `work` in a thread of its own and gives its result to `done`; without a thread, or
-/// after a panic, the result of `failed`, which in the first case is returned.
-pub fn aside<T: Send + 'static>(
+/// Runs `work` in a new thread and passes its result to `done`; after a panic, `failed` makes the
+/// result. If the thread cannot start, returns the failure instead of calling `done`.
+pub fn run_in_thread<T: Send + 'static>(
     work: impl FnOnce() -> T + Send + 'static,
     failed: fn(String) -> T,
     done: impl FnOnce(T) + Send + 'static,
@@ -84,36 +79,21 @@ pub fn aside<T: Send + 'static>(
     started.err().map(|error| failed(error.to_string()))
 }
 
-/// Finishes the change of a file that is under way, and removes what an
-/// unfinished one would leave behind; waits only a moment for a disk or a network
-/// that does not answer.
-pub fn tidy_up() {
-    let (done, wait) = channel();
-    let work = move || {
-        file::settle(MOMENT);
-        // Without a receiver the moment is over.
-        let _ = done.send(());
-    };
-    if thread::Builder::new().name(FILES_NAME.into()).spawn(work).is_ok() {
-        let _ = wait.recv_timeout(MOMENT);
-    }
-}
-
 /// Most files that are read; a directory of scenes has some dozens.
 const MOST_FILES: usize = 200;
-/// Most names of a directory that are looked at.
+/// Largest number of directory entries that are examined.
 const MOST_NAMES: usize = 20_000;
 
-/// A scene of the list.
+/// A scene file in the list of scenes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FoundScene {
-    /// The name of the file.
+    /// Name of the file.
     pub name: String,
-    /// The scene; the reason in one line where the file holds none.
+    /// The scene, or the reason in one line why the file contains none.
     pub scene: Result<CheckedScene, String>,
 }
 
-/// Returns the built-in scenes, read once.
+/// Returns the built-in scenes; they are parsed once.
 pub fn builtin_scenes() -> &'static [FoundScene] {
     static READ: OnceLock<Vec<FoundScene>> = OnceLock::new();
     READ.get_or_init(|| {
@@ -127,22 +107,21 @@ pub fn builtin_scenes() -> &'static [FoundScene] {
 /// The scenes of a directory.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FoundScenes {
-    /// In the order of their names.
+    /// The scene files, sorted by name.
     pub files: Vec<FoundScene>,
-    /// Note on what is missing in the list.
+    /// Remark on scenes that the list omits.
     pub missing: Option<String>,
-    /// Whether they are still being read.
+    /// Whether the directory is still being read.
     pub reading: bool,
 }
 
 impl FoundScenes {
-    /// Returns an empty list, for this reason.
+    /// Returns an empty list with the reason.
     pub fn failed(reason: String) -> Self {
         Self { missing: Some(reason), ..Self::default() }
     }
 
-    /// Reads the `.toml` files of a directory; the empty path is the working
-    /// directory.
+    /// Reads the `.toml` files of a directory; the empty path stands for the working directory.
     pub fn of(directory: &Path) -> Self {
         let here = if directory.as_os_str().is_empty() { Path::new(".") } else { directory };
         let entries = match std::fs::read_dir(here) {
@@ -153,20 +132,20 @@ impl FoundScenes {
         };
         let names = entries.flatten().take(MOST_NAMES).map(|entry| entry.file_name());
         let is_toml = |name: &String| name.len() > 5 && name.to_lowercase().ends_with(".toml");
-        // A name that is not text cannot be shown, nor typed.
+        // Names that are not UTF-8 cannot be displayed or typed.
         let mut names: Vec<String> =
             names.filter_map(|name| name.into_string().ok()).filter(is_toml).collect();
         names.sort_unstable();
         let more = names.len().saturating_sub(MOST_FILES);
         names.truncate(MOST_FILES);
-        let files = names.into_iter().filter_map(|name| found(here, name)).collect();
+        let files = names.into_iter().filter_map(|name| load_scene(here, name)).collect();
         let missing = (more > 0).then(|| format!("and {more} more files, which are not read"));
         Self { files, missing, reading: false }
     }
 }
 
-/// Returns a file, if it is a regular one.
-fn found(directory: &Path, name: String) -> Option<FoundScene> {
+/// Loads a scene file; `None` if it is not a regular file.
+fn load_scene(directory: &Path, name: String) -> Option<FoundScene> {
     let path = directory.join(&name);
     if !std::fs::metadata(&path).is_ok_and(|kind| kind.is_file()) {
         return None;

@@ -1,6 +1,5 @@
-//! The glossary of `assets/glossary.toml`: every symbol, word and sign of the screen, with
-//! its equation and, where it has one, its value in the present scene; and every view in
-//! a few words.
+//! The glossary in `assets/glossary.toml`: every symbol, word and sign of the screen with its
+//! equation and, if it has one, its value in the present scene; and a description of every view.
 
 use std::sync::LazyLock;
 
@@ -16,13 +15,13 @@ use rubscope_solver::harmonic::Joint;
 /// The text of the glossary.
 const TEXT: &str = include_str!("../../assets/glossary.toml");
 
-/// Value that follows from the scene: the name of its term, its unit, and how it is computed.
+/// A value computed from the scene: name of the term, unit, and function.
 type Value = (&'static str, &'static str, fn(&App) -> Option<f64>);
 
-/// Stands for the unit of frequencies.
+/// Placeholder for the unit in which angular frequencies are shown.
 const FREQUENCY: &str = "frequency";
 
-/// The values of the terms that are no knobs.
+/// Values of the terms that are not knobs.
 const VALUES: &[Value] = &[
     ("Omega", "rad/s", |app| Some(app.speed())),
     ("Omega_c", "rad/s", |app| app.machine.critical_speed()),
@@ -45,7 +44,7 @@ const VALUES: &[Value] = &[
     }),
 ];
 
-/// The glossary as its file has it.
+/// Contents of the glossary file.
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Glossary {
@@ -53,7 +52,7 @@ struct Glossary {
     view: Vec<ViewWords>,
 }
 
-/// A section.
+/// A group of terms.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Section {
@@ -64,37 +63,37 @@ pub struct Section {
     pub terms: Vec<Term>,
 }
 
-/// One symbol, word or sign.
+/// A symbol, word or sign.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Term {
     /// Symbol as it is written.
     pub symbol: String,
-    /// The same in letters that every keyboard has, if it is not written so.
+    /// The symbol in ASCII, if it contains other characters.
     name: Option<String>,
     /// Meaning.
     pub meaning: String,
-    /// Its equation or condition; may be empty.
+    /// Equation or condition; may be empty.
     #[serde(default)]
     pub equation: String,
-    /// The key of the knob that it is.
+    /// Key of the knob that the term names, if it is one.
     knob: Option<String>,
 }
 
-/// A view in words.
+/// Description of a view.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ViewWords {
     name: String,
-    /// Description of what is drawn.
+    /// What is drawn.
     pub drawn: String,
-    /// Hint on what to look for.
+    /// What to look for.
     pub look: String,
     /// Its keys.
     pub keys: String,
 }
 
-/// The file is part of the program, and a test reads it.
+/// The parsed glossary. The file is embedded, and a test checks that it parses.
 static GLOSSARY: LazyLock<Glossary> = LazyLock::new(|| toml::from_str(TEXT).unwrap_or_default());
 
 /// Returns the sections of the glossary.
@@ -102,7 +101,7 @@ pub fn sections() -> &'static [Section] {
     &GLOSSARY.section
 }
 
-/// Returns a view in words.
+/// Returns the description of a view.
 pub fn view(view: ViewId) -> Option<&'static ViewWords> {
     GLOSSARY.view.iter().find(|words| words.name == view.word())
 }
@@ -122,7 +121,7 @@ impl Term {
         text
     }
 
-    /// Returns the symbol in letters that every keyboard has.
+    /// Returns the symbol in ASCII.
     pub fn name(&self) -> &str {
         self.name.as_deref().unwrap_or(&self.symbol)
     }
@@ -137,7 +136,7 @@ impl Term {
             FREQUENCY => (per_frequency(value), frequency_unit()),
             unit => in_shown_unit(value, unit),
         };
-        // Four digits are enough to know where one stands.
+        // Four digits are enough for a glance.
         let rounded: f64 = format!("{value:.3e}").parse().ok()?;
         Some(number(rounded, unit))
     }
@@ -174,8 +173,8 @@ mod tests {
         assert_eq!(GLOSSARY.view.len(), ViewId::all().count());
     }
 
-    /// What the code of the explorer writes: without tests, remarks and the spelling of
-    /// other texts.
+    /// Returns the source code of the explorer, without tests, comments and the function that
+    /// spells text in ASCII.
     fn code(folder: &std::path::Path) -> String {
         let mut out = String::new();
         for entry in std::fs::read_dir(folder).unwrap() {
@@ -200,7 +199,7 @@ mod tests {
         let code = code(&std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/tui"));
         let signs = sections().iter().find(|section| section.heading == "Signs").unwrap();
         for sign in signs.terms.iter().flat_map(|term| term.symbol.split(' ')) {
-            // Dots have any pattern.
+            // Braille dots appear in any pattern, not only this one.
             assert!(sign == "⠿" || code.contains(sign), "{sign} is not drawn");
         }
         assert!(!code.contains('▪'), "the code is read without tests");
@@ -214,7 +213,7 @@ mod tests {
         }
         for term in terms() {
             let of = |name: &str| VALUES.iter().any(|(known, ..)| *known == name);
-            // A lock of this scene has no upper end.
+            // In this scene the lock has no upper end.
             let has = (term.knob.is_some() || of(term.name())) && term.symbol != "lock ends";
             assert_eq!(term.value(&app).is_some(), has, "{}", term.symbol);
             assert!(term.name().is_ascii(), "{}", term.symbol);

@@ -1,7 +1,7 @@
-//! The record of a run as bins with the least and the greatest value of each
-//! channel, so that a contact peak of one step is visible at any zoom.
+//! The recorded run as time bins with the minimum and maximum of each channel, so that a contact
+//! peak of a single step is visible at any zoom.
 
-/// The recorded quantities, in the order of `Bin::low`.
+/// The recorded quantities; each is an index into `Bin::low` and `Bin::high`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Channel {
     /// `u_c` \[m\].
@@ -12,47 +12,47 @@ pub enum Channel {
     AlphaC,
     /// `alpha_s` \[rad\].
     AlphaS,
-    /// The smallest gap of all blades \[m\].
+    /// The smallest gap of any blade \[m\].
     Gap,
-    /// Amplitude of the casing wave as the tips of the blades see it, `|w|` \[m\].
+    /// Amplitude of the casing wave relative to the blade tips, `|w|` \[m\].
     Amplitude,
-    /// Sum of all pushes, positive as a push \[N\].
+    /// Sum of all contact forces, positive for a push \[N\].
     Push,
-    /// The casing wave in the frame of the blades, `Re z` \[m\].
+    /// Real part of the casing wave in the blade frame, `Re z` \[m\].
     X,
-    /// `Im z` \[m\].
+    /// Imaginary part, `Im z` \[m\].
     Y,
-    /// The same as the tips of the blades see it, `Re w` \[m\].
+    /// Real part of the casing wave relative to the blade tips, `Re w` \[m\].
     RimX,
-    /// `Im w` \[m\].
+    /// Imaginary part, `Im w` \[m\].
     RimY,
 }
 
 /// Number of channels.
 pub const CHANNELS: usize = 11;
 
-/// Least and greatest values over a stretch of time.
+/// Minimum and maximum of every channel over an interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bin {
     /// Start \[s\].
     pub from: f64,
     /// End \[s\].
     pub to: f64,
-    /// Least value of every channel.
+    /// Minimum of every channel.
     pub low: [f64; CHANNELS],
-    /// Greatest value of every channel.
+    /// Maximum of every channel.
     pub high: [f64; CHANNELS],
-    /// First and last instant of contact \[s\].
+    /// First and last instant of contact in the interval \[s\].
     pub contact: Option<(f64, f64)>,
 }
 
 impl Bin {
-    /// Creates a bin of one sample.
+    /// Creates a bin from one sample.
     pub fn of(t: f64, values: [f64; CHANNELS]) -> Self {
         Self { from: t, to: t, low: values, high: values, contact: None }
     }
 
-    /// Returns the least and greatest value of a channel.
+    /// Returns the minimum and maximum of a channel.
     pub fn span(&self, channel: Channel) -> (f64, f64) {
         (self.low[channel as usize], self.high[channel as usize])
     }
@@ -63,7 +63,7 @@ impl Bin {
         0.5 * (low + high)
     }
 
-    /// Joins a later bin to this one.
+    /// Extends this bin by a later one.
     pub fn join(&mut self, later: &Self) {
         self.to = later.to;
         for ((low, high), (new_low, new_high)) in
@@ -76,10 +76,10 @@ impl Bin {
     }
 }
 
-/// Most bins kept; above, neighbours are joined and the resolution halves.
+/// Largest number of bins; beyond it, neighbours are merged, which halves the resolution.
 pub const MOST_BINS: usize = 1 << 15;
 
-/// Longest bin that is drawn, in pages: the bins of a page twice as long.
+/// Longest bin that is drawn, as a fraction of the page.
 const PART_OF_PAGE: f64 = 1.0 / 400.0;
 
 /// The bins of one run, in order of time.
@@ -88,11 +88,11 @@ pub struct BinHistory {
     bins: Vec<Bin>,
 }
 
-/// Least and greatest value of one column of a chart.
+/// Minimum and maximum of one column of a chart, if it has data.
 pub type Span = Option<(f64, f64)>;
 
 impl BinHistory {
-    /// Adds bins at the end.
+    /// Appends bins.
     pub fn extend(&mut self, new: &[Bin]) {
         self.bins.extend(new.iter().filter(|bin| bin.from.is_finite()));
         while self.bins.len() > MOST_BINS {
@@ -100,7 +100,7 @@ impl BinHistory {
         }
     }
 
-    /// Forgets everything.
+    /// Removes all bins.
     pub fn clear(&mut self) {
         self.bins.clear();
     }
@@ -112,22 +112,21 @@ impl BinHistory {
         self.bins.get(start..end.max(start)).unwrap_or(&[])
     }
 
-    /// Same as [`Self::between`], but empty where a bin is so long that it would be drawn as a
-    /// block.
+    /// As [`Self::between`], but empty if some bin is long enough to appear as a block.
     pub fn fine_between(&self, from: f64, to: f64) -> &[Bin] {
         let (bins, longest) = (self.between(from, to), PART_OF_PAGE * (to - from));
         if bins.iter().all(|bin| bin.to - bin.from <= longest) { bins } else { &[] }
     }
 }
 
-/// Returns the bin at an instant, for reading values under a cursor.
+/// Returns the bin at an instant, for reading values at the cursor.
 pub fn bin_at(bins: &[Bin], t: f64) -> Option<&Bin> {
     bins.get(bins.partition_point(|bin| bin.to < t)).filter(|bin| bin.from <= t)
 }
 
-/// Returns one channel of some bins over `[from, to]` as `columns` columns; `None` where nothing
-/// was recorded. Values that are not finite are left out. A bin begins where the one before it
-/// ends, so that no curve is torn between columns.
+/// Reduces one channel of some bins over `[from, to]` to `columns` columns; `None` for a column
+/// without data. Values that are not finite are ignored. A bin also counts in the columns back to
+/// the end of the bin before it, so that curves have no gaps.
 pub fn columns(
     bins: &[Bin],
     channel: Channel,
@@ -161,8 +160,8 @@ pub fn columns(
     out
 }
 
-/// Returns which of `columns` columns of `[from, to]` have a contact: those of its first and its
-/// last instant in each bin. A page has more bins than columns.
+/// Returns which of `columns` columns of `[from, to]` have contact. Only the first and the last
+/// instant in each bin count, which suffices because a page has more bins than columns.
 pub fn contacts(bins: &[Bin], (from, to): (f64, f64), columns: usize) -> Vec<bool> {
     let mut out = vec![false; columns];
     let width = (to - from) / columns.max(1) as f64;
@@ -175,7 +174,7 @@ pub fn contacts(bins: &[Bin], (from, to): (f64, f64), columns: usize) -> Vec<boo
     out
 }
 
-/// Returns the stretch that holds both.
+/// Returns the smallest interval that contains both.
 fn hull(first: Option<(f64, f64)>, second: Option<(f64, f64)>) -> Option<(f64, f64)> {
     match (first, second) {
         (Some((a, b)), Some((c, d))) => Some((a.min(c), b.max(d))),
@@ -183,8 +182,8 @@ fn hull(first: Option<(f64, f64)>, second: Option<(f64, f64)>) -> Option<(f64, f
     }
 }
 
-/// Returns the bins of single samples that are farther apart than `length`, joined by straight
-/// lines: a solver that steps knows nothing between its steps. Only what is in `[from, to]`.
+/// Splits bins much longer than `length` into shorter ones with linearly interpolated values,
+/// within `[from, to]`. A time-stepping solver gives no values between its steps.
 pub fn interpolated(bins: &[Bin], length: f64, (from, to): (f64, f64)) -> Vec<Bin> {
     let mut out = Vec::with_capacity(bins.len());
     let mut last: Option<&Bin> = None;
@@ -215,7 +214,7 @@ pub fn interpolated(bins: &[Bin], length: f64, (from, to): (f64, f64)) -> Vec<Bi
     out
 }
 
-/// Joins neighbours, two by two.
+/// Merges neighbours in pairs.
 pub fn thin(bins: &mut Vec<Bin>) {
     let joined = bins
         .chunks(2)

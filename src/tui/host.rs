@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::mpsc::Sender;
 
 use super::events::ScreenEvent;
-use super::files::{FileJob, FileResult, FoundScenes, aside};
+use super::files::{FileJob, FileResult, FoundScenes, run_in_thread};
 use super::job;
 use super::line::Line;
 use super::terminal;
@@ -101,7 +101,7 @@ impl Host for Shell {
         let events = self.events.clone();
         // Sending fails only if the program is about to end.
         let done = move |result| _ = events.send(ScreenEvent::Written(result));
-        aside(move || job.run(), FileResult::Failed, done)
+        run_in_thread(move || job.run(), FileResult::Failed, done)
     }
 
     fn unseen(&mut self, reason: Option<String>) {
@@ -111,7 +111,7 @@ impl Host for Shell {
     fn find_scenes(&mut self, directory: PathBuf) -> Option<FoundScenes> {
         let events = self.events.clone();
         let done = move |found| _ = events.send(ScreenEvent::Scenes(found));
-        aside(move || FoundScenes::of(&directory), FoundScenes::failed, done)
+        run_in_thread(move || FoundScenes::of(&directory), FoundScenes::failed, done)
     }
 }
 

@@ -1,5 +1,5 @@
-//! This program as a job of a shell: stopping it, as Ctrl-Z does for a program
-//! that does not catch it.
+//! Job control: stops the program as Ctrl-Z does, which the explorer must do itself because it
+//! catches the key.
 
 use std::io::Result;
 use std::sync::atomic::{AtomicBool, Ordering::SeqCst};
@@ -8,22 +8,22 @@ use nix::unistd::{Pid, getpgid, getpgrp, getpid, getppid, getsid};
 
 use super::ending::ended_by;
 
-/// Whether the job has been asked to stop, and not to continue since.
+/// Whether a request to stop is pending; a request to continue clears it.
 static WANTED: AtomicBool = AtomicBool::new(false);
 
-/// Most generations of parents that are asked for their job.
+/// Limit on the number of ancestors that are examined.
 const GENERATIONS: usize = 64;
 
-/// Records that the job is to stop, or to continue.
+/// Records a request to stop (true) or to continue (false).
 pub fn want_stop(wanted: bool) {
     WANTED.store(wanted, SeqCst);
 }
 
-/// Stops this job, unless a signal to continue or to end came in the meantime:
-/// a stopped program could not hear it any more.
+/// Stops the program if a request is still pending and no signal has asked it to end, because a
+/// stopped program could not handle that signal.
 ///
 /// # Errors
-/// The system refuses.
+/// The system refused to stop the program.
 pub fn stop() -> Result<()> {
     if !WANTED.swap(false, SeqCst) || ended_by().is_some() {
         return Ok(());
@@ -31,8 +31,8 @@ pub fn stop() -> Result<()> {
     signal_hook::low_level::emulate_default_handler(signal_hook::consts::SIGTSTP)
 }
 
-/// Returns whether no shell could continue this job: no process of it has a parent in another job
-/// of the same session, as POSIX has it of orphaned groups.
+/// Returns whether no shell could continue this job: in POSIX terms, its process group is orphaned
+/// (no ancestor belongs to another group of the same session).
 pub fn is_orphaned() -> bool {
     let Ok(session) = getsid(None) else { return true };
     let mut process = getpid();
@@ -49,8 +49,8 @@ pub fn is_orphaned() -> bool {
     false
 }
 
-/// Returns the parent of a process, if it is in this container: the system gives processes, groups
-/// and sessions outside it the number 0.
+/// Returns the parent of a process; `None` if it is outside this container, where the system
+/// reports the number 0.
 fn parent(process: Pid) -> Option<Pid> {
     if process == getpid() {
         return seen(getppid());
@@ -60,7 +60,7 @@ fn parent(process: Pid) -> Option<Pid> {
     seen(Pid::from_raw(parent.trim().parse().ok()?))
 }
 
-/// Returns `None` for a process outside this container.
+/// Returns `None` for the number 0, which stands for a process outside this container.
 fn seen(process: Pid) -> Option<Pid> {
     Some(process).filter(|process| process.as_raw() != 0)
 }

@@ -1,6 +1,5 @@
-//! The lessons under `assets/lessons/`, embedded in the program: each has a
-//! scene and a few steps. A step asks what will happen, sets knobs when it is
-//! answered, and gives the reason; or it has a task.
+//! The lessons in `assets/lessons/`, embedded in the program. Each has a scene and a few steps. A
+//! step asks a question, sets knobs when it is answered, and explains the answer; or it has a task.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
@@ -14,118 +13,118 @@ use rubscope_solver::study::margins::LimitName;
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Lesson {
-    /// Its name in files: the name of its own file.
+    /// Name of the lesson, which is that of its file.
     #[serde(skip)]
     pub name: &'static str,
-    /// Its subject.
+    /// Subject of the lesson.
     pub title: String,
-    /// Knowledge that it needs.
+    /// What the reader should know before.
     pub needs: String,
-    /// The built-in scene at its start.
+    /// The built-in scene at the start.
     pub scene: String,
     /// Its steps.
     #[serde(rename = "step")]
     pub steps: Vec<LessonStep>,
 }
 
-/// Keys of a scene, and the text of their values.
+/// Keys of a scene with their values, as text.
 pub type Settings = Vec<(String, String)>;
 
 /// One step of a lesson.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct LessonStep {
-    /// Text on what can be seen and must be known.
+    /// Explanation of what is visible.
     pub text: String,
     /// Keys that are set when the step begins, before the question.
     #[serde(default)]
     pub begin: Settings,
-    /// Question what will happen.
+    /// Question about what will happen.
     pub question: Option<String>,
-    /// The answers to choose from, a, b, c.
+    /// The possible answers, for the keys a, b and c.
     #[serde(default)]
     pub answers: Vec<String>,
-    /// The letter of the right one.
+    /// Letter of the right answer.
     pub right: Option<char>,
-    /// Reason of the answer, shown with the run.
+    /// Explanation of the answer, shown with the run.
     pub reason: Option<String>,
-    /// The equation behind it.
+    /// The equation behind the explanation.
     pub equation: Option<String>,
-    /// Keys that are set when the question is answered; without a question,
-    /// when the step begins.
+    /// Keys that are set when the question is answered, or, without a question, when the step
+    /// begins.
     #[serde(default)]
     pub set: Settings,
-    /// The task of the reader.
+    /// The task, if the step has one.
     pub task: Option<String>,
-    /// Condition under which the task is done.
+    /// Condition that completes the task.
     pub until: Option<Condition>,
-    /// Keys that a reader may set to do the task; the next step begins so.
+    /// Settings that complete the task; the next step starts from them.
     #[serde(default)]
     pub doing: Settings,
-    /// The view that is shown.
+    /// The view shown.
     pub view: Option<String>,
-    /// The view that is shown with the answer, if another.
+    /// The view shown with the answer, if it is another one.
     pub then_view: Option<String>,
-    /// The limit that the rows of the margins are shown around.
+    /// The limit on which the margins view is centred.
     pub limit: Option<LimitName>,
-    /// Length of the page of time, at least \[s\].
+    /// Minimum length of the time page \[s\].
     pub page_s: Option<f64>,
     /// The knob that is selected.
     pub knob: Option<String>,
     /// Whether knobs act on the running motion.
     #[serde(default)]
     pub live: bool,
-    /// Whether the other contact law is compared, from the answer on.
+    /// Whether the run is compared with the other contact law, from the answer on.
     #[serde(default)]
     pub compare: bool,
-    /// Statements that must be true when the step is done, for the test that asks the solvers.
+    /// Statements about the completed step, which a test checks with the solvers.
     #[serde(default)]
     pub check: Vec<toml::Table>,
 }
 
-/// Condition under which a task is done.
+/// Condition that completes a task.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(rename_all = "lowercase", deny_unknown_fields)]
 pub enum Condition {
     /// The run has this verdict.
     Verdict(String),
-    /// This view is the large one.
+    /// This view is the large chart.
     View(String),
-    /// The other contact law is compared, or not.
+    /// The run is compared with the other contact law, or not.
     Compare(bool),
-    /// A key is above a number.
+    /// A key has a value above this number.
     Above(String, f64),
-    /// A key is below a number.
+    /// A key has a value below this number.
     Below(String, f64),
-    /// A limit is above a number.
+    /// A limit is above this number.
     Limit(LimitName, f64),
-    /// A key holds a word.
+    /// A key has this word as its value.
     Is(String, String),
 }
 
 impl LessonStep {
-    /// Returns the place of the right answer.
+    /// Returns the index of the right answer.
     pub fn right_place(&self) -> Option<usize> {
         let right = self.right?;
         LETTERS.iter().position(|letter| *letter == right)
     }
 }
 
-/// Words that are read in a minute, with a look at the chart.
+/// Reading speed, including looks at the chart \[words/minute\].
 const WORDS_A_MINUTE: usize = 100;
-/// Minutes for a question,
+/// Time for a question \[minutes\].
 const QUESTION: f64 = 0.5;
-/// and for a task.
+/// Time for a task \[minutes\].
 const TASK: f64 = 2.0;
 
 impl Lesson {
-    /// Returns its subject in few words: those before what it adds.
+    /// Returns the beginning of the title, up to the first comma, colon or "and".
     pub fn brief(&self) -> &str {
         let end = [",", ":", " and "].iter().filter_map(|sign| self.title.find(sign)).min();
         end.and_then(|end| self.title.get(..end)).unwrap_or(&self.title)
     }
 
-    /// Returns how long it takes, by what there is to read, to answer and to do.
+    /// Estimates the time that the lesson takes \[minutes\].
     pub fn minutes(&self) -> u32 {
         let of = |step: &LessonStep| {
             let texts = [&step.question, &step.reason, &step.task].into_iter().flatten();
@@ -141,11 +140,11 @@ impl Lesson {
         self.steps.iter().map(of).sum::<f64>().ceil() as u32
     }
 
-    /// Returns the scene of a step, before or after its question is answered: that of the lesson,
-    /// with what its steps have set and their tasks have changed so far.
+    /// Returns the scene of a step, before or after its question is answered: the lesson's scene
+    /// with the settings of all steps and tasks so far.
     ///
     /// # Errors
-    /// A key or a value that is refused.
+    /// A key or a value is refused.
     pub fn scene_at(&self, step: usize, answered: bool) -> Result<CheckedScene, SceneError> {
         let mut scene = Scene::builtin(&self.scene)?;
         for (place, found) in self.steps.iter().enumerate().take(step + 1) {
@@ -161,43 +160,43 @@ impl Lesson {
     }
 }
 
-/// The letters of the answers, which are also their keys.
+/// Letters of the answers, which are also their keys.
 pub const LETTERS: [char; 3] = ['a', 'b', 'c'];
 
-/// The steps that were done, by the name of the lesson; the first step is 1.
+/// Completed steps by lesson name; the first step is 1.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Eq, Serialize)]
 #[serde(transparent)]
 pub struct LessonsDone(BTreeMap<String, BTreeSet<usize>>);
 
 impl LessonsDone {
-    /// Records what was done elsewhere, too.
+    /// Adds the steps completed in another record.
     pub fn join(&mut self, other: Self) {
         for (name, steps) in other.0 {
             self.0.entry(name).or_default().extend(steps);
         }
     }
 
-    /// Returns whether none was done.
+    /// Returns whether no step is completed.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// Records a step, counted from 0.
+    /// Records a completed step, counted from 0.
     pub fn add(&mut self, lesson: &Lesson, step: usize) {
         self.0.entry(lesson.name.to_string()).or_default().insert(step + 1);
     }
 
-    /// Returns whether a step, counted from 0, was done.
+    /// Returns whether a step, counted from 0, is completed.
     pub fn has(&self, lesson: &Lesson, step: usize) -> bool {
         self.0.get(lesson.name).is_some_and(|steps| steps.contains(&(step + 1)))
     }
 
-    /// Returns how many steps of a lesson were done.
+    /// Returns how many steps of a lesson are completed.
     pub fn count(&self, lesson: &Lesson) -> usize {
         (0..lesson.steps.len()).filter(|step| self.has(lesson, *step)).count()
     }
 
-    /// Returns the first step of a lesson that was not done.
+    /// Returns the first step of a lesson that is not completed.
     pub fn next(&self, lesson: &Lesson) -> Option<usize> {
         (0..lesson.steps.len()).find(|step| !self.has(lesson, *step))
     }
@@ -209,7 +208,7 @@ macro_rules! lessons {
     };
 }
 
-/// Names and texts, in the order of the list.
+/// Name and text of each lesson, in the order of the list.
 const FILES: &[(&str, &str)] = lessons![
     "critical-speed",
     "lock",
@@ -231,7 +230,7 @@ const FILES: &[(&str, &str)] = lessons![
 /// Returns every lesson, in the order of the list.
 pub fn all() -> &'static [Lesson] {
     static LESSONS: OnceLock<Vec<Lesson>> = OnceLock::new();
-    // The files are part of the program, and a test reads each of them.
+    // The files are embedded, and a test checks that each parses.
     let read = |(name, text): &(&'static str, &str)| {
         toml::from_str(text).ok().map(|lesson| Lesson { name, ..lesson })
     };
@@ -322,7 +321,7 @@ mod tests {
         let text = toml::to_string(&done).unwrap();
         assert_eq!(text, "lock = [1, 2]\n");
         assert_eq!(toml::from_str::<LessonsDone>(&text).unwrap(), done);
-        // Steps that a later version no longer has do no harm.
+        // Records of lessons and steps that no longer exist are ignored.
         let old: LessonsDone = toml::from_str("lock = [77]\ngone = [1]").unwrap();
         assert_eq!((old.count(lesson), old.next(lesson)), (0, Some(0)));
     }

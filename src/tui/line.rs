@@ -1,43 +1,43 @@
-//! How much the terminal is sent. On a thin line the frames of a playing motion come as often
-//! as five kilobytes a second allow, more seldom in a larger window; what a key asks for may
-//! take more for a moment.
+//! Limits the data sent to a slow terminal. On a thin line, frames of the playing motion are spaced
+//! to stay below five kilobytes a second, so that larger windows have fewer frames; answers to keys
+//! may exceed that briefly.
 
 use std::time::{Duration, Instant};
 
 use strum::{EnumString, VariantNames};
 
-/// Limit on the bytes that are sent to the terminal.
+/// How much the connection to the terminal carries.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, EnumString, VariantNames)]
 #[strum(serialize_all = "lowercase")]
 pub enum Line {
-    /// Thin over SSH, or once a write had to wait.
+    /// Full, until a write had to wait; over SSH it is thin.
     #[default]
     Auto,
-    /// At most five kilobytes a second while the motion plays, in a window of any size.
+    /// At most five kilobytes a second while the motion plays.
     Thin,
-    /// Every frame that was asked for.
+    /// No limit.
     Full,
 }
 
-/// Bytes a second of frames while the motion plays.
+/// Rate of frames while the motion plays \[bytes/s\].
 const THIN: f64 = 4500.0;
-/// Bytes a second of answers to keys, unless writes have to wait.
+/// Rate of answers to keys, unless writes have to wait \[bytes/s\].
 const KEYS: f64 = 20_000.0;
-/// Time that answers to keys may run ahead of that.
+/// Answers to keys may be sent this much ahead of their rate.
 const AHEAD: Duration = Duration::from_secs(1);
-/// Longest wait of an answer to a key.
+/// Longest delay of an answer to a key.
 const SOON: Duration = Duration::from_millis(200);
-/// Longest wait of an answer to a key on a line where writes have to wait.
+/// Longest delay of an answer to a key if writes have to wait.
 const LATEST: Duration = Duration::from_secs(2);
-/// Longest pause between two frames, whatever the last one took: 45 kB are most of a window of
+/// Longest delay caused by one frame. At the thin rate it corresponds to 45 kB, most of a window of
 /// 400 columns and 100 rows.
 const LONGEST: Duration = Duration::from_secs(10);
 
-/// The account of what the line has taken.
+/// Rate limiter for frames.
 #[derive(Debug)]
 pub struct Throttle {
     line: Line,
-    /// Instant at which the line is free again.
+    /// Time at which the bytes sent so far have passed the line.
     free: Instant,
     sent: u64,
     /// Whether writes have to wait.
@@ -45,12 +45,12 @@ pub struct Throttle {
 }
 
 impl Throttle {
-    /// Creates an account that begins at `now`, with `sent` bytes sent already.
+    /// Creates a limiter that starts at `now`, when `sent` bytes have been sent already.
     pub fn new(line: Line, now: Instant, sent: u64) -> Self {
         Self { line, free: now, sent, slow: false }
     }
 
-    /// Records that a frame has been sent; `sent` is the number of bytes in all.
+    /// Records a frame. `sent` is the total number of bytes; `slow` says that writes had to wait.
     pub fn spend(&mut self, sent: u64, by_key: bool, slow: bool, now: Instant) {
         let bytes = sent.saturating_sub(self.sent) as f64;
         (self.sent, self.slow) = (sent, slow);
@@ -66,7 +66,7 @@ impl Throttle {
     /// Returns how long the next frame must wait from `now`.
     pub fn wait(&self, by_key: bool, now: Instant) -> Duration {
         let wait = self.free.saturating_duration_since(now);
-        // A key is answered soon, whatever was sent before.
+        // An answer to a key has a bounded delay, whatever was sent before.
         match (by_key, self.slow) {
             (true, false) => wait.saturating_sub(AHEAD).min(SOON),
             (true, true) => wait.saturating_sub(AHEAD).min(LATEST),
@@ -79,7 +79,7 @@ impl Throttle {
 mod tests {
     use super::*;
 
-    /// Bytes a second when every frame has `bytes` and is sent as soon as allowed.
+    /// Returns the rate if every frame has `bytes` and is sent as soon as allowed \[bytes/s\].
     fn rate(line: Line, bytes: u64, by_key: bool, slow: bool) -> f64 {
         let begin = Instant::now();
         let (mut now, mut sent) = (begin, 0);
@@ -104,7 +104,7 @@ mod tests {
         }
         assert!(rate(Line::Thin, 1000, false, false) > 4000.0);
         assert!(rate(Line::Thin, 2000, true, false) < 22_000.0);
-        // The answer to a key does not wait for the frames before it.
+        // Earlier frames do not delay the answer to a key.
         let now = Instant::now();
         let mut throttle = Throttle::new(Line::Thin, now, 0);
         (1..9).for_each(|k| throttle.spend(k * 25_000, false, false, now));

@@ -1,8 +1,7 @@
-//! The explorer without a screen, for screen readers, transcripts and scripts: what `:`
-//! takes comes from standard input, one command a line. Each is answered by the first line
-//! of the screen, the second, and what changed. The motion is paused: it moves where it is
-//! sent. The same lines have the same answers, but for a run that takes longer than the
-//! explorer waits for: how far it comes in that time depends on the machine.
+//! The explorer without a screen, for screen readers, transcripts and scripts. Standard input has
+//! one command per line, as typed after `:`; the answer is the two header lines and what changed.
+//! The motion is paused and moves only by commands. The same commands give the same answers, except
+//! for a run that takes longer than the explorer waits: how far it gets depends on the machine.
 
 use std::io::{BufRead, Error, Read, Write};
 
@@ -24,18 +23,18 @@ use super::{ability, config, panels};
 use crate::report::line::clean;
 use rubscope_solver::scene::{CheckedScene, Scene};
 
-/// Longest line that is read, in bytes.
+/// Longest command line that is read \[bytes\].
 const LONGEST: u64 = 1000;
-/// Most orders that one command leads to: to go somewhere turns a page, which is read again.
+/// Upper bound on engine rounds per command (a go-to turns the page, which must be recomputed).
 const ORDERS: usize = 8;
-/// Columns of the text of a lesson and of the help.
+/// Width of the text of lessons and help \[columns\].
 const WIDTH: u16 = 80;
-/// Rows of the screen that is not there: no text of a lesson hides a chart.
+/// Height of the virtual screen: tall enough that lesson text is never paged.
 const ROWS: u16 = 1000;
-/// Columns and rows of the screen as a picture.
+/// Columns and rows of the screen when it is written as a picture.
 const PICTURE: (u16, u16) = (120, 40);
 
-/// Summary of the commands.
+/// Answer to `help`.
 const USAGE: &str = "\
 speed 450, pulse 20k, law unilateral: give a knob a value; its name alone says the value
 t 0.3 ms, end, n, blade 7: go to an instant, the end, the next change of contact, a gap
@@ -45,16 +44,16 @@ undo, restart, live, fire, and every other action of the explorer by its words o
 save FILE, copy: the scene as a file, the command that repeats the run
 help WORDS: what the help says about them; quit, or the end of input, ends";
 
-/// The explorer, and the engine that it has without a thread.
+/// The explorer with an engine that runs in the same thread.
 struct Lines {
     app: App,
     engine: Option<Playback>,
     ordered: Option<Order>,
-    /// The view whose rows are told.
-    told: Option<ViewId>,
+    /// The view whose results are printed.
+    printed_view: Option<ViewId>,
 }
 
-/// Takes commands until the input ends or one quits. With a prompt for a person who types.
+/// Executes commands until the input ends or one of them quits. `prompt` shows a prompt.
 ///
 /// # Errors
 /// The input cannot be read, or the output cannot be written.
@@ -95,16 +94,16 @@ pub fn lines(
     }
 }
 
-/// Returns the next line; none at the end of the input.
+/// Reads a line; `None` at the end of the input, and a reason for a line that is refused.
 fn read(input: &mut dyn BufRead) -> Result<Option<Result<String, &'static str>>, Error> {
     let mut bytes = Vec::new();
-    // With its end.
+    // Plus its newline.
     let most = LONGEST + 1;
     if input.take(most).read_until(b'\n', &mut bytes)? == 0 {
         return Ok(None);
     }
     if !bytes.ends_with(b"\n") && bytes.len() as u64 == most {
-        // The rest of the line is no command.
+        // Skip the rest of the line.
         while !bytes.ends_with(b"\n") {
             bytes.clear();
             if input.take(most).read_until(b'\n', &mut bytes)? == 0 {
@@ -121,14 +120,14 @@ impl Lines {
         let mut app = App::new(scene, Theme::Mono, marker);
         app.layout.size = (WIDTH, ROWS);
         app.play.playing = false;
-        Self { app, engine: None, ordered: None, told: None }
+        Self { app, engine: None, ordered: None, printed_view: None }
     }
 
-    /// Computes everything that the state needs.
+    /// Runs the engine until it has computed everything that the explorer shows.
     fn settle(&mut self) {
         for _ in 0..ORDERS {
-            // Nobody sees a chart: a study is only for what is told.
-            let open = self.told.into_iter().collect();
+            // Charts are not drawn, so only the study that is printed is computed.
+            let open = self.printed_view.into_iter().collect();
             let order = Order { playing: false, open, ..self.app.order() };
             if self.ordered.as_ref() == Some(&order) {
                 return;
@@ -145,7 +144,7 @@ impl Lines {
         }
     }
 
-    /// Does what a line asks for and answers it; false where it quits.
+    /// Executes a line and prints the answer; returns false if the line quits.
     fn answer(&mut self, line: &str, out: &mut dyn Write) -> Result<bool, Error> {
         let (first, rest) = line.split_once(' ').unwrap_or((line, ""));
         if first.starts_with("scene") {
@@ -161,21 +160,21 @@ impl Lines {
             Ok(found) => found,
             Err(refused) => return self.refuse(&refused, out).map(|()| true),
         };
-        self.told = match found.command {
+        self.printed_view = match found.command {
             commands::Command::Act(Action::View(view)) => {
-                Some(view).filter(|view| TOLD.contains(view))
+                Some(view).filter(|view| PRINTED.contains(view))
             }
             commands::Command::Act(Action::Survey) | commands::Command::Range(_) => {
                 Some(ViewId::Margins)
             }
             _ => None,
         };
-        if self.told.is_none() && needs_screen(&found) {
+        if self.printed_view.is_none() && needs_screen(&found) {
             let refused = format!("only a screen shows this: {}", found.what);
             return self.refuse(&refused, out).map(|()| true);
         }
         let (before, lesson) = (self.app.scene.clone(), self.app.lessons.progress.clone());
-        // Nobody sees a cursor.
+        // A reading cursor would not be visible.
         self.app.stop_reading();
         self.app.status = None;
         match self.obey(found, out)? {
@@ -186,7 +185,7 @@ impl Lines {
         self.settle();
         self.app.check_lesson();
         self.tell(out)?;
-        if let Some(view) = self.told {
+        if let Some(view) = self.printed_view {
             self.app.status = None;
             let lines = view.panel().lines(&self.app, usize::from(WIDTH)).unwrap_or_default();
             return lines
@@ -205,7 +204,7 @@ impl Lines {
         Ok(true)
     }
 
-    /// Does it. Whether there is more to tell; none where it quits.
+    /// Executes a command. Returns whether changes remain to be printed; `None` if it quits.
     fn obey(&mut self, found: Found, out: &mut dyn Write) -> Result<Option<bool>, Error> {
         let knob = match found.command {
             commands::Command::Select(place) => KNOBS.get(place),
@@ -215,7 +214,7 @@ impl Lines {
         self.app.layout.size = PICTURE;
         let effect = self.app.obey(found.command);
         self.app.layout.size = (WIDTH, ROWS);
-        // It moves where it is sent: to the cursor.
+        // The paused motion moves to the cursor at once.
         self.app.depart();
         self.app.play.playing = false;
         match effect {
@@ -225,7 +224,7 @@ impl Lines {
             }
             Ok(Effect::Quit) => return Ok(None),
             Ok(Effect::Write(job)) => {
-                // Nobody is asked whether it may be replaced.
+                // An existing file is refused, because there is no dialogue to ask about it.
                 let result = match job.run() {
                     FileResult::Exists => FileResult::Failed("it exists".into()),
                     result => result,
@@ -241,14 +240,14 @@ impl Lines {
                 writeln!(out, "{command}")?;
                 return Ok(Some(false));
             }
-            // It leads to nothing else: nothing is written.
+            // A write that produced no file was refused.
             Ok(Effect::None) if is_write => {
                 let why = self.app.status.clone().unwrap_or_default();
                 self.refuse(&why, out)?;
                 return Ok(Some(false));
             }
             Ok(Effect::None) => {}
-            // What only a screen has.
+            // Effects on the screen are ignored.
             Ok(Effect::Suspend | Effect::Redraw | Effect::Mouse(_) | Effect::FindScenes(_)) => {}
         }
         if let Some(knob) = knob {
@@ -269,7 +268,7 @@ impl Lines {
         writeln!(out, "refused: {}", self.spelled(&clean(why)))
     }
 
-    /// Writes everything of a kind that can be opened.
+    /// Prints every scene, or every lesson, that can be opened.
     fn list(&self, kind: &str, out: &mut dyn Write) -> Result<(), Error> {
         for found in commands::found(&self.app, &format!("{kind} ")) {
             writeln!(out, "{}", self.spelled(&format!("{kind} {}", found.what)))?;
@@ -277,13 +276,12 @@ impl Lines {
         Ok(())
     }
 
-    /// Writes the two lines at the top of the screen.
+    /// Prints the two lines at the top of the screen.
     fn tell(&self, out: &mut dyn Write) -> Result<(), Error> {
         panels::head_text(&self.app).iter().try_for_each(|line| writeln!(out, "{line}"))
     }
 
-    /// Returns what is other than before: knobs with their values, and what the last line of the
-    /// screen would say.
+    /// Returns the knobs that changed, with their values, and the text of the status line.
     fn changed(&self, before: &Scene) -> Vec<String> {
         let differ = KNOBS.iter().filter(|knob| knob.get(before) != knob.get(&self.app.scene));
         let parts: Vec<String> = differ
@@ -315,10 +313,10 @@ impl Lines {
     }
 }
 
-/// The views that say something without a picture.
-const TOLD: [ViewId; 2] = [ViewId::Locked, ViewId::Margins];
+/// Views whose results can be printed as text.
+const PRINTED: [ViewId; 2] = [ViewId::Locked, ViewId::Margins];
 
-/// Returns whether only a screen shows what a command does.
+/// Returns whether a command has an effect on the screen only.
 fn needs_screen(found: &Found) -> bool {
     let action = match found.command {
         commands::Command::Act(action) => action,
@@ -329,7 +327,7 @@ fn needs_screen(found: &Found) -> bool {
     match action.group() {
         Group::Look => action != Action::SpeedUnit,
         Group::Views => true,
-        // The motion waits: nothing plays.
+        // The motion is paused, so commands of playback have no effect.
         Group::Time => !moves.contains(&action),
         _ => false,
     }
@@ -361,7 +359,7 @@ mod tests {
         ] {
             assert!(text.contains(changed), "{text}");
         }
-        // The same lines have the same answers.
+        // The same commands give the same answers.
         assert_eq!(answers("speed 450\nt 0.3 ms\nundo\n".as_bytes()), text);
     }
 
@@ -424,7 +422,7 @@ mod tests {
             text.lines().any(|line| line.starts_with("Ω_lock") && line.contains("411.9")),
             "{text}"
         );
-        // First how far the run itself is from another verdict.
+        // The margins of the run itself come before the limits.
         assert!(text.contains("500 rad/s, pushes only: decay; "), "{text}");
         let text = answers(b"survey\nspeed\n");
         assert!(

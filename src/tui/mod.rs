@@ -61,7 +61,7 @@ pub use options::{Color, ExploreOptions};
 pub use raster::Marker;
 pub use run::run;
 pub use theme::{Theme, ThemeChoice};
-pub use update::{Effect, MouseOutcome};
+pub use update::Effect;
 
 use crate::report::line::clean;
 use anyhow::Context;
@@ -117,7 +117,6 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
     app.appearance.follows_ground = choice.follows_ground();
     app.files.source.clone_from(&options.source);
     app.mouse.on = options.mouse;
-    app.appearance.octants = options.marker == Some(Marker::Octant);
     app.appearance.rpm = options.rpm;
     memory.prepare(&mut app);
     terminal::set_mouse(app.mouse.on)?;
@@ -140,9 +139,6 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
     if let Some(why) = memory.keep(&app, ending::PATIENCE) {
         // Writing fails only if the terminal is gone; then nobody can read it.
         let _ = writeln!(std::io::stderr(), "rubscope: {}", clean(&why));
-    }
-    if app.files.writing.is_some() {
-        files::tidy_up();
     }
     match (ending::ended_by(), ended) {
         (Some(signal), _) | (None, Ok(Exit::Signal(signal))) => Ok(128 + signal),

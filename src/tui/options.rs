@@ -1,5 +1,4 @@
-//! How the explorer is started: its options, and what they, the environment and
-//! the config file together give.
+//! Options of the explorer, and how they combine with the environment and the config file.
 
 use std::time::Duration;
 
@@ -21,31 +20,30 @@ pub enum Color {
     Auto,
     /// Always.
     Always,
-    /// Never; bold, reverse and dim stay.
+    /// Never; bold, reverse and dim remain.
     Never,
 }
 
 /// Options of the explorer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExploreOptions {
-    /// Most frames a second while the motion plays.
+    /// Largest number of frames per second while the motion plays.
     pub fps: f64,
     /// Use of colour.
     pub color: Color,
-    /// The colours; by the config file, or the terminal, if not given.
+    /// The theme; `None` leaves it to the config file and the terminal.
     pub theme: Option<ThemeChoice>,
-    /// Marker of points; by the config file, or the terminal and the locale,
-    /// if not given.
+    /// The marker; `None` leaves it to the config file, the terminal and the locale.
     pub marker: Option<Marker>,
     /// Whether the mouse is used.
     pub mouse: bool,
-    /// Limit on the bytes that are sent to the terminal.
+    /// How much the connection to the terminal carries.
     pub line: Line,
     /// Whether the config file is read and written.
     pub config: bool,
     /// Whether speeds are shown in rpm.
     pub rpm: bool,
-    /// Origin of the scene, for the command line that repeats the run.
+    /// Where the scene comes from, for the command line that repeats the run.
     pub source: Option<Source>,
 }
 
@@ -66,8 +64,8 @@ impl Default for ExploreOptions {
 }
 
 impl ExploreOptions {
-    /// Returns the choice of a theme: an option wins over the environment, and that over the
-    /// config file.
+    /// Returns the theme to use. Options take precedence over environment variables, and these over
+    /// the config file.
     pub(super) fn theme(&self, config: &Config, variable: &dyn Fn(&str) -> String) -> ThemeChoice {
         let plain = match self.color {
             Color::Always => false,
@@ -78,24 +76,22 @@ impl ExploreOptions {
         match given {
             Some(choice) => choice,
             None if plain => ThemeChoice::Mono,
-            // `auto` given as an option wins over the config file too.
+            // An explicit `auto` also takes precedence over the config file.
             None if self.theme.is_some() => ThemeChoice::Auto,
             None => config.theme.unwrap_or_default(),
         }
     }
 
-    /// Returns the marker: an option wins over what the terminal can show, and that over the config
-    /// file.
+    /// Returns the marker to use. An option takes precedence over the abilities of the terminal,
+    /// and these over the config file.
     pub(super) fn marker(&self, config: &Config, only_ascii: bool) -> Marker {
         let usual = if only_ascii { Marker::Ascii } else { Marker::Braille };
-        // Few terminals draw octants, and another one may be used now.
-        let is_shown = |marker: &Marker| {
-            *marker == Marker::Ascii || (*marker != Marker::Octant && !only_ascii)
-        };
+        // Another terminal may be used now.
+        let is_shown = |marker: &Marker| *marker == Marker::Ascii || !only_ascii;
         self.marker.or(config.marker.filter(is_shown)).unwrap_or(usual)
     }
 
-    /// Returns the line: over SSH it is thin.
+    /// Returns the kind of connection: thin over SSH, unless an option says otherwise.
     pub(super) fn line(&self, variable: &dyn Fn(&str) -> String) -> Line {
         if self.line == Line::Auto && is_remote(variable) { Line::Thin } else { self.line }
     }
@@ -151,10 +147,9 @@ mod tests {
     fn a_remembered_marker_is_used_where_the_terminal_shows_it() {
         let config = |marker| Config { marker: Some(marker), ..Config::default() };
         let options = ExploreOptions::default();
-        let given = ExploreOptions { marker: Some(Marker::Octant), ..ExploreOptions::default() };
+        let given = ExploreOptions { marker: Some(Marker::HalfBlock), ..ExploreOptions::default() };
         assert_eq!(options.marker(&config(Marker::Dot), false), Marker::Dot);
-        assert_eq!(options.marker(&config(Marker::Octant), false), Marker::Braille);
         assert_eq!(options.marker(&config(Marker::Dot), true), Marker::Ascii);
-        assert_eq!(given.marker(&config(Marker::Dot), true), Marker::Octant);
+        assert_eq!(given.marker(&config(Marker::Dot), true), Marker::HalfBlock);
     }
 }

@@ -1,5 +1,5 @@
-//! A chart's frame and its mapping from numbers to places: axis lines, round
-//! ticks, and pens that draw only finite values. Panels put data on it.
+//! The frame of a chart and its mapping from values to the screen: axis lines, round ticks, and
+//! pens that draw finite values only. Panels draw their data on it.
 
 use ratatui::{
     buffer::Buffer,
@@ -25,7 +25,7 @@ pub struct Plot<'a> {
 }
 
 impl<'a> Plot<'a> {
-    /// Creates a chart without axes, for pictures.
+    /// Creates a chart without axes, for drawings.
     pub fn bare(
         buffer: &'a mut Buffer,
         area: Rect,
@@ -34,12 +34,12 @@ impl<'a> Plot<'a> {
         look: &Appearance,
     ) -> Option<Self> {
         let sound = x.is_sound() && y.is_sound() && area.width > 1 && area.height > 1;
-        let raster = Raster::new(area, look.marker, look.wide);
+        let raster = Raster::new(area, look.marker);
         sound.then_some(Self { buffer, raster, inner: area, x, y, rule: false })
     }
 
-    /// Draws the frame in `area`; none where the area is too small or an axis
-    /// is not a proper range.
+    /// Draws the frame in `area`; `None` if the area is too small or the range of an axis is empty
+    /// or not finite.
     pub fn new(
         buffer: &'a mut Buffer,
         area: Rect,
@@ -60,7 +60,7 @@ impl<'a> Plot<'a> {
         let gutter = u16::try_from(gutter).unwrap_or(6).min(area.width / 2) + 1;
         let inner = Rect::new(area.x + gutter, area.y, area.width - gutter, rows);
         let quiet = look.style(Role::Quiet);
-        let raster = Raster::new(inner, look.marker, look.wide);
+        let raster = Raster::new(inner, look.marker);
         let mut plot = Self { buffer, raster, inner, x, y, rule };
         let [side, side_tick, ..] = look.axis_signs();
         for row in inner.y..inner.bottom() {
@@ -91,7 +91,7 @@ impl<'a> Plot<'a> {
         let labels_row = inner.bottom() + u16::from(rule);
         let most = usize::from(inner.width / 9).clamp(1, 10);
         let across = self.raster.grain().0.unsigned_abs() as usize;
-        // One column more or less is not seen among nine.
+        // Ticks are nine columns apart, so a difference of one column is not visible.
         let (values, step) = even(&self.x, most, (usize::from(inner.width), across), 1);
         let mut free = inner.x.saturating_sub(1);
         for value in values {
@@ -112,13 +112,13 @@ impl<'a> Plot<'a> {
         }
     }
 
-    /// Returns the row of the level axis line, where there is room for one.
+    /// Returns the row of the horizontal axis line, if the chart is tall enough to have one.
     pub fn axis_row(&self) -> Option<u16> {
         self.rule.then(|| self.inner.bottom())
     }
 
-    /// Returns the column of an x value inside the chart: the one of its sub-pixel, so that ticks,
-    /// signs and curves agree.
+    /// Returns the column of an x value inside the chart. It is derived from the sub-pixel, so that
+    /// ticks, signs and curves agree.
     pub fn column(&self, value: f64) -> Option<u16> {
         let (across, _) = self.raster.grain();
         let pixel = self.pixel_x(value).filter(|_| is_inside(&self.x, value))?;
@@ -126,7 +126,7 @@ impl<'a> Plot<'a> {
         Some(self.inner.x + column.min(self.inner.width.saturating_sub(1)))
     }
 
-    /// Returns the row of a y value inside the chart: the one of its sub-pixel.
+    /// Returns the row of a y value inside the chart, derived from the sub-pixel.
     pub fn row(&self, value: f64) -> Option<u16> {
         let (_, down) = self.raster.grain();
         let pixel = self.pixel_y(value).filter(|_| is_inside(&self.y, value))?;
@@ -134,31 +134,31 @@ impl<'a> Plot<'a> {
         Some(self.inner.y + row.min(self.inner.height.saturating_sub(1)))
     }
 
-    /// Returns the number of sub-pixel columns, for decimation by least and greatest value.
+    /// Returns the number of sub-pixel columns, into which signals are decimated.
     pub fn columns(&self) -> usize {
         self.raster.size().0
     }
 
-    /// Returns one x value per sub-pixel column, at its middle.
+    /// Returns the x value at the middle of each sub-pixel column.
     pub fn column_values(&self) -> Vec<f64> {
         let count = self.columns();
         let width = (self.x.high - self.x.low) / count.max(1) as f64;
         (0..count).map(|k| self.x.low + (k as f64 + 0.5) * width).collect()
     }
 
-    /// Returns the sub-pixel column of an x value, limited so that it fits a whole number.
+    /// Returns the sub-pixel column of an x value, which may lie outside the chart.
     fn pixel_x(&self, value: f64) -> Option<i64> {
         let across = (value - self.x.low) / (self.x.high - self.x.low);
         whole(across * (self.raster.size().0.saturating_sub(1)) as f64)
     }
 
-    /// Returns the sub-pixel row of a y value.
+    /// Returns the sub-pixel row of a y value, which may lie outside the chart.
     fn pixel_y(&self, value: f64) -> Option<i64> {
         let up = (value - self.y.low) / (self.y.high - self.y.low);
         whole((1.0 - up) * (self.raster.size().1.saturating_sub(1)) as f64)
     }
 
-    /// Draws a polyline; a value that is not finite interrupts it.
+    /// Draws a polyline, interrupted at values that are not finite.
     pub fn curve(&mut self, points: impl IntoIterator<Item = (f64, f64)>, pen: &Pen) {
         let mut last = None;
         for (x, y) in points {
@@ -170,8 +170,8 @@ impl<'a> Plot<'a> {
         }
     }
 
-    /// Draws single dots along a polyline, evenly spaced, `sparse` times as far apart as usual.
-    /// Those before `from` are left out, so that the others do not move while `from` grows.
+    /// Draws a polyline as evenly spaced dots, `sparse` times as far apart as usual. Dots before
+    /// `from` are omitted; the others keep their places while `from` grows.
     pub fn dotted(
         &mut self,
         points: impl IntoIterator<Item = (f64, f64)>,
@@ -182,7 +182,7 @@ impl<'a> Plot<'a> {
         let (width, height) = self.raster.size();
         let (width, height) = (width as f64 - 1.0, height as f64 - 1.0);
         let across = |x: f64| (x - self.x.low) / (self.x.high - self.x.low) * width;
-        // Far outside, only the direction matters.
+        // Far outside the chart, only the direction of the line matters.
         let down = |y: f64| {
             let part = (self.y.high - y) / (self.y.high - self.y.low);
             (part * height).clamp(-2.0 * height, 3.0 * height)
@@ -212,19 +212,18 @@ impl<'a> Plot<'a> {
             gone = (length - (at - stride)).clamp(0.0, stride);
         }
         for (x, y) in dots {
-            self.raster.blot(x.round() as i64, y.round() as i64, pen);
+            self.raster.set(x.round() as i64, y.round() as i64, pen);
         }
     }
 
-    /// Draws a decimated signal, one span for each sub-pixel column, joined to the next.
+    /// Draws a decimated signal: one span per sub-pixel column, joined to the next.
     pub fn spans(&mut self, spans: &[Span], pen: &Pen) {
         let mut last: Option<(i64, i64)> = None;
         for (x, span) in (0..).zip(spans) {
             let shown = span.and_then(|(low, high)| self.pixel_y(high).zip(self.pixel_y(low)));
             if let Some((mut top, mut bottom)) = shown {
                 if let Some((last_top, last_bottom)) = last {
-                    // Extend half way to the neighbour, so that steep parts
-                    // stay connected.
+                    // Touch the neighbouring span, so that steep parts stay connected.
                     if top > last_bottom + 1 {
                         top = last_bottom + 1;
                     } else if bottom < last_top - 1 {
@@ -237,7 +236,7 @@ impl<'a> Plot<'a> {
         }
     }
 
-    /// Draws a horizontal line across the chart, before the data.
+    /// Draws a horizontal line across the chart; data drawn later covers it.
     pub fn level(&mut self, y: f64, sign: char, style: Style) {
         if let Some(row) = self.row(y) {
             for column in self.inner.x..self.inner.right() {
@@ -246,7 +245,7 @@ impl<'a> Plot<'a> {
         }
     }
 
-    /// Draws a vertical line, before the data.
+    /// Draws a vertical line; data drawn later covers it.
     pub fn upright(&mut self, x: f64, sign: char, style: Style) {
         if let Some(column) = self.column(x) {
             for row in self.inner.y..self.inner.bottom() {
@@ -255,20 +254,20 @@ impl<'a> Plot<'a> {
         }
     }
 
-    /// Draws the raster below all later signs.
+    /// Copies the curves drawn so far into the buffer, below all signs drawn later.
     pub fn ink(&mut self) {
         self.raster.draw(self.buffer);
     }
 
-    /// Draws one sign at a data point; outside the chart it is left out.
+    /// Draws one sign at a data point; points outside the chart are omitted.
     pub fn point(&mut self, x: f64, y: f64, sign: char, style: Style) {
         if let (Some(column), Some(row)) = (self.column(x), self.row(y)) {
             self.put(column, row, sign, style);
         }
     }
 
-    /// Prints a short text beside a column of the chart where the chart is empty; returns whether
-    /// there was room.
+    /// Prints a short text beside the column of `x`, if the chart is empty there; returns whether
+    /// it was printed.
     pub fn free_note(&mut self, x: f64, row: u16, text: &str, style: Style) -> bool {
         let Some(column) = self.column(x) else { return false };
         let width = u16::try_from(text.chars().count()).unwrap_or(u16::MAX);
@@ -276,29 +275,29 @@ impl<'a> Plot<'a> {
         starts.into_iter().flatten().any(|start| self.free_text(start, row, text, style))
     }
 
-    /// Prints a short text centred at a place of the chart if the chart is empty there; returns
-    /// whether it was.
+    /// Prints a short text centred at a point of the chart, if the chart is empty there; returns
+    /// whether it was printed.
     pub fn free_label(&mut self, (x, y): (f64, f64), text: &str, style: Style) -> bool {
         let half = u16::try_from(text.chars().count() / 2).unwrap_or(0);
         let Some((column, row)) = self.column(x).zip(self.row(y)) else { return false };
         self.free_text(column.saturating_sub(half).max(self.inner.x), row, text, style)
     }
 
-    /// Prints a text inside the chart where it covers nothing; returns whether there was room.
+    /// Prints a text inside the chart if it covers nothing; returns whether it was printed.
     fn free_text(&mut self, x: u16, row: u16, text: &str, style: Style) -> bool {
         let width = u16::try_from(text.chars().count()).unwrap_or(u16::MAX);
         let (inner, end) = (self.inner, x.saturating_add(width));
         if x < inner.x || end > inner.right() || !(inner.y..inner.bottom()).contains(&row) {
             return false;
         }
-        // A level, or the line at another speed, goes on behind a name.
+        // A label may interrupt a reference line.
         let empty = |x: u16| {
             let cell = self.buffer.cell(Position::new(x, row));
             let is_data = self.raster.is_drawn(x, row);
             let is_line = |sign: &str| matches!(sign, " " | "┈" | "┊" | "." | ":");
             !is_data && cell.is_some_and(|cell| is_line(cell.symbol()))
         };
-        // Two names are two cells apart.
+        // Two labels must be at least two cells apart.
         let near = [x.saturating_sub(2), x.saturating_sub(1), end, end.saturating_add(1)];
         let apart = near.into_iter().filter(|x| (inner.x..inner.right()).contains(x)).all(|x| {
             let cell = self.buffer.cell(Position::new(x, row));
@@ -311,8 +310,8 @@ impl<'a> Plot<'a> {
         free
     }
 
-    /// Prints a short text on the axis line, outside the chart, if no tick and no other text is
-    /// there; returns whether there was room.
+    /// Prints a short text on the horizontal axis line, if no tick or other text is there; returns
+    /// whether it was printed.
     pub fn axis_note(&mut self, x: f64, text: &str, style: Style, look: &Appearance) -> bool {
         let Some((column, row)) = self.column(x).zip(self.axis_row()) else { return false };
         let width = u16::try_from(text.chars().count()).unwrap_or(u16::MAX);
@@ -335,7 +334,7 @@ impl<'a> Plot<'a> {
         }
     }
 
-    /// Prints a text at a place; what does not fit is cut.
+    /// Prints a text at a position; what does not fit is cut off.
     pub fn text(&mut self, x: u16, y: u16, text: &str, style: Style) {
         let area = *self.buffer.area();
         if y < area.bottom() && x < area.right() {
@@ -344,32 +343,32 @@ impl<'a> Plot<'a> {
     }
 }
 
-/// Returns the sign of contact on the axis of time.
+/// Returns the sign that marks contact on the time axis.
 pub fn contact(look: &Appearance) -> char {
     look.either('━', '=')
 }
 
-/// Returns whether a chart has a line for its lower axis, above its labels.
+/// Returns whether a chart of this size has a horizontal axis line above its labels.
 fn has_rule(area: Rect) -> bool {
     area.height >= 7
 }
 
-/// Returns the rows of a chart in this area that are for data.
+/// Returns the number of data rows of a chart in this area.
 fn rows(area: Rect) -> u16 {
     area.height.saturating_sub(if has_rule(area) { 2 } else { 1 })
 }
 
-/// Returns the greatest number of ticks upward in so many rows.
+/// Returns the largest number of ticks on a vertical axis of this many rows.
 fn most_levels(rows: u16) -> usize {
     usize::from(rows.div_ceil(2)).clamp(1, 7)
 }
 
-/// Most of its range that an axis grows by so that its ticks are at equal distances.
+/// An axis may grow by at most this fraction to make its ticks evenly spaced.
 const GROWS: f64 = 0.3;
 
 impl ChartAxis {
-    /// Returns this vertical axis with a slightly larger range where that puts its round ticks
-    /// whole rows apart.
+    /// Extends the range of this vertical axis slightly, if that makes round ticks lie whole rows
+    /// apart.
     pub fn evened(self, area: Rect, look: &Appearance) -> Self {
         let (_, grain) = look.marker.grain();
         let (rows, grain) = (rows(area), grain as f64);
@@ -382,13 +381,13 @@ impl ChartAxis {
             (apart >= 2.0 && wider <= (1.0 + GROWS) * span).then_some((step, wider))
         });
         let Some((step, wider)) = { spans }.next() else { return self };
-        // Half of what is new on each side, moved so that ticks are in the middle of rows.
+        // Extend both ends equally, then shift so that ticks lie in the middle of rows.
         let pixel = wider / pixels;
         let high = self.high + 0.5 * (wider - span);
         let tick = (high / step).floor() * step;
         let off = ((high - tick) / pixel - (0.5 * grain - 0.5)).rem_euclid(grain);
         let off = if off > 0.5 * grain { off - grain } else { off };
-        // By round-off nothing may be new.
+        // Round-off can make the extension slightly negative.
         let most = (0.5 * (wider - span) / pixel).max(0.0);
         let high = high - off.clamp(-most, most) * pixel;
         let mut evened = self;
@@ -397,8 +396,8 @@ impl ChartAxis {
     }
 }
 
-/// Ticks at equal distances on the screen: the most that are, at most `most`, over so many
-/// cells of so many sub-pixels; distances may differ by `slack` cells.
+/// Returns the largest set of at most `most` ticks that are evenly spaced on the screen, and their
+/// step. The axis has `cells` cells of `grain` sub-pixels; spacings may differ by `slack` cells.
 fn even(
     axis: &ChartAxis,
     most: usize,
@@ -420,7 +419,7 @@ fn even(
         .rev()
         .map(|most| axis.ticks(most))
         .find(|(values, _)| values.len() > 1 && is_even(values));
-    // Two are at equal distances wherever they stand.
+    // Without such a set, only the two outermost ticks are kept.
     found.unwrap_or_else(|| {
         let (values, step) = axis.ticks(most);
         let ends = [values.first(), values.last()].into_iter().flatten();
@@ -430,18 +429,18 @@ fn even(
     })
 }
 
-/// Cells between two dots of a dotted line.
+/// Distance between the dots of a dotted line \[cells\].
 const DOTS: f64 = 1.5;
-/// Most dots of one such line.
+/// Largest number of dots in one line.
 const MOST_DOTS: usize = 20_000;
-/// Returns whether a value is in the range of an axis, but for round-off.
+/// Returns whether a value is within the range of an axis, allowing for round-off.
 fn is_inside(axis: &ChartAxis, value: f64) -> bool {
     let part = (value - axis.low) / (axis.high - axis.low);
     (-1e-9..=1.0 + 1e-9).contains(&part)
 }
 
-/// Returns the nearest sub-pixel. Values that differ by round-off, such as a clearance and the tick
-/// at it, are in the same one also half-way between two.
+/// Rounds to a sub-pixel. The small offset keeps values that differ by round-off, such as a
+/// clearance and its tick, in one sub-pixel when they are half-way between two.
 fn whole(pixel: f64) -> Option<i64> {
     pixel.is_finite().then(|| (pixel + 1e-6).round().clamp(-1e5, 1e5) as i64)
 }
@@ -505,10 +504,10 @@ mod tests {
         let row = plot.row(0.5).unwrap();
         assert!(!plot.free_note(0.3, row, "name", Style::new()));
         assert!(plot.free_note(0.3, row - 1, "name", Style::new()));
-        // Not so near another one that both read as one.
+        // Too close to another label: both would read as one.
         assert!(!plot.free_note(0.3, row - 1, "name", Style::new()));
         assert!(plot.free_note(0.8, row - 1, "name", Style::new()));
-        // Nor another label, nor what is outside.
+        // Not on another label, and not outside the chart.
         assert!(!plot.free_note(0.3, row - 1, "name", Style::new()));
         assert!(!plot.free_label((0.0, 0.9), &"x".repeat(99), Style::new()));
         assert!(plot.axis_note(0.3, "name", Style::new(), &look()));
@@ -554,7 +553,7 @@ mod tests {
             width in 12u16..90, height in 4u16..50, part in 0.0f64..=1.0, other in 0.0f64..=1.0,
             marker in 0usize..5, low in -1e6f64..1e6, span in 1e-6f64..1e6,
         ) {
-            let marker = (0..marker).fold(Marker::Braille, |marker, _| marker.next(true));
+            let marker = (0..marker).fold(Marker::Braille, |marker, _| marker.next());
             let look = Appearance::new(Theme::Dark, marker);
             let mut buffer = Buffer::empty(Rect::new(0, 0, width, height));
             let area = *buffer.area();

@@ -1,4 +1,4 @@
-//! A grid of sub-pixels over terminal cells: braille, octants, half blocks,
+//! A grid of sub-pixels over terminal cells: braille, half blocks,
 //! dots or plain ASCII. It accepts whole pixels only, so NaN and infinities
 //! cannot reach the screen.
 
@@ -6,12 +6,12 @@ use ratatui::{
     buffer::Buffer,
     layout::{Position, Rect},
     style::Style,
-    symbols::{braille::BRAILLE, pixel::OCTANTS},
+    symbols::braille::BRAILLE,
 };
 use serde::{Deserialize, Serialize};
 use strum::{Display, EnumString, VariantNames};
 
-/// Marker of points.
+/// Characters with which curves are drawn.
 #[derive(
     Clone,
     Copy,
@@ -28,48 +28,46 @@ use strum::{Display, EnumString, VariantNames};
 #[strum(serialize_all = "lowercase")]
 #[serde(rename_all = "lowercase")]
 pub enum Marker {
-    /// Two by four dots a cell.
+    /// Two by four dots per cell.
     #[default]
     Braille,
-    /// Two by four blocks a cell; needs a recent font.
-    Octant,
     /// One by two blocks a cell.
     HalfBlock,
-    /// One round dot a cell.
+    /// One round dot per cell.
     Dot,
-    /// One ASCII sign a cell, a different one for each series.
+    /// One ASCII character per cell, a different one for each series.
     Ascii,
 }
 
 impl Marker {
-    const ALL: [Self; 5] = [Self::Braille, Self::Octant, Self::HalfBlock, Self::Dot, Self::Ascii];
-
-    /// Returns the next marker; octants only where they can be seen.
-    pub fn next(self, octants: bool) -> Self {
-        match Self::ALL[(self as usize + 1) % Self::ALL.len()] {
-            Self::Octant if !octants => Self::HalfBlock,
-            next => next,
+    /// Returns the next marker, after the last one the first.
+    pub fn next(self) -> Self {
+        match self {
+            Self::Braille => Self::HalfBlock,
+            Self::HalfBlock => Self::Dot,
+            Self::Dot => Self::Ascii,
+            Self::Ascii => Self::Braille,
         }
     }
 
-    /// Returns the sub-pixels of one cell, across and down.
+    /// Returns the number of sub-pixels in a cell, horizontally and vertically.
     pub fn grain(self) -> (usize, usize) {
         match self {
-            Self::Braille | Self::Octant => (2, 4),
+            Self::Braille => (2, 4),
             Self::HalfBlock => (1, 2),
             Self::Dot | Self::Ascii => (1, 1),
         }
     }
 }
 
-/// Style of one series.
+/// How a series is drawn.
 #[derive(Clone, Copy, Debug)]
 pub struct Pen {
     /// Colour and weight.
     pub style: Style,
-    /// The sign of this series where only ASCII is drawn.
+    /// Character of this series if only ASCII is drawn.
     pub sign: char,
-    /// Drawn in dashes, so that two series differ without colour.
+    /// Whether lines are dashed, so that two series differ without colour.
     pub dashed: bool,
 }
 
@@ -84,33 +82,26 @@ struct Dots {
 pub struct Raster {
     area: Rect,
     marker: Marker,
-    wide: bool,
     dots: Vec<Dots>,
 }
 
 impl Raster {
-    /// Creates an empty raster over `area`; lines are two sub-pixels thick if `wide`, unless those
-    /// are whole cells.
-    pub fn new(area: Rect, marker: Marker, wide: bool) -> Self {
-        let wide = wide && marker.grain() != (1, 1);
-        Self { area, marker, wide, dots: vec![Dots::default(); area.area() as usize] }
+    /// Creates an empty raster over `area`.
+    pub fn new(area: Rect, marker: Marker) -> Self {
+        Self { area, marker, dots: vec![Dots::default(); area.area() as usize] }
     }
 
-    /// Returns whether a dashed pen draws at this place along a line. In ASCII the sign of a series
-    /// tells it from others, and gaps would look like missing data.
+    /// Returns whether a pen draws at position `along` of its dash pattern. In ASCII, lines are
+    /// solid: series differ by character, and gaps would look like missing data.
     fn is_dash(&self, along: i64, pen: &Pen) -> bool {
-        let [dash, period] = match (self.marker.grain(), self.wide) {
-            ((1, _), _) => [1, 2],
-            (_, true) => [6, 12],
-            (_, false) => [3, 6],
-        };
+        let [dash, period] = if self.marker.grain().0 == 1 { [1, 2] } else { [3, 6] };
         !pen.dashed || self.marker == Marker::Ascii || along.rem_euclid(period) < dash
     }
 
-    /// Returns the sub-pixels of one cell, across and down.
+    /// Returns the number of sub-pixels in a cell, horizontally and vertically.
     pub fn grain(&self) -> (i64, i64) {
         let (across, down) = self.marker.grain();
-        // Two and four at most.
+        // At most two and four, so the casts are exact.
         (across as i64, down as i64)
     }
 
@@ -120,7 +111,7 @@ impl Raster {
         (usize::from(self.area.width) * across, usize::from(self.area.height) * down)
     }
 
-    /// Returns whether something is drawn in a cell of the screen.
+    /// Returns whether anything is drawn in a cell of the screen.
     pub fn is_drawn(&self, x: u16, y: u16) -> bool {
         let at = |x: u16, y: u16| usize::from(y) * usize::from(self.area.width) + usize::from(x);
         let place = x.checked_sub(self.area.x).zip(y.checked_sub(self.area.y));
@@ -128,7 +119,7 @@ impl Raster {
         dots.is_some_and(|dots| dots.bits != 0)
     }
 
-    /// Sets one sub-pixel, counted from the top left; outside is ignored.
+    /// Sets one sub-pixel, counted from the top left; positions outside are ignored.
     pub fn set(&mut self, x: i64, y: i64, pen: &Pen) {
         let (width, height) = self.size();
         let (Ok(x), Ok(y)) = (usize::try_from(x), usize::try_from(y)) else { return };
@@ -144,20 +135,10 @@ impl Raster {
         }
     }
 
-    /// Draws one sub-pixel of a line, or a block of four if lines are wide.
-    pub fn blot(&mut self, x: i64, y: i64, pen: &Pen) {
-        self.set(x, y, pen);
-        if self.wide {
-            for (right, down) in [(1, 0), (0, 1), (1, 1)] {
-                self.set(x + right, y + down, pen);
-            }
-        }
-    }
-
     /// Draws a straight line, dashed where the pen says so: by columns where it is flat, by rows
     /// where it is steep, so that pieces of one curve have one spacing.
     pub fn line(&mut self, from: (i64, i64), to: (i64, i64), pen: &Pen) {
-        // Ends far outside are not visible, and would take many steps.
+        // Far ends are not visible, and would take many steps.
         let bound = |v: i64| v.clamp(-20_000, 20_000);
         let (x0, y0, x1, y1) = (bound(from.0), bound(from.1), bound(to.0), bound(to.1));
         let steps = (x1 - x0).abs().max((y1 - y0).abs()).max(1);
@@ -166,12 +147,12 @@ impl Raster {
             let x = x0 + ((x1 - x0) * k + (x1 - x0).signum() * steps / 2) / steps;
             let y = y0 + ((y1 - y0) * k + (y1 - y0).signum() * steps / 2) / steps;
             if self.is_dash(if steep { y } else { x }, pen) {
-                self.blot(x, y, pen);
+                self.set(x, y, pen);
             }
         }
     }
 
-    /// Writes the dots into the buffer; cells without dots are left alone.
+    /// Draws the grid into the buffer; empty cells are left unchanged.
     pub fn draw(&self, buffer: &mut Buffer) {
         for (index, dots) in self.dots.iter().enumerate().filter(|(_, dots)| dots.bits != 0) {
             let width = usize::from(self.area.width).max(1);
@@ -182,7 +163,6 @@ impl Raster {
             );
             let sign = match self.marker {
                 Marker::Braille => BRAILLE.get(usize::from(dots.bits)).copied().unwrap_or(' '),
-                Marker::Octant => OCTANTS.get(usize::from(dots.bits)).copied().unwrap_or(' '),
                 Marker::HalfBlock => match dots.bits {
                     1 => '▀',
                     2 => '▄',
@@ -198,17 +178,12 @@ impl Raster {
     }
 }
 
-/// Returns the sub-pixels of a sign of braille or octants, two across and four down, for viewers
-/// whose fonts have neither; none for any other sign.
+/// Returns the sub-pixels of a sign of braille, two across and four down, for viewers whose fonts
+/// have none; `None` for any other sign.
 pub fn sub_pixels(sign: &str) -> Option<impl Iterator<Item = (u32, u32)>> {
     let mut signs = sign.chars();
     let (Some(sign), None) = (signs.next(), signs.next()) else { return None };
-    // A full or an empty cell is in every font.
-    if matches!(sign, '█' | ' ') {
-        return None;
-    }
-    let place = |table: &[char]| table.iter().position(|&other| other == sign);
-    let bits = place(&BRAILLE).or_else(|| place(&OCTANTS))?;
+    let bits = BRAILLE.iter().position(|&other| other == sign)?;
     Some((0..8).filter(move |k| bits >> k & 1 == 1).map(|k| (k % 2, k / 2)))
 }
 
@@ -220,7 +195,7 @@ mod tests {
 
     fn drawn(marker: Marker, draw: impl Fn(&mut Raster)) -> String {
         let area = Rect::new(0, 0, 4, 2);
-        let mut raster = Raster::new(area, marker, false);
+        let mut raster = Raster::new(area, marker);
         draw(&mut raster);
         let mut buffer = Buffer::empty(area);
         raster.draw(&mut buffer);
@@ -233,25 +208,19 @@ mod tests {
         assert_eq!(drawn(Marker::HalfBlock, |r| r.set(0, 1, &PEN)), "▄       ");
         assert_eq!(drawn(Marker::Dot, |r| r.set(3, 1, &PEN)), "       •");
         assert_eq!(drawn(Marker::Ascii, |r| r.set(1, 0, &PEN)), " *      ");
-        assert_eq!(
-            drawn(Marker::Octant, |r| (0..8).for_each(|k| r.set(k % 2, k / 2, &PEN))),
-            "█       "
-        );
     }
 
     #[test]
     fn a_sign_gives_back_the_dots_it_was_made_of() {
-        for marker in [Marker::Braille, Marker::Octant] {
-            for dots in [&[(0, 0)][..], &[(1, 3), (0, 2)], &[(1, 0), (1, 1), (0, 3)]] {
-                let sign = drawn(marker, |r| dots.iter().for_each(|&(x, y)| r.set(x, y, &PEN)));
-                let sign: String = sign.chars().take(1).collect();
-                let mut found: Vec<(i64, i64)> =
-                    sub_pixels(&sign).unwrap().map(|(x, y)| (x.into(), y.into())).collect();
-                let mut dots = dots.to_vec();
-                found.sort_unstable();
-                dots.sort_unstable();
-                assert_eq!(found, dots, "{marker} {sign}");
-            }
+        for dots in [&[(0, 0)][..], &[(1, 3), (0, 2)], &[(1, 0), (1, 1), (0, 3)]] {
+            let draw = |r: &mut Raster| dots.iter().for_each(|&(x, y)| r.set(x, y, &PEN));
+            let sign: String = drawn(Marker::Braille, draw).chars().take(1).collect();
+            let mut found: Vec<(i64, i64)> =
+                sub_pixels(&sign).unwrap().map(|(x, y)| (x.into(), y.into())).collect();
+            let mut dots = dots.to_vec();
+            found.sort_unstable();
+            dots.sort_unstable();
+            assert_eq!(found, dots, "{sign}");
         }
         assert!(["a", "", " ", "ab", "█", "•"].iter().all(|sign| sub_pixels(sign).is_none()));
     }
@@ -271,12 +240,11 @@ mod tests {
         assert_eq!(drawn(Marker::Dot, |r| r.line((0, 0), (3, 0), &PEN)), "••••    ");
         assert_eq!(drawn(Marker::Dot, |r| r.line((0, 0), (3, 0), &dotted)), "• •     ");
         assert_eq!(drawn(Marker::Ascii, |r| r.line((0, 0), (3, 0), &dotted)), "****    ");
-        // Also where it is steep, and whatever its pieces are.
+        // ASCII lines have no gaps either when they are steep.
         for to in [(7, 0), (0, 7), (3, 7), (7, 3), (7, 7)] {
             for mirror in [false, true] {
                 let area = Rect::new(0, 0, 4, 2);
-                let [mut solid, mut dashes] =
-                    [0, 1].map(|_| Raster::new(area, Marker::Braille, false));
+                let [mut solid, mut dashes] = [0, 1].map(|_| Raster::new(area, Marker::Braille));
                 let place = |(x, y)| if mirror { (x, 7 - y) } else { (x, y) };
                 solid.line(place((0, 0)), place(to), &PEN);
                 dashes.line(place((0, 0)), place(to), &dotted);
@@ -284,15 +252,5 @@ mod tests {
                 assert_eq!((count(&solid), count(&dashes)), (8, 5), "{to:?} {mirror}");
             }
         }
-    }
-
-    #[test]
-    fn a_wide_line_is_two_sub_pixels_thick() {
-        let area = Rect::new(0, 0, 4, 2);
-        let mut raster = Raster::new(area, Marker::HalfBlock, true);
-        raster.line((0, 1), (2, 1), &PEN);
-        let mut buffer = Buffer::empty(area);
-        raster.draw(&mut buffer);
-        assert_eq!(buffer, Buffer::with_lines(["▄▄▄▄", "▀▀▀▀"]));
     }
 }

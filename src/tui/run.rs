@@ -14,7 +14,7 @@ use super::files::FileResult;
 use super::host::Host;
 use super::line::Throttle;
 use super::panels::{self, LEAST_HEIGHT, LEAST_WIDTH};
-use super::update::{Effect, MouseOutcome};
+use super::update::Effect;
 
 /// Longest time between two frames. A frame is how the program notices that the terminal is gone.
 const HEARTBEAT: Duration = Duration::from_secs(1);
@@ -225,9 +225,8 @@ fn handle(event: ScreenEvent, app: &mut App, host: &mut dyn Host) -> Reaction {
             take(effect, app, host)
         }
         ScreenEvent::Mouse(event) => match app.mouse(&event) {
-            MouseOutcome::Nothing => Reaction::Draw(Due::Later),
-            MouseOutcome::Pointed => Reaction::Draw(Due::Frame),
-            MouseOutcome::Acted(effect) => take(effect, app, host),
+            None => Reaction::Draw(Due::Later),
+            Some(effect) => take(effect, app, host),
         },
         ScreenEvent::Resize => Reaction::Draw(Due::Now),
         ScreenEvent::Ground(ground) => {

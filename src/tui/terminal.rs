@@ -9,9 +9,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64};
 use std::time::{Duration, Instant};
 
 use crossterm::cursor::{Hide, Show};
-use crossterm::event::{
-    DisableBracketedPaste, DisableMouseCapture, EnableBracketedPaste, EnableMouseCapture,
-};
+use crossterm::event::{DisableBracketedPaste, EnableBracketedPaste};
 use crossterm::queue;
 use crossterm::style::{Attribute, SetAttribute};
 use crossterm::terminal::{EnterAlternateScreen, LeaveAlternateScreen};
@@ -44,6 +42,12 @@ static WHOLE: AtomicBool = AtomicBool::new(false);
 const BEGIN_FRAME: &[u8] = b"\x1b[?2026h";
 const END_FRAME: &[u8] = b"\x1b[?2026l";
 
+/// Asks for clicks and the wheel, without moves (mode 1000), in the encoding that has no
+/// greatest column (1006), and no longer.
+const MOUSE_ON: &[u8] = b"\x1b[?1000h\x1b[?1006h";
+const MOUSE_OFF: &[u8] = b"\x1b[?1006l\x1b[?1000l";
+
+/// Bytes sent so far.
 static SENT: AtomicU64 = AtomicU64::new(0);
 /// Whether any write had to wait for the terminal.
 static SLOW: AtomicBool = AtomicBool::new(false);
@@ -92,7 +96,7 @@ fn enter() -> Result<(), Error> {
     let mut bytes = Vec::new();
     queue!(bytes, EnterAlternateScreen, Hide, EnableBracketedPaste)?;
     if MOUSE.load(SeqCst) {
-        queue!(bytes, EnableMouseCapture)?;
+        bytes.extend_from_slice(MOUSE_ON);
     }
     write(&bytes)
 }
@@ -106,12 +110,7 @@ pub fn set_mouse(on: bool) -> Result<(), Error> {
     if !HELD.load(SeqCst) {
         return Ok(());
     }
-    let mut bytes = Vec::new();
-    match on {
-        true => queue!(bytes, EnableMouseCapture)?,
-        false => queue!(bytes, DisableMouseCapture)?,
-    }
-    write(&bytes)
+    write(if on { MOUSE_ON } else { MOUSE_OFF })
 }
 
 /// Switches synchronized updates on or off.
@@ -133,11 +132,11 @@ pub fn leave() {
             // An abandoned frame may have begun an update without ending it.
             bytes.extend_from_slice(END_FRAME);
         }
-        // Writing to a vector cannot fail.
+        // Also where it was never asked for: which frame was cut is not known.
+        bytes.extend_from_slice(MOUSE_OFF);
+        // A vector takes everything.
         let _ = queue!(
             bytes,
-            // Even if mouse reports seem off: an abandoned frame may have switched them on.
-            DisableMouseCapture,
             DisableBracketedPaste,
             LeaveAlternateScreen,
             Show,

@@ -1,22 +1,22 @@
-//! Text on the screen: one row, pieces of one row, and wrapped lines.
+//! Text on the screen: single rows, rows of styled pieces, and wrapped lines.
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Style};
 
 use crate::report::line::{harmless, wrapped};
 
-/// Characters in a cell on average, at most: a letter may have several accents,
-/// but no cell a text of its own.
+/// Upper bound on the average number of characters per cell. A letter may carry several accents;
+/// longer sequences are cut.
 const MOST_IN_CELL: usize = 4;
 
-/// Says that a text is cut, where nothing else was asked for.
+/// Default mark of a text that is cut off.
 pub const CUT: char = '…';
 
-/// Prints a text in one row of an area; what does not fit is cut, with a mark at the end. Control
-/// characters are replaced by spaces.
+/// Prints a text in one row of an area. A text that does not fit is cut, with a mark at the end;
+/// control characters become spaces.
 pub fn print(buffer: &mut Buffer, area: Rect, row: u16, text: &str, style: Style) {
     if row < area.height && area.width > 0 {
         let width = usize::from(area.width);
-        // On a screen of a few columns letters say more.
+        // In an area of very few columns, a letter is more useful than the mark.
         let text = match width {
             0..4 => shorten(text, width, ""),
             _ => shorten(text, width, CUT.encode_utf8(&mut [0; 4])),
@@ -25,14 +25,14 @@ pub fn print(buffer: &mut Buffer, area: Rect, row: u16, text: &str, style: Style
     }
 }
 
-/// Returns the columns that a text takes.
+/// Returns the width of a text in columns.
 pub fn columns(text: &str) -> usize {
     ratatui::text::Span::raw(text).width()
 }
 
-/// Returns the text of at most `width` columns, its end marked where it was cut.
+/// Shortens a text to at most `width` columns; `mark` replaces the end if it is cut.
 pub fn shorten(text: &str, width: usize, mark: &str) -> String {
-    // Its columns are counted only as far as they matter.
+    // Only a prefix is measured, because the text may be very long.
     let text: String = text.chars().take(MOST_IN_CELL * (width + 1)).map(harmless).collect();
     if columns(&text) <= width {
         return text;
@@ -47,14 +47,14 @@ pub fn shorten(text: &str, width: usize, mark: &str) -> String {
     kept.chain(mark.chars()).take(width).collect()
 }
 
-/// Pieces of text in one row, as many of them from the left as fit whole.
+/// Prints pieces of text in one row, from the left, and stops at the first that does not fit.
 pub fn pieces(buffer: &mut Buffer, area: Rect, row: u16, parts: &[(String, Style)]) {
     if row >= area.height {
         return;
     }
     let mut x = area.x;
     for (text, style) in parts {
-        // A space at the end needs no room.
+        // A trailing space may extend past the edge.
         let left = usize::from(area.right().saturating_sub(x));
         if columns(text.trim_end_matches(' ')) > left {
             return;
@@ -64,14 +64,13 @@ pub fn pieces(buffer: &mut Buffer, area: Rect, row: u16, parts: &[(String, Style
     }
 }
 
-/// Returns a text in lines no wider than `width`, at least one.
+/// Wraps a text to lines no wider than `width`; returns at least one.
 pub fn wrap(text: &str, width: usize) -> Vec<String> {
     let lines = wrapped(text, width.max(1));
     if lines.is_empty() { vec![String::new()] } else { lines }
 }
 
-/// Returns as many of these lines as there is room for; where some are left out, the last one ends
-/// in a mark.
+/// Returns the first `rows` lines; if more are left, the last one ends in `mark`.
 pub fn first_lines(mut lines: Vec<String>, width: usize, rows: usize, mark: &str) -> Vec<String> {
     if lines.len() > rows && rows > 0 {
         let rest = lines.split_off(rows - 1).join(" ");
@@ -81,8 +80,7 @@ pub fn first_lines(mut lines: Vec<String>, width: usize, rows: usize, mark: &str
     lines
 }
 
-/// Returns a text in lines, without those of its parts, each after a comma, that have no room in
-/// so many rows.
+/// Wraps a text, and drops parts at its end, each after a comma, until it fits into `rows` lines.
 pub fn whole_parts(text: &str, width: usize, rows: usize) -> Vec<String> {
     let lines = wrap(text, width);
     match text.rsplit_once(", ") {
@@ -91,7 +89,7 @@ pub fn whole_parts(text: &str, width: usize, rows: usize) -> Vec<String> {
     }
 }
 
-/// Returns the numbers of a few blades: more than three are not told.
+/// Lists blade numbers; after three, the rest is `..`.
 pub fn few(blades: &[u32]) -> String {
     let names: Vec<String> = blades.iter().take(3).map(ToString::to_string).collect();
     format!("{}{}", names.join(","), if blades.len() > 3 { ",.." } else { "" })

@@ -1,5 +1,5 @@
-//! Colours by role. Every theme has the same eight roles; a sign, a word or a
-//! line style always gives the same information as a colour.
+//! Colours by role. Every theme has the same eight roles. No information depends on colour alone: a
+//! sign, a word or a line style always repeats it.
 
 use ratatui::style::{Color, Modifier, Style};
 use serde::{Deserialize, Serialize};
@@ -14,7 +14,7 @@ pub enum Role {
     Text,
     /// Axes, frames, units.
     Quiet,
-    /// Target of the keyboard: the main screen or an open dialogue.
+    /// The selected knob, the cursor, the open prompt.
     Focus,
     /// The first series of a chart.
     First,
@@ -22,20 +22,20 @@ pub enum Role {
     Second,
     /// Blades in contact, and their forces.
     Contact,
-    /// Good news.
+    /// Successes.
     Good,
-    /// Errors and doubts, and nothing else: tension, failures, refused values.
+    /// Errors and doubts only: tension, failures, refused values.
     Trouble,
 }
 
-/// The choice of a theme, as it is written.
+/// Choice of a theme, as given on the command line and in the config file.
 #[derive(
     Clone, Copy, Debug, Default, PartialEq, Eq, EnumString, VariantNames, Serialize, Deserialize,
 )]
 #[strum(serialize_all = "lowercase")]
 #[serde(rename_all = "lowercase")]
 pub enum ThemeChoice {
-    /// Light or dark by the background of the terminal.
+    /// Light or dark, depending on the background of the terminal.
     #[default]
     Auto,
     /// For a dark background.
@@ -44,7 +44,7 @@ pub enum ThemeChoice {
     Light,
     /// No colours.
     Mono,
-    /// Safe for the common colour blindnesses, by the background.
+    /// Safe for common forms of colour blindness; light or dark as the background.
     ColorBlind,
 }
 
@@ -65,7 +65,7 @@ impl ThemeChoice {
         }
     }
 
-    /// Creates the choice that stands for a theme.
+    /// Returns the choice that gives this theme.
     pub fn of(theme: Theme) -> Self {
         match theme {
             Theme::Dark => Self::Dark,
@@ -76,18 +76,17 @@ impl ThemeChoice {
     }
 }
 
-/// A named set of colours.
+/// A set of colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Theme {
     /// Light text on a dark background.
     Dark,
     /// Dark text on a light background.
     Light,
-    /// Blue and yellow on a dark background, safe for the common colour
-    /// blindnesses.
+    /// Blue and yellow on a dark background, safe for common forms of colour blindness.
     ColourBlind,
-    /// Blue and magenta on a light background, where yellow cannot be read: both look
-    /// blue to those who do not see red, and have signs.
+    /// Blue and magenta on a light background, where yellow is illegible. Readers who do not see
+    /// red see both as blue; signs distinguish them.
     ColourBlindLight,
     /// No colours: bold, dim, reverse and underline only.
     Mono,
@@ -119,8 +118,8 @@ impl Theme {
         Self::ALL[(self as usize + 1) % Self::ALL.len()]
     }
 
-    /// Returns the style of a role. Only the sixteen named colours, which follow the user's
-    /// palette.
+    /// Returns the style of a role. Only the sixteen named colours are used, because they follow
+    /// the user's palette.
     pub fn style(self, role: Role) -> Style {
         let colour = match (self, role) {
             (Self::Mono, _) | (_, Role::Text) => Color::Reset,
@@ -131,7 +130,7 @@ impl Theme {
             (Self::Dark, Role::Contact) => Color::LightGreen,
             (Self::Dark, Role::Good) => Color::LightBlue,
             (Self::Dark | Self::ColourBlind, Role::Trouble) => Color::LightRed,
-            // The green of most terminals cannot be read on white, and magenta is for contact.
+            // On white, the green of most terminals is illegible, and magenta marks contact.
             (Self::Light | Self::ColourBlindLight, Role::Second) => Color::Reset,
             (Self::Light | Self::ColourBlindLight, Role::Contact) => Color::Magenta,
             (Self::Light | Self::ColourBlindLight, Role::Trouble) => Color::Red,
@@ -179,9 +178,8 @@ mod tests {
         }
     }
 
-    /// The sixteen colours of common terminals, as the terminal draws them: xterm,
-    /// the console of Linux and VGA, the Campbell colours of Windows, those of
-    /// GNOME.
+    /// The sixteen colours as common terminals draw them: xterm, Linux console and VGA, Windows
+    /// (Campbell), GNOME.
     const PALETTES: [[u32; 16]; 4] = [
         [
             0x000000, 0xcd0000, 0x00cd00, 0xcdcd00, 0x0000ee, 0xcd00cd, 0x00cdcd, 0xe5e5e5,
@@ -201,7 +199,7 @@ mod tests {
         ],
     ];
 
-    /// Relative luminance (WCAG).
+    /// Returns the relative luminance (WCAG).
     fn luminance(colour: u32) -> f64 {
         let part = |shift: u32| {
             let x = f64::from(colour >> shift & 0xff) / 255.0;
@@ -230,7 +228,7 @@ mod tests {
         })
     }
 
-    /// The background that a theme is made for; none if it can be read on both.
+    /// Returns the background that a theme needs; `None` if it is legible on both.
     fn made_for(theme: Theme) -> Option<Ground> {
         match theme {
             Theme::Dark | Theme::ColourBlind => Some(Ground::Dark),
@@ -248,7 +246,7 @@ mod tests {
                 let ground = if ground == Ground::Light { 0xffffff } else { palette[0] };
                 let [a, b] = [luminance(ground), luminance(palette[place])];
                 let contrast = (a.max(b) + 0.05) / (a.min(b) + 0.05);
-                // What is quiet may be: its frames and units are no message.
+                // Quiet text carries no message and may have less contrast.
                 let least = if role == Role::Quiet { 2.5 } else { 3.0 };
                 assert!(contrast >= least, "{theme:?} {role:?}: {contrast:.2} of {least}");
             }
@@ -271,7 +269,7 @@ mod tests {
             for role in ROLES {
                 let same = |other: Role| theme.style(role) == theme.style(other);
                 assert_eq!(same(Role::Trouble), role == Role::Trouble, "{theme:?} {role:?}");
-                // Without colours contact has its sign.
+                // In the mono theme, contact is marked by its sign.
                 let distinct = theme != Theme::Mono || role != Role::Focus;
                 assert!(!distinct || same(Role::Contact) == (role == Role::Contact), "{theme:?}");
             }

@@ -1,24 +1,24 @@
-//! A run ahead of the playback: its coordinates at equal intervals, and the
-//! changes of contact on the way.
+//! A run computed ahead of the playback: its coordinates at equal intervals, and the changes of
+//! contact.
 
 use rubscope_solver::motion::{ActiveSet, ContactLog};
 
-/// Most changes of contact kept.
+/// Largest number of contact changes that are kept.
 const MOST_MARKS: usize = 2000;
 
-/// `u_c`, `u_s` \[m\], `alpha_c`, `alpha_s` \[rad\] at equal intervals.
+/// The coordinates `u_c`, `u_s` \[m\], `alpha_c`, `alpha_s` \[rad\] at equal intervals.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Trace {
     /// The first instant \[s\].
     pub from: f64,
-    /// Time between two points \[s\].
+    /// Interval between two points \[s\].
     pub step: f64,
-    /// The points.
+    /// The coordinates, one entry per instant.
     pub points: Vec<[f64; 4]>,
 }
 
 impl Trace {
-    /// Returns the part of one coordinate that overlaps `[from, to]`, as points over time.
+    /// Returns one coordinate over `[from, to]` as (time, value) points.
     pub fn between(
         &self,
         place: usize,
@@ -35,49 +35,49 @@ impl Trace {
     }
 }
 
-/// Change of a contact.
+/// A change of contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Happening {
-    /// A blade group met the casing and left it at once.
+    /// A blade group touched the casing and left it at once.
     Impact(u32),
-    /// Other sides touch: those before, and now.
+    /// The set of sides in contact changed, from the first to the second.
     Contact(ActiveSet, ActiveSet),
-    /// Separation of these sides, after which nothing touches.
+    /// The last sides in contact separated: these.
     Release(ActiveSet),
 }
 
-/// A change of contact.
+/// A change of contact with its instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mark {
     /// Instant \[s\].
     pub t_s: f64,
-    /// Content of the file.
+    /// What changed.
     pub what: Happening,
 }
 
-/// Collects the changes of contact of a motion that is looked at now and then.
+/// Collects the contact changes of a motion whose log is read from time to time.
 #[derive(Clone, Debug, Default)]
 pub struct Marks {
-    /// Changes seen so far.
+    /// Changes found so far.
     pub seen: Vec<Mark>,
     active_set: ActiveSet,
     impacts: u64,
 }
 
 impl Marks {
-    /// Creates a record of changes of contact from here on.
+    /// Starts collecting from the present state of the log.
     pub fn from(log: &ContactLog) -> Self {
         Self { seen: Vec::new(), active_set: log.active_set, impacts: log.impact_count }
     }
 
-    /// Looks at the record. The first thousand impacts have their own instants;
-    /// of contacts that came and went since the last look, the last is seen.
+    /// Reads the new entries of the log. It contains the instants of the first thousand impacts; of
+    /// several contacts since the last call, only the latest is found.
     pub fn look(&mut self, log: &ContactLog) {
         let known = usize::try_from(self.impacts).unwrap_or(usize::MAX);
         let mut new: Vec<Mark> = Vec::new();
         let changed = log.active_set != self.active_set;
         for impact in log.impacts.iter().skip(known) {
-            // A contact that lasts begins with an impact: one mark is enough.
+            // A lasting contact begins with an impact, which needs no mark of its own.
             let lasts = changed && impact.t_s == log.since && log.active_set.includes(impact.side);
             if !lasts {
                 new.push(Mark { t_s: impact.t_s, what: Happening::Impact(impact.side) });

@@ -311,10 +311,4 @@ fn what_cannot_be_drawn_is_refused() {
         refusal(&[&nowhere[..], &["3"]].concat()),
         "rubscope: --only = 3: allowed is numbers from 4 to 10"
     );
-    let gone = "is gone: each figure has its own scene; run, hbm and map --out";
-    for arguments in
-        [&["figures", "slip", "--out", "a"][..], &["figures", "--set", "a=b", "--out", "a"]]
-    {
-        assert!(refusal(arguments).contains(gone), "{}", refusal(arguments));
-    }
 }

@@ -186,29 +186,6 @@ fn titles_are_of_characters_that_are_seen() {
 }
 
 #[test]
-fn a_refusal_says_what_would_be_taken() {
-    for (command, expected) in [
-        (
-            "map --x operation.pulse_n=log:1e-300:1e6:4",
-            "rubscope: axis operation.pulse_n = log:1e-300:1e6:4: allowed is log: with ends that \
-             differ by a factor of at most 1e30",
-        ),
-        (
-            "map --x operation.pulse_n=1:1000:4",
-            "rubscope: map = operation.pulse_n on both axes: allowed is two different keys; \
-             columns (x) are the speed and rows (y) the pulse by default",
-        ),
-        (
-            "map --y casing.damping_ratio=0:1:2 --x casing.damping_ratio=0:0.1:4",
-            "rubscope: map = casing.damping_ratio on both axes: allowed is two different keys; \
-             columns (x) are the speed and rows (y) the pulse by default",
-        ),
-    ] {
-        assert_eq!(refusal(&command.split(' ').collect::<Vec<_>>()), expected);
-    }
-}
-
-#[test]
 fn an_end_below_one_step_is_refused_and_one_step_is_not() {
     let lines = [
         "run --end 1e-8 --step 1e-7",
@@ -223,37 +200,5 @@ fn an_end_below_one_step_is_refused_and_one_step_is_not() {
     }
     for line in ["run --end 1e-7 --step 1e-7", "run --solver event --end 1e-8 --step 1e-7"] {
         text(&words(line));
-    }
-}
-
-/// Rows are made as they are written: what a speed takes in memory is its numbers, some two
-/// hundred bytes, and not the words of its row.
-#[cfg(target_os = "linux")]
-#[test]
-fn many_speeds_take_little_memory() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("l.csv");
-    let file = ["--out", file.to_str().unwrap()];
-    let driven = ["--excitation", "--json", "--set", "excitation.amplitude_nm=10"];
-    for view in [
-        &["--json"][..],
-        &["--branches", "--json"],
-        &["--slip", "--json"],
-        &["--campbell", "--json"],
-        &["--coincidence", "--json"],
-        &["--whirl", "--json"],
-        &driven,
-        &["--compliance", "--json"],
-    ] {
-        // With 40 MB of data and no more: a program that wants more is aborted.
-        let run = std::process::Command::new("sh")
-            .args(["-c", "ulimit -d 40000; exec \"$0\" \"$@\""])
-            .arg(env!("CARGO_BIN_EXE_rubscope"))
-            .args(["hbm", "--zeta-casing", "0.01", "--speed", "0:500:10000"])
-            .args(view)
-            .args(file)
-            .stdout(std::process::Stdio::null())
-            .status();
-        assert!(run.unwrap().success(), "{view:?}");
     }
 }

@@ -1,5 +1,5 @@
-//! `rubscope precision`: errors at the times that were really reached, rows of
-//! another contact law, and errors of zero.
+//! `rubscope precision`: errors at the times that were really reached, the reference of each
+//! model size, and errors of zero.
 
 use crate::cli_support::{refusal, rubscope};
 use crate::scene_support::HALF_N;
@@ -70,7 +70,7 @@ fn a_run_that_stopped_early_has_no_error_at_the_end() {
     let half_n: Vec<&str> = half_n.split_whitespace().collect();
     let report = compare(&half_n);
     assert_eq!(report["reference"]["verdict"], "failed");
-    assert_eq!(report["reference"]["error_halved"], Value::Null);
+    assert_eq!(report["reference"]["error"], Value::Null);
     assert!(rows(&report).len() > 8);
     for row in rows(&report) {
         assert_eq!(row["error_final"], Value::Null, "{row}");
@@ -86,32 +86,6 @@ fn a_finest_step_without_meaning_is_refused() {
         let said = refusal(&["precision", "--finest", text]);
         assert_eq!(said, format!("rubscope: --finest = {text}: allowed is a time step above 0"));
     }
-}
-
-#[test]
-fn another_contact_law_is_no_wrong_answer() {
-    // The default scene locks under the bilateral law and decays under the
-    // unilateral one: both results are right for their law.
-    let short = ["--end", "0.02"];
-    let report = compare(&short);
-    assert_eq!(report["reference"]["contact"], "unilateral");
-    for row in rows(&report) {
-        assert_eq!(row["other_law"], row["contact"] == "bilateral", "{row}");
-        assert!(row["verdict_right"].is_boolean());
-    }
-    let text = text(&short);
-    let lines: Vec<&str> = text.lines().filter(|line| line.starts_with("explicit  ")).collect();
-    assert_eq!(lines.len(), 12, "{text}");
-    for line in lines {
-        assert_eq!(line.contains(" bilateral "), line.ends_with("  other law"), "{line}");
-        // A step of 1e-5 s is too coarse for this pulse.
-        let failed = line.contains(" unilateral ") && line.contains("  failed ");
-        assert_eq!(failed, line.ends_with("  wrong"), "{line}");
-    }
-    assert!(text.contains("\nother law: "), "{text}");
-    let (table, _) = files(&short);
-    assert!(table.lines().next().unwrap().ends_with(",verdict,verdict_right,other_law"), "{table}");
-    assert!(table.lines().any(|line| line.contains("bilateral") && line.ends_with(",true")));
 }
 
 #[test]
@@ -173,19 +147,18 @@ fn steps_taken_and_skipped_are_all_steps_and_the_time_is_that_of_the_taken_ones(
     }
 }
 
-/// On a lining each halving of the step leaves a quarter of the error.
+/// On a lining the error is of second order in the step.
 #[test]
-fn what_the_event_solver_does_not_know_is_measured_against_halved_steps() {
+fn what_the_event_solver_does_not_know_is_measured_against_the_finest_step() {
     let lining = ["soft-lining", "--end", "0.01"];
-    let report = compare(&lining);
+    let report = compare_to("1e-7", &lining);
     let reference = &report["reference"];
-    assert_eq!(reference["method"], "extrapolated");
+    assert_eq!(reference["method"], "finest_step");
     assert_eq!(
         (&reference["solver"], &reference["contact"]),
         (&"explicit".into(), &"smooth".into())
     );
-    assert_eq!((&reference["step_s"], &reference["sensitive"]), (&1.25e-6.into(), &Value::Null));
-    assert!((reference["order"].as_f64().unwrap() - 2.0).abs() < 0.05, "{reference}");
+    assert_eq!((&reference["step_s"], &reference["sensitive"]), (&1e-7.into(), &false.into()));
     let known = reference["error"].as_f64().unwrap();
     for model in ["rigid", "modal", "full"] {
         let errors: Vec<f64> = rows(&report)
@@ -193,38 +166,19 @@ fn what_the_event_solver_does_not_know_is_measured_against_halved_steps() {
             .filter(|row| row["model"] == model)
             .map(|row| row["error_final"].as_f64().unwrap())
             .collect();
-        assert_eq!(errors.len(), 4, "{report}");
-        let fall = |pair: &[f64]| assert!((pair[0] / pair[1] - 4.0).abs() < 0.2, "{errors:?}");
-        errors.windows(2).for_each(fall);
-        assert!(errors[3] > 10.0 * known, "{errors:?} {known}");
+        // Steps of 1e-5, 1e-6, 5e-7 and 1e-7 s, the last of them the reference.
+        assert_eq!((errors.len(), errors[3]), (4, 0.0), "{report}");
+        assert!((errors[0] / errors[1]).log10() > 1.8, "{errors:?}");
+        assert!(errors[2] > known, "{errors:?} {known}");
     }
     assert!(
         rows(&report).iter().all(|row| row["contact"] == "smooth" && row["other_law"] == false)
     );
     let text = text(&lining);
-    assert!(text.contains("halved steps to 1.25e-6 s, extrapolated: locked"), "{text}");
-    assert!(text.contains("order 2.0"), "{text}");
+    assert!(text.contains("smooth, modal model, the finest step, 1e-6 s: locked"), "{text}");
+    assert!(text.contains("Twice its step moves its end by "), "{text}");
     let (table, picture) = files(&lining);
-    assert!(table.lines().count() == 13 && picture.contains("explicit smooth full"), "{table}");
-}
-
-#[test]
-fn impacts_leave_the_finest_step_and_many_impacts_nothing_to_compare_with() {
-    let driven = ["--contact", "unilateral", "--set", "excitation.amplitude_nm=1"];
-    let report = compare_to("1e-7", &[&driven[..], &["--pulse", "20e3"]].concat());
-    assert_eq!(report["reference"]["method"], "finest_step", "{}", report["reference"]);
-    let known = report["reference"]["error"].as_f64().unwrap();
-    assert!(known > 0.0 && known < 1e-4, "{known}");
-    assert!(rows(&report).iter().any(|row| row["error_final"].as_f64() > Some(known)));
-    // 1 MN: what the end is depends on the step, and the program says so.
-    let report = compare_to("1e-7", &driven);
-    let reference = &report["reference"];
-    assert_eq!((&reference["method"], &reference["error"]), (&"none".into(), &Value::Null));
-    // At the two longest steps it fails.
-    assert_eq!(reference["changes"].as_array().unwrap().len(), 5);
-    assert!(rows(&report).iter().all(|row| row["error_final"].is_null()), "{report}");
-    let text = text(&driven);
-    assert!(text.contains("Ends cannot be compared: too few steps are short enough"), "{text}");
+    assert!(table.lines().count() == 7 && picture.contains("explicit smooth full"), "{table}");
 }
 
 #[test]
@@ -244,10 +198,9 @@ fn each_model_size_has_a_reference_of_its_own() {
             "{row}"
         );
     }
-    // Single blades part at every step: nothing is known of their end.
-    for row in rows(&report).iter().filter(|row| row["model"] == "full") {
-        assert!(row["error_final"].is_null(), "{row}");
-    }
+    // Single blades have the explicit solver, whose finest step is compared with itself.
+    let mut full = rows(&report).iter().filter(|row| row["model"] == "full");
+    assert_eq!(full.next_back().unwrap()["error_final"], 0.0);
 }
 
 #[test]

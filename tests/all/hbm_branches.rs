@@ -73,33 +73,6 @@ fn a_side_is_a_saddle_with_the_closed_forms_of_sliding() {
 }
 
 #[test]
-fn rest_turns_backward_in_the_blade_frame_and_decays() {
-    let machine = machine(15_000.0, 3, 0.05);
-    for speed in [0.0, 300.0, 5000.0] {
-        let states = equilibria(&machine, speed, true).unwrap();
-        let rest = &states[0];
-        assert_eq!((rest.kind, rest.character), (Kind::Rest, Character::Stable));
-        assert_eq!((rest.torque_nm, rest.eigenvalues_per_s.len()), (0.0, 8));
-        let slowest = (0.05 * machine.omega_c).min(0.04 * machine.omega_bd);
-        close(rest.growth_per_s, -slowest, 1e-9);
-    }
-}
-
-#[test]
-fn the_corner_keeps_only_the_blades_moving() {
-    let machine = machine(15_000.0, 3, 0.05);
-    let states = equilibria(&machine, 500.0, true).unwrap();
-    let corner = states.last().unwrap();
-    assert_eq!((corner.kind, corner.character), (Kind::Corner, Character::Stable));
-    assert_eq!(corner.eigenvalues_per_s.len(), 4);
-    // The casing adds 1e-6 of the blades' inertia.
-    close(corner.growth_per_s, -0.04 * machine.omega_bd, 1e-5);
-    for value in &corner.eigenvalues_per_s {
-        close(value.norm(), machine.omega_bd, 1e-5);
-    }
-}
-
-#[test]
 fn one_or_two_sides_have_no_corner_but_states_all_the_same() {
     for (diameters, count) in [(0, 6), (11, 6)] {
         let machine = machine(15_000.0, diameters, 0.05);

@@ -2,9 +2,7 @@
 
 use crate::hbm_slip::slip_map;
 use proptest::prelude::*;
-use rubscope_solver::harmonic::{
-    Character, Corner, Form, Kind, Locked, equilibria, lock_fold_speed, slip_over,
-};
+use rubscope_solver::harmonic::{Character, Corner, Form, Kind, Locked, equilibria, slip_over};
 use rubscope_solver::model::{BladedDisk, Casing, Machine};
 
 /// Machines with corners: 3 to 40 blades, any diameters that leave three sides,
@@ -49,13 +47,6 @@ fn stiffened(machine: &Machine, times: f64) -> Machine {
     machine.blade_modal_stiffness *= times;
     machine.blade_modal_damping *= times.sqrt();
     machine
-}
-
-/// With blades so stiff that its corner folds at `ratio` times the critical
-/// speed and not at `fold` \[rad/s\]: `kappa` there is as their stiffness.
-fn folding(machine: &Machine, fold: f64, ratio: f64) -> Machine {
-    let now = fold / machine.critical_speed().unwrap_or(1.0);
-    stiffened(machine, (ratio * ratio - 1.0) / (now * now - 1.0))
 }
 
 /// Within a few digits of rounding: `value` against `expected`, of size `scale`.
@@ -231,23 +222,6 @@ proptest! {
             // Close to the saddle a crossing takes long and loses digits.
             let scale = orbit.speed_after_corner_m_s * (1.0 + orbit.slope / (1.0 - orbit.slope));
             prop_assert!((next.speed_after_corner_m_s - orbit.speed_after_corner_m_s).abs() < 1e-8 * scale);
-        }
-    }
-
-    /// The branch ends at its fold: just below it there is a lock, just above there is none.
-    #[test]
-    fn a_lock_of_soft_blades_ends_at_its_fold(
-        machine in machines(), ratio in 1.5..12.0_f64, past in 1.0..10.0_f64, damped: bool,
-    ) {
-        if let Some(fold) = lock_fold_speed(&machine) {
-            let machine = folding(&machine, fold, ratio);
-            let fold = lock_fold_speed(&machine).unwrap();
-            prop_assert!(near(fold, ratio * machine.critical_speed().unwrap(), fold));
-            let corner = Corner::after(&machine.polygon, 0).unwrap();
-            let locked = Locked::new(&machine, corner, Form::Modal, damped).unwrap();
-            let part = 10_f64.powf(-past);
-            prop_assert!(locked.at(fold * (1.0 - part)).is_ok());
-            prop_assert!(locked.at(fold * (1.0 + part)).is_err());
         }
     }
 }

@@ -19,24 +19,6 @@ fn lined(stiffness: &str, more: &[(&str, &str)]) -> Scene {
     scene
 }
 
-/// The pushes of the lock just inside its window, and its end at the window's end.
-#[test]
-fn pushes_of_a_soft_lock_to_its_last_speed() {
-    with(&lined("1e9", &[]), |lining| {
-        let states = lining.states(418.6166508).unwrap();
-        let lock = states.iter().find(|state| state.stable && state.pushing == 2).unwrap();
-        close(lock.pushes[0].push_n, 163.825941, 1e-8);
-        close(lock.pushes[1].push_n, 0.541935, 2e-6);
-        assert!(lining.states(416.6166508).unwrap().iter().all(|state| state.pushing == 0));
-        let from = lining.machine.lock_windows(1.0).first().copied().unwrap().from;
-        let held = |speed: f64| lining.states(speed).unwrap().len() > 1;
-        assert!(held(from + 1e-6) && !held(from - 1e-6));
-        // The saddle of one group is beside the lock.
-        let saddle = states.iter().find(|state| state.pushing == 1).unwrap();
-        assert!(!saddle.stable && saddle.growth_1_s > 0.0 && saddle.frequency_rad_s == 0.0);
-    });
-}
-
 /// Without damping, node and saddle swap as the wave is pushed out harder.
 #[test]
 fn undamped_the_push_spreads_over_more_blades() {

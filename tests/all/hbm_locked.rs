@@ -4,7 +4,7 @@
 use crate::hbm_slip::machine;
 use crate::near;
 use nalgebra::{SMatrix, SVector};
-use rubscope_solver::harmonic::{Form, LockedPoint, lock_fold_speed, locked_motion};
+use rubscope_solver::harmonic::{Form, LockedPoint, locked_motion};
 use rubscope_solver::model::{BladedDisk, Casing, Machine};
 
 fn at(machine: &Machine, form: Form, damped: bool, speed: f64) -> LockedPoint {
@@ -162,34 +162,4 @@ fn soft_blades_of_the_printed_form_are_followed_and_not_met_by_chance() {
     let down = locked_motion(&machine, Form::Printed, true, None, &down).unwrap();
     assert!(up.points.iter().eq(down.points.iter().rev()));
     assert!((20..301).contains(&up.points.len()), "{}", up.points.len());
-}
-
-/// Soft enough to fold within the speeds of the paper.
-fn soft() -> Machine {
-    let disk = BladedDisk {
-        stiffness_nm_per_rad: 2e-3,
-        coupling_nm_per_rad: 0.0,
-        ..BladedDisk::default()
-    };
-    Machine::new(&disk, &Casing::default(), 3)
-}
-
-/// The closed form `kappa = -(Delta - delta) cos^3 Delta/(c sin Delta)` turns back at its
-/// largest speed, seen here on a fine grid of openings.
-#[test]
-fn the_fold_is_the_largest_speed_of_the_branch() {
-    let machine = soft();
-    let fold = lock_fold_speed(&machine).unwrap();
-    let nd = machine.nodal_diameters;
-    let softness = nd * nd * machine.casing_stiffness * machine.clearance().powi(2)
-        / (machine.blade_inertia * machine.omega_bd * machine.omega_bd);
-    let delta = machine.polygon.delta;
-    let c = softness * 2.0 / 22.0 * delta.sin().powi(2);
-    let speed = |opening: f64| {
-        let (sin, cos) = opening.sin_cos();
-        let kappa = -(opening - delta) * cos.powi(3) / (c * sin);
-        machine.critical_speed().unwrap() * (1.0 - kappa).sqrt()
-    };
-    let largest = (1..1_000_000).map(|k| speed(delta + 1.3e-6 * f64::from(k))).fold(0.0, f64::max);
-    assert!((fold / largest - 1.0).abs() < 1e-11, "{fold} {largest}");
 }

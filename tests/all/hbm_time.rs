@@ -4,7 +4,7 @@
 use crate::close;
 use nalgebra::Complex;
 use rubscope_solver::harmonic::{Corner, Form, Locked, SlipOrbit, slip_over};
-use rubscope_solver::motion::{ActiveSet, ExactEvents, Motion, Solver};
+use rubscope_solver::motion::{ActiveSet, ExactEvents, Solver};
 use rubscope_solver::scene::{ModelSize, Scene};
 
 /// Rigid blades unless a test changes it, as the closed forms have them.
@@ -97,54 +97,6 @@ fn slip_lives_where_the_event_solver_keeps_it() {
     {
         let (scene, orbit) = slipping(diameters, zeta, speed, 1.01);
         close(long_wave_speed(&scene, &orbit), orbit.wave_speed_rad_s, 1e-9);
-    }
-}
-
-/// The explicit scheme uses the forces one step late: when locked, it turns `K +
-/// i D` by `-nu h`, which is the extra damping `nu h |K|` and a little less
-/// stiffness, `nu h D`. With that in the frequency domain all four coordinates
-/// and both multipliers agree to second order.
-#[test]
-fn explicit_locked_motion_is_the_modal_form_with_its_first_order_error() {
-    let step = 1e-6;
-    let mut scene = in_corner(3, 0.05, 500.0);
-    scene.solver.step_s = step;
-    scene.solver.model = ModelSize::Modal;
-    // Blades that come to rest soon, on nothing but the contacts.
-    scene.bladed_disk.damping_ratio = 0.5;
-    let mut motion = Motion::new(&scene.checked().unwrap());
-    motion.advance(0.2).unwrap();
-    assert_eq!(motion.contacts().active_set, ActiveSet::Corner(15, 16));
-
-    let corner = Corner { a: 15, b: 16 };
-    let mut machine = scene.machine();
-    let exact = Locked::new(&machine, corner, Form::Modal, true).unwrap().at(500.0).unwrap();
-    let nu = machine.nu(500.0);
-    let stiff = machine.casing_stiffness - nu * nu * machine.casing_mass;
-    let drag = machine.casing_damping * nu;
-    machine.casing_stiffness += nu * step * drag;
-    machine.omega_c = (machine.casing_stiffness / machine.casing_mass).sqrt();
-    let damping = (drag - nu * step * stiff) / nu;
-    machine.casing_damping_ratio = damping / (2.0 * machine.casing_mass * machine.omega_c);
-    let point = Locked::new(&machine, corner, Form::Modal, true).unwrap().at(500.0).unwrap();
-
-    let state = motion.state();
-    let turn = Complex::new(0.0, -3.0 * motion.rotor().angle(state.t_s)).exp();
-    let z = Complex::new(state.u[0], state.u[1]) * turn;
-    let expected = Complex::new(point.u_cc_m, point.u_sc_m);
-    assert!((z - expected).norm() < 1e-10 * expected.norm());
-    // (nu h)^2 = 2e-6; the first-order error itself is 6e-3.
-    let second_order = 5e-6;
-    for (i, (_, multiplier)) in motion.multipliers().into_iter().enumerate() {
-        close(multiplier, point.multipliers_n[i], second_order);
-        assert!((multiplier - exact.multipliers_n[i]).abs() > 1e-3 * multiplier.abs());
-    }
-    for (i, side) in corner.sides().into_iter().enumerate() {
-        let (cos, sin) = machine.polygon.direction(side);
-        let alpha = cos * state.alpha[0] + sin * state.alpha[1];
-        // Both blades bend the same way; their common angle comes from a
-        // difference of the two torques, four times smaller than either.
-        close(alpha, point.alpha_rad[i], 4.0 * second_order);
     }
 }
 

@@ -193,7 +193,6 @@ fn break_time(scene: &CheckedScene) -> f64 {
             &Script::default(),
             Sampling::default(),
             &mut |_| {},
-            &mut (),
         );
         let held_still = run.outcome.contacts.len() == 2;
         *(if held_still { &mut held } else { &mut broken }) = shorter.solver.end_s;

@@ -84,7 +84,6 @@ mod tui_loop;
 mod tui_map;
 mod tui_margins;
 mod tui_mouse;
-mod tui_presentation;
 mod tui_random;
 mod tui_scenes;
 mod tui_screens;
@@ -127,5 +126,5 @@ fn told(report: &RunReport) -> String {
 
 /// A scene run to its end once, without the changed runs that say how far to trust it.
 fn run_once(scene: &CheckedScene) -> RunReport {
-    run_to_end(scene, &Script::default(), Sampling::default(), &mut |_| {}, &mut ())
+    run_to_end(scene, &Script::default(), Sampling::default(), &mut |_| {})
 }

@@ -42,6 +42,16 @@ fn axes_are_refused_in_one_line_that_says_what_is_allowed() {
             &["--x", "casing.damping_ratio=log:0:0.1:5"],
             "axis casing.damping_ratio = log:0:0.1:5: allowed is log: with both ends above 0",
         ),
+        (
+            &["--x", "operation.pulse_n=log:1e-300:1e6:4"],
+            "axis operation.pulse_n = log:1e-300:1e6:4: allowed is log: with ends that differ by a \
+             factor of at most 1e30",
+        ),
+        (
+            &["--x", "operation.pulse_n=1:1000:4"],
+            "map = operation.pulse_n on both axes: allowed is two different keys; columns (x) are \
+             the speed and rows (y) the pulse by default",
+        ),
         (&["--y", "casing.damping_ratio=0:-0.1:5"], "casing.damping_ratio = -0.1: allowed is"),
         (&["--y", "operation.pulse_n=0:nan:5"], "operation.pulse_n = NaN: allowed is"),
         (

@@ -1,5 +1,5 @@
-//! Shards and merging give the bytes of one run; parts that do not make one whole map are
-//! refused by name.
+//! Shards and merging give the bytes of one run; shares that do not make one whole map are
+//! refused.
 
 use std::path::Path;
 
@@ -46,7 +46,7 @@ fn seven_shards_merge_to_the_bytes_of_one_run() {
 }
 
 #[test]
-fn a_part_is_a_table_below_a_line_that_tells_its_origin() {
+fn a_share_is_a_table_below_a_line_that_names_its_origin() {
     let directory = tempfile::tempdir().unwrap();
     let path = text(&directory.path().join("part.csv"));
     done(&words(MAP, &["--shard", "2/2", "--out", &path]));
@@ -63,41 +63,28 @@ fn a_part_is_a_table_below_a_line_that_tells_its_origin() {
 }
 
 #[test]
-fn parts_that_do_not_belong_together_are_refused_by_name() {
+fn shares_that_do_not_belong_together_are_refused() {
     let directory = tempfile::tempdir().unwrap();
     let at = |name: &str| text(&directory.path().join(name));
     let (first, second, other) = (at("first.csv"), at("second.csv"), at("other.csv"));
     done(&words(MAP, &["--shard", "1/2", "--out", &first]));
     done(&words(MAP, &["--shard", "2/2", "--out", &second]));
     let merge = |files: &[&str]| refusal(&[&["map", "merge"], files].concat());
-    assert_eq!(
-        merge(&[&second]),
-        "rubscope: no part is shard 1/2: cell 0 is missing, and 116 others"
-    );
+    assert_eq!(merge(&[&second]), "rubscope: cell 0 is missing, and 116 others");
     assert_eq!(
         merge(&[&first, &second, &first]),
-        format!("rubscope: {first}: cell 0 (line 3) is in {first}, too")
+        format!("rubscope: {first}: cell 0 (line 3) is there twice")
     );
-    for (options, what) in [
-        (&["--zeta-casing", "0.04", "--shard", "2/2"][..], "the scene"),
-        (&["--no-sensitivity", "--shard", "2/2"], "--no-sensitivity"),
-        (&["--shard", "2/3"], "the number of shards"),
-    ] {
-        done(&words(MAP, &[options, &["--out", &other]].concat()));
-        let said = merge(&[&first, &other]);
-        let reason = format!("does not belong to {first}: they differ in {what}");
-        assert_eq!(said, format!("rubscope: {other}: {reason}"));
+    let differs = format!("rubscope: {other}: its first line is not that of the file before it");
+    for option in [&["--zeta-casing", "0.04"][..], &["--no-sensitivity"]] {
+        done(&words(MAP, &[option, &["--shard", "2/2", "--out", &other]].concat()));
+        assert_eq!(merge(&[&first, &other]), differs);
     }
-    let axes = "map --contact bilateral --model rigid --step 1e-6 --speed 250:500:26 --shard 2/2";
-    done(&words(axes, &["--pulse", "0:4e4:9", "--out", &other]));
-    assert!(merge(&[&first, &other]).ends_with("they differ in the y axis"));
-    let part = std::fs::read_to_string(&second).unwrap();
     std::fs::write(&other, "speed,pulse\n").unwrap();
-    let said = merge(&[&first, &other]);
-    assert!(said.starts_with(&format!("rubscope: {other}: not a part of a map")), "{said}");
-    std::fs::write(&other, part.trim_end().rsplit_once('\n').unwrap().0).unwrap();
-    assert_eq!(
-        merge(&[&first, &other]),
-        format!("rubscope: {other}: cell 233 is missing, and 0 others")
-    );
+    assert_eq!(merge(&[&first, &other]), differs);
+    let said = merge(&[&other, &first]);
+    assert!(said.starts_with(&format!("rubscope: {other}: not a share of a map: ")), "{said}");
+    let share = std::fs::read_to_string(&second).unwrap();
+    std::fs::write(&other, share.trim_end().rsplit_once('\n').unwrap().0).unwrap();
+    assert_eq!(merge(&[&first, &other]), "rubscope: cell 233 is missing, and 0 others");
 }

@@ -69,8 +69,7 @@ impl Running {
     }
 }
 
-/// Whether a map has begun to compute: beside its first thread and the one for
-/// signals there are those for cells, which start after signals are watched.
+/// Whether a map has begun to compute: beside its first thread there are those for cells.
 fn computes(process: u32) -> bool {
     let threads = std::fs::read_dir(format!("/proc/{process}/task"));
     threads.is_ok_and(|threads| threads.count() >= 3)

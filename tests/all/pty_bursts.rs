@@ -15,8 +15,8 @@ const MODES: [(&str, &str); 8] = [
     ("i", "blade 1: "),
 ];
 
-/// A letter, an arrow, a move of the mouse and a pasted text.
-const UNIT: &str = "j\u{1b}[B\u{1b}[<35;10;10M\u{1b}[200~ab\u{1b}[201~";
+/// A letter, an arrow, a click of the middle button and a pasted text.
+const UNIT: &str = "j\u{1b}[B\u{1b}[<1;10;10M\u{1b}[200~ab\u{1b}[201~";
 
 fn opened(keys: &str, seen: &str) -> Terminal {
     let mut terminal = Start::explorer(&SHORT).open();

@@ -177,7 +177,7 @@ fn it_can_be_stopped_and_continued_in_every_dialog() {
         terminal.send("\r");
         terminal.wait_for(seen);
         assert!(terminal.parser.screen().alternate_screen(), "{keys:?}");
-        assert!(terminal.has_mode(1003) && terminal.has_mode(1006), "{keys:?}");
+        assert!(terminal.has_mode(1000) && terminal.has_mode(1006), "{keys:?}");
         terminal.send("\u{3}");
         terminal.wait_for("ended with 0");
         terminal.assert_restored();

@@ -18,17 +18,6 @@ const DIAMETERS: &str = "operation.nodal_diameters";
 const STIFFNESS: &str = "casing.modal_stiffness_n_per_m";
 
 #[test]
-fn the_papers_scene_knows_its_modes_of_three_and_four_diameters() {
-    let four = scene("paper-nd3", &[(DIAMETERS, "4")]);
-    let other = Scene::builtin("paper-nd4").unwrap();
-    assert_eq!(four.machine(), other.machine());
-    assert_eq!((four.casing, four.bladed_disk), (other.casing, other.bladed_disk));
-    let told = text(&["run", "--nd", "4", "--end", "0.001"]);
-    assert!(told.contains("Omega_c (256.12 rad/s"), "{told}");
-    assert!(!told.contains("No mode"), "{told}");
-}
-
-#[test]
 fn a_missing_mode_is_said_in_text_and_json() {
     let note = "o mode of the casing with 5 nodal diameters is known (known: 3, 4): the casing's \
                 common values are taken";

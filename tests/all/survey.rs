@@ -1,6 +1,7 @@
-//! `rubscope survey`: each number of diameters is what the single commands say of it.
+//! `rubscope survey`: its text, its files, its ranges and its units. Its numbers are in
+//! `golden_outputs`.
 
-use rubscope_solver::study::margins::{LimitName, Margins, Quantity, parameter};
+use rubscope_solver::study::margins::{LimitName, Margins};
 use rubscope_solver::study::survey::{Survey, speed_range};
 
 use crate::cli_support::{self, json, refusal, rubscope, words};
@@ -8,43 +9,6 @@ use crate::{close, scene};
 
 fn text(line: &str) -> String {
     cli_support::text(&words(line))
-}
-
-#[test]
-fn every_row_has_the_limits_that_margins_finds_for_its_diameters() {
-    for (name, speed) in
-        [("paper-nd3", "500"), ("friction-lock", "-430"), ("rub", "450"), ("digs-in", "300")]
-    {
-        let scene = scene(name, &[("operation.speed_rad_s", speed)]);
-        let mass = parameter("casing.modal_mass_kg").unwrap();
-        let survey = Survey::of(&scene, None, Some(mass)).unwrap();
-        assert_eq!(survey.rows.len(), scene.bladed_disk.blades as usize / 2 + 1);
-        let mut compared = 0;
-        for row in &survey.rows {
-            let mut own = scene.clone().into_scene();
-            own.operation.nodal_diameters = row.nodal_diameters;
-            own.solver.kind = rubscope_solver::scene::SolverKind::Explicit;
-            own.solver.step_s = 1e-7;
-            let machine = own.machine();
-            let frequencies = [row.omega_c_rad_s, row.omega_bd_rad_s];
-            assert_eq!(frequencies, [machine.omega_c, machine.omega_bd]);
-            let margins = Margins::of(&own.checked().unwrap());
-            let forward = own.operation.speed_rad_s > 0.0;
-            let speeds = margins.limits.iter().filter(|limit| limit.quantity == Quantity::Speed);
-            for limit in speeds {
-                let found = row.limit(limit.name, forward);
-                // What the paper's algorithm does below Omega_lock is no limit of a machine.
-                let of_machine = limit.value.filter(|_| limit.name != LimitName::OmegaAdhesive);
-                assert_eq!(found.map(|found| found.value.abs()), of_machine, "{}", limit.name);
-                let Some(found) = found else { continue };
-                assert_eq!(found.margin, limit.margin, "{}", limit.name);
-                let by = limit.sensitivities.by("casing.modal_mass_kg").unwrap();
-                assert!((found.by.unwrap() - by).abs() < 1e-12, "{}", limit.name);
-                compared += 1;
-            }
-        }
-        assert!(compared > 30, "{name}: {compared}");
-    }
 }
 
 #[test]
@@ -65,38 +29,6 @@ fn a_row_says_where_its_lock_speed_is_of_rigid_blades_only() {
         assert_eq!(text.contains("can lock if rigid: from 4"), bends, "{text}");
         assert_eq!(text.contains("If rigid: these blades bend so much"), bends, "{text}");
     }
-}
-
-#[test]
-fn the_numbers_are_those_of_independent_formulas() {
-    let survey = Survey::of(&scene("paper-nd3", &[]), None, None).unwrap();
-    let frequencies = [
-        268.381839036,
-        270.547372399,
-        276.771637402,
-        286.308924036,
-        298.113394976,
-        311.030591211,
-        323.945433059,
-        335.870623909,
-        345.98825455,
-        353.663870078,
-        358.447752897,
-        360.072021607,
-    ];
-    for (row, omega) in survey.rows.iter().zip(frequencies) {
-        close(row.omega_bd_rad_s, omega, 1e-11);
-        assert_eq!(row.modes_known, [3, 4].contains(&row.nodal_diameters));
-    }
-    let four = |name| survey.rows[4].limit(name, true).unwrap().value;
-    close(four(LimitName::OmegaC), 256.12, 1e-5);
-    close(four(LimitName::OmegaLock), 303.42, 1e-5);
-    close(four(LimitName::Coincidence), 330.648, 2e-6);
-    close(four(LimitName::CoincidenceDifference), 181.592, 3e-6);
-    let back = survey.rows[4].limit(LimitName::Coincidence, false).unwrap().value;
-    assert_eq!(back, -four(LimitName::Coincidence));
-    // No wave turns without nodal diameters.
-    assert!(survey.rows[0].limits.is_empty());
 }
 
 /// The lines of the rows, without spaces at their beginning.
@@ -135,26 +67,6 @@ fn a_row_says_first_where_it_can_lock_also_where_the_limit_lies_below_the_range(
         serde_json::json!([lock.unwrap()["value"], json["range_rad_s"][1]])
     );
     assert_eq!(json["rows"][5]["locks_in_range"], serde_json::json!([]));
-}
-
-#[test]
-fn a_lock_counts_where_both_push_and_where_it_lasts() {
-    for name in ["paper-nd3", "rub", "long-tip", "friction-lock"] {
-        let range = "201:801";
-        let survey = json(&["survey", name, "--range", range, "--json"]);
-        let points = json(&["hbm", name, "--nd", "3", "--speed", "201:801:25", "--json"]);
-        let mut found = [0, 0];
-        for point in points["points"].as_array().unwrap() {
-            let speed = point["speed_rad_s"].as_f64().unwrap();
-            let holds = point["admissible"] == true && point["stable"] == true;
-            let locks = survey["rows"][3]["locks_in_range"].as_array().unwrap();
-            let end = |span: &serde_json::Value, place: usize| span[place].as_f64().unwrap();
-            let inside = locks.iter().any(|span| end(span, 0) <= speed && speed <= end(span, 1));
-            assert_eq!(holds, inside, "{name} at {speed}: {point}");
-            found[usize::from(holds)] += 1;
-        }
-        assert!(found.iter().all(|count| *count > 3), "{name}: {found:?}");
-    }
 }
 
 #[test]
@@ -287,40 +199,18 @@ fn speeds_are_told_in_turns_a_minute_where_that_is_wanted() {
 }
 
 #[test]
-fn the_survey_is_written_as_csv_and_as_a_chart() {
+fn the_survey_is_written_as_csv() {
     let folder = tempfile::tempdir().unwrap();
-    let [csv, svg] = ["s.csv", "s.svg"].map(|name| folder.path().join(name));
-    for file in [&csv, &svg] {
-        let file = file.to_str().unwrap();
-        let words = ["survey", "paper-nd3", "--range", "200:320", "--out", file];
-        assert!(rubscope(&words).status.success());
-    }
+    let csv = folder.path().join("s.csv");
+    let file = csv.to_str().unwrap();
+    let words = ["survey", "paper-nd3", "--range", "200:320", "--out", file];
+    assert!(rubscope(&words).status.success());
     let csv = std::fs::read_to_string(csv).unwrap();
     assert!(csv.starts_with("nodal_diameters,omega_c_rad_s,omega_bd_rad_s,name,value_rad_s,"));
     let four = csv.lines().find(|line| line.starts_with("4,") && line.contains(",omega_c,"));
     let value: f64 = four.unwrap().split(',').nth(4).unwrap().parse().unwrap();
     close(value, 256.12, 1e-5);
     assert!(four.unwrap().contains(",true,"), "{four:?}");
-    let svg = std::fs::read_to_string(svg).unwrap();
-    for words in ["(a) frequencies", "(b) limits", "nodal diameters", "rubscope survey paper-nd3"] {
-        assert!(svg.contains(words), "{words}");
-    }
-    assert!(!svg.contains("NaN"));
-    for words in ["can lock", "from 200 rad/s", "to 320 rad/s"] {
-        assert!(svg.contains(words), "{words}: {svg}");
-    }
-    // Nothing that belongs to the text alone; marks stand by themselves.
-    let shown = svg.split_once("</desc>").unwrap().1;
-    assert!(!shown.contains("* marks") && !shown.contains("--range"), "{shown}");
-    let coloured = shown.lines().filter(|line| line.starts_with("<polyline"));
-    let of_lines = coloured.filter(|line| !line.contains("#000000") && !line.contains("#323232"));
-    assert!(of_lines.clone().count() > 0);
-    for line in of_lines {
-        let points = line.split("points=\"").nth(1).unwrap().split('"').next().unwrap();
-        let xs = points.split_whitespace().map(|at| at.split(',').next().unwrap());
-        let xs: Vec<i32> = xs.map(|x| x.parse().unwrap()).collect();
-        assert!(xs.iter().max().unwrap() - xs.iter().min().unwrap() <= 40, "{line}");
-    }
 }
 
 #[test]
@@ -338,7 +228,7 @@ fn a_range_that_is_none_is_refused_by_name() {
         ("survey --range 0:3kN", "rubscope: --range = 0:3kN: this is a force; it takes rad/s, rpm"),
         ("survey --range 0:nan", "rubscope: --range = 0:nan: allowed is FROM:TO"),
         ("survey --by casing", "rubscope: parameter casing: allowed is one of clearance, "),
-        ("survey --out x.npz", "rubscope: --out"),
+        ("survey --out x.txt", "rubscope: --out"),
     ] {
         let said = refusal(&words.split(' ').collect::<Vec<_>>());
         assert!(said.starts_with(start), "{said}");

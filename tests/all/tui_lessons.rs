@@ -18,16 +18,6 @@ fn begin(width: u16, height: u16, place: usize) -> Session {
     session
 }
 
-/// Reads a long text to its end, where the screen has no room for it.
-fn read_on(session: &mut Session) -> String {
-    let mut all = session.text();
-    while session.text().contains(" page ") {
-        session.press("g");
-        all.push_str(&session.text());
-    }
-    all
-}
-
 fn do_task(session: &mut Session, step: &LessonStep) {
     for (path, value) in &step.doing {
         let mut turns = 0;
@@ -225,8 +215,7 @@ fn assert_header_is_shown(session: &mut Session, step: &LessonStep) -> bool {
 const SPEAKS: [&str; 6] =
     ["row of", "rows of", "margins have", "gaps show", "beside it", "go with"];
 
-/// What the text of a step names stands on the screen: at 80x24, also for a projector, and at
-/// 40x12.
+/// What the text of a step names stands on the screen, at 80x24 and at 40x12.
 fn assert_named_is_shown(session: &mut Session, step: &LessonStep) {
     let named = shown(step);
     let answered = [Some(&step.text), step.reason.as_ref()];
@@ -237,16 +226,13 @@ fn assert_named_is_shown(session: &mut Session, step: &LessonStep) {
         "nothing checks what stands on the screen: {}",
         step.text
     );
-    for (size, wide) in [((80, 24), false), ((80, 24), true), ((40, 12), false)] {
-        session.app.appearance.wide = wide;
+    for size in [(80, 24), (40, 12)] {
         session.resize(size);
-        read_on(session);
         let text = session.text();
         for one in named.iter().filter(|one| one.from <= size.0) {
             assert!(text.contains(&one.shown), "{} is not in {text}", one.shown);
         }
     }
-    session.app.appearance.wide = false;
     session.resize((120, 40));
 }
 
@@ -256,38 +242,27 @@ fn assert_has_words(text: &str, words: &str) {
     }
 }
 
-/// The step as it stands leaves room for a chart at 80x24, is read in pages at 40x12, and
-/// an open question has its answers and a chart on one screen of 60x20.
+/// The step leaves room for a chart at 80x24. At 40x12 an open question and its answers are in
+/// sight, and a chart after the answer.
 fn assert_has_room(session: &mut Session, step: &LessonStep) {
     let is_open = session.app.context() == Context::Question;
     let shown = if is_open { &step.question } else { &step.reason };
     let shown = &with_speeds(shown.as_ref().unwrap_or(&step.text));
     let answers: Vec<String> = step.answers.iter().map(|answer| with_speeds(answer)).collect();
     session.resize((80, 24));
-    assert!(!session.text().contains(" page "), "{}", session.text());
-    assert_has_words(&session.text(), shown);
-    session.resize((40, 12));
-    assert_has_words(&read_on(session), shown);
+    let text = session.text();
+    assert_has_words(&text, shown);
     let digit = session.app.view().digit();
+    let chart = text.lines().position(|line| line.contains(&format!("─ {digit} ")));
+    // Without its title, and the last line.
+    assert!(chart.is_some_and(|row| 24 - row - 2 >= 7), "{text}");
+    session.resize((40, 12));
     if is_open {
         // The question and its answers stay in sight.
         let text = session.text();
         answers.iter().chain([shown]).for_each(|words| assert_has_words(&text, words));
     } else {
-        // The charts are there at last.
         assert!(session.text().contains(&format!(" {digit} ")), "{}", session.text());
-    }
-    if is_open {
-        session.resize((60, 20));
-        let progress = session.app.lessons.progress.as_mut().unwrap();
-        (progress.read, progress.page) = (false, 0);
-        read_on(session);
-        let text = session.text();
-        answers.iter().chain([shown]).for_each(|words| assert_has_words(&text, words));
-        let title = format!("─ {digit} ");
-        let above = text.lines().position(|line| line.starts_with(&title));
-        // Without its title, and the last line.
-        assert!(above.is_some_and(|row| 20 - row - 2 >= 7), "{text}");
     }
     session.resize((120, 40));
 }
@@ -409,30 +384,6 @@ fn a_step_that_was_passed_over_is_named_in_the_list() {
     assert!(left.contains(" 3/4 ") && left.contains("step 2 is left"), "{left}");
 }
 
-#[test]
-fn a_lesson_is_shown_on_a_projector_and_goes_on_there() {
-    for size in [(80, 24), (120, 40)] {
-        let mut session = begin(size.0, size.1, 1);
-        session.press("P");
-        let text = session.text();
-        assert!(
-            text.contains("The lock speed, and") && text.contains("[b] in the centre"),
-            "{text}"
-        );
-        assert!(!text.contains("pulse F      ") && text.contains("pulse F = 0 N"), "{text}");
-        // The verdict in large letters comes with the answer.
-        let large = |text: &str| text.matches('█').count();
-        let before = large(&text);
-        session.press(&keys_of(right(0)));
-        let text = session.text();
-        assert!(text.contains("Your answer c is right") && large(&text) > before, "{text}");
-        session.press("g");
-        assert!(session.app.is_asked() && session.app.appearance.wide);
-        session.press("P");
-        assert!(session.text().contains("diameters n_d"), "{}", session.text());
-    }
-}
-
 /// The right answer of a step of the second lesson.
 fn right(step: usize) -> char {
     lessons::all()[1].steps[step].right.unwrap()
@@ -494,14 +445,14 @@ fn the_knob_that_a_task_asks_for_is_in_the_row_that_its_text_names() {
     for step in &lessons::all()[place].steps[..3] {
         session.press(&(keys_of(step.right.unwrap()) + "g"));
     }
-    session.press("P");
+    session.press("f");
     let row = |session: &Session| {
         let text = session.text();
         text.lines().find(|line| line.contains("Ω_lock      411.934")).unwrap().to_string()
     };
     assert!(row(&session).contains("ζ_c +0.33 %"), "{}", session.text());
     // Where its column has no room, i reads it.
-    session.press("Pi↓↓→→→");
+    session.press("fi↓↓→→→");
     assert!(!row(&session).contains("ζ_c"), "{}", session.text());
     assert!(session.text().contains("of damping ζ_c: Ω_lock +0.33 %"), "{}", session.text());
 }

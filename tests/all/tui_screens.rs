@@ -138,11 +138,8 @@ fn speed_against_error_names_its_reference() {
     let mut session = Session::open(120, 40, scene, Theme::Dark, Marker::Braille);
     session.press("7f");
     let text = session.text();
-    assert!(
-        text.contains("reference (smooth law) locked, extrapolated, order 2.0, error "),
-        "{text}"
-    );
-    assert!(text.contains("; 0 of its 18 differ"), "{text}");
+    assert!(text.contains("reference (smooth law) locked, finest step, error "), "{text}");
+    assert!(text.contains("; 0 of its 12 differ"), "{text}");
 }
 
 #[test]
@@ -207,10 +204,9 @@ fn the_first_two_lines_are_whole_at_every_width() {
         let [first, second] = [&rows[0], &rows[1]].map(|row| row.trim_end());
         assert!(first.starts_with(" LOCKED  ") && first.contains('.'), "{width}: {first}");
         assert!(!first.contains("..") && !second.contains(".."), "{width}: {first}\n{second}");
-        // The end is always told, with its verdict where there is room.
+        // The end is always told, with its verdict.
         let end = second.split_once("AT ").map_or("", |(_, end)| end);
-        let whole = end.starts_with("20 ms locked") || end == "20 ms" && width < 44;
-        assert!(second.starts_with("NOW ") && whole, "{width}: {second}");
+        assert!(second.starts_with("NOW ") && end.starts_with("20 ms locked"), "{width}: {second}");
         let title = first.contains("nodal diameters");
         assert!(title || first.ends_with('.'), "{width}: {first}");
     }
@@ -298,4 +294,32 @@ fn an_oval_casing_lies_or_stands_as_its_lobes_do() {
     // A lobe of 60 um on both sides, or at the top and at the bottom.
     let (lying, standing) = (width(0.0), width(std::f64::consts::PI));
     assert!(lying > standing + 6, "{lying} {standing}");
+}
+
+/// Rows of the screen that a chart's upright axis goes through, by its column.
+fn axis_rows(session: &Session, column: usize) -> usize {
+    let is_axis = |sign: char| "│┤".contains(sign);
+    session.text().lines().filter(|line| line.chars().nth(column).is_some_and(is_axis)).count()
+}
+
+#[test]
+fn two_laws_have_the_whole_height_and_the_same_axes() {
+    let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
+    session.press("c");
+    session.press("");
+    let text = session.text();
+    assert!(text.contains("bilateral: LOCKED") && text.contains("unilateral: DECAY"), "{text}");
+    assert!(!text.contains("2 gaps") && !text.contains("pulse F"), "{text}");
+    insta::assert_snapshot!("laws_80x24", text);
+    let column = text.lines().find(|line| line.contains("0┤")).unwrap();
+    let column = column.chars().position(|sign| sign == '┤').unwrap();
+    assert!(axis_rows(&session, column) >= 14, "{text}");
+    let mut session = Session::open(120, 40, scene(), Theme::Dark, Marker::Braille);
+    session.press("c");
+    session.press("");
+    let text = session.text();
+    assert!(text.contains("pulse F") && !text.contains("2 gaps"), "{text}");
+    insta::assert_snapshot!("laws_120x40", text);
+    let row = text.lines().find(|line| line.contains("bilateral: LOCKED")).unwrap();
+    assert!(row.contains("unilateral: DECAY"), "{text}");
 }

@@ -1,7 +1,6 @@
-//! Coincidences of casing and blades: where the lines of a Campbell diagram cross, Eq. (30)
-//! (docs/theory.md, section 4), and what they do against speed, the picture that the last
-//! page of the paper promises: how fast a wave grows where blades rub at rest, and the wave
-//! that lasts (section 10).
+//! Coincidences of casing and disk: the intersections in a Campbell diagram, Eq. (30)
+//! (docs/theory.md, section 4), and their effect as a function of speed, which the last page of the
+//! paper announces: growth rate where blades rub at rest, and the wave that persists (section 10).
 
 use serde::Serialize;
 
@@ -10,23 +9,24 @@ use crate::model::Machine;
 use crate::numeric::is_zero;
 use crate::scene::{ContactLaw, Scene};
 
-/// A line `frequency = +-sqrt(at_standstill^2 + stiffening Omega^2) + slope * Omega`.
+/// Line of a Campbell diagram,
+/// `frequency = +-sqrt(at_standstill^2 + stiffening Omega^2) + slope Omega`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Line {
-    /// What it is.
+    /// Label.
     pub name: String,
-    /// At standstill \[rad/s\].
+    /// Frequency at standstill \[rad/s\].
     pub at_standstill_rad_s: f64,
-    /// Change with the rotor speed.
+    /// Slope with respect to the rotor speed.
     pub slope: f64,
-    /// Centrifugal stiffening `B` of the blades, which bends their lines.
+    /// Centrifugal stiffening `B`, which makes the lines of the blades curved.
     #[serde(skip_serializing_if = "is_zero")]
     pub stiffening: f64,
 }
 
 impl Line {
-    /// Returns the frequency at a rotor speed \[rad/s\]; negative for a wave that turns
-    /// backward in the standing frame.
+    /// Returns the frequency at a rotor speed \[rad/s\]; negative for a wave that turns backward in
+    /// the stationary frame.
     #[must_use]
     pub fn at(&self, speed: f64) -> f64 {
         let own = if self.stiffening == 0.0 {
@@ -40,32 +40,31 @@ impl Line {
     }
 }
 
-/// One of the coincidences of Eq. (30), `casing = n_d Omega + blades`.
+/// A coincidence of Eq. (30), `casing = n_d Omega + blades`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Coincidence {
-    /// `+omega_c` or `-omega_c` \[rad/s\].
+    /// Casing frequency, `+omega_c` or `-omega_c` \[rad/s\].
     pub casing_rad_s: f64,
-    /// `+omega_bd` or `-omega_bd`, at that speed \[rad/s\].
+    /// Blade frequency at that speed, `+omega_bd` or `-omega_bd` \[rad/s\].
     pub blades_rad_s: f64,
-    /// Rotor speed where they coincide \[rad/s\]; negative for the other sense
-    /// of rotation.
+    /// Rotor speed of the coincidence; negative for backward rotation \[rad/s\].
     pub speed_rad_s: f64,
-    /// Whether it is the dangerous one of the rotor's sense of rotation, Eq. (31).
+    /// Whether it is the dangerous one for the rotor's direction, Eq. (31).
     pub dangerous: bool,
 }
 
-/// The lines of a Campbell diagram.
+/// Lines and coincidences of a Campbell diagram.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Campbell {
-    /// Casing, bladed disk forward and backward, then engine orders.
+    /// Lines of the casing, the disk (forward and backward), and the engine orders.
     pub lines: Vec<Line>,
-    /// The coincidences: four, unless blades stiffen so much that there are more or less.
+    /// Coincidences: four, unless centrifugal stiffening adds or removes some.
     pub coincidences: Vec<Coincidence>,
 }
 
 impl Campbell {
-    /// Creates the lines, with those of these engine orders, `order * Omega`. The dangerous
-    /// coincidence is that of a rotor that turns in the sense of `speed`.
+    /// Creates the diagram with the given engine orders, `order Omega`. The direction of rotation,
+    /// which decides on the dangerous coincidence, is the sign of `speed`.
     ///
     /// ```
     /// use rubscope_solver::harmonic::Campbell;
@@ -78,7 +77,7 @@ impl Campbell {
     /// ```
     ///
     /// # Errors
-    /// No nodal diameters, so no travelling waves.
+    /// `n_d = 0`, so that there are no travelling waves.
     pub fn of(machine: &Machine, orders: &[u32], speed: f64) -> Result<Self, HarmonicError> {
         let n_d = machine.nodal_diameters;
         error::refuse_no_wave(machine)?;
@@ -104,7 +103,7 @@ impl Campbell {
             casing_rad_s: turns * omega_c,
             blades_rad_s: blades * machine.at(speed).omega_bd,
             speed_rad_s: turns * speed,
-            // The two directions of every wave exchange with the sense of rotation.
+            // Backward rotation exchanges the two directions of every wave.
             dangerous: turns * sense > 0.0 && blades * sense < 0.0,
         };
         let (differences, sum) = machine.meetings(omega_c, omega_bd);
@@ -118,34 +117,32 @@ impl Campbell {
     }
 }
 
-/// Growth and lasting wave at one rotor speed.
+/// Growth rate and persistent wave at one rotor speed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct CoincidencePoint {
     /// Rotor speed \[rad/s\].
     pub speed_rad_s: f64,
-    /// Growth of the worst motion about rest, where all blades rub there; none with a
+    /// Growth rate of the least stable motion about rest, if all blades rub at rest; `None` with a
     /// clearance, where rest is always stable \[1/s\].
     pub growth_1_s: Option<f64>,
-    /// Amplitude of the blades in the wave that lasts; none where every wave decays, and
-    /// where none is large enough to last \[rad\].
+    /// Blade amplitude of the wave that persists; `None` if every wave decays \[rad\].
     pub blade_amplitude_rad: Option<f64>,
-    /// Amplitude of the casing in it \[m\].
+    /// Casing amplitude of that wave \[m\].
     pub casing_amplitude_m: Option<f64>,
-    /// Its frequency in the standing frame \[rad/s\].
+    /// Frequency of that wave in the stationary frame \[rad/s\].
     pub omega_rad_s: Option<f64>,
     /// Whether waves of any amplitude stay bounded in this model.
     pub bounded: bool,
 }
 
-/// Computes the coincidence of a scene over speeds \[rad/s\]. Under preload the wave is what
-/// rest grows into; over a clearance it is one that a large enough pulse leaves behind.
+/// Computes growth rate and persistent wave of a scene for a list of speeds \[rad/s\]. With
+/// preload, rest grows into the wave; with a clearance, a sufficiently large pulse starts it.
 ///
 /// # Errors
-/// A machine without a travelling wave of blades and casing, or a speed that is not
-/// finite.
+/// Blades and casing are not coupled by a single travelling wave, or a speed is not finite.
 pub fn coincidence(scene: &Scene, speeds: &[f64]) -> Result<Vec<CoincidencePoint>, HarmonicError> {
     let machine = scene.machine();
-    // Also refuses what has no wave with rigid contact.
+    // Created also for rigid contact, because it checks the machine.
     let lining = Lining::of(&machine, &scene.contact)?;
     let smooth = scene.solver.contact == ContactLaw::Smooth;
     let point = |&speed: &f64| {
@@ -159,8 +156,8 @@ pub fn coincidence(scene: &Scene, speeds: &[f64]) -> Result<Vec<CoincidencePoint
     speeds.iter().map(point).collect()
 }
 
-/// Returns the coincidence that the lining of a scene shifts, for a rotor that turns in the
-/// sense of `speed` \[rad/s\]; none where no blade rubs at rest.
+/// Returns the coincidence as shifted by the lining of a scene, for a rotor that turns in the
+/// direction of the sign of `speed` \[rad/s\]; `None` if no blade rubs at rest.
 #[must_use]
 pub fn shifted_coincidence(scene: &Scene, speed: f64) -> Option<f64> {
     let machine = scene.machine();
@@ -182,8 +179,8 @@ fn on_lining(lining: &Lining, speed: f64) -> Result<CoincidencePoint, HarmonicEr
     })
 }
 
-/// Computes the wave on a rigid casing: the one that attracts has the amplitude of the
-/// clearance. Waves stay bounded unless the structures flutter as one.
+/// Computes the wave for rigid contact: the attracting wave has the amplitude of the clearance.
+/// Waves stay bounded unless the coupled structures flutter.
 fn on_rigid_casing(machine: &Machine, speed: f64) -> CoincidencePoint {
     let joint = Joint::at(machine, speed);
     let clearance = joint.machine.clearance();

@@ -1,26 +1,26 @@
-//! A corner of the polygon of the blade frame: the two phase groups that hold a locked wave
-//! between them (docs/theory.md, section 3), named by blades as the paper does (#6 and #21),
-//! and where casing and blades are: the point `z` and the two blade modes, which determine
-//! every contact and gap.
+//! Corners of the polygon: the two phase groups that hold a locked wave (docs/theory.md, section
+//! 3), named by blade numbers as in the paper (#6 and #21).
+//!
+//! [`Configuration`] contains the displacements of casing and blades, from which every gap follows.
 
 use super::stability::ClosedSide;
 use super::{HarmonicError, error};
 use crate::model::{ContactPolygon, Machine, Number};
 
-/// The paper's pair of blades.
+/// The pair of blades in the paper.
 pub const PAPER_PAIR: [u32; 2] = [6, 21];
 
-/// Two neighbouring sides in phase order, `psi_b = psi_a + 2 delta`.
+/// Two neighbouring sides in the order of their phase; `psi_b = psi_a + 2 delta` for equal tips.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Corner {
-    /// The side of phase `psi_a`.
+    /// Side with the phase `psi_a`.
     pub a: u32,
-    /// The side of phase `psi_b`.
+    /// Side with the phase `psi_b`.
     pub b: u32,
 }
 
 impl Corner {
-    /// Returns the corner between side `a` and the next one in increasing phase.
+    /// Returns the corner between side `a` and the next one in the direction of increasing phase.
     ///
     /// # Errors
     /// The polygon has no corners.
@@ -30,12 +30,13 @@ impl Corner {
         Ok(Self { a, b: polygon.next(a) })
     }
 
-    /// Returns the corner that holds a wave of a machine: of equal tips the default one, of
-    /// others that which does at the lowest speed, or one of these blades.
+    /// Returns the corner of a machine that holds the wave: the one between `blades`, or, if
+    /// `None`, the default corner for equal tips and the corner that is held at the lowest speed
+    /// for unequal ones.
     ///
     /// # Errors
-    /// The polygon has no corners, no corner of the tips is ever held, or the blades are those
-    /// of no corner.
+    /// The polygon has no corners, no corner of the tips is ever held, or the blades do not form a
+    /// corner.
     pub fn of<T: Number>(
         machine: &Machine<T>,
         speed: f64,
@@ -62,9 +63,9 @@ impl Corner {
         })
     }
 
-    /// Returns the default corner: that of the paper's blades 6 and 21 where these are
-    /// phase neighbours, else the corner that starts nearest their phase, side
-    /// `15 N'/22` rounded.
+    /// Returns the default corner: that of the paper's blades 6 and 21 if these are phase
+    /// neighbours, otherwise the corner that starts nearest to their phase, at side `15 N'/22`
+    /// rounded.
     ///
     /// # Errors
     /// The polygon has no corners.
@@ -79,12 +80,12 @@ impl Corner {
         Self::after(polygon, nearest as u32)
     }
 
-    /// Returns the corner between the groups of two blades, numbered from 1, given in
-    /// either order.
+    /// Returns the corner between the groups of two blades, numbered from 1 and given in either
+    /// order.
     ///
     /// # Errors
-    /// A blade that does not exist, or two whose groups are not neighbours in
-    /// phase; the message names the neighbours.
+    /// A blade does not exist, or the groups are not neighbours in phase; the message names the
+    /// neighbours.
     pub fn of_blades(
         polygon: &ContactPolygon,
         [first, second]: [u32; 2],
@@ -116,27 +117,28 @@ impl Corner {
         }
     }
 
-    /// Returns the two sides, `[a, b]`.
+    /// Returns both sides, `[a, b]`.
     #[must_use]
     pub fn sides(self) -> [u32; 2] {
         [self.a, self.b]
     }
 }
 
-/// `z` in units of `g0`, and the turns `n_d alpha_c`, `n_d alpha_s` \[rad\].
+/// Displacements of casing and blades: `z` in units of `g0`, and the modal blade angles
+/// `n_d alpha_c`, `n_d alpha_s` \[rad\].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Configuration {
     pub z: (f64, f64),
     pub turn: (f64, f64),
-    /// `kappa l_b/(n_d g0)`, by which a turn opens a gap.
+    /// Effect of a blade angle on its gap, `kappa l_b/(n_d g0)`.
     pub slope: f64,
-    /// `(kappa + mu) l_b/(n_d g0)`, by which a contact force bends its blade.
+    /// Lever of a contact force on its blade, `(kappa + mu) l_b/(n_d g0)`.
     pub lever: f64,
 }
 
 impl Configuration {
-    /// Creates the configuration with the blade modes bent by these contacts, given as side,
-    /// scaled multiplier and moment arm; `compliance` is softness times share.
+    /// Creates the configuration with blades bent by contact forces, each given as side, scaled
+    /// multiplier and lever; `compliance` is softness times share.
     pub fn bent(
         polygon: &ContactPolygon,
         z: (f64, f64),
@@ -152,27 +154,27 @@ impl Configuration {
         Self { z, turn, ..Self::default() }
     }
 
-    /// Returns `n_d alpha` of a side.
+    /// Returns the blade angle `n_d alpha` of a side.
     fn turn_of(&self, (c, s): (f64, f64)) -> f64 {
         c * self.turn.0 + s * self.turn.1
     }
 
-    /// Returns `exp(i (psi + n_d alpha))` of a side.
+    /// Returns the direction `exp(i (psi + n_d alpha))` of a side.
     pub fn direction(&self, polygon: &ContactPolygon, side: u32) -> (f64, f64) {
         let (c, s) = polygon.direction(side);
         let (sin, cos) = self.turn_of((c, s)).sin_cos();
         (c * cos - s * sin, s * cos + c * sin)
     }
 
-    /// Returns the gap of a side over `g0`.
+    /// Returns the gap of a side in units of `g0`.
     pub fn gap(&self, polygon: &ContactPolygon, side: u32) -> f64 {
         let (c, s) = self.direction(polygon, side);
         let rise = self.slope * self.turn_of(polygon.direction(side));
         polygon.relative_apothem(side) + self.z.0 * c + self.z.1 * s - rise
     }
 
-    /// Returns the smallest gap over `g0` of the sides not in `contacts`; infinite if there
-    /// are none.
+    /// Returns the smallest gap, in units of `g0`, of the sides that are not in `contacts`;
+    /// infinite if there are none.
     pub fn smallest_gap(&self, polygon: &ContactPolygon, contacts: &[u32]) -> f64 {
         (0..polygon.sides)
             .filter(|side| !contacts.contains(side))
@@ -180,14 +182,14 @@ impl Configuration {
             .fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns a side in contact with this (scaled) multiplier.
+    /// Returns the contact geometry of a side with a scaled multiplier.
     pub fn held(&self, polygon: &ContactPolygon, side: u32, multiplier: f64) -> ClosedSide {
         let direction = self.direction(polygon, side);
         let across = self.z.1 * direction.0 - self.z.0 * direction.1;
         ClosedSide {
             phase: polygon.direction(side),
             direction,
-            // The gap is closed.
+            // From the condition that the gap is closed.
             along: self.slope * self.turn_of(polygon.direction(side))
                 - polygon.relative_apothem(side),
             arm: across - self.slope,

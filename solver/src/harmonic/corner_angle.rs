@@ -1,58 +1,34 @@
-//! Very soft blades: the wave opens its corner, the stiffness is exhausted at some speed,
-//! and the branch of the corner turns back there (docs/theory.md, section 8).
+//! The corner of very soft blades: contact forces open it until, at some speed, the branch folds
+//! back (docs/theory.md, section 8).
 //!
 //! The corner is one equation for its corner angle `Delta`, explicit in it, folds included:
 //! `stiffness = -(Delta - delta) cos^3 Delta/(c sin Delta)`, `c` the theory's `chi`.
-//!
-//! The branch is followed by arc length, so that it passes a fold and does not miss it.
-//! Points are spaced in the plane of speed (over `Omega_c`) and corner angle, and each is
-//! exact. Up to the fold both coordinates only grow; behind it the speed only falls. So the
-//! end of each leg is known in advance: the points hit an end or a fold exactly.
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::equations::Scales;
-use crate::model::{Machine, Number};
-use crate::numeric::bisection::bisected;
-use crate::tolerances::{AS_GOOD_AS_RIGID, CONVERGED};
+use crate::tolerances::CONVERGED;
 
-/// The corner angle of one polygon's corners.
+/// Equation for the half angle of a corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct CornerAngle<T = f64> {
+pub(super) struct CornerAngle {
     /// Half angle of the unbent corner, `delta` \[rad\].
     pub delta: f64,
     /// `c` above.
-    compliance: T,
-}
-
-impl<T: Number> CornerAngle<T> {
-    /// Creates the corner angle of a machine.
-    pub fn of(machine: &Machine<T>) -> Self {
-        let scales = Scales::of(machine);
-        Self::new(machine.polygon.delta, scales.softness * scales.share)
-    }
-
-    /// Creates the corner angle from the (dimensionless) softness of the blades times their
-    /// share.
-    pub fn new(delta: f64, bend: T) -> Self {
-        Self { delta, compliance: bend * delta.sin().powi(2) }
-    }
-
-    /// Returns `stiffness` at the fold, where the branch turns back: `at_fold` depends on
-    /// `delta` alone, so `stiffness` goes with one over the compliance.
-    pub fn fold_stiffness(&self) -> Option<T> {
-        let plain = CornerAngle { delta: self.delta, compliance: self.compliance.re() };
-        let (stiffness, _) = plain.stiffness(plain.at_fold())?;
-        Some(self.compliance.recip() * (stiffness * plain.compliance))
-    }
+    compliance: f64,
 }
 
 impl CornerAngle {
+    /// Creates the corner angle from the (dimensionless) softness of the blades times their
+    /// share.
+    pub fn new(delta: f64, bend: f64) -> Self {
+        Self { delta, compliance: bend * delta.sin().powi(2) }
+    }
+
     /// Returns the change of the corner angle `Delta - delta` \[rad\] at `stiffness`, on the
     /// branch of stiff blades; `None` beyond its fold.
     pub fn at(&self, stiffness: f64) -> Option<f64> {
         let mut angle_change = 0.0;
-        // Steps shrink at least by half (at the fold), until they are rounding.
+        // Newton steps shrink at least by half (at the fold) until they are round-off.
         let mut last = f64::INFINITY;
         for _ in 0..100 {
             let angle = self.delta + angle_change;
@@ -60,8 +36,8 @@ impl CornerAngle {
             let pull = self.compliance * stiffness / (cos * cos);
             let value = angle_change + pull * sin / cos;
             let slope = 1.0 + pull * (1.0 + 2.0 * sin * sin) / (cos * cos);
-            // The slope vanishes at the fold. Newton's steps from delta stay on
-            // the near side of the root: the equation is convex there.
+            // The slope vanishes at the fold. The equation is convex, so Newton steps from delta
+            // stay on the near side of the root.
             if slope <= 0.0 {
                 return None;
             }
@@ -80,29 +56,6 @@ impl CornerAngle {
         }
         None
     }
-
-    /// Returns `stiffness` at a change of the corner angle, and its slope; `None` if the
-    /// blades are too stiff for such an opening.
-    pub fn stiffness(&self, angle_change: f64) -> Option<(f64, f64)> {
-        if self.compliance < AS_GOOD_AS_RIGID {
-            return None;
-        }
-        let (sin, cos) = (self.delta + angle_change).sin_cos();
-        let scale = -cos * cos / (self.compliance * sin * sin);
-        let stiffness = scale * angle_change * sin * cos;
-        let slope = scale * (sin * cos - angle_change * (1.0 + 2.0 * sin * sin));
-        (stiffness.is_finite() && slope.is_finite()).then_some((stiffness, slope))
-    }
-
-    /// Returns the change of the corner angle at the fold \[rad\]: it depends on
-    /// `delta` alone.
-    pub fn at_fold(&self) -> f64 {
-        let falls = |angle_change: f64| {
-            let (sin, cos) = (self.delta + angle_change).sin_cos();
-            sin * cos <= angle_change * (1.0 + 2.0 * sin * sin)
-        };
-        bisected([0.0, FRAC_PI_2 - self.delta], falls)[0]
-    }
 }
 
 #[cfg(test)]
@@ -110,33 +63,21 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_branch_by_speed_is_the_branch_by_opening() {
-        for (delta, bend) in [(0.1428, 1e-6), (0.1428, 40.0), (0.6, 3.0), (1.0, 0.3)] {
+    fn the_branch_solves_its_equation_up_to_the_fold() {
+        for (delta, bend) in [(0.1428_f64, 1e-6), (0.1428, 40.0), (0.6, 3.0), (1.0, 0.3)] {
+            let stiffness = |angle: f64| {
+                -(angle - delta) * angle.cos().powi(3) / (bend * delta.sin().powi(2) * angle.sin())
+            };
+            let angles = (0..100_000).map(|k| delta + 1e-5 * (FRAC_PI_2 - delta) * f64::from(k));
+            let limit = angles.map(stiffness).fold(0.0, f64::min);
             let corner_angle = CornerAngle::new(delta, bend);
-            let (limit, slope) = corner_angle.stiffness(corner_angle.at_fold()).unwrap();
-            assert!(slope.abs() < 1e-12 * (limit / delta).abs());
             for part in [-3.0, -0.5, 0.0, 1e-9, 0.1, 0.5, 0.9, 0.999] {
                 let angle_change = corner_angle.at(part * limit).unwrap();
-                let (back, _) = corner_angle.stiffness(angle_change).unwrap();
-                // Next to the fold the rounding of an angle is amplified a
-                // hundred times.
-                assert!((back - part * limit).abs() <= 1e-13 * limit.abs());
+                let back = stiffness(delta + angle_change);
+                assert!((back - part * limit).abs() <= 1e-12 * limit.abs());
                 assert_eq!(angle_change > 0.0, part > 0.0);
             }
             assert_eq!(corner_angle.at(1.001 * limit), None);
         }
-    }
-
-    #[test]
-    fn the_slope_is_the_slope_and_the_fold_is_the_extreme() {
-        let corner_angle = CornerAngle::new(0.3, 2.0);
-        let at = |angle_change| corner_angle.stiffness(angle_change).unwrap().0;
-        for angle_change in [-0.1, 0.05, 0.7] {
-            let (_, slope) = corner_angle.stiffness(angle_change).unwrap();
-            let measured = (at(angle_change + 1e-5) - at(angle_change - 1e-5)) / 2e-5;
-            assert!((measured - slope).abs() < 1e-7 * slope.abs().max(1.0));
-        }
-        let fold = corner_angle.at_fold();
-        assert!(at(fold) < at(fold - 1e-4) && at(fold) < at(fold + 1e-4));
     }
 }

@@ -1,7 +1,7 @@
-//! The equations of the lock (docs/theory.md, section 8): two neighbouring phase groups hold
-//! the casing wave in a corner of the blade frame.
+//! Equations of the lock (docs/theory.md, section 8): two neighbouring phase groups hold the casing
+//! wave in a corner of the polygon, in the blade frame.
 //!
-//! Lengths are counted in `g0`, contact forces in `k_c g0`. With `z = x + i y`, the direction
+//! Lengths are in units of `g0`, contact forces in `k_c g0`. With `z = x + i y`, the direction
 //! `b_i = psi_i + n_d alpha_i` of a group and `A_i = n_d Im[z exp(-i b_i)]`:
 //!
 //! - rows 1-2, closed gaps: `1 + Re[z exp(-i b_i)] - kappa l_b alpha_i = 0`
@@ -9,15 +9,15 @@
 //! - rows 5-6, blades: `alpha_i = sum_j share_ij P_j (A_j - (kappa + mu) l_b)`
 //!
 //! These are the eight equations (27) for `u_cc = u_ss = x`, `u_sc = -u_cs = y`: half the
-//! differences of their rows 5-8 give a zero backward wave, half their sums are rows 3-4.
-//! The forms `printed` and `blade` expand `exp(i b_i)` to first order, Eq. (26), and differ
-//! in `share`. Inclined or rubbing tips (section 10) have the form `modal` alone.
+//! differences of their rows 5-8 give a zero backward wave, half their sums are rows 3-4. The forms
+//! `printed` and `blade` expand `exp(i b_i)` to first order, Eq. (26), and differ in `share`.
+//! Inclined or rubbing tips (section 10) are available in the form `modal` only.
 //!
-//! Far from the solution Newton's method is unreliable: it may miss the solution or
-//! find another branch, at one speed and not at the next. So a start is accepted
-//! only if its steps are small and shrink. If not, because blades are soft, the
-//! solution is continued from rigid to soft blades; it ends where that branch folds. The
-//! form `modal` of the paper's tips starts at its closed form.
+//! Far from the solution Newton's method is unreliable: it can fail, or converge to another branch,
+//! at one speed and not at the next. A start is therefore accepted only if the steps are small and
+//! shrink. If they are not, because the blades are soft, the solution is continued from rigid to
+//! soft blades, up to the fold of that branch. The form `modal` with the paper's tips starts from
+//! its closed form.
 
 use nalgebra::{Complex, SMatrix, SVector};
 use num_dual::Dual64;
@@ -33,10 +33,10 @@ use crate::tolerances::{
     POLISHED,
 };
 
-/// `[x, y, P_a, P_b, alpha_a, alpha_b]`, scaled.
+/// Scaled unknowns `[x, y, P_a, P_b, alpha_a, alpha_b]`.
 pub(super) type Unknowns<T = f64> = [T; 6];
 
-/// The casing at one speed: `stiffness = 1 - (nu/omega_c)^2` and
+/// Casing impedance at one speed: `stiffness = 1 - (nu/omega_c)^2` and
 /// `drag = 2 zeta_c nu/omega_c`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Wave<T = f64> {
@@ -45,11 +45,11 @@ pub(super) struct Wave<T = f64> {
 }
 
 impl<T: Number> Wave<T> {
-    /// Creates the casing at rotor speed `speed` \[rad/s\], with or without its damping.
+    /// Creates the casing impedance at a rotor speed \[rad/s\], with or without damping.
     pub fn at(machine: &Machine<T>, speed: T, damped: bool) -> Self {
         let ratio = machine.nu(speed) / machine.omega_c;
         let damping = if damped { machine.casing_damping_ratio } else { T::zero() };
-        // The factored difference keeps its digits near the critical speed.
+        // The factored difference avoids cancellation near the critical speed.
         Self { stiffness: (-ratio + 1.0) * (ratio + 1.0), drag: damping * 2.0 * ratio }
     }
 }
@@ -57,22 +57,22 @@ impl<T: Number> Wave<T> {
 /// Units that make the equations dimensionless.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Scales<T = f64> {
-    /// `g0` \[m\].
+    /// Length, `g0` \[m\].
     pub length: T,
-    /// `k_c g0` \[N\].
+    /// Force, `k_c g0` \[N\].
     pub force: T,
-    /// `n_d k_c g0^2/(m_b omega_bd^2)` \[rad\].
+    /// Blade angle, `n_d k_c g0^2/(m_b omega_bd^2)` \[rad\].
     pub angle: T,
-    /// `n_d` times `angle`.
+    /// Softness of the blades, `n_d` times `angle`.
     pub softness: T,
-    /// Response of the blade modes to a torque on one blade: `2/N`, or `1/N` if
-    /// there is only one mode.
+    /// Response of the blade modes to a torque on one blade: `2/N`, or `1/N` if there is only one
+    /// mode.
     pub share: f64,
 }
 
 impl<T: Number> Scales<T> {
     /// Creates the units of a machine.
-    pub fn of(machine: &Machine<T>) -> Self {
+    pub fn new(machine: &Machine<T>) -> Self {
         let length = machine.clearance();
         let force = machine.casing_stiffness * length;
         let stiffness = machine.blade_inertia * machine.omega_bd * machine.omega_bd;
@@ -86,29 +86,30 @@ impl<T: Number> Scales<T> {
 /// The six equations of one corner at one speed, in one form.
 #[derive(Clone, Debug)]
 pub(super) struct Equations<T = f64> {
-    /// Half the phase between both groups \[rad\].
+    /// Half the phase difference of both groups \[rad\].
     delta: f64,
-    /// `(cos psi, sin psi)` of both sides.
+    /// Directions `(cos psi, sin psi)` of both sides.
     phases: [(f64, f64); 2],
-    /// Apothems of both sides.
+    /// Apothems of both sides, in units of `g0`.
     apothems: [T; 2],
     form: Form,
     wave: Wave<T>,
-    /// `mu_c`.
+    /// Friction on the casing mode, `mu_c`.
     friction: T,
-    /// `kappa l_b/(n_d g0)`.
+    /// Scaled slope of the tip path, `kappa l_b/(n_d g0)`.
     slope: T,
-    /// `(kappa + mu) l_b/(n_d g0)`.
+    /// Scaled lever of the contact force, `(kappa + mu) l_b/(n_d g0)`.
     lever: T,
     /// Unit of blade angles \[rad\].
     pub angle: T,
-    /// `n_d alpha` for one unit of `alpha`.
+    /// Factor `n_d alpha` per unit of scaled blade angle.
     pub softness: T,
     /// Response of both blade angles to the torques `P (A - lever)/n_d` of both groups.
     share: [[T; 2]; 2],
 }
 
-/// A group in contact: its direction `(cos b, sin b)`, and `Re` and `Im` of `z exp(-i b)`.
+/// A group in contact: its direction `(cos b, sin b)`, and real and imaginary part of
+/// `z exp(-i b)`.
 struct Touch<T> {
     direction: (T, T),
     along: T,
@@ -116,10 +117,11 @@ struct Touch<T> {
 }
 
 impl<T: Number> Equations<T> {
-    /// Creates the equations of a machine at a rotor speed \[rad/s\], which has this casing.
+    /// Creates the equations of a machine at a rotor speed \[rad/s\] with the casing impedance
+    /// `wave`.
     pub fn new(machine: &Machine<T>, corner: Corner, form: Form, wave: Wave<T>, speed: T) -> Self {
         let polygon = &machine.polygon;
-        let scales = Scales::of(machine);
+        let scales = Scales::new(machine);
         let reach = machine.blade_length / (machine.clearance() * machine.nodal_diameters);
         let lever = (machine.radial_coupling + machine.friction_at(speed)) * reach;
         let each = 1.0 / f64::from(polygon.blades_per_side);
@@ -133,7 +135,7 @@ impl<T: Number> Equations<T> {
         };
         let apothem = |side| machine.apothem(side) / machine.clearance();
         let equal = !machine.has_unequal_tips();
-        // Angles stay of order one where the torque of tips is the larger part.
+        // Keeps scaled angles of order one if the torque of the tips dominates.
         let unit = lever.abs() + 1.0;
         let [own, other] = [own, other].map(|share| unit.recip() * share);
         Self {
@@ -151,7 +153,7 @@ impl<T: Number> Equations<T> {
         }
     }
 
-    /// Converts every number.
+    /// Converts each number with `number`.
     fn map<S>(&self, number: impl Fn(T) -> S) -> Equations<S> {
         Equations {
             delta: self.delta,
@@ -168,7 +170,7 @@ impl<T: Number> Equations<T> {
         }
     }
 
-    /// Returns group `i` of the corner in contact.
+    /// Returns the geometry of group `i` of the corner.
     fn touch(&self, i: usize, unknowns: &Unknowns<T>) -> Touch<T> {
         let [x, y, ..] = *unknowns;
         let (c, s) = self.phases[i];
@@ -182,7 +184,7 @@ impl<T: Number> Equations<T> {
         Touch { direction, along, across: y * direction.0 - x * direction.1 }
     }
 
-    /// Returns the six rows.
+    /// Returns the residuals of the six equations.
     pub fn residual(&self, unknowns: &Unknowns<T>) -> Unknowns<T> {
         let [x, y, push_a, push_b, alpha_a, alpha_b] = *unknowns;
         let Wave { stiffness, drag } = self.wave;
@@ -203,8 +205,8 @@ impl<T: Number> Equations<T> {
         [gaps[0], gaps[1], casing[0], casing[1], blades[0], blades[1]]
     }
 
-    /// Adds the derivatives to a solution of the plain equations: one step of Newton's method
-    /// with the plain slope.
+    /// Attaches derivatives to a solution of the plain equations: one Newton step with the plain
+    /// Jacobian.
     fn derived(&self, plain: &Equations, unknowns: &Unknowns) -> Option<Unknowns<T>> {
         let inverse = plain.jacobian(unknowns).try_inverse()?;
         let mut derived = unknowns.map(T::from);
@@ -217,21 +219,21 @@ impl<T: Number> Equations<T> {
         Some(derived)
     }
 
-    /// Returns the lock with its derivatives; `None` where there is none.
+    /// Returns the locked solution with derivatives; `None` if there is none.
     pub fn locked_with_derivatives(&self) -> Option<Unknowns<T>> {
         let plain = self.map(|value| value.re());
         self.derived(&plain, &plain.locked()?)
     }
 
-    /// Returns the coordinates `(alpha_c, alpha_s)` of the blade modes, scaled, by Eq. (20).
+    /// Returns the scaled modal coordinates `(alpha_c, alpha_s)` of the blades, Eq. (20).
     pub fn blade_modes(&self, [.., a, b]: &Unknowns<T>) -> [T; 2] {
         let [(c_a, s_a), (c_b, s_b)] = self.phases;
         let sine = c_a * s_b - s_a * c_b;
         [(*a * s_b - *b * s_a) / sine, (*b * c_a - *a * c_b) / sine]
     }
 
-    /// Returns the torque of the rotor over `n_d k_c g0^2`: `drag |z|^2`, less what the
-    /// tangential forces on the casing take.
+    /// Returns the torque of the rotor in units of `n_d k_c g0^2`: `drag |z|^2`, minus the
+    /// contribution of tangential forces on the casing.
     pub fn torque(&self, unknowns: &Unknowns<T>) -> T {
         let [x, y, push_a, push_b, ..] = *unknowns;
         let along = push_a * self.touch(0, unknowns).along + push_b * self.touch(1, unknowns).along;
@@ -240,7 +242,7 @@ impl<T: Number> Equations<T> {
 }
 
 impl Equations {
-    /// Returns where casing and blades are.
+    /// Returns the displacements of casing and blades.
     pub fn configuration(&self, unknowns: &Unknowns) -> Configuration {
         let [x, y, ..] = *unknowns;
         let [turn_c, turn_s] = self.blade_modes(unknowns).map(|alpha| self.softness * alpha);
@@ -260,13 +262,13 @@ impl Equations {
         jacobian
     }
 
-    /// Returns whether neither the slope nor the friction of the tips has a part.
+    /// Returns whether the tips have neither slope nor friction.
     fn has_paper_tips(&self) -> bool {
         self.slope == 0.0 && self.lever == 0.0 && self.friction == 0.0
     }
 
-    /// Returns the lock that rigid blades grow into as they soften; `None` if its branch folds
-    /// before they are this soft, or where nothing resists.
+    /// Returns the locked solution on the branch that starts at rigid blades; `None` if the branch
+    /// folds back before this softness, or if the equations are singular.
     pub fn locked(&self) -> Option<Unknowns> {
         let paper = self.has_paper_tips() && self.apothems == [1.0; 2];
         let start = match self.form {
@@ -301,7 +303,7 @@ impl Equations {
         None
     }
 
-    /// Returns the closed form of the paper's tips with each side turned by `-+angle_change`
+    /// Returns the closed form for the paper's tips with each side turned by `-+angle_change`
     /// \[rad\].
     fn opened(&self, angle_change: f64) -> Unknowns {
         let [(c_a, s_a), (c_b, s_b)] = self.phases;
@@ -311,7 +313,7 @@ impl Equations {
         let pushes = [(drag - stiff) / (2.0 * cos), -(stiff + drag) / (2.0 * cos)];
         let torques = [-pushes[0] * sin / cos, pushes[1] * sin / cos];
         let alpha = self.share.map(|share| share[0] * torques[0] + share[1] * torques[1]);
-        // The expansion (26) is of first order, which is enough for such small turns.
+        // The expansion (26) is of first order; it is used for small turns only.
         let (sin_middle, cos_middle) = (0.5 * self.softness * (alpha[0] + alpha[1])).sin_cos();
         let size = -1.0 / (c.hypot(s) * cos);
         let x = size * (c * cos_middle - s * sin_middle);
@@ -319,12 +321,12 @@ impl Equations {
         [x, y, pushes[0], pushes[1], alpha[0], alpha[1]]
     }
 
-    /// Returns the closed form of the linearised gap with blades that only the slope and the
-    /// friction of the tips bend; `None` where nothing resists.
+    /// Returns the closed form for linearised gaps, with blades bent by slope and friction of the
+    /// tips only; `None` if the equations are singular.
     fn linearised(&self) -> Option<Unknowns> {
         let [(c_a, s_a), (c_b, s_b)] = self.phases;
         let middle = Complex::new(c_a + c_b, s_a + s_b);
-        // `w`, the corner of the polygon; |middle| = 2 cos(delta).
+        // Relative displacement w, the corner of the polygon; |middle| = 2 cos(delta).
         let mut w = middle * (-2.0 / middle.norm_sqr());
         if self.apothems != [1.0; 2] {
             let ([a, b], sine) = (self.apothems, c_a * s_b - s_a * c_b);
@@ -332,11 +334,11 @@ impl Equations {
         }
         let turned = Complex::new(1.0, self.friction);
         let casing = Complex::new(self.wave.stiffness, self.wave.drag);
-        // a = -bent p in the unit of angles.
+        // Blade angle a = -bent p, in units of `angle`.
         let bent = self.lever * self.share[0][0];
         let joined = turned + casing * (self.slope * self.softness * bent);
         let (z, p) = (w * turned / joined, w * casing / joined);
-        // p = P_a exp(i psi_a) + P_b exp(i psi_b).
+        // Contact forces from p = P_a exp(i psi_a) + P_b exp(i psi_b).
         let sine = c_a * s_b - s_a * c_b;
         let push_a = (p.re * s_b - p.im * c_b) / sine;
         let push_b = (p.im * c_a - p.re * s_a) / sine;
@@ -345,11 +347,11 @@ impl Equations {
         start.iter().all(|value| value.is_finite()).then_some(start)
     }
 
-    /// Solves the equations by Newton's method; `None` where the first step is larger than the
-    /// part `largest` of the unknowns, or steps do not shrink.
+    /// Solves the equations by Newton's method; `None` if the first step exceeds the fraction
+    /// `largest` of the unknowns, or if steps do not shrink.
     fn newton(&self, start: Unknowns, largest: f64) -> Option<Unknowns> {
-        // Rows are of order one, so rounding leaves a residual of a few units
-        // in the last place of the largest term.
+        // The rows are of order one, so the attainable residual is a few units in the last place of
+        // the largest term.
         let size = 1.0 + self.wave.stiffness.abs() + self.wave.drag.abs();
         let residual = |at: &SVector<f64, 6>| SVector::from(self.residual(&(*at).into()));
         let mut unknowns = SVector::from(start);
@@ -374,13 +376,13 @@ impl Equations {
             }
             last = length;
         }
-        // Ill-conditioned, close to a fold: accept what is accurate enough.
+        // Ill-conditioned near a fold: accept a residual that is small enough.
         (residual(&unknowns).amax() <= POLISHED * size).then(|| unknowns.into())
     }
 }
 
-/// The equations of the blade angles. Their choice hardly changes casing
-/// amplitudes and multipliers, but it changes the blade angles.
+/// Form of the equations for the blade angles. It hardly affects casing amplitude and multipliers,
+/// but it changes the blade angles.
 #[derive(
     Clone,
     Copy,
@@ -398,18 +400,18 @@ impl Equations {
 #[serde(rename_all = "lowercase")]
 #[strum(serialize_all = "lowercase")]
 pub enum Form {
-    /// Eq. (27) as printed: its first two rows have the contact torque of Eq.
-    /// (19) times -2. Expansion (26).
+    /// Eq. (27) as printed: its first two rows have -2 times the contact torque of Eq. (19).
+    /// Expansion (26).
     Printed,
-    /// From Eq. (19) with the neighbours eliminated by (20): every contacting
-    /// blade on its own spring `m_b omega_bd^2`. Expansion (26).
+    /// Eq. (19) with the neighbours eliminated by (20): every contacting blade acts on its own
+    /// spring `m_b omega_bd^2`. Expansion (26).
     Blade,
-    /// The two blade modes of the time model, exact in the blade angle.
+    /// Two blade modes as in the time domain, exact in the blade angle.
     #[default]
     Modal,
 }
 
 impl Form {
-    /// Every form, in the order of the documentation.
+    /// All forms, in the order of the documentation.
     pub const ALL: [Self; 3] = [Self::Printed, Self::Blade, Self::Modal];
 }

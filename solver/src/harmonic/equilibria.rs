@@ -1,7 +1,7 @@
-//! Every equilibrium of the blade frame at a constant speed: rest, a side that holds the
-//! wave alone, and a corner; their branches over speed, and the speeds where a branch
-//! appears, vanishes, becomes tensile or changes its stability (docs/theory.md, section 8).
-//! By symmetry one side and one corner represent all `N'`.
+//! All equilibria in the blade frame at a constant speed: rest, contact on one side, and contact in
+//! a corner; their branches over speed, and the speeds at which a branch appears, vanishes, becomes
+//! tensile or changes its stability (docs/theory.md, section 8). By symmetry one side and one
+//! corner represent all `N'`.
 
 use nalgebra::Complex;
 use serde::Serialize;
@@ -15,47 +15,47 @@ use crate::model::Machine;
 use crate::numeric::bisection::try_bisected;
 use crate::tolerances::BRANCH_CHANGES;
 
-/// What is in contact.
+/// Kind of equilibrium by its contacts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, AsRefStr)]
 #[serde(rename_all = "lowercase")]
 #[strum(serialize_all = "lowercase")]
 pub enum Kind {
-    /// No contact: the casing at rest.
+    /// No contact; the casing is undeformed.
     Rest,
-    /// One phase group.
+    /// Contact of one phase group.
     Side,
-    /// Two neighbouring phase groups.
+    /// Contact of two neighbouring phase groups.
     Corner,
 }
 
 impl Kind {
-    /// Every kind.
+    /// All kinds.
     pub const ALL: [Self; 3] = [Self::Rest, Self::Side, Self::Corner];
 }
 
-/// Whether a real contact can hold an equilibrium, or the reason why not.
+/// Whether real contact can hold an equilibrium, or the reason why not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, AsRefStr)]
 #[serde(rename_all = "lowercase")]
 #[strum(serialize_all = "lowercase")]
 pub enum Character {
-    /// There is no such equilibrium.
+    /// No such equilibrium exists.
     Absent,
-    /// Some multiplier pulls: no real contact holds it.
+    /// A multiplier is tensile, so real contact cannot hold the state.
     Pulls,
-    /// Some multiplier pulls, but both predicted gaps close, so that the
-    /// paper's equality algorithm holds it.
+    /// A multiplier is tensile, but both predicted gaps close, so the paper's equality algorithm
+    /// holds the state.
     Adhesive,
-    /// Another blade would be inside the casing.
+    /// Another blade would penetrate the casing.
     Penetrates,
-    /// Admissible, but some motion that keeps the contacts grows.
+    /// Admissible, but a motion that keeps the contacts grows.
     Unstable,
     /// Admissible, and no motion that keeps the contacts grows.
     Stable,
 }
 
 impl Character {
-    /// Returns the character of a steady state whose contacts push, or else may be held by a
-    /// pull, whose other gaps are as small as this, and about which some motion grows or not.
+    /// Classifies a steady state: whether its multipliers push, whether the equality algorithm
+    /// would hold it with pulls, its smallest other gap, and whether a motion about it grows.
     pub(super) fn of(
         pushes: bool,
         held_by_pulls: bool,
@@ -73,59 +73,59 @@ impl Character {
         }
     }
 
-    /// Returns whether pushes can hold it, with every other gap open.
+    /// Returns whether pushes can hold the state with all other gaps open.
     #[must_use]
     pub fn is_admissible(self) -> bool {
         matches!(self, Self::Unstable | Self::Stable)
     }
 }
 
-/// One phase group in contact.
+/// A phase group in contact.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GroupContact {
-    /// Its side of the contact polygon.
+    /// Side of the contact polygon.
     #[serde(skip)]
     pub side: u32,
-    /// Its blades, numbered from 1.
+    /// Blades of the group, numbered from 1.
     pub blades: Vec<u32>,
-    /// Sum of the group's multipliers; negative pushes \[N\].
+    /// Sum of the group's multipliers; negative is a push \[N\].
     pub multiplier_n: f64,
 }
 
-/// A steady state in the frame of the blades.
+/// A steady state in the blade frame.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Equilibrium {
     /// Rotor speed \[rad/s\].
     pub speed_rad_s: f64,
-    /// What is in contact.
+    /// Contacts of the state.
     pub kind: Kind,
-    /// Whether a contact can hold it.
+    /// Whether real contact can hold the state.
     pub character: Character,
-    /// Both signs right and every other gap open.
+    /// Whether no multiplier is tensile and all other gaps are open.
     pub admissible: bool,
-    /// Admissible, and no motion that keeps the contacts grows.
+    /// Whether the state is admissible and no motion that keeps the contacts grows.
     pub stable: bool,
-    /// The groups in contact.
+    /// Groups in contact.
     pub contacts: Vec<GroupContact>,
-    /// `z = (u_c + i u_s) exp(-i n_d theta)` \[m\].
+    /// Casing displacement in the blade frame, `z = (u_c + i u_s) exp(-i n_d theta)` \[m\].
     #[serde(skip)]
     pub z_m: [f64; 2],
     /// Amplitude `|z|` of the casing wave \[m\].
     pub amplitude_m: f64,
-    /// Cosine coordinate of the blades \[rad\].
+    /// Cosine coordinate of the blades, `alpha_c` \[rad\].
     pub alpha_c_rad: f64,
-    /// Sine coordinate of the blades \[rad\].
+    /// Sine coordinate of the blades, `alpha_s` \[rad\].
     pub alpha_s_rad: f64,
-    /// Smallest gap of the groups not in contact \[m\].
+    /// Smallest gap of the groups that are not in contact \[m\].
     pub smallest_gap_m: f64,
-    /// Torque the rotor must give, `sum Lambda A` \[N m\].
+    /// Torque of the rotor, `sum Lambda A` \[N m\].
     pub torque_nm: f64,
-    /// Its power, equal to that of the casing's damper, `d_c nu^2 |z|^2` \[W\].
+    /// Power of the rotor, equal to that of the casing damping, `d_c nu^2 |z|^2` \[W\].
     pub power_w: f64,
     /// Largest real part of the eigenvalues \[1/s\].
     pub growth_per_s: f64,
-    /// Eigenvalues of the motion that keeps the contacts \[1/s\]; `[real,
-    /// imaginary]` in reports.
+    /// Eigenvalues of the motion that keeps the contacts \[1/s\]; written as `[real, imaginary]` in
+    /// reports.
     #[serde(serialize_with = "as_pairs")]
     pub eigenvalues_per_s: Vec<Complex<f64>>,
 }
@@ -134,8 +134,8 @@ fn as_pairs<S: serde::Serializer>(values: &[Complex<f64>], out: S) -> Result<S::
     out.collect_seq(values.iter().map(|value| [value.re, value.im]))
 }
 
-/// Returns all equilibria at one speed \[rad/s\] that exist, rest first. The side is
-/// the first of the default corner.
+/// Returns all existing equilibria at one speed \[rad/s\], rest first. The side is the first one of
+/// the default corner.
 ///
 /// ```
 /// use rubscope_solver::harmonic::{Character, Kind, equilibria};
@@ -153,7 +153,8 @@ fn as_pairs<S: serde::Serializer>(values: &[Complex<f64>], out: S) -> Result<S::
 /// ```
 ///
 /// # Errors
-/// A speed that is not finite, or eigenvalues that cannot be computed.
+/// The speed is not finite, the tips are inclined or rub, the disk modes have other nodal
+/// diameters, or eigenvalues cannot be computed.
 pub fn equilibria(
     machine: &Machine,
     speed: f64,
@@ -169,11 +170,11 @@ pub fn equilibria(
     Ok(found)
 }
 
-/// Returns the equilibrium of one kind on `side`, or on the corner between it and the
-/// next, at one speed; `None` where there is none.
+/// Returns the equilibrium of one kind at a speed \[rad/s\], on `side` or in the corner between it
+/// and the next one; `None` if there is none.
 ///
 /// # Errors
-/// A speed that is not finite, or eigenvalues that cannot be computed.
+/// As [`equilibria`].
 pub fn equilibrium(
     machine: &Machine,
     kind: Kind,
@@ -186,11 +187,11 @@ pub fn equilibrium(
     error::refuse_tips(machine, "0 where every equilibrium is asked; the lock takes it")?;
     let machine = &*machine.at(speed);
     if machine.changes_with_speed() && machine.clearance() <= 0.0 {
-        // Blades have grown into the casing.
+        // The blades have grown into the casing.
         return Ok(None);
     }
     let wave = Wave::at(machine, speed, damped);
-    let scales = Scales::of(machine);
+    let scales = Scales::new(machine);
     let loads = match kind {
         Kind::Rest => Some(((0.0, 0.0), Vec::new())),
         Kind::Side => on_side(machine, &scales, wave, side),
@@ -202,12 +203,12 @@ pub fn equilibrium(
     judged(machine, kind, speed, damped, &configuration, &loads).map(Some)
 }
 
-/// `z` and the loads (side, multiplier, moment arm) of an equilibrium, scaled.
+/// Scaled `z` and contact forces (side, multiplier, lever) of an equilibrium.
 type Loaded = ((f64, f64), Vec<(u32, f64, f64)>);
 
-/// Returns the state in which one side holds the wave: `(stiffness + i drag) z = -Lambda exp(i
-/// phi)` and a closed gap give `Lambda = (stiffness^2 + drag^2)/stiffness`, moment arm
-/// `drag/stiffness`; the blade angle only turns the frame.
+/// Returns the state with contact on one side. `(stiffness + i drag) z = -Lambda exp(i phi)` and
+/// the closed gap give `Lambda = (stiffness^2 + drag^2)/stiffness` and the lever `drag/stiffness`;
+/// the blade angle only turns the direction.
 fn on_side(machine: &Machine, scales: &Scales, wave: Wave, side: u32) -> Option<Loaded> {
     let (stiffness, drag) = (wave.stiffness, wave.drag);
     let (multiplier, arm) = if drag == 0.0 {
@@ -222,7 +223,7 @@ fn on_side(machine: &Machine, scales: &Scales, wave: Wave, side: u32) -> Option<
     let still =
         Configuration::bent(&machine.polygon, (0.0, 0.0), scales.softness * scales.share, &loads);
     let (c, s) = still.direction(&machine.polygon, side);
-    // z exp(-i phi) = -1 + i arm.
+    // From z exp(-i phi) = -1 + i arm.
     Some(((-c - arm * s, -s + arm * c), loads))
 }
 
@@ -234,7 +235,7 @@ fn in_corner(machine: &Machine, wave: Wave, speed: f64, side: u32) -> Option<Loa
     Some((configuration.z, loads_of(machine, corner, &configuration, &unknowns)))
 }
 
-/// Returns the loads of a solution of the corner's equations.
+/// Returns the contact forces of a solution of the corner's equations.
 pub(super) fn loads_of(
     machine: &Machine,
     corner: Corner,
@@ -248,10 +249,10 @@ pub(super) fn loads_of(
     vec![load(corner.a, push_a), load(corner.b, push_b)]
 }
 
-/// Computes gaps, stability, torque and character of a configuration under its loads.
+/// Evaluates gaps, stability, torque and character of a configuration under its contact forces.
 ///
 /// # Errors
-/// Eigenvalues that cannot be computed.
+/// The eigenvalues cannot be computed.
 pub(super) fn judged(
     machine: &Machine,
     kind: Kind,
@@ -260,7 +261,7 @@ pub(super) fn judged(
     configuration: &Configuration,
     loads: &[(u32, f64, f64)],
 ) -> Result<Equilibrium, HarmonicError> {
-    let (polygon, scales) = (&machine.polygon, Scales::of(machine));
+    let (polygon, scales) = (&machine.polygon, Scales::new(machine));
     let sides: Vec<u32> = loads.iter().map(|load| load.0).collect();
     let held: Vec<_> =
         loads.iter().map(|load| configuration.held(polygon, load.0, load.1)).collect();
@@ -275,7 +276,7 @@ pub(super) fn judged(
     let character =
         Character::of(pushes, held_by_pulls, open, || grows(&eigenvalues, machine.omega_c));
     let (x, y) = configuration.z;
-    // `sum Lambda A`; rest has none.
+    // Torque `sum Lambda A`, which is zero at rest.
     let moment_arm = Wave::at(machine, speed, damped).drag * (x * x + y * y);
     let torque = machine.nodal_diameters * scales.force * scales.length * moment_arm;
     let angle = if scales.softness > 0.0 { scales.angle / scales.softness } else { 0.0 };
@@ -307,36 +308,35 @@ pub(super) fn judged(
 /// A speed at which a branch changes its character.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Threshold {
-    /// Where, to the last digit \[rad/s\].
+    /// Rotor speed, to the last digit \[rad/s\].
     pub speed_rad_s: f64,
-    /// Which branch.
+    /// Branch.
     pub kind: Kind,
-    /// What it is below.
+    /// Character below this speed.
     pub below: Character,
-    /// What it is above.
+    /// Character above this speed.
     pub above: Character,
 }
 
-/// Equilibria over a list of speeds. They are found where they are asked for: all of
-/// them at once are a thousand bytes for each speed.
+/// Equilibria for a list of speeds. Only the thresholds are stored; states are computed on demand,
+/// because they take about a thousand bytes for each speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Branches {
     machine: Machine,
     speeds: Vec<f64>,
     damped: bool,
-    /// Where branches change between the smallest and the largest speed, in
-    /// order of speed.
+    /// Thresholds between the smallest and the largest speed, in increasing order of speed.
     pub thresholds: Vec<Threshold>,
-    /// How many equilibria there are at all speeds.
+    /// Number of equilibria over all speeds.
     pub count: usize,
 }
 
 impl Branches {
-    /// Creates the branches over these speeds \[rad/s\]; changes are found between neighbouring
-    /// ones and then bisected.
+    /// Computes the branches for a list of speeds \[rad/s\]. Changes between neighbouring speeds
+    /// are located by bisection.
     ///
     /// # Errors
-    /// A speed that is not finite, or eigenvalues that cannot be computed.
+    /// As [`equilibria`].
     pub fn over(machine: &Machine, speeds: &[f64], damped: bool) -> Result<Self, HarmonicError> {
         let (machine, thresholds) = (machine.clone(), Vec::new());
         let mut found = Self { machine, speeds: speeds.to_vec(), damped, thresholds, count: 0 };
@@ -372,10 +372,10 @@ impl Branches {
         self.speeds.len()
     }
 
-    /// Returns every equilibrium at the speed at a place of the list.
+    /// Returns every equilibrium at a speed, given by its index in the list.
     ///
     /// # Errors
-    /// None for what `over` gave.
+    /// None, because [`over`](Self::over) has computed these states before.
     pub fn states_at(&self, place: usize) -> Result<Vec<Equilibrium>, HarmonicError> {
         let mut states = Vec::new();
         if let Some(&speed) = self.speeds.get(place) {
@@ -392,8 +392,8 @@ impl Branches {
     }
 }
 
-/// Returns the changes of `what` between two speeds, as far as bisection finds them:
-/// the speed, and the values below and above.
+/// Returns the changes of `what` between two speeds as far as bisection finds them: the speed, and
+/// the values below and above.
 pub(super) fn changes<T: Copy + PartialEq>(
     low: f64,
     high: f64,
@@ -412,8 +412,8 @@ pub(super) fn changes<T: Copy + PartialEq>(
             Ok(changed)
         })?;
         match found.last_mut() {
-            // A state at a single speed is not a branch, such as the side at
-            // the critical speed, where its push is infinite.
+            // A state that exists only at a single speed is not a branch; for example the side at
+            // the critical speed, where its contact force is infinite.
             Some(last) if above - last.0 <= 4.0 * f64::EPSILON * above.abs() => last.2 = after,
             _ => found.push((above, before, after)),
         }

@@ -1,11 +1,10 @@
-//! The linear response of a locked motion to an engine-order excitation of the
-//! blades, with both contacts kept.
-//! (docs/theory.md, section 8.)
+//! Linear response of a locked motion to an engine-order excitation of the blades, with both
+//! contacts kept (docs/theory.md, section 8).
 //!
-//! A load `Q cos(E (theta + Phi_i))`, fixed in the standing frame, drives the
-//! modes of `n_d` diameters only where `E` is `+-n_d` modulo `N`, at `E Omega` in
-//! the blade frame: `sum_i exp(i psi_i) Q_i = (N/2) Q exp(+-i E theta)`. In a
-//! corner only the blades are free to move, and the casing follows them.
+//! A load `Q cos(E (theta + Phi_i))`, fixed in the stationary frame, drives the modes with `n_d`
+//! nodal diameters only if `E = +-n_d` modulo `N`, with the frequency `E Omega` in the blade frame:
+//! `sum_i exp(i psi_i) Q_i = (N/2) Q exp(+-i E theta)`. In a corner only the blades are free to
+//! move, and the casing follows them.
 
 use nalgebra::{Complex, Matrix2, Vector2, Vector4};
 
@@ -15,29 +14,29 @@ use super::stability::{ClosedSide, Linearised, blade_scale};
 use super::{Corner, Equilibrium, Form, HarmonicError, Kind, error};
 use crate::model::{Excitation, Machine};
 
-/// The locked motion with its response to an engine order at one speed.
+/// Locked motion and its response to an engine order at one speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExcitedLock {
-    /// The locked motion without the excitation.
+    /// Locked motion without the excitation.
     pub state: Equilibrium,
     /// Frequency in the blade frame, `E |Omega|` \[rad/s\].
     pub frequency_rad_s: f64,
-    /// Complex amplitudes of `x, y` (casing, blade frame) \[m\] and of `alpha_c`,
-    /// `alpha_s` \[rad\], each the coefficient of `exp(i frequency t)`.
+    /// Complex amplitudes, the coefficients of `exp(i frequency t)`, of `x`, `y` (casing in the
+    /// blade frame) \[m\] and of `alpha_c`, `alpha_s` \[rad\].
     pub response: [Complex<f64>; 4],
     /// Complex amplitudes of both group multipliers \[N\].
     pub multipliers_n: [Complex<f64>; 2],
-    /// Largest change of `|z|` over that of the locked motion.
+    /// Largest change of `|z|` relative to the locked motion.
     pub relative_amplitude: f64,
-    /// Largest change of a multiplier over its mean.
+    /// Largest change of a multiplier relative to its mean.
     pub relative_multiplier: f64,
-    /// The torque at which a multiplier would first reach zero, by the linear
-    /// response \[N m\]; none if the excitation does not drive these modes.
+    /// Excitation torque at which a multiplier first reaches zero in the linear response; `None` if
+    /// the excitation does not drive these modes \[N m\].
     pub release_torque_nm: Option<f64>,
 }
 
 impl ExcitedLock {
-    /// Returns the amplitude of the casing's response \[m\].
+    /// Returns the amplitude of the casing response \[m\].
     #[must_use]
     pub fn casing_m(&self) -> f64 {
         self.response[0].norm().hypot(self.response[1].norm())
@@ -59,24 +58,24 @@ fn reach(machine: &Machine, order: u32) -> (bool, bool) {
     ((diameters + order).is_multiple_of(blades), diameters == order)
 }
 
-/// The response of the locked motion (form `modal`, damped) in the corner after a side
-/// over speeds, computed where it is asked for: all of it takes much memory.
+/// Responses of the damped locked motion (form `modal`) in one corner for a list of speeds. They
+/// are computed on demand to save memory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExcitedLocks {
     machine: Machine,
     corner: Corner,
     excitation: Excitation,
     speeds: Vec<f64>,
-    /// At how many of the speeds there is a locked motion.
+    /// Number of speeds with a locked motion.
     pub count: usize,
 }
 
 impl ExcitedLocks {
-    /// Creates the responses over these speeds \[rad/s\].
+    /// Creates the responses for a list of speeds \[rad/s\].
     ///
     /// # Errors
-    /// A polygon without corners, a speed that is not finite, or eigenvalues that cannot
-    /// be computed.
+    /// The polygon has no corners, the tips are inclined or rub, the disk modes have other nodal
+    /// diameters, a speed is not finite, or eigenvalues cannot be computed.
     pub fn over(
         machine: &Machine,
         side: u32,
@@ -100,10 +99,11 @@ impl ExcitedLocks {
         self.speeds.len()
     }
 
-    /// Returns the locked motion at the speed at a place of the list, if there is one.
+    /// Returns the excited locked motion at a speed, given by its index in the list; `None` if
+    /// there is none.
     ///
     /// # Errors
-    /// None for what `over` gave.
+    /// None, because [`over`](Self::over) has computed it before.
     pub fn lock_at(&self, place: usize) -> Result<Option<ExcitedLock>, HarmonicError> {
         let Some(&speed) = self.speeds.get(place) else { return Ok(None) };
         error::refuse_endless(&[speed])?;
@@ -131,7 +131,7 @@ fn at(
     let state = judged(machine, Kind::Corner, speed, true, &configuration, &loads)?;
     let motion = Linearised::about(machine, speed, true, &held);
 
-    let scales = Scales::of(machine);
+    let scales = Scales::new(machine);
     let angle = blade_scale(machine) / machine.nodal_diameters;
     let torque = excitation.amplitude_nm * angle / (scales.force * scales.length);
     let frequency = f64::from(excitation.order) * speed;
@@ -157,33 +157,31 @@ fn at(
     }))
 }
 
-/// Returns the load on `(alpha_c, alpha_s)` per unit torque on each blade, as the
-/// coefficients of `exp(i E Omega t)`.
+/// Returns the load on `(alpha_c, alpha_s)` for a unit torque on each blade, as coefficients of
+/// `exp(i E Omega t)`.
 fn modal_load(machine: &Machine, order: u32) -> [Complex<f64>; 2] {
     let half = 0.5 * f64::from(machine.polygon.blades);
     let (forward, backward) = reach(machine, order);
     let part = |reached: bool| if reached { half } else { 0.0 };
-    // exp(i E theta) = cos + i sin: the sine coordinate lags or leads by a
-    // quarter period.
+    // exp(i E theta) = cos + i sin: the sine coordinate is a quarter period ahead or behind.
     [
         Complex::new(part(forward) + part(backward), 0.0),
         Complex::new(0.0, part(backward) - part(forward)),
     ]
 }
 
-/// Returns the largest change of `|z|`: the part of the response along `z`.
+/// Returns the largest change of `|z|`, which is the response in the direction of `z`.
 fn radial(state: &Equilibrium, response: &[Complex<f64>; 4]) -> f64 {
     let amplitude = state.amplitude_m;
     ((response[0] * state.z_m[0] + response[1] * state.z_m[1]) / amplitude).norm()
 }
 
-/// Coordinates and multipliers of a forced motion, scaled.
+/// Scaled coordinates and multipliers of a forced motion.
 type Forced = (Vector4<Complex<f64>>, Vector2<Complex<f64>>);
 
 impl Linearised {
-    /// Returns the steady response to a load `exp(i ratio t)` on the blade modes, both
-    /// contacts of a corner kept: coordinates and multipliers, scaled. `None`
-    /// at an undamped resonance.
+    /// Returns the steady response to a load `exp(i ratio t)` on the blade modes with both contacts
+    /// of a corner kept: scaled coordinates and multipliers. `None` at an undamped resonance.
     fn forced(&self, load: [Complex<f64>; 2], ratio: f64) -> Option<Forced> {
         let basis = self.corner_basis()?.map(real);
         let dynamic = self.dynamic_stiffness(ratio);

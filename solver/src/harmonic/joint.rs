@@ -1,16 +1,19 @@
-//! Blades and casing as one where they touch (docs/theory.md, section 10): the compliance
-//! that a travelling wave of pushes meets, and the flutter of both where a lock joins them.
-//! With the corner held, both move as one, `L_c(s) + (1 + i mu_c) L_a(s)/c2 = 0`, and from
-//! some rotor speed on that motion grows. It is also where the pushes of a whirl grow without
-//! bound, `B(omega) = 0` at a real frequency.
+//! Blades and casing coupled at the contact (docs/theory.md, section 10): the compliance that a
+//! travelling wave of contact forces encounters, and flutter of the locked motion.
 //!
-//! In units of both stiffnesses, with `x = omega/omega_c`, `y = s/omega_bd`,
-//! `c = c2 k_c/k_a`, that is
-//! `c (1 - x^2 + 2 i zeta_c x) + (1 + i mu_c)(1 - y^2 + 2 i zeta_bd y) = 0`,
-//! and `nu/omega_c = x - (omega_bd/omega_c) y`. A limit has real `x` and `y`:
+//! In a corner both structures move together, `L_c(s) + (1 + i mu_c) L_a(s)/c2 = 0`, and from some
+//! rotor speed on this motion grows. That is also where the contact forces of a whirl become
+//! infinite, `B(omega) = 0` at a real frequency.
+//!
+//! Dimensionless, with `x = omega/omega_c`, `y = s/omega_bd`, `c = c2 k_c/k_a`:
+//! `c (1 - x^2 + 2 i zeta_c x) + (1 + i mu_c)(1 - y^2 + 2 i zeta_bd y) = 0` and
+//! `nu/omega_c = x - (omega_bd/omega_c) y`. At a stability limit `x` and `y` are real:
 //!
 //! - real part: `c (1 - x^2) + 1 - y^2 - 2 mu_c zeta_bd y = 0`
 //! - imaginary part: `2 c zeta_c x + 2 zeta_bd y + mu_c (1 - y^2) = 0`
+//!
+//! Read [`Joint`] (compliance), then [`flutters`] and [`lock_windows`] (results), then `HeldPair`
+//! (the equations above).
 
 use std::borrow::Cow;
 
@@ -20,17 +23,17 @@ use num_dual::Dual64;
 use super::{Corner, Form, Locked};
 use crate::model::{LockWindow, Machine, Number};
 use crate::numeric::bisection::bisected;
-use crate::numeric::real_roots::{Coefficients, Point, product, real_roots, sum};
+use crate::numeric::real_roots::real_roots;
 use crate::tolerances::{FLUTTER_FURTHEST, FLUTTER_STRIDE};
 
-/// The joint of blades and casing at one rotor speed.
+/// Coupling of blades and casing at one rotor speed.
 #[derive(Clone, Debug)]
 pub struct Joint<'a> {
-    /// The machine at that speed, with its friction.
+    /// The machine at that speed.
     pub machine: Cow<'a, Machine>,
-    /// Wave frequency in the frame of the blades, `nu = n_d Omega` \[rad/s\].
+    /// Wave frequency in the blade frame, `nu = n_d Omega` \[rad/s\].
     pub nu: f64,
-    /// Friction that the casing feels, `mu_c`.
+    /// Friction that acts on the casing mode, `mu_c`.
     pub casing_friction: f64,
     /// Coupling product `c2 = kappa (kappa + mu) l_b^2` \[m^2\].
     pub coupling_product: f64,
@@ -40,11 +43,11 @@ impl<'a> Joint<'a> {
     /// Creates the joint at a rotor speed \[rad/s\].
     #[must_use]
     pub fn at(machine: &'a Machine, speed: f64) -> Self {
-        Self::of(machine.at(speed), speed)
+        Self::new(machine.at(speed), speed)
     }
 
-    /// Creates the joint of a machine that is the one at that speed.
-    pub(super) fn of(machine: Cow<'a, Machine>, speed: f64) -> Self {
+    /// Creates the joint of a machine that is already evaluated at that speed.
+    pub(super) fn new(machine: Cow<'a, Machine>, speed: f64) -> Self {
         Self {
             nu: machine.nu(speed),
             casing_friction: machine.casing_friction_at(speed),
@@ -53,8 +56,9 @@ impl<'a> Joint<'a> {
         }
     }
 
-    /// Returns whether blades and casing meet in one travelling wave: `N' >= 3`, and the modes
-    /// of the disk have the diameters of the casing or an alias of them, `+-n_d` modulo `N`.
+    /// Returns whether blades and casing are coupled by a single travelling wave: `N' >= 3`, and
+    /// the disk modes have the nodal diameters of the casing or an alias of them, `+-n_d` modulo
+    /// `N`.
     #[must_use]
     pub fn has_one_wave(machine: &Machine) -> bool {
         let blades = f64::from(machine.polygon.blades);
@@ -63,7 +67,7 @@ impl<'a> Joint<'a> {
         machine.polygon.has_corners() && (meets(1.0) || meets(-1.0))
     }
 
-    /// Returns the dynamic stiffness of the casing at a frequency in the standing frame,
+    /// Returns the dynamic stiffness of the casing at a frequency in the stationary frame,
     /// `k_c - omega^2 m_c + i omega d_c` \[N/m\].
     #[must_use]
     pub fn casing_stiffness(&self, omega: f64) -> Complex<f64> {
@@ -71,8 +75,8 @@ impl<'a> Joint<'a> {
         Complex::new(m.casing_stiffness - omega * omega * m.casing_mass, omega * m.casing_damping)
     }
 
-    /// Returns the dynamic stiffness of the blade modes at a frequency in the frame of the
-    /// blades, `k_a - s^2 m_a + i s d_a` \[N m/rad\].
+    /// Returns the dynamic stiffness of the blade modes at a frequency in the blade frame,
+    /// `k_a - s^2 m_a + i s d_a` \[N m/rad\].
     #[must_use]
     pub fn blade_stiffness(&self, s: f64) -> Complex<f64> {
         let m = &*self.machine;
@@ -80,8 +84,9 @@ impl<'a> Joint<'a> {
         Complex::new(m.blade_modal_stiffness - inertia, s * m.blade_modal_damping)
     }
 
-    /// Returns the joint compliance `B(omega) = (1 + i mu_c)/(casing) + c2/(blades)`, which a
-    /// wave of pushes of casing frequency `omega` meets \[m/N\].
+    /// Returns the joint compliance `B(omega) = (1 + i mu_c)/L_c + c2/L_a` for a wave of contact
+    /// forces with the casing frequency `omega`; `L_c`, `L_a` are the dynamic stiffnesses of casing
+    /// and blades \[m/N\].
     #[must_use]
     pub fn compliance(&self, omega: f64) -> Complex<f64> {
         let turned = Complex::new(1.0, self.casing_friction);
@@ -92,7 +97,7 @@ impl<'a> Joint<'a> {
         casing + self.blade_stiffness(omega - self.nu).inv() * self.coupling_product
     }
 
-    /// Returns the lever of a contact force at the blades, `|kappa + mu| l_b` \[m\].
+    /// Returns the lever arm of a contact force on the blade modes, `|kappa + mu| l_b` \[m\].
     #[must_use]
     pub fn blade_lever(&self) -> f64 {
         let machine = &*self.machine;
@@ -102,18 +107,18 @@ impl<'a> Joint<'a> {
 }
 
 /// Returns the flutter speed without any damping, as a magnitude \[rad/s\]:
-/// `Omega_f = sqrt[(1/m_c + c2/m_a)(k_c + k_a/c2)]/n_d`, never below the dangerous
-/// coincidence. None where tips are not joined or never flutter; for a rotor that turns
-/// in the sense of `toward`.
+/// `Omega_f = sqrt[(1/m_c + c2/m_a)(k_c + k_a/c2)]/n_d`, which is never below the dangerous
+/// coincidence. `None` if the tips do not couple blades and casing, or the lock never flutters. The
+/// sign of `toward` is the direction of rotation.
 #[must_use]
 pub fn undamped_flutter_speed<T: Number>(machine: &Machine<T>, toward: f64) -> Option<T> {
-    let pair = HeldPair::of(&machine.at(T::zero()), toward)?;
+    let pair = HeldPair::new(&machine.at(T::zero()), toward)?;
     let rate = pair.rate * pair.rate;
     let square = (pair.coupling * rate + 1.0) * (pair.coupling.recip() + 1.0);
     let critical = machine.critical_speed()?;
     let mut speed = square.sqrt() * critical;
     if machine.changes_with_speed() {
-        // The stiffness of blades at a speed stands on both sides.
+        // The blade stiffness depends on the speed, so the equation is solved for it.
         let stiffer = machine.stiffening() * (critical / machine.omega_bd_at_rest()).powi(2);
         let left = -(pair.coupling * rate + 1.0) / pair.coupling * stiffer + 1.0;
         speed /= left.sqrt();
@@ -121,21 +126,21 @@ pub fn undamped_flutter_speed<T: Number>(machine: &Machine<T>, toward: f64) -> O
     speed.re().is_finite().then_some(speed)
 }
 
-/// Returns the lowest rotor speed at which the lock of a machine flutters, as a magnitude
-/// \[rad/s\], with its damping: 0 where it does from rest on. With damping that is lower than
-/// without by a finite amount, however small the damping is (Ziegler's paradox). None where tips
-/// are not joined or never flutter; for a rotor that turns in the sense of `toward`.
+/// Returns the lowest rotor speed at which the damped lock flutters, as a magnitude \[rad/s\]; 0 if
+/// it does from rest on. It is lower than without damping by a finite amount, however small the
+/// damping (Ziegler's paradox). `None` if the tips do not couple blades and casing, or the lock
+/// never flutters. The sign of `toward` is the direction of rotation.
 #[must_use]
 pub fn flutter_speed<T: Number>(machine: &Machine<T>, toward: f64) -> Option<T> {
     flutters(machine, toward).first().map(|flutter| flutter.from)
 }
 
-/// Returns every range of speeds in which the lock of a machine flutters, in order, as
-/// `flutter_speed`. Where the machine changes with the speed, those that begin up to
-/// `FLUTTER_FURTHEST` critical speeds and before the clearance is lost.
+/// Returns every range of speeds in which the lock flutters, in increasing order; see
+/// [`flutter_speed`]. If the machine changes with speed, only ranges that begin below
+/// `FLUTTER_FURTHEST` critical speeds and before the clearance closes.
 #[must_use]
 pub fn flutters<T: Number>(machine: &Machine<T>, toward: f64) -> Vec<LockWindow<T>> {
-    let (Some(pair), Some(critical)) = (HeldPair::of(machine, toward), machine.critical_speed())
+    let (Some(pair), Some(critical)) = (HeldPair::new(machine, toward), machine.critical_speed())
     else {
         return Vec::new();
     };
@@ -147,7 +152,7 @@ pub fn flutters<T: Number>(machine: &Machine<T>, toward: f64) -> Vec<LockWindow<
     }
     let plain = machine.plain();
     let grows = |speed: f64| {
-        HeldPair::of(&plain.at(speed), toward).is_some_and(|pair| {
+        HeldPair::new(&plain.at(speed), toward).is_some_and(|pair| {
             pair.roots(plain.nu(speed) / plain.omega_c).iter().any(|root| root.re > 0.0)
         })
     };
@@ -176,8 +181,8 @@ pub fn flutters<T: Number>(machine: &Machine<T>, toward: f64) -> Vec<LockWindow<
     found
 }
 
-/// Searches the speeds up to `last` at which growth begins or ends, of a machine that changes
-/// with the speed: the changes over a scan, refined \[rad/s\].
+/// Searches for the speeds up to `last` at which growth begins or ends, for a machine that changes
+/// with speed \[rad/s\]: sign changes over a geometric scan, refined by bisection.
 fn searched_limits(grows: &dyn Fn(f64) -> bool, critical: f64, last: f64) -> Vec<f64> {
     let mut found = Vec::new();
     let mut high = critical / FLUTTER_FURTHEST;
@@ -194,8 +199,8 @@ fn searched_limits(grows: &dyn Fn(f64) -> bool, critical: f64, last: f64) -> Vec
     found
 }
 
-/// Returns a limit of growth with its derivatives: one step of Newton's method from the root,
-/// with the machine of that speed.
+/// Attaches derivatives to a stability limit: one Newton step from the root, with the machine at
+/// that speed.
 fn derived<T: Number>(machine: &Machine<T>, root: f64, toward: f64) -> Option<T> {
     let plain = machine.plain();
     let moving = Dual64::from(root).derivative();
@@ -205,24 +210,25 @@ fn derived<T: Number>(machine: &Machine<T>, root: f64, toward: f64) -> Option<T>
     Some(speed - (step - step.re()))
 }
 
-/// Returns how far the turn of a speed is from the nearest limit of the machine at that speed.
+/// Returns the distance of the wave frequency at `speed` from the nearest stability limit of the
+/// machine there, in units of `omega_c`.
 fn apart<T: Number>(machine: &Machine<T>, speed: T, toward: f64) -> Option<T> {
-    let pair = HeldPair::of(&machine.at(speed), toward)?;
+    let pair = HeldPair::new(&machine.at(speed), toward)?;
     let turn = machine.nu(speed) / machine.omega_c;
     let limits = pair.limits().into_iter().map(|limit| limit - turn);
     let finite = limits.filter(|apart| apart.re().is_finite());
     finite.min_by(|a, b| a.re().abs().total_cmp(&b.re().abs()))
 }
 
-/// Returns the first of [`lock_windows`].
+/// Returns the window of [`lock_windows`] with the lowest speeds.
 #[must_use]
 pub fn lock_window<T: Number>(machine: &Machine<T>, toward: f64) -> Option<LockWindow<T>> {
     lock_windows(machine, toward).into_iter().next()
 }
 
-/// Returns every window of speeds at which a lock holds, in order, for a rotor that turns in the
-/// sense of `toward`: both blades push, and no motion that keeps the lock grows. A lining gives
-/// way: its windows are those of the pushes alone.
+/// Returns every window of speeds with a stable lock, in increasing order, for a rotor that turns
+/// in the direction of the sign of `toward`: both groups push, and no motion that keeps the contact
+/// grows. On a lining only the pushes are considered.
 #[must_use]
 pub fn lock_windows<T: Number>(machine: &Machine<T>, toward: f64) -> Vec<LockWindow<T>> {
     let pushed = machine.lock_windows(toward);
@@ -235,8 +241,8 @@ pub fn lock_windows<T: Number>(machine: &Machine<T>, toward: f64) -> Vec<LockWin
     flutters(machine, toward).iter().fold(pushed, less)
 }
 
-/// Returns how fast a lock grows that pushes hold at a speed, of a rotor that keeps it, without a
-/// lining \[1/s\]; none where it lasts, or where pushes hold none.
+/// Returns the growth rate of a lock that is held by pushes at a constant speed, without a lining
+/// \[1/s\]. `None` if it is stable, or if there is no such lock.
 #[must_use]
 pub fn lock_growth(machine: &Machine, speed: f64) -> Option<f64> {
     let corner = Corner::of(machine, speed, None).ok().filter(|_| machine.lining.is_none())?;
@@ -245,34 +251,34 @@ pub fn lock_growth(machine: &Machine, speed: f64) -> Option<f64> {
     point.growth_1_s.filter(|_| point.admissible)
 }
 
-/// Returns the growth of the motion that keeps a lock of joined tips, for a gap that does not
-/// turn with the blades: the roots `l = i s` \[1/s\]. Empty without joined tips.
+/// Returns the roots `l = i s` of the motion that keeps a lock, with gaps that do not turn with the
+/// blade angle \[1/s\]. Empty if the tips do not couple blades and casing.
 #[must_use]
 pub fn lock_roots(joint: &Joint) -> Vec<Complex<f64>> {
-    let Some(pair) = HeldPair::of(&joint.machine, joint.nu) else { return Vec::new() };
+    let Some(pair) = HeldPair::new(&joint.machine, joint.nu) else { return Vec::new() };
     let omega_c = joint.machine.omega_c;
     let turned = if joint.nu < 0.0 { Complex::conj } else { |value: &Complex<f64>| *value };
     pair.roots(joint.nu.abs() / omega_c).iter().map(|root| turned(root) * omega_c).collect()
 }
 
-/// Blades and casing that a corner holds together, in units of their stiffnesses, turning
-/// forward. A speed is `turn = nu/omega_c`.
+/// Blades and casing that move together in a corner, in units of their stiffnesses, for forward
+/// rotation. The speed is `turn = nu/omega_c`.
 struct HeldPair<T> {
-    /// `c = c2 k_c/k_a`.
+    /// Coupling `c = c2 k_c/k_a`.
     coupling: T,
-    /// `omega_bd/omega_c`.
+    /// Frequency ratio `omega_bd/omega_c`.
     rate: T,
-    /// `2 zeta_c`.
+    /// Casing damping `2 zeta_c`.
     casing: T,
-    /// `2 zeta_bd`.
+    /// Blade damping `2 zeta_bd`.
     blades: T,
-    /// `mu_c`.
+    /// Friction on the casing mode, `mu_c`.
     friction: T,
 }
 
 impl<T: Number> HeldPair<T> {
-    /// Creates the pair; `None` where the corner cannot move: tips that no bending lifts.
-    fn of(machine: &Machine<T>, toward: f64) -> Option<Self> {
+    /// Creates the pair; `None` if the corner cannot move because bending does not lift the tips.
+    fn new(machine: &Machine<T>, toward: f64) -> Option<Self> {
         // A rotor that turns backward is the mirror image of one that turns forward.
         let coupling = machine.coupling_product_at(T::from(toward)) * machine.casing_stiffness
             / machine.blade_modal_stiffness;
@@ -294,7 +300,7 @@ impl<T: Number> HeldPair<T> {
         self.casing.re() != 0.0
     }
 
-    /// Returns the speeds of every motion that neither grows nor decays.
+    /// Returns the speeds at which a motion neither grows nor decays, in the unit `turn`.
     fn limits(&self) -> Vec<T> {
         match (self.has_friction(), self.casing_is_damped()) {
             (false, _) => self.limit_without_friction().into_iter().collect(),
@@ -303,8 +309,8 @@ impl<T: Number> HeldPair<T> {
         }
     }
 
-    /// Returns the limit without friction. There the imaginary part is `2 c zeta_c x = -2
-    /// zeta_bd y`, and the real part gives the size of both.
+    /// Without friction the imaginary part is `2 c zeta_c x = -2 zeta_bd y`; with it the real part
+    /// gives the magnitude of both.
     fn limit_without_friction(&self) -> Option<T> {
         let c = self.coupling;
         let square = (c + 1.0) / (c * (c * self.casing * self.casing + self.blades * self.blades));
@@ -312,11 +318,10 @@ impl<T: Number> HeldPair<T> {
         turn.re().is_finite().then_some(turn)
     }
 
-    /// Returns the limits with friction. There the imaginary part gives `x` of `y`, and the
-    /// real part is a quartic of `y`. Two steps of Newton's method take its roots to the last
-    /// digit, and carry the derivatives of the number.
+    /// With friction the imaginary part gives `x` as a function of `y`, and the real part becomes a
+    /// quartic in `y`. Two Newton steps polish its roots and attach the derivatives.
     fn limits_with_friction(&self) -> Vec<T> {
-        let roots = real_roots(&|from, to| self.quartic(from, to), &[-1.0, 0.0, 1.0]);
+        let roots = real_roots(|y| self.quartic(y), &[-1.0, 0.0, 1.0]);
         let refined = |root: f64| {
             let mut y = T::from(root);
             for _ in 0..2 {
@@ -330,12 +335,12 @@ impl<T: Number> HeldPair<T> {
         roots.into_iter().map(refined).collect()
     }
 
-    /// Returns `x` of `y`, by the imaginary part.
+    /// Returns `x` as a function of `y`, from the imaginary part.
     fn casing_at(&self, y: T) -> T {
         -(self.blades * y + self.friction * (-(y * y) + 1.0)) / (self.coupling * self.casing)
     }
 
-    /// Returns the real part over its slope, `x` taken as that of `y`.
+    /// Returns the Newton step in `y` for the real part, with `x = x(y)`.
     fn newton_step(&self, y: T) -> T {
         let Self { coupling: c, casing, blades, friction: mu, .. } = *self;
         let x = self.casing_at(y);
@@ -345,25 +350,17 @@ impl<T: Number> HeldPair<T> {
         value / slope
     }
 
-    /// Returns the real part times the square of `2 c zeta_c`, a quartic of `y` between two
-    /// points.
-    fn quartic(&self, from: Point, to: Point) -> Coefficients {
+    /// Returns the real part times the square of `2 c zeta_c`, a quartic of `y`.
+    fn quartic(&self, y: f64) -> f64 {
         let [c, casing, blades, mu] =
             [self.coupling, self.casing, self.blades, self.friction].map(|part| part.re());
-        let mixed = |u: Point, v: Point| 0.5 * (u.p * v.q + v.p * u.q);
-        let one = Coefficients::quadratic(from, to, |u, v| u.q * v.q);
-        let x = Coefficients::quadratic(from, to, |u, v| {
-            blades * mixed(u, v) + mu * (u.q * v.q - u.p * v.p)
-        });
-        let rest = Coefficients::quadratic(from, to, |u, v| {
-            (c + 1.0) * u.q * v.q - u.p * v.p - mu * blades * mixed(u, v)
-        });
+        let x = blades * y + mu * (1.0 - y * y);
         let weight = c * casing;
-        sum(weight * weight, &product(&rest, &one), -c, &product(&x, &x))
+        weight * weight * (c + 1.0 - y * y - mu * blades * y) - c * x * x
     }
 
-    /// Returns the limits without damping of the casing. There the imaginary part is a
-    /// quadratic of `y`, and the real part gives `x` but for its sign.
+    /// Without damping of the casing the imaginary part is a quadratic in `y`, and the real part
+    /// gives `x` up to its sign.
     fn limits_of_undamped_casing(&self) -> Vec<T> {
         let Self { coupling: c, blades, friction: mu, rate, .. } = *self;
         let root = (blades * blades + mu * mu * 4.0).sqrt();
@@ -375,8 +372,8 @@ impl<T: Number> HeldPair<T> {
         turns.concat()
     }
 
-    /// Returns the two roots `l = i s` of the motion over `omega_c`, at a speed: of
-    /// `c [(l + i n)^2 + 2 zeta_c (l + i n) + 1] + (1 + i mu_c)[(l/r)^2 + 2 zeta_bd l/r + 1]`.
+    /// Returns the two roots `l = i s/omega_c` at a speed, of `c [(l + i n)^2 + 2 zeta_c (l + i n)
+    /// + 1] + (1 + i mu_c)[(l/r)^2 + 2 zeta_bd l/r + 1]`, `n = turn`, `r = omega_bd/omega_c`.
     fn roots(&self, turn: f64) -> [Complex<f64>; 2] {
         let [c, rate, drag] = [self.coupling.re(), self.rate.re(), self.casing.re()];
         let turned = Complex::new(1.0, self.friction.re());
@@ -386,7 +383,7 @@ impl<T: Number> HeldPair<T> {
         let constant = (spin * spin + spin * drag + 1.0) * c + turned;
         let half = linear / (square * 2.0);
         let root = (half * half - constant / square).sqrt();
-        // The larger first; the other without cancellation.
+        // The larger root first; the other from the product of both, which avoids cancellation.
         let far = if (half + root).norm_sqr() >= (half - root).norm_sqr() {
             -half - root
         } else {
@@ -402,7 +399,7 @@ mod tests {
     use super::*;
     use crate::scene::Scene;
 
-    /// Table 1 with `kappa`, `mu`, and both damping ratios.
+    /// Returns the machine of Table 1 with `kappa`, `mu`, and both damping ratios.
     fn machine([kappa, mu, casing, blades]: [f64; 4]) -> Machine {
         let mut scene = Scene::base();
         for (path, value) in [

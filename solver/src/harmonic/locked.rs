@@ -1,62 +1,58 @@
-//! Locked motion: two phase groups hold the casing wave in a corner of the blade frame, where
-//! it is an equilibrium (docs/theory.md, section 8). Against speed, with what holds it and
-//! whether it lasts; and what it takes (pushes, torque, power, blade angle, energy) and the
-//! speed at which its branch ends, of any kind of number, so that each comes with its
-//! derivatives (section 4).
+//! Locked motion: two phase groups hold the casing wave in a corner of the polygon, where it is an
+//! equilibrium of the blade frame (docs/theory.md, section 8).
+//!
+//! [`locked_motion`] computes it for a list of speeds, with its character and stability.
+//! [`lock_loads`] gives contact forces, torque, power and blade angles, and [`lock_fold_speed`] the
+//! end of the branch, both for any number type, so that they carry derivatives (section 4).
 
 use serde::Serialize;
 
-use super::corner_angle::CornerAngle;
 use super::equations::{Equations, Scales, Unknowns, Wave};
 use super::stability::Linearised;
 use super::{Character, Corner, Form, HarmonicError, error, lining};
 use crate::model::{Machine, Number};
-use crate::numeric::bisection::bisected;
-use crate::numeric::maximum::highest;
 
-/// The locked motion at one rotor speed.
+/// Locked motion at one rotor speed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct LockedPoint {
     /// Rotor speed `Omega` \[rad/s\].
     pub speed_rad_s: f64,
-    /// `[Lambda_a, Lambda_b]`, summed over each group; negative is a push \[N\].
+    /// Multipliers `[Lambda_a, Lambda_b]`, summed over each group; negative is a push \[N\].
     pub multipliers_n: [f64; 2],
-    /// Angle of one blade of each group, `[alpha_a, alpha_b]` \[rad\].
+    /// Blade angle of each group, `[alpha_a, alpha_b]` \[rad\].
     pub alpha_rad: [f64; 2],
-    /// `u_cc`, cosine part of `u_c(t)`, Eq. (25) \[m\].
+    /// Cosine part `u_cc` of `u_c(t)`, Eq. (25) \[m\].
     pub u_cc_m: f64,
-    /// `u_cs`, sine part of `u_c(t)` \[m\].
+    /// Sine part `u_cs` of `u_c(t)` \[m\].
     pub u_cs_m: f64,
-    /// `u_sc`, cosine part of `u_s(t)` \[m\].
+    /// Cosine part `u_sc` of `u_s(t)` \[m\].
     pub u_sc_m: f64,
-    /// `u_ss`, sine part of `u_s(t)` \[m\].
+    /// Sine part `u_ss` of `u_s(t)` \[m\].
     pub u_ss_m: f64,
     /// Amplitude `|z|` of the casing wave \[m\].
     pub amplitude_m: f64,
-    /// Smallest gap of all groups not in contact \[m\]; infinite if there are none.
+    /// Smallest gap of all groups that are not in contact; infinite if there are none \[m\].
     pub smallest_gap_m: f64,
-    /// Torque the rotor must give to hold the wave, `sum Lambda A`, beside the torque of
-    /// friction itself, `mu sum P R_c` \[N m\].
+    /// Torque of the rotor that sustains the wave, `sum Lambda A`, without the torque of friction
+    /// itself, `mu sum P R_c` \[N m\].
     pub torque_nm: f64,
-    /// Its power, `torque * Omega` \[W\].
+    /// Power of that torque, `torque Omega` \[W\].
     pub power_w: f64,
-    /// What holds it, if anything does. The motion that may grow is the time model's
-    /// (two blade modes), in every form.
+    /// Whether real contact can hold the state, and its stability. In every form the stability is
+    /// that of the time model with two blade modes.
     pub character: Character,
-    /// Whether pushes can hold it: both multipliers push (or vanish) and
-    /// every other gap is open.
+    /// Whether pushes can hold the state: no multiplier is tensile, and every other gap is open.
     pub admissible: bool,
-    /// Whether it lasts by pushes alone: admissible, and no motion that keeps both
-    /// contacts grows.
+    /// Whether the state is admissible and no motion that keeps both contacts grows.
     pub stable: bool,
-    /// Largest growth of those motions, where one grows \[1/s\].
+    /// Largest growth rate of those motions, if one grows \[1/s\].
     pub growth_1_s: Option<f64>,
-    /// Largest row of the eight equations (27), dimensionless: torques over
-    /// `n_d k_c g0^2`, gaps over `g0`, forces over `k_c g0`.
+    /// Largest residual of the eight equations (27), dimensionless: torques in `n_d k_c g0^2`, gaps
+    /// in `g0`, forces in `k_c g0`.
     pub residual: f64,
 }
 
-/// Solver of the locked motion of one machine in one corner and one form.
+/// Solver of the locked motion of one machine, for one corner and one form of the equations.
 #[derive(Clone, Debug)]
 pub struct Locked {
     machine: Machine,
@@ -65,30 +61,30 @@ pub struct Locked {
     damped: bool,
 }
 
-/// The locked motion over a list of speeds.
+/// Locked motion for a list of speeds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sweep {
-    /// The corner that holds the wave.
+    /// Corner that holds the wave.
     pub corner: Corner,
-    /// Which equations.
+    /// Form of the equations.
     pub form: Form,
-    /// Whether they include the damping of casing and blades.
+    /// Whether damping of casing and blades is included.
     pub damped: bool,
     /// One point for each speed with a locked motion, in the given order.
     pub points: Vec<LockedPoint>,
-    /// The speeds without one: the blades are so soft that the branch has
-    /// folded back, or have grown into the casing \[rad/s\].
+    /// Speeds without a locked motion: the branch of soft blades has folded back, or the blades
+    /// have grown into the casing \[rad/s\].
     pub missing: Vec<f64>,
 }
 
 impl Locked {
-    /// Creates the solver. Undamped is the paper's Eq. (27); damped adds
-    /// `d_c` to its casing rows.
+    /// Creates the solver. Undamped it solves the paper's Eq. (27); damping adds `d_c` to the
+    /// casing rows.
     ///
     /// # Errors
-    /// A polygon without corners, disk modes of other diameters than the casing, an
-    /// interference fit, and a
-    /// form other than modal where tips are inclined or rub.
+    /// The polygon has no corners, the disk modes have other nodal diameters than the casing, there
+    /// is no clearance, or a form other than modal is combined with unequal, inclined or rubbing
+    /// tips.
     pub fn new(
         machine: &Machine,
         corner: Corner,
@@ -126,7 +122,7 @@ impl Locked {
     /// Returns the locked motion at one speed \[rad/s\].
     ///
     /// # Errors
-    /// A speed that is not finite, or one with no locked motion.
+    /// The speed is not finite, or there is no locked motion.
     pub fn at(&self, speed: f64) -> Result<LockedPoint, HarmonicError> {
         error::refuse_endless(&[speed])?;
         let machine = self.machine.at(speed);
@@ -134,7 +130,7 @@ impl Locked {
         let equations = Equations::new(&machine, self.corner, self.form, wave, speed);
         let found = Some(&equations).filter(|_| machine.clearance() > 0.0);
         let unknowns = found.and_then(Equations::locked).ok_or_else(|| {
-            HarmonicError::NotFound { speed, softness: Scales::of(&machine).softness }
+            HarmonicError::NotFound { speed, softness: Scales::new(&machine).softness }
         })?;
         Ok(self.point(&machine, speed, &equations, &unknowns))
     }
@@ -142,7 +138,7 @@ impl Locked {
     /// Computes the locked motion at each speed \[rad/s\].
     ///
     /// # Errors
-    /// A speed that is not finite.
+    /// A speed is not finite.
     pub fn sweep(&self, speeds: &[f64]) -> Result<Sweep, HarmonicError> {
         let mut points = Vec::with_capacity(speeds.len());
         let mut missing = Vec::new();
@@ -156,7 +152,7 @@ impl Locked {
         Ok(Sweep { corner: self.corner, form: self.form, damped: self.damped, points, missing })
     }
 
-    /// Reports a solution of the equations at a speed \[rad/s\].
+    /// Converts a solution of the equations to units, with its stability.
     fn point(
         &self,
         machine: &Machine,
@@ -173,13 +169,13 @@ impl Locked {
         let motion = Linearised::about(machine, speed, self.damped, &held);
         let mut growth = None;
         let pushes = push_a >= 0.0 && push_b >= 0.0;
-        // A pull has no friction.
+        // The equality algorithm is not used with friction: a pull has none.
         let held_by_pulls = machine.friction == 0.0 && motion.closes();
         let character = Character::of(pushes, held_by_pulls, smallest_gap, || {
             growth = motion.growth();
             growth.is_some()
         });
-        let Scales { length, force, .. } = Scales::of(machine);
+        let Scales { length, force, .. } = Scales::new(machine);
         let residual = equations.residual(unknowns).map(f64::abs);
         let torque = machine.nodal_diameters * force * length * equations.torque(unknowns);
         let [x, y] = [x * length, y * length];
@@ -204,11 +200,14 @@ impl Locked {
     }
 }
 
-/// Computes the locked motion of a machine over speeds \[rad/s\], on rigid contact in a round
-/// casing, held between the groups of two blades; where `None` the paper's of equal tips, else
-/// the corner that holds at the lowest speed ([`Corner::of`]). A machine that changes with the
-/// speed is taken at each speed. Undamped unless `damped`, as in the paper's equations. On a
-/// lining ask [`super::lock_loads`]. Speeds at which nothing is found have no point.
+/// Computes the locked motion of a machine with rigid contact in a round casing for a list of
+/// speeds \[rad/s\].
+///
+/// The wave is held between the groups of two blades. `None` selects the paper's pair for equal
+/// tips, otherwise the corner that is held at the lowest speed ([`Corner::of`]). As in the paper's
+/// equations there is no damping unless `damped` is set. A machine that changes with speed is
+/// evaluated at each speed. Speeds without a solution have no point. On a lining use
+/// [`super::lock_loads`].
 ///
 /// ```
 /// use rubscope_solver::harmonic::{Form, locked_motion};
@@ -225,9 +224,9 @@ impl Locked {
 /// ```
 ///
 /// # Errors
-/// A polygon without corners, blades that are not phase neighbours, a speed that is not finite,
-/// no clearance, a disk of other diameters, or unequal, inclined or rubbing tips in another
-/// form than [`Form::Modal`].
+/// The polygon has no corners, the blades are not phase neighbours, a speed is not finite, there is
+/// no clearance, the disk modes have other nodal diameters, or unequal, inclined or rubbing tips
+/// are combined with a form other than [`Form::Modal`].
 pub fn locked_motion(
     machine: &Machine,
     form: Form,
@@ -239,24 +238,24 @@ pub fn locked_motion(
     Locked::new(machine, corner, form, damped)?.sweep(speeds)
 }
 
-/// The loads of the damped lock at one speed, exact for blades that move.
+/// Loads of the damped lock at one speed, with moving blades.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LockLoads<T = f64> {
-    /// Pushes of the groups a and b, minus their multipliers; negative pulls \[N\].
+    /// Contact forces of groups a and b, the negative multipliers; negative is a pull \[N\].
     pub pushes_n: [T; 2],
-    /// Angle of one blade of each group \[rad\].
+    /// Blade angle of each group \[rad\].
     pub alpha_rad: [T; 2],
     /// Amplitude `|z|` of the casing wave \[m\].
     pub amplitude_m: T,
-    /// Torque the rotor must give to hold the wave, `n_d d_c nu |z|^2` without friction,
-    /// beside the torque of friction itself \[N m\].
+    /// Torque of the rotor that sustains the wave, `n_d d_c nu |z|^2` without friction; the torque
+    /// of friction itself is not included \[N m\].
     pub torque_nm: T,
-    /// Its power \[W\].
+    /// Power of that torque \[W\].
     pub power_w: T,
 }
 
-/// Returns the loads of the lock of a machine at a speed \[rad/s\]; none without corners,
-/// beyond the fold of very soft blades, and on a lining where no two groups hold it alone.
+/// Returns the loads of the lock at a speed \[rad/s\]. `None` without corners or clearance, beyond
+/// the fold of very soft blades, and on a lining if no two groups alone hold the wave.
 #[must_use]
 pub fn lock_loads<T: Number>(machine: &Machine<T>, speed: T) -> Option<LockLoads<T>> {
     let machine = &*machine.at(speed);
@@ -272,7 +271,7 @@ pub fn lock_loads<T: Number>(machine: &Machine<T>, speed: T) -> Option<LockLoads
     let equations = Equations::new(machine, corner, Form::Modal, wave, speed);
     let unknowns = equations.locked_with_derivatives()?;
     let [x, y, push_a, push_b, alpha_a, alpha_b] = unknowns;
-    let Scales { length, force, .. } = Scales::of(machine);
+    let Scales { length, force, .. } = Scales::new(machine);
     let torque = equations.torque(&unknowns) * force * length * machine.nodal_diameters;
     let amplitude = (x * x + y * y).sqrt() * length;
     let angles = [alpha_a * equations.angle, alpha_b * equations.angle];
@@ -283,51 +282,6 @@ pub fn lock_loads<T: Number>(machine: &Machine<T>, speed: T) -> Option<LockLoads
         torque_nm: torque,
         power_w: torque * speed,
     })
-}
-
-/// Returns the largest speed with a lock \[rad/s\]: blades that are soft bend out of it above.
-/// None without corners, with tips that are inclined or rub, on a lining, and where it is
-/// beyond any speed that a number can square.
-#[must_use]
-pub fn lock_fold_speed<T: Number>(machine: &Machine<T>) -> Option<T> {
-    if machine.tips_incline_or_rub() || machine.has_other_diameters() || machine.lining.is_some() {
-        return None;
-    }
-    let (still, critical) = (machine.at(T::zero()), machine.critical_speed()?);
-    let stiffness =
-        CornerAngle::of(&still).fold_stiffness().filter(|_| machine.polygon.has_corners())?;
-    if !machine.changes_with_speed() {
-        return Some(critical * (-stiffness + 1.0).sqrt());
-    }
-    // `1 - x = stiffness (1 + b x)/(1 - e x)^2` of the square `x` of the speed, in `Omega_c`:
-    // blades stiffen, and the wave gets smaller.
-    let stiffer = machine.stiffening() * (critical / machine.omega_bd_at_rest()).powi(2);
-    let Some(closed) = machine.closing_speed().map(|closed| (closed / critical).powi(2)) else {
-        let square = (-stiffness + 1.0) / (stiffness * stiffer + 1.0);
-        return (square.re() > 0.0).then(|| critical * square.sqrt());
-    };
-    let left = |x: T| {
-        let smaller = -(x / closed) + 1.0;
-        let value = (x - 1.0) * smaller * smaller + stiffness * (stiffer * x + 1.0);
-        let slope = smaller * (smaller - (x - 1.0) * 2.0 / closed) + stiffness * stiffer;
-        (value, slope)
-    };
-    // It has one maximum at most, between the critical speed and the loss of the clearance.
-    let last = closed.re();
-    if last <= 1.0 {
-        return None;
-    }
-    let (highest, most) = highest([1.0, last], |x| left(T::from(x)).0.re());
-    if most <= 0.0 {
-        return None;
-    }
-    let [low, high] = bisected([1.0, highest], |x| left(T::from(x)).0.re() > 0.0);
-    let mut x = T::from(0.5 * (low + high));
-    for _ in 0..2 {
-        let (value, slope) = left(x);
-        x -= value / slope;
-    }
-    Some(critical * x.sqrt())
 }
 
 #[cfg(test)]
@@ -380,7 +334,6 @@ mod tests {
         for diameters in ["0", "11"] {
             let machine = machine(&[("operation.nodal_diameters", diameters)]);
             assert_eq!(lock_loads(&machine, 500.0), None);
-            assert_eq!(lock_fold_speed(&machine), None);
         }
     }
 }

@@ -1,18 +1,19 @@
-//! Frequency domain: steady states of the frame that turns with the blades
-//! (docs/theory.md, section 8).
+//! Frequency domain: steady states in the frame that rotates with the blades (docs/theory.md,
+//! section 8).
 //!
-//! In that frame a locked motion is an equilibrium: the wave is a point in a
-//! corner of the `model::ContactPolygon`, one harmonic is exact, and stability
-//! needs only eigenvalues. There is no time step and no initial condition.
+//! In that frame a locked motion is an equilibrium: the casing displacement is a point in a corner
+//! of the `model::ContactPolygon`, one harmonic is exact, and stability is a matter of eigenvalues.
+//! There are no time steps and no initial conditions.
 //!
-//! - the lock, Eq. (27) in three forms: `corner`, `equations`, `locked`
-//!   ([`locked_motion`], [`lock_loads`]); very soft blades: `corner_angle`
-//! - every equilibrium, its stability and thresholds: `equilibria`, `stability`
-//! - slip as a map: `slip`
-//! - coincidences and excitation: `coincidence`, `excitation`
-//! - blades and casing as one (section 10), the speeds at which their lock flutters, and those
-//!   at which a lock holds: `joint`; the whirl in the limit of many
-//!   blades: `round_whirl`; on a lining: `lining`
+//! - The lock, Eq. (27) in three forms: `corner`, `equations`, `locked` ([`locked_motion`],
+//!   [`lock_loads`]); for very soft blades `corner_angle`.
+//! - All equilibria, their stability and thresholds: `equilibria`, `stability`.
+//! - Slip as a map from corner to corner: `slip`.
+//! - Coincidences and engine-order excitation: `coincidence`, `excitation`.
+//! - Blades and casing coupled by the contact (section 10), flutter of the lock, and the speed
+//!   ranges of a stable lock: `joint`; whirl in the limit of many blades: `round_whirl`; steady
+//!   states on a lining: `lining`.
+//! - Roundness of the casing that a lock needs (section 11): `roundness`.
 
 mod coincidence;
 mod corner;
@@ -47,9 +48,7 @@ pub use lining::{
     Cycle, Forced, GroupPush, HopfPoint, LeastStiffness, Lining, LiningState, Rest, RestRoot,
     growth_threshold, least_lock_stiffness,
 };
-pub use locked::{
-    LockLoads, Locked, LockedPoint, Sweep, lock_fold_speed, lock_loads, locked_motion,
-};
+pub use locked::{LockLoads, Locked, LockedPoint, Sweep, lock_loads, locked_motion};
 pub use round_whirl::{
     RoundWhirl, RoundWhirlLoads, WhirlOnset, round_whirls, whirl_beginnings, whirl_onset,
     whirl_onsets,

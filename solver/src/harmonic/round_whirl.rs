@@ -1,12 +1,12 @@
-//! Whirl in the limit of many blades, whose polygon is round (docs/theory.md,
-//! section 10): a travelling wave of pushes that both structures carry, each at its own
-//! frequency; and the rotor speeds where it begins: folds, where a pair of waves is born, the
-//! one that attracts and its threshold.
+//! Whirl in the limit of many blades, where the contact polygon becomes a circle (docs/theory.md,
+//! section 10): a travelling wave of contact forces that both structures carry, each at its own
+//! frequency, and the rotor speeds at which it begins. These are folds, where an attracting wave
+//! and its threshold appear as a pair.
 //!
 //! The distance between tips and casing, `w = z - kappa l_b a`, has constant size and
 //! turns at `s` in the frame of the blades; `p = w/B(omega)` must point against it, so
 //! `Im B = 0` and `Re B < 0`. `Im B |casing|^2 |blades|^2` is a polynomial of degree six
-//! in `omega`; all its roots are found.
+//! in `omega`, whose real roots are found by a scan.
 
 use nalgebra::{Complex, DMatrix};
 use serde::Serialize;
@@ -15,44 +15,44 @@ use super::joint::Joint;
 use crate::model::{Machine, Number};
 use crate::numeric::bisection::bisected;
 use crate::numeric::eigen::eigenvalues;
-use crate::numeric::real_roots::{Coefficients, Point, product, real_roots, sum};
+use crate::numeric::real_roots::real_roots;
 use crate::tolerances::{
     BESIDE_A_FOLD, BRANCH_CHANGES, ONSET_FURTHEST, ONSET_STRIDE, REAL_COMPLIANCE,
 };
 
-/// A wave that blades and casing carry round together, for one unit of `|w|`.
+/// A wave that runs round both structures, per unit of `|w|`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct RoundWhirl {
-    /// Casing frequency in the standing frame; negative turns backward \[rad/s\].
+    /// Frequency in the stationary frame; negative turns backward \[rad/s\].
     pub omega_rad_s: f64,
-    /// What the blades feel, `s = omega - nu`; negative where the contact passes
-    /// backward over the blades of a rotor that turns forward \[rad/s\].
+    /// Frequency in the blade frame, `s = omega - nu`; negative if the contact passes backward over
+    /// the blades of a rotor that turns forward \[rad/s\].
     pub s_rad_s: f64,
-    /// Push over amplitude, `S = |p|/|w| = -1/Re B` \[N/m\].
+    /// Contact force divided by amplitude, `S = |p|/|w| = -1/Re B` \[N/m\].
     pub stiffness_n_per_m: f64,
-    /// Amplitude of the casing over that of `w`, `|z|/|w|`.
+    /// Amplitude of the casing, `|z|/|w|`.
     pub casing_per_w: f64,
-    /// Amplitude of the blades over that of `w`, `|a|/|w|` \[rad/m\].
+    /// Amplitude of the blades, `|a|/|w|` \[rad/m\].
     pub blades_per_w: f64,
-    /// Whether neighbouring motions of rigid round contact converge to it. Of a pair it is the
-    /// one of larger stiffness; the other is the threshold between it and rest.
+    /// Whether neighbouring motions with rigid contact converge to the wave. Of a pair it is the
+    /// stiffer one that attracts; the other is the threshold between it and rest.
     pub attracts: bool,
-    /// Growth of the least stable motion about it of rigid round contact, beside a mere shift of
-    /// the wave; below zero where it attracts \[1/s\].
+    /// Growth rate of the least stable small motion about the wave with rigid contact, other than a
+    /// shift in time; negative if the wave attracts \[1/s\].
     pub growth_per_s: f64,
 }
 
-/// Returns every round whirl at one speed, by increasing stiffness. Empty where blades and
-/// casing do not meet in one wave ([`Joint::has_one_wave`]), and where nothing is lost, so that
-/// any frequency would do.
+/// Returns every round whirl at one speed, by increasing stiffness. Empty if blades and casing are
+/// not coupled by a single wave ([`Joint::has_one_wave`]), and without any dissipation, where the
+/// frequency is arbitrary.
 #[must_use]
 pub fn round_whirls(joint: &Joint) -> Vec<RoundWhirl> {
     let machine = &*joint.machine;
     if !Joint::has_one_wave(machine) {
         return Vec::new();
     }
-    let scaled = Scaled::of(joint);
-    let breaks = [
+    let scaled = Scaled::new(joint);
+    let resonances = [
         0.0,
         1.0,
         -1.0,
@@ -60,34 +60,34 @@ pub fn round_whirls(joint: &Joint) -> Vec<RoundWhirl> {
         scaled.turn + scaled.blade_rate,
         scaled.turn - scaled.blade_rate,
     ];
-    let roots = real_roots(&|from, to| scaled.imaginary(from, to), &breaks);
+    let roots = real_roots(|x| scaled.imaginary(x), &resonances);
     let waves = roots.iter().filter_map(|root| scaled.wave(joint, root * machine.omega_c));
     let mut waves: Vec<RoundWhirl> = waves.collect();
     waves.sort_by(|a, b| a.stiffness_n_per_m.total_cmp(&b.stiffness_n_per_m));
     waves
 }
 
-/// What a round whirl takes and gives, where rigid contact holds `|w| = g0`.
+/// Loads of a round whirl with rigid contact, `|w| = g0`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct RoundWhirlLoads {
-    /// Push of all blades \[N\].
+    /// Total contact force \[N\].
     pub push_n: f64,
     /// Amplitude `|z|` of the casing \[m\].
     pub casing_m: f64,
     /// Amplitude `|a|` of the blades \[rad\].
     pub blade_rad: f64,
-    /// Power of the damper of the casing, `d_c omega^2 |z|^2` \[W\].
+    /// Power of the casing damping, `d_c omega^2 |z|^2` \[W\].
     pub casing_w: f64,
-    /// Power of the damping of the blades, `d_a s^2 |a|^2` \[W\].
+    /// Power of the blade damping, `d_a s^2 |a|^2` \[W\].
     pub blades_w: f64,
-    /// Heat of tips that slide over a casing at rest, `mu |p| |Omega| R_c` \[W\].
+    /// Friction heat of tips sliding on the casing, `mu |p| |Omega| R_c` \[W\].
     pub friction_w: f64,
 }
 
 impl RoundWhirl {
-    /// Returns its loads at the clearance of the machine. Without friction the rotor gives the
-    /// sum of the two dampers, of which the casing takes `omega/nu` and the blades
-    /// `|s|/nu` (Manley and Rowe).
+    /// Returns the loads at the clearance of the machine. Without friction the rotor power is the
+    /// sum of both dampers: the casing receives the part `omega/nu` and the blades `|s|/nu` (Manley
+    /// and Rowe).
     #[must_use]
     pub fn loads(&self, joint: &Joint) -> RoundWhirlLoads {
         let machine = &*joint.machine;
@@ -106,28 +106,28 @@ impl RoundWhirl {
         }
     }
 
-    /// Returns the stable wave of a speed that is stiffest.
+    /// Returns the stiffest wave that attracts.
     #[must_use]
     pub fn lasting(waves: &[Self]) -> Option<Self> {
         waves.iter().rev().find(|wave| wave.attracts).copied()
     }
 }
 
-/// Both structures in units of their stiffness, frequencies in `omega_c`.
+/// Both structures in units of their stiffnesses, with frequencies in units of `omega_c`.
 struct Scaled {
-    /// `nu/omega_c`.
+    /// Wave frequency in the blade frame, `nu/omega_c`.
     turn: f64,
-    /// `omega_bd/omega_c`.
+    /// Blade frequency, `omega_bd/omega_c`.
     blade_rate: f64,
     casing_damping: f64,
     blade_damping: f64,
     casing_friction: f64,
-    /// `c2 k_c/k_a`.
+    /// Coupling, `c2 k_c/k_a`.
     coupling: f64,
 }
 
 impl Scaled {
-    fn of(joint: &Joint) -> Self {
+    fn new(joint: &Joint) -> Self {
         let machine = &*joint.machine;
         Self {
             turn: joint.nu / machine.omega_c,
@@ -140,33 +140,22 @@ impl Scaled {
         }
     }
 
-    /// Returns `Im B |casing|^2 |blades|^2` from one frequency to another.
-    fn imaginary(&self, from: Point, to: Point) -> Coefficients {
-        // The place of a frequency among those of the blades, y = s/omega_bd.
-        let seen = |u: Point| (u.p - self.turn * u.q) / self.blade_rate;
-        let stiff = |x: f64, y: f64, u: Point, v: Point| u.q * v.q - x * y;
-        let drag = |x: f64, y: f64, u: Point, v: Point| 0.5 * (x * v.q + y * u.q);
-        let quadratic = |of: &dyn Fn(Point, Point) -> f64| Coefficients::quadratic(from, to, of);
-        let casing = [
-            quadratic(&|u, v| stiff(u.p, v.p, u, v)),
-            quadratic(&|u, v| self.casing_damping * drag(u.p, v.p, u, v)),
-        ];
-        let blades = [
-            quadratic(&|u, v| stiff(seen(u), seen(v), u, v)),
-            quadratic(&|u, v| self.blade_damping * drag(seen(u), seen(v), u, v)),
-        ];
-        let square =
-            |[re, im]: &[Coefficients; 2]| sum(1.0, &product(re, re), 1.0, &product(im, im));
-        let driven = sum(self.casing_friction, &casing[0], -1.0, &casing[1]);
-        let casing_part = product(&driven, &square(&blades));
-        let blade_part = product(&blades[1], &square(&casing));
-        sum(1.0, &casing_part, -self.coupling, &blade_part)
+    /// Returns `Im B |casing|^2 |blades|^2` at a frequency.
+    fn imaginary(&self, x: f64) -> f64 {
+        // The frequency that the blades feel, in their own.
+        let y = (x - self.turn) / self.blade_rate;
+        let casing = [1.0 - x * x, self.casing_damping * x];
+        let blades = [1.0 - y * y, self.blade_damping * y];
+        let square = |[re, im]: [f64; 2]| re * re + im * im;
+        (self.casing_friction * casing[0] - casing[1]) * square(blades)
+            - self.coupling * blades[1] * square(casing)
     }
 
-    /// Returns the wave of one root \[rad/s\], if it pushes.
+    /// Returns the wave at a root \[rad/s\]; `None` if it would have to pull.
     fn wave(&self, joint: &Joint, omega: f64) -> Option<RoundWhirl> {
         let compliance = joint.compliance(omega);
-        // At an undamped resonance both parts change their sign through infinity.
+        // At an undamped resonance both parts of B change sign through infinity; such roots are
+        // dropped.
         let real = compliance.im.abs() <= REAL_COMPLIANCE * compliance.re.abs();
         if !(real && compliance.re < 0.0 && compliance.re.is_finite()) {
             return None;
@@ -186,13 +175,14 @@ impl Scaled {
         })
     }
 
-    /// Returns the growth of small motions about a wave, in `omega_c`. The wave turns a little
-    /// ahead, the push stays in its direction: with `G = 1/B` and growth `l`,
-    /// `G(x - i l) + conj G(x - i conj l) = 2 G(x)`. One root is zero, a mere shift.
+    /// Returns the growth rate of small motions about a wave, in units of `omega_c`. If the wave
+    /// runs slightly ahead, the contact force keeps its direction; with `G = 1/B` and the growth
+    /// rate `l`, `G(x - i l) + conj G(x - i conj l) = 2 G(x)`. One root is zero, the shift in time,
+    /// and is removed.
     fn growth(&self, joint: &Joint, x: f64) -> Option<f64> {
         let y = (x - self.turn) / self.blade_rate;
         let i = Complex::i();
-        // Both stiffnesses at x - i l, in powers of l.
+        // Dynamic stiffnesses at x - i l, in powers of l.
         let structure = |x: f64, rate: f64, damping: f64| {
             [
                 Complex::new(1.0 - x * x, damping * x),
@@ -217,7 +207,7 @@ impl Scaled {
             2.0 * (crossed[power].re - here * squared)
         };
         let leading = row(size);
-        // The companion matrix of what is left without the root at zero.
+        // Companion matrix of the polynomial after the root at zero is removed.
         let matrix = DMatrix::from_fn(size - 1, size - 1, |r, c| match (r, c) {
             (0, c) => -row(size - 1 - c) / leading,
             (r, c) => f64::from(u8::from(r == c + 1)),
@@ -237,36 +227,36 @@ fn convolved(a: &[Complex<f64>], b: &[Complex<f64>]) -> Vec<Complex<f64>> {
     product
 }
 
-/// A speed where a pair of waves is born or ends.
+/// A speed at which a pair of waves appears or vanishes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct WhirlOnset {
-    /// Rotor speed; negative for a rotor that turns backward \[rad/s\].
+    /// Rotor speed; negative for backward rotation \[rad/s\].
     pub speed_rad_s: f64,
-    /// Whether the pair exists at larger speeds and not at smaller ones.
+    /// Whether the pair exists above this speed and not below.
     pub appears: bool,
     /// One of the two waves, which are equal there.
     pub wave: RoundWhirl,
 }
 
-/// Returns the slowest speed at which whirl begins for a rotor that turns in the sense of
-/// `toward`, with its derivatives of the first order; none where there is none up to 20
-/// dangerous coincidences, and where a lining is too soft for that wave \[rad/s\].
+/// Returns the lowest speed at which whirl begins, with first derivatives, for a rotor that turns
+/// in the direction of the sign of `toward` \[rad/s\]. `None` if there is none up to
+/// `ONSET_FURTHEST` times the dangerous coincidence, or if the lining is too soft for that wave.
 ///
-/// At a fold `Im B` is stationary in the frequency, so that its change with a parameter
-/// must be undone by the speed alone.
+/// At a fold `Im B` is stationary in the frequency, so the change of `Im B` with a parameter is
+/// balanced by the speed alone.
 #[must_use]
 pub fn whirl_onset<T: Number>(machine: &Machine<T>, toward: f64) -> Option<T> {
     beginnings(machine, toward, true).first().copied()
 }
 
-/// Returns every speed at which whirl begins, from the slowest, as [`whirl_onset`].
+/// Returns every speed at which whirl begins, in increasing order; see [`whirl_onset`].
 #[must_use]
 pub fn whirl_beginnings<T: Number>(machine: &Machine<T>, toward: f64) -> Vec<T> {
     beginnings(machine, toward, false)
 }
 
 fn beginnings<T: Number>(machine: &Machine<T>, toward: f64, first: bool) -> Vec<T> {
-    // Pairs of waves need both structures.
+    // Pairs of waves exist only if both structures are coupled.
     if machine.coupling_product_at(T::from(toward)).re() == 0.0 {
         return Vec::new();
     }
@@ -274,9 +264,9 @@ fn beginnings<T: Number>(machine: &Machine<T>, toward: f64, first: bool) -> Vec<
     onsets.filter(|onset| onset.appears).filter_map(|onset| derived(machine, &onset)).collect()
 }
 
-/// Returns the speed of a fold with its derivatives.
+/// Attaches derivatives to the speed of a fold.
 fn derived<T: Number>(machine: &Machine<T>, onset: &WhirlOnset) -> Option<T> {
-    // A lining is never stiffer than where blades lift off for half of each turn.
+    // The wave stiffness of a lining never exceeds N k/4 by lift-off for half of each revolution.
     let softest = machine.lining.map(|lining| lining.stiffness_n_per_m.re());
     let most = softest.map_or(f64::INFINITY, |k| 0.25 * f64::from(machine.polygon.blades) * k);
     if onset.wave.stiffness_n_per_m > most {
@@ -299,13 +289,13 @@ fn derived<T: Number>(machine: &Machine<T>, onset: &WhirlOnset) -> Option<T> {
     let product = machine.coupling_product_at(speed);
     let imaginary =
         (turned * casing[0] - casing[1]) / square(casing) - product * blades[1] / square(blades);
-    // By s, and s falls with the speed.
+    // Derivative with respect to s, which decreases with speed.
     let square_by_s = (blades[1] * machine.blade_modal_damping
         - blades[0] * machine.blade_modal_mass * s * 2.0)
         * 2.0;
     let by_s =
         (machine.blade_modal_damping - blades[1] * square_by_s / square(blades)) / square(blades);
-    // Blades that stiffen: `k_a` grows by this for each unit of speed.
+    // Derivative of k_a with respect to speed, from centrifugal stiffening.
     let stiffer = machine.stiffening() * machine.blade_modal_mass * speed * 2.0;
     let by_stiffness = blades[1] * blades[0] * 2.0 / (square(blades) * square(blades));
     let by_speed =
@@ -313,20 +303,20 @@ fn derived<T: Number>(machine: &Machine<T>, onset: &WhirlOnset) -> Option<T> {
     Some(-(imaginary - imaginary.re()) / by_speed + onset.speed_rad_s)
 }
 
-/// Returns every fold of round whirl for a rotor that turns in the sense of `toward`, from
-/// the slowest.
+/// Returns every fold of round whirl, in increasing order of speed, for a rotor that turns in the
+/// direction of the sign of `toward`.
 #[must_use]
 pub fn whirl_onsets(machine: &Machine, toward: f64) -> Vec<WhirlOnset> {
     search_onsets(machine, toward, false)
 }
 
-/// Searches the folds, all of them or up to the first that appears: the rest takes most of the
-/// time.
+/// Searches for the folds: all of them, or up to the first at which a pair appears, which is much
+/// faster.
 fn search_onsets(machine: &Machine, toward: f64, first: bool) -> Vec<WhirlOnset> {
     if machine.nodal_diameters == 0.0 {
         return Vec::new();
     }
-    // That of blades that do not stiffen.
+    // Scale of the search: the coincidence without stiffening.
     let dangerous = (machine.omega_c + machine.omega_bd_at_rest()) / machine.nodal_diameters;
     let closed = machine.closing_speed().filter(|_| machine.lining.is_none());
     let sense = if toward < 0.0 { -1.0 } else { 1.0 };
@@ -338,7 +328,8 @@ fn search_onsets(machine: &Machine, toward: f64, first: bool) -> Vec<WhirlOnset>
         let high = low * ONSET_STRIDE;
         let at_high = waves(high);
         for (speed, below, above) in changes((low, at_low), (high, at_high.len()), &waves) {
-            // A single wave that comes or goes does so with infinite pushes: no fold.
+            // A single wave that appears or vanishes does so with an infinite force and is not a
+            // fold.
             let appears = above.len() > below.len();
             let (few, many) = if appears { (below, above) } else { (above, below) };
             if many.len() < few.len() + 2 || closed.is_some_and(|closed| speed >= closed) {
@@ -354,8 +345,8 @@ fn search_onsets(machine: &Machine, toward: f64, first: bool) -> Vec<WhirlOnset>
     found
 }
 
-/// Returns the speeds between two where the number of waves changes, with the waves a hair
-/// below and above: nearer, round-off takes the two of a fold for one or none.
+/// Returns the speeds between two at which the number of waves changes, with the waves slightly
+/// below and above. Closer to the fold, round-off can merge or lose its two waves.
 fn changes(
     (low, mut before): (f64, Vec<RoundWhirl>),
     (high, last): (f64, usize),
@@ -374,7 +365,7 @@ fn changes(
     found
 }
 
-/// Returns the stiffer of the two waves that are nearest to each other.
+/// Returns the stiffer of the two waves that are nearest to each other in frequency.
 fn closest(waves: &[RoundWhirl]) -> Option<RoundWhirl> {
     let apart = |pair: &[RoundWhirl]| match pair {
         [one, other] => (one.omega_rad_s - other.omega_rad_s).abs(),
@@ -390,7 +381,7 @@ mod tests {
     use crate::model::{BladedDisk, Casing};
     use num_dual::Dual64;
 
-    /// Table 1 with tips of this slope, which carries the derivative.
+    /// Returns the machine of Table 1 with the tip slope `kappa`, which carries the derivative.
     fn inclined(kappa: Dual64) -> Machine<Dual64> {
         let disk = BladedDisk { radial_coupling: kappa, ..BladedDisk::default().to() };
         let casing = Casing::default().to();

@@ -1,8 +1,9 @@
-//! How round a casing must be for a lock to last (docs/theory.md, section 11). Lobes
-//! `e cos(m phi - psi)` move the corner that is held: both gaps stay closed, so that
-//! `z = z_0 + z_1 exp(i m Omega t) + z_2 exp(-i m Omega t)`, which takes the forces
-//! `L_c(nu + m Omega) z_1` and `L_c(nu - m Omega) z_2`. The lock is unbroken as long as no push
-//! vanishes and no other side reaches the corner.
+//! How round a casing must be to keep a lock (docs/theory.md, section 11).
+//!
+//! Lobes `e cos(m phi - psi)` move the corner of the lock. Both gaps stay closed, so that
+//! `z = z_0 + z_1 exp(i m Omega t) + z_2 exp(-i m Omega t)`, which needs the forces
+//! `L_c(nu + m Omega) z_1` and `L_c(nu - m Omega) z_2`. The lock persists as long as no contact
+//! force vanishes and no other side reaches the corner.
 
 use nalgebra::Complex;
 
@@ -10,13 +11,13 @@ use super::Corner;
 use crate::model::{Machine, Number};
 use crate::tolerances::ROUND_ENOUGH;
 
-/// Returns the numbers of lobes of which the roundness of a lock is told.
+/// Returns the lobe counts for which the roundness of a lock is reported.
 pub(crate) fn lobes_of(diameters: u32) -> impl Iterator<Item = u32> {
     (1..=4).chain((diameters > 4).then_some(diameters))
 }
 
-/// Returns the roundness that the lock of a machine needs of its casing at a speed \[m\], the
-/// least of all shapes; none where it is not known, and where usual casings have it.
+/// Returns the lobe height up to which the lock of a machine persists at a speed whatever the
+/// number of lobes \[m\]. `None` if it is unknown, or larger than in any usual casing.
 #[must_use]
 pub fn roundness_needed(machine: &Machine, speed: f64) -> Option<f64> {
     let lobes = lobes_of(machine.polygon.nodal_diameters);
@@ -24,9 +25,9 @@ pub fn roundness_needed(machine: &Machine, speed: f64) -> Option<f64> {
     (needed < ROUND_ENOUGH * machine.clearance() && !machine.is_uneven()).then_some(needed)
 }
 
-/// Returns the largest height of `lobes` lobes with which the lock of a machine lasts at a
-/// speed \[m\]; none where it has no lock there, and where this is not known: with blades that
-/// share a side, inclined tips, friction on the casing and on a lining.
+/// Returns the largest height of `lobes` lobes with which the machine stays locked at a speed
+/// \[m\]. `None` if there is no lock at that speed, and where no closed form exists: several blades
+/// on a side, inclined tips, friction on the casing, and a lining.
 #[must_use]
 pub fn roundness<T: Number>(machine: &Machine<T>, speed: T, lobes: u32) -> Option<T> {
     let machine = &*machine.at(speed);
@@ -39,7 +40,7 @@ pub fn roundness<T: Number>(machine: &Machine<T>, speed: T, lobes: u32) -> Optio
     let pushes = machine.locked_multipliers(speed)?.map(|lambda| -lambda);
     let one = |(c, s): (f64, f64)| Complex::new(T::from(c), T::from(s));
     let normal = |side: u32| one(polygon.direction(side));
-    // exp(i m Phi) of the blade of a side.
+    // exp(i m Phi) of the blade on a side.
     let lobe = |side: u32| {
         let blade = polygon.blades_of_side(side).first().map_or(0, |blade| blade - 1);
         let part = u64::from(lobes) * u64::from(blade) % u64::from(polygon.blades);
@@ -48,10 +49,10 @@ pub fn roundness<T: Number>(machine: &Machine<T>, speed: T, lobes: u32) -> Optio
     let [a, b] = corner.sides().map(normal);
     let [at_a, at_b] = corner.sides().map(lobe);
     let scale = |x: Complex<T>, by: T| Complex::new(x.re * by, x.im * by);
-    // 1/(2 i sin beta), beta the angle between both sides.
+    // 1/(2 i sin beta), where beta is the angle between both sides.
     let sine = (a.conj() * b).im;
     let over = Complex::new(T::zero(), -(sine * 2.0).recip());
-    // z_1 and conj(z_2) for e = 1: z_1 conj(d) + conj(z_2) d = -exp(i m Phi) of both sides.
+    // z_1 and conj(z_2) for e = 1: z_1 conj(d) + conj(z_2) d = -exp(i m Phi) on both sides.
     let first = (at_b * a - at_a * b) * over;
     let second = (at_a * b.conj() - at_b * a.conj()) * over;
     let stiffness = |omega: T| {
@@ -61,7 +62,7 @@ pub fn roundness<T: Number>(machine: &Machine<T>, speed: T, lobes: u32) -> Optio
     let (nu, turn) = (machine.nu(speed), speed * f64::from(lobes));
     let force = scale(stiffness(nu + turn) * first, T::from(2.0));
     let back = scale((stiffness(nu - turn) * second.conj()).conj(), T::from(2.0));
-    // sum p d = force, sum p conj(d) = back.
+    // Contact forces from sum p d = force, sum p conj(d) = back.
     let of_a = (back * b - force * b.conj()) * over;
     let of_b = (force * a.conj() - back * a) * over;
     let size = |x: Complex<T>| (x.re * x.re + x.im * x.im).sqrt();
@@ -79,7 +80,7 @@ pub fn roundness<T: Number>(machine: &Machine<T>, speed: T, lobes: u32) -> Optio
     (most.re() > 0.0 && most.re() < distance.re()).then_some(most)
 }
 
-/// Returns the place of the corner of two sides \[m\].
+/// Returns the position of the corner between two sides \[m\].
 fn place<T: Number>(machine: &Machine<T>, corner: Corner) -> Complex<T> {
     let [(x, y), (u, v)] = corner.sides().map(|side| machine.polygon.direction(side));
     let [a, b] = corner.sides().map(|side| machine.apothem(side));

@@ -1,13 +1,16 @@
-//! Slip on a polygon with corners: permanent contact, side after side
-//! (docs/theory.md, section 5). Its state is one number, the speed just after a
-//! corner; a lasting slip is a fixed point of the map from corner to corner, and its
-//! wave turns slower than the rotor.
+//! Slip: permanent contact that passes from side to side of the polygon (docs/theory.md, section
+//! 5).
 //!
-//! Above the critical speed sliding along a side is a saddle. With lengths in `g0`, time in
-//! `1/omega_c` and `f = nu/omega_c`:
+//! The state is a single number, the speed just after a corner. A lasting slip is a fixed point of
+//! the map from corner to corner; its wave turns slower than the rotor. Above the critical speed
+//! the motion along a side has a saddle point. With lengths in `g0`, time in `1/omega_c` and
+//! `f = nu/omega_c`:
 //!
 //! - `y'' + 2 zeta y' + (1 - f^2) y = 2 zeta f`
-//! - push `N = f^2 - 1 - 2 f y' - 2 zeta f y`, in `k_c g0`
+//! - contact force `N = f^2 - 1 - 2 f y' - 2 zeta f y`, in `k_c g0`
+//!
+//! Order in which to read: [`slip_over`] (result), `SaddleFlow` (motion on a side),
+//! `SaddleFlow::repeating` (the fixed point).
 
 use serde::Serialize;
 use strum::{Display, IntoStaticStr};
@@ -17,30 +20,29 @@ use super::{HarmonicError, error};
 use crate::model::Machine;
 use crate::numeric::bisection::bisected;
 
-/// Why there is no lasting slip at some speed.
+/// Reason why there is no lasting slip at a speed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Display, IntoStaticStr)]
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
 pub enum NoSlip {
-    /// Corners of a right angle or less (`N' <= 4`) stop the wave.
+    /// The angle between neighbouring sides is a right angle or less (`N' <= 4`): the impact at a
+    /// corner stops the wave.
     StopsAtCorner,
-    /// Not above the critical speed: nothing presses the wave on the sides of
-    /// the polygon.
+    /// The speed is not above the critical speed, so nothing presses the wave onto the polygon.
     BelowCritical,
-    /// Nothing replaces the speed that corners take: the drag is zero, or too
-    /// small to pass the saddle.
+    /// The drag is zero, or too small to replace the speed that is lost at the corners.
     NoDrive,
-    /// The wave would have to be pulled to stay on a side.
+    /// A pull would be needed to keep the wave on a side.
     Lifts,
-    /// Blades have grown into the casing.
+    /// The blades have grown so that there is no clearance.
     Closed,
 }
 
-/// A lasting slip.
+/// A lasting slip: the periodic motion from corner to corner.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct SlipOrbit {
-    /// Angular speed of the casing wave over `n_d`; between zero and the
-    /// rotor's \[rad/s\].
+    /// Rotational speed of the casing wave, its frequency divided by `n_d`; between zero and the
+    /// rotor speed \[rad/s\].
     pub wave_speed_rad_s: f64,
     /// Time to cross one side \[s\].
     pub period_s: f64,
@@ -48,18 +50,18 @@ pub struct SlipOrbit {
     pub speed_after_corner_m_s: f64,
     /// Speed along the side just before the next corner \[m/s\].
     pub speed_before_corner_m_s: f64,
-    /// Slope of the map at the fixed point, `cos^2(2 delta) exp(-2 zeta_c
-    /// omega_c T)`; below one, so that slip is stable where it exists.
+    /// Slope of the map at the fixed point, `cos^2(2 delta) exp(-2 zeta_c omega_c T)`. It is below
+    /// one, so slip is stable where it exists.
     pub slope: f64,
-    /// Smallest push along a side; negative would be a pull \[N\].
+    /// Smallest contact force along a side; a negative value would be a pull \[N\].
     pub least_push_n: f64,
-    /// Impulse on the side met at a corner \[N s\].
+    /// Impulse of the impact on the next side at a corner \[N s\].
     pub corner_impulse_ns: f64,
-    /// Mean torque the rotor must give, impulses included \[N m\].
+    /// Mean torque of the rotor, including the impulses \[N m\].
     pub torque_nm: f64,
-    /// Mean power it takes \[W\].
+    /// Mean power of the rotor \[W\].
     pub power_w: f64,
-    /// Mean power of the casing's damper \[W\].
+    /// Mean power dissipated by the casing damping \[W\].
     pub damper_power_w: f64,
     /// Mean power lost at the corners \[W\].
     pub corner_power_w: f64,
@@ -70,28 +72,29 @@ pub struct SlipOrbit {
 pub struct SlipPoint {
     /// Rotor speed \[rad/s\].
     pub speed_rad_s: f64,
-    /// The lasting slip, or why there is none.
+    /// The lasting slip, or the reason why there is none.
     pub outcome: Result<SlipOrbit, NoSlip>,
 }
 
 impl SlipPoint {
-    /// Returns whether there is a lasting slip that contact can hold.
+    /// Returns whether there is a lasting slip held by pushes.
     #[must_use]
     pub fn exists(&self) -> bool {
         self.outcome.is_ok()
     }
 
-    /// Returns whether neighbouring motions converge to it.
+    /// Returns whether neighbouring motions converge to the slip.
     #[must_use]
     pub fn stable(&self) -> bool {
         self.outcome.is_ok_and(|orbit| orbit.slope.abs() < 1.0)
     }
 }
 
-/// Computes lasting slip over a list of rotor speeds \[rad/s\].
+/// Computes lasting slip for a list of rotor speeds \[rad/s\].
 ///
 /// # Errors
-/// A polygon without corners, or a speed that is not finite.
+/// The polygon has no corners, the tips act on the casing otherwise than in the paper, there is no
+/// clearance, or a speed is not finite.
 pub fn slip_over(machine: &Machine, speeds: &[f64]) -> Result<Vec<SlipPoint>, HarmonicError> {
     error::refuse_tips_on_casing(machine, "slip")?;
     error::refuse_preload(&machine.at(0.0))?;
@@ -100,20 +103,20 @@ pub fn slip_over(machine: &Machine, speeds: &[f64]) -> Result<Vec<SlipPoint>, Ha
     Ok(speeds.iter().map(|&speed| point(machine, speed)).collect())
 }
 
-/// A speed where slip appears or vanishes.
+/// A speed at which slip appears or vanishes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SlipLimit {
-    /// Where, to the last digit \[rad/s\].
+    /// Rotor speed, to the last digit \[rad/s\].
     pub speed_rad_s: f64,
-    /// Whether there is slip above it and none below.
+    /// Whether slip exists above this speed and not below.
     pub appears: bool,
 }
 
-/// Returns the speeds between the least and the largest of a list \[rad/s\] where slip
-/// appears or vanishes.
+/// Returns the speeds at which slip appears or vanishes, within the range of a list of speeds
+/// \[rad/s\].
 ///
 /// # Errors
-/// As `slip_over`.
+/// As [`slip_over`].
 pub fn slip_limits(machine: &Machine, speeds: &[f64]) -> Result<Vec<SlipLimit>, HarmonicError> {
     slip_over(machine, speeds)?;
     let mut sorted = speeds.to_vec();
@@ -131,7 +134,7 @@ pub fn slip_limits(machine: &Machine, speeds: &[f64]) -> Result<Vec<SlipLimit>, 
     Ok(limits)
 }
 
-/// Returns the repeating arc at a speed, held by contact all along.
+/// Returns the periodic arc at a speed, if contact can hold it all along.
 fn repeating(machine: &Machine, speed: f64) -> Result<(SaddleFlow, Arc), NoSlip> {
     if machine.at(speed).clearance() <= 0.0 {
         return Err(NoSlip::Closed);
@@ -141,7 +144,7 @@ fn repeating(machine: &Machine, speed: f64) -> Result<(SaddleFlow, Arc), NoSlip>
         return Err(NoSlip::StopsAtCorner);
     }
     let arc = slide.repeating().ok_or(NoSlip::NoDrive)?;
-    // NaN, from an overflow, is not a push either.
+    // NaN from an overflow counts as lift-off, too.
     if slide.least_push(&arc) >= 0.0 { Ok((slide, arc)) } else { Err(NoSlip::Lifts) }
 }
 
@@ -151,30 +154,30 @@ fn point(machine: &Machine, speed: f64) -> SlipPoint {
     SlipPoint { speed_rad_s: speed, outcome }
 }
 
-/// Units of speed \[m/s\] and force \[N\] of the scaled flow.
+/// Units of speed \[m/s\] and force \[N\] in the dimensionless flow.
 struct Units {
     speed: f64,
     force: f64,
 }
 
 impl Units {
-    fn of(machine: &Machine) -> Self {
+    fn new(machine: &Machine) -> Self {
         let length = machine.clearance();
         Self { speed: machine.omega_c * length, force: machine.casing_stiffness * length }
     }
 }
 
-/// Returns by how much areas of the sliding flow shrink along an arc.
+/// Returns the factor by which phase-space areas shrink along an arc.
 fn contraction(slide: &SaddleFlow, arc: &Arc) -> f64 {
     (-2.0 * slide.zeta * arc.time).exp()
 }
 
 fn orbit(machine: &Machine, speed: f64, slide: &SaddleFlow, arc: &Arc) -> SlipOrbit {
-    let units = Units::of(machine);
+    let units = Units::new(machine);
     let [after, before] = slide.end_speeds(arc);
     let impulse = before * slide.struck;
-    let means = Means::of(slide, arc);
-    // T = sum Lambda A with Lambda = -N, A = n_d y; the impulse comes at y = -end.
+    let means = Means::new(slide, arc);
+    // Torque = sum Lambda A with Lambda = -N, A = n_d y; the impulse acts at y = -end.
     let moment_arm = -means.push_lever + impulse * slide.end / arc.time;
     let unit = units.force * machine.clearance();
     let torque = machine.nodal_diameters * unit * moment_arm * speed.signum();
@@ -195,16 +198,16 @@ fn orbit(machine: &Machine, speed: f64, slide: &SaddleFlow, arc: &Arc) -> SlipOr
     }
 }
 
-/// Means over an arc, from integrals of products of exponentials.
+/// Time averages over an arc, from integrals of products of exponentials.
 struct Means {
-    /// Of `N y`.
+    /// Average of `N y`.
     push_lever: f64,
-    /// Of `|u'|^2 = (y' - f)^2 + f^2 y^2`.
+    /// Average of `|u'|^2 = (y' - f)^2 + f^2 y^2`.
     rate_square: f64,
 }
 
 impl Means {
-    fn of(slide: &SaddleFlow, arc: &Arc) -> Self {
+    fn new(slide: &SaddleFlow, arc: &Arc) -> Self {
         let [up, down] = slide.roots;
         let rates = [0.0, up, down];
         let y = [slide.saddle, arc.grow, arc.decay];
@@ -237,25 +240,25 @@ fn mean_exponential(rate: f64, time: f64) -> f64 {
     if x == 0.0 { 1.0 } else { x.exp_m1() / x }
 }
 
-/// One side above the critical speed, in numbers of order one.
+/// Motion along one side above the critical speed, dimensionless.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct SaddleFlow {
     zeta: f64,
-    /// `nu/omega_c`, above one.
+    /// Speed ratio `nu/omega_c`, above one.
     ratio: f64,
-    /// Half the side, `tan delta`.
+    /// Half the length of the side, `tan delta`.
     end: f64,
-    /// The saddle `y*`.
+    /// Position of the saddle point, `y*`.
     saddle: f64,
-    /// The two roots, growing and decaying.
+    /// Growing and decaying eigenvalue.
     roots: [f64; 2],
-    /// `cos 2 delta`, none if not positive.
+    /// Factor on the speed at a corner, `cos 2 delta`; 0 if the corner stops the wave.
     kept: f64,
-    /// `sin 2 delta`.
+    /// Part of the speed that the impact at a corner removes, `sin 2 delta`.
     struck: f64,
 }
 
-/// `y = y* + grow e^(s+ t) + decay e^(s- t)`, until `time`.
+/// Motion from corner to corner, `y = y* + grow e^(s+ t) + decay e^(s- t)` for `0 <= t <= time`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Arc {
     grow: f64,
@@ -264,8 +267,8 @@ struct Arc {
 }
 
 impl SaddleFlow {
-    /// Creates the flow at a rotor speed `speed` \[rad/s\], taken without its sign; `None`
-    /// without corners or not above the critical speed.
+    /// Creates the flow at the magnitude of a rotor speed \[rad/s\]; `None` without corners, and up
+    /// to the critical speed.
     fn at(machine: &Machine, speed: f64) -> Option<Self> {
         let zeta = machine.casing_damping_ratio;
         let ratio = machine.nu(speed).abs() / machine.omega_c;
@@ -275,36 +278,36 @@ impl SaddleFlow {
         }
         let delta = machine.polygon.delta;
         let root = (zeta * zeta + excess).sqrt();
-        // The growing root as a quotient, which keeps its digits.
+        // The growing root as a quotient, which avoids cancellation.
         let roots = [excess / (root + zeta), -root - zeta];
         let saddle = -2.0 * zeta * ratio / excess;
         let (struck, kept) = (2.0 * delta).sin_cos();
-        // Beyond a right angle the wave runs into the corner and stays there.
+        // For N' <= 4 the wave runs into the corner and stays there.
         let kept = if machine.polygon.sides <= 4 { 0.0 } else { kept };
         let slide = Self { zeta, ratio, end: delta.tan(), saddle, roots, kept, struck };
         saddle.is_finite().then_some(slide)
     }
 
-    /// Returns the speed just after a corner below which the wave turns back before the
-    /// next: the stable manifold of the saddle.
+    /// Returns the speed just after a corner below which the wave turns back before the next one:
+    /// the stable manifold of the saddle point.
     fn least_speed(&self) -> f64 {
         (self.roots[1] * (-self.end - self.saddle)).max(0.0)
     }
 
-    /// Returns position and speed along an arc.
+    /// Returns position and speed at a time on an arc.
     fn state(&self, arc: &Arc, time: f64) -> (f64, f64) {
         let [up, down] = self.roots;
         let (grow, decay) = (arc.grow * (up * time).exp(), arc.decay * (down * time).exp());
         (self.saddle + grow + decay, grow * up + decay * down)
     }
 
-    /// Returns the contact force at a position and speed; negative would be a pull.
+    /// Returns the contact force at a position and speed; a negative value would be a pull.
     fn push(&self, y: f64, speed: f64) -> f64 {
         let f = self.ratio;
         (f - 1.0) * (f + 1.0) - 2.0 * f * speed - 2.0 * self.zeta * f * y
     }
 
-    /// Returns the smallest contact force along an arc.
+    /// Returns the smallest contact force on an arc.
     fn least_push(&self, arc: &Arc) -> f64 {
         let at = |time| {
             let (y, speed) = self.state(arc, time);
@@ -318,28 +321,28 @@ impl SaddleFlow {
         if time > 0.0 && time < arc.time { ends.min(at(time)) } else { ends }
     }
 
-    /// Returns the arc that takes a given time from corner to corner.
+    /// Returns the arc from corner to corner that takes a given time.
     fn in_time(&self, time: f64) -> Arc {
         let [up, down] = self.roots;
         let (start, stop) = (-self.end - self.saddle, self.end - self.saddle);
         let (shrunk_up, shrunk_down) = ((-up * time).exp(), (down * time).exp());
-        // grow e^(s+ t), the larger of the two, comes without overflow.
+        // grow e^(s+ t), the larger of the two terms, is computed first to avoid overflow.
         let grown = (stop - start * shrunk_down) / (1.0 - shrunk_down * shrunk_up);
         let grow = grown * shrunk_up;
         Arc { grow, decay: start - grow, time }
     }
 
-    /// Returns the speeds just after the corner an arc starts at, and just before the next.
+    /// Returns the speeds at the beginning and at the end of an arc.
     fn end_speeds(&self, arc: &Arc) -> [f64; 2] {
         [self.state(arc, 0.0).1, self.state(arc, arc.time).1]
     }
 
-    /// Returns the arc that repeats itself: the drag restores on a side the speed lost
-    /// at a corner. At most one exists, because the slope of the map from
-    /// corner to corner is below one there; `None` if there is none.
+    /// Returns the periodic arc, on which the drag restores the speed that is lost at a corner;
+    /// `None` if there is none. At most one exists, because the slope of the map is below one
+    /// there.
     fn repeating(&self) -> Option<Arc> {
         let [up, _] = self.roots;
-        // The slowest crossing is along the manifolds of the saddle.
+        // The slowest crossing follows the manifolds of the saddle point.
         let slowest_gains = self.kept * up * (self.end - self.saddle) > self.least_speed();
         if self.kept <= 0.0 || self.zeta <= 0.0 || !slowest_gains {
             return None;
@@ -353,8 +356,8 @@ impl SaddleFlow {
     }
 }
 
-/// Returns the first time from which a condition holds, to the last digit, found by
-/// doubling from `guess` and then halving.
+/// Returns the first time from which a condition is true, to the last digit: doubling from `guess`,
+/// then bisection.
 fn first_time(holds: impl Fn(f64) -> bool, guess: f64) -> Option<f64> {
     let (mut below, mut above) = (0.0, guess);
     let mut doublings = 0;

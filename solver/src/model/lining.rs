@@ -1,26 +1,28 @@
-//! The lining of the smooth law (docs/theory.md, section 10): no force at a distance, a
-//! parabola over the first `eps` of depth, then a straight line. It gives back all that
-//! is stored in it.
+//! Elastic lining of the casing, used by the smooth contact law (docs/theory.md, section 10).
+//!
+//! With the depth `d = -g` the contact force is zero for `d <= 0`, `k_p d^2/(2 eps)` up to the
+//! depth `eps`, and `k_p (d - eps/2)` beyond. The lining is conservative: it returns all the energy
+//! that it stores.
 
 use super::{ContactSurface, Number};
 
-/// The lining under one blade.
+/// Force law of the lining under one blade.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LiningLaw<T = f64> {
-    /// `k_p` \[N/m\].
+    /// Stiffness `k_p` \[N/m\].
     pub stiffness_n_per_m: T,
-    /// `eps`, which may be zero \[m\].
+    /// Depth `eps` of the parabolic part; zero for a purely linear law \[m\].
     pub smoothing_m: T,
 }
 
 impl<T: Number> LiningLaw<T> {
-    /// Of a contact surface.
+    /// Takes the stiffness and the smoothing depth of a contact surface.
     #[must_use]
     pub fn of(surface: &ContactSurface<T>) -> Self {
         Self { stiffness_n_per_m: surface.stiffness_n_per_m, smoothing_m: surface.smoothing_m }
     }
 
-    /// Push at a gap, zero or more \[N\].
+    /// Returns the contact force at a gap, positive in compression \[N\].
     #[must_use]
     pub fn push(&self, gap: T) -> T {
         let (depth, k, eps) = (-gap, self.stiffness_n_per_m, self.smoothing_m);
@@ -33,7 +35,7 @@ impl<T: Number> LiningLaw<T> {
         }
     }
 
-    /// How much the push grows as the gap closes, `-dP/dg` \[N/m\].
+    /// Returns the contact stiffness `-dP/dg` at a gap \[N/m\].
     #[must_use]
     pub fn slope(&self, gap: T) -> T {
         let (depth, k, eps) = (-gap, self.stiffness_n_per_m, self.smoothing_m);
@@ -46,7 +48,7 @@ impl<T: Number> LiningLaw<T> {
         }
     }
 
-    /// Energy stored at a gap, of which `push` is the slope \[J\].
+    /// Returns the energy stored at a gap, `-integral of P dg` from the open gap \[J\].
     #[must_use]
     pub fn energy(&self, gap: T) -> T {
         let (depth, k, eps) = (-gap, self.stiffness_n_per_m, self.smoothing_m);

@@ -1,31 +1,36 @@
-//! The lock of a machine in closed form, for blades that do not turn the gap: the speeds
-//! at which pushes alone hold it, and the pushes (docs/theory.md, sections 4 and 10).
+//! Lock speeds and locked contact forces in closed form, for blades that are rigid in rotation
+//! (docs/theory.md, sections 4 and 10).
 //!
-//! Two neighbouring phase groups push with `q = -(g0/cos delta)/H`, `H = B(nu)` the joint
-//! compliance; both push where `|arg(-1/H)| <= delta`. With `K = k_c - nu^2 m_c`,
-//! `D = d_c nu` and `c = c2/k_a`, `1/H` is a positive number times
-//! `K + c (K^2 + D^2) + mu_c D + i (D - mu_c K)`.
+//! Two neighbouring phase groups carry the contact force `q = -(g0/cos delta)/H`, where `H = B(nu)`
+//! is the joint compliance of casing and blades. Both groups push where `|arg(-1/H)| <= delta`.
+//! With `K = k_c - nu^2 m_c`, `D = d_c nu`, `c = c2/k_a` and `mu_c = mu tau`, `1/H` is a positive
+//! number times `K + c (K^2 + D^2) + mu_c D + i (D - mu_c K)`.
 //!
-//! On a lining of the stiffness `k` of a group both push where `-tan(delta) Re H - |Im H| >=
-//! 1/(k sin 2 delta)`, without smoothing: one term more, `(K^2 + D^2)/(k sin 2 delta)`.
+//! On a lining with the group stiffness `k` (no smoothing) both push where
+//! `-tan(delta) Re H - |Im H| >= 1/(k sin 2 delta)`, which adds the term
+//! `(K^2 + D^2)/(k sin 2 delta)` to the condition on `1/H`.
 //!
-//! Where blades stiffen with the speed, `c` is `c/(1 + b x^2)`, and where they grow, every
-//! window ends with the clearance.
+//! If the blades stiffen with speed, `c` becomes `c/(1 + b x^2)`. If they grow with speed, every
+//! window ends where the clearance closes.
+//!
+//! Read [`Machine::lock_windows`] first, then `windows` (the general case) and `Balance` (its
+//! condition as a polynomial).
 
 use super::{Machine, Number};
-use crate::numeric::real_roots::{Coefficients, Point, product, real_roots, sum};
+use crate::numeric::real_roots::real_roots;
 
-/// Speeds at which a lock is held by pushes alone, or at which it flutters, as magnitudes.
+/// Range of rotor speeds at which pushes alone hold a lock, or at which it flutters. Both ends are
+/// magnitudes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LockWindow<T = f64> {
-    /// The lowest; 0 where it does so from standstill on \[rad/s\].
+    /// Lowest speed; 0 if the range begins at standstill \[rad/s\].
     pub from: T,
-    /// The highest, where there is one \[rad/s\].
+    /// Highest speed; `None` if the range is unbounded \[rad/s\].
     pub to: Option<T>,
 }
 
 impl LockWindow {
-    /// Whether a lock holds at a speed of this magnitude.
+    /// Returns whether the magnitude `speed` lies in the window \[rad/s\].
     #[must_use]
     pub fn has(&self, speed: f64) -> bool {
         self.from <= speed && self.to.is_none_or(|to| speed <= to)
@@ -33,7 +38,7 @@ impl LockWindow {
 }
 
 impl<T: Number> LockWindow<T> {
-    /// The parts of it, in order, that lie outside another one.
+    /// Returns the parts of this window outside `other`, in increasing order.
     pub(crate) fn without(self, other: &Self) -> impl Iterator<Item = Self> + use<T> {
         let ends_before = |to: T| self.to.is_none_or(|end| end.re() > to.re());
         let lower = Self {
@@ -50,19 +55,23 @@ impl<T: Number> LockWindow<T> {
 }
 
 impl<T: Number> Machine<T> {
-    /// Speed from which both multipliers of the locked motion are compressive for a
-    /// rotor that turns forward; without friction, inclined tips and a lining
-    /// `Omega_lock = Omega_c [zeta cot delta + sqrt(1 + zeta^2 cot^2 delta)]`
-    /// \[rad/s\]; none without corners, and where no speed has a lock.
+    /// Returns the lock speed: the lowest speed at which both multipliers of the locked motion are
+    /// compressive, for forward rotation \[rad/s\].
+    ///
+    /// Without friction, inclined tips and lining,
+    /// `Omega_lock = Omega_c [zeta cot delta + sqrt(1 + zeta^2 cot^2 delta)]`. `None` without
+    /// corners, or if no speed has a lock.
     #[must_use]
     pub fn lock_speed(&self) -> Option<T> {
         self.lock_windows(1.0).first().map(|window| window.from)
     }
 
-    /// Every window of speeds at which pushes alone balance a lock, in order, for a rotor that
-    /// turns in the sense of `toward`; `harmonic::lock_windows` keeps those that last. Empty
-    /// where blades rub at rest, and where inclined tips have modes of other diameters than the
-    /// casing: no single wave then holds the pair.
+    /// Returns every window of speeds at which pushes alone balance a lock, in increasing order,
+    /// for a rotor that turns in the direction of the sign of `toward`. Whether such a lock is
+    /// stable is decided by `harmonic::lock_windows`.
+    ///
+    /// Empty if the blades rub at rest, or if inclined tips have modes with other nodal diameters
+    /// than the casing: then no single wave closes both gaps.
     #[must_use]
     pub fn lock_windows(&self, toward: f64) -> Vec<LockWindow<T>> {
         let slope = self.polygon.delta.tan();
@@ -84,9 +93,10 @@ impl<T: Number> Machine<T> {
         self.with_clearance(self.windows([(slope, T::one()), (slope, -T::one())], toward))
     }
 
-    /// The window of a lock in a casing whose lobes are as many as the nodal diameters, which
-    /// are a static force `k_c e` on it. None for other lobes, whose largest height is known
-    /// instead, and beside unequal tips.
+    /// Window for an out-of-round casing whose number of lobes equals `n_d`: the lobes act as the
+    /// static force `k_c e` on the casing mode. `None` for other lobe counts, where a largest
+    /// height is known instead of a window (`harmonic::roundness`), and in combination with unequal
+    /// tips.
     fn lock_out_of_round(&self) -> Option<LockWindow<T>> {
         let lobes = self.tips.as_ref().map_or(0, |tips| tips.lobes);
         let alone = !self.has_unequal_tips() && !self.casing_feels_tips() && self.lining.is_none();
@@ -100,7 +110,7 @@ impl<T: Number> Machine<T> {
         Some(LockWindow { from: critical * (x + root), to: None })
     }
 
-    /// These windows, as far as there is a clearance.
+    /// Cuts the windows off at the speed at which the clearance closes.
     fn with_clearance(&self, mut windows: Vec<LockWindow<T>>) -> Vec<LockWindow<T>> {
         if let Some(closed) = self.closing_speed() {
             windows.retain(|window| window.from.re() < closed.re());
@@ -111,9 +121,10 @@ impl<T: Number> Machine<T> {
         windows
     }
 
-    /// Speed down to which the printed equality algorithm holds a lock, one
-    /// multiplier tensile: as `lock_speed` with `tan delta` for `cot delta`. None with
-    /// friction, which no pull has, and on a lining, which does not pull.
+    /// Returns the adhesive speed: the lowest speed at which the paper's equality algorithm holds a
+    /// lock, one multiplier being tensile \[rad/s\]. The formula is that of
+    /// [`lock_speed`](Self::lock_speed) with `tan delta` for `cot delta`. `None` with friction,
+    /// because a pull has none, and on a lining, which cannot pull.
     #[must_use]
     pub fn adhesive_speed(&self) -> Option<T> {
         if self.lining.is_some() || self.clearance_at_rest().re() <= 0.0 {
@@ -123,7 +134,7 @@ impl<T: Number> Machine<T> {
             let (corner, windows) = self.lowest_corner(1.0)?;
             let slope = (-corner.gamma + corner.beta).tan();
             let known = !self.casing_feels_tips() && self.out_of_round().re() == 0.0;
-            // Where a lock of pushes begins below it, no pull holds one.
+            // If a lock of pushes begins below this speed, there is no range of adhesive locks.
             let below = |speed: &T| windows.first().is_none_or(|lock| speed.re() < lock.from.re());
             return self.threshold(slope).filter(|speed| known && below(speed));
         }
@@ -140,7 +151,8 @@ impl<T: Number> Machine<T> {
         self.with_clearance(windows).first().map(|window| window.from)
     }
 
-    /// Whether every lock above the critical speed pushes, as nothing parts the two pushes.
+    /// Returns whether every lock above the critical speed pushes: without damping, inclined tips
+    /// and lining both contact forces are equal.
     #[must_use]
     pub fn locks_from_critical_speed(&self) -> bool {
         self.casing_damping.re() == 0.0 && !self.casing_feels_tips() && self.lining.is_none()
@@ -153,8 +165,8 @@ impl<T: Number> Machine<T> {
         self.polygon.has_corners().then(|| critical * factor)
     }
 
-    /// The windows in which `slope Re(1/H) + sign Im(1/H) <= 0` for both sides; of equal tips,
-    /// `|tan arg(-1/H)|` is not above a slope.
+    /// Windows in which `slope Re(1/H) + sign Im(1/H) <= 0` for both sides. For equal tips the two
+    /// conditions together are `|tan arg(-1/H)| <= slope`.
     pub(super) fn windows(&self, sides: [(T, T); 2], toward: f64) -> Vec<LockWindow<T>> {
         let Some(critical) = self.critical_speed() else { return Vec::new() };
         if !self.polygon.has_corners() || self.has_other_diameters() {
@@ -163,7 +175,8 @@ impl<T: Number> Machine<T> {
         let balance = Balance {
             sides,
             damping: self.casing_damping_ratio * 2.0,
-            // In a mirrored machine both the drag and the friction change their sign.
+            // A rotor that turns backward is the mirrored machine: drag and friction both change
+            // their sign.
             friction: self.casing_friction_at(T::one()),
             coupling: self.coupling_product_at(T::from(toward)) * self.casing_stiffness
                 / self.blade_stiffness_at_rest(),
@@ -175,7 +188,7 @@ impl<T: Number> Machine<T> {
         };
         let speed = |(x, side): (f64, usize)| balance.derived(x, side) * critical;
         let mut windows: Vec<LockWindow<T>> = Vec::new();
-        // Whether the interval before this end has a lock.
+        // Whether the interval below the current end has a lock.
         let mut inside = false;
         let mut below = None;
         let ends = balance.ends();
@@ -195,8 +208,8 @@ impl<T: Number> Machine<T> {
         windows
     }
 
-    /// Amplitude of the locked casing wave, `g0/cos delta` \[m\]; none without corners or
-    /// clearance, and where inclined tips bend or a lining yields, so that it depends on the
+    /// Returns the amplitude of the locked casing wave, `g0/cos delta` \[m\]. `None` without
+    /// corners or clearance, and with inclined tips or a lining, where the amplitude depends on the
     /// speed.
     #[must_use]
     pub fn locked_amplitude(&self) -> Option<T> {
@@ -209,12 +222,14 @@ impl<T: Number> Machine<T> {
         (corners && still).then(|| self.clearance() / self.polygon.delta.cos())
     }
 
-    /// Group multipliers `[lambda_a, lambda_b]` of the locked motion at a
-    /// constant speed, `psi_b = psi_a + 2 delta`, for rigid contact and blades that do not turn the gap
-    /// \[N\]: `(g0/2 cos delta)(Re(1/H)/cos delta -+ Im(1/H)/sin delta)`; without
-    /// friction and inclined tips `1/H = K + i D` with `K = k_c - nu^2 m_c`,
-    /// `D = d_c nu`. Negative is a push. None without corners, with an interference fit, and where inclined tips
-    /// have modes of other diameters than the casing.
+    /// Returns the group multipliers `[lambda_a, lambda_b]` of the locked motion at a constant
+    /// speed, `psi_b = psi_a + 2 delta`; negative is a push \[N\].
+    ///
+    /// For rigid contact and blades that are rigid in rotation they are
+    /// `(g0/2 cos delta)(Re(1/H)/cos delta -+ Im(1/H)/sin delta)`. Without friction and inclined
+    /// tips `1/H = K + i D` with `K = k_c - nu^2 m_c` and `D = d_c nu`. `None` without corners,
+    /// with an interference fit, and if inclined tips have modes with other nodal diameters than
+    /// the casing.
     #[must_use]
     pub fn locked_multipliers(&self, speed: T) -> Option<[T; 2]> {
         let here = self.at(speed);
@@ -242,7 +257,8 @@ impl<T: Number> Machine<T> {
         Some([scale * (stiff - drag), scale * (stiff + drag)])
     }
 
-    /// Real and imaginary part of `1/H` from those of the casing alone \[N/m\].
+    /// Adds the inclined tips and the friction to `1/H`: `stiff` and `drag` are its real and
+    /// imaginary part for the casing alone \[N/m\].
     fn with_tips(&self, stiff: T, drag: T, speed: T) -> [T; 2] {
         let friction = self.casing_friction_at(speed);
         let c = self.coupling_product_at(speed) / self.blade_modal_stiffness;
@@ -253,22 +269,23 @@ impl<T: Number> Machine<T> {
     }
 }
 
-/// Where both push: `slope Re + sign Im <= 0` of `1/H`, in units of the casing and `omega_c`;
-/// on a lining with a term of its compliance.
+/// The push condition `slope Re(1/H) + sign Im(1/H) <= 0` of each side as a function of the
+/// dimensionless frequency `x = nu/omega_c`, in units of `k_c`. On a lining it has one more term,
+/// the compliance of the lining.
 struct Balance<T> {
-    /// Slope and sign of each side.
+    /// Slope and sign of the condition of each side.
     sides: [(T, T); 2],
     damping: T,
     friction: T,
-    /// At rest.
+    /// `c k_c` of the blades at rest.
     coupling: T,
-    /// `b`, what the blades stiffen by.
+    /// Centrifugal stiffening `b`: the blade stiffness grows by the factor `1 + b x^2`.
     stiffening: T,
     lining: T,
 }
 
 impl<T: Number> Balance<T> {
-    /// `slope Re + sign Im` at a frequency, and its slope there.
+    /// Returns the left side of the condition at `x`, and its derivative with respect to `x`.
     fn at(&self, x: T, side: usize) -> (T, T) {
         let (slope, sign) = self.sides[side];
         let (stiff, drag) = (-(x * x) + 1.0, self.damping * x);
@@ -291,12 +308,12 @@ impl<T: Number> Balance<T> {
         )
     }
 
-    /// Whether both push at a frequency.
+    /// Returns whether both sides push at `x`.
     fn holds(&self, x: f64) -> bool {
         [0, 1].iter().all(|&side| self.at(T::from(x), side).0.re() <= 0.0)
     }
 
-    /// A root with its derivatives: each step of Newton's method adds an order.
+    /// Attaches derivatives to a root: each Newton step in dual numbers adds one order.
     fn derived(&self, root: f64, side: usize) -> T {
         let mut x = T::from(root);
         for _ in 0..2 {
@@ -309,37 +326,12 @@ impl<T: Number> Balance<T> {
         x
     }
 
-    /// Every positive frequency where one of the two pushes vanishes, with its side.
+    /// Returns every positive `x` at which one of the two pushes vanishes, with the index of its
+    /// side.
     fn ends(&self) -> Vec<(f64, usize)> {
-        let (damping, friction, coupling) =
-            (self.damping.re(), self.friction.re(), self.coupling.re());
-        let stiffening = self.stiffening.re();
-        let on = |(own, sign): (f64, f64)| {
-            move |from: Point, to: Point| -> Coefficients {
-                let quadratic =
-                    |of: &dyn Fn(Point, Point) -> f64| Coefficients::quadratic(from, to, of);
-                let one = quadratic(&|u, v| u.q * v.q);
-                let stiff = quadratic(&|u, v| u.q * v.q - u.p * v.p);
-                let drag = quadratic(&|u, v| 0.5 * damping * (u.p * v.q + v.p * u.q));
-                let square = sum(1.0, &product(&stiff, &stiff), 1.0, &product(&drag, &drag));
-                let alone = sum(
-                    own - sign * friction,
-                    &product(&stiff, &one),
-                    own * friction + sign,
-                    &product(&drag, &one),
-                );
-                if stiffening == 0.0 {
-                    return sum(1.0, &alone, own * coupling + self.lining.re(), &square);
-                }
-                let stiffer = quadratic(&|u, v| u.q * v.q + stiffening * u.p * v.p);
-                let rigid = sum(1.0, &alone, self.lining.re(), &square);
-                let tips = product(&one, &square);
-                sum(1.0, &product(&stiffer, &rigid), own * coupling, &tips)
-            }
-        };
         let mut ends = Vec::new();
-        for (side, (own, sign)) in self.sides.iter().enumerate() {
-            let roots = real_roots(&on((own.re(), sign.re())), &[0.0, 1.0]);
+        for side in [0, 1] {
+            let roots = real_roots(|x| self.at(T::from(x), side).0.re(), &[0.0, 1.0]);
             ends.extend(roots.into_iter().filter(|x| *x > 0.0).map(|x| (x, side)));
         }
         ends.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -1,6 +1,6 @@
-//! What follows from the parameters and the nodal diameters alone: frequencies,
-//! modal masses and damping (docs/theory.md, section 1), and the coincidences of both
-//! structures (docs/theory.md, section 4). Where it changes with the speed: `spin`.
+//! The machine: modal masses, stiffnesses, damping and frequencies that follow from the parameters
+//! and the nodal diameters (docs/theory.md, section 1), and the coincidence speeds of casing and
+//! disk (docs/theory.md, section 4). What changes with the rotor speed is in `spin`.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -8,17 +8,18 @@ use std::sync::Arc;
 use super::spin::Spin;
 use super::{BladedDisk, Casing, ContactPolygon, LiningLaw, Number, Tips};
 
-/// The four-coordinate model of one machine at one number of nodal diameters.
+/// Model of one machine for one number of nodal diameters, with two casing and two blade
+/// coordinates.
 ///
-/// Mode shapes are `p_c(i) = cos(n_d Phi_i)`, `p_s(i) = sin(n_d Phi_i)`, not
-/// normalised, so the blade modal mass is `N m_b/2` (`N m_b` where `p_s`
-/// vanishes and one blade mode is left).
+/// The mode shapes are `p_c(i) = cos(n_d Phi_i)` and `p_s(i) = sin(n_d Phi_i)`. They are not
+/// normalised, so the modal mass of the blades is `N m_b/2`, or `N m_b` where `p_s` vanishes and
+/// only one blade mode is left.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Machine<T = f64> {
-    /// Phase groups and the polygon in the frame of the blades.
+    /// Phase groups, and the contact polygon in the blade frame.
     pub polygon: ContactPolygon,
     pub(super) clearance: T,
-    /// `n_d` as a number.
+    /// Nodal diameters `n_d`, as a floating-point number.
     pub nodal_diameters: f64,
     /// Casing modal mass `m_c` \[kg\].
     pub casing_mass: T,
@@ -40,36 +41,39 @@ pub struct Machine<T = f64> {
     pub blade_modal_stiffness: T,
     /// Damping ratio of the blade modes `zeta_bd`.
     pub blade_damping_ratio: T,
-    /// Blade frequency of `n_d` diameters, `omega_bd` \[rad/s\].
+    /// Blade frequency at `n_d` nodal diameters, `omega_bd` \[rad/s\].
     pub omega_bd: T,
-    /// Largest frequency of any nodal diameter of the bladed disk \[rad/s\].
+    /// Largest frequency of the bladed disk over all nodal diameters \[rad/s\].
     pub omega_bd_max: T,
-    /// Whether `p_s` of the disk exists: false for `2 n_b` a multiple of `N`.
+    /// Whether the sine mode `p_s` of the disk exists; false if `2 n_b` is a multiple of `N`.
     pub has_sine_mode: bool,
     /// Blade length `l_b` \[m\].
     pub blade_length: T,
-    /// Slope of the path of a blade tip, `kappa`.
+    /// Slope `kappa` of the tip path: a blade angle `alpha` moves the tip outward by
+    /// `kappa l_b alpha`.
     pub radial_coupling: T,
-    /// Nodal diameters `n_b` of the modes of the disk, as a number.
+    /// Nodal diameters `n_b` of the disk modes, as a floating-point number.
     pub blade_diameters: f64,
-    /// Tangential over radial amplitude of the casing mode, `tau`.
+    /// Ratio `tau` of tangential to radial amplitude of the casing mode.
     pub tangential_ratio: T,
-    /// Friction coefficient `mu` of a rotor that turns forward; 0 from `new`.
+    /// Coefficient of friction `mu` for forward rotation; [`new`](Self::new) sets 0.
     pub friction: T,
-    /// The lining of the casing under a blade; none from `new`, for rigid contact.
+    /// Lining of the casing under one blade; [`new`](Self::new) sets `None` (rigid contact).
     pub lining: Option<LiningLaw<T>>,
-    /// How it changes with the speed, if it does.
+    /// Dependence on the rotor speed; `None` if nothing changes with it.
     pub(super) spin: Option<Spin<T>>,
-    /// What tells tips and places of the casing apart, if anything does.
+    /// Unequal tips and the out-of-round shape; `None` for equal tips in a round casing.
     pub(crate) tips: Option<Arc<Tips<T>>>,
 }
 
-/// Factor on stiffness and mass of blades that no force bends. Larger: squares overflow.
+/// Factor on the stiffness and mass of blades that are to be rigid. With a larger one squares would
+/// overflow.
 const STIFF_BLADES: f64 = 1e120;
 
 impl Machine {
-    /// Returns the size of the forces that add up to the pushes of two sides which hold the
-    /// casing in a corner at this wave frequency \[N\].
+    /// Returns the scale of the contact forces of two sides that hold the casing in a corner at the
+    /// wave frequency `nu` \[rad/s\]: inertia and elastic force divided by `sin 2 delta` \[N\].
+    /// Multipliers are compared with round-off of this value.
     #[must_use]
     pub fn push_scale(&self, nu: f64) -> f64 {
         let fastest = self.omega_c.max(nu.abs());
@@ -80,7 +84,7 @@ impl Machine {
 }
 
 impl<T: Number> Machine<T> {
-    /// Derives the model of a rotor at rest. The parameters must be checked before (`scene`).
+    /// Creates the model of a rotor at rest. The parameters must be valid (see `scene`).
     #[must_use]
     pub fn new(disk: &BladedDisk<T>, casing: &Casing<T>, nodal_diameters: u32) -> Self {
         let clearance = casing.radius_m - disk.blade_length_m;
@@ -118,28 +122,28 @@ impl<T: Number> Machine<T> {
             spin: None,
             tips: None,
         };
-        machine.tips = Tips::of(disk, casing, &machine.polygon).map(Arc::new);
+        machine.tips = Tips::new(disk, casing, &machine.polygon).map(Arc::new);
         if machine.has_unequal_tips() {
             let longer = (0..machine.polygon.sides).map(|side| machine.longest_of_side(side).re());
             machine.polygon.longer = longer.collect();
         }
-        machine.spin = Spin::of(disk, casing, &machine);
+        machine.spin = Spin::new(disk, casing, &machine);
         machine
     }
 
-    /// This machine with a friction coefficient `mu` between blades and casing.
+    /// Sets the coefficient of friction `mu` between blades and casing.
     #[must_use]
     pub fn with_friction(self, mu: T) -> Self {
         Self { friction: mu, ..self }
     }
 
-    /// This machine with a lining, or with rigid contact.
+    /// Sets the lining; `None` for rigid contact.
     #[must_use]
     pub fn with_lining(self, lining: Option<LiningLaw<T>>) -> Self {
         Self { lining, ..self }
     }
 
-    /// This machine without the damping of casing and blades.
+    /// Removes the damping of casing and blades.
     #[must_use]
     pub fn undamped(self) -> Self {
         let zero = T::from(0.0);
@@ -153,8 +157,7 @@ impl<T: Number> Machine<T> {
         }
     }
 
-    /// The same machine with blades that do not bend, at their frequency, which
-    /// no derivative changes.
+    /// Makes the blades rigid. Their frequency stays, but loses its derivatives.
     #[must_use]
     pub fn with_stiff_blades(self) -> Self {
         let fixed = |value: T| T::from(value.re());
@@ -174,8 +177,8 @@ impl<T: Number> Machine<T> {
         }
     }
 
-    /// The friction coefficient at a speed: the blades slide the other way over the
-    /// casing where the rotor turns backward, and not at all where it stands.
+    /// Returns the coefficient of friction, signed by the direction of sliding: negative for
+    /// backward rotation, zero at standstill.
     #[must_use]
     pub fn friction_at(&self, speed: T) -> T {
         if speed.re() < 0.0 {
@@ -187,27 +190,28 @@ impl<T: Number> Machine<T> {
         }
     }
 
-    /// The friction that the casing mode feels, `mu_c = mu tau`.
+    /// Returns the friction that acts on the casing mode, `mu_c = mu tau`, signed as in
+    /// [`friction_at`](Self::friction_at).
     #[must_use]
     pub fn casing_friction_at(&self, speed: T) -> T {
         self.friction_at(speed) * self.tangential_ratio
     }
 
-    /// Product by which blades and casing are coupled in contact, beside the small
-    /// angles of the paper: `c2 = kappa (kappa + mu) l_b^2` \[m^2\].
+    /// Returns the first-order coupling of blades and casing through the contact,
+    /// `c2 = kappa (kappa + mu) l_b^2` \[m^2\]. It is zero for the paper's tips.
     #[must_use]
     pub fn coupling_product_at(&self, speed: T) -> T {
         let kappa = self.radial_coupling;
         kappa * (kappa + self.friction_at(speed)) * self.blade_length * self.blade_length
     }
 
-    /// This machine in plain numbers, without derivatives.
+    /// Drops the derivatives.
     #[must_use]
     pub fn plain(&self) -> Machine {
         self.map(|number| number.re())
     }
 
-    /// This machine with each number by a function.
+    /// Converts each number with `of`.
     pub(crate) fn map<U: Number>(&self, of: impl Fn(T) -> U) -> Machine<U> {
         Machine {
             polygon: self.polygon.clone(),
@@ -240,46 +244,47 @@ impl<T: Number> Machine<T> {
         }
     }
 
-    /// Whether tips that are inclined or rub join blades and casing beyond the small
-    /// angles of the paper.
+    /// Returns whether inclined tips or friction couple blades and casing at first order; the
+    /// paper's model has neither.
     #[must_use]
     pub fn tips_incline_or_rub(&self) -> bool {
         self.radial_coupling.re() != 0.0 || self.friction.re() != 0.0
     }
 
-    /// Whether pushes take another way into the casing than in the paper's model;
-    /// friction alone, of a casing without tangential motion, only bends the blades.
+    /// Returns whether contact forces load the casing mode otherwise than in the paper's model.
+    /// Friction alone, on a casing without tangential motion, loads only the blades.
     #[must_use]
     pub fn casing_feels_tips(&self) -> bool {
         self.radial_coupling.re() != 0.0 || self.casing_friction_at(T::one()).re() != 0.0
     }
 
-    /// Whether the modes of the disk have other diameters than those of the casing.
+    /// Returns whether the disk modes have other nodal diameters than the casing modes.
     #[must_use]
     pub fn has_other_diameters(&self) -> bool {
         self.blade_diameters != self.nodal_diameters
     }
 
-    /// Clearance `g0`, at rest `R_c - l_b` \[m\].
+    /// Returns the clearance `g0`, `R_c - l_b` at rest \[m\].
     #[must_use]
     pub fn clearance(&self) -> T {
         self.clearance
     }
 
-    /// Wave frequency in the frame of the blades, `nu = n_d Omega` \[rad/s\].
+    /// Returns the wave frequency in the blade frame, `nu = n_d Omega` \[rad/s\].
     #[must_use]
     pub fn nu(&self, speed: T) -> T {
         speed * self.nodal_diameters
     }
 
-    /// Critical speed `Omega_c = omega_c/n_d`, Eq. (17) \[rad/s\]; none for `n_d = 0`.
+    /// Returns the critical speed `Omega_c = omega_c/n_d`, Eq. (17) \[rad/s\]; `None` for
+    /// `n_d = 0`.
     #[must_use]
     pub fn critical_speed(&self) -> Option<T> {
         (self.nodal_diameters > 0.0).then(|| self.omega_c / self.nodal_diameters)
     }
 
-    /// The positive speeds of Eq. (30), `+-omega_c = n_d Omega +- omega_bd`, in
-    /// increasing order \[rad/s\]; empty for `n_d = 0`.
+    /// Returns the positive speeds of Eq. (30), `+-omega_c = n_d Omega +- omega_bd`, in increasing
+    /// order \[rad/s\]; empty for `n_d = 0`.
     #[must_use]
     pub fn coincidence_speeds(&self) -> Vec<T> {
         let mut speeds = self.coincidence_differences();
@@ -288,9 +293,10 @@ impl<T: Number> Machine<T> {
         speeds
     }
 
-    /// The positive speeds where a casing wave and a blade wave of one sense coincide, the
-    /// differences of (30), in increasing order; two or none where blades stiffen so that
-    /// they overtake the casing, or stay ahead of it \[rad/s\].
+    /// Returns the positive speeds at which a casing wave and a blade wave of the same direction
+    /// coincide, the differences of Eq. (30), in increasing order \[rad/s\]. With centrifugal
+    /// stiffening there are two or none, because the blade wave can overtake the casing wave or
+    /// stay ahead of it.
     #[must_use]
     pub fn coincidence_differences(&self) -> Vec<T> {
         let (mut speeds, _) = self.meetings(self.omega_c, self.omega_bd_at_rest());
@@ -299,19 +305,21 @@ impl<T: Number> Machine<T> {
         speeds
     }
 
-    /// The dangerous coincidence of a rotor that turns forward,
-    /// `Omega = (omega_c + omega_bd)/n_d`, Eq. (31) \[rad/s\]; none for `n_d = 0`, and
-    /// where blades stiffen faster than the wave turns, `B >= n_d^2`.
+    /// Returns the dangerous coincidence for forward rotation, `Omega = (omega_c + omega_bd)/n_d`,
+    /// Eq. (31) \[rad/s\]. `None` for `n_d = 0`, and for `B >= n_d^2`, where the blade frequency
+    /// grows faster with speed than the wave frequency.
     #[must_use]
     pub fn dangerous_speed(&self) -> Option<T> {
         self.meetings(self.omega_c, self.omega_bd_at_rest()).1
     }
 
-    /// The speeds at which waves of a casing of one frequency and of blades of another at
-    /// rest meet, `casing = n Omega +- blades`: the differences, negative where the blades
-    /// are faster, and the sum. With `B` they are the roots of
-    /// `(n^2 - B) Omega^2 - 2 n casing Omega + casing^2 - blades^2`, of which the sum has
-    /// `n Omega` above the casing.
+    /// Returns the speeds at which a casing wave and a blade wave coincide,
+    /// `casing = n Omega +- blades`, for the frequencies `casing` and `blades` (at rest) \[rad/s\]:
+    /// first the differences, negative if the blades are faster, then the sum.
+    ///
+    /// With stiffening `B` the speeds are the roots of
+    /// `(n^2 - B) Omega^2 - 2 n casing Omega + casing^2 - blades^2 = 0`; the sum is the root with
+    /// `n Omega > casing`.
     #[must_use]
     pub fn meetings(&self, casing: T, blades: T) -> (Vec<T>, Option<T>) {
         let (n, stiffening) = (self.nodal_diameters, self.stiffening());
@@ -323,12 +331,12 @@ impl<T: Number> Machine<T> {
         }
         let apart = (casing - blades) * (casing + blades);
         let lead = -stiffening + n * n;
-        // A quarter of the discriminant, without its cancellation.
+        // Quarter of the discriminant, in a form without cancellation.
         let square = stiffening * apart + blades * blades * (n * n);
         if square.re() < 0.0 {
             return (Vec::new(), None);
         }
-        // The root of the larger sum first; the other by their product.
+        // First the root without cancellation, then the other from the product of both.
         let far = casing * n + square.sqrt();
         let [near, far] = [apart / far, far / lead];
         let is_sum = |root: T| root.re() * n > casing.re();
@@ -337,8 +345,9 @@ impl<T: Number> Machine<T> {
         (differences, sums.first().copied())
     }
 
-    /// The coincidence that the tips of this machine make dangerous at a speed: (31), or
-    /// the difference of (30) where friction locks itself, `kappa (kappa + mu) < 0` \[rad/s\].
+    /// Returns the coincidence that is dangerous for the tips of this machine \[rad/s\]: the sum,
+    /// Eq. (31), or the difference of Eq. (30) if the friction is self-locking,
+    /// `kappa (kappa + mu) < 0`. The sign is that of `speed`.
     #[must_use]
     pub fn coincidence_felt_at(&self, speed: T) -> Option<T> {
         let digs_in = self.coupling_product_at(speed).re() < 0.0;
@@ -347,16 +356,16 @@ impl<T: Number> Machine<T> {
         Some(if speed.re() < 0.0 { -felt } else { felt })
     }
 
-    /// As `dangerous_speed`, of a rotor that turns in the sense of this speed. For
-    /// one that turns backward the two directions of every wave exchange, and
-    /// `Omega = -(omega_c + omega_bd)/n_d`.
+    /// Returns the dangerous coincidence for a rotor that turns in the direction of the sign of
+    /// `speed` \[rad/s\]. Backward rotation exchanges the two directions of every wave, so it is
+    /// `-(omega_c + omega_bd)/n_d`.
     #[must_use]
     pub fn dangerous_speed_toward(&self, speed: f64) -> Option<T> {
         self.dangerous_speed().map(|forward| if speed < 0.0 { -forward } else { forward })
     }
 }
 
-/// `omega_bd` of `n_d` diameters from
+/// Returns the blade frequency at rest for `nodal_diameters`, from
 /// `omega_bd^2 = (k_b + 2 k_bb (1 - cos(2 pi n_d/N)))/m_b` \[rad/s\].
 #[must_use]
 pub fn blade_frequency<T: Number>(disk: &BladedDisk<T>, nodal_diameters: u32) -> T {

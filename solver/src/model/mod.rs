@@ -1,6 +1,10 @@
-//! The machine: parameters, modes, derived speeds and the contact polygon of
-//! the phase groups. Solvers and file formats are elsewhere. Symbols and equations:
-//! docs/theory.md, section 1; signs and numbering: docs/theory.md, section 2.
+//! The machine: parameters, modes, characteristic speeds, and the contact polygon of the phase
+//! groups.
+//!
+//! Symbols and equations are in docs/theory.md, section 1; signs and numbering in section 2. Order
+//! in which to read: `parameters` (input data), `machine` (modal quantities and coincidences),
+//! `polygon` (contact geometry), `lock` (lock speeds and forces); then the extensions `lining`,
+//! `spin`, `tips` and `tip_corner`.
 
 mod lining;
 mod lock;
@@ -19,7 +23,7 @@ pub use number::Number;
 pub use parameters::{
     BladedDisk, Casing, ContactSurface, Excitation, Initial, Mode, ModePart, Operation,
 };
-pub(crate) use parameters::{frequency_of, of_neighbours};
+pub(crate) use parameters::{given_frequency, neighbour_stiffness};
 pub use polygon::{ContactPolygon, SideLeft};
 pub(crate) use polygon::{fraction_of_turn, gcd};
 pub use tip_corner::TipCorner;

@@ -1,9 +1,9 @@
-//! The numbers that the formulas of the model take.
+//! Number type of the model's formulas.
 
 use num_dual::DualNum;
 
-/// A real number, alone (`f64`) or with its derivative by a parameter (dual numbers
-/// of the crate `num_dual`): the same formula gives a value and how it changes.
+/// Real number: `f64`, or a dual number of the crate `num_dual`, which carries derivatives. The
+/// same formula then yields a value and its sensitivity to a parameter.
 pub trait Number: DualNum<Primitive = f64> + Copy {}
 
 impl<T: DualNum<Primitive = f64> + Copy> Number for T {}

@@ -1,51 +1,51 @@
-//! The quantities a user gives: bladed disk, casing and operation, as Table 1
-//! of the paper lists them (docs/theory.md, section 1). Plain data; `scene` defines
-//! the allowed values. Each number is one of a type `T`: `f64`, or one that carries
-//! its derivative along (`Number`).
+//! Input data: bladed disk, casing and operation, as in Table 1 of the paper (docs/theory.md,
+//! section 1), with the extensions of sections 10 and 11. Plain data; the allowed values are
+//! defined in `scene`. The number type `T` is `f64` or a dual number (see `Number` in
+//! `model::number`).
 
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
 use serde::{Serialize, Serializer};
 
-/// A mode of casing or disk by its number of diameters. What it leaves out is the
-/// structure's own value.
+/// Mode of the casing or the disk for one number of nodal diameters. A value that is `None` is
+/// taken from the structure.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mode {
-    /// Its nodal diameters.
+    /// Number of nodal diameters.
     pub nodal_diameters: u32,
     /// Modal mass of the casing \[kg\], or inertia of a blade \[kg m^2\].
     pub mass: Option<f64>,
     /// Modal stiffness of the casing \[N/m\], or of a blade on the disk \[N m/rad\].
     pub stiffness: Option<f64>,
-    /// Frequency \[Hz\], which stands for the stiffness that gives it.
+    /// Frequency \[Hz\]; replaces the stiffness, which then follows from it.
     pub frequency_hz: Option<f64>,
     /// Damping ratio.
     pub damping_ratio: Option<f64>,
-    /// Centrifugal stiffening of blades, `B`.
+    /// Centrifugal stiffening `B` (blades only).
     pub stiffening: Option<f64>,
 }
 
-/// A value of a mode.
+/// Selects a value of a [`Mode`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ModePart {
-    /// Mass, or inertia.
+    /// Modal mass, or inertia of a blade.
     Mass,
-    /// Stiffness.
+    /// Modal stiffness.
     Stiffness,
     /// Damping ratio.
     Damping,
-    /// Centrifugal stiffening, of blades alone.
+    /// Centrifugal stiffening (blades only).
     Stiffening,
 }
 
-/// Returns the frequency that the mode of so many diameters has instead of a stiffness \[Hz\].
-pub(crate) fn frequency_of(modes: &[Mode], diameters: u32) -> Option<f64> {
+/// Returns the frequency given for the mode with these nodal diameters, if any \[Hz\].
+pub(crate) fn given_frequency(modes: &[Mode], diameters: u32) -> Option<f64> {
     mode_of(modes, diameters)?.frequency_hz
 }
 
 impl Mode {
-    /// Returns one of its values.
+    /// Returns one value, `None` if the mode does not set it.
     #[must_use]
     pub fn part(&self, part: ModePart) -> Option<f64> {
         match part {
@@ -56,7 +56,7 @@ impl Mode {
         }
     }
 
-    /// Returns the same, to be changed.
+    /// As [`part`](Self::part), mutable.
     pub fn part_mut(&mut self, part: ModePart) -> &mut Option<f64> {
         match part {
             ModePart::Mass => &mut self.mass,
@@ -67,13 +67,12 @@ impl Mode {
     }
 }
 
-/// Returns the mode of so many diameters, if it is known.
 fn mode_of(modes: &[Mode], diameters: u32) -> Option<&Mode> {
     modes.iter().find(|mode| mode.nodal_diameters == diameters)
 }
 
-/// Returns a value that the mode of so many diameters has of its own. A stiffness that is set
-/// replaces a frequency.
+/// Returns the value that the mode with these nodal diameters sets itself, if any. Asking for the
+/// stiffness replaces a given frequency by a stiffness.
 fn own_part(modes: &mut [Mode], diameters: u32, part: ModePart) -> Option<&mut f64> {
     let mode = modes.iter_mut().find(|mode| mode.nodal_diameters == diameters)?;
     if part == ModePart::Stiffness && mode.frequency_hz.take().is_some() {
@@ -82,14 +81,15 @@ fn own_part(modes: &mut [Mode], diameters: u32, part: ModePart) -> Option<&mut f
     mode.part_mut(part).as_mut()
 }
 
-/// Returns `4 k_bb sin^2(pi n/N)`, what the stiffness between blades adds to `k_b` \[N m/rad\].
+/// Returns `4 k_bb sin^2(pi n/N)`, the contribution of the blade-to-blade stiffness to `k_b` at `n`
+/// nodal diameters \[N m/rad\].
 #[must_use]
-pub(crate) fn of_neighbours(coupling: f64, diameters: u32, blades: u32) -> f64 {
+pub(crate) fn neighbour_stiffness(coupling: f64, diameters: u32, blades: u32) -> f64 {
     let sine = (PI * f64::from(diameters) / f64::from(blades)).sin();
     4.0 * coupling * sine * sine
 }
 
-/// Returns the modes with the names that their values have in a scene file.
+/// Serialises the modes under the key names of a scene file.
 fn named<S: Serializer>(modes: &[Mode], names: [&str; 2], out: S) -> Result<S::Ok, S::Error> {
     out.collect_seq(modes.iter().map(|mode| {
         let parts = [(names[0], mode.mass), (names[1], mode.stiffness)];
@@ -105,7 +105,7 @@ fn named<S: Serializer>(modes: &[Mode], names: [&str; 2], out: S) -> Result<S::O
     }))
 }
 
-/// A number of a mode.
+/// Value of a serialised mode.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Number {
@@ -136,37 +136,37 @@ pub struct BladedDisk<T = f64> {
     pub coupling_nm_per_rad: T,
     /// Viscous damping ratio of every blade mode at rest, `zeta_bd`.
     pub damping_ratio: T,
-    /// Centrifugal stiffening `B`: every blade frequency becomes
+    /// Centrifugal stiffening `B`: at the speed `Omega` every blade frequency is
     /// `sqrt(omega^2 + B Omega^2)`.
     pub centrifugal_stiffening: T,
-    /// Slope of the path of a blade tip, `kappa`: it moves outward by
+    /// Slope `kappa` of the tip path: a blade angle `alpha` moves the tip outward by
     /// `kappa l_b alpha`; 0 for the paper's tips.
     pub radial_coupling: T,
-    /// Nodal diameters `n_b` of the modes of the disk; 0 for those of the casing.
+    /// Nodal diameters `n_b` of the disk modes; 0 means those of the casing.
     pub nodal_diameters: u32,
-    /// Standard deviation of the stiffness `k_b` of single blades, a part of it.
+    /// Standard deviation of the stiffness `k_b` over the blades, relative to its mean.
     pub mistuning: T,
-    /// Number of the draw of the stiffnesses.
+    /// Seed of the random stiffnesses.
     pub mistuning_seed: u32,
-    /// How much longer the tip of each blade is, one number a blade or none \[m\].
+    /// Excess length of each tip, `b_i`; one value a blade, or none \[m\].
     pub tips_m: Vec<f64>,
-    /// Standard deviation of the lengths of single blades \[m\].
+    /// Standard deviation of random tip lengths \[m\].
     pub tip_scatter_m: T,
-    /// Number of the draw of those lengths.
+    /// Seed of the random tip lengths.
     pub tip_seed: u32,
-    /// How much longer blade 1 is \[m\].
+    /// Excess length of blade 1 \[m\].
     pub longest_tip_m: T,
-    /// How far the rotor is off its centre \[m\].
+    /// Distance of the rotor centre from the axis \[m\].
     pub orbit_m: T,
-    /// The direction of the orbit in the frame of the rotor \[rad\].
+    /// Direction of that eccentricity in the rotor frame \[rad\].
     pub orbit_angle_rad: T,
-    /// Modes with values of their own, by their diameters.
+    /// Modes with values of their own, one for each number of nodal diameters.
     #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "disk_modes")]
     pub modes: Vec<Mode>,
 }
 
 impl<T> BladedDisk<T> {
-    /// Returns the nodal diameters of its modes, beside a casing of `n_d`.
+    /// Returns the nodal diameters of the disk modes for a casing with `casing` nodal diameters.
     #[must_use]
     pub fn diameters_beside(&self, casing: u32) -> u32 {
         if self.nodal_diameters == 0 { casing } else { self.nodal_diameters }
@@ -174,21 +174,22 @@ impl<T> BladedDisk<T> {
 }
 
 impl BladedDisk {
-    /// Returns whether its blades stiffen with the speed, in any mode.
+    /// Returns whether the blades stiffen with speed in any mode.
     #[must_use]
     pub fn stiffens(&self) -> bool {
         let of_modes = self.modes.iter().filter_map(|mode| mode.stiffening);
         of_modes.chain([self.centrifugal_stiffening]).any(|stiffening| stiffening != 0.0)
     }
 
-    /// Returns it with the values of its mode of these diameters, and without other modes.
+    /// Returns the disk with the values of its mode at these nodal diameters, and without a list of
+    /// modes.
     #[must_use]
     pub fn at(&self, diameters: u32) -> Self {
         let mode = mode_of(&self.modes, diameters);
         let of = |part, own: f64| mode.and_then(|mode| mode.part(part)).unwrap_or(own);
         let inertia_kg_m2 = of(ModePart::Mass, self.inertia_kg_m2);
-        let by_frequency = frequency_of(&self.modes, diameters).map(|hertz| {
-            let neighbours = of_neighbours(self.coupling_nm_per_rad, diameters, self.blades);
+        let by_frequency = given_frequency(&self.modes, diameters).map(|hertz| {
+            let neighbours = neighbour_stiffness(self.coupling_nm_per_rad, diameters, self.blades);
             inertia_kg_m2 * (TAU * hertz).powi(2) - neighbours
         });
         let stiffness = || of(ModePart::Stiffness, self.stiffness_nm_per_rad);
@@ -203,7 +204,7 @@ impl BladedDisk {
         }
     }
 
-    /// Returns it in other numbers, without its modes.
+    /// Converts the numbers to `T`; drops the list of modes.
     #[must_use]
     pub fn to<T: From<f64>>(&self) -> BladedDisk<T> {
         BladedDisk {
@@ -228,7 +229,8 @@ impl BladedDisk {
         }
     }
 
-    /// Returns a value of that mode, or its own where the mode has none.
+    /// Returns the value that applies at these nodal diameters: that of the mode, or of the disk if
+    /// the mode does not set it.
     pub fn part_at(&mut self, diameters: u32, part: ModePart) -> &mut f64 {
         let own = match part {
             ModePart::Mass => &mut self.inertia_kg_m2,
@@ -241,7 +243,7 @@ impl BladedDisk {
 }
 
 impl Default for BladedDisk {
-    /// Table 1, with the moment of inertia that gives the printed `omega_bd`.
+    /// Table 1, with the moment of inertia that reproduces the printed `omega_bd`.
     fn default() -> Self {
         Self {
             blades: 22,
@@ -266,7 +268,7 @@ impl Default for BladedDisk {
     }
 }
 
-/// The casing, reduced to its two `n_d`-diameter modes, Eqs. (5)-(6).
+/// The casing, reduced to its two modes with `n_d` nodal diameters, Eqs. (5)-(6).
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Casing<T = f64> {
     /// Inner radius `R_c` \[m\].
@@ -277,31 +279,32 @@ pub struct Casing<T = f64> {
     pub modal_stiffness_n_per_m: T,
     /// Viscous damping ratio `zeta_c`.
     pub damping_ratio: T,
-    /// Tangential over radial amplitude of the mode at the inner face, `tau`: 0 for
-    /// the paper's radial casing, `1/n_d` for a ring that does not stretch.
+    /// Ratio `tau` of tangential to radial amplitude of the mode at the inner face: 0 for the
+    /// paper's radial casing, `1/n_d` for an inextensible ring.
     pub tangential_ratio: T,
-    /// What blades and disk lose of the clearance as they grow, `c`: at a speed it is
+    /// Loss of clearance by growth of blades and disk, `c`: at the speed `Omega` the clearance is
     /// `R_c - l_b - c Omega^2` \[m s^2\].
     pub clearance_loss_m_s2: T,
-    /// Number of lobes `m` of a casing that is out of round.
+    /// Number of lobes `m` of an out-of-round casing.
     pub lobes: u32,
     /// Height `e` of the lobes \[m\].
     pub out_of_round_m: T,
     /// Phase `psi` of the lobes: the shape is `e cos(m phi - psi)` \[rad\].
     pub out_of_round_angle_rad: T,
-    /// Modes with values of their own, by their diameters.
+    /// Modes with values of their own, one for each number of nodal diameters.
     #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "casing_modes")]
     pub modes: Vec<Mode>,
 }
 
 impl Casing {
-    /// Returns it with the values of its mode of these diameters, and without other modes.
+    /// Returns the casing with the values of its mode at these nodal diameters, and without a list
+    /// of modes.
     #[must_use]
     pub fn at(&self, diameters: u32) -> Self {
         let mode = mode_of(&self.modes, diameters);
         let of = |part, own: f64| mode.and_then(|mode| mode.part(part)).unwrap_or(own);
         let modal_mass_kg = of(ModePart::Mass, self.modal_mass_kg);
-        let by_frequency = frequency_of(&self.modes, diameters);
+        let by_frequency = given_frequency(&self.modes, diameters);
         let stiffness = || of(ModePart::Stiffness, self.modal_stiffness_n_per_m);
         Self {
             modal_mass_kg,
@@ -313,7 +316,7 @@ impl Casing {
         }
     }
 
-    /// Returns it in other numbers, without its modes.
+    /// Converts the numbers to `T`; drops the list of modes.
     #[must_use]
     pub fn to<T: From<f64>>(&self) -> Casing<T> {
         Casing {
@@ -330,12 +333,13 @@ impl Casing {
         }
     }
 
-    /// Returns a value of that mode, or its own where the mode has none.
+    /// Returns the value that applies at these nodal diameters: that of the mode, or of the casing
+    /// if the mode does not set it.
     pub fn part_at(&mut self, diameters: u32, part: ModePart) -> &mut f64 {
         let own = match part {
             ModePart::Mass => &mut self.modal_mass_kg,
             ModePart::Stiffness => &mut self.modal_stiffness_n_per_m,
-            // A casing does not turn: no key asks for its stiffening.
+            // A casing does not rotate, so no key asks for its stiffening.
             ModePart::Damping | ModePart::Stiffening => &mut self.damping_ratio,
         };
         own_part(&mut self.modes, diameters, part).unwrap_or(own)
@@ -343,7 +347,7 @@ impl Casing {
 }
 
 impl Default for Casing {
-    /// Table 1.
+    /// Values of Table 1.
     fn default() -> Self {
         Self {
             radius_m: 0.5,
@@ -360,43 +364,44 @@ impl Default for Casing {
     }
 }
 
-/// What blade tips and casing do to each other where they touch, beyond the paper.
+/// Contact properties beyond the paper: friction, restitution and lining.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ContactSurface<T = f64> {
-    /// Coulomb friction coefficient `mu`; the blades always slide forward.
+    /// Coefficient of Coulomb friction `mu`; the direction of sliding is that of the rotor.
     pub friction: T,
-    /// Coefficient of restitution `e` of an impact.
+    /// Coefficient of restitution `e` of impacts.
     pub restitution: T,
-    /// Stiffness `k_p` of a lining under one blade, for the smooth law \[N/m\].
+    /// Stiffness `k_p` of the lining under one blade, used by the smooth law \[N/m\].
     pub stiffness_n_per_m: T,
-    /// Depth `eps` over which that stiffness sets in \[m\].
+    /// Depth `eps` over which the lining reaches that stiffness \[m\].
     pub smoothing_m: T,
 }
 
 impl Default for ContactSurface {
-    /// Creates the paper's contact, and the estimate of a sprayed metal lining.
+    /// Frictionless plastic contact as in the paper; the lining values are an estimate for a
+    /// sprayed metal lining.
     fn default() -> Self {
         Self { friction: 0.0, restitution: 0.0, stiffness_n_per_m: 1e7, smoothing_m: 1e-6 }
     }
 }
 
-/// The operation of the machine: the mode pair, the rotor and the pulse.
+/// Operating condition: nodal diameters, rotor speed and pulse.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Operation<T = f64> {
     /// Nodal diameters `n_d` of the retained modes.
     pub nodal_diameters: u32,
-    /// Rotor speed `Omega` at the start; positive turns counter-clockwise \[rad/s\].
+    /// Rotor speed `Omega` at t = 0; positive is counter-clockwise \[rad/s\].
     pub speed_rad_s: T,
     /// Constant angular acceleration of the rotor \[rad/s^2\].
     pub speed_ramp_rad_s2: T,
-    /// Force of the rectangular pulse on the `u_c` equation \[N\].
+    /// Force of the rectangular pulse on the equation of `u_c` \[N\].
     pub pulse_n: T,
-    /// Duration `t_p` of the pulse, from t = 0 \[s\].
+    /// Duration `t_p` of the pulse, which begins at t = 0 \[s\].
     pub pulse_s: T,
 }
 
 impl Default for Operation {
-    /// Full speed, three nodal diameters, and a 20 kN pulse of 50 microseconds.
+    /// Speed 500 rad/s, three nodal diameters, and a pulse of 20 kN for 50 microseconds.
     fn default() -> Self {
         Self {
             nodal_diameters: 3,
@@ -408,31 +413,31 @@ impl Default for Operation {
     }
 }
 
-/// Casing state at t = 0; at rest by default.
+/// Casing state at t = 0; the default is rest.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Initial<T = f64> {
-    /// `u_c` \[m\].
+    /// Displacement `u_c` \[m\].
     pub u_c_m: T,
-    /// `u_s` \[m\].
+    /// Displacement `u_s` \[m\].
     pub u_s_m: T,
-    /// Rate of `u_c` \[m/s\].
+    /// Velocity of `u_c` \[m/s\].
     pub v_c_m_s: T,
-    /// Rate of `u_s` \[m/s\].
+    /// Velocity of `u_s` \[m/s\].
     pub v_s_m_s: T,
 }
 
-/// An engine-order excitation: a torque `amplitude * cos(order (theta + Phi_i))`
-/// on every blade, fixed in the standing frame; off at amplitude zero.
+/// Engine-order excitation: the torque `amplitude cos(order (theta + Phi_i))` on every blade, a
+/// load pattern fixed in the stationary frame. An amplitude of zero switches it off.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Excitation {
     /// Torque on each blade \[N m\].
     pub amplitude_nm: f64,
-    /// Engine order: number of load cycles per turn.
+    /// Engine order: number of load cycles per revolution.
     pub order: u32,
 }
 
 impl Default for Excitation {
-    /// Off.
+    /// No excitation.
     fn default() -> Self {
         Self { amplitude_nm: 0.0, order: 3 }
     }

@@ -1,34 +1,35 @@
-//! The contact polygon: a regular polygon in the frame of the blades
-//! (docs/theory.md, section 3). Its sides are the *phase groups*, the blades that
-//! share `psi = n_d Phi_i` modulo a turn; side `k` has the phase `psi_k = 2 pi k/N'`
-//! and the outward normal `-exp(i psi_k)`.
+//! The contact polygon: with rigid blades the casing displacement `z` in the blade frame is a point
+//! inside a fixed regular polygon (docs/theory.md, section 3).
+//!
+//! Its sides are the *phase groups*: the blades that share `psi = n_d Phi_i` modulo a full turn.
+//! Side `k` has the phase `psi_k = 2 pi k/N'` and the outward normal `-exp(i psi_k)`; its gap is
+//! `g0 + Re[z exp(-i psi_k)]`.
 
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, PI, TAU};
 use std::sync::OnceLock;
 
-/// Phase groups of the blades and the polygon that they form.
+/// The phase groups of the blades and the polygon that they form.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactPolygon {
     /// Number of blades `N`.
     pub blades: u32,
     /// Nodal diameters `n_d`.
     pub nodal_diameters: u32,
-    /// Number of sides `N'` of the polygon, that is of phase groups.
+    /// Number of sides of the polygon, which is the number of phase groups, `N'`.
     pub sides: u32,
     /// Blades in each group, `q = gcd(N, n_d)`.
     pub blades_per_side: u32,
-    /// Apothem of the polygon: the clearance at rest `g0` \[m\].
+    /// Apothem of the polygon, the clearance `g0` \[m\].
     pub clearance: f64,
     /// Half the angle between neighbouring sides, `delta = pi/N'` \[rad\].
     pub delta: f64,
-    /// How much the longest tip of each side is longer; empty where none is \[m\].
+    /// Excess length of the longest tip of each side; empty for equal tips \[m\].
     pub(super) longer: Vec<f64>,
-    /// `(cos psi_k, sin psi_k)` of every side.
     directions: Directions,
 }
 
-/// `(cos psi_k, sin psi_k)` of every side, computed when first asked for: many studies of
-/// large disks ask for none.
+/// Directions `(cos psi_k, sin psi_k)` of all sides. Computed on first use, because many studies of
+/// large disks never need them.
 #[derive(Clone, Debug, Default)]
 struct Directions(OnceLock<Vec<(f64, f64)>>);
 
@@ -39,20 +40,20 @@ impl PartialEq for Directions {
     }
 }
 
-/// What others leave of a side.
+/// Part of a side that the other sides do not cut off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SideLeft {
-    /// Which side.
+    /// Index of the side.
     pub side: u32,
-    /// From where to where it reaches from the foot of its normal, in the sense of increasing
+    /// Ends of the part, measured from the foot of the normal and positive towards increasing
     /// phase; infinite without corners \[m\].
     pub reach: [f64; 2],
-    /// The side that it meets there, itself without corners.
+    /// Side that it meets at the upper end; the side itself if there are no corners.
     pub next: u32,
 }
 
 impl ContactPolygon {
-    /// Returns the sides that no other cuts off, where they have these apothems \[m\].
+    /// Returns the sides that remain part of the polygon for the given apothems \[m\].
     #[must_use]
     pub fn sides_left(&self, apothems: &[f64]) -> Vec<SideLeft> {
         let sides = self.sides;
@@ -79,8 +80,8 @@ impl ContactPolygon {
         (0..sides).zip(apothems).filter_map(left).collect()
     }
 
-    /// The polygon of `blades >= 1` blades with `nodal_diameters` and
-    /// `clearance` \[m\].
+    /// Creates the polygon of `blades >= 1` equal blades with the given nodal diameters and
+    /// clearance \[m\].
     #[must_use]
     pub fn new(blades: u32, nodal_diameters: u32, clearance: f64) -> Self {
         let blades = blades.max(1);
@@ -98,43 +99,43 @@ impl ContactPolygon {
         }
     }
 
-    /// Whether neighbouring sides meet in corners (`N' >= 3`). With one or two
-    /// sides the point is unbounded along them and can never lock.
+    /// Returns whether neighbouring sides meet in corners (`N' >= 3`). With one or two sides the
+    /// point is unbounded along them and can never lock.
     #[must_use]
     pub fn has_corners(&self) -> bool {
         self.sides >= 3
     }
 
-    /// Apothem of a side over the clearance, 1 where tips are equal.
+    /// Returns the apothem of a side divided by the clearance; 1 for equal tips.
     #[must_use]
     pub fn relative_apothem(&self, side: u32) -> f64 {
         self.longer.get(side as usize).map_or(1.0, |longer| 1.0 - longer / self.clearance)
     }
 
-    /// Distance from the middle of a side to its corner, `g0 tan delta` \[m\];
-    /// infinite without corners.
+    /// Returns the distance from the middle of a side to its corner, `g0 tan delta` \[m\]; infinite
+    /// without corners.
     #[must_use]
     pub fn half_side(&self) -> f64 {
         if self.has_corners() { self.clearance * self.delta.tan() } else { f64::INFINITY }
     }
 
-    /// Phase `psi_k` of side `k` \[rad\], in `[0, 2 pi)`.
+    /// Returns the phase `psi_k` of side `k`, in `[0, 2 pi)` \[rad\].
     #[must_use]
     pub fn phase(&self, side: u32) -> f64 {
         TAU * f64::from(side) / f64::from(self.sides)
     }
 
-    /// `(cos psi_k, sin psi_k)` of side `k` (taken modulo `N'`).
+    /// Returns `(cos psi_k, sin psi_k)` of side `k`, taken modulo `N'`.
     #[must_use]
     pub fn direction(&self, side: u32) -> (f64, f64) {
-        // Called in every step, and a division is slow.
+        // Called in every step: the comparison avoids a slow division.
         let side = if side < self.sides { side } else { side % self.sides };
         let sides = self.sides;
         let all = || (0..sides).map(|k| fraction_of_turn(k, sides)).collect();
         self.directions.0.get_or_init(all)[side as usize]
     }
 
-    /// The side a blade (numbered from 1, as in the paper) belongs to.
+    /// Returns the side of a blade, which is numbered from 1 as in the paper.
     #[must_use]
     pub fn side_of_blade(&self, blade: u32) -> u32 {
         let reduced = u64::from(self.nodal_diameters / self.blades_per_side);
@@ -142,7 +143,7 @@ impl ContactPolygon {
         u32::try_from(reduced * index % u64::from(self.sides)).unwrap_or(0)
     }
 
-    /// The blades (numbered from 1) of a side, in increasing order.
+    /// Returns the blades of a side, numbered from 1, in increasing order.
     #[must_use]
     pub fn blades_of_side(&self, side: u32) -> Vec<u32> {
         let (sides, reduced) = (self.sides, self.nodal_diameters / self.blades_per_side);
@@ -151,52 +152,53 @@ impl ContactPolygon {
         (0..self.blades_per_side).map(|turn| 1 + first + turn * sides).collect()
     }
 
-    /// The next side in increasing phase.
+    /// Returns the next side in the direction of increasing phase.
     #[must_use]
     pub fn next(&self, side: u32) -> u32 {
         if side + 1 < self.sides { side + 1 } else { 0 }
     }
 
-    /// The next side in decreasing phase.
+    /// Returns the next side in the direction of decreasing phase.
     #[must_use]
     pub fn previous(&self, side: u32) -> u32 {
         if side == 0 { self.sides - 1 } else { side - 1 }
     }
 
-    /// Gap of a side at the point `z = (x, y)` of the blade frame, rigid
-    /// blades \[m\]; positive means open. Eq. (14).
+    /// Returns the gap of a side at the point `z = (x, y)` in the blade frame for rigid blades,
+    /// positive if open, Eq. (14) \[m\].
     #[must_use]
     pub fn gap(&self, side: u32, x: f64, y: f64) -> f64 {
         let (c, s) = self.direction(side);
         self.clearance + x * c + y * s
     }
 
-    /// The side with the smallest gap at `z = (x, y)`: the one whose outward
-    /// normal is nearest to the direction of `z`.
+    /// Returns the side with the smallest gap at `z = (x, y)`: its outward normal is nearest to the
+    /// direction of `z`.
     #[must_use]
     pub fn nearest_side(&self, x: f64, y: f64) -> u32 {
         let turns = (-y).atan2(-x) / TAU;
         let sides = f64::from(self.sides);
         let index = (turns * sides).round().rem_euclid(sides);
-        // `rem_euclid` may round up to `sides` itself.
+        // `rem_euclid` can round up to `sides` itself.
         (index as u32) % self.sides
     }
 
-    /// Largest `|x cos psi + y sin psi|` of any side: the largest blade angle of
-    /// the mode displacements `(x, y)`.
+    /// Returns the largest `|x cos psi + y sin psi|` over all sides: the largest blade angle for
+    /// the modal displacements `(x, y)`.
     #[must_use]
     pub fn largest_component(&self, x: f64, y: f64) -> f64 {
         self.largest_component_near(x, y, &mut self.nearest_side(-x, -y))
     }
 
-    /// The same, beginning at a side that may have it; that side is then the one that has.
+    /// As [`largest_component`](Self::largest_component), but the search starts at side `near`,
+    /// which is then set to the side found. Cheap if successive points are close to each other.
     #[must_use]
     pub fn largest_component_near(&self, x: f64, y: f64, near: &mut u32) -> f64 {
         let along = |side: u32| {
             let (c, s) = self.direction(side);
             c * x + s * y
         };
-        // Around the sides it has one top, and opposite one bottom.
+        // The component is unimodal around the sides, with one maximum and one minimum.
         let climb = |from: u32, sign: f64| {
             let mut top = (from, sign * along(from));
             for way in [Self::next, Self::previous] {
@@ -214,7 +216,8 @@ impl ContactPolygon {
         };
         let (side, top) = climb(*near, 1.0);
         *near = side;
-        // Sides in even number lie opposite each other.
+        // With an even number of sides each has an opposite one, so the minimum is minus the
+        // maximum.
         let even = self.sides.is_multiple_of(2);
         let opposite = (side + self.sides / 2) % self.sides;
         if even { top.abs() } else { top.max(climb(opposite, -1.0).1) }
@@ -223,10 +226,10 @@ impl ContactPolygon {
 
 /// `exp(i 2 pi k/parts)` for `k < parts`, exact at multiples of a quarter turn.
 pub(crate) fn fraction_of_turn(k: u32, parts: u32) -> (f64, f64) {
-    // Reduce to the first octant, so that symmetric parts are exact mirrors.
+    // Reduction to the first octant makes symmetric points exact mirror images.
     let (k, n) = (u64::from(k) * 8, u64::from(parts));
     let octant = k / n;
-    // Cosine and sine of a fraction of an octant; its end is its own mirror.
+    // Cosine and sine within an octant; at its end both are equal.
     let within = |numerator: u64| {
         let (sin, cos) = (FRAC_PI_4 * numerator as f64 / n as f64).sin_cos();
         if numerator == n { (FRAC_1_SQRT_2, FRAC_1_SQRT_2) } else { (cos, sin) }
@@ -250,8 +253,8 @@ pub(crate) fn gcd(a: u32, b: u32) -> u32 {
     if b == 0 { a } else { gcd(b, a % b) }
 }
 
-/// What gives the remainder one of `modulus` when multiplied by `number`, which has no
-/// common divisor with it (the extended algorithm of Euclid).
+/// Multiplicative inverse of `number` modulo `modulus`, which must be coprime (extended Euclidean
+/// algorithm).
 fn inverse(number: u32, modulus: u32) -> u32 {
     let modulus = i64::from(modulus);
     let (mut rest, mut next) = (modulus, i64::from(number) % modulus);
@@ -302,7 +305,7 @@ mod tests {
             let polygon = ContactPolygon::new(sides, 1, 1.0);
             for k in 0..sides {
                 let (c, s) = polygon.direction(k);
-                // The phase itself is rounded: up to half a unit in the last place of 2 pi.
+                // The phase itself is rounded by up to half a unit in the last place of 2 pi.
                 assert!((c - polygon.phase(k).cos()).abs() < 1.5e-15);
                 assert!((s - polygon.phase(k).sin()).abs() < 1.5e-15);
                 let (cm, sm) = polygon.direction((sides - k) % sides);

@@ -1,30 +1,32 @@
-//! A machine that changes with the rotor speed (docs/theory.md, section 10): blades stiffen,
-//! `omega^2 + B Omega^2` (Southwell), and grow, `g0 - c Omega^2`. Damping coefficients,
-//! arms and friction stay. All that asks for the machine at a speed asks `Machine::at`.
+//! Machine properties that change with the rotor speed (docs/theory.md, section 10).
+//!
+//! Blade frequencies rise by centrifugal stiffening, `omega^2 + B Omega^2` (Southwell), and the
+//! clearance falls by blade growth, `g0 - c Omega^2`. Damping coefficients, levers and friction do
+//! not change. [`Machine::at`] evaluates the machine at a speed.
 
 use std::borrow::Cow;
 
 use super::{BladedDisk, Casing, Machine, Number};
 
-/// How a machine changes with the speed, and what it is at rest.
+/// Speed dependence of a machine, together with its values at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Spin<T> {
-    /// `B`.
+    /// Centrifugal stiffening `B`.
     pub stiffening: T,
-    /// `c` \[m s^2\].
+    /// Loss of clearance `c` \[m s^2\].
     pub clearance_loss: T,
-    /// Clearance \[m\], frequencies \[rad/s\] and damping ratio at rest.
+    /// Values at rest: clearance \[m\], frequencies \[rad/s\] and damping ratio.
     pub clearance: T,
     pub omega_bd: T,
     pub omega_bd_max: T,
     pub blade_damping_ratio: T,
-    /// `B Omega^2` at the speed that the machine is taken at \[rad^2/s^2\].
+    /// `B Omega^2` at the speed of the last evaluation \[rad^2/s^2\].
     pub added: T,
 }
 
 impl<T: Number> Spin<T> {
-    /// Of a machine at rest; none where nothing changes.
-    pub fn of(disk: &BladedDisk<T>, casing: &Casing<T>, machine: &Machine<T>) -> Option<Self> {
+    /// Takes the values of a machine at rest; `None` if nothing changes with speed.
+    pub fn new(disk: &BladedDisk<T>, casing: &Casing<T>, machine: &Machine<T>) -> Option<Self> {
         let (stiffening, clearance_loss) =
             (disk.centrifugal_stiffening, casing.clearance_loss_m_s2);
         (stiffening.re() != 0.0 || clearance_loss.re() != 0.0).then(|| Self {
@@ -38,7 +40,7 @@ impl<T: Number> Spin<T> {
         })
     }
 
-    /// Each number by a function.
+    /// Converts each number with `of`.
     pub fn map<U>(self, of: impl Fn(T) -> U) -> Spin<U> {
         Spin {
             stiffening: of(self.stiffening),
@@ -53,7 +55,8 @@ impl<T: Number> Spin<T> {
 }
 
 impl<T: Number> Machine<T> {
-    /// The machine at a rotor speed, whatever speed it was taken at before \[rad/s\].
+    /// Returns the machine at a rotor speed \[rad/s\]. Earlier evaluations do not matter: values at
+    /// rest are kept.
     #[must_use]
     pub fn at(&self, speed: T) -> Cow<'_, Self> {
         if self.spin.is_none() {
@@ -64,7 +67,7 @@ impl<T: Number> Machine<T> {
         Cow::Owned(here)
     }
 
-    /// Becomes the machine at a rotor speed \[rad/s\].
+    /// Sets the machine to a rotor speed \[rad/s\].
     pub fn turn_at(&mut self, speed: T) {
         let Some(spin) = &mut self.spin else { return };
         let square = speed * speed;
@@ -73,58 +76,58 @@ impl<T: Number> Machine<T> {
         self.omega_bd = stiffer(spin.omega_bd);
         self.omega_bd_max = stiffer(spin.omega_bd_max);
         self.blade_modal_stiffness = self.omega_bd * self.omega_bd * self.blade_modal_mass;
-        // Of the damping coefficient at rest.
+        // The damping coefficient stays that at rest, so the ratio falls as the frequency rises.
         self.blade_damping_ratio = spin.blade_damping_ratio * spin.omega_bd / self.omega_bd;
         self.clearance = spin.clearance - spin.clearance_loss * square;
         self.polygon.clearance = self.clearance.re();
     }
 
-    /// Whether it changes with the speed.
+    /// Returns whether anything changes with the rotor speed.
     #[must_use]
     pub fn changes_with_speed(&self) -> bool {
         self.spin.is_some()
     }
 
-    /// What every blade frequency squared has more than at rest, `B Omega^2`
-    /// \[rad^2/s^2\].
+    /// Returns the increase of every squared blade frequency over rest, `B Omega^2` \[rad^2/s^2\].
     #[must_use]
     pub fn stiffened_by(&self) -> T {
         self.spin.map_or_else(T::zero, |spin| spin.added)
     }
 
-    /// `B`.
+    /// Returns the centrifugal stiffening `B`.
     #[must_use]
     pub fn stiffening(&self) -> T {
         self.spin.map_or_else(T::zero, |spin| spin.stiffening)
     }
 
-    /// `c` \[m s^2\].
+    /// Returns the loss of clearance `c` \[m s^2\].
     #[must_use]
     pub fn clearance_loss(&self) -> T {
         self.spin.map_or_else(T::zero, |spin| spin.clearance_loss)
     }
 
-    /// `omega_bd` of the disk at rest \[rad/s\].
+    /// Returns the blade frequency `omega_bd` at rest \[rad/s\].
     #[must_use]
     pub fn omega_bd_at_rest(&self) -> T {
         self.spin.map_or(self.omega_bd, |spin| spin.omega_bd)
     }
 
-    /// Modal stiffness of the blades at rest \[N m/rad\].
+    /// Returns the modal stiffness of the blades at rest \[N m/rad\].
     #[must_use]
     pub fn blade_stiffness_at_rest(&self) -> T {
         let omega = self.omega_bd_at_rest();
         omega * omega * self.blade_modal_mass
     }
 
-    /// Clearance of the rotor at rest, `R_c - l_b` \[m\].
+    /// Returns the clearance at rest, `R_c - l_b` \[m\].
     #[must_use]
     pub fn clearance_at_rest(&self) -> T {
         self.spin.map_or(self.clearance, |spin| spin.clearance)
     }
 
-    /// The speed at which the longest blade that grows reaches the innermost place of a casing at
-    /// rest, `sqrt((g0 - e - max b)/c)`; none where it never does, or does at rest \[rad/s\].
+    /// Returns the speed at which the longest blade reaches the innermost point of the undeformed
+    /// casing, `sqrt((g0 - e - max b)/c)` \[rad/s\]. `None` if it never does, or already does at
+    /// rest.
     #[must_use]
     pub fn touching_speed(&self) -> Option<T> {
         let left = self.clearance_at_rest() - self.most_uneven();
@@ -132,8 +135,8 @@ impl<T: Number> Machine<T> {
         (left.re() > 0.0 && loss.re() > 0.0).then(|| (left / loss).sqrt())
     }
 
-    /// The speed at which the clearance is lost, as a magnitude; none where it never is,
-    /// or is not there at rest \[rad/s\].
+    /// Returns the speed at which the clearance closes, as a magnitude \[rad/s\]. `None` if it
+    /// never does, or is closed at rest.
     #[must_use]
     pub fn closing_speed(&self) -> Option<T> {
         let spin = self.spin.filter(|spin| spin.clearance.re() > 0.0)?;
@@ -178,7 +181,7 @@ mod tests {
         assert!((machine.at(-500.0).clearance() - 75e-6).abs() < 1e-16);
         assert_eq!(machine.at(500.0).polygon.clearance, machine.at(500.0).clearance());
         assert!((machine.closing_speed().unwrap() - 1e3).abs() < 1e-9);
-        // As often as one likes, and back.
+        // Repeated evaluations do not accumulate, and the way back to rest is exact.
         assert_eq!(*machine.at(500.0).at(0.0), *machine.at(0.0));
         assert_eq!(machine.at(400.0).at(500.0), machine.at(500.0));
     }

@@ -1,35 +1,39 @@
-//! Corners of unequal tips (docs/theory.md, section 11): which sides of the polygon are left,
-//! where neighbours of them meet, and at which speeds such a corner is held. With `gamma` from
-//! the outward normal of the side `a` to the corner and `beta` to that of `b`, both sides push
-//! where `gamma - beta <= theta <= gamma`, `theta = arg(-1/H)` mirrored.
+//! Corners of the contact polygon with unequal tips (docs/theory.md, section 11).
+//!
+//! Unequal tips give the sides different apothems, so some sides are cut off and the remaining
+//! neighbours meet at other angles. This module finds the corners and the speeds at which pushes
+//! hold them: with the angle `gamma` from the outward normal of side `a` to the corner and the
+//! angle `beta` to the normal of side `b`, both sides push where `gamma - beta <= theta <= gamma`,
+//! `theta = -arg(-1/H)`.
 
 use std::f64::consts::{PI, TAU};
 
 use super::{LockWindow, Machine, Number};
 
-/// A corner between two sides that nothing cuts off.
+/// Corner between two neighbouring sides that remain part of the polygon.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TipCorner<T = f64> {
-    /// The sides `a` and `b`, in increasing phase.
+    /// Sides `a` and `b`, in the direction of increasing phase.
     pub sides: [u32; 2],
     /// Angle from the normal of `a` to the corner \[rad\].
     pub gamma: T,
     /// Angle between both normals \[rad\].
     pub beta: f64,
-    /// Distance of the corner from the centre \[m\].
+    /// Distance of the corner from the centre of the polygon \[m\].
     pub distance: T,
 }
 
 impl<T: Number> TipCorner<T> {
-    /// Slope and sign of the two conditions `slope Re(1/H) + sign Im(1/H) <= 0` under which the
+    /// Returns slope and sign of the two conditions `slope Re(1/H) + sign Im(1/H) <= 0` under which
     /// sides `b` and `a` push.
     pub(super) fn conditions(&self) -> [(T, T); 2] {
         let rest = -self.gamma + self.beta;
         [(self.gamma.sin(), self.gamma.cos()), (rest.sin(), -rest.cos())]
     }
 
-    /// The speeds, in `omega_c/n_d`, at which both sides push on a casing of this damping
-    /// ratio without friction, for a rotor that turns forward or backward.
+    /// Returns the speeds, in units of `omega_c/n_d`, at which both sides push for the casing
+    /// damping ratio `damping`, without friction and inclined tips. The sign of `toward` is the
+    /// direction of rotation.
     pub(super) fn window(&self, damping: T, toward: f64) -> Option<LockWindow<T>> {
         let gamma = if toward < 0.0 { -self.gamma + self.beta } else { self.gamma };
         let at = |angle: T| {
@@ -37,7 +41,8 @@ impl<T: Number> TipCorner<T> {
             x + (x * x + 1.0).sqrt()
         };
         if gamma.re() <= 0.0 {
-            // The drag of a slow wave is nearly opposite to the corner, which may be held at rest.
+            // The drag of a slow wave acts nearly opposite to the corner, which may then be held
+            // from standstill on.
             let turned = gamma - self.beta + TAU;
             let held = turned.re() < PI;
             return held.then(|| LockWindow { from: T::from(0.0), to: Some(at(turned)) });
@@ -49,7 +54,7 @@ impl<T: Number> TipCorner<T> {
 }
 
 impl<T: Number> Machine<T> {
-    /// Every corner of two sides that no other cuts off, at the clearance of now.
+    /// Returns every corner of the polygon at the current clearance.
     #[must_use]
     pub fn tip_corners(&self) -> Vec<TipCorner<T>> {
         let sides = 0..self.polygon.sides;
@@ -59,7 +64,7 @@ impl<T: Number> Machine<T> {
         met.map(|left| self.tip_corner([left.side, left.next])).collect()
     }
 
-    /// The same, one of neighbours that are alike.
+    /// As [`tip_corners`](Self::tip_corners), with one corner of each run of equal neighbours.
     fn other_tip_corners(&self) -> Vec<TipCorner<T>> {
         let mut corners = self.tip_corners();
         corners.dedup_by(|one, other| one.gamma.re() == other.gamma.re() && one.beta == other.beta);
@@ -76,15 +81,15 @@ impl<T: Number> Machine<T> {
         TipCorner { sides, gamma: along.atan2(a), beta, distance: (a * a + along * along).sqrt() }
     }
 
-    /// The corner that is held at the lowest speed, for a rotor that turns in the sense of
-    /// `toward`, with those speeds; none where no corner is, and where that is not known: on a
-    /// lining, and with a clearance that closes with the speed.
+    /// Returns the corner that is held at the lowest speed, and its speed windows, for a rotor that
+    /// turns in the direction of the sign of `toward`. `None` if no corner is held, and where there
+    /// is no closed form: on a lining, and with a clearance that changes with speed.
     #[must_use]
     pub fn lowest_corner(&self, toward: f64) -> Option<(TipCorner<T>, Vec<LockWindow<T>>)> {
         if !self.knows_tip_corners() {
             return None;
         }
-        // Derivatives are those of the one corner that is found.
+        // The corner is selected in plain numbers; only its own formula carries derivatives.
         let plain = self.plain();
         let from = |corner: &TipCorner| plain.windows_of(corner, toward).first().map(|of| of.from);
         let found = plain.other_tip_corners().into_iter();
@@ -96,12 +101,13 @@ impl<T: Number> Machine<T> {
         Some((corner, windows))
     }
 
-    /// Whether it is known at which speeds corners of unequal tips are held.
+    /// Whether the closed form for corners of unequal tips applies.
     fn knows_tip_corners(&self) -> bool {
         self.polygon.has_corners() && self.lining.is_none() && self.clearance_loss().re() == 0.0
     }
 
-    /// The windows of speeds at which any corner of unequal tips is held, in order and apart.
+    /// Returns the disjoint windows of speeds at which at least one corner is held, in increasing
+    /// order.
     pub(super) fn windows_of_tips(&self, toward: f64) -> Vec<LockWindow<T>> {
         if !self.knows_tip_corners() {
             return Vec::new();
@@ -122,7 +128,7 @@ impl<T: Number> Machine<T> {
         apart
     }
 
-    /// The windows of speeds at which a corner is held.
+    /// Returns the windows of speeds at which one corner is held.
     #[must_use]
     pub fn windows_of(&self, corner: &TipCorner<T>, toward: f64) -> Vec<LockWindow<T>> {
         if self.casing_feels_tips() {

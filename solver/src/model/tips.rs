@@ -1,6 +1,8 @@
-//! Tips of their own and a casing that is out of round (docs/theory.md, section 11): what each
-//! gap has beside the clearance, `-b_i + e cos(m phi_i - psi)`, and where the casing has room
-//! among the tips, which are sides of a polygon with apothems `h_i = g0 - b_i`.
+//! Unequal tips and an out-of-round casing (docs/theory.md, section 11).
+//!
+//! Both change the gap of blade `i` by `-b_i + e cos(m phi_i - psi)`. This module evaluates that
+//! term and finds the room that the tips leave to the casing: a polygon whose sides have the
+//! apothems `h_i = g0 - b_i`.
 
 use std::f64::consts::TAU;
 
@@ -11,23 +13,23 @@ use crate::numeric::normal::normals;
 
 type Plane = Complex<f64>;
 
-/// Tips that differ, and the shape of the casing.
+/// Excess lengths of the tips, and the shape of the casing.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Tips<T = f64> {
-    /// `b_i` of each blade \[m\].
+    /// Excess length `b_i` of each blade \[m\].
     longer: Vec<T>,
-    /// The longest of each side \[m\].
+    /// Largest excess length on each side \[m\].
     of_sides: Vec<T>,
-    /// `m`.
+    /// Number of lobes `m`.
     pub lobes: u32,
-    /// `e` \[m\] and `psi` \[rad\].
+    /// Height `e` \[m\] and phase `psi` \[rad\] of the lobes.
     pub out_of_round: T,
     pub angle: T,
 }
 
 impl<T: Number> Tips<T> {
-    /// Creates those of a machine; none where its tips are equal and its casing is round.
-    pub fn of(disk: &BladedDisk<T>, casing: &Casing<T>, polygon: &ContactPolygon) -> Option<Self> {
+    /// Creates the tips of a machine; `None` for equal tips in a round casing.
+    pub fn new(disk: &BladedDisk<T>, casing: &Casing<T>, polygon: &ContactPolygon) -> Option<Self> {
         let numbers = [disk.tip_scatter_m, disk.longest_tip_m, disk.orbit_m, casing.out_of_round_m];
         let own = disk.tips_m.iter().any(|b| *b != 0.0);
         if !own && numbers.iter().all(|number| number.re() == 0.0) {
@@ -64,7 +66,7 @@ impl<T: Number> Tips<T> {
         })
     }
 
-    /// Each number by a function.
+    /// Converts each number with `of`.
     pub fn map<U: Number>(&self, of: impl Fn(T) -> U) -> Tips<U> {
         let all = |list: &[T]| list.iter().map(|b| of(*b)).collect();
         Tips {
@@ -76,12 +78,12 @@ impl<T: Number> Tips<T> {
         }
     }
 
-    /// How much the tip of a blade is longer, which is numbered from 0 \[m\].
+    /// Returns the excess length of a blade, numbered from 0 \[m\].
     pub fn longer(&self, blade: u32) -> T {
         self.longer.get(blade as usize).copied().unwrap_or_else(T::zero)
     }
 
-    /// Whether no tip differs from another.
+    /// Returns whether all tips have the same length.
     pub fn are_equal(&self) -> bool {
         let first = self.longer(0).re();
         self.longer.iter().all(|b| b.re() == first)
@@ -89,33 +91,33 @@ impl<T: Number> Tips<T> {
 }
 
 impl<T: Number> Machine<T> {
-    /// Whether tips differ, or the casing is out of round.
+    /// Returns whether tips differ or the casing is out of round.
     #[must_use]
     pub fn is_uneven(&self) -> bool {
         self.tips.is_some()
     }
 
-    /// Whether tips differ from each other.
+    /// Returns whether tips differ from each other.
     #[must_use]
     pub fn has_unequal_tips(&self) -> bool {
         self.tips.as_ref().is_some_and(|tips| !tips.are_equal())
     }
 
-    /// Height of the lobes of a casing out of round, `e` \[m\].
+    /// Returns the lobe height `e` of the casing \[m\].
     #[must_use]
     pub fn out_of_round(&self) -> T {
         self.tips.as_ref().map_or_else(T::zero, |tips| tips.out_of_round)
     }
 
-    /// How much the longest tip of a side is longer than its blades \[m\].
+    /// Returns the excess length of the longest tip on a side \[m\].
     #[must_use]
     pub fn longest_of_side(&self, side: u32) -> T {
         let of_side = |tips: &Tips<T>| tips.of_sides.get(side as usize).copied();
         self.tips.as_ref().and_then(|tips| of_side(tips)).unwrap_or_else(T::zero)
     }
 
-    /// Apothem of a side, `h = g0 - b` of its longest tip, below zero where that leaves the
-    /// centre outside \[m\].
+    /// Returns the apothem of a side, `h = g0 - b` with its longest tip \[m\]. A negative apothem
+    /// excludes the centre from the polygon.
     #[must_use]
     pub fn apothem(&self, side: u32) -> T {
         if self.tips.is_none() {
@@ -125,13 +127,13 @@ impl<T: Number> Machine<T> {
         }
     }
 
-    /// The smallest gap that a casing at rest can have, `g0 - e - max b` \[m\].
+    /// Returns the smallest possible gap with the casing undeformed, `g0 - e - max b` \[m\].
     #[must_use]
     pub fn least_clearance(&self) -> T {
         self.clearance - self.most_uneven()
     }
 
-    /// What the gaps have less than the clearance at most, `e + max b` \[m\].
+    /// Returns the largest possible reduction of a gap below the clearance, `e + max b` \[m\].
     #[must_use]
     pub fn most_uneven(&self) -> T {
         let Some(tips) = &self.tips else { return T::zero() };
@@ -142,16 +144,16 @@ impl<T: Number> Machine<T> {
 }
 
 impl Machine {
-    /// What the gap of a blade, numbered from 0, has beside the clearance where the rotor has
-    /// turned by `theta`, `e cos(m (theta + Phi_i) - psi) - b_i` \[m\].
+    /// Returns the difference of a blade's gap from the clearance at the rotor angle `theta`,
+    /// `e cos(m (theta + Phi_i) - psi) - b_i` \[m\]. The blade is numbered from 0.
     #[must_use]
     pub fn uneven_at(&self, blade: u32, theta: f64) -> f64 {
         let phi = theta + TAU * f64::from(blade) / f64::from(self.polygon.blades);
         self.shape_at(phi) - self.longer(blade)
     }
 
-    /// How much farther a casing at rest is at an angle in the standing frame,
-    /// `e cos(m phi - psi)` \[m\].
+    /// Returns the outward deviation of the undeformed casing from a circle at the angle `phi` of
+    /// the stationary frame, `e cos(m phi - psi)` \[m\].
     #[must_use]
     pub fn shape_at(&self, phi: f64) -> f64 {
         let shape =
@@ -159,13 +161,13 @@ impl Machine {
         self.tips.as_deref().map_or(0.0, shape)
     }
 
-    /// How much the tip of a blade is longer, which is numbered from 0 \[m\].
+    /// Returns the excess length of a blade, numbered from 0 \[m\].
     #[must_use]
     pub fn longer(&self, blade: u32) -> f64 {
         self.tips.as_ref().map_or(0.0, |tips| tips.longer(blade))
     }
 
-    /// Returns the blades of a side that touch, those with its longest tip, numbered from 1.
+    /// Returns the blades of a side that can touch, those with its longest tip, numbered from 1.
     #[must_use]
     pub fn first_of_side(&self, side: u32) -> Vec<u32> {
         let mut blades = self.polygon.blades_of_side(side);
@@ -175,18 +177,18 @@ impl Machine {
         blades
     }
 
-    /// Apothem of a side where the rotor has turned by `theta`: that of its blade with the
-    /// least gap \[m\].
+    /// Returns the apothem of a side at the rotor angle `theta`: that of its blade with the
+    /// smallest gap \[m\].
     #[must_use]
     pub fn apothem_at(&self, side: u32, theta: f64) -> f64 {
         let blades = self.polygon.blades_of_side(side).into_iter();
-        let beside = blades.map(|blade| self.uneven_at(blade - 1, theta));
-        self.clearance + beside.reduce(f64::min).unwrap_or(0.0)
+        let unevenness = blades.map(|blade| self.uneven_at(blade - 1, theta));
+        self.clearance + unevenness.reduce(f64::min).unwrap_or(0.0)
     }
 
-    /// The place with every gap open that is nearest to another, in the frame of the blades
-    /// where the rotor has turned by `theta` and the tip of each blade has risen by so much;
-    /// none where there is no room \[m\].
+    /// Returns the point nearest to `from` at which every gap is open, in the blade frame at the
+    /// rotor angle `theta` \[m\]; `risen(blade)` is the outward displacement of a tip (numbered
+    /// from 0). `None` if no such point exists.
     #[must_use]
     pub fn nearest_open(
         &self,
@@ -203,7 +205,8 @@ impl Machine {
         nearest(&rows, Plane::new(from.0, from.1)).map(|z| (z.re, z.im))
     }
 
-    /// Whether rigid tips leave room to the casing at every angle of the rotor.
+    /// Returns whether rigid tips leave room for the casing at every rotor angle. With lobes this
+    /// is checked at 64 to 1024 angles.
     #[must_use]
     pub fn has_room(&self) -> bool {
         let Some(tips) = &self.tips else { return self.clearance > 0.0 };
@@ -217,8 +220,9 @@ impl Machine {
     }
 }
 
-/// The place nearest to another with every gap `offset + Re[z conj(normal)]` open: one gap
-/// after the other, each that is closed moves the place along its own line (Seidel).
+/// Returns the point nearest to `from` that satisfies every gap condition
+/// `offset + Re[z conj(normal)] >= 0`. Incremental (Seidel): each violated condition moves the
+/// point along its own line, within the range that the earlier conditions leave.
 fn nearest(rows: &[(Plane, f64)], from: Plane) -> Option<Plane> {
     let mut place = from;
     for (k, &(normal, offset)) in rows.iter().enumerate() {

@@ -1,12 +1,12 @@
-//! The record of contacts that both kinds of solvers keep: which sides touch, since
-//! when, the impacts, and the steps that pulled. Constant memory but for the
-//! first thousand impacts. And the record of energy.
+//! Records that both kinds of solvers keep: contacts (which sides touch and since when, the
+//! impacts, the steps with a pull), in constant memory except for the first impacts; and the energy
+//! account.
 //!
-//! The scheme has an energy of its own between two steps, which changes by exactly the
-//! work of the forces over half of two increments, less the damping. A push `P` on a row
-//! does the work `P (dg - A Omega dt) + mu P (dv_t - l_b dalpha)` on casing and blades:
-//! the first part is stored in a lining or lost in an impact, the second comes from the
-//! rotor, and what the rotor gives against friction beyond the third is heat.
+//! The explicit scheme has an energy of its own between two steps, which changes by exactly the
+//! work of the forces over half of two increments, minus the damping. A contact force `P` on a row
+//! does the work `P (dg - A Omega dt) + mu P (dv_t - l_b dalpha)` on casing and blades: the first
+//! part is stored in a lining or lost in an impact, the second comes from the rotor. What the rotor
+//! does against friction beyond the second part is heat.
 
 use std::ops::AddAssign;
 
@@ -16,28 +16,29 @@ use crate::model::ContactPolygon;
 use crate::numeric::is_zero;
 use crate::tolerances::IMPACTS_KEPT;
 
-/// The phase groups in contact at one instant.
+/// Phase groups in contact at one instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ActiveSet {
     /// No blade touches.
     #[default]
     Nothing,
-    /// One side of the polygon.
+    /// One side of the polygon is in contact.
     Side(u32),
-    /// Two sides, the smaller index first.
+    /// Two sides are in contact; the smaller index comes first.
     Corner(u32, u32),
-    /// Three sides or more: only very compliant blades, or a wrecked step.
+    /// Three or more sides are in contact, which occurs with very compliant blades or too long a
+    /// step.
     Many,
 }
 
 impl ActiveSet {
-    /// From the list of sides in contact, in any order and with repeats.
+    /// Collects a list of sides, in any order and with repetitions.
     #[must_use]
     pub fn of(sides: &[u32]) -> Self {
         sides.iter().fold(Self::Nothing, |active_set, &side| active_set.with(side))
     }
 
-    /// With one more side.
+    /// Adds a side.
     #[must_use]
     pub fn with(self, side: u32) -> Self {
         match self {
@@ -48,7 +49,7 @@ impl ActiveSet {
         }
     }
 
-    /// The sides in contact; of many, none is known.
+    /// Iterates over the sides in contact; `Many` does not know them and yields none.
     pub fn sides(self) -> impl Iterator<Item = u32> {
         let sides = match self {
             Self::Nothing | Self::Many => [None, None],
@@ -58,7 +59,7 @@ impl ActiveSet {
         sides.into_iter().flatten()
     }
 
-    /// Whether this side is among those in contact (unknown counts as yes).
+    /// Returns whether a side may be in contact; `Many` answers yes.
     #[must_use]
     pub fn includes(self, side: u32) -> bool {
         match self {
@@ -70,8 +71,8 @@ impl ActiveSet {
     }
 }
 
-/// Puts sides in contact in phase order: at a corner `psi_a` before
-/// `psi_b = psi_a + 2 delta`, otherwise by index.
+/// Sorts the sides in contact in phase order: at a corner `psi_a` before `psi_b = psi_a + 2 delta`,
+/// otherwise by index.
 pub fn in_phase_order(polygon: &ContactPolygon, sides: &mut [(u32, f64)]) {
     sides.sort_by_key(|&(side, _)| side);
     if let [first, second] = sides
@@ -83,61 +84,61 @@ pub fn in_phase_order(polygon: &ContactPolygon, sides: &mut [(u32, f64)]) {
     }
 }
 
-/// A blade group meeting the casing.
+/// Impact of a blade group on the casing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impact {
-    /// When \[s\].
+    /// Time \[s\].
     pub t_s: f64,
-    /// Which side of the polygon.
+    /// Side of the polygon.
     pub side: u32,
 }
 
-/// A corner that was held for a while and is not any more.
+/// A period during which the wave was held in a corner, and which has ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hold {
-    /// Its sides.
+    /// Sides of the corner.
     pub sides: ActiveSet,
-    /// Since when \[s\].
+    /// Start \[s\].
     pub from: f64,
-    /// The last time that it was seen in contact \[s\].
+    /// Last instant at which contact was observed \[s\].
     pub until: f64,
-    /// When the contact became another \[s\].
+    /// Instant at which another contact was observed \[s\].
     pub ended: f64,
 }
 
 impl Hold {
-    /// How long it was held \[s\].
+    /// Returns the duration \[s\].
     #[must_use]
     pub fn length(&self) -> f64 {
         self.until - self.from
     }
 }
 
-/// What touched, when, and how.
+/// Record of contacts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ContactLog {
-    /// The sides in contact now.
+    /// Sides in contact now.
     pub active_set: ActiveSet,
-    /// Since when `active_set` has been what it is \[s\].
+    /// Start of the present `active_set` \[s\].
     pub since: f64,
-    /// The longest that a corner was held, before the contact of now.
+    /// Longest hold of a corner before the present contact.
     pub longest_hold: Option<Hold>,
-    /// Since when something has touched without a break \[s\].
+    /// Start of the present unbroken contact of any sides \[s\].
     pub unbroken_since: Option<f64>,
-    /// The end of the latest contact, or now while in contact \[s\].
+    /// End of the latest contact; now, while in contact \[s\].
     pub last_contact: Option<f64>,
-    /// The latest step with a tensile multiplier \[s\].
+    /// Latest step with a tensile multiplier \[s\].
     pub last_tensile: Option<f64>,
-    /// How many steps had a tensile multiplier.
+    /// Number of steps with a tensile multiplier.
     pub tensile_steps: u64,
     /// The first impacts, in order of time.
     pub impacts: Vec<Impact>,
-    /// How many impacts in all.
+    /// Number of impacts.
     pub impact_count: u64,
 }
 
 impl ContactLog {
-    /// From `t` on, these sides touch.
+    /// Records that these sides are in contact from `t` on.
     pub fn touch(&mut self, t: f64, active_set: ActiveSet) {
         if active_set != self.active_set {
             if let (ActiveSet::Corner(..), Some(last)) = (self.active_set, self.last_contact)
@@ -157,7 +158,7 @@ impl ContactLog {
         }
     }
 
-    /// The longest that a corner was held without a break, until now \[s\].
+    /// Returns the longest duration for which a corner was held, including the present one \[s\].
     #[must_use]
     pub fn corner_time(&self) -> f64 {
         let before = self.longest_hold.map_or(0.0, |hold| hold.length());
@@ -167,7 +168,7 @@ impl ContactLog {
         }
     }
 
-    /// A blade group meets the casing at `t`.
+    /// Records an impact.
     pub fn impact(&mut self, t: f64, side: u32) {
         self.impact_count += 1;
         if self.impacts.len() < IMPACTS_KEPT {
@@ -175,33 +176,33 @@ impl ContactLog {
         }
     }
 
-    /// A step at `t` pulled.
+    /// Records a step with a pull.
     pub fn tensile(&mut self, t: f64) {
         self.tensile_steps += 1;
         self.last_tensile = Some(t);
     }
 }
 
-/// Sums from the start until half a step before the latest \[J\].
+/// Energies accumulated from the start until half a step before the latest \[J\].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct EnergyAccount {
-    /// Work of the pulse and of the excitation.
+    /// Work of the pulse and the excitation.
     pub pulse_work_j: f64,
-    /// Work that keeps the rotor turning against contact and friction, and that stiffens
-    /// the blades as its speed changes.
+    /// Work of the rotor against contact and friction, and on the stiffness of the blades as the
+    /// speed changes.
     pub rotor_work_j: f64,
-    /// Work of blades that grow with the speed, on what they touch.
+    /// Work of blades that grow with the speed on the casing they touch.
     #[serde(skip_serializing_if = "is_zero")]
     pub growth_work_j: f64,
-    /// Dissipated in the damping of the casing.
+    /// Energy dissipated in the casing damping.
     pub casing_loss_j: f64,
-    /// Dissipated in the damping of the blades.
+    /// Energy dissipated in the blade damping.
     pub blade_loss_j: f64,
-    /// Heat of friction between tips and casing.
+    /// Friction heat between tips and casing.
     pub friction_heat_j: f64,
-    /// Lost where rigid tips meet the casing.
+    /// Energy lost in impacts of rigid tips.
     pub impact_loss_j: f64,
-    /// Gained since the start: in casing, blades and lining.
+    /// Increase of the energy stored in casing, blades and lining.
     pub stored_j: f64,
 }
 
@@ -219,7 +220,7 @@ impl AddAssign for EnergyAccount {
 }
 
 impl EnergyAccount {
-    /// What is not accounted for; it goes to zero with the step \[J\].
+    /// Returns the error of the energy balance, which vanishes as the step goes to zero \[J\].
     #[must_use]
     pub fn residual(&self) -> f64 {
         self.supplied()
@@ -230,7 +231,7 @@ impl EnergyAccount {
             - self.impact_loss_j
     }
 
-    /// Work of pulse, excitation, rotor and growth \[J\].
+    /// Returns the work of pulse, excitation, rotor and growth \[J\].
     #[must_use]
     pub fn supplied(&self) -> f64 {
         self.pulse_work_j + self.rotor_work_j + self.growth_work_j

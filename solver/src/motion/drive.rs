@@ -1,5 +1,4 @@
-//! What every solver shares: the state it reports, the rotor that turns and the
-//! pulse that starts the motion.
+//! Types that all solvers share: the state of a motion, the rotor, and the pulse.
 
 use std::f64::consts::TAU;
 
@@ -7,30 +6,30 @@ use serde::Serialize;
 
 use crate::scene::Scene;
 
-/// The four coordinates and their rates at one instant.
+/// The four modal coordinates and their rates at one instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct State {
     /// Time \[s\].
     pub t_s: f64,
-    /// Casing coordinates `[u_c, u_s]`, standing frame \[m\].
+    /// Casing coordinates `[u_c, u_s]` in the stationary frame \[m\].
     pub u: [f64; 2],
-    /// Their rates \[m/s\].
+    /// Rates of the casing coordinates \[m/s\].
     pub v: [f64; 2],
     /// Blade coordinates `[alpha_c, alpha_s]` \[rad\].
     pub alpha: [f64; 2],
-    /// Their rates \[rad/s\].
+    /// Rates of the blade coordinates \[rad/s\].
     pub alpha_rate: [f64; 2],
 }
 
 impl State {
-    /// Amplitude of the casing wave, `|u|` \[m\].
+    /// Returns the amplitude of the casing wave, `|u|` \[m\].
     #[must_use]
     pub fn amplitude(&self) -> f64 {
         self.u[0].hypot(self.u[1])
     }
 }
 
-/// The rotor angle: a speed and a constant acceleration from some instant on.
+/// Rotor angle with a constant acceleration since some instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rotor {
     since: f64,
@@ -40,7 +39,7 @@ pub struct Rotor {
 }
 
 impl Rotor {
-    /// Rotor of a scene: angle zero at t = 0.
+    /// Creates the rotor of a scene, with angle zero at t = 0.
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
         Self {
@@ -51,40 +50,41 @@ impl Rotor {
         }
     }
 
-    /// Angle `theta(t)`, `theta' = Omega` \[rad\].
+    /// Returns the angle `theta(t)`, `theta' = Omega`, without whole turns before the last change
+    /// \[rad\].
     #[must_use]
     pub fn angle(&self, t: f64) -> f64 {
         let elapsed = t - self.since;
         self.angle + (self.speed + 0.5 * self.ramp * elapsed) * elapsed
     }
 
-    /// Speed `Omega(t)` \[rad/s\].
+    /// Returns the speed `Omega(t)` \[rad/s\].
     #[must_use]
     pub fn speed(&self, t: f64) -> f64 {
         self.speed + self.ramp * (t - self.since)
     }
 
-    /// The speed at `t`, unless another speed or acceleration held then \[rad/s\].
+    /// Returns the speed at `t`; `None` if speed or acceleration were changed after `t` \[rad/s\].
     pub fn known_speed(&self, t: f64) -> Option<f64> {
         (t >= self.since).then(|| self.speed(t))
     }
 
-    /// Mean speed over the last `window` seconds before `t`, as far as this speed
-    /// and acceleration reach back \[rad/s\].
+    /// Returns the mean speed over the last `window` seconds before `t`, or since the last change
+    /// if that is later \[rad/s\].
     #[must_use]
     pub fn mean_speed(&self, t: f64, window: f64) -> f64 {
         self.speed(0.5 * (t + (t - window).max(self.since)))
     }
 
-    /// Acceleration \[rad/s^2\].
+    /// Returns the acceleration \[rad/s^2\].
     #[must_use]
     pub fn ramp(&self) -> f64 {
         self.ramp
     }
 
-    /// From `t` on, turn with this speed and acceleration; the angle goes on.
+    /// Sets speed and acceleration from `t` on; the angle is continuous.
     pub fn change(&mut self, t: f64, speed: f64, ramp: f64) {
-        // Whole turns are dropped to keep digits; n_d is whole, so gaps do not notice.
+        // Whole turns are dropped to keep digits; n_d is an integer, so the gaps do not change.
         self.angle = self.angle(t) % TAU;
         self.since = t;
         self.speed = speed;
@@ -92,7 +92,7 @@ impl Rotor {
     }
 }
 
-/// A rectangular pulse on the `u_c` equation.
+/// Rectangular force pulse on the equation of `u_c`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pulse {
     /// Start \[s\].
@@ -104,28 +104,28 @@ pub struct Pulse {
 }
 
 impl Pulse {
-    /// Pulse of a scene, from t = 0.
+    /// Creates the pulse of a scene, which starts at t = 0.
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
         Self { start: 0.0, end: scene.operation.pulse_s, force: scene.operation.pulse_n }
     }
 
-    /// Force at an instant \[N\].
+    /// Returns the force at an instant \[N\].
     #[must_use]
     pub fn at(&self, t: f64) -> f64 {
         if (self.start..self.end).contains(&t) { self.force } else { 0.0 }
     }
 
-    /// Mean force over `[from, to]`, so that steps of any size sum to exactly
-    /// `F t_p` \[N\].
+    /// Returns the mean force over `[from, to]`, so that the impulse is exactly `F t_p` for any
+    /// step \[N\].
     #[must_use]
     pub fn mean(&self, from: f64, to: f64) -> f64 {
         let overlap = to.min(self.end) - from.max(self.start);
         if overlap > 0.0 { self.force * (overlap / (to - from)) } else { 0.0 }
     }
 
-    /// Mean force over the step of this length centred on `t = n step`; at n = 0 over its
-    /// second half, which is all there is of it \[N\].
+    /// Returns the mean force over the step centred on `t = n step`; for `n = 0` over its second
+    /// half, because the motion begins there \[N\].
     #[must_use]
     pub fn mean_of_step(&self, n: u64, step: f64) -> f64 {
         let (t, half) = (n as f64 * step, 0.5 * step);

@@ -1,5 +1,4 @@
-//! Why a motion stopped before its end, in words made here alone. The reasons:
-//! docs/theory.md, section 6.
+//! Reasons why a motion stopped before its end, and their wording.
 
 use super::{Pulse, Verdict};
 use crate::numeric::rounding::rounded;
@@ -8,31 +7,32 @@ use crate::tolerances::{
 };
 use thiserror::Error;
 
-/// Why a run stopped before its end.
+/// A run that stopped before its end.
 #[derive(Clone, Debug, Error, PartialEq)]
-#[error("failed at t = {:e} s: {reason}", told(*t_s))]
+#[error("failed at t = {:e} s: {reason}", shown_time(*t_s))]
 pub struct Failure {
-    /// When \[s\].
+    /// Time at which it stopped \[s\].
     pub t_s: f64,
-    /// What happened.
+    /// Reason.
     pub reason: FailureReason,
 }
 
-/// A time in the digits that are told.
-fn told(t_s: f64) -> f64 {
+/// Rounds a time to the digits that messages show.
+fn shown_time(t_s: f64) -> f64 {
     rounded(t_s, 6)
 }
 
 impl Failure {
-    /// In words for a motion that is no breakdown of the computation.
+    /// Words the failure for a motion that grew beyond the range of the model, as opposed to a
+    /// breakdown of the computation.
     #[must_use]
     pub fn as_growth(&self) -> String {
-        format!("left the range of the model at t = {:e} s: {}", told(self.t_s), self.reason)
+        format!("left the range of the model at t = {:e} s: {}", shown_time(self.t_s), self.reason)
     }
 
-    /// The verdict on a motion beyond the paper that stopped so: growth that nothing
-    /// bounds is what such a machine does, and no breakdown of the computation. What the
-    /// pulse itself throws so far is not growth.
+    /// Returns the verdict for a model beyond the paper: unbounded growth is a possible behaviour
+    /// of such a machine and gives [`Verdict::Divergent`]. Growth during the pulse is caused by the
+    /// pulse and counts as a failure.
     #[must_use]
     pub fn verdict_beyond(&self, pulse: &Pulse) -> Verdict {
         if self.reason.is_growth() && self.t_s > pulse.end {
@@ -44,7 +44,7 @@ impl Failure {
 }
 
 impl FailureReason {
-    /// Whether the motion grew beyond what the model describes.
+    /// Returns whether the motion grew beyond the range of the model.
     #[must_use]
     pub fn is_growth(&self) -> bool {
         matches!(
@@ -58,20 +58,19 @@ impl FailureReason {
     }
 }
 
-/// What a motion did that the model does not describe, or the solver cannot
-/// follow.
+/// Behaviour that the model does not describe or the solver cannot follow.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum FailureReason {
-    /// Small angles are no longer small.
+    /// A blade angle is too large for the small-angle approximation.
     #[error(
         "a blade angle of {angle_rad:.3e} rad is beyond the {LARGEST_BLADE_ANGLE} rad that small \
          angles allow"
     )]
     BladeAngle {
-        /// The largest angle of any blade \[rad\].
+        /// Largest blade angle \[rad\].
         angle_rad: f64,
     },
-    /// The sides of a corner are about to change their order.
+    /// Two sides of a corner are about to change their order.
     #[error(
         "blade angles of {angle_rad:.3e} rad close or open a corner; up to {most_rad:.3e} rad \
          sides keep their order"
@@ -79,16 +78,16 @@ pub enum FailureReason {
     CornerAngle {
         /// Amplitude of the blade angles \[rad\].
         angle_rad: f64,
-        /// Largest amplitude that keeps the order \[rad\].
+        /// Largest amplitude at which the order is kept \[rad\].
         most_rad: f64,
     },
-    /// The sides of a polygon of two are about to meet.
+    /// The two sides of a polygon without corners are about to meet.
     #[error("blade angles of {angle_rad:.3e} rad turn the only two sides onto each other")]
     TwoSides {
         /// Amplitude of the blade angles \[rad\].
         angle_rad: f64,
     },
-    /// A polygon without corners lets the casing wave grow.
+    /// The wave has grown beyond the casing radius along a polygon without corners.
     #[error(
         "no corner holds the casing wave, and it grew beyond the casing radius, {radius_m:e} m"
     )]
@@ -96,10 +95,10 @@ pub enum FailureReason {
         /// Casing radius \[m\].
         radius_m: f64,
     },
-    /// The equations of a solver are for a constant speed.
+    /// The solver supports constant speed only.
     #[error("this solver of what goes beyond the paper's model needs a constant speed")]
     Ramp,
-    /// Blades and disk have grown by all of the clearance.
+    /// Growth of blades and disk has closed the clearance.
     #[error(
         "at {speed_rad_s:.6} rad/s the blades have grown into the casing, and rigid contact needs \
          a clearance"
@@ -114,16 +113,16 @@ pub enum FailureReason {
          follow"
     )]
     Series,
-    /// Too many changes of contact in one run.
+    /// The run has too many changes of contact.
     #[error("more than {MOST_EVENTS} changes of contact")]
     Events,
-    /// Too many changes of contact that take no time.
+    /// Too many changes of contact occur at one instant.
     #[error("{MOST_EVENTS_AT_ONCE} changes of contact at one instant")]
     EventsAtOnce,
-    /// Too long a search for changes of contact.
+    /// The search for changes of contact takes too many evaluations.
     #[error("more than {MOST_LOOKS} looks ahead for the next change of contact")]
     Looks,
-    /// Too many penetrating rows in one step.
+    /// Too many rows penetrate in one step.
     #[error(
         "{rows} rows penetrate in one step, and at most {MOST_ROWS} are closed together; a smaller \
          step is needed"
@@ -132,7 +131,7 @@ pub enum FailureReason {
         /// Number of rows.
         rows: usize,
     },
-    /// The casing left its own size behind.
+    /// The casing displacement exceeds the casing radius.
     #[error("the casing displacement {distance_m:.3e} m is beyond the casing radius {radius_m} m")]
     Displacement {
         /// Casing displacement \[m\].
@@ -140,7 +139,7 @@ pub enum FailureReason {
         /// Casing radius \[m\].
         radius_m: f64,
     },
-    /// The casing outruns the blades: friction would turn round.
+    /// The casing moves faster than the blade tips, which would reverse the friction.
     #[error(
         "the casing moves along its rim with {speed_m_s:.3e} m/s, faster than the blade tips, \
          {tip_m_s:.3e} m/s, and friction has one direction"
@@ -151,18 +150,18 @@ pub enum FailureReason {
         /// Speed of the blade tips \[m/s\].
         tip_m_s: f64,
     },
-    /// The wave runs along the blades too fast for the step, and goes on so.
+    /// The wave moves along the polygon too fast for the time step, for many steps.
     #[error(
         "the casing runs along the blades by {moved_m:.3e} m a step, much of the {side_m:.3e} m \
          from blade to blade, and faster than this step can follow"
     )]
     LongStep {
-        /// Way of the casing in a step \[m\].
+        /// Displacement of the casing in a step \[m\].
         moved_m: f64,
         /// Length of a side of the polygon \[m\].
         side_m: f64,
     },
-    /// A step went through more than the clearance.
+    /// A step penetrates deeper than the clearance.
     #[error(
         "a predicted penetration of {depth_m:.3e} m is deeper than the clearance {clearance_m:.3e} \
          m; a smaller step or a weaker pulse is needed"
@@ -173,16 +172,16 @@ pub enum FailureReason {
         /// Clearance \[m\].
         clearance_m: f64,
     },
-    /// Contact that only pushes, or a lock that only pushes, ended with a pull.
+    /// A motion that can only push ended with a pull.
     #[error(
         "a contact that only pushes ended with a pull of {force_n:.6} N, so the result is wrong; \
          run --plain takes every step"
     )]
     Pull {
-        /// The largest contact force at the end \[N\].
+        /// Largest contact force at the end, positive for a pull \[N\].
         force_n: f64,
     },
-    /// A step whose equations are singular.
+    /// The equations of a step are singular.
     #[error("the multipliers of {rows} penetrating rows cannot be told apart (singular equations)")]
     Singular {
         /// Number of rows.

@@ -1,12 +1,12 @@
-//! Time domain: solvers that advance the motion of one scene, the record of
-//! contacts they share, and the verdict on how the motion lasts.
+//! Time domain: solvers that compute the motion of a scene, the contact record they share, and the
+//! verdict on the motion.
 //!
-//! A solver is a value that holds its whole state: `advance(until)` moves it
-//! on, `clone` forks it, nothing is global.
+//! A solver contains its whole state: `advance(until)` continues the motion, `fork` copies it, and
+//! nothing is global.
 //!
-//! Read `solver` (what every solver offers), `drive` and `contacts` (what they share), then
+//! Order in which to read: `solver` (the common interface), `drive` and `contacts` (shared types),
 //! one kind of solver (`explicit` or `event`), then `run` with `script`, `wave`, `verdict` and
-//! `sensitivity`: a whole run, and whether a tiny change makes another of it.
+//! `sensitivity`: a whole run, its verdict, and whether a tiny change alters the verdict.
 
 mod contacts;
 mod drive;
@@ -28,13 +28,13 @@ pub use event::{ExactEvents, LinearEvents};
 pub use failure::{Failure, FailureReason};
 pub use propagator::FreeFlight;
 pub use run::{
-    FinalState, ImpactReport, RunReport, Sample, Sampling, SolverReport, VerdictReached, Watch,
-    caught_at, judge_end, lock_that_broke, run_to_end, run_to_verdict, simulate, verdict_of,
+    FinalState, ImpactReport, RunReport, Sample, Sampling, SolverReport, VerdictReached, caught_at,
+    judge_end, lock_that_broke, run_to_end, run_to_verdict, simulate, verdict_of,
 };
 pub use script::{Change, Script};
 pub use sensitivity::{CHANGED_RUNS, Certainty, Spread, certainty, run_with_certainty};
 pub use solver::{GoOn, Motion, Solver, to_the_end};
 pub use verdict::{Basis, Checks, Contact, Outcome, Proof, Verdict};
 
-/// A point or vector of the plane of the two casing coordinates.
+/// Point or vector in the plane of the two casing coordinates, as a complex number.
 type Plane = nalgebra::Complex<f64>;

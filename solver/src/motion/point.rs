@@ -1,32 +1,33 @@
-//! Place and rates of casing and blade modes in the frame of the blades, as states of a linear
-//! motion.
+//! Displacements and rates of casing and blade modes in the blade frame, and their conversion to a
+//! dimensionless state vector of a linear system.
 
 use nalgebra::DVector;
 
 use super::Plane;
 
-/// Place and rates in the frame of the blades.
+/// Displacements and rates in the blade frame.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Point {
-    /// `z` \[m\], and its rate or increment.
+    /// Casing displacement `z` \[m\], and its rate or its increment in a step.
     pub z: Plane,
     pub dz: Plane,
-    /// `a` \[rad\], and its rate or increment.
+    /// Blade angle `a` \[rad\], and its rate or its increment in a step.
     pub a: Plane,
     pub da: Plane,
 }
 
-/// The units of the four parts of a point, so that all states are of one size.
+/// Units of the four parts of a point, chosen so that all states are of the same order.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Units(pub [f64; 4]);
 
 impl Units {
-    /// The units of a length \[m\], of blades of a length \[m\], and of these rates.
+    /// Creates the units from a length \[m\], the blade length \[m\] and an angular frequency
+    /// \[rad/s\].
     pub fn of(length: f64, blade: f64, rate: f64) -> Self {
         Self([length, length * rate, length / blade, length / blade * rate])
     }
 
-    /// The first `size` states of a point.
+    /// Converts a point to the first `size` dimensionless states.
     pub fn states(&self, point: &Point, size: usize) -> DVector<f64> {
         let parts = [point.z, point.dz, point.a, point.da];
         let each =
@@ -34,7 +35,7 @@ impl Units {
         DVector::from_iterator(size, each.take(size))
     }
 
-    /// The point of these states; those that are left out are 0.
+    /// Converts dimensionless states to a point; missing ones are zero.
     pub fn point(&self, x: &DVector<f64>) -> Point {
         let at = |part: usize| {
             let place = |k: usize| x.get(2 * part + k).copied().unwrap_or(0.0);
@@ -44,7 +45,7 @@ impl Units {
     }
 }
 
-/// One state of 1 among so many.
+/// Returns a unit vector.
 pub(super) fn one_of(size: usize, state: usize) -> DVector<f64> {
     DVector::from_fn(size, |k, _| f64::from(u8::from(k == state)))
 }

@@ -1,15 +1,14 @@
-//! Closed-form response of one damped coordinate: `y'' + 2 c y' + stiffness y = a`.
-//! (docs/theory.md, section 7.)
+//! Closed-form response of one damped coordinate, `y'' + 2 c y' + stiffness y = a` (docs/theory.md,
+//! section 7).
 //!
-//! Everything follows from two functions: `unit`, the motion from rest with
-//! unit rate, and `ramp`, the motion from rest under `a = 1` (so
-//! `ramp' = unit`). They are entire in `c` and `stiffness`: under-, over- and
-//! critically damped roots, `stiffness = 0` (the casing at `Omega = Omega_c` seen
-//! from the blades) and `stiffness < 0` are one case, only evaluated in different
-//! ways where round-off asks for it.
+//! The solution is composed of two functions: `unit`, the motion from rest with unit rate, and
+//! `ramp`, the motion from rest under `a = 1`, so that `ramp' = unit`. Both are entire functions of
+//! `c` and `stiffness`: underdamped, overdamped and critically damped roots, `stiffness = 0` (the
+//! casing at `Omega = Omega_c` in the blade frame) and `stiffness < 0` are the same formula,
+//! evaluated in different ways only to limit round-off.
 //!
-//! What follows from it alone: the gap of one side while nothing touches, and the energy
-//! that a damped oscillator loses.
+//! The module also derives from it the gap of a side during free flight after the pulse, and the
+//! energy lost by a damped oscillator.
 
 use std::f64::consts::PI;
 
@@ -18,26 +17,26 @@ use crate::model::{Machine, Number, Operation};
 use crate::numeric::quadrature::quadrature;
 use crate::tolerances::{DOUBLE_ROOT, SERIES_END, SHORT_TIME, SMALL_EXPONENT};
 
-/// Most terms of the power series; at `rate * s = 1/2` the last is below 1e-20.
+/// Largest number of terms of the power series; for `rate * s = 1/2` the last one is below 1e-20.
 const TERMS: usize = 18;
 
-/// The equation's coefficients, ready to be evaluated at any time.
+/// Coefficients of the equation, prepared for evaluation at any time.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Propagator<T = f64> {
     /// Damping `c` \[1/s\], zero or more.
     pub damping: T,
-    /// Stiffness per unit mass `stiffness` \[1/s^2\], of any sign.
+    /// Stiffness per unit mass, of any sign \[1/s^2\].
     pub stiffness: T,
-    /// `c^2 - stiffness`: negative where the roots are complex.
+    /// Discriminant `c^2 - stiffness`; negative for complex roots.
     discriminant: T,
-    /// Square root of its magnitude.
+    /// Square root of the magnitude of the discriminant.
     root: T,
 }
 
-/// The response at one instant.
+/// Response at one instant.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Response<T = f64> {
-    /// Motion from unit displacement at rest, `1 - stiffness ramp`.
+    /// Motion from unit displacement with zero rate, `1 - stiffness ramp`.
     pub hold: T,
     /// Motion from rest with unit rate \[s\].
     pub unit: T,
@@ -53,7 +52,7 @@ impl<T: Number> Propagator<T> {
         Self { damping, stiffness, discriminant, root: discriminant.abs().sqrt() }
     }
 
-    /// The response `s >= 0` seconds on.
+    /// Returns the response after `s >= 0` seconds.
     pub(super) fn at(&self, s: T) -> Response<T> {
         let (c, q) = (self.damping, self.root);
         if self.discriminant > 0.0 && q * s > 0.2 {
@@ -61,14 +60,14 @@ impl<T: Number> Propagator<T> {
         } else if (c + q) * s < SHORT_TIME {
             self.series(s)
         } else {
-            // Here stiffness s^2 > 0.05, so that the division below keeps its digits.
+            // Here stiffness s^2 > 0.05, so the division below loses no digits.
             let (cos, sin) = if self.discriminant > 0.0 {
                 ((q * s).cosh(), (q * s).sinh() / q)
             } else if q > 0.0 {
                 let (sin, cos) = (q * s).sin_cos();
                 (cos, sin / q)
             } else {
-                // Next to a double root the derivative is that of its series.
+                // At a double root the value and its derivative are those of the series.
                 let part = self.discriminant * s * s;
                 (part * 0.5 + 1.0, s * (part / 6.0 + 1.0))
             };
@@ -88,7 +87,7 @@ impl<T: Number> Propagator<T> {
         let (c, q) = (self.damping, self.root);
         let (slow, fast) = (-self.stiffness / (c + q), -(c + q));
         let ([late, later], [early, earlier]) = (exponential(slow * s), exponential(fast * s));
-        // Integral of exp(r s) from 0, smooth through r = 0.
+        // Integral of exp(r s) from 0, smooth at r = 0.
         let integral = |r: T, less: T| if r == 0.0 { s } else { less / r };
         let unit = (later - earlier) / (q * 2.0);
         let slope = (slow * late - fast * early) / (q * 2.0);
@@ -100,11 +99,11 @@ impl<T: Number> Propagator<T> {
         }
     }
 
-    /// Power series of the entire solution, for short times.
+    /// Evaluates the power series, for short times.
     fn series(&self, s: T) -> Response<T> {
         let drag = self.damping * 2.0 * s;
         let spring = self.stiffness * s * s;
-        // `term` is the coefficient of s^n times s^(n-1), from n = 1.
+        // `term` is the coefficient of s^n times s^(n-1), starting with n = 1.
         let (mut before, mut term) = (T::zero(), T::one());
         let (mut slope, mut unit, mut ramp) = (T::one(), T::one(), T::from(0.5));
         for row in &STEPS {
@@ -123,8 +122,8 @@ impl<T: Number> Propagator<T> {
 }
 
 impl Propagator {
-    /// The exponents `-c +- sqrt(c^2 - stiffness)` as `(re, im)` of the first; none
-    /// near a double root, where a sum of two exponentials is ill-conditioned.
+    /// Returns the exponents `-c +- sqrt(c^2 - stiffness)` as `(re, im)`; `None` near a double
+    /// root, where a sum of two exponentials is ill-conditioned.
     pub(super) fn exponents(&self) -> Option<[(f64, f64); 2]> {
         let (c, q) = (self.damping, self.root);
         if q < DOUBLE_ROOT * c.max(self.stiffness.abs().sqrt()) {
@@ -136,14 +135,15 @@ impl Propagator {
         }
     }
 
-    /// Its frequency with damping \[rad/s\]; none where it does not swing, or hardly.
+    /// Returns the damped angular frequency; `None` if the motion does not oscillate, or hardly
+    /// does \[rad/s\].
     pub(super) fn swing(&self) -> Option<f64> {
         let swings = self.discriminant < 0.0 && self.root > DOUBLE_ROOT * self.damping;
         swings.then_some(self.root)
     }
 
-    /// When a free motion from `place` with `rate` first comes to rest \[s\], for
-    /// `stiffness > 0`; none where it creeps back to zero without a turning point.
+    /// Returns the time at which a free motion with displacement `place` and rate `rate` first has
+    /// zero rate, for `stiffness > 0` \[s\]; `None` if it creeps to zero without a turning point.
     pub(super) fn first_rest(&self, place: f64, rate: f64) -> Option<f64> {
         let q = self.root;
         let (across, along) = (rate, self.damping * rate + self.stiffness * place);
@@ -159,7 +159,7 @@ impl Propagator {
     }
 }
 
-/// `exp(x)` and `exp(x) - 1`, each with its own digits: one exponential for both.
+/// Returns `exp(x)` and `exp(x) - 1`, both to full relative accuracy, from a single exponential.
 fn exponential<T: Number>(x: T) -> [T; 2] {
     if x < -0.5 {
         let value = x.exp();
@@ -170,7 +170,7 @@ fn exponential<T: Number>(x: T) -> [T; 2] {
     }
 }
 
-/// Divisions of the power series, done once.
+/// Precomputed factors of the power series.
 #[derive(Clone, Copy)]
 struct Step {
     over_n: f64,
@@ -196,18 +196,18 @@ const STEPS: [Step; TERMS] = {
     steps
 };
 
-/// The casing from rest to its first contact, with rigid blades.
+/// Free motion of the casing from rest to its first contact, with rigid blades.
 #[derive(Clone, Copy, Debug)]
 pub struct FreeFlight<'a, T> {
-    /// The machine.
+    /// Machine, whose blades are taken as rigid.
     pub machine: &'a Machine<T>,
-    /// Rotor and pulse.
+    /// Rotor speed and pulse.
     pub operation: &'a Operation<T>,
 }
 
 impl<T: Number> FreeFlight<'_, T> {
-    /// What one newton of pulse has moved the casing by `t` \[m/N\], and how far the blades
-    /// have turned against its wave by then \[rad\].
+    /// Returns the casing displacement at `t` per unit of pulse force \[m/N\], and the rotation of
+    /// the blades relative to the wave until then \[rad\].
     #[must_use]
     pub fn moved_by_pulse(&self, t: T) -> (T, T) {
         let Self { machine, operation } = *self;
@@ -221,8 +221,8 @@ impl<T: Number> FreeFlight<'_, T> {
         (ramp / machine.casing_mass, machine.nu(rotor))
     }
 
-    /// The change of the gap of a side at `t` \[s\] by one newton of pulse \[m/N\]: the
-    /// gap is the clearance and this times the pulse.
+    /// Returns the change of a side's gap at `t` per unit of pulse force \[m/N\]. The gap is the
+    /// clearance plus this value times the pulse.
     #[must_use]
     pub fn gap_by_pulse(&self, side: u32, t: T) -> T {
         let (moved, turn) = self.moved_by_pulse(t);
@@ -232,14 +232,14 @@ impl<T: Number> FreeFlight<'_, T> {
     }
 }
 
-/// Energy per unit mass that a free damped oscillator loses in `s` seconds.
+/// Returns the energy per unit mass that a free damped oscillator loses in `s` seconds \[m^2/s^2\].
 pub(super) fn damped(propagator: &Propagator, from: Plane, rate: Plane, s: f64) -> f64 {
     if propagator.damping == 0.0 || (from.norm_sqr() == 0.0 && rate.norm_sqr() == 0.0) {
         return 0.0;
     }
     let power = 2.0 * propagator.damping;
     let Some(exponents) = propagator.exponents() else {
-        // Near critical damping all is over after some forty periods.
+        // Near critical damping the motion has decayed after about forty periods.
         let omega = propagator.stiffness.sqrt();
         let [sum, _] = quadrature(s.min(200.0 / omega), 2.0 * omega, |t| {
             let response = propagator.at(t);
@@ -261,13 +261,13 @@ pub(super) fn damped(propagator: &Propagator, from: Plane, rate: Plane, s: f64) 
     power * sum
 }
 
-/// Integral of `exp(r t)` from 0 to `s`.
+/// Returns the integral of `exp(r t)` from 0 to `s`.
 fn integral(r: Plane, s: f64) -> Plane {
     let x = r * s;
     if x.norm_sqr() < SMALL_EXPONENT {
         return (Plane::new(1.0, 0.0) + x * 0.5 + x * x / 6.0) * s;
     }
-    // exp(x) - 1 with the digits of small x kept.
+    // exp(x) - 1 without cancellation for small x.
     let half = (0.5 * x.im).sin();
     let re = x.re.exp_m1() * x.im.cos() - 2.0 * half * half;
     Plane::new(re, x.re.exp() * x.im.sin()) / r
@@ -277,7 +277,8 @@ fn integral(r: Plane, s: f64) -> Plane {
 mod tests {
     use super::*;
 
-    /// Classical Runge-Kutta with steps far below round-off in its own error.
+    /// Integrates by the classical Runge-Kutta method, with steps so short that only round-off
+    /// remains.
     fn integrated(c: f64, stiffness: f64, start: [f64; 2], a: f64, s: f64) -> [f64; 2] {
         let steps = 20_000;
         let h = s / f64::from(steps);
@@ -319,7 +320,7 @@ mod tests {
                 let [unit, slope] = integrated(c, stiffness, [0.0, 1.0], 0.0, s);
                 let [ramp, same] = integrated(c, stiffness, [0.0, 0.0], 1.0, s);
                 let [hold, _] = integrated(c, stiffness, [1.0, 0.0], 0.0, s);
-                // The integration itself is good to about 20000 roundings.
+                // The integration accumulates about 20000 rounding errors.
                 for (value, expected) in [
                     (response.unit, unit),
                     (response.slope, slope),

@@ -1,5 +1,8 @@
-//! One whole run: advance a motion to its end, sample it, judge it,
-//! and report it.
+//! A whole run: computes a motion to its end, samples it, determines the verdict, and collects the
+//! report.
+//!
+//! [`simulate`] is the complete run with its certainty, [`run_to_end`] the run alone with samples,
+//! [`run_to_verdict`] the shortest way to a verdict.
 
 use std::f64::consts::TAU;
 
@@ -18,7 +21,7 @@ use crate::tolerances::{
     LARGEST_BLADE_ANGLE, LAST_PART, LOOKS_A_PERIOD, PULL_ROUND_OFF, RUN_LOOKS,
 };
 
-/// What a recorder sees at one instant.
+/// State of a run as passed to a recorder.
 #[derive(Clone, Debug)]
 pub struct Sample {
     /// Coordinates and rates.
@@ -27,135 +30,135 @@ pub struct Sample {
     pub rotor_angle_rad: f64,
     /// Rotor speed \[rad/s\].
     pub rotor_speed_rad_s: f64,
-    /// Mean force on each touched side since the sample before \[N\]; negative
-    /// is a push.
+    /// Mean force on each side in contact since the previous sample; negative is a push \[N\].
     pub mean_forces: Vec<(u32, f64)>,
-    /// Gap of every blade \[m\]; empty unless asked for.
+    /// Gap of every blade \[m\]; empty unless requested.
     pub gaps: Vec<f64>,
 }
 
-/// Which samples a recorder wants.
+/// Selection of samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sampling {
-    /// Number of equal intervals from 0 to the end; none for 0.
+    /// Number of equal intervals from 0 to the end; no samples for 0.
     pub intervals: u32,
-    /// Whether the gap of every blade is wanted.
+    /// Whether samples contain the gap of every blade.
     pub gaps: bool,
 }
 
-/// How the run was solved, and in how many steps.
+/// Solver settings of a run, and its numbers of steps.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SolverReport {
-    /// Which solver.
+    /// Solver.
     pub kind: SolverKind,
-    /// Which contact law.
+    /// Contact law.
     pub contact: ContactLaw,
-    /// Which model size.
+    /// Model size.
     pub model: ModelSize,
-    /// Whether the blades are too stiff for the casing to feel, and were solved as
-    /// rigid ones whose angles follow the pushes at once; told where it is so.
+    /// Whether the blades are so stiff that they were solved as rigid ones whose angles follow the
+    /// contact forces statically. Reported only if true.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub blades_follow: bool,
-    /// Whether the angles of the blades are left out of the phases of the gaps; told
-    /// where it is so.
+    /// Whether the blade angles are neglected in the phases of the gaps. Reported only if true.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub linearised: bool,
-    /// Time steps taken: computed one by one.
+    /// Number of time steps computed one by one.
     pub steps: Option<u64>,
-    /// Time steps skipped: done many at once; the run has the sum of both.
+    /// Number of time steps skipped; the run consists of both.
     pub steps_skipped: Option<u64>,
-    /// Changes of mode computed.
+    /// Number of events computed.
     pub events: Option<u64>,
 }
 
-/// One impact, with the blades of its group.
+/// An impact, with the blades of its group.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ImpactReport {
-    /// When \[s\].
+    /// Time \[s\].
     pub t_s: f64,
     /// Blades of the group, numbered from 1.
     pub blades: Vec<u32>,
 }
 
-/// The state at the end.
+/// State at the end of a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FinalState {
     /// Time \[s\].
     pub t_s: f64,
-    /// `u_c` \[m\].
+    /// Displacement `u_c` \[m\].
     pub u_c_m: f64,
-    /// `u_s` \[m\].
+    /// Displacement `u_s` \[m\].
     pub u_s_m: f64,
-    /// `alpha_c` \[rad\].
+    /// Blade coordinate `alpha_c` \[rad\].
     pub alpha_c_rad: f64,
-    /// `alpha_s` \[rad\].
+    /// Blade coordinate `alpha_s` \[rad\].
     pub alpha_s_rad: f64,
 }
 
-/// A whole run.
+/// Report of a whole run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RunReport {
-    /// The resolved scene.
+    /// Scene of the run.
     pub scene: CheckedScene,
-    /// How it was solved.
+    /// Solver settings and numbers of steps.
     pub solver: SolverReport,
-    /// How it ended.
+    /// Verdict and final values.
     pub outcome: Outcome,
     /// The first 1000 impacts.
     pub impacts: Vec<ImpactReport>,
-    /// All impacts; of a series that accumulates those that were counted.
+    /// Number of impacts; in an infinite series only those that were computed are counted.
     pub impact_count: u64,
-    /// Where impacts accumulate, infinitely many in a finite time \[s\].
+    /// Time at which infinitely many impacts accumulate \[s\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub impacts_accumulate_at_s: Option<f64>,
-    /// The state at the end.
+    /// State at the end.
     pub r#final: FinalState,
     /// Largest errors of the run.
     pub checks: Checks,
-    /// Where energy came from and went to, beyond the paper.
+    /// Energy account, for models beyond the paper.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy: Option<EnergyAccount>,
-    /// Speed of the rotor at the end, after ramps and changes \[rad/s\].
+    /// Rotor speed at the end \[rad/s\].
     #[serde(skip)]
     pub end_speed_rad_s: f64,
-    /// The machine at the end, after changes.
+    /// Machine at the end, after all changes.
     #[serde(skip)]
     pub end_machine: Machine,
-    /// The lock that broke on the way, and the speed of the rotor then \[rad/s\].
+    /// Longest hold of a corner that ended during the run, and the rotor speed when it ended
+    /// \[rad/s\].
     #[serde(skip)]
     pub broken: Option<(Hold, f64)>,
-    /// Rotor speed at which a run-up (true) or run-down came to its last contact \[rad/s\].
+    /// Rotor speed at which the present contact began during a speed ramp \[rad/s\], and whether
+    /// the rotor accelerates.
     #[serde(skip)]
     pub caught: Option<(f64, bool)>,
-    /// Verdict of the event solver, whose contact only pushes, where it was asked.
+    /// Verdict of the event solver with unilateral contact, if it was requested.
     #[serde(skip)]
     pub pushes_only: Option<Verdict>,
-    /// Why the run stopped early.
+    /// Reason why the run stopped early.
     #[serde(skip)]
     pub failure: Option<Failure>,
-    /// What another run must agree with if this one is not sensitive.
+    /// Values that a perturbed run must reproduce if this one is not sensitive.
     #[serde(skip)]
     pub reached: VerdictReached,
 }
 
-/// How a run lasts, without its history.
+/// Verdict of a run with the values that decide whether two runs agree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VerdictReached {
-    /// How the motion lasts.
+    /// Verdict.
     pub verdict: Verdict,
-    /// Impacts until the verdict was settled.
+    /// Number of impacts until the verdict was known.
     pub impact_count: u64,
-    /// Whether a corner was held for a casing period: then it was reached by
-    /// infinitely many impacts, and their count is no fact.
+    /// Whether a corner was held for at least a casing period. It is then reached by infinitely
+    /// many impacts, and their number is not meaningful.
     pub rested: bool,
-    /// Since when the wave is locked \[s\].
+    /// Time since which the wave is locked \[s\].
     pub locked_s: Option<f64>,
-    /// The sides that hold it.
+    /// Sides that hold the wave.
     pub held: ActiveSet,
 }
 
 impl VerdictReached {
-    /// Of a motion that has come to this verdict.
+    /// Collects the values of a motion with this verdict.
     #[must_use]
     pub fn of(motion: &Motion, verdict: Verdict) -> Self {
         let (log, period) = (motion.contacts(), TAU / motion.machine().omega_c);
@@ -170,8 +173,7 @@ impl VerdictReached {
     }
 }
 
-/// Runs a checked scene until its verdict is settled, at most to its end; none
-/// where `go_on` said no on the way.
+/// Runs a scene until its verdict is known, at most to its end; `None` if `go_on` returned false.
 #[must_use]
 pub fn run_to_verdict(scene: &CheckedScene, go_on: GoOn<'_>) -> Option<VerdictReached> {
     let end = scene.solver.end_s;
@@ -179,9 +181,9 @@ pub fn run_to_verdict(scene: &CheckedScene, go_on: GoOn<'_>) -> Option<VerdictRe
         .map(|(motion, verdict)| VerdictReached::of(&motion, verdict))
 }
 
-/// Runs a motion through a script until its verdict is settled, at most to
-/// `end`; where there is `noise`, its rate changes by this part, up or down, once a casing
-/// period. `wave` is followed on the way. None where `go_on` said no.
+/// Runs a motion with a script until its verdict is known, at most to `end`; `None` if `go_on`
+/// returned false. With `noise`, the casing rate is changed by this fraction, up or down, once in a
+/// casing period. `wave` is updated during the run.
 pub(super) fn run_motion_to_verdict(
     motion: Motion,
     script: &Script,
@@ -190,7 +192,7 @@ pub(super) fn run_motion_to_verdict(
     mut wave: Option<&mut WaveTracker>,
     go_on: GoOn<'_>,
 ) -> Option<(Motion, Verdict)> {
-    // Looking costs little against a part of a casing period of motion.
+    // Checking costs little compared with a fraction of a casing period of motion.
     let period = (TAU / motion.machine().omega_c).max(end / RUN_LOOKS);
     let interval = period / LOOKS_A_PERIOD as f64;
     let mut scripted = Scripted::new(motion, script);
@@ -216,7 +218,7 @@ pub(super) fn run_motion_to_verdict(
     Some((scripted.motion, verdict?))
 }
 
-/// Advances to `until`, and follows the wave on the way.
+/// Advances to `until` and updates the wave tracker.
 fn advance_following(
     scripted: &mut Scripted<'_>,
     wave: Option<&mut WaveTracker>,
@@ -234,21 +236,21 @@ fn advance_following(
     scripted.advance_while(until, go_on)
 }
 
-/// Returns the verdict on a motion now: the proven one, or that over the last
-/// `window` seconds; [`Verdict::Failed`] where the contact forces contradict it.
+/// Returns the present verdict on a motion: the proved one, or that over the last `window` seconds.
+/// [`Verdict::Failed`] if the contact forces contradict it.
 #[must_use]
 pub fn verdict_of(motion: &Motion, window: f64) -> Verdict {
     let verdict = proven_or_lasting(motion, window);
     if wrong_pull(motion, verdict).is_some() { Verdict::Failed } else { verdict }
 }
 
-/// Returns the proven verdict on a motion, or that over the last `window` seconds.
+/// Returns the proved verdict on a motion, or that over the last `window` seconds.
 fn proven_or_lasting(motion: &Motion, window: f64) -> Verdict {
     motion.final_verdict().unwrap_or_else(|| motion.lasting(window))
 }
 
-/// Returns the pull that contradicts the verdict on a motion: under a law that only
-/// pushes any, in a lock also under the law that pulls.
+/// Returns the pull that contradicts a verdict: any pull under a law that only pushes; in a lock
+/// also under the bilateral law.
 fn wrong_pull(motion: &Motion, verdict: Verdict) -> Option<FailureReason> {
     if motion.failure().is_some() || (motion.pulls() && verdict != Verdict::Locked) {
         return None;
@@ -259,15 +261,15 @@ fn wrong_pull(motion: &Motion, verdict: Verdict) -> Option<FailureReason> {
     pull_beyond(PULL_ROUND_OFF * machine.casing_stiffness * reach, forces)
 }
 
-/// Returns the largest of these contact forces, if it pulls by more than `most` \[N\].
+/// Returns an error with the largest contact force if it pulls by more than `most` \[N\].
 fn pull_beyond(most: f64, forces: impl Iterator<Item = f64>) -> Option<FailureReason> {
     let force_n = forces.fold(f64::NEG_INFINITY, f64::max);
     (force_n > most).then_some(FailureReason::Pull { force_n })
 }
 
-/// Returns the verdict at the end of a run, over its last `window` seconds, and why it
-/// failed: also where a wrong pull, or a blade angle of `checks` that the model does not
-/// describe, contradicts the verdict.
+/// Returns the verdict at the end of a run, based on its last `window` seconds, and the reason for
+/// a failure. A run also fails if a wrong pull, or a blade angle in `checks` outside the
+/// small-angle range, contradicts the verdict.
 #[must_use]
 pub fn judge_end(motion: &Motion, checks: &Checks, window: f64) -> (Verdict, Option<Failure>) {
     let verdict = proven_or_lasting(motion, window);
@@ -283,7 +285,7 @@ pub fn judge_end(motion: &Motion, checks: &Checks, window: f64) -> (Verdict, Opt
     }
 }
 
-/// Returns what the verdict on a motion rests on; none where it stopped early.
+/// Returns the basis of the verdict; `None` if the run stopped early.
 fn basis(motion: &Motion, verdict: Verdict, window: f64) -> Option<Basis> {
     let (log, to_s) = (motion.contacts(), motion.t_s());
     let (by, since_s) = match verdict {
@@ -297,7 +299,7 @@ fn basis(motion: &Motion, verdict: Verdict, window: f64) -> Option<Basis> {
     Some(Basis::Proved { by, since_s })
 }
 
-/// Returns the rate at which the wave of a motion dies about its linear rest \[1/s\].
+/// Returns the decay rate of free motion or of the wave about a linear rest \[1/s\].
 fn decay_rate(motion: &Motion, verdict: Verdict) -> Option<f64> {
     if matches!(verdict, Verdict::Failed | Verdict::Divergent) {
         return None;
@@ -307,40 +309,22 @@ fn decay_rate(motion: &Motion, verdict: Verdict) -> Option<f64> {
     motion.rest_rate().or_else(free)
 }
 
-/// Runs a scene to its end, and finds out whether its outcome is sensitive, and which digits hold.
+/// Runs a scene to its end, and determines whether the outcome is sensitive and which digits are
+/// reliable.
 #[must_use]
 pub fn simulate(scene: &CheckedScene) -> RunReport {
     let script = Script::default();
-    let mut report = run_to_end(scene, &script, Sampling::default(), &mut |_| {}, &mut ());
+    let mut report = run_to_end(scene, &script, Sampling::default(), &mut |_| {});
     report.ask_changed_runs(&script, &to_the_end);
     report
 }
 
-/// Looks at a run on the way, when it wants to. The run is the same.
-pub trait Watch: Sync {
-    /// Whether the run may go on: no look is due.
-    fn goes_on(&self) -> bool;
-
-    /// Looks at it, and lets it go on.
-    fn look(&mut self, motion: &Motion);
-}
-
-impl Watch for () {
-    fn goes_on(&self) -> bool {
-        true
-    }
-
-    fn look(&mut self, _: &Motion) {}
-}
-
-/// Runs a scene to its end with changes on the way, hands samples to `sink`, and lets `watch` look
-/// at the run (`&mut ()` does not).
+/// Runs a scene to its end with changes on the way and hands samples to `sink`.
 pub fn run_to_end(
     scene: &CheckedScene,
     script: &Script,
     sampling: Sampling,
     sink: &mut dyn FnMut(&Sample),
-    watch: &mut dyn Watch,
 ) -> RunReport {
     let mut scripted = Scripted::new(Motion::new(scene), script);
     let end = scene.solver.end_s;
@@ -353,17 +337,12 @@ pub fn run_to_end(
             n => end * (f64::from(sample) / f64::from(n)),
         };
         let until = sample_time.min(wave.next_look()).min(end);
-        let advanced = loop {
-            match scripted.advance_while(until, &|| watch.goes_on()) {
-                Ok(false) => watch.look(&scripted.motion),
-                other => break other,
-            }
-        };
-        if advanced.is_err() {
+        if scripted.advance_while(until, &to_the_end).is_err() {
             break;
         }
         if until >= wave.next_look() {
-            // What is certain to decay has no wave, and what is locked turns with the rotor.
+            // A motion that is certain to decay has no wave speed, and a locked wave turns with the
+            // rotor.
             let decided = !wave.has_looked()
                 && scripted.is_through()
                 && scripted.motion.final_verdict().is_some();
@@ -392,7 +371,7 @@ fn take_sample(motion: &mut Motion, gaps: bool) -> Sample {
     }
 }
 
-/// What there is to say of a motion at the end of its run.
+/// Collects the report of a motion at the end of its run.
 pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) -> RunReport {
     let machine = motion.machine();
     let (log, state) = (motion.contacts(), motion.state());
@@ -402,7 +381,7 @@ pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) 
     let locked = verdict.is_held();
     let wave_speed_rad_s = match verdict {
         Verdict::Failed | Verdict::Divergent | Verdict::Decay => None,
-        // It turns with the blades.
+        // The wave turns with the blades.
         Verdict::Locked | Verdict::Adhesive | Verdict::Forced => {
             Some(motion.rotor().mean_speed(state.t_s, window))
         }
@@ -469,8 +448,9 @@ pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) 
     }
 }
 
-/// Returns where impacts accumulate \[s\]: rigid pushes come to rest in a corner by infinitely
-/// many, and with restitution on a side, too. Such a rest is one of a casing period at least.
+/// Returns the time at which impacts accumulate \[s\]. Rigid contact comes to rest in a corner, and
+/// with restitution also on a side, through infinitely many impacts. The rest must last for at
+/// least a casing period to count.
 fn accumulation(scene: &CheckedScene, log: &ContactLog, machine: &Machine) -> Option<f64> {
     let lasts = |(from, until): &(f64, f64)| until - from >= TAU / machine.omega_c;
     let now = |from: f64| Some((from, log.last_contact?));
@@ -484,16 +464,17 @@ fn accumulation(scene: &CheckedScene, log: &ContactLog, machine: &Machine) -> Op
     rests.map(|(from, _)| from).reduce(f64::min).filter(|_| rigid)
 }
 
-/// The longest hold of a corner that ended on the way, if it was as long as a casing period,
-/// and the speed of the rotor when it ended \[rad/s\]; none where that was changed since.
+/// Returns the longest hold of a corner that ended during the run, if it lasted for at least a
+/// casing period, and the rotor speed when it ended \[rad/s\]; `None` if the speed was changed
+/// after that.
 pub fn lock_that_broke(motion: &Motion) -> Option<(Hold, f64)> {
     let period = TAU / motion.machine().omega_c;
     let hold = motion.contacts().longest_hold.filter(|hold| hold.length() >= period)?;
     Some((hold, motion.rotor().known_speed(hold.ended)?))
 }
 
-/// The rotor speed at which a motion came to the blades that it touches now, where the speed
-/// changes \[rad/s\], and whether it becomes faster; none where the ramp was changed since.
+/// Returns the rotor speed at which the present contact began, if the speed is ramped \[rad/s\],
+/// and whether the rotor accelerates; `None` if the ramp was changed after that.
 pub fn caught_at(motion: &Motion) -> Option<(f64, bool)> {
     let (since, ramp) = (motion.contacts().since, motion.rotor().ramp());
     let speed = motion.rotor().known_speed(since)?;
@@ -528,13 +509,12 @@ mod tests {
         assert_eq!(failure.unwrap().reason, FailureReason::BladeAngle { angle_rad: 0.797 });
     }
 
-    /// Pulls are what the bilateral law is for, as long as no lock is said to push.
+    /// Pulls are legitimate under the bilateral law unless the verdict is a lock by pushes.
     #[test]
     fn an_adhesive_contact_of_the_law_that_pulls_is_no_failure() {
         let changes = [("solver.contact", "bilateral"), ("operation.speed_rad_s", "400")];
         let scene = Scene::builtin("paper-nd3").unwrap().with(&changes).unwrap();
-        let report =
-            run_to_end(&scene, &Script::default(), Sampling::default(), &mut |_| {}, &mut ());
+        let report = run_to_end(&scene, &Script::default(), Sampling::default(), &mut |_| {});
         assert_eq!(report.outcome.verdict, Verdict::Adhesive);
         assert!(report.outcome.contacts.iter().any(|contact| contact.multiplier_n > 1.0));
         assert_eq!(report.failure, None);

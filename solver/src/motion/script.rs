@@ -1,31 +1,29 @@
-//! Changes during a run: what a user does to a running motion, as data, so that it
-//! can be repeated without a screen.
+//! Changes of parameters during a run as data, so that an interactive session can be repeated.
 
 use super::{Failure, GoOn, Motion};
 use crate::scene::keys::{self, Live};
 use crate::scene::{CheckedScene, ContactLaw, Scene, SolverKind};
 
-/// One change of a running motion.
+/// A change of a running motion.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Change {
-    /// The pulse is fired again.
+    /// Fires the pulse again.
     Pulse,
-    /// From now on, the rotor turns with another acceleration, from this speed or
-    /// from the one it has.
+    /// Sets the acceleration of the rotor, and its speed unless that continues.
     Rotor {
-        /// \[rad/s\]
+        /// Rotor speed; `None` keeps the present one \[rad/s\].
         speed: Option<f64>,
-        /// \[rad/s^2\]
+        /// Rotor acceleration \[rad/s^2\].
         ramp: f64,
     },
-    /// From now on, the motion has the parameters of this checked scene.
+    /// Applies the parameters of this scene.
     Parameters(Box<CheckedScene>),
 }
 
 impl Change {
-    /// Whether a running motion of one scene can go on with the parameters of another:
-    /// by time steps, where no key differs that makes another motion, nor where one goes
-    /// beyond the paper or has a lining and the other has not.
+    /// Returns whether a running motion of one scene can continue with the parameters of another:
+    /// only with the explicit solver, if no key differs that requires a new motion, and if both
+    /// scenes are within or beyond the paper's model and both have a lining or none.
     #[must_use]
     pub fn is_live(before: &Scene, now: &Scene) -> bool {
         now.solver.kind == SolverKind::Explicit
@@ -33,8 +31,8 @@ impl Change {
             && keys::differing(before, now).all(|key| key.live != Live::Never)
     }
 
-    /// What is allowed instead, where one of two scenes goes beyond the paper's model, or has a
-    /// lining, and the other has not: a motion has the steps of one of them from its start on.
+    /// Returns what is allowed instead, if one of two scenes is beyond the paper's model, or has a
+    /// lining, and the other is not. The stepping algorithm of a motion is chosen at its start.
     #[must_use]
     pub fn crosses(before: &Scene, now: &Scene) -> Option<&'static str> {
         let lined = |scene: &Scene| scene.solver.contact == ContactLaw::Smooth;
@@ -54,7 +52,8 @@ impl Change {
         }
     }
 
-    /// Whether what differs acts on a running motion, and nothing of it needs another one.
+    /// Returns whether a running motion can take over all differences between two scenes. A
+    /// difference in the initial state needs a new motion.
     #[must_use]
     pub fn acts_live(before: &Scene, now: &Scene) -> bool {
         let mut differing = keys::differing(before, now).map(|key| key.live);
@@ -64,8 +63,8 @@ impl Change {
         Self::is_live(before, now) && differing.all(|live| live != Live::Start)
     }
 
-    /// What a running motion of one scene takes over from another. A ramp that
-    /// is changed alone goes on from the speed there is.
+    /// Returns the changes that take a running motion from one scene to another. If only the ramp
+    /// differs, the present speed continues.
     #[must_use]
     pub fn between(before: &CheckedScene, now: &CheckedScene) -> Vec<Self> {
         let (old, new) = (&before.operation, &now.operation);
@@ -78,7 +77,7 @@ impl Change {
 }
 
 impl Motion {
-    /// Changes the motion from now on.
+    /// Applies a change at the present instant.
     pub fn apply(&mut self, change: &Change) {
         match change {
             Change::Pulse => self.fire(),
@@ -98,21 +97,21 @@ pub struct Script {
 }
 
 impl Script {
-    /// These changes, each at its time \[s\]; those at one instant in the order
-    /// given.
+    /// Creates a script from changes with their times \[s\]; changes at the same time keep their
+    /// order.
     #[must_use]
     pub fn new(mut changes: Vec<(f64, Change)>) -> Self {
         changes.sort_by(|(a, _), (b, _)| a.total_cmp(b));
         Self { changes }
     }
 
-    /// The changes, in order of time \[s\].
+    /// Returns the changes in order of time \[s\].
     #[must_use]
     pub fn changes(&self) -> &[(f64, Change)] {
         &self.changes
     }
 
-    /// The same times with other changes.
+    /// Replaces each change and keeps the times.
     #[must_use]
     pub fn mapped(&self, map: impl Fn(Change) -> Change) -> Self {
         let changes = self.changes.iter().map(|(t, change)| (*t, map(change.clone())));
@@ -120,7 +119,7 @@ impl Script {
     }
 }
 
-/// A motion that goes through a script.
+/// A motion with the changes of a script that are still to come.
 #[derive(Clone, Debug)]
 pub(super) struct Scripted<'a> {
     pub motion: Motion,
@@ -132,8 +131,7 @@ impl<'a> Scripted<'a> {
         Self { motion, to_come: &script.changes }
     }
 
-    /// Advances to `until` \[s\], through the changes due by then; false where
-    /// `go_on` said no on the way.
+    /// Advances to `until` \[s\] and applies the changes due by then; returns false if `go_on` did.
     ///
     /// # Errors
     /// The run has failed, now or before.
@@ -150,7 +148,7 @@ impl<'a> Scripted<'a> {
         self.motion.advance_while(until, go_on)
     }
 
-    /// Whether every change has been made.
+    /// Returns whether all changes have been applied.
     pub fn is_through(&self) -> bool {
         self.to_come.is_empty()
     }

@@ -1,8 +1,10 @@
-//! Can a verdict be trusted? It is asked four times more, three times with changes that no
-//! measurement could see (docs/theory.md, section 9) and once by another step; by events,
-//! which have no step, with noise and a finer tolerance. Each change has a separate run,
-//! because two in one run may cancel. And how far these changes move the final numbers of
-//! a run: which of their digits hold (`Spread`).
+//! Sensitivity of a verdict: the run is repeated with changes below any measurement accuracy, and
+//! its verdict compared (docs/theory.md, section 9).
+//!
+//! There are four repetitions: three with a tiny change, and one with half the time step; the event
+//! solver, which has no step, uses noise and a tighter tolerance instead. Each change has its own
+//! run, because two changes could cancel. The differences of the final numbers show which of their
+//! digits are reliable ([`Spread`]).
 
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -17,32 +19,31 @@ use super::{Contact, GoOn, Motion, RunReport, Verdict};
 use crate::scene::{CheckedScene, ContactLaw, SolverKind};
 use crate::tolerances::{FINER, LOCK_MOMENT, OTHER_STEP, PERTURBATION};
 
-/// What changed runs say of a run.
+/// Result of comparing perturbed runs with a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Certainty {
-    /// Whether a tiny change makes another verdict, other blades that hold, another number
-    /// of impacts or another time of the lock.
+    /// Whether a tiny change alters the verdict, the blades that hold the wave, the number of
+    /// impacts or the time of the lock.
     pub sensitive: bool,
-    /// Whether a tiny change makes another verdict, or other blades that hold.
+    /// Whether a tiny change alters the verdict or the blades that hold the wave.
     pub ends_otherwise: bool,
-    /// Whether another step makes another verdict, or other blades that hold; none where
-    /// there are no steps, or where it was not asked of a sensitive run.
+    /// Whether another time step alters the verdict or the blades that hold the wave. `None`
+    /// without time steps, and if the run was already found sensitive.
     pub depends_on_step: Option<bool>,
 }
 
-/// How two runs that should be the same differ.
+/// Difference between two runs that should agree, in increasing order of severity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Difference {
     Nothing,
-    /// Other impacts, or another time of the lock.
+    /// Number of impacts, or time of the lock.
     Impacts,
-    /// Another verdict, or other blades that hold.
+    /// Verdict, or blades that hold the wave.
     End,
 }
 
 impl VerdictReached {
-    /// How two runs that should be the same differ, where `moment` \[s\] is how much later a
-    /// wave may lock.
+    /// Compares two runs that should agree; lock times may differ by up to `moment` \[s\].
     fn difference(self, other: Self, moment: f64) -> Difference {
         let counted = !self.rested && !other.rested;
         let late = |(one, two): (f64, f64)| (one - two).abs() > moment;
@@ -56,14 +57,10 @@ impl VerdictReached {
             Difference::Nothing
         }
     }
-
-    /// Whether two runs that should be the same are not.
-    pub(crate) fn differs_from(self, other: Self, moment: f64) -> bool {
-        self.difference(other, moment) != Difference::Nothing
-    }
 }
 
-/// As `run_to_verdict`, and what changed runs say of it, up to the first that differs.
+/// As [`run_to_verdict`], with the certainty of the verdict. Stops at the first perturbed run that
+/// differs.
 #[must_use]
 pub fn run_with_certainty(
     scene: &CheckedScene,
@@ -74,10 +71,11 @@ pub fn run_with_certainty(
     Some((reached, certainty))
 }
 
-/// What changed runs say of a checked scene that settled so and went this way; none where
-/// `go_on` said no on the way. Idle threads of the pool that asks take some of the runs.
-/// The first that makes a tiny change differ
-/// ends all others; with `thoroughly`, the first with another end does.
+/// Compares perturbed runs with the result `reached` of a scene; `None` if `go_on` returned false.
+///
+/// Called from a thread of a rayon pool, the runs are distributed over its idle threads. The first
+/// perturbed run that differs ends all others; with `thoroughly`, the first one with another
+/// verdict or other blades does.
 #[must_use]
 pub fn certainty(
     scene: &CheckedScene,
@@ -102,24 +100,26 @@ pub fn certainty(
         (*change, Some(differs))
     };
     let all = TinyChange::all(scene);
-    let told: Vec<_> = match rayon::current_thread_index() {
+    let differences: Vec<_> = match rayon::current_thread_index() {
         Some(_) => all.par_iter().with_max_len(1).map(difference).collect(),
         None => all.iter().map(difference).collect(),
     };
-    // A run that was told to stop has said nothing.
+    // A run that was stopped has no result.
     if found.load(Ordering::Relaxed) {
-        let ends_otherwise = told.iter().any(|(_, told)| *told == Some(Difference::End));
+        let ends_otherwise =
+            differences.iter().any(|(_, difference)| *difference == Some(Difference::End));
         return Some(Certainty { sensitive: true, ends_otherwise, depends_on_step: None });
     }
-    let told = told.into_iter().map(|(change, told)| Some((change, told?)));
-    Some(Certainty::of(told.collect::<Option<Vec<_>>>()?.into_iter()))
+    let differences =
+        differences.into_iter().map(|(change, difference)| Some((change, difference?)));
+    Some(Certainty::from_differences(differences.collect::<Option<Vec<_>>>()?.into_iter()))
 }
 
 impl Certainty {
-    /// Of how the changed runs differ.
-    fn of(told: impl Iterator<Item = (TinyChange, Difference)>) -> Self {
+    /// Combines the differences of all perturbed runs.
+    fn from_differences(differences: impl Iterator<Item = (TinyChange, Difference)>) -> Self {
         let mut certainty = Self::default();
-        for (change, difference) in told {
+        for (change, difference) in differences {
             if change == TinyChange::Step {
                 certainty.depends_on_step = Some(difference == Difference::End);
             } else {
@@ -132,9 +132,9 @@ impl Certainty {
 }
 
 impl RunReport {
-    /// Finds out by changed runs, all of them to the end and side by side, whether this
-    /// run through a script is sensitive or depends on its step, and how far its final
-    /// numbers move; nothing is known where `go_on` said no on the way.
+    /// Repeats this run and its script with all perturbations, in parallel and to the end, and
+    /// stores whether the run is sensitive or depends on its step, and how far its final numbers
+    /// move. Stores nothing if `go_on` returned false.
     pub fn ask_changed_runs(&mut self, script: &Script, go_on: GoOn<'_>) {
         let run =
             |change: &TinyChange| Some((*change, change.run_to_end(&self.scene, script, go_on)?));
@@ -142,10 +142,10 @@ impl RunReport {
         let changed: Option<Vec<_>> = all.par_iter().with_max_len(1).map(run).collect();
         let Some(changed) = changed else { return };
         let moment = moment(&self.scene);
-        let told = changed
+        let differences = changed
             .iter()
             .map(|(change, other)| (*change, other.reached.difference(self.reached, moment)));
-        let certainty = Certainty::of(told);
+        let certainty = Certainty::from_differences(differences);
         let changed: Vec<_> = changed.into_iter().map(|(_, other)| other).collect();
         self.outcome.spread = Some(Spread::of(self, &changed));
         self.outcome.sensitive = Some(certainty.sensitive);
@@ -153,9 +153,9 @@ impl RunReport {
         self.outcome.depends_on_step = certainty.depends_on_step;
     }
 
-    /// Finds the verdict of the event solver, whose contact only pushes, where this run is by
-    /// steps of contact that only pushes, too, or that pulled, and nothing is changed on the way.
-    /// Of a run that only pushes it is kept in the outcome where it is another.
+    /// Determines the verdict of the event solver, whose contact only pushes, for a run with time
+    /// steps under the unilateral law, or one in which contact pulled, without changes during the
+    /// run. The outcome keeps it only if the law is unilateral and the verdicts differ.
     pub fn ask_events(&mut self, script: &Script, go_on: GoOn<'_>) {
         let by_steps = self.solver.kind == SolverKind::Explicit;
         let pushes = by_steps && self.solver.contact == ContactLaw::Unilateral;
@@ -169,32 +169,31 @@ impl RunReport {
     }
 }
 
-/// How many changed runs find out whether a run is sensitive.
+/// Number of perturbed runs that determine whether a run is sensitive.
 pub const CHANGED_RUNS: usize = 4;
 
-/// How much later a wave may lock \[s\].
+/// Returns the tolerated difference of lock times \[s\].
 fn moment(scene: &CheckedScene) -> f64 {
     LOCK_MOMENT * TAU / scene.machine().omega_c
 }
 
-/// A tiny change of a run.
+/// Perturbation of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum TinyChange {
-    /// A weaker pulse.
+    /// Weaker pulse.
     Weaker,
-    /// A faster rotor.
+    /// Faster rotor.
     Faster,
-    /// A stronger pulse.
+    /// Stronger pulse.
     Stronger,
-    /// Noise and a finer tolerance, by events.
+    /// Noise and a tighter tolerance (event solver).
     Noise,
-    /// Another step.
+    /// Half the time step (explicit solver).
     Step,
 }
 
 impl TinyChange {
-    /// All of them for the solver of a scene, first the one that finds most, then what finds
-    /// most of the rest.
+    /// Returns the perturbations for the solver of a scene, the most effective ones first.
     fn all(scene: &CheckedScene) -> [Self; CHANGED_RUNS] {
         let last = match scene.solver.kind {
             SolverKind::Explicit => Self::Step,
@@ -203,7 +202,7 @@ impl TinyChange {
         [Self::Weaker, Self::Faster, Self::Stronger, last]
     }
 
-    /// Runs a scene with this change until its verdict is settled.
+    /// Runs a scene with this perturbation until its verdict is known.
     fn run(
         self,
         scene: &CheckedScene,
@@ -220,7 +219,7 @@ impl TinyChange {
         run_motion_to_verdict(motion, &script, scene.solver.end_s, noise, wave, go_on)
     }
 
-    /// Runs a scene with this change to its end.
+    /// Runs a scene with this perturbation to its end.
     fn run_to_end(
         self,
         scene: &CheckedScene,
@@ -229,12 +228,12 @@ impl TinyChange {
     ) -> Option<RunReport> {
         let mut wave = WaveTracker::over(scene, script);
         let (mut motion, _) = self.run(scene, script, Some(&mut wave), go_on)?;
-        // What is settled before the end goes on to it; a failure stays where it is.
-        let arrived = motion.advance_while(scene.solver.end_s, go_on).unwrap_or(true);
-        arrived.then(|| report(scene, &motion, &wave))
+        // A run whose verdict is known early continues to the end; a failed one stays where it is.
+        let finished = motion.advance_while(scene.solver.end_s, go_on).unwrap_or(true);
+        finished.then(|| report(scene, &motion, &wave))
     }
 
-    /// The scene with this change.
+    /// Applies the perturbation to a scene.
     fn changed(self, scene: &CheckedScene) -> CheckedScene {
         match self {
             Self::Noise => scene.clone(),
@@ -245,7 +244,7 @@ impl TinyChange {
         }
     }
 
-    /// The same change of a change during the run.
+    /// Applies the perturbation to a change during the run.
     fn change(self, change: Change) -> Change {
         match change {
             Change::Parameters(scene) => Change::Parameters(Box::new(self.changed(&scene))),
@@ -259,9 +258,8 @@ impl TinyChange {
 
 const MORE: f64 = 1.0 + PERTURBATION;
 
-/// The scene with what drives it multiplied by `factor`: the pulse, or without
-/// one the start and the excitation. The start only moves inward, for it may
-/// touch.
+/// Multiplies what drives the motion by `factor`: the pulse, or without one the initial state and
+/// the excitation. The initial displacement is only reduced, because it may already touch.
 fn perturbed(scene: &CheckedScene, factor: f64) -> CheckedScene {
     scene.perturbed(|scene| {
         if scene.operation.pulse_n != 0.0 {
@@ -277,7 +275,7 @@ fn perturbed(scene: &CheckedScene, factor: f64) -> CheckedScene {
     })
 }
 
-/// `-1` or `1`, without a pattern (the finisher of SplitMix64).
+/// Returns `-1` or `1` in a pseudo-random sequence (finaliser of SplitMix64).
 pub(super) fn sign(n: u64) -> f64 {
     let mut x = n.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -285,38 +283,38 @@ pub(super) fn sign(n: u64) -> f64 {
     if (x ^ (x >> 31)) & 1 == 0 { 1.0 } else { -1.0 }
 }
 
-/// The largest difference that one of the changed runs makes to each final number; none
-/// where one of the runs has no such number.
+/// Largest deviation of each final number over the perturbed runs; `None` if one of the runs does
+/// not have it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Spread {
-    /// Of the time since when it is locked \[s\].
+    /// Deviation of the lock time \[s\].
     pub lock_time_s: Option<f64>,
-    /// Of the multiplier of each group in contact \[N\].
+    /// Deviation of the multiplier of each group in contact \[N\].
     pub multipliers_n: Vec<Option<f64>>,
-    /// Of the amplitude at the end \[m\].
+    /// Deviation of the final amplitude \[m\].
     pub amplitude_m: Option<f64>,
-    /// Of the speed of the wave \[rad/s\].
+    /// Deviation of the wave speed \[rad/s\].
     pub wave_speed_rad_s: Option<f64>,
-    /// Of the time of the end state \[s\].
+    /// Deviation of the end time \[s\].
     pub t_s: Option<f64>,
-    /// Of `u_c` \[m\].
+    /// Deviation of `u_c` \[m\].
     pub u_c_m: Option<f64>,
-    /// Of `u_s` \[m\].
+    /// Deviation of `u_s` \[m\].
     pub u_s_m: Option<f64>,
-    /// Of `alpha_c` \[rad\].
+    /// Deviation of `alpha_c` \[rad\].
     pub alpha_c_rad: Option<f64>,
-    /// Of `alpha_s` \[rad\].
+    /// Deviation of `alpha_s` \[rad\].
     pub alpha_s_rad: Option<f64>,
 }
 
 impl Spread {
-    /// Of a run, from the same run with changes.
+    /// Compares a run with its perturbed repetitions.
     pub(super) fn of(run: &RunReport, changed: &[RunReport]) -> Self {
         let most = |number: &dyn Fn(&RunReport) -> Option<f64>| {
             let value = number(run)?;
             changed.iter().try_fold(0.0, |most: f64, other| {
                 let moved = (number(other)? - value).abs();
-                // A difference that is no number is none that is known.
+                // A deviation that is not finite counts as unknown.
                 (moved <= f64::MAX).then(|| most.max(moved))
             })
         };

@@ -1,5 +1,4 @@
-//! What every solver offers, and one motion by whichever of them its scene asks
-//! for.
+//! The interface of all solvers, and a motion with the solver that its scene selects.
 
 use std::fmt::Debug;
 use std::ops::{Deref, DerefMut};
@@ -14,11 +13,11 @@ use crate::model::Machine;
 use crate::scene::{CheckedScene, SolverKind};
 use crate::tolerances::WHIRL_SWING;
 
-/// Asked on the way whether work shall go on: a flag that a signal sets, or a
-/// limit of time.
+/// Callback that decides during the computation whether to continue, for example a flag set by a
+/// signal or a time limit.
 pub type GoOn<'a> = &'a (dyn Fn() -> bool + Sync);
 
-/// Goes on to the end, whatever the work.
+/// Always continues.
 #[must_use]
 pub fn to_the_end() -> bool {
     true
@@ -26,8 +25,8 @@ pub fn to_the_end() -> bool {
 
 /// A solver of one scene, at some instant of the motion.
 pub trait Solver: Debug + Send + Sync {
-    /// Advances to `until` \[s\] (the explicit solver: to its last step by then).
-    /// The motion does not depend on the instants at which it is looked at.
+    /// Advances to `until` \[s\]; the explicit solver advances to its last step by then. The motion
+    /// does not depend on the instants at which it is observed.
     ///
     /// # Errors
     /// The run has failed, now or before. The state stays where it failed.
@@ -35,22 +34,22 @@ pub trait Solver: Debug + Send + Sync {
         self.advance_while(until, &to_the_end).map(|_| ())
     }
 
-    /// As `advance`, asking `go_on` at least every millisecond of work. Where it
-    /// says no, the motion stays at an instant before `until`, from which it can
-    /// be advanced later as if nothing had happened, and the result is false.
+    /// As [`advance`](Self::advance), but calls `go_on` at least once in a millisecond of
+    /// computing. If it returns false, the result is false and the motion stays at an instant
+    /// before `until`, from which it can be continued with the same result.
     ///
     /// # Errors
-    /// As `advance`.
+    /// As [`advance`](Self::advance).
     fn advance_while(&mut self, until: f64, go_on: GoOn<'_>) -> Result<bool, Failure>;
 
-    /// Time \[s\]; of the explicit solver, that of its latest step. It costs nothing,
-    /// where `state` may have to take a power of a matrix.
+    /// Returns the time; for the explicit solver that of its latest step \[s\]. Costs nothing,
+    /// whereas [`state`](Self::state) may have to compute a power of a matrix.
     fn t_s(&self) -> f64;
 
-    /// The four coordinates and their rates now.
+    /// Returns the present coordinates and their rates.
     fn state(&self) -> State;
 
-    /// The angle of every blade now \[rad\].
+    /// Returns the present angle of every blade \[rad\].
     fn blade_angles(&self) -> Vec<f64> {
         let (polygon, [c, s]) = (&self.machine().polygon, self.state().alpha);
         let angle = |blade| {
@@ -60,41 +59,41 @@ pub trait Solver: Debug + Send + Sync {
         (1..=polygon.blades).map(angle).collect()
     }
 
-    /// The gap of every blade now, Eq. (14), with the slope of the tips; positive means
-    /// open \[m\].
+    /// Returns the present gap of every blade, Eq. (14), including tip slope and unevenness;
+    /// positive is open \[m\].
     fn blade_gaps(&self) -> Vec<f64> {
         let (machine, state) = (self.machine(), self.state());
         let (polygon, diameters) = (&machine.polygon, machine.nodal_diameters);
-        // In the frame of the blades only their small angles differ from blade to blade.
+        // In the blade frame only the small angles differ from blade to blade.
         let theta = self.rotor().angle(state.t_s);
         let z = Plane::new(state.u[0], state.u[1]) * Plane::cis(-diameters * theta);
         let rise = machine.radial_coupling * machine.blade_length;
         let gap = |(blade, angle): (u32, f64)| {
             let (c, s) = polygon.direction(polygon.side_of_blade(blade));
             let normal = Plane::new(c, s) * Plane::cis(diameters * angle);
-            let beside = machine.uneven_at(blade - 1, theta + angle);
-            machine.clearance() + beside + (z * normal.conj()).re - rise * angle
+            let unevenness = machine.uneven_at(blade - 1, theta + angle);
+            machine.clearance() + unevenness + (z * normal.conj()).re - rise * angle
         };
         (1..=polygon.blades).zip(self.blade_angles()).map(gap).collect()
     }
 
-    /// Group multipliers of the sides in contact now, in phase order (`psi_a`,
-    /// `psi_b`) \[N\]; negative is a push. In the explicit solver the peak of an
-    /// impact grows like 1/h.
+    /// Returns the multipliers of the groups in contact, in phase order (`psi_a`, `psi_b`);
+    /// negative is a push \[N\]. In the explicit solver the peak value in an impact is proportional
+    /// to 1/h.
     fn multipliers(&self) -> Vec<(u32, f64)>;
 
-    /// Mean force on each touched side since last asked \[N\]; negative is a
-    /// push. A solver whose forces have no step to average over gives the forces
-    /// now; its impacts are impulses without duration.
+    /// Returns the mean force on each side in contact since the last call; negative is a push
+    /// \[N\]. The event solvers return the present forces, since their impacts are impulses without
+    /// duration.
     fn take_mean_forces(&mut self) -> Vec<(u32, f64)> {
         self.multipliers()
     }
 
-    /// Whether no contact can ever come again.
+    /// Returns whether no contact can occur any more.
     fn over(&self) -> bool;
 
-    /// The verdict, once nothing to come can change it: no contact can come
-    /// again, or a corner can never let go.
+    /// Returns the verdict once it is proved: no contact can occur any more, or a corner can never
+    /// open.
     fn final_verdict(&self) -> Option<Verdict>;
 
     /// The rate at which the slowest wave that moves the tips in a lining dies, where all blades
@@ -104,7 +103,7 @@ pub trait Solver: Debug + Send + Sync {
         None
     }
 
-    /// The verdict over the last `window` seconds.
+    /// Returns the verdict over the last `window` seconds.
     fn lasting(&self, window: f64) -> Verdict {
         let clearance = self.machine().clearance().abs();
         let (contacts, now) = (self.contacts(), self.t_s());
@@ -115,68 +114,68 @@ pub trait Solver: Debug + Send + Sync {
         verdict.unless_forced(self.machine(), contacts, now - window)
     }
 
-    /// How far blade tips swing outward over the last part of the run,
-    /// `|kappa| l_b |a|` \[m\].
+    /// Returns the outward swing of the blade tips over the last part of the run, `|kappa| l_b |a|`
+    /// \[m\].
     fn swing(&self) -> f64 {
         0.0
     }
 
-    /// The pulse in force.
+    /// Returns the latest pulse.
     fn pulse(&self) -> &Pulse;
 
-    /// The record of contacts.
+    /// Returns the record of contacts.
     fn contacts(&self) -> &ContactLog;
 
-    /// The machine.
+    /// Returns the machine.
     fn machine(&self) -> &Machine;
 
-    /// The rotor.
+    /// Returns the rotor.
     fn rotor(&self) -> &Rotor;
 
-    /// Time steps from the start until now, taken or skipped; none for a solver
-    /// without steps.
+    /// Returns the number of time steps so far, computed or skipped; `None` for a solver without
+    /// steps.
     fn steps(&self) -> Option<u64> {
         None
     }
 
-    /// The time steps skipped: done many at once, with the result of taking each.
+    /// Returns the number of skipped time steps.
     fn steps_skipped(&self) -> Option<u64> {
         None
     }
 
-    /// The time steps taken: computed one by one.
+    /// Returns the number of time steps computed one by one.
     fn steps_taken(&self) -> Option<u64> {
         Some(self.steps()?.saturating_sub(self.steps_skipped()?))
     }
 
-    /// Changes of mode computed; none for a solver that does not know them.
+    /// Returns the number of events; `None` for a solver without events.
     fn events(&self) -> Option<u64> {
         None
     }
 
-    /// Whether the blades of a scene with moving blades are so stiff that they are
-    /// solved as rigid ones, whose angles follow the pushes at once.
+    /// Returns whether the blades are so stiff that they are solved as rigid ones whose angles
+    /// follow the contact forces statically.
     fn blades_follow(&self) -> bool {
         false
     }
 
-    /// Whether the angles of the blades are left out of the phases of the gaps.
+    /// Returns whether the blade angles are neglected in the phases of the gaps.
     fn linearised(&self) -> bool {
         false
     }
 
-    /// Whether contact can pull: under the bilateral law.
+    /// Returns whether contact can pull, as under the bilateral law.
     fn pulls(&self) -> bool {
         false
     }
 
-    /// Why the run failed, if it did.
+    /// Returns the failure that ended the run, if any.
     fn failure(&self) -> Option<&Failure>;
 
-    /// Why and when the run stopped early, in words.
+    /// Returns reason and time of an early stop, in words.
     fn stopped(&self) -> Option<String> {
         let failure = self.failure()?;
-        let told = match self.final_verdict() {
+        let message = match self.final_verdict() {
             Some(Verdict::Divergent) => failure.as_growth(),
             _ => failure.to_string(),
         };
@@ -184,49 +183,48 @@ pub trait Solver: Debug + Send + Sync {
         let digs_in = self.machine().coupling_product_at(speed) < 0.0;
         Some(match failure.reason {
             FailureReason::Singular { .. } if digs_in => format!(
-                "{told}; where kappa (kappa + mu) < 0, a push may close the gap that it is to open"
+                "{message}; where kappa (kappa + mu) < 0, a push may close the gap that it is to open"
             ),
-            _ => told,
+            _ => message,
         })
     }
 
-    /// Largest penetration, blade angle and other checks so far.
+    /// Returns the largest penetration, blade angle and energy error so far.
     fn checks(&self) -> Checks;
 
-    /// Where energy came from and went to, beyond the paper.
+    /// Returns the energy account, for models beyond the paper.
     fn energy_account(&self) -> Option<EnergyAccount> {
         None
     }
 
-    /// From now on keeps no account of `checks` that costs time; for a run of which
-    /// only the verdict is asked. The motion is the same.
+    /// Stops the bookkeeping for [`checks`](Self::checks) that costs time. Used if only the verdict
+    /// is needed; the motion is the same.
     fn forgo_checks(&mut self) {}
 
-    /// Fires the pulse again, from now on.
+    /// Fires the pulse again at the present instant.
     fn fire(&mut self);
 
-    /// Turns the rotor from now on with this speed \[rad/s\] and acceleration
-    /// \[rad/s^2\]. A sudden change of speed acts on sides in contact as an impact
-    /// does.
+    /// Sets speed \[rad/s\] and acceleration \[rad/s^2\] of the rotor from now on. A sudden change
+    /// of speed acts on sides in contact like an impact.
     fn set_speed(&mut self, speed: f64, ramp: f64);
 
-    /// Multiplies the rate of the casing, as far as contact leaves it free, by
-    /// `factor`: the noise that a trustworthy verdict does not notice.
+    /// Multiplies the casing rate, as far as contact leaves it free, by `factor`: the noise of a
+    /// sensitivity run.
     fn scale_rate(&mut self, factor: f64);
 
-    /// From now on, moves with the parameters of a scene for which
-    /// `Change::is_live` holds: dampings, masses, stiffnesses, contact law, and
-    /// the pulse to fire next.
+    /// Applies the parameters of a scene that satisfies
+    /// [`Change::is_live`](super::Change::is_live): masses, stiffnesses, damping, contact law, and
+    /// the next pulse.
     fn set_parameters(&mut self, _: &CheckedScene) {}
 
-    /// Multiplies the solver's own tolerance by `factor`, if it has one.
+    /// Multiplies the tolerance of the solver by `factor`, if it has one.
     fn scale_tolerance(&mut self, _factor: f64) {}
 
-    /// A copy that goes its own way.
+    /// Clones the motion.
     fn fork(&self) -> Box<dyn Solver>;
 }
 
-/// A motion under way: advanced, looked at, cloned.
+/// A motion in progress.
 ///
 /// ```
 /// use rubscope_solver::{motion::Motion, scene::Scene};
@@ -239,7 +237,7 @@ pub trait Solver: Debug + Send + Sync {
 pub struct Motion(Box<dyn Solver>);
 
 impl Motion {
-    /// The motion of a scene at t = 0, by the solver and model size it names.
+    /// Starts the motion of a scene at t = 0, with its solver and model size.
     #[must_use]
     pub fn new(scene: &CheckedScene) -> Self {
         match scene.solver.kind {

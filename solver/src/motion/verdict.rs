@@ -1,8 +1,9 @@
-//! How a motion lasts, judged in one place for every solver, as
-//! docs/theory.md, section 9, says: a proven verdict (`Solver::final_verdict`) counts
-//! at once, otherwise the last part of the run is judged.
-//! A `Trend` says where an amplitude is heading at the end of a run: from its values in
-//! the middle of the run, at three quarters and now.
+//! Verdicts: the long-term behaviour of a motion, determined in one place for all solvers
+//! (docs/theory.md, section 9). A proved verdict (`Solver::final_verdict`) applies at once;
+//! otherwise the last part of the run is judged ([`judge`]).
+//!
+//! A `Trend` extrapolates an amplitude from its values in the middle of the run, at three quarters,
+//! and now.
 
 use serde::Serialize;
 use strum::{AsRefStr, Display, EnumString};
@@ -10,39 +11,38 @@ use strum::{AsRefStr, Display, EnumString};
 use super::{ActiveSet, ContactLog, Spread};
 use crate::model::Machine;
 
-/// How a motion lasts.
+/// Long-term behaviour of a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Display, EnumString, AsRefStr)]
 #[serde(rename_all = "lowercase")]
 #[strum(serialize_all = "lowercase")]
 pub enum Verdict {
-    /// The motion dies away without further contact; where all blades press on a lining
-    /// at rest, the wave does.
+    /// The motion dies away without further contact. If all blades are in contact with a lining at
+    /// rest, the wave dies away.
     Decay,
-    /// Contacts that come and go.
+    /// Contacts begin and end repeatedly.
     Bounce,
-    /// Contact without a break while its sides change, or along one side. On a lining
-    /// that all blades press, also under a wave that does not die away and swings the
-    /// blades little.
+    /// Unbroken contact that changes sides, or stays on one side. With all blades in contact with a
+    /// lining, a wave that does not die away and swings the blades only slightly.
     Slip,
-    /// Contact without a break that passes from blade to blade and swings the blades:
-    /// `|kappa| l_b |a|` is above a quarter of the clearance (of the interference). In
-    /// the model of single blades `a` is the largest angle about the mean of all blades.
+    /// Unbroken contact that passes from blade to blade and swings the blades: `|kappa| l_b |a|`
+    /// exceeds a quarter of the clearance (or interference). In the full model `a` is the largest
+    /// deviation of a blade angle from the mean.
     Whirl,
-    /// One blade or one group of tips of their own lengths presses without a break, and no
-    /// corner is held: the wave is dragged along.
+    /// One blade or group with longer tips, or a lobe, is in unbroken contact without holding a
+    /// corner: the rotor drags the wave along.
     Forced,
-    /// Permanent contact of the same sides, not all there are, all pushing.
+    /// Permanent contact of the same sides, but not of all, and all push.
     Locked,
-    /// Permanent contact of the same sides, some of them pulling.
+    /// Permanent contact of the same sides, some of which pull.
     Adhesive,
-    /// Nothing bounds the growth of the motion: the run left the range of the model.
+    /// The motion grows without bound: the run left the range of the model.
     Divergent,
-    /// The run stopped early, with a reason.
+    /// The run stopped early for a stated reason.
     Failed,
 }
 
 impl Verdict {
-    /// Every verdict, in the order of the documentation.
+    /// All verdicts, in the order of the documentation.
     pub const ALL: [Self; 9] = [
         Self::Decay,
         Self::Bounce,
@@ -55,20 +55,20 @@ impl Verdict {
         Self::Failed,
     ];
 
-    /// Whether the same blades hold the wave, by pushes or by a pull.
+    /// Returns whether the same blades hold the wave, by pushes or with a pull.
     #[must_use]
     pub fn is_held(self) -> bool {
         matches!(self, Self::Locked | Self::Adhesive)
     }
 
-    /// Whether the contact at the end has no break: it has a time since when.
+    /// Returns whether the contact at the end is unbroken.
     #[must_use]
     pub fn keeps_contact(self) -> bool {
         self.is_held() || matches!(self, Self::Slip | Self::Whirl | Self::Forced)
     }
 
-    /// This verdict of a motion since `start`, or forced where one side of a machine has
-    /// touched alone since then, whose tip or whose lobe leaves a casing at rest no clearance.
+    /// Replaces a verdict of unbroken contact by [`Verdict::Forced`] if a single side has been in
+    /// contact since `start` whose tip or lobe leaves no clearance to the undeformed casing.
     #[must_use]
     pub(super) fn unless_forced(self, machine: &Machine, log: &ContactLog, start: f64) -> Self {
         let ActiveSet::Side(side) = log.active_set else { return self };
@@ -78,98 +78,99 @@ impl Verdict {
     }
 }
 
-/// One phase group in contact, with its multiplier.
+/// A phase group in contact.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Contact {
-    /// The blades of the group, numbered from 1.
+    /// Blades of the group, numbered from 1.
     pub blades: Vec<u32>,
     /// Sum of the group's multipliers; negative is a push \[N\].
     pub multiplier_n: f64,
 }
 
-/// What a verdict rests on.
+/// Basis of a verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 pub enum Basis {
-    /// Nothing to come can change it.
+    /// The verdict is proved: the rest of the motion cannot change it.
     Proved {
-        /// The reason.
+        /// Kind of proof.
         by: Proof,
-        /// Since when the contact is as the reason says \[s\].
+        /// Time since which the contact meets its condition \[s\].
         since_s: f64,
     },
-    /// The motion over the last part of the run.
+    /// The verdict describes the last part of the run.
     Judged {
-        /// Begin of that part \[s\].
+        /// Start of that part \[s\].
         from_s: f64,
         /// End of that part \[s\].
         to_s: f64,
     },
 }
 
-/// Why nothing to come can change a verdict.
+/// Proof that the rest of the motion cannot change a verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Proof {
     /// The casing cannot reach a blade any more.
     NoContact,
-    /// The forces of the blades that hold the wave cannot change their signs.
+    /// The contact forces of the blades that hold the wave cannot change their signs.
     HeldCorner,
 }
 
-/// How a run ended.
+/// Outcome of a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Outcome {
-    /// How the motion lasts.
+    /// Verdict.
     pub verdict: Verdict,
-    /// What the verdict rests on; none of a run that stopped early.
+    /// Basis of the verdict; `None` if the run stopped early.
     pub basis: Option<Basis>,
-    /// Rate at which the wave dies about a linear rest, free or pressed into a lining by
-    /// all blades through the whole beat; negative where it grows; none elsewhere \[1/s\].
+    /// Decay rate of the wave in free motion, or about a linear rest on a lining; negative if it
+    /// grows, `None` otherwise \[1/s\].
     pub decay_rate_per_s: Option<f64>,
-    /// Whether a tiny change of what drives the run, or of its rate on the way,
-    /// changes the verdict, the blades that hold, the impact count or the time of the
-    /// lock; none where it was not asked.
+    /// Whether a tiny change of the excitation, or of the rate during the run, alters the verdict,
+    /// the blades that hold the wave, the number of impacts or the time of the lock; `None` if not
+    /// determined.
     pub sensitive: Option<bool>,
-    /// Whether it changes the verdict, or the blades that hold.
+    /// Whether such a change alters the verdict or the blades that hold the wave.
     pub ends_otherwise: Option<bool>,
-    /// Whether another step changes them; none where there are no steps, too.
+    /// Whether another time step alters the verdict or those blades; `None` also without time
+    /// steps.
     pub depends_on_step: Option<bool>,
-    /// Verdict of the event solver, where that of a run by steps is another.
+    /// Verdict of the event solver, if it differs from that of a run with time steps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub by_events: Option<Verdict>,
-    /// How far such changes move the final numbers; none where it was not asked.
+    /// Deviation of the final numbers under such changes; `None` if not determined.
     pub spread: Option<Spread>,
-    /// Why the run failed.
+    /// Reason of a failure.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub message: Option<String>,
-    /// Since when the final sides have been locked \[s\].
+    /// Time since which the final sides are locked \[s\].
     pub lock_time_s: Option<f64>,
-    /// The groups in contact at the end, in phase order (`psi_a`, `psi_b`).
+    /// Groups in contact at the end, in phase order (`psi_a`, `psi_b`).
     pub contacts: Vec<Contact>,
-    /// `|u|` at the end \[m\].
+    /// Amplitude `|u|` at the end \[m\].
     pub amplitude_m: f64,
-    /// Mean angular speed of the casing wave over the last part, divided by
-    /// `n_d`; equals the rotor speed when locked \[rad/s\].
+    /// Mean frequency of the casing wave over the last part of the run, divided by `n_d`; equal to
+    /// the rotor speed if locked \[rad/s\].
     pub wave_speed_rad_s: Option<f64>,
 }
 
 /// Largest errors of a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Checks {
-    /// Deepest penetration of an accepted state \[m\].
+    /// Deepest penetration of a corrected state \[m\].
     pub max_penetration_m: f64,
-    /// Deepest penetration predicted before correction (explicit only) \[m\].
+    /// Deepest predicted penetration, before correction (explicit solver only) \[m\].
     pub max_predicted_penetration_m: Option<f64>,
-    /// Steps with a tensile multiplier.
+    /// Number of steps with a tensile multiplier.
     pub tensile_steps: u64,
     /// Largest blade angle \[rad\].
     pub max_blade_angle_rad: f64,
-    /// Work of pulse and rotor less energy stored, dissipated and lost \[J\].
+    /// Work of pulse and rotor minus energy stored, dissipated and lost \[J\].
     pub energy_residual_j: Option<f64>,
 }
 
-/// Verdict at time `now` over the last `window` seconds.
+/// Returns the verdict at time `now` from the contacts of the last `window` seconds.
 #[must_use]
 pub fn judge(log: &ContactLog, now: f64, window: f64) -> Verdict {
     let start = now - window;
@@ -189,7 +190,7 @@ pub fn judge(log: &ContactLog, now: f64, window: f64) -> Verdict {
     }
 }
 
-/// Values of an amplitude over a run.
+/// Values of an amplitude at two instants of a run.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Trend {
     /// End of the run \[s\].
@@ -198,12 +199,12 @@ pub(super) struct Trend {
 }
 
 impl Trend {
-    /// Of a run to this end \[s\].
+    /// Creates the trend for a run that ends at `end` \[s\].
     pub fn over(end: f64) -> Self {
         Self { end, marks: [None; 2] }
     }
 
-    /// The largest value of a while until `t` \[s\].
+    /// Records the amplitude at time `t`, its largest value over a preceding interval \[s\].
     pub fn see(&mut self, t: f64, value: f64) {
         let [middle, later] = &mut self.marks;
         if t >= 0.5 * self.end {
@@ -214,19 +215,18 @@ impl Trend {
         }
     }
 
-    /// Forgets what was before a change on the way.
+    /// Discards the values recorded before a change of parameters.
     pub fn forget(&mut self) {
         self.marks = [None; 2];
     }
 
-    /// Whether enough of the run was seen.
+    /// Returns whether both values are known.
     pub fn is_known(&self) -> bool {
         self.marks[1].is_some()
     }
 
-    /// What the amplitude comes down to if it goes on like this from its value now
-    /// (Aitken's rule); none where it does not fall, or where too little of the run was
-    /// seen.
+    /// Extrapolates the limit of the amplitude from its present value (Aitken's rule); `None` if it
+    /// does not fall, or if too little of the run is known.
     pub fn falls_to(&self, now: f64) -> Option<f64> {
         let [Some(middle), Some(later)] = self.marks else { return None };
         if now >= FALLEN * middle {
@@ -244,7 +244,7 @@ impl Trend {
     }
 }
 
-/// Part of its value in the middle of a run below which an amplitude has fallen.
+/// Fraction of its value in the middle of the run below which an amplitude counts as falling.
 const FALLEN: f64 = 0.98;
 
 #[cfg(test)]
@@ -276,7 +276,7 @@ mod tests {
             Verdict::Locked
         );
         for last in [ActiveSet::Side(2), ActiveSet::Corner(2, 3)] {
-            // A corner held for half of the last part is not held all through it.
+            // A corner that is held during half of the window is not a lock.
             assert_eq!(
                 judged(|log| {
                     log.touch(0.01, ActiveSet::Side(3));
@@ -306,7 +306,7 @@ mod tests {
 mod trend_tests {
     use super::*;
 
-    /// A run to 1 s of an amplitude, looked at every hundredth.
+    /// Records an amplitude every hundredth of a run of 1 s, and extrapolates it.
     fn seen(amplitude: impl Fn(f64) -> f64) -> Option<f64> {
         let mut trend = Trend::over(1.0);
         (0..=100).for_each(|n| trend.see(f64::from(n) / 100.0, amplitude(f64::from(n) / 100.0)));
@@ -319,7 +319,7 @@ mod trend_tests {
         assert!((seen(|t| 0.7 + 2.0 * (-4.0 * t).exp()).unwrap() - 0.7).abs() < 1e-3);
         assert_eq!(seen(|t| 1.0 + t), None);
         assert_eq!(seen(|_| 1.0), None);
-        // Faster and faster.
+        // Falls at an increasing rate.
         assert_eq!(seen(|t| 1.0 - t * t), Some(0.0));
         let mut short = Trend::over(1.0);
         short.see(0.3, 1.0);

@@ -1,4 +1,4 @@
-//! How fast the casing wave turns, over the end of a run.
+//! Rotational speed of the casing wave over the end of a run.
 
 use std::f64::consts::{PI, TAU};
 
@@ -8,14 +8,14 @@ use crate::model::Machine;
 use crate::scene::CheckedScene;
 use crate::tolerances::{LAST_PART, WAVE_LOOKS, WAVE_LOOKS_A_TURN};
 
-/// The angle the casing wave turns through, by differences so small that no half
-/// turn hides in them: over the last part of the run, or over so much of its end
-/// as can be looked at so closely.
+/// Accumulates the angle through which the casing wave turns, at intervals so short that it turns
+/// by less than half a revolution in each: over the last part of the run, or over as much of its
+/// end as the limit on evaluations allows.
 #[derive(Clone, Debug)]
 pub(super) struct WaveTracker {
     end: f64,
     interval: f64,
-    /// When to look next \[s\]; infinity after the end.
+    /// Time of the next observation; infinite after the end \[s\].
     next: f64,
     first: Option<(f64, f64)>,
     last: (f64, f64),
@@ -48,22 +48,22 @@ impl WaveTracker {
         Self { end, interval, next, first: None, last: (0.0, 0.0), turned: 0.0 }
     }
 
-    /// When to look next \[s\]; infinity after the end.
+    /// Returns the time of the next observation; infinite after the end \[s\].
     pub fn next_look(&self) -> f64 {
         self.next
     }
 
-    /// Whether it has looked before.
+    /// Returns whether an observation was made.
     pub fn has_looked(&self) -> bool {
         self.first.is_some()
     }
 
-    /// Looks no more: nobody will ask for the speed.
+    /// Ends the observations because the speed is not needed.
     pub fn stop(&mut self) {
         self.next = f64::INFINITY;
     }
 
-    /// Looks at the state at the instant asked for.
+    /// Records the state at the time of the next observation.
     pub fn look(&mut self, state: State) {
         self.next = if self.next < self.end {
             (self.next + self.interval).min(self.end)
@@ -82,7 +82,7 @@ impl WaveTracker {
         self.last = (state.t_s, angle);
     }
 
-    /// Mean angular speed of the wave divided by `n_d` \[rad/s\].
+    /// Returns the mean frequency of the wave divided by `n_d` \[rad/s\].
     pub fn speed(&self, machine: &Machine) -> Option<f64> {
         let elapsed = self.last.0 - self.first?.0;
         let speed = self.turned / elapsed / machine.nodal_diameters;
@@ -95,7 +95,8 @@ mod tests {
     use super::*;
     use crate::scene::Scene;
 
-    /// The speed found of a wave that turns at a constant rate to the end.
+    /// Returns the measured speed of a wave that turns at a constant rate, and the number of
+    /// observations.
     fn found(scene: &CheckedScene, rate: f64) -> (f64, u32) {
         let mut wave = WaveTracker::over(scene, &Script::default());
         let (machine, mut looks) = (scene.machine(), 0);
@@ -110,7 +111,7 @@ mod tests {
 
     #[test]
     fn no_half_turn_hides_in_a_long_run() {
-        // Without steps there may be any end.
+        // The event solver has no limit on the end time.
         let mut scene = Scene::base().as_reference();
         for end in [1e-3, 0.1, 100.0, 1e4, 1e6] {
             scene.solver.end_s = end;

@@ -1,19 +1,20 @@
-//! The place between two where an answer changes, by halving: to neighbouring numbers,
-//! or to a part of the place.
+//! Bisection: locates the point between two others at which the answer of a predicate changes, to
+//! adjacent floating-point numbers or to a relative width.
 //!
-//! At most [`MOST_HALVINGS`] questions. Of an answer that changes several times, one of
-//! the changes is found.
+//! Costs at most [`MOST_HALVINGS`] evaluations. If the answer changes several times, one of the
+//! changes is located.
 
 use std::convert::Infallible;
 
 /// Halving an interval as often ends at neighbouring numbers, from any scale to any other
 /// that occurs.
-pub(crate) const MOST_HALVINGS: usize = 200;
+const MOST_HALVINGS: usize = 200;
 
-/// As `bisected`, to `part` of the far end, with an answer that may fail.
+/// As [`bisected`], but stops at the relative width `part` of the far end, and with a predicate
+/// that can fail.
 ///
 /// # Errors
-/// That of the first answer that fails.
+/// Returns the first error of the predicate.
 pub(crate) fn try_bisected<E>(
     [mut near, mut far]: [f64; 2],
     part: f64,
@@ -30,7 +31,7 @@ pub(crate) fn try_bisected<E>(
     Ok([near, far])
 }
 
-/// As `bisected`, to `part` of the far end.
+/// As [`bisected`], but stops at the relative width `part` of the far end.
 pub(crate) fn bisected_to(
     ends: [f64; 2],
     part: f64,
@@ -40,8 +41,8 @@ pub(crate) fn bisected_to(
     found
 }
 
-/// The neighbouring numbers, the first on the near end's side, between which the answer
-/// becomes that of the far end. The ends themselves are not asked for.
+/// Returns the adjacent numbers between which `is_far` becomes true, that on the near side first.
+/// The ends are not evaluated: `is_far` must be false at the first and true at the second.
 pub(crate) fn bisected(ends: [f64; 2], is_far: impl FnMut(f64) -> bool) -> [f64; 2] {
     bisected_to(ends, 0.0, is_far)
 }

@@ -1,33 +1,33 @@
-//! Eigenvalues of small dense matrices: those of a matrix next to the given one, up to
-//! some 1e-14 of its largest entry.
+//! Eigenvalues of small dense matrices by the QR algorithm.
 //!
-//! At most [`STEPS`] QR steps for each eigenvalue or pair, of `n^2` products each; beyond,
-//! none are given.
+//! Backward stable: the values are those of a matrix within about 1e-14 of the largest entry. Costs
+//! at most [`STEPS`] QR steps for each eigenvalue or pair, of `n^2` products each; returns `None`
+//! beyond that.
 //!
-//! The QR iteration of nalgebra has no exceptional shifts, and it compares a
-//! coupling only with the diagonal, which is zero for motions that neither grow nor
-//! decay: on some matrices it never ends. This iteration follows LAPACK's `dlahqr`:
-//! Francis' double shifts on a balanced Hessenberg matrix, exceptional shifts if
-//! these stall, and a larger tolerance if rounding keeps a coupling from vanishing.
+//! The QR iteration of nalgebra has no exceptional shifts, and it compares a subdiagonal entry only
+//! with its diagonal neighbours, which are zero for undamped motions, so that it never ends on some
+//! matrices. This one follows LAPACK's `dlahqr`: Francis double shifts on a balanced Hessenberg
+//! matrix, exceptional shifts if these stall, and a larger tolerance if rounding keeps a
+//! subdiagonal entry from vanishing.
 
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
 use nalgebra::{Complex, DMatrix, Hessenberg};
 
-/// QR steps for one eigenvalue or pair; three are usual.
+/// Maximum number of QR steps for one eigenvalue or pair; three are usual.
 const STEPS: usize = 60;
 
-/// Each multiple of this many QR steps has an exceptional shift, as in LAPACK.
+/// Every so many QR steps an exceptional shift is used, as in LAPACK.
 const EXCEPTIONAL: usize = 10;
 
-/// From this QR step on a coupling is small if it is round-off of the whole
-/// matrix.
+/// From this QR step on, a subdiagonal entry also counts as zero if it is round-off of the largest
+/// entry of the matrix.
 const LAST_RESORT: usize = 40;
 
-/// The eigenvalues of a square matrix, in no order; `None` where an entry is no
-/// finite number or the iteration does not settle.
+/// Returns the eigenvalues of a square matrix in no particular order; `None` if an entry is not
+/// finite or the iteration does not converge.
 pub(crate) fn eigenvalues(mut matrix: DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     let size = matrix.amax();
-    // The largest entry misses NaN, because a comparison with it is false.
+    // `amax` ignores NaN, because comparisons with it are false.
     if !matrix.iter().all(|entry| entry.is_finite()) {
         return None;
     }
@@ -43,14 +43,14 @@ pub(crate) fn eigenvalues(mut matrix: DMatrix<f64>) -> Option<Vec<Complex<f64>>>
 }
 
 struct Iteration {
-    /// Zero below its first subdiagonal.
+    /// Hessenberg matrix: zero below its first subdiagonal.
     h: DMatrix<f64>,
 }
 
 impl Iteration {
     fn run(&mut self) -> Option<Vec<Complex<f64>>> {
         let mut values = Vec::with_capacity(self.h.nrows());
-        // One or two eigenvalues at a time, from the last row up.
+        // Splits off one or two eigenvalues at a time, from the last row up.
         let mut rows = self.h.nrows();
         while rows > 0 {
             let first = self.deflate(rows - 1)?;
@@ -64,8 +64,8 @@ impl Iteration {
         Some(values)
     }
 
-    /// Iterates until the last row, or the last two, are decoupled; returns
-    /// their first row.
+    /// Iterates until the last row, or the last two, are decoupled; returns the first of these
+    /// rows.
     fn deflate(&mut self, last: usize) -> Option<usize> {
         for iteration in 0..STEPS {
             let whole = if iteration < LAST_RESORT { 0.0 } else { self.h.amax() };
@@ -82,23 +82,23 @@ impl Iteration {
         None
     }
 
-    /// Whether the coupling of a row to the one above is rounding.
+    /// Returns whether the subdiagonal entry of a row is round-off.
     fn is_small(&self, row: usize, last: usize, whole: f64) -> bool {
         let h = &self.h;
         let coupling = h[(row, row - 1)].abs();
         let (above, here) = (h[(row - 1, row - 1)], h[(row, row)]);
-        let mut beside = above.abs() + here.abs();
-        if beside == 0.0 {
-            beside += if row >= 2 { h[(row - 1, row - 2)].abs() } else { 0.0 };
-            beside += if row < last { h[(row + 1, row)].abs() } else { 0.0 };
+        let mut neighbours = above.abs() + here.abs();
+        if neighbours == 0.0 {
+            neighbours += if row >= 2 { h[(row - 1, row - 2)].abs() } else { 0.0 };
+            neighbours += if row < last { h[(row + 1, row)].abs() } else { 0.0 };
         }
         if coupling <= f64::MIN_POSITIVE / f64::EPSILON || coupling <= f64::EPSILON * whole {
             return true;
         }
-        if coupling > f64::EPSILON * beside {
+        if coupling > f64::EPSILON * neighbours {
             return false;
         }
-        // The test of Ahues and Tisseur, which is accurate for graded matrices.
+        // Test of Ahues and Tisseur, which is accurate for graded matrices.
         let back = h[(row - 1, row)].abs();
         let (large, small) = (coupling.max(back), coupling.min(back));
         let apart = (above - here).abs();
@@ -107,11 +107,11 @@ impl Iteration {
         small * (large / scale) <= f64::MIN_POSITIVE.max(f64::EPSILON * (least * (most / scale)))
     }
 
-    /// The two shifts: a complex pair, or one real number twice.
+    /// Returns the two shifts: a complex pair, or one real number twice.
     fn shift(&self, iteration: usize, first: usize, last: usize) -> [Complex<f64>; 2] {
         let h = &self.h;
         let [a, b, c, d] = if iteration > 0 && iteration.is_multiple_of(EXCEPTIONAL) {
-            // In turn from the first rows and from the last.
+            // Alternates between the first and the last rows.
             let even = (iteration / EXCEPTIONAL).is_multiple_of(2);
             let (row, at) = if even { (last - 1, last) } else { (first + 1, first) };
             let size = h[(row, row - 1)].abs() + h[(row + 1, row)].abs();
@@ -120,19 +120,19 @@ impl Iteration {
         } else {
             [h[(last - 1, last - 1)], h[(last - 1, last)], h[(last, last - 1)], h[(last, last)]]
         };
-        let [one, other] = of_two([a, b, c, d]);
+        let [one, other] = eigenvalues_2x2([a, b, c, d]);
         if one.im != 0.0 {
             return [one, other];
         }
-        // Of two real shifts, twice the one closer to the last entry.
+        // Of two real shifts the one closer to the last entry is used twice.
         let nearer = if (one.re - d).abs() <= (other.re - d).abs() { one } else { other };
         [nearer, nearer]
     }
 
-    /// One double-shift QR step on the rows from `first` to `last`.
+    /// Performs one double-shift QR step on the rows `first..=last`.
     fn sweep(&mut self, [one, other]: [Complex<f64>; 2], first: usize, last: usize) {
         let h = &mut self.h;
-        // The first column of (H - s1)(H - s2), which is real.
+        // First column of (H - s1)(H - s2), which is real.
         let (top, next) = (h[(first, first)], h[(first + 1, first + 1)]);
         let below = h[(first + 1, first)];
         let size = (top - other.re).abs() + other.im.abs() + below.abs();
@@ -167,15 +167,15 @@ impl Iteration {
         }
     }
 
-    /// The eigenvalues of the two rows from `first`.
+    /// Returns the eigenvalues of the 2x2 block that begins at row `first`.
     fn pair(&self, first: usize) -> [Complex<f64>; 2] {
         let (i, j) = (first, first + 1);
-        of_two([self.h[(i, i)], self.h[(i, j)], self.h[(j, i)], self.h[(j, j)]])
+        eigenvalues_2x2([self.h[(i, i)], self.h[(i, j)], self.h[(j, i)], self.h[(j, j)]])
     }
 }
 
-/// `u` of the reflection `1 - u u^T`, `|u|^2 = 2`, that maps a vector to a
-/// multiple of the first axis, and that multiple; none for zero.
+/// Returns `u` of the reflection `1 - u u^T`, `|u|^2 = 2`, that maps `v` to a multiple of the first
+/// unit vector, and that multiple; `None` for a zero vector.
 fn reflector(v: &[f64]) -> Option<([f64; 3], f64)> {
     let size = v.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
     if size == 0.0 {
@@ -193,8 +193,8 @@ fn reflector(v: &[f64]) -> Option<([f64; 3], f64)> {
     Some((u, beta))
 }
 
-/// The eigenvalues of `[[a, b], [c, d]]`.
-fn of_two([a, b, c, d]: [f64; 4]) -> [Complex<f64>; 2] {
+/// Returns the eigenvalues of the matrix `[[a, b], [c, d]]`.
+fn eigenvalues_2x2([a, b, c, d]: [f64; 4]) -> [Complex<f64>; 2] {
     let half = 0.5 * (a - d);
     let product = b * c;
     let discriminant = half * half + product;
@@ -202,7 +202,7 @@ fn of_two([a, b, c, d]: [f64; 4]) -> [Complex<f64>; 2] {
         let (re, im) = (d + half, (-discriminant).sqrt());
         return [Complex::new(re, im), Complex::new(re, -im)];
     }
-    // The larger root first; the other without cancellation.
+    // The larger root first; the other from the product of both, which avoids cancellation.
     let root = half + discriminant.sqrt().copysign(half);
     let other = if root == 0.0 { 0.0 } else { -product / root };
     [(d + root).into(), (d + other).into()]
@@ -213,8 +213,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Every value is one of the matrix up to rounding, by the smallest singular
-    /// value of `A - lambda`, and their sums are the traces.
+    /// Checks that every value is an eigenvalue up to rounding, by the smallest singular value of
+    /// `A - lambda`, and that sums of powers equal the traces.
     fn check(matrix: &DMatrix<f64>) -> Result<(), TestCaseError> {
         let values = eigenvalues(matrix.clone()).unwrap();
         let n = matrix.nrows();
@@ -236,7 +236,8 @@ mod tests {
     #[test]
     fn matrices_that_stall_the_plain_iteration() {
         for n in 2..=8 {
-            // A cycle: every shift by the last two rows is zero.
+            // Without exceptional shifts this cycle never converges: its ordinary shifts are all
+            // zero.
             let cycle = DMatrix::from_fn(n, n, |i, j| f64::from(u8::from(i == (j + 1) % n)));
             check(&cycle).unwrap();
             check(&DMatrix::zeros(n, n)).unwrap();
@@ -267,8 +268,8 @@ mod tests {
             check(&DMatrix::from_fn(n, n, |i, j| entry(8 * i + j)))?;
         }
 
-        /// A casing seen from a rotor of `f` times its frequency, and blades of
-        /// `b` times, over thirty powers of ten; the roots are closed forms.
+        /// A casing in the frame of a rotor at `f` times its frequency, and blades of `b` times its
+        /// frequency, over thirty powers of ten; the roots have closed forms.
         #[test]
         fn turning_oscillators(
             power in -15.0..15.0_f64, blades in -15.0..15.0_f64,
@@ -289,7 +290,7 @@ mod tests {
             (matrix[(4, 5)], matrix[(5, 4)]) = (turn, -turn);
             (matrix[(4, 1)], matrix[(5, 0)]) = (drag, -drag);
             let values = eigenvalues(matrix).unwrap();
-            // A pair that nearly coincides keeps half the digits.
+            // Nearly equal roots are accurate to half the digits.
             let fast = 1.0 + f + (1.0 + damping) * b;
             let near = |expected: Complex<f64>, scale: f64| {
                 let error = 1e-7 * scale + 1e-13 * fast;

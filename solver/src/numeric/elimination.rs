@@ -1,12 +1,13 @@
-//! A few linear equations, and the inverse of a few rows, by Gauss elimination with
-//! partial pivoting: an error of round-off times the condition, `n^3/3` and `n^3`
-//! products, nothing on the heap.
+//! Small systems of linear equations, and inverses of small matrices, by Gaussian elimination with
+//! partial pivoting.
+//!
+//! Relative error: round-off times the condition number. Cost: `n^3/3` products for a system, `n^3`
+//! for an inverse. No heap allocation.
 
 use crate::tolerances::AS_ZERO;
 
-/// Gauss elimination with partial pivoting of `size` equations, each followed by
-/// its right side, where the solution is afterwards. `None` where they are
-/// singular.
+/// Solves `size` equations in place. Each row is followed by its right-hand side, which is
+/// overwritten with the solution. Returns `None` if the matrix is singular.
 pub(crate) fn eliminate(equations: &mut [f64], size: usize) -> Option<()> {
     let width = size + 1;
     for k in 0..size {
@@ -38,10 +39,10 @@ pub(crate) fn eliminate(equations: &mut [f64], size: usize) -> Option<()> {
     Some(())
 }
 
-/// A square matrix with room for `N` rows.
+/// Square matrix with room for `N` rows.
 pub(crate) type Square<const N: usize> = [[f64; N]; N];
 
-/// The inverse of the first `n` rows and columns; none where it is singular.
+/// Inverts the leading `n` by `n` block; `None` if it is singular to working precision.
 pub(crate) fn inverse<const N: usize>(matrix: &Square<N>, n: usize) -> Option<Square<N>> {
     let (mut left, mut right) = (*matrix, [[0.0; N]; N]);
     let largest = matrix.iter().flatten().fold(0.0_f64, |a, b| a.max(b.abs()));
@@ -66,7 +67,7 @@ pub(crate) fn inverse<const N: usize>(matrix: &Square<N>, n: usize) -> Option<Sq
             both.for_each(|(entry, other)| *entry -= factor * other);
         }
     }
-    // What lies beyond the first rows has no meaning.
+    // Entries outside the block are set to zero.
     for (k, row) in right.iter_mut().enumerate() {
         for (l, entry) in row.iter_mut().enumerate() {
             if k >= n || l >= n {
@@ -88,7 +89,7 @@ mod tests {
             Some((0..size).map(|k| equations[k * (size + 1) + size]).collect::<Vec<f64>>())
         };
         assert_eq!(solved(Vec::new(), 0), Some(Vec::new()));
-        // A pivot of zero and one that is small beside the others.
+        // One pivot is zero, another one small compared with the other entries.
         let equations = vec![0.0, 2.0, 1.0, 7.0, 1e-20, 1.0, 1.0, 5.0, 4.0, 1.0, -1.0, 3.0];
         assert_eq!(solved(equations, 3), Some(vec![1.0, 2.0, 3.0]));
         assert_eq!(solved(vec![1.0, 2.0, 3.0, 2.0, 4.0, 6.0], 2), None);
@@ -96,7 +97,7 @@ mod tests {
 
     #[test]
     fn the_inverse_times_the_matrix_is_one_and_a_singular_matrix_has_none() {
-        // The first pivot is zero; the last row and column are beyond the three.
+        // The first pivot is zero; the fourth row and column are not used.
         let matrix = [[0.0, 2.0, -1.0, 9.0], [3.0, 0.5, 0.0, 9.0], [1.0, -4.0, 7.0, 9.0], [9.0; 4]];
         let found = inverse(&matrix, 3).unwrap();
         for (row, line) in found.iter().take(3).enumerate() {

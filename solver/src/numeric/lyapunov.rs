@@ -1,9 +1,10 @@
-//! The quadratic size that falls along a stable linear motion.
+//! Lyapunov function of a stable linear system.
 
 use nalgebra::{DMatrix, DVector};
 
-/// The solution of `M^T Q + Q M = -1`, with which `x^T Q x` falls along `x' = M x`; positive
-/// where that is stable. None where it is singular.
+/// Solves `M^T Q + Q M = -1`. `x^T Q x` then decreases along `x' = M x`, and `Q` is positive
+/// definite if the system is stable. `None` if the equation is singular. Solved as one linear
+/// system of size `n^2`.
 pub(crate) fn lyapunov(matrix: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let n = matrix.nrows();
     let one = DMatrix::<f64>::identity(n, n);

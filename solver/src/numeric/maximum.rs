@@ -1,12 +1,12 @@
-//! The largest value of a function with one top between two places, by golden section:
-//! to the square root of round-off in the place, which is round-off in the value.
+//! Maximum of a unimodal function by golden-section search.
 //!
-//! One value a step, [`STEPS`] + 2 in all. Of several tops one is found.
+//! The position is accurate to the square root of round-off, the value to round-off. Costs
+//! [`STEPS`] + 2 evaluations. If there are several local maxima, one of them is returned.
 
-/// Each step leaves 0.618 of the interval: these leave a part of 3e-13.
+/// Each step leaves 0.618 of the interval; after all of them 3e-13 of it is left.
 const STEPS: usize = 60;
 
-/// The place of the largest value between two, and that value.
+/// Returns the position of the maximum in the interval, and the value there.
 pub(crate) fn highest([mut low, mut high]: [f64; 2], of: impl Fn(f64) -> f64) -> (f64, f64) {
     const PART: f64 = 0.381_966_011_250_105_1;
     let (mut a, mut b) = (low + PART * (high - low), high - PART * (high - low));
@@ -32,7 +32,7 @@ mod tests {
     #[test]
     fn the_top_is_found_where_it_is_inside_or_at_an_end() {
         let (place, value) = highest([-1.0, 3.0], |x| 2.0 - (x - 0.7) * (x - 0.7));
-        // Round-off of the value leaves its square root of the place.
+        // Near a maximum the position is accurate to the square root of round-off only.
         assert!((place - 0.7).abs() < 3e-8 && value == 2.0, "{place} {value}");
         for (ends, top) in [([0.0, 1.0], 1.0), ([-1.0, 0.0], 0.0)] {
             let (place, value) = highest(ends, |x| x);

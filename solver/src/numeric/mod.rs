@@ -1,5 +1,4 @@
-//! Small numerical tools that know nothing of blades: each says its error and its bound
-//! of work.
+//! Numerical methods without any mechanics. Each module states its error and its cost.
 
 pub(crate) mod bisection;
 pub(crate) mod eigen;
@@ -13,7 +12,7 @@ pub(crate) mod real_roots;
 pub mod rounding;
 pub(crate) mod sum;
 
-/// Whether a number is zero; serde asks so what it may leave out.
+/// Returns whether a number is zero. Used with serde's `skip_serializing_if`.
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde gives a reference")]
 pub(crate) fn is_zero(number: &f64) -> bool {
     *number == 0.0

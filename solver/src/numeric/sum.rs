@@ -1,6 +1,6 @@
-//! A sum with the part that rounding drops: without error, by Knuth's six operations.
+//! Error-free sum of two numbers (Knuth's two-sum, six operations).
 
-/// The rounded sum of two numbers, and what is left of the exact one.
+/// Returns the rounded sum, and the exact rounding error.
 pub(crate) fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let rest = sum - a;
@@ -16,7 +16,7 @@ mod tests {
         for (a, b) in [(1.0, 1e-20), (1e-20, 1.0), (-1.0, 1e-20), (0.1, 0.2)] {
             let (sum, rest) = two_sum(a, b);
             assert_eq!((sum, sum + rest), (a + b, sum));
-            // Thirds of both halves are exact: nothing is lost.
+            // Sum and rest together equal the exact sum of both numbers.
             assert_eq!((sum - a.max(b)) + rest - a.min(b), 0.0, "{a} {b}");
         }
         assert_eq!(two_sum(1.0, 1e-20).1, 1e-20);

@@ -1,26 +1,26 @@
-//! What a scene has beyond the paper's model (docs/theory.md, section 10), and which
-//! combinations of it have no meaning or no unique answer.
+//! Features of a scene beyond the paper's model (docs/theory.md, sections 10 and 11), and the
+//! combinations of them that are meaningless or have no unique solution.
 
 use super::check::{down, up};
 use super::error::refuse_if;
 use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind, Value, keys};
 
 impl Scene {
-    /// Returns whether this scene has more than the paper's model. Others are solved by the
-    /// paper's own solvers, bit for bit.
+    /// Returns whether the scene uses any feature beyond the paper's model. If it does not, the
+    /// paper's own solvers run and their results are bit for bit the same.
     #[must_use]
     pub fn goes_beyond(&self) -> bool {
         self.has_other_tips() || self.changes_with_speed()
     }
 
-    /// Returns whether tips have lengths of their own, or the casing is out of round.
+    /// Returns whether tips differ in length, or the casing is out of round.
     #[must_use]
     pub fn is_uneven(&self) -> bool {
         self.unevenness().iter().any(|(_, length)| *length != 0.0)
     }
 
-    /// Returns the keys that give tips lengths of their own, and that of the casing out of round,
-    /// which is the last, each with its largest magnitude \[m\].
+    /// Returns the keys of unequal tips, then that of the out-of-round casing, each with its
+    /// largest magnitude \[m\].
     #[must_use]
     pub fn unevenness(&self) -> [(&'static str, f64); 5] {
         let disk = &self.bladed_disk;
@@ -34,7 +34,7 @@ impl Scene {
         .map(|(key, length)| (key, length.abs()))
     }
 
-    /// Returns whether the machine changes with the rotor speed in a run.
+    /// Returns whether the machine properties change with the rotor speed in this model size.
     #[must_use]
     pub fn changes_with_speed(&self) -> bool {
         let stiffens = self.disk_in_use().centrifugal_stiffening != 0.0;
@@ -42,7 +42,7 @@ impl Scene {
         grows || (stiffens && self.solver.model != ModelSize::Rigid)
     }
 
-    /// Returns whether the contact of tips and casing differs from the paper at any speed.
+    /// Returns whether the contact of tips and casing differs from the paper's.
     #[must_use]
     pub fn has_other_tips(&self) -> bool {
         let (disk, surface) = (&self.bladed_disk, &self.contact);
@@ -57,15 +57,15 @@ impl Scene {
             || (model == ModelSize::Full && disk.mistuning != 0.0)
     }
 
-    /// Returns whether the modes of the disk have other diameters than those of the casing.
+    /// Returns whether the disk modes have other nodal diameters than the casing modes.
     #[must_use]
     pub fn has_other_diameters(&self) -> bool {
         let casing = self.operation.nodal_diameters;
         self.bladed_disk.diameters_beside(casing) != casing
     }
 
-    /// Returns what steady states and limits leave out, for scenes whose runs have every blade
-    /// alone: they assume equal blades in the modes of one number of diameters.
+    /// Returns, for the full model, the note that steady states and limits are computed for equal
+    /// blades in the modes of one number of nodal diameters, other than the runs.
     #[must_use]
     pub fn tuned_note(&self) -> Option<String> {
         let disk = &self.bladed_disk;
@@ -82,10 +82,10 @@ impl Scene {
         })
     }
 
-    /// Returns that the contact of this scene can have several answers, of which its runs take
-    /// one: with friction, several single blades on a side of radial tips share a push in more
-    /// than one way, as the product of their levers `A (A - mu l_b)` is negative for
-    /// `0 < A < mu l_b`.
+    /// Returns the note that the contact forces of this scene are not unique. With friction, radial
+    /// tips and several single blades on a side, the product of the blade levers `A (A - mu l_b)`
+    /// is negative for `0 < A < mu l_b`, so the blades can share a contact force in more than one
+    /// way.
     #[must_use]
     pub fn share_note(&self) -> Option<&'static str> {
         let rubs = self.contact.friction != 0.0 && self.bladed_disk.radial_coupling == 0.0;
@@ -97,17 +97,17 @@ impl Scene {
         )
     }
 
-    /// Returns the clearance of a rotor at rest, `g0 = R_c - l_b`, which is negative where all
-    /// blades interfere with the casing \[m\].
+    /// Returns the clearance at rest, `g0 = R_c - l_b`; negative if all blades interfere with the
+    /// casing \[m\].
     #[must_use]
     pub fn clearance(&self) -> f64 {
         self.casing.radius_m - self.bladed_disk.blade_length_m
     }
 
-    /// Sets the clearance \[m\] by the radius of the casing, without a check of the scene.
+    /// Sets the clearance by changing the casing radius \[m\]. The scene is not checked.
     ///
     /// # Errors
-    /// A radius that its key does not allow.
+    /// The radius is out of the bounds of its key.
     pub fn set_clearance(&mut self, g0: f64) -> Result<(), SceneError> {
         let radius = self.bladed_disk.blade_length_m + g0;
         self.set_value(keys::find("casing.radius_m")?, Value::Real(radius))
@@ -115,11 +115,11 @@ impl Scene {
 }
 
 impl Scene {
-    /// Refuses friction on a rotor that stands still: one motion needs a direction in
-    /// which the blades slide. A sweep may begin there.
+    /// Rejects friction on a rotor at standstill, where the direction of sliding is undefined. Not
+    /// part of [`checked`](Self::checked), because a sweep may begin there.
     ///
     /// # Errors
-    /// The friction, and what is allowed.
+    /// States the coefficient of friction and what is allowed.
     pub fn slides(&self) -> Result<(), SceneError> {
         let mu = self.contact.friction;
         let allowed = "0 with operation.speed_rad_s = 0: Coulomb's law, mu times the push against \
@@ -128,10 +128,10 @@ impl Scene {
     }
 }
 
-/// Rejects combinations beyond the paper's model that have no meaning or no unique answer.
+/// Rejects combinations beyond the paper's model that are meaningless or have no unique solution.
 ///
 /// # Errors
-/// The first such combination, named by its key.
+/// Names the key of the first such combination.
 pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     let (disk, surface, operation) = (&scene.bladed_disk, &scene.contact, &scene.operation);
     let law = scene.solver.contact;
@@ -143,7 +143,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     );
     let is_other = rigid && scene.has_other_diameters();
     refuse_if(is_other, keys::DISK_DIAMETERS, disk.nodal_diameters, &allowed)?;
-    // The blade angles do not close its gaps.
+    // The bilateral law of the paper does not include the gap change by blade angles.
     let (kappa, bilateral) = (disk.radial_coupling, law == ContactLaw::Bilateral);
     let allowed = "0 with solver.contact = \"bilateral\", the paper's law; \"unilateral\" and \
                    \"smooth\" take inclined tips";
@@ -176,8 +176,8 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     by_events(scene)
 }
 
-/// Refuses a list that is not of all blades, and tips or lobes that leave rigid contact no
-/// room.
+/// Rejects a list of tip lengths that does not match the number of blades, a lobe height with a
+/// lobe count of zero, and tips or lobes that leave no room in rigid contact.
 pub(super) fn tips(scene: &Scene) -> Result<(), SceneError> {
     let (disk, casing) = (&scene.bladed_disk, &scene.casing);
     let (given, blades) = (disk.tips_m.len(), disk.blades as usize);
@@ -201,8 +201,10 @@ pub(super) fn tips(scene: &Scene) -> Result<(), SceneError> {
     refuse_if(is_tight, key, format!("{value:e}"), allowed)
 }
 
-/// Rejects tips whose contact force closes its own gap: it must open it, `1/m_c + c2/m_a > 0`, and in a time step with `m/h^2 +
-/// d/2h` in place of `m` too: otherwise no push, or more than one, closes the gap.
+/// Rejects tips whose contact force closes its own gap.
+///
+/// A contact force opens its gap only if `1/m_c + c2/m_a > 0`, and in a time step also with
+/// `m + d h/2` in place of `m`. Otherwise no contact force, or more than one, closes the gap.
 fn opening(scene: &Scene) -> Result<(), SceneError> {
     let machine = scene.machine();
     let step = match scene.solver.kind {
@@ -219,7 +221,7 @@ fn opening(scene: &Scene) -> Result<(), SceneError> {
     if scene.solver.contact == ContactLaw::Smooth || product * ratio > -1.0 {
         return Ok(());
     }
-    // Between the roots of kappa (kappa + mu) = -m_a/(m_c l_b^2).
+    // Not allowed: the range between the roots of kappa (kappa + mu) = -m_a/(m_c l_b^2).
     let (kappa, mu) = (scene.bladed_disk.radial_coupling, scene.contact.friction);
     let least = 1.0 / (ratio * machine.blade_length * machine.blade_length);
     let half = (0.25 * mu * mu - least).max(0.0).sqrt();
@@ -234,7 +236,8 @@ fn opening(scene: &Scene) -> Result<(), SceneError> {
     Err(SceneError::refused(keys::RADIAL_COUPLING, kappa, allowed))
 }
 
-/// Rejects events of equations whose coefficients change in the frame of the blades.
+/// Rejects a speed ramp in the event solver if the coefficients of the equations then change in the
+/// blade frame.
 fn by_events(scene: &Scene) -> Result<(), SceneError> {
     let ramp = scene.operation.speed_ramp_rad_s2;
     let has_events = scene.solver.kind == SolverKind::Event;

@@ -1,9 +1,9 @@
-//! A scene from what an engineer has: blades, radius and clearance, and the frequencies and
-//! modal masses of a modal analysis; the inverse of the formulas of the machine.
+//! Builds a scene file from the data that an engineer has: number of blades, radius, clearance, and
+//! the frequencies and modal masses of a modal analysis. Inverts the formulas of `model::machine`.
 //!
-//! Modal masses are those of shapes with the amplitude 1 at the rim of the casing, and at
-//! the tips of the blades. A mode of the disk with the mass `M` has blades of the inertia
-//! `m_b = 2 M l_b^2/N`; half of it where all blades move alike, or in turn.
+//! Modal masses refer to mode shapes with amplitude 1 at the casing rim or at the blade tips. A
+//! disk mode of the mass `M` gives the blade inertia `m_b = 2 M l_b^2/N`, or half of it if all
+//! blades have the same amplitude (`n = 0` or `n = N/2`).
 
 use std::f64::consts::TAU;
 
@@ -11,27 +11,27 @@ use crate::numeric::rounding::rounded;
 
 use super::mode_table::STIFFENING;
 use super::{Scene, SceneError, keys};
-use crate::model::of_neighbours;
+use crate::model::neighbour_stiffness;
 
-/// One mode of a modal analysis.
+/// Mode of a modal analysis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Family {
-    /// Its nodal diameters.
+    /// Number of nodal diameters.
     pub nodal_diameters: u32,
-    /// Its frequency \[Hz\].
+    /// Frequency \[Hz\].
     pub frequency_hz: f64,
-    /// Its modal mass \[kg\].
+    /// Modal mass \[kg\].
     pub modal_mass_kg: f64,
-    /// Its damping ratio, if it is known.
+    /// Damping ratio, if known.
     pub damping_ratio: Option<f64>,
-    /// What blades stiffen by with the speed, `B`, if it is known.
+    /// Centrifugal stiffening `B`, if known.
     pub stiffening: Option<f64>,
 }
 
-/// What a scene is made from.
+/// Input data of a scene file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModalData {
-    /// One line that names the machine.
+    /// Title of the scene, one line.
     pub title: String,
     /// Number of blades.
     pub blades: u32,
@@ -39,27 +39,27 @@ pub struct ModalData {
     pub radius_m: f64,
     /// Clearance between blade tips and casing \[m\].
     pub clearance_m: f64,
-    /// The number of diameters that the scene begins with.
+    /// Nodal diameters that the scene starts with.
     pub nodal_diameters: u32,
-    /// The modes of the casing.
+    /// Casing modes.
     pub casing: Vec<Family>,
-    /// The modes of the disk.
+    /// Disk modes.
     pub disk: Vec<Family>,
-    /// Damping ratios of casing and disk, where a mode has none of its own.
+    /// Damping ratios of casing and disk for modes without one.
     pub damping_ratios: [f64; 2],
-    /// The speeds of the machine \[rad/s\].
+    /// Speed range of the machine \[rad/s\].
     pub range_rad_s: [f64; 2],
-    /// The speed that the scene begins with \[rad/s\].
+    /// Speed that the scene starts with \[rad/s\].
     pub speed_rad_s: f64,
-    /// The pulse that starts the motion \[N\].
+    /// Pulse that starts the motion \[N\].
     pub pulse_n: f64,
 }
 
 impl ModalData {
-    /// The scene file, with a comment on every key.
+    /// Writes the scene file, with a comment on every key.
     ///
     /// # Errors
-    /// What no scene can have, named by its key.
+    /// Names the key whose value no scene can have.
     pub fn to_toml(&self) -> Result<String, SceneError> {
         let own = |modes: &[Family], key: &str| {
             let here = modes.iter().find(|mode| mode.nodal_diameters == self.nodal_diameters);
@@ -100,7 +100,7 @@ impl ModalData {
         ));
         line(&format!("coupling_nm_per_rad = {coupling:?}  # between two blades k_bb, N m/rad"));
         line(&format!("damping_ratio = {damping:?}  # of every blade mode"));
-        // One mode of the diameters in use needs no list.
+        // A single mode, with the nodal diameters in use, needs no list.
         let listed = self.disk.len() > 1 || disk.nodal_diameters != self.nodal_diameters;
         let stiffening = disk.stiffening.unwrap_or(0.0);
         line(&format!("centrifugal_stiffening = {stiffening:?}  # B: omega^2 + B Omega^2"));
@@ -161,19 +161,20 @@ impl ModalData {
         Ok(text)
     }
 
-    /// Inertia of a blade in a mode of the disk.
+    /// Returns the blade inertia that gives the modal mass of a disk mode \[kg m^2\].
     fn inertia(&self, mode: &Family, length: f64) -> f64 {
         let alike = (2 * u64::from(mode.nodal_diameters)) % u64::from(self.blades.max(1)) == 0;
         let share = if alike { 1.0 } else { 2.0 };
         digits(share * mode.modal_mass_kg * length * length / f64::from(self.blades))
     }
 
-    /// `k_b` and `k_bb` for diameters without a mode, from the stiffness of the mode, with its own
-    /// inertia, and of the one that differs most in the stiffness between blades. No stiffness
-    /// between blades from one mode, where it would pull, and where it alone would be more than
-    /// another mode has.
+    /// Returns `k_b` and `k_bb` for nodal diameters without a mode \[N m/rad\].
+    ///
+    /// `k_bb` is fitted to the given mode and to the mode whose blade-to-blade contribution differs
+    /// most. It is 0 with one mode, if the fit is negative, or if `k_bb` alone would exceed the
+    /// stiffness of another mode.
     fn springs(&self, mode: &Family, length: f64) -> (f64, f64) {
-        let part = |mode: &Family| of_neighbours(1.0, mode.nodal_diameters, self.blades);
+        let part = |mode: &Family| neighbour_stiffness(1.0, mode.nodal_diameters, self.blades);
         let whole = |mode: &Family| self.inertia(mode, length) * (TAU * mode.frequency_hz).powi(2);
         let far = |other: &&Family| (part(other) - part(mode)).abs();
         let other = self.disk.iter().max_by(|a, b| far(a).total_cmp(&far(b)));
@@ -188,7 +189,7 @@ impl ModalData {
     }
 }
 
-/// A number as it is written: what round-off adds is left out.
+/// Rounds a number for the file, so that round-off does not show.
 pub(super) fn digits(x: f64) -> f64 {
     rounded(x, 14)
 }
@@ -263,7 +264,7 @@ mod tests {
             stiffening: None,
         };
         let ordinary = vec![family(2, 214.0, 3.9), family(3, 297.5, 2.9), family(8, 378.0, 2.25)];
-        // One that is softer than the springs of the two others alone.
+        // The second mode is softer than the springs fitted to the other two.
         let odd = vec![family(2, 100.0, 3.0), family(6, 60.0, 3.0), family(8, 400.0, 3.0)];
         for disk in [ordinary, odd] {
             for nodal_diameters in [2, 3, 8, 6] {
@@ -282,7 +283,7 @@ mod tests {
 
     #[test]
     fn two_families_of_the_disk_give_the_stiffness_between_blades() {
-        // Those of a disk with given springs.
+        // Modes of a disk with known springs.
         let base = Scene::base();
         let mass = 11.0 * 0.20825 / (0.4999 * 0.4999);
         let of = |diameters: u32| Family {
@@ -328,7 +329,7 @@ mod tests {
             assert_eq!((disk[0].modal_mass_kg, disk.len()), (3.9, 3));
             assert_eq!((disk[2].frequency_hz, disk[2].stiffening), (386.0, None));
         }
-        // It comes back from the scene, at any speed.
+        // The scene reproduces the frequencies at any speed.
         let [_, disk] = read_modes(&format!(
             "{head}\ndisk;5;352;3,9;0\ndisk;5;{};3,9;9500\ndisk;4;300;3;",
             at(9500.0)

@@ -2,12 +2,12 @@
 
 use super::{Scene, SceneError};
 
-/// A scene that comes with the program.
+/// A scene that is part of the program.
 #[derive(Clone, Copy, Debug)]
 pub struct Builtin {
-    /// Its name on the command line.
+    /// Name on the command line.
     pub name: &'static str,
-    /// Its file.
+    /// Content of its file.
     pub toml: &'static str,
 }
 
@@ -17,7 +17,7 @@ macro_rules! builtin {
     };
 }
 
-/// The scene the program opens when none is named.
+/// Scene that the program opens by default.
 pub const DEFAULT: &str = "paper-nd3";
 
 /// All built-in scenes.
@@ -42,13 +42,13 @@ pub const BUILTIN: &[Builtin] = builtin![
     "oval",
 ];
 
-/// Scenes of earlier versions, each with what has its motion or its numbers now.
+/// Scenes of earlier versions, each with its replacement.
 const GONE: [(&str, &str); 2] = [
     ("half-n", "half as many diameters as blades are paper-nd3 --nd 11 --speed 100"),
     ("near-critical", "its numbers are in docs/theory.md; see undamped --speed 293"),
 ];
 
-/// Returns the error for a scene that is not built in; it lists those that are.
+/// Returns the error for a name that is no built-in scene; it lists those that are.
 pub(super) fn unknown(name: &str) -> SceneError {
     let name = name.to_string();
     match GONE.iter().find(|(gone, _)| *gone == name) {
@@ -61,10 +61,10 @@ pub(super) fn unknown(name: &str) -> SceneError {
 }
 
 impl Scene {
-    /// Returns the built-in scene of this name.
+    /// Returns the built-in scene with this name.
     ///
     /// # Errors
-    /// No such scene; the message lists the existing ones.
+    /// There is no such scene; the message lists the existing ones.
     pub fn builtin(name: &str) -> Result<Self, SceneError> {
         match BUILTIN.iter().find(|scene| scene.name == name) {
             Some(scene) => Self::from_toml(scene.toml),

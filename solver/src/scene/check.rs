@@ -1,4 +1,4 @@
-//! Checks that need more than one key: combinations of values that have no meaning.
+//! Checks of combinations of values. The bounds of single keys are in `keys`.
 
 use super::beyond;
 use super::error::refuse_if;
@@ -6,20 +6,20 @@ use super::keys;
 use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
 use crate::tolerances::STEP_ROUND_OFF;
 
-/// Most updates of a coordinate that one explicit run may make: minutes of work
-/// where nothing is skipped.
+/// Largest number of coordinate updates in an explicit run: minutes of computing if nothing is
+/// skipped.
 const MOST_UPDATES: f64 = 4e10;
-/// Most steps one explicit run may take, whatever its size.
+/// Largest number of steps of an explicit run, whatever the model size.
 const MOST_STEPS: f64 = 1e10;
-/// Largest angle the wave may turn against the blades in one step \[rad\].
+/// Largest rotation of the wave relative to the blades in one step \[rad\].
 const MOST_TURN: f64 = 0.5;
-/// Relative margin of a product or quotient at a bound, for round-off.
+/// Factor on a bound that allows for round-off of a product or quotient.
 const ROUND_OFF: f64 = 1.0 + 1e-12;
 
-/// Rejects combinations of values that have no meaning.
+/// Rejects combinations of values that are meaningless or that the chosen solver does not support.
 ///
 /// # Errors
-/// The first such combination, named by its key.
+/// Names the key of the first such combination.
 pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     clearance(scene)?;
     growth(scene)?;
@@ -49,7 +49,7 @@ fn clearance(scene: &Scene) -> Result<(), SceneError> {
     refuse_if(!has_room, keys::CASING_RADIUS, scene.casing.radius_m, &allowed)
 }
 
-/// Rejects rigid contact without a clearance over the whole run, also where blades grow.
+/// Rejects rigid contact if blade growth closes the clearance during the run.
 fn growth(scene: &Scene) -> Result<(), SceneError> {
     let (loss, fastest) = (scene.casing.clearance_loss_m_s2, scene.fastest_rad_s());
     let rigid = scene.solver.contact != ContactLaw::Smooth;
@@ -64,7 +64,7 @@ fn growth(scene: &Scene) -> Result<(), SceneError> {
     Err(SceneError::refused(keys::CLEARANCE_LOSS, format!("{loss:e}"), allowed))
 }
 
-/// Rejects frequencies whose squares leave the range of numbers.
+/// Rejects frequencies whose squares overflow or underflow.
 fn frequencies(scene: &Scene) -> Result<(), SceneError> {
     let machine = scene.machine();
     for (key, value, frequency) in [
@@ -72,7 +72,7 @@ fn frequencies(scene: &Scene) -> Result<(), SceneError> {
         (keys::BLADE_INERTIA, machine.blade_inertia, machine.omega_bd),
     ] {
         if !(1e-6..=1e15).contains(&frequency) {
-            // Rounded to the outside of the allowed range.
+            // Rounded away from the allowed range.
             let given = if frequency > 1.0 { up(frequency) } else { down(frequency) };
             let allowed =
                 format!("one that gives a frequency from 1e-6 to 1e15 rad/s, not {given:e}");
@@ -83,7 +83,7 @@ fn frequencies(scene: &Scene) -> Result<(), SceneError> {
 }
 
 fn initial_state(scene: &Scene) -> Result<(), SceneError> {
-    // A lining may be pressed at the start.
+    // A lining may be compressed at the start.
     if scene.solver.contact == ContactLaw::Smooth {
         return Ok(());
     }
@@ -99,7 +99,7 @@ fn initial_state(scene: &Scene) -> Result<(), SceneError> {
     } else {
         machine.polygon.gap(machine.polygon.nearest_side(x, y), x, y)
     };
-    // A point on a side, given by computed coordinates, may be outside by round-off.
+    // A computed point on a side may lie outside by round-off.
     if gap >= -1e-12 * machine.clearance() {
         return Ok(());
     }
@@ -112,14 +112,14 @@ fn initial_state(scene: &Scene) -> Result<(), SceneError> {
 fn excitation(scene: &Scene) -> Result<(), SceneError> {
     let amplitude = scene.excitation.amplitude_nm;
     let allowed = match (scene.solver.kind, scene.solver.model) {
-        (SolverKind::Event, _) => return undriven(scene),
+        (SolverKind::Event, _) => return check_no_excitation(scene),
         (_, ModelSize::Modal | ModelSize::Full) => return Ok(()),
         (_, ModelSize::Rigid) => "0 with solver.model = \"rigid\", whose blades do not move",
     };
     refuse_if(amplitude != 0.0, keys::EXCITATION, amplitude, allowed)
 }
 
-/// Rejects a step that is too long or too short; each bound is accepted as it is printed.
+/// Rejects a step that is too long or too short. Each printed bound is itself accepted.
 fn explicit(scene: &Scene) -> Result<(), SceneError> {
     let (step, end) = (scene.solver.step_s, scene.solver.end_s);
     let fastest = scene.fastest_rad_s();
@@ -168,14 +168,14 @@ fn explicit(scene: &Scene) -> Result<(), SceneError> {
 /// Rejects a run that is shorter than one step.
 fn one_step(step: f64, end: f64) -> Result<(), SceneError> {
     let allowed = format!("at least one step, solver.step_s = {step:e}");
-    // As the solvers count.
+    // Counted in the same way as in the solvers.
     let is_less = end / step + STEP_ROUND_OFF < 1.0;
     refuse_if(is_less, keys::END, format!("{end:e}"), &allowed)
 }
 
-/// Returns the largest number of steps of this scene, in four digits.
+/// Returns the largest allowed number of steps, rounded down to four digits.
 fn most_steps(scene: &Scene) -> f64 {
-    // Of these, a step may look at every blade.
+    // In these cases a step may evaluate every blade.
     let lining = scene.solver.contact == ContactLaw::Smooth;
     let other = scene.solver.model == ModelSize::Modal && scene.has_other_diameters();
     if scene.solver.model == ModelSize::Full || lining || other {
@@ -185,35 +185,35 @@ fn most_steps(scene: &Scene) -> f64 {
     }
 }
 
-/// Rounds down to four digits.
+/// Rounds down to four significant digits.
 pub(super) fn down(x: f64) -> f64 {
     let near = four_digits(x);
     if near > x { four_digits(near - unit(x)) } else { near }
 }
 
-/// Rounds up to four digits.
+/// Rounds up to four significant digits.
 pub(super) fn up(x: f64) -> f64 {
     -down(-x)
 }
 
-/// Returns the next number of four digits below.
+/// Returns the largest number of four digits that is less than `x`.
 fn below(x: f64) -> f64 {
     let near = down(x);
     if near < x { near } else { four_digits(near - unit(x)) }
 }
 
-/// Rounds to four digits.
+/// Rounds to four significant digits.
 fn four_digits(x: f64) -> f64 {
     format!("{x:.3e}").parse().unwrap_or(x)
 }
 
-/// Returns one unit of the fourth digit of a number.
+/// Returns one unit of the fourth significant digit.
 fn unit(x: f64) -> f64 {
     if x == 0.0 || !x.is_finite() { 0.0 } else { 10_f64.powf(x.abs().log10().floor() - 3.0) }
 }
 
-/// Rejects an excitation of the blades with the event solver.
-fn undriven(scene: &Scene) -> Result<(), SceneError> {
+/// Rejects a blade excitation in the event solver.
+fn check_no_excitation(scene: &Scene) -> Result<(), SceneError> {
     let some = scene.excitation.amplitude_nm;
     refuse_if(some != 0.0, keys::EXCITATION, some, "0 with solver.kind = \"event\"")
 }
@@ -221,9 +221,9 @@ fn undriven(scene: &Scene) -> Result<(), SceneError> {
 /// Rejects what the event solver does not support.
 ///
 /// # Errors
-/// An excitation, the bilateral law, or a disk of more than two modes.
+/// The scene has an excitation, a law other than the unilateral one, or the full model.
 pub(super) fn event(scene: &Scene) -> Result<(), SceneError> {
-    undriven(scene)?;
+    check_no_excitation(scene)?;
     let law = scene.solver.contact;
     if let Some(why) = law.lacks_events() {
         let allowed = format!("\"unilateral\" with solver.kind = \"event\" ({why})");
@@ -237,7 +237,7 @@ pub(super) fn event(scene: &Scene) -> Result<(), SceneError> {
 mod tests {
     use super::*;
 
-    /// The number after a word in a message.
+    /// Returns the number that follows a word in a message.
     fn number_after(message: &str, word: &str) -> Option<f64> {
         let rest = message.split(word).nth(1)?.trim_start();
         rest.split([' ', ',']).next()?.parse().ok()
@@ -310,7 +310,7 @@ mod tests {
             (-1.234_56e5, -1.235e5, -1.235e5, -1.234e5),
         ] {
             assert_eq!((down(x), up(x)), (under, over), "{x}");
-            // One unit at a power of ten is one of the decade above it.
+            // At a power of ten the next number below is up to a unit of the decade above.
             assert!((below(x) - least_under).abs() <= 1e-3 * x.abs() && below(x) < x, "{x}");
         }
         assert_eq!((down(0.0), down(f64::INFINITY)), (0.0, f64::INFINITY));

@@ -1,4 +1,4 @@
-//! The type of a scene that can be solved; the solvers take only this.
+//! A scene that has passed all checks; the solvers accept only this type.
 
 use super::{keys, modes};
 use std::ops::Deref;
@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::{ContactLaw, KEYS, ModelSize, Scene, SceneError, SolverKind, check};
 
-/// A scene whose keys and their combinations are all allowed.
+/// A scene whose keys and combinations of keys are all allowed.
 ///
 /// ```
 /// use rubscope_solver::scene::Scene;
@@ -27,7 +27,8 @@ impl Serialize for CheckedScene {
 }
 
 impl Scene {
-    /// Returns the scene as reports write it: with a note where a diameter has no mode.
+    /// Returns the scene as reports write it: with notes on missing modes and on a changed initial
+    /// position.
     pub fn reported(&self) -> impl Serialize {
         #[derive(Serialize)]
         struct Reported<'a> {
@@ -51,19 +52,18 @@ impl Deref for CheckedScene {
 }
 
 impl CheckedScene {
-    /// Checks that the event solver supports the contact law, the model size and the
-    /// excitation.
+    /// Checks that the event solver supports the contact law, the model size and the excitation.
     ///
     /// # Errors
-    /// It does not; the reason in one line.
+    /// States in one line what is not supported.
     pub fn suits_events(&self) -> Result<(), SceneError> {
         check::event(&self.0)
     }
 
-    /// Checks that nothing goes beyond the paper's model.
+    /// Checks that the tips and their contact are those of the paper.
     ///
     /// # Errors
-    /// It does, in one line.
+    /// The scene has other tips or another contact.
     pub fn is_of_the_paper(&self) -> Result<(), SceneError> {
         if !self.has_other_tips() {
             return Ok(());
@@ -72,7 +72,7 @@ impl CheckedScene {
         Err(SceneError::refused("scene", &self.title, allowed))
     }
 
-    /// Returns the scene, to be changed.
+    /// Unwraps the scene, which can then be changed.
     #[must_use]
     pub fn into_scene(self) -> Scene {
         self.0
@@ -85,8 +85,7 @@ impl CheckedScene {
         self
     }
 
-    /// Returns this scene after a change that cannot break a bound: by round-off, or away from
-    /// all bounds.
+    /// Applies a change that cannot violate a check: one within round-off, or away from all bounds.
     pub(crate) fn perturbed(&self, change: impl FnOnce(&mut Scene)) -> Self {
         let mut scene = self.0.clone();
         change(&mut scene);
@@ -94,25 +93,25 @@ impl CheckedScene {
     }
 }
 
-/// A key that was changed to suit another.
+/// Change of a key that another key made necessary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Adjustment {
-    /// Dotted path.
+    /// Dotted path of the key.
     pub key: &'static str,
-    /// The word it had.
+    /// Old value.
     pub from: &'static str,
-    /// The word it has.
+    /// New value.
     pub to: &'static str,
-    /// The end of the sentence that begins with the word it had.
+    /// Reason, worded to follow the old value in a sentence.
     pub why: &'static str,
 }
 
 impl Scene {
-    /// Returns this scene as one that can be solved.
+    /// Checks the scene completely.
     ///
     /// # Errors
-    /// The first key out of bounds, or the first combination that is not allowed
-    /// (clearance, stable step, solver pairs), in one line.
+    /// Names the first key out of bounds, or the first combination that is not allowed (clearance,
+    /// time step, features that a solver lacks).
     pub fn checked(&self) -> Result<CheckedScene, SceneError> {
         modes::check(self)?;
         for key in KEYS {
@@ -122,9 +121,8 @@ impl Scene {
         Ok(CheckedScene(self.clone()))
     }
 
-    /// Takes the nearest solver, contact law and model that are possible with what was asked
-    /// for: one of these three, or the slope of the tips. What was asked for itself stays.
-    /// Returns what was changed.
+    /// Changes solver, contact law and model so that they are compatible with the keys that the
+    /// user set (`asked`), which themselves stay. Returns what was changed.
     pub fn make_compatible(&mut self, asked: impl Fn(&str) -> bool) -> Vec<Adjustment> {
         const KIND: &str = keys::SOLVER;
         const CONTACT: &str = keys::LAW;
@@ -166,7 +164,7 @@ impl Scene {
         made
     }
 
-    /// Returns this scene for the event solver, which knows one contact law.
+    /// Returns the scene with the event solver and the unilateral law, the only one it supports.
     #[must_use]
     pub fn as_reference(&self) -> Self {
         let mut scene = self.clone();

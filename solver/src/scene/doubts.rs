@@ -1,5 +1,5 @@
-//! What in a scene looks like a slip: a unit or a decimal point that is off. Each doubt is
-//! a sentence with the key, its value, and what is usual.
+//! Plausibility checks: values that suggest a wrong unit or a misplaced decimal point. Each doubt
+//! is one sentence with the key, its value and the usual range.
 
 use std::f64::consts::TAU;
 
@@ -11,7 +11,7 @@ use crate::tolerances::{
     DOUBTFUL_FREQUENCY, DOUBTFUL_GAP, DOUBTFUL_RADIUS, DOUBTFUL_TIP_SPEED,
 };
 
-/// Casing or disk, and the keys of its numbers.
+/// A structure, casing or disk, and the keys of its values.
 struct Structure {
     name: &'static str,
     modes: &'static str,
@@ -34,22 +34,22 @@ const STRUCTURES: [Structure; 2] = [
     },
 ];
 
-/// What is looked at in a mode.
+/// Checked values of one mode.
 #[derive(Clone, Copy)]
-struct Looked {
+struct CheckedMode {
     diameters: u32,
     hertz: f64,
-    /// At the rim of the casing, or at the tips \[kg\].
+    /// Modal mass for unit amplitude at the casing rim or at the blade tips \[kg\].
     mass: f64,
     damping: f64,
 }
 
 impl Scene {
-    /// What looks like a slip.
+    /// Returns one sentence for each value that looks like a unit error.
     #[must_use]
     pub fn doubts(&self) -> Vec<String> {
         let radius = self.radius_doubt();
-        // Tips are not too fast where the radius is what is too large.
+        // If the radius is doubtful, it also explains the tip speed.
         let speed = if radius.is_none() { self.speed_doubt() } else { None };
         let doubts =
             [radius, self.clearance_doubt(), speed, self.force_doubt(), self.diameters_doubt()];
@@ -58,17 +58,18 @@ impl Scene {
         for (structure, own) in STRUCTURES.iter().zip([&self.casing.modes, &self.bladed_disk.modes])
         {
             all.extend(self.modes_doubts(structure, own));
-            let looked = self.looked(structure, own);
-            all.extend(self.mass_doubt(structure, &looked));
-            all.extend(frequency_doubt(structure, &looked));
-            all.extend(damping_doubt(structure, &looked));
-            all.extend(course_doubts(structure, looked));
+            let modes = self.checked_modes(structure, own);
+            all.extend(self.mass_doubt(structure, &modes));
+            all.extend(frequency_doubt(structure, &modes));
+            all.extend(damping_doubt(structure, &modes));
+            all.extend(course_doubts(structure, modes));
         }
         all
     }
 
-    /// The modes of a structure, or what it has at the diameters of the scene.
-    fn looked(&self, structure: &Structure, own: &[Mode]) -> Vec<Looked> {
+    /// Returns the values of all modes of a structure, or, if it has no list of modes, of the mode
+    /// in use.
+    fn checked_modes(&self, structure: &Structure, own: &[Mode]) -> Vec<CheckedMode> {
         let mut diameters: Vec<u32> = own.iter().map(|mode| mode.nodal_diameters).collect();
         if diameters.is_empty() {
             diameters.push(self.operation.nodal_diameters);
@@ -89,7 +90,7 @@ impl Scene {
                     (machine.omega_bd, mass, scene.disk_in_use().damping_ratio)
                 }
             };
-            Looked { diameters, hertz: omega / TAU, mass, damping }
+            CheckedMode { diameters, hertz: omega / TAU, mass, damping }
         };
         diameters.into_iter().map(look).collect()
     }
@@ -105,7 +106,7 @@ impl Scene {
         })
     }
 
-    /// Tips, an orbit or lobes that are no small error of a machine.
+    /// Checks tips, eccentricity and lobes against the size of usual imperfections.
     fn tips_doubt(&self) -> Option<String> {
         let most = DOUBTFUL_CLEARANCE * self.casing.radius_m;
         let (key, length) = self.unevenness().into_iter().find(|(_, length)| *length > most)?;
@@ -174,11 +175,11 @@ impl Scene {
         .collect()
     }
 
-    fn mass_doubt(&self, structure: &Structure, looked: &[Looked]) -> Option<String> {
-        // The unit of the radius is asked about where it is what is wrong.
+    fn mass_doubt(&self, structure: &Structure, modes: &[CheckedMode]) -> Option<String> {
+        // If the radius is doubtful, it also explains the mass.
         self.radius_doubt().is_none().then_some(())?;
         let [least, most] = DOUBTFUL_DENSITY.map(|density| density * self.casing.radius_m.powi(3));
-        let (mode, at) = first(looked, |mode| !(least..=most).contains(&mode.mass))?;
+        let (mode, at) = first(modes, |mode| !(least..=most).contains(&mode.mass))?;
         Some(format!(
             "The modal mass of the {}{at} is {} kg ({}); at this radius modes of metal have {least:.2} to {most:.0} kg. Was it in g or in t?",
             structure.name,
@@ -188,11 +189,15 @@ impl Scene {
     }
 }
 
-/// The first mode that is doubted, and which it is: one of several, and how many more are.
-fn first(looked: &[Looked], is_doubted: impl Fn(&Looked) -> bool) -> Option<(Looked, String)> {
-    let doubted: Vec<&Looked> = looked.iter().filter(|mode| is_doubted(mode)).collect();
+/// Returns the first mode that meets the condition, and the words that name it and count the
+/// others.
+fn first(
+    modes: &[CheckedMode],
+    is_doubted: impl Fn(&CheckedMode) -> bool,
+) -> Option<(CheckedMode, String)> {
+    let doubted: Vec<&CheckedMode> = modes.iter().filter(|mode| is_doubted(mode)).collect();
     let mode = **doubted.first()?;
-    let at = match (looked.len(), doubted.len()) {
+    let at = match (modes.len(), doubted.len()) {
         (1, _) => String::new(),
         (_, 1) => format!(" at {} diameters", mode.diameters),
         (_, all) => format!(" at {} diameters (and {} more)", mode.diameters, all - 1),
@@ -200,9 +205,9 @@ fn first(looked: &[Looked], is_doubted: impl Fn(&Looked) -> bool) -> Option<(Loo
     Some((mode, at))
 }
 
-fn frequency_doubt(structure: &Structure, looked: &[Looked]) -> Option<String> {
+fn frequency_doubt(structure: &Structure, modes: &[CheckedMode]) -> Option<String> {
     let [least, most] = DOUBTFUL_FREQUENCY;
-    let (mode, at) = first(looked, |mode| !(least..=most).contains(&mode.hertz))?;
+    let (mode, at) = first(modes, |mode| !(least..=most).contains(&mode.hertz))?;
     Some(format!(
         "The frequency of the {}{at} is {} Hz; first modes usually have {least} to {most} Hz.",
         structure.name,
@@ -210,8 +215,8 @@ fn frequency_doubt(structure: &Structure, looked: &[Looked]) -> Option<String> {
     ))
 }
 
-fn damping_doubt(structure: &Structure, looked: &[Looked]) -> Option<String> {
-    let (mode, at) = first(looked, |mode| mode.damping > DOUBTFUL_DAMPING)?;
+fn damping_doubt(structure: &Structure, modes: &[CheckedMode]) -> Option<String> {
+    let (mode, at) = first(modes, |mode| mode.damping > DOUBTFUL_DAMPING)?;
     let ratio = mode.damping;
     Some(format!(
         "{} = {ratio}{at} is a part of critical damping; structures have thousandths to hundredths. Was it per cent? Then write \"{ratio} %\".",
@@ -219,22 +224,22 @@ fn damping_doubt(structure: &Structure, looked: &[Looked]) -> Option<String> {
     ))
 }
 
-/// The modes whose frequency or mass lies far from those of the others: frequencies and masses
-/// of a structure go smoothly over the diameters.
-fn course_doubts(structure: &Structure, looked: Vec<Looked>) -> Vec<String> {
+/// Finds modes whose frequency or mass is far from that of the others: both vary smoothly with the
+/// nodal diameters.
+fn course_doubts(structure: &Structure, modes: Vec<CheckedMode>) -> Vec<String> {
     let mut doubts = Vec::new();
     for (what, unit, value) in [
-        ("frequency", "Hz", (|mode| mode.hertz) as fn(&Looked) -> f64),
+        ("frequency", "Hz", (|mode| mode.hertz) as fn(&CheckedMode) -> f64),
         ("modal mass", "kg", |mode| mode.mass),
     ] {
-        let far = |a: &Looked, b: &Looked| {
+        let far = |a: &CheckedMode, b: &CheckedMode| {
             let [a_n, b_n] = [a, b].map(|mode| f64::from(mode.diameters.max(1)));
             let apart = (value(a) / value(b)).ln().abs();
             apart > DOUBTFUL_COURSE[0].ln() + DOUBTFUL_COURSE[1] * (a_n / b_n).ln().abs()
         };
-        let mut rest = looked.clone();
+        let mut rest = modes.clone();
         loop {
-            let against = |mode: &Looked| rest.iter().filter(|other| far(mode, other)).count();
+            let against = |mode: &CheckedMode| rest.iter().filter(|other| far(mode, other)).count();
             let Some(place) = (0..rest.len()).max_by_key(|place| against(&rest[*place])) else {
                 break;
             };

@@ -1,61 +1,61 @@
-//! The reasons why a scene is refused, each in one line.
+//! Reasons why a scene is rejected, each in one line.
 
 use thiserror::Error;
 
 use super::units::UnitError;
 
-/// Why a scene, or a key of one, was refused.
+/// Error of a scene or of one of its keys.
 #[derive(Debug, Error, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum SceneError {
-    /// A key that does not exist.
+    /// The key does not exist.
     #[error("unknown key {key}; allowed: {allowed}")]
     UnknownKey {
         /// Dotted path as given.
         key: String,
-        /// The keys of its table.
+        /// Existing keys of the same table.
         allowed: String,
     },
-    /// A value that is not allowed.
+    /// The value is not allowed.
     #[error("{key} = {value}: allowed is {allowed}")]
     Refused {
         /// Dotted path.
         key: String,
         /// The value as given.
         value: String,
-        /// What would be accepted.
+        /// Allowed values, in words.
         allowed: String,
     },
-    /// A number of another quantity, or of no unit.
+    /// The value has a unit that is unknown or belongs to another quantity.
     #[error("{key} = {value}: {why}")]
     Unit {
         /// Dotted path.
         key: String,
         /// The value as given.
         value: String,
-        /// What it is, and which units are allowed.
+        /// What is wrong with the unit, and which units are allowed.
         why: UnitError,
     },
-    /// Text that is not TOML.
+    /// The text is not TOML.
     #[error("not a TOML file: {0}")]
     Syntax(String),
-    /// A file that cannot be read.
+    /// The file cannot be read.
     #[error("cannot read scene file {path}: {reason}")]
     File {
         /// The path as given.
         path: String,
-        /// The system's reason.
+        /// Reason given by the operating system.
         reason: String,
     },
-    /// A built-in scene of an earlier version.
+    /// The name is that of a built-in scene of an earlier version.
     #[error("scene {name} is gone: {instead}")]
     GoneScene {
         /// The name as given.
         name: String,
-        /// What has its motion or its numbers now.
+        /// Scene or command that replaces it.
         instead: &'static str,
     },
-    /// Neither a built-in scene nor a file.
+    /// The name is neither a built-in scene nor a file.
     #[error("unknown scene {name}; allowed: a path ending in .toml, or one of {allowed}")]
     UnknownScene {
         /// The name as given.
@@ -63,18 +63,18 @@ pub enum SceneError {
         /// Names of the built-in scenes.
         allowed: String,
     },
-    /// An error in a file, with the name of the file.
+    /// An error inside a file.
     #[error("{path}: {error}")]
     InFile {
         /// The path as given.
         path: String,
-        /// The error.
+        /// Error without the file name.
         error: Box<SceneError>,
     },
 }
 
 impl SceneError {
-    /// A refusal of `value` for `key`.
+    /// Creates the error for a value that is not allowed.
     pub fn refused(
         key: impl Into<String>,
         value: impl ToString,
@@ -84,10 +84,10 @@ impl SceneError {
     }
 }
 
-/// Refuses `value` for `key` where it is wrong.
+/// Rejects the value of a key if `is_wrong`.
 ///
 /// # Errors
-/// The refusal.
+/// Returns [`SceneError::Refused`].
 pub(super) fn refuse_if(
     is_wrong: bool,
     key: &str,

@@ -1,5 +1,5 @@
-//! Reads and writes scene files (TOML). Keys that a file does not contain have
-//! the documented default (the paper's machine); unknown keys are refused.
+//! Reads and writes scene files (TOML). Keys that a file does not contain have the documented
+//! default (the paper's machine); unknown keys are errors.
 
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read};
@@ -10,14 +10,14 @@ use toml::{Table, Value as Toml};
 use super::builtin::unknown;
 use super::{Allowed, BUILTIN, Key, Scene, SceneError, Value, keys, modes};
 
-/// Largest scene file \[bytes\]; the built-in ones have some hundreds.
+/// Largest accepted scene file \[bytes\]; the built-in ones have a few hundred.
 const LARGEST_FILE: u64 = 1 << 20;
 
 impl Scene {
-    /// A built-in scene by name, or the scene of a `.toml` file.
+    /// Loads a built-in scene by name, or a `.toml` file, and checks it completely.
     ///
     /// # Errors
-    /// No such scene, no such file, or a file that is refused.
+    /// The scene or file does not exist, or its content is not allowed.
     pub fn load(name_or_path: &str) -> Result<Self, SceneError> {
         let scene = Self::load_unchecked(name_or_path)?;
         scene.checked().map_err(|error| match builtin_text(name_or_path) {
@@ -27,11 +27,11 @@ impl Scene {
         Ok(scene)
     }
 
-    /// As `load`, but checks only each key, not the combinations, so that
-    /// options can still change the scene before the full check.
+    /// As [`load`](Self::load), but checks only each key and not the combinations, so that options
+    /// can still change the scene before the full check.
     ///
     /// # Errors
-    /// No such scene, no such file, or a key in it that is refused.
+    /// The scene or file does not exist, or a key in it is not allowed.
     pub fn load_unchecked(name_or_path: &str) -> Result<Self, SceneError> {
         if let Some(text) = builtin_text(name_or_path) {
             return Self::from_toml_unchecked(text);
@@ -46,22 +46,21 @@ impl Scene {
         Self::from_toml_unchecked(&text).map_err(|error| in_file(name_or_path, error))
     }
 
-    /// Reads a scene file and checks it completely.
+    /// Reads the text of a scene file and checks it completely.
     ///
     /// # Errors
-    /// The first error in it, in one line.
+    /// Names the first error in one line.
     pub fn from_toml(text: &str) -> Result<Self, SceneError> {
         let scene = Self::from_toml_unchecked(text)?;
         scene.checked()?;
         Ok(scene)
     }
 
-    /// Reads a scene file and checks each key but not the combinations, so that
-    /// options can still change the scene before the full check.
+    /// As [`from_toml`](Self::from_toml), but checks only each key and not the combinations, so
+    /// that options can still change the scene before the full check.
     ///
     /// # Errors
-    /// Text that is not TOML, unknown keys, values of the wrong type or out of
-    /// bounds.
+    /// The text is not TOML, a key is unknown, or a value has the wrong type or is out of bounds.
     pub fn from_toml_unchecked(text: &str) -> Result<Self, SceneError> {
         let table: Table = text.parse().map_err(|error: toml::de::Error| {
             let message = error.message().lines().collect::<Vec<_>>().join(" ");
@@ -75,7 +74,7 @@ impl Scene {
             if name == "schema" {
                 check_schema(value)?;
             } else if let Toml::Table(inner) = value {
-                // Frequencies of modes are of the masses beside them.
+                // Modes are read last: a mode's frequency refers to the mass in the same table.
                 let (modes, plain): (Vec<_>, Vec<_>) =
                     inner.iter().partition(|(leaf, _)| *leaf == "modes");
                 for (leaf, value) in plain.into_iter().chain(modes) {
@@ -92,7 +91,7 @@ impl Scene {
         Ok(scene)
     }
 
-    /// The scene as a TOML file with every key.
+    /// Writes the scene as a TOML file that contains every key.
     #[must_use]
     pub fn to_toml(&self) -> String {
         let mut out = String::from("schema = 1\n");
@@ -118,13 +117,13 @@ impl Scene {
     }
 }
 
-/// Reads a text file of at most `most` bytes; no more are ever in memory.
+/// Reads a text file of at most `most` bytes.
 ///
 /// # Errors
-/// An error of the system, a larger file, or bytes that are not UTF-8.
+/// The system reports an error, the file is larger, or its content is not UTF-8.
 pub fn read_text(path: &Path, most: u64) -> std::io::Result<String> {
     let mut bytes = Vec::new();
-    // A device or a huge file ends here, not in memory.
+    // Limits the memory that a device or a huge file can use.
     File::open(path)?.take(most + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > most {
         let reason = format!("allowed are up to {most} bytes");
@@ -192,7 +191,7 @@ fn read(scene: &mut Scene, path: &str, toml: &Toml) -> Result<(), SceneError> {
     scene.set_value(key, value)
 }
 
-/// A value in one line.
+/// Formats a value in one line.
 pub(super) fn one_line(value: &Toml) -> String {
     value.to_string().lines().collect::<Vec<_>>().join(" ")
 }

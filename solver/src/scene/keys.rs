@@ -1,5 +1,5 @@
-//! The one table of scene keys: path, unit, meaning, bounds, and how to get
-//! and set each. The file reader, `--set` and the explorer's knobs all use it.
+//! The table of scene keys: path, unit, meaning, bounds, and how to read and write each. The file
+//! reader, `--set` and the knobs of the explorer all use it.
 
 use strum::VariantNames;
 
@@ -8,18 +8,18 @@ use super::units::{Quantity, UnitError};
 use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
 use crate::model::ModePart;
 
-/// A value of a key.
+/// Value of a key.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// A number.
+    /// Real number.
     Real(f64),
-    /// A whole number, zero or more.
+    /// Whole number, zero or more.
     Whole(u64),
-    /// A line of text, or one of a few words.
+    /// Line of text, or a word from a fixed set.
     Text(String),
-    /// A list of words.
+    /// List of words.
     Words(Vec<String>),
-    /// A list of numbers.
+    /// List of numbers.
     Numbers(Vec<f64>),
 }
 
@@ -36,16 +36,16 @@ impl std::fmt::Display for Value {
     }
 }
 
-/// The allowed values of a key.
+/// Allowed values of a key.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Allowed {
-    /// A finite number from `min` to `max`, without `min` itself where `above` is set.
+    /// A finite number from `min` to `max`; `min` itself is excluded if `above` is set.
     Real {
         /// Lower bound.
         min: f64,
         /// Upper bound, included.
         max: f64,
-        /// Whether the lower bound itself is refused.
+        /// Whether the lower bound is excluded.
         above: bool,
     },
     /// A whole number from `min` to `max`.
@@ -57,20 +57,20 @@ pub enum Allowed {
     },
     /// One of these words.
     OneOf(&'static [&'static str]),
-    /// One or more of these words, each once.
+    /// One or more of these words, without repetition.
     SomeOf(&'static [&'static str]),
-    /// A line of text with a limited number of characters.
+    /// A line of text of limited length.
     Text {
         /// Largest number of characters.
         most: usize,
     },
-    /// A list of the modes of a structure, as text.
+    /// A list of the modes of a structure, as TOML text.
     Modes(&'static Structure),
-    /// A list of so many numbers at most, each up to `size` in magnitude.
+    /// A list of numbers of limited count and magnitude.
     Numbers {
         /// Largest magnitude.
         size: f64,
-        /// Most numbers.
+        /// Largest count.
         most: usize,
     },
 }
@@ -96,42 +96,42 @@ impl std::fmt::Display for Allowed {
     }
 }
 
-/// Which running motions accept another value of a key.
+/// Whether a running motion accepts a new value of a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Live {
-    /// Every motion.
+    /// Both solvers accept a new value.
     Always,
-    /// Motions by time steps.
+    /// Only the explicit solver accepts a new value.
     Steps,
-    /// None: another value starts another motion.
+    /// A new value needs a new motion.
     Never,
-    /// None: it acts only before a motion runs.
+    /// A new value has no effect, because the key describes the initial state.
     Start,
-    /// It has no effect on a motion.
+    /// The key does not affect the motion.
     Aside,
 }
 
-/// One key of the scene file.
+/// A key of the scene file.
 #[derive(Debug)]
 pub struct Key {
-    /// Dotted path, as in the file.
+    /// Dotted path in the file, such as `operation.speed_rad_s`.
     pub path: &'static str,
-    /// Unit, as it is shown.
+    /// Unit, as displayed; `-` for none.
     pub unit: &'static str,
-    /// Description, in a few words.
+    /// Short description.
     pub what: &'static str,
-    /// Which running motions accept another value.
+    /// Whether a running motion accepts a new value.
     pub live: Live,
     /// Allowed values.
     pub allowed: Allowed,
-    /// Returns its value in a scene.
+    /// Reads the value from a scene.
     pub get: fn(&Scene) -> Value,
-    /// Sets it in a scene; the value must be of its kind.
+    /// Writes a value of the right type to a scene.
     pub(super) set: fn(&mut Scene, Value),
 }
 
 impl Key {
-    /// Returns its description with its unit, as the title of an axis.
+    /// Returns description and unit, for use as an axis title.
     #[must_use]
     pub fn title(&self) -> String {
         if self.unit == "-" {
@@ -141,10 +141,10 @@ impl Key {
         }
     }
 
-    /// Rejects values of another kind or out of bounds.
+    /// Rejects a value of the wrong type or out of bounds.
     ///
     /// # Errors
-    /// One line with key, value and what is allowed.
+    /// One line with the key, the value and what is allowed.
     pub fn check(&self, value: &Value) -> Result<(), SceneError> {
         let fits = match (value, self.allowed) {
             (Value::Real(x), Allowed::Real { min, max, above }) => {
@@ -153,7 +153,8 @@ impl Key {
             (Value::Whole(n), Allowed::Whole { min, max }) => (min..=max).contains(n),
             (Value::Text(text), Allowed::OneOf(words)) => words.contains(&text.as_str()),
             (Value::Words(list), Allowed::SomeOf(words)) => {
-                // A list of more words than there are is refused before it is searched.
+                // Lists that are too long are rejected first, which bounds the quadratic search for
+                // repetitions.
                 let distinct = |(place, word): (usize, &String)| !list[..place].contains(word);
                 (1..=words.len()).contains(&list.len())
                     && list.iter().all(|word| words.contains(&word.as_str()))
@@ -180,16 +181,16 @@ impl Key {
         }
     }
 
-    /// Returns the quantity of its numbers.
+    /// Returns the physical quantity of the key.
     #[must_use]
     pub fn quantity(&self) -> Quantity {
         Quantity::of(self.unit)
     }
 
-    /// Reads a number within the bounds of this key, whole or not, which a refusal calls `name`.
+    /// Reads a number within the bounds of this key, real or whole. Errors refer to it as `name`.
     ///
     /// # Errors
-    /// Text that is no such number.
+    /// The text is not such a number.
     pub fn number(&self, name: &str, text: &str) -> Result<f64, SceneError> {
         match self.parse(text).and_then(|value| self.check(&value).map(|()| value)) {
             Ok(Value::Real(x)) => Ok(x),
@@ -201,11 +202,11 @@ impl Key {
         }
     }
 
-    /// Reads a value of this key's kind from text, as given on a command line; a number may
-    /// have a unit.
+    /// Reads a value of this key's type from text, as given on a command line; a number may have a
+    /// unit. Bounds are not checked.
     ///
     /// # Errors
-    /// Text that is not of the kind this key holds.
+    /// The text is not a value of this type.
     pub fn parse(&self, text: &str) -> Result<Value, SceneError> {
         let refused = || SceneError::refused(self.path, text, self.allowed.to_string());
         let trimmed = text.trim();
@@ -235,9 +236,9 @@ impl Key {
     }
 }
 
-/// Returns whether a character is visible text and nothing else: it does not move the cursor of a
-/// terminal or break the line or its direction, it is not invisible, and XML allows it. Joiners
-/// and selectors are refused, too: terminals do not agree on the width of the result.
+/// Returns whether a character is visible text and nothing else: not a control character, not a
+/// direction mark, not invisible, and allowed in XML. Joiners and variation selectors are excluded
+/// too, because terminals disagree on the width of the result.
 #[must_use]
 pub fn is_plain(c: char) -> bool {
     let acts = matches!(
@@ -254,12 +255,12 @@ pub fn is_plain(c: char) -> bool {
 /// Returns the key with this dotted path.
 ///
 /// # Errors
-/// An unknown path; the message lists the keys of its table.
+/// The path is unknown; the message lists the keys of its table.
 pub fn find(path: &str) -> Result<&'static Key, SceneError> {
     KEYS.iter().find(|key| key.path == path).ok_or_else(|| unknown(path))
 }
 
-/// Returns the error for an unknown key, with the keys of its table.
+/// Returns the error for an unknown key; it lists the keys of the same table.
 pub(super) fn unknown(path: &str) -> SceneError {
     let table = path.split_once('.').map_or("", |(table, _)| table);
     let of_table = |key: &&Key| key.path.split_once('.').map_or("", |(t, _)| t) == table;
@@ -277,7 +278,7 @@ pub(super) fn unknown(path: &str) -> SceneError {
     SceneError::UnknownKey { key: path.to_string(), allowed: names.join(", ") }
 }
 
-/// Charts of the explorer, in the order of their digits.
+/// Charts of the explorer, in the order of their digit keys.
 pub const CHARTS: &[&str] = &[
     "response",
     "gaps",
@@ -290,7 +291,8 @@ pub const CHARTS: &[&str] = &[
     "coincidence",
 ];
 
-/// Makes a key of what it allows, the kind of its value, and how that is read and set.
+/// Builds a [`Key`] from its allowed values, the type of its value, and the expressions that read
+/// and write it.
 macro_rules! key {
     ($path:expr, $live:ident, $unit:expr, $what:expr, $allowed:expr,
      $kind:ident, |$from:ident| $get:expr, |$to:ident, $value:ident| $set:expr) => {
@@ -315,7 +317,7 @@ macro_rules! real {
             Real, |scene| scene.$($field).+, |scene, x| scene.$($field).+ = x)
     };
 }
-/// As `real`, of a value that modes may have of their own: that of the mode in use.
+/// As `real`, for a value that modes can set themselves: reads and writes that of the mode in use.
 macro_rules! moded {
     ($path:expr, $live:ident, $unit:literal, $what:literal, $above:literal $min:literal .. $max:literal, $in_use:ident.$field:ident, $place:ident $part:ident) => {
         key!(
@@ -385,29 +387,30 @@ macro_rules! charts {
     };
 }
 
-/// Returns the keys in which a scene differs from another, with their values as text, without the
-/// keys of the explorer's first view.
+/// Returns the keys in which `to` differs from `from`, with their new values as text. Applied in
+/// this order they turn one scene into the other. Keys of the explorer's initial view are left out.
 pub fn differences(from: &Scene, to: &Scene) -> impl Iterator<Item = (&'static str, String)> {
     changed(from, to, false)
 }
 
-/// Same as `differences`, for the keys of the explorer's first view.
+/// As [`differences`], but only the keys of the explorer's initial view.
 pub fn view_differences(from: &Scene, to: &Scene) -> impl Iterator<Item = (&'static str, String)> {
     changed(from, to, true)
 }
 
-/// Returns the keys in which a scene differs from another.
+/// Returns the keys whose values differ between two scenes.
 pub fn differing(from: &Scene, to: &Scene) -> impl Iterator<Item = &'static Key> + Clone {
     KEYS.iter().filter(move |key| (key.get)(from) != (key.get)(to))
 }
 
-/// Returns the changes that, set one after the other, lead from one scene to the other: first the
-/// keys that choose the modes in use, last the values of these modes.
+/// Returns the changes that turn one scene into the other if applied in order: first the keys that
+/// select the modes in use, last the lists of modes.
 fn changed(from: &Scene, to: &Scene, view: bool) -> impl Iterator<Item = (&'static str, String)> {
     let (mut made, scene) = walked(from, to, view);
     let alike = scene.casing == to.casing && scene.bladed_disk == to.bladed_disk;
     if !view && !alike {
-        // A value that the mode in use hides: everything anew.
+        // A difference is hidden by the mode in use: clear the lists, set all values, and restore
+        // the lists.
         let none = MODES.map(|path| (path, "[]".to_string()));
         made = walked(&from.without_modes(), &to.without_modes(), view).0;
         made.splice(0..0, none);
@@ -421,7 +424,7 @@ fn changed(from: &Scene, to: &Scene, view: bool) -> impl Iterator<Item = (&'stat
 /// Keys of the lists of modes.
 const MODES: [&str; 2] = [DISK_MODES, CASING_MODES];
 
-/// Returns the keys that lead from a scene to another, and the scene that results.
+/// Returns the changes from a scene to another, and the scene that results from applying them.
 fn walked(from: &Scene, to: &Scene, view: bool) -> (Vec<(&'static str, String)>, Scene) {
     const FIRST: [&str; 2] = [DIAMETERS, DISK_DIAMETERS];
     let mut scene = from.clone();
@@ -432,7 +435,7 @@ fn walked(from: &Scene, to: &Scene, view: bool) -> (Vec<(&'static str, String)>,
     };
     let mut keys: Vec<&Key> =
         KEYS.iter().filter(|key| key.path.starts_with("view.") == view).collect();
-    // Where nothing has modes the order is that of the file.
+    // Without modes the order is that of the file.
     if !from.casing.modes.is_empty() || !from.bladed_disk.modes.is_empty() {
         keys.sort_by_key(place);
     }
@@ -447,7 +450,7 @@ fn walked(from: &Scene, to: &Scene, view: bool) -> (Vec<(&'static str, String)>,
     (made, scene)
 }
 
-/// Returns the value of a key in a scene as text that is read back exactly.
+/// Returns the value of a key as text that is read back exactly.
 fn text_of(key: &Key, scene: &Scene) -> String {
     match (key.get)(scene) {
         Value::Real(x) => format!("{x:?}"),
@@ -457,11 +460,11 @@ fn text_of(key: &Key, scene: &Scene) -> String {
     }
 }
 
-/// Quantity that is not a key but is changed and swept like one: the clearance `R_c - l_b`, which
-/// the radius of the casing sets.
+/// Name of the clearance `R_c - l_b`. It is not a key, but can be changed and swept like one; it is
+/// set by the casing radius.
 pub const CLEARANCE: &str = "clearance";
 
-/// Makes of each row the constant with the path of a key, and the key in `KEYS`.
+/// For each row, defines a constant with the path of the key, and adds the key to `KEYS`.
 macro_rules! keys {
     ($($name:ident $path:literal = $kind:ident($($of:tt)+);)+) => {
         $(
@@ -469,7 +472,7 @@ macro_rules! keys {
             pub const $name: &str = $path;
         )+
 
-        /// Every key but `schema`, in the order of the file.
+        /// All keys except `schema`, in the order of the file.
         pub const KEYS: &[Key] = &[$($kind!($name, $($of)+)),+];
     };
 }

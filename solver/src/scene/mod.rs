@@ -1,9 +1,10 @@
-//! Scenes: one machine, its operation and its solver in one value.
+//! Scenes: machine, operation and solver settings in one value.
 //!
-//! A scene comes from a built-in preset or a TOML file and can be changed key
-//! by key (`Scene::set`). An invalid value is refused in one line with the key,
-//! the value and what is allowed. The file format, the command line and the
-//! knobs of the explorer all use the table in `keys`.
+//! A scene comes from a built-in preset or a TOML file, and each of its keys can be changed with
+//! [`Scene::set`]. An invalid value is rejected with one line that names the key, the value and
+//! what is allowed. The file format, the command line and the knobs of the explorer all use the
+//! table in [`keys`]. Combinations of values are checked by [`Scene::checked`], which returns the
+//! type that the solvers take.
 
 mod beyond;
 mod build;
@@ -37,20 +38,20 @@ use crate::model::{
     BladedDisk, Casing, ContactSurface, Excitation, Initial, LiningLaw, Machine, Operation,
 };
 
-/// Which solver advances the motion.
+/// Solver that computes the motion.
 #[derive(
     Clone, Copy, Debug, PartialEq, Eq, Serialize, Display, EnumString, AsRefStr, VariantNames,
 )]
 #[serde(rename_all = "lowercase")]
 #[strum(serialize_all = "lowercase")]
 pub enum SolverKind {
-    /// Explicit central differences, Eqs. (8)-(16): first order in contact.
+    /// Explicit central differences, Eqs. (8)-(16); contact is of first order in the time step.
     Explicit,
-    /// Event-driven closed forms: the reference.
+    /// Event-driven closed-form solutions; serves as the reference.
     Event,
 }
 
-/// Which parts of the machine can move.
+/// Model size: which parts of the machine have coordinates.
 #[derive(
     Clone, Copy, Debug, PartialEq, Eq, Serialize, Display, EnumString, AsRefStr, VariantNames,
 )]
@@ -59,20 +60,20 @@ pub enum SolverKind {
 pub enum ModelSize {
     /// Casing only; the blades are rigid.
     Rigid,
-    /// The paper's four coordinates.
+    /// The paper's four coordinates: two of the casing, two of the disk.
     Modal,
-    /// One coordinate per blade, Eqs. (2)-(3).
+    /// One angle a blade, Eqs. (2)-(3), besides the casing.
     Full,
 }
 
-/// Numerical choices of a time simulation.
+/// Settings of a time simulation.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SolverChoice {
-    /// Which solver.
+    /// Solver.
     pub kind: SolverKind,
-    /// Which contact law.
+    /// Contact law.
     pub contact: ContactLaw,
-    /// Which model size.
+    /// Model size.
     pub model: ModelSize,
     /// Time step of the explicit solver \[s\].
     pub step_s: f64,
@@ -97,12 +98,12 @@ impl Default for SolverChoice {
     }
 }
 
-/// What the explorer opens with.
+/// Initial view of the explorer.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct View {
-    /// Names of charts, the first one the largest.
+    /// Names of the charts; the first is shown largest.
     pub charts: Vec<String>,
-    /// Where it begins to play, at most the end of the run \[s\].
+    /// Time at which playback begins, at most the end of the run \[s\].
     pub begin_s: f64,
 }
 
@@ -113,7 +114,7 @@ impl Default for View {
     }
 }
 
-/// One scene, complete: every key has a value.
+/// A complete scene: every key has a value, but combinations are not checked yet.
 ///
 /// ```
 /// use rubscope_solver::scene::Scene;
@@ -126,17 +127,17 @@ impl Default for View {
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Scene {
-    /// Version of the file format; 1.
+    /// Version of the file format, 1.
     pub schema: u32,
-    /// One line that names the scene.
+    /// Title, one line.
     pub title: String,
-    /// What to look for.
+    /// What to look for, for the reader of the scene.
     pub note: String,
     /// The bladed disk.
     pub bladed_disk: BladedDisk,
     /// The casing.
     pub casing: Casing,
-    /// Friction, restitution and lining where they touch.
+    /// Friction, restitution and lining.
     pub contact: ContactSurface,
     /// Speed, pulse and nodal diameters.
     pub operation: Operation,
@@ -144,15 +145,15 @@ pub struct Scene {
     pub initial: Initial,
     /// Engine-order excitation of the blades; off by default.
     pub excitation: Excitation,
-    /// Numerical choices.
+    /// Settings of the simulation.
     pub solver: SolverChoice,
-    /// Charts to open with.
+    /// Initial view of the explorer.
     pub view: View,
 }
 
 impl Scene {
-    /// What an empty file describes: the values of keys that a file leaves out. It
-    /// has the paper's machine, and no words.
+    /// Returns the scene of an empty file, which contains the default value of every key: the
+    /// paper's machine, without a title or note.
     #[must_use]
     pub fn base() -> Self {
         Self {
@@ -170,7 +171,7 @@ impl Scene {
         }
     }
 
-    /// The machine this scene describes at its speed, with all that is derived from it.
+    /// Returns the machine at the scene's rotor speed, with all derived quantities.
     #[must_use]
     pub fn machine(&self) -> Machine {
         let (disk, casing) = (self.disk_in_use(), self.casing_in_use());
@@ -178,15 +179,15 @@ impl Scene {
             .with_friction(self.contact.friction)
             .with_lining(self.lining());
         if self.solver.model == ModelSize::Rigid {
-            // Blades that do not bend do not move their tips outward.
+            // Rigid blades do not bend, so an inclined tip path has no effect.
             machine.radial_coupling = 0.0;
         }
         machine.turn_at(self.operation.speed_rad_s);
         machine
     }
 
-    /// Where the casing starts: at its initial place, or, where none is given and tips leave
-    /// the centre outside of rigid contact, at the open place nearest to it \[m\].
+    /// Returns the initial casing position \[m\]: the given one, or, if none is given and the tips
+    /// exclude the centre in rigid contact, the nearest position with every gap open.
     #[must_use]
     pub fn start(&self) -> (f64, f64) {
         let Initial { u_c_m, u_s_m, v_c_m_s, v_s_m_s } = self.initial;
@@ -199,7 +200,7 @@ impl Scene {
         machine.nearest_open((0.0, 0.0), 0.0, |_| 0.0).unwrap_or_default()
     }
 
-    /// Where the casing starts, if not at its initial place.
+    /// Returns a note if the initial casing position is not the given one.
     #[must_use]
     pub fn start_note(&self) -> Option<String> {
         let (x, y) = self.start();
@@ -213,13 +214,13 @@ impl Scene {
         })
     }
 
-    /// The lining under a blade, with the smooth law.
+    /// Returns the lining under a blade; `None` with rigid contact.
     #[must_use]
     pub fn lining(&self) -> Option<LiningLaw> {
         (self.solver.contact == ContactLaw::Smooth).then(|| LiningLaw::of(&self.contact))
     }
 
-    /// The largest speed of the run, as a magnitude \[rad/s\].
+    /// Returns the largest speed during the run, as a magnitude \[rad/s\].
     #[must_use]
     pub fn fastest_rad_s(&self) -> f64 {
         let operation = &self.operation;
@@ -227,7 +228,8 @@ impl Scene {
         operation.speed_rad_s.abs().max(last.abs())
     }
 
-    /// Largest step the explicit solver is stable for, `2/omega_max`, Eq. (9) \[s\].
+    /// Returns the stability limit of the explicit solver's time step, `2/omega_max`, Eq. (9)
+    /// \[s\]. On a lining `omega_max^2` is increased by the stiffness of all blades in contact.
     #[must_use]
     pub fn stable_step(&self) -> f64 {
         let machine = self.machine();
@@ -240,7 +242,7 @@ impl Scene {
         if self.solver.contact != ContactLaw::Smooth {
             return 2.0 / fastest;
         }
-        // All blades on the lining.
+        // All blades in contact with the lining.
         let (lining, blades) = (self.contact.stiffness_n_per_m, f64::from(self.bladed_disk.blades));
         let speed = self.operation.speed_rad_s;
         let turn = machine.casing_friction_at(speed).hypot(1.0);
@@ -256,21 +258,21 @@ impl Scene {
         2.0 / fastest.hypot(joined.sqrt())
     }
 
-    /// Sets one key from text, as `--set` and the knobs do, and checks the
-    /// value against the key's own bounds. The scene is unchanged on error.
+    /// Sets a key from text, as `--set` and the knobs do, and checks the value against the bounds
+    /// of that key. The scene is unchanged on error.
     ///
     /// # Errors
-    /// An unknown key, a value of the wrong type, or one out of bounds.
+    /// The key is unknown, or the value has the wrong type or is out of bounds.
     pub fn set(&mut self, path: &str, text: &str) -> Result<(), SceneError> {
         let key = keys::find(path)?;
         let value = key.parse(text)?;
         self.set_value(key, value)
     }
 
-    /// This scene with some keys set from text, checked completely.
+    /// Sets several keys from text and checks the scene completely.
     ///
     /// # Errors
-    /// The first key, value or combination that is refused.
+    /// Names the first key, value or combination that is not allowed.
     pub fn with(mut self, changes: &[(&str, &str)]) -> Result<CheckedScene, SceneError> {
         for (path, text) in changes {
             self.set(path, text)?;
@@ -278,10 +280,10 @@ impl Scene {
         self.checked()
     }
 
-    /// Sets one key to a value, checked against the key's own bounds.
+    /// Sets a key to a value, checked against the bounds of that key.
     ///
     /// # Errors
-    /// A value of the wrong kind or out of bounds.
+    /// The value has the wrong type or is out of bounds.
     pub fn set_value(&mut self, key: &Key, value: Value) -> Result<(), SceneError> {
         key.check(&value)?;
         (key.set)(self, value);

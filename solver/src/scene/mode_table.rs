@@ -1,5 +1,5 @@
-//! The modes of a modal analysis from a table as a spreadsheet saves it: names and units of
-//! columns, separators, decimal commas, and frequencies at two speeds.
+//! Reads the modes of a modal analysis from a table saved by a spreadsheet. Handles column names
+//! with units, several separators, decimal commas, and frequencies given at two speeds.
 
 use csv::StringRecord;
 
@@ -8,32 +8,35 @@ use super::modes::{frequency_at_rest, hertz_of};
 use super::units::UnitError;
 use super::{Quantity, SceneError, keys};
 
-/// The modes of a table.
+/// Modes read from a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModeTable {
-    /// Modes of the casing, and of the disk.
+    /// Modes of the casing and of the disk.
     pub modes: [Vec<Family>; 2],
-    /// Columns and cells that are not used, in words.
+    /// Messages about columns and cells that were not used.
     pub notes: Vec<String>,
 }
 
-/// A mode of a table, with each frequency and its speed \[Hz, rad/s\].
+/// A mode with its measured frequencies, each with its rotor speed \[Hz, rad/s\].
 type Measured = (Family, Vec<(f64, f64)>);
 
-/// A column by the name of its key, with its unit and its place.
+/// A column: name, unit and index.
 type Column = (&'static str, String, usize);
 
-/// Reads the modes of a table: a line of names, then a line for each mode. Names are
-/// `structure` (casing or disk), `nodal_diameters`, `frequency_hz`, `modal_mass_kg`, and
-/// `damping_ratio` if there is one. A line of the disk may have the rotor `speed` of its frequency
-/// and `centrifugal_stiffening`; two lines of the same diameters at two speeds are one mode, with
-/// mass and damping of the first. A unit in the name of a column, as in `Frequency [kHz]`,
-/// `Damping (%)` or `speed_rpm`, is that of its bare numbers. Cells stand between commas, or
-/// between semicolons or tabs, with which numbers may have a decimal comma. Empty lines and those
-/// that begin with `#` are left out, and columns of other names, which are noted.
+/// Reads the modes of a table: a header line, then a line for each mode.
+///
+/// The columns are `structure` (casing or disk), `nodal_diameters`, `frequency_hz`, `modal_mass_kg`
+/// and, optionally, `damping_ratio`. Lines of the disk may also have the rotor `speed` at which the
+/// frequency was determined, and `centrifugal_stiffening`. Two lines with the same nodal diameters
+/// at two speeds are one mode, with the mass and damping of the first.
+///
+/// A unit in a column name, as in `Frequency [kHz]`, `Damping (%)` or `speed_rpm`, applies to its
+/// bare numbers. Cells are separated by commas, or by semicolons or tabs; with the latter, numbers
+/// may have a decimal comma. Empty lines and lines that begin with `#` are skipped. Other columns
+/// are ignored and listed in the notes.
 ///
 /// # Errors
-/// A missing column, or a value that is not allowed, by its line and column.
+/// A column is missing, or a value is not allowed; the message gives line and column.
 pub fn read_modes(text: &str) -> Result<ModeTable, SceneError> {
     let text = text.trim_start_matches('\u{feff}').replace("\r\n", "\n").replace('\r', "\n");
     let head = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#'));
@@ -42,7 +45,7 @@ pub fn read_modes(text: &str) -> Result<ModeTable, SceneError> {
     let mut reader = csv::ReaderBuilder::new();
     reader.delimiter(delimiter).comment(Some(b'#')).flexible(true).trim(csv::Trim::All);
     let mut reader = reader.has_headers(false).from_reader(text.as_bytes());
-    // Lines of any length of what is text cannot fail.
+    // Reading text that is already in memory cannot fail, since any number of cells is accepted.
     let records = reader.records().flatten();
     let mut records = records.filter(|record| !record.iter().all(str::is_empty));
     let names = records.next().unwrap_or_default();
@@ -53,7 +56,7 @@ pub fn read_modes(text: &str) -> Result<ModeTable, SceneError> {
     }
     let mut found: [Vec<Measured>; 2] = Default::default();
     for record in records {
-        // Its position is that of the lines that are left out before it.
+        // The reader reports the position before any skipped lines.
         let (line, start) = record.position().map_or((0, 0), |at| (at.line(), at.byte()));
         let before = text.get(start as usize..).unwrap_or_default().lines();
         let is_left_out = |line: &&str| line.is_empty() || line.starts_with('#');
@@ -99,11 +102,11 @@ pub fn read_modes(text: &str) -> Result<ModeTable, SceneError> {
     Ok(ModeTable { modes, notes })
 }
 
-/// Adds a mode, or the second speed of one that is known; returns what is not used of the second
-/// line.
+/// Adds a mode, or the second speed of a known one. Returns a note for each value of the second
+/// line that is not used.
 ///
 /// # Errors
-/// A mode that has all its lines.
+/// The mode already has all its lines.
 fn add(
     modes: &mut Vec<Measured>,
     mode: Family,
@@ -135,11 +138,11 @@ fn add(
     Ok(unused.collect())
 }
 
-/// Returns the known columns of a line of names, each with its unit and its place, and the names
-/// of the others.
+/// Returns the known columns of the header, each with its unit and index, and the names of the
+/// other columns.
 ///
 /// # Errors
-/// A needed column that is missing, one that is there twice, or a wrong unit.
+/// A required column is missing, a column occurs twice, or a unit is wrong.
 fn columns(names: &StringRecord) -> Result<(Vec<Column>, Vec<&str>), SceneError> {
     let (mut columns, mut unused) = (Vec::new(), Vec::new());
     for (at, written) in names.iter().enumerate() {
@@ -158,10 +161,10 @@ fn columns(names: &StringRecord) -> Result<(Vec<Column>, Vec<&str>), SceneError>
     Ok((columns, unused))
 }
 
-/// Returns the column that has this name, and the unit in it; none for other words.
+/// Returns the known column that a header cell names, and its unit; `None` for other names.
 ///
 /// # Errors
-/// A unit of another quantity, or no unit in brackets.
+/// The unit belongs to another quantity, or the brackets contain no known unit.
 fn column(written: &str) -> Result<Option<(&'static str, String)>, SceneError> {
     let mut words = written.split_whitespace().collect::<Vec<_>>().join("_");
     if words.eq_ignore_ascii_case("rpm") {
@@ -195,7 +198,7 @@ fn column(written: &str) -> Result<Option<(&'static str, String)>, SceneError> {
     }
 }
 
-/// Names of columns, the quantity of their numbers, and other names; the first four are needed.
+/// Column names, their quantity, and alternative names. The first [`NEEDED`] columns are required.
 const COLUMNS: [(&str, Quantity, &[&str]); 7] = [
     (STRUCTURE, Quantity::Plain, &[]),
     (MODE[0], Quantity::Plain, &["nodal_diameter"]),
@@ -212,15 +215,15 @@ const STRUCTURE: &str = "structure";
 const MODE: [&str; 3] = ["nodal_diameters", "frequency_hz", "modal_mass_kg"];
 const DAMPING: &str = "damping_ratio";
 const SPEED: &str = "speed";
-/// What a mode of the disk may have; also its name in a scene.
+/// Optional column of the disk; also the name of the key in a scene file.
 pub(super) const STIFFENING: &str = "centrifugal_stiffening";
 
 impl Family {
-    /// Reads a mode from the texts that are given for the names of a table, such as
-    /// `frequency_hz`; `path` names each for a refusal.
+    /// Reads a mode from texts looked up by column name, such as `frequency_hz`. `path` gives the
+    /// name that an error uses.
     ///
     /// # Errors
-    /// The first that is not allowed.
+    /// Names the first value that is not allowed.
     pub fn read(
         given: &dyn Fn(&str) -> Option<String>,
         path: &dyn Fn(&str) -> String,
@@ -361,7 +364,8 @@ mod tests {
             let refused = of(names, cells).unwrap_err().to_string();
             assert!(refused.contains(why), "{names}: {refused}");
         }
-        // What is no unit makes another column, the symbol of a prefix alone, too.
+        // A name that ends in something other than a unit is an unknown column, even if it is an SI
+        // prefix.
         for name in
             ["Speed n", "Speed of the test", "Massive", "Damping measured", "speed_k", "Speed µ"]
         {

@@ -1,10 +1,10 @@
-//! The modes of casing and disk by their number of diameters: `[[casing.modes]]` and
-//! `[[bladed_disk.modes]]`, as they are read and written, and which of them is in use.
+//! The lists `[[casing.modes]]` and `[[bladed_disk.modes]]`: reading, writing, and which mode is in
+//! use for the nodal diameters of the scene.
 //!
-//! What a mode leaves out is the structure's own value. A frequency stands for the
-//! stiffness that gives it, whatever the mass is: `k_c = m_c (2 pi f)^2` of the casing, and of the disk that
-//! `k_b` which with the given `k_bb` does, `m_b (2 pi f)^2 - 4 k_bb sin^2(pi n/N)`. Frequencies of
-//! blades that turn give those at rest, `f^2 = f_0^2 + B (Omega/2 pi)^2`.
+//! A value that a mode does not set is that of the structure. A frequency replaces the stiffness
+//! that yields it, whatever the mass is: `k_c = m_c (2 pi f)^2` for the casing, and for the disk,
+//! with the given `k_bb`, `k_b = m_b (2 pi f)^2 - 4 k_bb sin^2(pi n/N)`. Frequencies of a rotating
+//! disk are converted to rest by `f^2 = f_0^2 + B (Omega/2 pi)^2`.
 
 use std::f64::consts::TAU;
 
@@ -12,18 +12,18 @@ use toml::{Table, Value as Toml};
 
 use super::units::{Quantity, UnitError};
 use super::{Scene, SceneError, Value, file, keys};
-use crate::model::{BladedDisk, Casing, Mode, ModePart, frequency_of, of_neighbours};
+use crate::model::{BladedDisk, Casing, Mode, ModePart, given_frequency, neighbour_stiffness};
 use crate::numeric::rounding::rounded;
 
-/// Name of the number of diameters in a mode, and of its frequency.
+/// Names of a mode's values in the file.
 const DIAMETERS: &str = "nodal_diameters";
 const FREQUENCY: &str = "frequency_hz";
-/// Name of the rotor speed at which that is the frequency.
+/// Name of the rotor speed at which the frequency was determined.
 const AT_SPEED: &str = "at_speed_rad_s";
-/// Largest frequency \[Hz\]: beyond the range of any machine.
+/// Largest accepted frequency, beyond that of any machine \[Hz\].
 pub(crate) const MOST_HZ: f64 = 1e9;
 
-/// A structure with modes: the path of its list, and the keys of its values beside it.
+/// A structure with modes: the key of its list, and the keys of the values that a mode can set.
 #[derive(Debug, PartialEq)]
 pub struct Structure {
     path: &'static str,
@@ -48,17 +48,17 @@ pub(super) const DISK: Structure = Structure {
     ],
 };
 
-/// Returns the name of a key in its table.
+/// Returns the name of a key within its table.
 fn leaf(path: &str) -> &str {
     path.split_once('.').map_or(path, |(_, leaf)| leaf)
 }
 
 impl Structure {
-    /// Reads the modes of a list in a scene file.
+    /// Reads the list of modes from a scene file.
     ///
     /// # Errors
-    /// The first mode with an unknown key, a value that is not allowed, or a number of
-    /// diameters that another has.
+    /// A mode has an unknown key, a value that is not allowed, or the nodal diameters of another
+    /// one.
     fn read(&self, items: &[Toml]) -> Result<Vec<Mode>, SceneError> {
         let mut found = Vec::with_capacity(items.len());
         for (place, item) in items.iter().enumerate() {
@@ -77,7 +77,8 @@ impl Structure {
         of_one.map(|modes| self.at_rest(modes)).collect()
     }
 
-    /// Returns the mode of some diameters, from its values at one speed or at two.
+    /// Combines the entries for one number of nodal diameters, given at one speed or at two, into
+    /// one mode at rest.
     fn at_rest(&self, modes: &[(Mode, Option<f64>)]) -> Result<Mode, SceneError> {
         let of = |(mode, speed): &(Mode, Option<f64>)| {
             speed.map(|speed| (mode.frequency_hz.unwrap_or(0.0), speed))
@@ -100,7 +101,7 @@ impl Structure {
         Ok(mode)
     }
 
-    /// Describes what a mode may have, in words.
+    /// Returns the names of the values that a mode can have, as words for an error message.
     pub(super) fn form(&self) -> String {
         format!("with {DIAMETERS} and any of {}", self.names().join(", "))
     }
@@ -112,7 +113,7 @@ impl Structure {
         names
     }
 
-    /// Returns a mode, and the speed at which it has its frequency.
+    /// Reads a mode, and the speed at which its frequency was determined.
     fn mode(&self, name: &str, table: &Table) -> Result<(Mode, Option<f64>), SceneError> {
         let (mut mode, mut diameters, mut speed) = (Mode::default(), None, None);
         for (entry, value) in table {
@@ -151,7 +152,7 @@ impl Structure {
         Ok((mode, speed))
     }
 
-    /// Returns the list in one line, as `--set` accepts it.
+    /// Formats the list in one line, as `--set` accepts it.
     pub(super) fn text(&self, modes: &[Mode]) -> String {
         let each = modes.iter().map(|mode| {
             let values: Vec<String> =
@@ -161,7 +162,7 @@ impl Structure {
         format!("[{}]", each.collect::<Vec<_>>().join(", "))
     }
 
-    /// Returns the list as a part of a scene file.
+    /// Formats the list as part of a scene file.
     pub(super) fn blocks(&self, modes: &[Mode]) -> String {
         let block = |mode: &Mode| {
             let values: String =
@@ -183,7 +184,7 @@ impl Structure {
     /// Checks that a text is such a list.
     ///
     /// # Errors
-    /// The reason why it is not.
+    /// States the reason why it is not.
     pub(super) fn check(&self, text: &str) -> Result<(), SceneError> {
         self.parsed(text).map(drop)
     }
@@ -202,17 +203,18 @@ impl Structure {
         }
     }
 
-    /// Returns the modes of a checked text.
+    /// Returns the modes of a text that has passed [`check`](Self::check).
     pub(super) fn modes(&self, text: &str) -> Vec<Mode> {
         self.parsed(text).unwrap_or_default()
     }
 }
 
-/// Returns frequency at rest and `B` from frequencies at rotor speeds \[Hz, rad/s\]: two, or one
-/// and `B`, or one at rest.
+/// Returns the frequency at rest and `B`, from frequencies at rotor speeds \[Hz, rad/s\]: two
+/// frequencies, one with a known `B`, or one at standstill.
 ///
 /// # Errors
-/// Frequencies that no `B` gives, or too few of them, by this name.
+/// No `B` within its bounds yields these frequencies, or there are too few. The message refers to
+/// them as `name`.
 pub(super) fn frequency_at_rest(
     name: &str,
     speeds: &[(f64, f64)],
@@ -240,13 +242,13 @@ pub(super) fn frequency_at_rest(
     Err(SceneError::refused(name, given.collect::<Vec<_>>().join(" and "), allowed))
 }
 
-/// Returns the beginning of a table in one line.
+/// Formats a table in one line.
 fn short(table: &Table) -> String {
     let values = table.iter().map(|(name, value)| format!("{name} = {}", file::one_line(value)));
     values.collect::<Vec<_>>().join(", ")
 }
 
-/// Reads a number of a mode within the bounds of the key beside the list.
+/// Reads a number of a mode, within the bounds of the structure's key.
 fn number(path: &str, value: &Toml, key: &keys::Key) -> Result<f64, SceneError> {
     if let Toml::String(text) = value {
         return key.number(path, text);
@@ -255,12 +257,12 @@ fn number(path: &str, value: &Toml, key: &keys::Key) -> Result<f64, SceneError> 
     allowed.ok_or_else(|| SceneError::refused(path, value, key.allowed.to_string()))
 }
 
-/// Returns a number of a file that has no unit.
+/// Returns a TOML number, which has no unit.
 fn plain(value: &Toml) -> Option<f64> {
     value.as_float().or_else(|| value.as_integer().map(|n| n as f64))
 }
 
-/// Reads a frequency; a number without a unit is in hertz, as the key says.
+/// Reads a frequency; a number without a unit is in hertz, as the name of the key says.
 fn hertz(path: &str, value: &Toml) -> Result<f64, SceneError> {
     match value {
         Toml::String(text) => hertz_of(path, text),
@@ -268,11 +270,11 @@ fn hertz(path: &str, value: &Toml) -> Result<f64, SceneError> {
     }
 }
 
-/// Does the same for text.
+/// As [`hertz`], for text.
 pub(super) fn hertz_of(path: &str, text: &str) -> Result<f64, SceneError> {
     let given = match (Quantity::bare(text), Quantity::Speed.read(text)) {
         (Some(bare), _) => Some(bare),
-        // What pi rounds is left out, so that 310.7 Hz is 310.7.
+        // Rounded to 14 digits, so that the conversion through 2 pi turns 310.7 Hz into 310.7.
         (_, Ok(omega)) => Some(rounded(omega / TAU, 14)),
         (_, Err(UnitError::NoNumber)) => None,
         (_, Err(why)) => {
@@ -289,17 +291,17 @@ fn frequency(path: &str, given: String, hertz: Option<f64>) -> Result<f64, Scene
     })
 }
 
-/// Rejects modes of the disk that no stiffness gives.
+/// Rejects disk modes that would need a negative blade stiffness.
 ///
 /// # Errors
-/// A mode with a frequency that the coupling between blades alone exceeds.
+/// The frequency of a mode is below that of the blade-to-blade coupling alone.
 pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     let disk = &scene.bladed_disk;
     let stiffness = |mode: &Mode| disk.at(mode.nodal_diameters).stiffness_nm_per_rad;
     let Some(mode) = disk.modes.iter().find(|mode| stiffness(mode) <= 0.0) else { return Ok(()) };
     let inertia = mode.mass.unwrap_or(disk.inertia_kg_m2);
     let (diameters, coupling) = (mode.nodal_diameters, disk.coupling_nm_per_rad);
-    let neighbours = of_neighbours(coupling, diameters, disk.blades);
+    let neighbours = neighbour_stiffness(coupling, diameters, disk.blades);
     let hertz = |stiffness: f64| (stiffness / inertia).sqrt() / TAU;
     let given = hertz(neighbours + stiffness(mode));
     let least = hertz(neighbours);
@@ -312,34 +314,34 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
 }
 
 impl Scene {
-    /// Returns the casing with the values of its mode in use, that of the scene's nodal diameters.
+    /// Returns the casing with the values of the mode that has the scene's nodal diameters.
     #[must_use]
     pub fn casing_in_use(&self) -> Casing {
         self.casing.at(self.operation.nodal_diameters)
     }
 
-    /// Returns the disk with the values of its mode in use.
+    /// Returns the disk with the values of the mode in use.
     #[must_use]
     pub fn disk_in_use(&self) -> BladedDisk {
         self.bladed_disk.at(self.disk_diameters())
     }
 
-    /// Nodal diameters of the modes of the disk.
+    /// Returns the nodal diameters of the disk modes in use.
     pub(crate) fn disk_diameters(&self) -> u32 {
         self.bladed_disk.diameters_beside(self.operation.nodal_diameters)
     }
 
-    /// Returns the frequencies that the modes in use of casing and disk have instead of a
+    /// Returns the frequencies that the modes in use of casing and disk give in place of a
     /// stiffness \[Hz\].
     pub(crate) fn frequencies_in_use(&self) -> [Option<f64>; 2] {
         [
-            frequency_of(&self.casing.modes, self.operation.nodal_diameters),
-            frequency_of(&self.bladed_disk.modes, self.disk_diameters()),
+            given_frequency(&self.casing.modes, self.operation.nodal_diameters),
+            given_frequency(&self.bladed_disk.modes, self.disk_diameters()),
         ]
     }
 
-    /// Gives the mode in use of the casing (0) or the disk (1) this frequency \[Hz\]; one that
-    /// has none the stiffness for it.
+    /// Sets the frequency of the mode in use of the casing (0) or the disk (1) \[Hz\]. If the mode
+    /// gives no frequency, its stiffness is set instead.
     pub(crate) fn set_frequency(&mut self, which: usize, hertz: f64) -> Result<(), SceneError> {
         let square = (TAU * hertz).powi(2);
         let diameters = [self.operation.nodal_diameters, self.disk_diameters()][which];
@@ -356,14 +358,14 @@ impl Scene {
         let (key, stiffness) = match which {
             0 => (keys::CASING_STIFFNESS, self.casing_in_use().modal_mass_kg * square),
             _ => {
-                let neighbours = of_neighbours(coupling_nm_per_rad, diameters, blades);
+                let neighbours = neighbour_stiffness(coupling_nm_per_rad, diameters, blades);
                 (keys::BLADE_STIFFNESS, inertia_kg_m2 * square - neighbours)
             }
         };
         self.set_value(keys::find(key)?, Value::Real(stiffness))
     }
 
-    /// A value of the casing's mode in use.
+    /// Returns a value of the casing's mode in use.
     pub(super) fn casing_part(&mut self, part: ModePart) -> &mut f64 {
         self.casing.part_at(self.operation.nodal_diameters, part)
     }
@@ -373,7 +375,7 @@ impl Scene {
         self.bladed_disk.part_at(self.disk_diameters(), part)
     }
 
-    /// Returns this scene without modes that have values of their own.
+    /// Returns the scene without the lists of modes.
     pub(super) fn without_modes(&self) -> Self {
         let mut scene = self.clone();
         scene.casing.modes.clear();
@@ -381,8 +383,8 @@ impl Scene {
         scene
     }
 
-    /// Describes the values in use where modes are known, but none of these diameters, as a
-    /// sentence without its full stop.
+    /// Returns a sentence (without full stop) if a list of modes exists but lacks the nodal
+    /// diameters in use, so that the structure's own values apply.
     #[must_use]
     pub fn modes_note(&self) -> Option<String> {
         let missing = |modes: &[Mode], diameters: u32| {
@@ -407,7 +409,7 @@ impl Scene {
     }
 }
 
-/// Largest count of numbers that a note lists.
+/// Largest count of numbers that a note lists in full.
 const LISTED: usize = 8;
 
 fn listed(known: &[String]) -> String {

@@ -1,47 +1,47 @@
-//! The one reader of numbers with units: the one list of units, by quantity, and SI
-//! prefixes in front of them. A bare number is in SI units.
+//! Reader of numbers with units: the list of units by quantity, and SI prefixes. A bare number is
+//! in SI units.
 //!
-//! `9500rpm`, `1200 rad/s`, `43.4 kN`, `43.4k`, `0.2 mm`, `50us`. A decimal number under a
-//! prefix is read as one decimal number, so that `50u` equals `50e-6` exactly.
+//! Examples: `9500rpm`, `1200 rad/s`, `43.4 kN`, `43.4k`, `0.2 mm`, `50us`. Prefix and digits are
+//! combined into one decimal number before conversion, so that `50u` equals `50e-6` exactly.
 
 use std::f64::consts::TAU;
 
 use thiserror::Error;
 
-/// Physical quantity of a number. The letter `m` alone is a metre, never a prefix.
+/// Physical quantity of a number. The letter `m` alone is always the metre, never the prefix milli.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
-    /// A count, a ratio or a part.
+    /// Dimensionless: a count or a ratio.
     Plain,
-    /// An angular speed or frequency.
+    /// Angular speed or frequency.
     Speed,
-    /// An angular acceleration.
+    /// Angular acceleration.
     Acceleration,
-    /// A force.
+    /// Force.
     Force,
-    /// A length.
+    /// Length.
     Length,
-    /// A time.
+    /// Time.
     Time,
-    /// A velocity.
+    /// Velocity.
     Velocity,
-    /// A mass.
+    /// Mass.
     Mass,
-    /// A stiffness.
+    /// Stiffness.
     Stiffness,
-    /// A moment of inertia.
+    /// Moment of inertia.
     Inertia,
-    /// A torque.
+    /// Torque.
     Torque,
-    /// A torsional stiffness.
+    /// Torsional stiffness.
     TorsionalStiffness,
-    /// An angle.
+    /// Angle.
     Angle,
-    /// A power.
+    /// Power.
     Power,
-    /// An energy.
+    /// Energy.
     Energy,
-    /// A length over the square of a speed.
+    /// Length divided by the square of an angular speed, as in the loss of clearance `c Omega^2`.
     Growth,
 }
 
@@ -50,46 +50,46 @@ use Quantity::{
     Stiffness, Time, Torque, TorsionalStiffness, Velocity,
 };
 
-/// A unit: its quantity, its symbol, and its size in SI units, a power of ten times a factor,
-/// which is 1 for a decimal unit.
+/// A unit: its quantity, its symbol, and its size in SI units as `factor` times a power of ten. The
+/// factor is 1 for decimal units.
 struct Unit {
-    of: Quantity,
+    quantity: Quantity,
     name: &'static str,
     power: i32,
     factor: f64,
-    /// Whether it takes SI prefixes.
+    /// Whether SI prefixes are allowed.
     prefixed: bool,
 }
 
-const fn unit(of: Quantity, name: &'static str, power: i32) -> Unit {
-    Unit { of, name, power, factor: 1.0, prefixed: true }
+const fn unit(quantity: Quantity, name: &'static str, power: i32) -> Unit {
+    Unit { quantity, name, power, factor: 1.0, prefixed: true }
 }
 
-const fn whole(of: Quantity, name: &'static str, factor: f64) -> Unit {
-    Unit { of, name, power: 0, factor, prefixed: false }
+const fn whole(quantity: Quantity, name: &'static str, factor: f64) -> Unit {
+    Unit { quantity, name, power: 0, factor, prefixed: false }
 }
 
-/// All units; for each quantity, the SI unit first.
+/// All units, the SI unit of each quantity first.
 const UNITS: &[Unit] = &[
-    Unit { of: Plain, name: "%", power: -2, factor: 1.0, prefixed: false },
+    Unit { quantity: Plain, name: "%", power: -2, factor: 1.0, prefixed: false },
     whole(Speed, "rad/s", 1.0),
-    Unit { of: Speed, name: "rpm", power: 0, factor: TAU / 60.0, prefixed: true },
-    Unit { of: Speed, name: "Hz", power: 0, factor: TAU, prefixed: true },
+    Unit { quantity: Speed, name: "rpm", power: 0, factor: TAU / 60.0, prefixed: true },
+    Unit { quantity: Speed, name: "Hz", power: 0, factor: TAU, prefixed: true },
     whole(Acceleration, "rad/s^2", 1.0),
     whole(Acceleration, "rpm/s", TAU / 60.0),
     unit(Force, "N", 0),
     unit(Length, "m", 0),
     unit(Time, "s", 0),
     unit(Velocity, "m/s", 0),
-    Unit { of: Mass, name: "kg", power: 0, factor: 1.0, prefixed: false },
+    Unit { quantity: Mass, name: "kg", power: 0, factor: 1.0, prefixed: false },
     unit(Mass, "g", -3),
-    Unit { of: Mass, name: "t", power: 3, factor: 1.0, prefixed: false },
+    Unit { quantity: Mass, name: "t", power: 3, factor: 1.0, prefixed: false },
     unit(Stiffness, "N/m", 0),
     unit(Stiffness, "N/mm", 3),
-    Unit { of: Inertia, name: "kg m^2", power: 0, factor: 1.0, prefixed: false },
-    Unit { of: Inertia, name: "kg cm^2", power: -4, factor: 1.0, prefixed: false },
-    Unit { of: Inertia, name: "kg mm^2", power: -6, factor: 1.0, prefixed: false },
-    Unit { of: Inertia, name: "g m^2", power: -3, factor: 1.0, prefixed: false },
+    Unit { quantity: Inertia, name: "kg m^2", power: 0, factor: 1.0, prefixed: false },
+    Unit { quantity: Inertia, name: "kg cm^2", power: -4, factor: 1.0, prefixed: false },
+    Unit { quantity: Inertia, name: "kg mm^2", power: -6, factor: 1.0, prefixed: false },
+    Unit { quantity: Inertia, name: "g m^2", power: -3, factor: 1.0, prefixed: false },
     unit(Torque, "N m", 0),
     unit(Torque, "N mm", -3),
     unit(TorsionalStiffness, "N m/rad", 0),
@@ -101,30 +101,30 @@ const UNITS: &[Unit] = &[
     whole(Growth, "m s^2", 1.0),
 ];
 
-/// SI prefixes, and the powers of ten that they stand for.
+/// SI prefixes and their powers of ten.
 const PREFIXES: [(char, i32); 7] =
     [('G', 9), ('M', 6), ('k', 3), ('m', -3), ('u', -6), ('n', -9), ('p', -12)];
 
-/// Why a text is not a number of a quantity.
+/// Reason why a text is not a number of the expected quantity.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum UnitError {
     /// The text does not begin with a number.
     #[error("no number")]
     NoNumber,
-    /// The number has a comma, between its digits.
+    /// The number contains a comma.
     #[error("a number has a decimal point and no comma")]
     Comma,
-    /// The unit is one of another quantity.
-    #[error("this is {is}; {}", takes(*.wanted))]
+    /// The unit belongs to another quantity.
+    #[error("this is {is}; {}", accepted_units(*.wanted))]
     Other {
-        /// Quantity of the unit.
+        /// Quantity of the given unit.
         is: &'static str,
         /// Expected quantity.
         wanted: Quantity,
     },
-    /// The unit does not exist.
-    #[error("no unit {unit}; {}", takes(*.wanted))]
+    /// The unit is unknown.
+    #[error("no unit {unit}; {}", accepted_units(*.wanted))]
     Unknown {
         /// The unit as given.
         unit: String,
@@ -134,14 +134,14 @@ pub enum UnitError {
 }
 
 impl Quantity {
-    /// Returns the quantity of this SI unit, as the table of keys has it; a plain number for any
-    /// other text.
+    /// Returns the quantity of an SI unit as written in the table of keys; `Plain` for any other
+    /// text.
     #[must_use]
     pub fn of(unit: &str) -> Self {
-        UNITS.iter().find(|known| known.name == unit).map_or(Plain, |known| known.of)
+        UNITS.iter().find(|known| known.name == unit).map_or(Plain, |known| known.quantity)
     }
 
-    /// Returns its name, with an article.
+    /// Returns the name of the quantity, with an article.
     fn what(self) -> &'static str {
         match self {
             Plain => "a ratio",
@@ -163,11 +163,11 @@ impl Quantity {
         }
     }
 
-    /// Returns its units in words: `rad/s, rpm or Hz`.
+    /// Returns the units of the quantity in words: `rad/s, rpm or Hz`.
     #[must_use]
     pub fn units(self) -> String {
         let names: Vec<&str> =
-            UNITS.iter().filter(|unit| unit.of == self).map(|unit| unit.name).collect();
+            UNITS.iter().filter(|unit| unit.quantity == self).map(|unit| unit.name).collect();
         match names.as_slice() {
             [first @ .., last] if !first.is_empty() => format!("{} or {last}", first.join(", ")),
             one => one.concat(),
@@ -177,16 +177,16 @@ impl Quantity {
     /// Reads a number of this quantity.
     ///
     /// # Errors
-    /// No number, no unit, or one of another quantity.
+    /// The text is not a number, or its unit is unknown or belongs to another quantity.
     pub fn read(self, text: &str) -> Result<f64, UnitError> {
         let text = text.trim();
-        // As Rust reads numbers, with infinities: whoever asks says what is allowed.
+        // A bare number, infinities included; the caller checks the range.
         if let Ok(number) = text.parse() {
             return Ok(number);
         }
         let end = number_end(text);
         let (number, unit) = text.split_at_checked(end).unwrap_or((text, ""));
-        let decimal = Decimal::of(number).ok_or(UnitError::NoNumber)?;
+        let decimal = Decimal::parse(number).ok_or(UnitError::NoNumber)?;
         let after = unit.strip_prefix(',');
         if after.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit())) {
             return Err(UnitError::Comma);
@@ -197,18 +197,19 @@ impl Quantity {
         Ok(if factor == 1.0 { scaled } else { scaled * factor })
     }
 
-    /// Returns a number without a unit, which may have a prefix: `1200`, `1.2k`.
+    /// Reads a number without a unit; a prefix is allowed: `1200`, `1.2k`.
     #[must_use]
     pub fn bare(text: &str) -> Option<f64> {
         let is_part = text.contains('%') || text.contains("percent");
         Plain.read(text).ok().filter(|_| !is_part)
     }
 
-    /// Returns the size of one of its units, or of a prefix alone, in SI units.
+    /// Returns the size, in SI units, of a unit of this quantity with its prefix, or of a prefix
+    /// alone.
     fn scale(self, written: &str) -> Option<(i32, f64)> {
-        let of_unit = UNITS.iter().filter(|unit| unit.of == self).find_map(|unit| {
+        let of_unit = UNITS.iter().filter(|unit| unit.quantity == self).find_map(|unit| {
             let prefix = written.strip_suffix(plain(unit.name).as_str());
-            // Nobody writes RPM or hz for something else.
+            // RPM and hz are accepted too, since they cannot mean anything else.
             let prefix = prefix.or_else(|| any_case(unit, written));
             match prefix? {
                 "" => Some((unit.power, unit.factor)),
@@ -216,7 +217,7 @@ impl Quantity {
                 _ => None,
             }
         });
-        // Metres and thousandths are told apart by the unit.
+        // A lone `m` is the metre, not the prefix milli.
         of_unit.or_else(|| (written != "m").then(|| power_of(written)).flatten().map(|p| (p, 1.0)))
     }
 
@@ -224,7 +225,7 @@ impl Quantity {
         if !written.chars().all(|c| c.is_alphanumeric() || matches!(c, '/' | '%')) {
             return UnitError::NoNumber;
         }
-        let other = UNITS.iter().map(|unit| unit.of).find(|of| {
+        let other = UNITS.iter().map(|unit| unit.quantity).find(|of| {
             let named = power_of(written).is_none() || written == "m";
             named && of.scale(written).is_some()
         });
@@ -235,21 +236,21 @@ impl Quantity {
     }
 }
 
-/// Why a text is not a range.
+/// Reason why a text is not a range.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum RangeError {
     /// The text does not have the form `FROM:TO`.
     Form,
-    /// One end is not a number of the quantity.
+    /// One end is not a number of the expected quantity.
     End(UnitError),
 }
 
-/// Reads the ends of `FROM:TO`, numbers of a quantity, and the text after another colon. The
-/// caller checks whether they are finite.
+/// Reads the ends of `FROM:TO` as numbers of a quantity, and returns the text after a second colon.
+/// The caller checks whether the ends are finite.
 ///
 /// # Errors
-/// Text of another form, or an end that is not of this quantity.
+/// The text has another form, or an end is not of this quantity.
 pub fn read_ends(text: &str, of: Quantity) -> Result<([f64; 2], Option<&str>), RangeError> {
     let mut parts = text.splitn(3, ':');
     let mut end = || match of.read(parts.next().ok_or(RangeError::Form)?) {
@@ -261,16 +262,16 @@ pub fn read_ends(text: &str, of: Quantity) -> Result<([f64; 2], Option<&str>), R
     Ok((ends, parts.next()))
 }
 
-/// Describes what a quantity accepts, in words.
-fn takes(quantity: Quantity) -> String {
+/// Describes the accepted units in words.
+fn accepted_units(quantity: Quantity) -> String {
     format!("it takes {}", quantity.units())
 }
 
-/// Returns the text before `rpm` or `Hz`, in any case of letters.
+/// Returns the text before `rpm` or `Hz`, ignoring case.
 fn any_case<'a>(unit: &Unit, written: &'a str) -> Option<&'a str> {
     let at = written.len().checked_sub(unit.name.len())?;
     let (prefix, name) = written.split_at_checked(at)?;
-    let known = unit.of == Speed && unit.name.eq_ignore_ascii_case(name);
+    let known = unit.quantity == Speed && unit.name.eq_ignore_ascii_case(name);
     known.then_some(prefix)
 }
 
@@ -280,8 +281,8 @@ fn power_of(prefix: &str) -> Option<i32> {
     PREFIXES.iter().find(|(known, _)| *known == letter).map(|(_, power)| *power)
 }
 
-/// Returns a unit in the form in which units are compared: without spaces and points, with ASCII
-/// letters, and one of its names.
+/// Normalises a unit for comparison: no spaces or product signs, ASCII letters, one symbol for each
+/// unit.
 fn plain(unit: &str) -> String {
     let kept = unit.chars().filter(|c| !c.is_whitespace() && !matches!(c, '·' | '*' | '^'));
     let kept: String = kept
@@ -298,7 +299,7 @@ fn plain(unit: &str) -> String {
     }
 }
 
-/// Returns where the decimal number at the start of a text ends.
+/// Returns the length of the decimal number at the start of a text.
 fn number_end(text: &str) -> usize {
     let bytes = text.as_bytes();
     let digit = |at: usize| bytes.get(at).is_some_and(u8::is_ascii_digit);
@@ -316,14 +317,14 @@ fn number_end(text: &str) -> usize {
     end
 }
 
-/// A decimal number: its digits with sign and point, and its power of ten.
+/// A decimal number: digits with sign and point, and the power of ten.
 struct Decimal<'a> {
     digits: &'a str,
     power: i32,
 }
 
 impl<'a> Decimal<'a> {
-    fn of(text: &'a str) -> Option<Self> {
+    fn parse(text: &'a str) -> Option<Self> {
         let (digits, power) = match text.split_once(['e', 'E']) {
             Some((digits, power)) => (digits, power.parse().ok()?),
             None => (text, 0),
@@ -331,8 +332,8 @@ impl<'a> Decimal<'a> {
         digits.parse::<f64>().ok().map(|_| Self { digits, power })
     }
 
-    /// Returns its product with a power of ten, read as one decimal number so that nothing is
-    /// rounded twice.
+    /// Multiplies by a power of ten. The product is parsed as one decimal number, so that it is
+    /// rounded only once.
     fn times_ten_to(&self, power: i32) -> Option<f64> {
         format!("{}e{}", self.digits, self.power.checked_add(power)?).parse().ok()
     }
@@ -426,9 +427,15 @@ mod tests {
     #[test]
     fn every_unit_is_of_one_quantity() {
         for unit in UNITS {
-            for other in UNITS.iter().filter(|other| other.of != unit.of) {
+            for other in UNITS.iter().filter(|other| other.quantity != unit.quantity) {
                 let written = plain(unit.name);
-                assert_eq!(other.of.scale(&written), None, "{} {:?}", unit.name, other.of);
+                assert_eq!(
+                    other.quantity.scale(&written),
+                    None,
+                    "{} {:?}",
+                    unit.name,
+                    other.quantity
+                );
             }
         }
     }

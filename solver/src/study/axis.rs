@@ -1,5 +1,5 @@
-//! One axis of a map: a numeric key of the scene, or the clearance, over a range of
-//! values, spaced evenly or by equal factors.
+//! Axis of a map: a numeric key of the scene, or the clearance, over a range of values with equal
+//! differences or equal ratios.
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -8,65 +8,64 @@ use crate::scene::keys::CLEARANCE;
 use crate::scene::units::{RangeError, UnitError, read_ends};
 use crate::scene::{Allowed, Key, Quantity, Scene, SceneError, Value, keys};
 
-/// Most values one axis may have.
+/// Largest number of values on an axis.
 pub const MOST_VALUES: u32 = 100_000;
 
-/// Largest factor between the ends of an axis spaced by equal factors: more decades than
-/// any quantity of a machine has.
+/// Largest ratio between the ends of a logarithmic axis, beyond that of any quantity of a machine.
 const MOST_FACTOR: f64 = 1e30;
 
-/// Why an axis was refused.
+/// Reason why an axis was rejected.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum AxisError {
-    /// Text that is not `PATH=FROM:TO:COUNT`.
+    /// The text is not `PATH=FROM:TO:COUNT`.
     #[error("axis {text}: allowed is PATH=FROM:TO:COUNT or PATH=log:FROM:TO:COUNT")]
     Form {
-        /// As given.
+        /// Text as given.
         text: String,
     },
-    /// A key that holds no number.
+    /// The key has no numeric value.
     #[error("axis {path}: allowed are keys that hold a number")]
     NotNumeric {
         /// Dotted path.
         path: String,
     },
-    /// An invalid range.
+    /// The range is not allowed.
     #[error("axis {path} = {range}: allowed is {allowed}")]
     Range {
         /// Dotted path.
         path: String,
-        /// As given.
+        /// Range as given.
         range: String,
-        /// What would be accepted.
+        /// Allowed ranges, in words.
         allowed: String,
     },
-    /// An end of another quantity.
+    /// An end of the range has a unit of another quantity.
     #[error("axis {path} = {range}: {why}")]
     Unit {
         /// Dotted path.
         path: String,
-        /// As given.
+        /// Range as given.
         range: String,
-        /// What it is, and which units are allowed.
+        /// What is wrong with the unit, and which units are allowed.
         why: UnitError,
     },
-    /// A key that does not exist, or a value that it does not allow.
+    /// The key does not exist, or does not allow a value.
     #[error(transparent)]
     Scene(#[from] SceneError),
 }
 
-/// Reads `FROM:TO:COUNT` with ends of a quantity.
+/// Reads `FROM:TO:COUNT`, with ends of the given quantity.
 ///
 /// # Errors
-/// Text of another form, or an end of another quantity.
+/// The text has another form, or an end is of another quantity.
 pub fn parse_range(text: &str, of: Quantity) -> Result<(f64, f64, usize), RangeError> {
     let ([from, to], count) = read_ends(text, of)?;
     let count = count.and_then(|count| count.trim().parse().ok()).ok_or(RangeError::Form)?;
     Ok((from, to, count))
 }
 
-/// A key and the values it takes along one axis.
+/// A key and its values along one axis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Axis {
     /// Dotted path of the key.
@@ -77,11 +76,11 @@ pub struct Axis {
     pub to: f64,
     /// Number of values.
     pub count: u32,
-    /// Whether values are spaced by equal factors.
+    /// Whether the values have equal ratios instead of equal differences.
     pub log: bool,
 }
 
-/// As `parse` reads it.
+/// Writes the axis in the form that [`Axis::parse`] reads.
 impl std::fmt::Display for Axis {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Self { path, from, to, count, log } = self;
@@ -90,10 +89,10 @@ impl std::fmt::Display for Axis {
 }
 
 impl Axis {
-    /// An axis over a numeric key, checked at both ends.
+    /// Creates an axis over a numeric key; both ends are checked.
     ///
     /// # Errors
-    /// An unknown or non-numeric key, or an invalid range.
+    /// The key is unknown or not numeric, or the range is not allowed.
     pub fn new(path: &str, from: f64, to: f64, count: u32, log: bool) -> Result<Self, AxisError> {
         let key = key_of(path)?;
         let axis = Self { path: path.to_string(), from, to, count, log };
@@ -113,11 +112,11 @@ impl Axis {
         if log && !(from > 0.0 && to > 0.0) {
             return Err(refused("log: with both ends above 0"));
         }
-        // Otherwise the factor between two values can be infinite, or zero.
+        // A larger ratio could make that of two neighbouring values infinite or zero.
         if log && !(1.0 / MOST_FACTOR..=MOST_FACTOR).contains(&(to / from)) {
             return Err(refused("log: with ends that differ by a factor of at most 1e30"));
         }
-        // Of a single value, the second end is shown and must have a meaning too.
+        // The second end is checked even for a single value, because it is displayed.
         for end in [from, to] {
             match key {
                 Some(key) => key.check(&as_value(key, end))?,
@@ -131,7 +130,7 @@ impl Axis {
     /// Reads `PATH=FROM:TO:COUNT` or `PATH=log:FROM:TO:COUNT`.
     ///
     /// # Errors
-    /// Text of another form, or what `new` refuses.
+    /// The text has another form, or [`new`](Self::new) rejects the axis.
     pub fn parse(text: &str) -> Result<Self, AxisError> {
         let form = || AxisError::Form { text: text.to_string() };
         let (path, range) = text.split_once('=').ok_or_else(form)?;
@@ -147,12 +146,12 @@ impl Axis {
                 AxisError::Unit { path: path.to_string(), range: range.to_string(), why }
             }
         })?;
-        // A count beyond all bounds is refused as any other that is too large.
+        // A count that exceeds `u32` is rejected by `new` as too large.
         Self::new(path, from, to, u32::try_from(count).unwrap_or(u32::MAX), log)
     }
 
-    /// Value number `index`, from 0; both ends are exact, and those of a whole-numbered key
-    /// whole.
+    /// Returns value number `index`, from 0. Both ends are exact; values of a whole-numbered key
+    /// are rounded.
     #[must_use]
     pub fn value(&self, index: u32) -> f64 {
         let key = keys::find(&self.path);
@@ -172,20 +171,20 @@ impl Axis {
         self.value_at(f64::from(index))
     }
 
-    /// The value at a position between 0 (first) and `count - 1` (last).
+    /// Returns the value at a position between 0 (first) and `count - 1` (last).
     #[must_use]
     pub fn value_at(&self, place: f64) -> f64 {
         let span = f64::from(self.count.max(2) - 1);
         if self.log {
             self.from * (self.to / self.from).powf(place / span)
         } else {
-            // In this order a round step gives round values.
+            // This order of operations gives round values for a round step.
             self.from + (self.to - self.from) * place / span
         }
     }
 
-    /// The position of a value, from 0 (first) to `count - 1` (last); beyond
-    /// them outside the axis.
+    /// Returns the position of a value, from 0 (first) to `count - 1` (last); outside the axis
+    /// beyond these.
     #[must_use]
     pub fn place(&self, value: f64) -> f64 {
         let span = f64::from(self.count.max(2) - 1);
@@ -196,17 +195,16 @@ impl Axis {
         }
     }
 
-    /// All values in order.
+    /// Returns all values in order.
     #[must_use]
     pub fn values(&self) -> Vec<f64> {
         (0..self.count).map(|index| self.value(index)).collect()
     }
 
-    /// Sets the key of a scene to value number `index`; whole-numbered keys
-    /// take the nearest whole number.
+    /// Sets the key of a scene to value number `index`.
     ///
     /// # Errors
-    /// A value that the key does not allow.
+    /// The key does not allow the value.
     pub fn apply(&self, scene: &mut Scene, index: u32) -> Result<(), SceneError> {
         if self.path == CLEARANCE {
             return scene.set_clearance(self.value(index));
@@ -216,7 +214,7 @@ impl Axis {
     }
 }
 
-/// The key of an axis, which holds a number; none of the clearance.
+/// Returns the key of an axis, which must be numeric; `None` for the clearance.
 fn key_of(path: &str) -> Result<Option<&'static Key>, AxisError> {
     if path == CLEARANCE {
         return Ok(None);
@@ -228,7 +226,7 @@ fn key_of(path: &str) -> Result<Option<&'static Key>, AxisError> {
     Ok(Some(key))
 }
 
-/// A number as a value of this key.
+/// Converts a number to the value type of a key.
 fn as_value(key: &Key, value: f64) -> Value {
     match key.allowed {
         Allowed::Whole { .. } if value >= 0.0 => Value::Whole(value.round() as u64),

@@ -1,5 +1,5 @@
-//! The interaction map: the verdict of every cell over two axes, on every core; its cells in
-//! memory, a byte each, so that a large map is limited by its runs.
+//! Interaction map: the verdict of every cell over two axes, computed in parallel. A cell takes one
+//! byte of memory, so only the time of the runs limits the size of a map.
 
 use std::ops::Index;
 use std::sync::{Mutex, PoisonError};
@@ -11,30 +11,30 @@ use super::Axis;
 use crate::motion::{Certainty, GoOn, Verdict, run_to_verdict, run_with_certainty};
 use crate::scene::{CheckedScene, Scene, SceneError};
 
-/// Most cells of one map, about 4000 x 4000: a byte each in memory, and days of runs.
+/// Largest number of cells, about 4000 x 4000; so many take days to compute.
 const MOST_CELLS: usize = 16_000_000;
 
-/// The plan of a map: everything that determines its cells.
+/// Plan of a map: everything that determines its cells.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapPlan {
-    /// The scene all cells start from.
+    /// Scene that all cells start from.
     pub scene: Scene,
-    /// Columns; rotor speed by default.
+    /// Axis of the columns; rotor speed by default.
     pub x: Axis,
-    /// Rows; pulse by default.
+    /// Axis of the rows; pulse by default.
     pub y: Axis,
-    /// Whether to find the sensitive cells, which takes up to four more runs per cell.
+    /// Whether to detect sensitive cells, which takes up to four more runs a cell.
     pub sensitivity: bool,
 }
 
-/// A map, whole or in part.
+/// A map, complete or in part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Map {
-    /// Its plan.
+    /// Plan of the map.
     pub plan: MapPlan,
-    /// Cells in order; none if not computed.
+    /// Cells row by row; `None` if not computed.
     pub cells: Cells,
-    /// Number of cells that were computed by a run.
+    /// Number of cells computed by a run.
     pub runs: u64,
     /// Wall time of this computation \[s\].
     pub wall_s: f64,
@@ -47,13 +47,13 @@ impl MapPlan {
         self.x.count as usize * self.y.count as usize
     }
 
-    /// Returns whether there are no cells.
+    /// Returns whether the plan has no cells.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Returns the number of the cell in a column and a row.
+    /// Returns the index of the cell in a column and a row.
     #[must_use]
     pub fn index(&self, column: u32, row: u32) -> usize {
         row as usize * self.x.count as usize + column as usize
@@ -62,7 +62,7 @@ impl MapPlan {
     /// Returns the scene of a cell.
     ///
     /// # Errors
-    /// A combination of values that is not allowed.
+    /// The combination of values is not allowed.
     pub fn scene_of(&self, index: usize) -> Result<CheckedScene, SceneError> {
         let mut scene = self.scene.clone();
         let columns = self.x.count as usize;
@@ -79,11 +79,11 @@ impl MapPlan {
         Err(SceneError::refused("map", size, format!("from 1 to {MOST_CELLS} cells")))
     }
 
-    /// Rejects a plan with too many cells, with one key twice, or with a corner that is
+    /// Rejects a plan with too many cells, with the same key on both axes, or with a corner that is
     /// not a valid scene.
     ///
     /// # Errors
-    /// The number of cells, a key on both axes, or the first corner that is refused.
+    /// States the number of cells, the key, or the first corner that is not valid.
     pub fn check(&self) -> Result<(), SceneError> {
         self.check_size()?;
         if self.x.path == self.y.path {
@@ -99,8 +99,7 @@ impl MapPlan {
         Ok(())
     }
 
-    /// Computes one cell; `None` where `go_on` stopped it. A scene that is refused counts as
-    /// failed.
+    /// Computes one cell; `None` if `go_on` stopped it. A scene that is not valid counts as failed.
     #[must_use]
     pub fn compute(&self, index: usize, go_on: GoOn<'_>) -> Option<Cell> {
         let Ok(scene) = self.scene_of(index) else {
@@ -118,15 +117,15 @@ impl MapPlan {
 }
 
 impl Map {
-    /// Creates a map with nothing computed.
+    /// Creates a map without computed cells.
     #[must_use]
     pub fn empty(plan: MapPlan) -> Self {
         let cells = Cells::empty(plan.len());
         Self { plan, cells, runs: 0, wall_s: 0.0 }
     }
 
-    /// Computes the given cells that are still missing, in parallel, as long as `go_on`
-    /// allows, and passes each to `keep` as soon as it is ready.
+    /// Computes those of the given cells that are missing, in parallel, as long as `go_on` returns
+    /// true, and passes each to `keep` as soon as it is ready.
     pub fn fill(
         &mut self,
         indices: impl IndexedParallelIterator<Item = usize>,
@@ -162,8 +161,8 @@ impl Map {
         *self.cells.get(self.plan.index(column, row))?
     }
 
-    /// Returns how many cells have each verdict, how many are sensitive, and how many depend
-    /// on the step.
+    /// Returns the number of cells with each verdict, and the numbers of sensitive and of
+    /// step-dependent cells.
     #[must_use]
     pub fn census(&self) -> ([(Verdict, usize); Verdict::ALL.len()], [usize; 2]) {
         let cells = || self.cells.iter().flatten();
@@ -174,33 +173,33 @@ impl Map {
     }
 }
 
-/// One cell.
+/// Result of one cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cell {
-    /// How the motion lasts.
+    /// Verdict.
     pub verdict: Verdict,
-    /// Whether a tiny change of the run changes it.
+    /// Whether a tiny change of the run alters the verdict.
     pub sensitive: bool,
-    /// Whether another step changes it; not asked where it is sensitive.
+    /// Whether another time step alters it; not examined for a sensitive cell.
     pub depends_on_step: bool,
 }
 
 impl Cell {
-    /// Creates a cell of this verdict without a doubt.
+    /// Creates a cell with a verdict that is not doubtful.
     #[must_use]
     pub const fn of(verdict: Verdict) -> Self {
         Self { verdict, sensitive: false, depends_on_step: false }
     }
 
-    /// Returns whether the verdict is doubtful.
+    /// Returns whether the verdict is sensitive or depends on the time step.
     #[must_use]
     pub const fn is_doubtful(self) -> bool {
         self.sensitive || self.depends_on_step
     }
 }
 
-/// What a byte means: nothing computed, then each verdict, first plain, then
-/// sensitive, then dependent on the step.
+/// Meaning of a byte: not computed, then each verdict, first without doubt, then sensitive, then
+/// dependent on the time step.
 static MEANING: [Option<Cell>; 1 + 3 * KINDS] = {
     let mut meaning = [None; 1 + 3 * KINDS];
     let mut kind = 0;
@@ -215,12 +214,12 @@ static MEANING: [Option<Cell>; 1 + 3 * KINDS] = {
 };
 const KINDS: usize = Verdict::ALL.len();
 
-/// Cells in order; none where nothing is computed.
+/// Cells row by row; `None` if not computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cells(Vec<u8>);
 
 impl Cells {
-    /// Creates cells with nothing computed.
+    /// Creates cells that are not computed.
     #[must_use]
     pub fn empty(count: usize) -> Self {
         Self(vec![0; count])
@@ -232,7 +231,7 @@ impl Cells {
         self.0.len()
     }
 
-    /// Whether there are no cells.
+    /// Returns whether there are no cells.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
@@ -244,7 +243,7 @@ impl Cells {
         MEANING.get(usize::from(*self.0.get(index)?))
     }
 
-    /// Sets a cell; a place that does not exist takes nothing.
+    /// Sets a cell; does nothing outside the map.
     pub fn set(&mut self, index: usize, cell: Option<Cell>) {
         let byte = MEANING.iter().position(|meaning| *meaning == cell).unwrap_or_default();
         if let (Some(place), Ok(byte)) = (self.0.get_mut(index), u8::try_from(byte)) {
@@ -252,7 +251,7 @@ impl Cells {
         }
     }
 
-    /// Returns all cells in order.
+    /// Iterates over all cells in order.
     pub fn iter(&self) -> impl Iterator<Item = &'static Option<Cell>> + '_ {
         (0..self.len()).filter_map(|index| self.get(index))
     }

@@ -1,5 +1,6 @@
-//! Many runs of one scene: the interaction map, speed against error, the margins to
-//! every limit, and the paper's figures.
+//! Studies that consist of many runs or limits of a scene: the interaction map ([`map`],
+//! [`overlay`]), accuracy against cost ([`precision`]), the margins to every limit ([`margins`]),
+//! the survey over nodal diameters ([`survey`]), and the paper's figures ([`figures`]).
 
 mod axis;
 pub mod figures;

@@ -1,5 +1,5 @@
-//! Curves over a map: the critical speed, those between which a lock holds, and the
-//! smallest pulse that makes any blade touch.
+//! Curves drawn over a map: critical speed, ends of the lock, and the smallest pulse that makes a
+//! blade touch.
 
 use super::MapPlan;
 use super::margins::grazing_pulse;
@@ -8,20 +8,20 @@ use crate::model::Machine;
 use crate::scene::Scene;
 use crate::scene::keys::{PULSE, SPEED};
 
-/// A curve over a map, in the quantities of its axes.
+/// A curve in the quantities of the map's axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
-    /// What it is.
+    /// Name of the curve.
     pub name: &'static str,
-    /// Points `(x, y)`, in order.
+    /// Points `(x, y)` in order along the curve.
     pub points: Vec<(f64, f64)>,
 }
 
-/// The curves that have a meaning on these axes, at the resolution of the map.
+/// Returns the curves that apply to the axes of a map, at its resolution.
 #[must_use]
 pub fn curves(plan: &MapPlan) -> Vec<Curve> {
     let mut curves = speed_curves(plan);
-    if let Some(of_pulse) = AlongOther::of(plan, PULSE) {
+    if let Some(of_pulse) = AlongOther::new(plan, PULSE) {
         let most = plan.x.to.abs().max(plan.y.to.abs());
         curves.push(of_pulse.trace("grazing pulse", |scene| grazing_pulse(scene, most)));
     }
@@ -29,10 +29,10 @@ pub fn curves(plan: &MapPlan) -> Vec<Curve> {
     curves
 }
 
-/// The critical speed and those between which a lock holds, where one axis is the speed.
+/// Returns the critical speed and the ends of the lock, if one axis is the speed.
 #[must_use]
 pub fn speed_curves(plan: &MapPlan) -> Vec<Curve> {
-    let Some(of_speed) = AlongOther::of(plan, SPEED) else { return Vec::new() };
+    let Some(of_speed) = AlongOther::new(plan, SPEED) else { return Vec::new() };
     vec![
         of_speed.trace_speed("Omega_c", |machine, _| machine.critical_speed()),
         of_speed.trace_speed("Omega_lock", |machine, toward| {
@@ -42,31 +42,30 @@ pub fn speed_curves(plan: &MapPlan) -> Vec<Curve> {
     ]
 }
 
-/// As `speed_curves`, and the dangerous coincidence.
+/// As [`speed_curves`], with the dangerous coincidence.
 #[must_use]
 pub fn threshold_curves(plan: &MapPlan) -> Vec<Curve> {
     let mut curves = speed_curves(plan);
-    if let Some(of_speed) = AlongOther::of(plan, SPEED) {
+    if let Some(of_speed) = AlongOther::new(plan, SPEED) {
         curves.push(of_speed.trace_speed("coincidence", |machine, _| machine.dangerous_speed()));
     }
     curves
 }
 
-/// A map with one axis over a given key; curves go along the other axis.
+/// A map with one axis over a given key; curves are traced along the other axis.
 struct AlongOther<'a> {
     plan: &'a MapPlan,
-    /// Whether the key is on the x axis.
+    /// Whether the key is that of the x axis.
     on_x: bool,
 }
 
 impl<'a> AlongOther<'a> {
-    fn of(plan: &'a MapPlan, path: &str) -> Option<Self> {
+    fn new(plan: &'a MapPlan, path: &str) -> Option<Self> {
         let on_x = plan.x.path == path;
         (on_x || plan.y.path == path).then_some(Self { plan, on_x })
     }
 
-    /// The line of a threshold, in the sense of rotation in which the map goes
-    /// further.
+    /// Traces a threshold, for the direction of rotation in which the speed axis extends further.
     fn trace_speed(
         &self,
         name: &'static str,

@@ -1,8 +1,8 @@
-//! The limits of a machine for every number of diameters from 0 to N/2: the speeds of
-//! `margins`, and at which speeds of a range waves can lock or whirl.
+//! Survey of a machine over all nodal diameters from 0 to N/2: the characteristic speeds of
+//! `margins`, and the speeds within a range at which waves can lock or whirl.
 //!
-//! A limit of a rotor that turns backward is a negative speed. Its size is that of the
-//! forward one unless friction tells the two apart.
+//! Limits for backward rotation are negative. Their magnitude equals that of the forward ones
+//! unless there is friction.
 
 use std::cmp::Ordering;
 use std::time::Instant;
@@ -16,10 +16,10 @@ use crate::model::Machine;
 use crate::scene::units::{self, RangeError};
 use crate::scene::{CheckedScene, Scene, SceneError};
 
-/// Reads `FROM:TO` \[rad/s\]; `name` is that of the option.
+/// Reads `FROM:TO` as rotor speeds \[rad/s\]. Errors refer to the option `name`.
 ///
 /// # Errors
-/// Text of another form, an end of another quantity, or a lower end that is not lower.
+/// The text has another form, an end is of another quantity, or the first end is not the lower one.
 pub fn speed_range(name: &str, text: &str) -> Result<[f64; 2], SceneError> {
     match units::read_ends(text, units::Quantity::Speed) {
         Ok((range, None)) if is_range(range) => Ok(range),
@@ -30,14 +30,14 @@ pub fn speed_range(name: &str, text: &str) -> Result<[f64; 2], SceneError> {
     }
 }
 
-/// What a range of speeds is.
+/// Description of a range of speeds.
 const RANGE: &str = "FROM:TO, two speeds, the lower one first, such as 6000rpm:11000rpm";
 
 fn is_range([from, to]: [f64; 2]) -> bool {
     from < to && (to - from).is_finite()
 }
 
-/// Every number of diameters of a machine.
+/// Survey of a machine over all nodal diameters.
 ///
 /// ```
 /// use rubscope_solver::scene::Scene;
@@ -53,39 +53,40 @@ fn is_range([from, to]: [f64; 2]) -> bool {
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Survey {
-    /// The scene; its own number of diameters is one of them.
+    /// Scene; its own nodal diameters are among the rows.
     pub scene: CheckedScene,
-    /// The range of speeds that was asked for \[rad/s\].
+    /// Requested range of speeds \[rad/s\].
     pub range_rad_s: Option<[f64; 2]>,
-    /// The parameter whose sensitivity each limit has, if asked for.
+    /// Parameter for which each limit has a sensitivity, if requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub by: Option<&'static str>,
-    /// What the limits are of, where the scene asks for more than they have.
+    /// Simplification of the limits compared with the scene, if any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
-    /// What tips of their own lengths do to the lock of the scene, where it has one.
+    /// Effect of random tip lengths on the lock of the scene, if it has one.
     pub scattered: Option<Scattered>,
-    /// One row for each number of diameters, from 0.
+    /// One row for each number of nodal diameters, from 0.
     pub rows: Vec<SurveyRow>,
     /// Wall time \[s\].
     pub wall_s: f64,
 }
 
-/// Locks of rotors whose tips differ by chance.
+/// Lock speeds of rotors with random tip lengths.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Scattered {
-    /// Standard deviation of the tips, 1 % of the clearance \[m\].
+    /// Standard deviation of the tip lengths, 1 % of the clearance \[m\].
     pub tip_scatter_m: f64,
-    /// How many rotors were drawn.
+    /// Number of random rotors.
     pub rotors: u32,
-    /// `Omega_lock` of equal tips, the last of all \[rad/s\].
+    /// Lock speed with equal tips, which is the highest \[rad/s\].
     pub equal_rad_s: f64,
-    /// The mean of the lowest speeds at which a corner of those rotors is held \[rad/s\].
+    /// Mean over the rotors of the lowest speed at which a corner is held \[rad/s\].
     pub mean_rad_s: f64,
 }
 
 impl Scattered {
-    /// Draws rotors for a scene; none where its equal tips have no lock, or one on a lining.
+    /// Evaluates random rotors for a scene; `None` if the machine with equal tips has no lock, or
+    /// one on a lining.
     #[must_use]
     pub fn of(scene: &Scene) -> Option<Self> {
         const ROTORS: u32 = 200;
@@ -104,49 +105,49 @@ impl Scattered {
     }
 }
 
-/// One number of diameters.
+/// Results for one number of nodal diameters.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SurveyRow {
-    /// How many.
+    /// Number of nodal diameters.
     pub nodal_diameters: u32,
     /// Frequency of the casing \[rad/s\].
     pub omega_c_rad_s: f64,
     /// Frequency of the bladed disk \[rad/s\].
     pub omega_bd_rad_s: f64,
-    /// Whether modes of casing and disk are known for them, where any are.
+    /// Whether the scene lists modes of casing and disk for it, if it lists any.
     pub modes_known: bool,
-    /// The speeds of the range at which pushes hold a lock that lasts, from the lowest; of all
-    /// speeds of the scene's sense of rotation without a range, then without an end as an
-    /// infinite one. None where that is not known of these tips and this casing \[rad/s\].
+    /// Intervals of speed with a stable lock by pushes, from the lowest, within the range or,
+    /// without one, within all speeds of the scene's direction of rotation; the last may end at
+    /// infinity. `None` if unknown for these tips and this casing \[rad/s\].
     pub locks_in_range: Option<Vec<[f64; 2]>>,
-    /// The speeds of the range from which tips that move outward can whirl, where known, or else
-    /// the coincidence that they feel \[rad/s\].
+    /// Speeds within the range from which inclined tips can whirl, if known, otherwise the
+    /// coincidence that is relevant to them \[rad/s\].
     pub whirls_in_range: Vec<f64>,
-    /// Whether blades bend so much that its lock speeds, which are of rigid ones, are others.
+    /// Whether the blades are so flexible that the lock speeds for rigid blades do not apply.
     pub bends: bool,
-    /// The limits that there are, in the order of `margins`; forward ones first.
+    /// Existing limits, in the order of `margins`, forward ones first.
     pub limits: Vec<SurveyLimit>,
 }
 
-/// One limit of one number of diameters.
+/// A limit for one number of nodal diameters.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SurveyLimit {
-    /// Which.
+    /// Name of the limit.
     pub name: LimitName,
-    /// Its speed; below zero for a rotor that turns backward \[rad/s\].
+    /// Speed; negative for backward rotation \[rad/s\].
     pub value: f64,
-    /// How far the scene is beyond it, as a part of it; none for the other sense of rotation.
+    /// Relative distance of the scene beyond the limit; `None` for the other direction of rotation.
     #[serde(serialize_with = "shown_margin")]
     pub margin: Option<f64>,
-    /// Whether it lies in the range; none without a range.
+    /// Whether the limit lies in the range; `None` without a range.
     pub in_range: Option<bool>,
-    /// Its change in per cent by one per cent of the parameter that was asked for.
+    /// Sensitivity to the requested parameter: change in per cent for one per cent of it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub by: Option<f64>,
 }
 
 impl SurveyRow {
-    /// A limit of a rotor that turns forward, or backward.
+    /// Returns a limit for forward or backward rotation.
     #[must_use]
     pub fn limit(&self, name: LimitName, forward: bool) -> Option<&SurveyLimit> {
         self.limits
@@ -154,15 +155,15 @@ impl SurveyRow {
             .find(|limit| limit.name == name && limit.value.is_sign_positive() == forward)
     }
 
-    /// Returns whether a wave can lock at a speed of the range.
+    /// Returns whether a wave can lock at a speed \[rad/s\].
     #[must_use]
     pub fn locks_at(&self, speed: f64) -> bool {
         let has = |[from, to]: &[f64; 2]| (*from..=*to).contains(&speed);
         self.locks_in_range.as_ref().is_some_and(|locks| locks.iter().any(has))
     }
 
-    /// Where it stands among others: what locks everywhere, from the lowest speed, is not known,
-    /// and each of them by the lowest speed of whirl.
+    /// Returns the sort key: rows with a lock throughout the range first, then by the lowest lock
+    /// speed, those with unknown lock speeds last; equal ones by the lowest whirl speed.
     fn order(&self, range: [f64; 2]) -> [f64; 2] {
         let least = |speeds: &[f64]| speeds.iter().map(|x| x.abs()).fold(f64::INFINITY, f64::min);
         let locks = match &self.locks_in_range {
@@ -175,11 +176,11 @@ impl SurveyRow {
 }
 
 impl Survey {
-    /// Makes the survey of a scene, over a range of speeds \[rad/s\], with the sensitivities of
-    /// every limit by a parameter, if there is one.
+    /// Computes the survey of a scene over a range of speeds \[rad/s\], with the sensitivity of
+    /// every limit to a parameter, if requested.
     ///
     /// # Errors
-    /// A range that is not finite, or whose lower end is not the first.
+    /// The range is not finite, or its ends are not in increasing order.
     pub fn of(
         scene: &CheckedScene,
         range: Option<[f64; 2]>,
@@ -202,7 +203,7 @@ impl Survey {
         })
     }
 
-    /// The sense of rotation that is looked at: that of the range, or else of the scene.
+    /// Returns whether the survey refers to forward rotation: by the range, otherwise by the scene.
     #[must_use]
     pub fn is_forward(&self) -> bool {
         let speed = self.scene.operation.speed_rad_s;
@@ -212,14 +213,14 @@ impl Survey {
         }
     }
 
-    /// The range, or else all speeds of the sense of rotation \[rad/s\].
+    /// Returns the range, or all speeds of the scene's direction of rotation \[rad/s\].
     #[must_use]
     pub fn speeds(&self) -> [f64; 2] {
         searched(self.range_rad_s, &self.scene)
     }
 
-    /// Rows by what they can do in the range, the most first: those with modes of their own and
-    /// the one of the scene, or all.
+    /// Returns the rows in order of relevance within the range: all, or those with modes of their
+    /// own and that of the scene.
     #[must_use]
     pub fn shown(&self, all: bool) -> Vec<&SurveyRow> {
         let own = self.scene.operation.nodal_diameters;
@@ -231,13 +232,13 @@ impl Survey {
     }
 }
 
-/// The range, or else all speeds of the sense of rotation of a scene.
+/// Returns the range, or all speeds of the scene's direction of rotation.
 fn searched(range: Option<[f64; 2]>, scene: &Scene) -> [f64; 2] {
     let forward = scene.operation.speed_rad_s >= 0.0;
     range.unwrap_or(if forward { [0.0, f64::INFINITY] } else { [f64::NEG_INFINITY, 0.0] })
 }
 
-/// The scene with equal tips in a round casing.
+/// Returns the scene with equal tips in a round casing.
 fn even(scene: &Scene) -> Scene {
     let mut scene = scene.clone();
     let disk = &mut scene.bladed_disk;
@@ -246,7 +247,7 @@ fn even(scene: &Scene) -> Scene {
     scene
 }
 
-/// Where a lock holds in these speeds, from the lowest; none where that is not known.
+/// Returns the intervals of these speeds with a stable lock, from the lowest; `None` if unknown.
 fn locks(scene: &Scene, machine: &Machine, [from, to]: [f64; 2]) -> Option<Vec<[f64; 2]>> {
     if scene.clearance() <= 0.0 {
         return Some(Vec::new());
@@ -268,7 +269,8 @@ fn locks(scene: &Scene, machine: &Machine, [from, to]: [f64; 2]) -> Option<Vec<[
     Some(found)
 }
 
-/// Where whirl begins in these speeds, or lasts from their slower end on.
+/// Returns the speeds in this interval at which whirl begins, and its slower end if whirl already
+/// exists there.
 fn whirls(machine: &Machine, limits: &[SurveyLimit], [from, to]: [f64; 2]) -> Vec<f64> {
     let of_sense = |sense: f64| {
         let onset = |limit: &&SurveyLimit| {
@@ -292,15 +294,15 @@ fn row(
     range: Option<[f64; 2]>,
     by: Option<&Parameter>,
 ) -> SurveyRow {
-    // The mode of so many diameters is then in use.
+    // Selects the modes with these nodal diameters.
     let mut scene = Scene::clone(scene);
     scene.operation.nodal_diameters = diameters;
     let machine = scene.machine();
     let own = 1_f64.copysign(scene.operation.speed_rad_s);
     let asked = searched(range, &scene);
-    let found = Speeds::of(&scene, own, by);
-    // Only friction tells the two senses apart.
-    let other = (scene.contact.friction != 0.0).then(|| Speeds::of(&scene, -own, by));
+    let found = Speeds::new(&scene, own, by);
+    // Limits depend on the direction of rotation only with friction.
+    let other = (scene.contact.friction != 0.0).then(|| Speeds::new(&scene, -own, by));
     let of = |sense: f64| match &other {
         Some(other) if sense != own => other,
         _ => &found,
@@ -323,21 +325,21 @@ fn row(
     }
 }
 
-/// The sizes of the limits of a rotor that turns in one sense, and their sensitivities.
+/// Magnitudes of the limits for one direction of rotation, and their sensitivities.
 struct Speeds {
     sizes: Vec<(LimitName, f64)>,
     by: Vec<Option<f64>>,
 }
 
 impl Speeds {
-    fn of(scene: &Scene, sense: f64, by: Option<&Parameter>) -> Self {
+    fn new(scene: &Scene, sense: f64, by: Option<&Parameter>) -> Self {
         let mut turned = scene.clone();
         turned.operation.speed_rad_s = sense * scene.operation.speed_rad_s.abs().max(1.0);
         let by = by.map_or(Vec::new(), |by| speed_sensitivities(&turned, by));
         Self { sizes: speeds(&turned), by }
     }
 
-    /// As limits of a rotor that turns in this sense.
+    /// Converts the magnitudes to limits for a direction of rotation.
     fn limits(&self, scene: &Scene, sense: f64, range: Option<[f64; 2]>) -> Vec<SurveyLimit> {
         let present = scene.operation.speed_rad_s;
         let limit = |(place, (name, size)): (usize, &(LimitName, f64))| {
@@ -350,7 +352,7 @@ impl Speeds {
                 by: self.by.get(place).copied().flatten(),
             }
         };
-        // The paper's algorithm pulls below that speed, and no machine does.
+        // The adhesive speed belongs to the paper's algorithm, not to the machine.
         let of_machine = |limit: &SurveyLimit| limit.name != LimitName::OmegaAdhesive;
         self.sizes.iter().enumerate().map(limit).filter(of_machine).collect()
     }

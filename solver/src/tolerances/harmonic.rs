@@ -24,10 +24,6 @@ pub(crate) const NEWTON_STRIDES: usize = 500;
 /// Part of an angle at which Newton steps that no longer shrink have converged.
 pub(crate) const CONVERGED: f64 = 1e-7;
 
-/// A compliance below which the corner cannot open by a part of itself that a
-/// number resolves, at any speed whose square a number holds.
-pub(crate) const AS_GOOD_AS_RIGID: f64 = 1e-290;
-
 /// Most changes of character looked for between two neighbouring speeds.
 pub(crate) const BRANCH_CHANGES: usize = 16;
 

@@ -2,7 +2,7 @@
 //! command line of `run` or `map`, its options without their dashes.
 
 use rubscope_solver::motion::{
-    Motion, RunReport, Sampling, Script, Verdict, run_to_end, run_to_verdict, simulate, to_the_end,
+    RunReport, Sampling, Script, Verdict, run_to_end, run_to_verdict, simulate, to_the_end,
 };
 use rubscope_solver::scene::Scene;
 
@@ -90,9 +90,7 @@ fn the_largest_blade_angle_does_not_depend_on_who_looks() {
     let angles = [0, 7, 4001].map(|intervals| {
         let sampling = Sampling { intervals, gaps: false };
         let scene = scene.checked().unwrap();
-        run_to_end(&scene, &Script::default(), sampling, &mut |_| {}, &mut ())
-            .checks
-            .max_blade_angle_rad
+        run_to_end(&scene, &Script::default(), sampling, &mut |_| {}).checks.max_blade_angle_rad
     });
     assert_eq!(angles[0], angles[1]);
     assert_eq!(angles[0], angles[2]);

@@ -73,7 +73,7 @@ fn looking_does_not_change_the_motion() {
             assert_eq!(sample.gaps.len(), 22);
         };
         let watched =
-            run_to_end(&scene.checked().unwrap(), &Script::default(), sampling, &mut look, &mut ());
+            run_to_end(&scene.checked().unwrap(), &Script::default(), sampling, &mut look);
         assert_eq!(seen, 778);
         assert_eq!(plain.r#final, watched.r#final);
         assert_eq!(plain.impacts, watched.impacts);

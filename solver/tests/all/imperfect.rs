@@ -6,7 +6,7 @@ use crate::machine_at_speed::close;
 use std::f64::consts::TAU;
 
 use nalgebra::Complex;
-use rubscope_solver::harmonic::{Lining, lock_loads, roundness};
+use rubscope_solver::harmonic::{Lining, roundness};
 use rubscope_solver::motion::{ActiveSet, Motion, RunReport, Verdict};
 use rubscope_solver::scene::{CheckedScene, ModelSize, Scene};
 use rubscope_solver::study::margins::{LimitName, Margins};
@@ -26,19 +26,6 @@ fn lock_speed(keys: &[(&str, &str)]) -> f64 {
 
 fn run(keys: &[(&str, &str)]) -> RunReport {
     crate::run_once(&scene(keys))
-}
-
-#[test]
-fn a_corner_of_unequal_tips_is_held_from_its_own_speed_on() {
-    close(lock_speed(&[]), 411.933_517, 1e-9);
-    for (x, expected) in [(1e-6, 370.142_665), (2e-6, 349.645_794), (5e-6, 328.412_582)] {
-        let tips: Vec<f64> = (1..=22_u32).map(|i| x * f64::from(i * i).sin()).collect();
-        close(lock_speed(&[("bladed_disk.tips_m", &format!("{tips:?}"))]), expected, 2e-9);
-    }
-    // Without damping it stays the critical speed.
-    let undamped = [("casing.damping_ratio", "0"), (LONGEST, "10e-6")];
-    let machine = scene(&undamped).machine();
-    close(machine.lock_speed().unwrap(), machine.critical_speed().unwrap(), 1e-14);
 }
 
 #[test]
@@ -79,22 +66,6 @@ fn rotors_of_one_per_cent_lock_from_361_on_the_mean() {
         let sum: f64 = (1..=200).map(of_seed).sum();
         assert!((sum / 200.0 - mean).abs() < 3.5, "{} at {scatter}", sum / 200.0);
     }
-}
-
-#[test]
-fn pushes_of_unequal_tips_are_those_of_their_corner() {
-    let machine = scene(&[(LONGEST, "105e-6")]).machine();
-    let (corner, _) = machine.lowest_corner(1.0).unwrap();
-    assert_eq!(corner.sides, [1, 3].map(|blade| machine.polygon.side_of_blade(blade)));
-    let loads = lock_loads(&machine, 400.0).unwrap();
-    let closed = machine.locked_multipliers(400.0).unwrap();
-    for (k, push) in [33.892_310, 136.456_695].into_iter().enumerate() {
-        // With blades that bend.
-        close(loads.pushes_n[k], push, 2e-6);
-        close(-closed[k], push, 2e-8);
-    }
-    let amplitude = scene(&[(LONGEST, "10e-6")]).machine().locked_amplitude().unwrap();
-    close(amplitude, 1.005_886e-4, 5e-7);
 }
 
 /// A scene that starts in the corner of its tips that is held at the lowest speed, where lobes

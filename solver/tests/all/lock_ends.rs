@@ -130,26 +130,6 @@ fn both_ends_move_as_the_plain_formula_does() {
     }
 }
 
-/// On both sides of each end, by every steady state that there is.
-#[test]
-fn a_lining_holds_a_pair_between_its_ends_alone() {
-    for (scene, _) in windows() {
-        if scene.solver.contact != ContactLaw::Smooth {
-            continue;
-        }
-        let machine = scene.machine();
-        let lining = Lining::of(&machine, &scene.contact).unwrap();
-        let window = machine.lock_windows(1.0).first().copied().unwrap();
-        let pairs =
-            |speed: f64| lining.states(speed).unwrap().iter().any(|state| state.pushing == 2);
-        let to = window.to.unwrap();
-        // Nearer to an end the pair is not told from the single group that it becomes.
-        let beside = |end: f64| [end * (1.0 - 1e-4), end * (1.0 + 1e-4)].map(pairs);
-        assert_eq!(beside(window.from), [false, true], "{window:?}");
-        assert_eq!(beside(to), [true, false], "{window:?}");
-    }
-}
-
 /// A start in the lock of two groups on the lining of a scene; blades soon come to rest.
 fn pressed_in_corner(mut scene: Scene) -> Scene {
     let (machine, speed) = (scene.machine(), scene.operation.speed_rad_s);

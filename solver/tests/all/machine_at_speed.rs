@@ -366,18 +366,6 @@ fn limits_change_with_every_parameter_as_their_derivatives_say() {
 }
 
 #[test]
-fn a_machine_that_stays_the_same_has_no_such_parameter_and_one_of_each_limit() {
-    let margins = Margins::of(&Scene::base().checked().unwrap());
-    let mut names: Vec<_> = margins.limits.iter().map(|limit| (limit.name, limit.lobes)).collect();
-    names.dedup();
-    assert_eq!(names.len(), margins.limits.len());
-    for limit in &margins.limits {
-        assert_eq!(limit.sensitivities.by(STIFFENING), None);
-        assert_eq!(limit.sensitivities.by(LOSS), None);
-    }
-}
-
-#[test]
 fn what_has_no_clearance_left_is_refused_by_name() {
     let refused = |changes: &[(&str, f64)]| scene(changes).checked().unwrap_err().to_string();
     let told = refused(&[(LOSS, 5e-10)]);

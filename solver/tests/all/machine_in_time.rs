@@ -57,19 +57,6 @@ fn at_a_constant_speed_it_is_the_machine_of_that_speed() {
     }
 }
 
-#[test]
-fn all_of_a_motion_scales_with_the_clearance() {
-    for kind in ["explicit", "event"] {
-        let [whole, part] = [[(LOSS, "0"), (PULSE, "2e4")], [(LOSS, "1e-10"), (PULSE, "1.5e4")]]
-            .map(|changes| state_at(&base(&[&changes[..], &[(KIND, kind)]].concat()), 3e-3));
-        for k in 0..2 {
-            // But for the turn of the blades, 1e-6 rad.
-            let off = (part.u[k] - 0.75 * whole.u[k]).abs();
-            assert!(off < 1e-5 * whole.amplitude(), "{kind}: {off:e}");
-        }
-    }
-}
-
 /// The equations of docs/theory.md, section 10, with a machine of now, by the method of Runge
 /// and Kutta.
 struct Plain {

@@ -71,5 +71,5 @@ fn close(value: f64, expected: f64, most: f64) {
 
 /// A scene run to its end once, without the changed runs that say how far to trust it.
 fn run_once(scene: &CheckedScene) -> RunReport {
-    run_to_end(scene, &Script::default(), Sampling::default(), &mut |_| {}, &mut ())
+    run_to_end(scene, &Script::default(), Sampling::default(), &mut |_| {})
 }

@@ -205,7 +205,7 @@ fn a_run_with_changes_is_that_of_one_motion() {
     let script =
         Script::new(vec![(4e-4, Change::Pulse), (1e-3, Change::Rotor { speed: None, ramp: -2e3 })]);
     let checked = scene.checked().unwrap();
-    let report = run_to_end(&checked, &script, Default::default(), &mut |_| {}, &mut ());
+    let report = run_to_end(&checked, &script, Default::default(), &mut |_| {});
     let mut motion = Motion::new(&checked);
     motion.advance(4e-4).unwrap();
     motion.fire();

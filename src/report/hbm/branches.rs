@@ -1,23 +1,20 @@
-//! Every equilibrium, its stability, and where branches change.
-
-use std::rc::Rc;
+//! The view `--branches`: every equilibrium, its stability, and the speeds where branches change.
 
 use serde_json::json;
 
-use super::{Answer, LockBeside, Parts, Request, Rows, View};
+use super::{Answer, LockBeside, Parts, Request, View};
 use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{
     Branches, Corner, Equilibrium, Form, HarmonicError, Kind, Locked, LockedPoint, Threshold,
 };
 use rubscope_solver::model::{LockWindow, TipCorner};
 
-/// View: every equilibrium.
 pub const BRANCHES: View = View {
     option: "branches",
     help: "View: every equilibrium, its stability, and the thresholds of each branch",
     always_damped: false,
     one_speed: false,
-    // Rest and side are there without corners, too.
+    // Rest and sliding on one side exist even if there is no corner to lock in.
     lock: LockBeside::Rigid(|error| matches!(error, HarmonicError::NoCorner { .. })),
     answer,
 };
@@ -27,27 +24,25 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     if machine.has_unequal_tips() {
         return corners(request);
     }
-    let branches = Rc::new(Branches::over(machine, speeds, *damped)?);
-    let of = Rc::clone(&branches);
-    let rows = Rows::new([branches.speeds(), branches.count], move |place| of.states_at(place));
-    let json = Parts::default().with("thresholds", &branches.thresholds).with_rows(
-        "states",
-        &rows,
-        |state| json!(state),
-    );
+    let branches = Branches::over(machine, speeds, *damped)?;
+    let states: Vec<Vec<Equilibrium>> =
+        (0..branches.speeds()).map(|place| branches.states_at(place)).collect::<Result<_, _>>()?;
+    let states = states.concat();
+    let json = Parts::default().with("thresholds", &branches.thresholds).with("states", &states);
     let damping = if *damped { "with damping" } else { "without damping" };
     let changes = format!("Where branches change between these speeds, {damping}:");
     let tables = vec![
         (changes, Table::of(&branches.thresholds, THRESHOLDS)),
-        ("Equilibria of the blade frame:".to_string(), rows.table(STATES)),
+        ("Equilibria of the blade frame:".to_string(), Table::of(&states, STATES)),
     ];
-    Ok(Answer::of(Parts::default().with_parts("branches", json), tables))
+    Ok(Answer::of(Parts::default().with("branches", json), tables))
 }
 
-/// A corner of unequal tips that is held at some speeds, by the blades of its sides, at one of them.
+/// A corner of unequal tips at one speed: the blades of its two sides, the corner, the speeds at
+/// which it holds, and the locked motion.
 type CornerRow = ([Vec<u32>; 2], TipCorner, LockWindow, LockedPoint);
 
-/// Returns every corner of unequal tips: where it is held, and what it takes at each speed.
+/// Answers for unequal tips: every corner, the speeds at which it holds, and its loads there.
 fn corners(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let Request { machine, speeds, damped, .. } = request;
     let polygon = machine.polygon.clone();
@@ -73,12 +68,10 @@ fn corners(request: &Request<'_>) -> Result<Answer, HarmonicError> {
             .collect::<Vec<_>>()
     );
     let title = "Every corner of these tips that is held at some speed:".to_string();
-    let rows = Rows::of(found);
-    let json = Parts::default().with_parts("branches", Parts::default().with("corners", json));
-    Ok(Answer::of(json, vec![(title, rows.table(CORNERS))]))
+    let json = Parts::default().with("branches", Parts::default().with("corners", json));
+    Ok(Answer::of(json, vec![(title, Table::of(&found, CORNERS))]))
 }
 
-/// Columns of corners of unequal tips.
 const CORNERS: &[Column<'_, CornerRow>] = &[
     ("speed_rad_s", |row| row.3.speed_rad_s.into()),
     ("blade_a", |row| row.0[0].first().map(|blade| f64::from(*blade)).into()),
@@ -91,7 +84,6 @@ const CORNERS: &[Column<'_, CornerRow>] = &[
     ("character", |row| row.3.character.as_ref().into()),
 ];
 
-/// Columns of the speeds where branches appear, vanish or change.
 const THRESHOLDS: &[Column<'_, Threshold>] = &[
     ("speed_rad_s", |threshold| threshold.speed_rad_s.into()),
     ("state", |threshold| threshold.kind.as_ref().into()),
@@ -103,7 +95,6 @@ fn multiplier(state: &Equilibrium, index: usize) -> TableCell {
     state.contacts.get(index).map(|contact| contact.multiplier_n).into()
 }
 
-/// Columns of equilibria.
 const STATES: &[Column<'_, Equilibrium>] = &[
     ("speed_rad_s", |state| state.speed_rad_s.into()),
     ("state", |state| state.kind.as_ref().into()),
@@ -111,13 +102,13 @@ const STATES: &[Column<'_, Equilibrium>] = &[
     ("multiplier_a_n", |state| multiplier(state, 0)),
     ("multiplier_b_n", |state| multiplier(state, 1)),
     ("amplitude_m", |state| state.amplitude_m.into()),
-    // At rest nothing is driven.
+    // At rest there is no drive power.
     ("power_w", |state| (state.kind != Kind::Rest).then_some(state.power_w).into()),
     ("growth_per_s", |state| growth(state).into()),
 ];
 
-/// Returns the growth rate to read: 0 for an undamped motion, which grows or decays only by
-/// round-off.
+/// Returns the growth rate, with round-off shown as 0: an undamped motion neither grows nor
+/// decays.
 fn growth(state: &Equilibrium) -> f64 {
     let fastest = state.eigenvalues_per_s.iter().map(|value| value.norm()).fold(0.0, f64::max);
     if state.growth_per_s.abs() > 1e-13 * fastest { state.growth_per_s } else { 0.0 }

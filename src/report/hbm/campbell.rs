@@ -1,25 +1,24 @@
-//! Frequencies against speed, engine orders, and the coincidences (30).
+//! The view `--campbell`: frequencies against speed, engine orders, and the coincidences (30).
 
 use serde_json::{Value, json};
 
-use super::{Answer, LockBeside, Parts, Request, Rows, View};
+use super::{Answer, LockBeside, Parts, Request, View};
 use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{Campbell, Coincidence, HarmonicError, Line};
 
-/// View: frequencies against speed.
 pub const CAMPBELL: View = View {
     option: "campbell",
     help: "View: frequencies against speed, engine orders, and the coincidences (30)",
     always_damped: false,
     one_speed: false,
-    // Frequencies need no corner, no rigid contact and no balance of one harmonic.
+    // Frequencies exist without a corner, rigid contact or a harmonic balance.
     lock: LockBeside::Rigid(|error| {
         matches!(error, HarmonicError::NoCorner { .. } | HarmonicError::Refused { .. })
     }),
     answer,
 };
 
-/// Engine orders in addition to that of the scene.
+/// Engine orders drawn in addition to the scene's.
 const ORDERS: [u32; 4] = [1, 2, 3, 4];
 
 fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
@@ -29,13 +28,10 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
         orders.push(excitation.order);
     }
     let campbell = Campbell::of(&request.machine, &orders, request.fastest())?;
-    let (lines, speeds) = (campbell.lines, request.speeds.to_vec());
+    let (lines, speeds) = (&campbell.lines, request.speeds);
     let json = Parts::default()
-        .with("speed_rad_s", &speeds)
-        .with_rows("lines", &Rows::of(lines.clone()), {
-            let speeds = speeds.clone();
-            move |line| value(line, &speeds)
-        })
+        .with("speed_rad_s", speeds)
+        .with_rows("lines", lines, |line| value(line, speeds))
         .with("coincidences", &campbell.coincidences);
     let coincidences = "Coincidences +-omega_c = n_d Omega +- omega_bd, Eq. (30):".to_string();
     let title = "Frequencies in the standing frame [rad/s]:".to_string();
@@ -43,7 +39,7 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
         (coincidences, Table::of(&campbell.coincidences, COINCIDENCES)),
         (title, table(lines, speeds)),
     ];
-    Ok(Answer::of(Parts::default().with_parts("campbell", json), tables))
+    Ok(Answer::of(Parts::default().with("campbell", json), tables))
 }
 
 fn value(line: &Line, speeds: &[f64]) -> Value {
@@ -57,19 +53,16 @@ fn value(line: &Line, speeds: &[f64]) -> Value {
 }
 
 /// Returns the lines over speed, one per column.
-fn table(lines: Vec<Line>, speeds: Vec<f64>) -> Table {
+fn table(lines: &[Line], speeds: &[f64]) -> Table {
     let names = lines.iter().map(|line| line.name.clone());
-    let names: Vec<_> = std::iter::once("speed_rad_s".to_string()).chain(names).collect();
-    Table::made(names, [speeds.len(); 2], move |place| {
-        let row = |&speed: &f64| {
-            let lines = lines.iter().map(|line| line.at(speed));
-            std::iter::once(speed).chain(lines).map(TableCell::from).collect()
-        };
-        Ok(speeds.get(place).map(row).into_iter().collect())
-    })
+    let mut table = Table::new(std::iter::once("speed_rad_s".to_string()).chain(names));
+    for &speed in speeds {
+        let lines = lines.iter().map(|line| line.at(speed));
+        table.push(std::iter::once(speed).chain(lines).map(TableCell::from).collect());
+    }
+    table
 }
 
-/// Columns of the coincidences.
 const COINCIDENCES: &[Column<'_, Coincidence>] = &[
     ("speed_rad_s", |found| found.speed_rad_s.into()),
     ("casing_rad_s", |found| found.casing_rad_s.into()),

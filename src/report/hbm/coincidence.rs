@@ -1,15 +1,14 @@
-//! What the coincidences do: growth of rest and the wave that lasts, against speed.
+//! The view `--coincidence`: growth from rest near the coincidences, and the wave that lasts,
+//! against speed.
 
-use serde_json::json;
-
-use super::{Answer, LockBeside, Parts, Request, Rows, View};
+use super::{Answer, LockBeside, Parts, Request, View};
 use crate::report::number::{per_speed, short, speed, speed_unit};
-use crate::report::table::Column;
+use crate::report::table::{Column, Table};
 use rubscope_solver::harmonic::{
     CoincidencePoint, HarmonicError, coincidence, shifted_coincidence,
 };
 
-/// View: what the coincidences do.
+/// The view: growth and lasting wave against speed.
 pub const COINCIDENCE: View = View {
     option: "coincidence",
     help: "View: what the coincidences do: growth of rest and the wave that lasts, against speed",
@@ -21,7 +20,7 @@ pub const COINCIDENCE: View = View {
 
 fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let Request { scene, machine, speeds, .. } = request;
-    let points = Rows::of(coincidence(scene, speeds)?);
+    let points = coincidence(scene, speeds)?;
     let sense = 1_f64.copysign(request.fastest());
     let markers: Vec<f64> =
         machine.coincidence_speeds().iter().map(|speed| sense * speed).collect();
@@ -38,12 +37,12 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let json = Parts::default()
         .with("markers_rad_s", markers)
         .with("shifted_rad_s", shifted)
-        .with_rows("points", &points, |point| json!(point));
-    let json = Parts::default().with_parts("coincidence", json);
-    Ok(Answer::of(json, vec![(title, points.table(CURVE))]))
+        .with("points", &points);
+    let json = Parts::default().with("coincidence", json);
+    Ok(Answer::of(json, vec![(title, Table::of(&points, CURVE))]))
 }
 
-/// Columns of a coincidence against speed.
+/// Columns of growth and wave, one row per speed.
 pub const CURVE: &[Column<'_, CoincidencePoint>] = &[
     ("speed_rad_s", |point| point.speed_rad_s.into()),
     ("growth_1_s", |point| point.growth_1_s.into()),

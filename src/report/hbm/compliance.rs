@@ -1,32 +1,31 @@
-//! The joint compliance `B(omega)`: over frequencies for files, and the whirls, where it
-//! crosses the negative real axis.
+//! The view `--compliance`: the joint compliance `B(omega)` of casing and blades, and the whirl
+//! frequencies, where it crosses the negative real axis.
 
 use nalgebra::Complex;
 use serde_json::{Value, json};
 
-use super::{Answer, LockBeside, Parts, Request, Rows, View};
+use super::{Answer, LockBeside, Parts, Request, View};
 use crate::report::number::speed;
 use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{HarmonicError, Joint, RoundWhirl, RoundWhirlLoads, round_whirls};
 use rubscope_solver::scene::keys;
 
-/// View: the joint compliance.
 pub const COMPLIANCE: View = View {
     option: "compliance",
     help: "View: the joint compliance B(omega), in JSON and CSV; a whirl is where it crosses the \
            negative real axis",
     always_damped: true,
     one_speed: true,
-    // It is that of the structures, preloaded or not.
+    // The compliance belongs to the structures, with or without a preload.
     lock: LockBeside::Rigid(|error| {
         matches!(error, HarmonicError::Refused { key: keys::CASING_RADIUS, .. })
     }),
     answer,
 };
 
-/// Frequencies of the table.
+/// Number of frequencies in the table.
 const FREQUENCIES: usize = 201;
-/// How far beyond the fastest resonance they go.
+/// The table extends to this multiple of the highest resonance.
 const BEYOND: f64 = 1.5;
 
 fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
@@ -35,7 +34,7 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let waves: Vec<Wave> =
         round_whirls(&joint).into_iter().map(|wave| (wave, wave.loads(&joint))).collect();
     let at = |omega: f64| (omega, omega - joint.nu, joint.compliance(omega));
-    let points: Rows<Point> = Rows::of(beyond_resonance(&joint).into_iter().map(at).collect());
+    let points: Vec<Point> = beyond_resonance(&joint).into_iter().map(at).collect();
     let json = Parts::default()
         .with("speed_rad_s", joint.nu / joint.machine.nodal_diameters)
         .with_rows("omega_rad_s", &points, |point| json!(point.0))
@@ -48,20 +47,20 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     } else {
         format!("Where B(omega) crosses the negative real axis {shown}:")
     };
-    // On a lining that blades press at rest the amplitude decides.
+    // On a preloaded lining, stability depends on the amplitude, which this view does not know.
     let columns = if joint.machine.clearance() <= 0.0 { PRESSED } else { WAVES };
     let tables = vec![(crossings, Table::of(&waves, columns))];
-    let json = Parts::default().with_parts("compliance", json);
-    Ok(Answer { json, tables, file: points.table(POINTS) })
+    let json = Parts::default().with("compliance", json);
+    Ok(Answer { json, tables, file: Some(Table::of(&points, POINTS)) })
 }
 
-/// A wave that blades and casing carry round together.
+/// A whirl (a wave that blades and casing carry round together), and its loads.
 type Wave = (RoundWhirl, RoundWhirlLoads);
 
-/// Frequency of the casing and of the blades \[rad/s\], and the compliance \[m/N\].
+/// Frequencies of the casing and the blades \[rad/s\], and the compliance \[m/N\].
 type Point = (f64, f64, Complex<f64>);
 
-/// Returns evenly spaced frequencies that go beyond every resonance \[rad/s\].
+/// Returns evenly spaced frequencies up to beyond every resonance \[rad/s\].
 fn beyond_resonance(joint: &Joint) -> Vec<f64> {
     let machine = &joint.machine;
     let reach = BEYOND * machine.omega_c.max(joint.nu.abs() + machine.omega_bd);
@@ -73,7 +72,7 @@ fn finite(value: f64) -> Option<f64> {
     Some(value).filter(|value| value.is_finite())
 }
 
-/// Returns a wave as JSON, with loads where there is a clearance.
+/// Returns a whirl as JSON; loads exist only with a clearance.
 fn value((wave, loads): &Wave) -> Value {
     let over = loads.casing_m >= 0.0;
     let loaded = |load: f64| over.then_some(load);
@@ -92,11 +91,11 @@ fn value((wave, loads): &Wave) -> Value {
     })
 }
 
-/// Columns of the waves over a clearance.
+/// Columns of the whirls if there is a clearance.
 const WAVES: &[Column<'_, Wave>] =
     &waves(|wave| if wave.0.attracts { "attracts" } else { "threshold" }.into());
 
-/// Columns of the waves on a lining under preload.
+/// Columns of the whirls on a preloaded lining.
 const PRESSED: &[Column<'_, Wave>] = &waves(|_| "see --smooth".into());
 
 const fn waves(state: fn(&Wave) -> TableCell) -> [Column<'static, Wave>; 7] {
@@ -111,12 +110,11 @@ const fn waves(state: fn(&Wave) -> TableCell) -> [Column<'static, Wave>; 7] {
     ]
 }
 
-/// Returns a load of a wave as large as the clearance; none without a clearance.
+/// Returns the cell of a load; a negative value stands for a load that does not exist.
 fn loaded(load: f64) -> TableCell {
     Some(load).filter(|load| *load >= 0.0).into()
 }
 
-/// Columns of the joint compliance.
 const POINTS: &[Column<'_, Point>] = &[
     ("omega_rad_s", |point| point.0.into()),
     ("s_rad_s", |point| point.1.into()),

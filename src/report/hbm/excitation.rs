@@ -1,16 +1,13 @@
-//! The response of the damped lock to the engine order of the scene.
-
-use std::rc::Rc;
+//! The view `--excitation`: response of the damped lock to the engine order of the scene.
 
 use serde_json::{Value, json};
 
-use super::{Answer, LockBeside, Parts, Request, Rows, View};
+use super::{Answer, LockBeside, Parts, Request, View};
 use crate::report::number::short;
-use crate::report::table::Column;
+use crate::report::table::{Column, Table};
 use rubscope_solver::harmonic::{ExcitedLock, ExcitedLocks, HarmonicError, drives};
 use rubscope_solver::scene::keys;
 
-/// View: response of the lock to the engine order.
 pub const EXCITATION: View = View {
     option: "excitation",
     help: "View: response of the damped lock to the scene's engine-order excitation",
@@ -28,11 +25,9 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
         return Err(HarmonicError::refused(keys::EXCITATION, excitation.amplitude_nm, allowed));
     }
     let reaches = drives(&machine, excitation.order);
-    let found = Rc::new(ExcitedLocks::over(&machine, side, excitation, request.speeds)?);
-    let of = Rc::clone(&found);
-    let rows = Rows::new([found.places(), found.count], move |place| {
-        Ok(of.lock_at(place)?.into_iter().collect())
-    });
+    let found = ExcitedLocks::over(&machine, side, excitation, request.speeds)?;
+    let locks = (0..found.places()).filter_map(|place| found.lock_at(place).transpose());
+    let locks = locks.collect::<Result<Vec<ExcitedLock>, _>>()?;
     let words = match reaches {
         true => ": amplitudes about the damped lock.",
         false => " does not drive the modes of these diameters: E is not +-n_d modulo N.",
@@ -44,12 +39,12 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
         .with("amplitude_nm", excitation.amplitude_nm)
         .with("order", excitation.order)
         .with("drives", reaches)
-        .with_rows("points", &rows, value);
-    let json = Parts::default().with_parts("excitation", json);
-    Ok(Answer::of(json, vec![(title, rows.table(RESPONSE))]))
+        .with_rows("points", &locks, value);
+    let json = Parts::default().with("excitation", json);
+    Ok(Answer::of(json, vec![(title, Table::of(&locks, RESPONSE))]))
 }
 
-/// Returns the response at one speed as JSON: amplitudes of oscillation.
+/// Returns the response at one speed as JSON, with amplitudes of the oscillation.
 fn value(lock: &ExcitedLock) -> Value {
     json!({
         "speed_rad_s": lock.state.speed_rad_s,
@@ -65,7 +60,6 @@ fn value(lock: &ExcitedLock) -> Value {
     })
 }
 
-/// Columns of the response to an engine order.
 const RESPONSE: &[Column<'_, ExcitedLock>] = &[
     ("speed_rad_s", |lock| lock.state.speed_rad_s.into()),
     ("frequency_rad_s", |lock| lock.frequency_rad_s.into()),

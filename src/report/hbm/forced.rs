@@ -1,14 +1,12 @@
-//! The wave that a casing out of round drives where all blades rub it.
+//! The view `--forced`: the wave that an out-of-round casing drives while all blades rub its
+//! lining.
 
-use serde_json::json;
-
-use super::{Answer, LockBeside, Parts, Request, Rows, View};
+use super::{Answer, LockBeside, Parts, Request, View};
 use crate::report::number::count;
-use crate::report::table::Column;
+use crate::report::table::{Column, Table};
 use rubscope_solver::harmonic::{Forced, HarmonicError, Lining};
 use rubscope_solver::scene::{ContactLaw, keys};
 
-/// View: the wave that a casing out of round drives.
 pub const FORCED: View = View {
     option: "forced",
     help: "View: the wave that a casing out of round drives where all blades rub its lining",
@@ -33,12 +31,10 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let forced: Vec<Forced> =
         speeds.iter().map(|speed| lining.forced(*speed, lobes, height)).collect();
     let still = forced.iter().all(|point| point.amplitude_m == 0.0);
-    let points = Rows::of(forced);
-    let json = Parts::default().with("lobes", lobes).with("out_of_round_m", height).with_rows(
-        "points",
-        &points,
-        |point| json!(point),
-    );
+    let json = Parts::default()
+        .with("lobes", lobes)
+        .with("out_of_round_m", height)
+        .with("points", &forced);
     let diameters = machine.polygon.nodal_diameters;
     let title = match still {
         true => format!(
@@ -47,11 +43,10 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
         ),
         false => format!("{lobes} lobes of {height:e} m drive, where all blades press:"),
     };
-    let json = Parts::default().with_parts("forced", json);
-    Ok(Answer::of(json, vec![(title, points.table(POINTS))]))
+    let json = Parts::default().with("forced", json);
+    Ok(Answer::of(json, vec![(title, Table::of(&forced, POINTS))]))
 }
 
-/// Columns of a driven wave.
 const POINTS: &[Column<'_, Forced>] = &[
     ("speed_rad_s", |point| point.speed_rad_s.into()),
     ("s_rad_s", |point| point.s_rad_s.into()),

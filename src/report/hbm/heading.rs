@@ -1,5 +1,5 @@
-//! What stands above the tables of `rubscope hbm`: the machine, its limits, and what the
-//! numbers are of, in sentences.
+//! The heading above the tables of `rubscope hbm`: the machine, its limits, and the assumptions
+//! behind the numbers, in sentences.
 
 use std::io::{Result, Write};
 
@@ -15,13 +15,13 @@ use rubscope_solver::scene::Scene;
 pub struct Heading<'a> {
     /// The scene.
     pub scene: &'a Scene,
-    /// Its machine as the view has it.
+    /// The machine as the view models it.
     pub machine: &'a Machine,
-    /// The speed whose sense of rotation counts \[rad/s\].
+    /// Speed that determines the sense of rotation \[rad/s\].
     pub speed: f64,
-    /// Whether the equations have the damping of the scene.
+    /// Whether the equations include the damping of the scene.
     pub damped: bool,
-    /// The locked motion, where it is the subject.
+    /// The locked motion, if it is the subject of the view.
     pub sweep: Option<&'a Sweep>,
 }
 
@@ -29,7 +29,7 @@ impl Heading<'_> {
     /// Writes the machine and the blades that hold the wave, one fact per line.
     ///
     /// # Errors
-    /// An error of the writer.
+    /// The writer failed.
     pub fn write(&self, out: &mut dyn Write) -> Result<()> {
         let Self { scene, machine, speed, damped, sweep } = *self;
         if !scene.title.is_empty() {
@@ -52,7 +52,7 @@ impl Heading<'_> {
             write!(out, "Critical speed {}", number::speed(critical))?;
             let lock_of = |machine: &Machine| lock_window(machine, speed).map(speeds_of);
             let (zeta, unit) = (short(machine.casing_damping_ratio), number::speed_unit());
-            // More groups may hold a wave on a lining, elsewhere.
+            // On a lining, groups of more blades may lock at other speeds.
             let groups = if machine.lining.is_some() { " of two groups" } else { "" };
             match lock_of(machine) {
                 Some(lock) if !damped => {

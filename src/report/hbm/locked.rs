@@ -1,15 +1,13 @@
-//! The locked motion, the view without an option.
-
-use std::rc::Rc;
+//! The locked motion, which is shown without the option of a view.
 
 use serde_json::{Value, json};
 
-use super::{Answer, LockBeside, Parts, Request, Rows, View};
-use crate::report::table::{Column, TableCell};
+use super::{Answer, LockBeside, Parts, Request, View};
+use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{HarmonicError, LockedPoint, Sweep};
 use rubscope_solver::model::ContactPolygon;
 
-/// The view without an option.
+/// The default view: the locked motion.
 pub const LOCKED: View = View {
     option: "",
     help: "",
@@ -19,26 +17,21 @@ pub const LOCKED: View = View {
     answer,
 };
 
-/// Makes the two tables of the locked motion: a short one to read, every number for files.
+/// Returns two tables of the locked motion: a short one for the screen, a full one for files.
 fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
-    let rows = request.sweep.as_ref().map_or_else(|| Rows::of(Vec::new()), rows);
-    let tables = vec![(String::new(), rows.table(SUMMARY))];
-    Ok(Answer { json: Parts::default(), tables, file: rows.table(FILE) })
-}
-
-fn rows(sweep: &Rc<Sweep>) -> Rows<LockedPoint> {
-    let (count, sweep) = (sweep.points.len(), Rc::clone(sweep));
-    Rows::new([count; 2], move |place| Ok(sweep.points.get(place).copied().into_iter().collect()))
+    let points = request.sweep.as_ref().map_or(&[][..], |sweep| &sweep.points);
+    let tables = vec![(String::new(), Table::of(points, SUMMARY))];
+    Ok(Answer { json: Parts::default(), tables, file: Some(Table::of(points, FILE)) })
 }
 
 /// Adds the locked motion to the JSON of a view.
-pub fn points(json: Parts, polygon: &ContactPolygon, sweep: &Rc<Sweep>) -> Parts {
+pub fn points(json: Parts, polygon: &ContactPolygon, sweep: &Sweep) -> Parts {
     let blades = sweep.corner.sides().map(|side| polygon.blades_of_side(side));
     json.with("missing_rad_s", &sweep.missing)
-        .with_rows("points", &rows(sweep), move |point| with_groups(point, &blades))
+        .with_rows("points", &sweep.points, |point| with_groups(point, &blades))
 }
 
-/// Returns a locked motion with its multipliers and angles by phase group.
+/// Returns a point as JSON, with its multipliers and angles grouped by side.
 fn with_groups(point: &LockedPoint, blades: &[Vec<u32>; 2]) -> Value {
     let mut value = json!(point);
     if let Some(map) = value.as_object_mut() {
@@ -53,12 +46,12 @@ fn with_groups(point: &LockedPoint, blades: &[Vec<u32>; 2]) -> Value {
     value
 }
 
-/// Returns one word for a point: its character, or locked.
+/// Returns `locked` for a stable point, or else the kind of its instability.
 fn state(point: &LockedPoint) -> TableCell {
     if point.stable { "locked" } else { point.character.as_ref() }.into()
 }
 
-/// Columns of the locked motion to read.
+/// Columns for the screen.
 const SUMMARY: &[Column<'_, LockedPoint>] = &[
     ("speed [rad/s]", |point| point.speed_rad_s.into()),
     ("multiplier a [N]", |point| point.multipliers_n[0].into()),
@@ -69,7 +62,7 @@ const SUMMARY: &[Column<'_, LockedPoint>] = &[
     ("state", state),
 ];
 
-/// Columns of the locked motion with every number.
+/// Columns for files: every number.
 pub const FILE: &[Column<'_, LockedPoint>] = &[
     ("speed_rad_s", |point| point.speed_rad_s.into()),
     ("multiplier_a_n", |point| point.multipliers_n[0].into()),

@@ -1,7 +1,5 @@
-//! Steady states against speed (`rubscope hbm`): what each view computes, and its tables and
-//! JSON (`rubscope.hbm/1`). A view is one file with one [`View`], which is in [`VIEWS`].
-
-use std::rc::Rc;
+//! Steady states against speed (`rubscope hbm`): what each view computes, its tables and its JSON
+//! (`rubscope.hbm/1`). A view is one file with one [`View`], listed in [`VIEWS`].
 
 mod branches;
 mod campbell;
@@ -11,15 +9,14 @@ mod excitation;
 mod forced;
 mod heading;
 pub mod locked;
-mod rows;
+mod parts;
 mod slip;
 mod smooth;
 mod whirl;
 
 pub use heading::Heading;
 pub use locked::LOCKED;
-pub use rows::Parts;
-use rows::Rows;
+pub use parts::Parts;
 
 use super::number::{per_speed, short};
 use super::table::Table;
@@ -27,7 +24,7 @@ use rubscope_solver::harmonic::{Corner, Form, HarmonicError, Sweep, lock_window,
 use rubscope_solver::model::{LockWindow, Machine};
 use rubscope_solver::scene::{ModelSize, Scene, keys};
 
-/// The views with an option, in the order of the help.
+/// The views that have an option, in the order of the help.
 pub const VIEWS: [&View; 9] = [
     &branches::BRANCHES,
     &slip::SLIP,
@@ -43,57 +40,57 @@ pub const VIEWS: [&View; 9] = [
 /// A view of the steady states of a scene.
 #[derive(Debug)]
 pub struct View {
-    /// Its option, without dashes.
+    /// Name of the option, without dashes; empty for the default view.
     pub option: &'static str,
     /// Help of the option.
     pub help: &'static str,
-    /// Whether its numbers have the damping of the scene whatever is asked for.
+    /// Whether the view always includes damping, so that `--undamped` is refused.
     pub always_damped: bool,
-    /// Whether it is of one speed.
+    /// Whether the view needs a single speed.
     pub one_speed: bool,
-    /// Which lock stands beside it in JSON.
+    /// How the JSON of the view includes the lock of rigid contact.
     pub lock: LockBeside,
-    /// Computes it.
+    /// Computes the view.
     pub answer: fn(&Request<'_>) -> Result<Answer, HarmonicError>,
 }
 
-/// The lock of rigid contact beside a view.
+/// Whether the lock of rigid contact is added to a view.
 #[derive(Debug)]
 pub enum LockBeside {
-    /// The view has the contact law of the scene and no such lock.
+    /// The view uses the contact law of the scene; no lock is added.
     OfScene,
-    /// The view has rigid contact. Where the lock is refused for a reason that the function
-    /// tolerates, it is left out.
+    /// The view uses rigid contact, and the lock is added. If computing the lock fails with an
+    /// error that the function accepts, the view is shown without it.
     Rigid(fn(&HarmonicError) -> bool),
 }
 
-/// The input of a view.
+/// Input of a view.
 #[derive(Debug)]
 pub struct Request<'a> {
     /// The scene.
     pub scene: &'a Scene,
     /// Rotor speeds \[rad/s\].
     pub speeds: &'a [f64],
-    /// The equations of the lock.
+    /// Form of the lock's equations.
     pub form: Form,
-    /// Whether the equations have the damping of the scene.
+    /// Whether the equations include the damping of the scene.
     pub damped: bool,
-    /// The two blades that hold the wave, if they are chosen.
+    /// The two blades that hold the wave, if the user chose them.
     pub pair: Option<[u32; 2]>,
-    /// Machine of the scene, with rigid contact where the view has it.
+    /// Machine of the scene, with rigid contact if the view uses it.
     pub machine: Machine,
     /// The locked motion, where there is one and the view has rigid contact.
-    pub sweep: Option<Rc<Sweep>>,
+    pub sweep: Option<Sweep>,
 }
 
 impl Request<'_> {
-    /// Returns the speed furthest from standstill, whose sense of rotation counts \[rad/s\].
+    /// Returns the speed of largest magnitude, which determines the sense of rotation \[rad/s\].
     pub fn fastest(&self) -> f64 {
         let further = |a: &f64, b: &f64| a.abs().total_cmp(&b.abs());
         self.speeds.iter().copied().max_by(further).unwrap_or(self.scene.operation.speed_rad_s)
     }
 
-    /// Returns the least and the largest speed \[rad/s\].
+    /// Returns the lowest and the highest speed \[rad/s\].
     fn span(&self) -> [f64; 2] {
         let least = self.speeds.iter().copied().fold(f64::INFINITY, f64::min);
         [least, self.speeds.iter().copied().fold(f64::NEG_INFINITY, f64::max)]
@@ -104,15 +101,15 @@ impl Request<'_> {
         self.pair.map_or_else(|| Corner::paper(polygon), |pair| Corner::of_blades(polygon, pair))
     }
 
-    /// Computes a view, with the fields that all views have before its own.
+    /// Computes a view, and puts the JSON fields common to all views before its own.
     ///
     /// # Errors
-    /// The first key that has no meaning for the view, by its name.
+    /// The scene has a key, named in the error, that the view cannot handle.
     pub fn answer(&mut self, view: &View) -> Result<Answer, HarmonicError> {
         self.knows_tips(view)?;
         if let LockBeside::Rigid(tolerates) = view.lock {
             let machine = self.scene.machine().with_lining(None);
-            // Blades of the rigid model do not bend under the loads.
+            // The rigid model ignores the bending of the blades under load.
             let rigid = self.scene.solver.model == ModelSize::Rigid;
             self.machine = if rigid { machine.with_stiff_blades() } else { machine };
             let Self { form, damped, pair, speeds, .. } = *self;
@@ -124,7 +121,7 @@ impl Request<'_> {
                 Ok(mut sweep) => {
                     let points = sweep.points.iter_mut().filter(|_| rigid);
                     points.for_each(|point| point.alpha_rad = [0.0; 2]);
-                    self.sweep = Some(Rc::new(sweep));
+                    self.sweep = Some(sweep);
                 }
                 Err(error) if tolerates(&error) => {}
                 Err(error) => return Err(error),
@@ -134,8 +131,7 @@ impl Request<'_> {
         Ok(Answer { json: self.json().and(answer.json), ..answer })
     }
 
-    /// Refuses tips of their own lengths and a casing out of round where a view does not know
-    /// them.
+    /// Refuses unequal tips and an out-of-round casing if the view is not derived for them.
     fn knows_tips(&self, view: &View) -> Result<(), HarmonicError> {
         let (machine, height) = (&self.machine, self.scene.casing.out_of_round_m);
         let refuse = |key, given: String| {
@@ -159,7 +155,7 @@ impl Request<'_> {
         Ok(())
     }
 
-    /// Returns the fields of every view.
+    /// Returns the JSON fields common to all views.
     fn json(&self) -> Parts {
         let Self { scene, machine, form, damped, .. } = self;
         let (speed, notes) = (self.fastest(), notes(scene, machine));
@@ -186,26 +182,30 @@ impl Request<'_> {
     }
 }
 
-/// The result of a view.
+/// Result of a view.
 #[derive(Debug)]
 pub struct Answer {
-    /// Its fields in JSON.
+    /// Its own fields in JSON.
     pub json: Parts,
-    /// Its tables, each below a title.
+    /// Tables to show, each with its title.
     pub tables: Vec<(String, Table)>,
-    /// The table for files.
-    pub file: Table,
+    /// The table for files, where it is none of those.
+    file: Option<Table>,
 }
 
 impl Answer {
-    /// Creates an answer whose last table is the one for files.
+    /// Creates an answer; the last table also goes to files.
     fn of(json: Parts, tables: Vec<(String, Table)>) -> Self {
-        let file = tables.last().map(|(_, table)| table.clone()).unwrap_or_default();
-        Self { json, tables, file }
+        Self { json, tables, file: None }
+    }
+
+    /// Returns the table for files.
+    pub fn file(&self) -> Option<&Table> {
+        self.file.as_ref().or(self.tables.last().map(|(_, table)| table))
     }
 }
 
-/// Refuses a preload, in which rigid contact has no place.
+/// Refuses a preloaded lining: the limit of rigid contact needs a clearance.
 fn no_clearance(scene: &Scene) -> HarmonicError {
     let length = scene.bladed_disk.blade_length_m;
     HarmonicError::refused(
@@ -218,14 +218,14 @@ fn no_clearance(scene: &Scene) -> HarmonicError {
     )
 }
 
-/// Returns what the numbers are of, where the scene asks for more than the view has.
+/// Returns remarks on effects of the scene that the view ignores.
 pub fn notes(scene: &Scene, machine: &Machine) -> Vec<String> {
     let hard = scene.lining().filter(|_| machine.lining.is_none());
     let hard = hard.map(|_| "of rigid contact; --smooth has the lining of the scene".to_string());
     hard.into_iter().chain(scene.tuned_note()).collect()
 }
 
-/// Returns the speeds of a window: `472.117 to 566.259`, or where it begins alone.
+/// Formats a speed window: `472.117 to 566.259`, or only its start if it has no upper end.
 pub fn speeds_of(window: LockWindow) -> String {
     match window.to {
         Some(to) => format!("{} to {}", short(per_speed(window.from)), short(per_speed(to))),

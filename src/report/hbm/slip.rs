@@ -1,15 +1,14 @@
-//! Lasting slip, and where it exists.
+//! The view `--slip`: lasting slip, and the speeds at which it exists.
 
 use serde_json::{Value, json};
 
-use super::{Answer, LockBeside, Parts, Request, Rows, View};
+use super::{Answer, LockBeside, Parts, Request, View};
 use crate::report::number::speed;
-use crate::report::table::{Column, TableCell};
+use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{
     HarmonicError, SlipLimit, SlipOrbit, SlipPoint, slip_limits, slip_over,
 };
 
-/// View: lasting slip.
 pub const SLIP: View = View {
     option: "slip",
     help: "View: lasting slip, the fixed point of the map from corner to corner",
@@ -25,9 +24,8 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let limits = slip_limits(machine, speeds)?;
     let title = heading(&points, &limits);
     let limits: Vec<f64> = limits.iter().map(|limit| limit.speed_rad_s).collect();
-    let points = Rows::of(points);
     let json = Parts::default().with_rows("slip", &points, value).with("slip_limits_rad_s", limits);
-    Ok(Answer::of(json, vec![(title, points.table(SLIPS))]))
+    Ok(Answer::of(json, vec![(title, Table::of(&points, SLIPS))]))
 }
 
 fn heading(points: &[SlipPoint], limits: &[SlipLimit]) -> String {
@@ -47,7 +45,7 @@ fn heading(points: &[SlipPoint], limits: &[SlipLimit]) -> String {
     }
 }
 
-/// Returns slip at one speed as JSON, with `null` for each figure where there is none.
+/// Returns the slip at one speed as JSON, with `null` for a value that does not exist.
 fn value(point: &SlipPoint) -> Value {
     let mut value = json!({
         "speed_rad_s": point.speed_rad_s,
@@ -63,7 +61,6 @@ fn value(point: &SlipPoint) -> Value {
     value
 }
 
-/// Columns of slip.
 const SLIPS: &[Column<'_, SlipPoint>] = &[
     ("speed_rad_s", |point| point.speed_rad_s.into()),
     ("slip", |point| match point.outcome {

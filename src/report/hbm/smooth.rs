@@ -1,5 +1,5 @@
-//! Steady states of blades on a lining: rest and the waves it grows into where blades press
-//! it at rest, else locks, whirl, and which linings hold a lock.
+//! The view `--smooth`: steady states of blades on a lining. With a preload, these are rest and the
+//! waves that grow from it; with a clearance, locks, whirl, and the linings that hold a lock.
 
 use serde_json::json;
 
@@ -12,7 +12,6 @@ use rubscope_solver::harmonic::{
 };
 use rubscope_solver::scene::{ContactLaw, keys};
 
-/// View: steady states of blades on a lining.
 pub const SMOOTH: View = View {
     option: "smooth",
     help: "View: steady states of blades on a lining (solver.contact = \"smooth\"): rest, the \
@@ -23,7 +22,7 @@ pub const SMOOTH: View = View {
     answer,
 };
 
-/// Rest at one speed, whether waves far out stay bounded, and the wave that lasts.
+/// Rest at one speed, whether large waves stay bounded, and the wave that lasts.
 type RestRow = (Rest, bool, Option<Cycle>);
 
 fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
@@ -86,7 +85,7 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
         }
         tables.push((title, Table::of(&states, STATES)));
     }
-    Ok(Answer::of(Parts::default().with_parts("smooth", json), tables))
+    Ok(Answer::of(Parts::default().with("smooth", json), tables))
 }
 
 fn pressed_title(lining: &Lining<'_>, shifted: Option<f64>, hopf: &[HopfPoint]) -> String {
@@ -121,7 +120,7 @@ fn value((rest, bounded, _): &RestRow) -> serde_json::Value {
     })
 }
 
-/// Columns of rest under preload, with the wave that it grows into.
+/// Columns of rest under preload and the wave that grows from it.
 const RESTS: &[Column<'_, RestRow>] = &[
     ("speed_rad_s", |row| row.0.speed_rad_s.into()),
     ("growth_1_s", |row| row.0.worst().growth_1_s.into()),
@@ -155,7 +154,7 @@ const CYCLES: &[Column<'_, Cycle>] = &[
     ("character", |cycle| word(cycle.stable)),
 ];
 
-/// Columns of waves that stand in the frame of the blades.
+/// Columns of waves that are fixed in the frame of the blades.
 const STATES: &[Column<'_, LiningState>] = &[
     ("speed_rad_s", |state| state.speed_rad_s.into()),
     ("pushing", |state| (state.pushing as f64).into()),

@@ -1,18 +1,17 @@
-//! Whirl of inclined tips in the limit of many blades, where it begins, and where a lock
-//! flutters.
+//! The view `--whirl`: whirl of inclined tips in the limit of many blades, its onset, and the speed
+//! at which a lock begins to flutter.
 
 use serde_json::{Value, json};
 
-use super::{Answer, LockBeside, Parts, Request, Rows, View, speeds_of};
+use super::{Answer, LockBeside, Parts, Request, View, speeds_of};
 use crate::report::number::{speed, speed_unit};
-use crate::report::table::{Column, TableCell};
+use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{
     HarmonicError, Joint, RoundWhirl, RoundWhirlLoads, flutters, lock_window, round_whirls,
     undamped_flutter_speed, whirl_onset,
 };
 use rubscope_solver::model::{LockWindow, Machine};
 
-/// View: whirl against speed.
 pub const WHIRL: View = View {
     option: "whirl",
     help: "View: whirl of inclined tips in the limit of many blades, where it begins, and where \
@@ -26,7 +25,7 @@ pub const WHIRL: View = View {
 fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let (machine, toward) = (&request.machine, request.fastest());
     let rows = request.speeds.iter().map(|&speed| WhirlRow::at(machine, speed));
-    let rows = Rows::of(rows.collect());
+    let rows: Vec<WhirlRow> = rows.collect();
     let (onset, flutter) = (whirl_onset(machine, toward), flutters(machine, toward));
     let window = lock_window(machine, toward);
     let mut title = match onset {
@@ -50,10 +49,10 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
         .with("flutter_undamped_rad_s", undamped_flutter_speed(machine, toward))
         .with("lock_window_rad_s", window.map(|window| [Some(window.from), window.to]))
         .with_rows("whirl", &rows, value);
-    Ok(Answer::of(json, vec![(title, rows.table(WHIRLS))]))
+    Ok(Answer::of(json, vec![(title, Table::of(&rows, WHIRLS))]))
 }
 
-/// Returns a range of speeds in words.
+/// Describes a range of speeds.
 fn between(range: LockWindow) -> String {
     match (range.from, range.to) {
         (0.0, None) => "at every speed".to_string(),
@@ -63,7 +62,7 @@ fn between(range: LockWindow) -> String {
     }
 }
 
-/// The lasting whirl at one speed, if there is one, with its loads.
+/// The lasting whirl at one speed, if it exists, and its loads.
 #[derive(Clone, Copy, Debug)]
 struct WhirlRow {
     speed_rad_s: f64,
@@ -71,18 +70,17 @@ struct WhirlRow {
 }
 
 impl WhirlRow {
-    /// Finds the lasting whirl of a machine at a speed \[rad/s\].
     fn at(machine: &Machine, speed: f64) -> Self {
         let joint = Joint::at(machine, speed);
         let lasting = RoundWhirl::lasting(&round_whirls(&joint));
-        // Without a coupling every undamped resonance would do.
+        // Without coupling, every undamped resonance would count as a whirl.
         let rubs = joint.machine.clearance() > 0.0 && joint.coupling_product != 0.0;
         let open = lasting.filter(|_| rubs);
         Self { speed_rad_s: speed, wave: open.map(|wave| (wave, wave.loads(&joint))) }
     }
 }
 
-/// Returns the whirl at one speed as JSON, with `null` for each figure where there is none.
+/// Returns the whirl at one speed as JSON, with `null` for a value that does not exist.
 fn value(row: &WhirlRow) -> Value {
     let figure = |of: fn(&(RoundWhirl, RoundWhirlLoads)) -> f64| row.wave.as_ref().map(of);
     json!({
@@ -101,7 +99,6 @@ fn value(row: &WhirlRow) -> Value {
     })
 }
 
-/// Columns of whirl against speed.
 const WHIRLS: &[Column<'_, WhirlRow>] = &[
     ("speed_rad_s", |row| row.speed_rad_s.into()),
     ("whirl", |row| if row.wave.is_some() { "attracts" } else { "none" }.into()),

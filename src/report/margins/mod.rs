@@ -1,5 +1,5 @@
-//! The margins of a scene as a table: a row for each limit, with every number for files, and
-//! for people what moves it most.
+//! The margins of a scene as a table: one row per limit, with every number for files and the
+//! strongest parameters for the screen.
 
 pub mod robust;
 pub mod words;
@@ -15,15 +15,15 @@ use super::table::{Heading, Table, TableCell, WIDTH};
 use super::{Provenance, svg};
 use rubscope_solver::study::margins::{LimitName, Margins, acting};
 
-/// Number of parameters that are listed with each limit.
+/// Number of parameters listed with each limit.
 pub const STRONGEST: usize = 3;
 
-/// Returns a row for each limit, under the name that it has in files.
+/// Returns one row per limit, with its name in files.
 pub fn table(margins: &Margins) -> Table {
     titled(margins, |name| name.to_string())
 }
 
-/// Returns the rows of [`table`] under the names that `title` gives.
+/// As [`table`], with the names that `title` gives.
 pub fn titled(margins: &Margins, title: fn(LimitName) -> String) -> Table {
     let parameters: Vec<&str> = acting(&margins.scene).map(|parameter| parameter.path).collect();
     let people = ["+1 % of", "each", "moves it by"].map(Heading::shown);
@@ -32,7 +32,7 @@ pub fn titled(margins: &Margins, title: fn(LimitName) -> String) -> Table {
     let headings = headings.chain([Heading::from("margin")]).chain(people);
     let mut table = Table::new(headings.chain(parameters.iter().map(|path| Heading::filed(*path))));
     for limit in &margins.limits {
-        // The same word as in JSON.
+        // Same word as in JSON.
         let quantity = json!(limit.quantity).as_str().map_or(TableCell::Empty, TableCell::from);
         let value = limit.value.map_or(TableCell::Empty, |value| {
             TableCell::Told(value, words::value(value, 6, limit.quantity))
@@ -62,7 +62,7 @@ pub fn titled(margins: &Margins, title: fn(LimitName) -> String) -> Table {
     table
 }
 
-/// Returns every note with the names of the limits that have it.
+/// Groups the notes: each with the names of the limits that have it.
 fn notes(margins: &Margins) -> Vec<(String, String)> {
     let mut found: Vec<(String, String)> = Vec::new();
     for limit in &margins.limits {
@@ -76,20 +76,20 @@ fn notes(margins: &Margins) -> Vec<(String, String)> {
     found
 }
 
-/// Writes the limits for people.
+/// Writes the limits and the computing time as text.
 ///
 /// # Errors
-/// An error of the writer.
+/// The writer failed.
 pub fn write(margins: &Margins, out: &mut dyn Write) -> Result<()> {
     write_limits(margins, out)?;
     writeln!(out)?;
     tell(&words::cost(margins), out)
 }
 
-/// Writes the same as a page, with the command that gives it.
+/// Writes the limits as an SVG page, with the command that reproduces it.
 ///
 /// # Errors
-/// An error of the writer.
+/// The writer failed.
 pub fn write_page(margins: &Margins, origin: &Provenance, out: &mut dyn Write) -> Result<()> {
     let mut text = Vec::new();
     write_limits(margins, &mut text)?;
@@ -97,7 +97,7 @@ pub fn write_page(margins: &Margins, origin: &Provenance, out: &mut dyn Write) -
     svg::write_text(&String::from_utf8_lossy(&text), origin, out)
 }
 
-/// Writes what is the same at every time.
+/// Writes the limits without the computing time, so that the same scene gives the same text.
 fn write_limits(margins: &Margins, out: &mut dyn Write) -> Result<()> {
     tell(&margins.scene.title, out)?;
     tell(&words::conditions(margins), out)?;
@@ -112,7 +112,7 @@ fn write_limits(margins: &Margins, out: &mut dyn Write) -> Result<()> {
     if let Some(found) = &margins.target {
         writeln!(out)?;
         tell(&words::target(found, margins), out)?;
-        // A command to copy stays in one line.
+        // A command to copy is not wrapped.
         if let Some(command) = words::check(found, &margins.scene) {
             writeln!(out, "Check it: {command}")?;
         }
@@ -120,7 +120,7 @@ fn write_limits(margins: &Margins, out: &mut dyn Write) -> Result<()> {
     Ok(())
 }
 
-/// Writes a text in lines that are not too wide.
+/// Writes a text wrapped to the line width.
 fn tell(text: &str, out: &mut dyn Write) -> Result<()> {
     wrapped(text, WIDTH).iter().try_for_each(|line| writeln!(out, "{line}"))
 }

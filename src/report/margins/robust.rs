@@ -1,4 +1,4 @@
-//! How far a run is from another verdict: one sentence, and a row for each quantity.
+//! How far a run is from another verdict: one sentence, and a table with a row per quantity.
 
 use super::words::margin;
 use crate::report::number::{rounded, scaled, short, with_unit};
@@ -6,18 +6,18 @@ use crate::report::table::{Heading, Table, TableCell};
 use rubscope_solver::scene::{ContactLaw, Scene, keys};
 use rubscope_solver::study::margins::{ChangedVerdict, Margins, Robustness, parameter};
 
-/// Digits of a value: those of the values that are tried.
+/// Digits of a value; the search tries values with this many digits.
 const DIGITS: usize = 4;
 
-/// What the mark of a change says.
+/// Explanation of the mark `?`.
 const MARKED: &str = " A ? marks a doubt (a tiny change, another step): run --plain.";
 
-/// Returns what was asked of the runs, under each law that was asked.
+/// Iterates over the searches: with the contact law of the scene, then with push-only contact.
 pub fn asked(margins: &Margins) -> impl Iterator<Item = &Robustness> {
     margins.robust.iter().chain(&margins.pushes_only)
 }
 
-/// Returns what the run does, and which change of its verdict is nearest, of those found.
+/// States the verdict of the run, and the nearest change of a quantity that was found to alter it.
 pub fn sentence(found: &Robustness, scene: &Scene) -> String {
     let law = match found.contact {
         ContactLaw::Unilateral if found.solver != scene.solver.kind => "pushes only, by events",
@@ -56,12 +56,12 @@ pub fn sentence(found: &Robustness, scene: &Scene) -> String {
     format!("{}.{foot}", parts.join("; "))
 }
 
-/// Returns the mark of a change that cannot be relied on.
+/// Returns the mark of an altered verdict that is itself sensitive.
 fn mark(changed: ChangedVerdict) -> &'static str {
     if changed.sensitive { "?" } else { "" }
 }
 
-/// Returns a row for each quantity, with its numbers in one unit, `at` between verdict and value.
+/// Returns one row per quantity, all values of a row in one unit. `at` joins verdict and value.
 pub fn table(found: &Robustness, at: &str) -> Table {
     let headings = ["what", "found below", "now", "found above"];
     let mut table = Table::new(headings.map(Heading::shown));
@@ -83,7 +83,7 @@ pub fn table(found: &Robustness, at: &str) -> Table {
     table
 }
 
-/// Returns a value and its unit, with the prefix that suits `of`.
+/// Formats a value and its unit, with the prefix chosen for `of`.
 fn amount(path: &str, value: f64, of: f64) -> [String; 2] {
     match parameter(path).map_or("", |by| by.unit()) {
         "" | "-" => [short(rounded(value, DIGITS)), String::new()],

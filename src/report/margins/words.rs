@@ -1,4 +1,4 @@
-//! What text and picture say of margins in the same words.
+//! Wording of margins shared by text and picture.
 
 use crate::report::CommandLine;
 use crate::report::line::capital;
@@ -7,16 +7,15 @@ use crate::report::table::TableCell;
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::margins::{Found, LimitName, MOST_TIMES, Margins, Quantity, parameter};
 
-/// A margin from which on it is told as a factor.
+/// From this margin on, it is given as a factor instead of per cent.
 const FACTORS: f64 = 9.0;
 
-/// The value of a limit with its unit, in so many digits.
+/// Formats the value of a limit with its unit.
 pub fn value(x: f64, digits: usize, quantity: Quantity) -> String {
     with_unit(x, digits, quantity.unit())
 }
 
-/// How far beyond a limit the scene is: in per cent, and as a factor where it is far
-/// beyond.
+/// Formats a margin: in per cent of the limit, or as a factor if the scene is far beyond it.
 pub fn margin(part: f64) -> String {
     if part > MOST_TIMES {
         return format!("> {} x", 1.0 + MOST_TIMES);
@@ -28,13 +27,13 @@ pub fn margin(part: f64) -> String {
     if percent.abs() < 99.95 { format!("{percent:+.1} %") } else { format!("{percent:+.0} %") }
 }
 
-/// A margin as a cell: above `MOST_TIMES` files have no number.
+/// Returns a margin as a cell; above `MOST_TIMES`, files leave it empty.
 pub fn margin_cell(part: Option<f64>) -> TableCell {
     let shown = |part: f64| if part > MOST_TIMES { f64::NAN } else { part };
     part.map_or(TableCell::Empty, |part| TableCell::Told(shown(part), margin(part)))
 }
 
-/// A change in per cent, of one per cent of a parameter.
+/// Formats the change of a limit, in per cent, for a change of one per cent of a parameter.
 pub fn change(by: f64) -> String {
     if (0.095..99.995).contains(&by.abs()) {
         return format!("{by:+.2} %");
@@ -44,7 +43,7 @@ pub fn change(by: f64) -> String {
     format!("{sign}{} %", short(rounded(by, digits)))
 }
 
-/// Speed, pulse, law and solver of the scene.
+/// Describes the speed, pulse, law and solver of the scene.
 pub fn conditions(margins: &Margins) -> String {
     let (operation, solver) = (&margins.scene.operation, &margins.scene.solver);
     format!(
@@ -59,7 +58,7 @@ pub fn conditions(margins: &Margins) -> String {
     )
 }
 
-/// What the closed forms are of, where the scene asks for more.
+/// Says which effects of the scene the closed-form limits ignore.
 pub fn note(margins: &Margins) -> Option<String> {
     let tuned = margins.note.as_ref().map(|note| format!("Speeds and loads are {note}."));
     let modes = margins.scene.modes_note().map(|note| format!("{}.", capital(&note)));
@@ -67,7 +66,7 @@ pub fn note(margins: &Margins) -> Option<String> {
     (!notes.is_empty()).then(|| notes.join(" "))
 }
 
-/// The parameter that puts a limit where it is wanted, in a sentence.
+/// Returns the answer to `--target` as a sentence: the parameter value that puts the limit there.
 pub fn target(found: &Found, margins: &Margins) -> String {
     let Found { name, by, .. } = *found;
     let changed = parameter(by);
@@ -99,14 +98,14 @@ pub fn target(found: &Found, margins: &Margins) -> String {
     format!("{by} = {} puts {name} at {wanted} ({gives}).{line}", parameter(to))
 }
 
-/// The command that shows the limit with the parameter found, by another way than the
-/// one that found it where there is one; none where no parameter was found.
+/// Returns a command that verifies the found parameter, with another solver than found it if
+/// possible; `None` if no value was found.
 pub fn check(found: &Found, scene: &Scene) -> Option<CommandLine> {
     let (to, reached) = found.to.zip(found.reached)?;
     let mut changed = parameter(found.by)?.set(scene, to).ok()?;
     if found.name.quantity() == Quantity::Pulse {
         changed.operation.pulse_n = reached * BEYOND;
-        // The touching pulse is exact, and so is the event solver where it knows the scene.
+        // The touching pulse is exact; the event solver confirms it exactly where it applies.
         if let Ok(checked) = changed.clone().checked()
             && let Ok(reference) = checked.as_reference().checked()
         {
@@ -129,18 +128,15 @@ pub fn check(found: &Found, scene: &Scene) -> Option<CommandLine> {
         LimitName::WhirlOnset | LimitName::FlutterSpeed => {
             hbm.option("--speed", speed).flag("--whirl", true)
         }
-        LimitName::LockFold => {
-            hbm.option("--speed", format!("0:{}:2", 2.0 * reached)).flag("--branches", true)
-        }
         _ => hbm.option("--speed", speed),
     })
 }
 
-/// How far beyond the smallest pulse a run is shown: at the edge itself round-off
+/// The verifying run uses this multiple of the smallest pulse: at the limit itself, round-off
 /// decides.
 const BEYOND: f64 = 1.001;
 
-/// What the answer took.
+/// Says how long the computation took.
 pub fn cost(margins: &Margins) -> String {
     format!("Computed in {}.", time(rounded(margins.cost.wall_s, 2)))
 }

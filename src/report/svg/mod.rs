@@ -1,4 +1,4 @@
-//! A figure as SVG: title and conditions, panels in rows, and a caption; and plain text as a page.
+//! A figure as SVG: title, conditions, panels in rows and a caption; and text as an SVG page.
 
 mod panel;
 mod paper;
@@ -13,35 +13,35 @@ use super::table;
 use paper::{Drawn, FINE, TEXT, letters_in, write_at};
 use rubscope_solver::study::figures::Figure;
 
-/// Width of a figure with one panel in a row, and of each panel more \[px\].
+/// Width of a figure with one panel per row, and of each further panel \[px\].
 const WIDTH: u32 = 960;
 const WIDTH_MORE: u32 = 240;
-/// Height of a panel.
+/// Height of a panel \[px\].
 const PANEL: u32 = 400;
-/// Size of the title.
+/// Font size of the title \[px\].
 const TITLE: i32 = 21;
-/// Height of a line of text.
+/// Height of a line of text \[px\].
 const LINE: u32 = 19;
-/// Left of the text.
+/// Left margin of the text \[px\].
 const LEFT: i32 = 20;
-/// Width and height of a letter on a page of text \[px\].
+/// Width and height of a character on a page of text \[px\].
 const LETTER: [usize; 2] = [9, 19];
 
-/// Writes a figure, with where it comes from as its description.
+/// Writes a figure; its origin goes into the description element.
 ///
 /// # Errors
-/// An error of the writer.
+/// The figure could not be drawn, or the writer failed.
 pub fn write(figure: &Figure, origin: &Provenance, out: &mut dyn Write) -> Result<()> {
     let mut text = String::new();
     draw(figure, &describe(origin), &mut text).map_err(|error| Error::other(error.to_string()))?;
     out.write_all(text.as_bytes())
 }
 
-/// Writes lines of text as a page, in letters of equal width, with where it comes from as its
-/// description. Only lines that are too long are broken.
+/// Writes text as a page in a monospaced font; its origin goes into the description element. Lines
+/// that are too long are wrapped.
 ///
 /// # Errors
-/// An error of the writer.
+/// The writer failed.
 pub fn write_text(text: &str, origin: &Provenance, out: &mut dyn Write) -> Result<()> {
     let lines = text.lines().flat_map(|line| match line.chars().count() <= table::WIDTH {
         true => vec![line.to_string()],
@@ -65,15 +65,15 @@ pub fn write_text(text: &str, origin: &Provenance, out: &mut dyn Write) -> Resul
     writeln!(out, "</svg>")
 }
 
-/// Returns where a picture comes from, as an element of SVG.
+/// Returns the origin of a picture as a `<desc>` element.
 pub fn describe(origin: &Provenance) -> String {
-    // A name of a file may hold anything.
+    // A file name may contain any character.
     let plain = |c: char| if c == '\n' { c } else { harmless(c) };
     let text: String = origin.text().chars().map(plain).collect();
     format!("<desc>{}</desc>\n", escaped(&text))
 }
 
-/// Returns the text as it stands in XML.
+/// Escapes a text for XML.
 pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
@@ -113,7 +113,7 @@ fn draw(figure: &Figure, description: &str, text: &mut String) -> Drawn<()> {
     Ok(())
 }
 
-/// Returns a text whose negative numbers have the sign of print.
+/// Replaces the hyphen of negative numbers by a minus sign.
 fn signed(text: &str) -> String {
     let mut before = ' ';
     let mut letters = text.chars().peekable();
@@ -126,10 +126,10 @@ fn signed(text: &str) -> String {
     out
 }
 
-/// Cells side by side without seams, whatever the size of the picture.
+/// Lets adjacent cells meet without seams at any scale.
 const STYLE: &str = "<style>rect{shape-rendering:crispEdges}</style>";
 
-/// The size shown, subscripts, and where the picture comes from before anything drawn.
+/// Completes the picture: displayed size, subscripts, and the description as its first element.
 fn finish(text: &mut String, [width, height]: [u32; 2], description: &str) {
     let fine = format!("width=\"{}\" height=\"{}\"", FINE * width, FINE * height);
     *text = text.replacen(&fine, &format!("width=\"{width}\" height=\"{height}\""), 1);
@@ -138,8 +138,8 @@ fn finish(text: &mut String, [width, height]: [u32; 2], description: &str) {
     text.insert_str(start, &format!("\n{}", description.trim_end()));
 }
 
-/// Lowers what follows an underscore in the text of a picture: `u_c`, `n_d`. The
-/// drawing library writes every text as a line of its own.
+/// Turns what follows an underscore into a subscript: `u_c`, `n_d`. Works by line, because the
+/// drawing library writes each text on its own line.
 fn with_subscripts(svg: &str) -> String {
     let lowered = |line: &str| {
         let mut parts = line.split('_');
@@ -147,7 +147,7 @@ fn with_subscripts(svg: &str) -> String {
         for part in parts {
             let end = part.find(|c: char| !c.is_alphanumeric()).unwrap_or(part.len());
             let (low, rest) = part.split_at(end);
-            // A space at the start of an element would be lost.
+            // SVG viewers drop a space at the start of an element, so it becomes an offset.
             let (space, rest) = match rest.strip_prefix(' ') {
                 Some(rest) => (4 * FINE, rest),
                 None => (0, rest),

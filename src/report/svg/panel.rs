@@ -1,5 +1,5 @@
-//! One panel of a figure: its axes, ranges and ticks (exponents of ten where an axis is
-//! logarithmic), the names of its series, and the series themselves.
+//! One panel of a figure: axes, ranges, ticks (powers of ten on a logarithmic axis), legend and
+//! series.
 
 use plotters::coord::CoordTranslate;
 use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
@@ -12,25 +12,24 @@ use crate::report::number::short;
 use crate::report::ticks::{log_ticks, power_of_ten, scientific, ticks};
 use rubscope_solver::study::figures::{Mark, Panel, Quantity, Series, Style};
 
-/// Height of a panel's title.
+/// Height of a panel's title \[px\].
 const TITLE: u32 = 24;
-/// Width of the sample before the name of a series, and between two names.
+/// Width of a legend sample, and distance between two legend entries \[px\].
 const SAMPLE: u32 = 26;
 const APART: u32 = 18;
-/// Left of the axes: their labels and their name.
+/// Width of the tick labels and the axis label, left of the axis \[px\].
 const LABELS: i32 = 72;
-/// Half the width of a bar, where x counts.
+/// Half the width of a bar, in units of x.
 const HALF: f64 = 0.3;
 
-/// Returns the filling of a bar, on which marks can be seen.
+/// Returns the fill of a bar, pale enough for marks on it to stay visible.
 fn pale(style: Style) -> ShapeStyle {
     colour(style).mix(0.2).filled()
 }
 
-/// Draws a panel.
 ///
 /// # Errors
-/// What the drawing library reports.
+/// The drawing library failed.
 pub fn draw(panel: &Panel, area: &Area) -> Drawn<()> {
     let (columns, rows) = tiles(panel);
     let half_tile = |count: usize| 0.5 / count as f64;
@@ -67,10 +66,10 @@ pub fn draw(panel: &Panel, area: &Area) -> Drawn<()> {
         .y_label_formatter(&|tick| y.label(*tick))
         .label_style(font(TEXT))
         .draw()?;
-    // A series with a name is drawn last, on top.
+    // Named series are drawn after faint ones, on top of them.
     let is_faint = |series: &&Series| series.style == Style::Faint;
     let (faint, named): (Vec<&Series>, Vec<&Series>) = panel.series.iter().partition(is_faint);
-    // Over cells of any colour lines and dots have a white rim.
+    // Lines and dots on cells get a white rim, to be visible on any colour.
     let rim = has_cells(panel).then(|| WHITE.stroke_width(4 * FINE));
     for series in faint.into_iter().chain(named) {
         let points = series.points.iter().map(|point| (x.shown(point.0), y.shown(point.1)));
@@ -97,7 +96,7 @@ pub fn draw(panel: &Panel, area: &Area) -> Drawn<()> {
                 let fill = colour(series.style).filled();
                 let pixels = |at: &(f64, f64)| chart.as_coord_spec().translate(at).0;
                 let places: Vec<(f64, f64)> = points.collect();
-                // Neighbours in a row are one rectangle.
+                // Adjacent cells of a row are merged into one rectangle.
                 let are_beside = |a: &(f64, f64), b: &(f64, f64)| {
                     let apart = f64::from(pixels(b) - pixels(a));
                     a.1 == b.1 && apart > 0.0 && apart < 1.5 * tile
@@ -162,7 +161,7 @@ pub fn draw(panel: &Panel, area: &Area) -> Drawn<()> {
     Ok(())
 }
 
-/// Returns the name of a mark, above the axes, in the middle over its line.
+/// Draws the mark's label, centred above its line.
 fn draw_mark(mark: &Mark, at: &(i32, i32), area: &Area) -> Drawn<()> {
     let (left, top) = area.get_base_pixel();
     let half = px(width_of(mark.label) as i32) / 2;
@@ -171,8 +170,7 @@ fn draw_mark(mark: &Mark, at: &(i32, i32), area: &Area) -> Drawn<()> {
     Ok(area.draw_text(mark.label, &style, place)?)
 }
 
-/// Returns the names of the series that have points, but for faint ones, in rows; returns their
-/// height.
+/// Draws the legend (without faint or empty series); returns its height.
 fn draw_names(panel: &Panel, area: &Area) -> Drawn<u32> {
     let width = area.dim_in_pixel().0 / FINE;
     let start = LABELS as u32 + 16;
@@ -191,7 +189,7 @@ fn draw_names(panel: &Panel, area: &Area) -> Drawn<u32> {
     Ok(if left == start { 0 } else { 4 + LINE * (row + 1) })
 }
 
-/// Returns how a series is drawn, before its name.
+/// Draws the legend sample of a series.
 fn draw_sample(style: Style, (left, top): (i32, i32), area: &Area) -> Drawn<()> {
     let at = |dx: i32, dy: i32| (px(left + dx), px(top + dy));
     let fill = colour(style);
@@ -235,7 +233,7 @@ fn draw_sample(style: Style, (left, top): (i32, i32), area: &Area) -> Drawn<()> 
     Ok(())
 }
 
-/// Most ticks of an axis.
+/// Largest number of ticks on an axis.
 const MOST_TICKS: usize = 8;
 
 /// The range of an axis.
@@ -247,8 +245,8 @@ pub struct Scale<'a> {
 }
 
 impl<'a> Scale<'a> {
-    /// Creates the range of the cells, or without any of all points, widened by this part of
-    /// itself; a logarithmic axis without cells has whole decades.
+    /// Creates the range of the cells, or, without cells, of all points, widened by the fraction
+    /// `margin`; a logarithmic axis without cells covers whole decades.
     pub fn of(
         panel: &Panel,
         quantity: &'a Quantity,
@@ -273,7 +271,7 @@ impl<'a> Scale<'a> {
         }
         let mut widen = margin * (scale.high - scale.low);
         if scale.low == scale.high {
-            // A constant needs a range, or there is no axis.
+            // A constant needs some range for an axis to exist.
             widen = 1e-9 * scale.low.abs().max(1e-3);
         }
         scale.low -= widen;
@@ -281,13 +279,13 @@ impl<'a> Scale<'a> {
         scale
     }
 
-    /// Returns a value in the units shown.
+    /// Converts a value to axis coordinates: shown unit, and logarithm if the axis is logarithmic.
     pub fn shown(&self, value: f64) -> f64 {
         let value = value * self.quantity.factor;
         if self.quantity.log { value.log10() } else { value }
     }
 
-    /// Returns the axis as the drawing library needs it.
+    /// Returns the axis in the form the drawing library needs.
     pub fn axis(&self) -> Axis {
         let ticks = if self.quantity.log {
             log_ticks(self.low, self.high, MOST_TICKS)
@@ -297,12 +295,12 @@ impl<'a> Scale<'a> {
         Axis { range: RangedCoordf64::from(self.low..self.high), ticks }
     }
 
-    /// Returns the label of a tick.
+    /// Formats the label of a tick.
     pub fn label(&self, tick: f64) -> String {
         if self.quantity.log {
             return power_of_ten(tick);
         }
-        // All ticks of an axis in one way.
+        // All ticks of an axis have the same notation.
         let most = self.low.abs().max(self.high.abs());
         let plain = tick == 0.0 || (1e-3..1e6).contains(&most);
         let text = if plain { short(tick) } else { scientific(tick) };
@@ -310,7 +308,7 @@ impl<'a> Scale<'a> {
     }
 }
 
-/// A range with ticks of our own; the library's are not always round.
+/// A range with its own ticks; those of the drawing library are not always round.
 pub struct Axis {
     range: RangedCoordf64,
     ticks: Vec<f64>,
@@ -325,7 +323,7 @@ impl Ranged for Axis {
     }
 
     fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
-        // Lines are drawn at ticks only.
+        // Minor grid lines are not drawn.
         if hint.weight().allow_light_points() { Vec::new() } else { self.ticks.clone() }
     }
 
@@ -334,19 +332,19 @@ impl Ranged for Axis {
     }
 }
 
-/// Returns whether a panel is a map.
+/// Returns whether a panel is a map, made of cells.
 pub fn has_cells(panel: &Panel) -> bool {
     panel.series.iter().any(|series| matches!(series.style, Style::Cells(_)))
 }
 
-/// Returns the points that set the range of the axes: those of cells, if there are any.
+/// Iterates over the points that determine the axis ranges: the cells, if there are any.
 fn ranging(panel: &Panel) -> impl Iterator<Item = &(f64, f64)> {
     let only_cells = has_cells(panel);
     let chosen = move |style: Style| !only_cells || matches!(style, Style::Cells(_));
     panel.series.iter().filter(move |series| chosen(series.style)).flat_map(|series| &series.points)
 }
 
-/// Returns the steps between the different values of x and of y, at least one each.
+/// Returns the number of steps between the distinct values of x and of y, at least one each.
 pub fn tiles(panel: &Panel) -> (usize, usize) {
     let count = |of: fn(&(f64, f64)) -> f64| {
         let mut values: Vec<f64> = ranging(panel).map(of).collect();

@@ -1,4 +1,4 @@
-//! What all parts of a figure share: the scale of the drawing, text, colours.
+//! Shared parts of figures: drawing scale, text and colours.
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -8,16 +8,16 @@ use rubscope_solver::motion::Verdict;
 use rubscope_solver::scene::keys::is_plain;
 use rubscope_solver::study::figures::Style;
 
-/// Factor of the drawing size over the shown size: the backend has whole
-/// numbers only, and smooth lines would get steps.
+/// Ratio of drawing units to displayed pixels. The backend rounds to whole units, which would make
+/// smooth lines jagged at a scale of 1.
 pub const FINE: u32 = 4;
-/// Size of the text, in the units of the drawing library \[px\].
+/// Font size \[px\].
 pub const TEXT: i32 = 15;
-/// Width of a letter, on average, as a part of that size: enough for wide fonts.
+/// Average width of a character relative to the font size: an upper estimate, for wide fonts.
 const LETTER: f64 = 0.47;
 
-/// Colours that colour-blind readers can distinguish (hues of Okabe and Ito), each lighter
-/// or darker than the others in grey.
+/// Colours that colour-blind readers can distinguish (hues of Okabe and Ito); their lightness
+/// differs too, for print in grey.
 const COLOURS: [RGBColor; 6] = [
     RGBColor(0, 96, 165),
     RGBColor(225, 110, 10),
@@ -30,7 +30,7 @@ const COLOURS: [RGBColor; 6] = [
 pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 pub type Drawn<T> = Result<T, Box<dyn std::error::Error>>;
 
-/// Returns a length in pixels shown, as drawn.
+/// Converts displayed pixels to drawing units.
 pub fn px(length: i32) -> i32 {
     length * FINE as i32
 }
@@ -39,26 +39,26 @@ pub fn font(size: i32) -> (&'static str, i32) {
     ("sans-serif", px(size))
 }
 
-/// Writes a text with its left upper corner there.
+/// Draws a text with its upper left corner at `(x, y)` \[px\].
 pub fn write_at(area: &Area, text: &str, (x, y): (i32, i32), size: i32) -> Drawn<()> {
-    // Text of a scene is plain, that of a caller of the library need not be.
+    // Scene text is checked, but library callers may pass any text.
     let text: String = text.chars().filter(|c| is_plain(*c)).collect();
     let style = font(size).into_text_style(area).pos(Pos::new(HPos::Left, VPos::Top));
     Ok(area.draw_text(&text, &style, (px(x), px(y)))?)
 }
 
-/// Returns how many letters of a size fit into a width.
+/// Returns how many characters of a font size fit into a width.
 pub fn letters_in(width: u32, size: i32) -> usize {
     (f64::from(width) / (LETTER * f64::from(size))) as usize
 }
 
-/// Estimates the width of a text of the usual size \[px\].
+/// Estimates the width of a text at the usual size \[px\].
 pub fn width_of(text: &str) -> u32 {
     (LETTER * f64::from(TEXT) * text.chars().count() as f64).ceil() as u32
 }
 
-/// Returns the lines of the mark of a number, about its place; none for a disc. They are open, so
-/// that marks at one place can be seen, and one more than colours.
+/// Returns the strokes of marker `number`, relative to its centre; a disc has none. The markers are
+/// open shapes, so that several at one point stay visible, and there is one more than colours.
 pub fn strokes(number: usize, radius: i32) -> Vec<Vec<(i32, i32)>> {
     let r = px(radius);
     let (low, wide) = (r / 2, r * 7 / 8);
@@ -85,8 +85,8 @@ pub fn colour(style: Style) -> RGBColor {
     *COLOURS.get(index % COLOURS.len()).unwrap_or(&BLACK)
 }
 
-/// Colour of a verdict; each is lighter or darker than the others, for colour-blind readers
-/// and in grey.
+/// Returns the colour of a verdict. The colours differ in lightness, for colour-blind readers and
+/// print in grey.
 fn colour_of(verdict: Verdict) -> RGBColor {
     match verdict {
         Verdict::Decay => RGBColor(240, 240, 240),

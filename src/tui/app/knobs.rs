@@ -74,17 +74,8 @@ impl Knobs {
         self.redo.clear();
     }
 
-    /// Returns the number of undo states.
-    pub fn remembered(&self) -> usize {
-        self.undo.len()
-    }
-
-    /// Merges all changes after the first `known` undo states into one step.
-    pub fn merge(&mut self, known: usize) {
-        self.undo.truncate(known);
-    }
-
-    /// Swaps `now` for the last undo (or redo) state; `None` if there is no such state.
+    /// Returns the state before, or after, this one, and records this one; `None` where there is no
+    /// such state.
     pub fn step_back(&mut self, redo: bool, now: Past) -> Option<Past> {
         let Self { undo, redo: redone, .. } = self;
         let (from, to) = if redo { (redone, undo) } else { (undo, redone) };
@@ -136,10 +127,9 @@ mod tests {
         let (past, mut knobs) = (app.past(), Knobs::default());
         assert!(knobs.step_back(false, past.clone()).is_none());
         let lively = Past { live: true, ..past.clone() };
-        (0..3).for_each(|_| knobs.remember(lively.clone()));
-        knobs.merge(1);
+        knobs.remember(lively.clone());
         assert_eq!(knobs.step_back(false, past.clone()), Some(lively.clone()));
-        assert_eq!((knobs.remembered(), knobs.step_back(true, lively)), (0, Some(past.clone())));
+        assert_eq!(knobs.step_back(true, lively), Some(past.clone()));
         knobs.step_back(false, past.clone());
         knobs.remember(past.clone());
         assert!(knobs.step_back(true, past).is_none());

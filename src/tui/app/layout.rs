@@ -126,7 +126,7 @@ impl App {
 
     /// Returns whether the large chart is the only one on the screen.
     pub fn is_alone(&self) -> bool {
-        self.layout.full_screen || self.appearance.wide || self.compares()
+        self.layout.full_screen || self.compares()
     }
 }
 

@@ -17,11 +17,7 @@ pub struct LessonProgress {
     pub step: usize,
     /// Answer and task of every step.
     pub steps: Vec<StepProgress>,
-    /// Page of the text, if it takes the place of the charts.
-    pub page: usize,
-    /// Whether the last page of the text was shown.
-    pub read: bool,
-    /// Index of the answer that Enter would give.
+    /// The place of the answer that Enter gives.
     pub choice: usize,
     /// State before the lesson, restored when it ends.
     pub own: Arc<Past>,

@@ -17,7 +17,7 @@ pub use dialogue::{HelpState, InputMode, PaletteState, Purpose};
 pub use files::{SceneEntry, Writing};
 pub use knobs::Past;
 pub use lesson::{LessonProgress, StepProgress};
-pub use mouse::{Grip, Target};
+pub use mouse::Target;
 pub use reading::{Cursor, Reading, STEP, cell_of};
 
 use dialogue::Dialogue;

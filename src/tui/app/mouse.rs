@@ -1,4 +1,4 @@
-//! The mouse: the bar being dragged, and what is drawn in which area of the screen.
+//! The mouse: whether it acts, and what is drawn where.
 
 use std::cell::RefCell;
 
@@ -8,18 +8,7 @@ use super::{App, Cursor};
 use crate::tui::bindings::Action;
 use crate::tui::views::id::ViewId;
 
-/// A drag on the bar of a knob.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Grip {
-    /// Index of the knob in `KNOBS`.
-    pub knob: usize,
-    /// Column of the pointer when the drag began.
-    pub x: u16,
-    /// Whether the drag has changed the knob; later changes of the drag merge into one undo step.
-    pub turned: bool,
-}
-
-/// Something clickable on the screen.
+/// Something that is drawn and can be clicked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Target {
     /// A key shown in the footer.
@@ -43,11 +32,7 @@ pub enum Target {
 pub struct Mouse {
     /// Whether mouse events are used.
     pub on: bool,
-    /// The drag under way.
-    pub grip: Option<Grip>,
-    /// Cell of the last click, until the pointer leaves it.
-    pub clicked: Option<(u16, u16)>,
-    /// Cell and knob of the last turn of the wheel.
+    /// Cell at which the wheel turned a knob last, and that knob.
     pub wheeled: Option<((u16, u16), usize)>,
     /// Clickable areas of the last frame. Where they overlap, the later one is on top.
     drawn: RefCell<Vec<(Rect, Target)>>,
@@ -55,16 +40,16 @@ pub struct Mouse {
 
 impl Default for Mouse {
     fn default() -> Self {
-        Self { on: true, grip: None, clicked: None, wheeled: None, drawn: RefCell::default() }
+        Self { on: true, wheeled: None, drawn: RefCell::default() }
     }
 }
 
 impl Mouse {
     /// Switches the mouse on or off; returns the status message.
     pub fn toggle(&mut self) -> String {
-        (self.on, self.grip) = (!self.on, None);
+        self.on = !self.on;
         let how = match self.on {
-            true => "mouse on: click, drag, wheel; with Shift it selects text",
+            true => "mouse on: click, wheel; with Shift it selects text",
             false => "mouse off: it selects text",
         };
         how.into()
@@ -86,17 +71,8 @@ impl App {
 
     /// Returns the topmost target at a cell, with its area.
     pub fn target(&self, at: (u16, u16)) -> Option<(Rect, Target)> {
-        self.last_drawn(|(area, _)| area.contains(at.into()))
-    }
-
-    /// Returns the area of the selected knob's bar.
-    pub fn bar_area(&self) -> Option<Rect> {
-        self.last_drawn(|(_, target)| matches!(target, Target::Bar(_))).map(|(area, _)| area)
-    }
-
-    fn last_drawn(&self, is_wanted: impl Fn(&(Rect, Target)) -> bool) -> Option<(Rect, Target)> {
         let drawn = self.mouse.drawn.try_borrow().ok()?;
-        drawn.iter().rev().copied().find(|noted| is_wanted(noted))
+        drawn.iter().rev().copied().find(|(area, _)| area.contains(at.into()))
     }
 }
 

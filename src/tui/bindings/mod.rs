@@ -1,5 +1,5 @@
-//! The table of key bindings, which the key handler, the footer, the help and the manual page
-//! use, and the groups of actions under which the help lists them.
+//! The table of key bindings, used by the key handler, the footer, the help and the manual page,
+//! and the groups of actions in the help.
 
 mod table;
 
@@ -11,7 +11,7 @@ use crate::tui::views::id::ViewId;
 
 pub use table::BINDINGS;
 
-/// Action of a key.
+/// What a key can do.
 #[expect(missing_docs, reason = "the table says what each action does")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
@@ -43,7 +43,6 @@ pub enum Action {
     ZoomReset,
     Autoscale,
     FullScreen,
-    Present,
     Mouse,
     Marker,
     Theme,
@@ -78,55 +77,55 @@ pub enum Action {
     TurnNote,
 }
 
-/// Context in which a binding holds.
+/// Where a binding is valid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Context {
-    /// Charts and knobs.
+    /// The charts and the knobs.
     Main,
-    /// The arrows move the reading cursor; otherwise as `Main`.
+    /// Reading a chart: the arrows move the cursor; other keys as in `Main`.
     Reading,
-    /// A value is being typed.
+    /// Typing a value.
     Typing,
-    /// The help is open, whole.
+    /// The unfiltered help.
     Help,
-    /// The help is open and a filter is typed into it.
+    /// Typing a filter into the help.
     Filter,
-    /// A command is being looked for.
+    /// Typing a command in the palette.
     Palette,
-    /// A question: replace the existing file?
+    /// Answering whether to replace an existing file.
     Replacing,
-    /// A lesson is being chosen.
+    /// Choosing a lesson.
     Lessons,
-    /// A lesson waits for an answer; otherwise as `Main`.
+    /// Answering a question of a lesson; other keys as in `Main`.
     Question,
-    /// A scene is being chosen.
+    /// Choosing a scene.
     Scenes,
-    /// A text is being typed: the keys that edit it.
+    /// Any text field: the editing keys.
     Field,
-    /// A list is open: the keys that every list has.
+    /// Any list: the keys that move in it.
     List,
-    /// Any dialogue is open: the keys that all of them have.
+    /// Any dialogue: the keys common to all.
     Dialogue,
 }
 
-/// A key with its modifiers. Shift is part of a letter, not a modifier of it.
+/// A key with its modifiers. For a letter, Shift is part of the character.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Chord {
     /// The key.
     pub code: KeyCode,
     /// Whether Control is held.
     pub ctrl: bool,
-    /// Whether Shift is held, for keys that are no characters.
+    /// Whether Shift is held, for keys other than characters.
     pub shift: bool,
 }
 
 impl Chord {
-    /// Returns the bindings of a context.
+    /// Builds the chord of a key event: Shift is folded into letters.
     pub fn of(event: &KeyEvent) -> Self {
         let shift = event.modifiers.contains(KeyModifiers::SHIFT);
         let ctrl = event.modifiers.contains(KeyModifiers::CONTROL);
         let code = match event.code {
-            // Some terminals send the lower case letter together with Shift.
+            // Some terminals report a lower-case letter together with Shift.
             KeyCode::Char(c) if shift && c.is_ascii_lowercase() => {
                 KeyCode::Char(c.to_ascii_uppercase())
             }
@@ -137,7 +136,7 @@ impl Chord {
     }
 }
 
-/// The key that a sign stands for, in the last line and in scripts: an arrow, or the letter.
+/// The key that a character stands for in the footer and in scripts: an arrow sign, or the letter.
 impl From<char> for Chord {
     fn from(sign: char) -> Self {
         let code = match sign {
@@ -173,23 +172,23 @@ impl std::fmt::Display for Chord {
     }
 }
 
-/// One line of the table.
+/// One row of the table.
 #[derive(Clone, Debug)]
 pub struct Binding {
-    /// Context in which it holds.
+    /// Context in which the binding is valid.
     pub context: Context,
     /// The keys.
     pub keys: &'static [Chord],
-    /// Action of the keys.
+    /// What the keys do.
     pub action: Action,
-    /// Description of the action in a few words.
+    /// The action in a few words, for the help.
     pub what: &'static str,
-    /// Keys and word of the footer, if it is shown there.
+    /// Keys and word in the footer, if the binding appears there.
     pub footer: Option<(&'static str, &'static str)>,
 }
 
 impl Context {
-    /// Returns the contexts that have the keys which this one has not, the nearest first.
+    /// Returns the contexts to search for a key that this one does not bind, the nearest first.
     pub fn behind(self) -> &'static [Self] {
         match self {
             Self::Main | Self::Dialogue => &[],
@@ -202,50 +201,50 @@ impl Context {
     }
 }
 
-/// Returns what a key does in a context.
+/// Returns the action of a key in a context.
 pub fn lookup(context: Context, chord: Chord) -> Option<Action> {
     let found = with_behind(context).find(|binding| binding.keys.contains(&chord));
     found.map(|binding| binding.action)
 }
 
-/// Returns the bindings of a context, and those behind it.
+/// Iterates over the bindings of a context, then those of the contexts behind it.
 pub fn with_behind(context: Context) -> impl Iterator<Item = &'static Binding> {
     of(context).chain(context.behind().iter().copied().flat_map(of))
 }
 
-/// Creates the bindings of a context.
+/// Iterates over the bindings of a context.
 pub fn of(context: Context) -> impl Iterator<Item = &'static Binding> {
     BINDINGS.iter().filter(move |binding| binding.context == context)
 }
 
-/// Returns the keys of a binding as text, such as `Up, k`.
+/// Lists the keys of a binding, as in `Up, k`.
 pub fn keys_text(binding: &Binding) -> String {
     binding.keys.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }
 
-/// Group of actions, in the order of the help.
+/// Groups of actions, in the order of the help.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, EnumIter, IntoStaticStr)]
 pub enum Group {
-    /// Selecting and turning knobs.
+    /// Select and turn knobs.
     Knobs,
-    /// Playing the motion, and choosing the part that is shown.
+    /// Play the motion and choose the part shown.
     Time,
-    /// Choosing charts and reading them.
+    /// Choose and read charts.
     #[strum(serialize = "Views and charts")]
     Views,
-    /// Opening scenes and lessons.
+    /// Open scenes and lessons.
     #[strum(serialize = "Scenes and lessons")]
     Scenes,
-    /// Writing and copying.
+    /// Write and copy files.
     Files,
     /// Colours, marker and units.
     Look,
-    /// The program itself.
+    /// Control the program itself.
     Program,
 }
 
 impl Action {
-    /// Returns the group of an action.
+    /// Returns the help group of an action.
     pub fn group(self) -> Group {
         match self {
             Self::KnobAbove
@@ -276,7 +275,6 @@ impl Action {
             | Self::Survey
             | Self::Charts
             | Self::FullScreen
-            | Self::Present
             | Self::Autoscale
             | Self::Pin
             | Self::OtherLaw
@@ -287,7 +285,7 @@ impl Action {
             Self::Marker | Self::Theme | Self::SpeedUnit | Self::Mouse | Self::Redraw => {
                 Group::Look
             }
-            // Those of dialogues, too, of which the help has other headings.
+            // Actions of dialogues have their own headings in the help.
             _ => Group::Program,
         }
     }

@@ -1,4 +1,4 @@
-//! The table itself: which key does what, where, and in which words.
+//! The key bindings: key, context, action, and the words of help and footer.
 
 use std::sync::LazyLock;
 
@@ -42,10 +42,9 @@ const fn turn(up: bool, coarse: bool) -> Action {
     Action::Turn { up, coarse }
 }
 
-/// Every binding, in the order of the help; those of the footer come in the
-/// order of their importance.
+/// Every binding, in the order of the help. Those in the footer are listed by importance.
 pub static BINDINGS: LazyLock<Vec<Binding>> = LazyLock::new(|| {
-    // Keys and words are leaked once, because the others are static too.
+    // The bindings of views are built once and leaked, to be static like the others.
     let views = ViewId::all().map(|view| Binding {
         context: Context::Main,
         keys: vec![letter(char::from(b'0' + view.digit()))].leak(),
@@ -56,7 +55,7 @@ pub static BINDINGS: LazyLock<Vec<Binding>> = LazyLock::new(|| {
     BEFORE_VIEWS.iter().cloned().chain(views).chain(AFTER_VIEWS.iter().cloned()).collect()
 });
 
-/// The bindings before those of the views.
+/// Bindings listed before those of the views.
 const BEFORE_VIEWS: &[Binding] = &[
     bind!(Main: [key(Up), letter('k')], Action::KnobAbove, "select the knob above", "↑↓" "knob"),
     bind!(Main: [key(Down), letter('j')], Action::KnobBelow, "select the knob below"),
@@ -78,7 +77,6 @@ const BEFORE_VIEWS: &[Binding] = &[
     bind!(Main: [letter(']')], Action::Faster, "faster motion"),
     bind!(Main: [letter('z')], Action::SlowAtEvents, "slower at changes of contact and faster between, or not"),
     bind!(Main: [letter('f')], Action::FullScreen, "one chart over the whole screen, or back", "f" "full"),
-    bind!(Main: [letter('P')], Action::Present, "presentation: the screen for a projector, or back"),
     bind!(Main: [letter('M')], Action::Mouse, "mouse on or off; Shift selects text while it is on"),
     bind!(Main: [letter('.')], Action::Step, "one step (pauses)", "." "step"),
     bind!(Main: [key(Backspace)], Action::Reset, "back to the scene's value"),
@@ -105,13 +103,13 @@ const BEFORE_VIEWS: &[Binding] = &[
     bind!(Main: [letter('i')], Action::Read, "read the chart: the arrows move a cursor, or, where it stays, the knobs again", "i" "read"),
 ];
 
-/// The bindings after those of the views.
+/// Bindings listed after those of the views.
 const AFTER_VIEWS: &[Binding] = &[
     bind!(Main: [letter('+')], Action::ZoomIn, "a shorter page of time"),
     bind!(Main: [letter('-')], Action::ZoomOut, "a longer page of time"),
     bind!(Main: [letter('=')], Action::ZoomReset, "the usual page of time, where NOW is"),
     bind!(Main: [letter('a')], Action::Autoscale, "scales follow the data, or stay fixed"),
-    bind!(Main: [letter('m')], Action::Marker, "next marker (braille, halfblock, dot, ascii; octant with --marker octant)"),
+    bind!(Main: [letter('m')], Action::Marker, "next marker (braille, halfblock, dot, ascii)"),
     bind!(Main: [letter('t')], Action::Theme, "next theme (dark, light, colour-blind on dark or light, mono)"),
     bind!(Main: [letter('U')], Action::SpeedUnit, "units: speeds in rpm, or in rad/s"),
     bind!(Main: [ctrl('z')], Action::Suspend, "suspend"),

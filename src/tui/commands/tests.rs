@@ -150,7 +150,6 @@ fn a_word_of_its_own_goes_to_its_place() {
         ("5 ms", Command::GoTo(5e-3)),
         ("40us", Command::GoTo(4e-5)),
         ("compare", Command::Act(Action::OtherLaw)),
-        ("presentation", Command::Act(Action::Present)),
         ("margins", Command::Act(Action::View(ViewId::Margins))),
         ("survey", Command::Act(Action::Survey)),
         ("end", Command::Act(Action::GoToEnd)),

@@ -1,18 +1,18 @@
-//! When a knob changes nothing because of the values of the others, and when it takes a scene
-//! beyond the model of the paper.
+//! When a knob has no effect because of the values of others, and when its value takes a scene
+//! beyond the paper's model.
 
 use std::sync::LazyLock;
 
 use crate::tui::knobs::{Group, Knob};
 use rubscope_solver::scene::{ContactLaw, ModelSize, Scene, SolverKind};
 
-/// Function that gives the reason why a knob changes nothing in a scene.
+/// Returns why a knob has no effect in a scene; `None` if it has one.
 pub type Inert = fn(&Scene) -> Option<&'static str>;
 
 const STILL: &str = "the blades of the rigid model do not move";
 
 impl Knob {
-    /// Returns the reason why this knob does not change the run of a scene, if it does not.
+    /// Returns why this knob has no effect on the run of a scene; `None` if it has one.
     pub fn inert(&self, scene: &Scene) -> Option<&'static str> {
         (self.inert)(scene)
     }
@@ -26,7 +26,7 @@ fn is_event(scene: &Scene) -> bool {
     scene.solver.kind == SolverKind::Event
 }
 
-/// Functions that give a reason where a condition holds.
+/// Defines functions that return a reason if a condition on the scene holds.
 macro_rules! inert {
     ($($name:ident: |$scene:ident| $when:expr => $why:expr;)+) => {
         $(pub fn $name($scene: &Scene) -> Option<&'static str> { ($when).then_some($why) })+
@@ -80,12 +80,12 @@ pub fn order(scene: &Scene) -> Option<&'static str> {
     torque(scene).or(none)
 }
 
-/// The paper's values.
+/// The scene with the paper's values.
 static PAPER: LazyLock<Scene> = LazyLock::new(Scene::base);
 
 impl Knob {
-    /// Returns whether it is one of those beyond the paper and has another value than there, or
-    /// describes the lining that the scene has.
+    /// Returns whether the knob takes the scene beyond the paper's model: it belongs to that group
+    /// and differs from the paper's value, or it describes a lining that the scene uses.
     pub fn leaves_the_paper(&self, scene: &Scene) -> bool {
         let lining = self.path.starts_with("contact.s");
         self.group == Group::Beyond
@@ -100,7 +100,7 @@ mod tests {
     use crate::tui::knobs::KNOBS;
     use rubscope_solver::motion::simulate;
 
-    /// Scenes of which each has other inert knobs.
+    /// Changes of the scene; each makes other knobs inert.
     const CASES: [&[(&str, &str)]; 8] = [
         &[],
         &[("solver.kind", "event"), ("solver.contact", "unilateral")],
@@ -127,7 +127,7 @@ mod tests {
             for knob in KNOBS.iter().filter(|knob| knob.inert(&scene).is_some()) {
                 for (up, coarse) in [(true, false), (true, true), (false, true)] {
                     let value = knob.turned(&knob.get(&scene), up, coarse, &scene);
-                    // What is refused changes nothing either.
+                    // A refused value has no effect either.
                     let Ok((turned, _)) = knob.set(&scene, value) else { continue };
                     let after = simulate(&turned);
                     assert_eq!(after.outcome, before.outcome, "{} {case:?}", knob.label);
@@ -142,7 +142,7 @@ mod tests {
 
     #[test]
     fn a_knob_that_is_not_inert_changes_some_run() {
-        // A weak and a strong pulse: a lock forgets how it began.
+        // With a weak and a strong pulse, because a lock does not depend on how it began.
         let scenes = ["2e4", "1e6"].map(|pulse| {
             let changes =
                 [("solver.step_s", "1e-6"), ("solver.end_s", "5e-3"), ("operation.pulse_n", pulse)];
@@ -189,7 +189,7 @@ mod tests {
             let beyond = |knob: &&Knob| knob.group == Group::Beyond && knob.inert(&scene).is_none();
             for knob in KNOBS.iter().filter(beyond) {
                 let value = knob.turned(&knob.get(&scene), true, true, &scene);
-                // Rigid contact refuses other diameters of the disk; the smooth law takes them.
+                // Rigid contact requires the casing's nodal diameters; the smooth law does not.
                 let Ok((turned, _)) = knob.set(&scene, value) else {
                     assert_eq!(knob.path, "bladed_disk.nodal_diameters");
                     assert!(!case.contains(&("solver.contact", "smooth")));

@@ -1,5 +1,5 @@
-//! The knobs: keys of the scene with a label and a sensible step. Names,
-//! units, bounds and meaning come from the table of keys.
+//! The knobs of the explorer: keys of the scene with a label and a step size. Names, units, bounds
+//! and descriptions come from the key table.
 
 mod inert;
 mod naming;
@@ -25,66 +25,66 @@ use rubscope_solver::scene::{
     keys::Key,
 };
 
-/// The contact laws as their knob turns through them: from the paper's law one step up is
-/// the law of contact that only pushes.
+/// The contact laws in the order of their knob: one step up from the paper's bilateral law is the
+/// unilateral one.
 const LAWS: [&str; 3] = ["bilateral", "unilateral", "smooth"];
 
-/// Steps by which a knob turns.
+/// How a knob steps through its values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Turn {
-    /// Equal steps, fine and coarse.
+    /// Equal steps: fine and coarse.
     Linear(f64, f64),
-    /// Round mantissas over decades; below this magnitude only zero.
+    /// Round mantissas in each decade; the value below this magnitude is zero.
     Decades(f64),
-    /// Whole steps, fine and coarse.
+    /// Whole steps: fine and coarse.
     Whole(u64, u64),
-    /// A list of words.
+    /// The next word of a list.
     Words,
 }
 
-/// Group of knobs, in the order of the panel.
+/// Groups of knobs, in the order of the panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, VariantArray)]
 pub enum Group {
     /// Speed, pulse, dampings, contact and solver.
     Operation,
-    /// Pulse and speed over time.
+    /// Pulse and speed as functions of time.
     Time,
-    /// Model and accuracy of the computation.
+    /// Model size and numerical accuracy.
     Model,
     /// Casing and bladed disk.
     Machine,
     /// Extensions of the model of the paper: coupled tips, friction, linings.
     Beyond,
-    /// Tips of their own lengths, and a casing out of round.
+    /// Unequal tips and the shape of the casing.
     Tips,
     /// State at t = 0, and the excitation.
     Start,
 }
 
 impl Group {
-    /// Returns its heading.
+    /// Returns the heading of the group.
     pub fn name(self) -> &'static str {
         ["operation", "time", "model", "machine", "beyond the paper", "tips and shape", "start"]
             [self as usize]
     }
 
-    /// Returns the places of its knobs in the table.
+    /// Iterates over the indices of the group's knobs in [`KNOBS`].
     pub fn places(self) -> impl Iterator<Item = usize> {
         KNOBS.iter().enumerate().filter(move |(_, knob)| knob.group == self).map(|(place, _)| place)
     }
 }
 
-/// Returns the place of the knob of a key in the table.
+/// Returns the index in [`KNOBS`] of the knob that sets a key.
 pub fn place_of(path: &str) -> Option<usize> {
     KNOBS.iter().position(|knob| knob.path == path)
 }
 
-/// Returns the knob of a key.
+/// Returns the knob that sets a key.
 pub fn knob_of(path: &str) -> Option<&'static Knob> {
     KNOBS.get(place_of(path)?)
 }
 
-/// One knob.
+/// An entry of the knob table.
 #[derive(Debug)]
 pub struct Knob {
     /// Its group.
@@ -93,15 +93,15 @@ pub struct Knob {
     pub label: &'static str,
     /// The key that it sets.
     pub path: &'static str,
-    /// Steps by which it turns.
+    /// How it steps.
     pub turn: Turn,
-    /// Effect of turning it, in one sentence.
+    /// Effect of turning the knob, in one sentence.
     pub does: &'static str,
-    /// The range of its bar.
+    /// The usual range, shown as a bar.
     bar: Bar,
-    /// The magnitude that is usual, where it is 0 in the opened scene.
+    /// Usual magnitude, for the bar of a knob that is 0 in the opened scene.
     usual: f64,
-    /// Reason why it changes nothing, where it does not.
+    /// Returns why it has no effect in a scene, if it has none.
     inert: Inert,
 }
 
@@ -115,19 +115,18 @@ impl Knob {
         self.key().map_or_else(
             || {
                 let clearance = scene.clearance();
-                // Twelve digits: the difference of two lengths has no more.
+                // Twelve digits: a difference of two lengths is not more accurate.
                 Value::Real(format!("{clearance:.11e}").parse().unwrap_or(clearance))
             },
             |key| (key.get)(scene),
         )
     }
 
-    /// Sets it and checks the whole scene, which is unchanged on error. If solver, contact law
-    /// and model do not go with it, the nearest that do are taken; the second value is a
-    /// message about it.
+    /// Returns the scene with this value, checked, and a message if solver, contact law or model
+    /// had to change with it; then the nearest combination that works is chosen.
     ///
     /// # Errors
-    /// The refusal, in one line.
+    /// The value is refused, for this reason.
     pub fn set(
         &self,
         scene: &Scene,
@@ -156,7 +155,7 @@ impl Knob {
         Ok((changed, said))
     }
 
-    /// Returns what to say about keys that follow this knob.
+    /// Returns the message about keys that changed together with this knob.
     fn followed(&self, made: &[Adjustment], law: ContactLaw) -> Option<String> {
         let first = made.first()?;
         Some(match (first.key, self.path) {
@@ -182,7 +181,7 @@ impl Knob {
         })
     }
 
-    /// Returns the value after one turn.
+    /// Returns the value one step up or down.
     pub fn turned(&self, value: &Value, up: bool, coarse: bool, scene: &Scene) -> Value {
         match (value, self.turn) {
             (Value::Real(x), Turn::Linear(fine, large)) => {
@@ -199,8 +198,8 @@ impl Knob {
                 let step = if coarse { large } else { fine };
                 let Allowed::Whole { min, mut max } = self.allowed() else { return value.clone() };
                 if self.path == keys::DIAMETERS {
-                    // More than N/2 diameters are equivalent to fewer; they can
-                    // be typed.
+                    // More than N/2 nodal diameters are equivalent to fewer, so steps end there;
+                    // they can still be typed.
                     max = max.min(u64::from(scene.bladed_disk.blades / 2)).max(*n);
                 }
                 let next = if up { n.saturating_add(step) } else { n.saturating_sub(step) };
@@ -220,11 +219,11 @@ impl Knob {
         }
     }
 
-    /// Returns the next multiple of a step up or down from a value, or the nearest, in the unit as
-    /// it is shown, within bounds.
+    /// Returns the next multiple of `step` above or below `x`, or the nearest if `up` is `None`,
+    /// within bounds. Multiples are counted in the shown unit.
     fn stepped(&self, x: f64, step: f64, up: Option<bool>) -> f64 {
         let (shown, unit) = in_shown_unit(x, self.unit());
-        // A turn a minute is about a tenth of a radian a second.
+        // 1 rpm is about a tenth of a rad/s.
         let step = if unit == self.unit() { step } else { 10.0 * step };
         let at = shown / step;
         let multiple = match up {
@@ -233,7 +232,7 @@ impl Knob {
             None => at.round(),
         };
         let next = multiple * step;
-        // Decimal digits, without the round-off of a multiple.
+        // Through decimal digits, to remove the round-off of the multiplication.
         let digits = (-step.log10()).ceil().clamp(0.0, 12.0) as usize + 1;
         let next = format!("{next:.digits$}").parse().unwrap_or(next);
         self.bounded(from_shown(next, self.unit()))
@@ -246,7 +245,7 @@ impl Knob {
         }
     }
 
-    /// Returns what it may hold.
+    /// Returns the values that the knob accepts.
     pub fn allowed(&self) -> Allowed {
         self.key().map_or(number::ALLOWED, |key| key.allowed)
     }
@@ -256,12 +255,12 @@ impl Knob {
         self.key().map_or("m", |key| key.unit).trim_matches('-')
     }
 
-    /// Returns the value in a scene as shown.
+    /// Formats the value in a scene.
     pub fn text(&self, scene: &Scene) -> String {
         self.shown(&self.get(scene))
     }
 
-    /// Returns the value as shown, with prefix and unit.
+    /// Formats a value with its prefix and unit.
     pub fn shown(&self, value: &Value) -> String {
         match value {
             Value::Real(x) => axis::number(*x, self.unit()),
@@ -270,12 +269,12 @@ impl Knob {
         }
     }
 
-    /// Returns its symbol: the last word of its name.
+    /// Returns the symbol, which is the last word of the label.
     pub fn symbol(&self) -> &'static str {
         self.label.split(' ').next_back().unwrap_or(self.label)
     }
 
-    /// Returns its label without its symbol.
+    /// Returns the label without its symbol.
     pub fn name(&self) -> &'static str {
         let is_word = |word: &str| word.len() > 1 && word.bytes().all(|b| b.is_ascii_lowercase());
         match self.label.rsplit_once(' ') {
@@ -284,8 +283,8 @@ impl Knob {
         }
     }
 
-    /// Returns what it may hold, in words with its unit; nothing for words, which its sentence
-    /// names.
+    /// Describes the allowed values, with the unit; empty for a list of words, which the
+    /// description of the knob names.
     pub fn range_words(&self) -> String {
         let (factor, unit) = in_shown_unit(1.0, self.unit());
         let words = match self.allowed() {
@@ -300,14 +299,14 @@ impl Knob {
         format!("{words} {unit}").trim_end().to_string()
     }
 
-    /// Returns what was typed so far, with a cursor and the unit that it has without its own.
+    /// Returns the text typed so far, with a cursor and the unit of a plain number.
     pub fn typed(&self, text: &Field, columns: usize) -> String {
         let unit = in_shown_unit(0.0, self.unit()).1;
         let text = text.shown(columns.saturating_sub(unit.chars().count() + 1));
         format!("{text} {unit}").trim_end().to_string()
     }
 
-    /// Returns a refusal of a value of it in the words of the panel, without keys of the file.
+    /// Returns the message for a refused value, with labels in place of the keys of the file.
     pub fn refusal(&self, error: &SceneError) -> String {
         if let SceneError::Unit { value, why, .. } = error {
             return format!("{}: {value} cannot be read: {why}", self.label);
@@ -317,7 +316,7 @@ impl Knob {
             KNOBS.iter().fold(text.to_string(), |text, knob| text.replace(knob.path, knob.label))
         };
         let own = key == self.path;
-        // What it cannot read is refused by `parse` in the same way.
+        // False if the error comes from `parse` itself: the text is not a value at all.
         let reads = self.parse(value).err().as_ref() != Some(error);
         match self.allowed() {
             Allowed::OneOf(_) if own && !reads => {
@@ -340,16 +339,16 @@ impl Knob {
         }
     }
 
-    /// Returns what a number of it is of.
+    /// Returns the physical quantity of the knob's unit.
     fn quantity(&self) -> Quantity {
         Quantity::of(self.unit())
     }
 
-    /// Reads what was typed: a number, also with its unit or an SI prefix, or a word or
-    /// its beginning.
+    /// Parses typed text: a number, optionally with a unit or an SI prefix, or a word or its
+    /// beginning.
     ///
     /// # Errors
-    /// The refusal, in one line.
+    /// The text is refused, for this reason.
     pub fn parse(&self, text: &str) -> Result<Value, SceneError> {
         let text = text.trim();
         let refused = |allowed: String| SceneError::refused(self.path, text, allowed);
@@ -411,7 +410,7 @@ mod tests {
 
     #[test]
     fn every_number_of_a_scene_has_a_knob() {
-        // What the explorer opens with is not of the motion.
+        // The `view` keys choose what the explorer shows and do not affect the motion.
         for key in keys::KEYS.iter().filter(|key| !key.path.starts_with("view.")) {
             let numeric = matches!(key.allowed, Allowed::Real { .. } | Allowed::Whole { .. });
             let knobs = KNOBS.iter().filter(|knob| knob.path == key.path).count();
@@ -459,7 +458,7 @@ mod tests {
             .map(|(up, coarse)| real(speed.turned(&start, up, coarse, &scene)));
         let up = speed.turned(&typed[0], true, false, &scene);
         let back = speed.turned(&up, false, false, &scene);
-        let dragged = real(speed.near(470.0).unwrap());
+        let clicked = real(speed.near(470.0).unwrap());
         let (words, prompt) = (speed.range_words(), speed.typed(&"45".into(), 20));
         let refused = speed.set(&scene, speed.parse("1e9").unwrap()).unwrap_err();
         let refused = speed.refusal(&refused);
@@ -471,7 +470,7 @@ mod tests {
             assert!((turned - round).abs() < 1e-9, "{turned} {round}");
         }
         assert_eq!((real(up.clone()).round(), &back), (4550.0, &typed[0]));
-        assert!((dragged - 4500.0).abs() < 1e-9, "{dragged}");
+        assert!((clicked - 4500.0).abs() < 1e-9, "{clicked}");
         assert_eq!(
             (words.as_str(), prompt.as_str()),
             ("from -9.5493e6 to 9.5493e6 rpm", "45_ rpm")
@@ -519,7 +518,7 @@ mod tests {
         assert!(refused.to_string().starts_with("contact.friction = 0.3: allowed is 0 with"));
         assert!(knob("operation.speed_rad_s").set(&scene, speed(-10.0)).is_ok());
         scene.operation.speed_rad_s = 0.0;
-        // One that stands in a file is not held there.
+        // A scene at rest may come from a file; its other knobs still work.
         assert!(knob("operation.pulse_n").set(&scene, speed(1e4)).is_ok());
     }
 

@@ -1,4 +1,4 @@
-//! The names of a knob: by which words it is meant, and how surely.
+//! Finds the knob that typed words name, and rates the match.
 
 use super::{KNOBS, Knob};
 use crate::tui::appearance::Appearance;
@@ -6,23 +6,23 @@ use crate::tui::raster::Marker;
 use crate::tui::theme::Theme;
 use rubscope_solver::scene::keys;
 
-/// Quality of a match between words and a knob, the best first.
+/// Quality of a match, the best first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Fit {
-    /// They are its label, also without its symbol, or its key.
+    /// The label, with or without its symbol, or the key.
     Name,
-    /// They are its symbol; one letter alone is another one in another case.
+    /// The symbol; a single letter must match in case.
     Symbol,
-    /// They are one word of its label.
+    /// One word of the label.
     Word,
-    /// Every one begins a word of its label or of its key.
+    /// Every typed word begins a word of the label or of the key.
     Begins,
 }
 
-/// The words of a key that are units.
+/// Parts of a key that are units.
 const UNITS: [&str; 9] = ["n", "m", "s", "rad", "s2", "kg", "m2", "nm", "per"];
 
-/// Returns how well these words name a knob, also without Greek letters; none if they do not.
+/// Rates how well typed words name a knob; Greek letters may be spelled out. `None`: not at all.
 pub fn fit(knob: &Knob, words: &[&str]) -> Option<Fit> {
     let typed = words.join(" ");
     let lower = typed.to_lowercase();
@@ -52,7 +52,7 @@ pub fn fit(knob: &Knob, words: &[&str]) -> Option<Fit> {
     (!words.is_empty() && words.iter().all(begins)).then_some(Fit::Begins)
 }
 
-/// Returns the knob that is named best.
+/// Returns the knob with the best match.
 pub fn best(
     mut knobs: impl Iterator<Item = &'static Knob>,
     words: &[&str],
@@ -61,7 +61,7 @@ pub fn best(
     fitting.min_by_key(|(fit, _)| *fit)
 }
 
-/// Returns the knob that a line names and nothing else: by its name, the first word of it, or its
+/// Returns the index of the knob that a line consists of: its name, the first word of it, or its
 /// symbol.
 pub fn called(typed: &str) -> Option<usize> {
     let words: Vec<&str> = typed.split_whitespace().collect();
@@ -76,7 +76,7 @@ pub fn called(typed: &str) -> Option<usize> {
         .or_else(|| place(Fit::Symbol, |knob| knob.name() != knob.label))
 }
 
-/// Returns a text in letters that every keyboard has.
+/// Spells a text in ASCII.
 pub fn plain(text: &str) -> String {
     Appearance::new(Theme::Mono, Marker::Ascii).spell(text)
 }

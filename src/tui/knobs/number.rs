@@ -1,22 +1,21 @@
-//! How a number turns, by round mantissas over decades; and the only knob that is not a key:
-//! the clearance `g0 = R_c - l_b`, set by the casing
-//! radius. With a lining it turns on below zero, where all blades rub at rest.
+//! Steps of a knob through round mantissas, and the one knob that is not a key: the clearance
+//! `g0 = R_c - l_b`, which sets the casing radius. With a lining it can become negative; then all
+//! blades rub at rest.
 
 use rubscope_solver::scene::{Allowed, ContactLaw, Scene};
 
-/// Mantissas of fine turns, two digits; coarse turns use 1, 2 and 5.
+/// Mantissas of fine steps: two digits. Coarse steps use 1, 2 and 5.
 const FINE: &[f64] = &[
     1.0, 1.1, 1.2, 1.3, 1.5, 1.6, 1.8, 2.0, 2.2, 2.4, 2.7, 3.0, 3.3, 3.6, 3.9, 4.3, 4.7, 5.0, 5.6,
     6.2, 6.8, 7.5, 8.2, 9.1,
 ];
 const COARSE: &[f64] = &[1.0, 2.0, 5.0];
 
-/// Returns the mantissas of a turn.
 pub(super) fn mantissas(coarse: bool) -> &'static [f64] {
     if coarse { COARSE } else { FINE }
 }
 
-/// Returns the next number up or down whose mantissa is in the list.
+/// Returns the next number up or down with a mantissa of the list; below `least`, zero.
 pub(super) fn decades(x: f64, up: bool, mantissas: &[f64], least: f64) -> f64 {
     if x.abs() < least * (1.0 - 1e-9) {
         return if up { least } else { 0.0 };
@@ -26,7 +25,7 @@ pub(super) fn decades(x: f64, up: bool, mantissas: &[f64], least: f64) -> f64 {
     }
     let power = x.log10().floor() as i32;
     let candidates = (power - 1..=power + 1).flat_map(|p| {
-        // Text gives the double nearest to the decimal number.
+        // Parsing gives the double that is nearest to the decimal number.
         mantissas.iter().filter_map(move |m| format!("{m}e{p}").parse::<f64>().ok())
     });
     let next = if up {
@@ -43,18 +42,18 @@ pub(super) fn decades(x: f64, up: bool, mantissas: &[f64], least: f64) -> f64 {
     }
 }
 
-/// Its name in the place of a path.
+/// Name of the clearance, used instead of a key.
 pub(super) use rubscope_solver::scene::keys::CLEARANCE;
 
-/// Allowed values; a rigid casing refuses what is not above 0.
+/// Allowed clearances; rigid contact also refuses zero and negative ones.
 pub(super) const ALLOWED: Allowed = Allowed::Real { min: -1e3, max: 1e3, above: false };
 
-/// The least clearance of a turn \[m\],
+/// Smallest clearance that steps reach \[m\].
 pub(super) const LEAST: f64 = 1e-9;
-/// and of a turn on a lining, from which one more goes on to the other side of zero.
+/// The same on a lining; one more step down changes the sign.
 const LEAST_ON_LINING: f64 = 1e-6;
 
-/// Returns the value after one turn. There is no clearance of zero.
+/// Returns the clearance one step up or down. Steps skip zero.
 pub(super) fn turned(x: f64, up: bool, coarse: bool, scene: &Scene) -> f64 {
     let lining = scene.solver.contact == ContactLaw::Smooth;
     let least = if lining { LEAST_ON_LINING } else { LEAST };
@@ -76,7 +75,7 @@ mod tests {
         knob_of(super::CLEARANCE).unwrap()
     }
 
-    /// Turns it so many times, in large steps; the values as they are shown.
+    /// Turns the knob `count` coarse steps; returns the scene and the values shown.
     fn turns(scene: &Scene, up: bool, count: usize) -> (Scene, Vec<String>) {
         let (mut scene, mut seen) = (scene.clone(), Vec::new());
         for _ in 0..count {
@@ -98,7 +97,7 @@ mod tests {
         assert_eq!(seen.last().unwrap(), "100 µm");
         assert_eq!(seen[3..5], ["-1 µm", "1 µm"]);
         assert!((open.clearance() - scene.clearance()).abs() < 1e-15);
-        // In small steps, too.
+        // Fine steps also cross zero.
         scene.casing.radius_m = scene.bladed_disk.blade_length_m - 1e-6;
         let up = clearance().turned(&clearance().get(&scene), true, false, &scene);
         assert_eq!(up, Value::Real(1e-6));
@@ -114,7 +113,7 @@ mod tests {
         }
         let down = clearance().turned(&Value::Real(1e-9), false, true, &scene);
         assert_eq!(down, Value::Real(0.0));
-        // And a pressed lining cannot become rigid.
+        // A preloaded lining cannot become rigid contact.
         let mut pressed = scene;
         pressed.solver.contact = rubscope_solver::scene::ContactLaw::Smooth;
         pressed.casing.radius_m = pressed.bladed_disk.blade_length_m - 2e-5;

@@ -1,33 +1,32 @@
 //! The bar of a knob as numbers: its usual range, which is a column of the table, the limits
-//! marked on it, among them the pulse from which on a blade touches, and the value at a place of
-//! the bar.
+//! marked on it (of the speed, and the pulse from which on a blade touches), and the value at a
+//! place of the bar.
 
 use crate::report::number::rounded;
 use crate::tui::knobs::{Knob, Turn};
 use rubscope_solver::model::Machine;
 use rubscope_solver::scene::{Allowed, ContactLaw, Scene, Value};
 
-/// The usual range of a knob, or of a limit, on which its bar is drawn. Values may be
-/// beyond it.
+/// The range that a bar covers, for a knob or a limit. Values may lie outside.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KnobRange {
     low: f64,
     high: f64,
-    /// Whether equal factors have equal widths.
+    /// Whether the scale is logarithmic.
     log: bool,
-    /// Minus one where the bar shows magnitudes of negative values.
+    /// -1 if the bar shows the magnitudes of negative values, otherwise 1.
     sign: f64,
-    /// Limits on it: their names and places, 0 to 1.
+    /// Limits marked on the bar: name and position, 0 to 1.
     pub marks: Vec<(&'static str, f64)>,
 }
 
 impl KnobRange {
-    /// Creates a range on which equal differences have equal widths.
+    /// Creates a linear range.
     pub fn linear(low: f64, high: f64) -> Self {
         Self { low, high, log: false, sign: 1.0, marks: Vec::new() }
     }
 
-    /// Creates a range on which equal factors have equal widths.
+    /// Creates a logarithmic range.
     pub fn log(low: f64, high: f64) -> Self {
         Self { log: true, ..Self::linear(low, high) }
     }
@@ -45,20 +44,20 @@ impl KnobRange {
         self
     }
 
-    /// Returns both ends, the lower value first, without this part at each of them, and whether
-    /// equal factors have equal widths.
+    /// Returns the two ends, the lower first, with the fraction `without` cut off at each end, and
+    /// whether the scale is logarithmic.
     pub fn ends(&self, without: f64) -> (f64, f64, bool) {
         let (low, high) = (self.at(without), self.at(1.0 - without));
         (low.min(high), high.max(low), self.log && self.sign > 0.0)
     }
 
-    /// Returns whether there are places on it.
+    /// Returns whether positions on the range are defined.
     pub fn is_sound(&self) -> bool {
         let ends = self.low.is_finite() && self.high.is_finite() && self.high > self.low;
         ends && (!self.log || self.low > 0.0)
     }
 
-    /// Returns the place of a value on the bar, 0 to 1.
+    /// Returns the position of a value on the bar, limited to 0 to 1.
     pub fn part(&self, value: f64) -> f64 {
         let value = value * self.sign;
         let part = match self.log {
@@ -69,13 +68,13 @@ impl KnobRange {
         if part.is_finite() { part.clamp(0.0, 1.0) } else { 0.0 }
     }
 
-    /// Returns where a value stands; nowhere for 0 on a scale of factors.
+    /// Returns the position of a value; `None` for 0 on a logarithmic scale.
     pub fn place(&self, value: f64) -> Option<f64> {
         (!self.log || value != 0.0).then(|| self.part(value))
     }
 
-    /// Returns where a value stands beside the nearest limit, if one is near: `just above Ω_lock`.
-    pub fn beside(&self, value: f64) -> Option<String> {
+    /// Describes a value that is near a marked limit: `just above Ω_lock`.
+    pub fn near_mark(&self, value: f64) -> Option<String> {
         let here = self.place(value)?;
         let near = self.marks.iter().map(|(name, at)| (name, here - at));
         let (name, apart) = near.min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
@@ -88,7 +87,7 @@ impl KnobRange {
         Some(format!("{side} {name}"))
     }
 
-    /// Returns the value at a place of the bar.
+    /// Returns the value at a position of the bar, 0 to 1.
     pub fn at(&self, part: f64) -> f64 {
         let part = part.clamp(0.0, 1.0);
         self.sign
@@ -99,28 +98,28 @@ impl KnobRange {
     }
 }
 
-/// How near to a limit a value stands beside it, as a part of the bar.
+/// Largest distance at which a value counts as near a limit, as a fraction of the bar.
 const NEAR: f64 = 0.1;
-/// Factor below and above the value of the opened scene.
+/// Ratio of the upper end to the usual value, and of that to the lower end.
 const AROUND: f64 = 10.0;
 
-/// The range of the bar of a knob.
+/// How the range of a knob's bar is chosen.
 #[derive(Clone, Copy, Debug)]
 pub enum Bar {
-    /// A decade below and above the value of the opened scene, by factors.
+    /// Logarithmic, a decade on each side of the value in the opened scene.
     Around,
-    /// Range from one value to another.
+    /// Linear, between two values.
     From(f64, f64),
-    /// Range that follows from the scene.
+    /// Computed from the scene.
     Of(fn(&Case) -> KnobRange),
 }
 
-/// Data from which the range of a bar follows.
+/// Data from which the range of a bar is computed.
 #[derive(Debug)]
 pub struct Case<'a> {
     knob: &'a Knob,
     value: f64,
-    /// The value in the scene as it was opened.
+    /// Value in the scene as it was opened.
     opened: f64,
     scene: &'a Scene,
     machine: &'a Machine,
@@ -139,7 +138,7 @@ impl Case<'_> {
         self.scene.solver.contact == ContactLaw::Smooth
     }
 
-    /// Returns the magnitude in the opened scene, or what is usual where it is 0 there.
+    /// Returns the magnitude in the opened scene, or the knob's usual one if that is 0.
     fn usual(&self) -> f64 {
         if self.opened == 0.0 { self.knob.usual } else { self.opened.abs() }
     }
@@ -153,7 +152,7 @@ impl Case<'_> {
     }
 }
 
-/// The ranges that follow from the scene.
+/// The ranges that are computed from the scene.
 pub mod bars {
     use super::{AROUND, Case, KnobRange};
     use rubscope_solver::harmonic::lock_window;
@@ -161,12 +160,12 @@ pub mod bars {
     use rubscope_solver::study::margins::grazing_pulse;
     use std::f64::consts::TAU;
 
-    /// The part of an interference on a bar, of the clearance on it: a clearance of zero is
-    /// between the cells of a map.
+    /// The largest interference on the bar, relative to the largest clearance. It is not 1, so that
+    /// zero lies between two cells of a map.
     const PRESSED: f64 = 0.9;
-    /// Periods of the casing in which the first touch is looked for.
+    /// The first touch is searched for within this many periods of the casing.
     const PERIODS: f64 = 20.0;
-    /// End of the bar of the speed over the greatest threshold.
+    /// Upper end of the speed bar, as a multiple of the highest threshold.
     const BEYOND: f64 = 1.5;
 
     pub fn speed(case: &Case) -> KnobRange {
@@ -193,7 +192,7 @@ pub mod bars {
 
     pub fn pulse(case: &Case) -> KnobRange {
         let mut scene = case.scene.clone();
-        // Later a blade can only pass a little nearer.
+        // Later passes of a blade come only slightly closer.
         scene.solver.end_s = scene.solver.end_s.min(PERIODS * TAU / case.machine.omega_c);
         let touch = grazing_pulse(&scene, f64::MAX.copysign(case.value));
         let middle = touch.map_or_else(|| case.usual(), f64::abs);
@@ -206,9 +205,7 @@ pub mod bars {
     }
 
     pub fn disk_diameters(case: &Case) -> KnobRange {
-        let own = Some(case.machine.nodal_diameters).filter(|own| *own > 0.0);
         KnobRange::linear(0.0, (case.blades() / 2.0).floor().max(2.0))
-            .marked(&[("that of the casing", own)])
     }
 
     pub fn order(case: &Case) -> KnobRange {
@@ -230,7 +227,7 @@ pub mod bars {
     pub fn clearance(case: &Case) -> KnobRange {
         let most = 0.5 * AROUND * case.usual();
         match case.has_lining() {
-            true => KnobRange::linear(-PRESSED * most, most).marked(&[("zero", Some(0.0))]),
+            true => KnobRange::linear(-PRESSED * most, most),
             false => case.around(),
         }
     }
@@ -252,30 +249,17 @@ pub mod bars {
         let most = 2.0 * case.clearance() * case.machine.omega_c;
         KnobRange::linear(-most, most)
     }
-
-    pub fn slope(case: &Case) -> KnobRange {
-        // Between -mu and 0 friction turns leading blades outward.
-        let from = Some(-case.scene.contact.friction).filter(|from| *from < 0.0);
-        let names = [("where blades turn outward", from), ("zero", Some(0.0))];
-        KnobRange::linear(-1.0, 1.0).marked(&names)
-    }
-
-    pub fn tangential(case: &Case) -> KnobRange {
-        // A ring that does not stretch.
-        KnobRange::linear(0.0, 1.0)
-            .marked(&[("a ring: 1/n_d", Some(1.0 / case.machine.nodal_diameters))])
-    }
 }
 
 impl Knob {
-    /// Returns the usual range of this knob, and the limits on it; none for words. It depends on
-    /// the machine and on the scene as it was opened, not on the value: a bar whose scale moves
-    /// cannot be read.
+    /// Returns the range of the knob's bar with its marks; `None` for words. It depends on the
+    /// opened scene and the machine, not on the present value, so that the scale stays put while
+    /// the knob turns.
     pub fn range(&self, scene: &Scene, opened: &Scene, machine: &Machine) -> Option<KnobRange> {
         self.range_around(self.number(opened)?, scene, machine)
     }
 
-    /// Same as [`Self::range`], for this value in the opened scene.
+    /// As [`Self::range`], with another value in place of the opened scene's.
     pub fn range_around(&self, opened: f64, scene: &Scene, machine: &Machine) -> Option<KnobRange> {
         let case = Case { knob: self, value: self.number(scene)?, opened, scene, machine };
         let range = match self.bar {
@@ -286,7 +270,7 @@ impl Knob {
         Some(range).filter(KnobRange::is_sound)
     }
 
-    /// Returns the value as a number; none for words.
+    /// Returns the value as a number; `None` for words.
     pub fn number(&self, scene: &Scene) -> Option<f64> {
         match self.get(scene) {
             Value::Real(x) => Some(x),
@@ -295,14 +279,13 @@ impl Knob {
         }
     }
 
-    /// Returns the value that the knob would be turned to next to a number, for a bar that is
-    /// dragged.
+    /// Returns the value that the knob would be turned to next to a number, for a click in its bar.
     pub fn near(&self, x: f64) -> Option<Value> {
         match (self.turn, self.allowed()) {
             (Turn::Linear(fine, _), _) => Some(Value::Real(self.stepped(x, fine, None))),
             (Turn::Decades(_), _) => Some(Value::Real(self.bounded(rounded(x, 2)))),
             (Turn::Whole(..), Allowed::Whole { min, max }) => {
-                // A negative or huge number is at a bound.
+                // The cast saturates, so negative and huge numbers end at a bound.
                 Some(Value::Whole((x.round() as u64).clamp(min, max)))
             }
             _ => None,
@@ -352,7 +335,7 @@ mod tests {
         let back = range("operation.speed_rad_s", &scene).unwrap();
         assert_eq!(back.marks, forward.marks);
         for (range, sign) in [(&forward, 1.0), (&back, -1.0)] {
-            let beside = |speed: f64| range.beside(sign * speed);
+            let beside = |speed: f64| range.near_mark(sign * speed);
             assert_eq!(beside(430.0).as_deref(), Some("just above Ω_lock"));
             assert_eq!(beside(405.0).as_deref(), Some("just below Ω_lock"));
             assert_eq!((beside(100.0), beside(500.0)), (None, None));
@@ -370,7 +353,7 @@ mod tests {
     }
 
     #[test]
-    fn a_dragged_bar_gives_round_values() {
+    fn a_click_in_a_bar_gives_a_round_value() {
         let of = |path: &str, x| knob_of(path).unwrap().near(x);
         assert_eq!(of("operation.speed_rad_s", 431.7), Some(Value::Real(430.0)));
         assert_eq!(of("casing.damping_ratio", 0.0512), Some(Value::Real(0.05)));

@@ -1,5 +1,5 @@
-//! The table of knobs, in the order of the panel, group after group: what each is, how it
-//! turns, the range of its bar, and where it changes nothing.
+//! The table of knobs in the order of the panel, group after group: label, key, steps, description,
+//! range of the bar, and when the knob has no effect.
 
 use super::inert::{self, Inert};
 use super::number::{CLEARANCE, LEAST};
@@ -34,8 +34,7 @@ impl Knob {
     }
 }
 
-/// Every knob, in the order of the panel. The first five, which a newcomer turns,
-/// come first.
+/// Every knob, in the order of the panel. The five that a new user needs come first.
 pub const KNOBS: &[Knob] = &[
     knob(
         Operation,
@@ -209,7 +208,7 @@ pub const KNOBS: &[Knob] = &[
         Linear(0.05, 0.1),
         "radial coupling: a blade tip moves outward by κ l_b α; 0 in the paper",
     )
-    .bar(Of(bars::slope))
+    .bar(From(-1.0, 1.0))
     .unless(inert::rigid),
     knob(
         Beyond,
@@ -227,7 +226,7 @@ pub const KNOBS: &[Knob] = &[
         Linear(0.05, 0.1),
         "tangential over radial motion of the casing: 1/n_d for a ring",
     )
-    .bar(Of(bars::tangential))
+    .bar(From(0.0, 1.0))
     .unless(inert::tangential),
     knob(
         Beyond,

@@ -1,7 +1,7 @@
-//! The two lines at the top. The first has the verdict as a sentence and how the run came to it; it
-//! is red only if the result itself is suspect. The second has the current time, the speed relative
-//! to its limits, and the end of the run. If a part does not fit, a shorter form is used or the
-//! part is omitted; text is never cut.
+//! The two lines at the top. The first: what the motion is, in one sentence, and how it came
+//! there; red only where the state itself is wrong. The second: where the motion is now, how
+//! fast it turns beside its limits, and the end of the run. What has no room is said in a
+//! short form or left out; nothing is cut.
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier, style::Style};
 
@@ -65,8 +65,8 @@ pub fn headline(app: &App, width: usize) -> (Sentence, Style) {
     let look = &app.appearance;
     // The verdict would answer the open question of a lesson.
     if app.is_asked() {
-        let forms = ["Your answer first.".to_string()];
-        return (Sentence::of("?", &forms, &[], width), look.style(Role::Quiet));
+        let forms = ["Your answer first.", ""].map(String::from);
+        return (Sentence::of("?", forms, width), look.style(Role::Quiet));
     }
     let sentence = app.sentence(width);
     let style = match app.verdict() {
@@ -102,21 +102,26 @@ fn title(app: &App, buffer: &mut Buffer, area: Rect, used: u16) {
     }
 }
 
-/// A part of the second line, as forms from long to short, each with a rank. While the line is too
-/// long, the form with the highest rank is replaced by the next shorter form of its part.
-type Part = Vec<(u8, Parts)>;
-
-/// Creates a part with a single form in one style.
-fn plain(rank: u8, text: String, style: Style) -> Part {
-    vec![(rank, vec![(text, style)])]
+/// A part of the second line. While the line is too long, the last part of the highest rank is
+/// left out.
+struct Part {
+    rank: u8,
+    /// What stands between it and the part before.
+    gap: &'static str,
+    pieces: Parts,
 }
 
-/// Gap between two parts.
+/// Between two parts that are apart.
 const GAP: &str = "   ";
+
+/// Creates a part that stands apart, of one style.
+fn plain(rank: u8, text: String, style: Style) -> Part {
+    Part { rank, gap: GAP, pieces: vec![(text, style)] }
+}
 
 fn second(app: &App, buffer: &mut Buffer, area: Rect) {
     let look = &app.appearance;
-    let mut parts = vec![now(app), speed(app), end(app)];
+    let mut parts: Vec<Part> = [now(app), speed(app), end(app)].into_iter().flatten().collect();
     if !app.is_asked() {
         parts.extend(baseline(app));
         parts.extend(unsure(app));
@@ -125,28 +130,28 @@ fn second(app: &App, buffer: &mut Buffer, area: Rect) {
     parts.extend(next(app));
     parts.extend(limits(app));
     parts.extend(cost(app));
-    let width = usize::from(area.width) + GAP.len();
-    let width_of = |(_, parts): &(u8, Parts)| {
-        parts.iter().map(|(text, _)| columns(&look.spell(text))).sum::<usize>() + GAP.len()
+    let width_of = |part: &Part| {
+        let pieces = part.pieces.iter().map(|(text, _)| columns(&look.spell(text)));
+        part.gap.len() + pieces.sum::<usize>()
     };
-    while parts.iter().filter_map(|part| part.first()).map(width_of).sum::<usize>() > width {
-        let left = parts.iter_mut().filter(|part| !part.is_empty());
-        let longest = left.max_by_key(|part| part.first().map(|(rank, _)| *rank));
-        let Some(longest) = longest else { break };
-        longest.remove(0);
+    let width = usize::from(area.width) + GAP.len();
+    while parts.iter().map(width_of).sum::<usize>() > width {
+        let last = parts.iter().enumerate().max_by_key(|(_, part)| part.rank);
+        let Some((last, _)) = last else { break };
+        parts.remove(last);
     }
     let mut line = Parts::new();
-    for (_, part) in parts.into_iter().filter_map(|part| part.into_iter().next()) {
+    for part in parts {
         if !line.is_empty() {
-            line.push((GAP.into(), look.style(Role::Quiet)));
+            line.push((part.gap.into(), look.style(Role::Quiet)));
         }
-        line.extend(part.into_iter().map(|(text, style)| (look.spell(&text), style)));
+        line.extend(part.pieces.into_iter().map(|(text, style)| (look.spell(&text), style)));
     }
     pieces(buffer, area, 1, &line);
 }
 
-/// Returns time, contact and rate: `NOW 12.0 ms held on 12 + 19 ► 200x slower`.
-fn now(app: &App) -> Part {
+/// Returns the present state: `NOW 12.0 ms held on 12 + 19 ► 200x slower`.
+fn now(app: &App) -> Vec<Part> {
     let look = &app.appearance;
     let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
     let state = app.state_now();
@@ -162,27 +167,20 @@ fn now(app: &App) -> Part {
         Limit::Solver => " (solver's limit)",
         Limit::Wave => " (slowed: the wave)",
     };
-    let time = || vec![("NOW ".into(), quiet), (readable(app.now(), "s"), text)];
-    let held = |word: String| [(" ".into(), text), (word, look.style(role))];
-    let one = state.split(' ').next().unwrap_or_default().to_string();
-    let rate = |limit: &str| {
-        [
-            (format!(" {go}"), look.style(Role::Focus)),
-            (format!(" {}{limit}", app.rate_text()), quiet),
-        ]
-    };
-    let joined = |parts: &[&[(String, Style)]]| parts.concat();
+    let time = vec![("NOW ".into(), quiet), (readable(app.now(), "s"), text)];
+    let rate = vec![
+        (go.to_string(), look.style(Role::Focus)),
+        (format!(" {}{limit}", app.rate_text()), quiet),
+    ];
     vec![
-        (9, joined(&[&time(), &held(state.clone()), &rate(limit)])),
-        (6, joined(&[&time(), &held(state.clone()), &rate("")])),
-        (4, joined(&[&time(), &held(state)])),
-        (2, joined(&[&time(), &held(one)])),
-        (0, time()),
+        Part { rank: 0, gap: GAP, pieces: time },
+        Part { rank: 2, gap: " ", pieces: vec![(state, look.style(role))] },
+        Part { rank: 6, gap: " ", pieces: rate },
     ]
 }
 
-/// Returns the speed as multiples of its limits: `500 rad/s = 1.71 Ω_c = 1.21 Ω_lock`.
-fn speed(app: &App) -> Part {
+/// Returns the speed in parts of its limits: `500 rad/s = 1.71 Ω_c = 1.21 Ω_lock`.
+fn speed(app: &App) -> Vec<Part> {
     let look = &app.appearance;
     let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
     let arrow = match app.scene.operation.speed_ramp_rad_s2 {
@@ -195,26 +193,20 @@ fn speed(app: &App) -> Part {
         "" => digits(rounded(per_speed(app.speed()), 4)),
         _ => format!("{:.1}", per_speed(app.speed())),
     };
-    let alone = vec![(format!("{shown} {}{arrow}", speed_unit()), text)];
-    let mut most = vec![alone.clone()];
-    for (name, limit) in named_limits(app) {
-        let mut longer = most.last().cloned().unwrap_or_default();
-        match limit {
-            Some(limit) if limit > 0.0 => longer.extend([
-                (" = ".into(), quiet),
-                (format!("{:.2}", app.speed().abs() / limit), text),
-                (format!(" {name}"), quiet),
-            ]),
+    let mut parts = vec![plain(1, format!("{shown} {}{arrow}", speed_unit()), text)];
+    for (place, (name, limit)) in named_limits(app).into_iter().enumerate() {
+        let rank = if place == 0 { 3 } else { 4 };
+        let (gap, pieces) = match limit {
+            Some(limit) if limit > 0.0 => {
+                let ratio = format!("{:.2}", app.speed().abs() / limit);
+                (" ", vec![("= ".into(), quiet), (ratio, text), (format!(" {name}"), quiet)])
+            }
             Some(_) => continue,
-            None => longer.push((format!(", no {name}"), quiet)),
-        }
-        most.push(longer);
+            None => ("", vec![(format!(", no {name}"), quiet)]),
+        };
+        parts.push(Part { rank, gap, pieces });
     }
-    // The ratios are dropped one by one, the last one first.
-    let ranks = [0, 3, 4, 4];
-    let mut forms: Part = ranks.into_iter().zip(most).collect();
-    forms.reverse();
-    forms
+    parts
 }
 
 /// Returns the speed limits that matter here, the most important first; `None` if a limit does not
@@ -253,31 +245,33 @@ fn limits(app: &App) -> Option<Part> {
 }
 
 /// Returns the end of the run and its verdict: `AT 100 ms locked since 38.1 µs`.
-fn end(app: &App) -> Part {
+fn end(app: &App) -> Vec<Part> {
     let look = &app.appearance;
     let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
-    let at = |rank: u8, what: String| {
+    let at = |what: String| {
         let end = (duration(app.end_s()), text);
-        (rank, vec![("AT ".into(), quiet), end, (format!(" {what}").trim_end().into(), quiet)])
+        let pieces = vec![("AT ".into(), quiet), end, (format!(" {what}"), quiet)];
+        Part { rank: 0, gap: GAP, pieces }
     };
     let Some(run) = app.full_run().filter(|_| !app.is_asked()) else {
         let proved = app
             .verdict()
             .filter(|_| !app.is_asked())
             .map_or("?".into(), |verdict| verdict.to_string());
-        return vec![at(1, proved), at(0, String::new())];
+        return vec![at(proved)];
     };
-    // A whirl or slip changes sides all the time, so its last change means nothing; and in a
-    // sensitive run no time of contact is reliable.
+    let mut parts = vec![at(run.verdict.to_string())];
+    // Of a whirl or a slip, only the latest change of sides is known; where a tiny change
+    // decides, no instant is known at all.
     let known = !app.results().sensitive.known().sensitive;
     let held = run.since.filter(|_| known && run.verdict.is_held());
-    let held = held.map(|t| format!("{} since {}", run.verdict, readable(t, "s")));
     let broken = run.broken.filter(|_| known && run.since.is_none());
-    let broken = broken
-        .map(|(hold, _)| format!("{}, locked until {}", run.verdict, readable(hold.ended, "s")));
-    let longer = held.or(broken).map(|longer| at(5, longer));
-    let shorter = [at(1, run.verdict.to_string()), at(0, String::new())];
-    longer.into_iter().chain(shorter).collect()
+    let since = held.map(|t| (" ", format!("since {}", readable(t, "s"))));
+    let until =
+        broken.map(|(hold, _)| ("", format!(", locked until {}", readable(hold.ended, "s"))));
+    let piece = |(gap, text)| Part { rank: 5, gap, pieces: vec![(text, quiet)] };
+    parts.extend(since.or(until).map(piece));
+    parts
 }
 
 /// Returns a note if the sensitivity check was given up, or, for a doubtful verdict with skipped
@@ -288,7 +282,7 @@ fn unsure(app: &App) -> Option<Part> {
     let (rank, text) = if results.sensitive == Sensitive::GivenUp {
         (6, format!("small changes: not checked in {} s", FORECAST_LIMIT.as_secs()))
     } else if doubtful && results.pace.skipped.is_some_and(|part| part > 0.0) {
-        (3, "audit: run --plain".to_string())
+        (2, "audit: run --plain".to_string())
     } else {
         return None;
     };
@@ -376,8 +370,7 @@ mod tests {
             ("DECAY", "Proved. Computing the run, 13 %.")
         );
         assert_eq!(style, verdict_style(&app.appearance, Verdict::Decay));
-        let at_the_end = end(&app).into_iter().map(|(_, spans)| spans[2].0.clone());
-        assert_eq!(at_the_end.collect::<Vec<_>>(), [" decay", ""]);
+        assert_eq!(end(&app)[0].pieces[2].0, " decay");
         app.run.latest.results.full_run = Some(FullRunState::GivenUp(0.3));
         assert_eq!(app.verdict_word(), "DECAY");
         app.run.fire();

@@ -134,7 +134,8 @@ fn knob(app: &App, buffer: &mut Buffer, row: Rect, knob: &Knob, selected: bool) 
 fn notes(app: &App, width: usize) -> Vec<(Vec<String>, Role)> {
     let Some(knob) = app.selected() else { return Vec::new() };
     let range = knob.range(&app.scene, &app.files.opened, &app.machine);
-    let beside = range.zip(knob.number(&app.scene)).and_then(|(range, value)| range.beside(value));
+    let beside =
+        range.zip(knob.number(&app.scene)).and_then(|(range, value)| range.near_mark(value));
     let notes = [
         knob.inert(&app.scene).map(|why| (format!("no effect now: {why}"), Role::Focus)),
         Some((sentence(knob), Role::Quiet)),

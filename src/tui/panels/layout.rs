@@ -3,7 +3,6 @@
 use ratatui::layout::{Constraint, Layout, Rect};
 
 use crate::tui::app::App;
-use crate::tui::panels::presentation;
 use crate::tui::views::{LEAST_ROWS, ViewId};
 
 /// Narrowest screen that is drawn.
@@ -31,28 +30,13 @@ pub struct Places {
     pub column: bool,
     /// The views on the screen with their areas.
     pub charts: Vec<(ViewId, Rect)>,
-    /// The verdict in large letters, which only a screen for a projector has.
-    pub letters: Option<Rect>,
+    /// The current lesson.
     pub lesson: Option<Rect>,
     pub footer: Rect,
 }
 
 /// Computes the areas for a screen of this size.
 pub fn places(area: Rect, app: &App) -> Places {
-    if presentation::is_shown(app, area) {
-        let [letters, body, knobs, footer] = presentation::split(app, area);
-        let (lesson, charts) = lesson(body, app);
-        return Places {
-            header: Rect::default(),
-            body: area,
-            knobs,
-            column: false,
-            charts: vec![(app.view(), charts)],
-            letters: Some(letters),
-            lesson,
-            footer,
-        };
-    }
     let [header, body, footer] =
         Layout::vertical([Constraint::Length(2), Constraint::Min(1), Constraint::Length(1)])
             .areas(area);
@@ -65,7 +49,7 @@ pub fn places(area: Rect, app: &App) -> Places {
         below(rest, 1)
     };
     let charts = if app.is_alone() { vec![(app.view(), charts)] } else { split(charts, app) };
-    Places { header, body, knobs, column, charts, letters: None, lesson, footer }
+    Places { header, body, knobs, column, charts, lesson, footer }
 }
 
 /// Splits off the first `rows` rows of an area.
@@ -78,19 +62,9 @@ fn lesson(body: Rect, app: &App) -> (Option<Rect>, Rect) {
     if app.lessons.progress.is_none() || body.height < 9 {
         return (None, body);
     }
-    let wanted = super::lesson::rows(app, usize::from(body.width));
-    let read = app.lessons.progress.as_ref().is_some_and(|progress| progress.read);
-    let rows = match wanted <= most_rows(body.height) {
-        true => wanted,
-        // A step too long to leave room for the charts is shown page by page; once read, only its
-        // end stays above the charts.
-        false if !read => wanted.min(page_rows(body.height)),
-        false => {
-            // An open question has priority over the charts.
-            let most = if app.is_asked() { page_rows } else { most_rows };
-            super::lesson::end_rows(app, usize::from(body.width)).min(most(body.height)).max(3)
-        }
-    };
+    // An open question comes before the charts.
+    let most = if app.is_asked() { body.height - 1 } else { body.height / 2 };
+    let rows = super::lesson::rows(app, usize::from(body.width)).min(most);
     let [lesson, body] = below(body, rows);
     (Some(lesson), body)
 }
@@ -148,38 +122,7 @@ const LOWER: u16 = 45;
 /// Width of the wheel \[%\].
 const WHEEL_PART: u16 = 44;
 
-/// Returns the rows that a lesson shares with the charts: those between header and footer, which
-/// take three, or less for a projector.
-fn body_rows(app: &App) -> u16 {
-    let area = Rect::new(0, 0, app.layout.size.0, app.layout.size.1);
-    match presentation::is_shown(app, area) {
-        true => presentation::split(app, area)[1].height,
-        false => area.height.saturating_sub(3),
-    }
-}
-
-/// Returns the largest number of rows of a lesson beside the charts.
-fn most_rows(body: u16) -> u16 {
-    body / 2
-}
-
-/// Returns the rows of a page of a lesson that covers the charts.
-fn page_rows(body: u16) -> u16 {
-    body.saturating_sub(1)
-}
-
-/// Returns whether the lesson's text is too long to leave room for the charts.
-pub fn lesson_fills(app: &App) -> bool {
-    let rows = super::lesson::rows(app, usize::from(app.layout.size.0));
-    app.lessons.progress.is_some() && rows > most_rows(body_rows(app))
-}
-
-/// Returns the number of pages of the lesson's text where it covers the charts.
-pub fn lesson_pages(app: &App) -> usize {
-    super::lesson::pages(app, usize::from(app.layout.size.0), page_rows(body_rows(app)))
-}
-
-/// Returns the area between header and footer.
+/// Returns the room between header and footer on this screen.
 pub fn body(app: &App) -> Rect {
     let area = Rect::new(0, 0, app.layout.size.0, app.layout.size.1);
     places(area, app).body

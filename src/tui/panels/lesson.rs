@@ -44,10 +44,7 @@ pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
     }
 }
 
-/// Rows of the end of a step that stay visible beside a chart.
-const LEAST: usize = 3;
-
-/// A line and its role.
+/// A line and its colour.
 type Line = (String, Role);
 
 /// Returns a text with its speeds in the unit of the screen.
@@ -145,25 +142,7 @@ pub fn rows(app: &App, width: usize) -> u16 {
     u16::try_from(lines(app, width).len() + 2).unwrap_or(u16::MAX)
 }
 
-/// Returns the rows that must stay visible beside a chart, with head and rule: the open question
-/// with its answers, or the end of the step.
-pub fn end_rows(app: &App, width: usize) -> u16 {
-    let asked = app.lesson_step().filter(|_| app.is_asked());
-    let before = asked.map_or(0, |(step, _)| wrap(&told(app, &step.text), width).len());
-    let rows = if before > 0 { lines(app, width).len().saturating_sub(before) } else { LEAST };
-    u16::try_from(rows + 2).unwrap_or(u16::MAX)
-}
-
-/// Returns the number of pages of the step, for pages of `rows` rows with head and rule.
-pub fn pages(app: &App, width: usize, rows: u16) -> usize {
-    lines(app, width).len().div_ceil(text_rows(rows))
-}
-
-fn text_rows(rows: u16) -> usize {
-    usize::from(rows.saturating_sub(2)).max(1)
-}
-
-/// Returns the current step as lines of `width` columns; empty without a lesson.
+/// Returns the current step as text, in lines of so many columns; nothing without a lesson.
 pub fn lesson_text(app: &App, width: u16) -> Vec<String> {
     let (left, right) = head(app, usize::from(width));
     let head = [left, right].join("   ");
@@ -173,7 +152,6 @@ pub fn lesson_text(app: &App, width: u16) -> Vec<String> {
 }
 
 pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
-    let Some(progress) = &app.lessons.progress else { return };
     let look = &app.appearance;
     let width = usize::from(area.width);
     let (left, right) = head(app, width);
@@ -183,24 +161,13 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     let beside = Rect { x: area.x + start, width: area.width - start, ..area };
     print(buffer, beside, 0, &right, look.style(Role::Good));
     let all = lines(app, width);
-    let room = text_rows(area.height);
-    let pages = all.len().div_ceil(room);
-    let (skip, note) = if !progress.read && super::lesson_fills(app) {
-        let page = progress.page.min(pages.saturating_sub(1));
-        let on = if page + 1 < pages { "g goes on" } else { "g: to the charts" };
-        (page * room, Some(format!(" page {} of {pages}: {on} ", page + 1)))
-    } else {
-        // The end of the step (its answers or its task) must be visible.
-        (all.len().saturating_sub(room), None)
-    };
+    let room = usize::from(area.height.saturating_sub(2));
+    // The end of the step, its answers or its task, must be visible.
+    let skip = all.len().saturating_sub(room);
     for (row, (text, role)) in (1..area.height).zip(all.iter().skip(skip).take(room)) {
         print(buffer, area, row, text, look.style(*role));
     }
     let last = area.height.saturating_sub(1);
     let rule = look.either("─", "-").repeat(width);
     print(buffer, area, last, &rule, look.style(Role::Quiet));
-    if let Some(note) = note {
-        let inside = Rect { x: area.x + 1, width: area.width.saturating_sub(1), ..area };
-        print(buffer, inside, last, &note, look.style(Role::Good));
-    }
 }

@@ -8,7 +8,6 @@ mod knobs;
 mod layout;
 mod lesson;
 mod lists;
-mod presentation;
 
 use ratatui::{Frame, buffer::Buffer, layout::Rect, style::Modifier};
 
@@ -19,7 +18,7 @@ use super::theme::Role;
 use super::views::ViewArea;
 pub use header::head_text;
 pub use help::{help_bottom, help_text};
-pub use layout::{LEAST_HEIGHT, LEAST_WIDTH, body, lesson_fills, lesson_pages};
+pub use layout::{LEAST_HEIGHT, LEAST_WIDTH, body};
 pub use lesson::lesson_text;
 
 pub fn draw(frame: &mut Frame, app: &App) {
@@ -42,9 +41,7 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
         return;
     }
     let places = layout::places(area, app);
-    if places.letters.is_none() {
-        header::draw(app, buffer, places.header);
-    }
+    header::draw(app, buffer, places.header);
     if let InputMode::Help(help) = &app.dialogue.mode {
         help::draw(app, buffer, places.body, help);
     } else if let InputMode::Palette(palette) = &app.dialogue.mode {
@@ -57,10 +54,7 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
         if let Some(area) = places.lesson {
             lesson::draw(app, buffer, area);
         }
-        if let Some(area) = places.letters {
-            presentation::letters(app, buffer, area);
-            presentation::knob(app, buffer, places.knobs);
-        } else if places.column {
+        if places.column {
             knobs::panel(app, buffer, places.knobs);
         } else {
             knobs::strip(app, buffer, places.knobs);
@@ -73,9 +67,7 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
             view.panel().draw(app, buffer, at);
         }
     }
-    if places.letters.is_none() || app.status.is_some() || app.dialogue.mode != InputMode::Main {
-        footer::draw(app, buffer, places.footer);
-    }
+    footer::draw(app, buffer, places.footer);
     for cell in &mut buffer.content {
         if let Some(letter) = cell.symbol().strip_suffix(CURSOR).map(String::from) {
             cell.set_symbol(&letter).modifier.toggle(Modifier::REVERSED);

@@ -5,12 +5,11 @@ use std::sync::Arc;
 use crate::tui::app::{App, InputMode, LessonProgress, Past, Source, StepProgress};
 use crate::tui::knobs::place_of;
 use crate::tui::lessons::{self, LETTERS};
-use crate::tui::panels;
 use crate::tui::views::id::ViewId;
 use rubscope_solver::scene::Scene;
 
 impl App {
-    /// Opens the list of lessons; in a lesson, goes to the next page of text or the next step.
+    /// Opens the list of lessons, or goes to the next step.
     pub(super) fn lesson_key(&mut self) {
         let Some((lesson, progress)) = self.current_lesson() else {
             let done = &self.lessons.done;
@@ -19,13 +18,7 @@ impl App {
             return;
         };
         let (number, step) = (progress.lesson, progress.step);
-        if !progress.read && panels::lesson_fills(self) {
-            let pages = panels::lesson_pages(self);
-            if let Some(progress) = &mut self.lessons.progress {
-                progress.page += 1;
-                progress.read = progress.page >= pages;
-            }
-        } else if self.is_asked() {
+        if self.is_asked() {
             self.status = Some("first your guess: ↑ ↓ choose it, Enter answers".into());
         } else if step + 1 < lesson.steps.len() {
             self.begin_step(number, step + 1);
@@ -84,16 +77,13 @@ impl App {
             lesson: place,
             step,
             steps: vec![StepProgress::default(); lesson.steps.len()],
-            page: 0,
-            read: false,
             choice: 0,
             own: match &self.lessons.progress {
                 Some(other) => Arc::clone(&other.own),
                 None => Arc::new(past.clone()),
             },
         });
-        self.lessons.progress =
-            Some(LessonProgress { step, page: 0, read: false, choice: 0, ..begun });
+        self.lessons.progress = Some(LessonProgress { step, choice: 0, ..begun });
         let knob = lesson.steps.get(step).and_then(|found| found.knob.as_deref());
         if let Some(place) = knob.and_then(place_of) {
             self.knobs.select(place);
@@ -122,23 +112,9 @@ impl App {
             self.status = Some("no question is open".into());
             return;
         }
-        if self.lessons.progress.as_ref().is_some_and(|progress| !progress.read)
-            && panels::lesson_fills(self)
-            && self
-                .lessons
-                .progress
-                .as_ref()
-                .is_some_and(|now| now.page + 1 < panels::lesson_pages(self))
-        {
-            self.status = Some("the question is on the next page: g".into());
-            return;
-        }
         let past = self.past();
-        if let Some(progress) = &mut self.lessons.progress {
-            (progress.page, progress.read) = (0, false);
-            if let Some(now) = progress.now_mut() {
-                now.answer = Some(place.min(LETTERS.len() - 1));
-            }
+        if let Some(now) = self.lessons.progress.as_mut().and_then(LessonProgress::now_mut) {
+            now.answer = Some(place.min(LETTERS.len() - 1));
         }
         self.show_step(past);
     }

@@ -9,8 +9,6 @@ mod map;
 mod mouse;
 mod reading;
 
-pub use mouse::MouseOutcome;
-
 use rubscope_solver::scene::keys::PULSE;
 use std::path::PathBuf;
 
@@ -147,8 +145,6 @@ impl App {
             (_, Action::SpeedUnit) => self.status = Some(self.appearance.next_speeds()),
             (InputMode::Main, Action::Marker) => {
                 self.status = Some(self.appearance.next_marker());
-                // Some terminals leave fragments of octant characters behind.
-                return Effect::Redraw;
             }
             (InputMode::Main, Action::Mouse) => {
                 self.status = Some(self.mouse.toggle());
@@ -211,8 +207,6 @@ impl App {
             self.dialogue.close();
         } else if self.reading != Reading::default() || self.play.middle_s.is_some() {
             self.stop_reading();
-        } else if self.appearance.wide {
-            self.present(false);
         } else {
             self.layout.act(Action::Close);
         }
@@ -290,16 +284,9 @@ impl App {
                 self.status = pulse.map(|pulse| format!("pulse of {pulse} fired at {at}"));
             }
             Action::Autoscale => self.status = Some(self.run.autoscale()),
-            Action::Present => self.present(!self.appearance.wide),
             Action::Live => self.status = Some(self.knobs.turn_live()),
             _ => {}
         }
-    }
-
-    /// Changes to the screen for a projector, or to the usual one.
-    pub(super) fn present(&mut self, on: bool) {
-        self.appearance.wide = on;
-        self.status = on.then(|| "P or Esc: back to the usual screen".into());
     }
 }
 

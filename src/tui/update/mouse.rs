@@ -1,33 +1,21 @@
-//! Mouse events: what a click, a drag or the wheel does at a position of the screen. Keys can do
-//! the same.
+//! What a click or the wheel at a place of the screen does. A key does the same.
 
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 
 use ratatui::layout::Rect;
 
 use super::Effect;
-use crate::tui::app::{App, Cursor, Grip, InputMode, Target};
+use crate::tui::app::{App, Cursor, InputMode, Target};
 use crate::tui::bindings::Action;
 use crate::tui::knobs::KNOBS;
 use crate::tui::views::id::ViewId;
 
-/// What a mouse event did.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum MouseOutcome {
-    /// Nothing visible.
-    Nothing,
-    /// The cursor followed the pointer; the next regular frame can show it.
-    Pointed,
-    /// An action like that of a key, with its effect.
-    Acted(Effect),
-}
-
 impl App {
-    /// Handles a mouse event.
-    pub fn mouse(&mut self, event: &MouseEvent) -> MouseOutcome {
+    /// Handles a mouse event; `None` if it does nothing.
+    pub fn mouse(&mut self, event: &MouseEvent) -> Option<Effect> {
         let at = (event.column, event.row);
         if !self.mouse.on {
-            return MouseOutcome::Nothing;
+            return None;
         }
         let left = event.kind == MouseEventKind::Down(MouseButton::Left);
         let key = match self.target(at) {
@@ -35,25 +23,25 @@ impl App {
             _ => None,
         };
         let outcome = match (&self.dialogue.mode, event.kind, key) {
-            // These prompts are confirmed or closed by a key only.
-            (InputMode::Naming(..) | InputMode::Replacing(..), ..) => MouseOutcome::Nothing,
+            // A typed name is finished or left by a key.
+            (InputMode::Naming(..) | InputMode::Replacing(..), ..) => None,
             (.., Some(action)) => self.acted(action),
             (InputMode::Main | InputMode::Typing(_), kind, _) => self.mouse_main(kind, event, at),
             (_, MouseEventKind::ScrollUp, _) => self.acted(Action::KnobAbove),
             (_, MouseEventKind::ScrollDown, _) => self.acted(Action::KnobBelow),
             (_, MouseEventKind::Down(MouseButton::Right), _) => self.acted(Action::Close),
             _ if left => self.choose(at),
-            _ => MouseOutcome::Nothing,
+            _ => None,
         };
-        if matches!(outcome, MouseOutcome::Acted(_)) {
+        if outcome.is_some() {
             self.files.disturb();
             self.check_lesson();
         }
         outcome
     }
 
-    fn acted(&mut self, action: Action) -> MouseOutcome {
-        MouseOutcome::Acted(self.act(action))
+    fn acted(&mut self, action: Action) -> Option<Effect> {
+        Some(self.act(action))
     }
 
     fn mouse_main(
@@ -61,82 +49,47 @@ impl App {
         kind: MouseEventKind,
         event: &MouseEvent,
         at: (u16, u16),
-    ) -> MouseOutcome {
+    ) -> Option<Effect> {
         match kind {
             MouseEventKind::Down(MouseButton::Left) => self.click(at),
             MouseEventKind::Down(MouseButton::Right) => self.acted(Action::Close),
-            MouseEventKind::Drag(MouseButton::Left) => self.drag(at),
-            MouseEventKind::Up(_) => {
-                self.mouse.grip = None;
-                MouseOutcome::Nothing
-            }
-            MouseEventKind::Moved => self.hover(at),
             MouseEventKind::ScrollUp | MouseEventKind::ScrollDown => {
                 let coarse = KeyModifiers::SHIFT | KeyModifiers::CONTROL;
                 let up = kind == MouseEventKind::ScrollUp;
                 self.wheel(at, up, event.modifiers.intersects(coarse))
             }
-            _ => MouseOutcome::Nothing,
+            _ => None,
         }
     }
 
-    fn click(&mut self, at: (u16, u16)) -> MouseOutcome {
-        let Some((area, target)) = self.target(at) else { return MouseOutcome::Nothing };
+    fn click(&mut self, at: (u16, u16)) -> Option<Effect> {
+        let Some((area, target)) = self.target(at) else { return None };
         if matches!(&self.dialogue.mode, InputMode::Typing(_)) {
             self.act(Action::Close);
         }
         self.status = None;
-        let again = self.mouse.clicked.replace(at) == Some(at);
         match target {
-            Target::Group(knob) => self.knobs.select(knob),
-            Target::Knob(knob) => {
-                self.knobs.select(knob);
-                self.mouse.grip = Some(Grip { knob, x: at.0, turned: false });
-            }
+            Target::Group(knob) | Target::Knob(knob) => self.knobs.select(knob),
             Target::Bar(knob) => {
                 self.knobs.select(knob);
-                self.mouse.grip = Some(Grip { knob, x: at.0, turned: true });
                 self.set_part(knob, part(area, at.0));
             }
             Target::View(view) => self.show(view),
-            Target::Chart(_) if again && self.reading.cursor.is_some() => self.open_cursor(),
             Target::Chart(parts) => {
-                self.reading.on = true;
-                self.put_cursor(Cursor::at(at, area, parts));
+                let cursor = Cursor::at(at, area, parts);
+                if self.reading.on && self.reading.cursor == Some(cursor) {
+                    self.open_cursor();
+                } else {
+                    self.reading.on = true;
+                    self.put_cursor(cursor);
+                }
             }
             Target::Key(_) | Target::Lesson(_) => {}
         }
-        MouseOutcome::Acted(Effect::None)
+        Some(Effect::None)
     }
 
-    fn drag(&mut self, at: (u16, u16)) -> MouseOutcome {
-        let Some(grip) = self.mouse.grip else { return self.hover(at) };
-        if at.0 == grip.x && !grip.turned {
-            return MouseOutcome::Nothing;
-        }
-        let Some(area) = self.bar_area() else { return MouseOutcome::Nothing };
-        let known = self.knobs.remembered();
-        self.set_part(grip.knob, part(area, at.0));
-        if grip.turned {
-            self.knobs.merge(known);
-        }
-        self.mouse.grip = Some(Grip { turned: true, ..grip });
-        MouseOutcome::Acted(Effect::None)
-    }
-
-    fn hover(&mut self, at: (u16, u16)) -> MouseOutcome {
-        if self.mouse.clicked.is_some_and(|clicked| clicked != at) {
-            self.mouse.clicked = None;
-        }
-        let target = self.target(at).filter(|_| self.reading.on);
-        let Some((area, Target::Chart(parts))) = target else { return MouseOutcome::Nothing };
-        let cursor = Cursor::at(at, area, parts);
-        let moved = self.reading.cursor != Some(cursor);
-        self.put_cursor(cursor);
-        if moved { MouseOutcome::Pointed } else { MouseOutcome::Nothing }
-    }
-
-    fn wheel(&mut self, at: (u16, u16), up: bool, coarse: bool) -> MouseOutcome {
+    fn wheel(&mut self, at: (u16, u16), up: bool, coarse: bool) -> Option<Effect> {
         let target = self.target(at).map(|(_, target)| target);
         // Turning a knob can add or remove the row of its bar, which shifts the rows below under a
         // resting pointer: keep turning the same knob.
@@ -155,14 +108,14 @@ impl App {
             Some(Target::Chart(_)) if self.is_large(ViewId::Response) => {
                 self.acted(if up { Action::ZoomIn } else { Action::ZoomOut })
             }
-            _ => MouseOutcome::Nothing,
+            _ => None,
         }
     }
 
-    /// Opens the entry of the list that was clicked.
-    fn choose(&mut self, at: (u16, u16)) -> MouseOutcome {
+    /// Chooses an entry of the list that is open.
+    fn choose(&mut self, at: (u16, u16)) -> Option<Effect> {
         let Some((_, Target::Lesson(place))) = self.target(at) else {
-            return MouseOutcome::Nothing;
+            return None;
         };
         self.dialogue.open(InputMode::Lessons(place));
         self.acted(Action::Accept)
@@ -218,14 +171,14 @@ mod tests {
         let mut app = on_screen();
         app.note(Rect::new(0, 39, 4, 1), Target::Key(Action::Help));
         app.note(Rect::new(6, 39, 4, 1), Target::Key(Action::Quit));
-        assert_eq!(app.mouse(&event(LEFT, (3, 39))), MouseOutcome::Acted(Effect::None));
+        assert_eq!(app.mouse(&event(LEFT, (3, 39))), Some(Effect::None));
         assert!(matches!(app.dialogue.mode, InputMode::Help(_)));
-        assert_eq!(app.mouse(&event(LEFT, (5, 39))), MouseOutcome::Nothing);
-        assert_eq!(app.mouse(&event(LEFT, (9, 39))), MouseOutcome::Acted(Effect::Quit));
-        assert_eq!(app.mouse(&event(MouseEventKind::Moved, (9, 39))), MouseOutcome::Nothing);
-        // A name being typed is confirmed by a key only.
+        assert_eq!(app.mouse(&event(LEFT, (5, 39))), None);
+        assert_eq!(app.mouse(&event(LEFT, (9, 39))), Some(Effect::Quit));
+        assert_eq!(app.mouse(&event(MouseEventKind::Moved, (9, 39))), None);
+        // A name that is typed is finished by a key.
         app.dialogue.mode = InputMode::Naming(super::super::Purpose::Save, "a".into());
-        assert_eq!(app.mouse(&event(LEFT, (9, 39))), MouseOutcome::Nothing);
+        assert_eq!(app.mouse(&event(LEFT, (9, 39))), None);
     }
 
     #[test]
@@ -233,7 +186,7 @@ mod tests {
         let mut app = on_screen();
         app.note(Rect::new(0, 39, 4, 1), Target::Key(Action::Help));
         assert!(app.mouse.toggle().contains("off") && !app.mouse.on);
-        assert_eq!(app.mouse(&event(LEFT, (0, 39))), MouseOutcome::Nothing);
+        assert_eq!(app.mouse(&event(LEFT, (0, 39))), None);
         assert!(app.mouse.toggle().contains("on") && app.dialogue.is_closed());
     }
 }

@@ -35,7 +35,7 @@ impl ViewPanel for PrecisionView {
             return not_yet(app, buffer, inside);
         };
         let words = inside;
-        let (note, role) = if report.reference.sensitive == Some(true) {
+        let (note, role) = if report.reference.sensitive {
             let text = "sensitive scene: end states mean nothing, compare verdicts";
             (text.to_string(), Role::Trouble)
         } else {

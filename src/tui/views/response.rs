@@ -37,7 +37,6 @@ impl ViewPanel for ResponseView {
             both_laws(app, buffer, at);
         } else if let (above, Some(below)) = at.pair(40)
             && app.layout.full_screen
-            && !app.appearance.wide
             && bends(app)
         {
             page(app, buffer, above, &casing);

@@ -1,13 +1,13 @@
-//! Waves of constant amplitude on a lining: where the growth of rest ends as blades
-//! lift off, and the whirl over a clearance; and the small motions about any steady wave on a
-//! lining (docs/theory.md, section 10).
+//! Limit cycles on a lining: waves of constant amplitude, at which the growth of rest ends because
+//! blades lift off, or which exist over a clearance; and the small motions about any steady wave
+//! (docs/theory.md, section 10).
 //!
-//! `S(r) = -1/Re B(omega)`, `Im B(omega) = 0`: the blades together must be as stiff as
-//! the joint requires. The frequency is that in the limit of many blades, so the wave is
-//! steady in a frame that turns with it, and its stability needs only eigenvalues there: of
-//! eight real states, casing and blade wave with their rates. With `z -> z e^{ist}` every
-//! time derivative becomes `d/dt + i omega` for the casing and `d/dt + i s` for the blades;
-//! a steady state in the frame of the blades has `omega = nu`, `s = 0`.
+//! The conditions are `S(r) = -1/Re B(omega)` and `Im B(omega) = 0`: the stiffness of all blades
+//! must match the joint compliance. The frequency is that in the limit of many blades, so the wave
+//! is steady in a frame that rotates with it, where stability is an eigenvalue problem with eight
+//! real states: casing and blade wave with their rates. With `z -> z e^{ist}` every time derivative
+//! becomes `d/dt + i omega` for the casing and `d/dt + i s` for the blades; a steady state in the
+//! blade frame has `omega = nu`, `s = 0`.
 
 use nalgebra::{Complex, DMatrix};
 use serde::Serialize;
@@ -22,22 +22,22 @@ use crate::numeric::eigen::eigenvalues;
 pub struct Cycle {
     /// Rotor speed \[rad/s\].
     pub speed_rad_s: f64,
-    /// Its frequency in the standing frame \[rad/s\].
+    /// Frequency in the stationary frame \[rad/s\].
     pub omega_rad_s: f64,
-    /// Its frequency in the frame of the blades, `omega - nu` \[rad/s\].
+    /// Frequency in the blade frame, `omega - nu` \[rad/s\].
     pub s_rad_s: f64,
-    /// Stiffness of all blades together, `S = |p|/|w|` \[N/m\].
+    /// Stiffness of all blades against the wave, `S = |p|/|w|` \[N/m\].
     pub stiffness_n_per_m: f64,
-    /// Amplitude `r = |w|` of the wave in the gaps \[m\].
+    /// Amplitude `r = |w|` of the relative displacement, that is of the gaps \[m\].
     pub gap_amplitude_m: f64,
     /// Amplitude `|z|` of the casing \[m\].
     pub casing_m: f64,
     /// Amplitude `|a|` of the blades \[rad\].
     pub blade_rad: f64,
-    /// Growth of the least stable motion about it, beside a mere shift of it in time
+    /// Growth rate of the least stable small motion about the wave, other than a shift in time
     /// \[1/s\].
     pub growth_1_s: f64,
-    /// Whether every such motion decays.
+    /// Whether all those motions decay.
     pub stable: bool,
 }
 
@@ -45,7 +45,7 @@ impl Lining<'_> {
     /// Returns every wave of constant amplitude at a speed \[rad/s\], by increasing amplitude.
     ///
     /// # Errors
-    /// Stiffnesses that differ by too many powers of ten.
+    /// The stiffnesses differ by too many powers of ten.
     pub fn cycles(&self, speed: f64) -> Result<Vec<Cycle>, HarmonicError> {
         let lining = self.at(speed);
         let joint = Joint::at(&self.machine, speed);
@@ -67,12 +67,12 @@ impl Lining<'_> {
         r: f64,
     ) -> Result<Cycle, HarmonicError> {
         let stiffness = wave.stiffness_n_per_m;
-        // Along the wave the stiffness changes with the amplitude, across it does not.
+        // A radial change of the amplitude changes the secant stiffness, a tangential one does not.
         let tangent = [[stiffness + self.stiffness_change(r), 0.0], [0.0, stiffness]];
         let turns = [wave.omega_rad_s, wave.s_rad_s];
         let mut values =
             small_motions(joint, turns, tangent).ok_or(HarmonicError::Unsettled { speed })?;
-        // The wave shifted in time is the same wave: one eigenvalue is zero.
+        // A wave shifted in time is the same wave, so one eigenvalue is zero.
         values.sort_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()));
         let growth = values.iter().skip(1).map(|value| value.re).fold(f64::MIN, f64::max);
         Ok(Cycle {
@@ -88,8 +88,8 @@ impl Lining<'_> {
         })
     }
 
-    /// Returns whether waves of any amplitude stay bounded: far out, where every blade lifts off
-    /// for half of each turn, they decay.
+    /// Returns whether waves of any amplitude stay bounded: very large ones, at which every blade
+    /// lifts off for half of each revolution, must decay.
     #[must_use]
     pub fn is_bounded(&self, speed: f64) -> bool {
         let joint = Joint::at(&self.machine, speed);
@@ -97,12 +97,12 @@ impl Lining<'_> {
     }
 }
 
-/// A real matrix of two rows that acts on `(Re w, Im w)`.
+/// Real 2x2 matrix that acts on `(Re w, Im w)`.
 pub(super) type Tangent = [[f64; 2]; 2];
 
-/// Returns the growth rates `Re` and frequencies `Im` of the motions about a wave of casing
-/// frequency `omega` and blade frequency `s` \[rad/s\], whose pushes change by
-/// `dp = -tangent dw` \[N/m\]; `None` where the eigenvalues overflow.
+/// Returns the eigenvalues, growth rate and frequency, of the motions about a wave with the casing
+/// frequency `omega` and the blade frequency `s` \[rad/s\], whose contact force changes by
+/// `dp = -tangent dw` \[N/m\]; `None` if the eigenvalues overflow.
 pub(super) fn small_motions(
     joint: &Joint,
     [omega, s]: [f64; 2],
@@ -111,7 +111,7 @@ pub(super) fn small_motions(
     let m = &*joint.machine;
     let friction = joint.casing_friction;
     let (kappa, length) = (m.radial_coupling, m.blade_length);
-    // Lengths of the blades' tips, times in units of the fastest frequency.
+    // Blade coordinates are lengths at the tip; time is in units of the fastest frequency.
     let rate = omega.abs().max(s.abs()).max(m.omega_c).max(m.omega_bd);
     let lead = kappa + joint.machine.friction_at(joint.nu);
     let blade_mass = m.blade_modal_mass / (length * length);
@@ -129,13 +129,13 @@ pub(super) fn small_motions(
             matrix[(to + k, at + k)] -= spring;
             matrix[(to + k, to + k)] -= drag;
         }
-        // -(2 i turn) times the rate, -(i turn drag) times the place.
+        // Terms -(2 i turn) times the rate and -(i turn drag) times the displacement.
         for (row, column, sign) in [(0, 1, 1.0), (1, 0, -1.0)] {
             matrix[(to + row, to + column)] += sign * 2.0 * turn;
             matrix[(to + row, at + column)] += sign * turn * drag;
         }
     }
-    // dp = -T (dz - kappa da), with da in lengths of the tip.
+    // Contact force dp = -T (dz - kappa da), with da as a length at the tip.
     let square = rate * rate;
     for column in 0..2 {
         for (from, gain) in [(0, 1.0), (4, -kappa)] {

@@ -1,31 +1,31 @@
-//! All blades rub a casing that is out of round (docs/theory.md, section 11): lobes of `m`
-//! drive one wave where `m = +-n_d` modulo `N`, `p = -S0 e/(1 + S0 B(s))`, and none otherwise.
+//! All blades rub on an out-of-round casing (docs/theory.md, section 11): `m` lobes drive one wave
+//! if `m = +-n_d` modulo `N`, with the force `p = -S0 e/(1 + S0 B(s))`, and none otherwise.
 
 use serde::Serialize;
 
 use super::Lining;
 use crate::harmonic::Joint;
 
-/// The wave that the lobes of a casing drive at one rotor speed.
+/// Wave that the lobes of the casing drive at one rotor speed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Forced {
     /// Rotor speed \[rad/s\].
     pub speed_rad_s: f64,
-    /// Its frequency in the frame of the blades and in the standing frame \[rad/s\].
+    /// Frequency in the blade frame \[rad/s\].
     pub s_rad_s: f64,
-    /// The frequency in the standing frame \[rad/s\].
+    /// Frequency in the stationary frame \[rad/s\].
     pub omega_rad_s: f64,
     /// Amplitude `|z|` of the casing wave \[m\].
     pub amplitude_m: f64,
     /// Largest blade angle \[rad\].
     pub blade_angle_rad: f64,
-    /// Whether every blade presses all the time, as these equations assume.
+    /// Whether every blade is always in contact, as these equations assume.
     pub all_press: bool,
 }
 
 impl Lining<'_> {
-    /// Returns the wave that `lobes` lobes of this height drive at a speed, of blades that all
-    /// press \[rad/s, m\].
+    /// Returns the wave driven by `lobes` lobes of the given height \[m\] at a speed \[rad/s\],
+    /// with all blades in contact.
     #[must_use]
     pub fn forced(&self, speed: f64, lobes: u32, height: f64) -> Forced {
         let here = self.at(speed);
@@ -50,7 +50,8 @@ impl Lining<'_> {
             omega_rad_s: omega,
             amplitude_m: push * casing,
             blade_angle_rad: push * moment / joint.blade_stiffness(s).norm(),
-            // A push is the stiffness of one blade times its depth; lobes of others drive none.
+            // Change of depth: force divided by the stiffness of all blades; lobes that drive no
+            // wave change it by their height.
             all_press: here.preload_m() - self.smoothing_m > if driven { deep } else { height },
         }
     }

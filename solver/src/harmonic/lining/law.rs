@@ -1,12 +1,12 @@
-//! The push of a lining under one blade, its slope, and the stiffness of all blades
-//! together against a wave that runs round the casing (docs/theory.md, section 10).
+//! Force law of a lining under one blade, and the stiffness of all blades against a travelling wave
+//! (docs/theory.md, section 10).
 //!
-//! `P = 0` for `g >= 0`, `k_p g^2/(2 eps)` for `-eps < g < 0`, `k_p (-g - eps/2)` below.
-//! A wave of amplitude `r` in the gaps meets the stiffness
-//! `S(r) = (N/(2 pi r)) int P(g0 - r cos f) cos f df`, here without quadrature error:
-//! `S(r) = (N k_p/2 pi) mean(-g0/r, eps/r)`, the mean of `f - sin f cos f`, `cos f = -x`,
-//! over `x` from `(-g0 - eps)/r` to `-g0/r`. A wide one is a difference of closed forms, a
-//! narrow one is summed without losing a digit.
+//! `P = 0` for `g >= 0`, `k_p g^2/(2 eps)` for `-eps < g < 0`, `k_p (-g - eps/2)` below. A wave
+//! with the gap amplitude `r` encounters the stiffness
+//! `S(r) = (N/(2 pi r)) int P(g0 - r cos f) cos f df`, which is evaluated here without quadrature
+//! error: `S(r) = (N k_p/2 pi) mean(-g0/r, eps/r)`, the mean of `f - sin f cos f`, `cos f = -x`,
+//! over `x` from `(-g0 - eps)/r` to `-g0/r`. For a wide range it is a difference of closed forms,
+//! for a narrow one a sum without cancellation.
 
 use crate::scene::keys;
 use std::borrow::Cow;
@@ -18,23 +18,23 @@ use crate::numeric::bisection::bisected;
 use crate::numeric::quadrature::GAUSS_8;
 use crate::tolerances::{LINING_DIVIDED, LINING_NARROWEST, LINING_STRIDES, LINING_WIDEST};
 
-/// A machine whose casing has a lining under the blades.
+/// A machine whose casing has a lining.
 #[derive(Clone, Debug)]
 pub struct Lining<'a> {
-    /// The machine, with its friction and its clearance, negative with preload.
+    /// The machine, with its friction and its clearance (negative with preload).
     pub machine: Cow<'a, Machine>,
     /// Stiffness `k_p` under one blade \[N/m\].
     pub stiffness_n_per_m: f64,
-    /// Depth `eps` over which it sets in \[m\].
+    /// Smoothing depth `eps` \[m\].
     pub smoothing_m: f64,
 }
 
 impl<'a> Lining<'a> {
-    /// Creates the lining of `machine` from the properties of its contact surface.
+    /// Combines a machine with the lining properties of its contact surface.
     ///
     /// # Errors
-    /// A machine whose blades do not all share in one travelling wave: without corners,
-    /// or with modes of the disk whose diameters are not `+-n_d` modulo `N`.
+    /// The blades do not share one travelling wave: no corners, or disk modes whose nodal diameters
+    /// are not `+-n_d` modulo `N`.
     pub fn of(machine: &'a Machine, surface: &ContactSurface) -> Result<Self, HarmonicError> {
         let polygon = &machine.polygon;
         error::refuse_no_wave(machine)?;
@@ -51,7 +51,7 @@ impl<'a> Lining<'a> {
         })
     }
 
-    /// Returns the lining of the machine at a rotor speed \[rad/s\].
+    /// Evaluates the machine at a rotor speed \[rad/s\].
     #[must_use]
     pub fn at(&self, speed: f64) -> Self {
         let machine = match self.machine.at(speed) {
@@ -61,14 +61,14 @@ impl<'a> Lining<'a> {
         Self { machine, ..*self }
     }
 
-    /// Returns the depth to which every blade is pressed in at rest, `-g0` \[m\]; negative
-    /// where there is a clearance.
+    /// Returns the depth of every blade in the lining at rest, `-g0`; negative with a clearance
+    /// \[m\].
     #[must_use]
     pub fn preload_m(&self) -> f64 {
         -self.machine.clearance()
     }
 
-    /// Returns the contact force at a gap `g` \[N\].
+    /// Returns the contact force at a gap, positive in compression \[N\].
     #[must_use]
     pub fn push(&self, gap: f64) -> f64 {
         self.law().push(gap)
@@ -85,9 +85,9 @@ impl<'a> Lining<'a> {
         LiningLaw { stiffness_n_per_m, smoothing_m }
     }
 
-    /// Returns the stiffness of all blades against a small wave at rest: `S0 = N k_p/2`, zero
-    /// with a clearance. Where lobes of the casing are higher than that, blades rub on arcs: the
-    /// part `acos(g0/e)/pi` of the circumference, less what the smoothing takes \[N/m\].
+    /// Returns the stiffness of all blades against a small wave about rest \[N/m\]: `S0 = N k_p/2`,
+    /// zero with a clearance. If the lobes of the casing are higher than the gap or depth, blades
+    /// rub on arcs only: then it is the fraction `acos(g0/e)/pi` of that, reduced by the smoothing.
     #[must_use]
     pub fn stiffness_at_rest(&self) -> f64 {
         let (gap, height) = (self.machine.clearance(), self.machine.out_of_round());
@@ -102,15 +102,15 @@ impl<'a> Lining<'a> {
         0.5 * f64::from(self.machine.polygon.blades) * self.slope(self.machine.clearance())
     }
 
-    /// Returns the stiffness against a wave so large that blades lift off for half of each turn,
-    /// `N k_p/4` \[N/m\].
+    /// Returns the stiffness against a very large wave, at which blades lift off for half of each
+    /// revolution, `N k_p/4` \[N/m\].
     #[must_use]
     pub fn stiffness_far_out(&self) -> f64 {
         0.25 * f64::from(self.machine.polygon.blades) * self.stiffness_n_per_m
     }
 
-    /// Returns the stiffness `S(r)` of all blades against a wave of amplitude `r > 0` in the
-    /// gaps, of many blades \[N/m\].
+    /// Returns the stiffness `S(r)` of all blades, in the limit of many, against a wave with the
+    /// gap amplitude `r > 0` \[N/m\].
     #[must_use]
     pub fn stiffness_of_wave(&self, r: f64) -> f64 {
         let depth = self.preload_m() / r;
@@ -118,9 +118,8 @@ impl<'a> Lining<'a> {
         scale * mean(depth, self.smoothing_m / r)
     }
 
-    /// Returns the change of that stiffness with the amplitude, `r dS/dr` \[N/m\].
-    ///
-    /// The mean of `d(x/r)` over the lining depends on `r` through its two ends only.
+    /// Returns the logarithmic derivative `r dS/dr` of that stiffness \[N/m\]. The mean depends on
+    /// `r` only through its two ends.
     #[must_use]
     pub fn stiffness_change(&self, r: f64) -> f64 {
         let (depth, width) = (self.preload_m() / r, self.smoothing_m / r);
@@ -128,7 +127,8 @@ impl<'a> Lining<'a> {
         scale * mean_change(depth, width)
     }
 
-    /// Returns every amplitude of a wave that meets this stiffness, in increasing order \[m\].
+    /// Returns every amplitude at which a wave encounters the given stiffness, in increasing order
+    /// \[m\].
     #[must_use]
     pub fn amplitudes(&self, stiffness: f64) -> Vec<f64> {
         let length = self.preload_m().abs() + self.smoothing_m;
@@ -146,7 +146,7 @@ impl<'a> Lining<'a> {
     }
 }
 
-/// Returns the place between two of different sign where a function changes its sign.
+/// Returns the zero of a function between two points at which its signs differ.
 pub(super) fn between([low, high]: [f64; 2], of: impl Fn(f64) -> f64) -> f64 {
     let (start, end) = (of(low), of(high));
     if start == 0.0 || end == 0.0 {
@@ -156,8 +156,8 @@ pub(super) fn between([low, high]: [f64; 2], of: impl Fn(f64) -> f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// Returns the share of a wave of amplitude 1 that meets a linear lining of depth `x`:
-/// `f - sin f cos f` with `cos f = -x`; `pi` where no blade lifts off.
+/// Returns the contribution of a linear lining with its surface at `x` to the stiffness against a
+/// wave of amplitude 1: `f - sin f cos f` with `cos f = -x`; `pi` if no blade lifts off.
 fn share(x: f64) -> f64 {
     if x >= 1.0 {
         PI
@@ -170,12 +170,12 @@ fn share(x: f64) -> f64 {
     }
 }
 
-/// Returns the derivative of `share`, `2 sin f`.
+/// Returns the derivative of [`share`], `2 sin f`.
 fn share_slope(x: f64) -> f64 {
     2.0 * ((1.0 - x) * (1.0 + x)).max(0.0).sqrt()
 }
 
-/// Returns `int_{-inf}^{x} share`: `sin f - sin^3 f/3 - f cos f`.
+/// Returns the integral of [`share`] from minus infinity to `x`, `sin f - sin^3 f/3 - f cos f`.
 fn whole(x: f64) -> f64 {
     if x >= 1.0 {
         return PI * x;
@@ -188,7 +188,7 @@ fn whole(x: f64) -> f64 {
     sin - sin * sin * sin / 3.0 + angle * x
 }
 
-/// Returns the mean of `share` over a lining from `depth - width` to `depth`.
+/// Returns the mean of [`share`] between `depth - width` and `depth`.
 pub(super) fn mean(depth: f64, width: f64) -> f64 {
     if width > LINING_DIVIDED {
         return (whole(depth) - whole(depth - width)) / width;
@@ -196,8 +196,8 @@ pub(super) fn mean(depth: f64, width: f64) -> f64 {
     averaged(depth, width, share)
 }
 
-/// Returns the change of that mean with the logarithm of the amplitude, of which depth and width
-/// are both parts: `mean - [x share]/width` between its ends.
+/// Returns the derivative of that mean with respect to the logarithm of the amplitude, to which
+/// depth and width are inversely proportional: `mean - [x share]/width` between the ends.
 pub(super) fn mean_change(depth: f64, width: f64) -> f64 {
     if width > LINING_DIVIDED {
         let low = depth - width;
@@ -206,8 +206,8 @@ pub(super) fn mean_change(depth: f64, width: f64) -> f64 {
     -averaged(depth, width, |x| x * share_slope(x))
 }
 
-/// Computes a mean by quadrature, exact to round-off over a narrow lining: cut at its kinks,
-/// with a substitution that takes their roots away.
+/// Computes the mean over a narrow range by quadrature, exact to round-off: the range is split at
+/// the kinks, and a substitution removes their square-root singularity.
 fn averaged(depth: f64, width: f64, of: impl Fn(f64) -> f64) -> f64 {
     if width == 0.0 {
         return of(depth);
@@ -250,7 +250,7 @@ mod tests {
         Lining::of(machine, &surface).unwrap()
     }
 
-    /// The definition, by the midpoint rule.
+    /// Evaluates the defining integral by the midpoint rule.
     fn plain(lining: &Lining, r: f64, parts: u32) -> f64 {
         let sum: f64 = (0..parts)
             .map(|k| {

@@ -1,12 +1,14 @@
-//! Blades and casing joined by a lining, the smooth contact law
-//! (docs/theory.md, section 10): steady states, their stability, and what they do as a
-//! parameter changes. Small motions of one wave of all blades; no time step.
+//! Steady states of blades and casing coupled by a lining, the smooth contact law (docs/theory.md,
+//! section 10), their stability, and their thresholds. Linearised waves of all blades; no time
+//! steps.
 //!
-//! - the law and its mean over a wave: `law` ([`Lining`])
-//! - rest under preload, its Hopf points in speed and the coincidence that the lining
-//!   shifts: `rest`; where its growth ends, and small motions about any wave: `cycle`
-//! - waves that stand in the frame of the blades, what a lock takes and which linings hold
-//!   one: `states`
+//! - `law`: the force law of a lining and its average over a wave ([`Lining`]).
+//! - `rest`: rest under preload, its Hopf points over speed, and the coincidence shifted by the
+//!   lining.
+//! - `cycle`: limit cycles, which end the growth of rest, and small motions about any wave.
+//! - `forced`: response to an out-of-round casing with all blades in contact.
+//! - `states`: steady states in the blade frame, the loads of a lock, and the softest lining that
+//!   holds one.
 
 mod cycle;
 mod forced;

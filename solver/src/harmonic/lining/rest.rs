@@ -1,15 +1,15 @@
-//! Rest with all blades pressed into a lining: the four motions about it, the speeds where
-//! the fastest of them begins to grow and ends to (Hopf points), the coincidence that the
-//! lining shifts, and the least lining that grows at all (docs/theory.md, section 10).
+//! Rest with all blades in contact with the lining (docs/theory.md, section 10): the four motions
+//! about it, the speeds at which the fastest of them begins or ceases to grow (Hopf points), the
+//! coincidence shifted by the lining, and the softest lining with growth.
 //!
-//! With `S0 = N k_p/2` the roots `s` of `e^{ist}` in the frame of the blades solve
+//! With `S0 = N k_p/2` the roots `s` of `e^{ist}` in the blade frame solve
 //! `L_c L_a + S0 [(1 + i mu_c) L_a + c2 L_c] = 0`, with
 //! `L_c = k_c - m_c (s + nu)^2 + i d_c (s + nu)` and `L_a = k_a - m_a s^2 + i d_a s`.
 //!
-//! The growth changes over a width of speed that damping and joint stiffness set; the
-//! scan has eight points in each such width around every coincidence, and a thousand
-//! over the whole range. Every extremum of the scan is refined, so that a change of sign
-//! and back between two points is seen too.
+//! The growth rate varies over a range of speed that is set by damping and coupling. The scan has
+//! eight points in each such range around every coincidence, and a thousand over the whole
+//! interval. Every extremum of the scan is refined, so that a pair of sign changes between two
+//! points is not missed.
 
 use nalgebra::Complex;
 use serde::Serialize;
@@ -21,33 +21,33 @@ use crate::model::Machine;
 use crate::numeric::maximum::highest;
 use crate::tolerances::{GROWTH_SCAN, PEAK_REACH, ROOT_STEPS, TONGUE_SCAN, UNDAMPED_GROWTH};
 
-/// One motion `e^{ist}` about rest.
+/// A motion `e^{ist}` about rest.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct RestRoot {
-    /// Its growth rate, `-Im s` \[1/s\].
+    /// Growth rate, `-Im s` \[1/s\].
     pub growth_1_s: f64,
-    /// Its frequency in the frame of the blades, `Re s`; negative runs backward over
-    /// them \[rad/s\].
+    /// Frequency in the blade frame, `Re s`; negative for a wave that runs backward over the blades
+    /// \[rad/s\].
     pub s_rad_s: f64,
-    /// Its frequency in the standing frame, `Re s + nu` \[rad/s\].
+    /// Frequency in the stationary frame, `Re s + nu` \[rad/s\].
     pub omega_rad_s: f64,
 }
 
-/// The four motions about rest at one rotor speed, the fastest growth first.
+/// The four motions about rest at one rotor speed, in decreasing order of growth.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Rest {
     /// Rotor speed \[rad/s\].
     pub speed_rad_s: f64,
     /// Stiffness of all blades together, `S0` \[N/m\].
     pub stiffness_n_per_m: f64,
-    /// The motions.
+    /// The four motions.
     pub roots: [RestRoot; 4],
-    /// Whether one of them grows, by more than round-off.
+    /// Whether one of them grows by more than round-off.
     pub grows: bool,
 }
 
 impl Rest {
-    /// Returns the motion that grows fastest, or decays slowest.
+    /// Returns the motion with the largest growth rate.
     #[must_use]
     pub fn worst(&self) -> RestRoot {
         self.roots[0]
@@ -55,8 +55,8 @@ impl Rest {
 }
 
 impl Lining<'_> {
-    /// Returns the motions about rest at a speed \[rad/s\]. With a clearance these are those of
-    /// casing and blades, each by itself.
+    /// Returns the motions about rest at a speed \[rad/s\]. With a clearance they are those of
+    /// casing and blades without contact.
     #[must_use]
     pub fn rest(&self, speed: f64) -> Rest {
         let stiffness = self.at(speed).stiffness_at_rest();
@@ -64,23 +64,23 @@ impl Lining<'_> {
     }
 }
 
-/// The quartic over a frequency, in the dimensionless unknown `t = s/scale`.
+/// The quartic equation in the dimensionless frequency `t = s/scale`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Quartic {
-    /// The largest frequency \[rad/s\].
+    /// Largest frequency, the unit of `t` \[rad/s\].
     pub scale: f64,
     stiffness: f64,
     nu: f64,
-    /// Of casing and blades: square of the frequency and twice the damping rate.
+    /// For casing and blades: squared frequency and twice the damping rate.
     casing: [f64; 2],
     blades: [f64; 2],
-    /// `S0 (1 + i mu_c)/m_c` and `S0 c2/m_a`.
+    /// Stiffness of the lining on casing and blades, `S0 (1 + i mu_c)/m_c` and `S0 c2/m_a`.
     on_casing: Complex<f64>,
     on_blades: f64,
 }
 
 impl Quartic {
-    /// Creates the quartic of a joint and a stiffness of all blades \[N/m\].
+    /// Creates the quartic for a joint and a stiffness of all blades \[N/m\].
     pub fn new(joint: &Joint, stiffness: f64) -> Self {
         let m = &*joint.machine;
         let casing = m.casing_stiffness / m.casing_mass;
@@ -109,22 +109,23 @@ impl Quartic {
         [of(self.casing, t + self.nu), of(self.blades, t)]
     }
 
-    /// Returns the value, the derivative and the size of the terms.
+    /// Returns value and derivative of the quartic, and the magnitude of its terms.
     fn at(&self, t: Complex<f64>) -> (Complex<f64>, Complex<f64>, f64) {
         let [[c, c_slope], [a, a_slope]] = self.parts(t);
         let (joined_c, joined_a) = (c + self.on_casing, a + self.on_blades);
-        // (L_c + A)(L_a + C) - A C: the poles of joined structures are on its diagonal.
+        // (L_c + A)(L_a + C) - A C: the diagonal terms are the structures on the lining.
         let product = self.on_casing * self.on_blades;
         let value = joined_c * joined_a - product;
         let slope = c_slope * joined_a + joined_c * a_slope;
         (value, slope, joined_c.norm() * joined_a.norm() + product.norm())
     }
 
-    /// Returns the four roots \[rad/s\], by the iteration of Aberth and Ehrlich.
+    /// Returns the four roots by Aberth-Ehrlich iteration \[rad/s\].
     pub fn roots(&self) -> [Complex<f64>; 4] {
         let casing = (Complex::from(self.casing[0]) + self.on_casing).sqrt();
         let blades = Complex::from(self.blades[0] + self.on_blades).sqrt();
-        // Those of uncoupled structures, pulled apart, as they may meet.
+        // Starts at the roots of the uncoupled structures, slightly separated because these may
+        // coincide.
         let starts = [casing - self.nu, -casing - self.nu, blades, -blades];
         let apart = [(0.01, 0.002), (-0.013, -0.003), (0.004, -0.011), (-0.006, 0.007)];
         let mut roots = [Complex::default(); 4];
@@ -179,43 +180,45 @@ impl Quartic {
     }
 }
 
-/// A speed where a wave about rest begins or ends to grow.
+/// A speed at which a wave about rest begins or ceases to grow.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct HopfPoint {
     /// Rotor speed \[rad/s\].
     pub speed_rad_s: f64,
-    /// Frequency of the wave in the frame of the blades \[rad/s\].
+    /// Frequency of the wave in the blade frame \[rad/s\].
     pub s_rad_s: f64,
-    /// Its frequency in the standing frame \[rad/s\].
+    /// Frequency of the wave in the stationary frame \[rad/s\].
     pub omega_rad_s: f64,
-    /// Whether it grows at larger speeds.
+    /// Whether it grows above this speed.
     pub grows_above: bool,
 }
 
-/// The least stiffness of a lining that holds a lock or makes rest grow, at the speed where it
-/// does first.
+/// Smallest stiffness of a lining that holds a lock, or that makes rest grow, and the speed at
+/// which it does.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct LeastStiffness {
-    /// Stiffness, of one blade or of all together as the function says \[N/m\].
+    /// Stiffness under one blade or of all blades together, as stated by the function that returns
+    /// it \[N/m\].
     pub stiffness_n_per_m: f64,
     /// Rotor speed \[rad/s\].
     pub speed_rad_s: f64,
 }
 
-/// Returns the coincidence of a machine whose blades together have a stiffness \[N/m\], in the
-/// sense of rotation of `sense` \[rad/s\]: `(omega_c' +- omega_bd')/n_d`, minus for a coupling
-/// product below zero; `None` for blades that nothing comes back to.
-fn shifted(machine: &Machine, stiffness: f64, sense: f64) -> Option<f64> {
+/// Returns the coincidence of a machine on a lining with the total stiffness `stiffness` \[N/m\],
+/// for the direction of rotation given by the sign of `sense` \[rad/s\]:
+/// `(omega_c' +- omega_bd')/n_d`, with minus for a negative coupling product. `None` if the blades
+/// have no restoring stiffness.
+fn shifted_speed(machine: &Machine, stiffness: f64, sense: f64) -> Option<f64> {
     let product = machine.coupling_product_at(sense);
-    let [casing, blades] = pressed(machine, stiffness, product)?;
+    let [casing, blades] = frequencies_on_lining(machine, stiffness, product)?;
     let (differences, sum) = machine.meetings(casing, blades);
     let speed = if product < 0.0 { differences.first().copied() } else { sum }?;
     Some(speed.copysign(sense))
 }
 
-/// Returns the frequencies of casing and blades at rest that all press on this stiffness; `None`
-/// for blades that nothing comes back to.
-fn pressed(machine: &Machine, stiffness: f64, product: f64) -> Option<[f64; 2]> {
+/// Returns the frequencies at rest of casing and blades on this total stiffness \[rad/s\]; `None`
+/// if the blades have no restoring stiffness.
+fn frequencies_on_lining(machine: &Machine, stiffness: f64, product: f64) -> Option<[f64; 2]> {
     let blades = machine.blade_stiffness_at_rest() + stiffness * product;
     if product == 0.0 || blades < 0.0 {
         return None;
@@ -224,7 +227,7 @@ fn pressed(machine: &Machine, stiffness: f64, product: f64) -> Option<[f64; 2]> 
     Some([casing, (blades / machine.blade_modal_mass).sqrt()])
 }
 
-/// Returns the width in speed over which growth changes around a coincidence \[rad/s\].
+/// Returns the range of speed over which growth varies around a coincidence \[rad/s\].
 fn width(machine: &Machine, stiffness: f64, sense: f64) -> f64 {
     let product = machine.coupling_product_at(sense).abs();
     let casing = (machine.casing_stiffness + stiffness) * machine.casing_mass;
@@ -235,32 +238,32 @@ fn width(machine: &Machine, stiffness: f64, sense: f64) -> f64 {
     (damped + joined) / machine.nodal_diameters
 }
 
-/// Part of the fastest speed up to which a rotor counts as standing.
-const BESIDE_REST: f64 = 1e-9;
+/// Fraction of the fastest speed below which the rotor counts as standing still.
+const STANDSTILL: f64 = 1e-9;
 
 impl Lining<'_> {
-    /// Returns the coincidence at which rest grows fastest, for a rotor that turns in the sense
-    /// of `speed` \[rad/s\]; none with a clearance.
+    /// Returns the coincidence at which rest grows fastest, for a rotor that turns in the direction
+    /// of the sign of `speed` \[rad/s\]; `None` with a clearance.
     #[must_use]
     pub fn shifted_coincidence(&self, speed: f64) -> Option<f64> {
         let stiffness = self.at(speed).stiffness_at_rest();
-        (stiffness > 0.0).then(|| shifted(&self.machine, stiffness, speed)).flatten()
+        (stiffness > 0.0).then(|| shifted_speed(&self.machine, stiffness, speed)).flatten()
     }
 
-    /// Returns every speed in a range \[rad/s\] at which the worst growth at rest changes its
-    /// sign, in increasing order.
+    /// Returns every speed in an interval at which the largest growth rate about rest changes its
+    /// sign, in increasing order \[rad/s\].
     ///
     /// # Errors
-    /// Speeds that are not finite or not in order.
+    /// The ends are not finite or not in increasing order.
     pub fn hopf_points(&self, [from, to]: [f64; 2]) -> Result<Vec<HopfPoint>, HarmonicError> {
         if !(from.is_finite() && to.is_finite() && from < to) {
             let (speeds, allowed) = (format!("{from}:{to}"), "two speeds, the lower one first");
             return Err(HarmonicError::refused("speed", speeds, allowed));
         }
-        // Friction turns round where the rotor does, with a jump and no Hopf point.
+        // Friction reverses with the rotor; the growth rate jumps there, which is not a Hopf point.
         if from <= 0.0 && to >= 0.0 && self.machine.friction != 0.0 {
             let mut points = Vec::new();
-            for [from, to] in [[from, from * BESIDE_REST], [to * BESIDE_REST, to]] {
+            for [from, to] in [[from, from * STANDSTILL], [to * STANDSTILL, to]] {
                 if from < to {
                     points.extend(self.hopf_points([from, to])?);
                 }
@@ -268,7 +271,7 @@ impl Lining<'_> {
             return Ok(points);
         }
         let mut rests: Vec<Rest> =
-            self.places([from, to]).into_iter().map(|speed| self.rest(speed)).collect();
+            self.scan_speeds([from, to]).into_iter().map(|speed| self.rest(speed)).collect();
         let extremes: Vec<Rest> = rests
             .windows(3)
             .filter_map(|three| self.extreme([three[0], three[1], three[2]]))
@@ -291,8 +294,8 @@ impl Lining<'_> {
             .collect())
     }
 
-    /// Returns the speeds of the scan, in order.
-    fn places(&self, [from, to]: [f64; 2]) -> Vec<f64> {
+    /// Returns the speeds of the scan, in increasing order.
+    fn scan_speeds(&self, [from, to]: [f64; 2]) -> Vec<f64> {
         let mut linings = vec![self.at(from).stiffness_at_rest(), self.at(to).stiffness_at_rest()];
         linings.dedup();
         let part = |k: u32| f64::from(k) / f64::from(GROWTH_SCAN);
@@ -301,7 +304,8 @@ impl Lining<'_> {
         let (reach, fine) = TONGUE_SCAN;
         for (&stiffness, sense) in linings.iter().flat_map(|of| [(of, -1.0), (of, 1.0)]) {
             let product = self.machine.coupling_product_at(sense);
-            let Some([casing, blades]) = pressed(&self.machine, stiffness, product) else {
+            let Some([casing, blades]) = frequencies_on_lining(&self.machine, stiffness, product)
+            else {
                 continue;
             };
             let stride = width(&self.machine, stiffness, sense) / fine;
@@ -311,7 +315,7 @@ impl Lining<'_> {
                 places.extend((-reach..=reach).map(place));
             }
         }
-        // Where the lining begins to be pressed.
+        // Speed at which the clearance closes.
         places.extend(self.machine.closing_speed().into_iter().flat_map(|speed| [-speed, speed]));
         places.retain(|speed| (from..=to).contains(speed));
         places.sort_by(f64::total_cmp);
@@ -319,7 +323,7 @@ impl Lining<'_> {
         places
     }
 
-    /// Returns the extremum among three neighbours, where it has another sign than they.
+    /// Refines the extremum among three neighbours; returns it if its sign differs from theirs.
     fn extreme(&self, three: [Rest; 3]) -> Option<Rest> {
         let [before, here, after] = three.map(|rest| rest.worst().growth_1_s);
         let sense = if three[1].grows { -1.0 } else { 1.0 };
@@ -334,17 +338,16 @@ impl Lining<'_> {
     }
 }
 
-/// Returns the least stiffness of a lining under preload that makes rest grow at the peak near
-/// the coincidence, for a rotor that turns in the sense of `sense`; zero where blades or
-/// casing have no damping, none for a machine whose blades and casing are not coupled. Its
-/// stiffness is `S0` of all blades together.
+/// Returns the smallest stiffness `S0` (all blades together) of a lining under preload at which
+/// rest grows near the coincidence, for a rotor that turns in the direction of the sign of `sense`.
+/// Zero if casing or blades are undamped; `None` if they are not coupled.
 #[must_use]
 pub fn growth_threshold(machine: &Machine, sense: f64) -> Option<LeastStiffness> {
     let product = machine.coupling_product_at(sense).abs();
-    let speed_rad_s = shifted(machine, 0.0, sense)?;
+    let speed_rad_s = shifted_speed(machine, 0.0, sense)?;
     let inertia = machine.casing_mass * machine.omega_c * machine.blade_modal_mass;
     let damping = machine.casing_damping_ratio * machine.omega_c * machine.blade_damping_ratio;
-    // Of weak coupling, at the middle of the tongue.
+    // Estimate for weak coupling, at the coincidence.
     let guess = 2.0 * machine.omega_bd * (inertia * damping / product).sqrt();
     if guess == 0.0 {
         return Some(LeastStiffness { stiffness_n_per_m: 0.0, speed_rad_s });
@@ -352,7 +355,7 @@ pub fn growth_threshold(machine: &Machine, sense: f64) -> Option<LeastStiffness>
     let peak = |stiffness: f64| peak(machine, stiffness, sense);
     let growth = |stiffness: f64| peak(stiffness).map_or(-1.0, |(_, growth)| growth);
     let mut ends = [0.5 * guess, 2.0 * guess];
-    // Sixty doublings each way leave no lining that could be built.
+    // Sixty doublings each way cover any stiffness that can be built.
     for _ in 0..60 {
         if growth(ends[0]) > 0.0 {
             ends = [0.5 * ends[0], ends[0]];
@@ -367,9 +370,10 @@ pub fn growth_threshold(machine: &Machine, sense: f64) -> Option<LeastStiffness>
     None
 }
 
-/// Returns the speed of the fastest growth near a coincidence, and that growth \[1/s\].
+/// Returns the speed of fastest growth near a coincidence, and the growth rate there \[rad/s,
+/// 1/s\].
 fn peak(machine: &Machine, stiffness: f64, sense: f64) -> Option<(f64, f64)> {
-    let middle = shifted(machine, stiffness, sense)?;
+    let middle = shifted_speed(machine, stiffness, sense)?;
     let reach = PEAK_REACH * width(machine, stiffness, sense);
     let growth = |speed: f64| {
         Quartic::new(&Joint::at(machine, speed), stiffness).rest(speed).worst().growth_1_s
@@ -390,7 +394,7 @@ mod tests {
     use proptest::prelude::*;
 
     impl Quartic {
-        /// Returns the residual of a root \[rad/s\] over the size of its terms.
+        /// Returns the residual of a root relative to the magnitude of its terms.
         fn residual(&self, s: Complex<f64>) -> f64 {
             let t = s / self.scale;
             let terms = |[square, rate]: [f64; 2], at: f64| at * at + rate * at + square;
@@ -428,7 +432,7 @@ mod tests {
             let tangent = [[rest.stiffness_n_per_m, 0.0], [0.0, rest.stiffness_n_per_m]];
             let values = small_motions(&joint, [joint.nu, 0.0], tangent).unwrap();
             let growth = values.iter().map(|value| value.re).fold(f64::MIN, f64::max);
-            // Of two roots that meet, half the digits are known.
+            // Nearly equal roots are accurate to half the digits.
             let near = rest.roots.iter().flat_map(|a| rest.roots.iter().map(move |b| (a, b)));
             let apart = near.filter(|(a, b)| a != b)
                 .map(|(a, b)| (a.s_rad_s - b.s_rad_s).hypot(a.growth_1_s - b.growth_1_s))

@@ -1,18 +1,18 @@
-//! Steady states on a lining in the frame of the blades: rest, and waves that one, two,
-//! three or more neighbouring groups of blades hold; the loads of a lock of two groups, and
-//! the linings that hold one (docs/theory.md, section 10).
+//! Steady states on a lining in the blade frame (docs/theory.md, section 10): rest, and waves held
+//! by one, two, three or more neighbouring groups of blades; the loads of a lock of two groups, and
+//! the softest lining that holds one.
 //!
-//! Both structures stand in that frame, so two equations are left for `w = z - kappa l_b
-//! a`: `L_c w = [(1 + i mu_c) + c2 L_c/k_a] p(w)`, `L_c` at `omega = nu`. Where `eps = 0`
-//! each set of groups has a linear one, and all of them are tried; from there, and from
-//! a grid of places, Newton's method goes on for `eps > 0`.
+//! Both structures are at rest in that frame, so two equations remain for `w = z - kappa l_b a`:
+//! `L_c w = [(1 + i mu_c) + c2 L_c/k_a] p(w)`, with `L_c` at `omega = nu`. For `eps = 0` they are
+//! linear for each set of groups in contact, and all sets of neighbours are tried. From these
+//! solutions, and from a grid of points, Newton's method continues to `eps > 0`.
 //!
-//! For blades that do not turn the gap a pair of groups holds the wave where
-//! `-tan(delta) Re H - |Im H| >= 1/(k sin 2 delta)`, `H = B(nu)` the joint compliance, `k` the
-//! stiffness of one group; without friction and inclined tips
-//! `|K| tan delta >= D + (K^2 + D^2)/(k sin 2 delta)`. So a lining needs a least stiffness at
-//! each speed, and one that is softer than the least of these never holds a lock. Beyond the
-//! last speed of two groups three may go on.
+//! For blades that do not turn the gap, a pair of groups holds the wave if
+//! `-tan(delta) Re H - |Im H| >= 1/(k sin 2 delta)`, where `H = B(nu)` is the joint compliance and
+//! `k` the stiffness of one group; without friction and inclined tips
+//! `|K| tan delta >= D + (K^2 + D^2)/(k sin 2 delta)`. A lock therefore needs a minimum stiffness
+//! at each speed, and a lining softer than the least of these never holds one. Above the last speed
+//! of two groups three may hold the wave.
 
 use std::borrow::Cow;
 
@@ -30,7 +30,8 @@ use crate::tolerances::{
     AS_ZERO, LINING_ALIKE, LINING_NEUTRAL, NEWTON_STEPS, WINDOW_LOOKS, WINDOW_REACH,
 };
 
-/// Places of a grid of starts: over half a corner, and over the amplitude in clearances.
+/// Grid of starting points: angle in units of `delta`, and amplitude in units of the contact
+/// length.
 const GRID: ([f64; 5], [f64; 6]) =
     ([-1.0, -0.5, 0.01, 0.5, 1.0], [1.001, 1.02, 1.1, 1.5, 3.0, 10.0]);
 
@@ -39,31 +40,30 @@ const GRID: ([f64; 5], [f64; 6]) =
 pub struct LiningState {
     /// Rotor speed \[rad/s\].
     pub speed_rad_s: f64,
-    /// Number of groups of blades that push.
+    /// Number of groups in contact.
     pub pushing: usize,
-    /// Those groups and the push of each, the strongest first.
+    /// Groups in contact with their forces, the strongest first.
     pub pushes: Vec<GroupPush>,
-    /// The point `w` of the gaps in the frame of the blades, `[Re w, Im w]` \[m\].
+    /// Relative displacement `w` in the blade frame, `[Re w, Im w]` \[m\].
     pub gap_m: [f64; 2],
     /// Amplitude of the casing wave \[m\].
     pub casing_m: f64,
     /// Amplitude of the two blade modes \[rad\].
     pub blade_rad: f64,
-    /// Growth of the least stable motion about it \[1/s\].
+    /// Growth rate of the least stable motion about the state \[1/s\].
     pub growth_1_s: f64,
-    /// Frequency of that motion in the frame of the blades; 0 for one that only grows
-    /// or decays \[rad/s\].
+    /// Frequency of that motion in the blade frame; 0 if it does not oscillate \[rad/s\].
     pub frequency_rad_s: f64,
     /// Whether no motion grows.
     pub stable: bool,
 }
 
-/// The push of a phase group.
+/// Contact force of a phase group.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GroupPush {
-    /// Its blades, numbered from 1.
+    /// Blades of the group, numbered from 1.
     pub blades: Vec<u32>,
-    /// Sum of their pushes \[N\].
+    /// Sum of their contact forces \[N\].
     pub push_n: f64,
 }
 
@@ -73,14 +73,14 @@ struct Balance<'a> {
     lining: Lining<'a>,
     joint: Joint<'a>,
     speed: f64,
-    /// `L_c` at `nu`, and what multiplies the pushes.
+    /// `L_c` at `nu`, and the factor of the contact forces.
     casing: Complex<f64>,
     pushed: Complex<f64>,
-    /// Size of both terms for one unit of `w` \[N/m\].
+    /// Magnitude of both terms per unit of `w` \[N/m\].
     scale: f64,
 }
 
-/// Returns a product of two complex numbers as a matrix that acts on the second.
+/// Returns the matrix that multiplies `(Re, Im)` by a complex number.
 fn as_matrix(number: Complex<f64>) -> Matrix2<f64> {
     Matrix2::new(number.re, -number.im, number.im, number.re)
 }
@@ -89,7 +89,7 @@ impl<'a> Balance<'a> {
     fn at(lining: &Lining<'a>, speed: f64) -> Self {
         let lining = lining.at(speed);
         let machine = &*lining.machine;
-        let joint = Joint::of(lining.machine.clone(), speed);
+        let joint = Joint::new(lining.machine.clone(), speed);
         let casing = joint.casing_stiffness(joint.nu);
         let turned = Complex::new(1.0, joint.casing_friction);
         let pushed = turned + casing * (joint.coupling_product / machine.blade_modal_stiffness);
@@ -98,7 +98,7 @@ impl<'a> Balance<'a> {
         Self { lining, joint, speed, casing, pushed, scale }
     }
 
-    /// Returns the phase and the gap at a place of every side.
+    /// Returns index, direction and gap of every side at a displacement.
     fn gaps(&self, w: Vector2<f64>) -> impl Iterator<Item = (u32, Vector2<f64>, f64)> {
         let machine = &*self.lining.machine;
         let clearance = machine.clearance();
@@ -108,8 +108,8 @@ impl<'a> Balance<'a> {
         })
     }
 
-    /// Returns the contact force of all blades at a place, and how it changes: `dp = -tangent
-    /// dw`.
+    /// Returns the contact force of all blades at a displacement, and its derivative:
+    /// `dp = -tangent dw`.
     fn pushes(&self, w: Vector2<f64>) -> (Vector2<f64>, Matrix2<f64>) {
         let each = f64::from(self.lining.machine.polygon.blades_per_side);
         self.gaps(w).fold((Vector2::zeros(), Matrix2::zeros()), |(push, slope), (_, n, gap)| {
@@ -121,22 +121,22 @@ impl<'a> Balance<'a> {
         })
     }
 
-    /// Returns the residual of the two equations and its derivative by `w`, both dimensionless
-    /// but for the length of `w`.
+    /// Returns the residual of the two equations, divided by `scale`, and its derivative with
+    /// respect to `w`.
     fn residual(&self, w: Vector2<f64>) -> (Vector2<f64>, Matrix2<f64>) {
         let (push, slope) = self.pushes(w);
         let (casing, pushed) = (as_matrix(self.casing), as_matrix(self.pushed));
         ((casing * w - pushed * push) / self.scale, (casing + pushed * slope) / self.scale)
     }
 
-    /// Solves the equations by Newton's method; `None` where it does not converge.
+    /// Solves the equations by Newton's method; `None` if it does not converge.
     fn solve(&self, start: Vector2<f64>) -> Option<Vector2<f64>> {
         let length = self.length();
         let mut w = start;
         let (mut residual, mut jacobian) = self.residual(w);
         for _ in 0..NEWTON_STEPS {
             let step = jacobian.lu().solve(&residual)?;
-            // Halved where it overshoots, over a kink of the law.
+            // Halved if it overshoots a kink of the law.
             let mut part = 1.0;
             let mut next = self.residual(w - step);
             while next.0.norm() > residual.norm() && part > 1.0 / 64.0 {
@@ -156,13 +156,13 @@ impl<'a> Balance<'a> {
         (residual.norm() <= AS_ZERO * w.norm().max(length)).then_some(w)
     }
 
-    /// Returns clearance and smoothing, as the length of this contact \[m\].
+    /// Returns the characteristic length of the contact, clearance plus smoothing depth \[m\].
     fn length(&self) -> f64 {
         self.lining.machine.clearance().abs() + self.lining.smoothing_m
     }
 
-    /// Returns the place that neighbouring sides from the first on would hold if they were
-    /// springs, `eps = 0`.
+    /// Returns the displacement that the first `sides` neighbouring sides would hold if they were
+    /// springs (`eps = 0`).
     fn sprung(&self, sides: u32) -> Option<Vector2<f64>> {
         let machine = &*self.lining.machine;
         let each = self.lining.stiffness_n_per_m * f64::from(machine.polygon.blades_per_side);
@@ -178,21 +178,21 @@ impl<'a> Balance<'a> {
         (casing + pushed * slope).lu().solve(&(pushed * push))
     }
 
-    /// Returns the starts of Newton's method.
+    /// Returns the starting points of Newton's method.
     fn starts(&self) -> Vec<Vector2<f64>> {
         let polygon = &self.lining.machine.polygon;
         let mut starts: Vec<Vector2<f64>> =
             (1..=polygon.sides).filter_map(|sides| self.sprung(sides)).collect();
         let (angles, sizes) = GRID;
         for angle in angles {
-            // The first side pushes where w points against it.
+            // The first side is in contact where w points against its direction.
             let (sin, cos) = (polygon.delta * angle).sin_cos();
             starts.extend(sizes.map(|size| Vector2::new(-cos, -sin) * (size * self.length())));
         }
         starts
     }
 
-    /// Returns whether two places are the same up to a turn by whole sides.
+    /// Returns whether two displacements are the same up to a rotation by whole sides.
     fn alike(&self, one: Vector2<f64>, other: Vector2<f64>) -> bool {
         let polygon = &self.lining.machine.polygon;
         let length = one.norm().max(self.length());
@@ -203,7 +203,7 @@ impl<'a> Balance<'a> {
         })
     }
 
-    /// Returns the state at a place.
+    /// Evaluates the state at a displacement.
     fn state(&self, w: Vector2<f64>) -> Result<LiningState, HarmonicError> {
         let machine = &*self.lining.machine;
         let unsettled = HarmonicError::Unsettled { speed: self.speed };
@@ -226,7 +226,7 @@ impl<'a> Balance<'a> {
         let push = Complex::new(push.x, push.y);
         let lead = machine.radial_coupling + machine.friction_at(self.speed);
         let bent = push * (lead * machine.blade_length / machine.blade_modal_stiffness);
-        // z = w + kappa l_b a, a = -(kappa + mu) l_b p/k_a.
+        // From z = w + kappa l_b a, a = -(kappa + mu) l_b p/k_a.
         let arm = machine.radial_coupling * machine.blade_length;
         let casing = Complex::new(w.x, w.y) - bent * arm;
         Ok(LiningState {
@@ -244,11 +244,11 @@ impl<'a> Balance<'a> {
 }
 
 impl Lining<'_> {
-    /// Returns every steady state at a speed \[rad/s\], by the number of groups that push; of
-    /// those that differ by a turn by whole groups, one.
+    /// Returns every steady state at a speed \[rad/s\], by the number of groups in contact; states
+    /// that differ only by a rotation by whole groups are returned once.
     ///
     /// # Errors
-    /// A speed that is not finite, or stiffnesses that differ by too many powers of ten.
+    /// The speed is not finite, or the stiffnesses differ by too many powers of ten.
     pub fn states(&self, speed: f64) -> Result<Vec<LiningState>, HarmonicError> {
         error::refuse_endless(&[speed])?;
         let balance = Balance::at(self, speed);
@@ -278,11 +278,11 @@ fn dot<T: Number>(a: Pair<T>, n: [f64; 2]) -> T {
     a[0] * n[0] + a[1] * n[1]
 }
 
-/// The two groups of the corner that is looked at.
+/// The two groups of the corner considered.
 const SIDES: [u32; 2] = [0, 1];
 
-/// Returns the place of the wave that two groups alone hold; none where there is no such place,
-/// or the smallest motion leaves it.
+/// Returns the displacement of a wave held by two groups alone; `None` if there is none, or if it
+/// is unstable.
 fn place(machine: &Machine, speed: f64) -> Option<(Vector2<f64>, Balance<'_>)> {
     let law = machine.lining.filter(|_| Joint::has_one_wave(machine))?;
     let LiningLaw { stiffness_n_per_m, smoothing_m } = law;
@@ -294,8 +294,8 @@ fn place(machine: &Machine, speed: f64) -> Option<(Vector2<f64>, Balance<'_>)> {
     held.then_some((w, balance))
 }
 
-/// Returns the loads of a lock that two groups hold on the lining of a machine; none where no
-/// two groups alone do.
+/// Returns the loads of a lock held by two groups on the lining; `None` if no two groups alone hold
+/// one.
 pub(in crate::harmonic) fn lock_loads<T: Number>(
     machine: &Machine<T>,
     speed: T,
@@ -315,14 +315,14 @@ pub(in crate::harmonic) fn lock_loads<T: Number>(
     let push = |w: Pair<T>| normals.map(|n| law.push(machine.clearance() + dot(w, n)) * each);
     let sum =
         |pushes: Pair<T>| [0, 1].map(|k| pushes[0] * normals[0][k] + pushes[1] * normals[1][k]);
-    // One step of Newton's method from the root adds the derivatives.
+    // One Newton step from the root attaches the derivatives.
     let root = [T::from(w.x), T::from(w.y)];
     let (held, forced) = (times(casing, root), times(pushed, sum(push(root))));
     let inverse = balance.residual(w).1.try_inverse()? / balance.scale;
     let residual = [held[0] - forced[0], held[1] - forced[1]];
     let w = [0, 1].map(|k| root[k] - residual[0] * inverse[(k, 0)] - residual[1] * inverse[(k, 1)]);
     let pushes = push(w);
-    // a = sum P (A - (kappa + mu) l_b) e^{i psi}/k_a, z = w + kappa l_b a.
+    // From a = sum P (A - (kappa + mu) l_b) e^{i psi}/k_a, z = w + kappa l_b a.
     let lead = (machine.radial_coupling + machine.friction_at(speed)) * machine.blade_length;
     let bent = sum(pushes).map(|p| -p * lead / machine.blade_modal_stiffness);
     let arm = machine.radial_coupling * machine.blade_length;
@@ -345,7 +345,7 @@ pub(in crate::harmonic) fn lock_loads<T: Number>(
     })
 }
 
-/// Returns the stiffness that a lining needs at a speed \[N/m\]; infinite where no lock exists.
+/// Returns the stiffness that a lining needs at a speed; infinite if no lock exists \[N/m\].
 fn needed(machine: &Machine, speed: f64) -> f64 {
     let polygon = &machine.polygon;
     let joint = Joint::at(machine, speed);
@@ -357,14 +357,14 @@ fn needed(machine: &Machine, speed: f64) -> f64 {
     1.0 / ((2.0 * polygon.delta).sin() * left * f64::from(polygon.blades_per_side))
 }
 
-/// Returns the speed at this logarithm of its excess over the lock of rigid contact.
+/// Returns the speed for the logarithm of its relative excess over the lock speed of rigid contact.
 fn speed_at(lock: f64, excess: f64) -> f64 {
     lock * (1.0 + excess.exp())
 }
 
-/// Returns the softest lining of this machine that holds a lock of a rotor that turns forward;
-/// zero at the critical speed where the casing has no damping. None without a lock of
-/// rigid contact. Its stiffness is that under one blade.
+/// Returns the softest lining, by its stiffness under one blade, that holds a lock for forward
+/// rotation. Zero at the critical speed if the casing is undamped; `None` if rigid contact has no
+/// lock.
 #[must_use]
 pub fn least_lock_stiffness(machine: &Machine) -> Option<LeastStiffness> {
     let lock = machine.clone().with_lining(None).lock_speed()?;
@@ -376,7 +376,7 @@ pub fn least_lock_stiffness(machine: &Machine) -> Option<LeastStiffness> {
     Some(LeastStiffness { stiffness_n_per_m: needed(machine, speed_rad_s), speed_rad_s })
 }
 
-/// Finds where the needed stiffness is least: it falls to one minimum and rises.
+/// Finds the minimum of the needed stiffness, which is unimodal in speed.
 fn bottom(machine: &Machine, lock: f64) -> f64 {
     let of = |excess: f64| needed(machine, speed_at(lock, excess));
     let [low, high] = WINDOW_REACH;

@@ -1,22 +1,25 @@
-//! Truncated power series in time, counted in units of a stretch: what the motions without a
-//! closed form are made of; and conservative advancement: how far one may go before a gap can
-//! close (docs/theory.md, section 7). Going that far, looking again and repeating never
-//! passes a contact, however short. No sign is ever tested at samples.
+//! Truncated power series over a stretch of time, used where a motion has no closed form, and
+//! conservative advancement: lower bounds on the time until a gap can close (docs/theory.md,
+//! section 7).
+//!
+//! Advancing by that time and repeating cannot miss a contact, however short, because signs are
+//! never tested at sample points. [`values`] and [`product`] evaluate series, [`safe_step`] and
+//! [`curved_step`] give the bounds.
 
 use crate::tolerances::SERIES_TAIL;
 
-/// Terms kept: over a stretch of 0.8 rad of the fastest rate the first one
-/// dropped is below `0.8^18/18!`, 3e-18.
+/// Number of terms. Over a stretch of 0.8 rad of the fastest oscillation the first one dropped is
+/// below `0.8^18/18!`, 3e-18.
 pub(in crate::motion::event) const TERMS: usize = 18;
-/// Length of a stretch in radians of the fastest rate.
+/// Length of a stretch, as phase of the fastest oscillation \[rad\].
 pub(in crate::motion::event) const STRETCH: f64 = 0.8;
 
-/// Coefficients of `x^n`, `0 <= x <= 1` over the stretch.
+/// Coefficients of `x^n`, where `0 <= x <= 1` is the fraction of the stretch.
 pub(in crate::motion::event) type Terms = [f64; TERMS];
 
-/// Term `n` of a product; terms of both factors up to `n` must be known.
+/// Returns term `n` of a product; terms of both factors up to `n` must be known.
 pub(in crate::motion::event) fn product(a: &Terms, b: &Terms, n: usize) -> f64 {
-    // Two sums, from both ends: additions that do not wait for each other.
+    // Two independent sums, from both ends, which the processor can overlap.
     let (mut low, mut high) = (0.0, 0.0);
     let half = n.div_ceil(2);
     for (k, (x, y)) in a.iter().zip(b).take(half).enumerate() {
@@ -26,19 +29,19 @@ pub(in crate::motion::event) fn product(a: &Terms, b: &Terms, n: usize) -> f64 {
     if n.is_multiple_of(2) { low + high + a[n / 2] * b[n / 2] } else { low + high }
 }
 
-/// Term `n` of a quotient whose earlier terms are known: `of/by`, where `of` is
-/// the term of the numerator.
+/// Returns term `n` of a quotient whose earlier terms are `result`; `of` is term `n` of the
+/// numerator.
 pub(in crate::motion::event) fn quotient(of: f64, by: &Terms, result: &Terms, n: usize) -> f64 {
     let known: f64 = by.iter().skip(1).zip(result.iter().take(n).rev()).map(|(a, b)| a * b).sum();
     (of - known) / by[0]
 }
 
-/// Term `n` of the derivative.
+/// Returns term `n` of the derivative.
 pub(in crate::motion::event) fn slope(terms: &Terms, n: usize) -> f64 {
     terms.get(n + 1).map_or(0.0, |term| (n as f64 + 1.0) * term)
 }
 
-/// Value, first and second derivative, by Horner.
+/// Returns the value and the first two derivatives, by Horner's scheme.
 pub(in crate::motion::event) fn values(terms: &Terms, x: f64) -> [f64; 3] {
     let (mut value, mut rate, mut bend) = (0.0, 0.0, 0.0);
     for &term in terms.iter().rev() {
@@ -49,7 +52,7 @@ pub(in crate::motion::event) fn values(terms: &Terms, x: f64) -> [f64; 3] {
     [value, rate, 2.0 * bend]
 }
 
-/// Value and three derivatives as those of a gap.
+/// Returns the value and the first three derivatives as a gap.
 pub(in crate::motion::event) fn gap(terms: &Terms, x: f64) -> Gap {
     let (mut gap, mut rate, mut bend, mut twist) = (0.0, 0.0, 0.0, 0.0);
     for &term in terms.iter().rev() {
@@ -61,22 +64,22 @@ pub(in crate::motion::event) fn gap(terms: &Terms, x: f64) -> Gap {
     Gap { gap, rate, bend: 2.0 * bend, twist: 6.0 * twist }
 }
 
-/// Bound on the fourth derivative over the stretch.
+/// Returns a bound on the magnitude of the fourth derivative over the stretch.
 pub(in crate::motion::event) fn jounce(terms: &Terms) -> f64 {
     let factor = |n: f64| n * (n - 1.0) * (n - 2.0) * (n - 3.0);
     terms.iter().enumerate().skip(4).map(|(n, term)| factor(n as f64) * term.abs()).sum()
 }
 
-/// Whether the terms fall fast enough that those dropped are round-off. The last
-/// two are not asked, as pushes do not have them: `x^14/14!` at 1e-12 of the
-/// largest leaves 1e-17 at the first term dropped, a geometric fall 4e-16.
+/// Returns whether the terms decrease fast enough that those dropped are round-off. The last two
+/// terms are not examined, because contact forces do not have them: `x^14/14!` at 1e-12 of the
+/// largest term leaves 1e-17 in the first term dropped, a geometric decrease 4e-16.
 pub(in crate::motion::event) fn ended(terms: &Terms) -> bool {
     let largest = terms.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
     let last = terms.iter().rev().skip(2).take(2);
     last.into_iter().all(|term| term.abs() <= SERIES_TAIL * largest)
 }
 
-/// Longest time over which `gap + rate t - bend t^2/2` stays above zero, for
+/// Returns the longest time over which `gap + rate t - bend t^2/2` stays positive, for
 /// `gap, bend >= 0` \[s\].
 pub(in crate::motion::event) fn safe_step(gap: f64, rate: f64, bend: f64) -> f64 {
     let root = (rate * rate + 2.0 * bend * gap).sqrt();
@@ -89,7 +92,7 @@ pub(in crate::motion::event) fn safe_step(gap: f64, rate: f64, bend: f64) -> f64
     }
 }
 
-/// A gap with its first three derivatives now.
+/// A gap and its first three derivatives at one instant.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::motion::event) struct Gap {
     pub gap: f64,
@@ -99,23 +102,22 @@ pub(in crate::motion::event) struct Gap {
 }
 
 impl Gap {
-    /// The same with round-off added to the gap.
+    /// Adds a round-off allowance to the gap.
     pub(in crate::motion::event) fn above(self, noise: f64) -> Self {
         Self { gap: self.gap.max(0.0) + noise, ..self }
     }
 }
 
-/// Tries of `curved_step`: from the second on they converge quadratically.
+/// Iterations of [`curved_step`]; they converge quadratically from the second on.
 const TRIES: usize = 6;
 
-/// As `safe_step`, from three derivatives now and a bound `jounce` on the fourth
-/// that holds for `span` seconds, which are finite; never longer than `span`.
+/// Returns a safe step as [`safe_step`] does, from three derivatives now and a bound `jounce` on
+/// the fourth that is valid for `span` seconds (finite); at most `span`.
 ///
-/// The gap stays above `gap + rate t + bend t^2/2 + twist t^3/6 - jounce t^4/24`,
-/// and its second derivative above `bend + twist t - jounce t^2/2`, which is
-/// concave: over any part of the span it is least at one of both ends. So one goes
-/// along this bound, which costs no sine, as along a motion. A shorter part gives a
-/// better bound.
+/// The gap stays above `gap + rate t + bend t^2/2 + twist t^3/6 - jounce t^4/24`. The second
+/// derivative of this bound is `bend + twist t - jounce t^2/2`, which is concave, so its minimum
+/// over any part of the span is at an end. The function advances along the bound as along a motion,
+/// with shorter parts giving better minima.
 pub(in crate::motion::event) fn curved_step(now: Gap, jounce: f64, span: f64) -> f64 {
     let bend_at = |t: f64| now.bend + t * (now.twist - 0.5 * jounce * t);
     let (mut t, mut end) = (0.0, span);
@@ -123,12 +125,12 @@ pub(in crate::motion::event) fn curved_step(now: Gap, jounce: f64, span: f64) ->
     for _ in 0..TRIES {
         let bend = (-bend_at(t).min(bend_at(end))).max(0.0);
         let left = end - t;
-        // A concave bound that is open at both ends is open between them.
+        // A concave bound that is positive at both ends is positive between them.
         let open = gap >= 0.0 && gap + left * (rate - 0.5 * bend * left) > 0.0;
         let step = if open { left } else { safe_step(gap.max(0.0), rate, bend) };
         if step < left {
             t += step;
-            // What converges is not followed to its last digits.
+            // Convergence is not continued to the last digits.
             if step < 1e-3 * t {
                 break;
             }
@@ -145,9 +147,9 @@ pub(in crate::motion::event) fn curved_step(now: Gap, jounce: f64, span: f64) ->
     t
 }
 
-/// Longest time over which a gap that starts closed and at rest stays open
-/// \[s\]: `gap >= t^2 (bend/2 + twist t/6 - jounce t^2/24)`, from its second and
-/// third derivatives now and a bound on the fourth.
+/// Returns the longest time over which a gap that starts closed and at rest stays open \[s\], from
+/// its second and third derivatives now and a bound on the fourth:
+/// `gap >= t^2 (bend/2 + twist t/6 - jounce t^2/24)`.
 pub(in crate::motion::event) fn leaving_step(bend: f64, twist: f64, jounce: f64) -> f64 {
     safe_step(0.5 * bend.max(0.0), twist / 6.0, jounce / 12.0)
 }
@@ -210,7 +212,7 @@ mod looks_tests {
             (1.0, 1.0, 0.0, -1.0, 0.1),
             (1.0, -1.0, 0.0, 0.0, 1.0),
             (1.0, -3.0, 8.0, -6.0, 0.5),
-            // It nearly closes, opens again, and closes then.
+            // Nearly closes, opens again, and then closes.
             (1.01, -4.0, 8.0, 0.0, 60.0),
             (1e-12, -1.0, 2.0, 30.0, 1.0),
             (1e-3, 0.0, 0.0, -1.0, 1.0),

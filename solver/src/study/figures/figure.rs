@@ -1,83 +1,83 @@
-//! A figure as data: panels of series over two quantities, all in SI units.
+//! A figure as data: panels with series over two quantities, all in SI units.
 
 use std::borrow::Cow;
 
 use crate::motion::Verdict;
 
-/// One figure.
+/// A figure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// One line that says what it shows.
+    /// Title, one line.
     pub title: String,
-    /// The conditions.
+    /// Conditions of the figure, shown below the title.
     pub note: String,
-    /// What it means, in paragraphs below it.
+    /// Explanation in paragraphs, shown below the panels.
     pub caption: Vec<String>,
-    /// How many panels stand in a row.
+    /// Number of panels in a row.
     pub columns: usize,
-    /// Its panels, row by row.
+    /// Panels, row by row.
     pub panels: Vec<Panel>,
 }
 
-/// One pair of axes.
+/// A pair of axes with its series.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panel {
-    /// Title; empty for the only panel of a figure.
+    /// Title; empty if the figure has only one panel.
     pub title: String,
     /// Horizontal axis.
     pub x: Quantity,
     /// Vertical axis.
     pub y: Quantity,
-    /// What is drawn, in order.
+    /// Series, in the order in which they are drawn.
     pub series: Vec<Series>,
-    /// Special values of x.
+    /// Marked values of x.
     pub marks: Vec<Mark>,
 }
 
-/// What an axis measures.
+/// Quantity of an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quantity {
-    /// Name in files, with the SI unit.
+    /// Column name in files, with the SI unit.
     pub column: Cow<'static, str>,
-    /// Name on the axis, with the unit shown.
+    /// Axis label, with the displayed unit.
     pub label: Cow<'static, str>,
-    /// Number of shown units in one SI unit.
+    /// Displayed value of one SI unit.
     pub factor: f64,
     /// Whether the axis is logarithmic.
     pub log: bool,
 }
 
-/// One curve or set of points.
+/// A curve or a set of points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
     /// Name in files.
     pub name: String,
     /// Name in the legend.
     pub label: String,
-    /// How it is drawn.
+    /// Line or symbol.
     pub style: Style,
-    /// `(x, y)`, finite, in SI units.
+    /// Points `(x, y)`, finite, in SI units.
     pub points: Vec<(f64, f64)>,
 }
 
-/// How a series is drawn.
+/// Line or symbol style of a series. Colours are given by their index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Style {
-    /// A line in the colour of this number.
+    /// Solid line of a colour.
     Line(usize),
-    /// A dashed line in the colour of this number.
+    /// Dashed line of a colour.
     Dashed(usize),
-    /// A dotted line in the colour of this number.
+    /// Dotted line of a colour.
     Dotted(usize),
-    /// A thin grey line without a legend.
+    /// Thin grey line without a legend entry.
     Faint,
-    /// Cells of a map, in the colour of this verdict.
+    /// Map cells in the colour of a verdict.
     Cells(Verdict),
-    /// Discs of this colour number and radius in pixels.
+    /// Discs of a colour and a radius in pixels.
     Discs(usize, i32),
-    /// Rings in the same way.
+    /// Rings of a colour and a radius in pixels.
     Rings(usize, i32),
-    /// Pale upright bars in the colour of this number, each from a point to the next one.
+    /// Pale vertical bars of a colour, each from a point to the next one.
     Bars(usize),
     /// Small grey dots.
     Dots,
@@ -85,17 +85,17 @@ pub enum Style {
     Edge,
 }
 
-/// A vertical line.
+/// A labelled vertical line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mark {
-    /// Where, in SI units.
+    /// Position, in SI units.
     pub x: f64,
-    /// Its name.
+    /// Label.
     pub label: &'static str,
 }
 
 impl Figure {
-    /// A figure of panels below each other, without a caption.
+    /// Creates a figure with panels below each other, without a caption.
     #[must_use]
     pub fn new(title: impl Into<String>, note: impl Into<String>, panels: Vec<Panel>) -> Self {
         let (title, note) = (title.into(), note.into());
@@ -104,19 +104,19 @@ impl Figure {
 }
 
 impl Quantity {
-    /// Time, shown in milliseconds.
+    /// Time, displayed in milliseconds.
     pub const TIME: Self = Self::new("t_s", "time t [ms]", 1e3);
     /// Rotor speed.
     pub const SPEED: Self = Self::new("speed_rad_s", "rotor speed Ω [rad/s]", 1.0);
 
-    /// A quantity on a linear axis.
+    /// Creates a quantity for a linear axis; `factor` is the displayed value of one SI unit.
     #[must_use]
     pub const fn new(column: &'static str, label: &'static str, factor: f64) -> Self {
         let (column, label) = (Cow::Borrowed(column), Cow::Borrowed(label));
         Self { column, label, factor, log: false }
     }
 
-    /// A quantity on a logarithmic axis, shown in SI units.
+    /// Creates a quantity for a logarithmic axis, displayed in SI units.
     #[must_use]
     pub const fn log(column: &'static str, label: &'static str) -> Self {
         let (column, label) = (Cow::Borrowed(column), Cow::Borrowed(label));
@@ -125,7 +125,7 @@ impl Quantity {
 }
 
 impl Series {
-    /// A series of the points that are numbers.
+    /// Creates a series from the finite points.
     #[must_use]
     pub fn new(
         label: impl Into<String>,
@@ -137,7 +137,7 @@ impl Series {
         Self { name: label.clone(), label, style, points }
     }
 
-    /// With another name in files.
+    /// Sets another name for files.
     #[must_use]
     pub fn named(self, name: impl Into<String>) -> Self {
         Self { name: name.into(), ..self }
@@ -145,13 +145,13 @@ impl Series {
 }
 
 impl Panel {
-    /// A panel without marks.
+    /// Creates a panel without marks.
     #[must_use]
     pub fn new(title: &str, x: Quantity, y: Quantity, series: Vec<Series>) -> Self {
         Self { title: title.to_string(), x, y, series, marks: Vec::new() }
     }
 
-    /// Whether all series are curves over the same values of x.
+    /// Returns whether all series are curves over the same values of x.
     #[must_use]
     pub fn shares_x(&self) -> bool {
         let xs = |series: &Series| series.points.iter().map(|point| point.0).collect::<Vec<_>>();

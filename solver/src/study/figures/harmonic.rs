@@ -1,11 +1,11 @@
-//! Figs. 9 and 10: the locked motion by harmonic balance, against speed.
+//! Figs. 9 and 10: the locked motion by harmonic balance as a function of speed.
 
 use super::{Figure, Mark, Panel, Quantity, Series, Style, group_name, speed_marks};
 use crate::harmonic::{Form, HarmonicError, LockedPoint, Sweep, locked_motion};
 use crate::model::Machine;
 use crate::scene::Scene;
 
-/// Speeds of a curve, from standstill to the speed of the scene.
+/// Number of speeds of a curve, from standstill to the speed of the scene.
 const SPEEDS: u32 = 501;
 
 const LAMBDA: Quantity =
@@ -26,17 +26,17 @@ fn series(label: &str, style: Style, sweep: &Sweep, of: impl Fn(&LockedPoint) ->
     Series::new(label, style, sweep.points.iter().map(|point| (point.speed_rad_s, of(point))))
 }
 
-/// The two groups of blades that hold the wave, such as "#6" and "#21".
+/// Returns the names of the two groups that hold the wave, such as "#6" and "#21".
 fn names(machine: &Machine, sweep: &Sweep) -> [String; 2] {
     sweep.corner.sides().map(|side| group_name(&machine.polygon.blades_of_side(side)))
 }
 
-/// The numbers of a group in the name of a column: "6", "3_14".
+/// Converts the name of a group for use in a column name: "6", "3_14".
 fn plain(group: &str) -> String {
     group.replace('#', "").replace('+', "_")
 }
 
-/// Fig. 9: the multipliers, as the paper has them and with damping.
+/// Draws Fig. 9: the multipliers, undamped as in the paper, and damped.
 pub fn multipliers(scene: &Scene) -> Result<Figure, HarmonicError> {
     let machine = scene.machine();
     let undamped = sweep(scene, Form::Printed, false)?;
@@ -78,7 +78,7 @@ pub fn multipliers(scene: &Scene) -> Result<Figure, HarmonicError> {
     Ok(figure)
 }
 
-/// Fig. 10: the amplitudes of casing and blades, undamped as in the paper.
+/// Draws Fig. 10: the amplitudes of casing and blades, undamped as in the paper.
 pub fn amplitudes(scene: &Scene) -> Result<Figure, HarmonicError> {
     let machine = scene.machine();
     let [printed, blade, modal] = [

@@ -1,9 +1,9 @@
-//! The figures of the paper: Figs. 4 to 8 in the time domain, 9 and 10 in the
-//! frequency domain, as data that `report` can draw and write.
+//! The figures of the paper as data that `report` can draw and write: Figs. 4 to 8 from the time
+//! domain (`time`, `zone`), 9 and 10 from the frequency domain (`harmonic`).
 //!
-//! Every figure has a scene of its own: the one that gives what the paper says, as far as one
-//! was found. Captions say what agrees, what differs, and what cannot be compared, because the
-//! paper prints neither its pulse nor the scales of its pictures in the text.
+//! Every figure has its own scene, which reproduces the paper's statements as far as such a scene
+//! could be found. Captions state what agrees, what differs, and what cannot be compared, because
+//! the paper prints neither its pulse nor, in the text, the scales of its figures.
 
 mod figure;
 mod harmonic;
@@ -17,13 +17,13 @@ pub use which::Which;
 use crate::harmonic::lock_window;
 use crate::model::Machine;
 
-/// The blades of a phase group, such as "#6" or "#3+#14".
+/// Returns the name of a phase group, such as "#6" or "#3+#14".
 fn group_name(blades: &[u32]) -> String {
     blades.iter().map(|blade| format!("#{blade}")).collect::<Vec<_>>().join("+")
 }
 
-/// The speed above which the wave is pushed outwards, and those between which both
-/// multipliers of a lock push, of a rotor that turns in the sense of `speed`.
+/// Returns marks at the critical speed and at the ends of the lock, for a rotor that turns in the
+/// direction of the sign of `speed`.
 fn speed_marks(machine: &Machine, speed: f64) -> Vec<Mark> {
     let sense = 1_f64.copysign(speed);
     let window = lock_window(machine, sense);

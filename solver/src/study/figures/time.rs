@@ -1,21 +1,21 @@
-//! Figs. 4 to 7: one run, or the same run at three time steps.
+//! Figs. 4 to 7: one run, or the same run with three time steps.
 
 use super::{Figure, Panel, Quantity, Series, Style, group_name};
 use crate::motion::{RunReport, Sample, Sampling, Script, run_to_end, run_to_verdict, to_the_end};
 use crate::scene::keys;
 use crate::scene::{CheckedScene, SolverKind};
 
-/// Samples of a run; a line of a figure can show no more.
+/// Number of samples of a run; a line of the figure cannot resolve more.
 const INTERVALS: u32 = 2000;
-/// The time steps of Fig. 4 \[s\].
+/// Time steps of Fig. 4 \[s\].
 const STEPS: [f64; 3] = [1e-6, 5e-7, 1e-7];
 
-/// Time steps of which it is told how many lock, from the largest to the smallest of Fig. 4
-/// and a tenth of that.
+/// Number and range of the time steps for which the caption counts the locks, from the largest of
+/// Fig. 4 to a tenth of the smallest \[s\].
 const MANY: u32 = 50;
 const MANY_RANGE: [f64; 2] = [1e-8, 1e-6];
 
-/// The part of Fig. 4 that is shown larger \[s\].
+/// Time interval of Fig. 4 that is shown enlarged \[s\].
 const PARTING: [f64; 2] = [0.02, 0.05];
 
 const U: Quantity = Quantity::new("u_m", "casing displacement [µm]", 1e6);
@@ -23,7 +23,7 @@ const U_C: Quantity = Quantity::new("u_m", "casing displacement u_c [µm]", 1e6)
 const ALPHA: Quantity = Quantity::new("alpha_rad", "blade angle [nrad]", 1e9);
 const GAP: Quantity = Quantity::new("gap_m", "gap between blade tip and casing [µm]", 1e6);
 
-/// What Figs. 4 to 6 share.
+/// Statements common to the captions of Figs. 4 to 6.
 const NOT_COMPARED: &str = "Cannot be compared: the force of the pulse, which the paper does not \
     print, and the scales of its picture. 43,400 N was found by search; 40 kN locks at 84 to \
     90 ms on other blades.";
@@ -36,16 +36,16 @@ fn sampled(scene: &CheckedScene, gaps: bool) -> (RunReport, Vec<Sample>) {
     let mut samples = Vec::new();
     let sampling = Sampling { intervals: INTERVALS, gaps };
     let mut keep = |sample: &Sample| samples.push(sample.clone());
-    let report = run_to_end(scene, &Script::default(), sampling, &mut keep, &mut ());
+    let report = run_to_end(scene, &Script::default(), sampling, &mut keep);
     (report, samples)
 }
 
-/// A run of which only the end is told.
+/// Runs a scene without samples.
 fn plain(scene: &CheckedScene) -> RunReport {
-    run_to_end(scene, &Script::default(), Sampling::default(), &mut |_| {}, &mut ())
+    run_to_end(scene, &Script::default(), Sampling::default(), &mut |_| {})
 }
 
-/// How a run ended: "locked from 76.9 ms on #6 and #21".
+/// Describes the end of a run: "locked from 76.9 ms on #6 and #21".
 fn ending(report: &RunReport) -> String {
     let held: Vec<String> =
         report.outcome.contacts.iter().map(|contact| group_name(&contact.blades)).collect();
@@ -56,7 +56,7 @@ fn ending(report: &RunReport) -> String {
     }
 }
 
-/// The conditions of a run, and how it ended.
+/// Describes the conditions of a run and its end.
 fn note(scene: &CheckedScene, report: &RunReport) -> String {
     let (operation, solver) = (&scene.operation, &scene.solver);
     let step = match solver.kind {
@@ -82,7 +82,7 @@ fn series(label: &str, style: Style, samples: &[Sample], of: fn(&Sample) -> f64)
     Series::new(label, style, samples.iter().map(|sample| (sample.state.t_s, of(sample))))
 }
 
-/// A time step, such as "h = 0.5 µs".
+/// Formats a time step: "h = 0.5 µs".
 fn step_words(step_s: f64) -> String {
     format!("h = {} µs", microseconds(step_s))
 }
@@ -92,13 +92,13 @@ fn microseconds(time_s: f64) -> String {
     digits.trim_end_matches('0').trim_end_matches('.').to_string()
 }
 
-/// "50 steps from 0.01 to 1 µs".
+/// Describes the time steps of [`MANY`]: "50 steps from 0.01 to 1 µs".
 fn many_steps() -> String {
     let [from, to] = MANY_RANGE.map(microseconds);
     format!("{MANY} steps from {from} to {to} µs")
 }
 
-/// A force, such as "43.4 kN".
+/// Formats a force: "43.4 kN".
 fn force_words(newton: f64) -> String {
     match newton.abs() {
         x if x >= 1e6 => format!("{} MN", 1e-6 * newton),
@@ -107,7 +107,7 @@ fn force_words(newton: f64) -> String {
     }
 }
 
-/// The scene at the three time steps of Fig. 4, where it allows them.
+/// Returns the scene with each of the time steps of Fig. 4 that it allows.
 fn at_steps(scene: &CheckedScene) -> impl Iterator<Item = (f64, CheckedScene)> {
     STEPS.into_iter().filter_map(|step| {
         let mut scene = scene.clone().into_scene();
@@ -117,7 +117,7 @@ fn at_steps(scene: &CheckedScene) -> impl Iterator<Item = (f64, CheckedScene)> {
     })
 }
 
-/// At how many of many time steps a scene locks, and when.
+/// Describes at how many of [`MANY`] time steps a scene locks, and when.
 fn at_many_steps(scene: &CheckedScene) -> String {
     let [finest, longest] = MANY_RANGE;
     let step = |n| finest * (longest / finest).powf(f64::from(n) / f64::from(MANY - 1));
@@ -141,8 +141,8 @@ fn at_many_steps(scene: &CheckedScene) -> String {
     )
 }
 
-/// The disk at the end of a run: half the range of its larger coordinate over the last
-/// tenth.
+/// Describes the vibration of the disk at the end of a run: half the range of its larger coordinate
+/// over the last tenth.
 fn still_swings(panel: Option<&Panel>) -> String {
     let lines = panel.map(|panel| panel.series.as_slice()).unwrap_or_default();
     let range = |line: &Series| {
@@ -155,24 +155,24 @@ fn still_swings(panel: Option<&Panel>) -> String {
     format!("still swings by {:.0} nrad about it at the end", 1e9 * swing)
 }
 
-/// How the same run ends by the event solver.
+/// Describes the end of the same run with the event solver.
 fn by_events(scene: &CheckedScene) -> Option<String> {
     let reference = scene.as_reference().checked().ok()?;
     Some(format!("event solver: {}", ending(&plain(&reference))))
 }
 
-/// Fig. 4: `u_c` at three time steps.
+/// Draws Fig. 4: `u_c` with three time steps.
 pub fn steps(scene: &CheckedScene) -> Figure {
-    let (mut lines, mut endings, mut told) = (Vec::new(), Vec::new(), String::new());
+    let (mut lines, mut endings, mut conditions) = (Vec::new(), Vec::new(), String::new());
     for (index, (step, scene)) in at_steps(scene).enumerate() {
         let (report, samples) = sampled(&scene, false);
-        // As in the paper: dotted, dashed and solid.
+        // Line styles as in the paper: dotted, dashed and solid.
         let style = [Style::Dotted(index), Style::Dashed(index)].get(index).copied();
         let style = style.unwrap_or(Style::Line(index));
         let line = series(&step_words(step), style, &samples, |sample| sample.state.u[0]);
         lines.push(line.named(format!("u_c_h{step:e}")));
         endings.push(format!("{}: {}", step_words(step), ending(&report)));
-        told = note(&scene, &report);
+        conditions = note(&scene, &report);
     }
     endings.extend(by_events(scene));
     let [from, to] = PARTING;
@@ -185,7 +185,7 @@ pub fn steps(scene: &CheckedScene) -> Figure {
         Panel::new("(a) whole run", Quantity::TIME, U_C, lines),
         Panel::new("(b) where the phases part", Quantity::TIME, U_C, parting),
     ];
-    let mut figure = Figure::new("Casing displacement u_c at three time steps", told, panels);
+    let mut figure = Figure::new("Casing displacement u_c at three time steps", conditions, panels);
     figure.caption.push(format!("{}.", endings.join("; ")));
     figure.caption.push(format!(
         "Agrees with the paper: the motion is locked from about 0.08 s at each of its three \
@@ -200,7 +200,7 @@ pub fn steps(scene: &CheckedScene) -> Figure {
     figure
 }
 
-/// Fig. 5: the gaps of all blades, those in contact at the end marked.
+/// Draws Fig. 5: the gaps of all blades, highlighting those in contact at the end.
 pub fn gaps(scene: &CheckedScene) -> Figure {
     let (report, samples) = sampled(scene, true);
     let held: Vec<u32> =
@@ -250,7 +250,7 @@ fn blade_lines(samples: &[Sample]) -> Vec<Series> {
     ]
 }
 
-/// The title of a panel of the blades, with their damping.
+/// Returns the title of a panel of the disk, with its damping.
 fn blade_title(letter: &str, scene: &CheckedScene) -> String {
     format!(
         "{letter} bladed disk, ζ_bd = {}",
@@ -258,7 +258,7 @@ fn blade_title(letter: &str, scene: &CheckedScene) -> String {
     )
 }
 
-/// The coordinates of casing and bladed disk over time.
+/// Draws the coordinates of casing and disk over time.
 fn coordinates(scene: &CheckedScene) -> Figure {
     let (report, samples) = sampled(scene, false);
     let panels = vec![
@@ -268,12 +268,12 @@ fn coordinates(scene: &CheckedScene) -> Figure {
     Figure::new("Modal vibrations of casing and bladed disk", note(scene, &report), panels)
 }
 
-/// Fig. 6: the coordinates of casing and bladed disk; the paper's also with its
-/// blade damping taken literally.
+/// Draws Fig. 6: the coordinates of casing and disk, also with the paper's blade damping taken
+/// literally.
 pub fn response(scene: &CheckedScene) -> Figure {
     let mut figure = coordinates(scene);
-    // The paper prints d_bd = 2 omega_bd zeta_bd beside m_b: without the inertia,
-    // the damping ratio is larger by 1/m_b.
+    // The paper prints d_bd = 2 omega_bd zeta_bd next to m_b; without the inertia, the damping
+    // ratio is larger by the factor 1/m_b.
     let disk = scene.disk_in_use();
     let literal = disk.damping_ratio / disk.inertia_kg_m2;
     let text = literal.to_string();
@@ -299,7 +299,7 @@ pub fn response(scene: &CheckedScene) -> Figure {
     figure
 }
 
-/// Fig. 7: as Fig. 6 for four nodal diameters.
+/// Draws Fig. 7: as Fig. 6, for four nodal diameters.
 pub fn four_diameters(scene: &CheckedScene) -> Figure {
     let mut figure = coordinates(scene);
     let at = |(step, scene): (f64, CheckedScene)| {

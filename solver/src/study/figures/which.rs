@@ -1,4 +1,4 @@
-//! Names a figure of the paper by its number.
+//! Selects a figure of the paper by its number.
 
 use std::fmt::{Display, Formatter};
 use std::str::FromStr;
@@ -7,30 +7,30 @@ use super::{Figure, harmonic, time, zone};
 use crate::harmonic::HarmonicError;
 use crate::scene::{CheckedScene, Scene, SceneError};
 
-/// The numbers of the figures of the paper.
+/// Numbers of the figures.
 const NUMBERS: [u32; 7] = [4, 5, 6, 7, 8, 9, 10];
 
-/// A figure of the paper, by its number.
+/// A figure of the paper, given by its number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Which(u32);
 
 impl Which {
-    /// Returns the figures of the paper.
+    /// Returns all figures of the paper.
     #[must_use]
     pub fn of_paper() -> Vec<Self> {
         NUMBERS.into_iter().map(Self).collect()
     }
 
-    /// Returns the name of its files, without their ending.
+    /// Returns the name of its files, without extension.
     #[must_use]
     pub fn stem(self) -> String {
         format!("fig{:02}", self.0)
     }
 
-    /// Returns its scene.
+    /// Returns the scene of the figure.
     ///
     /// # Errors
-    /// None, as these scenes exist.
+    /// None, because these scenes are built in.
     pub fn scene(self) -> Result<CheckedScene, SceneError> {
         let name = match self.0 {
             4..=6 => "paper-figs-4-6",
@@ -41,10 +41,10 @@ impl Which {
         Scene::builtin(name)?.checked()
     }
 
-    /// Draws the figure of its scene.
+    /// Draws the figure for a scene.
     ///
     /// # Errors
-    /// None, as these scenes have what their figures show.
+    /// None for the figure's own scene.
     pub fn draw(self, scene: &CheckedScene) -> Result<Figure, HarmonicError> {
         let mut figure = match self.0 {
             4 => time::steps(scene),

@@ -1,4 +1,4 @@
-//! Fig. 8: which pulses at which speeds lead to which lasting motion.
+//! Fig. 8: the verdict as a function of pulse and speed.
 
 use rayon::prelude::*;
 
@@ -9,33 +9,32 @@ use crate::scene::keys::{PULSE, SPEED};
 use crate::scene::{CheckedScene, ContactLaw, Scene, SolverKind};
 use crate::study::{Axis, Map, MapPlan};
 
-/// Speeds, from a fifth of that of the scene up to it.
+/// Number of speeds, from a fifth of the scene's speed up to it.
 const SPEEDS: u32 = 41;
-/// Pulses, by equal factors: fifteen a decade.
+/// Number of pulses with equal ratios, fifteen a decade.
 const PULSES: u32 = 46;
 /// Smallest and largest pulse \[N\].
 const PULSE_RANGE: (f64, f64) = (1e4, 1e7);
-/// How well the threshold is known, as a part of it, and the rows above it that
-/// must last: half a decade.
+/// Relative accuracy of the threshold, and the number of rows above it in which the wave must be
+/// held: half a decade.
 const THRESHOLD: f64 = 1e-3;
 const LASTING_ROWS: usize = 8;
-/// The speeds for which the caption states it \[rad/s\].
+/// Speeds for which the caption states the threshold \[rad/s\].
 const STATED: [f64; 3] = [300.0, 400.0, 500.0];
 
 const THRESHOLD_NAME: &str = "threshold";
 const FORCE: Quantity = Quantity::log("pulse_n", "force of the pulse [N]");
 
-/// Fig. 8 for one machine with both contact laws; for the paper's also with four
-/// nodal diameters.
+/// Draws Fig. 8 for one machine with both contact laws, and for four nodal diameters.
 pub fn zone(scene: &CheckedScene) -> Figure {
     let mut panels = both_laws(scene, ["(a)", "(b)"]);
     let mut caption = Vec::new();
     if let Ok(four) = Scene::builtin("paper-nd4") {
         panels.extend(both_laws(&four, ["(c)", "(d)"]));
-        let told = panels.first().map(thresholds).unwrap_or_default();
+        let limits = panels.first().map(thresholds).unwrap_or_default();
         caption.push(format!(
             "Agrees with the paper: with its algorithm and its Table 1 (a), interaction needs a \
-             speed above Ω_c, where every pulse above a threshold lasts: {told}. Some smaller ones \
+             speed above Ω_c, where every pulse above a threshold lasts: {limits}. Some smaller ones \
              last too, in islands. Nothing lasts below Ω_c; a cell reaches to the middle between \
              its speed and the next."
         ));
@@ -62,7 +61,7 @@ pub fn zone(scene: &CheckedScene) -> Figure {
     Figure { caption, columns: 2, ..Figure::new(title, note, panels) }
 }
 
-/// The threshold of a panel at some speeds, in words.
+/// States the threshold of a panel at some speeds, in words.
 fn thresholds(panel: &Panel) -> String {
     let points = panel.series.iter().find(|series| series.name == THRESHOLD_NAME);
     let points = points.map(|series| series.points.as_slice()).unwrap_or_default();
@@ -85,7 +84,7 @@ const CAPTION: [&str; 3] = [
      damping of the casing: no one setting gives all of them.",
 ];
 
-/// The zone with the paper's law and with contact that only pushes.
+/// Returns the panels for the paper's law and for contact that only pushes.
 fn both_laws(scene: &Scene, letters: [&str; 2]) -> Vec<Panel> {
     let laws = [
         (SolverKind::Explicit, ContactLaw::Bilateral, "the paper's algorithm (bilateral)"),
@@ -105,7 +104,7 @@ fn both_laws(scene: &Scene, letters: [&str; 2]) -> Vec<Panel> {
     laws.into_iter().zip(letters).map(panel).collect()
 }
 
-/// One series of cells for each verdict that occurs, and the threshold.
+/// Returns one series of cells for each verdict that occurs, and the threshold.
 fn series(scene: Scene) -> Vec<Series> {
     let axis =
         |path: &str, (from, to), count, log| Axis { path: path.to_string(), from, to, count, log };
@@ -129,7 +128,7 @@ fn series(scene: Scene) -> Vec<Series> {
         (0..SPEEDS).filter_map(|column| Some((map.plan.x.value(column), threshold(&map, column)?)));
     series.push(Series::new(THRESHOLD_NAME, Style::Line(5), edge));
     let is_seen = |series: &Series| match series.style {
-        // A line of one point cannot be seen.
+        // A line with a single point is invisible.
         Style::Line(_) => series.points.len() > 1,
         _ => !series.points.is_empty(),
     };
@@ -137,9 +136,8 @@ fn series(scene: Scene) -> Vec<Series> {
     series
 }
 
-/// The smallest pulse of a column from which every larger one of the map lasts,
-/// by bisection between two cells; none where only few of the largest last, or
-/// every one does.
+/// Returns the smallest pulse of a column from which every larger one of the map gives a held wave,
+/// located by bisection between two cells. `None` if only a few of the largest pulses do, or all.
 fn threshold(map: &Map, column: u32) -> Option<f64> {
     let lasts = |row: u32| map.at(column, row).is_some_and(|cell| cell.verdict.is_held());
     let rows = map.plan.y.count;

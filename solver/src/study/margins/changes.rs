@@ -1,6 +1,6 @@
-//! How far a run is from another verdict: for each quantity that an operator or a designer may
-//! change, the nearest value found below and above at which it ends otherwise. Verdicts have
-//! islands: a nearer one may lie between two values that were tried.
+//! Robustness of a verdict: for each quantity that an operator or a designer can change, the
+//! nearest value below and above at which the verdict is found to change. Verdicts can have
+//! islands: a nearer change may exist between two values that were tried.
 
 use serde::Serialize;
 
@@ -11,7 +11,7 @@ use crate::numeric::rounding::rounded;
 use crate::scene::{CheckedScene, ContactLaw, Scene, SolverKind, keys};
 use crate::tolerances::{CHANGE_DIGITS, CHANGE_FOUND, CHANGE_OF_ZERO, CHANGE_RUNS, CHANGE_STEPS};
 
-/// The quantities that are changed, and their names; the last two only where they are not zero.
+/// Quantities that are varied, and their names; the last two only if they are not zero.
 const CHANGED: [(&str, &str); 7] = [
     (keys::SPEED, "speed"),
     (keys::PULSE, "pulse"),
@@ -22,55 +22,55 @@ const CHANGED: [(&str, &str); 7] = [
     (keys::OUT_OF_ROUND, "out of round"),
 ];
 
-/// How far a run under one contact law is from another verdict.
+/// Robustness of a verdict under one contact law.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Robustness {
     /// The contact law.
     pub contact: ContactLaw,
-    /// The solver of the runs.
+    /// Solver of the runs.
     pub solver: SolverKind,
     /// Verdict of the run.
     pub verdict: Verdict,
-    /// The nearest changes of it, a row for each quantity.
+    /// Nearest changes of the verdict, one row for each quantity.
     pub changes: Vec<VerdictChange>,
-    /// How many rows there will be.
+    /// Final number of rows.
     #[serde(skip)]
     pub rows: usize,
 }
 
-/// The nearest changes of a verdict that were found by one quantity.
+/// Nearest changes of the verdict found for one quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct VerdictChange {
-    /// The path of the quantity, or `clearance`.
+    /// Key of the quantity, or `clearance`.
     pub path: &'static str,
-    /// Its name.
+    /// Name of the quantity.
     #[serde(skip)]
     pub name: &'static str,
-    /// Its value in the scene.
+    /// Value in the scene.
     pub present: f64,
-    /// The nearest change found below.
+    /// Nearest change found below.
     pub below: Option<ChangedVerdict>,
-    /// The nearest change found above.
+    /// Nearest change found above.
     pub above: Option<ChangedVerdict>,
-    /// The smallest and the largest value up to which every run tried on the way ended the same,
-    /// or the change itself.
+    /// On each side, the last value up to which every run that was tried has the same verdict, or
+    /// the change itself.
     pub tried: [f64; 2],
 }
 
-/// A value of a quantity at which a run ends otherwise.
+/// A value at which the verdict differs from that of the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ChangedVerdict {
     /// The value.
     pub value: f64,
-    /// Verdict of the run with it.
+    /// Verdict at this value.
     pub verdict: Verdict,
-    /// Whether a tiny change or another step makes that run end otherwise.
+    /// Whether a tiny change or another time step alters that verdict.
     pub sensitive: bool,
 }
 
 impl VerdictChange {
-    /// Returns the nearer of both changes and by which part of the present value it is away, if
-    /// that is not zero.
+    /// Returns the nearer of both changes, and its distance relative to the present value; `None`
+    /// if that value is zero.
     #[must_use]
     pub fn nearest(&self) -> Option<(ChangedVerdict, f64)> {
         let part =
@@ -80,18 +80,19 @@ impl VerdictChange {
     }
 }
 
-/// The runs that are asked: of the scene, and where its law pulls, of contact that only pushes.
-pub(super) fn asked(scene: &CheckedScene) -> Vec<CheckedScene> {
-    let mut asked = vec![scene.clone()];
+/// Returns the scenes to be examined: the given one, and for the bilateral law also that with
+/// contact that only pushes.
+pub(super) fn scenes_to_run(scene: &CheckedScene) -> Vec<CheckedScene> {
+    let mut scenes = vec![scene.clone()];
     if scene.solver.contact == ContactLaw::Bilateral {
         let mut by_steps = Scene::clone(scene);
         by_steps.solver.contact = ContactLaw::Unilateral;
-        asked.extend(scene.as_reference().checked().or_else(|_| by_steps.checked()).ok());
+        scenes.extend(scene.as_reference().checked().or_else(|_| by_steps.checked()).ok());
     }
-    asked
+    scenes
 }
 
-/// The rows of a run: a quantity, its name, and how far a step of one goes.
+/// Returns the rows for a scene: quantity, name, and unit of the search steps.
 pub(super) fn rows(scene: &Scene) -> Vec<(&'static Parameter, &'static str, f64)> {
     let rows = CHANGED.iter().filter_map(|(path, name)| {
         let by = acting(scene).find(|by| by.path == *path)?;
@@ -107,33 +108,33 @@ pub(super) fn rows(scene: &Scene) -> Vec<(&'static Parameter, &'static str, f64)
     rows.collect()
 }
 
-/// A search by one quantity.
+/// Search along one quantity.
 pub(super) struct Search<'a> {
     pub scene: &'a CheckedScene,
     pub verdict: Verdict,
-    /// Its row.
+    /// Row as returned by [`rows`].
     pub row: (&'static Parameter, &'static str, f64),
     pub go_on: GoOn<'a>,
 }
 
 impl Search<'_> {
-    /// Looks on both sides, only upward from zero; none where told to stop.
+    /// Searches on both sides, from zero only upward; `None` if `go_on` stopped it.
     pub fn both(&self) -> Option<VerdictChange> {
         let (by, name, _) = self.row;
         let (path, present) = (by.path, by.of(self.scene));
         let down = || match present == 0.0 {
             true => Some((None, present)),
-            false => self.one(-1.0),
+            false => self.search_side(-1.0),
         };
-        let (below, above) = rayon::join(down, || self.one(1.0));
+        let (below, above) = rayon::join(down, || self.search_side(1.0));
         let ((below, low), (above, high)) = (below?, above?);
         Some(VerdictChange { path, name, present, below, above, tried: [low, high] })
     }
 
-    /// Looks on one side: outward, then between the last two.
-    fn one(&self, sense: f64) -> Option<(Option<ChangedVerdict>, f64)> {
+    /// Searches on one side: outward until the verdict changes, then by bisection.
+    fn search_side(&self, sense: f64) -> Option<(Option<ChangedVerdict>, f64)> {
         let (by, _, step) = self.row;
-        // A value that was tried is one that can be typed.
+        // Rounded, so that the value can be typed.
         let value = |steps: f64| rounded(by.of(self.scene) + sense * steps * step, CHANGE_DIGITS);
         let (mut same, mut runs) = (0.0, 0);
         let mut found: Option<(f64, (CheckedScene, VerdictReached))> = None;
@@ -144,7 +145,7 @@ impl Search<'_> {
                 (None, None) => break,
             };
             runs += 1;
-            match self.ends(value(steps))? {
+            match self.run_with(value(steps))? {
                 None => break,
                 Some((_, reached)) if reached.verdict == self.verdict => same = steps,
                 Some(run) => found = Some((steps, run)),
@@ -163,8 +164,9 @@ impl Search<'_> {
         Some((Some(changed), changed.value))
     }
 
-    /// Returns the scene with this value and how it ends; none inside where it is not allowed.
-    fn ends(&self, value: f64) -> Option<Option<(CheckedScene, VerdictReached)>> {
+    /// Runs the scene with this value; the inner `None` if the value is not allowed, the outer one
+    /// if `go_on` stopped it.
+    fn run_with(&self, value: f64) -> Option<Option<(CheckedScene, VerdictReached)>> {
         (self.go_on)().then_some(())?;
         let scene = self.row.0.set(self.scene, value).and_then(|scene| scene.checked());
         let Ok(scene) = scene else { return Some(None) };

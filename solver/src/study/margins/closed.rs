@@ -1,32 +1,26 @@
-//! The limits in closed form, with their derivatives by dual numbers through the same
-//! functions.
+//! Limits in closed form, and their derivatives by evaluating the same functions with dual numbers.
 
 use num_dual::Dual64;
 
 use super::limit::{Limit, LimitName, Quantity, Sensitivities};
 use super::parameters::{Parameter, Parameters, acting, sensitivity};
 use crate::harmonic::{
-    flutters, lobes_of, lock_fold_speed, lock_growth, lock_loads, lock_windows, roundness,
-    whirl_beginnings, whirl_onset,
+    flutters, lobes_of, lock_growth, lock_loads, lock_windows, roundness, whirl_beginnings,
+    whirl_onset,
 };
 use crate::model::{Machine, Number};
 use crate::numeric::rounding::rounded;
 use crate::scene::{CheckedScene, ModelSize, Scene};
 
-/// How far beyond the speeds of interest the end of the branch of a lock is told, as a
-/// factor: stiff blades bend out of a lock at speeds that no rotor has.
-const FAR: f64 = 10.0;
-
 /// How many of the closed forms are speeds; they come first.
-const SPEEDS: usize = 10;
+const SPEEDS: usize = 9;
 
 /// The closed forms, in the order in which they are shown.
-pub(super) const CLOSED: [LimitName; 15] = [
+pub(super) const CLOSED: [LimitName; 14] = [
     LimitName::OmegaC,
     LimitName::OmegaAdhesive,
     LimitName::OmegaLock,
     LimitName::LockEnds,
-    LimitName::LockFold,
     LimitName::Coincidence,
     LimitName::CoincidenceDifference,
     LimitName::WhirlOnset,
@@ -40,27 +34,25 @@ pub(super) const CLOSED: [LimitName; 15] = [
 ];
 
 /// Those that few machines have, shown where they are.
-const SELDOM: [LimitName; 6] = [
+const SELDOM: [LimitName; 5] = [
     LimitName::LockEnds,
-    LimitName::LockFold,
     LimitName::WhirlOnset,
     LimitName::FlutterSpeed,
     LimitName::FirstTouch,
     LimitName::Roundness,
 ];
 
-/// Returns the first of every closed form of these parameters, in the order of `CLOSED`; none
-/// where the machine has no such limit.
+/// Returns the first value of every closed form, in the order of [`CLOSED`]; `None` if the machine
+/// has no such limit.
 pub(super) fn values<T: Number>(parameters: &Parameters<T>) -> [Option<T>; CLOSED.len()] {
-    every(parameters).map(|found| found.first().copied())
+    all_values(parameters).map(|found| found.first().copied())
 }
 
-/// Same as for `values`, all of them: of a machine that changes with the speed there may be
-/// several.
-fn every<T: Number>(parameters: &Parameters<T>) -> [Vec<T>; CLOSED.len()] {
+/// Returns all values of every closed form; a machine that changes with speed can have several.
+fn all_values<T: Number>(parameters: &Parameters<T>) -> [Vec<T>; CLOSED.len()] {
     let machine = parameters.machine();
     let speed = parameters.operation.speed_rad_s;
-    // Blades of the rigid model do not bend under the loads.
+    // In the rigid model the contact forces do not bend the blades.
     let loads = match parameters.model {
         ModelSize::Rigid => lock_loads(&machine.clone().with_stiff_blades(), speed),
         ModelSize::Modal | ModelSize::Full => lock_loads(&machine, speed),
@@ -78,7 +70,7 @@ fn every<T: Number>(parameters: &Parameters<T>) -> [Vec<T>; CLOSED.len()] {
     std::array::from_fn(|_| all.next().unwrap_or_default())
 }
 
-/// Returns those that are speeds.
+/// Returns the values of the closed forms that are speeds.
 fn speed_values<T: Number>(machine: &Machine<T>, speed: T) -> [Vec<T>; SPEEDS] {
     let toward = speed.re();
     let sense = 1_f64.copysign(toward);
@@ -88,14 +80,13 @@ fn speed_values<T: Number>(machine: &Machine<T>, speed: T) -> [Vec<T>; SPEEDS] {
     } else {
         one(whirl_onset(machine, toward))
     };
-    // The flutter is of a corner that does not give.
+    // Flutter applies to rigid contact only.
     let fluttering = if machine.lining.is_none() { flutters(machine, toward) } else { Vec::new() };
     [
         one(machine.critical_speed()),
         one(machine.adhesive_speed()),
         windows.iter().map(|window| window.from).collect(),
         windows.iter().filter_map(|window| window.to).collect(),
-        one(fold(machine, speed)),
         one(machine.dangerous_speed()),
         machine.coincidence_differences(),
         whirls.into_iter().map(|onset| onset * sense).collect(),
@@ -108,19 +99,12 @@ fn one<T>(value: Option<T>) -> Vec<T> {
     value.into_iter().collect()
 }
 
-/// Returns the end of the branch of the lock, where a rotor may come near it.
-fn fold<T: Number>(machine: &Machine<T>, speed: T) -> Option<T> {
-    let lock = machine.lock_windows(speed.re()).first()?.from;
-    let far = lock.re().max(speed.re().abs()) * FAR;
-    lock_fold_speed(machine).filter(|fold| fold.re() < far)
-}
-
 /// Limits that need no contact.
 const OF_NO_CONTACT: [LimitName; 3] =
     [LimitName::OmegaC, LimitName::Coincidence, LimitName::CoincidenceDifference];
 
-/// The limits of rigid contact are not those of a lining that is pressed at rest, which
-/// has others (`LiningState`).
+/// Removes the limits of rigid contact if a lining is compressed at rest; that case has other
+/// limits (`LiningState`).
 fn keep_known<T>(scene: &Scene, found: &mut [Vec<T>]) {
     if scene.clearance() <= 0.0 {
         for (values, name) in found.iter_mut().zip(CLOSED) {
@@ -131,12 +115,12 @@ fn keep_known<T>(scene: &Scene, found: &mut [Vec<T>]) {
     }
 }
 
-/// Returns the limits of a scene that are speeds, all of them.
+/// Returns all limits of a scene that are speeds.
 pub(in crate::study) fn speeds(scene: &Scene) -> Vec<(LimitName, f64)> {
     every_speed(scene, &Parameters::<f64>::of(scene))
 }
 
-/// Their sensitivities by one parameter, in the same order.
+/// Returns their sensitivities to one parameter, in the same order.
 pub(in crate::study) fn speed_sensitivities(
     scene: &Scene,
     parameter: &Parameter,
@@ -154,13 +138,13 @@ fn every_speed<T: Number>(scene: &Scene, parameters: &Parameters<T>) -> Vec<(Lim
     each.filter(|(_, value)| value.re().is_finite()).collect()
 }
 
-/// Returns the limits of a scene in closed form.
+/// Returns the limits of a scene in closed form, with their sensitivities.
 pub(super) fn limits(scene: &CheckedScene) -> Vec<Limit> {
     let parameters = Parameters::<f64>::of(scene);
-    let mut found = every(&parameters);
+    let mut found = all_values(&parameters);
     keep_known(scene, &mut found);
     let derived: Vec<[Vec<Dual64>; CLOSED.len()]> =
-        acting(scene).map(|parameter| every(&parameter.seeded(scene))).collect();
+        acting(scene).map(|parameter| all_values(&parameter.seeded(scene))).collect();
     let present = |name: LimitName| match name.quantity() {
         Quantity::Height => Some(scene.casing.out_of_round_m),
         quantity => quantity.path().map(|_| scene.operation.speed_rad_s.abs()),
@@ -191,7 +175,7 @@ pub(super) fn limits(scene: &CheckedScene) -> Vec<Limit> {
     limits.filter(|limit| !SELDOM.contains(&limit.name) || limit.value.is_some()).collect()
 }
 
-/// What a closed form leaves out, where that matters.
+/// Returns what a closed form neglects, if that matters for this scene.
 fn note(scene: &CheckedScene, name: LimitName, value: f64) -> Option<String> {
     let of_speeds =
         [LimitName::OmegaLock, LimitName::LockEnds, LimitName::OmegaAdhesive].contains(&name);
@@ -236,7 +220,7 @@ fn note(scene: &CheckedScene, name: LimitName, value: f64) -> Option<String> {
     if !of_speeds || scene.casing_in_use().damping_ratio == 0.0 {
         return None;
     }
-    // Blades that bend leave a push where rigid ones have none.
+    // Flexible blades keep a contact force at the speed at which it would vanish for rigid ones.
     let sense = 1_f64.copysign(speed);
     let of_rigid_blades = match name {
         LimitName::OmegaAdhesive => machine.lock_windows(sense).first()?.from,
@@ -246,8 +230,8 @@ fn note(scene: &CheckedScene, name: LimitName, value: f64) -> Option<String> {
         .then(|| "for rigid blades; these bend so much that it is another".to_string())
 }
 
-/// Returns whether blades bend so much that at this lock speed of rigid ones they push, or have no
-/// lock.
+/// Returns whether the blades are so flexible that they still push, or have no lock, at this lock
+/// speed for rigid blades.
 pub fn bends(machine: &Machine, speed: f64) -> bool {
     lock_loads(machine, speed).is_none_or(|loads| {
         let [a, b] = loads.pushes_n.map(f64::abs);
@@ -255,10 +239,11 @@ pub fn bends(machine: &Machine, speed: f64) -> bool {
     })
 }
 
-/// Part of the pushes that soft blades may leave at the lock speed of rigid ones.
+/// Smaller contact force at the lock speed for rigid blades, relative to the sum of both, up to
+/// which the blades count as rigid.
 const BENDING: f64 = 1e-3;
 
-/// Why a machine has no lock, or no critical speed.
+/// Explains why a machine does not have a limit.
 fn why_none(scene: &CheckedScene, name: LimitName) -> String {
     let machine = scene.machine();
     let of_speeds = name.quantity().path().is_some();

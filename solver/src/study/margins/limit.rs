@@ -1,4 +1,5 @@
-//! One limit: what it is (`LIMITS`), its value, where the scene stands, and what moves it.
+//! A limit: its description (`LIMITS`), its value, the position of the scene relative to it, and
+//! its sensitivities.
 
 use crate::scene::keys::{OUT_OF_ROUND, PULSE, SPEED};
 use serde::{Deserialize, Serialize};
@@ -6,7 +7,7 @@ use strum::{AsRefStr, Display, EnumIter, EnumString, VariantNames};
 
 use super::parameters::is_length;
 
-/// Which limit.
+/// Name of a limit.
 #[derive(
     Clone,
     Copy,
@@ -24,50 +25,48 @@ use super::parameters::is_length;
 #[serde(rename_all = "snake_case")]
 #[strum(serialize_all = "snake_case")]
 pub enum LimitName {
-    /// The critical speed.
+    /// Critical speed.
     OmegaC,
-    /// The speed from which a lock holds by pushes alone.
+    /// Lowest speed at which pushes alone hold a lock.
     OmegaLock,
-    /// The speed up to which it does.
+    /// Highest speed at which pushes alone hold a lock.
     LockEnds,
-    /// The speed down to which the paper's equality algorithm holds one.
+    /// Lowest speed at which the paper's equality algorithm holds a lock.
     OmegaAdhesive,
-    /// The dangerous coincidence (31).
+    /// Dangerous coincidence, Eq. (31).
     Coincidence,
-    /// The other coincidence of (30), of the difference of the frequencies.
+    /// Other coincidence of Eq. (30), that of the frequency difference.
     CoincidenceDifference,
-    /// The speed above which very soft blades bend out of the lock.
-    LockFold,
     /// The speed from which inclined tips whirl with the casing.
     WhirlOnset,
-    /// The speed from which a lock of inclined tips flutters; 0 where it does from rest on.
+    /// Speed above which a lock of inclined tips flutters; 0 if it does from rest on.
     FlutterSpeed,
-    /// The speed at which growing blades first touch a casing at rest.
+    /// Speed at which growing blades first touch the undeformed casing.
     FirstTouch,
-    /// The smallest pulse that touches.
+    /// Smallest pulse that makes a blade touch.
     TouchingPulse,
-    /// Push of the group a of the lock: minus its multiplier, positive where it pushes.
+    /// Contact force of group a in the lock, positive in compression.
     PushA,
-    /// Push of the group b, likewise.
+    /// Contact force of group b in the lock, positive in compression.
     PushB,
-    /// Torque that holds the lock.
+    /// Torque of the rotor that sustains the lock.
     Torque,
-    /// Its power.
+    /// Power of that torque.
     Power,
-    /// The largest height of lobes of the casing with which the lock lasts.
+    /// Largest lobe height of the casing with which the lock persists.
     Roundness,
 }
 
-/// What a limit is a value of.
+/// Physical quantity of a limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Quantity {
     /// Rotor speed.
     #[serde(rename = "speed_rad_s")]
     Speed,
-    /// Pulse.
+    /// Force of the pulse.
     #[serde(rename = "pulse_n")]
     Pulse,
-    /// Force.
+    /// Contact force.
     #[serde(rename = "push_n")]
     Push,
     /// Torque.
@@ -76,52 +75,51 @@ pub enum Quantity {
     /// Power.
     #[serde(rename = "power_w")]
     Power,
-    /// Height.
+    /// Height of lobes.
     #[serde(rename = "height_m")]
     Height,
 }
 
-/// On which side of a limit the scene stands.
+/// Position of the scene relative to a limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum Side {
-    /// The scene has less than the limit.
+    /// The value of the scene is less than the limit.
     Below,
-    /// It is at the limit, to nine digits.
+    /// Both are equal to nine digits.
     At,
-    /// It has more.
+    /// The value of the scene is greater than the limit.
     Beyond,
 }
 
-/// One limit of a scene.
+/// A limit of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Limit {
-    /// Which.
+    /// Name of the limit.
     pub name: LimitName,
-    /// Lobes of the casing that it is of.
+    /// Number of casing lobes that it refers to.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lobes: Option<u32>,
-    /// What it is a value of.
+    /// Physical quantity of the value.
     pub quantity: Quantity,
-    /// Its value in SI units; none where there is no such limit.
+    /// Value in SI units; `None` if there is no such limit.
     pub value: Option<f64>,
-    /// The value of the scene that it limits; none for loads of the lock. Speeds are
-    /// magnitudes.
+    /// Value of the scene that is compared with the limit, speeds as magnitudes; `None` for loads
+    /// of the lock.
     pub present: Option<f64>,
-    /// `present/value - 1`: how far beyond the limit the scene is, as a part of it;
-    /// below zero it is not there yet. `null` in JSON above `MOST_TIMES`.
+    /// Margin `present/value - 1`, negative if the scene is below the limit. `null` in JSON above
+    /// `MOST_TIMES`.
     #[serde(serialize_with = "shown_margin")]
     pub margin: Option<f64>,
-    /// `d ln(value)/d ln(parameter)` of every parameter of the scene; none above
+    /// Sensitivities `d ln(value)/d ln(parameter)` to every parameter of the scene; `None` above
     /// `MOST_SENSITIVE`.
     pub sensitivities: Sensitivities,
-    /// What else is to be said, such as why there is no value.
+    /// Additional information, such as the reason why there is no value.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
 }
 
-/// The sensitivities of one limit, by the path of the parameter; none where there is
-/// no derivative.
+/// Sensitivities of one limit by the key of the parameter; `None` without a derivative.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sensitivities(pub Vec<(&'static str, Option<f64>)>);
 
@@ -132,36 +130,36 @@ impl Serialize for Sensitivities {
 }
 
 impl Sensitivities {
-    /// That by one parameter.
+    /// Returns the sensitivity to one parameter.
     #[must_use]
     pub fn by(&self, path: &str) -> Option<f64> {
         self.0.iter().find(|(by, _)| *by == path)?.1
     }
 
-    /// The parameters that move the limit most, up to `count`, most first. The two
-    /// lengths are not among them, but the clearance that they leave: one per cent of
-    /// a radius is many clearances.
+    /// Returns the parameters with the largest sensitivities, up to `count`, in decreasing order.
+    /// The clearance is included instead of the two lengths of which it is the difference: one per
+    /// cent of a radius is many clearances.
     #[must_use]
     pub fn strongest(&self, count: usize) -> Vec<(&'static str, f64)> {
         let own = |path| !is_length(path);
         let moving = self.0.iter().filter_map(|&(path, by)| Some((path, by?)));
         let mut moving: Vec<_> =
             moving.filter(|&(path, by)| own(path) && by.abs() > LEAST).collect();
-        // Equal ones stay in their order, whatever their last digits.
+        // Rounding keeps equal sensitivities in their order despite different last digits.
         moving.sort_by_key(|(_, by)| std::cmp::Reverse((by.abs() / LEAST).round() as u64));
         moving.truncate(count);
         moving
     }
 }
 
-/// A sensitivity below which a parameter does not move a limit: a change of a tenth
-/// in it is less than the last digit shown.
+/// Sensitivities below this are ignored: a change of the parameter by a tenth then alters less than
+/// the last displayed digit.
 const LEAST: f64 = 1e-4;
 
-/// A margin above which it says no more than "far beyond", as do its digits: 100 times.
+/// Margins above this (100 times the limit) are reported only as far beyond.
 pub const MOST_TIMES: f64 = 99.0;
 
-/// Writes a margin that is not above `MOST_TIMES`.
+/// Serialises a margin up to `MOST_TIMES`, otherwise `null`.
 pub(in crate::study) fn shown_margin<S: serde::Serializer>(
     margin: &Option<f64>,
     out: S,
@@ -169,11 +167,11 @@ pub(in crate::study) fn shown_margin<S: serde::Serializer>(
     margin.filter(|margin| *margin <= MOST_TIMES).serialize(out)
 }
 
-/// Part of a limit within which a scene is at it.
+/// Relative distance within which a scene is at a limit.
 const AT: f64 = 1e-9;
 
 impl Limit {
-    /// A limit of this value, at which the scene has `present`.
+    /// Creates a limit; `present` is the value of the scene to compare with.
     pub(super) fn new(name: LimitName, value: Option<f64>, present: Option<f64>) -> Self {
         let value = value.filter(|value| value.is_finite());
         let margin = present.zip(value).map(|(present, value)| present / value - 1.0);
@@ -189,8 +187,8 @@ impl Limit {
         }
     }
 
-    /// Returns which way a load of the lock acts, or on which side of another limit the
-    /// scene stands.
+    /// Returns the direction of a contact force in the lock (`pushes`, `pulls`), or the position of
+    /// the scene relative to another limit.
     #[must_use]
     pub fn way(&self) -> String {
         match (self.quantity, self.value) {
@@ -200,7 +198,7 @@ impl Limit {
         }
     }
 
-    /// Returns the side on which the scene stands.
+    /// Returns the position of the scene relative to the limit.
     #[must_use]
     pub fn side(&self) -> Option<Side> {
         Some(match self.margin? {
@@ -212,37 +210,37 @@ impl Limit {
 }
 
 impl LimitName {
-    /// Its row in `LIMITS`.
+    /// Returns the row in `LIMITS`.
     fn entry(self) -> &'static Entry {
         &LIMITS[self as usize]
     }
 
-    /// What it is a value of.
+    /// Returns the physical quantity.
     #[must_use]
     pub fn quantity(self) -> Quantity {
         self.entry().quantity
     }
 
-    /// Its symbol in formulas.
+    /// Returns the symbol used in formulas.
     #[must_use]
     pub fn symbol(self) -> &'static str {
         self.entry().symbol
     }
 
-    /// Its title in a table: the long one, and that of narrow tables.
+    /// Returns the titles for wide and for narrow tables.
     #[must_use]
     pub fn titles(self) -> [&'static str; 2] {
         self.entry().titles
     }
 
-    /// What it is, in a few words.
+    /// Returns a short description.
     #[must_use]
     pub fn what(self) -> &'static str {
         self.entry().what
     }
 }
 
-/// What is known of a limit before its value.
+/// Description of a limit, independent of the scene.
 struct Entry {
     name: LimitName,
     quantity: Quantity,
@@ -261,9 +259,9 @@ const fn entry(
     Entry { name, quantity, symbol, titles, what }
 }
 
-/// Every limit, in the order of the names.
+/// All limits in the order of [`LimitName`].
 #[rustfmt::skip]
-const LIMITS: [Entry; 16] = {
+const LIMITS: [Entry; 15] = {
     use LimitName::*;
     use Quantity::{Pulse, Push, Speed};
     [
@@ -273,7 +271,6 @@ const LIMITS: [Entry; 16] = {
         entry(OmegaAdhesive, Speed, "Ω_adhesive", ["adhesive limit", "adhesive"], "above it the bilateral law holds, if one blade pulls"),
         entry(Coincidence, Speed, "Ω_coincidence", ["coincidence"; 2], "dangerous coincidence (31), of the sum of frequencies"),
         entry(CoincidenceDifference, Speed, "Ω_difference", ["coincidence (30)", "coinc. (30)"], "coincidence (30) of their difference"),
-        entry(LockFold, Speed, "Ω_fold", ["blades bend out", "bend out"], "above it soft blades bend out of the lock"),
         entry(WhirlOnset, Speed, "Ω_whirl", ["whirl begins", "whirl"], "above it blades and casing whirl, on a rim of many blades"),
         entry(FlutterSpeed, Speed, "Ω_flutter", ["lock flutters", "flutter"], "from it on a lock of inclined tips flutters"),
         entry(FirstTouch, Speed, "Ω_touch", ["first touch"; 2], "at it blades that grow touch a casing at rest"),
@@ -286,7 +283,7 @@ const LIMITS: [Entry; 16] = {
     ]
 };
 
-/// Each row is at the place of its name.
+/// Checks at compile time that each row has the index of its name.
 const _: () = {
     let mut place = 0;
     while place < LIMITS.len() {
@@ -296,7 +293,7 @@ const _: () = {
 };
 
 impl Quantity {
-    /// Its unit.
+    /// Returns the SI unit.
     #[must_use]
     pub fn unit(self) -> &'static str {
         match self {
@@ -308,7 +305,7 @@ impl Quantity {
         }
     }
 
-    /// The key of the scene that it limits.
+    /// Returns the key of the scene that is compared with the limit.
     #[must_use]
     pub fn path(self) -> Option<&'static str> {
         match self {

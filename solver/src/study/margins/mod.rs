@@ -1,9 +1,9 @@
-//! How far a run is from another verdict (`changes`), a scene from every limit, and which of its
-//! parameters moves a limit most: closed forms (`closed`), the smallest pulse that touches (`touching`), and
-//! the value of a parameter that puts a limit where it is wanted (`target`). docs/theory.md, section 9.
+//! Margins: the limits of a scene (`closed`, `touching`), their sensitivities to its parameters
+//! (`parameters`), the parameter value that moves a limit to a given value (`target`), and the
+//! distance of a run from another verdict (`changes`). See docs/theory.md, section 9.
 //!
-//! A *sensitivity* is `d ln(limit)/d ln(parameter)`: the change of the limit in per
-//! cent by one per cent of the parameter.
+//! A *sensitivity* is `d ln(limit)/d ln(parameter)`: the change of the limit in per cent for one
+//! per cent of the parameter.
 
 mod changes;
 mod closed;
@@ -28,7 +28,7 @@ pub use parameters::{CLEARANCE, PARAMETERS, Parameter, acting, parameter};
 pub use target::{Found, Target, TargetError};
 pub use touching::{FirstTouch, first_touch, grazing_pulse};
 
-/// Every limit of one scene.
+/// All limits of one scene.
 ///
 /// ```
 /// use rubscope_solver::scene::Scene;
@@ -45,25 +45,25 @@ pub use touching::{FirstTouch, first_touch, grazing_pulse};
 pub struct Margins {
     /// The scene.
     pub scene: CheckedScene,
-    /// What the closed forms are of, where the scene asks for more than they have.
+    /// Simplification of the closed forms compared with the scene, if any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
-    /// How far the run is from another verdict, if asked.
+    /// Robustness of the verdict, if requested.
     #[serde(flatten)]
     pub robust: Option<Robustness>,
-    /// The same of contact that only pushes, where the law of the scene pulls.
+    /// Robustness with contact that only pushes, if the law of the scene pulls.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pushes_only: Option<Robustness>,
-    /// Its limits, in the order in which they are shown.
+    /// Limits in the order in which they are shown.
     pub limits: Vec<Limit>,
-    /// The parameter that puts a limit where it is wanted, if asked.
+    /// Parameter value that moves a limit to a given value, if requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub target: Option<Found>,
-    /// Its cost.
+    /// Cost of the computation.
     pub cost: Cost,
 }
 
-/// Cost of the answer.
+/// Cost of the computation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Cost {
     /// Wall time \[s\].
@@ -71,12 +71,12 @@ pub struct Cost {
 }
 
 impl Margins {
-    /// Returns every limit of `scene`.
+    /// Computes every limit of a scene.
     #[must_use]
     pub fn of(scene: &CheckedScene) -> Self {
         let start = Instant::now();
         let mut limits = closed::limits(scene);
-        // The pulse stands between the speeds and the loads of the lock.
+        // The pulse is shown between the speeds and the loads of the lock.
         let place = limits.iter().position(|limit| limit.quantity != Quantity::Speed);
         limits.insert(place.unwrap_or(limits.len()), touching::limit(scene));
         let cost = Cost { wall_s: start.elapsed().as_secs_f64() };
@@ -84,18 +84,18 @@ impl Margins {
         Self { scene, note, robust: None, pushes_only: None, limits, target: None, cost }
     }
 
-    /// Returns how many rows `ask_runs` finds for a scene.
+    /// Returns the number of rows that [`ask_runs`](Self::ask_runs) computes for a scene.
     #[must_use]
     pub fn rows_asked(scene: &CheckedScene) -> usize {
-        changes::asked(scene).iter().map(|scene| changes::rows(scene).len()).sum()
+        changes::scenes_to_run(scene).iter().map(|scene| changes::rows(scene).len()).sum()
     }
 
-    /// Finds by runs how far this one is from another verdict, up to twice each value and down to
-    /// zero, and hands itself to `known` after each row: `robust`, and where the law pulls
-    /// `pushes_only`. None where `go_on` said no on the way; the rows found by then stay.
+    /// Determines the robustness of the verdict by runs, with each quantity between zero and twice
+    /// its value, and passes itself to `known` after each row. Fills `robust` and, if the law
+    /// pulls, `pushes_only`. `None` if `go_on` returned false; the rows computed until then stay.
     pub fn ask_runs(&mut self, go_on: GoOn<'_>, known: &mut dyn FnMut(&Self)) -> Option<()> {
         let start = Instant::now();
-        for (place, scene) in changes::asked(&self.scene).iter().enumerate() {
+        for (place, scene) in changes::scenes_to_run(&self.scene).iter().enumerate() {
             let rows = changes::rows(scene);
             let mut found = Robustness {
                 contact: scene.solver.contact,
@@ -116,7 +116,8 @@ impl Margins {
         Some(())
     }
 
-    /// What looks like a slip of a unit or a decimal point: in the scene, and the push of a tip.
+    /// Returns warnings of likely unit errors: in the scene, and from an implausible contact force
+    /// of a tip.
     #[must_use]
     pub fn doubts(&self) -> Vec<String> {
         let push = self.tip_push().filter(|push| *push > DOUBTFUL_PUSH).map(|push| {
@@ -130,7 +131,7 @@ impl Margins {
         self.scene.doubts().into_iter().chain(push).collect()
     }
 
-    /// Returns the larger push of one tip in the lock \[N\], where both groups push.
+    /// Returns the larger contact force of a single tip in the lock, if both groups push \[N\].
     #[must_use]
     pub fn tip_push(&self) -> Option<f64> {
         let push = |name| self.limit(name)?.value.filter(|push| *push > 0.0);
@@ -138,7 +139,7 @@ impl Margins {
         Some(larger / f64::from(self.scene.machine().polygon.blades_per_side.max(1)))
     }
 
-    /// The limit of this name, if it is among them.
+    /// Returns the limit with this name, if the scene has it.
     #[must_use]
     pub fn limit(&self, name: LimitName) -> Option<&Limit> {
         self.limits.iter().find(|limit| limit.name == name)

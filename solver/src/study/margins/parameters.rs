@@ -1,11 +1,13 @@
-//! The parameters of a scene as numbers that may carry a derivative, and how each is
-//! read and changed.
+//! The parameters of a scene as numbers that can carry a derivative, and how each is read and
+//! changed.
 
 use std::f64::consts::TAU;
 
 use num_dual::Dual64;
 
-use crate::model::{BladedDisk, Casing, LiningLaw, Machine, Number, Operation, of_neighbours};
+use crate::model::{
+    BladedDisk, Casing, LiningLaw, Machine, Number, Operation, neighbour_stiffness,
+};
 use crate::motion::FreeFlight;
 use crate::scene::{Allowed, ContactLaw, Key, MOST_HZ, ModelSize, Scene, SceneError, Value, keys};
 
@@ -15,38 +17,38 @@ const RADIUS: &str = keys::CASING_RADIUS;
 const LENGTH: &str = keys::BLADE_LENGTH;
 const STIFFNESS: &str = keys::LINING_STIFFNESS;
 const SMOOTHING: &str = keys::LINING_SMOOTHING;
-/// Frequencies of the modes in use, which stand for a stiffness where a mode has one.
+/// Frequencies of the modes in use; they replace a stiffness if the mode gives a frequency.
 const CASING_FREQUENCY: &str = "casing.frequency_hz";
 const BLADE_FREQUENCY: &str = "bladed_disk.frequency_hz";
-/// Each frequency, and the stiffness that it stands for.
+/// Each frequency and the stiffness that it replaces.
 const FREQUENCIES: [(&str, &str); 2] =
     [(CASING_FREQUENCY, keys::CASING_STIFFNESS), (BLADE_FREQUENCY, keys::BLADE_STIFFNESS)];
 /// The two lengths whose difference is the clearance.
 pub(super) const LENGTHS: [&str; 2] = [LENGTH, RADIUS];
 
-/// Whether this is the path of one of them.
+/// Returns whether a path is that of one of these lengths.
 pub(super) fn is_length(path: &str) -> bool {
     LENGTHS.contains(&path)
 }
 
-/// Everything in a scene that is a real number and that a limit may depend on. The
-/// state at t = 0 is not among them: limits of the pulse are those of a start at rest.
+/// All real numbers of a scene that a limit can depend on. The initial state is not included,
+/// because limits of the pulse assume a start from rest.
 #[derive(Clone, Debug)]
 pub(super) struct Parameters<T> {
     pub disk: BladedDisk<T>,
     pub casing: Casing<T>,
     pub friction: T,
-    /// Of the lining, where the contact has one.
+    /// Stiffness and smoothing depth of the lining.
     pub stiffness: T,
     pub smoothing: T,
     pub law: ContactLaw,
     pub model: ModelSize,
     pub operation: Operation<T>,
-    /// Frequencies of casing and disk \[Hz\], where they stand for a stiffness.
+    /// Frequencies of casing and disk, if they replace a stiffness \[Hz\].
     pub frequencies: [Option<T>; 2],
 }
 
-/// A parameter of a scene that is a real number.
+/// A parameter of a scene with a real value.
 #[derive(Clone, Copy)]
 pub struct Parameter {
     /// Path of its key, or `clearance`.
@@ -66,7 +68,7 @@ macro_rules! at {
     };
 }
 
-/// Every parameter, in the order of the scene file.
+/// All parameters, in the order of the scene file.
 pub const PARAMETERS: &[Parameter] = &[
     at!(CLEARANCE, casing.radius_m),
     at!(LENGTH, disk.blade_length_m),
@@ -103,7 +105,7 @@ pub const PARAMETERS: &[Parameter] = &[
     at!(keys::PULSE_TIME, operation.pulse_s),
 ];
 
-/// Those that act only where they are not zero: most machines do not have them.
+/// Parameters that most machines do not have; they are shown only if they are not zero.
 const SELDOM: [&str; 6] = [
     keys::STIFFENING,
     keys::CLEARANCE_LOSS,
@@ -113,9 +115,9 @@ const SELDOM: [&str; 6] = [
     keys::OUT_OF_ROUND,
 ];
 
-/// Those that act in a scene: one without a lining has none of its numbers, and a machine
-/// that stays the same at every speed none that would change it. A mode has its frequency or
-/// its stiffness, whichever the scene gives.
+/// Iterates over the parameters that affect a scene: those of a lining only if there is one, rarely
+/// used ones only if they are not zero, and of each mode its frequency or its stiffness, whichever
+/// the scene gives.
 pub fn acting(scene: &Scene) -> impl Iterator<Item = &'static Parameter> {
     let lined = scene.solver.contact == ContactLaw::Smooth;
     let changes =
@@ -127,30 +129,31 @@ pub fn acting(scene: &Scene) -> impl Iterator<Item = &'static Parameter> {
             parameter.path != if given.is_some() { stiffness } else { frequency }
         })
     };
-    // Rigid contact has no parameters of a lining.
+    // Rigid contact has no lining parameters.
     let acts = move |one: &Parameter| lined || ![STIFFNESS, SMOOTHING].contains(&one.path);
     PARAMETERS.iter().filter(move |one| acts(one) && changes(one) && is_given(one))
 }
 
-/// The parameter of this path; none for a key that holds no real number of the
-/// machine or its operation.
+/// Returns the parameter with this path; `None` for a key that is not a real number of the machine
+/// or its operation.
 #[must_use]
 pub fn parameter(path: &str) -> Option<&'static Parameter> {
     PARAMETERS.iter().find(|parameter| parameter.path == path)
 }
 
 impl Parameter {
-    /// Which frequency it is, if it is one: that of the casing or of the disk.
+    /// Returns 0 for the casing frequency, 1 for the disk frequency, and `None` for any other
+    /// parameter.
     fn frequency(&self) -> Option<usize> {
         FREQUENCIES.iter().position(|(path, _)| *path == self.path)
     }
 
-    /// The key that it changes.
+    /// Returns the key that the parameter changes.
     fn key(&self) -> Result<&'static Key, SceneError> {
         keys::find(if self.path == CLEARANCE { RADIUS } else { self.path })
     }
 
-    /// The line of a scene file that sets it, and the part of the file where it stands.
+    /// Returns the line of a scene file that sets the parameter, and the table that contains it.
     #[must_use]
     pub fn line(&self, scene: &Scene, value: f64) -> Option<String> {
         let changed = self.set(scene, value).ok()?;
@@ -175,7 +178,7 @@ impl Parameter {
         })
     }
 
-    /// Its value in a scene.
+    /// Returns its value in a scene.
     #[must_use]
     pub fn of(&self, scene: &Scene) -> f64 {
         if self.path == CLEARANCE {
@@ -192,10 +195,10 @@ impl Parameter {
         }
     }
 
-    /// A scene with another value of it, not yet checked as a whole.
+    /// Returns a scene with another value, checked only against the bounds of the key.
     ///
     /// # Errors
-    /// A value that its key does not allow.
+    /// The key does not allow the value.
     pub fn set(&self, scene: &Scene, value: f64) -> Result<Scene, SceneError> {
         let mut changed = scene.clone();
         if let Some(which) = self.frequency() {
@@ -208,15 +211,15 @@ impl Parameter {
         Ok(changed)
     }
 
-    /// What is walked over for a target, and its value in a scene: the parameter
-    /// itself, or for a length the clearance that it leaves, as one step of a length is
-    /// many clearances.
+    /// Returns the quantity over which a target is searched, and its value in a scene: the
+    /// parameter itself, or the clearance instead of a length, because one search step of a length
+    /// would be many clearances.
     pub(super) fn walked(&self, scene: &Scene) -> (&'static str, f64) {
         let path = if is_length(self.path) { CLEARANCE } else { self.path };
         (path, parameter(path).map_or(f64::NAN, |walked| walked.of(scene)))
     }
 
-    /// The largest value that its key allows, in size.
+    /// Returns the largest magnitude that the key allows.
     pub(super) fn largest(&self) -> f64 {
         match self.key().map(|key| key.allowed) {
             Ok(Allowed::Real { max, .. }) => max,
@@ -224,7 +227,7 @@ impl Parameter {
         }
     }
 
-    /// Its value where what is walked over has this one.
+    /// Converts a value of the searched quantity to a value of the parameter.
     pub(super) fn value_at(&self, scene: &Scene, walked: f64) -> f64 {
         match self.path {
             RADIUS => scene.bladed_disk.blade_length_m + walked,
@@ -233,7 +236,7 @@ impl Parameter {
         }
     }
 
-    /// Its unit.
+    /// Returns its unit.
     #[must_use]
     pub fn unit(&self) -> &'static str {
         if self.frequency().is_some() {
@@ -242,7 +245,7 @@ impl Parameter {
         self.key().map_or("", |key| key.unit)
     }
 
-    /// The parameters of a scene, with the derivative of this one.
+    /// Returns the parameters of a scene, with the derivative with respect to this one.
     pub(super) fn seeded(&self, scene: &Scene) -> Parameters<Dual64> {
         let mut all = Parameters::of(scene);
         if let Some(which) = self.frequency() {
@@ -254,13 +257,14 @@ impl Parameter {
 }
 
 impl<T: Number> Parameters<T> {
-    /// Of a scene, without derivatives.
+    /// Takes the parameters of a scene, without derivatives.
     pub(super) fn of(scene: &Scene) -> Self {
         let (disk, casing) = (scene.disk_in_use(), scene.casing_in_use());
         let operation = &scene.operation;
         Self {
             disk: BladedDisk {
-                // Rigid blades do not move their tips outward, as in `Scene::machine`.
+                // As in `Scene::machine`: rigid blades do not bend, so an inclined tip path has no
+                // effect.
                 radial_coupling: match scene.solver.model {
                     ModelSize::Rigid => T::from(0.0),
                     _ => disk.radial_coupling.into(),
@@ -284,12 +288,12 @@ impl<T: Number> Parameters<T> {
         }
     }
 
-    /// The casing before any contact.
+    /// Returns the motion of the casing before any contact.
     pub(super) fn flight<'a>(&'a self, machine: &'a Machine<T>) -> FreeFlight<'a, T> {
         FreeFlight { machine, operation: &self.operation }
     }
 
-    /// The machine of these parameters at their speed.
+    /// Creates the machine at the speed of these parameters.
     pub(super) fn machine(&self) -> Machine<T> {
         let (mut disk, mut casing) = (self.disk.clone(), self.casing.clone());
         let square = |hertz: T| (hertz * TAU) * (hertz * TAU);
@@ -299,7 +303,7 @@ impl<T: Number> Parameters<T> {
         }
         if let Some(square) = of_disk {
             let diameters = disk.diameters_beside(self.operation.nodal_diameters);
-            let share = of_neighbours(1.0, diameters, disk.blades);
+            let share = neighbour_stiffness(1.0, diameters, disk.blades);
             disk.stiffness_nm_per_rad =
                 disk.inertia_kg_m2 * square - disk.coupling_nm_per_rad * share;
         }
@@ -314,15 +318,15 @@ impl<T: Number> Parameters<T> {
     }
 }
 
-/// Largest sensitivity: one per cent of the parameter moves the limit by as much as itself, and
-/// the slope says nothing of such a change.
+/// Largest meaningful sensitivity: here one per cent of the parameter changes the limit by 100 %,
+/// which no linearisation describes.
 const MOST_SENSITIVE: f64 = 100.0;
 
-/// The sensitivity of a value by a parameter of this value, from its derivative; none
-/// where there is none, and above `MOST_SENSITIVE`.
+/// Returns the sensitivity from a value, its derivative and the parameter; `None` if it is not
+/// finite or above `MOST_SENSITIVE`.
 pub(super) fn sensitivity(value: f64, derivative: f64, parameter: f64) -> Option<f64> {
-    // A change in per cent of nothing is nothing, whatever the derivative.
+    // A relative change of zero is zero, whatever the derivative.
     let by = if parameter == 0.0 { 0.0 } else { derivative * parameter / value };
-    // There is no minus zero.
+    // Adding zero turns minus zero into zero.
     (by.abs() <= MOST_SENSITIVE).then_some(by + 0.0)
 }

@@ -1,6 +1,6 @@
-//! The value of one parameter that puts a limit where it is wanted: outward from its
-//! value in the scene by equal factors until the limit passes the wanted value, then
-//! by halving to the last digit.
+//! Inverse problem: the value of one parameter that moves a limit to a given value. The search goes
+//! outward from the present value by equal ratios until the limit passes the wanted value, then
+//! bisects to the last digit.
 
 use serde::Serialize;
 use strum::VariantNames;
@@ -15,38 +15,38 @@ use crate::scene::units::UnitError;
 use crate::scene::{CheckedScene, Quantity};
 use crate::tolerances::{TARGET_FACTOR, TARGET_REACHED, TARGET_SPAN};
 
-/// Why a target was refused.
+/// Reason why a target was rejected.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum TargetError {
-    /// Text of another form.
+    /// The text has another form.
     #[error("target {text}: allowed is NAME=VALUE, such as omega_lock=450, NAME one of {}", LimitName::VARIANTS.join(", "))]
     Form {
-        /// As given.
+        /// Text as given.
         text: String,
     },
-    /// A value of another quantity.
+    /// The value has a unit of another quantity.
     #[error("target {text}: {why}")]
     Unit {
-        /// As given.
+        /// Text as given.
         text: String,
-        /// What it is, and which units are allowed.
+        /// What is wrong with the unit, and which units are allowed.
         why: UnitError,
     },
-    /// No parameter.
+    /// There is no such parameter.
     #[error("parameter {path}: allowed is one of {}", paths())]
     Parameter {
-        /// As given.
+        /// Path as given.
         path: String,
     },
 }
 
-/// The paths of all parameters.
+/// Lists the paths of all parameters.
 fn paths() -> String {
     PARAMETERS.iter().map(|parameter| parameter.path).collect::<Vec<_>>().join(", ")
 }
 
-/// A limit, where it is wanted, and the parameter that may change.
+/// A limit, its wanted value, and the parameter to change.
 #[derive(Clone, Copy, Debug)]
 pub struct Target {
     name: LimitName,
@@ -54,34 +54,33 @@ pub struct Target {
     by: &'static Parameter,
 }
 
-/// What was found.
+/// Result of the search.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Found {
-    /// The limit.
+    /// Name of the limit.
     pub name: LimitName,
-    /// Where it is wanted.
+    /// Wanted value of the limit.
     pub wanted: f64,
     /// Path of the parameter.
     pub by: &'static str,
-    /// Its value in the scene.
+    /// Value of the parameter in the scene.
     pub from: f64,
-    /// Its value that puts the limit there, the nearest to that of the scene; none if
-    /// there is none.
+    /// Nearest value of the parameter that gives the wanted limit; `None` if none was found.
     pub to: Option<f64>,
-    /// The limit with that value.
+    /// Value of the limit there.
     pub reached: Option<f64>,
-    /// Smallest and largest value of the limit that were met on the way.
+    /// Smallest and largest value of the limit found during the search.
     pub met: Option<[f64; 2]>,
-    /// Smallest and largest value of the parameter that were tried.
+    /// Smallest and largest value of the parameter used in the search.
     pub tried: [f64; 2],
 }
 
 impl Target {
-    /// Reads `NAME=VALUE` and the path of a parameter.
+    /// Reads `NAME=VALUE`, and the path of a parameter.
     ///
     /// # Errors
-    /// Text of another form, an unknown limit, a value that is no finite number, or a
-    /// path that is no parameter.
+    /// The text has another form, the limit is unknown, the value is not a finite number, or the
+    /// path is not that of a parameter.
     pub fn parse(text: &str, by: &str) -> Result<Self, TargetError> {
         let form = || TargetError::Form { text: text.to_string() };
         let (name, value) = text.split_once('=').ok_or_else(form)?;
@@ -98,7 +97,7 @@ impl Target {
         Ok(Self { name, wanted, by: parameter(by.trim()).ok_or_else(refused)? })
     }
 
-    /// Looks for the value; none where `go_on` said no on the way.
+    /// Searches for the value; `None` if `go_on` returned false.
     #[must_use]
     pub fn solve(&self, scene: &CheckedScene, go_on: GoOn<'_>) -> Option<Found> {
         let from = self.by.of(scene);
@@ -115,7 +114,7 @@ impl Target {
     }
 }
 
-/// A search under way.
+/// A search in progress.
 struct Walk<'a> {
     target: Target,
     scene: &'a CheckedScene,
@@ -124,12 +123,12 @@ struct Walk<'a> {
     tried: [f64; 2],
 }
 
-/// A value of what is walked over, and by how much the limit is above the wanted value.
+/// A value of the searched quantity, and the excess of the limit over the wanted value there.
 type Place = (f64, f64);
 
 impl Walk<'_> {
-    /// The limit at a value of the parameter, less the wanted value; none inside where
-    /// there is no such scene or no such limit, none where told to stop.
+    /// Returns the excess of the limit over the wanted value; the inner `None` if there is no such
+    /// scene or limit, the outer one if `go_on` stopped the search.
     fn at(&mut self, walked: f64) -> Option<Option<f64>> {
         let value = self.target.by.value_at(self.scene, walked);
         if !(self.go_on)() {
@@ -150,11 +149,11 @@ impl Walk<'_> {
         Some(limit.map(|limit| limit - self.target.wanted))
     }
 
-    /// Two neighbouring values between which the limit passes the wanted one, the
-    /// nearest to that of the scene.
+    /// Returns two neighbouring values between which the limit passes the wanted one, the nearest
+    /// to the present value.
     fn bracket(&mut self, from: f64) -> Option<Option<[Place; 2]>> {
-        // From zero upward, where the scene has zero: from so little that it may be of any
-        // unit.
+        // If the present value is zero, the search goes only upward, from a value small enough for
+        // any unit.
         let up_only = from == 0.0;
         let (start, span) =
             if up_only { (1.0 / TARGET_SPAN, TARGET_SPAN.powi(3)) } else { (from, TARGET_SPAN) };
@@ -167,7 +166,7 @@ impl Walk<'_> {
                 if up_only && *sign < 0 {
                     continue;
                 }
-                // The last step downward is to zero itself.
+                // The last step downward goes to zero itself.
                 let value = match (*sign, step > steps) {
                     (-1, true) => 0.0,
                     (_, true) => continue,
@@ -185,7 +184,7 @@ impl Walk<'_> {
         Some(None)
     }
 
-    /// The place in between, and the limit there; none inside where it jumps.
+    /// Bisects, and returns the parameter and the limit there; the inner `None` if the limit jumps.
     fn halve(&mut self, [mut low, mut high]: [Place; 2]) -> Option<Option<(f64, f64)>> {
         for _ in 0..200 {
             let middle = 0.5 * (low.0 + high.0);

@@ -1,5 +1,5 @@
-//! The smallest pulse that makes a blade touch, to the last digit, and its derivative: until
-//! then the casing moves in closed form.
+//! The smallest pulse that makes a blade touch, to the last digit, and its derivatives. Until that
+//! contact the casing motion has a closed form ([`FreeFlight`]).
 
 use std::f64::consts::TAU;
 
@@ -14,39 +14,40 @@ use crate::scene::keys::PULSE;
 use crate::scene::{CheckedScene, ModelSize, Scene};
 use crate::tolerances::{SWING_LOOKS, TOUCHING_LOOK, TOUCHING_PERIODS};
 
-/// The smallest pulse that touches, and where it does.
+/// The smallest pulse that makes a blade touch, with time and place of the contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FirstTouch {
-    /// The pulse \[N\].
+    /// Force of the pulse \[N\].
     pub pulse_n: f64,
-    /// When it touches \[s\].
+    /// Time of the contact \[s\].
     pub t_s: f64,
-    /// The side that touches.
+    /// Side that is touched.
     pub side: u32,
 }
 
-/// The smallest pulse force of the scene's duration that makes a blade touch,
-/// up to `most` \[N\], with rigid blades; negative where `most` is. None where that
-/// does not touch, or the casing does not start at rest.
+/// Returns the smallest pulse force that makes a blade touch, for the scene's pulse duration and
+/// rigid blades, with the sign of `most` \[N\]. `None` if a pulse of `most` does not touch, or if
+/// the casing does not start from rest.
 #[must_use]
 pub fn grazing_pulse(scene: &Scene, most: f64) -> Option<f64> {
     first_touch(scene, most).map(|touch| touch.pulse_n)
 }
 
-/// As `grazing_pulse`, and where it touches.
+/// As [`grazing_pulse`], with time and place of the contact.
 #[must_use]
 pub fn first_touch(scene: &Scene, most: f64) -> Option<FirstTouch> {
     let sense = 1_f64.copysign(most);
     least(scene, sense).filter(|touch| touch.pulse_n.abs() <= most.abs())
 }
 
-/// The smallest pulse of the sense of the scene's that touches, if its key allows it.
+/// Returns the smallest pulse that touches, with the sign of the scene's pulse, if the key allows
+/// it.
 pub(super) fn smallest(scene: &Scene) -> Option<FirstTouch> {
     let most = parameter(PULSE).map_or(f64::MAX, Parameter::largest);
     first_touch(scene, if scene.operation.pulse_n < 0.0 { -most } else { most })
 }
 
-/// Whether there is a clearance, and the casing starts in the middle of it.
+/// Returns whether there is a clearance and the casing starts at rest at the centre.
 fn starts_at_rest(scene: &Scene) -> bool {
     let mut scene = scene.as_reference();
     scene.solver.model = ModelSize::Rigid;
@@ -57,33 +58,35 @@ fn starts_at_rest(scene: &Scene) -> bool {
         && scene.checked().is_ok()
 }
 
-/// How long a blade may still pass nearer to the casing than before \[s\]: later its
-/// swing has decayed by more than the angle between two blades can hide.
+/// Returns the time until which a later swing can come closer to a blade than an earlier one \[s\]:
+/// after that the decay exceeds the factor `1/cos delta` by which the distance depends on the
+/// direction.
 fn longest(scene: &Scene, machine: &Machine) -> f64 {
     let period = TAU / machine.omega_c;
     let hidden = -machine.polygon.delta.cos().max(0.0).ln();
     let fades = hidden / (machine.casing_damping_ratio * machine.omega_c);
     let most = TOUCHING_PERIODS * period;
-    // Without damping nothing fades, and fewer than three sides hide everything.
+    // Without damping there is no decay, and with fewer than three sides the factor is infinite.
     let wait = if fades.is_finite() { fades.min(most) } else { most };
     (scene.operation.pulse_s + period + wait).min(scene.solver.end_s)
 }
 
-/// Where the casing is at an instant, by one newton \[m/N\].
+/// Casing position at an instant, per unit of pulse force \[m/N\].
 #[derive(Clone, Copy)]
 struct Look {
     t: f64,
-    /// How far it has moved, and how far of that toward the nearest side.
+    /// Distance from the centre, and its component toward the nearest side.
     moved: f64,
     near: f64,
     side: u32,
 }
 
-/// The smallest pulse of this sense that touches: the largest way to a side by one newton.
+/// Finds the smallest pulse of one sign that touches, which corresponds to the largest component
+/// toward a side per unit force.
 ///
-/// No side is nearer than the casing has moved, and one is as near as that times the cosine
-/// of half a side's angle. So only instants matter at which the casing has moved further
-/// than the best way so far, and what lies before is passed at its highest rate.
+/// That component is at most the distance from the centre, and at least the distance times
+/// `cos delta`. So only instants matter at which the distance exceeds the best component so far;
+/// the time until then is skipped, using the highest possible velocity.
 fn least(scene: &Scene, sense: f64) -> Option<FirstTouch> {
     if !starts_at_rest(scene) {
         return None;
@@ -116,7 +119,7 @@ fn least(scene: &Scene, sense: f64) -> Option<FirstTouch> {
         let is_nearest = now.near > before && now.near >= ahead.near;
         let last = (ahead.t == end && ahead.near > now.near).then_some(ahead);
         for look in is_nearest.then_some(now).into_iter().chain(last) {
-            // A look misses the nearest instant by less than the square of a step.
+            // A sampled instant underestimates the maximum by less than the square of a step.
             if look.near > 0.0 && look.near * (1.0 + TOUCHING_LOOK * TOUCHING_LOOK) >= best {
                 let touch = polished(&Parameters::of(scene), look, sense, step);
                 best = best.max(machine.clearance() / touch.pulse_n.abs());
@@ -130,17 +133,17 @@ fn least(scene: &Scene, sense: f64) -> Option<FirstTouch> {
     found
 }
 
-/// The force that closes the gap of a side at one instant exactly.
+/// Returns the force that exactly closes the gap of a side at one instant.
 fn force<T: Number>(flight: &FreeFlight<'_, T>, side: u32, t: T) -> T {
     -flight.machine.clearance() / flight.gap_by_pulse(side, t)
 }
 
-/// The same side at the instant near this look at which it needs least; at the end of what
-/// is looked at, that end.
+/// Refines the instant at which the side needs the smallest force. If there is no minimum nearby,
+/// the given instant is kept.
 fn polished(all: &Parameters<Dual64>, look: Look, sense: f64, step: f64) -> FirstTouch {
     let machine = all.machine();
     let flight = all.flight(&machine);
-    // The derivative of the force by the instant has one zero near the touch.
+    // The time derivative of the force has a single zero near the contact.
     let slope = |t: f64| force(&flight, look.side, Dual64::new(t, 1.0)).eps * sense;
     let (early, late) = ((look.t - step).max(0.5 * look.t), look.t + step);
     let t_s = if slope(early) < 0.0 && slope(late) > 0.0 {
@@ -151,8 +154,8 @@ fn polished(all: &Parameters<Dual64>, look: Look, sense: f64, step: f64) -> Firs
     FirstTouch { pulse_n: force(&flight, look.side, Dual64::from(t_s)).re, t_s, side: look.side }
 }
 
-/// The limit, with its derivatives by the implicit function theorem: the gap of the
-/// side that touches is zero at an instant at which it does not change.
+/// Returns the limit with its derivatives by the implicit function theorem: the gap of the touched
+/// side is zero at an instant at which its rate is zero, so the time shift does not contribute.
 pub(super) fn limit(scene: &CheckedScene) -> Limit {
     let found = smallest(scene);
     let present = Some(scene.operation.pulse_n);
@@ -171,7 +174,7 @@ pub(super) fn limit(scene: &CheckedScene) -> Limit {
     limit
 }
 
-/// Why no pulse touches.
+/// Explains why no pulse touches.
 pub(super) fn why_none(scene: &CheckedScene) -> &'static str {
     let machine = scene.machine();
     let touches = |side| machine.apothem(side) < machine.out_of_round();

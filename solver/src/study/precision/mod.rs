@@ -1,15 +1,14 @@
 //! Speed against error: every solver, law and model size on one scene, each
-//! over its steps or tolerances, against a reference: the event solver, and at halved
-//! steps what that does not know (a lining, an excitation, ramps and single blades beyond
-//! the paper).
+//! over its steps or tolerances, against a reference: the event solver, and where that does
+//! not know the scene (a lining, an excitation, ramps and single blades beyond the paper) the
+//! explicit solver at its finest step.
 //!
 //! An explicit run ends at its last step, up to a step before the end of the
 //! scene, so the reference is evaluated at the time that each run really
-//! reached. The reference itself is checked by halving its tolerance or its step. Where a
-//! tiny change of the pulse changes the outcome (a *sensitive* scene), or halving the step
-//! goes on moving the end, end states mean nothing, and only verdicts are compared.
+//! reached. The reference itself is checked by half its tolerance or twice its step. Where a
+//! tiny change of the pulse changes the outcome (a *sensitive* scene), end states mean
+//! nothing, and only verdicts are compared.
 
-mod halving;
 mod track;
 mod ways;
 
@@ -18,122 +17,93 @@ use strum::IntoStaticStr;
 
 pub use ways::{Effort, Way, ways};
 
-use crate::motion::{GoOn, Motion, State, Verdict, VerdictReached, certainty};
-use crate::scene::{Scene, SceneError};
-use crate::tolerances;
+use crate::motion::{GoOn, Motion, Verdict, VerdictReached, certainty};
+use crate::scene::{Scene, SceneError, SolverKind, keys};
 use track::Track;
-use ways::{by_events, reference};
+use ways::reference;
 
-/// Impacts whose times are compared.
+/// Number of impacts whose times are compared.
 const FIRST_IMPACTS: usize = 4;
 
 /// Result and cost of one way to solve the scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
-    /// How it was solved.
+    /// Solver, law, model size, and step or tolerance.
     #[serde(flatten)]
     pub way: Way,
-    /// `|u - u_ref|/g0` at the last instant this run reached; none on a
-    /// sensitive scene, or where this run or the reference failed. Rates are
-    /// not compared: in contact those of the explicit scheme are means over a
-    /// step.
+    /// Error `|u - u_ref|/g0` at the last instant that this run reached; `None` for a sensitive
+    /// scene, or if this run or the reference failed. Velocities are not compared, because in
+    /// contact those of the explicit scheme are averages over a step.
     pub error_final: Option<f64>,
-    /// Largest error in the times of the first impacts \[s\]; none if the
-    /// blades differ.
+    /// Largest error of the times of the first impacts; `None` if they involve other blades \[s\].
     pub error_impact_time_s: Option<f64>,
-    /// Deepest penetration of an accepted state \[m\].
+    /// Deepest penetration of a corrected state \[m\].
     pub max_penetration_m: f64,
     /// Median wall time \[s\].
     pub wall_s: f64,
-    /// Wall time over the number of steps taken \[ns\].
+    /// Wall time divided by the number of computed steps \[ns\].
     pub ns_per_step: Option<f64>,
-    /// Time steps taken: computed one by one.
+    /// Number of time steps computed one by one.
     pub steps: Option<u64>,
-    /// Time steps skipped: done many at once; the run has the sum of both.
+    /// Number of time steps skipped; the run consists of both.
     pub steps_skipped: Option<u64>,
-    /// Changes of mode.
+    /// Number of events.
     pub events: Option<u64>,
-    /// The verdict.
+    /// Verdict of the run.
     pub verdict: Verdict,
-    /// Whether it equals the verdict of the reference of its model size; none where that
-    /// has none.
+    /// Whether it equals the verdict of the reference of its model size; none without one.
     pub verdict_right: Option<bool>,
-    /// Whether the contact law differs from that of the reference: a solution
-    /// of another problem, which may correctly differ.
+    /// Whether the contact law differs from that of the reference. The run then solves another
+    /// problem and may correctly have another result.
     pub other_law: bool,
 }
 
 impl Row {
-    /// Returns whether it solves the same problem as the reference and has another verdict.
+    /// Returns whether the run solves the same problem as the reference with another verdict.
     #[must_use]
     pub fn is_wrong(&self) -> bool {
         !self.other_law && self.verdict_right == Some(false)
     }
 }
 
-/// How a reference was found.
+/// Method of computing a reference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr, Serialize)]
 #[serde(into = "&'static str")]
 #[strum(serialize_all = "snake_case")]
 pub enum Method {
-    /// From contact to contact in closed form.
+    /// Event solver.
     Events,
-    /// From the ends at halved steps, whose order is seen, to a step of zero.
-    Extrapolated,
-    /// The end at the finest step: halving it moves the end less and less.
+    /// By the explicit solver at the finest step.
     FinestStep,
-    /// There is none.
-    None(Lack),
+    /// There is none: its run failed.
+    None,
 }
 
-/// Why there is no reference.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Lack {
-    /// Halving the step moves the end no less than before.
-    NotFalling,
-    /// It does, though by too much still at the finest step.
-    TooFar,
-    /// It does, though the impacts or the verdict change with the step.
-    OtherMotions,
-    /// Too few steps are short enough for the motion.
-    TooFew,
-    /// A step shorter than one that was solved was not.
-    StepsFailed,
-    /// The event solver failed.
-    EventsFailed,
-}
-
-/// Reference of the comparison; other model sizes have their own.
+/// Reference of the comparison; other model sizes have references of their own.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reference {
-    /// The event solver under unilateral contact, or the finest of halved steps.
+    /// The event solver under unilateral contact, or the explicit solver at the finest step.
     #[serde(flatten)]
     pub way: Way,
-    /// How it was found.
+    /// Method.
     pub method: Method,
-    /// Its verdict; without a reference, that at the finest step.
+    /// Its verdict.
     pub verdict: Verdict,
-    /// Its impacts.
+    /// Number of impacts.
     pub impact_count: u64,
-    /// Whether the scene is sensitive; not asked where it is by steps, which tell it.
-    pub sensitive: Option<bool>,
-    /// How far its end may be from the exact one, in clearances; none without a reference.
+    /// Whether the scene is sensitive.
+    pub sensitive: bool,
+    /// How far half the tolerance, or twice the step, moves its end, in clearances; none where
+    /// either run failed.
     pub error: Option<f64>,
-    /// How far half the tolerance, or the last halving of the step, moves the end, in
-    /// clearances; none where it failed.
-    pub error_halved: Option<f64>,
-    /// The order that halved steps show.
-    pub order: Option<f64>,
-    /// How far each halving of the step moves the end, coarse to fine, in clearances.
-    pub changes: Vec<f64>,
     /// Wall time of its run \[s\].
     pub wall_s: f64,
 }
 
-/// The whole comparison.
+/// The complete comparison.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Precision {
-    /// The scene; its solver settings are not used.
+    /// Scene; its solver settings are not used.
     pub scene: Scene,
     /// Reference of the comparison.
     pub reference: Reference,
@@ -141,17 +111,15 @@ pub struct Precision {
     pub rows: Vec<Row>,
 }
 
-/// One run to the end.
+/// A run to the end.
 struct TimedRun {
     motion: Motion,
-    /// Where it was looked at.
-    state: State,
     verdict: Verdict,
     failed: bool,
     wall_s: f64,
 }
 
-/// The reference for each model size.
+/// Reference solutions for each model size.
 pub struct Measure {
     scene: Scene,
     reference: Reference,
@@ -159,39 +127,38 @@ pub struct Measure {
 }
 
 impl Measure {
-    /// Rejects a scene that the event solver does not support and that is too long for a reference
-    /// by halved steps.
+    /// Rejects a scene that the event solver does not support and that is too long for the
+    /// explicit solver.
     ///
     /// # Errors
-    /// The end of the scene.
+    /// States the end of the scene.
     pub fn check(scene: &Scene, effort: Effort) -> Result<(), SceneError> {
-        reference(scene, scene.solver.model)
-            .map(|_| ())
-            .or_else(|by_steps| halving::check(by_steps, scene, effort))
+        if reference(scene, scene.solver.model, effort).is_some() {
+            return Ok(());
+        }
+        let allowed = format!(
+            "fewer than {:e} steps of those the scene allows, for a reference by steps",
+            effort.most_steps
+        );
+        Err(SceneError::refused(keys::END, scene.solver.end_s, allowed))
     }
 
-    /// Finds the references of a scene, for every model size among its ways; `None` where `go_on`
+    /// Computes the references of a scene for every model size among its ways; `None` if `go_on`
     /// stopped it.
     ///
     /// # Errors
-    /// Same as for `check`.
+    /// As [`check`](Self::check).
     pub fn new(scene: &Scene, effort: Effort, go_on: GoOn<'_>) -> Result<Option<Self>, SceneError> {
-        let own = scene.solver.model;
         Self::check(scene, effort)?;
-        let mut models = vec![own];
+        let mut models = vec![scene.solver.model];
         models.extend(ways(scene, effort).iter().map(|way| way.model));
         models.dedup();
         let mut tracks: Vec<Track> = Vec::new();
-        for model in models {
-            let way = reference(scene, model);
-            if tracks.iter().any(|track| track.is_of(way)) {
+        for way in models.into_iter().filter_map(|model| reference(scene, model, effort)) {
+            if tracks.iter().any(|track| track.way == way) {
                 continue;
             }
-            let track = match way {
-                Ok(exact) => Track::by_events(exact, scene, go_on)?,
-                Err(by_steps) => Track::by_steps(by_steps, scene, effort, go_on)?,
-            };
-            let Some(track) = track else { return Ok(None) };
+            let Some(track) = Track::run(way, scene, go_on)? else { return Ok(None) };
             tracks.push(track);
         }
         let Some(first) = tracks.first() else { return Ok(None) };
@@ -205,20 +172,20 @@ impl Measure {
         &self.reference
     }
 
-    /// Solves the scene one way, repeatedly, and compares; `None` where `go_on` stopped it.
+    /// Solves the scene in one way, repeatedly, and compares the result; `None` if `go_on` stopped
+    /// it.
     ///
     /// # Errors
-    /// This way does not suit the scene.
+    /// The scene does not allow this way.
     pub fn row(
         &self,
         way: Way,
         effort: Effort,
         go_on: GoOn<'_>,
     ) -> Result<Option<Row>, SceneError> {
-        let of_size = reference(&self.scene, way.model);
-        let track = self.tracks.iter().find(|track| track.is_of(of_size));
-        let look_s = track.map_or(self.scene.solver.end_s, |track| track.look_s(&self.scene));
-        let run = || way.run(&self.scene, look_s, go_on);
+        let of_size = reference(&self.scene, way.model, effort);
+        let track = self.tracks.iter().find(|track| Some(track.way) == of_size);
+        let run = || way.run(&self.scene, go_on);
         let Some(first) = run()? else { return Ok(None) };
         let mut walls = vec![first.wall_s];
         while walls.len() < effort.repeats as usize
@@ -228,12 +195,13 @@ impl Measure {
             walls.push(again.wall_s);
         }
         let wall_s = median(&mut walls);
-        let comparable = self.reference.sensitive != Some(true) && !first.failed;
+        let comparable = !self.reference.sensitive && !first.failed;
         let clearance = first.motion.machine().clearance().abs();
+        let state = first.motion.state();
         let error_final = track
             .filter(|_| comparable)
-            .and_then(|track| track.at(first.state.t_s))
-            .map(|exact| distance(exact, first.state.u) / clearance);
+            .and_then(|track| track.at(state.t_s))
+            .map(|exact| distance(exact, state.u) / clearance);
         let steps = first.motion.steps_taken();
         Ok(Some(Row {
             way,
@@ -246,12 +214,12 @@ impl Measure {
             steps_skipped: first.motion.steps_skipped(),
             events: first.motion.events(),
             verdict: first.verdict,
-            verdict_right: track.and_then(Track::right).map(|right| first.verdict == right),
+            verdict_right: track.map(|track| first.verdict == track.verdict),
             other_law: way.contact != self.reference.way.contact,
         }))
     }
 
-    /// Creates the report of these rows.
+    /// Combines the rows to a report.
     #[must_use]
     pub fn report(self, rows: Vec<Row>) -> Precision {
         let Self { scene, reference, .. } = self;
@@ -259,45 +227,37 @@ impl Measure {
     }
 }
 
-/// Describes the reference of the scene's own model size; `None` where `go_on` stopped it.
+/// Describes the reference for the scene's own model size; `None` if `go_on` stopped it.
 fn described(
     track: &Track,
     scene: &Scene,
     go_on: GoOn<'_>,
 ) -> Result<Option<Reference>, SceneError> {
-    let mut reference = Reference {
-        way: track.way,
-        method: Method::Events,
-        verdict: track.verdict,
-        impact_count: track.end.contacts().impact_count,
-        sensitive: None,
-        error: None,
-        error_halved: None,
-        order: None,
-        changes: Vec::new(),
-        wall_s: track.wall_s,
+    let changed = Way {
+        step_s: track.way.step_s.map(|step| 2.0 * step),
+        tolerance: track.way.tolerance.map(|tolerance| 0.5 * tolerance),
+        ..track.way
     };
-    if let Some(settled) = track.settled() {
-        reference.method = settled.method;
-        reference.error = settled.end.map(|(_, error)| error);
-        reference.error_halved = settled.changes.last().copied();
-        reference.order = settled.order;
-        reference.changes.clone_from(&settled.changes);
-        return Ok(Some(reference));
-    }
-    let halved = by_events(track.way.model, 0.5 * tolerances::EVENT);
-    let Some(halved) = halved.run(scene, scene.solver.end_s, go_on)? else { return Ok(None) };
-    if track.end.failure().is_none() && !halved.failed {
-        let moved = distance(track.end.state().u, halved.state.u);
-        reference.error = Some(moved / track.end.machine().clearance());
-        reference.error_halved = reference.error;
-    } else {
-        reference.method = Method::None(Lack::EventsFailed);
-    }
+    let Some(other) = changed.run(scene, go_on)? else { return Ok(None) };
+    let state = other.motion.state();
+    let clearance = track.end.machine().clearance().abs();
+    let end = track.at(state.t_s).filter(|_| !other.failed);
+    let method = match track.way.solver {
+        _ if track.end.failure().is_some() => Method::None,
+        SolverKind::Event => Method::Events,
+        SolverKind::Explicit => Method::FinestStep,
+    };
     let reached = VerdictReached::of(&track.end, track.verdict);
     let certainty = certainty(&track.way.of(scene)?, reached, false, go_on);
-    reference.sensitive = certainty.map(|certainty| certainty.sensitive);
-    Ok(reference.sensitive.map(|_| reference))
+    Ok(certainty.map(|certainty| Reference {
+        way: track.way,
+        method,
+        verdict: track.verdict,
+        impact_count: track.end.contacts().impact_count,
+        sensitive: certainty.sensitive,
+        error: end.map(|end| distance(end, state.u) / clearance),
+        wall_s: track.wall_s,
+    }))
 }
 
 /// Returns `|u_a - u_b|` \[m\].
@@ -305,8 +265,8 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// Returns the largest difference in the times of the first impacts, if they are of the same
-/// blades \[s\].
+/// Returns the largest difference in the times of the first impacts \[s\]; `None` if they involve
+/// other blades.
 fn impact_error(reference: &Motion, motion: &Motion) -> Option<f64> {
     let (expected, found) = (&reference.contacts().impacts, &motion.contacts().impacts);
     let count = expected.len().min(FIRST_IMPACTS);
@@ -333,7 +293,7 @@ fn median(values: &mut [f64]) -> f64 {
 mod tests {
     use super::*;
     use crate::motion::to_the_end;
-    use crate::scene::{ContactLaw, ModelSize, SolverKind};
+    use crate::scene::{ContactLaw, ModelSize};
 
     fn rows(scene: &Scene, chosen: impl Fn(&Way) -> bool) -> (Reference, Vec<Row>) {
         let measure = Measure::new(scene, Effort::QUICK, &to_the_end).unwrap().unwrap();
@@ -352,11 +312,11 @@ mod tests {
                 && way.contact == ContactLaw::Unilateral
                 && way.solver == SolverKind::Explicit
         });
-        assert!(reference.error_halved.unwrap() < 1e-12 && reference.sensitive == Some(false));
+        assert!(reference.error.unwrap() < 1e-12 && !reference.sensitive);
         let errors: Vec<f64> = rows.iter().map(|row| row.error_final.unwrap()).collect();
         assert_eq!(errors.len(), 4);
         assert!(errors.windows(2).all(|pair| pair[1] < pair[0]), "{errors:?}");
-        // Order one in contact: two decades of step, two decades of error.
+        // First order in contact: two decades of step give two decades of error.
         assert!((errors[0] / errors[3]).log10() > 1.7, "{errors:?}");
         assert!(rows.iter().all(|row| row.verdict_right == Some(true)));
     }

@@ -1,22 +1,22 @@
-//! The ways to solve a scene: solver, contact law, model size, and a step or
-//! a tolerance.
+//! The ways to solve a scene: combinations of solver, contact law, model size, and step or
+//! tolerance.
 
 use std::time::Instant;
 
 use serde::Serialize;
 
-use super::{TimedRun, halving};
+use super::TimedRun;
 use crate::motion::{ExactEvents, GoOn, Motion, verdict_of};
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, Scene, SceneError, SolverKind};
 use crate::tolerances::{self, LAST_PART};
 
-/// Longest time step tried \[s\].
+/// Longest time step used \[s\].
 pub(super) const LONGEST: f64 = 1e-5;
-/// Time steps tried \[s\].
+/// Time steps used \[s\].
 const STEPS: [f64; 5] = [LONGEST, 1e-6, 5e-7, 1e-7, 1e-8];
-/// Tolerances of the event solver tried, relative to the size of the motion.
+/// Tolerances used with the event solver, relative to the magnitude of the motion.
 const TOLERANCES: [f64; 4] = [1e-6, 1e-9, 1e-12, 1e-15];
-/// One way to solve the scene.
+/// A way to solve the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Way {
     /// Solver.
@@ -25,9 +25,9 @@ pub struct Way {
     pub contact: ContactLaw,
     /// Model size.
     pub model: ModelSize,
-    /// Time step; none for the event solver \[s\].
+    /// Time step; `None` for the event solver \[s\].
     pub step_s: Option<f64>,
-    /// Tolerance; none for the explicit solver.
+    /// Tolerance; `None` for the explicit solver.
     pub tolerance: Option<f64>,
 }
 
@@ -36,11 +36,11 @@ pub struct Way {
 pub struct Effort {
     /// Number of runs of each row, for the median.
     pub repeats: u32,
-    /// Smallest time step tried \[s\].
+    /// Smallest time step used \[s\].
     pub finest_s: f64,
-    /// Time after which a row is no longer repeated \[s\].
+    /// Total time after which a row is not repeated any more \[s\].
     pub seconds: f64,
-    /// Largest number of steps of a run where the reference is found by halved steps.
+    /// Largest number of steps of a reference.
     pub most_steps: f64,
 }
 
@@ -56,8 +56,8 @@ impl Effort {
 }
 
 /// Returns every way to solve a scene, coarse to fine, without steps beyond the stability limit
-/// or the end and without other refused combinations. Where the reference is found by halved
-/// steps, these are the finest of its steps except the last.
+/// or the end and without other refused combinations. Where the reference is the explicit
+/// solver, its step is the finest.
 #[must_use]
 pub fn ways(scene: &Scene, effort: Effort) -> Vec<Way> {
     let laws: &[ContactLaw] = match scene.solver.contact {
@@ -65,12 +65,11 @@ pub fn ways(scene: &Scene, effort: Effort) -> Vec<Way> {
         _ => &[ContactLaw::Unilateral, ContactLaw::Bilateral],
     };
     let mut ways = Vec::new();
-    let allowed = effort.finest_s..=scene.solver.end_s;
     for model in [ModelSize::Rigid, ModelSize::Modal, ModelSize::Full] {
-        let mut steps: Vec<f64> = STEPS.into_iter().filter(|step| allowed.contains(step)).collect();
-        if let Err(by_steps) = reference(scene, model) {
-            steps = halving::rows(by_steps, scene, effort);
-        }
+        let Some(compared) = reference(scene, model, effort) else { continue };
+        let finest = compared.step_s.unwrap_or(effort.finest_s);
+        let allowed = finest..=scene.solver.end_s;
+        let steps: Vec<f64> = STEPS.into_iter().filter(|step| allowed.contains(step)).collect();
         for &contact in laws {
             let solver = SolverKind::Explicit;
             ways.extend(steps.iter().map(|&step| Way {
@@ -83,12 +82,12 @@ pub fn ways(scene: &Scene, effort: Effort) -> Vec<Way> {
         }
     }
     for model in [ModelSize::Rigid, ModelSize::Modal] {
-        if reference(scene, model).is_ok() {
+        if reference(scene, model, effort).is_some_and(|way| way.solver == SolverKind::Event) {
             ways.extend(TOLERANCES.map(|tolerance| by_events(model, tolerance)));
         }
     }
     ways.retain(|way| match way.of(scene) {
-        // Beyond the paper the event solver has one tolerance, its own.
+        // Beyond the paper the event solver has a fixed tolerance.
         Ok(scene) if scene.has_other_tips() => {
             way.tolerance.is_none_or(|tolerance| tolerance <= tolerances::EVENT)
         }
@@ -97,7 +96,7 @@ pub fn ways(scene: &Scene, effort: Effort) -> Vec<Way> {
     ways
 }
 
-/// Returns the event solver on one model size.
+/// Returns the event solver with a model size and a tolerance.
 pub(super) fn by_events(model: ModelSize, tolerance: f64) -> Way {
     Way {
         solver: SolverKind::Event,
@@ -108,30 +107,36 @@ pub(super) fn by_events(model: ModelSize, tolerance: f64) -> Way {
     }
 }
 
-/// Returns what the runs of one model size are compared with: the event solver. It represents all
-/// blades by the modes of the disk as long as single blades do not matter to contact.
-///
-/// # Errors
-/// The event solver does not support this scene: the way to solve at halved steps instead.
-pub(super) fn reference(scene: &Scene, model: ModelSize) -> Result<Way, Way> {
+/// Returns what the runs of one model size are compared with: the event solver where it
+/// supports the scene, else the explicit solver at the finest step within `effort`; `None`
+/// where the run is too long for that. The event solver represents all blades by the modes of
+/// the disk as long as single blades do not matter to contact.
+pub(super) fn reference(scene: &Scene, model: ModelSize, effort: Effort) -> Option<Way> {
     let smooth = scene.solver.contact == ContactLaw::Smooth;
     let contact = if smooth { ContactLaw::Smooth } else { ContactLaw::Unilateral };
-    let by_steps =
-        Way { solver: SolverKind::Explicit, contact, model, step_s: None, tolerance: None };
     let mut blades = scene.clone();
     (blades.solver.model, blades.solver.contact) = (model, contact);
     blades.contact.restitution = 0.0;
     let own = model == ModelSize::Full && blades.has_other_tips();
     let size = if model == ModelSize::Rigid { ModelSize::Rigid } else { ModelSize::Modal };
     let exact = by_events(size, tolerances::EVENT);
-    if smooth || own || exact.of(scene).is_err() { Err(by_steps) } else { Ok(exact) }
+    if !smooth && !own && exact.of(scene).is_ok() {
+        return Some(exact);
+    }
+    let end = scene.solver.end_s;
+    let allowed = effort.finest_s.max(end / effort.most_steps)..=end;
+    let solver = SolverKind::Explicit;
+    let steps = STEPS.into_iter().rev().filter(|step| allowed.contains(step));
+    let mut ways =
+        steps.map(|step| Way { solver, contact, model, step_s: Some(step), tolerance: None });
+    ways.find(|way| way.of(scene).is_ok())
 }
 
 impl Way {
-    /// Returns the scene with the settings of this way.
+    /// Returns the scene with these solver settings.
     ///
     /// # Errors
-    /// This way does not suit the scene.
+    /// The scene does not allow them.
     pub fn of(&self, scene: &Scene) -> Result<CheckedScene, SceneError> {
         let mut scene = scene.clone();
         scene.solver.kind = self.solver;
@@ -141,11 +146,6 @@ impl Way {
             scene.solver.step_s = step;
         }
         scene.checked()
-    }
-
-    /// Returns the same way at another step.
-    pub(super) fn at_step(self, step_s: f64) -> Self {
-        Self { step_s: Some(step_s), ..self }
     }
 
     pub(super) fn start(&self, scene: &Scene) -> Result<Motion, SceneError> {
@@ -158,24 +158,20 @@ impl Way {
         })
     }
 
-    /// Runs to the end with a stop at the instant `look_s`, and measures the time; `None` where
-    /// `go_on` stopped it.
+    /// Runs to the end, and measures the time; `None` where `go_on` stopped it.
     pub(super) fn run(
         &self,
         scene: &Scene,
-        look_s: f64,
         go_on: GoOn<'_>,
     ) -> Result<Option<TimedRun>, SceneError> {
         let started = Instant::now();
         let mut motion = self.start(scene)?;
-        let looked = motion.advance_while(look_s, go_on);
-        let state = motion.state();
-        let reached = looked.and_then(|_| motion.advance_while(scene.solver.end_s, go_on));
+        let reached = motion.advance_while(scene.solver.end_s, go_on);
         if reached == Ok(false) {
             return Ok(None);
         }
         let wall_s = started.elapsed().as_secs_f64();
         let verdict = verdict_of(&motion, LAST_PART * scene.solver.end_s);
-        Ok(Some(TimedRun { verdict, failed: reached.is_err(), state, wall_s, motion }))
+        Ok(Some(TimedRun { verdict, failed: reached.is_err(), wall_s, motion }))
     }
 }

@@ -1,8 +1,8 @@
-//! What nothing to come can change: a lock whose blades have come to rest, or nearly.
+//! Proof that a contact is permanent: a lock whose blades have come to rest, or nearly.
 //!
-//! While the same rows are held the motion is linear, so what is left of it about its
-//! equilibrium obeys `x' = M x`. With `Q` from `M^T Q + Q M = -1`, `x^T Q x` never
-//! grows if `Q` is positive, and bounds every push and gap to come.
+//! While the same rows are in contact the motion is linear, so its deviation from the equilibrium
+//! obeys `x' = M x`. With `Q` from `M^T Q + Q M = -1`, `x^T Q x` never increases if `Q` is positive
+//! definite. It thus bounds all future contact forces and gaps.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -13,29 +13,29 @@ use crate::motion::point::{Point, Units, one_of};
 use crate::numeric::lyapunov::lyapunov;
 use crate::tolerances::{CERTAIN_PUSH, LARGEST_BLADE_ANGLE};
 
-/// What is known for good of the motion that holds some rows.
+/// Equilibrium of the motion with some rows in contact, and the bounds of deviations from it.
 #[derive(Clone, Debug)]
 pub(super) struct Rest {
-    /// The equilibrium.
+    /// Equilibrium.
     point: Point,
-    /// `Q`, in states of `units`.
+    /// Matrix `Q`, in states of `units`.
     bound: DMatrix<f64>,
-    /// What each push and gap has in hand, and how much of it a unit of
-    /// `sqrt(x^T Q x)` may take.
+    /// For each contact force and each open gap: its value at equilibrium, and the largest change
+    /// per unit of `sqrt(x^T Q x)`.
     rooms: Vec<(f64, f64)>,
 }
 
-/// The units of the states.
+/// Returns the units of the states.
 fn units(parameters: &Parameters) -> Units {
     Units::of(parameters.clearance(), parameters.machine.blade_length, parameters.rates())
 }
 
 impl Rest {
-    /// Of the motion that holds these rows; none where it has no equilibrium that it
-    /// comes to, or one that would not hold.
+    /// Creates the bounds for the motion with these rows in contact; `None` if it has no stable
+    /// equilibrium, or one in which the contact would not last.
     pub(super) fn of(parameters: &Parameters, held: &Held) -> Option<Self> {
         let (units, rate) = (units(parameters), parameters.rates());
-        // Where the tips have no slope, nothing of the blades comes back.
+        // Without tip slope the blades do not affect the casing and are left out.
         let size = if parameters.arm() == 0.0 { 4 } else { 8 };
         let none = Point::default();
         let offset = units.states(&slope(parameters, held, &none, 1.0).0, size) / rate;
@@ -56,7 +56,7 @@ impl Rest {
             let row = DVector::from_fn(size, |n, _| slope(parameters, held, &unit(n), 0.0).1[k]);
             rooms.push((push, per_unit(&row)));
         }
-        // A wave held in a corner of the polygon is away from all other sides.
+        // A wave in a corner of the polygon is away from all other sides.
         let fixed = held.rows.len() == 2;
         for row in (0..parameters.rows.len()).filter(|row| !fixed && !held.rows.contains(row)) {
             let along = DVector::from_fn(size, |n, _| {
@@ -75,7 +75,7 @@ impl Rest {
         holds.then_some(Self { point, bound, rooms })
     }
 
-    /// Whether, from this point on, the same rows are held for ever.
+    /// Returns whether the same rows stay in contact for ever from this point on.
     pub(super) fn for_good(&self, parameters: &Parameters, point: &Point) -> bool {
         let left = Point {
             z: point.z - self.point.z,
@@ -89,10 +89,9 @@ impl Rest {
     }
 }
 
-/// The rates of change of a point (as a point of rates), and the held pushes; with
-/// `full` 1 the gaps have their clearance, with 0 they are those of a difference. What
-/// is left of a held gap is driven out at the rate of the casing, so that the equations
-/// have no motion of their own where nothing may move.
+/// Returns the time derivative of a point, and the contact forces. With `full = 1` gaps include the
+/// clearance; with 0 they are differences. A residual gap decays at the rate of the casing, so that
+/// the equations have no neutral motion in directions that contact blocks.
 fn slope(
     parameters: &Parameters,
     held: &Held,
@@ -110,7 +109,8 @@ fn slope(
     (Point { z: point.dz, dz: z + casing, a: point.da, da: a + tips }, pushes)
 }
 
-/// Blades at rest under the pushes of a casing at rest, which does not feel them.
+/// Returns the static blade angle under the contact forces of a casing at rest, for blades that do
+/// not affect it.
 fn resting_blades(parameters: &Parameters, held: &Held, point: &Point) -> Plane {
     let pushes = slope(parameters, held, point, 1.0).1;
     let (_, tips) = parameters.pushed(held.with(pushes));

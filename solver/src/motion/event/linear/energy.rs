@@ -1,9 +1,10 @@
-//! Where the energy of a run comes from and goes to, per unit casing mass; how far the blades
-//! swing; and motions that leave the range of the model.
+//! Energy balance of a run, per unit casing mass; blade amplitudes; and the detection of motions
+//! that leave the range of the model.
 //!
-//! The pushes work on casing and blades: through the slope of the wave, which turns
-//! with the rotor, and by friction. `mu P` times the sliding speed is heat, and the
-//! rotor pays for it; the far larger part of it that moves nothing is kept apart.
+//! Contact forces work on casing and blades through the slope of the wave, which moves with the
+//! rotor, and through friction. The product of `mu P` and the sliding speed is heat, which the
+//! rotor supplies. Its much larger part, from sliding on a casing at rest, is kept separate to
+//! preserve digits.
 
 use std::f64::consts::TAU;
 
@@ -28,26 +29,26 @@ pub(super) struct Energies {
     pub rotor: f64,
     /// Work of blades that grow with the speed.
     pub growth: f64,
-    /// Its work against friction on a casing at rest: all of it becomes heat.
+    /// Work of the rotor against friction on a casing at rest, all of which becomes heat.
     pub sliding: f64,
-    /// What friction does on the motion of casing and blades: less heat.
+    /// Work of friction on the motion of casing and blades, which reduces the heat.
     pub dragged: f64,
-    /// Lost in the damping of the casing.
+    /// Energy dissipated in the casing damping.
     pub casing: f64,
-    /// Lost in the damping of the blades.
+    /// Energy dissipated in the blade damping.
     pub blades: f64,
-    /// Lost in impacts.
+    /// Energy lost in impacts.
     pub impacts: f64,
 }
 
 impl Energies {
-    /// What is missing from the balance at a state of this energy.
+    /// Returns the error of the balance for a state with this energy.
     pub(super) fn residual(&self, energy: f64) -> f64 {
         let lost = self.casing + self.blades + self.impacts;
         self.pulse + self.rotor + self.growth + self.dragged - lost - (energy - self.start)
     }
 
-    /// Books the first `s` seconds of a stretch.
+    /// Adds the first `s` seconds of a stretch.
     pub(super) fn book(&mut self, parameters: &Parameters, held: &Held, stretch: &Stretch, s: f64) {
         if stretch.free {
             let from = stretch.from();
@@ -69,7 +70,7 @@ impl Energies {
         }
     }
 
-    /// Adds the powers at one instant, for `time` seconds.
+    /// Adds the powers at one instant, multiplied by `time` seconds.
     fn add(&mut self, parameters: &Parameters, held: &Held, stretch: &Stretch, s: f64, time: f64) {
         let point = stretch.point(parameters, s);
         let v = parameters.carried(&point);
@@ -85,7 +86,7 @@ impl Energies {
         }
     }
 
-    /// Books impulses at a place with these rates (the mean of before and after).
+    /// Adds the work of impulses at a point; its rates are the mean of those before and after.
     pub(super) fn push(
         &mut self,
         parameters: &Parameters,
@@ -99,7 +100,7 @@ impl Energies {
                 along += direction * impulse;
             }
         }
-        // The sides turn with the rotor: their slope carries the casing along.
+        // The sides move with the rotor, so the slope of the wave does work on the casing.
         let slope = dot(along, Plane::i() * point.z * parameters.nu);
         let sliding = parameters.friction * parameters.speed * parameters.radius * sum;
         let on_casing = dot(Plane::i() * along * parameters.turn.im, parameters.carried(point));
@@ -112,16 +113,16 @@ impl Energies {
     }
 }
 
-/// The real scalar product of two vectors of the plane.
+/// Returns the scalar product of two vectors in the plane.
 fn dot(a: Plane, b: Plane) -> f64 {
     a.re * b.re + a.im * b.im
 }
 
-/// The largest amplitude of the blades over the last casing period or two.
+/// Largest blade amplitude over the last one or two casing periods.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Swings {
     period: f64,
-    /// When the period of now ends \[s\].
+    /// End of the present period \[s\].
     end: f64,
     before: f64,
     now: f64,
@@ -134,10 +135,10 @@ impl Swings {
         Self { period, end: period, before: 0.0, now: 0.0, trend: Trend::over(end) }
     }
 
-    /// Sees an amplitude at an instant \[rad\].
+    /// Records an amplitude at an instant \[rad\].
     pub(super) fn see(&mut self, t: f64, amplitude: f64) {
         if t >= self.end {
-            // After a whole period without a look nothing of before is left.
+            // After a whole period without a record the previous maximum is outdated.
             self.before = if t < self.end + self.period { self.now } else { 0.0 };
             (self.now, self.end) = (0.0, t + self.period);
             self.trend.see(t, self.before);
@@ -145,12 +146,12 @@ impl Swings {
         self.now = self.now.max(amplitude);
     }
 
-    /// The largest that lasts, as they go \[rad\].
+    /// Returns the amplitude to which the recorded ones tend \[rad\].
     pub(super) fn lasting(&self) -> f64 {
         self.trend.falls_to(self.largest()).unwrap_or_else(|| self.largest())
     }
 
-    /// Forgets what was before a change on the way.
+    /// Discards the trend before a change of parameters.
     pub(super) fn forget(&mut self) {
         self.trend.forget();
     }
@@ -161,12 +162,12 @@ impl Swings {
 }
 
 impl LinearEvents {
-    /// Fails a motion that has grown beyond what the model describes.
+    /// Ends a motion that has left the range of the model.
     pub(super) fn check_growth(&mut self, s: f64, point: &Point) {
         let parameters = &self.parameters;
         let distance_m = size(point.z);
         let radius_m = parameters.radius;
-        // No blade bends more than its modes together.
+        // No blade angle exceeds the amplitude of the modes.
         let angle_rad = match size(point.a) {
             most if most > LARGEST_BLADE_ANGLE => parameters.largest_angle(point.a),
             most => most,

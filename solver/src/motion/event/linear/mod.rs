@@ -1,19 +1,19 @@
-//! The event-driven solver of what goes beyond the paper's model: tips whose path has
-//! a slope, friction and restitution (docs/theory.md, section 10).
+//! Event-driven solver for models beyond the paper: inclined tips, friction, restitution and
+//! unequal tips (docs/theory.md, sections 10 and 11).
 //!
-//! In the frame of the blades casing and blades together obey linear equations with
-//! constant coefficients, if the angles of the blades are left out of the phases of
-//! the gaps. While the same rows are held the motion is a power series, summed to
-//! round-off stretch by stretch, and the first gap that closes or push that vanishes ends
-//! it (`stretch`); complementarity problems without symmetry say what comes next
-//! (`transitions`), and a bound that only falls what stays (`decided`). A gap that has just
-//! opened keeps digits of its own, so that rocking at a corner and bouncing on a side
-//! are followed down to round-off.
+//! If the blade angles are neglected in the phases of the gaps, casing and blades obey linear
+//! equations with constant coefficients in the blade frame. While the same rows are in contact, the
+//! motion is a power series, summed to round-off over one stretch after the other; a stretch ends
+//! at the first gap that closes or contact force that vanishes (`stretch`). Nonsymmetric
+//! complementarity problems determine what follows (`transitions`), and a Lyapunov function proves
+//! when a contact is permanent (`decided`). A gap that has just opened is stored separately, with
+//! its full relative accuracy, so that rocking at a corner and bouncing on a side are resolved down
+//! to round-off.
 //!
-//! A stretch is always evaluated from its start, never from an output time: where one
-//! looks does not change the motion, not by one bit.
+//! A stretch is always evaluated from its start, never from an output time, so that output does not
+//! change the motion, not even by one bit.
 //!
-//! Read `parameters`, `stretch`, `transitions`, then `energy` and `decided`.
+//! Order in which to read: `parameters`, `stretch`, `transitions`, then `energy` and `decided`.
 
 mod decided;
 mod energy;
@@ -39,8 +39,7 @@ use parameters::Parameters;
 
 use stretch::{Ending, Held, OpenedGap, Stretch};
 
-/// The event-driven solver of one scene that goes beyond the paper's model, at some
-/// instant of its motion.
+/// Event-driven solver of a scene beyond the paper's model, at some instant of its motion.
 ///
 /// ```
 /// use rubscope_solver::{motion::{LinearEvents, Solver, Verdict}, scene::Scene};
@@ -60,22 +59,22 @@ pub struct LinearEvents {
     parameters: Parameters,
     run: Run,
     energies: Energies,
-    /// `n_d theta` at the start, modulo a turn \[rad\].
+    /// Phase `n_d theta` at the start of the stretch, modulo a full turn \[rad\].
     phase: f64,
     held: Held,
     opened: Vec<OpenedGap>,
     stretch: Stretch,
-    /// The event that ends the stretch, and when \[s after its start\].
+    /// Event that ends the stretch, and its time after the start of the stretch \[s\].
     next: (f64, Ending),
-    /// What is known for good of the rows that are held, once asked.
+    /// Result of the proof that the present contact is permanent; computed on demand.
     rest: OnceLock<Option<Rest>>,
     swings: Swings,
 }
 
 impl LinearEvents {
-    /// The motion of a scene at t = 0 by the linearised equations, whether the scene
-    /// goes beyond the paper's model or not. Law and size must be ones that the event
-    /// solvers know (`CheckedScene::suits_events`), and the speed constant.
+    /// Starts the motion of a scene at t = 0 with the linearised equations, whether or not the
+    /// scene is beyond the paper's model. Contact law and model size must be supported
+    /// (`CheckedScene::suits_events`), and the speed must be constant.
     #[must_use]
     pub fn new(scene: &CheckedScene) -> Self {
         let parameters = Parameters::new(scene);
@@ -103,11 +102,11 @@ impl LinearEvents {
         motion
     }
 
-    /// The first stretch.
+    /// Starts the first stretch.
     fn begin(&mut self, mut point: Point) {
         let parameters = &self.parameters;
         let limit = ON_A_SIDE * parameters.clearance();
-        // A rate against the blades that is round-off of its two parts is none.
+        // A closing rate within the round-off of its two contributions counts as zero.
         let noise =
             ON_A_SIDE * (parameters.carried(&point).norm() + parameters.nu.abs() * point.z.norm());
         let met: Vec<(usize, f64)> = (0..parameters.rows.len())
@@ -124,7 +123,7 @@ impl LinearEvents {
         }
     }
 
-    /// The energies until now.
+    /// Returns the energies up to the present instant.
     fn energies_now(&self) -> Energies {
         let mut energies = self.energies;
         energies.book(
@@ -136,7 +135,7 @@ impl LinearEvents {
         energies
     }
 
-    /// Where the motion is now.
+    /// Returns the displacements and rates at the present instant.
     fn point_now(&self) -> Point {
         self.stretch.point(&self.parameters, self.elapsed(self.run.clock.now))
     }
@@ -185,8 +184,8 @@ impl Solver for LinearEvents {
         let gap = |(blade, angle): (u32, f64)| {
             let (cos, sin) = polygon.direction(polygon.side_of_blade(blade));
             let open = parameters.clearance() + cos * point.z.re + sin * point.z.im;
-            let beside = parameters.machine.uneven_at(blade - 1, 0.0);
-            open + beside - parameters.arm() * angle
+            let unevenness = parameters.machine.uneven_at(blade - 1, 0.0);
+            open + unevenness - parameters.arm() * angle
         };
         (1..=polygon.blades).zip(self.blade_angles()).map(gap).collect()
     }
@@ -264,7 +263,8 @@ impl Solver for LinearEvents {
         let stored = self.parameters.energy(&self.point_now()) - energies.start;
         Some(EnergyAccount {
             pulse_work_j: mass * energies.pulse,
-            // Against friction it works on a casing at rest too: that part is all heat.
+            // The rotor works against friction even with the casing at rest; that part is entirely
+            // heat.
             rotor_work_j: mass * (energies.rotor + energies.sliding),
             growth_work_j: mass * energies.growth,
             casing_loss_j: mass * energies.casing,
@@ -284,12 +284,12 @@ impl Solver for LinearEvents {
         self.intervene(|motion, _| motion.run.fire());
     }
 
-    /// A ramp is none of this solver's: it fails there.
+    /// This solver does not support a ramp and fails if there is one.
     fn set_speed(&mut self, speed: f64, ramp: f64) {
         self.swings.forget();
         self.intervene(|motion, point| {
             motion.run.rotor.change(motion.run.clock.now, speed, ramp);
-            motion.take_speed(speed, point);
+            motion.change_speed(speed, point);
         });
         if ramp != 0.0 {
             self.fail(0.0, FailureReason::Ramp);
@@ -327,8 +327,8 @@ impl Solver for LinearEvents {
 
 #[cfg(test)]
 mod tests {
-    //! Motions that start in a corner with blades bent as they are there: more than a scene
-    //! can say.
+    //! Motions that start in a corner with bent blades, an initial state that a scene cannot
+    //! describe.
 
     use super::*;
     use crate::motion::ActiveSet;
@@ -344,7 +344,7 @@ mod tests {
         scene.checked().unwrap()
     }
 
-    /// `kappa`, `mu`, `tau` and the speed.
+    /// Returns the keys of `kappa`, `mu`, `tau` and the speed.
     fn keys([kappa, mu, tau, speed]: [f64; 4]) -> [(&'static str, f64); 4] {
         [
             ("bladed_disk.radial_coupling", kappa),
@@ -354,7 +354,8 @@ mod tests {
         ]
     }
 
-    /// Locked in the corner of sides 0 and 1: the closed form, from the joint compliance.
+    /// Starts a motion locked in the corner of sides 0 and 1, from the closed form with the joint
+    /// compliance.
     fn locked(scene: &CheckedScene) -> LinearEvents {
         let parameters = Parameters::new(scene);
         let (machine, nu) = (&parameters.machine, parameters.nu);
@@ -414,9 +415,10 @@ mod tests {
             ([-0.1, 0.3, 0.0], 406.867471),
         ] {
             let tau = if mu > 0.0 { casing_friction / mu } else { 0.0 };
-            // As many digits as are printed.
+            // One unit of the last digit given above.
             let digit = if speed == 414.855 { 1e-3 } else { 2e-6 };
-            // A push of round-off's size proves nothing: so near only the held corner is certain.
+            // Very close to the limit a contact force is within round-off, so the lock is not
+            // proved.
             for (at, kept) in [(speed + digit, true), (speed - digit, false), (speed + 0.5, true)] {
                 let mut motion = locked(&scene(&keys([kappa, mu, tau, at])));
                 motion.advance(0.3).unwrap();
@@ -451,7 +453,7 @@ mod tests {
 
     #[test]
     fn a_growing_motion_is_told_as_one() {
-        // Above the flutter of the joined structures (516 rad/s at most here).
+        // Above the flutter speed, which is at most 516 rad/s here.
         let scene = scene(&keys([0.5, 0.0, 0.0, 560.0]));
         let mut motion = locked(&scene);
         let failure = motion.advance(5.0).unwrap_err();

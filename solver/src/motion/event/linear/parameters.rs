@@ -1,14 +1,13 @@
-//! What does not change between two changes of speed: the machine in the frame of the
-//! blades, everything per unit casing mass (docs/theory.md, section 10), and what can touch.
+//! Constants of the motion between two changes of speed: the machine in the blade frame, everything
+//! per unit casing mass (docs/theory.md, section 10), and the rows that can touch.
 //!
-//! With `z = u exp(-i n_d theta)`, `a = alpha_c + i alpha_s` and the pushes `Q_j` per
-//! unit casing mass,
+//! With `z = u exp(-i n_d theta)`, `a = alpha_c + i alpha_s` and the contact forces `Q_j` per unit
+//! casing mass,
 //!
-//! `z'' + drag z' + spring z = f exp(-i n_d theta) + (1 + i mu_c) sum Q_j exp(i psi_j)`,
-//! `a'' + 2 c a' + omega_bd^2 a = -lever sum Q_j exp(i psi_j)`.
+//! - `z'' + drag z' + spring z = f exp(-i n_d theta) + (1 + i mu_c) sum Q_j exp(i psi_j)`
+//! - `a'' + 2 c a' + omega_bd^2 a = -lever sum Q_j exp(i psi_j)`
 //!
-//! The blades of one side of the polygon touch together: each side is one row, of the same
-//! number.
+//! The blades on one side of the polygon touch together, so each side is a row with the same index.
 
 use crate::model::Machine;
 use crate::motion::Plane;
@@ -17,47 +16,47 @@ use crate::motion::propagator::Propagator;
 use crate::scene::{ModelSize, Scene};
 use crate::tolerances;
 
-/// The blade modes, where they move.
+/// Constants of the blade modes; absent with rigid blades.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Blades {
-    /// Response of the free blades.
+    /// Free response of the blades.
     pub propagator: Propagator,
-    /// Modal mass over casing mass \[m^2\].
+    /// Modal mass divided by the casing mass \[m^2\].
     pub mass: f64,
-    /// How far outward a blade angle of 1 rad moves the tip, `kappa l_b` \[m\].
+    /// Outward displacement of the tip per unit blade angle, `kappa l_b` \[m\].
     pub arm: f64,
-    /// Moment arm of a push, `(kappa + mu) l_b` \[m\].
+    /// Lever arm of a contact force, `(kappa + mu) l_b` \[m\].
     pub moment: f64,
-    /// That over the mass ratio \[1/m\].
+    /// Lever arm divided by the mass ratio \[1/m\].
     pub lever: f64,
 }
 
-/// The machine at one speed.
+/// Constants at one rotor speed.
 #[derive(Clone, Debug)]
 pub(super) struct Parameters {
     pub machine: Machine,
     /// Rotor speed \[rad/s\], and `nu = n_d` times it.
     pub speed: f64,
     pub nu: f64,
-    /// `2 zeta_c omega_c + 2 i nu`.
+    /// Coefficient `2 zeta_c omega_c + 2 i nu` of the casing rate.
     pub drag: Plane,
-    /// `omega_c^2 - nu^2 + 2 i nu zeta_c omega_c`.
+    /// Coefficient `omega_c^2 - nu^2 + 2 i nu zeta_c omega_c` of the casing displacement.
     pub spring: Plane,
-    /// `1 + i mu_c`.
+    /// Direction `1 + i mu_c` of a contact force with its friction.
     pub turn: Plane,
-    /// Friction coefficient in the direction of increasing angle.
+    /// Coefficient of friction, positive in the direction of increasing angle.
     pub friction: f64,
-    /// Response of the free casing in the standing frame.
+    /// Free response of the casing in the stationary frame.
     pub casing: Propagator,
     pub blades: Option<Blades>,
-    /// Direction `exp(i psi)` in which a push of each row moves casing and blade modes.
+    /// Direction `exp(i psi)` in which a contact force of each row acts on casing and blade modes.
     pub rows: Vec<Plane>,
-    /// How much the longest tip of each row is longer \[m\].
+    /// Excess length of the longest tip on each row \[m\].
     longer: Vec<f64>,
     pub restitution: f64,
     /// Casing radius \[m\].
     pub radius: f64,
-    /// Gaps below this part of the motion's size count as closed.
+    /// Fraction of the motion's magnitude below which a gap counts as closed.
     pub tolerance: f64,
 }
 
@@ -100,7 +99,7 @@ impl Parameters {
         parameters
     }
 
-    /// Gives the blades the stiffness of the machine.
+    /// Updates the blade response to the stiffness of the machine.
     pub(super) fn stiffen(&mut self) {
         let machine = &self.machine;
         if let Some(blades) = &mut self.blades {
@@ -109,7 +108,7 @@ impl Parameters {
         }
     }
 
-    /// Takes another rotor speed \[rad/s\].
+    /// Sets the rotor speed \[rad/s\].
     pub(super) fn turn_at(&mut self, speed: f64) {
         let machine = &self.machine;
         let (nu, damping) = (machine.nu(speed), 2.0 * self.casing.damping);
@@ -130,22 +129,22 @@ impl Parameters {
         self.machine.clearance()
     }
 
-    /// Returns the smallest gap of a casing at rest \[m\].
+    /// Returns the smallest gap with the casing undeformed \[m\].
     pub(super) fn least_clearance(&self) -> f64 {
         self.clearance() - self.longer.iter().copied().reduce(f64::max).unwrap_or(0.0)
     }
 
-    /// Returns the gap of a row of a casing at rest \[m\].
+    /// Returns the gap of a row with the casing undeformed \[m\].
     pub(super) fn apothem(&self, row: usize) -> f64 {
         self.clearance() - self.longer.get(row).copied().unwrap_or(0.0)
     }
 
-    /// Returns `kappa l_b`, or 0 where the blades do not move \[m\].
+    /// Returns `kappa l_b`, or 0 for rigid blades \[m\].
     pub(super) fn arm(&self) -> f64 {
         self.blades.map_or(0.0, |blades| blades.arm)
     }
 
-    /// Returns the sum of all rates of the free motion, seen from the blades \[rad/s\].
+    /// Returns an upper bound on the rates of the free motion in the blade frame \[rad/s\].
     pub(super) fn rates(&self) -> f64 {
         let omega = self.machine.omega_c + 2.0 * self.casing.damping + self.nu.abs();
         let own = self
@@ -154,7 +153,7 @@ impl Parameters {
         omega.max(own)
     }
 
-    /// Returns the share of a displacement of casing and blades along a row.
+    /// Returns the change of a row's gap by the displacements `z` and `a`.
     pub(super) fn along(&self, row: usize, z: Plane, a: Plane) -> f64 {
         self.rows.get(row).map_or(0.0, |direction| along(*direction, self.arm(), z, a))
     }
@@ -174,7 +173,8 @@ impl Parameters {
         (z, a)
     }
 
-    /// Returns the sum of the magnitudes of the terms of such accelerations along a gap.
+    /// Returns the sum of the magnitudes of those accelerations' terms along a gap, for round-off
+    /// estimates.
     pub(super) fn size_of_free(&self, point: &Point, force: Plane) -> f64 {
         let casing = size(force)
             + (self.casing.stiffness + self.nu * self.nu) * size(point.z)
@@ -186,26 +186,27 @@ impl Parameters {
         casing + self.arm().abs() * blades
     }
 
-    /// Returns what these contact forces, each with its row, add to the accelerations of casing
-    /// and blades.
+    /// Returns the accelerations of casing and blades due to contact forces, each given with its
+    /// row.
     pub(super) fn pushed(&self, pushes: impl Iterator<Item = (usize, f64)>) -> (Plane, Plane) {
         self.moved(pushes.filter_map(|(row, push)| Some((*self.rows.get(row)?, push))))
     }
 
-    /// Returns the same for contact forces along these directions.
+    /// As [`pushed`](Self::pushed), for contact forces along given directions.
     pub(super) fn moved(&self, pushes: impl Iterator<Item = (Plane, f64)>) -> (Plane, Plane) {
         let sum = pushes.fold(Plane::default(), |sum, (direction, push)| sum + direction * push);
         (self.turn * sum, sum * -self.blades.map_or(0.0, |blades| blades.lever))
     }
 
-    /// Returns how much a unit contact force on row `by` opens `row`: `W`, not symmetric under
-    /// friction.
+    /// Returns the acceleration of the gap of `row` due to a unit contact force on row `by`, the
+    /// entry of `W`. Not symmetric with friction.
     pub(super) fn joint(&self, row: usize, by: usize) -> f64 {
         let (z, a) = self.pushed(std::iter::once((by, 1.0)));
         self.along(row, z, a)
     }
 
-    /// Returns the velocity of the casing in the fixed frame, along the axes of the blades.
+    /// Returns the velocity of the casing in the stationary frame, in components along the axes of
+    /// the blade frame.
     pub(super) fn carried(&self, point: &Point) -> Plane {
         point.dz + Plane::i() * point.z * self.nu
     }
@@ -220,8 +221,8 @@ impl Parameters {
         0.5 * (casing + blades)
     }
 
-    /// Returns a bound of the displacement at a gap without pulse and contact, as both energies
-    /// only fall \[m\].
+    /// Returns a bound on the displacement at any gap without pulse and contact: the energies of
+    /// casing and blades can only decrease \[m\].
     pub(super) fn swing(&self, point: &Point) -> f64 {
         let reach = |place: Plane, rate: Plane, stiffness: f64| {
             (place.norm_sqr() + rate.norm_sqr() / stiffness).sqrt()
@@ -244,8 +245,8 @@ pub(super) fn size(vector: Plane) -> f64 {
     vector.norm_sqr().sqrt()
 }
 
-/// Returns the share of a displacement of casing and blades, whose tips rise by `arm`, along the
-/// direction of a row.
+/// Returns the component of a displacement of casing and blades along the direction of a row; `arm`
+/// is the outward tip displacement per unit blade angle.
 pub(super) fn along(direction: Plane, arm: f64, z: Plane, a: Plane) -> f64 {
     let casing = direction.re * z.re + direction.im * z.im;
     casing - arm * (direction.re * a.re + direction.im * a.im)

@@ -1,10 +1,10 @@
-//! A stretch of motion with the same rows held: casing, blades and pushes as power
-//! series, summed to round-off, or the free flight that nothing ends; and what ends it: the
-//! first gap that closes, the first push that vanishes, or its end. Nothing is passed,
-//! however short (`event::series`).
+//! A stretch of motion with the same rows in contact: casing, blades and contact forces as power
+//! series summed to round-off, or free flight without further contact. It ends at the first gap
+//! that closes or contact force that vanishes, or at the end of the series. No change of contact is
+//! missed, however short (`event::series`).
 //!
-//! Order by order the pushes are those that keep the held gaps closed: with `c_j` the
-//! row of a gap, `c_j (free acceleration) + sum W_jk Q_k = 0`.
+//! The contact forces follow order by order from the condition that the gaps stay closed: with
+//! `c_j` the gradient of gap `j`, `c_j (free acceleration) + sum W_jk Q_k = 0`.
 
 use super::parameters::{Parameters, along};
 use crate::motion::Plane;
@@ -16,18 +16,18 @@ use crate::motion::propagator::Propagator;
 use crate::numeric::elimination::{Square, inverse};
 use crate::tolerances::{EVENT, MOST_HALVINGS, MOST_HELD, PEAK_LOOKS, ROUND_OFF};
 
-/// The rows that are held closed.
+/// Rows in contact.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Held {
     pub rows: Vec<usize>,
-    /// Where they push.
+    /// Directions of their contact forces.
     directions: [Plane; MOST_HELD],
-    /// The inverse of their contact matrix.
+    /// Inverse of their contact matrix `W`.
     pub inverse: Square<MOST_HELD>,
 }
 
 impl Held {
-    /// Holds these rows; none where their pushes could not be told apart.
+    /// Creates the set of rows; `None` if their contact matrix is singular or there are too many.
     pub(super) fn new(parameters: &Parameters, rows: Vec<usize>) -> Option<Self> {
         let mut matrix = [[0.0; MOST_HELD]; MOST_HELD];
         for (line, &row) in matrix.iter_mut().zip(&rows) {
@@ -46,7 +46,7 @@ impl Held {
         Some(Self { rows, directions, inverse })
     }
 
-    /// The pushes that these openings of the held gaps ask for.
+    /// Returns the contact forces that compensate these accelerations of the gaps.
     pub(super) fn pushes(&self, openings: &[f64; MOST_HELD]) -> [f64; MOST_HELD] {
         let (mut pushes, held) = ([0.0; MOST_HELD], self.rows.len());
         for (push, row) in pushes.iter_mut().zip(&self.inverse).take(held) {
@@ -55,7 +55,8 @@ impl Held {
         pushes
     }
 
-    /// The pushes that keep the held gaps closed against these accelerations.
+    /// Returns the contact forces that keep the gaps closed against these accelerations of casing
+    /// and blades.
     fn against(&self, arm: f64, casing: Plane, tips: Plane) -> [f64; MOST_HELD] {
         let mut openings = [0.0; MOST_HELD];
         for (opening, row) in openings.iter_mut().zip(&self.directions).take(self.rows.len()) {
@@ -64,7 +65,7 @@ impl Held {
         self.pushes(&openings)
     }
 
-    /// `openings` of the rows, one by one.
+    /// Evaluates a function for each row.
     pub(super) fn each(&self, opening: impl Fn(usize) -> f64) -> [f64; MOST_HELD] {
         let mut openings = [0.0; MOST_HELD];
         for (slot, &row) in openings.iter_mut().zip(&self.rows) {
@@ -73,12 +74,12 @@ impl Held {
         openings
     }
 
-    /// The rows with these pushes.
+    /// Pairs each row with its contact force.
     pub(super) fn with(&self, pushes: [f64; MOST_HELD]) -> impl Iterator<Item = (usize, f64)> {
         self.rows.iter().copied().zip(pushes)
     }
 
-    /// The same point with the held gaps closed and at rest but for round-off.
+    /// Projects a point so that the gaps in contact are closed and at rest to round-off.
     pub(super) fn closed(&self, parameters: &Parameters, point: &Point) -> Point {
         let mut point = *point;
         if self.rows.is_empty() {
@@ -94,11 +95,11 @@ impl Held {
     }
 }
 
-/// Real and imaginary part.
+/// Series of the real and the imaginary part.
 type Wave = [Terms; 2];
 
-/// The sizes of the terms, both parts together: one of them may pass through zero. What it
-/// cannot square is round-off.
+/// Returns the magnitude of each complex term, because one part alone may pass through zero.
+/// Magnitudes whose squares underflow are round-off.
 fn lengths([re, im]: &Wave) -> Terms {
     let mut lengths = [0.0; TERMS];
     for (length, (re, im)) in lengths.iter_mut().zip(re.iter().zip(im)) {
@@ -107,35 +108,34 @@ fn lengths([re, im]: &Wave) -> Terms {
     lengths
 }
 
-/// One stretch.
+/// One stretch of motion.
 #[derive(Clone, Debug)]
 pub(super) struct Stretch {
-    /// Length of the stretch \[s\]; infinite where nothing ends it.
+    /// Duration; infinite if no event ends it \[s\].
     pub length: f64,
-    /// Where it starts.
+    /// Point at the start.
     from: Point,
     z: Wave,
     a: Wave,
     force: Wave,
-    /// Pushes of the held rows per unit casing mass \[m/s^2\].
+    /// Contact forces of the rows per unit casing mass \[m/s^2\].
     pub pushes: [Terms; MOST_HELD],
-    /// Pushes below this are round-off of the terms that they add up.
+    /// Contact forces below this are round-off of the terms that they consist of \[m/s^2\].
     pub noise: f64,
-    /// The farthest that any gap can close in this stretch, and what it has of the
-    /// clearance at its start at most \[m\].
+    /// Largest possible closing of any gap during the stretch, and largest displacement at its
+    /// start \[m\].
     pub travel: [f64; 2],
-    /// The farthest that a blade can swing in this stretch, whether a gap feels it or not
-    /// \[rad\].
+    /// Largest possible change of a blade angle during the stretch \[rad\].
     pub swing: f64,
-    /// Whether no stretch is short enough for its terms to end.
+    /// Whether the series did not converge for any length.
     pub lost: bool,
-    /// Whether it is the free flight to the end.
+    /// Whether the stretch is free flight without further contact.
     pub free: bool,
 }
 
 impl Stretch {
-    /// Begins from a point on with these rows held under a force, for at most `most`
-    /// seconds.
+    /// Computes the stretch from a point with these rows in contact and the pulse `force` per unit
+    /// casing mass, for at most `most` seconds. The length is halved until the series converge.
     pub(super) fn begin(
         &mut self,
         parameters: &Parameters,
@@ -160,7 +160,7 @@ impl Stretch {
         }
     }
 
-    /// The free flight that no blade ever meets.
+    /// Creates the free flight without further contact.
     pub(super) fn to_the_end(from: Point) -> Self {
         let zero = [0.0; TERMS];
         Self {
@@ -178,7 +178,7 @@ impl Stretch {
         }
     }
 
-    /// The same place for ever: what moves is round-off.
+    /// Makes the motion constant for ever, after its changes have fallen to round-off.
     pub(super) fn come_to_rest(&mut self) {
         let hold = |terms: &mut Terms| terms.iter_mut().skip(1).for_each(|term| *term = 0.0);
         self.z.iter_mut().chain(&mut self.a).chain(&mut self.pushes).for_each(hold);
@@ -198,7 +198,7 @@ impl Stretch {
         };
         let (arm, pulsed) = (parameters.arm(), force != Plane::default());
         let mut acting = force * (h * h);
-        // The terms of this order and of the next.
+        // Terms of this order and of the next.
         let (mut z, mut a) = (self.from.z, self.from.a);
         let (mut dz, mut da) = (self.from.dz * h, self.from.da * h);
         put(&mut self.z, 0, z);
@@ -229,12 +229,13 @@ impl Stretch {
         }
     }
 
-    /// Where it starts.
+    /// Returns the point at the start.
     pub(super) fn from(&self) -> &Point {
         &self.from
     }
 
-    /// Whether the terms left out are round-off; and how far it may go, by those kept.
+    /// Bounds the motion by the sum of its terms, and returns whether the terms left out are
+    /// round-off.
     fn summed(&mut self, arm: f64, held: usize) -> bool {
         let (z, a) = (lengths(&self.z), lengths(&self.a));
         let each = |(z, a): (&f64, &f64)| z + arm * a;
@@ -246,17 +247,17 @@ impl Stretch {
             && self.pushes.iter().take(held).all(|terms| ended(terms) || self.is_noise(terms))
     }
 
-    /// Whether a push is nothing but round-off.
+    /// Returns whether a contact force is entirely round-off.
     pub(super) fn is_noise(&self, push: &Terms) -> bool {
         push.iter().map(|term| term.abs()).sum::<f64>() <= self.noise
     }
 
-    /// The part of the stretch that `s` seconds are.
+    /// Returns the fraction of the stretch after `s` seconds.
     fn part(&self, s: f64) -> f64 {
         if self.length.is_finite() && self.length > 0.0 { s / self.length } else { 0.0 }
     }
 
-    /// Where the motion is, `s` seconds on.
+    /// Returns the point after `s` seconds.
     pub(super) fn point(&self, parameters: &Parameters, s: f64) -> Point {
         if self.free {
             return self.flown(parameters, s);
@@ -268,7 +269,7 @@ impl Stretch {
         let per = if self.length > 0.0 { 1.0 / self.length } else { 0.0 };
         let ([z_re, z_im], [a_re, a_im]) = (&self.z, &self.a);
         let (mut value, mut rate) = ([0.0; 4], [0.0; 4]);
-        // All four at once: none waits for another.
+        // All four series at once, so that their operations can overlap.
         for n in (0..TERMS).rev() {
             for (k, term) in [z_re[n], z_im[n], a_re[n], a_im[n]].into_iter().enumerate() {
                 rate[k] = rate[k] * x + value[k];
@@ -300,7 +301,7 @@ impl Stretch {
         Point { z, dz: v - Plane::i() * z * parameters.nu, a, da }
     }
 
-    /// Pushes of the held rows per unit casing mass, `s` seconds on \[m/s^2\].
+    /// Returns the contact forces per unit casing mass after `s` seconds \[m/s^2\].
     pub(super) fn pushes_at(&self, s: f64) -> [f64; MOST_HELD] {
         let x = self.part(s);
         self.pushes.map(
@@ -310,13 +311,13 @@ impl Stretch {
         )
     }
 
-    /// Force of the pulse per unit casing mass, `s` seconds on \[m/s^2\].
+    /// Returns the pulse force per unit casing mass after `s` seconds \[m/s^2\].
     pub(super) fn force_at(&self, s: f64) -> Plane {
         let x = self.part(s);
         Plane::new(values(&self.force[0], x)[0], values(&self.force[1], x)[0])
     }
 
-    /// Gap of a row as a power series \[m\].
+    /// Returns the gap of a row as a power series \[m\].
     pub(super) fn gap(&self, parameters: &Parameters, row: usize) -> Terms {
         let arm = parameters.arm();
         let direction = parameters.rows.get(row).copied().unwrap_or_default();
@@ -331,7 +332,8 @@ impl Stretch {
     }
 }
 
-/// `1/((n + 1) (n + 2))`, by which an acceleration becomes the term after the next.
+/// Factors `1/((n + 1)(n + 2))`, by which term `n` of an acceleration gives term `n + 2` of the
+/// displacement.
 const OVER: [f64; TERMS - 2] = {
     let mut over = [0.0; TERMS - 2];
     let mut n = 0;
@@ -342,31 +344,31 @@ const OVER: [f64; TERMS - 2] = {
     over
 };
 
-/// What ends a stretch.
+/// Event that ends a stretch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Ending {
-    /// A row touches with this rate, zero or less \[m/s\].
+    /// The gap of a row closes with this rate, which is zero or negative \[m/s\].
     Touch(usize, f64),
-    /// The push of a row vanishes.
+    /// The contact force of a row vanishes.
     Release(usize),
-    /// The stretch ends; the motion goes on.
+    /// The series ends, without a change of contact.
     StretchEnd,
 }
 
-/// A gap that has just opened, with digits of its own.
+/// A gap that has just opened, stored separately to keep its relative accuracy.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OpenedGap {
     pub row: usize,
-    /// \[m\]
+    /// Gap \[m\].
     pub gap: f64,
-    /// \[m/s\]
+    /// Rate of the gap \[m/s\].
     pub rate: f64,
-    /// Whether its push has just vanished: then its acceleration is zero.
+    /// Whether the contact force has just vanished, so that the acceleration is zero.
     pub released: bool,
 }
 
 impl OpenedGap {
-    /// Its gap over the stretch, in powers of the part of it.
+    /// Returns the gap as a power series over the stretch.
     fn terms(&self, parameters: &Parameters, stretch: &Stretch) -> Terms {
         let mut terms = stretch.gap(parameters, self.row);
         (terms[0], terms[1]) = (self.gap, self.rate * stretch.length);
@@ -376,7 +378,7 @@ impl OpenedGap {
         terms
     }
 
-    /// The same `s` seconds on.
+    /// Advances the gap by `s` seconds.
     pub(super) fn later(&self, parameters: &Parameters, stretch: &Stretch, s: f64) -> Self {
         let terms = self.terms(parameters, stretch);
         let (order, left) = without_zeros(&terms);
@@ -385,7 +387,7 @@ impl OpenedGap {
     }
 }
 
-/// The terms without their leading zeros, and how many those are.
+/// Removes the leading zero terms; returns their number and the rest.
 fn without_zeros(terms: &Terms) -> (usize, Terms) {
     let order = terms.iter().take(3).take_while(|&&term| term == 0.0).count();
     let mut left = [0.0; TERMS];
@@ -395,7 +397,7 @@ fn without_zeros(terms: &Terms) -> (usize, Terms) {
     (order, left)
 }
 
-/// Value and rate of `x^order left(x)`.
+/// Returns value and derivative of `x^order left(x)`.
 fn grown(order: usize, left: &Terms, x: f64) -> (f64, f64) {
     let [value, rate, _] = values(left, x);
     let power = |n: usize| x.powi(i32::try_from(n).unwrap_or(0));
@@ -403,7 +405,7 @@ fn grown(order: usize, left: &Terms, x: f64) -> (f64, f64) {
     (power(order) * value, grows + power(order) * rate)
 }
 
-/// The first `x` up to `end` where the terms come down to `noise`.
+/// Returns the first `x` up to `end` at which the series falls to `noise`.
 fn first_zero(terms: &Terms, noise: f64, end: f64) -> Option<f64> {
     let falls: f64 = terms.iter().skip(1).map(|term| term.abs()).sum();
     if terms[0] > falls {
@@ -414,7 +416,7 @@ fn first_zero(terms: &Terms, noise: f64, end: f64) -> Option<f64> {
     while x < end {
         let now = gap(terms, x);
         looks += 1.0;
-        // So near to a touch for so long that it is one.
+        // A gap that stays this close to contact for so many evaluations counts as contact.
         if (now.gap <= noise && now.rate < 0.0) || looks > PEAK_LOOKS {
             return Some(x);
         }
@@ -423,7 +425,7 @@ fn first_zero(terms: &Terms, noise: f64, end: f64) -> Option<f64> {
     None
 }
 
-/// The event that ends a stretch, and when \[s\].
+/// Finds the event that ends a stretch, and its time \[s\].
 pub(super) fn seek(
     parameters: &Parameters,
     stretch: &Stretch,
@@ -443,7 +445,7 @@ pub(super) fn seek(
         }
         let noise = parameters.tolerance.max(EVENT) * left[0];
         if let Some(x) = first_zero(&left, noise, end) {
-            // At the zero itself only the slope of what is left counts.
+            // At the zero itself only the derivative of the reduced series contributes.
             let slope = values(&left, x)[1] * x.powi(i32::try_from(order).unwrap_or(0));
             (end, what) = (x, Ending::Touch(gap.row, (slope / stretch.length).min(0.0)));
         }
@@ -466,17 +468,17 @@ pub(super) fn seek(
     (end * stretch.length, what)
 }
 
-/// Where a push vanishes, before `end`.
+/// Returns the fraction of the stretch at which a contact force vanishes, before `end`.
 fn vanishes(stretch: &Stretch, terms: &Terms, tolerance: f64, end: f64) -> Option<f64> {
     if stretch.is_noise(terms) {
-        // A side that holds without a push is not opened by round-off.
+        // A row in contact without a force is not opened by round-off.
         return None;
     }
     let size: f64 = terms.iter().map(|term| term.abs()).sum();
     if terms[0] > stretch.noise {
         return first_zero(terms, tolerance * size, end);
     }
-    // It starts from nothing: what comes next decides.
+    // The force starts at zero: its first nonzero term decides.
     let mut left = *terms;
     let first = left.iter().position(|term| term.abs() > stretch.noise)?;
     left.iter_mut().take(first).for_each(|term| *term = 0.0);

@@ -1,10 +1,10 @@
-//! From one stretch to the next: moving the start, changes from outside, and what touches or
-//! lets go.
+//! Transitions between stretches: advancing the start, changes from outside, and gaps that close or
+//! open.
 //!
-//! Gaps that close take the impulses `W p + (1 + e) g' >= 0`, complementary, for gaps
-//! that close, and `W p + g' >= 0` for the others (Newton). Among gaps that are closed
-//! and at rest the accelerations decide in the same way. A row whose push has vanished
-//! opens and is not tested again.
+//! At an impact the impulses `p` satisfy `W p + (1 + e) g' >= 0` for closing gaps and
+//! `W p + g' >= 0` for the others, complementary to `p >= 0` (Newton's law of restitution). Among
+//! gaps that are closed and at rest the accelerations decide in the same way. A row whose contact
+//! force has vanished opens and is not tested again.
 
 use std::f64::consts::TAU;
 
@@ -20,7 +20,7 @@ use crate::tolerances::{
 };
 
 impl LinearEvents {
-    /// Seconds from the start of the stretch to `t`.
+    /// Returns the time from the start of the stretch to `t` \[s\].
     pub(super) fn elapsed(&self, t: f64) -> f64 {
         self.run.clock.elapsed(t)
     }
@@ -31,15 +31,14 @@ impl LinearEvents {
         self.next = (f64::INFINITY, Ending::StretchEnd);
     }
 
-    /// Whether the pulse acts from the start of the stretch on, for more than an
-    /// instant.
+    /// Returns whether the pulse acts from the start of the stretch on for more than an instant.
     fn pulses(&self) -> bool {
         self.run.pulse.at(self.run.clock.start()) != 0.0
             && self.elapsed(self.run.pulse.end) * self.parameters.rates() > AN_INSTANT
     }
 
-    /// The force of the pulse per unit casing mass at the start of the stretch, in the
-    /// frame of the blades \[m/s^2\].
+    /// Returns the pulse force per unit casing mass at the start of the stretch, in the blade frame
+    /// \[m/s^2\].
     pub(super) fn force(&self) -> Plane {
         if self.pulses() {
             Plane::cis(-self.phase) * (self.run.pulse.force / self.parameters.machine.casing_mass)
@@ -48,14 +47,14 @@ impl LinearEvents {
         }
     }
 
-    /// Ends the motion at this point, at the start of the stretch to come.
+    /// Ends the motion at this point, at the start of the next stretch.
     pub(super) fn fail_at(&mut self, point: &Point, reason: FailureReason) {
         self.held = Held::default();
         self.stretch = Stretch::to_the_end(*point);
         self.fail(0.0, reason);
     }
 
-    /// The next stretch, from this point on with the rows held now.
+    /// Starts the next stretch from this point with the present rows in contact.
     pub(super) fn enter(&mut self, point: Point) {
         if self.run.failure.is_some() {
             return;
@@ -88,7 +87,7 @@ impl LinearEvents {
         self.next = seek(&self.parameters, &self.stretch, &self.held, &self.opened);
     }
 
-    /// Passes the event that ends the stretch.
+    /// Processes the event that ends the stretch.
     pub(super) fn pass(&mut self) {
         let (s, what) = self.next;
         self.run.looks += 1;
@@ -99,7 +98,7 @@ impl LinearEvents {
         let pulsed = self.pulses();
         let Some(mut point) = self.rebase(s) else { return };
         if what == Ending::StretchEnd && pulsed && !self.pulses() {
-            // The pushes jump with the force.
+            // The contact forces jump together with the pulse.
             let rows = self.held.rows.clone();
             self.settle(&mut point, &rows);
         } else {
@@ -107,7 +106,7 @@ impl LinearEvents {
         }
     }
 
-    /// What comes after an event.
+    /// Starts the motion after an event.
     fn follow(&mut self, point: &mut Point, what: Ending) {
         match what {
             Ending::StretchEnd => self.enter(*point),
@@ -125,9 +124,9 @@ impl LinearEvents {
         }
     }
 
-    /// What touches beside a row that has just closed, with rates. A gap of no more
-    /// than round-off that closes too is one of them: two rows that each open the other
-    /// would otherwise strike in turn without end.
+    /// Returns the rows that touch besides one that has just closed, with the rates of their gaps.
+    /// A closing gap within round-off is included: two rows that each open the other would
+    /// otherwise impact in turn without end.
     fn touching(&self, point: &Point, hit: usize) -> Vec<(usize, f64)> {
         let parameters = &self.parameters;
         let size = parameters.clearance() + size(point.z) + parameters.arm().abs() * size(point.a);
@@ -148,9 +147,9 @@ impl LinearEvents {
         (0..parameters.rows.len()).filter_map(rate_if_near).collect()
     }
 
-    /// Books the stretch and moves its start by `s`; returns where the motion is. None
-    /// where it has grown beyond the model: it stays in the stretch that it grew in, so
-    /// that all that is said of it is of one instant.
+    /// Records the stretch up to `s`, moves the start of the next one there, and returns the point.
+    /// `None` if the motion has left the range of the model; it then stays in the present stretch,
+    /// so that everything reported refers to the same instant.
     fn rebase(&mut self, s: f64) -> Option<Point> {
         let point = self.stretch.point(&self.parameters, s);
         self.check_growth(s, &point);
@@ -182,12 +181,12 @@ impl LinearEvents {
         Some(point)
     }
 
-    /// The largest angle of any blade until `s` seconds into the stretch \[rad\].
+    /// Returns the largest blade angle up to `s` seconds into the stretch \[rad\].
     pub(super) fn widest_until(&self, s: f64) -> f64 {
         if self.parameters.blades.is_none() {
             return 0.0;
         }
-        // Free blades swing on for long: their largest swing comes within a period.
+        // The largest amplitude of free blades occurs within their first period.
         let s = s.min(TAU / self.parameters.machine.omega_bd);
         let parts = if self.stretch.free { 64 } else { 4 };
         (0..=parts).fold(self.run.widest, |widest, part| {
@@ -201,7 +200,7 @@ impl LinearEvents {
         })
     }
 
-    /// Whether, from `s` seconds into the stretch on, the same rows are held for ever.
+    /// Returns whether the same rows stay in contact for ever from `s` seconds into the stretch on.
     pub(super) fn held_for_good(&self, s: f64) -> bool {
         if self.pulses() || self.held.rows.len() < 2 || !self.opened.is_empty() {
             return false;
@@ -211,8 +210,8 @@ impl LinearEvents {
         rest.as_ref().is_some_and(|rest| rest.for_good(&self.parameters, &point))
     }
 
-    /// Changes rotor, pulse or rate at the present instant; the casing keeps its place,
-    /// and its rate in the standing frame but for `change`.
+    /// Changes rotor, pulse or rate at the present instant. The casing keeps its position, and its
+    /// velocity in the stationary frame except for `change`.
     pub(super) fn intervene(&mut self, change: impl FnOnce(&mut Self, &mut Point)) {
         if self.run.failure.is_some() {
             return;
@@ -229,7 +228,7 @@ impl LinearEvents {
         self.energies.start += self.parameters.energy(&point) - energy;
         self.shift_opened(point.dz - rate, Plane::default());
         if self.parameters.clearance() != clearance {
-            // What touched may be open now, and the other way round.
+            // A different clearance can open or close any gap.
             self.held = Held::default();
             self.opened.clear();
             self.rest = std::sync::OnceLock::new();
@@ -241,7 +240,7 @@ impl LinearEvents {
             self.settle(&mut point, &rows);
             return;
         }
-        // A sudden change of speed acts on what touches as an impact does.
+        // A sudden change of speed acts on closed gaps like an impact.
         self.rest = std::sync::OnceLock::new();
         let parameters = &self.parameters;
         let met: Vec<(usize, f64)> = std::mem::take(&mut self.held)
@@ -254,12 +253,13 @@ impl LinearEvents {
 }
 
 impl LinearEvents {
-    /// The machine at another speed. Blades get stiffer where they are, which is work of the
-    /// rotor; and where a smaller clearance leaves tips in the casing, all displacements
-    /// shrink by one part, which is work of their growth.
-    pub(super) fn take_speed(&mut self, speed: f64, point: &mut Point) {
+    /// Changes the machine to another speed. The change of blade stiffness at the present angles is
+    /// work of the rotor. If a smaller clearance would leave tips inside the casing, all
+    /// displacements are reduced by a common factor, which is work of the growing blades.
+    pub(super) fn change_speed(&mut self, speed: f64, point: &mut Point) {
         let parameters = &mut self.parameters;
-        // In the frame of this speed: the rates of the casing are changed to the next after.
+        // The energies refer to the present frame; the casing rate is converted to the new frame
+        // afterwards.
         let before = parameters.energy(point);
         let turned = parameters.nu;
         parameters.machine.turn_at(speed);
@@ -280,11 +280,11 @@ impl LinearEvents {
         parameters.turn_at(speed);
     }
 
-    /// Rows that touch, each with the rate of its gap \[m/s\].
+    /// Applies the impact of rows that touch, each with the rate of its gap \[m/s\].
     pub(super) fn meet(&mut self, point: &mut Point, met: &[(usize, f64)]) {
         let parameters = &self.parameters;
         let arm = parameters.arm().abs();
-        // Slower is at rest: the round-off of rates that cancel.
+        // Slower rates count as rest; they are round-off of terms that cancel.
         let soft = SOFT_TOUCH * parameters.machine.omega_c * parameters.clearance()
             + ROUND_OFF * (size(point.dz) + arm * size(point.da));
         let rebound = |rate: f64| {
@@ -326,14 +326,14 @@ impl LinearEvents {
         self.settle(point, &still);
     }
 
-    /// The rates jump by `z` and `a`: those of gaps that have just opened too.
+    /// Adds a jump of the rates `z` and `a` to the gaps that have just opened.
     pub(super) fn shift_opened(&mut self, z: Plane, a: Plane) {
         for gap in &mut self.opened {
             gap.rate += self.parameters.along(gap.row, z, a);
         }
     }
 
-    /// Enters the impacts of rows that closed faster than `soft` \[m/s\].
+    /// Records the impacts of rows that closed faster than `soft` \[m/s\].
     fn log_impacts(&mut self, met: &[(usize, f64)], impulses: &[f64], soft: f64) {
         let t = self.run.clock.start();
         let mut touched = ActiveSet::Nothing;
@@ -350,7 +350,7 @@ impl LinearEvents {
         }
     }
 
-    /// These gaps are closed and at rest: which of them hold?
+    /// Determines which of these gaps, closed and at rest, stay in contact.
     pub(super) fn settle(&mut self, point: &mut Point, still: &[usize]) {
         let force = self.force();
         let parameters = &self.parameters;
@@ -389,7 +389,7 @@ impl LinearEvents {
         self.enter(*point);
     }
 
-    /// From now on these rows are held.
+    /// Sets the rows in contact.
     pub(super) fn hold(&mut self, held: Held) {
         if held.rows != self.held.rows {
             self.rest = std::sync::OnceLock::new();
@@ -399,16 +399,16 @@ impl LinearEvents {
         let active_set = sides.fold(ActiveSet::Nothing, ActiveSet::with);
         self.run.hold(active_set);
         if active_set == ActiveSet::Many && held.rows != self.held.rows {
-            // Other sides, though as many.
+            // Other sides, although again three or more.
             self.run.log.since = t;
         }
         self.held = held;
     }
 }
 
-/// The solution `p >= 0` of `W p + opening >= 0`, `p (W p + opening) = 0`, where sizes
-/// up to `noise` count as zero; none where there is none, or too many rows. Not
-/// `contact::Several`: with friction `W` may be such that pivoting goes round for ever.
+/// Finds `p >= 0` with `W p + opening >= 0` and `p (W p + opening) = 0`, where magnitudes up to
+/// `noise` count as zero; `None` if there is no solution, or too many rows. All subsets are tried
+/// instead of `contact::Several`, because with friction pivoting may cycle.
 pub(super) fn pushes(
     joint: impl Fn(usize, usize) -> f64,
     opening: &[f64],
@@ -431,10 +431,10 @@ pub(super) fn pushes(
     })
 }
 
-/// A number for each row that touches.
+/// One number for each row that touches.
 type Touching = [f64; MOST_TOUCHING];
 
-/// The pushes of the rows of one choice, if nothing is wrong with them.
+/// Returns the contact forces for one subset of rows, if they satisfy all conditions.
 fn try_choice(
     matrix: &[Touching; MOST_TOUCHING],
     opening: &[f64],
@@ -498,7 +498,7 @@ mod tests {
         assert_eq!(met, [(2, -1e-3), (3, 0.0)]);
     }
 
-    /// Gaps that have just opened go on with digits of their own, but as the motion does.
+    /// A gap that has just opened is stored separately, but must agree with the motion.
     #[test]
     fn an_opened_gap_is_small_and_moves_as_the_motion_whatever_changes_on_the_way() {
         let keys = [

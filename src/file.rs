@@ -1,0 +1,125 @@
+//! Writing files completely or not at all, and reading them within a limit.
+//!
+//! The content goes to a hidden file in the same folder, which gets the name once it is
+//! complete and on the disk. A kill can leave the hidden file, never half of a named one.
+
+use std::fs::{File, Metadata, Permissions};
+use std::io::{BufWriter, Error, ErrorKind, Result, Write};
+use std::os::unix::fs::PermissionsExt;
+use std::path::Path;
+
+pub use rubscope_solver::scene::read_text;
+use tempfile::NamedTempFile;
+
+/// Outcome of writing a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Written {
+    /// There was no file, or it is a device or a pipe.
+    New,
+    /// A file was replaced.
+    Replaced,
+}
+
+/// Replaces the file at `path`, if there is one, by what `write` writes, completely or not
+/// at all. Its mode stays, and links to it are followed. A device or a pipe is written to
+/// directly.
+///
+/// # Errors
+/// An error of the system or of `write`, a file that is read-only, or a folder that takes
+/// no file; what was there is then unchanged.
+pub fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<Written> {
+    let Some(old) = existing(path)? else {
+        complete(path, None, write)?.persist(path)?;
+        return Ok(Written::New);
+    };
+    if !old.is_file() {
+        return fill(File::options().append(true).open(path)?, write).map(|()| Written::New);
+    }
+    let path = path.canonicalize()?;
+    complete(&path, Some(old.permissions()), write)?.persist(&path)?;
+    Ok(Written::Replaced)
+}
+
+/// Creates a file, completely or not at all.
+///
+/// # Errors
+/// `AlreadyExists` where there is anything of this name, also if it came while `write` was
+/// at work; an error of the system or of `write`.
+pub fn create(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
+    if path.symlink_metadata().is_ok() {
+        let exists = format!("{} exists", path.display());
+        return Err(Error::new(ErrorKind::AlreadyExists, exists));
+    }
+    complete(path, None, write)?.persist_noclobber(path)?;
+    Ok(())
+}
+
+/// Tries whether a file can be written there; nothing that is tried stays.
+///
+/// # Errors
+/// The folder does not exist, is none or takes no file; the path is a folder, or a file
+/// that is read-only.
+pub fn check_place(path: &Path) -> Result<()> {
+    match existing(path)? {
+        Some(old) if old.is_file() => beside(&path.canonicalize()?, None).map(drop),
+        Some(_) => Ok(()),
+        None => beside(path, None).map(drop),
+    }
+}
+
+/// Returns what is at `path`, with links followed; refuses what no file can replace.
+fn existing(path: &Path) -> Result<Option<Metadata>> {
+    if path.as_os_str().is_empty() {
+        return Err(Error::new(ErrorKind::InvalidInput, "the name is empty"));
+    }
+    let old = match path.metadata() {
+        Ok(old) => old,
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+        Err(error) => return Err(error),
+    };
+    if old.is_dir() {
+        return Err(ErrorKind::IsADirectory.into());
+    }
+    // A superuser could replace the file all the same: the mode says what is wanted.
+    if old.permissions().readonly() {
+        return Err(Error::new(ErrorKind::PermissionDenied, "the file is read-only"));
+    }
+    Ok(Some(old))
+}
+
+/// Creates the hidden file, with the mode of the file that it is to replace, or of a new one.
+fn beside(path: &Path, mode: Option<Permissions>) -> Result<NamedTempFile> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let folder = folder.unwrap_or(Path::new("."));
+    if path.as_os_str().as_encoded_bytes().ends_with(b"/") {
+        return Err(ErrorKind::IsADirectory.into());
+    }
+    // A missing folder is refused in the words of the system.
+    if !folder.metadata()?.is_dir() {
+        return Err(ErrorKind::NotADirectory.into());
+    }
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".rubscope-").permissions(mode.unwrap_or(Permissions::from_mode(0o666)));
+    // The error of `tempfile` names the hidden file, which says nothing to the user.
+    builder.tempfile_in(folder).map_err(|error| error.kind().into())
+}
+
+/// Writes the hidden file and waits until it is on the disk.
+fn complete(
+    path: &Path,
+    mode: Option<Permissions>,
+    write: impl FnOnce(&mut dyn Write) -> Result<()>,
+) -> Result<NamedTempFile> {
+    let file = beside(path, mode.clone())?;
+    fill(file.as_file(), write)?;
+    // The mask of the user has taken bits of the mode.
+    mode.map_or(Ok(()), |mode| file.as_file().set_permissions(mode))?;
+    file.as_file().sync_all()?;
+    Ok(file)
+}
+
+fn fill(file: impl Write, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
+    let mut out = BufWriter::new(file);
+    write(&mut out)?;
+    out.flush()
+}
