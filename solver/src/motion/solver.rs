@@ -7,8 +7,8 @@ use std::ops::{Deref, DerefMut};
 use super::explicit::Explicit;
 use super::verdict::judge;
 use super::{
-    Checks, ContactLog, EnergyAccount, ExactEvents, Failure, FailureReason, LinearEvents,
-    Plane, Pulse, Rotor, State, Verdict,
+    Checks, ContactLog, EnergyAccount, ExactEvents, Failure, FailureReason, LinearEvents, Plane,
+    Pulse, Rotor, State, Verdict,
 };
 use crate::model::Machine;
 use crate::scene::{CheckedScene, SolverKind};

@@ -122,4 +122,3 @@ fn an_engine_order_moves_the_blades_and_hardly_the_lock() {
         assert!((a.multiplier_n / b.multiplier_n - 1.0).abs() < 0.01, "{a:?} {b:?}");
     }
 }
-

@@ -182,7 +182,11 @@ impl Phasor {
             return exact(n, rotor, order, step);
         };
         let block = n / TABLE;
-        if block == self.block { self.at_block * turn } else { exact(block * TABLE, rotor, order, step) * turn }
+        if block == self.block {
+            self.at_block * turn
+        } else {
+            exact(block * TABLE, rotor, order, step) * turn
+        }
     }
 }
 

@@ -142,7 +142,8 @@ impl Shapes {
             }
             return (0..self.labels.len()).for_each(|m| add(m, felt[m / 4][m % 4]));
         };
-        let (mut room, mut spectrum) = (torques.to_vec(), vec![Plane::default(); self.count / 2 + 1]);
+        let (mut room, mut spectrum) =
+            (torques.to_vec(), vec![Plane::default(); self.count / 2 + 1]);
         let _ = ring.to_modes.process(&mut room, &mut spectrum);
         for (m, label) in self.labels.iter().enumerate() {
             let of = spectrum[(label.diameters / self.each) as usize];

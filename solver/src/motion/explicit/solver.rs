@@ -2,11 +2,11 @@
 
 use super::lasting::Surface;
 use super::{Coordinate, Disk, Explicit};
+use crate::model::Machine;
 use crate::motion::{
     ActiveSet, Checks, ContactLog, EnergyAccount, Failure, GoOn, Pulse, Rotor, Solver, State,
     Verdict,
 };
-use crate::model::Machine;
 use crate::scene::CheckedScene;
 use crate::tolerances::{STEP_ROUND_OFF, UPDATES_UNASKED};
 
