@@ -194,58 +194,60 @@ impl Lining {
         let by_depth = if eps > 0.0 { 0.5 / eps } else { 0.0 };
         let TipLaw { clearance, diameters, pushed, rise, .. } = *tips;
         let look = phase * (z.re.abs() + z.im.abs()) + out_of_round - clearance;
-        let mut sums = [[0.0; 4]; 6];
-        let (mut deepest, mut changed) = ([0.0_f64; 4], [0_u64; 4]);
+        let [mut x, mut y, mut pushes, mut turning, mut felt_c, mut felt_s, mut deepest] =
+            [[0.0_f64; 4]; 7];
+        let mut changed = [0_u64; 4];
         let presses = |depth: f64| if depth > 0.0 { u64::MAX } else { 0 };
         let torques = self.torques.as_chunks_mut::<4>().0.iter_mut();
         for (place, (four, torques)) in self.fours.iter_mut().zip(torques).enumerate() {
-            let (mut angle, mut least) = ([0.0; 4], f64::INFINITY);
+            let Rows { cosine, sine, longer, blades, shape: [p, q], depth: before, .. } = *four;
+            let (mut angle, mut least) = ([0.0; 4], [0.0; 4]);
             for k in 0..4 {
-                angle[k] = four.angle[k] + (four.shape[0][k] * c + four.shape[1][k] * s);
-                let open = z.re * four.cosine[k] + z.im * four.sine[k] - four.longer[k];
-                let open = open - rise * angle[k];
-                least = if open < least { open } else { least };
+                angle[k] = four.angle[k] + (p[k] * c + q[k] * s);
+                least[k] = z.re * cosine[k] + z.im * sine[k] - longer[k] - rise * angle[k];
             }
-            let before = four.depth;
             four.before = before;
-            if least > look {
+            if least[0].min(least[1]).min(least[2].min(least[3])) > look {
                 if before != [0.0; 4] {
                     (four.depth, *torques, changed) = ([0.0; 4], [0.0; 4], [u64::MAX; 4]);
                 }
                 continue;
             }
-            // No lane branches or looks at another.
+            // No lane branches or looks at another: one vector instruction takes all.
+            let (mut depth, mut torque, mut push) = ([0.0; 4], [0.0; 4], [0.0; 4]);
             for k in 0..4 {
                 let (sin, cos) = sin_cos(diameters * angle[k]);
-                let across = four.cosine[k] * cos - four.sine[k] * sin;
-                let along = four.sine[k] * cos + four.cosine[k] * sin;
+                let across = cosine[k] * cos - sine[k] * sin;
+                let along = sine[k] * cos + cosine[k] * sin;
                 let [shape, steep] = shape(4 * place + k, angle[k]);
                 let arm = diameters * (across * z.im - along * z.re) + steep;
                 let inward = across * z.re + along * z.im + shape;
-                let deep = rise * angle[k] - (inward + clearance - four.longer[k]);
+                let deep = rise * angle[k] - (inward + clearance - longer[k]);
                 let deep = if deep > 0.0 { deep } else { 0.0 };
                 let parabola = if deep < eps { deep } else { eps };
-                let depth = parabola * parabola * by_depth + (deep - parabola);
-                let push = depth * (four.blades[k] * stiffness);
-                let torque = push * (arm - pushed);
-                changed[k] |= presses(deep) ^ presses(before[k]);
-                (four.depth[k], torques[k]) = (deep, torque);
-                four.impulse[k] += push;
-                sums[0][k] += push * across;
-                sums[1][k] += push * along;
-                sums[2][k] += push;
-                sums[3][k] += torque;
-                sums[4][k] += four.shape[0][k] * torque;
-                sums[5][k] += four.shape[1][k] * torque;
+                let smooth = parabola * parabola * by_depth + (deep - parabola);
+                push[k] = smooth * (blades[k] * stiffness);
+                torque[k] = push[k] * (arm - pushed);
+                depth[k] = deep;
+                x[k] += push[k] * across;
+                y[k] += push[k] * along;
                 deepest[k] = if deep > deepest[k] { deep } else { deepest[k] };
             }
+            for k in 0..4 {
+                four.impulse[k] += push[k];
+                pushes[k] += push[k];
+                turning[k] += torque[k];
+                felt_c[k] += p[k] * torque[k];
+                felt_s[k] += q[k] * torque[k];
+                changed[k] |= presses(depth[k]) ^ presses(before[k]);
+            }
+            (four.depth, *torques) = (depth, torque);
         }
-        let [x, y, push, torque, felt_c, felt_s] = sums.map(total);
         Sums {
-            force: Plane::new(x, y),
-            push,
-            torque,
-            felt: [felt_c, felt_s],
+            force: Plane::new(total(x), total(y)),
+            push: total(pushes),
+            torque: total(turning),
+            felt: [total(felt_c), total(felt_s)],
             deepest: deepest.into_iter().fold(0.0, f64::max),
             changed: changed != [0; 4],
         }
