@@ -10,6 +10,32 @@
 use super::elimination::eliminate;
 use crate::tolerances::{CLOSED_PART, FEW_ROWS, MOST_PIVOTING, ROUND_OFF, SINGULAR};
 
+/// Closes two rows as equalities; not finite where the rows are dependent.
+#[inline]
+pub(crate) fn equality_of_two(w: [[f64; 2]; 2], g: [f64; 2]) -> [f64; 2] {
+    let over = 1.0 / (w[0][0] * w[1][1] - w[0][1] * w[1][0]);
+    [(w[1][1] * g[0] - w[0][1] * g[1]) * over, (w[0][0] * g[1] - w[1][0] * g[0]) * over]
+}
+
+/// Solves the complementarity problem of two rows by cases: neither, the first, the second, both.
+/// `None` where no case is an answer.
+#[inline]
+pub(crate) fn complementary_of_two(w: [[f64; 2]; 2], g: [f64; 2]) -> Option<[f64; 2]> {
+    if g[0] >= 0.0 && g[1] >= 0.0 {
+        return Some([0.0, 0.0]);
+    }
+    let first = g[0] / w[0][0];
+    if first <= 0.0 && g[1] - w[1][0] * first >= 0.0 {
+        return Some([first, 0.0]);
+    }
+    let second = g[1] / w[1][1];
+    if second <= 0.0 && g[0] - w[0][1] * second >= 0.0 {
+        return Some([0.0, second]);
+    }
+    let both = equality_of_two(w, g);
+    (both[0] <= 0.0 && both[1] <= 0.0).then_some(both)
+}
+
 /// The rows of one problem, filled anew for each, in memory that stays.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Lcp {
@@ -40,10 +66,6 @@ impl Lcp {
     /// Closes every row as an equality, Eq. (13a). `None` where `W` is singular, to the digits it
     /// has: more rows than coordinates that could close them.
     pub fn equality(&mut self) -> Option<&[f64]> {
-        if self.gaps.len() == 2 {
-            let pair = self.both();
-            return pair.iter().all(|lambda| lambda.is_finite()).then(|| self.answer(pair));
-        }
         self.begin(|_| true);
         self.close(SINGULAR)?;
         Some(&self.multipliers)
@@ -54,10 +76,6 @@ impl Lcp {
     /// `may_meet` in one place, which `W` does not tell apart, are then tried one and two at a time.
     /// `None` where no choice of rows is an answer.
     pub fn complementary(&mut self, may_meet: bool) -> Option<&[f64]> {
-        if self.gaps.len() == 2 {
-            let pair = self.two()?;
-            return Some(self.answer(pair));
-        }
         let few = self.gaps.iter().filter(|gap| **gap < 0.0).count() <= FEW_ROWS;
         let mut found = few && {
             self.begin(|gap| gap < 0.0);
@@ -68,36 +86,6 @@ impl Lcp {
             found = self.pivot(SINGULAR).is_some();
         }
         (found || (may_meet && self.try_pairs())).then_some(&self.multipliers[..])
-    }
-
-    fn answer(&mut self, pair: [f64; 2]) -> &[f64] {
-        self.multipliers.clear();
-        self.multipliers.extend(pair);
-        &self.multipliers
-    }
-
-    /// Returns the multipliers of two rows that are both closed.
-    fn both(&self) -> [f64; 2] {
-        let (w, g) = (&self.w, &self.gaps);
-        let determinant = w[0] * w[3] - w[1] * w[2];
-        [(w[3] * g[0] - w[1] * g[1]) / determinant, (w[0] * g[1] - w[2] * g[0]) / determinant]
-    }
-
-    /// Solves two rows by cases: neither, the first, the second, both.
-    fn two(&self) -> Option<[f64; 2]> {
-        let (w, g) = (&self.w, &self.gaps);
-        if g[0] >= 0.0 && g[1] >= 0.0 {
-            return Some([0.0, 0.0]);
-        }
-        let (first, second) = (g[0] / w[0], g[1] / w[3]);
-        if first <= 0.0 && g[1] - w[2] * first >= 0.0 {
-            return Some([first, 0.0]);
-        }
-        if second <= 0.0 && g[0] - w[1] * second >= 0.0 {
-            return Some([0.0, second]);
-        }
-        let both = self.both();
-        (both[0] <= 0.0 && both[1] <= 0.0).then_some(both)
     }
 
     /// Begins with the rows of these gaps closed.
@@ -194,11 +182,14 @@ mod tests {
 
     #[test]
     fn equality_pulls_where_complementarity_lets_go() {
-        let mut rows = filled(&corner(0.2856), [-1e-6, -0.5e-6]);
-        let lambda = rows.equality().unwrap().to_vec();
+        let (w, gaps) = (corner(0.2856), [-1e-6, -0.5e-6]);
+        let lambda = equality_of_two(w, gaps);
         assert!(lambda[1] > 0.0);
-        assert!((0..2).all(|row| rows.multipliers == lambda && rows.left(row).abs() < 1e-20));
-        assert_eq!(rows.complementary(false), Some(&[-1e-6, 0.0][..]));
+        for row in 0..2 {
+            let left = gaps[row] - w[row][0] * lambda[0] - w[row][1] * lambda[1];
+            assert!(left.abs() < 1e-20, "{left}");
+        }
+        assert_eq!(complementary_of_two(w, gaps), Some([-1e-6, 0.0]));
     }
 
     /// A matrix in which the push on the middle row opens its neighbours.
@@ -240,10 +231,11 @@ mod tests {
         fn two_rows_by_cases_agree_with_pivoting(
             turn in 0.05..3.0_f64, a in -1.0..1.0_f64, b in -1.0..1.0_f64,
         ) {
-            let mut rows = filled(&corner(turn), [a, b]);
-            let lambda = rows.complementary(false).unwrap().to_vec();
+            let (w, gaps) = (corner(turn), [a, b]);
+            let mut rows = filled(&w, gaps);
+            let lambda = complementary_of_two(w, gaps).unwrap();
             for row in 0..2 {
-                let left = rows.left(row);
+                let left = gaps[row] - w[row][0] * lambda[0] - w[row][1] * lambda[1];
                 prop_assert!(lambda[row] <= 0.0);
                 prop_assert!(left >= -1e-13);
                 prop_assert!((left * lambda[row]).abs() < 1e-11);

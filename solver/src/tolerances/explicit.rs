@@ -38,6 +38,10 @@ pub(crate) const ANGLE_LOOK: f64 = 0.125;
 /// \[rad\]: exact to round-off.
 pub(crate) const SMALL_PHASE: f64 = 1e-4;
 
+/// Blade phase below which sine and cosine are two and three terms of it \[rad\]: exact to
+/// round-off of one. Speed only.
+pub(crate) const SHORT_SERIES_PHASE: f64 = 1.5e-3;
+
 /// Blade phase below which they are four terms of it \[rad\]: exact to round-off.
 pub(crate) const SERIES_PHASE: f64 = 0.03;
 

@@ -4,8 +4,8 @@
 //! Displacements and increments go on as they are, so that positions and the mean rates of the last
 //! step have no jump. Under a ramp the force of a step is that of blades as stiff as at its
 //! beginning, and contact aims at the gap at its end. What either gives to the blades is work of
-//! the rotor or of their growth. Where a change closes a gap of rigid contact, the casing gives way;
-//! a change that closes none moves nothing.
+//! the rotor or of their growth. Where other tips or another clearance close a gap of rigid
+//! contact, the casing gives way.
 
 use std::sync::{Arc, OnceLock};
 
@@ -32,7 +32,7 @@ impl Explicit {
         (self.law, self.restitution) = (scene.solver.contact, scene.contact.restitution);
         self.tips = TipLaw::at(&self.machine, speed);
         self.backward = speed < 0.0;
-        self.long_step = long_step(&self.machine);
+        self.long_step = long_step(scene, &self.machine);
         self.steps_unseen = steps_unseen(scene, &self.machine);
         // Gaps of earlier steps may change by as much as the clearance.
         self.dips = [self.machine.clearance().abs(); 2];
@@ -147,11 +147,12 @@ impl Explicit {
         (0..self.tips_of_rows.side.len()).map(gap).fold(0.0, |deepest, gap| f64::max(deepest, -gap))
     }
 
-    /// Opens the gaps that a change has closed by more than the penetration before it. All
-    /// displacements shrink by one part, as those of a lock do, and rates stay; where tips leave the
+    /// Opens the gaps that other tips or another clearance have closed by more than the penetration
+    /// before. All displacements shrink by one part, as those of a lock do, and rates stay; where tips leave the
     /// centre outside, the casing moves to the nearest open place.
     fn give_way(&mut self, before: f64) {
-        if self.tips.clearance <= 0.0 {
+        let changes = self.machine.changes_with_speed() || self.machine.is_uneven();
+        if !changes || self.tips.clearance <= 0.0 {
             return;
         }
         // The phases of the gaps are not quite in proportion.

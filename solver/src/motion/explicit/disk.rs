@@ -20,7 +20,7 @@ use std::sync::Arc;
 use super::drive::EngineOrderTorque;
 use super::oscillator::{Coordinate, Oscillator};
 use super::shapes::{Four, Label, Shapes, dot};
-use crate::model::{Machine, blade_frequency, gcd};
+use crate::model::{ContactPolygon, Machine, blade_frequency, gcd};
 use crate::numeric::normal::normals;
 use crate::scene::{ModelSize, Scene};
 use crate::tolerances::{ANGLE_LOOK, LARGEST_BLADE_ANGLE, TIP_SLACK};
@@ -49,6 +49,8 @@ pub(super) struct Disk {
     /// Torques of the excitation in the last step, each with its mode \[N m\].
     driven: Vec<(usize, f64)>,
     seen: Seen,
+    /// Phase of the blades of a pair that had the largest angle when it was looked for.
+    widest: u32,
     /// Largest angle of any blade in any step \[rad\].
     largest: f64,
     /// Lower bound on how far every angle is below it \[rad\].
@@ -67,6 +69,8 @@ struct Fixed {
     /// Blades that are one in `blades`, as nothing tells them apart.
     alike: u32,
     per_row: u32,
+    /// Phases of the blades in the modes of a pair.
+    phases: ContactPolygon,
     /// Whether there are only the modes of one number of diameters, or none.
     is_pair: bool,
     /// Angle of a row per unit torque `distance` rows away; none of a pair \[rad/(N m)\].
@@ -136,7 +140,7 @@ impl Disk {
         };
         let fixed = Arc::new(fixed);
         let oscillators = Arc::new(oscillators);
-        Self { modes, oscillators, fixed, driven, seen, largest: 0.0, room: 0.0 }
+        Self { modes, oscillators, fixed, driven, seen, widest: 0, largest: 0.0, room: 0.0 }
     }
 
     /// Returns the disk with these coordinates and the parameters of another scene. Blades that
@@ -238,6 +242,14 @@ impl Disk {
         self.feel_members(&shared);
     }
 
+    /// Adds torques on the two modes of a pair, which act on the next step \[N m\].
+    #[inline(always)]
+    pub fn feel_pair(&mut self, felt: [f64; 2]) {
+        if let Some(four) = self.modes.first_mut() {
+            (0..2).for_each(|k| four.felt[k] += felt[k]);
+        }
+    }
+
     /// Forgets the torques of `feel`.
     pub fn forget_felt(&mut self) {
         self.modes.iter_mut().for_each(|four| four.felt = [0.0; 4]);
@@ -265,6 +277,10 @@ impl Disk {
     /// Returns the angle of a row \[rad\].
     #[inline]
     pub fn angle(&self, row: usize) -> f64 {
+        if self.fixed.is_pair {
+            let ([c, s], x) = (self.shape_of(row), self.pair_angles());
+            return c * x[0] + s * x[1];
+        }
         let shapes = self.fixed.rows.row(row);
         total(dot(&shapes, self.modes.iter().map(|four| four.x)))
     }
@@ -284,22 +300,30 @@ impl Disk {
     /// \[rad/(N m)\].
     #[inline]
     pub fn compliance(&self, a: usize, b: usize) -> f64 {
+        if self.fixed.is_pair {
+            let [[c, s], [p, q]] = [a, b].map(|row| self.shape_of(row));
+            return self.modes.first().map_or(0.0, |four| four.compliance[0]) * (c * p + s * q);
+        }
         if let Some(influence) = self.fixed.influence.get(a.abs_diff(b)) {
             return *influence;
         }
-        let (a, b) = (self.fixed.rows.row(a), self.fixed.rows.row(b));
-        let both = self.modes.iter().zip(b.iter()).map(|(four, b)| {
-            let mut product = *b;
-            (0..4).for_each(|k| product[k] *= four.compliance[k]);
-            product
-        });
-        total(dot(&a, both))
+        0.0
     }
 
     /// Corrects the predicted step by a torque on a row, Eq. (13b).
     #[inline]
     pub fn turn(&mut self, row: usize, torque: f64) {
         let Self { modes, fixed, .. } = self;
+        if fixed.is_pair {
+            let [c, s] = fixed.rows.table().get(row).map_or([0.0; 2], |shape| [shape[0], shape[1]]);
+            let Some(four) = modes.first_mut() else { return };
+            for (k, shape) in [c, s].into_iter().enumerate() {
+                let change = four.compliance[k] * shape * torque;
+                four.x[k] += change;
+                four.increment[k] += change;
+            }
+            return;
+        }
         let shapes: Cow<'_, [Four]> = fixed.rows.row(row);
         for (four, shape) in modes.iter_mut().zip(shapes.iter()) {
             for k in 0..4 {
@@ -308,10 +332,8 @@ impl Disk {
                 four.increment[k] += change;
             }
         }
-        if !fixed.is_pair {
-            let change = fixed.most_turned * torque.abs();
-            self.has_moved(change);
-        }
+        let change = fixed.most_turned * torque.abs();
+        self.has_moved(change);
     }
 
     /// Sets what the square of each blade frequency is more than at rest \[rad^2/s^2\]. Returns
@@ -359,23 +381,14 @@ impl Disk {
         (0..blades as usize).map(|blade| members[blade % members.len()]).collect()
     }
 
-    /// Puts the angles of all rows into `angles` \[rad\].
-    pub fn all_angles(&mut self, angles: &mut [f64]) {
-        if self.fixed.is_pair {
-            let x = self.modes.first().map_or([0.0; 4], |four| four.x);
-            for (angle, shape) in angles.iter_mut().zip(self.fixed.rows.table()) {
-                *angle = shape[0] * x[0] + shape[1] * x[1];
-            }
-            return;
-        }
+    /// Hands the angle of each row to `put`, for more than a pair of modes \[rad\].
+    pub fn all_angles(&mut self, mut put: impl FnMut(usize, f64)) {
         self.see_all();
-        let (members, rows) = (&self.seen.angles, angles.len());
-        let mean = |row: usize| {
-            let each =
-                (0..self.fixed.per_row as usize).map(|k| members[(row + k * rows) % members.len()]);
-            each.sum::<f64>() / f64::from(self.fixed.per_row)
-        };
-        angles.iter_mut().enumerate().for_each(|(row, angle)| *angle = mean(row));
+        let (members, (rows, per_row)) = (&self.seen.angles, self.rows());
+        for row in 0..rows {
+            let each = (0..per_row as usize).map(|k| members[(row + k * rows) % members.len()]);
+            put(row, each.sum::<f64>() / f64::from(per_row));
+        }
     }
 
     /// Returns the angle of a row when all blades were last looked at, which is its angle now but
@@ -404,9 +417,15 @@ impl Disk {
         (self.seen.slack, self.seen.steps) = (0.0, 0);
     }
 
+    /// Returns the displacements of the modes of a pair.
+    #[inline(always)]
+    pub fn pair_angles(&self) -> [f64; 2] {
+        self.modes.first().map_or([0.0; 2], |four| [four.x[0], four.x[1]])
+    }
+
     fn amplitude(&self) -> f64 {
-        let x = self.modes.first().map_or([0.0; 4], |four| four.x);
-        (x[0] * x[0] + x[1] * x[1]).sqrt()
+        let [c, s] = self.pair_angles();
+        (c * c + s * s).sqrt()
     }
 
     /// Returns a bound on every blade angle now \[rad\].
@@ -491,6 +510,7 @@ impl Disk {
     }
 
     /// Returns the shapes of the two modes at a row, for a pair.
+    #[inline(always)]
     pub fn shape_of(&self, row: usize) -> [f64; 2] {
         self.fixed.rows.table().get(row).map_or([0.0; 2], |shape| [shape[0], shape[1]])
     }
@@ -538,8 +558,8 @@ impl Disk {
     #[inline]
     pub fn watch(&mut self) -> Option<f64> {
         let within = if self.fixed.is_pair {
-            let x = self.modes.first().map_or([0.0; 4], |four| four.x);
-            x[0] * x[0] + x[1] * x[1] <= self.largest * self.largest
+            let [c, s] = self.pair_angles();
+            c * c + s * s <= self.largest * self.largest
         } else {
             self.room >= 0.0
         };
@@ -557,14 +577,17 @@ impl Disk {
 
     /// Returns the largest of the angles that may be beyond `least`, and a bound on all.
     fn look_beyond(&mut self, least: f64) -> (f64, f64) {
+        if self.fixed.is_pair {
+            let ([c, s], phases) = (self.pair_angles(), &self.fixed.phases);
+            let is_finite = c.is_finite() && s.is_finite();
+            let mut most = || phases.largest_component_near(c, s, &mut self.widest);
+            let now = if is_finite { most() } else { f64::INFINITY };
+            return (now, now);
+        }
         let angle = |member: usize| {
             let shapes = self.fixed.blades.row(member);
             size(total(dot(&shapes, self.modes.iter().map(|four| four.x))))
         };
-        if self.fixed.is_pair {
-            let now = (0..self.fixed.blades.count()).map(angle).fold(0.0, f64::max);
-            return (now, now);
-        }
         // One by one they cost more than all at once where many may be beyond.
         let mut left = self.fixed.blades.count() / 8;
         let (mut now, mut bound) = (0.0_f64, 0.0_f64);
@@ -645,6 +668,7 @@ impl Fixed {
             rows,
             alike,
             per_row,
+            phases: ContactPolygon::new(blades, diameters, 1.0),
             is_pair,
             influence: Vec::new(),
             most_turned: 0.0,

@@ -244,6 +244,7 @@ mod tests {
         motion.advance(1.9e-3).unwrap();
         let known = |motion: &Explicit| motion.lasting.trends.map(|trend| trend.is_known());
         assert_eq!(known(&motion), [true; 3]);
+        let other = scene.clone().into_scene().with(&[("casing.damping_ratio", "0.06")]).unwrap();
         let turns: [Turn; 3] = [
             |motion, _| motion.fire(),
             |motion, _| motion.set_speed(400.0, 0.0),
@@ -251,7 +252,7 @@ mod tests {
         ];
         for turn in turns {
             let mut turned = motion.clone();
-            turn(&mut turned, &scene);
+            turn(&mut turned, &other);
             assert_eq!(known(&turned), [false; 3]);
         }
     }

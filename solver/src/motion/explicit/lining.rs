@@ -7,22 +7,21 @@
 //! before.
 
 use super::Explicit;
-use super::disk::total;
+use super::disk::{Disk, total};
 use super::lasting::mark;
 use super::record::Record;
-use super::row::{TipLaw, Tips, series};
+use super::row::{TipLaw, Tips, series, short_series};
 use super::shapes::Four;
 use crate::model::LiningLaw;
 use crate::motion::{ActiveSet, Plane};
-use crate::tolerances::SERIES_PHASE;
+use crate::tolerances::{SERIES_PHASE, SHORT_SERIES_PHASE};
 
 /// The lining and what presses it.
 #[derive(Clone, Debug)]
 pub(super) struct Lining {
     pub law: LiningLaw,
     fours: Vec<Rows>,
-    /// Angles of all rows, and their torques in the latest step.
-    angles: Vec<f64>,
+    /// Torques of all rows in the latest step \[N m\].
     torques: Vec<f64>,
     /// Turn of the frame of the blades at the pushes.
     turn: Plane,
@@ -35,13 +34,16 @@ pub(super) struct Lining {
     all: bool,
 }
 
-/// Four rows side by side; the last four are filled up with rows without blades.
+/// Four rows side by side; the last four are filled up with rows that are never near.
 #[derive(Clone, Copy, Debug, Default)]
 struct Rows {
     cosine: Four,
     sine: Four,
     longer: Four,
     blades: Four,
+    /// Shapes of a pair of modes; of more modes zero, and the angles are given \[rad\].
+    shape: [Four; 2],
+    angle: Four,
     /// Indentation in the latest step and in the one before \[m\].
     depth: Four,
     before: Four,
@@ -57,24 +59,29 @@ struct Sums {
     /// Pushes \[N\] and torques \[N m\].
     push: f64,
     torque: f64,
+    /// What a pair of modes feels of the torques \[N m\].
+    felt: [f64; 2],
     deepest: f64,
     /// Whether other rows press than in the step before.
     changed: bool,
 }
 
 impl Lining {
-    /// Creates a lining that nothing presses, under rows of so many blades each.
-    pub fn new(law: LiningLaw, tips: &Tips, per_row: u32) -> Self {
-        let rows = tips.side.len();
-        let mut fours = vec![Rows::default(); rows.div_ceil(4)];
+    /// Creates a lining that nothing presses, over the rows of a disk.
+    pub fn new(law: LiningLaw, tips: &Tips, disk: &Disk) -> Self {
+        let (rows, per_row) = disk.rows();
+        let never = Rows { longer: [f64::NEG_INFINITY; 4], ..Rows::default() };
+        let mut fours = vec![never; rows.div_ceil(4)];
         for row in 0..rows {
             let (four, k) = (&mut fours[row / 4], row % 4);
             (four.cosine[k], four.sine[k]) = (tips.cosine[row], tips.sine[row]);
             (four.longer[k], four.blades[k]) = (tips.longer[row], f64::from(per_row));
+            if disk.is_pair() {
+                [four.shape[0][k], four.shape[1][k]] = disk.shape_of(row);
+            }
         }
         Self {
             law,
-            angles: vec![0.0; 4 * fours.len()],
             torques: vec![0.0; 4 * fours.len()],
             fours,
             turn: Plane::default(),
@@ -142,28 +149,41 @@ impl Lining {
         for four in &mut self.fours {
             (four.depth, four.before) = Default::default();
         }
+        self.torques.fill(0.0);
         (self.sums, self.sides, self.set, self.all) = Default::default();
     }
 
-    /// Finds the depths of all rows with the casing at `z`, and the pushes that they make; no
-    /// angle is beyond `bound`.
-    fn press(&mut self, z: Plane, tips: &TipLaw, of_rows: &Tips, lobe_turn: Plane, bound: f64) {
+    /// Finds the depths of all rows with the casing at `z` and a pair of modes at `x`, and the pushes
+    /// that they make; no angle is beyond `bound`.
+    fn press(
+        &mut self,
+        z: Plane,
+        x: [f64; 2],
+        tips: &TipLaw,
+        of_rows: &Tips,
+        lobe_turn: Plane,
+        bound: f64,
+    ) {
         let phase = tips.diameters * bound;
         self.sums = if !of_rows.lobe.is_empty() {
             let shape = |row, angle| of_rows.shape(row, angle, lobe_turn);
-            self.press_by(z, tips, phase, of_rows.out_of_round, shape, f64::sin_cos)
+            self.press_by(z, x, tips, phase, of_rows.out_of_round, shape, f64::sin_cos)
+        } else if phase < SHORT_SERIES_PHASE {
+            self.press_by(z, x, tips, phase, 0.0, |_, _| [0.0; 2], short_series)
         } else if phase < SERIES_PHASE {
-            self.press_by(z, tips, phase, 0.0, |_, _| [0.0; 2], series)
+            self.press_by(z, x, tips, phase, 0.0, |_, _| [0.0; 2], series)
         } else {
-            self.press_by(z, tips, phase, 0.0, |_, _| [0.0; 2], f64::sin_cos)
+            self.press_by(z, x, tips, phase, 0.0, |_, _| [0.0; 2], f64::sin_cos)
         };
     }
 
     /// Does the same with lobes of this shape and height, and this sine and cosine.
     #[inline(always)]
+    #[expect(clippy::too_many_arguments, reason = "one pass for every kind of tip and angle")]
     fn press_by(
         &mut self,
         z: Plane,
+        [c, s]: [f64; 2],
         tips: &TipLaw,
         phase: f64,
         out_of_round: f64,
@@ -174,53 +194,62 @@ impl Lining {
         let by_depth = if eps > 0.0 { 0.5 / eps } else { 0.0 };
         let TipLaw { clearance, diameters, pushed, rise, .. } = *tips;
         let look = phase * (z.re.abs() + z.im.abs()) + out_of_round - clearance;
-        let [mut x, mut y, mut pushes, mut turning, mut deepest] = [[0.0; 4]; 5];
-        let mut changed = false;
-        let angles = self.angles.as_chunks::<4>().0.iter();
+        let [mut x, mut y, mut pushes, mut turning, mut felt_c, mut felt_s, mut deepest] =
+            [[0.0_f64; 4]; 7];
+        let mut changed = [0_u64; 4];
+        let presses = |depth: f64| if depth > 0.0 { u64::MAX } else { 0 };
         let torques = self.torques.as_chunks_mut::<4>().0.iter_mut();
-        let fours = self.fours.iter_mut().zip(angles.zip(torques));
-        for (place, (four, (angle, torques))) in fours.enumerate() {
-            let mut near = false;
+        for (place, (four, torques)) in self.fours.iter_mut().zip(torques).enumerate() {
+            let Rows { cosine, sine, longer, blades, shape: [p, q], depth: before, .. } = *four;
+            let (mut angle, mut least) = ([0.0; 4], [0.0; 4]);
             for k in 0..4 {
-                let open = z.re * four.cosine[k] + z.im * four.sine[k] - rise * angle[k];
-                near |= open - four.longer[k] < look;
+                angle[k] = four.angle[k] + (p[k] * c + q[k] * s);
+                least[k] = z.re * cosine[k] + z.im * sine[k] - longer[k] - rise * angle[k];
             }
-            four.before = four.depth;
-            if !near {
-                changed |= four.depth != [0.0; 4];
-                (four.depth, *torques) = ([0.0; 4], [0.0; 4]);
+            four.before = before;
+            if least[0].min(least[1]).min(least[2].min(least[3])) > look {
+                if before != [0.0; 4] {
+                    (four.depth, *torques, changed) = ([0.0; 4], [0.0; 4], [u64::MAX; 4]);
+                }
                 continue;
             }
-            // No lane branches or looks at another.
+            // No lane branches or looks at another: one vector instruction takes all.
+            let (mut depth, mut torque, mut push) = ([0.0; 4], [0.0; 4], [0.0; 4]);
             for k in 0..4 {
                 let (sin, cos) = sin_cos(diameters * angle[k]);
-                let across = four.cosine[k] * cos - four.sine[k] * sin;
-                let along = four.sine[k] * cos + four.cosine[k] * sin;
+                let across = cosine[k] * cos - sine[k] * sin;
+                let along = sine[k] * cos + cosine[k] * sin;
                 let [shape, steep] = shape(4 * place + k, angle[k]);
                 let arm = diameters * (across * z.im - along * z.re) + steep;
                 let inward = across * z.re + along * z.im + shape;
-                let deep = rise * angle[k] - (inward + clearance - four.longer[k]);
-                let deep = if deep > 0.0 && four.blades[k] > 0.0 { deep } else { 0.0 };
+                let deep = rise * angle[k] - (inward + clearance - longer[k]);
+                let deep = if deep > 0.0 { deep } else { 0.0 };
                 let parabola = if deep < eps { deep } else { eps };
-                let depth = parabola * parabola * by_depth + (deep - parabola);
-                let push = depth * four.blades[k] * stiffness;
-                let torque = push * (arm - pushed);
-                changed |= (deep > 0.0) != (four.depth[k] > 0.0);
-                (four.depth[k], torques[k]) = (deep, torque);
-                four.impulse[k] += push;
-                x[k] += push * across;
-                y[k] += push * along;
-                pushes[k] += push;
-                turning[k] += torque;
+                let smooth = parabola * parabola * by_depth + (deep - parabola);
+                push[k] = smooth * (blades[k] * stiffness);
+                torque[k] = push[k] * (arm - pushed);
+                depth[k] = deep;
+                x[k] += push[k] * across;
+                y[k] += push[k] * along;
                 deepest[k] = if deep > deepest[k] { deep } else { deepest[k] };
             }
+            for k in 0..4 {
+                four.impulse[k] += push[k];
+                pushes[k] += push[k];
+                turning[k] += torque[k];
+                felt_c[k] += p[k] * torque[k];
+                felt_s[k] += q[k] * torque[k];
+                changed[k] |= presses(depth[k]) ^ presses(before[k]);
+            }
+            (four.depth, *torques) = (depth, torque);
         }
         Sums {
             force: Plane::new(total(x), total(y)),
             push: total(pushes),
             torque: total(turning),
+            felt: [total(felt_c), total(felt_s)],
             deepest: deepest.into_iter().fold(0.0, f64::max),
-            changed,
+            changed: changed != [0; 4],
         }
     }
 
@@ -271,9 +300,15 @@ impl Explicit {
         let Self { lining: Some(lining), disk, record, tips_of_rows, .. } = self else { return };
         (lining.turn, lining.held_before) = (turn, None);
         let rows = tips_of_rows.side.len();
-        disk.all_angles(&mut lining.angles[..rows]);
-        lining.press(z, tips, tips_of_rows, self.lobe_turn, bound);
-        if lining.sums.push > 0.0 {
+        let mut x = disk.pair_angles();
+        if !disk.is_pair() {
+            x = [0.0; 2];
+            disk.all_angles(|row, angle| lining.fours[row / 4].angle[row % 4] = angle);
+        }
+        lining.press(z, x, tips, tips_of_rows, self.lobe_turn, bound);
+        if disk.is_pair() {
+            disk.feel_pair(lining.sums.felt);
+        } else if lining.sums.push > 0.0 {
             disk.feel(&lining.torques[..rows]);
         }
         if lining.sums.changed {
@@ -376,9 +411,8 @@ impl Explicit {
             old.release(old_tips, &mut self.record, self.n + 1);
             if held > 0.0 { before / held } else { 1.0 }
         });
-        let per_row = self.disk.rows().1;
         let Some(law) = self.scene.lining() else { return };
-        self.lining = Some(Lining::new(law, &self.tips_of_rows, per_row));
+        self.lining = Some(Lining::new(law, &self.tips_of_rows, &self.disk));
         let (tips, turn) = (self.tips, self.turn_now());
         self.disk.forget_felt();
         self.find_pressed(Plane::new(self.u[0].x, self.u[1].x) * turn.conj(), turn, &tips);

@@ -68,7 +68,7 @@ pub(super) struct Explicit {
     near: usize,
     /// Rows of the latest contact.
     rows: Vec<Row>,
-    lcp: Lcp,
+    several: Lcp,
     lining: Option<Lining>,
     /// Penetration left at the latest step and at the one before \[m\].
     dips: [f64; 2],
@@ -98,8 +98,7 @@ impl Explicit {
     pub(super) fn new(scene: &CheckedScene) -> Self {
         let machine = scene.machine();
         let mut disk = Disk::new(scene, &machine, 0);
-        let (rows, per_row) = disk.rows();
-        let tips_of_rows = Tips::new(&machine, rows);
+        let tips_of_rows = Tips::new(&machine, disk.rows().0);
         let drive = Drive::of(scene, tips_of_rows.lobes);
         disk.begin_driven(drive.driven(0));
         let casing = Oscillator::of_casing(&machine, drive.step);
@@ -112,7 +111,7 @@ impl Explicit {
             scene: Arc::new(scene.clone()),
             law: scene.solver.contact,
             restitution: scene.contact.restitution,
-            lining: scene.lining().map(|law| Lining::new(law, &tips_of_rows, per_row)),
+            lining: scene.lining().map(|law| Lining::new(law, &tips_of_rows, &disk)),
             tips: TipLaw::at(&machine, speed),
             backward: speed < 0.0,
             tips_of_rows: Arc::new(tips_of_rows),
@@ -128,10 +127,10 @@ impl Explicit {
             disk,
             near: 0,
             rows: Vec::with_capacity(8),
-            lcp: Lcp::default(),
+            several: Lcp::default(),
             dips: [0.0; 2],
             closed: [0.0; 2],
-            long_step: long_step(&machine),
+            long_step: long_step(scene, &machine),
             long_steps: 0,
             next_look: 0,
             steps_unseen: steps_unseen(scene, &machine),
@@ -207,10 +206,12 @@ impl Explicit {
     }
 }
 
-/// Returns the motion of the casing in a step that passes much of a side \[m\].
-fn long_step(machine: &Machine) -> f64 {
+/// Returns the motion of the casing in a step that passes much of a side; the paper's tips drive no
+/// wave so fast for long \[m\].
+fn long_step(scene: &CheckedScene, machine: &Machine) -> f64 {
     let side = 2.0 * machine.clearance() * machine.polygon.delta.tan();
-    if machine.polygon.has_corners() { LONG_STEP * side } else { f64::INFINITY }
+    let is_limited = machine.polygon.has_corners() && scene.goes_beyond();
+    if is_limited { LONG_STEP * side } else { f64::INFINITY }
 }
 
 /// Returns the number of steps between two looks at the swing of the tips.

@@ -84,8 +84,8 @@ impl Explicit {
         let nu = machine.nu(self.drive.speed(self.n)).abs();
         let rates = nu + machine.omega_c + machine.omega_bd_max + 2.0 * damping;
         let distance = self.u[0].x.hypot(self.u[1].x);
-        let arm = machine.nodal_diameters * distance;
-        let torque = (arm + tips.pushed.abs()) * (a.abs() + b.abs());
+        let torque: f64 = self.rows.iter().map(|row| row.torque(tips).abs()).sum();
+        let arm = self.rows.iter().fold(0.0, |most, row| f64::max(most, row.arm.abs()));
         let rest = 2.0 * torque / self.scene.disk_in_use().stiffness_nm_per_rad;
         let phase = machine.nodal_diameters * (self.disk.reach() + rest);
         let change = 2.0 * phase * rates * rates * machine.casing_mass * distance / half;

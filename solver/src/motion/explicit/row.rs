@@ -82,6 +82,13 @@ impl Row {
     }
 }
 
+/// A side of the polygon that is one row.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Side {
+    pub normal: Plane,
+    pub row: usize,
+}
+
 /// Directions of the rows, and what tells their tips apart.
 #[derive(Clone, Debug)]
 pub(super) struct Tips {
@@ -91,9 +98,9 @@ pub(super) struct Tips {
     pub sine: Vec<f64>,
     /// `b` of each row \[m\].
     pub longer: Vec<f64>,
-    /// Row of each side, where each side has one and all tips are equal in a round casing; else
-    /// empty.
-    pub row_of_side: Vec<u32>,
+    /// The sides of the polygon in their order, where each has one row and all tips are equal in a
+    /// round casing; else empty.
+    pub sides: Vec<Side>,
     /// `e exp(i (m Phi - psi_e))` of each row; none of a round casing \[m\].
     pub lobe: Vec<Plane>,
     /// `m` and `e`.
@@ -109,10 +116,13 @@ impl Tips {
         let (cosine, sine) = side.iter().map(|&side| polygon.direction(side)).unzip();
         let uneven = machine.tips.as_deref();
         let longer = (0..count as u32).map(|row| machine.longer(row)).collect();
-        let mut row_of_side = Vec::new();
+        let mut sides = Vec::new();
         if uneven.is_none() && count == polygon.sides as usize {
-            row_of_side = vec![0; count];
-            (0_u32..).zip(&side).for_each(|(row, &side)| row_of_side[side as usize] = row);
+            sides = vec![Side::default(); count];
+            for (row, &side) in side.iter().enumerate() {
+                let (c, s) = polygon.direction(side);
+                sides[side as usize] = Side { normal: Plane::new(c, s), row };
+            }
         }
         let lobed = uneven.filter(|tips| tips.out_of_round != 0.0);
         let lobe = |row: usize| {
@@ -129,7 +139,43 @@ impl Tips {
             cosine,
             sine,
             longer,
-            row_of_side,
+            sides,
+        }
+    }
+
+    /// Returns the side before or after another.
+    #[inline(always)]
+    pub fn beside(&self, side: usize, forward: bool) -> usize {
+        match forward {
+            true if side + 1 == self.sides.len() => 0,
+            true => side + 1,
+            false if side == 0 => self.sides.len() - 1,
+            false => side - 1,
+        }
+    }
+
+    /// Returns the gap of a side of the polygon at `w`, less the clearance \[m\].
+    #[inline(always)]
+    pub fn open(&self, side: usize, w: Plane) -> f64 {
+        let Side { normal, .. } = self.sides[side];
+        w.re * normal.re + w.im * normal.im
+    }
+
+    /// Returns the side with the smallest gap at `w`, looked for from side `near`, its gap and those
+    /// on either side of it, each less the clearance \[m\].
+    #[inline]
+    pub fn nearest(&self, mut near: usize, w: Plane) -> (usize, f64, [f64; 2]) {
+        let mut least = self.open(near, w);
+        loop {
+            let [after, before] = [true, false].map(|forward| self.beside(near, forward));
+            let [above, below] = [after, before].map(|side| self.open(side, w));
+            if above < least {
+                (near, least) = (after, above);
+            } else if below < least {
+                (near, least) = (before, below);
+            } else {
+                return (near, least, [above, below]);
+            }
         }
     }
 
@@ -186,6 +232,13 @@ pub(super) fn series(phase: f64) -> (f64, f64) {
     let cos =
         q * 0.5 * (1.0 - q * (1.0 / 12.0) * (1.0 - q * (1.0 / 30.0) * (1.0 - q * (1.0 / 56.0))));
     (phase - phase * sin, 1.0 - cos)
+}
+
+/// Returns sine and cosine of a phase below `SHORT_SERIES_PHASE`.
+#[inline(always)]
+pub(super) fn short_series(phase: f64) -> (f64, f64) {
+    let q = phase * phase;
+    (phase - (phase * (1.0 / 6.0)) * q, (1.0 - q * 0.5) + (q * q) * (1.0 / 24.0))
 }
 
 #[cfg(test)]

@@ -15,6 +15,7 @@ use super::Explicit;
 use super::lasting::mark;
 use super::row::{Row, TipLaw};
 use crate::motion::{ActiveSet, FailureReason, Plane};
+use crate::numeric::lcp;
 use crate::tolerances::{LONG_STEP, MOST_LONG_STEPS, MOST_ROWS, NEIGHBOUR_DEPTHS};
 
 impl Explicit {
@@ -115,49 +116,23 @@ impl Explicit {
         // A blade angle turns a gap by at most |z| n_d alpha, beside its slope.
         let look = tips.diameters * self.disk.bound() * (z.re.abs() + z.im.abs());
         let (mut deepest, mut next) = (0.0_f64, f64::INFINITY);
-        if !self.tips_of_rows.row_of_side.is_empty() && (tips.rise == 0.0 || self.disk.is_pair()) {
+        if !self.tips_of_rows.sides.is_empty() && (tips.rise == 0.0 || self.disk.is_pair()) {
             // Around the polygon at w = z - kappa l_b (alpha_c + i alpha_s) the gap has one minimum.
             let [c, s] = if tips.rise == 0.0 { [0.0; 2] } else { self.disk.modal() };
             let w = z - Plane::new(c, s) * tips.rise;
-            let open = |this: &Self, side: usize| {
-                let row = this.tips_of_rows.row_of_side[side] as usize;
-                let of = &this.tips_of_rows;
-                (row, tips.clearance + w.re * of.cosine[row] + w.im * of.sine[row] - look)
-            };
-            let sides = self.tips_of_rows.row_of_side.len();
-            let after = |side: usize| if side + 1 == sides { 0 } else { side + 1 };
-            let before = |side: usize| if side == 0 { sides - 1 } else { side - 1 };
-            let mut least = open(self, self.near);
-            loop {
-                let (up, down) = (after(self.near), before(self.near));
-                let (above, below) = (open(self, up), open(self, down));
-                if above.1 < least.1 {
-                    (self.near, least) = (up, above);
-                } else if below.1 < least.1 {
-                    (self.near, least) = (down, below);
-                } else {
-                    break;
+            let (near, least, [above, below]) = self.tips_of_rows.nearest(self.near, w);
+            let reach = reach + look - tips.clearance;
+            self.near = near;
+            let mut next = f64::min(above, below);
+            if least < reach {
+                deepest = self.add_row(self.tips_of_rows.sides[near].row, z, tips);
+                if next < reach {
+                    (deepest, next) = self.add_neighbours(z, w, reach, deepest, tips);
                 }
+            } else {
+                next = least;
             }
-            if least.1 >= reach {
-                return (0.0, least.1);
-            }
-            deepest = deepest.max(self.add_row(least.0, z, tips));
-            let mut left = sides - 1;
-            for way in [&after as &dyn Fn(usize) -> usize, &before] {
-                let mut side = way(self.near);
-                while left > 0 {
-                    let (row, gap) = open(self, side);
-                    if gap >= reach {
-                        next = next.min(gap);
-                        break;
-                    }
-                    deepest = deepest.max(self.add_row(row, z, tips));
-                    side = way(side);
-                    left -= 1;
-                }
-            }
-            return (deepest, next);
+            return (deepest, next + tips.clearance - look);
         }
         for row in 0..self.tips_of_rows.side.len() {
             let of = &self.tips_of_rows;
@@ -170,6 +145,35 @@ impl Explicit {
                 deepest = deepest.max(self.add_row(row, z, tips));
             } else {
                 next = next.min(gap);
+            }
+        }
+        (deepest, next)
+    }
+
+    /// Makes rows of the sides on either side of the nearest one, as long as the polygon at `w` is
+    /// below `reach` there. Returns as `gather`, but for the clearance.
+    #[inline(never)]
+    fn add_neighbours(
+        &mut self,
+        z: Plane,
+        w: Plane,
+        reach: f64,
+        mut deepest: f64,
+        tips: &TipLaw,
+    ) -> (f64, f64) {
+        let (sides, mut next) = (self.tips_of_rows.sides.len(), f64::INFINITY);
+        let mut left = sides - 1;
+        for forward in [true, false] {
+            let mut side = self.tips_of_rows.beside(self.near, forward);
+            while left > 0 {
+                let open = self.tips_of_rows.open(side, w);
+                if open >= reach {
+                    next = next.min(open);
+                    break;
+                }
+                deepest = deepest.max(self.add_row(self.tips_of_rows.sides[side].row, z, tips));
+                side = self.tips_of_rows.beside(side, forward);
+                left -= 1;
             }
         }
         (deepest, next)
@@ -194,8 +198,7 @@ impl Explicit {
         }
         let depth = -row.apart;
         // Of the blades of a side that turn alike only the deepest can hold.
-        let alone =
-            self.tips_of_rows.row_of_side.is_empty() && (tips.rise == 0.0 || self.disk.is_pair());
+        let alone = self.tips_of_rows.sides.is_empty() && (tips.rise == 0.0 || self.disk.is_pair());
         match self.rows.iter_mut().find(|known| alone && known.side == row.side) {
             Some(known) if row.apart < known.apart => *known = row,
             Some(_) => {}
@@ -206,10 +209,11 @@ impl Explicit {
 
     /// 3. Finds the multipliers of the first `count` rows, Eqs. (12)-(13a).
     fn find_multipliers(&mut self, count: usize, tips: &TipLaw) -> Result<(), FailureReason> {
-        if count > MOST_ROWS {
+        // Rows that may only push are closed one by one.
+        if count > MOST_ROWS && (self.law.pulls() || tips.rise != 0.0) {
             return Err(FailureReason::Rows { rows: count });
         }
-        let Self { rows, lcp, casing, disk, law, .. } = self;
+        let Self { rows, several, casing, disk, law, .. } = self;
         let rows = &mut rows[..count];
         // How far a unit multiplier of `b` closes the gap of `a`.
         let entry = |a: &Row, b: &Row| {
@@ -217,15 +221,30 @@ impl Explicit {
             casing.compliance * (a.normal.re * push.re + a.normal.im * push.im)
                 + (a.arm - tips.rise) * (b.arm - tips.pushed) * disk.compliance(a.index, b.index)
         };
-        if let [row] = rows {
-            row.lambda = row.apart / entry(row, row);
-        } else {
-            lcp.fill(rows.iter().map(|row| row.apart), |a, b| entry(&rows[a], &rows[b]));
-            // Without a slope, three tips may meet in one place of the casing.
-            let found =
-                if law.pulls() { lcp.equality() } else { lcp.complementary(tips.rise == 0.0) };
-            let found = found.ok_or(FailureReason::Singular { rows: count })?;
-            rows.iter_mut().zip(found).for_each(|(row, lambda)| row.lambda = *lambda);
+        match rows {
+            [row] => row.lambda = row.apart / entry(row, row),
+            [a, b] => {
+                let across = entry(a, b);
+                // Without friction pushes act along the gaps, and `W` is symmetric.
+                let back = if tips.friction == 0.0 { across } else { entry(b, a) };
+                let (w, gaps) = ([[entry(a, a), across], [back, entry(b, b)]], [a.apart, b.apart]);
+                let found = match law.pulls() {
+                    true => Some(lcp::equality_of_two(w, gaps)),
+                    false => lcp::complementary_of_two(w, gaps),
+                };
+                [a.lambda, b.lambda] = found.ok_or(FailureReason::Singular { rows: 2 })?;
+            }
+            _ => {
+                let gaps = rows.iter().map(|row| row.apart);
+                several.fill(gaps, |a, b| entry(&rows[a], &rows[b]));
+                // Without a slope, three tips may meet in one place of the casing.
+                let found = match law.pulls() {
+                    true => several.equality(),
+                    false => several.complementary(tips.rise == 0.0),
+                };
+                let found = found.ok_or(FailureReason::Singular { rows: count })?;
+                rows.iter_mut().zip(found).for_each(|(row, lambda)| row.lambda = *lambda);
+            }
         }
         // A single row that moves away from its own push has no answer either.
         let good = |row: &Row| row.lambda.is_finite() && (law.pulls() || row.lambda <= 0.0);
