@@ -39,7 +39,7 @@ impl Explicit {
         let tips = Arc::new(Tips::new(&self.machine, self.disk.rows().0));
         self.drive.set_parameters(scene, tips.lobes);
         let old = std::mem::replace(&mut self.tips_of_rows, tips);
-        if old.side.len() != self.tips_of_rows.side.len() {
+        if old.rows.len() != self.tips_of_rows.rows.len() {
             self.rows.clear();
         }
         self.begin_closing();
@@ -144,7 +144,7 @@ impl Explicit {
         let gap = |row: usize| {
             self.tips_of_rows.row(row, z, self.disk.angle(row), self.lobe_turn, &self.tips).gap
         };
-        (0..self.tips_of_rows.side.len()).map(gap).fold(0.0, |deepest, gap| f64::max(deepest, -gap))
+        (0..self.tips_of_rows.rows.len()).map(gap).fold(0.0, |deepest, gap| f64::max(deepest, -gap))
     }
 
     /// Opens the gaps that other tips or another clearance have closed by more than the penetration

@@ -275,7 +275,7 @@ impl Disk {
     }
 
     /// Returns the angle of a row \[rad\].
-    #[inline]
+    #[inline(always)]
     pub fn angle(&self, row: usize) -> f64 {
         if self.fixed.is_pair {
             let ([c, s], x) = (self.shape_of(row), self.pair_angles());
@@ -428,10 +428,22 @@ impl Disk {
         (c * c + s * s).sqrt()
     }
 
+    /// Returns the largest angle of any blade that a unit torque makes in one step
+    /// \[rad/(N m)\].
+    #[inline]
+    pub fn most_turned(&self) -> f64 {
+        match self.modes.first() {
+            Some(four) if self.fixed.is_pair => four.compliance[0],
+            _ => self.fixed.most_turned,
+        }
+    }
+
     /// Returns a bound on every blade angle now \[rad\].
+    #[inline]
     pub fn bound(&mut self) -> f64 {
         if self.fixed.is_pair {
-            return self.amplitude();
+            let [c, s] = self.pair_angles();
+            return c.abs() + s.abs();
         }
         self.see();
         self.seen.largest[0] + self.seen.slack

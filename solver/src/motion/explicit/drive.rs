@@ -16,6 +16,8 @@ pub(super) struct Drive {
     pub excitation: Option<EngineOrderTorque>,
     /// The pulse to fire next, from zero on.
     next_pulse: Pulse,
+    /// First step on which no pulse acts any more.
+    quiet_from: u64,
     /// A step, and the mean force in it of a pulse that another has replaced \[N\].
     left_over: (u64, f64),
     diameters: f64,
@@ -35,6 +37,7 @@ impl Drive {
             pulse,
             excitation: EngineOrderTorque::of(scene),
             next_pulse: pulse,
+            quiet_from: quiet_from(&pulse, step),
             left_over: (0, 0.0),
             diameters,
             phasor: Phasor::new(&rotor, diameters, step),
@@ -53,7 +56,11 @@ impl Drive {
     }
 
     /// Returns the mean force of the pulse over the step centred on `n`; at n = 0 all of it \[N\].
+    #[inline]
     pub fn force(&self, n: u64) -> f64 {
+        if n >= self.quiet_from {
+            return 0.0;
+        }
         let left_over = if n == self.left_over.0 { self.left_over.1 } else { 0.0 };
         self.pulse.mean_of_step(n, self.step) + left_over
     }
@@ -106,6 +113,7 @@ impl Drive {
         let (start, half) = (self.time_of(n), 0.5 * self.step);
         let (old, next) = (self.pulse, self.next_pulse);
         self.pulse = Pulse { start, end: start + next.end, force: next.force };
+        self.quiet_from = quiet_from(&self.pulse, self.step).max(n + 1);
         if n == 0 {
             return self.pulse.mean(0.0, half) - old.mean(0.0, half);
         }
@@ -144,6 +152,11 @@ impl Drive {
         let over = self.pulse.force == 0.0 || self.time_of(n) > self.pulse.end + self.step;
         over && self.rotor.ramp() == 0.0 && self.excitation.is_none()
     }
+}
+
+/// Returns a step from which on a pulse does not act, one or two after its end.
+fn quiet_from(pulse: &Pulse, step: f64) -> u64 {
+    (pulse.end / step) as u64 + 3
 }
 
 /// `exp(i m theta)` at every step: a sine and a cosine each 64 steps and a table between them, so

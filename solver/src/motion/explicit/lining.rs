@@ -10,7 +10,7 @@ use super::Explicit;
 use super::disk::{Disk, total};
 use super::lasting::mark;
 use super::record::Record;
-use super::row::{TipLaw, Tips, series, short_series};
+use super::row::{Tip, TipLaw, Tips, series, short_series};
 use super::shapes::Four;
 use crate::model::LiningLaw;
 use crate::motion::{ActiveSet, Plane};
@@ -74,8 +74,9 @@ impl Lining {
         let mut fours = vec![never; rows.div_ceil(4)];
         for row in 0..rows {
             let (four, k) = (&mut fours[row / 4], row % 4);
-            (four.cosine[k], four.sine[k]) = (tips.cosine[row], tips.sine[row]);
-            (four.longer[k], four.blades[k]) = (tips.longer[row], f64::from(per_row));
+            let Tip { normal, longer, .. } = tips.rows[row];
+            (four.cosine[k], four.sine[k]) = (normal.re, normal.im);
+            (four.longer[k], four.blades[k]) = (longer, f64::from(per_row));
             if disk.is_pair() {
                 [four.shape[0][k], four.shape[1][k]] = disk.shape_of(row);
             }
@@ -110,13 +111,13 @@ impl Lining {
     pub fn multipliers(&self, tips: &Tips) -> Vec<(u32, f64)> {
         let each = self.fours.first().map_or(0.0, |four| four.blades[0]);
         let pressed = self.rows(|four| four.depth).filter(|(_, depth)| *depth > 0.0);
-        pressed.map(|(row, depth)| (tips.side[row], -each * self.law.push(-depth))).collect()
+        pressed.map(|(row, depth)| (tips.rows[row].side, -each * self.law.push(-depth))).collect()
     }
 
     /// Gives the sums of the pushes until now to the record.
     pub fn give_impulses(&mut self, tips: &Tips, record: &mut Record) {
         for (row, impulse) in self.rows(|four| four.impulse).filter(|(_, sum)| *sum != 0.0) {
-            record.impulse(tips.side[row], -impulse);
+            record.impulse(tips.rows[row].side, -impulse);
         }
         self.fours.iter_mut().for_each(|four| four.impulse = [0.0; 4]);
     }
@@ -144,7 +145,7 @@ impl Lining {
         }
         self.held_before = Some(self.energy(|four| four.depth));
         for (row, _) in self.rows(|four| four.depth).filter(|(_, depth)| *depth > 0.0) {
-            record.keep_touching(n.saturating_sub(1), tips.side[row]);
+            record.keep_touching(n.saturating_sub(1), tips.rows[row].side);
         }
         for four in &mut self.fours {
             (four.depth, four.before) = Default::default();
@@ -259,19 +260,19 @@ impl Lining {
         let mut count = 0;
         for (row, before) in self.rows(|four| four.before) {
             if before > 0.0 {
-                record.keep_touching(n.saturating_sub(1), tips.side[row]);
+                record.keep_touching(n.saturating_sub(1), tips.rows[row].side);
             }
         }
         let pressed = self.fours.iter().flat_map(|four| four.depth.into_iter().zip(four.before));
         for (row, (_, before)) in pressed.enumerate().filter(|(_, (now, _))| *now > 0.0) {
-            self.sides = self.sides.with(tips.side[row]);
+            self.sides = self.sides.with(tips.rows[row].side);
             self.set = self.set.wrapping_add(mark(row));
             count += 1;
             if before <= 0.0 {
-                record.meet(n, tips.side[row]);
+                record.meet(n, tips.rows[row].side);
             }
         }
-        self.all = count == tips.side.len();
+        self.all = count == tips.rows.len();
     }
 }
 
@@ -299,7 +300,7 @@ impl Explicit {
         let bound = self.disk.bound();
         let Self { lining: Some(lining), disk, record, tips_of_rows, .. } = self else { return };
         (lining.turn, lining.held_before) = (turn, None);
-        let rows = tips_of_rows.side.len();
+        let rows = tips_of_rows.rows.len();
         let mut x = disk.pair_angles();
         if !disk.is_pair() {
             x = [0.0; 2];

@@ -10,7 +10,7 @@
 use nalgebra::{Complex, DMatrix, DVector};
 
 use super::oscillator::Oscillator;
-use super::row::TipLaw;
+use super::row::{Tip, TipLaw};
 use super::{Explicit, Lining};
 use crate::model::LiningLaw;
 use crate::motion::Plane;
@@ -101,11 +101,11 @@ impl Explicit {
         }
         let blades = self.disk.pair().map(|(oscillator, _)| oscillator);
         let per_row = f64::from(self.disk.rows().1);
-        let row = |(row, &side): (usize, &u32)| {
-            let ((c, s), [p, q]) = (machine.polygon.direction(side), self.disk.shape_of(row));
-            Pressed { normal: Plane::new(c, s), shape: Plane::new(p, q), blades: per_row }
+        let row = |(row, tip): (usize, &Tip)| {
+            let [p, q] = self.disk.shape_of(row);
+            Pressed { normal: tip.normal, shape: Plane::new(p, q), blades: per_row }
         };
-        let rows: Vec<Pressed> = self.tips_of_rows.side.iter().enumerate().map(row).collect();
+        let rows: Vec<Pressed> = self.tips_of_rows.rows.iter().enumerate().map(row).collect();
         let law = self.lining.as_ref().map(|lining: &Lining| lining.law)?;
         let turn = machine.nu(self.drive.speed(self.n)) * self.drive.step;
         let step = Step { casing: &self.casing, blades, tips: self.tips, law, rows: &rows, turn };

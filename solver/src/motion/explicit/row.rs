@@ -89,15 +89,20 @@ pub(super) struct Side {
     pub row: usize,
 }
 
+/// The tips of a row.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Tip {
+    pub side: u32,
+    /// `exp(i psi)`.
+    pub normal: Plane,
+    /// `b` \[m\].
+    pub longer: f64,
+}
+
 /// Directions of the rows, and what tells their tips apart.
 #[derive(Clone, Debug)]
 pub(super) struct Tips {
-    /// Side of the polygon of each row, and `cos psi`, `sin psi`.
-    pub side: Vec<u32>,
-    pub cosine: Vec<f64>,
-    pub sine: Vec<f64>,
-    /// `b` of each row \[m\].
-    pub longer: Vec<f64>,
+    pub rows: Vec<Tip>,
     /// The sides of the polygon in their order, where each has one row and all tips are equal in a
     /// round casing; else empty.
     pub sides: Vec<Side>,
@@ -112,16 +117,18 @@ impl Tips {
     /// Creates the tips of so many rows, a row being the blades `row`, `row + count`, ...
     pub fn new(machine: &Machine, count: usize) -> Self {
         let polygon = &machine.polygon;
-        let side: Vec<u32> = (0..count as u32).map(|row| polygon.side_of_blade(row + 1)).collect();
-        let (cosine, sine) = side.iter().map(|&side| polygon.direction(side)).unzip();
+        let tip = |row: u32| {
+            let side = polygon.side_of_blade(row + 1);
+            let (c, s) = polygon.direction(side);
+            Tip { side, normal: Plane::new(c, s), longer: machine.longer(row) }
+        };
+        let rows: Vec<Tip> = (0..count as u32).map(tip).collect();
         let uneven = machine.tips.as_deref();
-        let longer = (0..count as u32).map(|row| machine.longer(row)).collect();
         let mut sides = Vec::new();
         if uneven.is_none() && count == polygon.sides as usize {
             sides = vec![Side::default(); count];
-            for (row, &side) in side.iter().enumerate() {
-                let (c, s) = polygon.direction(side);
-                sides[side as usize] = Side { normal: Plane::new(c, s), row };
+            for (row, tip) in rows.iter().enumerate() {
+                sides[tip.side as usize] = Side { normal: tip.normal, row };
             }
         }
         let lobed = uneven.filter(|tips| tips.out_of_round != 0.0);
@@ -135,10 +142,7 @@ impl Tips {
             lobe: (0..count).filter_map(lobe).collect(),
             lobes: lobed.map_or(0.0, |tips| f64::from(tips.lobes)),
             out_of_round: lobed.map_or(0.0, |tips| tips.out_of_round),
-            side,
-            cosine,
-            sine,
-            longer,
+            rows,
             sides,
         }
     }
@@ -200,13 +204,13 @@ impl Tips {
     /// Returns the row of a tip, for the casing at `z` and its blades at this angle.
     #[inline(always)]
     pub fn row(&self, index: usize, z: Plane, angle: f64, lobe_turn: Plane, tips: &TipLaw) -> Row {
-        let direction = Plane::new(self.cosine[index], self.sine[index]);
-        let normal = turned(direction, tips.diameters * angle);
+        let Tip { side, normal, longer } = self.rows[index];
+        let normal = turned(normal, tips.diameters * angle);
         let [shape, steep] = self.shape(index, angle, lobe_turn);
-        let gap = tips.clearance - self.longer[index] + shape - tips.rise * angle
+        let gap = tips.clearance - longer + shape - tips.rise * angle
             + (z.re * normal.re + z.im * normal.im);
         let arm = tips.diameters * (z.im * normal.re - z.re * normal.im) + steep;
-        Row { index, side: self.side[index], normal, gap, arm, apart: gap, lambda: 0.0 }
+        Row { index, side, normal, gap, arm, apart: gap, lambda: 0.0 }
     }
 }
 

@@ -13,10 +13,10 @@
 
 use super::Explicit;
 use super::lasting::mark;
-use super::row::{Row, TipLaw};
+use super::row::{Row, Tip, TipLaw};
 use crate::motion::{ActiveSet, FailureReason, Plane};
 use crate::numeric::lcp;
-use crate::tolerances::{LONG_STEP, MOST_LONG_STEPS, MOST_ROWS, NEIGHBOUR_DEPTHS};
+use crate::tolerances::{LONG_STEP, MOST_LONG_STEPS, MOST_ROWS, NEIGHBOUR_DEPTHS, ROUND_OFF};
 
 impl Explicit {
     /// Takes one step.
@@ -134,10 +134,10 @@ impl Explicit {
             }
             return (deepest, next + tips.clearance - look);
         }
-        for row in 0..self.tips_of_rows.side.len() {
-            let of = &self.tips_of_rows;
-            let mut gap = tips.clearance - of.longer[row] - of.out_of_round - look
-                + (z.re * of.cosine[row] + z.im * of.sine[row]);
+        for row in 0..self.tips_of_rows.rows.len() {
+            let Tip { normal, longer, .. } = self.tips_of_rows.rows[row];
+            let mut gap = tips.clearance - longer - self.tips_of_rows.out_of_round - look
+                + (z.re * normal.re + z.im * normal.im);
             if tips.rise != 0.0 {
                 gap -= self.highest_rise(row, tips);
             }
@@ -152,7 +152,7 @@ impl Explicit {
 
     /// Makes rows of the sides on either side of the nearest one, as long as the polygon at `w` is
     /// below `reach` there. Returns as `gather`, but for the clearance.
-    #[inline(never)]
+    #[inline]
     fn add_neighbours(
         &mut self,
         z: Plane,
@@ -264,6 +264,10 @@ impl Explicit {
             at.x += part;
             at.increment += part;
         }
+        let asked = self.ledger.counts || self.restitution != 0.0;
+        if !asked && self.most_left(z, shift, tips) <= self.record.deepest {
+            return;
+        }
         let mut dip = 0.0_f64;
         for place in 0..self.rows.len() {
             let row = self.rows[place];
@@ -280,6 +284,20 @@ impl Explicit {
         }
         self.record.deepest = self.record.deepest.max(dip);
         self.dips = [dip, self.dips[0]];
+    }
+
+    /// Returns a bound on the gaps that a correction leaves, by terms of second order in its shift
+    /// and in the blade phases that it turns, and by round-off \[m\].
+    fn most_left(&self, z: Plane, shift: Plane, tips: &TipLaw) -> f64 {
+        let size = |at: Plane| at.re.abs() + at.im.abs();
+        let (mut turned, mut pushes) = (0.0, 0.0);
+        for row in &self.rows {
+            turned += row.torque(tips).abs() * self.disk.most_turned();
+            pushes += row.lambda.abs();
+        }
+        let (z, shift, phase) = (size(z), size(shift), tips.diameters * turned);
+        let rounded = tips.clearance + z + self.casing.compliance * pushes;
+        (z + shift) * phase * phase + shift * phase + ROUND_OFF * rounded
     }
 
     /// Returns the highest target of a step, `-e g[n-1]` of the deepest row \[m\].
@@ -317,7 +335,7 @@ impl Explicit {
             return self.end_contact_after_pause();
         }
         self.record.touch(self.n, sides, pulls);
-        let all = count == self.tips_of_rows.side.len();
+        let all = count == self.tips_of_rows.rows.len();
         let since = self.lasting.touch(self.drive.time_of(self.n), set, all);
         if sides == ActiveSet::Many {
             self.record.log.since = since;
