@@ -46,7 +46,8 @@ impl Range {
     }
 }
 
-/// Returns `count` evenly spaced values from `from` to `to`, both ends exactly.
+/// Returns `count` evenly spaced values from `from` to `to`, with both ends exact; only `from` if
+/// `count` is 1.
 pub fn linspace(from: f64, to: f64, count: usize) -> Vec<f64> {
     let last = count.saturating_sub(1);
     (0..count)

@@ -277,7 +277,8 @@ struct HeldPair<T> {
 }
 
 impl<T: Number> HeldPair<T> {
-    /// Creates the pair; `None` if the corner cannot move because bending does not lift the tips.
+    /// Creates the pair; `None` if the polygon has no corners, if the blades have modes with other
+    /// nodal diameters than the casing, or if the tips do not couple blades and casing.
     fn new(machine: &Machine<T>, toward: f64) -> Option<Self> {
         // A rotor that turns backward is the mirror image of one that turns forward.
         let coupling = machine.coupling_product_at(T::from(toward)) * machine.casing_stiffness

@@ -165,8 +165,10 @@ impl<T: Number> Machine<T> {
         self.polygon.has_corners().then(|| critical * factor)
     }
 
-    /// Windows in which `slope Re(1/H) + sign Im(1/H) <= 0` for both sides. For equal tips the two
-    /// conditions together are `|tan arg(-1/H)| <= slope`.
+    /// Returns the windows of speeds at which `slope Re(1/H) + sign Im(1/H) <= 0`, plus the term of
+    /// a lining, for both `sides`, each given as `(slope, sign)`. For equal tips without a lining
+    /// the two conditions together are `|arg(-1/H)| <= atan(slope)`. The sign of `toward` is the
+    /// direction of rotation.
     pub(super) fn windows(&self, sides: [(T, T); 2], toward: f64) -> Vec<LockWindow<T>> {
         let Some(critical) = self.critical_speed() else { return Vec::new() };
         if !self.polygon.has_corners() || self.has_other_diameters() {

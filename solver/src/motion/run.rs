@@ -144,7 +144,7 @@ pub struct RunReport {
 /// Verdict of a run with the values that decide whether two runs agree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VerdictReached {
-    /// Verdict.
+    /// Long-term behaviour of the motion.
     pub verdict: Verdict,
     /// Number of impacts until the verdict was known.
     pub impact_count: u64,

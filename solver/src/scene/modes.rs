@@ -257,7 +257,7 @@ fn number(path: &str, value: &Toml, key: &keys::Key) -> Result<f64, SceneError> 
     allowed.ok_or_else(|| SceneError::refused(path, value, key.allowed.to_string()))
 }
 
-/// Returns a TOML number, which has no unit.
+/// Returns the value of a TOML float or integer; `None` for any other type.
 fn plain(value: &Toml) -> Option<f64> {
     value.as_float().or_else(|| value.as_integer().map(|n| n as f64))
 }

@@ -487,6 +487,27 @@ impl Disk {
         Some((first, [self.at(0), second]))
     }
 
+    /// Returns the modes of a pair.
+    pub fn modes_of_pair(&self) -> Vec<Oscillator> {
+        if self.fixed.is_pair { self.oscillators.to_vec() } else { Vec::new() }
+    }
+
+    /// Returns the coordinates of a pair; zeros for what is not there.
+    pub fn coordinates_of_pair(&self) -> [Coordinate; 2] {
+        let known = |m| self.fixed.is_pair && m < self.oscillators.len();
+        [0, 1].map(|m| if known(m) { self.at(m) } else { Coordinate::default() })
+    }
+
+    /// Puts the modes of a pair at these coordinates.
+    pub fn set_pair(&mut self, coordinates: [Coordinate; 2]) {
+        let pair = self.oscillators.iter().zip(coordinates).enumerate();
+        for (m, (oscillator, at)) in pair.filter(|_| self.fixed.is_pair) {
+            let four = &mut self.modes[m / 4];
+            (four.x[m % 4], four.increment[m % 4]) = (at.x, at.increment);
+            four.before[m % 4] = oscillator.increment_before(at);
+        }
+    }
+
     /// Returns whether its modes are independent of each other, and none is so damped that the
     /// step before cannot be told from a step.
     pub fn flies(&self) -> bool {

@@ -87,7 +87,7 @@ pub(super) struct Explicit {
     /// The linear motion about rest at this speed, once asked for.
     rest: OnceLock<Option<Rest>>,
     strides: Strides,
-    /// Steps done many at once.
+    /// Number of steps that were not computed one by one, but many at once by strides.
     skipped: u64,
     failure: Option<Failure>,
 }

@@ -75,7 +75,7 @@ pub(super) struct Row {
 }
 
 impl Row {
-    /// Returns the torque of its multiplier on its blades \[N m\].
+    /// Returns the torque of the contact force, with its friction, on the row's blades \[N m\].
     #[inline(always)]
     pub fn torque(&self, tips: &TipLaw) -> f64 {
         -self.lambda * (self.arm - tips.pushed)
@@ -186,9 +186,8 @@ impl Tips {
     /// Returns the least gap of blades at rest in a round casing at `z`, but for those of sides that
     /// are held \[m\].
     pub fn least_gap(&self, z: Plane, law: &TipLaw, held: ActiveSet) -> f64 {
-        let rows = self.side.iter().zip(&self.longer).zip(self.cosine.iter().zip(&self.sine));
-        let open = rows.filter(|((side, _), _)| !held.includes(**side));
-        let gaps = open.map(|((_, longer), (c, s))| z.re * c + z.im * s - longer);
+        let open = self.rows.iter().filter(|tip| !held.includes(tip.side));
+        let gaps = open.map(|tip| z.re * tip.normal.re + z.im * tip.normal.im - tip.longer);
         law.clearance + gaps.fold(f64::INFINITY, f64::min)
     }
 

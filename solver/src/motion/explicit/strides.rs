@@ -1,7 +1,7 @@
 //! Strides: many steps at once between changes of contact.
 //!
-//! At constant speed, and as long as the same tips of rigid blades push, a step is an affine map of
-//! the casing in the frame of the blades,
+//! At constant speed, and as long as the same tips push, a step is an affine map of the casing and of
+//! two blade modes in the frame of the blades,
 //!
 //! ```text
 //! x[n+1] = T x[n] + b,    T = (1 - K W^-1 G) P,    p[n] = -W^-1 (G P x[n] + g)
@@ -21,7 +21,15 @@
 //! units in which free flight without damping keeps the norm.
 //!
 //! In flight the blade modes swing by themselves, each with powers of its own. Blades that move turn
-//! the sides that they hold, so that no map is linear: while they push, steps are taken one by one.
+//! the tips that they hold, `dn = i n_d n dalpha`. In a corner, where the casing rests, the map is that
+//! of small deviations from the state at which it was made: with `t = i n` and the pushes `p`,
+//!
+//! ```text
+//! W dp = -dg - c n_d sum_j p_j [(t_i n_j) dalpha_i + (n_i t_j) dalpha_j],  c the compliance of the casing,
+//! d(force) = n_j dp_j + p_j n_d t_j dalpha_j,    d(arm) = n_d (n_j x dz) - n_d^2 (n_j z) dalpha_j,
+//! ```
+//!
+//! and leaves out the square of `n_d dalpha`. Elsewhere blades that move are held step by step.
 
 use std::sync::Arc;
 
@@ -31,10 +39,10 @@ use super::Explicit;
 use super::oscillator::{Coordinate, Oscillator};
 use super::row::Row;
 use crate::motion::{ActiveSet, Plane};
-use crate::tolerances::{ANGLE_LOOK, BREAK_STEPS};
+use crate::tolerances::{ANGLE_LOOK, BREAK_STEPS, LARGEST_BLADE_ANGLE};
 
-/// Coordinates of a state: casing `z`, its increment.
-const SIZE: usize = 4;
+/// Coordinates of a state: casing `z`, its increment, two modes, their increments.
+const SIZE: usize = 8;
 /// Most tips that are held: a corner.
 const HELD: usize = 2;
 /// A state, the constant 1, and the sums of the pushes.
@@ -48,14 +56,17 @@ pub(super) type State = SVector<f64, SIZE>;
 type Square = SMatrix<f64, SIZE, SIZE>;
 type Whole = SVector<f64, WHOLE>;
 
-/// A tip that pushes, in the frame of the blades.
+/// A tip that pushes, in the frame of the blades, at the prediction from the reference.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct HeldTip {
-    /// Gap where the casing is at rest \[m\].
-    pub clearance: f64,
+    /// \[m\]
+    pub gap: f64,
     /// Derivative of the gap by the casing, and the force on the casing per unit push.
     pub normal: Plane,
     pub force: Plane,
+    /// Derivative of the gap by the blade angle \[m\], and the shapes of the two modes.
+    pub arm: f64,
+    pub shape: [f64; 2],
 }
 
 /// A function of the state that must keep its sign over a stride.
@@ -70,6 +81,8 @@ struct Sign {
 /// The affine map of a step for one set of held tips, and its powers.
 #[derive(Clone, Debug)]
 pub(super) struct StrideMap {
+    /// State from which deviations are counted.
+    reference: State,
     /// `A^(2^j) - 1`, with `A` the map of the whole state.
     changes: Vec<SMatrix<f64, WHOLE, WHOLE>>,
     /// `|E x|` is the norm of a state.
@@ -95,9 +108,16 @@ pub(super) struct Stride {
 }
 
 impl StrideMap {
-    /// The map of a step with these tips held, at most two, in a frame that turns by `turn` in a
-    /// step \[rad\]. None where the tips depend on each other.
-    pub fn new(casing: &Oscillator, turn: f64, tips: &[HeldTip]) -> Option<Self> {
+    /// The map of a step from states near `reference` with these tips held, at most two, in a frame
+    /// that turns by `turn` in a step \[rad\], for waves of `diameters` nodal diameters. None where
+    /// the tips depend on each other.
+    pub fn new(
+        casing: &Oscillator,
+        modes: &[Oscillator],
+        (turn, diameters): (f64, f64),
+        tips: &[HeldTip],
+        reference: State,
+    ) -> Option<Self> {
         // Prediction, Eq. (10), seen from the frame as it is after the step, as its change: against
         // the 1 of P = 1 + S a short step would lose its digits.
         let (sin, cos) = turn.sin_cos();
@@ -112,35 +132,78 @@ impl StrideMap {
         put(0, 2, back * casing.ratio);
         put(2, 0, back * -casing.pull);
         put(2, 2, turned * casing.ratio - Matrix2::identity() * casing.loss);
+        for (m, mode) in modes.iter().enumerate() {
+            let [x_x, x_increment, increment_x, increment] = mode.change();
+            (predict[(4 + m, 4 + m)], predict[(4 + m, 6 + m)]) = (x_x, x_increment);
+            (predict[(6 + m, 4 + m)], predict[(6 + m, 6 + m)]) = (increment_x, increment);
+        }
+        for m in modes.len()..2 {
+            (predict[(4 + m, 4 + m)], predict[(6 + m, 6 + m)]) = (-1.0, -1.0);
+        }
 
         // Gaps of the held tips, Eq. (9), and what their pushes move, Eq. (13).
         let mut gaps = SMatrix::<f64, HELD, SIZE>::zeros();
         let mut moves = SMatrix::<f64, SIZE, HELD>::zeros();
-        let mut clearances = Vector2::zeros();
+        let mut depths = Vector2::zeros();
         for (i, tip) in tips.iter().enumerate() {
-            clearances[i] = tip.clearance;
-            let by_casing = [tip.normal.re, tip.normal.im];
+            depths[i] = -tip.gap;
+            (gaps[(i, 0)], gaps[(i, 1)]) = (tip.normal.re, tip.normal.im);
             for (k, force) in [tip.force.re, tip.force.im].into_iter().enumerate() {
-                gaps[(i, k)] = by_casing[k];
                 moves[(k, i)] = casing.compliance * force;
                 moves[(2 + k, i)] = casing.compliance * force;
+            }
+            for (m, mode) in modes.iter().enumerate() {
+                gaps[(i, 4 + m)] = tip.arm * tip.shape[m];
+                moves[(4 + m, i)] = mode.compliance * tip.shape[m] * tip.arm;
+                moves[(6 + m, i)] = moves[(4 + m, i)];
             }
         }
         let mut contact = gaps * moves;
         (tips.len()..HELD).for_each(|i| contact[(i, i)] = 1.0);
         let inverse = contact.try_inverse()?;
+        let at_reference = inverse * depths;
 
-        // Multipliers, Eq. (12), and the whole step.
-        let ahead = gaps + gaps * predict;
-        let pushes = -(inverse * ahead);
-        let constant = -(inverse * clearances);
-        let map_change = predict + moves * pushes;
+        // How pushes and what they move change as blades turn the tips that they hold.
+        let ahead = reference + predict * reference;
+        let z = Plane::new(ahead[0], ahead[1]);
+        let dot = |a: Plane, b: Plane| a.re * b.re + a.im * b.im;
+        let mut apart = gaps;
+        let mut turning = Square::zeros();
+        for (j, tip) in tips.iter().enumerate() {
+            let (push, across) = (at_reference[j], tip.normal * Plane::i());
+            let moved = diameters * casing.compliance * push;
+            for (m, mode) in modes.iter().enumerate() {
+                for (i, other) in tips.iter().enumerate() {
+                    let by_own = dot(other.normal * Plane::i(), tip.normal) * other.shape[m];
+                    let by_other = dot(other.normal, across) * tip.shape[m];
+                    apart[(i, 4 + m)] += moved * (by_own + by_other);
+                }
+                for k in [0, 2] {
+                    turning[(k, 4 + m)] += moved * tip.shape[m] * across.re;
+                    turning[(k + 1, 4 + m)] += moved * tip.shape[m] * across.im;
+                }
+                let felt = mode.compliance * tip.shape[m] * push * diameters;
+                for row in [4 + m, 6 + m] {
+                    turning[(row, 0)] -= felt * tip.normal.im;
+                    turning[(row, 1)] += felt * tip.normal.re;
+                    for other in 0..modes.len() {
+                        let turned = diameters * dot(tip.normal, z) * tip.shape[other];
+                        turning[(row, 4 + other)] -= felt * turned;
+                    }
+                }
+            }
+        }
+
+        // Multipliers, Eq. (12), and the whole step, as deviations from the reference.
+        let pushes = -(inverse * (apart + apart * predict));
+        let map_change = predict + turning + turning * predict + moves * pushes;
         let map = map_change + Square::identity();
+        let shift = predict * reference + moves * at_reference;
         let mut change = SMatrix::<f64, WHOLE, WHOLE>::zeros();
         change.fixed_view_mut::<SIZE, SIZE>(0, 0).copy_from(&map_change);
-        change.fixed_view_mut::<SIZE, 1>(0, SIZE).copy_from(&(moves * constant));
+        change.fixed_view_mut::<SIZE, 1>(0, SIZE).copy_from(&shift);
         change.fixed_view_mut::<HELD, SIZE>(SIZE + 1, 0).copy_from(&pushes);
-        change.fixed_view_mut::<HELD, 1>(SIZE + 1, SIZE).copy_from(&constant);
+        change.fixed_view_mut::<HELD, 1>(SIZE + 1, SIZE).copy_from(&at_reference);
         // (1 + S)^2 = 1 + (2 S + S^2) keeps the digits of a small change S.
         let mut changes = vec![change];
         for _ in 0..LONGEST {
@@ -151,13 +214,18 @@ impl StrideMap {
         // In these units the energy of a free coordinate between two steps is the square of the
         // norm: m (dx/h)^2 (1 - k h^2/4m) + k (x - dx/2)^2.
         let mut units = Square::identity();
-        for k in 0..2 {
-            units[(k, 2 + k)] = -0.5;
-            units[(2 + k, 2 + k)] = ((1.0 - 0.25 * casing.pull) / casing.pull).sqrt();
+        let mut measure = |x: usize, increment: usize, pull: f64, unit: f64| {
+            units[(x, x)] = unit;
+            units[(x, increment)] = -0.5 * unit;
+            units[(increment, increment)] = ((1.0 - 0.25 * pull) / pull).sqrt() * unit;
+        };
+        (0..2).for_each(|k| measure(k, 2 + k, casing.pull, 1.0));
+        for (m, mode) in modes.iter().enumerate() {
+            measure(4 + m, 6 + m, mode.pull, diameters.max(1.0));
         }
         let back = units.try_inverse()?;
         let scaled = units * map * back;
-        let allowed = range(&(scaled * scaled), SIZE - 2 * tips.len())?;
+        let allowed = range(&(scaled * scaled), 4 + 2 * modes.len() - 2 * tips.len())?;
         let within = scaled * allowed;
         let growth = (allowed.transpose() * within).singular_values().max().max(1.0);
         let bend = back * (within - allowed);
@@ -173,12 +241,14 @@ impl StrideMap {
             whole[SIZE] = constant[row];
             Sign { by: whole, bend: (by.row(row) * bend).norm() }
         };
-        let of_pushes = (0..tips.len()).map(|i| row(&pushes, &constant, i));
-        let of_gaps = (0..tips.len()).map(|i| row(&ahead, &clearances, i));
+        let by_gaps = gaps + gaps * predict;
+        let of_pushes = (0..tips.len()).map(|i| row(&pushes, &at_reference, i));
+        let of_gaps = (0..tips.len()).map(|i| row(&by_gaps, &-depths, i));
         Some(Self {
             signs: of_pushes.chain(of_gaps).collect(),
             place_bend: (place * bend).norm(),
             held: tips.len(),
+            reference,
             limits: (0..=LONGEST).map(limit).collect(),
             changes,
             units,
@@ -190,10 +260,10 @@ impl StrideMap {
     /// `open` is the least gap of all tips that are not held, for a place of the casing \[m\].
     pub fn take(&self, state: &State, most: u64, open: impl Fn(Plane) -> f64) -> Option<Stride> {
         let mut from = Whole::zeros();
-        from.fixed_rows_mut::<SIZE>(0).copy_from(state);
+        from.fixed_rows_mut::<SIZE>(0).copy_from(&(state - self.reference));
         from[SIZE] = 1.0;
         let gap = |whole: &Whole| {
-            let place = self.place * whole.fixed_rows::<SIZE>(0);
+            let place = self.place * (whole.fixed_rows::<SIZE>(0) + self.reference);
             open(Plane::new(place.x, place.y))
         };
         let change = (self.changes.first()? * from).fixed_rows::<SIZE>(0).into_owned();
@@ -217,7 +287,7 @@ impl StrideMap {
             }
             return Some(Stride {
                 steps: 1 << exponent,
-                state: to.fixed_rows::<SIZE>(0).into_owned(),
+                state: to.fixed_rows::<SIZE>(0) + self.reference,
                 pushes: fill(self.signs.iter().take(self.held).map(|sign| sign.by.dot(&to))),
                 sums: [to[SIZE + 1], to[SIZE + 2]],
             });
@@ -241,8 +311,12 @@ fn range(matrix: &Square, rank: usize) -> Option<Square> {
     Some(basis)
 }
 
-/// Steps with the same tips in contact before a stride is tried.
+/// Steps with the same tips in contact before a stride is tried, and before the map of a corner of
+/// blades that move is made.
 const SAME_STEPS: u64 = 4;
+const SAME_STEPS_OF_CORNER: u64 = 64;
+/// Turn of held tips, `n_d alpha`, whose square is left out \[rad\].
+const SMALL_TURN: f64 = 1e-5;
 /// Maps that are kept.
 const MOST_MAPS: usize = 64;
 
@@ -250,6 +324,8 @@ const MOST_MAPS: usize = 64;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Strides {
     maps: Vec<(Vec<HeldTip>, Arc<StrideMap>)>,
+    /// Map of the corner that blades that move hold now.
+    corner: Option<Arc<StrideMap>>,
     /// Sides in contact at the last step, and the number of steps that they have been.
     sides: ActiveSet,
     same: u64,
@@ -276,8 +352,11 @@ impl Explicit {
         } else {
             ActiveSet::Nothing
         };
-        self.strides.same = if sides == self.strides.sides { self.strides.same + 1 } else { 0 };
-        self.strides.sides = sides;
+        if sides == self.strides.sides {
+            self.strides.same += 1;
+        } else {
+            (self.strides.sides, self.strides.same, self.strides.corner) = (sides, 0, None);
+        }
         let ready = self.strides.same >= SAME_STEPS && self.n >= self.strides.next;
         if !ready || !self.drive.is_steady(self.n) {
             return None;
@@ -297,16 +376,18 @@ impl Explicit {
     fn fly(&mut self, most: u64) -> Option<u64> {
         let paused = self.n > self.record.last_touch + BREAK_STEPS || self.record.last_touch == 0;
         let pressed = self.lining.as_ref().is_some_and(|lining| lining.presses());
-        if !paused || pressed || self.dips != [0.0; 2] || !self.disk.flies() {
+        let (reach, farthest) = (self.disk.reach(), self.casing.reach(&self.u));
+        // Nothing that makes a run fail may come on the way.
+        let fails = reach > LARGEST_BLADE_ANGLE || farthest > self.scene.casing.radius_m;
+        if !paused || pressed || fails || self.dips != [0.0; 2] || !self.disk.flies() {
             return None;
         }
         // No blade angle, and no swing of a tip, may pass its extreme unseen.
         let turn = self.disk.fastest_turn();
         let unseen = if turn > 0.0 { (ANGLE_LOOK / turn) as u64 } else { u64::MAX };
-        let reach = self.disk.reach();
         let margin = self.tips.rise.abs() * reach + self.tips_of_rows.out_of_round;
-        let state = self.casing_state(Plane::new(1.0, 0.0));
-        let map = self.map_of(&[])?;
+        let state = self.casing_and_pair(Plane::new(1.0, 0.0));
+        let map = self.map_of(&[], state, Plane::new(1.0, 0.0))?;
         let (tips, law) = (&self.tips_of_rows, &self.tips);
         let open = |place: Plane| {
             let turned = law.diameters * reach * (place.re.abs() + place.im.abs());
@@ -337,26 +418,42 @@ impl Explicit {
         Some(stride.steps)
     }
 
-    /// Takes a stride of rigid blades with the tips held that push now.
+    /// Takes a stride with the tips held that push now.
     fn hold(&mut self, most: u64) -> Option<u64> {
         let held: Vec<Row> = self.rows.iter().copied().filter(|row| row.lambda != 0.0).collect();
-        let linear = self.disk.coordinates() == 0
-            && self.restitution == 0.0
+        let moves = self.disk.coordinates() > 0;
+        let linear = self.restitution == 0.0
             && !self.drive.has_lobes()
-            && !self.ledger.counts
+            && !self.scene.goes_beyond()
+            && self.machine.polygon.has_corners()
             && self.lining.is_none()
             && held.len() <= HELD
             && self.rows.len() == held.len();
-        if !linear {
+        let still = !moves
+            || (held.len() == HELD
+                && self.strides.same >= SAME_STEPS_OF_CORNER
+                && self.disk.is_pair()
+                && self.tips.pushed == 0.0
+                && self.tips.diameters * self.disk.reach() < SMALL_TURN);
+        if !linear || !still {
             return None;
         }
         let first = self.direction(held.first()?.index);
-        let state = self.casing_state(first);
-        let tips: Vec<HeldTip> = held.iter().map(|row| self.held_tip(row, first)).collect();
-        let map = self.map_of(&tips)?;
+        let state = self.casing_and_pair(first);
+        let map = match (moves, self.strides.corner.clone()) {
+            (true, Some(map)) => map,
+            (true, None) => self.map_of_corner(&held, state, first)?,
+            (false, _) => self.map_of(&held, state, first)?,
+        };
         let (of, law, sides) = (&self.tips_of_rows, &self.tips, self.strides.sides);
-        let stride = map.take(&state, most, |place| of.least_gap(place * first, law, sides))?;
+        let turned = if moves { SMALL_TURN } else { 0.0 };
+        let stride = map.take(&state, most, |place| {
+            let turned = turned * (place.re.abs() + place.im.abs());
+            of.least_gap(place * first, law, sides) - turned
+        })?;
         self.place_casing(&stride, first);
+        let at = &stride.state;
+        self.disk.set_pair([4, 5].map(|m| Coordinate { x: at[m], increment: at[m + 2] }));
         let mut pulls = false;
         for (place, row) in held.iter().enumerate() {
             // A multiplier is the negative push.
@@ -371,23 +468,24 @@ impl Explicit {
             self.record.log.tensile_steps += stride.steps - 1;
         }
         self.record.touch(self.n, self.record.log.active_set, pulls);
+        self.disk.watch();
         self.look_at_swing();
         Some(stride.steps)
     }
 
     /// The direction of a row, at blades that are not bent.
     fn direction(&self, row: usize) -> Plane {
-        Plane::new(self.tips_of_rows.cosine[row], self.tips_of_rows.sine[row])
+        self.tips_of_rows.rows[row].normal
     }
 
-    /// The casing in the frame of the blades, turned so that `first` is the real axis.
-    fn casing_state(&mut self, first: Plane) -> State {
+    /// The casing in the frame of the blades, turned so that `first` is the real axis, and the modes
+    /// of a pair.
+    fn casing_and_pair(&mut self, first: Plane) -> State {
         let [c, s] = self.u;
         let back = (self.drive.turn(self.n) * first).conj();
         let (z, w) = (Plane::new(c.x, s.x) * back, Plane::new(c.increment, s.increment) * back);
-        let mut state = State::zeros();
-        state.copy_from_slice(&[z.re, z.im, w.re, w.im]);
-        state
+        let [a, b] = self.disk.coordinates_of_pair();
+        State::from([z.re, z.im, w.re, w.im, a.x, b.x, a.increment, b.increment])
     }
 
     /// Puts the casing where a stride has taken it.
@@ -404,20 +502,21 @@ impl Explicit {
         0.5 * self.u.iter().map(|&at| self.casing.twice_energy(at)).sum::<f64>()
     }
 
-    /// The linear functions of a tip that is held, with `first` as the real axis.
-    fn held_tip(&self, row: &Row, first: Plane) -> HeldTip {
-        let normal = self.direction(row.index);
-        HeldTip {
-            clearance: self.tips.clearance - self.tips_of_rows.longer[row.index],
-            normal: normal * first.conj(),
-            force: self.tips.push_on_casing(normal) * first.conj(),
-        }
-    }
-
-    /// The map with these tips held, which is known or made.
-    fn map_of(&mut self, tips: &[HeldTip]) -> Option<Arc<StrideMap>> {
+    /// The map with these tips of rigid blades held, or with none, which is known or made. It does
+    /// not depend on the state at which it was made.
+    fn map_of(&mut self, held: &[Row], state: State, first: Plane) -> Option<Arc<StrideMap>> {
+        let tip = |row: &Row| {
+            let tip = self.tips_of_rows.rows[row.index];
+            HeldTip {
+                gap: self.tips.clearance - tip.longer,
+                normal: tip.normal * first.conj(),
+                force: self.tips.push_on_casing(tip.normal) * first.conj(),
+                ..HeldTip::default()
+            }
+        };
+        let key: Vec<HeldTip> = held.iter().map(tip).collect();
         let alike = |known: &[HeldTip]| {
-            known.len() == tips.len() && known.iter().zip(tips).all(|(a, b)| a.is_near(b))
+            known.len() == key.len() && known.iter().zip(&key).all(|(a, b)| a.is_near(b))
         };
         if let Some((_, map)) = self.strides.maps.iter().find(|(known, _)| alike(known)) {
             return Some(map.clone());
@@ -425,10 +524,53 @@ impl Explicit {
         if self.strides.maps.len() >= MOST_MAPS {
             self.strides.maps.clear();
         }
-        let turn = self.machine.nu(self.drive.speed(self.n)) * self.drive.step;
-        let map = Arc::new(StrideMap::new(&self.casing, turn, tips)?);
-        self.strides.maps.push((tips.to_vec(), map.clone()));
+        let z = self.predicted(state);
+        let mut tips = key.clone();
+        for tip in &mut tips {
+            tip.gap += z.re * tip.normal.re + z.im * tip.normal.im;
+        }
+        let map =
+            Arc::new(StrideMap::new(&self.casing, &[], (self.frame_turn(), 0.0), &tips, state)?);
+        self.strides.maps.push((key, map.clone()));
         Some(map)
+    }
+
+    /// The map of a corner of blades that move, for small deviations from a state.
+    fn map_of_corner(
+        &mut self,
+        held: &[Row],
+        state: State,
+        first: Plane,
+    ) -> Option<Arc<StrideMap>> {
+        let modes = self.disk.modes_of_pair();
+        let z = self.predicted(state) * first;
+        let ahead = |m: usize| {
+            let at = Coordinate { x: state[4 + m], increment: state[6 + m] };
+            modes.get(m).map_or(0.0, |mode| mode.step(at, 0.0).x)
+        };
+        let tip = |row: &Row| {
+            let shape = self.disk.shape_of(row.index);
+            let angle = shape[0] * ahead(0) + shape[1] * ahead(1);
+            let at = self.tips_of_rows.row(row.index, z, angle, self.lobe_turn, &self.tips);
+            let normal = at.normal * first.conj();
+            HeldTip { gap: at.gap, normal, force: normal, arm: at.arm, shape }
+        };
+        let tips: Vec<HeldTip> = held.iter().map(tip).collect();
+        let frame = (self.frame_turn(), self.tips.diameters);
+        let map = StrideMap::new(&self.casing, &modes, frame, &tips, state)?;
+        self.strides.corner = Some(Arc::new(map));
+        self.strides.corner.clone()
+    }
+
+    /// Turn of the frame of the blades in a step \[rad\].
+    fn frame_turn(&self) -> f64 {
+        self.machine.nu(self.drive.speed(self.n)) * self.drive.step
+    }
+
+    /// Place of the casing after a free step, in the frame of the blades after it.
+    fn predicted(&self, state: State) -> Plane {
+        let (z, w) = (Plane::new(state[0], state[1]), Plane::new(state[2], state[3]));
+        (z + w * self.casing.ratio - z * self.casing.pull) * Plane::cis(-self.frame_turn())
     }
 }
 
@@ -437,7 +579,7 @@ impl HeldTip {
     fn is_near(&self, other: &Self) -> bool {
         let near = |a: f64, b: f64| (a - b).abs() < 1e-13;
         let near_plane = |a: Plane, b: Plane| near(a.re, b.re) && near(a.im, b.im);
-        (self.clearance - other.clearance).abs() <= 1e-14 * self.clearance.abs()
+        (self.gap - other.gap).abs() <= 1e-14 * self.gap.abs()
             && near_plane(self.normal, other.normal)
             && near_plane(self.force, other.force)
     }
@@ -512,20 +654,23 @@ mod tests {
                 shift += self.normals[*side] * (push * self.casing.compliance);
             }
             let (z, w) = (ahead + shift, moved + shift);
-            at.copy_from_slice(&[z.re, z.im, w.re, w.im]);
+            at.fixed_rows_mut::<4>(0).copy_from_slice(&[z.re, z.im, w.re, w.im]);
             pushes
         }
 
-        fn map(&self, held: &[usize]) -> StrideMap {
+        fn map(&self, held: &[usize], at: State) -> StrideMap {
+            let (z, w) = (Plane::new(at[0], at[1]), Plane::new(at[2], at[3]));
+            let ahead = (z + w * self.casing.ratio - z * self.casing.pull) * self.turn.conj();
             let tips: Vec<HeldTip> = held
                 .iter()
                 .map(|&side| HeldTip {
-                    clearance: CLEARANCE,
+                    gap: CLEARANCE + (ahead * self.normals[side].conj()).re,
                     normal: self.normals[side],
                     force: self.normals[side],
+                    ..HeldTip::default()
                 })
                 .collect();
-            StrideMap::new(&self.casing, self.turn.arg(), &tips).unwrap()
+            StrideMap::new(&self.casing, &[], (self.turn.arg(), 0.0), &tips, at).unwrap()
         }
     }
 
@@ -533,14 +678,14 @@ mod tests {
     fn strides_pass_no_change_of_contact_and_give_the_state_of_the_steps() {
         for (damping, rate) in [(0.01, 0.65), (0.0, 0.65), (0.05, 0.3), (0.01, 1.29)] {
             let plain = Plain::new(damping);
-            let start = [0.0, 0.0, 1e-7 * rate, 0.3e-7 * rate];
+            let start = [0.0, 0.0, 1e-7 * rate, 0.3e-7 * rate, 0.0, 0.0, 0.0, 0.0];
             let (mut at, mut by_steps) = (State::from(start), State::from(start));
             let (mut n, mut taken, mut held, mut same) = (0_u64, 0, Vec::new(), 0);
             let mut sums = [0.0; SIDES];
             let mut expected = [0.0; SIDES];
             while n < 1_000_000 {
                 if same > 1
-                    && let Some(stride) = plain.map(&held).take(&at, 1_000_000 - n, |z| {
+                    && let Some(stride) = plain.map(&held, at).take(&at, 1_000_000 - n, |z| {
                         let others = (0..SIDES).filter(|side| !held.contains(side));
                         others.map(|side| plain.gap(side, z)).fold(f64::MAX, f64::min)
                     })

@@ -156,7 +156,8 @@ impl Sensitivities {
 /// the last displayed digit.
 const LEAST: f64 = 1e-4;
 
-/// Margins above this (100 times the limit) are reported only as far beyond.
+/// Largest margin that is reported as a number: the scene is at 100 times the limit. A larger one
+/// is shown as `> 100 x`, and is empty in tables for files and `null` in JSON.
 pub const MOST_TIMES: f64 = 99.0;
 
 /// Serialises a margin up to `MOST_TIMES`, otherwise `null`.

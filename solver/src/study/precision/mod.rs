@@ -127,11 +127,11 @@ pub struct Measure {
 }
 
 impl Measure {
-    /// Rejects a scene that the event solver does not support and that is too long for the
-    /// explicit solver.
+    /// Rejects a scene without a reference: the event solver cannot give one, and the explicit
+    /// solver would need more than `effort.most_steps` steps.
     ///
     /// # Errors
-    /// States the end of the scene.
+    /// The scene has no reference; the error names its end time.
     pub fn check(scene: &Scene, effort: Effort) -> Result<(), SceneError> {
         if reference(scene, scene.solver.model, effort).is_some() {
             return Ok(());

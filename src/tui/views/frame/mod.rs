@@ -171,8 +171,8 @@ fn wheel(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let machine = &app.machine;
     let polygon = &machine.polygon;
-    // A wave larger than the clearance, the longest blade and the highest lobe reduce the
-    // magnification, so that they stay on the chart.
+    // A wave of more than `MOST` clearances, or tips and lobes that together take more than the
+    // clearance, reduce the magnification, so that they stay on the chart.
     let most = (app.run.ranges.rim.high / MOST).max(machine.most_uneven());
     let unit = polygon.clearance.abs().max(most).max(f64::MIN_POSITIVE);
     let exaggeration = CLEARANCE * app.scene.bladed_disk.blade_length_m / unit;

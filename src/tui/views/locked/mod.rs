@@ -197,7 +197,7 @@ fn running(app: &App) -> Vec<f64> {
     moment.multipliers.iter().map(|(_, force)| *force).filter(|force| force.is_finite()).collect()
 }
 
-/// Formats a force in few characters.
+/// Formats a force in newtons without decimals, from 10 kN on in thousands: `12k`.
 fn short(force: f64) -> String {
     if force.abs() < 1e4 { format!("{force:.0}") } else { format!("{:.0}k", force / 1e3) }
 }
