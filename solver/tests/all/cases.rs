@@ -2,7 +2,7 @@
 //! command line of `run` or `map`, its options without their dashes.
 
 use rubscope_solver::motion::{
-    Motion, RunReport, Sampling, Script, Verdict, run_to_end, run_to_verdict, simulate, to_the_end,
+    RunReport, Sampling, Script, Verdict, run_to_end, run_to_verdict, simulate, to_the_end,
 };
 use rubscope_solver::scene::Scene;
 
