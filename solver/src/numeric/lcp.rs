@@ -234,17 +234,17 @@ mod tests {
             let (w, gaps) = (corner(turn), [a, b]);
             let mut rows = filled(&w, gaps);
             let lambda = complementary_of_two(w, gaps).unwrap();
-            for row in 0..2 {
-                let left = gaps[row] - w[row][0] * lambda[0] - w[row][1] * lambda[1];
+            for (row, gap) in gaps.into_iter().enumerate() {
+                let left = gap - w[row][0] * lambda[0] - w[row][1] * lambda[1];
                 prop_assert!(lambda[row] <= 0.0);
                 prop_assert!(left >= -1e-13);
                 prop_assert!((left * lambda[row]).abs() < 1e-11);
             }
             rows.begin(|_| false);
             rows.pivot(SINGULAR).unwrap();
-            for row in 0..2 {
+            for (general, lambda) in rows.multipliers.iter().zip(lambda) {
                 // The condition number of W bounds what round-off may change.
-                prop_assert!((rows.multipliers[row] - lambda[row]).abs() < 1e-11);
+                prop_assert!((general - lambda).abs() < 1e-11);
             }
         }
     }

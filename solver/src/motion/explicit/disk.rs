@@ -18,12 +18,12 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::drive::EngineOrderTorque;
+use super::fixed::Fixed;
 use super::oscillator::{Coordinate, Oscillator};
-use super::shapes::{Four, Label, Shapes, dot};
-use crate::model::{ContactPolygon, Machine, blade_frequency, gcd};
-use crate::numeric::normal::normals;
-use crate::scene::{ModelSize, Scene};
-use crate::tolerances::{ANGLE_LOOK, LARGEST_BLADE_ANGLE, TIP_SLACK};
+use super::shapes::{Four, Label, dot};
+use crate::model::{Machine, blade_frequency};
+use crate::scene::Scene;
+use crate::tolerances::LARGEST_BLADE_ANGLE;
 
 /// Coordinates of four modes and the coefficients of their recurrence, see [`Oscillator`].
 #[derive(Clone, Copy, Debug, Default)]
@@ -55,36 +55,6 @@ pub(super) struct Disk {
     largest: f64,
     /// Lower bound on how far every angle is below it \[rad\].
     room: f64,
-}
-
-/// What does not change during a run.
-#[derive(Debug)]
-struct Fixed {
-    labels: Vec<Label>,
-    /// Stiffness of each mode at rest \[N m/rad\].
-    still: Vec<f64>,
-    /// Shapes at blades that differ, and at rows.
-    blades: Arc<Shapes>,
-    rows: Arc<Shapes>,
-    /// Blades that are one in `blades`, as nothing tells them apart.
-    alike: u32,
-    per_row: u32,
-    /// Phases of the blades in the modes of a pair.
-    phases: ContactPolygon,
-    /// Whether there are only the modes of one number of diameters, or none.
-    is_pair: bool,
-    /// Angle of a row per unit torque `distance` rows away; none of a pair \[rad/(N m)\].
-    influence: Vec<f64>,
-    /// Largest angle of a blade per unit torque on another or itself \[rad/(N m)\].
-    most_turned: f64,
-    /// Stiffness of each blade beyond that of the tuned disk; none if tuned \[N m/rad\].
-    springs: Vec<f64>,
-    /// Modes and signs of `alpha_c` and `alpha_s`.
-    shown: [Option<(usize, f64)>; 2],
-    /// Steps between two looks at all blades, at most.
-    steps_unseen: u32,
-    /// Change of an angle after which all blades are looked at \[rad\].
-    most_slack: f64,
 }
 
 /// Angles of all blades when they were last looked at, and how far they may be from them since.
@@ -197,12 +167,12 @@ impl Disk {
         let mut moved = [0.0; 4];
         for four in &mut self.modes {
             four.before = four.increment;
-            for k in 0..4 {
+            (0..4).for_each(|k| {
                 four.increment[k] = four.ratio[k] * four.increment[k] - four.pull[k] * four.x[k]
                     + four.compliance[k] * four.felt[k];
                 four.x[k] += four.increment[k];
                 moved[k] += four.increment[k].abs();
-            }
+            });
             four.felt = [0.0; 4];
         }
         if !self.fixed.is_pair {
@@ -326,11 +296,11 @@ impl Disk {
         }
         let shapes: Cow<'_, [Four]> = fixed.rows.row(row);
         for (four, shape) in modes.iter_mut().zip(shapes.iter()) {
-            for k in 0..4 {
+            (0..4).for_each(|k| {
                 let change = four.compliance[k] * shape[k] * torque;
                 four.x[k] += change;
                 four.increment[k] += change;
-            }
+            });
         }
         let change = fixed.most_turned * torque.abs();
         self.has_moved(change);
@@ -566,10 +536,10 @@ impl Disk {
     pub fn flows(&self) -> [f64; 2] {
         let mut loss = [0.0; 4];
         for four in &self.modes {
-            for k in 0..4 {
+            (0..4).for_each(|k| {
                 let moved = four.increment[k] + four.before[k];
                 loss[k] += four.lost[k] * moved * moved;
-            }
+            });
         }
         let moved = |m: usize| self.modes[m / 4].increment[m % 4] + self.modes[m / 4].before[m % 4];
         let work: f64 = self.driven.iter().map(|&(m, torque)| 0.5 * torque * moved(m)).sum();
@@ -638,133 +608,6 @@ impl Disk {
         }
         (now, bound.max(now))
     }
-}
-
-impl Fixed {
-    fn new(scene: &Scene, machine: &Machine, most_alike: u32) -> Self {
-        let (disk, polygon) = (&scene.disk_in_use(), &machine.polygon);
-        let (blades, group) = (polygon.blades, polygon.blades_per_side);
-        let diameters = disk.diameters_beside(polygon.nodal_diameters);
-        let springs = springs(scene);
-        let driven = EngineOrderTorque::of(scene).map_or(0, |torque| torque.order());
-        let alike = match scene.solver.model {
-            ModelSize::Rigid => blades,
-            ModelSize::Modal => gcd(blades, diameters),
-            ModelSize::Full if machine.is_uneven() || !springs.is_empty() => 1,
-            ModelSize::Full => gcd(gcd(group, driven), most_alike),
-        };
-        let per_row = match scene.solver.model {
-            _ if machine.is_uneven() => 1,
-            // Tips without a slope share a push evenly, as only their sum is determined.
-            _ if machine.radial_coupling == 0.0 => group,
-            ModelSize::Rigid => group,
-            ModelSize::Modal => gcd(group, diameters),
-            ModelSize::Full if springs.is_empty() => alike,
-            ModelSize::Full => 1,
-        };
-        let label = |diameters: u32, is_sine: bool| {
-            let is_alone = (2 * u64::from(diameters)).is_multiple_of(u64::from(blades));
-            Label { diameters, is_sine, is_alone }
-        };
-        let both = |diameters: u32| {
-            let [cosine, sine] = [false, true].map(|is_sine| label(diameters, is_sine));
-            if sine.is_alone { vec![cosine] } else { vec![cosine, sine] }
-        };
-        let labels: Vec<Label> = match scene.solver.model {
-            ModelSize::Rigid => Vec::new(),
-            ModelSize::Modal => both(diameters),
-            ModelSize::Full => (0..=blades / alike / 2).flat_map(|k| both(alike * k)).collect(),
-        };
-        let is_pair = scene.solver.model != ModelSize::Full;
-        let members = Arc::new(Shapes::new(&labels, blades, alike, blades / alike, !is_pair));
-        let rows = if per_row == alike {
-            members.clone()
-        } else {
-            Arc::new(Shapes::new(&labels, blades, per_row, blades / per_row, false))
-        };
-        let still = labels.iter().map(|label| {
-            let mass = if label.is_alone { 1.0 } else { 0.5 } * f64::from(blades);
-            let omega = blade_frequency(disk, label.diameters);
-            omega * omega * mass * disk.inertia_kg_m2
-        });
-        Self {
-            still: still.collect(),
-            shown: match is_pair {
-                true => shown(&labels, blades, diameters, true, machine.has_sine_mode),
-                false => {
-                    let diameters = polygon.nodal_diameters;
-                    shown(&labels, blades, diameters, false, machine.has_sine_mode)
-                }
-            },
-            labels,
-            blades: members,
-            rows,
-            alike,
-            per_row,
-            phases: ContactPolygon::new(blades, diameters, 1.0),
-            is_pair,
-            influence: Vec::new(),
-            most_turned: 0.0,
-            springs,
-            steps_unseen: 0,
-            most_slack: TIP_SLACK * machine.clearance().abs()
-                / (machine.radial_coupling * machine.blade_length).abs(),
-        }
-    }
-
-    /// Adds what follows from the oscillators, of which the fastest turns by `turn` in a step.
-    fn looked_at(mut self, turn: f64, oscillators: &[Oscillator]) -> Self {
-        self.steps_unseen = (ANGLE_LOOK / turn).clamp(1.0, 1e9) as u32;
-        if self.is_pair {
-            return self;
-        }
-        // A torque on row 0 or on blade 0, felt by the modes; the disk is the same from any row.
-        let of = |shapes: &Shapes| {
-            let first = shapes.row(0);
-            self.blades.all(|m| oscillators[m].compliance * first[m / 4][m % 4])
-        };
-        self.most_turned = of(&self.blades).iter().fold(0.0, |most, x| f64::max(most, x.abs()));
-        let (turned, rows) = (of(&self.rows), self.rows.count());
-        let mean = |row: usize| {
-            let each = (0..self.per_row as usize).map(|k| turned[(row + k * rows) % turned.len()]);
-            each.sum::<f64>() / f64::from(self.per_row)
-        };
-        self.influence = (0..rows).map(mean).collect();
-        self
-    }
-}
-
-/// Returns the modes of `alpha_c` and `alpha_s` with their signs: more diameters than half of the
-/// blades are those of fewer, seen from blade to blade.
-fn shown(
-    labels: &[Label],
-    blades: u32,
-    diameters: u32,
-    is_pair: bool,
-    has_sine: bool,
-) -> [Option<(usize, f64)>; 2] {
-    let alias = if is_pair { diameters } else { diameters % blades };
-    let folded = if is_pair { alias } else { alias.min(blades - alias) };
-    let find = |is_sine: bool| {
-        labels.iter().position(|label| label.diameters == folded && label.is_sine == is_sine)
-    };
-    let sign = if alias == folded { 1.0 } else { -1.0 };
-    [find(false).map(|m| (m, 1.0)), find(true).filter(|_| has_sine).map(|m| (m, sign))]
-}
-
-/// Returns the stiffness of each blade beyond `k_b`, `sd x_i k_b` with `x_i` standard normal less
-/// their mean, so that `k_b` is the mean stiffness \[N m/rad\]; none for a tuned disk.
-fn springs(scene: &Scene) -> Vec<f64> {
-    let disk = &scene.disk_in_use();
-    if disk.mistuning == 0.0 || scene.solver.model != ModelSize::Full {
-        return Vec::new();
-    }
-    let drawn = normals(disk.mistuning_seed, disk.blades);
-    let mean = drawn.iter().sum::<f64>() / f64::from(disk.blades);
-    // A spring may be soft, and none pushes away.
-    let softest = drawn.iter().fold(0.0, |most: f64, x| most.max(mean - x));
-    let spread = disk.stiffness_nm_per_rad * disk.mistuning.min(1.0 / softest);
-    drawn.into_iter().map(|x| spread * (x - mean)).collect()
 }
 
 /// Returns the size of an angle; what is no number is beyond any bound.

@@ -3,8 +3,8 @@
 //! happens, second order on a lining.
 //!
 //! One step serves every scene; the paper's is that without slope, friction and restitution
-//! (`kappa = mu = e = 0`). Read `oscillator` (one coordinate), `disk` (the blades as oscillators
-//! and their shapes), `row` (gap and directions of a tip), `step` (section 4.2 of the paper line
+//! (`kappa = mu = e = 0`). Read `oscillator` (one coordinate), `disk` with `fixed` and `shapes` (the
+//! blades as oscillators and their shapes), `row` (gap and directions of a tip), `step` (section 4.2 of the paper line
 //! by line), `lining` (a push by the gap in place of the multiplier), `strides` (many steps at once); then `drive`, `record` and
 //! `lasting` (what drives a motion and what it leaves behind), `changes` (a machine that changes on
 //! the way), `rest` and `proofs` (verdicts before the end). `solver` puts them together.
@@ -12,6 +12,7 @@
 mod changes;
 mod disk;
 mod drive;
+mod fixed;
 mod lasting;
 mod lining;
 mod oscillator;

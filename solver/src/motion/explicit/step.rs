@@ -36,7 +36,7 @@ impl Explicit {
         Ok(())
     }
 
-    /// 1. Predicts casing and blades, Eq. (10), under pulse, excitation and lining.
+    /// Step 1: predicts casing and blades, Eq. (10), under pulse, excitation and lining.
     #[inline]
     fn predict(&mut self, force: f64) {
         let push = self.lining_push();
@@ -72,7 +72,7 @@ impl Explicit {
         self.meet(z, turn, &tips)
     }
 
-    /// 2. to 4. Finds the tips that penetrate at the prediction, and corrects it.
+    /// Steps 2 to 4: finds the tips that penetrate at the prediction, and corrects it.
     fn meet(&mut self, z: Plane, turn: Plane, tips: &TipLaw) -> Result<(), FailureReason> {
         let highest = self.highest_target();
         let (deepest, next) = self.gather(z, tips, highest);
@@ -109,7 +109,7 @@ impl Explicit {
         self.check_length()
     }
 
-    /// 2. Makes rows of the tips whose gaps may be below `reach`, Eq. (11). Returns how far the
+    /// Step 2: makes rows of the tips whose gaps may be below `reach`, Eq. (11). Returns how far the
     /// deepest is beyond its target, and a lower bound on the gaps of all other tips.
     fn gather(&mut self, z: Plane, tips: &TipLaw, reach: f64) -> (f64, f64) {
         self.rows.clear();
@@ -207,7 +207,7 @@ impl Explicit {
         depth
     }
 
-    /// 3. Finds the multipliers of the first `count` rows, Eqs. (12)-(13a).
+    /// Step 3: finds the multipliers of the first `count` rows, Eqs. (12)-(13a).
     fn find_multipliers(&mut self, count: usize, tips: &TipLaw) -> Result<(), FailureReason> {
         // Rows that may only push are closed one by one.
         if count > MOST_ROWS && (self.law.pulls() || tips.rise != 0.0) {
@@ -251,7 +251,7 @@ impl Explicit {
         if rows.iter().all(good) { Ok(()) } else { Err(FailureReason::Singular { rows: count }) }
     }
 
-    /// 4. Corrects casing and blades by the multipliers, Eq. (13b), and records what is left of
+    /// Step 4: corrects casing and blades by the multipliers, Eq. (13b), and records what is left of
     /// the gaps and where energy went.
     fn correct(&mut self, z: Plane, turn: Plane, tips: &TipLaw) {
         let mut shift = Plane::default();

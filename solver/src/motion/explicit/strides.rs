@@ -362,8 +362,9 @@ impl Explicit {
             return None;
         }
         let steps = match sides {
-            ActiveSet::Nothing => self.fly(target - self.n),
-            ActiveSet::Side(_) | ActiveSet::Corner(..) => self.hold(target - self.n),
+            // The last step is taken, so that the pushes are those of a step.
+            ActiveSet::Nothing => self.fly(target - self.n - 1),
+            ActiveSet::Side(_) | ActiveSet::Corner(..) => self.hold(target - self.n - 1),
             ActiveSet::Many => None,
         };
         if steps.is_none() {
