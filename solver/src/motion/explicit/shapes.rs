@@ -30,8 +30,9 @@ pub(super) struct Label {
 #[derive(Debug)]
 pub(super) struct Shapes {
     labels: Vec<Label>,
-    /// Blades of the disk, and those of a place: `place`, `place + count`, ...
-    blades: u32,
+    /// Fractions of a turn, one a blade of the disk.
+    turn: Vec<(f64, f64)>,
+    /// Blades of a place: `place`, `place + count`, ...
     each: u32,
     count: usize,
     width: usize,
@@ -63,7 +64,8 @@ impl Shapes {
             Transforms { to_blades, to_modes: planner.plan_fft_forward(count) }
         });
         let labels = labels.to_vec();
-        let mut shapes = Self { labels, blades, each, count, width, table: Vec::new(), ring };
+        let turn = (0..blades).map(|blade| fraction_of_turn(blade, blades)).collect();
+        let mut shapes = Self { labels, turn, each, count, width, table: Vec::new(), ring };
         if count * width <= SHAPES_KEPT {
             shapes.table = (0..count).flat_map(|place| shapes.compute(place)).collect();
         }
@@ -98,8 +100,8 @@ impl Shapes {
         for (m, label) in self.labels.iter().enumerate() {
             let at = |k: u32| {
                 let blade = place as u64 + u64::from(k) * self.count as u64;
-                let turned = u64::from(label.diameters) * blade % u64::from(self.blades);
-                let (cos, sin) = fraction_of_turn(turned as u32, self.blades);
+                let turned = u64::from(label.diameters) * blade % self.turn.len() as u64;
+                let (cos, sin) = self.turn[turned as usize];
                 if label.is_sine { sin } else { cos }
             };
             row[m / 4][m % 4] = (0..self.each).map(at).sum::<f64>() / f64::from(self.each);
