@@ -23,7 +23,7 @@ use num_dual::Dual64;
 use super::{Corner, Form, Locked};
 use crate::model::{LockWindow, Machine, Number};
 use crate::numeric::bisection::bisected;
-use crate::numeric::real_roots::real_roots;
+use crate::numeric::real_roots::{Coefficients, Point, product, real_roots, sum};
 use crate::tolerances::{FLUTTER_FURTHEST, FLUTTER_STRIDE};
 
 /// Coupling of blades and casing at one rotor speed.
@@ -324,7 +324,7 @@ impl<T: Number> HeldPair<T> {
     /// With friction the imaginary part gives `x` as a function of `y`, and the real part becomes a
     /// quartic in `y`. Two Newton steps polish its roots and attach the derivatives.
     fn limits_with_friction(&self) -> Vec<T> {
-        let roots = real_roots(|y| self.quartic(y), &[-1.0, 0.0, 1.0]);
+        let roots = real_roots(&|from, to| self.quartic(from, to), &[-1.0, 0.0, 1.0]);
         let refined = |root: f64| {
             let mut y = T::from(root);
             for _ in 0..2 {
@@ -353,13 +353,21 @@ impl<T: Number> HeldPair<T> {
         value / slope
     }
 
-    /// Returns the real part times the square of `2 c zeta_c`, a quartic of `y`.
-    fn quartic(&self, y: f64) -> f64 {
+    /// Returns the real part times the square of `2 c zeta_c`, a quartic of `y` between two
+    /// points.
+    fn quartic(&self, from: Point, to: Point) -> Coefficients {
         let [c, casing, blades, mu] =
             [self.coupling, self.casing, self.blades, self.friction].map(|part| part.re());
-        let x = blades * y + mu * (1.0 - y * y);
+        let mixed = |u: Point, v: Point| 0.5 * (u.p * v.q + v.p * u.q);
+        let one = Coefficients::quadratic(from, to, |u, v| u.q * v.q);
+        let x = Coefficients::quadratic(from, to, |u, v| {
+            blades * mixed(u, v) + mu * (u.q * v.q - u.p * v.p)
+        });
+        let rest = Coefficients::quadratic(from, to, |u, v| {
+            (c + 1.0) * u.q * v.q - u.p * v.p - mu * blades * mixed(u, v)
+        });
         let weight = c * casing;
-        weight * weight * (c + 1.0 - y * y - mu * blades * y) - c * x * x
+        sum(weight * weight, &product(&rest, &one), -c, &product(&x, &x))
     }
 
     /// Without damping of the casing the imaginary part is a quadratic in `y`, and the real part

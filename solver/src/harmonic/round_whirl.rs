@@ -3,10 +3,12 @@
 //! frequency, and the rotor speeds at which it begins. These are folds, where an attracting wave
 //! and its threshold appear as a pair.
 //!
-//! The distance between tips and casing, `w = z - kappa l_b a`, has constant size and
-//! turns at `s` in the frame of the blades; `p = w/B(omega)` must point against it, so
-//! `Im B = 0` and `Re B < 0`. `Im B |casing|^2 |blades|^2` is a polynomial of degree six
-//! in `omega`, whose real roots are found by a scan.
+//! The relative displacement of casing and tips, `w = z - kappa l_b a`, has a constant magnitude
+//! and turns at `s` in the blade frame. The force `p = w/B(omega)` must point against it, so
+//! `Im B = 0` and `Re B < 0`. `Im B |L_c|^2 |L_a|^2` is a polynomial of degree six in `omega`, all
+//! of whose roots are found.
+//!
+//! Read [`round_whirls`] (the waves at a speed), then [`whirl_onsets`] (the folds over speed).
 
 use nalgebra::{Complex, DMatrix};
 use serde::Serialize;
@@ -15,7 +17,7 @@ use super::joint::Joint;
 use crate::model::{Machine, Number};
 use crate::numeric::bisection::bisected;
 use crate::numeric::eigen::eigenvalues;
-use crate::numeric::real_roots::real_roots;
+use crate::numeric::real_roots::{Coefficients, Point, product, real_roots, sum};
 use crate::tolerances::{
     BESIDE_A_FOLD, BRANCH_CHANGES, ONSET_FURTHEST, ONSET_STRIDE, REAL_COMPLIANCE,
 };
@@ -23,7 +25,7 @@ use crate::tolerances::{
 /// A wave that runs round both structures, per unit of `|w|`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct RoundWhirl {
-    /// Frequency in the stationary frame; negative if the wave turns backward \[rad/s\].
+    /// Frequency in the stationary frame; negative turns backward \[rad/s\].
     pub omega_rad_s: f64,
     /// Frequency in the blade frame, `s = omega - nu`; negative if the contact passes backward over
     /// the blades of a rotor that turns forward \[rad/s\].
@@ -52,7 +54,7 @@ pub fn round_whirls(joint: &Joint) -> Vec<RoundWhirl> {
         return Vec::new();
     }
     let scaled = Scaled::new(joint);
-    let resonances = [
+    let breaks = [
         0.0,
         1.0,
         -1.0,
@@ -60,7 +62,7 @@ pub fn round_whirls(joint: &Joint) -> Vec<RoundWhirl> {
         scaled.turn + scaled.blade_rate,
         scaled.turn - scaled.blade_rate,
     ];
-    let roots = real_roots(|x| scaled.imaginary(x), &resonances);
+    let roots = real_roots(&|from, to| scaled.imaginary(from, to), &breaks);
     let waves = roots.iter().filter_map(|root| scaled.wave(joint, root * machine.omega_c));
     let mut waves: Vec<RoundWhirl> = waves.collect();
     waves.sort_by(|a, b| a.stiffness_n_per_m.total_cmp(&b.stiffness_n_per_m));
@@ -106,8 +108,7 @@ impl RoundWhirl {
         }
     }
 
-    /// Returns the stiffest of these waves that attracts; `None` if none does. The waves are given
-    /// by increasing stiffness.
+    /// Returns the stiffest wave that attracts.
     #[must_use]
     pub fn lasting(waves: &[Self]) -> Option<Self> {
         waves.iter().rev().find(|wave| wave.attracts).copied()
@@ -120,11 +121,8 @@ struct Scaled {
     turn: f64,
     /// Blade frequency, `omega_bd/omega_c`.
     blade_rate: f64,
-    /// Twice the damping ratio of the casing, `2 zeta_c`.
     casing_damping: f64,
-    /// Twice the damping ratio of the blades, `2 zeta_bd`.
     blade_damping: f64,
-    /// Friction on the casing mode, `mu_c`; negative for backward rotation.
     casing_friction: f64,
     /// Coupling, `c2 k_c/k_a`.
     coupling: f64,
@@ -144,19 +142,30 @@ impl Scaled {
         }
     }
 
-    /// Returns `Im B |casing|^2 |blades|^2` at the casing frequency `x`.
-    fn imaginary(&self, x: f64) -> f64 {
-        // Frequency in the blade frame, in units of `omega_bd`.
-        let y = (x - self.turn) / self.blade_rate;
-        let casing = [1.0 - x * x, self.casing_damping * x];
-        let blades = [1.0 - y * y, self.blade_damping * y];
-        let square = |[re, im]: [f64; 2]| re * re + im * im;
-        (self.casing_friction * casing[0] - casing[1]) * square(blades)
-            - self.coupling * blades[1] * square(casing)
+    /// Returns `Im B |L_c|^2 |L_a|^2` on an interval of frequencies.
+    fn imaginary(&self, from: Point, to: Point) -> Coefficients {
+        // Frequency seen by the blades, y = s/omega_bd.
+        let seen = |u: Point| (u.p - self.turn * u.q) / self.blade_rate;
+        let stiff = |x: f64, y: f64, u: Point, v: Point| u.q * v.q - x * y;
+        let drag = |x: f64, y: f64, u: Point, v: Point| 0.5 * (x * v.q + y * u.q);
+        let quadratic = |of: &dyn Fn(Point, Point) -> f64| Coefficients::quadratic(from, to, of);
+        let casing = [
+            quadratic(&|u, v| stiff(u.p, v.p, u, v)),
+            quadratic(&|u, v| self.casing_damping * drag(u.p, v.p, u, v)),
+        ];
+        let blades = [
+            quadratic(&|u, v| stiff(seen(u), seen(v), u, v)),
+            quadratic(&|u, v| self.blade_damping * drag(seen(u), seen(v), u, v)),
+        ];
+        let square =
+            |[re, im]: &[Coefficients; 2]| sum(1.0, &product(re, re), 1.0, &product(im, im));
+        let driven = sum(self.casing_friction, &casing[0], -1.0, &casing[1]);
+        let casing_part = product(&driven, &square(&blades));
+        let blade_part = product(&blades[1], &square(&casing));
+        sum(1.0, &casing_part, -self.coupling, &blade_part)
     }
 
-    /// Returns the wave at a root `omega` \[rad/s\]; `None` if it would have to pull, at an
-    /// undamped resonance, and if its growth rate cannot be computed.
+    /// Returns the wave at a root \[rad/s\]; `None` if it would have to pull.
     fn wave(&self, joint: &Joint, omega: f64) -> Option<RoundWhirl> {
         let compliance = joint.compliance(omega);
         // At an undamped resonance both parts of B change sign through infinity; such roots are
@@ -180,8 +189,7 @@ impl Scaled {
         })
     }
 
-    /// Returns the growth rate of the least stable small motion about a wave, in units of
-    /// `omega_c`; `None` if the eigenvalues cannot be computed. If the wave
+    /// Returns the growth rate of small motions about a wave, in units of `omega_c`. If the wave
     /// runs slightly ahead, the contact force keeps its direction; with `G = 1/B` and the growth
     /// rate `l`, `G(x - i l) + conj G(x - i conj l) = 2 G(x)`. One root is zero, the shift in time,
     /// and is removed.
@@ -238,7 +246,7 @@ fn convolved(a: &[Complex<f64>], b: &[Complex<f64>]) -> Vec<Complex<f64>> {
 pub struct WhirlOnset {
     /// Rotor speed; negative for backward rotation \[rad/s\].
     pub speed_rad_s: f64,
-    /// Whether the pair exists at speeds of larger magnitude and not at those of smaller magnitude.
+    /// Whether the pair exists above this speed and not below.
     pub appears: bool,
     /// One of the two waves, which are equal there.
     pub wave: RoundWhirl,
@@ -270,7 +278,7 @@ fn beginnings<T: Number>(machine: &Machine<T>, toward: f64, first: bool) -> Vec<
     onsets.filter(|onset| onset.appears).filter_map(|onset| derived(machine, &onset)).collect()
 }
 
-/// Attaches derivatives to the speed of a fold; `None` if the lining is too soft for its wave.
+/// Attaches derivatives to the speed of a fold.
 fn derived<T: Number>(machine: &Machine<T>, onset: &WhirlOnset) -> Option<T> {
     // The wave stiffness of a lining never exceeds N k/4 by lift-off for half of each revolution.
     let softest = machine.lining.map(|lining| lining.stiffness_n_per_m.re());
@@ -371,8 +379,7 @@ fn changes(
     found
 }
 
-/// Returns the stiffer of the two waves, neighbours in stiffness, that are nearest to each other in
-/// frequency; `None` for fewer than two waves.
+/// Returns the stiffer of the two waves that are nearest to each other in frequency.
 fn closest(waves: &[RoundWhirl]) -> Option<RoundWhirl> {
     let apart = |pair: &[RoundWhirl]| match pair {
         [one, other] => (one.omega_rad_s - other.omega_rad_s).abs(),

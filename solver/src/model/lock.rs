@@ -17,7 +17,7 @@
 //! condition as a polynomial).
 
 use super::{Machine, Number};
-use crate::numeric::real_roots::real_roots;
+use crate::numeric::real_roots::{Coefficients, Point, product, real_roots, sum};
 
 /// Range of rotor speeds at which pushes alone hold a lock, or at which it flutters. Both ends are
 /// magnitudes.
@@ -336,9 +336,35 @@ impl<T: Number> Balance<T> {
     /// Returns every positive `x` at which one of the two pushes vanishes, with the index of its
     /// side.
     fn ends(&self) -> Vec<(f64, usize)> {
+        let (damping, friction, coupling) =
+            (self.damping.re(), self.friction.re(), self.coupling.re());
+        let stiffening = self.stiffening.re();
+        let on = |(own, sign): (f64, f64)| {
+            move |from: Point, to: Point| -> Coefficients {
+                let quadratic =
+                    |of: &dyn Fn(Point, Point) -> f64| Coefficients::quadratic(from, to, of);
+                let one = quadratic(&|u, v| u.q * v.q);
+                let stiff = quadratic(&|u, v| u.q * v.q - u.p * v.p);
+                let drag = quadratic(&|u, v| 0.5 * damping * (u.p * v.q + v.p * u.q));
+                let square = sum(1.0, &product(&stiff, &stiff), 1.0, &product(&drag, &drag));
+                let alone = sum(
+                    own - sign * friction,
+                    &product(&stiff, &one),
+                    own * friction + sign,
+                    &product(&drag, &one),
+                );
+                if stiffening == 0.0 {
+                    return sum(1.0, &alone, own * coupling + self.lining.re(), &square);
+                }
+                let stiffer = quadratic(&|u, v| u.q * v.q + stiffening * u.p * v.p);
+                let rigid = sum(1.0, &alone, self.lining.re(), &square);
+                let tips = product(&one, &square);
+                sum(1.0, &product(&stiffer, &rigid), own * coupling, &tips)
+            }
+        };
         let mut ends = Vec::new();
-        for side in [0, 1] {
-            let roots = real_roots(|x| self.at(T::from(x), side).0.re(), &[0.0, 1.0]);
+        for (side, (own, sign)) in self.sides.iter().enumerate() {
+            let roots = real_roots(&on((own.re(), sign.re())), &[0.0, 1.0]);
             ends.extend(roots.into_iter().filter(|x| *x > 0.0).map(|x| (x, side)));
         }
         ends.sort_by(|a, b| a.0.total_cmp(&b.0));

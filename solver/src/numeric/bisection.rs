@@ -6,9 +6,9 @@
 
 use std::convert::Infallible;
 
-/// Largest number of halvings: enough to get from any interval that occurs to two adjacent
-/// floating-point numbers.
-const MOST_HALVINGS: usize = 200;
+/// Enough to reduce any interval that occurs to adjacent floating-point numbers, whatever the
+/// scales of its ends.
+pub(crate) const MOST_HALVINGS: usize = 200;
 
 /// As [`bisected`], but stops at the relative width `part` of the far end, and with a predicate
 /// that can fail.
