@@ -1,7 +1,7 @@
 //! Writing files completely or not at all, and reading them within a limit.
 //!
 //! The content goes to a hidden file in the same folder, which gets the name once it is
-//! complete and on the disk. A kill can leave the hidden file, never half of a named one.
+//! complete and on the disk. A signal can leave the hidden file, never half of a named one.
 
 use std::fs::{File, Metadata, Permissions};
 use std::io::{BufWriter, Error, ErrorKind, Result, Write};
