@@ -39,7 +39,6 @@
 //! # Ok::<(), rubscope_solver::scene::SceneError>(())
 //! ```
 
-pub mod contact;
 pub mod harmonic;
 pub mod model;
 pub mod motion;

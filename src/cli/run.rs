@@ -13,7 +13,7 @@ use super::{Done, output, sign};
 use crate::report::history::HISTORY_VALUES;
 use crate::report::{CommandLine, History, Wall, json, summary};
 use rubscope_solver::motion::{CHANGED_RUNS, Sample, Sampling, Verdict, run_to_end, to_the_end};
-use rubscope_solver::scene::{Scene, Shortcuts, SolverKind};
+use rubscope_solver::scene::{Scene, SolverKind};
 
 /// Simulate a scene in time and report how it ends.
 #[derive(Args, Debug)]
@@ -52,7 +52,7 @@ impl RunCommand {
                 let reason = "--plain: of --solver explicit only; the event solver has no steps";
                 return Err(Refusal::because(reason).into());
             }
-            scene = scene.with_shortcuts(Shortcuts::NONE);
+            scene = scene.by_every_step();
         }
         let script = RequestedScript::resolve(&script::parse(&self.at)?, &scene)?;
         let acts = script.changes();

@@ -123,9 +123,6 @@ fn basis(basis: Basis) -> String {
                 Proof::HeldCorner => {
                     format!("no force of the blades that hold since {since} can change its sign")
                 }
-                Proof::LinearRest => {
-                    format!("all blades press since {since}, where a wave this small dies")
-                }
             };
             format!("The verdict is proved: {why}.")
         }

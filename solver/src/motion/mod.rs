@@ -34,7 +34,7 @@ pub use run::{
 pub use script::{Change, Script};
 pub use sensitivity::{CHANGED_RUNS, Certainty, Spread, certainty, run_with_certainty};
 pub use solver::{GoOn, Motion, Solver, to_the_end};
-pub use verdict::{Basis, Checks, Contact, LinearRest, Outcome, Proof, Verdict};
+pub use verdict::{Basis, Checks, Contact, Outcome, Proof, Verdict};
 
 /// Point or vector in the plane of the two casing coordinates, as a complex number.
 type Plane = nalgebra::Complex<f64>;

@@ -295,10 +295,7 @@ fn basis(motion: &Motion, verdict: Verdict, window: f64) -> Option<Basis> {
             return Some(Basis::Judged { from_s: (to_s - window).max(0.0), to_s });
         }
         Verdict::Locked | Verdict::Adhesive => (Proof::HeldCorner, log.since),
-        _ => match motion.linear_rest() {
-            Some(rest) => (Proof::LinearRest, rest.since_s),
-            None => (Proof::NoContact, log.last_contact.unwrap_or(0.0)),
-        },
+        _ => (Proof::NoContact, log.last_contact.unwrap_or(0.0)),
     };
     Some(Basis::Proved { by, since_s })
 }
@@ -311,7 +308,7 @@ fn decay_rate(motion: &Motion, verdict: Verdict) -> Option<f64> {
     }
     let machine = motion.machine();
     let free = || motion.over().then_some(machine.casing_damping_ratio * machine.omega_c);
-    motion.linear_rest().map(|rest| rest.rate_per_s).or_else(free)
+    motion.rest_rate().or_else(free)
 }
 
 /// Runs a scene to its end, and determines whether the outcome is sensitive and which digits are

@@ -3,14 +3,14 @@
 use std::fmt::Debug;
 use std::ops::{Deref, DerefMut};
 
-use super::explicit::{Explicit, FullBlades, ModalBlades, RigidBlades};
+use super::explicit::Explicit;
 use super::verdict::judge;
 use super::{
-    Checks, ContactLog, EnergyAccount, ExactEvents, Failure, FailureReason, LinearEvents,
-    LinearRest, Plane, Pulse, Rotor, State, Verdict,
+    Checks, ContactLog, EnergyAccount, ExactEvents, Failure, FailureReason, LinearEvents, Plane,
+    Pulse, Rotor, State, Verdict,
 };
 use crate::model::Machine;
-use crate::scene::{CheckedScene, ModelSize, SolverKind};
+use crate::scene::{CheckedScene, SolverKind};
 use crate::tolerances::WHIRL_SWING;
 
 /// Callback that decides during the computation whether to continue, for example a flag set by a
@@ -96,9 +96,10 @@ pub trait Solver: Debug + Send + Sync {
     /// open. `None` until then.
     fn final_verdict(&self) -> Option<Verdict>;
 
-    /// Returns the linear motion about rest, if it is known and all blades have been in contact
-    /// with a lining at constant speed for a whole beat period.
-    fn linear_rest(&self) -> Option<LinearRest> {
+    /// The rate at which the slowest wave that moves the tips in a lining dies, where all blades
+    /// press it at constant speed and stay so through the whole beat; negative where it grows, 0
+    /// where it does neither beyond round-off \[1/s\].
+    fn rest_rate(&self) -> Option<f64> {
         None
     }
 
@@ -240,12 +241,10 @@ impl Motion {
     /// Starts the motion of a scene at t = 0, with its solver and model size.
     #[must_use]
     pub fn new(scene: &CheckedScene) -> Self {
-        match (scene.solver.kind, scene.solver.model) {
-            (SolverKind::Event, _) if scene.has_other_tips() => LinearEvents::new(scene).into(),
-            (SolverKind::Event, _) => ExactEvents::of(scene).into(),
-            (SolverKind::Explicit, ModelSize::Rigid) => Explicit::<RigidBlades>::new(scene).into(),
-            (SolverKind::Explicit, ModelSize::Modal) => Explicit::<ModalBlades>::new(scene).into(),
-            (SolverKind::Explicit, ModelSize::Full) => Explicit::<FullBlades>::new(scene).into(),
+        match scene.solver.kind {
+            SolverKind::Event if scene.has_other_tips() => LinearEvents::new(scene).into(),
+            SolverKind::Event => ExactEvents::of(scene).into(),
+            SolverKind::Explicit => Explicit::new(scene).into(),
         }
     }
 }

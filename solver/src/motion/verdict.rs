@@ -115,18 +115,6 @@ pub enum Proof {
     NoContact,
     /// The contact forces of the blades that hold the wave cannot change their signs.
     HeldCorner,
-    /// All blades are in contact with a lining, and a wave this small dies there.
-    LinearRest,
-}
-
-/// Linear motion about rest with all blades in contact with a lining.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LinearRest {
-    /// Decay rate of the slowest mode that moves the tips relative to the lining; negative if it
-    /// grows, 0 if it is neutral to round-off \[1/s\].
-    pub rate_per_s: f64,
-    /// Time since which all blades are in contact \[s\].
-    pub since_s: f64,
 }
 
 /// Outcome of a run.

@@ -3,6 +3,7 @@
 pub(crate) mod bisection;
 pub(crate) mod eigen;
 pub(crate) mod elimination;
+pub(crate) mod lcp;
 pub(crate) mod lyapunov;
 pub(crate) mod maximum;
 pub(crate) mod normal;

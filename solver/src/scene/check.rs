@@ -113,9 +113,8 @@ fn excitation(scene: &Scene) -> Result<(), SceneError> {
     let amplitude = scene.excitation.amplitude_nm;
     let allowed = match (scene.solver.kind, scene.solver.model) {
         (SolverKind::Event, _) => return check_no_excitation(scene),
-        (_, ModelSize::Modal) => return Ok(()),
+        (_, ModelSize::Modal | ModelSize::Full) => return Ok(()),
         (_, ModelSize::Rigid) => "0 with solver.model = \"rigid\", whose blades do not move",
-        (_, ModelSize::Full) => "0 with solver.model = \"full\"; with solver.model = \"modal\" any",
     };
     refuse_if(amplitude != 0.0, keys::EXCITATION, amplitude, allowed)
 }
@@ -245,11 +244,11 @@ mod tests {
     }
 
     #[test]
-    fn only_the_two_modes_take_an_excitation() {
+    fn blades_that_move_take_an_excitation() {
         for (model, said) in [
             (ModelSize::Rigid, Some("allowed is 0 with solver.model = \"rigid\"")),
             (ModelSize::Modal, None),
-            (ModelSize::Full, Some("allowed is 0 with solver.model = \"full\"")),
+            (ModelSize::Full, None),
         ] {
             let mut scene = Scene::base();
             (scene.solver.model, scene.excitation.amplitude_nm) = (model, 0.3);

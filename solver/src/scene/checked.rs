@@ -5,7 +5,7 @@ use std::ops::Deref;
 
 use serde::Serialize;
 
-use super::{ContactLaw, KEYS, ModelSize, Scene, SceneError, Shortcuts, SolverKind, check};
+use super::{ContactLaw, KEYS, ModelSize, Scene, SceneError, SolverKind, check};
 
 /// A scene whose keys and combinations of keys are all allowed.
 ///
@@ -78,10 +78,10 @@ impl CheckedScene {
         self.0
     }
 
-    /// Sets the shortcuts of the explicit solver.
+    /// Returns this scene, run by every step: one by one, and to the end.
     #[must_use]
-    pub fn with_shortcuts(mut self, shortcuts: Shortcuts) -> Self {
-        self.0.solver.shortcuts = shortcuts;
+    pub fn by_every_step(mut self) -> Self {
+        self.0.solver.plain = true;
         self
     }
 

@@ -521,7 +521,7 @@ keys! {
     INITIAL_U_S "initial.u_s_m" = real(Start, "m", "u_s at t = 0", false -1e3..1e3, initial.u_s_m);
     INITIAL_V_C "initial.v_c_m_s" = real(Start, "m/s", "rate of u_c at t = 0", false -1e6..1e6, initial.v_c_m_s);
     INITIAL_V_S "initial.v_s_m_s" = real(Start, "m/s", "rate of u_s at t = 0", false -1e6..1e6, initial.v_s_m_s);
-    EXCITATION "excitation.amplitude_nm" = real(Steps, "N m", "engine-order torque on each blade (modal model), 0 for none", false 0.0..1e9, excitation.amplitude_nm);
+    EXCITATION "excitation.amplitude_nm" = real(Steps, "N m", "engine-order torque on each blade, 0 for none", false 0.0..1e9, excitation.amplitude_nm);
     ENGINE_ORDER "excitation.order" = whole(Steps, "engine order of that torque", 1..4096, excitation.order);
     SOLVER "solver.kind" = word(Never, "solver", SolverKind, solver.kind);
     LAW "solver.contact" = word(Steps, "contact law", ContactLaw, solver.contact);

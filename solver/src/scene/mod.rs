@@ -15,9 +15,9 @@ mod doubts;
 mod error;
 mod file;
 pub mod keys;
+mod law;
 mod mode_table;
 mod modes;
-mod shortcuts;
 pub mod units;
 
 use serde::Serialize;
@@ -29,12 +29,11 @@ pub use checked::{Adjustment, CheckedScene};
 pub use error::SceneError;
 pub use file::read_text;
 pub use keys::{Allowed, KEYS, Key, Value};
+pub use law::ContactLaw;
 pub use mode_table::{ModeTable, read_modes};
 pub(crate) use modes::MOST_HZ;
-pub use shortcuts::Shortcuts;
 pub use units::Quantity;
 
-pub use crate::contact::ContactLaw;
 use crate::model::{
     BladedDisk, Casing, ContactSurface, Excitation, Initial, LiningLaw, Machine, Operation,
 };
@@ -80,9 +79,10 @@ pub struct SolverChoice {
     pub step_s: f64,
     /// End of the simulation \[s\].
     pub end_s: f64,
-    /// Shortcuts of the explicit solver; not a key of the scene file.
+    /// Whether the explicit solver takes every step, one by one, and the verdict is that of the
+    /// whole run; no key of a scene file.
     #[serde(skip)]
-    pub shortcuts: Shortcuts,
+    pub plain: bool,
 }
 
 impl Default for SolverChoice {
@@ -93,7 +93,7 @@ impl Default for SolverChoice {
             model: ModelSize::Modal,
             step_s: 1e-7,
             end_s: 0.1,
-            shortcuts: Shortcuts::default(),
+            plain: false,
         }
     }
 }

@@ -181,9 +181,6 @@ fn a_verdict_says_what_it_rests_on() {
     let Some(Basis::Judged { from_s, to_s }) = slip else { panic!("{verdict} {slip:?}") };
     assert_eq!(verdict, Verdict::Slip);
     assert!((from_s / to_s - 0.9).abs() < 1e-6, "{from_s} {to_s}");
-    let (verdict, lining, _) =
-        basis("coincidence", &[("operation.speed_rad_s", "390"), ("solver.end_s", "0.3")]);
-    assert_eq!((verdict, lining), (Verdict::Decay, proof(Proof::LinearRest, 0.0)));
     let (verdict, failed, _) = basis("paper-nd3", &[("solver.step_s", "1e-6")]);
     assert_eq!((verdict, failed), (Verdict::Failed, None));
 }

@@ -2,7 +2,7 @@
 
 use crate::keys::{LAW, MODEL, PULSE, SPEED, STEP};
 use rubscope_solver::motion::{Motion, RunReport, Sample, Sampling, Script, Verdict, run_to_end};
-use rubscope_solver::scene::{Scene, Shortcuts};
+use rubscope_solver::scene::Scene;
 
 /// Case A of the paper's machine: three diameters, 500 rad/s, 20 kN.
 pub fn scene(changes: &[(&str, &str)]) -> Scene {
@@ -23,31 +23,6 @@ fn with_three_sides_the_bilateral_law_chatters_up_to_the_adhesive_limit() {
             assert_eq!(found.outcome.verdict, verdict, "{speed} {contact}");
         }
     }
-}
-
-#[test]
-fn steps_are_taken_where_something_acts_and_skipped_in_between() {
-    // A pulse too weak to reach a blade acts on the steps 0 to 500.
-    let scene = scene(&[(PULSE, "1000")]).checked().unwrap();
-    let mut motion = Motion::new(&scene);
-    let counted = |motion: &Motion| {
-        let [taken, skipped] = [motion.steps_taken(), motion.steps_skipped()].map(Option::unwrap);
-        assert_eq!(motion.steps(), Some(taken + skipped));
-        [taken, skipped]
-    };
-    for (t, steps) in [(4e-5, [400, 0]), (0.01, [501, 99_499]), (0.05, [501, 499_499])] {
-        motion.advance(t).unwrap();
-        assert_eq!(counted(&motion), steps, "{t}");
-    }
-    motion.fire();
-    assert_eq!(counted(&motion), [501, 499_499]);
-    motion.advance(0.1).unwrap();
-    assert_eq!(counted(&motion), [1002, 998_998]);
-    // A lock that holds is skipped, too.
-    let report = run(&[(PULSE, "1e6"), (LAW, "bilateral")]);
-    let [taken, skipped] = [report.solver.steps, report.solver.steps_skipped].map(Option::unwrap);
-    assert_eq!(taken + skipped, 1_000_000);
-    assert!(taken < 2000, "{taken}");
 }
 
 #[test]
@@ -145,68 +120,5 @@ fn an_engine_order_moves_the_blades_and_hardly_the_lock() {
     assert_eq!(driven.outcome.verdict, Verdict::Locked);
     for (a, b) in quiet.outcome.contacts.iter().zip(&driven.outcome.contacts) {
         assert!((a.multiplier_n / b.multiplier_n - 1.0).abs() < 0.01, "{a:?} {b:?}");
-    }
-}
-
-/// A motion to its end, with leaps and step by step.
-fn leapt_and_stepped(changes: &[(&str, &str)]) -> [Motion; 2] {
-    [Shortcuts::default(), Shortcuts::NONE].map(|shortcuts| {
-        let scene = scene(changes).checked().unwrap().with_shortcuts(shortcuts);
-        let mut motion = Motion::new(&scene);
-        motion.advance(scene.solver.end_s).unwrap();
-        motion
-    })
-}
-
-#[test]
-fn a_lock_is_leapt_over_whatever_the_step_and_the_vibration_left_in_it() {
-    // The shorter steps leave phases of the blades below 1e-5 rad, 5e-7 s more.
-    for step in ["1e-7", "3e-7", "4e-7", "5e-7", "7e-7"] {
-        let end = ("solver.end_s", "0.012");
-        let both = leapt_and_stepped(&[(PULSE, "1e6"), (LAW, "bilateral"), (STEP, step), end]);
-        let [leapt, stepped] = &both;
-        assert!(leapt.steps_taken() < Some(600), "{step}: {:?}", leapt.steps_taken());
-        assert_eq!(stepped.steps_taken(), leapt.steps());
-        let [a, b] = both.each_ref().map(|motion| motion.state());
-        for (x, y) in a.u.iter().zip(b.u) {
-            assert!((x - y).abs() < 1e-13, "{step}: {x} {y}");
-        }
-        for (x, y) in a.alpha.iter().zip(b.alpha) {
-            assert!((x - y).abs() < 1e-14, "{step}: {x} {y}");
-        }
-    }
-}
-
-#[test]
-fn the_largest_blade_angle_of_a_lock_is_found_in_its_last_part_too() {
-    for changes in [
-        [
-            ("casing.damping_ratio", "0.026091164386023134"),
-            ("bladed_disk.stiffness_nm_per_rad", "1843"),
-            ("bladed_disk.coupling_nm_per_rad", "370"),
-            ("bladed_disk.inertia_kg_m2", "0.05839"),
-            ("casing.radius_m", "0.5000794"),
-            (STEP, "3.43e-7"),
-            ("operation.speed_rad_s", "498.269"),
-            (PULSE, "94191"),
-            ("solver.end_s", "0.009838"),
-        ],
-        [
-            ("casing.damping_ratio", "0.0346"),
-            ("bladed_disk.stiffness_nm_per_rad", "507.1"),
-            ("bladed_disk.coupling_nm_per_rad", "3000"),
-            ("bladed_disk.inertia_kg_m2", "0.0486"),
-            ("casing.radius_m", "0.5"),
-            (STEP, "2.35e-7"),
-            ("operation.speed_rad_s", "480.08"),
-            (PULSE, "419100"),
-            ("solver.end_s", "0.008571"),
-        ],
-    ] {
-        let undamped = [(LAW, "bilateral"), ("bladed_disk.damping_ratio", "1e-6")];
-        let both = leapt_and_stepped(&[&changes[..], &undamped].concat());
-        assert!(both[0].steps_skipped() > Some(10_000));
-        let [a, b] = both.each_ref().map(|motion| motion.checks().max_blade_angle_rad);
-        assert!((a - b).abs() <= 1e-8 * b, "{a:e} {b:e}");
     }
 }

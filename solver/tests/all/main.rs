@@ -10,7 +10,6 @@
 //! | closed forms | `explicit` `explicit_tip_locks` | `lock_ends` | `event_cases` | `event_linear` | `theory` `hbm_laws` `hbm_whirl` |
 //! | plain stepping, or integration | `plain_stepper` `rebound` | `explicit_lining` | `event_modal` | `rebound` | `hbm_time` `hbm_excitation` |
 //! | its order | `live_event` `rebound` | `explicit_lining` | `live_event` | `explicit_tips` | |
-//! | leaps are steps | `shortcuts` `sliding` `soft_locks` `plain_stepper` | | | | |
 //! | no pull, no energy made, mirrors | `motion_laws` | `motion_laws` | `event_laws` | `event_linear_laws` | `hbm_laws` |
 //! | sizes of the disk agree | `cases` | `explicit_lining` | | | |
 //! | live changes | `live_changes` `live_random` | `motion_laws` | `live_event` | `event_linear_laws` | |
@@ -53,8 +52,6 @@ mod pauses;
 mod plain;
 mod plain_stepper;
 mod rebound;
-mod shortcuts;
-mod sliding;
 mod soft_locks;
 mod tips_support;
 mod verdicts;

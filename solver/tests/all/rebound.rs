@@ -6,7 +6,7 @@ use crate::drawn;
 use proptest::prelude::*;
 use proptest::test_runner::{TestCaseError, TestRunner};
 use rubscope_solver::motion::Motion;
-use rubscope_solver::scene::{ModelSize, Scene, Shortcuts, SolverKind};
+use rubscope_solver::scene::{ModelSize, Scene, SolverKind};
 
 /// Steps of one scene, as parts of the shortest.
 const STEPS: [f64; 5] = [1.0, 1.11, 1.23, 1.37, 1.58];
@@ -168,7 +168,7 @@ fn a_change_on_the_way_loses_no_rebound() {
     scene.solver.model = ModelSize::Rigid;
     (scene.contact.restitution, scene.solver.step_s) = (0.8, 1e-6);
     // Every step is taken, so that a leap cut elsewhere rounds nothing else.
-    let checked = scene.checked().unwrap().with_shortcuts(Shortcuts::NONE);
+    let checked = scene.checked().unwrap().by_every_step();
     let mut changed = Motion::new(&checked);
     // The same parameters again, between any two steps of the first impact.
     for step in 222..242_u32 {

@@ -3,15 +3,12 @@
 //! blade, fixed in the standing frame, which only some modes feel (docs/theory.md,
 //! section 8).
 
-use crate::motion::{Pulse, Rotor};
+use crate::motion::{Plane, Pulse, Rotor};
 use crate::scene::Scene;
-
-/// An excitation and its phase \[rad\].
-pub(in crate::motion) type Driven<'a> = Option<(&'a EngineOrderTorque, f64)>;
 
 /// Rotor, pulse and excitation at the steps `t = n h`.
 #[derive(Clone, Debug)]
-pub(in crate::motion) struct Drive {
+pub(super) struct Drive {
     /// `h` \[s\].
     pub step: f64,
     pub rotor: Rotor,
@@ -19,14 +16,19 @@ pub(in crate::motion) struct Drive {
     pub excitation: Option<EngineOrderTorque>,
     /// The pulse to fire next, from zero on.
     next_pulse: Pulse,
+    /// First step on which no pulse acts any more.
+    quiet_from: u64,
     /// A step, and the mean force in it of a pulse that another has replaced \[N\].
     left_over: (u64, f64),
     diameters: f64,
     phasor: Phasor,
+    /// Lobes of a casing out of round, zero of a round one, and their turn against the blades.
+    lobes: f64,
+    lobe_phasor: Phasor,
 }
 
 impl Drive {
-    pub fn of(scene: &Scene) -> Self {
+    pub fn of(scene: &Scene, lobes: f64) -> Self {
         let (rotor, pulse) = (Rotor::of(scene), Pulse::of(scene));
         let (diameters, step) = (f64::from(scene.operation.nodal_diameters), scene.solver.step_s);
         Self {
@@ -35,9 +37,12 @@ impl Drive {
             pulse,
             excitation: EngineOrderTorque::of(scene),
             next_pulse: pulse,
+            quiet_from: quiet_from(&pulse, step),
             left_over: (0, 0.0),
             diameters,
             phasor: Phasor::new(&rotor, diameters, step),
+            lobes,
+            lobe_phasor: Phasor::new(&rotor, lobes, step),
         }
     }
 
@@ -51,26 +56,54 @@ impl Drive {
     }
 
     /// Returns the mean force of the pulse over the step centred on `n`; at n = 0 all of it \[N\].
+    #[inline]
     pub fn force(&self, n: u64) -> f64 {
+        if n >= self.quiet_from {
+            return 0.0;
+        }
         let left_over = if n == self.left_over.0 { self.left_over.1 } else { 0.0 };
         self.pulse.mean_of_step(n, self.step) + left_over
     }
 
     /// Returns the excitation with its phase at step `n`.
-    pub fn driven(&self, n: u64) -> Driven<'_> {
+    pub fn driven(&self, n: u64) -> Option<(&EngineOrderTorque, f64)> {
         let torque = self.excitation.as_ref()?;
         Some((torque, torque.phase(&self.rotor, self.time_of(n))))
     }
 
-    /// Returns the turn of the frame of the blades at step `n`, `exp(i n_d theta)`, keeping the
-    /// exact value for the steps after it.
-    pub fn turn(&mut self, n: u64) -> (f64, f64) {
+    /// Returns `exp(i n_d theta)` at step `n`, the turn of the frame of the blades, and keeps what
+    /// the steps after it need.
+    #[inline]
+    pub fn turn(&mut self, n: u64) -> Plane {
         self.phasor.at(n, &self.rotor, self.diameters, self.step)
     }
 
-    /// Returns the same, keeping nothing.
-    pub fn look_at_turn(&self, n: u64) -> (f64, f64) {
-        self.phasor.look(n, &self.rotor, self.diameters, self.step)
+    /// Returns `exp(i m theta)` at step `n`, the turn of the lobes, and keeps what the steps after
+    /// it need.
+    #[inline]
+    pub fn lobe_turn(&mut self, n: u64) -> Plane {
+        self.lobe_phasor.at(n, &self.rotor, self.lobes, self.step)
+    }
+
+    /// Returns whether lobes turn against the blades.
+    #[inline]
+    pub fn has_lobes(&self) -> bool {
+        self.lobes != 0.0
+    }
+
+    /// Returns both turns so many steps before step `n`, which may be before the start.
+    pub fn turns_before(&self, n: u64, back: u64) -> (Plane, Plane) {
+        let (rotor, step) = (&self.rotor, self.step);
+        match n.checked_sub(back) {
+            Some(n) => (
+                self.phasor.look(n, rotor, self.diameters, step),
+                self.lobe_phasor.look(n, rotor, self.lobes, step),
+            ),
+            None => {
+                let theta = rotor.angle(-((back - n) as f64) * step);
+                (Plane::cis(self.diameters * theta), Plane::cis(self.lobes * theta))
+            }
+        }
     }
 
     /// Fires the next pulse at step `n`; what the pulse before gave in the half step until
@@ -80,6 +113,7 @@ impl Drive {
         let (start, half) = (self.time_of(n), 0.5 * self.step);
         let (old, next) = (self.pulse, self.next_pulse);
         self.pulse = Pulse { start, end: start + next.end, force: next.force };
+        self.quiet_from = quiet_from(&self.pulse, self.step).max(n + 1);
         if n == 0 {
             return self.pulse.mean(0.0, half) - old.mean(0.0, half);
         }
@@ -93,10 +127,15 @@ impl Drive {
     pub fn set_speed(&mut self, n: u64, speed: f64, ramp: f64) {
         self.rotor.change(self.time_of(n), speed, ramp);
         self.phasor = Phasor::new(&self.rotor, self.diameters, self.step);
+        self.lobe_phasor = Phasor::new(&self.rotor, self.lobes, self.step);
     }
 
-    /// The excitation of a scene from now on, and its pulse when it is fired again.
-    pub fn set_parameters(&mut self, scene: &Scene) {
+    /// Takes the excitation of a scene from now on, its lobes, and its pulse for the next fire.
+    pub fn set_parameters(&mut self, scene: &Scene, lobes: f64) {
+        if lobes != self.lobes {
+            self.lobes = lobes;
+            self.lobe_phasor = Phasor::new(&self.rotor, lobes, self.step);
+        }
         self.excitation = EngineOrderTorque::of(scene);
         self.next_pulse = Pulse::of(scene);
     }
@@ -115,61 +154,62 @@ impl Drive {
     }
 }
 
-/// The phase of the wave frame, `exp(i n_d theta)`, at every step: an exact
-/// sine and cosine each 64 steps and a table between them, so that the value at
-/// a step does not depend on the steps before it.
+/// Returns a step from which on a pulse does not act, one or two after its end.
+fn quiet_from(pulse: &Pulse, step: f64) -> u64 {
+    (pulse.end / step) as u64 + 3
+}
+
+/// `exp(i m theta)` at every step: a sine and a cosine each 64 steps and a table between them, so
+/// that the value at a step does not depend on the steps before it. On a ramp each step has its
+/// own.
 #[derive(Clone, Debug)]
-pub(super) struct Phasor {
-    table: Vec<(f64, f64)>,
+struct Phasor {
+    table: Vec<Plane>,
     block: u64,
-    at_block: (f64, f64),
+    at_block: Plane,
 }
 
 const TABLE: u64 = 64;
 
 impl Phasor {
-    pub fn new(rotor: &Rotor, diameters: f64, step: f64) -> Self {
-        let entry = |j: u64| {
-            let (sin, cos) = (diameters * rotor.speed(0.0) * step * j as f64).sin_cos();
-            (cos, sin)
-        };
+    fn new(rotor: &Rotor, order: f64, step: f64) -> Self {
+        let entry = |j: u64| Plane::cis(order * rotor.speed(0.0) * step * j as f64);
         let steady = rotor.ramp() == 0.0;
         let table = if steady { (0..TABLE).map(entry).collect() } else { Vec::new() };
-        Self { table, block: u64::MAX, at_block: (1.0, 0.0) }
+        Self { table, block: u64::MAX, at_block: Plane::new(1.0, 0.0) }
     }
 
-    /// Returns `(cos n_d theta, sin n_d theta)` at step `n`, keeping the exact value for the
-    /// steps after it.
-    pub fn at(&mut self, n: u64, rotor: &Rotor, diameters: f64, step: f64) -> (f64, f64) {
+    /// Returns the value at step `n`, and keeps the one at the beginning of its block.
+    #[inline]
+    fn at(&mut self, n: u64, rotor: &Rotor, order: f64, step: f64) -> Plane {
         if !self.table.is_empty() && n / TABLE != self.block {
             self.block = n / TABLE;
-            self.at_block = exact(self.block * TABLE, rotor, diameters, step);
+            self.at_block = exact(self.block * TABLE, rotor, order, step);
         }
-        self.look(n, rotor, diameters, step)
+        self.look(n, rotor, order, step)
     }
 
-    /// Returns the same, keeping nothing.
-    pub fn look(&self, n: u64, rotor: &Rotor, diameters: f64, step: f64) -> (f64, f64) {
-        let Some((dc, ds)) = self.table.get((n % TABLE) as usize) else {
-            return exact(n, rotor, diameters, step);
+    #[inline]
+    fn look(&self, n: u64, rotor: &Rotor, order: f64, step: f64) -> Plane {
+        let Some(turn) = self.table.get((n % TABLE) as usize) else {
+            return exact(n, rotor, order, step);
         };
-        let (c, s) = match n / TABLE {
-            block if block == self.block => self.at_block,
-            block => exact(block * TABLE, rotor, diameters, step),
-        };
-        (c * dc - s * ds, s * dc + c * ds)
+        let block = n / TABLE;
+        if block == self.block {
+            self.at_block * turn
+        } else {
+            exact(block * TABLE, rotor, order, step) * turn
+        }
     }
 }
 
-/// Returns `exp(i n_d theta)` at step `n` by its own sine and cosine.
-fn exact(n: u64, rotor: &Rotor, diameters: f64, step: f64) -> (f64, f64) {
-    let (sin, cos) = (diameters * rotor.angle(n as f64 * step)).sin_cos();
-    (cos, sin)
+fn exact(n: u64, rotor: &Rotor, order: f64, step: f64) -> Plane {
+    Plane::cis(order * rotor.angle(n as f64 * step))
 }
 
 /// The excitation of one scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EngineOrderTorque {
+pub(super) struct EngineOrderTorque {
     amplitude: f64,
     order: u32,
     blades: u32,
@@ -181,6 +221,17 @@ impl EngineOrderTorque {
         let amplitude = scene.excitation.amplitude_nm;
         let (order, blades) = (scene.excitation.order, scene.bladed_disk.blades);
         (amplitude != 0.0).then_some(Self { amplitude, order, blades })
+    }
+
+    /// Returns the engine order.
+    pub fn order(&self) -> u32 {
+        self.order
+    }
+
+    /// Returns whether modes of so many diameters feel it.
+    pub fn drives(&self, diameters: u32) -> bool {
+        let (k, order) = (diameters % self.blades, self.order % self.blades);
+        k == order || (k + order).is_multiple_of(self.blades)
     }
 
     /// Returns the phase `E theta` at an instant \[rad\].
@@ -217,7 +268,7 @@ mod tests {
             let mut scene = Scene::base();
             scene.solver.step_s = 1e-6;
             scene.operation.pulse_s = steps * 1e-6;
-            let mut drive = Drive::of(&scene);
+            let mut drive = Drive::of(&scene, 0.0);
             for fired in [0, 30] {
                 if fired > 0 {
                     drive.fire(fired);
@@ -244,7 +295,7 @@ mod tests {
                 let (sin, cos) = (3.0 * rotor.angle(n as f64 * 1e-6)).sin_cos();
                 assert_eq!(seen, phasor.at(n, &rotor, 3.0, 1e-6));
                 // Round-off of an angle of 18 rad, twice.
-                let apart = (seen.0 - cos).hypot(seen.1 - sin);
+                let apart = (seen.re - cos).hypot(seen.im - sin);
                 assert!(apart < 8e-15, "{n}: {apart}");
             }
         }

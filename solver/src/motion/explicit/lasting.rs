@@ -107,11 +107,6 @@ impl Lasting {
         self.now.swing = self.now.swing.max(swing);
     }
 
-    /// The same of a rigid casing: only how far the tips swing \[m\].
-    pub fn look_at_tips(&mut self, t: f64, swing: f64) {
-        self.look(t, Plane::default(), Plane::default(), swing);
-    }
-
     /// The rows that touch now, as the sum of `mark` of each, and whether all do; since
     /// when they are the same \[s\].
     pub fn touch(&mut self, t: f64, set: u64, all: bool) -> f64 {
@@ -145,11 +140,6 @@ impl Lasting {
     /// Forgets what was before a change on the way.
     pub fn forget(&mut self) {
         self.trends.iter_mut().for_each(Trend::forget);
-    }
-
-    /// Since when every row has touched \[s\].
-    pub fn all_since(&self) -> Option<f64> {
-        self.all_since
     }
 
     /// The verdict over the last `window` seconds, of a machine with this clearance and
@@ -224,8 +214,8 @@ const MARK: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// A number of one row, so that sums of them differ for different sets (the finisher of
 /// SplitMix64).
-pub(super) fn mark(row: u32) -> u64 {
-    let mut x = (u64::from(row) + 1).wrapping_mul(MARK);
+pub(super) fn mark(row: usize) -> u64 {
+    let mut x = (row as u64 + 1).wrapping_mul(MARK);
     x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     x ^ (x >> 27)
 }
@@ -233,10 +223,10 @@ pub(super) fn mark(row: u32) -> u64 {
 #[cfg(test)]
 mod tests {
     use crate::motion::Solver;
-    use crate::motion::explicit::{Explicit, ModalBlades};
+    use crate::motion::explicit::Explicit;
     use crate::scene::{CheckedScene, Scene};
 
-    type Turn = fn(&mut Explicit<ModalBlades>, &CheckedScene);
+    type Turn = fn(&mut Explicit, &CheckedScene);
 
     #[test]
     fn trends_are_forgotten_where_someone_changes_the_motion() {
@@ -250,12 +240,11 @@ mod tests {
             ("operation.pulse_n", "100"),
         ]);
         let scene = scene.unwrap();
-        let mut motion = Explicit::<ModalBlades>::new(&scene);
+        let mut motion = Explicit::new(&scene);
         motion.advance(1.9e-3).unwrap();
-        let known = |motion: &Explicit<ModalBlades>| {
-            motion.beyond.lasting.trends.map(|trend| trend.is_known())
-        };
+        let known = |motion: &Explicit| motion.lasting.trends.map(|trend| trend.is_known());
         assert_eq!(known(&motion), [true; 3]);
+        let other = scene.clone().into_scene().with(&[("casing.damping_ratio", "0.06")]).unwrap();
         let turns: [Turn; 3] = [
             |motion, _| motion.fire(),
             |motion, _| motion.set_speed(400.0, 0.0),
@@ -263,7 +252,7 @@ mod tests {
         ];
         for turn in turns {
             let mut turned = motion.clone();
-            turn(&mut turned, &scene);
+            turn(&mut turned, &other);
             assert_eq!(known(&turned), [false; 3]);
         }
     }

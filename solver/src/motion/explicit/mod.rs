@@ -1,195 +1,225 @@
-//! The time solver of Eqs. (8)-(16): explicit central differences with
-//! Lagrange-multiplier contact (docs/theory.md, sections 6 and 10). First order in the
-//! step once rigid contact happens, second order on a lining.
+//! The time solver of Eqs. (8)-(16): explicit central differences with Lagrange-multiplier
+//! contact (docs/theory.md, sections 6 and 10). First order in the step once rigid contact
+//! happens, second order on a lining.
 //!
-//! Each step predicts free motion, looks for penetrations and corrects them by the
-//! contact law. Beyond the paper, tips may move outward as blades bend, rub, rebound and
-//! press on a lining, whose push is a force at the beginning of a step (`lining`).
-//!
-//! In the paper's model many steps are taken at once, as plain stepping would take them
-//! (`leap`).
-//!
-//! Read `oscillator` (one coordinate) and `drive`, then `rows`, `pushes` and `correct` (rigid
-//! contact of a step) and `lining`, `disk` (what it asks of the blades), `beyond`, `spin` (a
-//! machine that changes with the speed), `lasting` and `dies`; `record`, `parameters` and
-//! `solver` put them together.
+//! One step serves every scene; the paper's is that without slope, friction and restitution
+//! (`kappa = mu = e = 0`). Read `oscillator` (one coordinate), `disk` with `fixed` and `shapes` (the
+//! blades as oscillators and their shapes), `row` (gap and directions of a tip), `step` (section 4.2 of the paper line
+//! by line), `lining` (a push by the gap in place of the multiplier), `strides` (many steps at once); then `drive`, `record` and
+//! `lasting` (what drives a motion and what it leaves behind), `changes` (a machine that changes on
+//! the way), `rest` and `proofs` (verdicts before the end). `solver` puts them together.
 
-mod beyond;
-mod correct;
-mod dies;
+mod changes;
 mod disk;
 mod drive;
+mod fixed;
 mod lasting;
-mod leap;
 mod lining;
 mod oscillator;
-mod parameters;
-mod pushes;
+mod proofs;
 mod record;
-mod rows;
+mod rest;
+mod row;
+mod shapes;
 mod solver;
-mod spin;
-mod uneven;
+mod step;
+mod strides;
 
-pub(super) use disk::{FullBlades, ModalBlades, RigidBlades};
-pub(super) use oscillator::{Coordinate, Oscillator};
+use std::sync::{Arc, OnceLock};
 
-use std::sync::Arc;
-
-use super::{Failure, FailureReason, Plane};
-use crate::contact::{ContactLaw, Several};
+use super::{Failure, Plane};
 use crate::model::Machine;
-use crate::scene::CheckedScene;
-use beyond::Beyond;
+use crate::numeric::lcp::Lcp;
+use crate::scene::{CheckedScene, ContactLaw, ModelSize};
+use crate::tolerances::{ANGLE_LOOK, LONG_STEP};
 use disk::Disk;
-use drive::{Drive, Driven};
-use leap::Leaps;
+use drive::Drive;
+use lasting::Lasting;
 use lining::Lining;
-use record::{Record, Watch};
-use rows::{Row, TipLaw};
+use oscillator::{Coordinate, Oscillator};
+use record::{Ledger, Record};
+use rest::Rest;
+use row::{Row, TipLaw, Tips};
+use strides::Strides;
 
-/// The explicit solver on one size of bladed disk.
+/// The explicit solver of one scene, at some step.
 #[derive(Clone, Debug)]
-pub(super) struct Explicit<B: Disk> {
+pub(super) struct Explicit {
     scene: Arc<CheckedScene>,
     machine: Machine,
     law: ContactLaw,
-    /// The lining of the smooth law.
-    lining: Option<Lining>,
-    /// Law of the tips at the current rotor speed.
-    tips: TipLaw,
+    /// `e`.
+    restitution: f64,
     drive: Drive,
-    casing: Oscillator,
-    /// Index of the step the coordinates belong to, `t = n h`.
+    /// Index of the latest step, `t = n h`.
     n: u64,
+    casing: Oscillator,
     u: [Coordinate; 2],
-    blades: B,
+    /// Increments of the casing in the step before the last \[m\].
+    before: [f64; 2],
+    disk: Disk,
+    /// Law of the tips at the current rotor speed, and whether they rub as those of a rotor that
+    /// turns backward.
+    tips: TipLaw,
+    backward: bool,
+    tips_of_rows: Arc<Tips>,
+    /// Turn of the lobes of the casing at the latest contact.
+    lobe_turn: Plane,
     /// Side at which the search for the smallest gap begins.
-    near: u32,
+    near: usize,
     /// Rows of the latest contact.
     rows: Vec<Row>,
-    /// Distance of each row to its target \[m\].
-    gaps: Vec<f64>,
+    several: Lcp,
+    lining: Option<Lining>,
+    /// Penetration left at the latest step and at the one before \[m\].
+    dips: [f64; 2],
+    /// Loss of clearance in the latest step and in the one before \[m\].
+    closed: [f64; 2],
+    /// Motion of the casing in a step that passes much of a side \[m\], and the number of such
+    /// steps in a row.
+    long_step: f64,
+    long_steps: u32,
+    /// Next step at which the swing of the tips is looked at, and the steps between two.
+    next_look: u64,
+    steps_unseen: u64,
     record: Record,
-    watch: Watch,
+    lasting: Lasting,
+    ledger: Ledger,
+    /// The linear motion about rest at this speed, once asked for.
+    rest: OnceLock<Option<Rest>>,
+    strides: Strides,
+    /// Number of steps that were not computed one by one, but many at once by strides.
+    skipped: u64,
     failure: Option<Failure>,
-    /// Whether the scene goes beyond the paper's model, and the state that this needs.
-    goes_beyond: bool,
-    beyond: Beyond,
-
-    /// Steps that are taken many at once.
-    leaps: Leaps,
-    /// Rows of three sides or more.
-    several: Several,
-    /// Whether the neighbours of a penetrating side always count; see `correct`.
-    neighbours_matter: bool,
 }
 
-impl<B: Disk> Explicit<B> {
-    /// Takes one step: predicts free motion, looks for penetrations, corrects them.
-    fn take_step(&mut self) -> Result<(), FailureReason> {
-        if self.goes_beyond {
-            return self.take_step_beyond();
-        }
-        let mut unknown = self.predict(self.drive.force(self.n));
-        let distance2 = self.distance2();
-        let clearance = self.machine.polygon.clearance;
-        if distance2 < clearance * clearance {
-            self.open_gap();
-        } else {
-            let change = self.meet(distance2)?;
-            unknown = self.watch.moved(change);
-        }
-        self.look_at_blades(unknown)
+impl Explicit {
+    /// Creates the motion of a scene at t = 0. The step before the first knows every force that
+    /// acts at the start: otherwise the second order is lost.
+    pub(super) fn new(scene: &CheckedScene) -> Self {
+        let machine = scene.machine();
+        let mut disk = Disk::new(scene, &machine, 0);
+        let tips_of_rows = Tips::new(&machine, disk.rows().0);
+        let drive = Drive::of(scene, tips_of_rows.lobes);
+        disk.begin_driven(drive.driven(0));
+        let casing = Oscillator::of_casing(&machine, drive.step);
+        let (initial, speed, start) = (&scene.initial, drive.speed(0), scene.start());
+        let u = [
+            casing.start(start.0, initial.v_c_m_s, drive.force(0)),
+            casing.start(start.1, initial.v_s_m_s, 0.0),
+        ];
+        let mut motion = Self {
+            scene: Arc::new(scene.clone()),
+            law: scene.solver.contact,
+            restitution: scene.contact.restitution,
+            lining: scene.lining().map(|law| Lining::new(law, &tips_of_rows, &disk)),
+            tips: TipLaw::at(&machine, speed),
+            backward: speed < 0.0,
+            tips_of_rows: Arc::new(tips_of_rows),
+            lobe_turn: Plane::new(1.0, 0.0),
+            record: Record::of(machine.polygon.sides, drive.step),
+            lasting: Lasting::new(scene.solver.end_s),
+            ledger: Ledger { counts: scene.goes_beyond(), ..Ledger::default() },
+            drive,
+            n: 0,
+            casing,
+            u,
+            before: [0.0; 2],
+            disk,
+            near: 0,
+            rows: Vec::with_capacity(8),
+            several: Lcp::default(),
+            dips: [0.0; 2],
+            closed: [0.0; 2],
+            long_step: long_step(scene, &machine),
+            long_steps: 0,
+            next_look: 0,
+            steps_unseen: steps_unseen(scene, &machine),
+            rest: OnceLock::new(),
+            strides: Strides::default(),
+            skipped: 0,
+            failure: None,
+            machine,
+        };
+        motion.begin_closing();
+        motion.press_start();
+        motion.ledger.start = motion.stored();
+        motion
     }
 
-    /// Predicts a step without contact, which is corrected afterwards. Returns whether to look at
-    /// the blades.
+    /// Returns the turn of the frame of the blades at the latest step, `exp(i n_d theta)`, and
+    /// turns the lobes there, too.
     #[inline]
-    fn predict(&mut self, force: f64) -> bool {
-        self.u = [self.casing.step(self.u[0], force), self.casing.step(self.u[1], 0.0)];
-        let change = self.blades.predict(self.drive.driven(self.n));
-        self.n += 1;
-        self.watch.moved(change)
-    }
-
-    /// Returns `|u|^2` \[m^2\].
-    fn distance2(&self) -> f64 {
-        self.u[0].x * self.u[0].x + self.u[1].x * self.u[1].x
-    }
-
-    /// Updates the largest blade angle, where it may have grown.
-    ///
-    /// # Errors
-    /// The angle is beyond the limit of small angles.
-    fn look_at_blades(&mut self, unknown: bool) -> Result<(), FailureReason> {
-        if unknown {
-            self.watch.look(self.blades.look(self.watch.largest()))?;
+    fn turn_now(&mut self) -> Plane {
+        if self.drive.has_lobes() {
+            self.lobe_turn = self.drive.lobe_turn(self.n);
         }
-        Ok(())
+        self.drive.turn(self.n)
     }
 
-    /// Returns the casing displacement in the frame of the blades at the latest step, and the turn
-    /// of that frame.
-    fn in_blade_frame(&mut self) -> (Plane, Plane) {
-        let (c, s) = self.drive.turn(self.n);
-        if let Some(uneven) = &mut self.beyond.uneven {
-            uneven.turn_to(self.n, &self.drive.rotor, self.drive.step);
+    /// Returns the law of the tips at the latest step: the sign of friction follows the rotor.
+    #[inline]
+    fn tips_now(&mut self) -> TipLaw {
+        if self.machine.friction != 0.0 {
+            let speed = self.drive.speed(self.n);
+            if (speed < 0.0) != self.backward {
+                self.backward = speed < 0.0;
+                self.tips = TipLaw::at(&self.machine, speed);
+            }
         }
-        let turn = Plane::new(c, s);
-        (Plane::new(self.u[0].x, self.u[1].x) * turn.conj(), turn)
+        self.tips
     }
 
-    /// Moves the casing by a shift in the frame of the blades.
-    fn shift_casing(&mut self, shift: Plane, turn: Plane) {
-        let moved = shift * turn;
-        for (coordinate, part) in self.u.iter_mut().zip([moved.re, moved.im]) {
-            coordinate.x += part;
-            coordinate.increment += part;
+    /// Returns the energy of casing, blades and lining between the last two steps \[J\].
+    fn stored(&self) -> f64 {
+        let casing: f64 = self.u.iter().map(|&at| self.casing.twice_energy(at)).sum();
+        0.5 * casing + self.disk.energy() + self.lining.as_ref().map_or(0.0, Lining::stored)
+    }
+
+    /// Adds the energy flows of the step just taken, except those of contact.
+    fn count_flows(&mut self, force: f64) {
+        let [c, s] = self.moved();
+        let [loss, work] = self.disk.flows();
+        let sums = &mut self.ledger.sums;
+        sums.pulse_work_j += 0.5 * force * c + work;
+        sums.casing_loss_j += self.casing.lost() * (c * c + s * s);
+        sums.blade_loss_j += loss;
+    }
+
+    /// Adds the work of the rotor and the heat of one push over the last two half steps \[J\].
+    fn count_push(&mut self, row: &Row, turn: Plane, tips: &TipLaw) {
+        let (push, normal) = (-row.lambda, row.normal);
+        let speed = self.drive.rotor.speed(self.drive.time_of(self.n) - self.drive.step);
+        let rotor = speed * self.drive.step;
+        self.ledger.sums.rotor_work_j -= push * row.arm * rotor;
+        if tips.friction == 0.0 {
+            return;
         }
+        let [c, s] = self.moved();
+        let moved = Plane::new(0.5 * c, 0.5 * s) * turn.conj();
+        let along = moved.im * normal.re - moved.re * normal.im;
+        let turned = 0.5 * (self.disk.angle(row.index) - self.disk.angle_before(row.index));
+        let (radius, bent) = (self.scene.casing.radius_m, self.machine.blade_length * turned);
+        let sums = &mut self.ledger.sums;
+        sums.rotor_work_j += push * tips.friction * radius * rotor;
+        sums.friction_heat_j +=
+            push * (tips.friction * (radius * rotor + bent) - tips.casing_friction * along);
     }
+}
 
-    /// Checks that the casing has moved by less than its radius.
-    ///
-    /// # Errors
-    /// It has moved farther.
-    fn stays_in_range(&self, distance2: f64) -> Result<(), FailureReason> {
-        let radius_m = self.scene.casing.radius_m;
-        if distance2.is_nan() || distance2 > radius_m * radius_m {
-            let distance_m = distance2.sqrt();
-            return Err(FailureReason::Displacement { distance_m, radius_m });
-        }
-        Ok(())
-    }
+/// Returns the motion of the casing in a step that passes much of a side; the paper's tips drive no
+/// wave so fast for long \[m\].
+fn long_step(scene: &CheckedScene, machine: &Machine) -> f64 {
+    let side = 2.0 * machine.clearance() * machine.polygon.delta.tan();
+    let is_limited = machine.polygon.has_corners() && scene.goes_beyond();
+    if is_limited { LONG_STEP * side } else { f64::INFINITY }
+}
 
-    /// Records the deepest predicted penetration.
-    ///
-    /// # Errors
-    /// It is deeper than the clearance.
-    fn is_shallow(&mut self, depth_m: f64) -> Result<(), FailureReason> {
-        self.record.deepest_predicted = self.record.deepest_predicted.max(depth_m);
-        let clearance_m = self.machine.polygon.clearance;
-        if depth_m > clearance_m {
-            return Err(FailureReason::Penetration { depth_m, clearance_m });
-        }
-        Ok(())
-    }
-
-    /// Records a step without contact.
-    fn open_gap(&mut self) {
-        if self.record.is_over(self.n) {
-            self.end_contact(self.n);
-        }
-    }
-
-    /// Records that the contact ends at step `n`.
-    fn end_contact(&mut self, n: u64) {
-        self.record.end_contact(n);
-        self.beyond.lasting.touch(self.time_of(n), 0, false);
-        self.rows.clear();
-    }
-
-    fn time_of(&self, n: u64) -> f64 {
-        self.drive.time_of(n)
-    }
+/// Returns the number of steps between two looks at the swing of the tips.
+fn steps_unseen(scene: &CheckedScene, machine: &Machine) -> u64 {
+    let fastest = match scene.solver.model {
+        ModelSize::Full => machine.omega_bd_max,
+        ModelSize::Rigid | ModelSize::Modal => machine.omega_bd,
+    };
+    ((ANGLE_LOOK / (fastest * scene.solver.step_s)) as u64).max(1)
 }

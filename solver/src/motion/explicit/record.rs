@@ -1,14 +1,14 @@
-//! What the steps of a motion leave behind: the record of contacts, impulses and depths,
-//! the ledger of energy, and the largest blade angle.
+//! What the steps of a motion leave behind: the record of contacts, impulses and depths, and
+//! the ledger of energy.
 
 use crate::model::ContactPolygon;
 use crate::motion::contacts::in_phase_order;
-use crate::motion::{ActiveSet, ContactLog, EnergyAccount, FailureReason};
-use crate::tolerances::{BREAK_STEPS, LARGEST_BLADE_ANGLE};
+use crate::motion::{ActiveSet, ContactLog, EnergyAccount};
+use crate::tolerances::BREAK_STEPS;
 
 /// Record of a motion in steps of constant length.
 #[derive(Clone, Debug)]
-pub(in crate::motion) struct Record {
+pub(super) struct Record {
     pub log: ContactLog,
     pub last_touch: u64,
     /// Deepest penetration left by a step \[m\].
@@ -124,59 +124,12 @@ impl Record {
 
 /// Energy account of a motion under way.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Account {
+pub(super) struct Ledger {
     pub sums: EnergyAccount,
     /// Energy at the start plus the energy that changes from outside have added \[J\].
     pub start: f64,
-    /// Whether the account and the largest blade angle are not needed.
-    pub forgone: bool,
-}
-
-/// The largest blade angle of the steps taken.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Watch {
-    /// \[rad\]
-    largest: f64,
-    /// Lower bound on the distance of every blade angle below it \[rad\].
-    room: f64,
-}
-
-impl Watch {
-    /// Returns the largest angle so far \[rad\].
-    pub fn largest(self) -> f64 {
-        self.largest
-    }
-
-    /// Returns a bound on every blade angle now \[rad\].
-    pub fn bound(self) -> f64 {
-        self.largest - self.room
-    }
-
-    /// Records that no blade has moved by more than `change`. Returns whether to look at the
-    /// blades.
-    pub fn moved(&mut self, change: f64) -> bool {
-        self.room -= change;
-        self.room < 0.0 || self.room.is_nan()
-    }
-
-    /// Records the largest angle now of any blade that may be beyond `largest`, and a bound on
-    /// every angle.
-    ///
-    /// # Errors
-    /// It is beyond the limit of small angles, or not a number.
-    pub fn look(&mut self, (now, bound): (f64, f64)) -> Result<(), FailureReason> {
-        self.largest = self.largest.max(now);
-        self.room = self.largest - bound;
-        let fits = now <= LARGEST_BLADE_ANGLE;
-        if fits { Ok(()) } else { Err(FailureReason::BladeAngle { angle_rad: now }) }
-    }
-
-    /// Records steps that were taken at once, over which the largest angle was `largest`; blade
-    /// angles are below `bound` now.
-    pub fn skipped(&mut self, largest: f64, bound: f64) {
-        self.largest = self.largest.max(largest);
-        self.room = self.largest - bound;
-    }
+    /// Whether the account is kept: beyond the paper, unless only a verdict is asked for.
+    pub counts: bool,
 }
 
 #[cfg(test)]

@@ -107,6 +107,14 @@ impl Disk {
         }
     }
 
+    /// At rest at n = 0, before which it knows the torque at the rotor angle 0.
+    pub fn starting(mut self, h: Dd) -> Self {
+        for mode in &mut self.modes {
+            mode.at = mode.oscillator.start(0.0, 0.0, mode.drive.0, h);
+        }
+        self
+    }
+
     /// Continues with the motion of another disk of the same kind.
     pub fn moving_as(mut self, other: &Self) -> Self {
         for (mode, was) in self.modes.iter_mut().zip(&other.modes) {

@@ -1,5 +1,5 @@
 //! The scheme of Eqs. (8)-(16) in its plainest form, as a reference for the
-//! program. It shares no code with `src/motion` or `src/contact`: it reads a
+//! program. It shares no code with `src/motion` or `src/numeric`: it reads a
 //! `Scene` and computes the rest in double-double (`dd`), so a difference from
 //! the program is the round-off of the program or an error.
 //!
@@ -147,7 +147,7 @@ impl Plain {
             law: scene.solver.contact,
             casing: casing_of(scene, h),
             casing_radius: scene.casing.radius_m,
-            disk: Disk::new(scene, h),
+            disk: Disk::new(scene, h).starting(h),
             u: [Coordinate::default(); 2],
             rotor: Rotor {
                 since: 0,

@@ -1,0 +1,621 @@
+//! The bladed disk: uncoupled oscillators, its modes, and a table of their shapes at the blades.
+//!
+//! `alpha_i = sum_m S_im a_m`, and a torque `Q_i` on each blade is the force `sum_i S_im Q_i` on
+//! mode `m`. With shapes `cos d Phi_i` and `sin d Phi_i`, not normalised, the modal mass is
+//! `N m_b/2`, and `N m_b` where the sine vanishes.
+//!
+//! | size | modes |
+//! |---|---|
+//! | rigid | none |
+//! | modal | the two of `n_b` nodal diameters, Eq. (4) |
+//! | full | all, in which the circulant matrices of Eqs. (2)-(3) are diagonal |
+//!
+//! Contact asks for *rows*: blades `row`, `row + rows`, `row + 2 rows`, ... that share a push
+//! evenly, and whose gap is that of their mean angle. A blade of a mistuned disk has an extra
+//! spring, whose torque acts on the modes of the tuned disk; the damping is that of the tuned disk.
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use super::drive::EngineOrderTorque;
+use super::fixed::Fixed;
+use super::oscillator::{Coordinate, Oscillator};
+use super::shapes::{Four, Label, dot};
+use crate::model::{Machine, blade_frequency};
+use crate::scene::Scene;
+use crate::tolerances::LARGEST_BLADE_ANGLE;
+
+/// Coordinates of four modes and the coefficients of their recurrence, see [`Oscillator`].
+#[derive(Clone, Copy, Debug, Default)]
+struct Modes {
+    x: Four,
+    increment: Four,
+    /// Increments of the step before the last.
+    before: Four,
+    ratio: Four,
+    pull: Four,
+    compliance: Four,
+    lost: Four,
+    /// Torques that act on the next step, beside those of rigid contact \[N m\].
+    felt: Four,
+}
+
+/// The bladed disk in motion.
+#[derive(Clone, Debug)]
+pub(super) struct Disk {
+    modes: Vec<Modes>,
+    oscillators: Arc<Vec<Oscillator>>,
+    fixed: Arc<Fixed>,
+    /// Torques of the excitation in the last step, each with its mode \[N m\].
+    driven: Vec<(usize, f64)>,
+    seen: Seen,
+    /// Phase of the blades of a pair that had the largest angle when it was looked for.
+    widest: u32,
+    /// Largest angle of any blade in any step \[rad\].
+    largest: f64,
+    /// Lower bound on how far every angle is below it \[rad\].
+    room: f64,
+}
+
+/// Angles of all blades when they were last looked at, and how far they may be from them since.
+#[derive(Clone, Debug)]
+struct Seen {
+    angles: Vec<f64>,
+    slack: f64,
+    steps: u32,
+    /// Largest angle, and largest about the mean \[rad\].
+    largest: [f64; 2],
+}
+
+impl Disk {
+    /// Creates the disk of a scene at rest; `alike` blades at most are one.
+    pub fn new(scene: &Scene, machine: &Machine, alike: u32) -> Self {
+        let fixed = Fixed::new(scene, machine, alike);
+        let disk = &scene.disk_in_use();
+        let mass = |label: &Label| {
+            let blades = f64::from(disk.blades);
+            disk.inertia_kg_m2 * if label.is_alone { blades } else { 0.5 * blades }
+        };
+        let oscillators: Vec<Oscillator> = fixed
+            .labels
+            .iter()
+            .zip(&fixed.still)
+            .map(|(label, still)| {
+                let mass = mass(label);
+                let damping = 2.0 * disk.damping_ratio * blade_frequency(disk, label.diameters);
+                let stiffness = still + machine.stiffened_by() * mass;
+                Oscillator::new(mass, damping * mass, stiffness, scene.solver.step_s)
+            })
+            .collect();
+        let mut modes = vec![Modes::default(); fixed.blades.width()];
+        for (m, oscillator) in oscillators.iter().enumerate() {
+            let (four, lane) = (&mut modes[m / 4], m % 4);
+            four.ratio[lane] = oscillator.ratio;
+            four.pull[lane] = oscillator.pull;
+            four.compliance[lane] = oscillator.compliance;
+            four.lost[lane] = oscillator.lost();
+        }
+        let excitation = EngineOrderTorque::of(scene);
+        let is_driven =
+            |label: &Label| excitation.is_some_and(|torque| torque.drives(label.diameters));
+        let driven = fixed.labels.iter().enumerate().filter(|(_, label)| is_driven(label));
+        let driven = driven.map(|(m, _)| (m, 0.0)).collect();
+        let turn = oscillators.iter().map(Oscillator::turn).fold(f64::MIN_POSITIVE, f64::max);
+        let fixed = fixed.looked_at(turn, &oscillators);
+        let seen = Seen {
+            angles: vec![0.0; if fixed.is_pair { 0 } else { fixed.blades.count() }],
+            slack: f64::INFINITY,
+            steps: u32::MAX,
+            largest: [0.0; 2],
+        };
+        let fixed = Arc::new(fixed);
+        let oscillators = Arc::new(oscillators);
+        Self { modes, oscillators, fixed, driven, seen, widest: 0, largest: 0.0, room: 0.0 }
+    }
+
+    /// Returns the disk with these coordinates and the parameters of another scene. Blades that
+    /// something has told apart stay so.
+    pub fn with_parameters(&self, scene: &Scene, machine: &Machine) -> Self {
+        let mut disk = Self::new(scene, machine, self.fixed.alike);
+        for m in 0..disk.fixed.labels.len() {
+            let same = |label: &Label| *label == disk.fixed.labels[m];
+            let known = match self.fixed.labels.get(m).filter(|label| same(label)) {
+                Some(_) => Some(m),
+                None => self.fixed.labels.iter().position(same),
+            };
+            if let Some(old) = known {
+                let (from, to) = (&self.modes[old / 4], &mut disk.modes[m / 4]);
+                to.x[m % 4] = from.x[old % 4];
+                to.increment[m % 4] = from.increment[old % 4];
+                to.before[m % 4] = from.before[old % 4];
+            }
+        }
+        (disk.largest, disk.room) = (self.largest, f64::NEG_INFINITY);
+        disk
+    }
+
+    /// Returns the number of coordinates that a step updates.
+    pub fn coordinates(&self) -> usize {
+        let members = self.fixed.labels.len();
+        if self.fixed.springs.is_empty() { members } else { 8 * members }
+    }
+
+    /// Returns the number of rows, and the blades of each.
+    pub fn rows(&self) -> (usize, u32) {
+        (self.fixed.rows.count(), self.fixed.per_row)
+    }
+
+    /// Returns whether its gaps are those of a polygon: all blades follow the casing's phases.
+    pub fn is_pair(&self) -> bool {
+        self.fixed.is_pair
+    }
+
+    /// Takes one step under an excitation, and under the torques that lining and springs had at
+    /// its beginning, Eq. (10).
+    #[inline]
+    pub fn predict(&mut self, excitation: Option<(&EngineOrderTorque, f64)>) {
+        if let Some((excitation, phase)) = excitation {
+            for (m, torque) in &mut self.driven {
+                let label = self.fixed.labels[*m];
+                *torque = excitation.torque_on(label.diameters, phase)[usize::from(label.is_sine)];
+                self.modes[*m / 4].felt[*m % 4] += *torque;
+            }
+        }
+        if !self.fixed.springs.is_empty() {
+            self.pull_springs();
+        }
+        let mut moved = [0.0; 4];
+        for four in &mut self.modes {
+            four.before = four.increment;
+            (0..4).for_each(|k| {
+                four.increment[k] = four.ratio[k] * four.increment[k] - four.pull[k] * four.x[k]
+                    + four.compliance[k] * four.felt[k];
+                four.x[k] += four.increment[k];
+                moved[k] += four.increment[k].abs();
+            });
+            four.felt = [0.0; 4];
+        }
+        if !self.fixed.is_pair {
+            self.seen.steps = self.seen.steps.saturating_add(1);
+            self.has_moved(total(moved));
+        }
+    }
+
+    /// Records that no blade has turned by more than `change` \[rad\].
+    fn has_moved(&mut self, change: f64) {
+        self.seen.slack += change;
+        self.room -= change;
+    }
+
+    /// Adds the torques of the extra springs.
+    fn pull_springs(&mut self) {
+        let mut torques = self.every_member();
+        torques.iter_mut().zip(&self.fixed.springs).for_each(|(angle, spring)| *angle *= -spring);
+        self.feel_members(&torques);
+    }
+
+    fn feel_members(&mut self, torques: &[f64]) {
+        let modes = &mut self.modes;
+        self.fixed.blades.feel(torques, |m, felt| modes[m / 4].felt[m % 4] += felt);
+    }
+
+    /// Adds torques on all rows, which act on the next step \[N m\].
+    pub fn feel(&mut self, torques: &[f64]) {
+        if Arc::ptr_eq(&self.fixed.blades, &self.fixed.rows) {
+            return self.feel_members(torques);
+        }
+        let (members, rows) = (self.fixed.blades.count(), self.fixed.rows.count());
+        let mut shared = vec![0.0; members];
+        for blade in 0..rows * self.fixed.per_row as usize {
+            shared[blade % members] += torques[blade % rows] / f64::from(self.fixed.per_row);
+        }
+        self.feel_members(&shared);
+    }
+
+    /// Adds torques on the two modes of a pair, which act on the next step \[N m\].
+    #[inline(always)]
+    pub fn feel_pair(&mut self, felt: [f64; 2]) {
+        if let Some(four) = self.modes.first_mut() {
+            (0..2).for_each(|k| four.felt[k] += felt[k]);
+        }
+    }
+
+    /// Forgets the torques of `feel`.
+    pub fn forget_felt(&mut self) {
+        self.modes.iter_mut().for_each(|four| four.felt = [0.0; 4]);
+    }
+
+    /// Takes the torques of `feel` back into the step before the first, which must know every
+    /// force at the start.
+    pub fn begin(&mut self) {
+        for (m, oscillator) in self.oscillators.iter().enumerate() {
+            let four = &mut self.modes[m / 4];
+            four.increment[m % 4] -= oscillator.start_shift(four.felt[m % 4]);
+        }
+    }
+
+    /// Takes the torque of an excitation at the start into the step before the first.
+    pub fn begin_driven(&mut self, excitation: Option<(&EngineOrderTorque, f64)>) {
+        let Some((excitation, phase)) = excitation else { return };
+        for &(m, _) in &self.driven {
+            let label = self.fixed.labels[m];
+            let torque = excitation.torque_on(label.diameters, phase)[usize::from(label.is_sine)];
+            self.modes[m / 4].increment[m % 4] -= self.oscillators[m].start_shift(torque);
+        }
+    }
+
+    /// Returns the angle of a row \[rad\].
+    #[inline(always)]
+    pub fn angle(&self, row: usize) -> f64 {
+        if self.fixed.is_pair {
+            let ([c, s], x) = (self.shape_of(row), self.pair_angles());
+            return c * x[0] + s * x[1];
+        }
+        let shapes = self.fixed.rows.row(row);
+        total(dot(&shapes, self.modes.iter().map(|four| four.x)))
+    }
+
+    /// Returns the angle of a row two steps before \[rad\].
+    pub fn angle_before(&self, row: usize) -> f64 {
+        let shapes = self.fixed.rows.row(row);
+        let before = |four: &Modes| {
+            let mut place = four.x;
+            (0..4).for_each(|k| place[k] -= four.increment[k] + four.before[k]);
+            place
+        };
+        total(dot(&shapes, self.modes.iter().map(before)))
+    }
+
+    /// Returns the angle of row `a` that a unit torque on row `b` makes in one step
+    /// \[rad/(N m)\].
+    #[inline]
+    pub fn compliance(&self, a: usize, b: usize) -> f64 {
+        if self.fixed.is_pair {
+            let [[c, s], [p, q]] = [a, b].map(|row| self.shape_of(row));
+            return self.modes.first().map_or(0.0, |four| four.compliance[0]) * (c * p + s * q);
+        }
+        if let Some(influence) = self.fixed.influence.get(a.abs_diff(b)) {
+            return *influence;
+        }
+        0.0
+    }
+
+    /// Corrects the predicted step by a torque on a row, Eq. (13b).
+    #[inline]
+    pub fn turn(&mut self, row: usize, torque: f64) {
+        let Self { modes, fixed, .. } = self;
+        if fixed.is_pair {
+            let [c, s] = fixed.rows.table().get(row).map_or([0.0; 2], |shape| [shape[0], shape[1]]);
+            let Some(four) = modes.first_mut() else { return };
+            for (k, shape) in [c, s].into_iter().enumerate() {
+                let change = four.compliance[k] * shape * torque;
+                four.x[k] += change;
+                four.increment[k] += change;
+            }
+            return;
+        }
+        let shapes: Cow<'_, [Four]> = fixed.rows.row(row);
+        for (four, shape) in modes.iter_mut().zip(shapes.iter()) {
+            (0..4).for_each(|k| {
+                let change = four.compliance[k] * shape[k] * torque;
+                four.x[k] += change;
+                four.increment[k] += change;
+            });
+        }
+        let change = fixed.most_turned * torque.abs();
+        self.has_moved(change);
+    }
+
+    /// Sets what the square of each blade frequency is more than at rest \[rad^2/s^2\]. Returns
+    /// the change of energy \[J\].
+    pub fn stiffen(&mut self, added: f64) -> f64 {
+        let before = self.energy();
+        let oscillators = Arc::make_mut(&mut self.oscillators);
+        for (m, (oscillator, still)) in oscillators.iter_mut().zip(&self.fixed.still).enumerate() {
+            oscillator.stiffen(still + added * oscillator.mass);
+            self.modes[m / 4].pull[m % 4] = oscillator.pull;
+        }
+        self.energy() - before
+    }
+
+    /// Multiplies every angle by `part`, without a change of the rates.
+    pub fn shrink(&mut self, part: f64) {
+        self.modes.iter_mut().for_each(|four| four.x.iter_mut().for_each(|x| *x *= part));
+        (self.seen.slack, self.seen.steps) = (f64::INFINITY, u32::MAX);
+    }
+
+    /// Returns `[alpha_c, alpha_s]` \[rad\].
+    pub fn modal(&self) -> [f64; 2] {
+        self.shown(|four| four.x)
+    }
+
+    /// Returns their increments in the last step.
+    pub fn modal_increments(&self) -> [f64; 2] {
+        self.shown(|four| four.increment)
+    }
+
+    fn shown(&self, of: impl Fn(&Modes) -> Four) -> [f64; 2] {
+        self.fixed
+            .shown
+            .map(|mode| mode.map_or(0.0, |(m, sign)| sign * of(&self.modes[m / 4])[m % 4]))
+    }
+
+    /// Returns the angles of blades that differ.
+    fn every_member(&self) -> Vec<f64> {
+        self.fixed.blades.all(|m| self.modes[m / 4].x[m % 4])
+    }
+
+    /// Returns the angle of every blade \[rad\].
+    pub fn every_angle(&self, blades: u32) -> Vec<f64> {
+        let members = self.every_member();
+        (0..blades as usize).map(|blade| members[blade % members.len()]).collect()
+    }
+
+    /// Hands the angle of each row to `put`, for more than a pair of modes \[rad\].
+    pub fn all_angles(&mut self, mut put: impl FnMut(usize, f64)) {
+        self.see_all();
+        let (members, (rows, per_row)) = (&self.seen.angles, self.rows());
+        for row in 0..rows {
+            let each = (0..per_row as usize).map(|k| members[(row + k * rows) % members.len()]);
+            put(row, each.sum::<f64>() / f64::from(per_row));
+        }
+    }
+
+    /// Returns the angle of a row when all blades were last looked at, which is its angle now but
+    /// for the slack; none of a pair.
+    pub fn seen(&mut self) -> (&[f64], f64) {
+        self.see();
+        (&self.seen.angles, self.seen.slack)
+    }
+
+    /// Looks at all blades, if they may have turned too far since the last look.
+    fn see(&mut self) {
+        if self.seen.slack > self.fixed.most_slack || self.seen.steps >= self.fixed.steps_unseen {
+            self.see_all();
+        }
+    }
+
+    fn see_all(&mut self) {
+        if self.seen.steps == 0 && self.seen.slack == 0.0 {
+            return;
+        }
+        self.seen.angles = self.every_member();
+        let angles = &self.seen.angles;
+        let mean = angles.iter().sum::<f64>() / angles.len() as f64;
+        let most = |about: f64| angles.iter().map(|x| size(x - about)).fold(0.0, f64::max);
+        self.seen.largest = [most(0.0), most(mean)];
+        (self.seen.slack, self.seen.steps) = (0.0, 0);
+    }
+
+    /// Returns the displacements of the modes of a pair.
+    #[inline(always)]
+    pub fn pair_angles(&self) -> [f64; 2] {
+        self.modes.first().map_or([0.0; 2], |four| [four.x[0], four.x[1]])
+    }
+
+    fn amplitude(&self) -> f64 {
+        let [c, s] = self.pair_angles();
+        (c * c + s * s).sqrt()
+    }
+
+    /// Returns the largest angle of any blade that a unit torque makes in one step
+    /// \[rad/(N m)\].
+    #[inline]
+    pub fn most_turned(&self) -> f64 {
+        match self.modes.first() {
+            Some(four) if self.fixed.is_pair => four.compliance[0],
+            _ => self.fixed.most_turned,
+        }
+    }
+
+    /// Returns a bound on every blade angle now \[rad\].
+    #[inline]
+    pub fn bound(&mut self) -> f64 {
+        if self.fixed.is_pair {
+            let [c, s] = self.pair_angles();
+            return c.abs() + s.abs();
+        }
+        self.see();
+        self.seen.largest[0] + self.seen.slack
+    }
+
+    /// Returns the largest angle about the mean of all blades; of a pair, its amplitude \[rad\].
+    pub fn swing(&mut self) -> f64 {
+        if self.fixed.is_pair {
+            return self.amplitude();
+        }
+        self.see();
+        self.seen.largest[1]
+    }
+
+    /// Returns a bound on every blade angle in all free motion to come \[rad\].
+    pub fn reach(&self) -> f64 {
+        if !self.fixed.springs.is_empty() {
+            // With springs of their own the modes of the tuned disk exchange energy.
+            return f64::INFINITY;
+        }
+        let modes = self.oscillators.iter().enumerate();
+        let reach = |(m, oscillator): (usize, &Oscillator)| oscillator.reach(&[self.at(m)]);
+        match &self.oscillators[..] {
+            [first, second] if self.fixed.is_pair && first == second => {
+                first.reach(&[self.at(0), self.at(1)])
+            }
+            _ => modes.map(reach).sum(),
+        }
+    }
+
+    fn at(&self, m: usize) -> Coordinate {
+        let four = &self.modes[m / 4];
+        Coordinate { x: four.x[m % 4], increment: four.increment[m % 4] }
+    }
+
+    /// Returns the oscillators of a pair that moves, with their coordinates: `alpha_c + i alpha_s`
+    /// and its increment.
+    pub fn pair(&self) -> Option<(&Oscillator, [Coordinate; 2])> {
+        let first = self.oscillators.first().filter(|_| self.fixed.is_pair)?;
+        let second = if self.oscillators.len() > 1 { self.at(1) } else { Coordinate::default() };
+        Some((first, [self.at(0), second]))
+    }
+
+    /// Returns the modes of a pair.
+    pub fn modes_of_pair(&self) -> Vec<Oscillator> {
+        if self.fixed.is_pair { self.oscillators.to_vec() } else { Vec::new() }
+    }
+
+    /// Returns the coordinates of a pair; zeros for what is not there.
+    pub fn coordinates_of_pair(&self) -> [Coordinate; 2] {
+        let known = |m| self.fixed.is_pair && m < self.oscillators.len();
+        [0, 1].map(|m| if known(m) { self.at(m) } else { Coordinate::default() })
+    }
+
+    /// Puts the modes of a pair at these coordinates.
+    pub fn set_pair(&mut self, coordinates: [Coordinate; 2]) {
+        let pair = self.oscillators.iter().zip(coordinates).enumerate();
+        for (m, (oscillator, at)) in pair.filter(|_| self.fixed.is_pair) {
+            let four = &mut self.modes[m / 4];
+            (four.x[m % 4], four.increment[m % 4]) = (at.x, at.increment);
+            four.before[m % 4] = oscillator.increment_before(at);
+        }
+    }
+
+    /// Returns whether its modes are independent of each other, and none is so damped that the
+    /// step before cannot be told from a step.
+    pub fn flies(&self) -> bool {
+        self.fixed.springs.is_empty() && self.oscillators.iter().all(|mode| mode.ratio > 0.5)
+    }
+
+    /// Returns the largest phase that a mode turns in a step \[rad\].
+    pub fn fastest_turn(&self) -> f64 {
+        self.oscillators.iter().map(Oscillator::turn).fold(0.0, f64::max)
+    }
+
+    /// Returns the change of each mode in a free step, `[x, increment]` by `[x, increment]`.
+    pub fn changes_of_modes(&self) -> Vec<[f64; 4]> {
+        self.oscillators.iter().map(Oscillator::change).collect()
+    }
+
+    /// Takes free steps at once that change the modes by these.
+    pub fn fly(&mut self, changes: &[[f64; 4]]) {
+        for (m, ([a, b, c, d], oscillator)) in
+            changes.iter().zip(self.oscillators.iter()).enumerate()
+        {
+            let (four, k) = (&mut self.modes[m / 4], m % 4);
+            let (x, increment) = (four.x[k], four.increment[k]);
+            four.x[k] += a * x + b * increment;
+            four.increment[k] += c * x + d * increment;
+            let at = Coordinate { x: four.x[k], increment: four.increment[k] };
+            four.before[k] = oscillator.increment_before(at);
+        }
+        if !self.fixed.is_pair {
+            (self.seen.slack, self.seen.steps) = (f64::INFINITY, u32::MAX);
+            self.room = f64::NEG_INFINITY;
+        }
+    }
+
+    /// Returns the shapes of the two modes at a row, for a pair.
+    #[inline(always)]
+    pub fn shape_of(&self, row: usize) -> [f64; 2] {
+        self.fixed.rows.table().get(row).map_or([0.0; 2], |shape| [shape[0], shape[1]])
+    }
+
+    /// Returns the energy between the last two steps \[J\].
+    pub fn energy(&self) -> f64 {
+        let modes = self.oscillators.iter().enumerate();
+        let twice: f64 = modes.map(|(m, oscillator)| oscillator.twice_energy(self.at(m))).sum();
+        if self.fixed.springs.is_empty() {
+            return 0.5 * twice;
+        }
+        let moved = self.fixed.blades.all(|m| self.modes[m / 4].increment[m % 4]);
+        let each = self.fixed.springs.iter().zip(self.every_member().into_iter().zip(moved));
+        let springs: f64 = each.map(|(spring, (x, moved))| spring * x * (x - moved)).sum();
+        0.5 * (twice + springs)
+    }
+
+    /// Returns the energy that damping took in the last step, and the work of the excitation
+    /// \[J\].
+    pub fn flows(&self) -> [f64; 2] {
+        let mut loss = [0.0; 4];
+        for four in &self.modes {
+            (0..4).for_each(|k| {
+                let moved = four.increment[k] + four.before[k];
+                loss[k] += four.lost[k] * moved * moved;
+            });
+        }
+        let moved = |m: usize| self.modes[m / 4].increment[m % 4] + self.modes[m / 4].before[m % 4];
+        let work: f64 = self.driven.iter().map(|&(m, torque)| 0.5 * torque * moved(m)).sum();
+        [total(loss), work]
+    }
+
+    /// Returns the largest angle of any blade in all steps \[rad\].
+    pub fn largest(&self) -> f64 {
+        self.largest
+    }
+
+    /// From now on, looks only for angles beyond the limit of the model.
+    pub fn forgo_largest(&mut self) {
+        self.largest = self.largest.max(LARGEST_BLADE_ANGLE);
+    }
+
+    /// Updates the largest angle. Returns the angle that is beyond the limit of the model, if one
+    /// is \[rad\].
+    #[inline]
+    pub fn watch(&mut self) -> Option<f64> {
+        let within = if self.fixed.is_pair {
+            let [c, s] = self.pair_angles();
+            c * c + s * s <= self.largest * self.largest
+        } else {
+            self.room >= 0.0
+        };
+        if within { None } else { self.look() }
+    }
+
+    #[inline(never)]
+    fn look(&mut self) -> Option<f64> {
+        let (now, bound) = self.look_beyond(self.largest);
+        self.largest = self.largest.max(now);
+        self.room = self.largest - bound;
+        let fits = now <= LARGEST_BLADE_ANGLE;
+        (!fits).then_some(now)
+    }
+
+    /// Returns the largest of the angles that may be beyond `least`, and a bound on all.
+    fn look_beyond(&mut self, least: f64) -> (f64, f64) {
+        if self.fixed.is_pair {
+            let ([c, s], phases) = (self.pair_angles(), &self.fixed.phases);
+            let is_finite = c.is_finite() && s.is_finite();
+            let mut most = || phases.largest_component_near(c, s, &mut self.widest);
+            let now = if is_finite { most() } else { f64::INFINITY };
+            return (now, now);
+        }
+        let angle = |member: usize| {
+            let shapes = self.fixed.blades.row(member);
+            size(total(dot(&shapes, self.modes.iter().map(|four| four.x))))
+        };
+        // One by one they cost more than all at once where many may be beyond.
+        let mut left = self.fixed.blades.count() / 8;
+        let (mut now, mut bound) = (0.0_f64, 0.0_f64);
+        for (member, seen) in self.seen.angles.iter().enumerate() {
+            let most = seen.abs() + self.seen.slack;
+            if most <= least {
+                bound = bound.max(most);
+            } else if left > 0 {
+                left -= 1;
+                now = now.max(angle(member));
+            } else {
+                self.see_all();
+                return (self.seen.largest[0], self.seen.largest[0]);
+            }
+        }
+        (now, bound.max(now))
+    }
+}
+
+/// Returns the size of an angle; what is no number is beyond any bound.
+fn size(angle: f64) -> f64 {
+    if angle.is_nan() { f64::INFINITY } else { angle.abs() }
+}
+
+/// Returns the sum of four numbers.
+pub(super) fn total([a, b, c, d]: Four) -> f64 {
+    (a + b) + (c + d)
+}

@@ -1,0 +1,212 @@
+//! What does not change of the bladed disk: which modes it has, which blades move alike, which form
+//! a row, and the extra springs of a mistuned disk.
+//!
+//! Blades `N/d` apart do the same for ever where `d` divides the number of blades, the nodal
+//! diameters of the casing and the engine order, and tips and stiffnesses are equal: then `d` of
+//! them are one, and only modes of multiples of `d` diameters move.
+
+use std::sync::Arc;
+
+use super::drive::EngineOrderTorque;
+use super::oscillator::Oscillator;
+use super::shapes::{Label, Shapes};
+use crate::model::{ContactPolygon, Machine, blade_frequency, gcd};
+use crate::numeric::normal::normals;
+use crate::scene::{ModelSize, Scene};
+use crate::tolerances::{ANGLE_LOOK, TIP_SLACK};
+
+/// What does not change during a run.
+#[derive(Debug)]
+pub(super) struct Fixed {
+    pub labels: Vec<Label>,
+    /// Stiffness of each mode at rest \[N m/rad\].
+    pub still: Vec<f64>,
+    /// Shapes at blades that differ, and at rows.
+    pub blades: Arc<Shapes>,
+    pub rows: Arc<Shapes>,
+    /// Blades that are one in `blades`, as nothing tells them apart.
+    pub alike: u32,
+    pub per_row: u32,
+    /// Phases of the blades in the modes of a pair.
+    pub phases: ContactPolygon,
+    /// Whether there are only the modes of one number of diameters, or none.
+    pub is_pair: bool,
+    /// Angle of a row per unit torque `distance` rows away; none of a pair \[rad/(N m)\].
+    pub influence: Vec<f64>,
+    /// Largest angle of a blade per unit torque on another or itself \[rad/(N m)\].
+    pub most_turned: f64,
+    /// Stiffness of each blade beyond that of the tuned disk; none if tuned \[N m/rad\].
+    pub springs: Vec<f64>,
+    /// Modes and signs of `alpha_c` and `alpha_s`.
+    pub shown: [Option<(usize, f64)>; 2],
+    /// Steps between two looks at all blades, at most.
+    pub steps_unseen: u32,
+    /// Change of an angle after which all blades are looked at \[rad\].
+    pub most_slack: f64,
+}
+
+impl Fixed {
+    pub fn new(scene: &Scene, machine: &Machine, most_alike: u32) -> Self {
+        let (disk, polygon) = (&scene.disk_in_use(), &machine.polygon);
+        let (blades, group) = (polygon.blades, polygon.blades_per_side);
+        let diameters = disk.diameters_beside(polygon.nodal_diameters);
+        let springs = springs(scene);
+        let driven = EngineOrderTorque::of(scene).map_or(0, |torque| torque.order());
+        let alike = match scene.solver.model {
+            ModelSize::Rigid => blades,
+            ModelSize::Modal => gcd(blades, diameters),
+            ModelSize::Full if machine.is_uneven() || !springs.is_empty() => 1,
+            ModelSize::Full => gcd(gcd(group, driven), most_alike),
+        };
+        let per_row = match scene.solver.model {
+            _ if machine.is_uneven() => 1,
+            // Tips without a slope share a push evenly, as only their sum is determined.
+            _ if machine.radial_coupling == 0.0 => group,
+            ModelSize::Rigid => group,
+            ModelSize::Modal => gcd(group, diameters),
+            ModelSize::Full if springs.is_empty() => alike,
+            ModelSize::Full => 1,
+        };
+        let label = |diameters: u32, is_sine: bool| {
+            let is_alone = (2 * u64::from(diameters)).is_multiple_of(u64::from(blades));
+            Label { diameters, is_sine, is_alone }
+        };
+        let both = |diameters: u32| {
+            let [cosine, sine] = [false, true].map(|is_sine| label(diameters, is_sine));
+            if sine.is_alone { vec![cosine] } else { vec![cosine, sine] }
+        };
+        let labels: Vec<Label> = match scene.solver.model {
+            ModelSize::Rigid => Vec::new(),
+            ModelSize::Modal => both(diameters),
+            ModelSize::Full => (0..=blades / alike / 2).flat_map(|k| both(alike * k)).collect(),
+        };
+        let is_pair = scene.solver.model != ModelSize::Full;
+        let members = Arc::new(Shapes::new(&labels, blades, alike, blades / alike, !is_pair));
+        let rows = if per_row == alike {
+            members.clone()
+        } else {
+            Arc::new(Shapes::new(&labels, blades, per_row, blades / per_row, false))
+        };
+        let still = labels.iter().map(|label| {
+            let mass = if label.is_alone { 1.0 } else { 0.5 } * f64::from(blades);
+            let omega = blade_frequency(disk, label.diameters);
+            omega * omega * mass * disk.inertia_kg_m2
+        });
+        Self {
+            still: still.collect(),
+            shown: match is_pair {
+                true => shown(&labels, blades, diameters, true, machine.has_sine_mode),
+                false => {
+                    let diameters = polygon.nodal_diameters;
+                    shown(&labels, blades, diameters, false, machine.has_sine_mode)
+                }
+            },
+            labels,
+            blades: members,
+            rows,
+            alike,
+            per_row,
+            phases: ContactPolygon::new(blades, diameters, 1.0),
+            is_pair,
+            influence: Vec::new(),
+            most_turned: 0.0,
+            springs,
+            steps_unseen: 0,
+            most_slack: TIP_SLACK * machine.clearance().abs()
+                / (machine.radial_coupling * machine.blade_length).abs(),
+        }
+    }
+
+    /// Adds what follows from the oscillators, of which the fastest turns by `turn` in a step.
+    pub fn looked_at(mut self, turn: f64, oscillators: &[Oscillator]) -> Self {
+        self.steps_unseen = (ANGLE_LOOK / turn).clamp(1.0, 1e9) as u32;
+        if self.is_pair {
+            return self;
+        }
+        // A torque on row 0 or on blade 0, felt by the modes; the disk is the same from any row.
+        let of = |shapes: &Shapes| {
+            let first = shapes.row(0);
+            self.blades.all(|m| oscillators[m].compliance * first[m / 4][m % 4])
+        };
+        self.most_turned = of(&self.blades).iter().fold(0.0, |most, x| f64::max(most, x.abs()));
+        let (turned, rows) = (of(&self.rows), self.rows.count());
+        let mean = |row: usize| {
+            let each = (0..self.per_row as usize).map(|k| turned[(row + k * rows) % turned.len()]);
+            each.sum::<f64>() / f64::from(self.per_row)
+        };
+        self.influence = (0..rows).map(mean).collect();
+        self
+    }
+}
+
+/// Returns the modes of `alpha_c` and `alpha_s` with their signs: more diameters than half of the
+/// blades are those of fewer, seen from blade to blade.
+fn shown(
+    labels: &[Label],
+    blades: u32,
+    diameters: u32,
+    is_pair: bool,
+    has_sine: bool,
+) -> [Option<(usize, f64)>; 2] {
+    let alias = if is_pair { diameters } else { diameters % blades };
+    let folded = if is_pair { alias } else { alias.min(blades - alias) };
+    let find = |is_sine: bool| {
+        labels.iter().position(|label| label.diameters == folded && label.is_sine == is_sine)
+    };
+    let sign = if alias == folded { 1.0 } else { -1.0 };
+    [find(false).map(|m| (m, 1.0)), find(true).filter(|_| has_sine).map(|m| (m, sign))]
+}
+
+/// Returns the stiffness of each blade beyond `k_b`, `sd x_i k_b` with `x_i` standard normal less
+/// their mean, so that `k_b` is the mean stiffness \[N m/rad\]; none for a tuned disk.
+fn springs(scene: &Scene) -> Vec<f64> {
+    let disk = &scene.disk_in_use();
+    if disk.mistuning == 0.0 || scene.solver.model != ModelSize::Full {
+        return Vec::new();
+    }
+    let drawn = normals(disk.mistuning_seed, disk.blades);
+    let mean = drawn.iter().sum::<f64>() / f64::from(disk.blades);
+    // A spring may be soft, and none pushes away.
+    let softest = drawn.iter().fold(0.0, |most: f64, x| most.max(mean - x));
+    let spread = disk.stiffness_nm_per_rad * disk.mistuning.min(1.0 / softest);
+    drawn.into_iter().map(|x| spread * (x - mean)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stiffnesses_are_drawn_alike_on_every_machine() {
+        let mut scene = Scene::base();
+        scene.bladed_disk.mistuning = 0.02;
+        let drawn = springs(&scene);
+        assert_eq!(drawn, springs(&scene));
+        scene.bladed_disk.mistuning_seed = 2;
+        assert_ne!(drawn, springs(&scene));
+        scene.bladed_disk.blades = 4000;
+        let part = |spring: &f64| spring / (0.02 * scene.bladed_disk.stiffness_nm_per_rad);
+        let parts: Vec<f64> = springs(&scene).iter().map(part).collect();
+        let square = parts.iter().map(|x| x * x).sum::<f64>() / 4000.0;
+        // Four standard errors.
+        assert!((square - 1.0).abs() < 0.09, "{square}");
+    }
+
+    #[test]
+    fn the_mean_stiffness_of_a_draw_is_that_of_the_tuned_blade() {
+        let mut scene = Scene::base();
+        let stiffness = scene.bladed_disk.stiffness_nm_per_rad;
+        // The last is more than some of its springs can lose.
+        for (blades, seed, sd) in
+            [(22, 1, 0.2), (22, 2, 0.05), (3, 5, 0.2), (1, 1, 0.2), (4000, 1, 0.4)]
+        {
+            let disk = &mut scene.bladed_disk;
+            (disk.blades, disk.mistuning_seed, disk.mistuning) = (blades, seed, sd);
+            let drawn = springs(&scene);
+            let mean = drawn.iter().sum::<f64>() / f64::from(blades);
+            assert!(mean.abs() < 1e-14 * stiffness, "{blades} {seed}: {mean}");
+            assert!(blades == 1 || drawn.iter().any(|&x| x > 0.01 * stiffness));
+            assert!(drawn.iter().all(|&x| x >= -stiffness * (1.0 + 1e-12)), "{blades} {seed}");
+        }
+    }
+}
