@@ -37,7 +37,7 @@ impl Explicit {
         // Gaps of earlier steps may change by as much as the clearance.
         self.dips = [self.machine.clearance().abs(); 2];
         let tips = Arc::new(Tips::new(&self.machine, self.disk.rows().0));
-        self.drive.set_parameters(scene, tips.lobes);
+        self.drive.set_parameters(self.n, scene, tips.lobes);
         let old = std::mem::replace(&mut self.tips_of_rows, tips);
         if old.rows.len() != self.tips_of_rows.rows.len() {
             self.rows.clear();
@@ -80,6 +80,7 @@ impl Explicit {
     pub(super) fn forget(&mut self) {
         self.lasting.forget();
         self.strides.forget();
+        self.stride_began = None;
         self.rest = OnceLock::new();
     }
 

@@ -17,18 +17,18 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use super::angles::Seen;
 use super::drive::EngineOrderTorque;
 use super::fixed::Fixed;
 use super::oscillator::{Coordinate, Oscillator};
 use super::shapes::{Four, Label, dot};
 use crate::model::{Machine, blade_frequency};
 use crate::scene::Scene;
-use crate::tolerances::LARGEST_BLADE_ANGLE;
 
 /// Coordinates of four modes and the coefficients of their recurrence, see [`Oscillator`].
 #[derive(Clone, Copy, Debug, Default)]
-struct Modes {
-    x: Four,
+pub(super) struct Modes {
+    pub(super) x: Four,
     increment: Four,
     /// Increments of the step before the last.
     before: Four,
@@ -43,28 +43,18 @@ struct Modes {
 /// The bladed disk in motion.
 #[derive(Clone, Debug)]
 pub(super) struct Disk {
-    modes: Vec<Modes>,
-    oscillators: Arc<Vec<Oscillator>>,
-    fixed: Arc<Fixed>,
+    pub(super) modes: Vec<Modes>,
+    pub(super) oscillators: Arc<Vec<Oscillator>>,
+    pub(super) fixed: Arc<Fixed>,
     /// Torques of the excitation in the last step, each with its mode \[N m\].
     driven: Vec<(usize, f64)>,
-    seen: Seen,
+    pub(super) seen: Seen,
     /// Phase of the blades of a pair that had the largest angle when it was looked for.
-    widest: u32,
+    pub(super) widest: u32,
     /// Largest angle of any blade in any step \[rad\].
-    largest: f64,
+    pub(super) largest: f64,
     /// Lower bound on how far every angle is below it \[rad\].
-    room: f64,
-}
-
-/// Angles of all blades when they were last looked at, and how far they may be from them since.
-#[derive(Clone, Debug)]
-struct Seen {
-    angles: Vec<f64>,
-    slack: f64,
-    steps: u32,
-    /// Largest angle, and largest about the mean \[rad\].
-    largest: [f64; 2],
+    pub(super) room: f64,
 }
 
 impl Disk {
@@ -341,7 +331,7 @@ impl Disk {
     }
 
     /// Returns the angles of blades that differ.
-    fn every_member(&self) -> Vec<f64> {
+    pub(super) fn every_member(&self) -> Vec<f64> {
         self.fixed.blades.all(|m| self.modes[m / 4].x[m % 4])
     }
 
@@ -351,49 +341,13 @@ impl Disk {
         (0..blades as usize).map(|blade| members[blade % members.len()]).collect()
     }
 
-    /// Hands the angle of each row to `put`, for more than a pair of modes \[rad\].
-    pub fn all_angles(&mut self, mut put: impl FnMut(usize, f64)) {
-        self.see_all();
-        let (members, (rows, per_row)) = (&self.seen.angles, self.rows());
-        for row in 0..rows {
-            let each = (0..per_row as usize).map(|k| members[(row + k * rows) % members.len()]);
-            put(row, each.sum::<f64>() / f64::from(per_row));
-        }
-    }
-
-    /// Returns the angle of a row when all blades were last looked at, which is its angle now but
-    /// for the slack; none of a pair.
-    pub fn seen(&mut self) -> (&[f64], f64) {
-        self.see();
-        (&self.seen.angles, self.seen.slack)
-    }
-
-    /// Looks at all blades, if they may have turned too far since the last look.
-    fn see(&mut self) {
-        if self.seen.slack > self.fixed.most_slack || self.seen.steps >= self.fixed.steps_unseen {
-            self.see_all();
-        }
-    }
-
-    fn see_all(&mut self) {
-        if self.seen.steps == 0 && self.seen.slack == 0.0 {
-            return;
-        }
-        self.seen.angles = self.every_member();
-        let angles = &self.seen.angles;
-        let mean = angles.iter().sum::<f64>() / angles.len() as f64;
-        let most = |about: f64| angles.iter().map(|x| size(x - about)).fold(0.0, f64::max);
-        self.seen.largest = [most(0.0), most(mean)];
-        (self.seen.slack, self.seen.steps) = (0.0, 0);
-    }
-
     /// Returns the displacements of the modes of a pair.
     #[inline(always)]
     pub fn pair_angles(&self) -> [f64; 2] {
         self.modes.first().map_or([0.0; 2], |four| [four.x[0], four.x[1]])
     }
 
-    fn amplitude(&self) -> f64 {
+    pub(super) fn amplitude(&self) -> f64 {
         let [c, s] = self.pair_angles();
         (c * c + s * s).sqrt()
     }
@@ -408,43 +362,7 @@ impl Disk {
         }
     }
 
-    /// Returns a bound on every blade angle now \[rad\].
-    #[inline]
-    pub fn bound(&mut self) -> f64 {
-        if self.fixed.is_pair {
-            let [c, s] = self.pair_angles();
-            return c.abs() + s.abs();
-        }
-        self.see();
-        self.seen.largest[0] + self.seen.slack
-    }
-
-    /// Returns the largest angle about the mean of all blades; of a pair, its amplitude \[rad\].
-    pub fn swing(&mut self) -> f64 {
-        if self.fixed.is_pair {
-            return self.amplitude();
-        }
-        self.see();
-        self.seen.largest[1]
-    }
-
-    /// Returns a bound on every blade angle in all free motion to come \[rad\].
-    pub fn reach(&self) -> f64 {
-        if !self.fixed.springs.is_empty() {
-            // With springs of their own the modes of the tuned disk exchange energy.
-            return f64::INFINITY;
-        }
-        let modes = self.oscillators.iter().enumerate();
-        let reach = |(m, oscillator): (usize, &Oscillator)| oscillator.reach(&[self.at(m)]);
-        match &self.oscillators[..] {
-            [first, second] if self.fixed.is_pair && first == second => {
-                first.reach(&[self.at(0), self.at(1)])
-            }
-            _ => modes.map(reach).sum(),
-        }
-    }
-
-    fn at(&self, m: usize) -> Coordinate {
+    pub(super) fn at(&self, m: usize) -> Coordinate {
         let four = &self.modes[m / 4];
         Coordinate { x: four.x[m % 4], increment: four.increment[m % 4] }
     }
@@ -470,11 +388,8 @@ impl Disk {
 
     /// Puts the modes of a pair at these coordinates.
     pub fn set_pair(&mut self, coordinates: [Coordinate; 2]) {
-        let pair = self.oscillators.iter().zip(coordinates).enumerate();
-        for (m, (oscillator, at)) in pair.filter(|_| self.fixed.is_pair) {
-            let four = &mut self.modes[m / 4];
-            (four.x[m % 4], four.increment[m % 4]) = (at.x, at.increment);
-            four.before[m % 4] = oscillator.increment_before(at);
+        for (m, at) in coordinates.into_iter().enumerate().take(self.oscillators.len()) {
+            self.put(m, at);
         }
     }
 
@@ -496,20 +411,20 @@ impl Disk {
 
     /// Takes free steps at once that change the modes by these.
     pub fn fly(&mut self, changes: &[[f64; 4]]) {
-        for (m, ([a, b, c, d], oscillator)) in
-            changes.iter().zip(self.oscillators.iter()).enumerate()
-        {
-            let (four, k) = (&mut self.modes[m / 4], m % 4);
-            let (x, increment) = (four.x[k], four.increment[k]);
-            four.x[k] += a * x + b * increment;
-            four.increment[k] += c * x + d * increment;
-            let at = Coordinate { x: four.x[k], increment: four.increment[k] };
-            four.before[k] = oscillator.increment_before(at);
+        for (m, change) in changes.iter().enumerate() {
+            self.put(m, self.at(m).changed(change));
         }
         if !self.fixed.is_pair {
             (self.seen.slack, self.seen.steps) = (f64::INFINITY, u32::MAX);
             self.room = f64::NEG_INFINITY;
         }
+    }
+
+    /// Puts a mode at a coordinate to which no force has brought it in the last step.
+    fn put(&mut self, m: usize, at: Coordinate) {
+        let (four, k) = (&mut self.modes[m / 4], m % 4);
+        (four.x[k], four.increment[k]) = (at.x, at.increment);
+        four.before[k] = self.oscillators[m].increment_before(at);
     }
 
     /// Returns the shapes of the two modes at a row, for a pair.
@@ -545,74 +460,6 @@ impl Disk {
         let work: f64 = self.driven.iter().map(|&(m, torque)| 0.5 * torque * moved(m)).sum();
         [total(loss), work]
     }
-
-    /// Returns the largest angle of any blade in all steps \[rad\].
-    pub fn largest(&self) -> f64 {
-        self.largest
-    }
-
-    /// From now on, looks only for angles beyond the limit of the model.
-    pub fn forgo_largest(&mut self) {
-        self.largest = self.largest.max(LARGEST_BLADE_ANGLE);
-    }
-
-    /// Updates the largest angle. Returns the angle that is beyond the limit of the model, if one
-    /// is \[rad\].
-    #[inline]
-    pub fn watch(&mut self) -> Option<f64> {
-        let within = if self.fixed.is_pair {
-            let [c, s] = self.pair_angles();
-            c * c + s * s <= self.largest * self.largest
-        } else {
-            self.room >= 0.0
-        };
-        if within { None } else { self.look() }
-    }
-
-    #[inline(never)]
-    fn look(&mut self) -> Option<f64> {
-        let (now, bound) = self.look_beyond(self.largest);
-        self.largest = self.largest.max(now);
-        self.room = self.largest - bound;
-        let fits = now <= LARGEST_BLADE_ANGLE;
-        (!fits).then_some(now)
-    }
-
-    /// Returns the largest of the angles that may be beyond `least`, and a bound on all.
-    fn look_beyond(&mut self, least: f64) -> (f64, f64) {
-        if self.fixed.is_pair {
-            let ([c, s], phases) = (self.pair_angles(), &self.fixed.phases);
-            let is_finite = c.is_finite() && s.is_finite();
-            let mut most = || phases.largest_component_near(c, s, &mut self.widest);
-            let now = if is_finite { most() } else { f64::INFINITY };
-            return (now, now);
-        }
-        let angle = |member: usize| {
-            let shapes = self.fixed.blades.row(member);
-            size(total(dot(&shapes, self.modes.iter().map(|four| four.x))))
-        };
-        // One by one they cost more than all at once where many may be beyond.
-        let mut left = self.fixed.blades.count() / 8;
-        let (mut now, mut bound) = (0.0_f64, 0.0_f64);
-        for (member, seen) in self.seen.angles.iter().enumerate() {
-            let most = seen.abs() + self.seen.slack;
-            if most <= least {
-                bound = bound.max(most);
-            } else if left > 0 {
-                left -= 1;
-                now = now.max(angle(member));
-            } else {
-                self.see_all();
-                return (self.seen.largest[0], self.seen.largest[0]);
-            }
-        }
-        (now, bound.max(now))
-    }
-}
-
-/// Returns the size of an angle; what is no number is beyond any bound.
-fn size(angle: f64) -> f64 {
-    if angle.is_nan() { f64::INFINITY } else { angle.abs() }
 }
 
 /// Returns the sum of four numbers.

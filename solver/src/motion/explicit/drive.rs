@@ -40,9 +40,9 @@ impl Drive {
             quiet_from: quiet_from(&pulse, step),
             left_over: (0, 0.0),
             diameters,
-            phasor: Phasor::new(&rotor, diameters, step),
+            phasor: Phasor::new(&rotor, diameters, step, 0),
             lobes,
-            lobe_phasor: Phasor::new(&rotor, lobes, step),
+            lobe_phasor: Phasor::new(&rotor, lobes, step, 0),
         }
     }
 
@@ -126,15 +126,15 @@ impl Drive {
     /// Turns with this speed and acceleration from step `n` on.
     pub fn set_speed(&mut self, n: u64, speed: f64, ramp: f64) {
         self.rotor.change(self.time_of(n), speed, ramp);
-        self.phasor = Phasor::new(&self.rotor, self.diameters, self.step);
-        self.lobe_phasor = Phasor::new(&self.rotor, self.lobes, self.step);
+        self.phasor = Phasor::new(&self.rotor, self.diameters, self.step, n);
+        self.lobe_phasor = Phasor::new(&self.rotor, self.lobes, self.step, n);
     }
 
-    /// Takes the excitation of a scene from now on, its lobes, and its pulse for the next fire.
-    pub fn set_parameters(&mut self, scene: &Scene, lobes: f64) {
+    /// Takes the excitation of a scene from step `n` on, its lobes, and its pulse for the next fire.
+    pub fn set_parameters(&mut self, n: u64, scene: &Scene, lobes: f64) {
         if lobes != self.lobes {
             self.lobes = lobes;
-            self.lobe_phasor = Phasor::new(&self.rotor, lobes, self.step);
+            self.lobe_phasor = Phasor::new(&self.rotor, lobes, self.step, n);
         }
         self.excitation = EngineOrderTorque::of(scene);
         self.next_pulse = Pulse::of(scene);
@@ -165,6 +165,11 @@ fn quiet_from(pulse: &Pulse, step: f64) -> u64 {
 #[derive(Clone, Debug)]
 struct Phasor {
     table: Vec<Plane>,
+    /// Phase of a step \[rad\].
+    rate: f64,
+    /// Step of the latest change of speed, and the value there.
+    from: u64,
+    at_from: Plane,
     block: u64,
     at_block: Plane,
 }
@@ -172,11 +177,14 @@ struct Phasor {
 const TABLE: u64 = 64;
 
 impl Phasor {
-    fn new(rotor: &Rotor, order: f64, step: f64) -> Self {
-        let entry = |j: u64| Plane::cis(order * rotor.speed(0.0) * step * j as f64);
+    fn new(rotor: &Rotor, order: f64, step: f64, from: u64) -> Self {
+        let t = from as f64 * step;
+        let rate = order * rotor.speed(t) * step;
+        let entry = |j: u64| Plane::cis(rate * j as f64);
         let steady = rotor.ramp() == 0.0;
         let table = if steady { (0..TABLE).map(entry).collect() } else { Vec::new() };
-        Self { table, block: u64::MAX, at_block: Plane::new(1.0, 0.0) }
+        let (at_from, at_block) = (Plane::cis(order * rotor.angle(t)), Plane::new(1.0, 0.0));
+        Self { table, rate, from, at_from, block: u64::MAX, at_block }
     }
 
     /// Returns the value at step `n`, and keeps the one at the beginning of its block.
@@ -184,7 +192,7 @@ impl Phasor {
     fn at(&mut self, n: u64, rotor: &Rotor, order: f64, step: f64) -> Plane {
         if !self.table.is_empty() && n / TABLE != self.block {
             self.block = n / TABLE;
-            self.at_block = exact(self.block * TABLE, rotor, order, step);
+            self.at_block = self.exact(self.block * TABLE);
         }
         self.look(n, rotor, order, step)
     }
@@ -192,19 +200,21 @@ impl Phasor {
     #[inline]
     fn look(&self, n: u64, rotor: &Rotor, order: f64, step: f64) -> Plane {
         let Some(turn) = self.table.get((n % TABLE) as usize) else {
-            return exact(n, rotor, order, step);
+            return Plane::cis(order * rotor.angle(n as f64 * step));
         };
         let block = n / TABLE;
-        if block == self.block {
-            self.at_block * turn
-        } else {
-            exact(block * TABLE, rotor, order, step) * turn
-        }
+        let at_block = if block == self.block { self.at_block } else { self.exact(block * TABLE) };
+        at_block * turn
     }
-}
 
-fn exact(n: u64, rotor: &Rotor, order: f64, step: f64) -> Plane {
-    Plane::cis(order * rotor.angle(n as f64 * step))
+    /// Returns the value at step `n` at constant speed. The round-off of a phase of many turns would
+    /// shake a held tip, so what the product loses is turned after.
+    fn exact(&self, n: u64) -> Plane {
+        let steps = n as f64 - self.from as f64;
+        let phase = self.rate * steps;
+        let lost = self.rate.mul_add(steps, -phase);
+        self.at_from * Plane::cis(phase) * Plane::new(1.0, lost)
+    }
 }
 
 /// The excitation of one scene.
@@ -289,7 +299,7 @@ mod tests {
         for ramp in ["0", "-300"] {
             let scene = Scene::base().with(&[("operation.speed_ramp_rad_s2", ramp)]).unwrap();
             let rotor = Rotor::of(&scene);
-            let mut phasor = Phasor::new(&rotor, 3.0, 1e-6);
+            let mut phasor = Phasor::new(&rotor, 3.0, 1e-6, 0);
             for n in [0, 1, 63, 64, 65, 1000, 12_345, 12_346, 70] {
                 let seen = phasor.look(n, &rotor, 3.0, 1e-6);
                 let (sin, cos) = (3.0 * rotor.angle(n as f64 * 1e-6)).sin_cos();

@@ -9,6 +9,7 @@
 //! `lasting` (what drives a motion and what it leaves behind), `changes` (a machine that changes on
 //! the way), `rest` and `proofs` (verdicts before the end). `solver` puts them together.
 
+mod angles;
 mod changes;
 mod disk;
 mod drive;
@@ -23,6 +24,7 @@ mod row;
 mod shapes;
 mod solver;
 mod step;
+mod stride_map;
 mod strides;
 
 use std::sync::{Arc, OnceLock};
@@ -88,6 +90,8 @@ pub(super) struct Explicit {
     /// The linear motion about rest at this speed, once asked for.
     rest: OnceLock<Option<Rest>>,
     strides: Strides,
+    /// The motion where the stride began inside of which the latest step lies.
+    stride_began: Option<Box<Explicit>>,
     /// Number of steps that were not computed one by one, but many at once by strides.
     skipped: u64,
     failure: Option<Failure>,
@@ -137,6 +141,7 @@ impl Explicit {
             steps_unseen: steps_unseen(scene, &machine),
             rest: OnceLock::new(),
             strides: Strides::default(),
+            stride_began: None,
             skipped: 0,
             failure: None,
             machine,

@@ -20,7 +20,8 @@ pub(super) struct Oscillator {
     pub mass: f64,
     damping: f64,
     stiffness: f64,
-    step: f64,
+    /// \[s\]
+    pub step: f64,
 }
 
 /// Displacement and last increment of one coordinate.
@@ -30,6 +31,15 @@ pub(super) struct Coordinate {
     pub x: f64,
     /// `x[n] - x[n-1]`.
     pub increment: f64,
+}
+
+impl Coordinate {
+    /// Returns it after a change, `[x, increment]` by `[x, increment]`.
+    #[inline]
+    pub fn changed(self, [a, b, c, d]: &[f64; 4]) -> Self {
+        let Self { x, increment } = self;
+        Self { x: x + a * x + b * increment, increment: increment + c * x + d * increment }
+    }
 }
 
 impl Oscillator {

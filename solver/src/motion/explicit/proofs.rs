@@ -2,7 +2,9 @@
 
 use super::{Explicit, Lining};
 use crate::motion::{ActiveSet, Verdict};
-use crate::tolerances::{CERTAIN_PUSH, HELD_AFTER, LIGHT_BLADES, ROOM_TO_CHANGE};
+use crate::tolerances::{
+    CERTAIN_PUSH, HELD_AFTER, LARGEST_BLADE_ANGLE, LIGHT_BLADES, ROOM_TO_CHANGE,
+};
 
 impl Explicit {
     /// Returns whether no contact can come again: once pulse and lining are over, the energies of
@@ -14,15 +16,18 @@ impl Explicit {
             || pressed
             || least <= 0.0
             || self.drive.pulse_to_come(self.n)
+            || self.drive.excitation.is_some()
             || self.follows_speed()
         {
             return false;
         }
-        let risen = match self.tips.rise.abs() {
-            0.0 => 0.0,
-            _ if self.drive.excitation.is_some() => return false,
-            rise => rise * self.disk.reach(),
-        };
+        let reach = self.disk.reach();
+        // A blade that turns too far would make the run fail.
+        if reach > LARGEST_BLADE_ANGLE {
+            return false;
+        }
+        let rise = self.tips.rise.abs();
+        let risen = if rise == 0.0 { 0.0 } else { rise * reach };
         risen < least && self.casing.reach(&self.u) + risen < least
     }
 
@@ -68,7 +73,8 @@ impl Explicit {
     fn corner_for_good(&self) -> Option<Verdict> {
         let (machine, tips) = (&self.machine, &self.tips);
         let plain = tips.rise == 0.0 && !self.drive.has_lobes() && self.restitution == 0.0;
-        let sides = self.held_corner().filter(|_| plain && machine.polygon.has_corners())?;
+        let corner = self.held_corner().filter(|_| plain && self.disk.flies());
+        let sides = corner.filter(|_| machine.polygon.has_corners())?;
         let sum = |side| {
             let rows = self.rows.iter().filter(|row| row.side == side);
             rows.map(|row| row.lambda).sum::<f64>()

@@ -18,9 +18,11 @@ pub(super) struct Record {
     step: f64,
     /// Step of the latest contact of each side, plus one; 0 for none.
     touched: Vec<u64>,
-    /// Impulse on each side since `take_mean_forces` \[N s\].
+    /// Impulse on each side since the start, and what `take_mean_forces` has told of it, until which
+    /// step \[N s\].
     impulses: Vec<f64>,
-    impulses_since: u64,
+    told: Vec<f64>,
+    told_until: u64,
 }
 
 impl Record {
@@ -34,7 +36,8 @@ impl Record {
             step,
             touched: vec![0; sides as usize],
             impulses: vec![0.0; sides as usize],
-            impulses_since: 0,
+            told: vec![0.0; sides as usize],
+            told_until: 0,
         }
     }
 
@@ -108,17 +111,23 @@ impl Record {
 
     /// Returns the mean forces on the sides since the last call, until step `n` \[N\].
     pub fn take_mean_forces(&mut self, polygon: &ContactPolygon, n: u64) -> Vec<(u32, f64)> {
-        let span = self.time_of(n.saturating_sub(self.impulses_since));
-        self.impulses_since = n;
+        let span = self.time_of(n.saturating_sub(self.told_until));
+        self.told_until = n;
         let mut means = Vec::new();
-        for (side, impulse) in self.impulses.iter_mut().enumerate() {
-            if *impulse != 0.0 && span > 0.0 {
-                means.push((side as u32, *impulse / span));
-                *impulse = 0.0;
+        for (side, (impulse, told)) in self.impulses.iter().zip(&mut self.told).enumerate() {
+            if impulse != told && span > 0.0 {
+                means.push((side as u32, (impulse - *told) / span));
+                *told = *impulse;
             }
         }
         in_phase_order(polygon, &mut means);
         means
+    }
+
+    /// Takes over what `take_mean_forces` has told of another record of the same motion.
+    pub fn keep_told(&mut self, of: &mut Self) {
+        self.told = std::mem::take(&mut of.told);
+        self.told_until = of.told_until;
     }
 }
 

@@ -1,6 +1,7 @@
 //! The explicit solver as every solver is seen: advanced, looked at, and changed on the way.
 
 use super::lasting::Surface;
+use super::strides::Stride;
 use super::{Coordinate, Disk, Explicit};
 use crate::model::Machine;
 use crate::motion::{
@@ -9,6 +10,10 @@ use crate::motion::{
 };
 use crate::scene::CheckedScene;
 use crate::tolerances::{STEP_ROUND_OFF, UPDATES_UNASKED};
+
+/// Steps that are taken one by one after a stride until a look at the multipliers: what a map leaves of
+/// the gaps is pushed away in the step after it, and the two after that feel it.
+const LAST_STEPS: u64 = 4;
 
 impl Explicit {
     /// Returns casing and blades one step on from the latest, before rigid contact corrects them.
@@ -19,6 +24,36 @@ impl Explicit {
         let [c, s] = self.u;
         ([self.casing.step(c, force + push.re), self.casing.step(s, push.im)], disk)
     }
+
+    fn take_one(&mut self) -> Result<(), Failure> {
+        self.take_step().map_err(|reason| {
+            let failure = Failure { t_s: self.drive.time_of(self.n), reason };
+            self.record.end_contact(self.n);
+            self.failure = Some(failure.clone());
+            failure
+        })
+    }
+
+    /// Goes to a step inside of a stride or near its end. The last steps before it are taken one by
+    /// one.
+    fn look_into(&mut self, stride: &Stride, target: u64) -> Result<(), Failure> {
+        let began = Box::new(self.clone());
+        let steps = (target - self.n).saturating_sub(LAST_STEPS);
+        if steps > 0 {
+            self.take_stride(stride, steps);
+        }
+        while self.n < target {
+            self.take_one()?;
+        }
+        self.stride_began = Some(began);
+        Ok(())
+    }
+
+    /// Goes back to where the stride of the latest step began; what was told stays told.
+    fn go_back(&mut self, mut began: Self) {
+        began.record.keep_told(&mut self.record);
+        *self = began;
+    }
 }
 
 impl Solver for Explicit {
@@ -28,6 +63,9 @@ impl Solver for Explicit {
         }
         // A step that ends within a millionth of itself after `until` belongs to it.
         let target = (until / self.drive.step + STEP_ROUND_OFF).floor().max(0.0) as u64;
+        if let Some(began) = self.stride_began.take() {
+            self.go_back(*began);
+        }
         let steps_unasked = UPDATES_UNASKED / (2 + self.disk.coordinates());
         let mut unasked = 0;
         while self.n < target {
@@ -38,15 +76,13 @@ impl Solver for Explicit {
                     return Ok(false);
                 }
             }
-            if !self.scene.solver.plain
-                && let Some(steps) = self.stride(target)
-            {
-                self.skipped += steps;
-            } else if let Err(reason) = self.take_step() {
-                let failure = Failure { t_s: self.drive.time_of(self.n), reason };
-                self.record.end_contact(self.n);
-                self.failure = Some(failure.clone());
-                return Err(failure);
+            let stride = if self.scene.solver.plain { None } else { self.find_stride() };
+            match stride {
+                Some(stride) if self.n + stride.steps + LAST_STEPS < target => {
+                    self.take_stride(&stride, stride.steps);
+                }
+                Some(stride) => self.look_into(&stride, target)?,
+                None => self.take_one()?,
             }
         }
         Ok(true)
@@ -179,6 +215,7 @@ impl Solver for Explicit {
     }
 
     fn forgo_checks(&mut self) {
+        self.stride_began = None;
         self.ledger.counts = false;
         self.disk.forgo_largest();
     }
@@ -200,6 +237,7 @@ impl Solver for Explicit {
         if self.held_corner().is_some() {
             return;
         }
+        self.forget();
         let before = self.stored();
         self.u.iter_mut().for_each(|at| at.increment *= factor);
         self.ledger.start += self.stored() - before;

@@ -1,0 +1,204 @@
+//! How far blades turn: now, in all free motion to come, and at most in all steps so far.
+//!
+//! Of a pair of modes these are a few products. All blades of a full disk are looked at now and then;
+//! between two looks no blade turns by more than a slack that every step adds to.
+
+use super::disk::{Disk, total};
+use super::oscillator::{Coordinate, Oscillator};
+use super::shapes::dot;
+use crate::tolerances::{ANGLE_LOOK, LARGEST_BLADE_ANGLE};
+
+/// Angles of all blades when they were last looked at, and how far they may be from them since.
+#[derive(Clone, Debug)]
+pub(super) struct Seen {
+    pub angles: Vec<f64>,
+    pub slack: f64,
+    pub steps: u32,
+    /// Largest angle, and largest about the mean \[rad\].
+    pub largest: [f64; 2],
+}
+
+impl Disk {
+    /// Hands the angle of each row to `put`, for more than a pair of modes \[rad\].
+    pub fn all_angles(&mut self, mut put: impl FnMut(usize, f64)) {
+        self.see_all();
+        let (members, (rows, per_row)) = (&self.seen.angles, self.rows());
+        for row in 0..rows {
+            let each = (0..per_row as usize).map(|k| members[(row + k * rows) % members.len()]);
+            put(row, each.sum::<f64>() / f64::from(per_row));
+        }
+    }
+
+    /// Returns the angle of a row when all blades were last looked at, which is its angle now but
+    /// for the slack; none of a pair.
+    pub fn seen(&mut self) -> (&[f64], f64) {
+        self.see();
+        (&self.seen.angles, self.seen.slack)
+    }
+
+    /// Looks at all blades, if they may have turned too far since the last look.
+    fn see(&mut self) {
+        if self.seen.slack > self.fixed.most_slack || self.seen.steps >= self.fixed.steps_unseen {
+            self.see_all();
+        }
+    }
+
+    fn see_all(&mut self) {
+        if self.seen.steps == 0 && self.seen.slack == 0.0 {
+            return;
+        }
+        self.seen.angles = self.every_member();
+        let angles = &self.seen.angles;
+        let mean = angles.iter().sum::<f64>() / angles.len() as f64;
+        let most = |about: f64| angles.iter().map(|x| size(x - about)).fold(0.0, f64::max);
+        self.seen.largest = [most(0.0), most(mean)];
+        (self.seen.slack, self.seen.steps) = (0.0, 0);
+    }
+
+    /// Returns a bound on every blade angle now \[rad\].
+    #[inline]
+    pub fn bound(&mut self) -> f64 {
+        if self.fixed.is_pair {
+            let [c, s] = self.pair_angles();
+            return c.abs() + s.abs();
+        }
+        self.see();
+        self.seen.largest[0] + self.seen.slack
+    }
+
+    /// Returns the largest angle about the mean of all blades; of a pair, its amplitude \[rad\].
+    pub fn swing(&mut self) -> f64 {
+        if self.fixed.is_pair {
+            return self.amplitude();
+        }
+        self.see();
+        self.seen.largest[1]
+    }
+
+    /// Returns a bound on every blade angle in all free motion to come \[rad\].
+    pub fn reach(&self) -> f64 {
+        if !self.fixed.springs.is_empty() {
+            return self.reach_of_mistuned();
+        }
+        let modes = self.oscillators.iter().enumerate();
+        let reach = |(m, oscillator): (usize, &Oscillator)| oscillator.reach(&[self.at(m)]);
+        match &self.oscillators[..] {
+            [first, second] if self.fixed.is_pair && first == second => {
+                first.reach(&[self.at(0), self.at(1)])
+            }
+            _ => modes.map(reach).sum(),
+        }
+    }
+
+    /// Returns the largest angle of any blade in all steps \[rad\].
+    pub fn largest(&self) -> f64 {
+        self.largest
+    }
+
+    /// From now on, looks only for angles beyond the limit of the model.
+    pub fn forgo_largest(&mut self) {
+        self.largest = self.largest.max(LARGEST_BLADE_ANGLE);
+    }
+
+    /// Updates the largest angle. Returns the angle that is beyond the limit of the model, if one
+    /// is \[rad\].
+    #[inline]
+    pub fn watch(&mut self) -> Option<f64> {
+        let within = if self.fixed.is_pair {
+            let [c, s] = self.pair_angles();
+            c * c + s * s <= self.largest * self.largest
+        } else {
+            self.room >= 0.0
+        };
+        if within { None } else { self.look() }
+    }
+
+    #[inline(never)]
+    fn look(&mut self) -> Option<f64> {
+        let (now, bound) = self.look_beyond(self.largest);
+        self.largest = self.largest.max(now);
+        self.room = self.largest - bound;
+        let fits = now <= LARGEST_BLADE_ANGLE;
+        (!fits).then_some(now)
+    }
+
+    /// Returns the largest of the angles that may be beyond `least`, and a bound on all.
+    fn look_beyond(&mut self, least: f64) -> (f64, f64) {
+        if self.fixed.is_pair {
+            let ([c, s], phases) = (self.pair_angles(), &self.fixed.phases);
+            let is_finite = c.is_finite() && s.is_finite();
+            let mut most = || phases.largest_component_near(c, s, &mut self.widest);
+            let now = if is_finite { most() } else { f64::INFINITY };
+            return (now, now);
+        }
+        let angle = |member: usize| {
+            let shapes = self.fixed.blades.row(member);
+            size(total(dot(&shapes, self.modes.iter().map(|four| four.x))))
+        };
+        // One by one they cost more than all at once where many may be beyond.
+        let mut left = self.fixed.blades.count() / 8;
+        let (mut now, mut bound) = (0.0_f64, 0.0_f64);
+        for (member, seen) in self.seen.angles.iter().enumerate() {
+            let most = seen.abs() + self.seen.slack;
+            if most <= least {
+                bound = bound.max(most);
+            } else if left > 0 {
+                left -= 1;
+                now = now.max(angle(member));
+            } else {
+                self.see_all();
+                return (self.seen.largest[0], self.seen.largest[0]);
+            }
+        }
+        (now, bound.max(now))
+    }
+
+    /// With springs of their own the modes of the tuned disk exchange energy: all of it in one blade,
+    /// at the softest spring, is the most. As `Oscillator::reach`, in units of the inertia of a blade
+    /// and of a step.
+    fn reach_of_mistuned(&self) -> f64 {
+        let Some(first) = self.oscillators.first() else { return 0.0 };
+        let inertia = first.mass / self.fixed.springs.len() as f64;
+        let of = |spring: f64| spring * first.step * first.step / inertia;
+        let springs = self.fixed.springs.iter();
+        let (least, most) = springs.fold((0.0, 0.0), |(least, most), &spring| {
+            (f64::min(least, of(spring)), f64::max(most, of(spring)))
+        });
+        let least = least + first.turn() * first.turn();
+        let most = most + self.fastest_turn() * self.fastest_turn();
+        if least <= 0.0 || most >= 4.0 {
+            return f64::INFINITY;
+        }
+        let energy = 2.0 * self.energy().max(0.0) * first.step * first.step / inertia;
+        (energy * (1.0 / least + 0.25 / (1.0 - 0.25 * most))).sqrt()
+    }
+
+    /// Returns whether a blade may turn beyond the largest angle between now and when the modes of a
+    /// pair will be at `after`, a small part of a period later.
+    pub fn may_pass_largest(&self, after: Option<[Coordinate; 2]>) -> bool {
+        let Some(after) = after else { return self.reach() > self.largest };
+        let now = self.coordinates_of_pair();
+        let square = |[c, s]: [Coordinate; 2]| c.x * c.x + s.x * s.x;
+        // In an eighth of a radian the square of the amplitude passes its ends by a hundredth.
+        let most = (1.0 + ANGLE_LOOK * ANGLE_LOOK) * square(now).max(square(after));
+        if most <= self.largest * self.largest {
+            return false;
+        }
+        // Between two ends from which it does not fall and to which it does not rise, an angle is
+        // below one of them.
+        let grows = |[c, s]: [Coordinate; 2], (cos, sin): (f64, f64)| {
+            (cos * c.x + sin * s.x) * (cos * c.increment + sin * s.increment)
+        };
+        let phases = &self.fixed.phases;
+        let passes = |side| {
+            let direction = phases.direction(side);
+            grows(now, direction) > 0.0 && grows(after, direction) < 0.0
+        };
+        (0..phases.sides).any(passes)
+    }
+}
+
+/// Returns the size of an angle; what is no number is beyond any bound.
+fn size(angle: f64) -> f64 {
+    if angle.is_nan() { f64::INFINITY } else { angle.abs() }
+}

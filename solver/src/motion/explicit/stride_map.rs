@@ -1,0 +1,487 @@
+//! The affine map of the steps between two changes of contact, its powers of two, and how many steps
+//! they may take at once.
+//!
+//! At constant speed, and as long as the same tips push, a step is an affine map of the casing and of
+//! two blade modes in the frame of the blades,
+//!
+//! ```text
+//! x[n+1] = T x[n] + b,    T = (1 - K W^-1 G) P,    p[n] = -W^-1 (G P x[n] + g)
+//! ```
+//!
+//! with the prediction `P`, the gaps `G` of the held tips, the contact matrix `W` and what pushes
+//! `p` move, `K` (as in `step`). `T^(2^j)` takes `2^j` steps at the cost of one product. Free flight
+//! is the empty set of tips.
+//!
+//! A stride of `L` steps must not pass a change of contact. What decides on one is linear in the
+//! state: the predicted gap of every other tip, the predicted gap and the push of every held one.
+//! Let `f` be such a function. Its second difference is `f (T - 1) d[n]` with the change
+//! `d[n] = x[n+1] - x[n] = T^n d[0]`, so it is at most `B = |f (T - 1)| |T|^L |d[0]|` over the stride.
+//! A sequence whose second difference is at most `B` lies no more than `B L^2/8` off the straight
+//! line between its ends. So `f` keeps its sign if `|f|` is larger than that at both ends, where it
+//! has the same sign. `|T|` is the norm on the states that held tips allow (the range of `T^2`), in
+//! units in which free flight without damping keeps the norm.
+//!
+//! Blades that move turn the tips that they hold, `dn = i n_d n dalpha`. In a corner, where the casing
+//! rests, the map is that of small deviations from the state at which it was made: with `t = i n`
+//! and the pushes `p`,
+//!
+//! ```text
+//! W dp = -dg - c n_d sum_j p_j [(t_i n_j) dalpha_i + (n_i t_j) dalpha_j],  c the compliance of the casing,
+//! d(force) = n_j dp_j + p_j n_d t_j dalpha_j,    d(arm) = n_d (n_j x dz) - n_d^2 (n_j z) dalpha_j,
+//! ```
+//!
+//! and leaves out the square of `n_d dalpha`.
+
+use nalgebra::{Matrix2, SMatrix, SVector, Vector2};
+
+use super::oscillator::Oscillator;
+use crate::motion::Plane;
+use crate::tolerances::NEIGHBOUR_DEPTHS;
+
+/// Coordinates of a state: casing `z`, its increment, two modes, their increments.
+const SIZE: usize = 8;
+/// Most tips that are held: a corner.
+pub(super) const HELD: usize = 2;
+/// A state, the constant 1, and the sums of the pushes.
+const WHOLE: usize = SIZE + 1 + HELD;
+/// A stride has at most `2^LONGEST` steps, and at least `2^SHORTEST`: fewer cost more than the
+/// steps.
+const LONGEST: usize = 20;
+pub(super) const SHORTEST: usize = 3;
+
+pub(super) type State = SVector<f64, SIZE>;
+type Square = SMatrix<f64, SIZE, SIZE>;
+type Whole = SVector<f64, WHOLE>;
+/// A function of each held tip, linear in the state.
+type OfTips = SMatrix<f64, HELD, SIZE>;
+
+/// A tip that pushes, in the frame of the blades, at the prediction from the reference.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct HeldTip {
+    /// \[m\]
+    pub gap: f64,
+    /// Derivative of the gap by the casing, and the force on the casing per unit push.
+    pub normal: Plane,
+    pub force: Plane,
+    /// Derivative of the gap by the blade angle \[m\], and the shapes of the two modes.
+    pub arm: f64,
+    pub shape: [f64; 2],
+}
+
+/// A function of the state that must keep its sign over a stride.
+#[derive(Clone, Copy, Debug)]
+struct Sign {
+    /// Its value is the product with the whole state.
+    by: Whole,
+    /// Its second difference per unit norm of the change, at most.
+    bend: f64,
+}
+
+/// The affine map of a step for one set of held tips, and its powers.
+#[derive(Clone, Debug)]
+pub(super) struct StrideMap {
+    /// State from which deviations are counted.
+    reference: State,
+    /// `A^(2^j) - 1`, with `A` the map of the whole state.
+    changes: Vec<SMatrix<f64, WHOLE, WHOLE>>,
+    /// `|E x|` is the norm of a state.
+    units: Square,
+    /// `L^2 |T|^L / 8` of each power: what a stride may bend a function off its line.
+    limits: Vec<f64>,
+    /// Predicted place of the casing; `bend` as in `Sign`.
+    place: SMatrix<f64, 2, SIZE>,
+    place_bend: f64,
+    pushes: Vec<Sign>,
+    /// Predicted penetrations of the held tips.
+    depths: Vec<Sign>,
+}
+
+impl StrideMap {
+    /// The map of a step from states near `reference` with these tips held, at most two, in a frame
+    /// that turns by `turn` in a step \[rad\], for waves of `diameters` nodal diameters. None where
+    /// the tips depend on each other.
+    pub fn new(
+        casing: &Oscillator,
+        modes: &[Oscillator],
+        (turn, diameters): (f64, f64),
+        tips: &[HeldTip],
+        reference: State,
+    ) -> Option<Self> {
+        let predict = change_of_prediction(casing, modes, turn);
+
+        // Gaps of the held tips, Eq. (9), and what their pushes move, Eq. (13).
+        let mut gaps = OfTips::zeros();
+        let mut moves = SMatrix::<f64, SIZE, HELD>::zeros();
+        let mut depths = Vector2::zeros();
+        for (i, tip) in tips.iter().enumerate() {
+            depths[i] = -tip.gap;
+            (gaps[(i, 0)], gaps[(i, 1)]) = (tip.normal.re, tip.normal.im);
+            for (k, force) in [tip.force.re, tip.force.im].into_iter().enumerate() {
+                moves[(k, i)] = casing.compliance * force;
+                moves[(2 + k, i)] = casing.compliance * force;
+            }
+            for (m, mode) in modes.iter().enumerate() {
+                gaps[(i, 4 + m)] = tip.arm * tip.shape[m];
+                moves[(4 + m, i)] = mode.compliance * tip.shape[m] * tip.arm;
+                moves[(6 + m, i)] = moves[(4 + m, i)];
+            }
+        }
+        let mut contact = gaps * moves;
+        (tips.len()..HELD).for_each(|i| contact[(i, i)] = 1.0);
+        let inverse = contact.try_inverse()?;
+        let at_reference = inverse * depths;
+        let ahead = reference + predict * reference;
+        let z = Plane::new(ahead[0], ahead[1]);
+        let (apart, turning) =
+            turn_of_tips(casing, modes, diameters, tips, [at_reference[0], at_reference[1]], z);
+
+        // Multipliers, Eq. (12), and the whole step, as deviations from the reference.
+        let gaps_apart = gaps + apart;
+        let pushes = -(inverse * (gaps_apart + gaps_apart * predict));
+        let map_change = predict + turning + turning * predict + moves * pushes;
+        let shift = predict * reference + moves * at_reference;
+        let mut change = SMatrix::<f64, WHOLE, WHOLE>::zeros();
+        change.fixed_view_mut::<SIZE, SIZE>(0, 0).copy_from(&map_change);
+        change.fixed_view_mut::<SIZE, 1>(0, SIZE).copy_from(&shift);
+        change.fixed_view_mut::<HELD, SIZE>(SIZE + 1, 0).copy_from(&pushes);
+        change.fixed_view_mut::<HELD, 1>(SIZE + 1, SIZE).copy_from(&at_reference);
+        // (1 + S)^2 = 1 + (2 S + S^2) keeps the digits of a small change S.
+        let mut changes = vec![change];
+        for _ in 0..LONGEST {
+            change = change * 2.0 + change * change;
+            changes.push(change);
+        }
+
+        let units = energy_units(casing, modes, diameters);
+        let back = units.try_inverse()?;
+        let scaled = units * (map_change + Square::identity()) * back;
+        let allowed = range(&(scaled * scaled), 4 + 2 * modes.len() - 2 * tips.len())?;
+        let within = scaled * allowed;
+        let growth = (allowed.transpose() * within).singular_values().max().max(1.0);
+        let bend = back * (within - allowed);
+        let limit = |exponent: usize| {
+            let steps = (1_u64 << exponent) as f64;
+            0.125 * steps * steps * growth.powf(steps)
+        };
+
+        let place = (predict + Square::identity()).fixed_rows::<2>(0).into_owned();
+        let sign = |by: &OfTips, constant: &Vector2<f64>, row: usize| {
+            let mut whole = Whole::zeros();
+            whole.fixed_rows_mut::<SIZE>(0).copy_from(&by.row(row).transpose());
+            whole[SIZE] = constant[row];
+            Sign { by: whole, bend: (by.row(row) * bend).norm() }
+        };
+        let by_depths = -(gaps + gaps * predict);
+        Some(Self {
+            pushes: (0..tips.len()).map(|i| sign(&pushes, &at_reference, i)).collect(),
+            depths: (0..tips.len()).map(|i| sign(&by_depths, &depths, i)).collect(),
+            place_bend: (place * bend).norm(),
+            reference,
+            limits: (0..=LONGEST).map(limit).collect(),
+            changes,
+            units,
+            place,
+        })
+    }
+
+    /// Returns the longest safe stride found, as an exponent of two; none where it is not worth it.
+    /// `open` is the least gap of all tips that are not held and not turned, for a place of the
+    /// casing \[m\]; `turned` bounds the phase `n_d alpha` that blades turn them \[rad\].
+    /// Held tips must penetrate at each prediction, and push, or pull where they may.
+    pub fn longest(
+        &self,
+        state: &State,
+        may_pull: bool,
+        turned: f64,
+        open: impl Fn(Plane) -> f64,
+    ) -> Option<usize> {
+        let from = self.whole(state);
+        let change = (self.changes.first()? * from).fixed_rows::<SIZE>(0).into_owned();
+        let speed = (self.units * change).norm();
+        // A push may close another gap by some depths of its own tip, and a turned tip is nearer by
+        // its part of the way.
+        let depth_bend = self.depths.iter().fold(0.0, |most, depth| f64::max(most, depth.bend));
+        let open_bend = self.place_bend * (1.0 + 2.0 * turned) + NEIGHBOUR_DEPTHS * depth_bend;
+        let room = |whole: &Whole| {
+            let place = self.place * (whole.fixed_rows::<SIZE>(0) + self.reference);
+            let nearer = turned * (place.x.abs() + place.y.abs());
+            let closed = NEIGHBOUR_DEPTHS * self.deepest_of(whole);
+            open(Plane::new(place.x, place.y)) - nearer - closed
+        };
+        let first = room(&from);
+        let mut signs: Vec<(&Sign, f64, f64)> = Vec::with_capacity(2 * HELD);
+        for (place, sign) in self.pushes.iter().chain(&self.depths).enumerate() {
+            let value = sign.by.dot(&from);
+            let side = if may_pull && place < self.pushes.len() { value.signum() } else { 1.0 };
+            signs.push((sign, side, side * value));
+        }
+        for exponent in (SHORTEST..=LONGEST).rev() {
+            let off = speed * self.limits.get(exponent)?;
+            let begins = |(sign, _, value): &(&Sign, f64, f64)| *value > sign.bend * off;
+            if first <= open_bend * off || !signs.iter().all(begins) {
+                continue;
+            }
+            let to = from + self.changes.get(exponent)? * from;
+            let ends =
+                |(sign, side, _): &(&Sign, f64, f64)| side * sign.by.dot(&to) > sign.bend * off;
+            if signs.iter().all(ends) && room(&to) > open_bend * off {
+                return Some(exponent);
+            }
+        }
+        None
+    }
+
+    /// Takes steps at once. Returns the state after them, and the sums of the pushes \[N\].
+    pub fn take(&self, state: &State, steps: u64) -> (State, [f64; HELD]) {
+        let mut whole = self.whole(state);
+        for (exponent, change) in self.changes.iter().enumerate() {
+            if steps >> exponent & 1 == 1 {
+                whole += change * whole;
+            }
+        }
+        (whole.fixed_rows::<SIZE>(0) + self.reference, [whole[SIZE + 1], whole[SIZE + 2]])
+    }
+
+    /// Returns the deepest predicted penetration of the held tips in the step from a state \[m\].
+    pub fn deepest(&self, state: &State) -> f64 {
+        self.deepest_of(&self.whole(state))
+    }
+
+    fn deepest_of(&self, whole: &Whole) -> f64 {
+        self.depths.iter().fold(0.0, |most, depth| f64::max(most, depth.by.dot(whole)))
+    }
+
+    /// The deviation of a state from the reference, and the constant 1.
+    fn whole(&self, state: &State) -> Whole {
+        let mut whole = Whole::zeros();
+        whole.fixed_rows_mut::<SIZE>(0).copy_from(&(state - self.reference));
+        whole[SIZE] = 1.0;
+        whole
+    }
+}
+
+/// Returns `P - 1`, Eq. (10), seen from the frame as it is after the step: against the 1 of `P` a
+/// short step would lose its digits.
+fn change_of_prediction(casing: &Oscillator, modes: &[Oscillator], turn: f64) -> Square {
+    let (sin, cos) = turn.sin_cos();
+    let back = Matrix2::new(cos, sin, -sin, cos);
+    let versine = 2.0 * (0.5 * turn).sin().powi(2);
+    let turned = Matrix2::new(-versine, sin, -sin, -versine);
+    let mut predict = Square::zeros();
+    let mut put = |row, column, part: Matrix2<f64>| {
+        predict.fixed_view_mut::<2, 2>(row, column).copy_from(&part);
+    };
+    put(0, 0, turned - back * casing.pull);
+    put(0, 2, back * casing.ratio);
+    put(2, 0, back * -casing.pull);
+    put(2, 2, turned * casing.ratio - Matrix2::identity() * casing.loss);
+    for (m, mode) in modes.iter().enumerate() {
+        let [x_x, x_increment, increment_x, increment] = mode.change();
+        (predict[(4 + m, 4 + m)], predict[(4 + m, 6 + m)]) = (x_x, x_increment);
+        (predict[(6 + m, 4 + m)], predict[(6 + m, 6 + m)]) = (increment_x, increment);
+    }
+    for m in modes.len()..2 {
+        (predict[(4 + m, 4 + m)], predict[(6 + m, 6 + m)]) = (-1.0, -1.0);
+    }
+    predict
+}
+
+/// How contact changes as blades turn the tips that they hold with these pushes, the casing at
+/// `z`: what closes the gaps beyond `-dg`, and the change of the state by the prediction.
+fn turn_of_tips(
+    casing: &Oscillator,
+    modes: &[Oscillator],
+    diameters: f64,
+    tips: &[HeldTip],
+    pushes: [f64; HELD],
+    z: Plane,
+) -> (OfTips, Square) {
+    let dot = |a: Plane, b: Plane| a.re * b.re + a.im * b.im;
+    let (mut apart, mut turning) = (OfTips::zeros(), Square::zeros());
+    for (tip, push) in tips.iter().zip(pushes) {
+        let across = tip.normal * Plane::i();
+        let moved = diameters * casing.compliance * push;
+        for (m, mode) in modes.iter().enumerate() {
+            for (i, other) in tips.iter().enumerate() {
+                let by_own = dot(other.normal * Plane::i(), tip.normal) * other.shape[m];
+                let by_other = dot(other.normal, across) * tip.shape[m];
+                apart[(i, 4 + m)] += moved * (by_own + by_other);
+            }
+            for k in [0, 2] {
+                turning[(k, 4 + m)] += moved * tip.shape[m] * across.re;
+                turning[(k + 1, 4 + m)] += moved * tip.shape[m] * across.im;
+            }
+            let felt = mode.compliance * tip.shape[m] * push * diameters;
+            for row in [4 + m, 6 + m] {
+                turning[(row, 0)] -= felt * tip.normal.im;
+                turning[(row, 1)] += felt * tip.normal.re;
+                for other in 0..modes.len() {
+                    let turned = diameters * dot(tip.normal, z) * tip.shape[other];
+                    turning[(row, 4 + other)] -= felt * turned;
+                }
+            }
+        }
+    }
+    (apart, turning)
+}
+
+/// Units in which the energy of a free coordinate between two steps is the square of the norm:
+/// `m (dx/h)^2 (1 - k h^2/4m) + k (x - dx/2)^2`.
+fn energy_units(casing: &Oscillator, modes: &[Oscillator], diameters: f64) -> Square {
+    let mut units = Square::identity();
+    let mut measure = |x: usize, increment: usize, pull: f64, unit: f64| {
+        units[(x, x)] = unit;
+        units[(x, increment)] = -0.5 * unit;
+        units[(increment, increment)] = ((1.0 - 0.25 * pull) / pull).sqrt() * unit;
+    };
+    (0..2).for_each(|k| measure(k, 2 + k, casing.pull, 1.0));
+    for (m, mode) in modes.iter().enumerate() {
+        measure(4 + m, 6 + m, mode.pull, diameters.max(1.0));
+    }
+    units
+}
+
+/// An orthonormal basis of the range of a matrix of this rank, as the first columns of a square.
+fn range(matrix: &Square, rank: usize) -> Option<Square> {
+    let parts = matrix.svd(true, false);
+    let mut basis = parts.u?;
+    (rank..SIZE).for_each(|column| basis.column_mut(column).fill(0.0));
+    Some(basis)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::*;
+
+    const SIDES: usize = 22;
+    const CLEARANCE: f64 = 1e-4;
+
+    /// Rigid blades, as `/kernel` of the paper: one casing, contact that only pushes on 22 sides.
+    struct Plain {
+        casing: Oscillator,
+        turn: Plane,
+        normals: Vec<Plane>,
+    }
+
+    impl Plain {
+        fn new(damping: f64) -> Self {
+            let stiffness = 1.544e6_f64;
+            let casing =
+                Oscillator::new(2.0, 2.0 * damping * (2.0 * stiffness).sqrt(), stiffness, 1e-7);
+            let side = |i| Plane::from_polar(1.0, TAU * i as f64 / SIDES as f64);
+            Self {
+                casing,
+                turn: Plane::from_polar(1.0, 3.0 * 500.0 * 1e-7),
+                normals: (0..SIDES).map(side).collect(),
+            }
+        }
+
+        fn gap(&self, side: usize, z: Plane) -> f64 {
+            CLEARANCE + (z * self.normals[side].conj()).re
+        }
+
+        /// One step; returns the sides that push, and how much.
+        fn step(&self, at: &mut State) -> Vec<(usize, f64)> {
+            let (z, w) = (Plane::new(at[0], at[1]), Plane::new(at[2], at[3]));
+            let moved = (w * self.casing.ratio - z * self.casing.pull) * self.turn.conj();
+            let mut shift = Plane::default();
+            let ahead = z * self.turn.conj() + moved;
+            let deep: Vec<usize> = (0..SIDES).filter(|&i| self.gap(i, ahead) < 0.0).collect();
+            let mut pushes: Vec<(usize, f64)> = Vec::new();
+            let depth = |i: usize| -self.gap(i, ahead) / self.casing.compliance;
+            if let [a, b] = deep[..] {
+                let c = (self.normals[a] * self.normals[b].conj()).re;
+                let (p, q) = (depth(a) - c * depth(b), depth(b) - c * depth(a));
+                if p > 0.0 && q > 0.0 {
+                    pushes = vec![(a, p / (1.0 - c * c)), (b, q / (1.0 - c * c))];
+                } else {
+                    let one = if p > 0.0 { a } else { b };
+                    pushes = vec![(one, depth(one))];
+                }
+            } else if let [a] = deep[..] {
+                pushes = vec![(a, depth(a))];
+            }
+            for (side, push) in &pushes {
+                shift += self.normals[*side] * (push * self.casing.compliance);
+            }
+            let (z, w) = (ahead + shift, moved + shift);
+            at.fixed_rows_mut::<4>(0).copy_from_slice(&[z.re, z.im, w.re, w.im]);
+            pushes
+        }
+
+        fn map(&self, held: &[usize], at: State) -> StrideMap {
+            let (z, w) = (Plane::new(at[0], at[1]), Plane::new(at[2], at[3]));
+            let ahead = (z + w * self.casing.ratio - z * self.casing.pull) * self.turn.conj();
+            let tips: Vec<HeldTip> = held
+                .iter()
+                .map(|&side| HeldTip {
+                    gap: CLEARANCE + (ahead * self.normals[side].conj()).re,
+                    normal: self.normals[side],
+                    force: self.normals[side],
+                    ..HeldTip::default()
+                })
+                .collect();
+            StrideMap::new(&self.casing, &[], (self.turn.arg(), 0.0), &tips, at).unwrap()
+        }
+    }
+
+    #[test]
+    fn strides_pass_no_change_of_contact_and_give_the_state_of_the_steps() {
+        for (damping, rate) in [(0.01, 0.65), (0.0, 0.65), (0.05, 0.3), (0.01, 1.29)] {
+            let plain = Plain::new(damping);
+            let start = [0.0, 0.0, 1e-7 * rate, 0.3e-7 * rate, 0.0, 0.0, 0.0, 0.0];
+            let (mut at, mut by_steps) = (State::from(start), State::from(start));
+            let (mut n, mut taken, mut held, mut same) = (0_u64, 0, Vec::new(), 0);
+            let mut sums = [0.0; SIDES];
+            let mut expected = [0.0; SIDES];
+            while n < 1_000_000 {
+                let open = |z: Plane| {
+                    let others = (0..SIDES).filter(|side| !held.contains(side));
+                    others.map(|side| plain.gap(side, z)).fold(f64::MAX, f64::min)
+                };
+                if same > 1
+                    && let map = plain.map(&held, at)
+                    && let Some(exponent) = map.longest(&at, false, 0.0, open)
+                {
+                    let steps = (1 << exponent).min(1_000_000 - n);
+                    let (after, pushed) = map.take(&at, steps);
+                    at = after;
+                    for (side, sum) in held.iter().zip(pushed) {
+                        sums[*side] += sum;
+                    }
+                    for _ in 0..steps {
+                        let pushes = plain.step(&mut by_steps);
+                        let sides: Vec<usize> = pushes.iter().map(|(side, _)| *side).collect();
+                        assert_eq!(sides, held, "{damping} {rate} {n}: {steps}");
+                        pushes.iter().for_each(|(side, push)| expected[*side] += push);
+                    }
+                    n += steps;
+                } else {
+                    let pushes = plain.step(&mut at);
+                    plain.step(&mut by_steps);
+                    for (side, push) in &pushes {
+                        sums[*side] += push;
+                        expected[*side] += push;
+                    }
+                    let sides: Vec<usize> = pushes.into_iter().map(|(side, _)| side).collect();
+                    same = if sides == held { same + 1 } else { 0 };
+                    held = sides;
+                    n += 1;
+                }
+                taken += 1;
+            }
+            let apart = (at - by_steps).fixed_rows::<2>(0).norm();
+            println!("{damping} {rate}: {taken} strides and steps, apart {apart:e}");
+            assert!(apart < 1e-9 * CLEARANCE, "{damping} {rate}: {apart:e}");
+            for (sum, expected) in sums.iter().zip(expected) {
+                assert!(
+                    (sum - expected).abs() <= 1e-9 * expected.abs().max(1.0),
+                    "{sum} {expected}"
+                );
+            }
+            assert!(taken < 50_000, "{damping} {rate}: {taken} strides and steps");
+        }
+    }
+}
