@@ -71,8 +71,7 @@ pub fn coupling(scene: &Scene) -> Option<&'static str> {
 }
 
 pub fn torque(scene: &Scene) -> Option<&'static str> {
-    let full = has(ModelSize::Full, scene).then_some("the full model takes no torque");
-    rigid(scene).or(is_event(scene).then_some("the event solver takes no torque")).or(full)
+    rigid(scene).or(is_event(scene).then_some("the event solver takes no torque"))
 }
 
 pub fn order(scene: &Scene) -> Option<&'static str> {

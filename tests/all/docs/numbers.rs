@@ -97,13 +97,13 @@ fn the_bounds_of_the_step_are_those_of_the_document() {
 #[test]
 fn steps_are_taken_and_skipped_as_the_document_counts() {
     let rows = read("docs/accuracy.md").table("| command | steps taken | steps skipped |");
-    assert_eq!(rows.len(), 5);
+    assert_eq!(rows.len(), 6);
     for row in rows {
         let command = row[0].trim_matches('`').strip_prefix("rubscope ").unwrap();
         let arguments: Vec<&str> = command.split(' ').chain(["--json"]).collect();
         let report = json(&arguments);
         for (name, told) in [("steps", &row[1]), ("steps_skipped", &row[2])] {
-            // Round-off of another processor may move a leap.
+            // Round-off of another processor may move a stride.
             close(report["solver"][name].as_f64().unwrap(), number(&told.replace(',', "")), 0.02);
         }
     }

@@ -11,10 +11,6 @@ use crate::motion::{
 use crate::scene::CheckedScene;
 use crate::tolerances::{STEP_ROUND_OFF, UPDATES_UNASKED};
 
-/// Steps that are taken one by one after a stride until a look at the multipliers: what a map leaves of
-/// the gaps is pushed away in the step after it, and the two after that feel it.
-const LAST_STEPS: u64 = 4;
-
 impl Explicit {
     /// Returns casing and blades one step on from the latest, before rigid contact corrects them.
     fn ahead(&self) -> ([Coordinate; 2], Disk) {
@@ -34,19 +30,11 @@ impl Explicit {
         })
     }
 
-    /// Goes to a step inside of a stride or near its end. The last steps before it are taken one by
-    /// one.
-    fn look_into(&mut self, stride: &Stride, target: u64) -> Result<(), Failure> {
+    /// Goes to a step inside of a stride or at its end.
+    fn look_into(&mut self, stride: &Stride, target: u64) {
         let began = Box::new(self.clone());
-        let steps = (target - self.n).saturating_sub(LAST_STEPS);
-        if steps > 0 {
-            self.take_stride(stride, steps);
-        }
-        while self.n < target {
-            self.take_one()?;
-        }
+        self.see_stride(stride, target - self.n);
         self.stride_began = Some(began);
-        Ok(())
     }
 
     /// Goes back to where the stride of the latest step began; what was told stays told.
@@ -63,6 +51,9 @@ impl Solver for Explicit {
         }
         // A step that ends within a millionth of itself after `until` belongs to it.
         let target = (until / self.drive.step + STEP_ROUND_OFF).floor().max(0.0) as u64;
+        if self.n >= target {
+            return Ok(true);
+        }
         if let Some(began) = self.stride_began.take() {
             self.go_back(*began);
         }
@@ -78,10 +69,10 @@ impl Solver for Explicit {
             }
             let stride = if self.scene.solver.plain { None } else { self.find_stride() };
             match stride {
-                Some(stride) if self.n + stride.steps + LAST_STEPS < target => {
+                Some(stride) if self.n + stride.steps < target => {
                     self.take_stride(&stride, stride.steps);
                 }
-                Some(stride) => self.look_into(&stride, target)?,
+                Some(stride) => self.look_into(&stride, target),
                 None => self.take_one()?,
             }
         }

@@ -1,4 +1,5 @@
-//! One step of the scheme, section 4.2 of the paper, for rigid contact:
+//! One step of the scheme, section 4.2 of the paper (docs/theory.md, section 6), for the two rigid
+//! laws of contact (docs/theory.md, section 2):
 //!
 //! 1. predict without contact, Eq. (10);
 //! 2. gaps of the tips at the prediction, Eq. (11): those that penetrate are rows;

@@ -233,13 +233,15 @@ impl StrideMap {
 
     /// Takes steps at once. Returns the state after them, and the sums of the pushes \[N\].
     pub fn take(&self, state: &State, steps: u64) -> (State, [f64; HELD]) {
-        let mut whole = self.whole(state);
-        for (exponent, change) in self.changes.iter().enumerate() {
-            if steps >> exponent & 1 == 1 {
-                whole += change * whole;
-            }
-        }
+        let whole = self.after(state, steps);
         (whole.fixed_rows::<SIZE>(0) + self.reference, [whole[SIZE + 1], whole[SIZE + 2]])
+    }
+
+    /// Returns the pushes of the held tips in the last of so many steps \[N\].
+    pub fn last_pushes(&self, state: &State, steps: u64) -> impl Iterator<Item = f64> {
+        // A state that is not rounded to the digits of the reference.
+        let whole = self.after(state, steps - 1);
+        self.pushes.iter().map(move |push| push.by.dot(&whole))
     }
 
     /// Returns the deepest predicted penetration of the held tips in the step from a state \[m\].
@@ -249,6 +251,16 @@ impl StrideMap {
 
     fn deepest_of(&self, whole: &Whole) -> f64 {
         self.depths.iter().fold(0.0, |most, depth| f64::max(most, depth.by.dot(whole)))
+    }
+
+    fn after(&self, state: &State, steps: u64) -> Whole {
+        let mut whole = self.whole(state);
+        for (exponent, change) in self.changes.iter().enumerate() {
+            if steps >> exponent & 1 == 1 {
+                whole += change * whole;
+            }
+        }
+        whole
     }
 
     /// The deviation of a state from the reference, and the constant 1.

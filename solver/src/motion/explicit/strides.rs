@@ -103,6 +103,17 @@ impl Explicit {
         self.disk.watch();
     }
 
+    /// Takes so many steps of a stride, at least one, and has the pushes of the last of them. What the
+    /// map leaves of the gaps would be a false push in a step from here.
+    pub(super) fn see_stride(&mut self, stride: &Stride, steps: u64) {
+        self.take_stride(stride, steps);
+        let pushing = self.rows.iter_mut().filter(|row| row.lambda != 0.0);
+        for (row, push) in pushing.zip(stride.map.last_pushes(&stride.state, steps)) {
+            // A multiplier is the negative push.
+            row.lambda = -push;
+        }
+    }
+
     /// Shortens a stride so that the largest blade angle is that of some step.
     fn within_largest(&mut self, mut stride: Stride) -> Option<Stride> {
         while stride.steps >= 1 << SHORTEST {
@@ -219,7 +230,6 @@ impl Explicit {
         self.disk.set_pair(modes_of(&at));
         let mut pulls = false;
         for (row, sum) in stride.held.iter().zip(sums) {
-            // A multiplier is the negative push.
             self.record.impulse(row.side, -sum);
             self.record.keep_touching(self.n, row.side);
             pulls |= sum < 0.0;
