@@ -23,6 +23,8 @@ const SAME_STEPS: u64 = 4;
 const SAME_STEPS_OF_CORNER: u64 = 64;
 /// Turn of held tips, `n_d alpha`, whose square is left out \[rad\].
 const SMALL_TURN: f64 = 3e-6;
+/// Steps that cost about as much as a map.
+const STEPS_OF_MAP: u64 = 512;
 /// Maps that are kept.
 const MOST_MAPS: usize = 64;
 
@@ -87,7 +89,9 @@ impl Explicit {
         };
         let stride = stride.and_then(|stride| self.within_largest(stride));
         if stride.is_none() {
-            self.strides.next = self.n + (1 << SHORTEST);
+            // Steps leave the map of small deviations: the next try makes another.
+            let is_left = self.strides.corner.take().is_some();
+            self.strides.next = self.n + if is_left { STEPS_OF_MAP } else { 1 << SHORTEST };
         }
         stride
     }
