@@ -81,7 +81,7 @@ struct Sign {
 #[derive(Clone, Debug)]
 pub(super) struct StrideMap {
     /// State from which deviations are counted.
-    reference: State,
+    pub reference: State,
     /// `A^(2^j) - 1`, with `A` the map of the whole state.
     changes: Vec<SMatrix<f64, WHOLE, WHOLE>>,
     /// `|E x|` is the norm of a state.

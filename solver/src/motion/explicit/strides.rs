@@ -21,8 +21,10 @@ use crate::tolerances::{ANGLE_LOOK, BREAK_STEPS, LARGEST_BLADE_ANGLE};
 /// blades that move is made.
 const SAME_STEPS: u64 = 4;
 const SAME_STEPS_OF_CORNER: u64 = 64;
-/// Turn of held tips, `n_d alpha`, whose square is left out \[rad\].
+/// Turn of held tips, `n_d alpha`, whose square is left out, and that of the tips from which it is
+/// counted \[rad\].
 const SMALL_TURN: f64 = 3e-6;
+const LARGEST_TURN: f64 = 1e-3;
 /// Steps that cost about as much as a map.
 const STEPS_OF_MAP: u64 = 512;
 /// Maps that are kept.
@@ -169,7 +171,8 @@ impl Explicit {
     /// Finds a stride with the tips held that push now.
     fn find_hold(&mut self, sides: ActiveSet) -> Option<Stride> {
         let held: Vec<Row> = self.rows.iter().copied().filter(|row| row.lambda != 0.0).collect();
-        let moves = self.disk.coordinates() > 0;
+        let (moves, turned) =
+            (self.disk.coordinates() > 0, self.tips.diameters * self.disk.reach());
         let linear = self.restitution == 0.0
             && !self.drive.has_lobes()
             && !self.scene.goes_beyond()
@@ -182,23 +185,35 @@ impl Explicit {
                 && self.strides.same >= SAME_STEPS_OF_CORNER
                 && self.disk.is_pair()
                 && self.tips.pushed == 0.0
-                && self.tips.diameters * self.disk.reach() < SMALL_TURN);
+                && turned < LARGEST_TURN);
         if !linear || !rests {
             return None;
         }
         let first = self.tips_of_rows.rows[held.first()?.index].normal;
         let state = self.casing_and_pair(first);
-        let map = match (moves, self.strides.corner.clone()) {
+        let near = |map: &Arc<StrideMap>| 2.0 * self.turned_since(map, &state) < SMALL_TURN;
+        let map = match (moves, self.strides.corner.clone().filter(near)) {
             (true, Some(map)) => map,
             (true, None) => self.map_of_corner(&held, state, first)?,
             (false, _) => self.map_of(&held, state, first)?,
         };
-        let turned = if moves { SMALL_TURN } else { 0.0 };
         let exponent = map.longest(&state, self.law.pulls(), turned, |place| {
             self.tips_of_rows.least_gap(place * first, &self.tips, sides)
         })?;
-        let steps = (1 << exponent).min(self.steps_unseen());
+        let mut steps = (1 << exponent).min(self.steps_unseen());
+        while moves && self.turned_since(&map, &map.take(&state, steps).0) > SMALL_TURN {
+            steps /= 2;
+            if steps < 1 << SHORTEST {
+                return None;
+            }
+        }
         Some(Stride { steps, map, first, state, held })
+    }
+
+    /// Returns a bound on how far blades have turned their tips since a map was made \[rad\].
+    fn turned_since(&self, map: &StrideMap, state: &State) -> f64 {
+        let since = state - map.reference;
+        self.tips.diameters * (since[4].abs() + since[5].abs())
     }
 
     /// Returns the steps, as a power of two, in which the fastest mode turns by little.
