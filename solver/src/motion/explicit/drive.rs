@@ -91,19 +91,16 @@ impl Drive {
         self.lobes != 0.0
     }
 
-    /// Returns both turns so many steps before step `n`, which may be before the start.
+    /// Returns both turns so many steps before step `n`, a few, which may be before the start.
     pub fn turns_before(&self, n: u64, back: u64) -> (Plane, Plane) {
-        let (rotor, step) = (&self.rotor, self.step);
-        match n.checked_sub(back) {
-            Some(n) => (
-                self.phasor.look(n, rotor, self.diameters, step),
-                self.lobe_phasor.look(n, rotor, self.lobes, step),
-            ),
-            None => {
-                let theta = rotor.angle(-((back - n) as f64) * step);
-                (Plane::cis(self.diameters * theta), Plane::cis(self.lobes * theta))
+        let before = |phasor: &Phasor, order: f64| {
+            if let Some(turn) = phasor.table.get(back as usize) {
+                return phasor.look(n, &self.rotor, order, self.step) * turn.conj();
             }
-        }
+            let t = (n as f64 - back as f64) * self.step;
+            Plane::cis(order * self.rotor.angle(t))
+        };
+        (before(&self.phasor, self.diameters), before(&self.lobe_phasor, self.lobes))
     }
 
     /// Fires the next pulse at step `n`; what the pulse before gave in the half step until

@@ -21,6 +21,8 @@ use crate::tolerances::{SERIES_PHASE, SHORT_SERIES_PHASE};
 pub(super) struct Lining {
     pub law: LiningLaw,
     fours: Vec<Rows>,
+    /// Row of each place in `fours`.
+    order: Vec<usize>,
     /// Torques of all rows in the latest step \[N m\].
     torques: Vec<f64>,
     /// Turn of the frame of the blades at the pushes.
@@ -72,8 +74,14 @@ impl Lining {
         let (rows, per_row) = disk.rows();
         let never = Rows { longer: [f64::NEG_INFINITY; 4], ..Rows::default() };
         let mut fours = vec![never; rows.div_ceil(4)];
-        for row in 0..rows {
-            let (four, k) = (&mut fours[row / 4], row % 4);
+        let mut order: Vec<usize> = (0..rows).collect();
+        if disk.is_pair() {
+            // Rows that press together stand together. Those of single blades are in the order in
+            // which the disk has their angles.
+            order.sort_by_key(|row| tips.rows[*row].side);
+        }
+        for (place, &row) in order.iter().enumerate() {
+            let (four, k) = (&mut fours[place / 4], place % 4);
             let Tip { normal, longer, .. } = tips.rows[row];
             (four.cosine[k], four.sine[k]) = (normal.re, normal.im);
             (four.longer[k], four.blades[k]) = (longer, f64::from(per_row));
@@ -85,6 +93,7 @@ impl Lining {
             law,
             torques: vec![0.0; 4 * fours.len()],
             fours,
+            order,
             turn: Plane::default(),
             sums: Sums::default(),
             held_before: None,
@@ -104,7 +113,7 @@ impl Lining {
 
     /// Returns the rows with a number of each.
     fn rows(&self, value: impl Fn(&Rows) -> Four) -> impl Iterator<Item = (usize, f64)> {
-        self.fours.iter().flat_map(value).enumerate()
+        self.order.iter().copied().zip(self.fours.iter().flat_map(value))
     }
 
     /// Returns the multipliers of the rows that press, with their sides \[N\].
@@ -167,8 +176,15 @@ impl Lining {
     ) {
         let phase = tips.diameters * bound;
         self.sums = if !of_rows.lobe.is_empty() {
-            let shape = |row, angle| of_rows.shape(row, angle, lobe_turn);
-            self.press_by(z, x, tips, phase, of_rows.out_of_round, shape, f64::sin_cos)
+            let order = std::mem::take(&mut self.order);
+            let shape = |place: usize, angle| match order.get(place) {
+                Some(row) => of_rows.shape(*row, angle, lobe_turn),
+                None => [0.0; 2],
+            };
+            let out_of_round = of_rows.out_of_round;
+            let sums = self.press_by(z, x, tips, phase, out_of_round, shape, f64::sin_cos);
+            self.order = order;
+            sums
         } else if phase < SHORT_SERIES_PHASE {
             self.press_by(z, x, tips, phase, 0.0, |_, _| [0.0; 2], short_series)
         } else if phase < SERIES_PHASE {
@@ -264,7 +280,8 @@ impl Lining {
             }
         }
         let pressed = self.fours.iter().flat_map(|four| four.depth.into_iter().zip(four.before));
-        for (row, (_, before)) in pressed.enumerate().filter(|(_, (now, _))| *now > 0.0) {
+        let rows = self.order.iter().copied().zip(pressed);
+        for (row, (_, before)) in rows.filter(|(_, (now, _))| *now > 0.0) {
             self.sides = self.sides.with(tips.rows[row].side);
             self.set = self.set.wrapping_add(mark(row));
             count += 1;

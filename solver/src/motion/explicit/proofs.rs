@@ -59,8 +59,8 @@ impl Explicit {
         (steady && self.lining.is_none() && self.n >= since + HELD_AFTER).then_some([a, b])
     }
 
-    /// Returns the verdict on a corner that can never let go, at constant speed, without slope,
-    /// lobes and restitution.
+    /// Returns the verdict on a corner that can never let go, at constant speed, of equal tips without
+    /// slope and restitution in a round casing.
     ///
     /// Two closed gaps fix the casing: `Re[z exp(-i(psi_j + n_d alpha_j))] = -h_j`. With blades at
     /// rest `z` is a constant and so are the pushes. Blades turn a side by at most
@@ -72,7 +72,7 @@ impl Explicit {
     /// the blades must be light beside that of the casing.
     fn corner_for_good(&self) -> Option<Verdict> {
         let (machine, tips) = (&self.machine, &self.tips);
-        let plain = tips.rise == 0.0 && !self.drive.has_lobes() && self.restitution == 0.0;
+        let plain = tips.rise == 0.0 && !machine.is_uneven() && self.restitution == 0.0;
         let corner = self.held_corner().filter(|_| plain && self.disk.flies());
         let sides = corner.filter(|_| machine.polygon.has_corners())?;
         let sum = |side| {

@@ -190,7 +190,7 @@ impl Explicit {
     }
 
     /// Makes a row of a tip. Returns how far it is beyond its target.
-    #[inline]
+    #[inline(always)]
     fn add_row(&mut self, index: usize, z: Plane, tips: &TipLaw) -> f64 {
         let angle = self.disk.angle(index);
         let mut row = self.tips_of_rows.row(index, z, angle, self.lobe_turn, tips);
