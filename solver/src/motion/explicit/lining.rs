@@ -58,9 +58,6 @@ struct Rows {
 struct Sums {
     /// Pushes along the normals, without friction \[N\].
     force: Plane,
-    /// Pushes \[N\] and torques \[N m\].
-    push: f64,
-    torque: f64,
     /// What a pair of modes feels of the torques \[N m\].
     felt: [f64; 2],
     deepest: f64,
@@ -211,8 +208,7 @@ impl Lining {
         let by_depth = if eps > 0.0 { 0.5 / eps } else { 0.0 };
         let TipLaw { clearance, diameters, pushed, rise, .. } = *tips;
         let look = phase * (z.re.abs() + z.im.abs()) + out_of_round - clearance;
-        let [mut x, mut y, mut pushes, mut turning, mut felt_c, mut felt_s, mut deepest] =
-            [[0.0_f64; 4]; 7];
+        let [mut x, mut y, mut felt_c, mut felt_s, mut deepest] = [[0.0_f64; 4]; 5];
         let mut changed = [0_u64; 4];
         let presses = |depth: f64| if depth > 0.0 { u64::MAX } else { 0 };
         let torques = self.torques.as_chunks_mut::<4>().0.iter_mut();
@@ -224,7 +220,8 @@ impl Lining {
                 least[k] = z.re * cosine[k] + z.im * sine[k] - longer[k] - rise * angle[k];
             }
             four.before = before;
-            if least[0].min(least[1]).min(least[2].min(least[3])) > look {
+            let far = least.map(|least| least > look);
+            if far[0] & far[1] & far[2] & far[3] {
                 if before != [0.0; 4] {
                     (four.depth, *torques, changed) = ([0.0; 4], [0.0; 4], [u64::MAX; 4]);
                 }
@@ -252,8 +249,6 @@ impl Lining {
             }
             for k in 0..4 {
                 four.impulse[k] += push[k];
-                pushes[k] += push[k];
-                turning[k] += torque[k];
                 felt_c[k] += p[k] * torque[k];
                 felt_s[k] += q[k] * torque[k];
                 changed[k] |= presses(depth[k]) ^ presses(before[k]);
@@ -262,8 +257,6 @@ impl Lining {
         }
         Sums {
             force: Plane::new(total(x), total(y)),
-            push: total(pushes),
-            torque: total(turning),
             felt: [total(felt_c), total(felt_s)],
             deepest: deepest.into_iter().fold(0.0, f64::max),
             changed: changed != [0; 4],
@@ -326,7 +319,7 @@ impl Explicit {
         lining.press(z, x, tips, tips_of_rows, self.lobe_turn, bound);
         if disk.is_pair() {
             disk.feel_pair(lining.sums.felt);
-        } else if lining.sums.push > 0.0 {
+        } else if lining.sums.deepest > 0.0 {
             disk.feel(&lining.torques[..rows]);
         }
         if lining.sums.changed {
@@ -363,8 +356,10 @@ impl Explicit {
         else {
             return;
         };
-        let Sums { force, push, torque, .. } = lining.sums;
-        let tips = &self.tips;
+        let (tips, force) = (&self.tips, lining.sums.force);
+        let each = f64::from(self.disk.rows().1);
+        let pushes = lining.rows(|four| four.depth).map(|(_, depth)| lining.law.push(-depth));
+        let (push, torque) = (each * pushes.sum::<f64>(), lining.torques.iter().sum::<f64>());
         let turned = self.drive.speed(self.n - 1) * self.drive.step;
         self.ledger.sums.growth_work_j += 0.5 * push * self.lost_clearance();
         self.ledger.sums.rotor_work_j -= (torque + tips.pushed * push) * turned;
@@ -375,11 +370,10 @@ impl Explicit {
         let moved = Plane::new(0.5 * c, 0.5 * s) * lining.turn.conj();
         let along = moved.im * force.re - moved.re * force.im;
         let rows = lining.rows(|four| four.depth).filter(|(_, depth)| *depth > 0.0);
-        let each = self.disk.rows().1;
         let bent: f64 = rows
             .map(|(row, depth)| {
                 let turned = self.disk.angle(row) - self.disk.angle_before(row);
-                0.5 * f64::from(each) * lining.law.push(-depth) * turned
+                0.5 * each * lining.law.push(-depth) * turned
             })
             .sum();
         let slid = push * self.scene.casing.radius_m * turned;
