@@ -27,17 +27,19 @@ pub fn letter(way: &Way) -> char {
     }
 }
 
-/// Returns the name of a series: solver, contact law and model.
+/// Returns the name of a series: solver, contact law and model, and whether every step is taken.
 pub fn series(way: &Way) -> String {
-    format!("{} {} {}", way.solver, way.contact, way.model)
+    let plain = if way.plain { " plain" } else { "" };
+    format!("{} {} {}{plain}", way.solver, way.contact, way.model)
 }
 
-/// Returns the remark on a row's verdict, which may be empty: the row has another contact law than
-/// the reference, or another verdict.
+/// Returns the remark on a row, which may be empty: it has another contact law than the reference, or
+/// another verdict, or takes every step.
 fn remark(row: &Row) -> &'static str {
     match row {
         Row { other_law: true, .. } => "other law",
         Row { verdict_right: Some(false), .. } => "wrong",
+        Row { way: Way { plain: true, .. }, .. } => "every step",
         _ => "",
     }
 }
@@ -83,6 +85,7 @@ pub fn table(report: &Precision) -> Table {
         ("model".into(), |row| row.way.model.as_ref().into()),
         (Heading::filed("step_s"), |row| row.way.step_s.into()),
         (Heading::filed("tolerance"), |row| row.way.tolerance.into()),
+        (Heading::filed("plain"), |row| row.way.plain.into()),
         (Heading::shown("step or tol."), |row| row.way.step_s.or(row.way.tolerance).into()),
         (head("error_final", "error [g0]", 2), |row| row.error_final.into()),
         (head("error_impact_time_s", "impact error [s]", 2), |row| row.error_impact_time_s.into()),

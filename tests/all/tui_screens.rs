@@ -150,7 +150,7 @@ fn speed_against_error_names_its_reference() {
     session.press("7f");
     let text = session.text();
     assert!(text.contains("reference (smooth law) locked, finest step, error "), "{text}");
-    assert!(text.contains("; 0 of its 12 differ"), "{text}");
+    assert!(text.contains("; 0 of its 13 differ"), "{text}");
 }
 
 #[test]

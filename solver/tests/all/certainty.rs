@@ -17,6 +17,27 @@ fn is_proved(report: &RunReport) -> bool {
     matches!(report.outcome.basis, Some(Basis::Proved { .. }))
 }
 
+/// A blade that an engine order drives too far makes the run fail, though nothing touches.
+#[test]
+fn an_excitation_forbids_an_early_decay() {
+    let scene = scene(
+        "paper-nd3",
+        &[
+            ("excitation.amplitude_nm", "2000"),
+            ("excitation.order", "3"),
+            ("operation.speed_rad_s", "95.43"),
+            ("operation.pulse_n", "100"),
+            ("solver.step_s", "1e-6"),
+            ("solver.end_s", "0.3"),
+        ],
+    );
+    let early = rubscope_solver::motion::run_to_verdict(&scene, &to_the_end).unwrap();
+    assert_eq!(
+        (early.verdict, run_once(&scene).outcome.verdict),
+        (Verdict::Failed, Verdict::Failed)
+    );
+}
+
 #[test]
 fn a_proved_lock_near_its_limit_holds_in_longer_runs() {
     let mut proved = [0; 2];

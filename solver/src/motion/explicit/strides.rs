@@ -15,9 +15,10 @@ use super::oscillator::Coordinate;
 use super::row::Row;
 use super::stride_map::{HELD, HeldTip, SHORTEST, State, StrideMap};
 use crate::motion::{ActiveSet, Plane};
-use crate::tolerances::{ANGLE_LOOK, BREAK_STEPS, LARGEST_BLADE_ANGLE};
+use crate::tolerances::{ANGLE_LOOK, LARGEST_BLADE_ANGLE};
 
-/// Steps with the same tips in contact before a stride is tried, and before the map of a corner of
+/// Steps with the same tips in contact before a stride is tried, more than contact may pause without
+/// an end, and before the map of a corner of
 /// blades that move is made.
 const SAME_STEPS: u64 = 4;
 const SAME_STEPS_OF_CORNER: u64 = 64;
@@ -147,12 +148,11 @@ impl Explicit {
     }
 
     fn find_flight(&mut self) -> Option<Stride> {
-        let paused = self.n > self.record.last_touch + BREAK_STEPS || self.record.last_touch == 0;
         let pressed = self.lining.as_ref().is_some_and(|lining| lining.presses());
         let (reach, farthest) = (self.disk.reach(), self.casing.reach(&self.u));
         // Nothing that makes a run fail may come on the way.
         let fails = reach > LARGEST_BLADE_ANGLE || farthest > self.scene.casing.radius_m;
-        if !paused || pressed || fails || self.dips != [0.0; 2] || !self.disk.flies() {
+        if pressed || fails || self.dips != [0.0; 2] || !self.disk.flies() {
             return None;
         }
         let first = Plane::new(1.0, 0.0);
@@ -247,6 +247,11 @@ impl Explicit {
         self.u = [(z.re, w.re), (z.im, w.im)].map(|(x, increment)| Coordinate { x, increment });
         self.before = self.u.map(|at| self.casing.increment_before(at));
         self.disk.set_pair(modes_of(&at));
+        if let [a, b] = stride.held[..]
+            && self.disk.coordinates() > 0
+        {
+            self.close(a.index, b.index);
+        }
         let mut pulls = false;
         for (row, sum) in stride.held.iter().zip(sums) {
             self.record.impulse(row.side, -sum);
@@ -260,6 +265,23 @@ impl Explicit {
         let deepest = stride.map.deepest(&stride.state).max(stride.map.deepest(&at));
         self.record.deepest_predicted = self.record.deepest_predicted.max(deepest);
         self.look_at_swing();
+    }
+
+    /// Puts the casing where the gaps of two rows are zero: what a map leaves out, the square of a
+    /// small turn, would be a kick for the next step.
+    fn close(&mut self, a: usize, b: usize) {
+        let turn = self.drive.turn(self.n);
+        let z = Plane::new(self.u[0].x, self.u[1].x) * turn.conj();
+        let [a, b] = [a, b].map(|row| {
+            let angle = self.disk.angle(row);
+            self.tips_of_rows.row(row, z, angle, self.lobe_turn, &self.tips)
+        });
+        let (p, q) = (a.normal, b.normal);
+        let area = p.re * q.im - p.im * q.re;
+        let shift = Plane::new(b.gap * p.im - a.gap * q.im, a.gap * q.re - b.gap * p.re) / area;
+        let moved = shift * turn;
+        self.u[0].x += moved.re;
+        self.u[1].x += moved.im;
     }
 
     /// The casing in the frame of the blades, turned so that `first` is the real axis, and the modes

@@ -30,6 +30,8 @@ pub struct Way {
     /// Tolerance of the event solver for closed gaps, as a part of the motion's size; `None` for
     /// the explicit solver.
     pub tolerance: Option<f64>,
+    /// Whether every step is taken, without strides.
+    pub plain: bool,
 }
 
 /// Effort to spend on a comparison.
@@ -72,14 +74,13 @@ pub fn ways(scene: &Scene, effort: Effort) -> Vec<Way> {
         let allowed = finest..=scene.solver.end_s;
         let steps: Vec<f64> = STEPS.into_iter().filter(|step| allowed.contains(step)).collect();
         for &contact in laws {
-            let solver = SolverKind::Explicit;
-            ways.extend(steps.iter().map(|&step| Way {
-                solver,
-                contact,
-                model,
-                step_s: Some(step),
-                tolerance: None,
-            }));
+            ways.extend(steps.iter().map(|&step| by_steps(contact, model, step)));
+            // The scene as it is, by every step: what strides save, and what they cost.
+            let own = (scene.solver.contact, scene.solver.model) == (contact, model);
+            if own && allowed.contains(&scene.solver.step_s) {
+                let own = by_steps(contact, model, scene.solver.step_s);
+                ways.push(Way { plain: true, ..own });
+            }
         }
     }
     for model in [ModelSize::Rigid, ModelSize::Modal] {
@@ -97,6 +98,12 @@ pub fn ways(scene: &Scene, effort: Effort) -> Vec<Way> {
     ways
 }
 
+/// Returns the explicit solver with a law, a model size and a step \[s\].
+fn by_steps(contact: ContactLaw, model: ModelSize, step: f64) -> Way {
+    let solver = SolverKind::Explicit;
+    Way { solver, contact, model, step_s: Some(step), tolerance: None, plain: false }
+}
+
 /// Returns the event solver with a model size and a tolerance.
 pub(super) fn by_events(model: ModelSize, tolerance: f64) -> Way {
     Way {
@@ -105,6 +112,7 @@ pub(super) fn by_events(model: ModelSize, tolerance: f64) -> Way {
         model,
         step_s: None,
         tolerance: Some(tolerance),
+        plain: false,
     }
 }
 
@@ -126,10 +134,8 @@ pub(super) fn reference(scene: &Scene, model: ModelSize, effort: Effort) -> Opti
     }
     let end = scene.solver.end_s;
     let allowed = effort.finest_s.max(end / effort.most_steps)..=end;
-    let solver = SolverKind::Explicit;
     let steps = STEPS.into_iter().rev().filter(|step| allowed.contains(step));
-    let mut ways =
-        steps.map(|step| Way { solver, contact, model, step_s: Some(step), tolerance: None });
+    let mut ways = steps.map(|step| by_steps(contact, model, step));
     ways.find(|way| way.of(scene).is_ok())
 }
 
@@ -146,7 +152,8 @@ impl Way {
         if let Some(step) = self.step_s {
             scene.solver.step_s = step;
         }
-        scene.checked()
+        let scene = scene.checked()?;
+        Ok(if self.plain { scene.by_every_step() } else { scene })
     }
 
     pub(super) fn start(&self, scene: &Scene) -> Result<Motion, SceneError> {
