@@ -150,11 +150,11 @@ fn every_penetration_above_round_off_is_told() {
 
 #[test]
 fn a_plain_run_takes_every_step_and_comes_to_the_same_end() {
-    let [leapt, plain] = [&["--json"][..], &["--json", "--plain"]].map(|more| json(&quick(more)));
+    let [default, plain] = [&["--json"][..], &["--json", "--plain"]].map(|more| json(&quick(more)));
     let steps = |report: &serde_json::Value, name: &str| report["solver"][name].as_u64().unwrap();
-    assert!(steps(&leapt, "steps_skipped") > 0 && steps(&plain, "steps_skipped") == 0);
-    assert_eq!(steps(&plain, "steps"), steps(&leapt, "steps") + steps(&leapt, "steps_skipped"));
-    assert_eq!(leapt["outcome"]["verdict"], plain["outcome"]["verdict"]);
+    assert!(steps(&default, "steps_skipped") > 0 && steps(&plain, "steps_skipped") == 0);
+    assert_eq!(steps(&plain, "steps"), steps(&default, "steps") + steps(&default, "steps_skipped"));
+    assert_eq!(default["outcome"]["verdict"], plain["outcome"]["verdict"]);
     assert!(plain["command"].as_str().is_none_or(|command| command.contains("--plain")));
     let refused = refusal(&["run", "slip", "--solver", "event", "--plain"]);
     assert!(refused.contains("--plain: of --solver explicit only"), "{refused}");

@@ -154,7 +154,7 @@ fn one_tip_beyond_the_clearance_drags_the_wave_and_then_locks_it() {
 }
 
 #[test]
-fn leaps_of_a_corner_of_unequal_tips_are_plain_steps() {
+fn strides_in_a_corner_of_unequal_tips_are_plain_steps() {
     for (model, blades) in [("rigid", "22"), ("modal", "22"), ("modal", "24")] {
         let keys = [
             (LONGEST, "105e-6"),
@@ -167,13 +167,13 @@ fn leaps_of_a_corner_of_unequal_tips_are_plain_steps() {
             ("solver.step_s", "1e-6"),
             ("solver.end_s", "0.05"),
         ];
-        let leaping = crate::run_once(&scene(&keys));
+        let striding = crate::run_once(&scene(&keys));
         let plain = crate::run_once(&scene(&keys).by_every_step());
-        let [one, other] = [&leaping, &plain].map(|report| &report.r#final);
+        let [one, other] = [&striding, &plain].map(|report| &report.r#final);
         let apart = (one.u_c_m - other.u_c_m).hypot(one.u_s_m - other.u_s_m);
         assert!(apart < 1e-13, "{model} {apart:e}");
-        assert_eq!(leaping.impact_count, plain.impact_count);
-        for (one, other) in leaping.outcome.contacts.iter().zip(&plain.outcome.contacts) {
+        assert_eq!(striding.impact_count, plain.impact_count);
+        for (one, other) in striding.outcome.contacts.iter().zip(&plain.outcome.contacts) {
             close(one.multiplier_n, other.multiplier_n, 1e-8);
         }
     }

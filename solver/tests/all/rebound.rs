@@ -167,7 +167,7 @@ fn a_change_on_the_way_loses_no_rebound() {
     let mut scene = Scene::base();
     scene.solver.model = ModelSize::Rigid;
     (scene.contact.restitution, scene.solver.step_s) = (0.8, 1e-6);
-    // Every step is taken, so that a leap cut elsewhere rounds nothing else.
+    // Every step is taken, so that a stride cut elsewhere rounds nothing else.
     let checked = scene.checked().unwrap().by_every_step();
     let mut changed = Motion::new(&checked);
     // The same parameters again, between any two steps of the first impact.

@@ -29,8 +29,8 @@ impl Disk {
         }
     }
 
-    /// Returns the angle of a row when all blades were last looked at, which is its angle now but
-    /// for the slack; none of a pair.
+    /// Returns the angles of the blades that differ when they were last looked at, and how far each may
+    /// have turned since; empty for a pair.
     pub fn seen(&mut self) -> (&[f64], f64) {
         self.see();
         (&self.seen.angles, self.seen.slack)
@@ -173,13 +173,13 @@ impl Disk {
         (energy * (1.0 / least + 0.25 / (1.0 - 0.25 * most))).sqrt()
     }
 
-    /// Returns whether a blade may turn beyond the largest angle between now and when the modes of a
-    /// pair will be at `after`, a small part of a period later.
-    pub fn may_pass_largest(&self, after: Option<[Coordinate; 2]>) -> bool {
-        let Some(after) = after else { return self.reach() > self.largest };
+    /// Returns whether a blade of a pair may turn beyond the largest angle between now and when the modes
+    /// will be at `after`, a small part of a period later.
+    pub fn may_pass_largest(&self, after: [Coordinate; 2]) -> bool {
         let now = self.coordinates_of_pair();
         let square = |[c, s]: [Coordinate; 2]| c.x * c.x + s.x * s.x;
-        // In an eighth of a radian the square of the amplitude passes its ends by a hundredth.
+        // Within an eighth of a radian the square of a free amplitude passes its ends by half a
+        // hundredth.
         let most = (1.0 + ANGLE_LOOK * ANGLE_LOOK) * square(now).max(square(after));
         if most <= self.largest * self.largest {
             return false;

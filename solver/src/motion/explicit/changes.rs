@@ -81,6 +81,7 @@ impl Explicit {
         self.lasting.forget();
         self.strides.forget();
         self.stride_began = None;
+        self.changed = self.n;
         self.rest = OnceLock::new();
     }
 

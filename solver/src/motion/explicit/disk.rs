@@ -135,7 +135,7 @@ impl Disk {
         (self.fixed.rows.count(), self.fixed.per_row)
     }
 
-    /// Returns whether its gaps are those of a polygon: all blades follow the casing's phases.
+    /// Returns whether it has the modes of one number of diameters, or none.
     pub fn is_pair(&self) -> bool {
         self.fixed.is_pair
     }
@@ -420,7 +420,7 @@ impl Disk {
         }
     }
 
-    /// Puts a mode at a coordinate to which no force has brought it in the last step.
+    /// Puts a mode at a coordinate, with the step before it as if it had been free.
     fn put(&mut self, m: usize, at: Coordinate) {
         let (four, k) = (&mut self.modes[m / 4], m % 4);
         (four.x[k], four.increment[k]) = (at.x, at.increment);

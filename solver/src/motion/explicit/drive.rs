@@ -85,7 +85,7 @@ impl Drive {
         self.lobe_phasor.at(n, &self.rotor, self.lobes, self.step)
     }
 
-    /// Returns whether lobes turn against the blades.
+    /// Returns whether the casing is out of round.
     #[inline]
     pub fn has_lobes(&self) -> bool {
         self.lobes != 0.0
@@ -104,8 +104,8 @@ impl Drive {
     }
 
     /// Fires the next pulse at step `n`; what the pulse before gave in the half step until
-    /// then is kept. The change of the mean force in the half step after the start, which
-    /// the start did not know; zero later \[N\].
+    /// then is kept. Returns the change of the mean force in the half step after the start, which
+    /// the start did not know; zero at n > 0 \[N\].
     pub fn fire(&mut self, n: u64) -> f64 {
         let (start, half) = (self.time_of(n), 0.5 * self.step);
         let (old, next) = (self.pulse, self.next_pulse);

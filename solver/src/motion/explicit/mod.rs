@@ -3,11 +3,12 @@
 //! happens, second order on a lining.
 //!
 //! One step serves every scene; the paper's is that without slope, friction and restitution
-//! (`kappa = mu = e = 0`). Read `oscillator` (one coordinate), `disk` with `fixed` and `shapes` (the
-//! blades as oscillators and their shapes), `row` (gap and directions of a tip), `step` (section 4.2 of the paper line
-//! by line), `lining` (a push by the gap in place of the multiplier), `strides` (many steps at once); then `drive`, `record` and
-//! `lasting` (what drives a motion and what it leaves behind), `changes` (a machine that changes on
-//! the way), `rest` and `proofs` (verdicts before the end). `solver` puts them together.
+//! (`kappa = mu = e = 0`). Read `oscillator` (one coordinate), `disk` with `fixed`, `shapes` and
+//! `angles` (the blades as oscillators, their shapes, and how far they turn), `row` (gap and
+//! directions of a tip), `step` (section 4.2 of the paper line by line), `lining` (a push by the gap
+//! in place of the multiplier), `stride_map` and `strides` (many steps at once); then `drive`,
+//! `record` and `lasting` (what drives a motion and what it leaves behind), `changes` (a machine that
+//! changes on the way), `rest` and `proofs` (verdicts before the end). `solver` puts them together.
 
 mod angles;
 mod changes;
@@ -92,6 +93,8 @@ pub(super) struct Explicit {
     strides: Strides,
     /// The motion where the stride began inside of which the latest step lies.
     stride_began: Option<Box<Explicit>>,
+    /// Step of the latest change on the way.
+    changed: u64,
     /// Number of steps that were not computed one by one, but many at once by strides.
     skipped: u64,
     failure: Option<Failure>,
@@ -142,6 +145,7 @@ impl Explicit {
             rest: OnceLock::new(),
             strides: Strides::default(),
             stride_began: None,
+            changed: 0,
             skipped: 0,
             failure: None,
             machine,

@@ -54,7 +54,8 @@ impl Explicit {
     /// neither pulse nor ramp nor excitation acts.
     pub(super) fn held_corner(&self) -> Option<[u32; 2]> {
         let ActiveSet::Corner(a, b) = self.record.log.active_set else { return None };
-        let since = (self.record.log.since / self.drive.step) as u64;
+        // Pushes after a change are known once steps are taken.
+        let since = ((self.record.log.since / self.drive.step) as u64).max(self.changed);
         let steady = self.drive.is_steady(self.n) && self.record.last_touch == self.n;
         (steady && self.lining.is_none() && self.n >= since + HELD_AFTER).then_some([a, b])
     }
@@ -82,7 +83,7 @@ impl Explicit {
         let [a, b] = sides.map(sum);
         let [first, second] = sides.map(|side| machine.polygon.phase(side));
         let apart = (second - first).cos();
-        let half = (0.5 * (1.0 - apart)).sqrt();
+        let sin_half = (0.5 * (1.0 - apart)).sqrt();
         let least = self.law.hold([a, b], apart);
         let least = if self.law.pulls() { least.min(a.abs()).min(b.abs()) } else { least };
         let damping = machine.casing_damping_ratio * machine.omega_c
@@ -94,7 +95,7 @@ impl Explicit {
         let arm = self.rows.iter().fold(0.0, |most, row| f64::max(most, row.arm.abs()));
         let rest = 2.0 * torque / self.scene.disk_in_use().stiffness_nm_per_rad;
         let phase = machine.nodal_diameters * (self.disk.reach() + rest);
-        let change = 2.0 * phase * rates * rates * machine.casing_mass * distance / half;
+        let change = 2.0 * phase * rates * rates * machine.casing_mass * distance / sin_half;
         let inertia = arm * (arm + tips.pushed.abs()) * self.disk.compliance(0, 0);
         let light = inertia < LIGHT_BLADES * self.casing.compliance;
         let certain = light && least > CERTAIN_PUSH * machine.push_scale(nu);

@@ -20,7 +20,7 @@ use crate::tolerances::{SERIES_PHASE, SMALL_PHASE};
 pub(super) struct TipLaw {
     /// `g0` \[m\].
     pub clearance: f64,
-    /// Smallest gap of a casing at rest: `g0` less the longest tip and the highest lobe \[m\].
+    /// Smallest gap of a centred casing: `g0` less the longest tip and the highest lobe \[m\].
     pub least: f64,
     /// `n_d`.
     pub diameters: f64,

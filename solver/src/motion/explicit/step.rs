@@ -2,7 +2,7 @@
 //! laws of contact (docs/theory.md, section 2):
 //!
 //! 1. predict without contact, Eq. (10);
-//! 2. gaps of the tips at the prediction, Eq. (11): those that penetrate are rows;
+//! 2. gaps of the tips at the prediction, Eq. (14): those that penetrate are rows;
 //! 3. multipliers of the rows, Eqs. (12)-(13a): `W lambda = g`, all rows closed as equalities, or
 //!    `g - W lambda >= 0`, `lambda <= 0`, complementary, where contact only pushes;
 //! 4. correct, Eq. (13b).
@@ -110,7 +110,7 @@ impl Explicit {
         self.check_length()
     }
 
-    /// Step 2: makes rows of the tips whose gaps may be below `reach`, Eq. (11). Returns how far the
+    /// Step 2: makes rows of the tips whose gaps may be below `reach`, Eq. (14). Returns how far the
     /// deepest is beyond its target, and a lower bound on the gaps of all other tips.
     fn gather(&mut self, z: Plane, tips: &TipLaw, reach: f64) -> (f64, f64) {
         self.rows.clear();

@@ -60,9 +60,8 @@ type OfTips = SMatrix<f64, HELD, SIZE>;
 pub(super) struct HeldTip {
     /// \[m\]
     pub gap: f64,
-    /// Derivative of the gap by the casing, and the force on the casing per unit push.
+    /// Derivative of the gap by the casing, and the direction of a push.
     pub normal: Plane,
-    pub force: Plane,
     /// Derivative of the gap by the blade angle \[m\], and the shapes of the two modes.
     pub arm: f64,
     pub shape: [f64; 2],
@@ -116,7 +115,7 @@ impl StrideMap {
         for (i, tip) in tips.iter().enumerate() {
             depths[i] = -tip.gap;
             (gaps[(i, 0)], gaps[(i, 1)]) = (tip.normal.re, tip.normal.im);
-            for (k, force) in [tip.force.re, tip.force.im].into_iter().enumerate() {
+            for (k, force) in [tip.normal.re, tip.normal.im].into_iter().enumerate() {
                 moves[(k, i)] = casing.compliance * force;
                 moves[(2 + k, i)] = casing.compliance * force;
             }
@@ -135,7 +134,7 @@ impl StrideMap {
         let (apart, turning) =
             turn_of_tips(casing, modes, diameters, tips, [at_reference[0], at_reference[1]], z);
 
-        // Multipliers, Eq. (12), and the whole step, as deviations from the reference.
+        // Multipliers, Eq. (13a), and the whole step, as deviations from the reference.
         let gaps_apart = gaps + apart;
         let pushes = -(inverse * (gaps_apart + gaps_apart * predict));
         let map_change = predict + turning + turning * predict + moves * pushes;
@@ -155,6 +154,7 @@ impl StrideMap {
         let units = energy_units(casing, modes, diameters);
         let back = units.try_inverse()?;
         let scaled = units * (map_change + Square::identity()) * back;
+        // Each held tip fixes its gap and the rate of it.
         let allowed = range(&(scaled * scaled), 4 + 2 * modes.len() - 2 * tips.len())?;
         let within = scaled * allowed;
         let growth = (allowed.transpose() * within).singular_values().max().max(1.0);
@@ -299,7 +299,8 @@ fn change_of_prediction(casing: &Oscillator, modes: &[Oscillator], turn: f64) ->
 }
 
 /// How contact changes as blades turn the tips that they hold with these pushes, the casing at
-/// `z`: what closes the gaps beyond `-dg`, and the change of the state by the prediction.
+/// `z`: the sum over `p_j` in the formula of `W dp` above, and what the turned pushes change of the
+/// state, both by the predicted state.
 fn turn_of_tips(
     casing: &Oscillator,
     modes: &[Oscillator],
@@ -431,7 +432,6 @@ mod tests {
                 .map(|&side| HeldTip {
                     gap: CLEARANCE + (ahead * self.normals[side].conj()).re,
                     normal: self.normals[side],
-                    force: self.normals[side],
                     ..HeldTip::default()
                 })
                 .collect();

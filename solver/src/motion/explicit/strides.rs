@@ -17,14 +17,14 @@ use super::stride_map::{HELD, HeldTip, SHORTEST, State, StrideMap};
 use crate::motion::{ActiveSet, Plane};
 use crate::tolerances::{ANGLE_LOOK, LARGEST_BLADE_ANGLE};
 
-/// Steps with the same tips in contact before a stride is tried, more than contact may pause without
-/// an end, and before the map of a corner of
-/// blades that move is made.
+/// Steps with the same tips in contact before a stride is tried: more than contact may pause without
+/// an end.
 const SAME_STEPS: u64 = 4;
+/// Steps in the same corner before the map of a corner of blades that move is made.
 const SAME_STEPS_OF_CORNER: u64 = 64;
-/// Turn of held tips, `n_d alpha`, whose square is left out, and that of the tips from which it is
-/// counted \[rad\].
+/// Turn `n_d alpha` of held tips since their map was made, the square of which is left out \[rad\].
 const SMALL_TURN: f64 = 3e-6;
+/// Largest turn of tips at which such a map is made \[rad\].
 const LARGEST_TURN: f64 = 1e-3;
 /// Steps that cost about as much as a map.
 const STEPS_OF_MAP: u64 = 512;
@@ -38,8 +38,8 @@ type Change = [f64; 4];
 #[derive(Clone, Debug, Default)]
 pub(super) struct Strides {
     maps: Vec<(Vec<HeldTip>, Arc<StrideMap>)>,
-    /// Map of the corner that blades that move hold now.
-    corner: Option<Arc<StrideMap>>,
+    /// Map of the corner that blades that move hold now, and the row whose direction is its real axis.
+    corner: Option<(usize, Arc<StrideMap>)>,
     /// Sides in contact at the last step, and the number of steps that they have been.
     sides: ActiveSet,
     same: u64,
@@ -80,6 +80,9 @@ impl Explicit {
             self.strides.same += 1;
         } else {
             (self.strides.sides, self.strides.same, self.strides.corner) = (sides, 0, None);
+        }
+        if self.lining.as_ref().is_some_and(|lining| lining.presses()) {
+            self.strides.same = 0;
         }
         let ready = self.strides.same >= SAME_STEPS && self.n >= self.strides.next;
         if !ready || !self.drive.is_steady(self.n) {
@@ -123,8 +126,11 @@ impl Explicit {
 
     /// Shortens a stride so that the largest blade angle is that of some step.
     fn within_largest(&mut self, mut stride: Stride) -> Option<Stride> {
+        if !self.disk.is_pair() {
+            return (self.disk.reach() <= self.disk.largest()).then_some(stride);
+        }
         while stride.steps >= 1 << SHORTEST {
-            let after = self.pair_after(&stride);
+            let after = self.pair_after(&stride)?;
             if !self.disk.may_pass_largest(after) {
                 return Some(stride);
             }
@@ -133,11 +139,8 @@ impl Explicit {
         None
     }
 
-    /// Returns the modes of a pair after a stride; none of other disks.
+    /// Returns the modes of a pair after a stride.
     fn pair_after(&mut self, stride: &Stride) -> Option<[Coordinate; 2]> {
-        if !self.disk.is_pair() {
-            return None;
-        }
         if !stride.held.is_empty() {
             return Some(modes_of(&stride.map.take(&stride.state, stride.steps).0));
         }
@@ -148,15 +151,16 @@ impl Explicit {
     }
 
     fn find_flight(&mut self) -> Option<Stride> {
-        let pressed = self.lining.as_ref().is_some_and(|lining| lining.presses());
         let (reach, farthest) = (self.disk.reach(), self.casing.reach(&self.u));
         // Nothing that makes a run fail may come on the way.
         let fails = reach > LARGEST_BLADE_ANGLE || farthest > self.scene.casing.radius_m;
-        if pressed || fails || self.dips != [0.0; 2] || !self.disk.flies() {
+        if fails || self.dips != [0.0; 2] || !self.disk.flies() {
             return None;
         }
         let first = Plane::new(1.0, 0.0);
-        let state = self.casing_and_pair(first);
+        let mut state = self.casing_and_pair(first);
+        // The modes have changes of their own.
+        state.fixed_rows_mut::<4>(4).fill(0.0);
         let map = self.map_of(&[], state, first)?;
         let (tips, law) = (&self.tips_of_rows, &self.tips);
         let margin = law.rise.abs() * reach + tips.out_of_round;
@@ -173,27 +177,26 @@ impl Explicit {
         let held: Vec<Row> = self.rows.iter().copied().filter(|row| row.lambda != 0.0).collect();
         let (moves, turned) =
             (self.disk.coordinates() > 0, self.tips.diameters * self.disk.reach());
-        let linear = self.restitution == 0.0
-            && !self.drive.has_lobes()
-            && !self.scene.goes_beyond()
+        let linear = !self.scene.goes_beyond()
             && self.machine.polygon.has_corners()
-            && self.lining.is_none()
             && held.len() <= HELD
             && self.rows.len() == held.len();
         let rests = !moves
             || (held.len() == HELD
                 && self.strides.same >= SAME_STEPS_OF_CORNER
                 && self.disk.is_pair()
-                && self.tips.pushed == 0.0
                 && turned < LARGEST_TURN);
         if !linear || !rests {
             return None;
         }
         let first = self.tips_of_rows.rows[held.first()?.index].normal;
         let state = self.casing_and_pair(first);
-        let near = |map: &Arc<StrideMap>| 2.0 * self.turned_since(map, &state) < SMALL_TURN;
+        let axis = held.first()?.index;
+        let near = |(row, map): &(usize, Arc<StrideMap>)| {
+            *row == axis && 2.0 * self.turned_since(map, &state) < SMALL_TURN
+        };
         let map = match (moves, self.strides.corner.clone().filter(near)) {
-            (true, Some(map)) => map,
+            (true, Some((_, map))) => map,
             (true, None) => self.map_of_corner(&held, state, first)?,
             (false, _) => self.map_of(&held, state, first)?,
         };
@@ -318,7 +321,6 @@ impl Explicit {
             HeldTip {
                 gap: self.tips.clearance - tip.longer,
                 normal: tip.normal * first.conj(),
-                force: self.tips.push_on_casing(tip.normal) * first.conj(),
                 ..HeldTip::default()
             }
         };
@@ -359,12 +361,12 @@ impl Explicit {
             let angle = shape.iter().zip(&ahead).map(|(shape, x)| shape * x).sum();
             let at = self.tips_of_rows.row(row.index, z, angle, self.lobe_turn, &self.tips);
             let normal = at.normal * first.conj();
-            HeldTip { gap: at.gap, normal, force: normal, arm: at.arm, shape }
+            HeldTip { gap: at.gap, normal, arm: at.arm, shape }
         };
         let tips: Vec<HeldTip> = held.iter().map(tip).collect();
         let frame = (self.frame_turn(), self.tips.diameters);
         let map = Arc::new(StrideMap::new(&self.casing, &modes, frame, &tips, state)?);
-        self.strides.corner = Some(map.clone());
+        self.strides.corner = Some((held.first()?.index, map.clone()));
         Some(map)
     }
 
@@ -387,7 +389,6 @@ impl HeldTip {
         let near_plane = |a: Plane, b: Plane| near(a.re, b.re) && near(a.im, b.im);
         (self.gap - other.gap).abs() <= 1e-14 * self.gap.abs()
             && near_plane(self.normal, other.normal)
-            && near_plane(self.force, other.force)
     }
 }
 
