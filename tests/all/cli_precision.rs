@@ -181,7 +181,7 @@ fn what_the_event_solver_does_not_know_is_measured_against_the_finest_step() {
     assert!(text.contains("smooth, modal model, the finest step, 1e-6 s: locked"), "{text}");
     assert!(text.contains("Twice its step moves its end by "), "{text}");
     let (table, picture) = files(&lining);
-    assert!(table.lines().count() == 7 && picture.contains("explicit smooth full"), "{table}");
+    assert!(table.lines().count() == 8 && picture.contains("explicit smooth full"), "{table}");
 }
 
 #[test]
