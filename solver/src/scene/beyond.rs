@@ -6,8 +6,8 @@ use super::error::refuse_if;
 use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind, Value, keys};
 
 impl Scene {
-    /// Returns whether the scene uses any feature beyond the paper's model. If it does not, the
-    /// paper's own solvers run and their results are bit for bit the same.
+    /// Returns whether the scene uses any feature beyond the paper's model. Its runs keep an account
+    /// of energy, and take the steps of held tips one by one.
     #[must_use]
     pub fn goes_beyond(&self) -> bool {
         self.has_other_tips() || self.changes_with_speed()

@@ -77,7 +77,7 @@ impl Disk {
 
     /// Returns a bound on every blade angle in all free motion to come \[rad\].
     pub fn reach(&self) -> f64 {
-        if !self.fixed.springs.is_empty() {
+        if !self.is_tuned() {
             return self.reach_of_mistuned();
         }
         let modes = self.oscillators.iter().enumerate();

@@ -142,16 +142,14 @@ impl Explicit {
             return 0.0;
         }
         let turn = self.turn_now();
-        let z = Plane::new(self.u[0].x, self.u[1].x) * turn.conj();
-        let gap = |row: usize| {
-            self.tips_of_rows.row(row, z, self.disk.angle(row), self.lobe_turn, &self.tips).gap
-        };
+        let z = self.place(turn);
+        let gap = |row: usize| self.row(row, z).gap;
         (0..self.tips_of_rows.rows.len()).map(gap).fold(0.0, |deepest, gap| f64::max(deepest, -gap))
     }
 
     /// Opens the gaps that other tips or another clearance have closed by more than the penetration
-    /// before. All displacements shrink by one part, as those of a lock do, and rates stay; where tips leave the
-    /// centre outside, the casing moves to the nearest open place.
+    /// before. All displacements shrink by one part, as those of a lock do, and rates stay; where tips
+    /// leave the centre outside, the casing moves to the nearest open place.
     fn give_way(&mut self, before: f64) {
         let changes = self.machine.changes_with_speed() || self.machine.is_uneven();
         if !changes || self.tips.clearance <= 0.0 {
@@ -177,7 +175,7 @@ impl Explicit {
     fn move_from_tips(&mut self) {
         let theta = self.drive.rotor.angle(self.drive.time_of(self.n));
         let turn = self.turn_now();
-        let z = Plane::new(self.u[0].x, self.u[1].x) * turn.conj();
+        let z = self.place(turn);
         let angles = self.disk.every_angle(self.machine.polygon.blades);
         let risen =
             |blade: u32| self.tips.rise * angles.get(blade as usize).copied().unwrap_or(0.0);

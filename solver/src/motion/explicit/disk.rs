@@ -108,16 +108,13 @@ impl Disk {
     pub fn with_parameters(&self, scene: &Scene, machine: &Machine) -> Self {
         let mut disk = Self::new(scene, machine, self.fixed.alike);
         for m in 0..disk.fixed.labels.len() {
-            let same = |label: &Label| *label == disk.fixed.labels[m];
-            let known = match self.fixed.labels.get(m).filter(|label| same(label)) {
-                Some(_) => Some(m),
-                None => self.fixed.labels.iter().position(same),
+            let label = disk.fixed.labels[m];
+            let known = match self.fixed.labels.get(m) {
+                Some(same) if *same == label => Some(m),
+                _ => self.fixed.labels.iter().position(|same| *same == label),
             };
             if let Some(old) = known {
-                let (from, to) = (&self.modes[old / 4], &mut disk.modes[m / 4]);
-                to.x[m % 4] = from.x[old % 4];
-                to.increment[m % 4] = from.increment[old % 4];
-                to.before[m % 4] = from.before[old % 4];
+                disk.put(m, self.at(old));
             }
         }
         (disk.largest, disk.room) = (self.largest, f64::NEG_INFINITY);
@@ -127,7 +124,7 @@ impl Disk {
     /// Returns the number of coordinates that a step updates.
     pub fn coordinates(&self) -> usize {
         let members = self.fixed.labels.len();
-        if self.fixed.springs.is_empty() { members } else { 8 * members }
+        if self.is_tuned() { members } else { 8 * members }
     }
 
     /// Returns the number of rows, and the blades of each.
@@ -146,12 +143,11 @@ impl Disk {
     pub fn predict(&mut self, excitation: Option<(&EngineOrderTorque, f64)>) {
         if let Some((excitation, phase)) = excitation {
             for (m, torque) in &mut self.driven {
-                let label = self.fixed.labels[*m];
-                *torque = excitation.torque_on(label.diameters, phase)[usize::from(label.is_sine)];
+                *torque = driving_torque(excitation, self.fixed.labels[*m], phase);
                 self.modes[*m / 4].felt[*m % 4] += *torque;
             }
         }
-        if !self.fixed.springs.is_empty() {
+        if !self.is_tuned() {
             self.pull_springs();
         }
         let mut moved = [0.0; 4];
@@ -228,8 +224,7 @@ impl Disk {
     pub fn begin_driven(&mut self, excitation: Option<(&EngineOrderTorque, f64)>) {
         let Some((excitation, phase)) = excitation else { return };
         for &(m, _) in &self.driven {
-            let label = self.fixed.labels[m];
-            let torque = excitation.torque_on(label.diameters, phase)[usize::from(label.is_sine)];
+            let torque = driving_torque(excitation, self.fixed.labels[m], phase);
             self.modes[m / 4].increment[m % 4] -= self.oscillators[m].start_shift(torque);
         }
     }
@@ -367,22 +362,14 @@ impl Disk {
         Coordinate { x: four.x[m % 4], increment: four.increment[m % 4] }
     }
 
-    /// Returns the oscillators of a pair that moves, with their coordinates: `alpha_c + i alpha_s`
-    /// and its increment.
-    pub fn pair(&self) -> Option<(&Oscillator, [Coordinate; 2])> {
-        let first = self.oscillators.first().filter(|_| self.fixed.is_pair)?;
-        let second = if self.oscillators.len() > 1 { self.at(1) } else { Coordinate::default() };
-        Some((first, [self.at(0), second]))
-    }
-
-    /// Returns the modes of a pair.
-    pub fn modes_of_pair(&self) -> Vec<Oscillator> {
-        if self.fixed.is_pair { self.oscillators.to_vec() } else { Vec::new() }
+    /// Returns the modes of a pair that moves; none of other disks.
+    pub fn modes_of_pair(&self) -> &[Oscillator] {
+        if self.fixed.is_pair { &self.oscillators } else { &[] }
     }
 
     /// Returns the coordinates of a pair; zeros for what is not there.
     pub fn coordinates_of_pair(&self) -> [Coordinate; 2] {
-        let known = |m| self.fixed.is_pair && m < self.oscillators.len();
+        let known = |m| m < self.modes_of_pair().len();
         [0, 1].map(|m| if known(m) { self.at(m) } else { Coordinate::default() })
     }
 
@@ -393,10 +380,9 @@ impl Disk {
         }
     }
 
-    /// Returns whether its modes are independent of each other, and none is so damped that the
-    /// step before cannot be told from a step.
-    pub fn flies(&self) -> bool {
-        self.fixed.springs.is_empty() && self.oscillators.iter().all(|mode| mode.ratio > 0.5)
+    /// Returns whether its modes are independent of each other.
+    pub fn is_tuned(&self) -> bool {
+        self.fixed.springs.is_empty()
     }
 
     /// Returns the largest phase that a mode turns in a step \[rad\].
@@ -420,11 +406,10 @@ impl Disk {
         }
     }
 
-    /// Puts a mode at a coordinate, with the step before it as if it had been free.
+    /// Puts a mode at a coordinate.
     fn put(&mut self, m: usize, at: Coordinate) {
         let (four, k) = (&mut self.modes[m / 4], m % 4);
         (four.x[k], four.increment[k]) = (at.x, at.increment);
-        four.before[k] = self.oscillators[m].increment_before(at);
     }
 
     /// Returns the shapes of the two modes at a row, for a pair.
@@ -437,7 +422,7 @@ impl Disk {
     pub fn energy(&self) -> f64 {
         let modes = self.oscillators.iter().enumerate();
         let twice: f64 = modes.map(|(m, oscillator)| oscillator.twice_energy(self.at(m))).sum();
-        if self.fixed.springs.is_empty() {
+        if self.is_tuned() {
             return 0.5 * twice;
         }
         let moved = self.fixed.blades.all(|m| self.modes[m / 4].increment[m % 4]);
@@ -460,6 +445,11 @@ impl Disk {
         let work: f64 = self.driven.iter().map(|&(m, torque)| 0.5 * torque * moved(m)).sum();
         [total(loss), work]
     }
+}
+
+/// Returns the torque of an excitation on a mode at a phase \[N m\].
+fn driving_torque(excitation: &EngineOrderTorque, mode: Label, phase: f64) -> f64 {
+    excitation.torque_on(mode.diameters, phase)[usize::from(mode.is_sine)]
 }
 
 /// Returns the sum of four numbers.

@@ -387,7 +387,7 @@ impl Explicit {
     pub(super) fn press_start(&mut self) {
         let tips = self.tips;
         let turn = self.turn_now();
-        let z = Plane::new(self.u[0].x, self.u[1].x) * turn.conj();
+        let z = self.place(turn);
         self.find_pressed(z, turn, &tips);
         if self.lining.is_none() {
             return;
@@ -427,7 +427,7 @@ impl Explicit {
         self.lining = Some(Lining::new(law, &self.tips_of_rows, &self.disk));
         let (tips, turn) = (self.tips, self.turn_now());
         self.disk.forget_felt();
-        self.find_pressed(Plane::new(self.u[0].x, self.u[1].x) * turn.conj(), turn, &tips);
+        self.find_pressed(self.place(turn), turn, &tips);
         let Some(lining) = &mut self.lining else { return };
         lining.held_before = Some(part * lining.energy(|four| four.depth));
         // The record has the pushes of this step.

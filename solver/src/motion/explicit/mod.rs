@@ -166,6 +166,18 @@ impl Explicit {
         self.drive.turn(self.n)
     }
 
+    /// Returns the casing in the frame of the blades, which has turned so far \[m\].
+    #[inline(always)]
+    fn place(&self, turn: Plane) -> Plane {
+        Plane::new(self.u[0].x, self.u[1].x) * turn.conj()
+    }
+
+    /// Returns the row of a tip, for the casing at `z` and the blades as they are.
+    #[inline(always)]
+    fn row(&self, index: usize, z: Plane) -> Row {
+        self.tips_of_rows.row(index, z, self.disk.angle(index), self.lobe_turn, &self.tips)
+    }
+
     /// Returns the law of the tips at the latest step: the sign of friction follows the rotor.
     #[inline]
     fn tips_now(&mut self) -> TipLaw {
@@ -181,8 +193,11 @@ impl Explicit {
 
     /// Returns the energy of casing, blades and lining between the last two steps \[J\].
     fn stored(&self) -> f64 {
-        let casing: f64 = self.u.iter().map(|&at| self.casing.twice_energy(at)).sum();
-        0.5 * casing + self.disk.energy() + self.lining.as_ref().map_or(0.0, Lining::stored)
+        self.casing_energy() + self.disk.energy() + self.lining.as_ref().map_or(0.0, Lining::stored)
+    }
+
+    fn casing_energy(&self) -> f64 {
+        0.5 * self.u.iter().map(|&at| self.casing.twice_energy(at)).sum::<f64>()
     }
 
     /// Adds the energy flows of the step just taken, except those of contact.

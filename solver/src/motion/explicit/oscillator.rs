@@ -88,11 +88,6 @@ impl Oscillator {
         [-self.pull, self.ratio, -self.pull, -self.loss]
     }
 
-    /// Returns the increment of the step before, where no force acted in the last one.
-    pub fn increment_before(&self, at: Coordinate) -> f64 {
-        (at.increment + self.pull * (at.x - at.increment)) / self.ratio
-    }
-
     /// Returns twice the discrete energy, `m (increment/h)^2 + k x[n] x[n-1]`, which free steps
     /// never increase.
     pub fn twice_energy(&self, at: Coordinate) -> f64 {

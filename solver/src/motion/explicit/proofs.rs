@@ -74,7 +74,7 @@ impl Explicit {
     fn corner_for_good(&self) -> Option<Verdict> {
         let (machine, tips) = (&self.machine, &self.tips);
         let plain = tips.rise == 0.0 && !machine.is_uneven() && self.restitution == 0.0;
-        let corner = self.held_corner().filter(|_| plain && self.disk.flies());
+        let corner = self.held_corner().filter(|_| plain && self.disk.is_tuned());
         let sides = corner.filter(|_| machine.polygon.has_corners())?;
         let sum = |side| {
             let rows = self.rows.iter().filter(|row| row.side == side);

@@ -78,7 +78,7 @@ impl Explicit {
     pub(super) fn stays_linear(&self, after: f64) -> Option<bool> {
         let (rest, back) = (self.rest()?, self.drive.turns_before(self.n, 0).0.conj());
         let [x, y] = self.u;
-        let [a, b] = self.disk.pair().map_or_else(Default::default, |(_, modes)| modes);
+        let [a, b] = self.disk.coordinates_of_pair();
         let state = Point {
             z: Plane::new(x.x, y.x) * back,
             dz: Plane::new(x.increment, y.increment) * back,
@@ -99,7 +99,7 @@ impl Explicit {
         if machine.is_uneven() {
             return None;
         }
-        let blades = self.disk.pair().map(|(oscillator, _)| oscillator);
+        let blades = self.disk.modes_of_pair().first();
         let per_row = f64::from(self.disk.rows().1);
         let row = |(row, tip): (usize, &Tip)| {
             let [p, q] = self.disk.shape_of(row);

@@ -108,9 +108,6 @@ impl Solver for Explicit {
     }
 
     fn multipliers(&self) -> Vec<(u32, f64)> {
-        if self.record.log.active_set == ActiveSet::Nothing {
-            return Vec::new();
-        }
         let multipliers = match &self.lining {
             Some(lining) => lining.multipliers(&self.tips_of_rows),
             None => self.rows.iter().map(|row| (row.side, row.lambda)).collect(),

@@ -65,7 +65,7 @@ impl Explicit {
         }
         self.check_range(distance2, &tips)?;
         let turn = self.turn_now();
-        let z = Plane::new(self.u[0].x, self.u[1].x) * turn.conj();
+        let z = self.place(turn);
         if self.lining.is_some() {
             self.press(z, turn, &tips);
             return Ok(());
@@ -192,8 +192,7 @@ impl Explicit {
     /// Makes a row of a tip. Returns how far it is beyond its target.
     #[inline(always)]
     fn add_row(&mut self, index: usize, z: Plane, tips: &TipLaw) -> f64 {
-        let angle = self.disk.angle(index);
-        let mut row = self.tips_of_rows.row(index, z, angle, self.lobe_turn, tips);
+        let mut row = self.row(index, z);
         if self.restitution != 0.0 {
             row.apart += self.restitution * self.gap_before(&row, tips);
         }
@@ -272,8 +271,7 @@ impl Explicit {
         let mut dip = 0.0_f64;
         for place in 0..self.rows.len() {
             let row = self.rows[place];
-            let angle = self.disk.angle(row.index);
-            let gap = self.tips_of_rows.row(row.index, z + shift, angle, self.lobe_turn, tips).gap;
+            let gap = self.row(row.index, z + shift).gap;
             dip = dip.max(-gap);
             if self.ledger.counts && row.lambda != 0.0 {
                 let closed = 0.5 * (gap - self.gap_before(&row, tips));

@@ -1,12 +1,12 @@
 //! Strides: many steps at once between changes of contact, by the maps of `stride_map`.
 //!
-//! In flight the casing and the blade modes swing by themselves, each with powers of its own; the map
-//! tells how far they may. Rigid blades are held at a side or in a corner by a map of the casing, and blades that move in
-//! a corner, by one for small deviations. Elsewhere, as where a side of blades that move is held,
-//! steps are taken one by one.
+//! In flight the casing and the blade modes swing by themselves, each with powers of its own; the
+//! map tells how far they may. Rigid blades are held at a side or in a corner by a map of the
+//! casing, and blades that move, in a corner, by one for small deviations. Elsewhere, as where a
+//! side of blades that move is held, steps are taken one by one.
 //!
-//! A look at the motion inside of a stride does not cut it: the motion goes on from where the stride
-//! began, whoever looks.
+//! A look at the motion inside of a stride does not cut it: the motion goes on from where the
+//! stride began, whoever looks.
 
 use std::sync::Arc;
 
@@ -70,19 +70,12 @@ pub(super) struct Stride {
 impl Explicit {
     /// Finds a stride from the latest step.
     pub(super) fn find_stride(&mut self) -> Option<Stride> {
-        let pushing = self.rows.iter().filter(|row| row.lambda != 0.0);
-        let sides = if self.record.last_touch == self.n {
-            pushing.fold(ActiveSet::Nothing, |sides, row| sides.with(row.side))
-        } else {
-            ActiveSet::Nothing
-        };
+        let touches = self.record.last_touch == self.n;
+        let sides = if touches { self.record.log.active_set } else { ActiveSet::Nothing };
         if sides == self.strides.sides {
             self.strides.same += 1;
         } else {
             (self.strides.sides, self.strides.same, self.strides.corner) = (sides, 0, None);
-        }
-        if self.lining.as_ref().is_some_and(|lining| lining.presses()) {
-            self.strides.same = 0;
         }
         let ready = self.strides.same >= SAME_STEPS && self.n >= self.strides.next;
         if !ready || !self.drive.is_steady(self.n) {
@@ -154,7 +147,7 @@ impl Explicit {
         let (reach, farthest) = (self.disk.reach(), self.casing.reach(&self.u));
         // Nothing that makes a run fail may come on the way.
         let fails = reach > LARGEST_BLADE_ANGLE || farthest > self.scene.casing.radius_m;
-        if fails || self.dips != [0.0; 2] || !self.disk.flies() {
+        if fails || self.dips != [0.0; 2] || !self.disk.is_tuned() {
             return None;
         }
         let first = Plane::new(1.0, 0.0);
@@ -168,7 +161,7 @@ impl Explicit {
             tips.least_gap(place, law, ActiveSet::Nothing) - margin
         })?;
         // No blade angle, and no swing of a tip, may pass its extreme unseen.
-        let steps = (1 << exponent).min(self.steps_unseen());
+        let steps = (1 << exponent).min(self.steps_of_small_turn());
         Some(Stride { steps, map, first, state, held: Vec::new() })
     }
 
@@ -189,21 +182,25 @@ impl Explicit {
         if !linear || !rests {
             return None;
         }
-        let first = self.tips_of_rows.rows[held.first()?.index].normal;
-        let state = self.casing_and_pair(first);
         let axis = held.first()?.index;
+        let first = self.tips_of_rows.rows[axis].normal;
+        let state = self.casing_and_pair(first);
         let near = |(row, map): &(usize, Arc<StrideMap>)| {
             *row == axis && 2.0 * self.turned_since(map, &state) < SMALL_TURN
         };
         let map = match (moves, self.strides.corner.clone().filter(near)) {
             (true, Some((_, map))) => map,
-            (true, None) => self.map_of_corner(&held, state, first)?,
+            (true, None) => {
+                let map = self.map_of_corner(&held, state, first)?;
+                self.strides.corner = Some((axis, map.clone()));
+                map
+            }
             (false, _) => self.map_of(&held, state, first)?,
         };
         let exponent = map.longest(&state, self.law.pulls(), turned, |place| {
             self.tips_of_rows.least_gap(place * first, &self.tips, sides)
         })?;
-        let mut steps = (1 << exponent).min(self.steps_unseen());
+        let mut steps = (1 << exponent).min(self.steps_of_small_turn());
         while moves && self.turned_since(&map, &map.take(&state, steps).0) > SMALL_TURN {
             steps /= 2;
             if steps < 1 << SHORTEST {
@@ -220,7 +217,7 @@ impl Explicit {
     }
 
     /// Returns the steps, as a power of two, in which the fastest mode turns by little.
-    fn steps_unseen(&self) -> u64 {
+    fn steps_of_small_turn(&self) -> u64 {
         let steps = ANGLE_LOOK / self.disk.fastest_turn();
         if steps < 2e9 { 1 << (steps.max(1.0) as u64).ilog2() } else { u64::MAX }
     }
@@ -234,7 +231,6 @@ impl Explicit {
             self.u = self.u.map(|at| at.changed(&casing));
             self.disk.fly(&modes);
         }
-        self.before = self.u.map(|at| self.casing.increment_before(at));
         if let Some((casing, blades)) = stored {
             self.ledger.sums.casing_loss_j += casing - self.casing_energy();
             self.ledger.sums.blade_loss_j += blades - self.disk.energy();
@@ -248,7 +244,6 @@ impl Explicit {
         let turn = self.drive.turn(self.n) * stride.first;
         let (z, w) = (Plane::new(at[0], at[1]) * turn, Plane::new(at[2], at[3]) * turn);
         self.u = [(z.re, w.re), (z.im, w.im)].map(|(x, increment)| Coordinate { x, increment });
-        self.before = self.u.map(|at| self.casing.increment_before(at));
         self.disk.set_pair(modes_of(&at));
         if let [a, b] = stride.held[..]
             && self.disk.coordinates() > 0
@@ -274,11 +269,7 @@ impl Explicit {
     /// small turn, would be a kick for the next step.
     fn close(&mut self, a: usize, b: usize) {
         let turn = self.drive.turn(self.n);
-        let z = Plane::new(self.u[0].x, self.u[1].x) * turn.conj();
-        let [a, b] = [a, b].map(|row| {
-            let angle = self.disk.angle(row);
-            self.tips_of_rows.row(row, z, angle, self.lobe_turn, &self.tips)
-        });
+        let [a, b] = [a, b].map(|row| self.row(row, self.place(turn)));
         let (p, q) = (a.normal, b.normal);
         let area = p.re * q.im - p.im * q.re;
         let shift = Plane::new(b.gap * p.im - a.gap * q.im, a.gap * q.re - b.gap * p.re) / area;
@@ -295,10 +286,6 @@ impl Explicit {
         let (z, w) = (Plane::new(c.x, s.x) * back, Plane::new(c.increment, s.increment) * back);
         let [a, b] = self.disk.coordinates_of_pair();
         State::from([z.re, z.im, w.re, w.im, a.x, b.x, a.increment, b.increment])
-    }
-
-    fn casing_energy(&self) -> f64 {
-        0.5 * self.u.iter().map(|&at| self.casing.twice_energy(at)).sum::<f64>()
     }
 
     /// Returns the changes of casing and modes over `2^exponent` free steps.
@@ -346,12 +333,7 @@ impl Explicit {
     }
 
     /// The map of a corner of blades that move, for small deviations from a state.
-    fn map_of_corner(
-        &mut self,
-        held: &[Row],
-        state: State,
-        first: Plane,
-    ) -> Option<Arc<StrideMap>> {
+    fn map_of_corner(&self, held: &[Row], state: State, first: Plane) -> Option<Arc<StrideMap>> {
         let modes = self.disk.modes_of_pair();
         let z = self.predicted(state) * first;
         let ahead: Vec<f64> =
@@ -365,9 +347,7 @@ impl Explicit {
         };
         let tips: Vec<HeldTip> = held.iter().map(tip).collect();
         let frame = (self.frame_turn(), self.tips.diameters);
-        let map = Arc::new(StrideMap::new(&self.casing, &modes, frame, &tips, state)?);
-        self.strides.corner = Some((held.first()?.index, map.clone()));
-        Some(map)
+        StrideMap::new(&self.casing, modes, frame, &tips, state).map(Arc::new)
     }
 
     /// Turn of the frame of the blades in a step \[rad\].
