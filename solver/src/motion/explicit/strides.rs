@@ -86,7 +86,7 @@ impl Explicit {
             ActiveSet::Side(_) | ActiveSet::Corner(..) => self.find_hold(sides),
             ActiveSet::Many => None,
         };
-        let stride = stride.and_then(|stride| self.within_largest(stride));
+        let stride = stride.and_then(|stride| self.shortened(stride));
         if stride.is_none() {
             // Steps leave the map of small deviations: the next try makes another.
             let is_left = self.strides.corner.take().is_some();
@@ -117,14 +117,17 @@ impl Explicit {
         }
     }
 
-    /// Shortens a stride so that the largest blade angle is that of some step.
-    fn within_largest(&mut self, mut stride: Stride) -> Option<Stride> {
+    /// Shortens a stride so that the largest blade angle is that of some step, and that held tips
+    /// turn little.
+    fn shortened(&mut self, mut stride: Stride) -> Option<Stride> {
         if !self.disk.is_pair() {
             return (self.disk.reach() <= self.disk.largest()).then_some(stride);
         }
         while stride.steps >= 1 << SHORTEST {
             let after = self.pair_after(&stride)?;
-            if !self.disk.may_pass_largest(after) {
+            let holds = !stride.held.is_empty();
+            let turns = holds && self.turned_since(&stride.map, after) > SMALL_TURN;
+            if !turns && !self.disk.may_pass_largest(after) {
                 return Some(stride);
             }
             stride.steps /= 2;
@@ -186,7 +189,7 @@ impl Explicit {
         let first = self.tips_of_rows.rows[axis].normal;
         let state = self.casing_and_pair(first);
         let near = |(row, map): &(usize, Arc<StrideMap>)| {
-            *row == axis && 2.0 * self.turned_since(map, &state) < SMALL_TURN
+            *row == axis && 2.0 * self.turned_since(map, modes_of(&state)) < SMALL_TURN
         };
         let map = match (moves, self.strides.corner.clone().filter(near)) {
             (true, Some((_, map))) => map,
@@ -200,20 +203,14 @@ impl Explicit {
         let exponent = map.longest(&state, self.law.pulls(), turned, |place| {
             self.tips_of_rows.least_gap(place * first, &self.tips, sides)
         })?;
-        let mut steps = (1 << exponent).min(self.steps_of_small_turn());
-        while moves && self.turned_since(&map, &map.take(&state, steps).0) > SMALL_TURN {
-            steps /= 2;
-            if steps < 1 << SHORTEST {
-                return None;
-            }
-        }
+        let steps = (1 << exponent).min(self.steps_of_small_turn());
         Some(Stride { steps, map, first, state, held })
     }
 
     /// Returns a bound on how far blades have turned their tips since a map was made \[rad\].
-    fn turned_since(&self, map: &StrideMap, state: &State) -> f64 {
-        let since = state - map.reference;
-        self.tips.diameters * (since[4].abs() + since[5].abs())
+    fn turned_since(&self, map: &StrideMap, modes: [Coordinate; 2]) -> f64 {
+        let [c, s] = modes_of(&map.reference);
+        self.tips.diameters * ((modes[0].x - c.x).abs() + (modes[1].x - s.x).abs())
     }
 
     /// Returns the steps, as a power of two, in which the fastest mode turns by little.
