@@ -292,6 +292,19 @@ mod tests {
     }
 
     #[test]
+    fn a_phase_of_many_turns_keeps_what_its_product_loses() {
+        let mut phasor = Phasor::new(&Rotor::of(&Scene::base()), 3.0, 1e-6, 0);
+        // The product is 2^30 + 1 + 2^-10 + 2^-40, whose last term a number of 53 bits drops.
+        let (two, steps) = (2.0_f64, (1 << 30) + 1);
+        phasor.rate = 1.0 + two.powi(-40);
+        let (sin, cos) = (two.powi(30) + 1.0 + two.powi(-10)).sin_cos();
+        let seen = phasor.exact(steps);
+        let rest = two.powi(-40);
+        let apart = (seen.re - (cos - rest * sin)).hypot(seen.im - (sin + rest * cos));
+        assert!(apart < 1e-15, "{apart}");
+    }
+
+    #[test]
     fn a_look_at_a_phase_is_the_phase_of_a_step_taken() {
         for ramp in ["0", "-300"] {
             let scene = Scene::base().with(&[("operation.speed_ramp_rad_s2", ramp)]).unwrap();
