@@ -1,17 +1,44 @@
-//! One's own machine from a table of modes: which nodal diameters can lock at its speeds, and what
+//! One's own machine with its modes: which nodal diameters can lock at its speeds, and what
 //! moves the lock speed most (`cargo run --release --package rubscope-solver --example survey`).
 
 use std::error::Error;
 use std::f64::consts::TAU;
 use std::io::{Write, stdout};
 
-use rubscope_solver::scene::{ModalData, Scene, read_modes};
+use rubscope_solver::scene::Scene;
 use rubscope_solver::study::margins::{LimitName, Margins};
 use rubscope_solver::study::survey::Survey;
 
-const TABLE: &str = "structure,nodal diameters,frequency [Hz],modal mass [kg],speed [rpm]
-casing,4,440,8.6,\ncasing,5,700,8.2,\ndisk,4,386.0,3.6,0\ndisk,4,439.8,3.6,10000
-disk,5,397.0,3.5,0\ndisk,5,449.5,3.5,10000";
+const STAGE: &str = r#"
+title = "A stage"
+
+[bladed_disk]
+blades = 40
+blade_length_m = 0.4197
+inertia_kg_m2 = 0.0308
+stiffness_nm_per_rad = 191.6e3
+coupling_nm_per_rad = 0
+damping_ratio = 0.01
+modes = [
+    { nodal_diameters = 4, frequency_hz = 386.0, at_speed_rad_s = 0, inertia_kg_m2 = 0.0317 },
+    { nodal_diameters = 4, frequency_hz = 439.8, at_speed_rad_s = "10000 rpm" },
+    { nodal_diameters = 5, frequency_hz = 397.0, at_speed_rad_s = 0, inertia_kg_m2 = 0.0308 },
+    { nodal_diameters = 5, frequency_hz = 449.5, at_speed_rad_s = "10000 rpm" },
+]
+
+[casing]
+radius_m = 0.42
+damping_ratio = 0.01
+modes = [
+    { nodal_diameters = 4, frequency_hz = 440, modal_mass_kg = 8.6 },
+    { nodal_diameters = 5, frequency_hz = 700, modal_mass_kg = 8.2 },
+]
+
+[operation]
+nodal_diameters = 5
+speed_rad_s = "9000 rpm"
+pulse_n = "450 kN"
+"#;
 
 fn main() -> Result<(), Box<dyn Error>> {
     show(&mut stdout())
@@ -21,21 +48,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 pub fn show(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let rpm = TAU / 60.0; // rad/s
     let range_rad_s = [7000.0 * rpm, 12_000.0 * rpm];
-    let [casing, disk] = read_modes(TABLE)?.modes;
-    let data = ModalData {
-        title: "A stage".into(),
-        blades: 40,
-        radius_m: 0.42,
-        clearance_m: 0.3e-3,
-        nodal_diameters: 5,
-        casing,
-        disk,
-        damping_ratios: [0.01; 2],
-        range_rad_s,
-        speed_rad_s: 9000.0 * rpm,
-        pulse_n: 450e3,
-    };
-    let scene = Scene::from_toml(&data.to_toml()?)?.checked()?;
+    let scene = Scene::from_toml(STAGE)?.checked()?;
     for row in Survey::of(&scene, Some(range_rad_s), None)?.shown(false) {
         for [from, to] in row.locks_in_range.iter().flatten() {
             writeln!(out, "{}: {:.1} to {:.1} rpm", row.nodal_diameters, from / rpm, to / rpm)?;

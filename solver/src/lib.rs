@@ -1,9 +1,8 @@
 //! Blade-tip/casing rub of a flexible bladed disk in a flexible casing, after Legrand, Pierre and
 //! Peseux (2010).
 //!
-//! Start with a [`scene::Scene`]: a built-in one, a file ([`scene::Scene::load`]), or your own
-//! machine from a table of modes ([`scene::read_modes`], [`scene::ModalData::to_toml`],
-//! [`scene::Scene::from_toml`]). [`scene::Scene::checked`] validates it: the error names the key
+//! Start with a [`scene::Scene`]: a built-in one, a file ([`scene::Scene::load`]), or a text in
+//! the same form with your own machine and its modes ([`scene::Scene::from_toml`]). [`scene::Scene::checked`] validates it: the error names the key
 //! that is wrong, and the result dereferences to the scene and is the input of everything below.
 //!
 //! | to compute | use |

@@ -2,14 +2,12 @@
 //! reason and what breaks if it is changed. Numbers of terms, nodes and table
 //! entries stand where the tables are.
 
-mod doubts;
 mod event;
 mod explicit;
 mod harmonic;
 mod lining;
 mod margins;
 
-pub(crate) use doubts::*;
 pub(crate) use event::*;
 pub use event::{MOST_EVENTS, MOST_LOOKS};
 pub(crate) use explicit::*;

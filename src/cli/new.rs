@@ -10,10 +10,11 @@ use clap::Args;
 use super::Done;
 use super::status::{Refusal, Status, note, say, say_noted};
 use crate::file;
+use crate::machine::{Family, ModalData, doubts, read_modes};
 use crate::report::check::write_doubts;
 use crate::report::number::{rounded, tell_in_rpm, with_typed_unit};
 use crate::report::survey as report;
-use rubscope_solver::scene::{Family, ModalData, Quantity, Scene, SceneError, keys, read_modes};
+use rubscope_solver::scene::{Quantity, Scene, SceneError, keys};
 use rubscope_solver::study::margins::{LimitName, Margins};
 use rubscope_solver::study::survey::{Survey, speed_range};
 
@@ -97,7 +98,7 @@ impl NewCommand {
         let text = data.to_toml()?;
         let scene = Scene::from_toml(&text)?.checked()?;
         say_noted();
-        self.ask_about(&Margins::of(&scene).doubts(), &asking)?;
+        self.ask_about(&doubts(&Margins::of(&scene)), &asking)?;
         file::create(path, |out| out.write_all(text.as_bytes()))
             .with_context(|| format!("cannot write {shown}"))?;
         writeln!(out, "Wrote {shown}.")?;

@@ -9,6 +9,7 @@ use super::margins::words;
 use super::number::{count, rounded, short, speed, with_unit};
 use super::survey;
 use super::table::WIDTH;
+use crate::machine::doubts;
 use rubscope_solver::scene::{CheckedScene, ModelSize};
 use rubscope_solver::study::margins::{LimitName, Margins, Quantity};
 use rubscope_solver::study::survey::Scattered;
@@ -23,7 +24,7 @@ pub fn write(scene: &CheckedScene, out: &mut dyn Write) -> Result<()> {
         vec![scene.title.clone(), machine(scene), frequencies(scene), limits(&margins)];
     paragraphs.extend(Scattered::of(scene).map(|found| survey::of_scatter(scene, &found)));
     paragraphs.extend(unknown(scene));
-    let doubts = margins.doubts();
+    let doubts = doubts(&margins);
     if doubts.is_empty() {
         paragraphs.push(CHECKED.to_string());
     }

@@ -13,7 +13,7 @@ use super::views::map::plan::numeric;
 use crate::report::number::with_typed_unit;
 use rubscope_solver::scene::Value;
 use rubscope_solver::scene::keys;
-use rubscope_solver::scene::{Quantity, Scene, SceneError};
+use rubscope_solver::scene::{Quantity, SceneError};
 use rubscope_solver::study::survey::speed_range;
 
 /// Something that can be done by typing it.
@@ -133,10 +133,9 @@ pub fn only(app: &App, typed: &str) -> Result<Found, String> {
         (None, None) if is_numeric(typed) => {
             Err(format!("{typed}: of which knob? Such as speed 450 rad/s"))
         }
-        (None, None) => match Scene::builtin(words.last().unwrap_or(&"")) {
-            Err(gone @ SceneError::GoneScene { .. }) => Err(gone.to_string()),
-            _ => Err(format!("nothing has these words: {typed}; help lists what can be asked for")),
-        },
+        (None, None) => {
+            Err(format!("nothing has these words: {typed}; help lists what can be asked for"))
+        }
     }
 }
 

@@ -20,10 +20,11 @@ pub use lining::LiningLaw;
 pub use lock::LockWindow;
 pub use machine::{Machine, blade_frequency};
 pub use number::Number;
+pub(crate) use parameters::given_frequency;
 pub use parameters::{
     BladedDisk, Casing, ContactSurface, Excitation, Initial, Mode, ModePart, Operation,
+    neighbour_stiffness,
 };
-pub(crate) use parameters::{given_frequency, neighbour_stiffness};
 pub use polygon::{ContactPolygon, SideLeft};
 pub(crate) use polygon::{fraction_of_turn, gcd};
 pub use tip_corner::TipCorner;

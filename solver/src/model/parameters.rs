@@ -84,7 +84,7 @@ fn own_part(modes: &mut [Mode], diameters: u32, part: ModePart) -> Option<&mut f
 /// Returns `4 k_bb sin^2(pi n/N)`, the contribution of the blade-to-blade stiffness to `k_b` at `n`
 /// nodal diameters \[N m/rad\].
 #[must_use]
-pub(crate) fn neighbour_stiffness(coupling: f64, diameters: u32, blades: u32) -> f64 {
+pub fn neighbour_stiffness(coupling: f64, diameters: u32, blades: u32) -> f64 {
     let sine = (PI * f64::from(diameters) / f64::from(blades)).sin();
     4.0 * coupling * sine * sine
 }

@@ -42,21 +42,11 @@ pub const BUILTIN: &[Builtin] = builtin![
     "oval",
 ];
 
-/// Scenes of earlier versions, each with its replacement.
-const GONE: [(&str, &str); 2] = [
-    ("half-n", "half as many diameters as blades are paper-nd3 --nd 11 --speed 100"),
-    ("near-critical", "its numbers are in docs/theory.md; see undamped --speed 293"),
-];
-
 /// Returns the error for a name that is no built-in scene; it lists those that are.
 pub(super) fn unknown(name: &str) -> SceneError {
-    let name = name.to_string();
-    match GONE.iter().find(|(gone, _)| *gone == name) {
-        Some((_, instead)) => SceneError::GoneScene { name, instead },
-        None => SceneError::UnknownScene {
-            name,
-            allowed: BUILTIN.iter().map(|scene| scene.name).collect::<Vec<_>>().join(", "),
-        },
+    SceneError::UnknownScene {
+        name: name.to_string(),
+        allowed: BUILTIN.iter().map(|scene| scene.name).collect::<Vec<_>>().join(", "),
     }
 }
 

@@ -47,14 +47,6 @@ pub enum SceneError {
         /// Reason given by the operating system.
         reason: String,
     },
-    /// The name is that of a built-in scene of an earlier version.
-    #[error("scene {name} is gone: {instead}")]
-    GoneScene {
-        /// The name as given.
-        name: String,
-        /// Scene or command that replaces it.
-        instead: &'static str,
-    },
     /// The name is neither a built-in scene nor a file.
     #[error("unknown scene {name}; allowed: a path ending in .toml, or one of {allowed}")]
     UnknownScene {

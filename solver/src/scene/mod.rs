@@ -7,31 +7,27 @@
 //! type that the solvers take.
 
 mod beyond;
-mod build;
 mod builtin;
 mod check;
 mod checked;
-mod doubts;
 mod error;
 mod file;
 pub mod keys;
 mod law;
-mod mode_table;
 mod modes;
 pub mod units;
 
 use serde::Serialize;
 use strum::{AsRefStr, Display, EnumString, VariantNames};
 
-pub use build::{Family, ModalData};
 pub use builtin::{BUILTIN, Builtin, DEFAULT};
 pub use checked::{Adjustment, CheckedScene};
 pub use error::SceneError;
 pub use file::read_text;
 pub use keys::{Allowed, KEYS, Key, Value};
 pub use law::ContactLaw;
-pub use mode_table::{ModeTable, read_modes};
 pub(crate) use modes::MOST_HZ;
+pub use modes::{frequency_at_rest, hertz_of};
 pub use units::Quantity;
 
 use crate::model::{

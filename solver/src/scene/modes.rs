@@ -215,7 +215,7 @@ impl Structure {
 /// # Errors
 /// No `B` within its bounds yields these frequencies, or there are too few. The message refers to
 /// them as `name`.
-pub(super) fn frequency_at_rest(
+pub fn frequency_at_rest(
     name: &str,
     speeds: &[(f64, f64)],
     known: Option<f64>,
@@ -270,8 +270,11 @@ fn hertz(path: &str, value: &Toml) -> Result<f64, SceneError> {
     }
 }
 
-/// As [`hertz`], for text.
-pub(super) fn hertz_of(path: &str, text: &str) -> Result<f64, SceneError> {
+/// Reads a frequency from text; a number without a unit is in hertz. Errors refer to it as `path`.
+///
+/// # Errors
+/// The text is not a frequency of a machine.
+pub fn hertz_of(path: &str, text: &str) -> Result<f64, SceneError> {
     let given = match (Quantity::bare(text), Quantity::Speed.read(text)) {
         (Some(bare), _) => Some(bare),
         // Rounded to 14 digits, so that the conversion through 2 pi turns 310.7 Hz into 310.7.

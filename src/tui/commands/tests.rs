@@ -1,5 +1,7 @@
 //! Tests of what is typed after `:`.
 
+use rubscope_solver::scene::Scene;
+
 use super::*;
 use crate::tui::Marker;
 use rubscope_solver::scene::BUILTIN;
@@ -189,8 +191,6 @@ fn what_is_no_command_is_one_line_that_says_why() {
         ("t nan", "t nan: this is no time, such as 0.3 ms"),
         ("450,5", "450,5: of which knob? Such as speed 450 rad/s"),
         ("speed 450,5", "speed Ω: 450,5 cannot be read: a number has a decimal point"),
-        ("scene half-n", "scene half-n is gone: half as many diameters as blades are paper-nd3"),
-        ("half-n", "scene half-n is gone: "),
         ("scene qqq", "nothing has these words: scene qqq"),
         ("axes qqq", "nothing has these words: axes qqq"),
     ] {

@@ -18,7 +18,6 @@ use serde::Serialize;
 
 use crate::motion::{GoOn, run_to_verdict};
 use crate::scene::CheckedScene;
-use crate::tolerances::DOUBTFUL_PUSH;
 
 pub use changes::{ChangedVerdict, Robustness, VerdictChange};
 pub(super) use closed::{bends, speed_sensitivities, speeds};
@@ -115,21 +114,6 @@ impl Margins {
         }
         self.cost.wall_s += start.elapsed().as_secs_f64();
         Some(())
-    }
-
-    /// Returns warnings of likely unit errors: in the scene, and from an implausible contact force
-    /// of a tip.
-    #[must_use]
-    pub fn doubts(&self) -> Vec<String> {
-        let push = self.tip_push().filter(|push| *push > DOUBTFUL_PUSH).map(|push| {
-            format!(
-                "In the lock a blade tip pushes with {:.1} kN; metal tips bear some {:.0} kN. Are \
-                 masses, frequencies and the clearance right?",
-                1e-3 * push,
-                1e-3 * DOUBTFUL_PUSH
-            )
-        });
-        self.scene.doubts().into_iter().chain(push).collect()
     }
 
     /// Returns the larger contact force of a single tip in the lock, if both groups push \[N\].

@@ -2,11 +2,10 @@
 //! with units, several separators, decimal commas, and frequencies given at two speeds.
 
 use csv::StringRecord;
+use rubscope_solver::scene::units::UnitError;
+use rubscope_solver::scene::{Quantity, SceneError, frequency_at_rest, hertz_of, keys};
 
 use super::build::{Family, digits};
-use super::modes::{frequency_at_rest, hertz_of};
-use super::units::UnitError;
-use super::{Quantity, SceneError, keys};
 
 /// Modes read from a table.
 #[derive(Clone, Debug, PartialEq)]

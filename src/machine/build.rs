@@ -7,11 +7,11 @@
 
 use std::f64::consts::TAU;
 
-use crate::numeric::rounding::rounded;
+use rubscope_solver::model::neighbour_stiffness;
+use rubscope_solver::scene::{Scene, SceneError, keys};
 
-use super::mode_table::STIFFENING;
-use super::{Scene, SceneError, keys};
-use crate::model::neighbour_stiffness;
+use super::table::STIFFENING;
+use crate::report::number::rounded;
 
 /// Mode of a modal analysis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -196,8 +196,8 @@ pub(super) fn digits(x: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::read_modes;
     use super::*;
+    use crate::machine::read_modes;
 
     fn data() -> ModalData {
         let family = |nodal_diameters, frequency_hz, modal_mass_kg| Family {
@@ -288,7 +288,8 @@ mod tests {
         let mass = 11.0 * 0.20825 / (0.4999 * 0.4999);
         let of = |diameters: u32| Family {
             nodal_diameters: diameters,
-            frequency_hz: crate::model::blade_frequency(&base.bladed_disk, diameters) / TAU,
+            frequency_hz: rubscope_solver::model::blade_frequency(&base.bladed_disk, diameters)
+                / TAU,
             modal_mass_kg: mass,
             damping_ratio: None,
             stiffening: None,

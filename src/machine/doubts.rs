@@ -1,0 +1,433 @@
+//! Plausibility checks: values that suggest a wrong unit or a misplaced decimal point. Each doubt
+//! is one sentence with the key, its value and the usual range. Nothing is refused.
+
+use std::f64::consts::TAU;
+
+use rubscope_solver::model::Mode;
+use rubscope_solver::scene::{Scene, keys};
+use rubscope_solver::study::margins::Margins;
+
+use crate::report::number::rounded;
+
+/// Largest clearance as a part of the radius. Blade tips run within some tenths of a per
+/// cent; larger: millimetres given as metres pass.
+const CLEARANCE: f64 = 0.01;
+
+/// Smallest clearance \[m\]: below it surfaces are not round. Larger: machines of a
+/// laboratory are doubted.
+const GAP: f64 = 1e-6;
+
+/// Largest speed of blade tips \[m/s\]. Metal tips of engines reach some 500. Larger: turns
+/// a minute given as radians a second pass for small machines.
+const TIP_SPEED: f64 = 800.0;
+
+/// Frequencies of first modes, from and to \[Hz\].
+const FREQUENCY: [f64; 2] = [1.0, 2e4];
+
+/// Largest damping ratio. Structures of metal have thousandths to hundredths; larger: per
+/// cent given as parts pass.
+const DAMPING: f64 = 0.3;
+
+/// Radius of a casing, from and to \[m\]: from turbochargers to steam turbines. Larger: a
+/// radius in millimetres passes.
+const RADIUS: [f64; 2] = [0.02, 8.0];
+
+/// Modal mass of casing or disk over the cube of the radius, from and to \[kg/m^3\]. The
+/// paper's casing has 16, its disk 73, a whole disk of steel some 6000, a ring of sheet 2;
+/// wider by a factor of a thousand: grams and tonnes pass.
+const DENSITY: [f64; 2] = [1.0, 6000.0];
+
+/// How far two modes of a structure may lie apart, in frequency and in modal mass: by this
+/// factor, times the ratio of their diameters to this power. Rings go with the square to
+/// third power of few diameters. Larger: a decimal point that is off by one place passes.
+const COURSE: [f64; 2] = [3.0, 3.0];
+
+/// Largest pulse \[N\]. Larger: kilonewtons given as newtons twice pass.
+const FORCE: f64 = 1e7;
+
+/// Largest push on one blade tip in the lock \[N\], that of some square centimetres of metal
+/// at their strength. Larger: a stiffness or a clearance that is off by a factor of ten passes.
+const PUSH: f64 = 2e4;
+
+/// A structure, casing or disk, and the keys of its values.
+struct Structure {
+    name: &'static str,
+    modes: &'static str,
+    mass: &'static str,
+    damping: &'static str,
+}
+
+const STRUCTURES: [Structure; 2] = [
+    Structure {
+        name: "casing",
+        modes: keys::CASING_MODES,
+        mass: keys::CASING_MASS,
+        damping: keys::CASING_DAMPING,
+    },
+    Structure {
+        name: "bladed disk",
+        modes: keys::DISK_MODES,
+        mass: keys::BLADE_INERTIA,
+        damping: keys::BLADE_DAMPING,
+    },
+];
+
+/// Checked values of one mode.
+#[derive(Clone, Copy)]
+struct CheckedMode {
+    diameters: u32,
+    hertz: f64,
+    /// Modal mass for unit amplitude at the casing rim or at the blade tips \[kg\].
+    mass: f64,
+    damping: f64,
+}
+
+/// Returns one sentence for each value that looks like a unit error: of the scene, and the push of
+/// a tip in its lock.
+#[must_use]
+pub fn doubts(margins: &Margins) -> Vec<String> {
+    let mut all = of_scene(&margins.scene);
+    all.extend(margins.tip_push().filter(|push| *push > PUSH).map(|push| {
+        format!(
+            "In the lock a blade tip pushes with {:.1} kN; metal tips bear some {:.0} kN. Are \
+             masses, frequencies and the clearance right?",
+            1e-3 * push,
+            1e-3 * PUSH
+        )
+    }));
+    all
+}
+
+fn of_scene(scene: &Scene) -> Vec<String> {
+    let radius = radius_doubt(scene);
+    // If the radius is doubtful, it also explains the tip speed.
+    let speed = if radius.is_none() { speed_doubt(scene) } else { None };
+    let doubts =
+        [radius, clearance_doubt(scene), speed, force_doubt(scene), diameters_doubt(scene)];
+    let mut all: Vec<String> = doubts.into_iter().flatten().collect();
+    all.extend(tips_doubt(scene));
+    for (structure, own) in STRUCTURES.iter().zip([&scene.casing.modes, &scene.bladed_disk.modes]) {
+        all.extend(modes_doubts(scene, structure, own));
+        let modes = checked_modes(scene, structure, own);
+        all.extend(mass_doubt(scene, structure, &modes));
+        all.extend(frequency_doubt(structure, &modes));
+        all.extend(damping_doubt(structure, &modes));
+        all.extend(course_doubts(structure, modes));
+    }
+    all
+}
+
+/// Returns the values of all modes of a structure, or, if it has no list of modes, of the mode
+/// in use.
+fn checked_modes(scene: &Scene, structure: &Structure, own: &[Mode]) -> Vec<CheckedMode> {
+    let mut diameters: Vec<u32> = own.iter().map(|mode| mode.nodal_diameters).collect();
+    if diameters.is_empty() {
+        diameters.push(scene.operation.nodal_diameters);
+    }
+    let is_casing = structure.modes == keys::CASING_MODES;
+    let look = |diameters| {
+        let mut scene = scene.clone();
+        scene.operation.nodal_diameters = diameters;
+        if !own.is_empty() {
+            scene.bladed_disk.nodal_diameters = 0;
+        }
+        let machine = scene.machine();
+        let length = machine.blade_length;
+        let (omega, mass, damping) = match is_casing {
+            true => (machine.omega_c, machine.casing_mass, scene.casing_in_use().damping_ratio),
+            false => {
+                let mass = machine.blade_modal_mass / (length * length);
+                (machine.omega_bd, mass, scene.disk_in_use().damping_ratio)
+            }
+        };
+        CheckedMode { diameters, hertz: omega / TAU, mass, damping }
+    };
+    diameters.into_iter().map(look).collect()
+}
+
+fn radius_doubt(scene: &Scene) -> Option<String> {
+    let radius = scene.casing.radius_m;
+    let [least, most] = RADIUS;
+    (!(least..=most).contains(&radius)).then(|| {
+        format!(
+            "{} = {radius} is in m, and casings have a radius of {least} to {most} m. Was it mm? Then write \"{radius} mm\".",
+            keys::CASING_RADIUS
+        )
+    })
+}
+
+/// Checks tips, eccentricity and lobes against the size of usual imperfections.
+fn tips_doubt(scene: &Scene) -> Option<String> {
+    let most = CLEARANCE * scene.casing.radius_m;
+    let (key, length) = scene.unevenness().into_iter().find(|(_, length)| *length > most)?;
+    Some(format!(
+        "{key} = {length} is in m, and more than {:.0} % of the radius. Was it mm or um? Then write its unit.",
+        100.0 * CLEARANCE
+    ))
+}
+
+fn force_doubt(scene: &Scene) -> Option<String> {
+    let force = scene.operation.pulse_n;
+    (force.abs() > FORCE).then(|| {
+        format!(
+            "{} = {force:e} is in N, and more than the weight of {:.0} t. Is its unit right?",
+            keys::PULSE,
+            FORCE / 1e4
+        )
+    })
+}
+
+fn clearance_doubt(scene: &Scene) -> Option<String> {
+    let (gap, radius) = (scene.clearance(), scene.casing.radius_m);
+    let given = format!(
+        "The clearance ({} less {}) is {:.4} mm",
+        keys::CASING_RADIUS,
+        keys::BLADE_LENGTH,
+        1e3 * gap
+    );
+    if gap > CLEARANCE * radius {
+        let part = 100.0 * gap / radius;
+        return Some(format!(
+            "{given}, {part:.2} % of the radius; blade tips usually run within 1 %. Are both lengths in m, and to enough digits?"
+        ));
+    }
+    (0.0..GAP).contains(&gap).then(|| {
+        format!("{given}, less than a surface is round. Are both lengths given to enough digits?")
+    })
+}
+
+fn speed_doubt(scene: &Scene) -> Option<String> {
+    let speed = scene.operation.speed_rad_s.abs();
+    let tips = speed * scene.casing.radius_m;
+    (tips > TIP_SPEED).then(|| {
+        format!(
+            "{} = {speed} ({:.0} rpm) moves the blade tips at {tips:.0} m/s; metal ones reach some 500. Was it rpm? Then write \"{speed} rpm\".",
+            keys::SPEED, speed * 60.0 / TAU
+        )
+    })
+}
+
+fn diameters_doubt(scene: &Scene) -> Option<String> {
+    let (diameters, blades) = (scene.operation.nodal_diameters, scene.bladed_disk.blades);
+    (diameters > blades / 2).then(|| {
+        format!("{} = {diameters} is more than half of the {blades} blades, which cannot tell it from {}.", keys::DIAMETERS, diameters.abs_diff(blades * ((diameters + blades / 2) / blades)))
+    })
+}
+
+fn modes_doubts(scene: &Scene, structure: &Structure, own: &[Mode]) -> Vec<String> {
+    let (blades, key) = (scene.bladed_disk.blades, structure.modes);
+    let far = own.iter().filter(|mode| mode.nodal_diameters > blades / 2);
+    far.map(|mode| {
+        format!("{key} has a mode of {} diameters, more than half of the {blades} blades; it is never in use.", mode.nodal_diameters)
+    })
+    .collect()
+}
+
+fn mass_doubt(scene: &Scene, structure: &Structure, modes: &[CheckedMode]) -> Option<String> {
+    // If the radius is doubtful, it also explains the mass.
+    radius_doubt(scene).is_none().then_some(())?;
+    let [least, most] = DENSITY.map(|density| density * scene.casing.radius_m.powi(3));
+    let (mode, at) = first(modes, |mode| !(least..=most).contains(&mode.mass))?;
+    Some(format!(
+        "The modal mass of the {}{at} is {} kg ({}); at this radius modes of metal have {least:.2} to {most:.0} kg. Was it in g or in t?",
+        structure.name,
+        rounded(mode.mass, 4),
+        structure.mass
+    ))
+}
+
+/// Returns the first mode that meets the condition, and the words that name it and count the
+/// others.
+fn first(
+    modes: &[CheckedMode],
+    is_doubted: impl Fn(&CheckedMode) -> bool,
+) -> Option<(CheckedMode, String)> {
+    let doubted: Vec<&CheckedMode> = modes.iter().filter(|mode| is_doubted(mode)).collect();
+    let mode = **doubted.first()?;
+    let at = match (modes.len(), doubted.len()) {
+        (1, _) => String::new(),
+        (_, 1) => format!(" at {} diameters", mode.diameters),
+        (_, all) => format!(" at {} diameters (and {} more)", mode.diameters, all - 1),
+    };
+    Some((mode, at))
+}
+
+fn frequency_doubt(structure: &Structure, modes: &[CheckedMode]) -> Option<String> {
+    let [least, most] = FREQUENCY;
+    let (mode, at) = first(modes, |mode| !(least..=most).contains(&mode.hertz))?;
+    Some(format!(
+        "The frequency of the {}{at} is {} Hz; first modes usually have {least} to {most} Hz.",
+        structure.name,
+        rounded(mode.hertz, 4)
+    ))
+}
+
+fn damping_doubt(structure: &Structure, modes: &[CheckedMode]) -> Option<String> {
+    let (mode, at) = first(modes, |mode| mode.damping > DAMPING)?;
+    let ratio = mode.damping;
+    Some(format!(
+        "{} = {ratio}{at} is a part of critical damping; structures have thousandths to hundredths. Was it per cent? Then write \"{ratio} %\".",
+        structure.damping
+    ))
+}
+
+/// Finds modes whose frequency or mass is far from that of the others: both vary smoothly with the
+/// nodal diameters.
+fn course_doubts(structure: &Structure, modes: Vec<CheckedMode>) -> Vec<String> {
+    let mut doubts = Vec::new();
+    for (what, unit, value) in [
+        ("frequency", "Hz", (|mode| mode.hertz) as fn(&CheckedMode) -> f64),
+        ("modal mass", "kg", |mode| mode.mass),
+    ] {
+        let far = |a: &CheckedMode, b: &CheckedMode| {
+            let [a_n, b_n] = [a, b].map(|mode| f64::from(mode.diameters.max(1)));
+            let apart = (value(a) / value(b)).ln().abs();
+            apart > COURSE[0].ln() + COURSE[1] * (a_n / b_n).ln().abs()
+        };
+        let mut rest = modes.clone();
+        loop {
+            let against = |mode: &CheckedMode| rest.iter().filter(|other| far(mode, other)).count();
+            let Some(place) = (0..rest.len()).max_by_key(|place| against(&rest[*place])) else {
+                break;
+            };
+            if against(&rest[place]) == 0 {
+                break;
+            }
+            let odd = rest.remove(place);
+            let near = rest.iter().min_by_key(|other| other.diameters.abs_diff(odd.diameters));
+            doubts.extend(near.map(|near| {
+                format!(
+                    "The {what} of the {} is {} {unit} at {} diameters and {} {unit} at {}. Is the decimal point right, and the unit?",
+                    structure.name,
+                    rounded(value(&odd), 4),
+                    odd.diameters,
+                    rounded(value(near), 4),
+                    near.diameters
+                )
+            }));
+        }
+    }
+    doubts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rubscope_solver::scene::BUILTIN;
+
+    #[test]
+    fn the_whole_table_is_looked_at_and_absolute_sizes() {
+        let told = |changes: &[(&str, &str)]| of_scene(&Scene::base().with(changes).unwrap());
+        let modes = |numbers: &[(u32, f64, f64)]| {
+            let mode = |(diameters, hertz, mass): &(u32, f64, f64)| {
+                format!(
+                    "{{ nodal_diameters = {diameters}, frequency_hz = {hertz:?}, modal_mass_kg = {mass:?} }}"
+                )
+            };
+            let all: Vec<String> = numbers.iter().map(mode).collect();
+            format!("[{}]", all.join(", "))
+        };
+        let good =
+            [(2, 145.0, 9.8), (3, 272.0, 9.1), (4, 422.7, 8.7), (5, 611.3, 8.4), (6, 822.7, 8.2)];
+        let casing = |change: fn(&mut (u32, f64, f64))| {
+            let mut numbers = good;
+            numbers.iter_mut().for_each(change);
+            told(&[("casing.modes", &modes(&numbers))])
+        };
+        assert_eq!(casing(|_| ()), [""; 0]);
+        for (doubts, asked) in [
+            (
+                casing(|mode| mode.2 *= 1e3),
+                "mass of the casing at 2 diameters (and 4 more) is 9800 kg",
+            ),
+            (
+                casing(|mode| mode.2 *= 1e-3),
+                "mass of the casing at 2 diameters (and 4 more) is 0.0098",
+            ),
+            (
+                casing(|mode| {
+                    if mode.0 == 5 {
+                        mode.1 = 0.6113
+                    }
+                }),
+                "The frequency of the casing at 5 diameters is 0.6113 Hz; first modes",
+            ),
+            (
+                casing(|mode| {
+                    if mode.0 == 6 {
+                        mode.1 = 8227.0
+                    }
+                }),
+                "The frequency of the casing is 8227 Hz at 6 diameters and 611.3 Hz at 5. Is",
+            ),
+            (
+                casing(|mode| {
+                    if mode.0 == 3 {
+                        mode.2 = 0.91
+                    }
+                }),
+                "The modal mass of the casing is 0.91 kg at 3 diameters and 9.8 kg at 2. Is",
+            ),
+            (
+                told(&[("bladed_disk.modes", "[{ nodal_diameters = 4, damping_ratio = 5.0 }]")]),
+                "bladed_disk.damping_ratio = 5 is a part of critical damping",
+            ),
+            (
+                told(&[("casing.radius_m", "420"), ("bladed_disk.blade_length_m", "419.7")]),
+                "casing.radius_m = 420 is in m, and casings have a radius of 0.02 to 8 m. Was it mm?",
+            ),
+            (told(&[("operation.pulse_n", "2e10")]), "operation.pulse_n = 2e10 is in N, and more"),
+        ] {
+            assert!(doubts.iter().any(|doubt| doubt.contains(asked)), "{asked}: {doubts:?}");
+            assert!(doubts.len() <= 2 && !doubts.concat().contains("tips at"), "{doubts:?}");
+        }
+    }
+
+    #[test]
+    fn slips_of_units_are_asked_about_and_usual_machines_are_not() {
+        for builtin in BUILTIN {
+            let doubts = of_scene(&Scene::builtin(builtin.name).unwrap());
+            assert!(doubts.is_empty(), "{}: {doubts:?}", builtin.name);
+        }
+        for (key, value, asked) in [
+            (
+                "bladed_disk.blade_length_m",
+                "0.48",
+                "The clearance (casing.radius_m less bladed_disk.blade_length_m) is 20.0000 mm, 4.00 % of",
+            ),
+            ("bladed_disk.blade_length_m", "0.4999999", "is 0.0001 mm, less than"),
+            (
+                "casing.modes",
+                "[{ nodal_diameters = 12, frequency_hz = 140.0 }]",
+                "casing.modes has a mode of 12 diameters, more than half of the 22 blades",
+            ),
+            (
+                "operation.speed_rad_s",
+                "9500",
+                "operation.speed_rad_s = 9500 (90718 rpm) moves the blade tips at 4750 m/s",
+            ),
+            (
+                "casing.modal_mass_kg",
+                "0.002",
+                "The modal mass of the casing is 0.002 kg (casing.modal_mass_kg); at this radius",
+            ),
+            (
+                "casing.modal_mass_kg",
+                "2e-6",
+                "The modal mass of the casing is 0.000002 kg (casing.modal_mass_kg); at this radius",
+            ),
+            ("casing.damping_ratio", "5", "casing.damping_ratio = 5 is a part of critical damping"),
+            ("casing.modal_stiffness_n_per_m", "15", "The frequency of the casing is 0.4359 Hz"),
+            (
+                "operation.nodal_diameters",
+                "19",
+                "is more than half of the 22 blades, which cannot tell it from 3.",
+            ),
+        ] {
+            let mut scene = Scene::base();
+            scene.set(key, value).unwrap();
+            let doubts = of_scene(&scene).join("\n");
+            assert!(doubts.contains(asked), "{key} = {value}: {doubts}");
+        }
+    }
+}
