@@ -14,7 +14,10 @@ use serde::Serialize;
 
 use crate::model::ContactPolygon;
 use crate::numeric::is_zero;
-use crate::tolerances::IMPACTS_KEPT;
+
+/// Impacts kept one by one; later ones are only counted, so that a long slip
+/// needs no memory.
+const IMPACTS_KEPT: usize = 1000;
 
 /// Phase groups in contact at one instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

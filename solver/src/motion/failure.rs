@@ -2,10 +2,13 @@
 
 use super::{Pulse, Verdict};
 use crate::numeric::rounding::rounded;
-use crate::tolerances::{
-    LARGEST_BLADE_ANGLE, MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS, MOST_ROWS,
-};
+use crate::tolerances::{LARGEST_BLADE_ANGLE, MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS};
 use thiserror::Error;
+
+/// Most rows that one step closes together: a few in an ordinary step, a hundred
+/// on a rim of thousands of blades. The work grows with their cube; more are a
+/// step too long for the blades.
+pub(crate) const MOST_ROWS: usize = 512;
 
 /// A run that stopped before its end.
 #[derive(Clone, Debug, Error, PartialEq)]

@@ -15,7 +15,21 @@ use std::f64::consts::PI;
 use super::Plane;
 use crate::model::{Machine, Number, Operation};
 use crate::numeric::quadrature::quadrature;
-use crate::tolerances::{DOUBLE_ROOT, SERIES_END, SHORT_TIME, SMALL_EXPONENT};
+
+/// Part of the rates below which two roots of an oscillator are nearly one: a
+/// sum of two exponentials then loses digits.
+const DOUBLE_ROOT: f64 = 0.3;
+
+/// Radians of an oscillator below which its response is a power series: its
+/// closed form cancels there.
+const SHORT_TIME: f64 = 0.5;
+
+/// Terms of a power series of order one that are below its round-off.
+const SERIES_END: f64 = 1e-19;
+
+/// Square of an exponent below which its integral is a power series of three
+/// terms.
+const SMALL_EXPONENT: f64 = 1e-8;
 
 /// Largest number of terms of the power series; for `rate * s = 1/2` the last one is below 1e-20.
 const TERMS: usize = 18;

@@ -17,7 +17,22 @@ use super::script::{Change, Script};
 use super::wave::WaveTracker;
 use super::{Contact, GoOn, Motion, RunReport, Verdict};
 use crate::scene::{CheckedScene, ContactLaw, SolverKind};
-use crate::tolerances::{FINER, LOCK_MOMENT, OTHER_STEP, PERTURBATION};
+
+/// Relative change that no trustworthy verdict may notice: below any
+/// measurement, above round-off by six digits. Smaller: a sensitive run is not
+/// found.
+const PERTURBATION: f64 = 1e-9;
+
+/// Part of a casing period by which a lock may come earlier or later. Larger: a
+/// lock time with no correct digit is trusted.
+const LOCK_MOMENT: f64 = 0.1;
+
+/// Part of its tolerance at which the event solver is tried again.
+const FINER: f64 = 0.1;
+
+/// Part of its step with which a run by steps is tried again. Nearer to one: fewer verdicts
+/// that depend on the step are found. Smaller: it costs more than the run itself.
+const OTHER_STEP: f64 = 0.5;
 
 /// Result of comparing perturbed runs with a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -11,7 +11,11 @@ use super::{
 };
 use crate::model::Machine;
 use crate::scene::{CheckedScene, SolverKind};
-use crate::tolerances::WHIRL_SWING;
+
+/// Swing of the blade tips, as a part of the clearance, above which a slip is a whirl:
+/// blades that move contact rather than follow it. Smaller: blades that friction shakes
+/// count.
+pub(crate) const WHIRL_SWING: f64 = 0.25;
 
 /// Callback that decides during the computation whether to continue, for example a flag set by a
 /// signal or a time limit.

@@ -5,8 +5,16 @@ use std::f64::consts::{PI, TAU};
 use super::State;
 use super::script::{Change, Script};
 use crate::model::Machine;
+use crate::motion::LAST_PART;
 use crate::scene::CheckedScene;
-use crate::tolerances::{LAST_PART, WAVE_LOOKS, WAVE_LOOKS_A_TURN};
+
+/// Looks at the wave for its speed, at most, so that a long run is not slowed
+/// down.
+const WAVE_LOOKS: f64 = 100_000.0;
+
+/// Looks for each turn of the fastest motion. Two or fewer: a half turn is
+/// taken for its opposite.
+const WAVE_LOOKS_A_TURN: f64 = 16.0;
 
 /// Accumulates the angle through which the casing wave turns, at intervals so short that it turns
 /// by less than half a revolution in each: over the last part of the run, or over as much of its

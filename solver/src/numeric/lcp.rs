@@ -8,7 +8,24 @@
 //! of `W`.
 
 use super::elimination::eliminate;
-use crate::tolerances::{CLOSED_PART, FEW_ROWS, MOST_PIVOTING, ROUND_OFF, SINGULAR};
+use crate::tolerances::ROUND_OFF;
+
+/// Most multiplications of one step on its contact rows: a tenth of a second.
+/// Least-index pivoting may need any number of tries, though one or two are
+/// usual.
+const MOST_PIVOTING: usize = 100_000_000;
+
+/// Part of the deepest gap of a step that the pushes of two rows may leave of a third: the
+/// round-off of three sides that meet in one place.
+const CLOSED_PART: f64 = 1e-9;
+
+/// Part of the gaps that round-off may leave open before the equations of a
+/// step count as singular.
+const SINGULAR: f64 = 1e-3;
+
+/// Most penetrating rows of different sides that begin closed: more are too many for two
+/// coordinates and soft blades, and closing them costs more than finding those that push.
+const FEW_ROWS: usize = 4;
 
 /// Closes two rows as equalities; not finite where the rows are dependent.
 #[inline]

@@ -4,7 +4,11 @@
 //! Costs two evaluations a radian, at least eight (four for short intervals), and at most eight in
 //! each of `MOST_PANELS` panels.
 
-use crate::tolerances::{FEW_NODES, MOST_PANELS};
+/// Radians over which four Gauss nodes are exact to round-off.
+const FEW_NODES: f64 = 0.3;
+
+/// Panels of one quadrature, at most: of the energy balance of one segment.
+const MOST_PANELS: f64 = 1e7;
 
 /// Integrates two functions over `[0, s]`; `rate` is their highest angular frequency.
 pub(crate) fn quadrature(s: f64, rate: f64, integrand: impl Fn(f64) -> [f64; 2]) -> [f64; 2] {

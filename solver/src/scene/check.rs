@@ -4,7 +4,10 @@ use super::beyond;
 use super::error::refuse_if;
 use super::keys;
 use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
-use crate::tolerances::STEP_ROUND_OFF;
+
+/// Part of a step by which an end that is so many steps may fall short of them. Smaller: a
+/// run ends a step before its end.
+pub(crate) const STEP_ROUND_OFF: f64 = 1e-6;
 
 /// Largest number of coordinate updates in an explicit run: minutes of computing if nothing is
 /// skipped.

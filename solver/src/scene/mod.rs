@@ -21,6 +21,7 @@ use serde::Serialize;
 use strum::{AsRefStr, Display, EnumString, VariantNames};
 
 pub use builtin::{BUILTIN, Builtin, DEFAULT};
+pub(crate) use check::STEP_ROUND_OFF;
 pub use checked::{Adjustment, CheckedScene};
 pub use error::SceneError;
 pub use file::read_text;

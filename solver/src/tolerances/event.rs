@@ -136,27 +136,6 @@ pub(crate) const CERTAIN_PUSH: f64 = 1e-8;
 /// Looks at a function for its largest value, at most.
 pub(crate) const PEAK_LOOKS: f64 = 10_000.0;
 
-/// Part of the rates below which two roots of an oscillator are nearly one: a
-/// sum of two exponentials then loses digits.
-pub(crate) const DOUBLE_ROOT: f64 = 0.3;
-
-/// Radians of an oscillator below which its response is a power series: its
-/// closed form cancels there.
-pub(crate) const SHORT_TIME: f64 = 0.5;
-
-/// Terms of a power series of order one that are below its round-off.
-pub(crate) const SERIES_END: f64 = 1e-19;
-
-/// Square of an exponent below which its integral is a power series of three
-/// terms.
-pub(crate) const SMALL_EXPONENT: f64 = 1e-8;
-
-/// Radians over which four Gauss nodes are exact to round-off.
-pub(crate) const FEW_NODES: f64 = 0.3;
-
-/// Panels of one quadrature, at most: of the energy balance of one segment.
-pub(crate) const MOST_PANELS: f64 = 1e7;
-
 // Of those that are linear in the blade angles.
 
 /// Most rows that push at once: casing and blades have four modes, and more pushes on

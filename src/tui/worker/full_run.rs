@@ -7,10 +7,10 @@ use std::time::{Duration, Instant};
 use super::reading::Copies;
 use crate::tui::engine::{FORECAST_LIMIT, FullRun, FullRunState};
 use crate::tui::trace::{Mark, Marks, Trace};
+use rubscope_solver::motion::LAST_PART;
 use rubscope_solver::motion::{
     Motion, Verdict, VerdictReached, caught_at, judge_end, lock_that_broke,
 };
-use rubscope_solver::tolerances::LAST_PART;
 
 /// A full run in progress.
 #[derive(Debug)]

@@ -6,7 +6,11 @@
 use super::disk::{Disk, total};
 use super::oscillator::{Coordinate, Oscillator};
 use super::shapes::dot;
-use crate::tolerances::{ANGLE_LOOK, LARGEST_BLADE_ANGLE};
+use crate::tolerances::LARGEST_BLADE_ANGLE;
+
+/// Radians of the blades between two looks for the largest angle: its square is
+/// the largest part missed, and then searched for.
+pub(super) const ANGLE_LOOK: f64 = 0.125;
 
 /// Angles of all blades when they were last looked at, and how far they may be from them since.
 #[derive(Clone, Debug)]

@@ -13,7 +13,10 @@ use super::row::{TipLaw, Tips};
 use super::{Explicit, Oscillator, long_step, steps_unseen};
 use crate::motion::{Change, Failure, FailureReason, Plane};
 use crate::scene::CheckedScene;
-use crate::tolerances::GIVE_WAY;
+
+/// Times that displacements shrink where a clearance is smaller all at once: each leaves
+/// what is of second order in blade angles.
+const GIVE_WAY: usize = 4;
 
 impl Explicit {
     /// From the latest step on, moves with the parameters of a scene, if that is live. Time,

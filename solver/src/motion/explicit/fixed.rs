@@ -7,13 +7,17 @@
 
 use std::sync::Arc;
 
+use super::angles::ANGLE_LOOK;
 use super::drive::EngineOrderTorque;
 use super::oscillator::Oscillator;
 use super::shapes::{Label, Shapes};
 use crate::model::{ContactPolygon, Machine, blade_frequency, gcd};
 use crate::numeric::normal::normals;
 use crate::scene::{ModelSize, Scene};
-use crate::tolerances::{ANGLE_LOOK, TIP_SLACK};
+
+/// Part of the clearance that a single blade may rise or sink until all are looked at.
+/// Speed only.
+const TIP_SLACK: f64 = 0.02;
 
 /// What does not change during a run.
 #[derive(Debug)]

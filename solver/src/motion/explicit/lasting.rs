@@ -1,11 +1,24 @@
 //! How a motion beyond the paper lasts: what the verdict needs of the last part of the
 //! run, kept as it goes (docs/theory.md, section 10).
 
+use crate::motion::LAST_PART;
+use crate::motion::solver::WHIRL_SWING;
 use crate::motion::verdict::Trend;
 use crate::motion::{ActiveSet, ContactLog, Plane, Verdict};
-use crate::tolerances::{
-    LAST_PART, WAVE_AT_REST, WAVE_DYING, WAVE_FALLS_SOON, WAVE_ROUND_OFF, WHIRL_SWING,
-};
+
+/// Part of the clearance below which a wave on a lining is at rest.
+const WAVE_AT_REST: f64 = 1e-3;
+
+/// The same below which there is no wave, only round-off.
+const WAVE_ROUND_OFF: f64 = 1e-12;
+
+/// Part of a wave on a lining now to which it must fall, as it goes, to be dying. Larger: a
+/// wave that comes down to its limit cycle is said to die.
+const WAVE_DYING: f64 = 0.5;
+
+/// Part of the wave of half a last part before, below which it dies where too little was
+/// seen of it since a change: above it by the round-off of extremes.
+const WAVE_FALLS_SOON: f64 = 1.0 - 1e-6;
 
 /// Extremes over one stretch of time.
 #[derive(Clone, Copy, Debug)]

@@ -10,11 +10,12 @@ use super::Explicit;
 use super::disk::{Disk, total};
 use super::lasting::mark;
 use super::record::Record;
+use super::row::SERIES_PHASE;
+use super::row::SHORT_SERIES_PHASE;
 use super::row::{Tip, TipLaw, Tips, series, short_series};
 use super::shapes::Four;
 use crate::model::LiningLaw;
 use crate::motion::{ActiveSet, Plane};
-use crate::tolerances::{SERIES_PHASE, SHORT_SERIES_PHASE};
 
 /// The lining and what presses it.
 #[derive(Clone, Debug)]

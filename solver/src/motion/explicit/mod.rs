@@ -34,7 +34,7 @@ use super::{Failure, Plane};
 use crate::model::Machine;
 use crate::numeric::lcp::Lcp;
 use crate::scene::{CheckedScene, ContactLaw, ModelSize};
-use crate::tolerances::{ANGLE_LOOK, LONG_STEP};
+use angles::ANGLE_LOOK;
 use disk::Disk;
 use drive::Drive;
 use lasting::Lasting;
@@ -43,6 +43,7 @@ use oscillator::{Coordinate, Oscillator};
 use record::{Ledger, Record};
 use rest::Rest;
 use row::{Row, TipLaw, Tips};
+use step::LONG_STEP;
 use strides::Strides;
 
 /// The explicit solver of one scene, at some step.

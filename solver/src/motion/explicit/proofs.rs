@@ -2,9 +2,10 @@
 
 use super::{Explicit, Lining};
 use crate::motion::{ActiveSet, Verdict};
-use crate::tolerances::{
-    CERTAIN_PUSH, HELD_AFTER, LARGEST_BLADE_ANGLE, LIGHT_BLADES, ROOM_TO_CHANGE,
-};
+use crate::tolerances::{CERTAIN_PUSH, LARGEST_BLADE_ANGLE, LIGHT_BLADES, ROOM_TO_CHANGE};
+
+/// Steps a corner must have been closed before it counts as held. Fewer: a crossing counts.
+const HELD_AFTER: u64 = 64;
 
 impl Explicit {
     /// Returns whether no contact can come again: once pulse and lining are over, the energies of

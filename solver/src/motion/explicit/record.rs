@@ -4,7 +4,11 @@
 use crate::model::ContactPolygon;
 use crate::motion::contacts::in_phase_order;
 use crate::motion::{ActiveSet, ContactLog, EnergyAccount};
-use crate::tolerances::BREAK_STEPS;
+
+/// Steps without contact before a contact counts as broken: the impact of the
+/// scheme takes two steps, and its rounding may open one step between them.
+/// More: two impacts count as one.
+const BREAK_STEPS: u64 = 2;
 
 /// Record of a motion in steps of constant length.
 #[derive(Clone, Debug)]

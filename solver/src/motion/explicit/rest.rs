@@ -16,7 +16,14 @@ use crate::model::LiningLaw;
 use crate::motion::Plane;
 use crate::motion::point::{Point, Units, one_of};
 use crate::numeric::eigen::eigenvalues;
-use crate::tolerances::{REST_ROUNDINGS, REST_STEPS};
+
+/// Round-off of the growth in one step of a wave on a preloaded lining, in units of the last
+/// place. Smaller: a wave that nothing damps is said to grow or to die.
+const REST_ROUNDINGS: f64 = 64.0;
+
+/// Steps of the singular value decomposition that gives an eigenmode of that wave, at most;
+/// twenty are usual.
+const REST_STEPS: usize = 1000;
 
 /// Numbers of a state: casing, its increment, blades and theirs, each in two directions.
 const STATES: usize = 8;

@@ -13,7 +13,17 @@
 
 use crate::model::Machine;
 use crate::motion::{ActiveSet, Plane};
-use crate::tolerances::{SERIES_PHASE, SMALL_PHASE};
+
+/// Blade phase below which sine and cosine are two terms of their series
+/// \[rad\]: exact to round-off.
+const SMALL_PHASE: f64 = 1e-4;
+
+/// Blade phase below which sine and cosine are two and three terms of it \[rad\]: exact to
+/// round-off of one. Speed only.
+pub(super) const SHORT_SERIES_PHASE: f64 = 1.5e-3;
+
+/// Blade phase below which they are four terms of it \[rad\]: exact to round-off.
+pub(super) const SERIES_PHASE: f64 = 0.03;
 
 /// Geometry and friction of the tips at the current rotor speed.
 #[derive(Clone, Copy, Debug, Default)]

@@ -12,7 +12,14 @@ use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
 use crate::model::fraction_of_turn;
 use crate::motion::Plane;
-use crate::tolerances::{SHAPES_KEPT, SHAPES_TRANSFORMED};
+
+/// Fours of mode shapes that are kept as a table, 2 MiB: those of 512 single blades. Of a
+/// larger disk a row is worked out when it is asked for. Speed only.
+const SHAPES_KEPT: usize = 1 << 16;
+
+/// Single blades from which on all of them at once cost less by a Fourier transform than by
+/// products. Speed only.
+const SHAPES_TRANSFORMED: usize = 64;
 
 /// One number of each of four modes.
 pub(super) type Four = [f64; 4];

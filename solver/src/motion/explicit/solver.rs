@@ -9,7 +9,11 @@ use crate::motion::{
     Verdict,
 };
 use crate::scene::CheckedScene;
-use crate::tolerances::{STEP_ROUND_OFF, UPDATES_UNASKED};
+use crate::scene::STEP_ROUND_OFF;
+
+/// Updates of one coordinate between two questions whether to go on: some tens
+/// of microseconds.
+const UPDATES_UNASKED: usize = 4096;
 
 impl Explicit {
     /// Returns casing and blades one step on from the latest, before rigid contact corrects them.

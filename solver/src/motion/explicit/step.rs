@@ -15,9 +15,24 @@
 use super::Explicit;
 use super::lasting::mark;
 use super::row::{Row, Tip, TipLaw};
+use crate::motion::failure::MOST_ROWS;
 use crate::motion::{ActiveSet, FailureReason, Plane};
 use crate::numeric::lcp;
-use crate::tolerances::{LONG_STEP, MOST_LONG_STEPS, MOST_ROWS, NEIGHBOUR_DEPTHS, ROUND_OFF};
+use crate::tolerances::ROUND_OFF;
+
+/// Depths of the deepest penetration up to which another gap is looked at, as a push may
+/// close it: of two modes one push closes it by at most
+/// `|T|/Re T`, `sqrt(1 + mu_c^2)` of its own depth where `kappa (kappa + mu) >= 0`.
+/// Smaller: a neighbour is closed a step late. Larger: speed only.
+pub(super) const NEIGHBOUR_DEPTHS: f64 = 4.0;
+
+/// Part of a side that the casing may move in one step in contact. A
+/// single longer step is an impact; see `MOST_LONG_STEPS`.
+pub(super) const LONG_STEP: f64 = 0.25;
+
+/// Longer steps in a row after which the run has failed: what a wave does that friction
+/// drives so fast is the step's doing.
+const MOST_LONG_STEPS: u32 = 2000;
 
 impl Explicit {
     /// Takes one step.

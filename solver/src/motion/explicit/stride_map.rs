@@ -35,8 +35,8 @@
 use nalgebra::{Matrix2, SMatrix, SVector, Vector2};
 
 use super::oscillator::Oscillator;
+use super::step::NEIGHBOUR_DEPTHS;
 use crate::motion::Plane;
-use crate::tolerances::NEIGHBOUR_DEPTHS;
 
 /// Coordinates of a state: casing `z`, its increment, two modes, their increments.
 const SIZE: usize = 8;

@@ -11,11 +11,12 @@
 use std::sync::Arc;
 
 use super::Explicit;
+use super::angles::ANGLE_LOOK;
 use super::oscillator::Coordinate;
 use super::row::Row;
 use super::stride_map::{HELD, HeldTip, SHORTEST, State, StrideMap};
 use crate::motion::{ActiveSet, Plane};
-use crate::tolerances::{ANGLE_LOOK, LARGEST_BLADE_ANGLE};
+use crate::tolerances::LARGEST_BLADE_ANGLE;
 
 /// Steps with the same tips in contact before a stride is tried: more than contact may pause without
 /// an end.

@@ -4,9 +4,9 @@
 use std::time::Instant;
 
 use super::ways::{LONGEST, Way};
+use crate::motion::LAST_PART;
 use crate::motion::{GoOn, Motion, Verdict, verdict_of};
 use crate::scene::{Scene, SceneError};
-use crate::tolerances::LAST_PART;
 
 /// Reference for one model size, at the end of the run and shortly before.
 pub(super) struct Track {

@@ -6,9 +6,10 @@ use std::time::Instant;
 use serde::Serialize;
 
 use super::TimedRun;
+use crate::motion::LAST_PART;
 use crate::motion::{ExactEvents, GoOn, Motion, verdict_of};
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, Scene, SceneError, SolverKind};
-use crate::tolerances::{self, LAST_PART};
+use crate::tolerances;
 
 /// Longest time step used \[s\].
 pub(super) const LONGEST: f64 = 1e-5;

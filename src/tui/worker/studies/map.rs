@@ -10,9 +10,9 @@ use crate::tui::views::id::ViewId;
 use crate::tui::views::map::plan::{CellRun, LiveMap, coarse_first};
 use crate::tui::worker::background::{Background, spare_threads};
 use crate::tui::worker::studies::{Given, Job, Sent, Study};
+use rubscope_solver::motion::LAST_PART;
 use rubscope_solver::motion::{GoOn, Motion, verdict_of};
 use rubscope_solver::study::{Cell, MapPlan};
-use rubscope_solver::tolerances::LAST_PART;
 
 /// Longest wall-clock time of one cell; a typical one takes a hundredth of it.
 const CELL_LIMIT: Duration = Duration::from_secs(1);
