@@ -1,7 +1,7 @@
 //! The `rubscope` program as a library, so that tests and benchmarks can reach its
-//! parts: [`report`] writes what the solvers of [`rubscope_solver`] return, [`machine`] makes
-//! a scene of modal data and asks about odd values, [`cli`] is the command line, [`tui`] the
-//! explorer, and [`mod@file`] writes files completely or not at all.
+//! parts: [`report`] writes what the solvers of [`rubscope_solver`] return, [`machine`] makes a
+//! scene of modal data, [`cli`] is the command line, [`tui`] the explorer, and [`mod@file`] writes
+//! files completely or not at all.
 //!
 //! A program that needs the model and the solvers alone depends on `rubscope-solver`.
 

@@ -8,10 +8,10 @@
 use std::f64::consts::TAU;
 
 use rubscope_solver::model::neighbour_stiffness;
+use rubscope_solver::numeric::rounding::rounded;
 use rubscope_solver::scene::{Scene, SceneError, keys};
 
 use super::table::STIFFENING;
-use crate::report::number::rounded;
 
 /// Mode of a modal analysis.
 #[derive(Clone, Copy, Debug, PartialEq)]
