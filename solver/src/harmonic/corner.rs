@@ -5,7 +5,7 @@
 
 use super::stability::ClosedSide;
 use super::{HarmonicError, error};
-use crate::model::{ContactPolygon, Machine, Number};
+use crate::model::{ContactPolygon, Machine};
 
 /// The pair of blades in the paper.
 pub const PAPER_PAIR: [u32; 2] = [6, 21];
@@ -37,8 +37,8 @@ impl Corner {
     /// # Errors
     /// The polygon has no corners, no corner of the tips is ever held, or the blades do not form a
     /// corner.
-    pub fn of<T: Number>(
-        machine: &Machine<T>,
+    pub fn of(
+        machine: &Machine,
         speed: f64,
         blades: Option<[u32; 2]>,
     ) -> Result<Self, HarmonicError> {

@@ -20,59 +20,58 @@
 //! its closed form.
 
 use nalgebra::{Complex, SMatrix, SVector};
-use num_dual::Dual64;
 use serde::Serialize;
 use strum::{AsRefStr, Display, EnumString, VariantNames};
 
 use super::Corner;
 use super::corner::Configuration;
 use super::corner_angle::CornerAngle;
-use crate::model::{Machine, Number};
+use crate::model::Machine;
 use crate::tolerances::{
     NEWTON_ALIKE, NEWTON_LARGEST, NEWTON_SHRINK, NEWTON_STEPS, NEWTON_STRIDE, NEWTON_STRIDES,
     POLISHED,
 };
 
 /// Scaled unknowns `[x, y, P_a, P_b, alpha_a, alpha_b]`.
-pub(super) type Unknowns<T = f64> = [T; 6];
+pub(super) type Unknowns = [f64; 6];
 
 /// Casing impedance at one speed: `stiffness = 1 - (nu/omega_c)^2` and
 /// `drag = 2 zeta_c nu/omega_c`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Wave<T = f64> {
-    pub stiffness: T,
-    pub drag: T,
+pub(super) struct Wave {
+    pub stiffness: f64,
+    pub drag: f64,
 }
 
-impl<T: Number> Wave<T> {
+impl Wave {
     /// Creates the casing impedance at a rotor speed \[rad/s\], with or without damping.
-    pub fn at(machine: &Machine<T>, speed: T, damped: bool) -> Self {
+    pub fn at(machine: &Machine, speed: f64, damped: bool) -> Self {
         let ratio = machine.nu(speed) / machine.omega_c;
-        let damping = if damped { machine.casing_damping_ratio } else { T::zero() };
+        let damping = if damped { machine.casing_damping_ratio } else { 0.0 };
         // The factored difference avoids cancellation near the critical speed.
-        Self { stiffness: (-ratio + 1.0) * (ratio + 1.0), drag: damping * 2.0 * ratio }
+        Self { stiffness: (1.0 - ratio) * (1.0 + ratio), drag: damping * 2.0 * ratio }
     }
 }
 
 /// Units that make the equations dimensionless.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Scales<T = f64> {
+pub(super) struct Scales {
     /// Length, `g0` \[m\].
-    pub length: T,
+    pub length: f64,
     /// Force, `k_c g0` \[N\].
-    pub force: T,
+    pub force: f64,
     /// Blade angle, `n_d k_c g0^2/(m_b omega_bd^2)` \[rad\].
-    pub angle: T,
+    pub angle: f64,
     /// Softness of the blades, `n_d` times `angle`.
-    pub softness: T,
+    pub softness: f64,
     /// Response of the blade modes to a torque on one blade: `2/N`, or `1/N` if there is only one
     /// mode.
     pub share: f64,
 }
 
-impl<T: Number> Scales<T> {
+impl Scales {
     /// Creates the units of a machine.
-    pub fn new(machine: &Machine<T>) -> Self {
+    pub fn new(machine: &Machine) -> Self {
         let length = machine.clearance();
         let force = machine.casing_stiffness * length;
         let stiffness = machine.blade_inertia * machine.omega_bd * machine.omega_bd;
@@ -85,42 +84,42 @@ impl<T: Number> Scales<T> {
 
 /// The six equations of one corner at one speed, in one form.
 #[derive(Clone, Debug)]
-pub(super) struct Equations<T = f64> {
+pub(super) struct Equations {
     /// Half the phase difference of both groups \[rad\].
     delta: f64,
     /// Directions `(cos psi, sin psi)` of both sides.
     phases: [(f64, f64); 2],
     /// Apothems of both sides, in units of `g0`.
-    apothems: [T; 2],
+    apothems: [f64; 2],
     form: Form,
-    wave: Wave<T>,
+    wave: Wave,
     /// Friction on the casing mode, `mu_c`.
-    friction: T,
+    friction: f64,
     /// Scaled slope of the tip path, `kappa l_b/(n_d g0)`.
-    slope: T,
+    slope: f64,
     /// Scaled lever of the contact force, `(kappa + mu) l_b/(n_d g0)`.
-    lever: T,
+    lever: f64,
     /// Unit of blade angles \[rad\].
-    pub angle: T,
+    pub angle: f64,
     /// Phase angle `n_d alpha` \[rad\] at a scaled blade angle of 1; 0 for rigid blades.
-    pub softness: T,
+    pub softness: f64,
     /// Response of both scaled blade angles (rows) to the scaled torques `P (A/n_d - lever)` of
     /// both groups (columns).
-    share: [[T; 2]; 2],
+    share: [[f64; 2]; 2],
 }
 
 /// A group in contact: its direction `(cos b, sin b)`, and real and imaginary part of
 /// `z exp(-i b)`.
-struct Touch<T> {
-    direction: (T, T),
-    along: T,
-    across: T,
+struct Touch {
+    direction: (f64, f64),
+    along: f64,
+    across: f64,
 }
 
-impl<T: Number> Equations<T> {
+impl Equations {
     /// Creates the equations of a machine at a rotor speed \[rad/s\] with the casing impedance
     /// `wave`.
-    pub fn new(machine: &Machine<T>, corner: Corner, form: Form, wave: Wave<T>, speed: T) -> Self {
+    pub fn new(machine: &Machine, corner: Corner, form: Form, wave: Wave, speed: f64) -> Self {
         let polygon = &machine.polygon;
         let scales = Scales::new(machine);
         let reach = machine.blade_length / (machine.clearance() * machine.nodal_diameters);
@@ -141,7 +140,7 @@ impl<T: Number> Equations<T> {
         let [own, other] = [own, other].map(|share| unit.recip() * share);
         Self {
             delta,
-            apothems: corner.sides().map(|side| if equal { T::one() } else { apothem(side) }),
+            apothems: corner.sides().map(|side| if equal { 1.0 } else { apothem(side) }),
             phases: corner.sides().map(|side| polygon.direction(side)),
             form,
             wave,
@@ -154,31 +153,14 @@ impl<T: Number> Equations<T> {
         }
     }
 
-    /// Converts each number with `number`.
-    fn map<S>(&self, number: impl Fn(T) -> S) -> Equations<S> {
-        Equations {
-            delta: self.delta,
-            phases: self.phases,
-            apothems: self.apothems.map(&number),
-            form: self.form,
-            wave: Wave { stiffness: number(self.wave.stiffness), drag: number(self.wave.drag) },
-            friction: number(self.friction),
-            slope: number(self.slope),
-            lever: number(self.lever),
-            angle: number(self.angle),
-            softness: number(self.softness),
-            share: [0, 1].map(|i| [number(self.share[i][0]), number(self.share[i][1])]),
-        }
-    }
-
     /// Returns the geometry of group `i` of the corner.
-    fn touch(&self, i: usize, unknowns: &Unknowns<T>) -> Touch<T> {
+    fn touch(&self, i: usize, unknowns: &Unknowns) -> Touch {
         let [x, y, ..] = *unknowns;
         let (c, s) = self.phases[i];
         let turn = self.softness * unknowns[4 + i];
         let (sin, cos) = match self.form {
             Form::Modal => turn.sin_cos(),
-            Form::Printed | Form::Blade => (turn, T::one()),
+            Form::Printed | Form::Blade => (turn, 1.0),
         };
         let direction = (cos * c - sin * s, cos * s + sin * c);
         let along = x * direction.0 + y * direction.1;
@@ -186,11 +168,11 @@ impl<T: Number> Equations<T> {
     }
 
     /// Returns the residuals of the six equations.
-    pub fn residual(&self, unknowns: &Unknowns<T>) -> Unknowns<T> {
+    pub fn residual(&self, unknowns: &Unknowns) -> Unknowns {
         let [x, y, push_a, push_b, alpha_a, alpha_b] = *unknowns;
         let Wave { stiffness, drag } = self.wave;
         let mut casing = [stiffness * x - drag * y, stiffness * y + drag * x];
-        let mut gaps = [T::zero(); 2];
+        let mut gaps = [0.0; 2];
         let mut blades = [alpha_a, alpha_b];
         for (i, (push, alpha)) in [(push_a, alpha_a), (push_b, alpha_b)].into_iter().enumerate() {
             let touch = self.touch(i, unknowns);
@@ -206,29 +188,8 @@ impl<T: Number> Equations<T> {
         [gaps[0], gaps[1], casing[0], casing[1], blades[0], blades[1]]
     }
 
-    /// Attaches derivatives to a solution of the plain equations: one Newton step with the plain
-    /// Jacobian. `None` if that is singular.
-    fn derived(&self, plain: &Equations, unknowns: &Unknowns) -> Option<Unknowns<T>> {
-        let inverse = plain.jacobian(unknowns).try_inverse()?;
-        let mut derived = unknowns.map(T::from);
-        let residual = self.residual(&derived);
-        for (row, value) in derived.iter_mut().enumerate() {
-            for (column, left) in residual.iter().enumerate() {
-                *value -= *left * inverse[(row, column)];
-            }
-        }
-        Some(derived)
-    }
-
-    /// Returns the locked solution with derivatives; `None` where `locked` returns `None`, or if
-    /// the Jacobian is singular there.
-    pub fn locked_with_derivatives(&self) -> Option<Unknowns<T>> {
-        let plain = self.map(|value| value.re());
-        self.derived(&plain, &plain.locked()?)
-    }
-
     /// Returns the scaled modal coordinates `(alpha_c, alpha_s)` of the blades, Eq. (20).
-    pub fn blade_modes(&self, [.., a, b]: &Unknowns<T>) -> [T; 2] {
+    pub fn blade_modes(&self, [.., a, b]: &Unknowns) -> [f64; 2] {
         let [(c_a, s_a), (c_b, s_b)] = self.phases;
         let sine = c_a * s_b - s_a * c_b;
         [(*a * s_b - *b * s_a) / sine, (*b * c_a - *a * c_b) / sine]
@@ -236,14 +197,12 @@ impl<T: Number> Equations<T> {
 
     /// Returns the torque of the rotor in units of `n_d k_c g0^2`: `drag |z|^2`, minus the
     /// contribution of tangential forces on the casing.
-    pub fn torque(&self, unknowns: &Unknowns<T>) -> T {
+    pub fn torque(&self, unknowns: &Unknowns) -> f64 {
         let [x, y, push_a, push_b, ..] = *unknowns;
         let along = push_a * self.touch(0, unknowns).along + push_b * self.touch(1, unknowns).along;
         self.wave.drag * (x * x + y * y) - self.friction * along
     }
-}
 
-impl Equations {
     /// Returns the displacements of casing and blades.
     pub fn configuration(&self, unknowns: &Unknowns) -> Configuration {
         let [x, y, ..] = *unknowns;
@@ -251,14 +210,37 @@ impl Equations {
         Configuration { z: (x, y), turn: (turn_c, turn_s), slope: self.slope, lever: self.lever }
     }
 
+    /// Returns the derivatives of the residuals (rows) with respect to the unknowns (columns).
     fn jacobian(&self, unknowns: &Unknowns) -> SMatrix<f64, 6, 6> {
-        let lifted = self.map(Dual64::from);
+        let [x, y, ..] = *unknowns;
+        let Wave { stiffness, drag } = self.wave;
         let mut jacobian = SMatrix::zeros();
-        for column in 0..6 {
-            let mut seeded = unknowns.map(Dual64::from);
-            seeded[column].eps = 1.0;
-            for (row, value) in lifted.residual(&seeded).iter().enumerate() {
-                jacobian[(row, column)] = value.eps;
+        (jacobian[(2, 0)], jacobian[(2, 1)]) = (stiffness, -drag);
+        (jacobian[(3, 0)], jacobian[(3, 1)]) = (drag, stiffness);
+        for i in 0..2 {
+            let (push, of_push, of_alpha) = (unknowns[2 + i], 2 + i, 4 + i);
+            let Touch { direction: (c, s), across, .. } = self.touch(i, unknowns);
+            // Derivative of the direction with respect to the scaled blade angle.
+            let (c_turned, s_turned) = match self.form {
+                Form::Modal => (-s * self.softness, c * self.softness),
+                Form::Printed | Form::Blade => {
+                    let (c, s) = self.phases[i];
+                    (-s * self.softness, c * self.softness)
+                }
+            };
+            (jacobian[(i, 0)], jacobian[(i, 1)]) = (c, s);
+            jacobian[(i, of_alpha)] = x * c_turned + y * s_turned - self.slope * self.softness;
+            jacobian[(2, of_push)] = self.friction * s - c;
+            jacobian[(3, of_push)] = -self.friction * c - s;
+            jacobian[(2, of_alpha)] = push * (self.friction * s_turned - c_turned);
+            jacobian[(3, of_alpha)] = push * (-self.friction * c_turned - s_turned);
+            jacobian[(of_alpha, of_alpha)] += 1.0;
+            for (row, share) in (4..).zip(self.share) {
+                let load = share[i] * push;
+                jacobian[(row, 0)] += load * s;
+                jacobian[(row, 1)] -= load * c;
+                jacobian[(row, of_push)] -= share[i] * (across - self.lever);
+                jacobian[(row, of_alpha)] -= load * (y * c_turned - x * s_turned);
             }
         }
         jacobian

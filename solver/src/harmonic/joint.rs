@@ -18,10 +18,9 @@
 use std::borrow::Cow;
 
 use nalgebra::Complex;
-use num_dual::Dual64;
 
 use super::{Corner, Form, Locked};
-use crate::model::{LockWindow, Machine, Number};
+use crate::model::{LockWindow, Machine};
 use crate::numeric::bisection::bisected;
 use crate::numeric::real_roots::{Coefficients, Point, product, real_roots, sum};
 use crate::tolerances::{FLUTTER_FURTHEST, FLUTTER_STRIDE};
@@ -112,8 +111,8 @@ impl<'a> Joint<'a> {
 /// not couple blades and casing, or if the lock never flutters. The sign of `toward` is the
 /// direction of rotation.
 #[must_use]
-pub fn undamped_flutter_speed<T: Number>(machine: &Machine<T>, toward: f64) -> Option<T> {
-    let pair = HeldPair::new(&machine.at(T::zero()), toward)?;
+pub fn undamped_flutter_speed(machine: &Machine, toward: f64) -> Option<f64> {
+    let pair = HeldPair::new(&machine.at(0.0), toward)?;
     let rate = pair.rate * pair.rate;
     let square = (pair.coupling * rate + 1.0) * (pair.coupling.recip() + 1.0);
     let critical = machine.critical_speed()?;
@@ -121,10 +120,10 @@ pub fn undamped_flutter_speed<T: Number>(machine: &Machine<T>, toward: f64) -> O
     if machine.changes_with_speed() {
         // The blade stiffness depends on the speed, so the equation is solved for it.
         let stiffer = machine.stiffening() * (critical / machine.omega_bd_at_rest()).powi(2);
-        let left = -(pair.coupling * rate + 1.0) / pair.coupling * stiffer + 1.0;
+        let left = 1.0 - (pair.coupling * rate + 1.0) / pair.coupling * stiffer;
         speed /= left.sqrt();
     }
-    speed.re().is_finite().then_some(speed)
+    speed.is_finite().then_some(speed)
 }
 
 /// Returns the lowest rotor speed at which the damped lock flutters, as a magnitude \[rad/s\]; 0 if
@@ -132,7 +131,7 @@ pub fn undamped_flutter_speed<T: Number>(machine: &Machine<T>, toward: f64) -> O
 /// damping (Ziegler's paradox). `None` as in [`undamped_flutter_speed`]. The sign of `toward` is
 /// the direction of rotation.
 #[must_use]
-pub fn flutter_speed<T: Number>(machine: &Machine<T>, toward: f64) -> Option<T> {
+pub fn flutter_speed(machine: &Machine, toward: f64) -> Option<f64> {
     flutters(machine, toward).first().map(|flutter| flutter.from)
 }
 
@@ -140,38 +139,35 @@ pub fn flutter_speed<T: Number>(machine: &Machine<T>, toward: f64) -> Option<T> 
 /// [`flutter_speed`]. If the machine changes with speed, only ranges that begin below
 /// `FLUTTER_FURTHEST` critical speeds and before the clearance closes.
 #[must_use]
-pub fn flutters<T: Number>(machine: &Machine<T>, toward: f64) -> Vec<LockWindow<T>> {
+pub fn flutters(machine: &Machine, toward: f64) -> Vec<LockWindow> {
     let (Some(pair), Some(critical)) = (HeldPair::new(machine, toward), machine.critical_speed())
     else {
         return Vec::new();
     };
-    let furthest = critical.re() * FLUTTER_FURTHEST;
-    let closed = machine.closing_speed().map_or(f64::INFINITY, |closed| closed.re());
-    if !pair.has_friction() && !pair.casing_is_damped() && pair.blades.re() == 0.0 {
-        let from = undamped_flutter_speed(machine, toward).filter(|from| from.re() < closed);
+    let furthest = critical * FLUTTER_FURTHEST;
+    let closed = machine.closing_speed().map_or(f64::INFINITY, |closed| closed);
+    if !pair.has_friction() && !pair.casing_is_damped() && pair.blades == 0.0 {
+        let from = undamped_flutter_speed(machine, toward).filter(|from| *from < closed);
         return from.map(|from| LockWindow { from, to: None }).into_iter().collect();
     }
-    let plain = machine.plain();
     let grows = |speed: f64| {
-        HeldPair::new(&plain.at(speed), toward).is_some_and(|pair| {
-            pair.roots(plain.nu(speed) / plain.omega_c).iter().any(|root| root.re > 0.0)
+        HeldPair::new(&machine.at(speed), toward).is_some_and(|pair| {
+            pair.roots(machine.nu(speed) / machine.omega_c).iter().any(|root| root.re > 0.0)
         })
     };
-    let changes = machine.changes_with_speed();
-    let mut ends: Vec<T> = if changes {
-        let found = searched_limits(&grows, critical.re(), closed.min(furthest));
-        found.into_iter().filter_map(|root| derived(machine, root, toward)).collect()
+    let mut ends: Vec<f64> = if machine.changes_with_speed() {
+        searched_limits(&grows, critical, closed.min(furthest))
     } else {
         pair.limits().into_iter().map(|turn| turn * critical).collect()
     };
-    ends.retain(|end| end.re() > 0.0 && end.re() < closed);
-    ends.sort_by(|a, b| a.re().total_cmp(&b.re()));
-    let mut found: Vec<LockWindow<T>> = Vec::new();
-    let (mut below, mut inside) = (T::zero(), false);
+    ends.retain(|end| *end > 0.0 && *end < closed);
+    ends.sort_by(f64::total_cmp);
+    let mut found: Vec<LockWindow> = Vec::new();
+    let (mut below, mut inside) = (0.0, false);
     for place in 0..=ends.len() {
         let end = ends.get(place).copied();
-        let between = end.map_or(below.re() + critical.re(), |end| 0.5 * (below + end).re());
-        let above = grows(between.min(0.5 * (below.re() + closed)));
+        let between = end.map_or(below + critical, |end| 0.5 * (below + end));
+        let above = grows(between.min(0.5 * (below + closed)));
         if above && !inside {
             found.push(LockWindow { from: below, to: None });
         } else if let Some(last) = found.last_mut().filter(|_| inside && !above) {
@@ -200,30 +196,9 @@ fn searched_limits(grows: &dyn Fn(f64) -> bool, critical: f64, last: f64) -> Vec
     found
 }
 
-/// Attaches derivatives to a stability limit: one Newton step from the root, with the machine at
-/// that speed. `None` where [`apart`] finds no limit.
-fn derived<T: Number>(machine: &Machine<T>, root: f64, toward: f64) -> Option<T> {
-    let plain = machine.plain();
-    let moving = Dual64::from(root).derivative();
-    let slope = apart(&plain.map(Dual64::from), moving, toward)?.eps;
-    let speed = T::from(root);
-    let step = apart(machine, speed, toward)? / slope;
-    Some(speed - (step - step.re()))
-}
-
-/// Returns the distance of the wave frequency at `speed` from the nearest stability limit of the
-/// machine there, in units of `omega_c`; `None` if the machine has no such limit.
-fn apart<T: Number>(machine: &Machine<T>, speed: T, toward: f64) -> Option<T> {
-    let pair = HeldPair::new(&machine.at(speed), toward)?;
-    let turn = machine.nu(speed) / machine.omega_c;
-    let limits = pair.limits().into_iter().map(|limit| limit - turn);
-    let finite = limits.filter(|apart| apart.re().is_finite());
-    finite.min_by(|a, b| a.re().abs().total_cmp(&b.re().abs()))
-}
-
 /// Returns the window of [`lock_windows`] with the lowest speeds; `None` if there is no window.
 #[must_use]
-pub fn lock_window<T: Number>(machine: &Machine<T>, toward: f64) -> Option<LockWindow<T>> {
+pub fn lock_window(machine: &Machine, toward: f64) -> Option<LockWindow> {
     lock_windows(machine, toward).into_iter().next()
 }
 
@@ -231,12 +206,12 @@ pub fn lock_window<T: Number>(machine: &Machine<T>, toward: f64) -> Option<LockW
 /// in the direction of the sign of `toward`: both groups push, and no motion that keeps the contact
 /// grows. On a lining only the pushes are considered.
 #[must_use]
-pub fn lock_windows<T: Number>(machine: &Machine<T>, toward: f64) -> Vec<LockWindow<T>> {
+pub fn lock_windows(machine: &Machine, toward: f64) -> Vec<LockWindow> {
     let pushed = machine.lock_windows(toward);
     if machine.lining.is_some() {
         return pushed;
     }
-    let less = |windows: Vec<LockWindow<T>>, flutter: &LockWindow<T>| {
+    let less = |windows: Vec<LockWindow>, flutter: &LockWindow| {
         windows.into_iter().flat_map(|window| window.without(flutter)).collect()
     };
     flutters(machine, toward).iter().fold(pushed, less)
@@ -265,46 +240,46 @@ pub fn lock_roots(joint: &Joint) -> Vec<Complex<f64>> {
 
 /// Blades and casing that move together in a corner, in units of their stiffnesses, for forward
 /// rotation. The speed is `turn = nu/omega_c`.
-struct HeldPair<T> {
+struct HeldPair {
     /// Coupling `c = c2 k_c/k_a`.
-    coupling: T,
+    coupling: f64,
     /// Frequency ratio `omega_bd/omega_c`.
-    rate: T,
+    rate: f64,
     /// Casing damping `2 zeta_c`.
-    casing: T,
+    casing: f64,
     /// Blade damping `2 zeta_bd`.
-    blades: T,
+    blades: f64,
     /// Friction on the casing mode, `mu_c`.
-    friction: T,
+    friction: f64,
 }
 
-impl<T: Number> HeldPair<T> {
+impl HeldPair {
     /// Creates the pair; `None` if the polygon has no corners, if the blades have modes with other
     /// nodal diameters than the casing, or if the tips do not couple blades and casing.
-    fn new(machine: &Machine<T>, toward: f64) -> Option<Self> {
+    fn new(machine: &Machine, toward: f64) -> Option<Self> {
         // A rotor that turns backward is the mirror image of one that turns forward.
-        let coupling = machine.coupling_product_at(T::from(toward)) * machine.casing_stiffness
+        let coupling = machine.coupling_product_at(toward) * machine.casing_stiffness
             / machine.blade_modal_stiffness;
         let corner = machine.polygon.has_corners() && !machine.has_other_diameters();
-        (corner && coupling.re() != 0.0).then(|| Self {
+        (corner && coupling != 0.0).then(|| Self {
             coupling,
             rate: machine.omega_bd / machine.omega_c,
             casing: machine.casing_damping_ratio * 2.0,
             blades: machine.blade_damping_ratio * 2.0,
-            friction: machine.casing_friction_at(T::one()),
+            friction: machine.casing_friction_at(1.0),
         })
     }
 
     fn has_friction(&self) -> bool {
-        self.friction.re() != 0.0
+        self.friction != 0.0
     }
 
     fn casing_is_damped(&self) -> bool {
-        self.casing.re() != 0.0
+        self.casing != 0.0
     }
 
     /// Returns the speeds at which a motion neither grows nor decays, in the unit `turn`.
-    fn limits(&self) -> Vec<T> {
+    fn limits(&self) -> Vec<f64> {
         match (self.has_friction(), self.casing_is_damped()) {
             (false, _) => self.limit_without_friction().into_iter().collect(),
             (true, true) => self.limits_with_friction(),
@@ -314,50 +289,27 @@ impl<T: Number> HeldPair<T> {
 
     /// Without friction the imaginary part is `2 c zeta_c x = -2 zeta_bd y`; with it the real part
     /// gives the magnitude of both. `None` without damping, or if no real magnitude exists.
-    fn limit_without_friction(&self) -> Option<T> {
+    fn limit_without_friction(&self) -> Option<f64> {
         let c = self.coupling;
         let square = (c + 1.0) / (c * (c * self.casing * self.casing + self.blades * self.blades));
         let turn = (self.blades + self.rate * c * self.casing).abs() * square.sqrt();
-        turn.re().is_finite().then_some(turn)
+        turn.is_finite().then_some(turn)
     }
 
     /// With friction the imaginary part gives `x` as a function of `y`, and the real part becomes a
-    /// quartic in `y`. Two Newton steps polish its roots and attach the derivatives.
-    fn limits_with_friction(&self) -> Vec<T> {
+    /// quartic in `y`.
+    fn limits_with_friction(&self) -> Vec<f64> {
         let roots = real_roots(&|from, to| self.quartic(from, to), &[-1.0, 0.0, 1.0]);
-        let refined = |root: f64| {
-            let mut y = T::from(root);
-            for _ in 0..2 {
-                let step = self.newton_step(y);
-                if step.re().is_finite() {
-                    y -= step;
-                }
-            }
-            self.casing_at(y) - self.rate * y
+        let casing_at = |y: f64| {
+            -(self.blades * y + self.friction * (1.0 - y * y)) / (self.coupling * self.casing)
         };
-        roots.into_iter().map(refined).collect()
-    }
-
-    /// Returns `x` as a function of `y`, from the imaginary part.
-    fn casing_at(&self, y: T) -> T {
-        -(self.blades * y + self.friction * (-(y * y) + 1.0)) / (self.coupling * self.casing)
-    }
-
-    /// Returns the Newton step in `y` for the real part, with `x = x(y)`.
-    fn newton_step(&self, y: T) -> T {
-        let Self { coupling: c, casing, blades, friction: mu, .. } = *self;
-        let x = self.casing_at(y);
-        let value = c * (-(x * x) + 1.0) - y * y + 1.0 - mu * blades * y;
-        let x_slope = -(blades - mu * y * 2.0) / (c * casing);
-        let slope = c * x * x_slope * -2.0 - y * 2.0 - mu * blades;
-        value / slope
+        roots.into_iter().map(|y| casing_at(y) - self.rate * y).collect()
     }
 
     /// Returns the real part times the square of `2 c zeta_c`, a quartic of `y` between two
     /// points.
     fn quartic(&self, from: Point, to: Point) -> Coefficients {
-        let [c, casing, blades, mu] =
-            [self.coupling, self.casing, self.blades, self.friction].map(|part| part.re());
+        let Self { coupling: c, casing, blades, friction: mu, .. } = *self;
         let mixed = |u: Point, v: Point| 0.5 * (u.p * v.q + v.p * u.q);
         let one = Coefficients::quadratic(from, to, |u, v| u.q * v.q);
         let x = Coefficients::quadratic(from, to, |u, v| {
@@ -372,12 +324,12 @@ impl<T: Number> HeldPair<T> {
 
     /// Without damping of the casing the imaginary part is a quadratic in `y`, and the real part
     /// gives `x` up to its sign.
-    fn limits_of_undamped_casing(&self) -> Vec<T> {
+    fn limits_of_undamped_casing(&self) -> Vec<f64> {
         let Self { coupling: c, blades, friction: mu, rate, .. } = *self;
         let root = (blades * blades + mu * mu * 4.0).sqrt();
         let places = [(blades + root) / (mu * 2.0), (blades - root) / (mu * 2.0)];
         let turns = places.map(|y| {
-            let x = ((-(y * y) + 1.0 - mu * blades * y) / c + 1.0).sqrt();
+            let x = ((1.0 - y * y - mu * blades * y) / c + 1.0).sqrt();
             [x - rate * y, -x - rate * y]
         });
         turns.concat()
@@ -386,11 +338,11 @@ impl<T: Number> HeldPair<T> {
     /// Returns the two roots `l = i s/omega_c` at a speed, of `c [(l + i n)^2 + 2 zeta_c (l + i n)
     /// + 1] + (1 + i mu_c)[(l/r)^2 + 2 zeta_bd l/r + 1]`, `n = turn`, `r = omega_bd/omega_c`.
     fn roots(&self, turn: f64) -> [Complex<f64>; 2] {
-        let [c, rate, drag] = [self.coupling.re(), self.rate.re(), self.casing.re()];
-        let turned = Complex::new(1.0, self.friction.re());
+        let Self { coupling: c, rate, casing: drag, .. } = *self;
+        let turned = Complex::new(1.0, self.friction);
         let spin = Complex::new(0.0, turn);
         let square = turned / (rate * rate) + c;
-        let linear = (spin * 2.0 + drag) * c + turned * (self.blades.re() / rate);
+        let linear = (spin * 2.0 + drag) * c + turned * (self.blades / rate);
         let constant = (spin * spin + spin * drag + 1.0) * c + turned;
         let half = linear / (square * 2.0);
         let root = (half * half - constant / square).sqrt();

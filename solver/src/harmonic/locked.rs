@@ -2,15 +2,14 @@
 //! equilibrium of the blade frame (docs/theory.md, section 8).
 //!
 //! [`locked_motion`] computes it for a list of speeds, with its character and stability.
-//! [`lock_loads`] gives contact forces, torque, power and blade angles, and [`lock_fold_speed`] the
-//! end of the branch, both for any number type, so that they carry derivatives (section 4).
+//! [`lock_loads`] gives contact forces, torque, power and blade angles.
 
 use serde::Serialize;
 
 use super::equations::{Equations, Scales, Unknowns, Wave};
 use super::stability::Linearised;
 use super::{Character, Corner, Form, HarmonicError, error, lining};
-use crate::model::{Machine, Number};
+use crate::model::Machine;
 
 /// Locked motion at one rotor speed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -241,37 +240,37 @@ pub fn locked_motion(
 
 /// Loads of the damped lock at one speed, with moving blades.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LockLoads<T = f64> {
+pub struct LockLoads {
     /// Contact forces of groups a and b, the negative multipliers; negative is a pull \[N\].
-    pub pushes_n: [T; 2],
+    pub pushes_n: [f64; 2],
     /// Blade angle of each group \[rad\].
-    pub alpha_rad: [T; 2],
+    pub alpha_rad: [f64; 2],
     /// Amplitude `|z|` of the casing wave \[m\].
-    pub amplitude_m: T,
+    pub amplitude_m: f64,
     /// Torque of the rotor that sustains the wave, `n_d d_c nu |z|^2` without friction; the torque
     /// of friction itself is not included \[N m\].
-    pub torque_nm: T,
+    pub torque_nm: f64,
     /// Power of that torque \[W\].
-    pub power_w: T,
+    pub power_w: f64,
 }
 
 /// Returns the loads of the lock at a speed \[rad/s\]. `None` without corners or clearance, with
 /// disk modes of other nodal diameters, if no corner of unequal tips is held, beyond the fold of
 /// very soft blades, and on a lining if no two groups alone hold the wave.
 #[must_use]
-pub fn lock_loads<T: Number>(machine: &Machine<T>, speed: T) -> Option<LockLoads<T>> {
+pub fn lock_loads(machine: &Machine, speed: f64) -> Option<LockLoads> {
     let machine = &*machine.at(speed);
-    let clear = machine.clearance().re() > 0.0;
+    let clear = machine.clearance() > 0.0;
     if !machine.polygon.has_corners() || machine.has_other_diameters() || !clear {
         return None;
     }
     if machine.lining.is_some() {
         return lining::lock_loads(machine, speed);
     }
-    let corner = Corner::of(machine, speed.re(), None).ok()?;
+    let corner = Corner::of(machine, speed, None).ok()?;
     let wave = Wave::at(machine, speed, true);
     let equations = Equations::new(machine, corner, Form::Modal, wave, speed);
-    let unknowns = equations.locked_with_derivatives()?;
+    let unknowns = equations.locked()?;
     let [x, y, push_a, push_b, alpha_a, alpha_b] = unknowns;
     let Scales { length, force, .. } = Scales::new(machine);
     let torque = equations.torque(&unknowns) * force * length * machine.nodal_diameters;

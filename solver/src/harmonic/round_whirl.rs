@@ -14,7 +14,7 @@ use nalgebra::{Complex, DMatrix};
 use serde::Serialize;
 
 use super::joint::Joint;
-use crate::model::{Machine, Number};
+use crate::model::Machine;
 use crate::numeric::bisection::bisected;
 use crate::numeric::eigen::eigenvalues;
 use crate::numeric::real_roots::{Coefficients, Point, product, real_roots, sum};
@@ -252,69 +252,31 @@ pub struct WhirlOnset {
     pub wave: RoundWhirl,
 }
 
-/// Returns the lowest speed at which whirl begins, with first derivatives, for a rotor that turns
-/// in the direction of the sign of `toward` \[rad/s\]. `None` if there is none up to
-/// `ONSET_FURTHEST` times the dangerous coincidence, or if the lining is too soft for that wave.
-///
-/// At a fold `Im B` is stationary in the frequency, so the change of `Im B` with a parameter is
-/// balanced by the speed alone.
+/// Returns the lowest speed at which whirl begins, for a rotor that turns in the direction of the
+/// sign of `toward` \[rad/s\]. `None` if there is none up to `ONSET_FURTHEST` times the dangerous
+/// coincidence, or if the lining is too soft for that wave.
 #[must_use]
-pub fn whirl_onset<T: Number>(machine: &Machine<T>, toward: f64) -> Option<T> {
+pub fn whirl_onset(machine: &Machine, toward: f64) -> Option<f64> {
     beginnings(machine, toward, true).first().copied()
 }
 
 /// Returns every speed at which whirl begins, in increasing order; see [`whirl_onset`].
 #[must_use]
-pub fn whirl_beginnings<T: Number>(machine: &Machine<T>, toward: f64) -> Vec<T> {
+pub fn whirl_beginnings(machine: &Machine, toward: f64) -> Vec<f64> {
     beginnings(machine, toward, false)
 }
 
-fn beginnings<T: Number>(machine: &Machine<T>, toward: f64, first: bool) -> Vec<T> {
+fn beginnings(machine: &Machine, toward: f64, first: bool) -> Vec<f64> {
     // Pairs of waves exist only if both structures are coupled.
-    if machine.coupling_product_at(T::from(toward)).re() == 0.0 {
+    if machine.coupling_product_at(toward) == 0.0 {
         return Vec::new();
     }
-    let onsets = search_onsets(&machine.plain(), toward, first).into_iter();
-    onsets.filter(|onset| onset.appears).filter_map(|onset| derived(machine, &onset)).collect()
-}
-
-/// Attaches derivatives to the speed of a fold.
-fn derived<T: Number>(machine: &Machine<T>, onset: &WhirlOnset) -> Option<T> {
     // The wave stiffness of a lining never exceeds N k/4 by lift-off for half of each revolution.
-    let softest = machine.lining.map(|lining| lining.stiffness_n_per_m.re());
+    let softest = machine.lining.map(|lining| lining.stiffness_n_per_m);
     let most = softest.map_or(f64::INFINITY, |k| 0.25 * f64::from(machine.polygon.blades) * k);
-    if onset.wave.stiffness_n_per_m > most {
-        return None;
-    }
-    let omega = onset.wave.omega_rad_s;
-    let speed = T::from(onset.speed_rad_s);
-    let machine = &*machine.at(speed);
-    let s = -machine.nu(speed) + omega;
-    let turned = machine.casing_friction_at(speed);
-    let casing = [
-        machine.casing_stiffness - machine.casing_mass * (omega * omega),
-        machine.casing_damping * omega,
-    ];
-    let blades = [
-        machine.blade_modal_stiffness - machine.blade_modal_mass * s * s,
-        machine.blade_modal_damping * s,
-    ];
-    let square = |[re, im]: [T; 2]| re * re + im * im;
-    let product = machine.coupling_product_at(speed);
-    let imaginary =
-        (turned * casing[0] - casing[1]) / square(casing) - product * blades[1] / square(blades);
-    // Derivative with respect to s, which decreases with speed.
-    let square_by_s = (blades[1] * machine.blade_modal_damping
-        - blades[0] * machine.blade_modal_mass * s * 2.0)
-        * 2.0;
-    let by_s =
-        (machine.blade_modal_damping - blades[1] * square_by_s / square(blades)) / square(blades);
-    // Derivative of k_a with respect to speed, from centrifugal stiffening.
-    let stiffer = machine.stiffening() * machine.blade_modal_mass * speed * 2.0;
-    let by_stiffness = blades[1] * blades[0] * 2.0 / (square(blades) * square(blades));
-    let by_speed =
-        (product * by_s).re() * machine.nodal_diameters + (product * by_stiffness * stiffer).re();
-    Some(-(imaginary - imaginary.re()) / by_speed + onset.speed_rad_s)
+    let onsets = search_onsets(machine, toward, first).into_iter();
+    let begin = onsets.filter(|onset| onset.appears && onset.wave.stiffness_n_per_m <= most);
+    begin.map(|onset| onset.speed_rad_s).collect()
 }
 
 /// Returns every fold of round whirl, in increasing order of speed, for a rotor that turns in the
@@ -387,32 +349,4 @@ fn closest(waves: &[RoundWhirl]) -> Option<RoundWhirl> {
     };
     let nearest = waves.windows(2).min_by(|a, b| apart(a).total_cmp(&apart(b)))?;
     nearest.last().copied()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::model::{BladedDisk, Casing};
-    use num_dual::Dual64;
-
-    /// Returns the machine of Table 1 with the tip slope `kappa`, which carries the derivative.
-    fn inclined(kappa: Dual64) -> Machine<Dual64> {
-        let disk = BladedDisk { radial_coupling: kappa, ..BladedDisk::default().to() };
-        let casing = Casing::default().to();
-        Machine::new(&disk, &casing, 3).with_friction(Dual64::from(0.05))
-    }
-
-    #[test]
-    fn the_onset_has_the_derivative_of_its_neighbours() {
-        for toward in [1.0, -1.0] {
-            let at = |kappa: f64| {
-                let found = whirl_onset(&inclined(Dual64::from(kappa)), toward).unwrap();
-                found.re
-            };
-            let derived = whirl_onset(&inclined(Dual64::from(0.3).derivative()), toward).unwrap();
-            let measured = (at(0.3 + 1e-4) - at(0.3 - 1e-4)) / 2e-4;
-            let error = (derived.eps - measured).abs();
-            assert!(error < 1e-5 * measured.abs(), "{} is not {measured}", derived.eps);
-        }
-    }
 }

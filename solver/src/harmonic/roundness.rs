@@ -8,7 +8,7 @@
 use nalgebra::Complex;
 
 use super::Corner;
-use crate::model::{Machine, Number};
+use crate::model::Machine;
 use crate::tolerances::ROUND_ENOUGH;
 
 /// Returns the lobe counts for which the roundness of a lock is reported: 1 to 4, and `diameters`.
@@ -31,16 +31,16 @@ pub fn roundness_needed(machine: &Machine, speed: f64) -> Option<f64> {
 /// amplitude, at standstill, and where no closed form exists: several blades on a side, inclined
 /// tips, friction on the casing, and a lining.
 #[must_use]
-pub fn roundness<T: Number>(machine: &Machine<T>, speed: T, lobes: u32) -> Option<T> {
+pub fn roundness(machine: &Machine, speed: f64, lobes: u32) -> Option<f64> {
     let machine = &*machine.at(speed);
     let polygon = &machine.polygon;
     let known = machine.lining.is_none() && !machine.casing_feels_tips();
-    if !known || polygon.blades_per_side != 1 || speed.re() == 0.0 {
+    if !known || polygon.blades_per_side != 1 || speed == 0.0 {
         return None;
     }
-    let corner = Corner::of(machine, speed.re(), None).ok()?;
+    let corner = Corner::of(machine, speed, None).ok()?;
     let pushes = machine.locked_multipliers(speed)?.map(|lambda| -lambda);
-    let one = |(c, s): (f64, f64)| Complex::new(T::from(c), T::from(s));
+    let one = |(c, s): (f64, f64)| Complex::new(c, s);
     let normal = |side: u32| one(polygon.direction(side));
     // exp(i m Phi) of the blade on a side.
     let lobe = |side: u32| {
@@ -50,40 +50,37 @@ pub fn roundness<T: Number>(machine: &Machine<T>, speed: T, lobes: u32) -> Optio
     };
     let [a, b] = corner.sides().map(normal);
     let [at_a, at_b] = corner.sides().map(lobe);
-    let scale = |x: Complex<T>, by: T| Complex::new(x.re * by, x.im * by);
     // 1/(2 i sin beta), where beta is the angle between both sides.
     let sine = (a.conj() * b).im;
-    let over = Complex::new(T::zero(), -(sine * 2.0).recip());
+    let over = Complex::new(0.0, -(sine * 2.0).recip());
     // z_1 and conj(z_2) for e = 1: z_1 conj(d) + conj(z_2) d = -exp(i m Phi) on both sides.
     let first = (at_b * a - at_a * b) * over;
     let second = (at_a * b.conj() - at_b * a.conj()) * over;
-    let stiffness = |omega: T| {
+    let stiffness = |omega: f64| {
         let real = machine.casing_stiffness - omega * omega * machine.casing_mass;
         Complex::new(real, omega * machine.casing_damping)
     };
     let (nu, turn) = (machine.nu(speed), speed * f64::from(lobes));
-    let force = scale(stiffness(nu + turn) * first, T::from(2.0));
-    let back = scale((stiffness(nu - turn) * second.conj()).conj(), T::from(2.0));
+    let force = stiffness(nu + turn) * first * 2.0;
+    let back = (stiffness(nu - turn) * second.conj()).conj() * 2.0;
     // Contact forces from sum p d = force, sum p conj(d) = back.
     let of_a = (back * b - force * b.conj()) * over;
     let of_b = (force * a.conj() - back * a) * over;
-    let size = |x: Complex<T>| (x.re * x.re + x.im * x.im).sqrt();
-    let by_push = pushes.into_iter().zip([of_a, of_b].map(size)).map(|(push, by)| push / by);
+    let by_push =
+        pushes.into_iter().zip([of_a, of_b].map(Complex::norm)).map(|(push, by)| push / by);
     let distance = machine.locked_amplitude()?;
     let bisector = place(machine, corner);
     let by_gap = (0..polygon.sides).filter(|side| !corner.sides().contains(side)).map(|side| {
         let d = normal(side);
         let open = machine.apothem(side) + (bisector * d.conj()).re;
-        open / size(first * d.conj() + second * d + lobe(side))
+        open / (first * d.conj() + second * d + lobe(side)).norm()
     });
-    let most = by_push
-        .chain(by_gap)
-        .reduce(|least, next| if next.re() < least.re() { next } else { least })?;
-    (most.re() > 0.0 && most.re() < distance.re()).then_some(most)
+    let most = by_push.chain(by_gap).reduce(f64::min)?;
+    (most > 0.0 && most < distance).then_some(most)
 }
 
 /// Returns the position of the corner between two sides \[m\].
-fn place<T: Number>(machine: &Machine<T>, corner: Corner) -> Complex<T> {
+fn place(machine: &Machine, corner: Corner) -> Complex<f64> {
     let [(x, y), (u, v)] = corner.sides().map(|side| machine.polygon.direction(side));
     let [a, b] = corner.sides().map(|side| machine.apothem(side));
     let sine = x * v - y * u;

@@ -4,31 +4,31 @@
 //! depth `eps`, and `k_p (d - eps/2)` beyond. The lining is conservative: it returns all the energy
 //! that it stores.
 
-use super::{ContactSurface, Number};
+use super::ContactSurface;
 
 /// Force law of the lining under one blade.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LiningLaw<T = f64> {
+pub struct LiningLaw {
     /// Stiffness `k_p` \[N/m\].
-    pub stiffness_n_per_m: T,
+    pub stiffness_n_per_m: f64,
     /// Depth `eps` of the parabolic part; zero for a purely linear law \[m\].
-    pub smoothing_m: T,
+    pub smoothing_m: f64,
 }
 
-impl<T: Number> LiningLaw<T> {
+impl LiningLaw {
     /// Takes the stiffness and the smoothing depth of a contact surface.
     #[must_use]
-    pub fn of(surface: &ContactSurface<T>) -> Self {
+    pub fn of(surface: &ContactSurface) -> Self {
         Self { stiffness_n_per_m: surface.stiffness_n_per_m, smoothing_m: surface.smoothing_m }
     }
 
     /// Returns the contact force at a gap, positive in compression \[N\].
     #[must_use]
-    pub fn push(&self, gap: T) -> T {
+    pub fn push(&self, gap: f64) -> f64 {
         let (depth, k, eps) = (-gap, self.stiffness_n_per_m, self.smoothing_m);
-        if depth.re() <= 0.0 {
-            T::zero()
-        } else if depth.re() < eps.re() {
+        if depth <= 0.0 {
+            0.0
+        } else if depth < eps {
             k * depth * depth / (eps * 2.0)
         } else {
             k * (depth - eps * 0.5)
@@ -37,11 +37,11 @@ impl<T: Number> LiningLaw<T> {
 
     /// Returns the contact stiffness `-dP/dg` at a gap \[N/m\].
     #[must_use]
-    pub fn slope(&self, gap: T) -> T {
+    pub fn slope(&self, gap: f64) -> f64 {
         let (depth, k, eps) = (-gap, self.stiffness_n_per_m, self.smoothing_m);
-        if depth.re() <= 0.0 {
-            T::zero()
-        } else if depth.re() < eps.re() {
+        if depth <= 0.0 {
+            0.0
+        } else if depth < eps {
             k * (depth / eps)
         } else {
             k
@@ -50,11 +50,11 @@ impl<T: Number> LiningLaw<T> {
 
     /// Returns the energy stored at a gap, `-integral of P dg` from the open gap \[J\].
     #[must_use]
-    pub fn energy(&self, gap: T) -> T {
+    pub fn energy(&self, gap: f64) -> f64 {
         let (depth, k, eps) = (-gap, self.stiffness_n_per_m, self.smoothing_m);
-        if depth.re() <= 0.0 {
-            T::zero()
-        } else if depth.re() < eps.re() {
+        if depth <= 0.0 {
+            0.0
+        } else if depth < eps {
             k * depth * depth * depth / (eps * 6.0)
         } else {
             k * (depth * 0.5 * (depth - eps) + eps * eps / 6.0)

@@ -16,17 +16,17 @@
 //! Read [`Machine::lock_windows`] first, then `windows` (the general case) and `Balance` (its
 //! condition as a polynomial).
 
-use super::{Machine, Number};
+use super::Machine;
 use crate::numeric::real_roots::{Coefficients, Point, product, real_roots, sum};
 
 /// Range of rotor speeds at which pushes alone hold a lock, or at which it flutters. Both ends are
 /// magnitudes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LockWindow<T = f64> {
+pub struct LockWindow {
     /// Lowest speed; 0 if the range begins at standstill \[rad/s\].
-    pub from: T,
+    pub from: f64,
     /// Highest speed; `None` if the range is unbounded \[rad/s\].
-    pub to: Option<T>,
+    pub to: Option<f64>,
 }
 
 impl LockWindow {
@@ -35,26 +35,24 @@ impl LockWindow {
     pub fn has(&self, speed: f64) -> bool {
         self.from <= speed && self.to.is_none_or(|to| speed <= to)
     }
-}
 
-impl<T: Number> LockWindow<T> {
     /// Returns the parts of this window outside `other`, in increasing order.
-    pub(crate) fn without(self, other: &Self) -> impl Iterator<Item = Self> + use<T> {
-        let ends_before = |to: T| self.to.is_none_or(|end| end.re() > to.re());
+    pub(crate) fn without(self, other: &Self) -> impl Iterator<Item = Self> + use<> {
+        let ends_before = |to: f64| self.to.is_none_or(|end| end > to);
         let lower = Self {
             from: self.from,
             to: Some(other.from).filter(|to| ends_before(*to)).or(self.to),
         };
         let upper = other.to.filter(|to| ends_before(*to)).map(|to| {
-            let from = if to.re() > self.from.re() { to } else { self.from };
+            let from = if to > self.from { to } else { self.from };
             Self { from, to: self.to }
         });
-        let lower = Some(lower).filter(|_| self.from.re() < other.from.re());
+        let lower = Some(lower).filter(|_| self.from < other.from);
         lower.into_iter().chain(upper)
     }
 }
 
-impl<T: Number> Machine<T> {
+impl Machine {
     /// Returns the lock speed: the lowest speed at which both multipliers of the locked motion are
     /// compressive, for forward rotation \[rad/s\].
     ///
@@ -62,7 +60,7 @@ impl<T: Number> Machine<T> {
     /// `Omega_lock = Omega_c [zeta cot delta + sqrt(1 + zeta^2 cot^2 delta)]`. `None` without
     /// corners, or if no speed has a lock.
     #[must_use]
-    pub fn lock_speed(&self) -> Option<T> {
+    pub fn lock_speed(&self) -> Option<f64> {
         self.lock_windows(1.0).first().map(|window| window.from)
     }
 
@@ -74,31 +72,30 @@ impl<T: Number> Machine<T> {
     /// casing have no closed form. Also empty if inclined tips have modes with other nodal
     /// diameters than the casing: then no single wave closes both gaps.
     #[must_use]
-    pub fn lock_windows(&self, toward: f64) -> Vec<LockWindow<T>> {
-        let slope = self.polygon.delta.tan();
-        if self.clearance_at_rest().re() <= 0.0 {
+    pub fn lock_windows(&self, toward: f64) -> Vec<LockWindow> {
+        if self.clearance_at_rest() <= 0.0 {
             return Vec::new();
         }
-        if self.out_of_round().re() != 0.0 {
+        if self.out_of_round() != 0.0 {
             return self.lock_out_of_round().into_iter().collect();
         }
         if self.has_unequal_tips() {
             return self.windows_of_tips(toward);
         }
         if !self.casing_feels_tips() && self.lining.is_none() {
-            let from = self.threshold(T::from(1.0 / slope));
+            let from = self.threshold(1.0 / self.polygon.delta.tan());
             let window = from.map(|from| LockWindow { from, to: None });
             return self.with_clearance(window.into_iter().collect());
         }
-        let slope = T::from(slope);
-        self.with_clearance(self.windows([(slope, T::one()), (slope, -T::one())], toward))
+        let slope = self.polygon.delta.tan();
+        self.with_clearance(self.windows([(slope, 1.0), (slope, -1.0)], toward))
     }
 
     /// Window for an out-of-round casing whose number of lobes equals `n_d`: the lobes act as the
     /// static force `k_c e` on the casing mode. `None` for other lobe counts, where a largest
     /// height is known instead of a window (`harmonic::roundness`), and in combination with unequal
     /// tips.
-    fn lock_out_of_round(&self) -> Option<LockWindow<T>> {
+    fn lock_out_of_round(&self) -> Option<LockWindow> {
         let lobes = self.tips.as_ref().map_or(0, |tips| tips.lobes);
         let alone = !self.has_unequal_tips() && !self.casing_feels_tips() && self.lining.is_none();
         if lobes != self.polygon.nodal_diameters || !alone || self.changes_with_speed() {
@@ -112,11 +109,11 @@ impl<T: Number> Machine<T> {
     }
 
     /// Cuts the windows off at the speed at which the clearance closes.
-    fn with_clearance(&self, mut windows: Vec<LockWindow<T>>) -> Vec<LockWindow<T>> {
+    fn with_clearance(&self, mut windows: Vec<LockWindow>) -> Vec<LockWindow> {
         if let Some(closed) = self.closing_speed() {
-            windows.retain(|window| window.from.re() < closed.re());
+            windows.retain(|window| window.from < closed);
             for window in &mut windows {
-                window.to = window.to.filter(|to| to.re() < closed.re()).or(Some(closed));
+                window.to = Some(window.to.map_or(closed, |to| to.min(closed)));
             }
         }
         windows
@@ -128,25 +125,24 @@ impl<T: Number> Machine<T> {
     /// without clearance at rest, with friction, because a pull has none, and on a lining, which
     /// cannot pull. For unequal tips also `None` if a lock of pushes begins at a lower speed.
     #[must_use]
-    pub fn adhesive_speed(&self) -> Option<T> {
-        if self.lining.is_some() || self.clearance_at_rest().re() <= 0.0 {
+    pub fn adhesive_speed(&self) -> Option<f64> {
+        if self.lining.is_some() || self.clearance_at_rest() <= 0.0 {
             return None;
         }
         if self.is_uneven() {
             let (corner, windows) = self.lowest_corner(1.0)?;
-            let slope = (-corner.gamma + corner.beta).tan();
-            let known = !self.casing_feels_tips() && self.out_of_round().re() == 0.0;
+            let slope = (corner.beta - corner.gamma).tan();
+            let known = !self.casing_feels_tips() && self.out_of_round() == 0.0;
             // If a lock of pushes begins below this speed, there is no range of adhesive locks.
-            let below = |speed: &T| windows.first().is_none_or(|lock| speed.re() < lock.from.re());
+            let below = |speed: &f64| windows.first().is_none_or(|lock| *speed < lock.from);
             return self.threshold(slope).filter(|speed| known && below(speed));
         }
         let slope = 1.0 / self.polygon.delta.tan();
         let windows = if !self.tips_incline_or_rub() {
-            let from = self.threshold(T::from(self.polygon.delta.tan()));
+            let from = self.threshold(self.polygon.delta.tan());
             from.map(|from| LockWindow { from, to: None }).into_iter().collect()
-        } else if self.friction.re() == 0.0 {
-            let slope = T::from(slope);
-            self.windows([(slope, T::one()), (slope, -T::one())], 1.0)
+        } else if self.friction == 0.0 {
+            self.windows([(slope, 1.0), (slope, -1.0)], 1.0)
         } else {
             Vec::new()
         };
@@ -157,21 +153,21 @@ impl<T: Number> Machine<T> {
     /// and lining both contact forces are equal.
     #[must_use]
     pub fn locks_from_critical_speed(&self) -> bool {
-        self.casing_damping.re() == 0.0 && !self.casing_feels_tips() && self.lining.is_none()
+        self.casing_damping == 0.0 && !self.casing_feels_tips() && self.lining.is_none()
     }
 
-    fn threshold(&self, slope: T) -> Option<T> {
+    fn threshold(&self, slope: f64) -> Option<f64> {
         let x = self.casing_damping_ratio * slope;
         let factor = x + (x * x + 1.0).sqrt();
         let critical = self.critical_speed()?;
-        self.polygon.has_corners().then(|| critical * factor)
+        self.polygon.has_corners().then_some(critical * factor)
     }
 
     /// Returns the windows of speeds at which `slope Re(1/H) + sign Im(1/H) <= 0`, plus the term of
     /// a lining, for both `sides`, each given as `(slope, sign)`. For equal tips without a lining
     /// the two conditions together are `|arg(-1/H)| <= atan(slope)`. The sign of `toward` is the
     /// direction of rotation.
-    pub(super) fn windows(&self, sides: [(T, T); 2], toward: f64) -> Vec<LockWindow<T>> {
+    pub(super) fn windows(&self, sides: [(f64, f64); 2], toward: f64) -> Vec<LockWindow> {
         let Some(critical) = self.critical_speed() else { return Vec::new() };
         if !self.polygon.has_corners() || self.has_other_diameters() {
             return Vec::new();
@@ -181,28 +177,28 @@ impl<T: Number> Machine<T> {
             damping: self.casing_damping_ratio * 2.0,
             // A rotor that turns backward is the mirrored machine: drag and friction both change
             // their sign.
-            friction: self.casing_friction_at(T::one()),
-            coupling: self.coupling_product_at(T::from(toward)) * self.casing_stiffness
+            friction: self.casing_friction_at(1.0),
+            coupling: self.coupling_product_at(toward) * self.casing_stiffness
                 / self.blade_stiffness_at_rest(),
             stiffening: self.stiffening() * (critical / self.omega_bd_at_rest()).powi(2),
-            lining: self.lining.map_or(T::zero(), |lining| {
+            lining: self.lining.map_or(0.0, |lining| {
                 let group = lining.stiffness_n_per_m * f64::from(self.polygon.blades_per_side);
                 self.casing_stiffness / (group * (2.0 * self.polygon.delta).sin())
             }),
         };
-        let speed = |(x, side): (f64, usize)| balance.derived(x, side) * critical;
-        let mut windows: Vec<LockWindow<T>> = Vec::new();
+        let speed = |x: f64| x * critical;
+        let mut windows: Vec<LockWindow> = Vec::new();
         // Whether the interval below the current end has a lock.
         let mut inside = false;
         let mut below = None;
         let ends = balance.ends();
         for place in 0..=ends.len() {
             let end = ends.get(place).copied();
-            let from = below.map_or(0.0, |(x, _)| x);
-            let middle = end.map_or(2.0 * from + 1.0, |(x, _): (f64, usize)| 0.5 * (from + x));
+            let from = below.unwrap_or(0.0);
+            let middle = end.map_or(2.0 * from + 1.0, |x| 0.5 * (from + x));
             let holds = balance.holds(middle);
             if holds && !inside {
-                windows.push(LockWindow { from: below.map_or(T::zero(), speed), to: None });
+                windows.push(LockWindow { from: below.map_or(0.0, speed), to: None });
             }
             if let Some(window) = windows.last_mut().filter(|_| inside && !holds) {
                 window.to = below.map(speed);
@@ -216,9 +212,9 @@ impl<T: Number> Machine<T> {
     /// corners or clearance, if no corner of unequal tips is held, and with inclined tips or a
     /// lining, where the amplitude depends on the speed.
     #[must_use]
-    pub fn locked_amplitude(&self) -> Option<T> {
-        let corners = self.polygon.has_corners() && self.clearance().re() > 0.0;
-        let still = self.radial_coupling.re() == 0.0 && self.lining.is_none();
+    pub fn locked_amplitude(&self) -> Option<f64> {
+        let corners = self.polygon.has_corners() && self.clearance() > 0.0;
+        let still = self.radial_coupling == 0.0 && self.lining.is_none();
         if self.has_unequal_tips() {
             let found = self.lowest_corner(1.0).filter(|_| still && corners);
             return found.map(|(corner, _)| corner.distance);
@@ -235,9 +231,9 @@ impl<T: Number> Machine<T> {
     /// with an interference fit, if inclined tips have modes with other nodal diameters than the
     /// casing, and if no corner of unequal tips is held.
     #[must_use]
-    pub fn locked_multipliers(&self, speed: T) -> Option<[T; 2]> {
+    pub fn locked_multipliers(&self, speed: f64) -> Option<[f64; 2]> {
         let here = self.at(speed);
-        if !here.polygon.has_corners() || here.clearance().re() <= 0.0 {
+        if !here.polygon.has_corners() || here.clearance() <= 0.0 {
             return None;
         }
         let nu = here.nu(speed);
@@ -251,7 +247,7 @@ impl<T: Number> Machine<T> {
             [stiff, drag] = here.with_tips(stiff, drag, speed);
         }
         if here.has_unequal_tips() {
-            let (corner, _) = here.lowest_corner(speed.re())?;
+            let (corner, _) = here.lowest_corner(speed)?;
             let scale = corner.distance / corner.beta.sin();
             let [b, a] = corner.conditions().map(|(own, sign)| (own * stiff + sign * drag) * scale);
             return Some([a, b]);
@@ -263,7 +259,7 @@ impl<T: Number> Machine<T> {
 
     /// Adds the inclined tips and the friction to `1/H`: `stiff` and `drag` are its real and
     /// imaginary part for the casing alone \[N/m\].
-    fn with_tips(&self, stiff: T, drag: T, speed: T) -> [T; 2] {
+    fn with_tips(&self, stiff: f64, drag: f64, speed: f64) -> [f64; 2] {
         let friction = self.casing_friction_at(speed);
         let c = self.coupling_product_at(speed) / self.blade_modal_stiffness;
         let (real, imaginary) = (c * stiff + 1.0, c * drag + friction);
@@ -276,69 +272,40 @@ impl<T: Number> Machine<T> {
 /// The push condition `slope Re(1/H) + sign Im(1/H) <= 0` of each side as a function of the
 /// dimensionless frequency `x = nu/omega_c`, in units of `k_c`. On a lining it has one more term,
 /// the compliance of the lining.
-struct Balance<T> {
+struct Balance {
     /// Slope and sign of the condition of each side.
-    sides: [(T, T); 2],
+    sides: [(f64, f64); 2],
     /// Twice the damping ratio of the casing, `2 zeta_c`.
-    damping: T,
+    damping: f64,
     /// Friction on the casing mode, `mu_c`.
-    friction: T,
+    friction: f64,
     /// `c k_c` of the blades at rest.
-    coupling: T,
+    coupling: f64,
     /// Centrifugal stiffening `b`: the blade stiffness grows by the factor `1 + b x^2`.
-    stiffening: T,
+    stiffening: f64,
     /// `k_c/(k sin 2 delta)` with the stiffness `k` of the lining under one group; 0 without one.
-    lining: T,
+    lining: f64,
 }
 
-impl<T: Number> Balance<T> {
-    /// Returns the left side of the condition at `x`, and its derivative with respect to `x`.
-    fn at(&self, x: T, side: usize) -> (T, T) {
-        let (slope, sign) = self.sides[side];
-        let (stiff, drag) = (-(x * x) + 1.0, self.damping * x);
-        let (stiff_slope, drag_slope) = (x * -2.0, self.damping);
+impl Balance {
+    /// Returns the left side of the condition at `x`.
+    fn at(&self, x: f64, (slope, sign): (f64, f64)) -> f64 {
+        let (stiff, drag) = (1.0 - x * x, self.damping * x);
         let square = stiff * stiff + drag * drag;
-        let stiffer = self.stiffening * x * x + 1.0;
-        let coupling = self.coupling / stiffer;
-        let coupling_slope = -coupling / stiffer * self.stiffening * x * 2.0;
+        let coupling = self.coupling / (1.0 + self.stiffening * x * x);
         let along = stiff + coupling * square + self.friction * drag;
         let across = drag - self.friction * stiff;
-        let square_slope = (stiff * stiff_slope + drag * drag_slope) * 2.0;
-        let along_slope = stiff_slope
-            + coupling * square_slope
-            + coupling_slope * square
-            + self.friction * drag_slope;
-        let across_slope = drag_slope - self.friction * stiff_slope;
-        (
-            along * slope + across * sign + self.lining * square,
-            along_slope * slope + across_slope * sign + self.lining * square_slope,
-        )
+        along * slope + across * sign + self.lining * square
     }
 
     /// Returns whether both sides push at `x`.
     fn holds(&self, x: f64) -> bool {
-        [0, 1].iter().all(|&side| self.at(T::from(x), side).0.re() <= 0.0)
+        self.sides.iter().all(|&side| self.at(x, side) <= 0.0)
     }
 
-    /// Attaches derivatives to a root: each Newton step in dual numbers adds one order.
-    fn derived(&self, root: f64, side: usize) -> T {
-        let mut x = T::from(root);
-        for _ in 0..2 {
-            let (value, slope) = self.at(x, side);
-            let step = value / slope;
-            if step.re().is_finite() {
-                x -= step;
-            }
-        }
-        x
-    }
-
-    /// Returns every positive `x` at which one of the two pushes vanishes, with the index of its
-    /// side.
-    fn ends(&self) -> Vec<(f64, usize)> {
-        let (damping, friction, coupling) =
-            (self.damping.re(), self.friction.re(), self.coupling.re());
-        let stiffening = self.stiffening.re();
+    /// Returns every positive `x` at which one of the two pushes vanishes, in increasing order.
+    fn ends(&self) -> Vec<f64> {
+        let Self { damping, friction, coupling, stiffening, lining, .. } = *self;
         let on = |(own, sign): (f64, f64)| {
             move |from: Point, to: Point| -> Coefficients {
                 let quadratic =
@@ -354,20 +321,20 @@ impl<T: Number> Balance<T> {
                     &product(&drag, &one),
                 );
                 if stiffening == 0.0 {
-                    return sum(1.0, &alone, own * coupling + self.lining.re(), &square);
+                    return sum(1.0, &alone, own * coupling + lining, &square);
                 }
                 let stiffer = quadratic(&|u, v| u.q * v.q + stiffening * u.p * v.p);
-                let rigid = sum(1.0, &alone, self.lining.re(), &square);
+                let rigid = sum(1.0, &alone, lining, &square);
                 let tips = product(&one, &square);
                 sum(1.0, &product(&stiffer, &rigid), own * coupling, &tips)
             }
         };
         let mut ends = Vec::new();
-        for (side, (own, sign)) in self.sides.iter().enumerate() {
-            let roots = real_roots(&on((own.re(), sign.re())), &[0.0, 1.0]);
-            ends.extend(roots.into_iter().filter(|x| *x > 0.0).map(|x| (x, side)));
+        for side in self.sides {
+            let roots = real_roots(&on(side), &[0.0, 1.0]);
+            ends.extend(roots.into_iter().filter(|x| *x > 0.0));
         }
-        ends.sort_by(|a, b| a.0.total_cmp(&b.0));
+        ends.sort_by(f64::total_cmp);
         ends
     }
 }

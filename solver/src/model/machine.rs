@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use super::spin::Spin;
-use super::{BladedDisk, Casing, ContactPolygon, LiningLaw, Number, Tips};
+use super::{BladedDisk, Casing, ContactPolygon, LiningLaw, Tips};
 
 /// Model of one machine for one number of nodal diameters, with two casing and two blade
 /// coordinates.
@@ -15,55 +15,55 @@ use super::{BladedDisk, Casing, ContactPolygon, LiningLaw, Number, Tips};
 /// normalised, so the modal mass of the blades is `N m_b/2`, or `N m_b` where `p_s` vanishes and
 /// only one blade mode is left.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Machine<T = f64> {
+pub struct Machine {
     /// Phase groups, and the contact polygon in the blade frame.
     pub polygon: ContactPolygon,
-    pub(super) clearance: T,
+    pub(super) clearance: f64,
     /// Nodal diameters `n_d`, as a floating-point number.
     pub nodal_diameters: f64,
     /// Casing modal mass `m_c` \[kg\].
-    pub casing_mass: T,
+    pub casing_mass: f64,
     /// Casing modal stiffness `k_c` \[N/m\].
-    pub casing_stiffness: T,
+    pub casing_stiffness: f64,
     /// Casing modal damping `d_c = 2 m_c omega_c zeta_c` \[N s/m\].
-    pub casing_damping: T,
+    pub casing_damping: f64,
     /// Casing damping ratio `zeta_c`.
-    pub casing_damping_ratio: T,
+    pub casing_damping_ratio: f64,
     /// Casing frequency `omega_c = sqrt(k_c/m_c)` \[rad/s\].
-    pub omega_c: T,
+    pub omega_c: f64,
     /// Inertia of one blade `m_b` \[kg m^2\].
-    pub blade_inertia: T,
+    pub blade_inertia: f64,
     /// Modal mass of each blade mode \[kg m^2\].
-    pub blade_modal_mass: T,
+    pub blade_modal_mass: f64,
     /// Modal damping of each blade mode \[N m s/rad\].
-    pub blade_modal_damping: T,
+    pub blade_modal_damping: f64,
     /// Modal stiffness of each blade mode \[N m/rad\].
-    pub blade_modal_stiffness: T,
+    pub blade_modal_stiffness: f64,
     /// Damping ratio of the blade modes `zeta_bd`.
-    pub blade_damping_ratio: T,
+    pub blade_damping_ratio: f64,
     /// Blade frequency at `n_d` nodal diameters, `omega_bd` \[rad/s\].
-    pub omega_bd: T,
+    pub omega_bd: f64,
     /// Largest frequency of the bladed disk over all nodal diameters \[rad/s\].
-    pub omega_bd_max: T,
+    pub omega_bd_max: f64,
     /// Whether the sine mode `p_s` of the disk exists; false if `2 n_b` is a multiple of `N`.
     pub has_sine_mode: bool,
     /// Blade length `l_b` \[m\].
-    pub blade_length: T,
+    pub blade_length: f64,
     /// Slope `kappa` of the tip path: a blade angle `alpha` moves the tip outward by
     /// `kappa l_b alpha`.
-    pub radial_coupling: T,
+    pub radial_coupling: f64,
     /// Nodal diameters `n_b` of the disk modes, as a floating-point number.
     pub blade_diameters: f64,
     /// Ratio `tau` of tangential to radial amplitude of the casing mode.
-    pub tangential_ratio: T,
+    pub tangential_ratio: f64,
     /// Coefficient of friction `mu` for forward rotation; [`new`](Self::new) sets 0.
-    pub friction: T,
+    pub friction: f64,
     /// Lining of the casing under one blade; [`new`](Self::new) sets `None` (rigid contact).
-    pub lining: Option<LiningLaw<T>>,
+    pub lining: Option<LiningLaw>,
     /// Dependence on the rotor speed; `None` if nothing changes with it.
-    pub(super) spin: Option<Spin<T>>,
+    pub(super) spin: Option<Spin>,
     /// Unequal tips and the out-of-round shape; `None` for equal tips in a round casing.
-    pub(crate) tips: Option<Arc<Tips<T>>>,
+    pub(crate) tips: Option<Arc<Tips>>,
 }
 
 /// Factor on the stiffness and mass of blades that are to be rigid. With a larger one squares would
@@ -81,14 +81,12 @@ impl Machine {
             if self.polygon.has_corners() { (2.0 * self.polygon.delta).sin() } else { 1.0 };
         self.casing_mass * fastest * fastest * self.clearance().abs() / spread
     }
-}
 
-impl<T: Number> Machine<T> {
     /// Creates the model of a rotor at rest. The parameters must be valid (see `scene`).
     #[must_use]
-    pub fn new(disk: &BladedDisk<T>, casing: &Casing<T>, nodal_diameters: u32) -> Self {
+    pub fn new(disk: &BladedDisk, casing: &Casing, nodal_diameters: u32) -> Self {
         let clearance = casing.radius_m - disk.blade_length_m;
-        let polygon = ContactPolygon::new(disk.blades, nodal_diameters, clearance.re());
+        let polygon = ContactPolygon::new(disk.blades, nodal_diameters, clearance);
         let blade_diameters = disk.diameters_beside(nodal_diameters);
         let has_sine_mode = (2 * u64::from(blade_diameters)) % u64::from(disk.blades.max(1)) != 0;
         let blades = f64::from(disk.blades);
@@ -117,14 +115,14 @@ impl<T: Number> Machine<T> {
             radial_coupling: disk.radial_coupling,
             blade_diameters: f64::from(blade_diameters),
             tangential_ratio: casing.tangential_ratio,
-            friction: T::from(0.0),
+            friction: 0.0,
             lining: None,
             spin: None,
             tips: None,
         };
         machine.tips = Tips::new(disk, casing, &machine.polygon).map(Arc::new);
         if machine.has_unequal_tips() {
-            let longer = (0..machine.polygon.sides).map(|side| machine.longest_of_side(side).re());
+            let longer = (0..machine.polygon.sides).map(|side| machine.longest_of_side(side));
             machine.polygon.longer = longer.collect();
         }
         machine.spin = Spin::new(disk, casing, &machine);
@@ -133,46 +131,37 @@ impl<T: Number> Machine<T> {
 
     /// Sets the coefficient of friction `mu` between blades and casing.
     #[must_use]
-    pub fn with_friction(self, mu: T) -> Self {
+    pub fn with_friction(self, mu: f64) -> Self {
         Self { friction: mu, ..self }
     }
 
     /// Sets the lining; `None` for rigid contact.
     #[must_use]
-    pub fn with_lining(self, lining: Option<LiningLaw<T>>) -> Self {
+    pub fn with_lining(self, lining: Option<LiningLaw>) -> Self {
         Self { lining, ..self }
     }
 
     /// Removes the damping of casing and blades.
     #[must_use]
     pub fn undamped(self) -> Self {
-        let zero = T::from(0.0);
         Self {
-            casing_damping: zero,
-            casing_damping_ratio: zero,
-            blade_modal_damping: zero,
-            blade_damping_ratio: zero,
-            spin: self.spin.map(|spin| Spin { blade_damping_ratio: zero, ..spin }),
+            casing_damping: 0.0,
+            casing_damping_ratio: 0.0,
+            blade_modal_damping: 0.0,
+            blade_damping_ratio: 0.0,
+            spin: self.spin.map(|spin| Spin { blade_damping_ratio: 0.0, ..spin }),
             ..self
         }
     }
 
-    /// Makes the blades rigid. Their frequency stays, but loses its derivatives.
+    /// Makes the blades rigid. Their frequency stays.
     #[must_use]
     pub fn with_stiff_blades(self) -> Self {
-        let fixed = |value: T| T::from(value.re());
-        let stiff = |value: T| T::from(value.re() * STIFF_BLADES);
         Self {
-            blade_inertia: stiff(self.blade_inertia),
-            blade_modal_mass: stiff(self.blade_modal_mass),
-            blade_modal_damping: stiff(self.blade_modal_damping),
-            blade_modal_stiffness: stiff(self.blade_modal_stiffness),
-            omega_bd: fixed(self.omega_bd),
-            spin: self.spin.map(|spin| Spin {
-                stiffening: fixed(spin.stiffening),
-                omega_bd: fixed(spin.omega_bd),
-                ..spin
-            }),
+            blade_inertia: self.blade_inertia * STIFF_BLADES,
+            blade_modal_mass: self.blade_modal_mass * STIFF_BLADES,
+            blade_modal_damping: self.blade_modal_damping * STIFF_BLADES,
+            blade_modal_stiffness: self.blade_modal_stiffness * STIFF_BLADES,
             ..self
         }
     }
@@ -180,82 +169,43 @@ impl<T: Number> Machine<T> {
     /// Returns the coefficient of friction, signed by the direction of sliding: negative for
     /// backward rotation, zero at standstill.
     #[must_use]
-    pub fn friction_at(&self, speed: T) -> T {
-        if speed.re() < 0.0 {
+    pub fn friction_at(&self, speed: f64) -> f64 {
+        if speed < 0.0 {
             -self.friction
-        } else if speed.re() > 0.0 {
+        } else if speed > 0.0 {
             self.friction
         } else {
-            T::from(0.0)
+            0.0
         }
     }
 
     /// Returns the friction that acts on the casing mode, `mu_c = mu tau`, signed as in
     /// [`friction_at`](Self::friction_at).
     #[must_use]
-    pub fn casing_friction_at(&self, speed: T) -> T {
+    pub fn casing_friction_at(&self, speed: f64) -> f64 {
         self.friction_at(speed) * self.tangential_ratio
     }
 
     /// Returns the first-order coupling of blades and casing through the contact,
     /// `c2 = kappa (kappa + mu) l_b^2` \[m^2\]. It is zero for the paper's tips.
     #[must_use]
-    pub fn coupling_product_at(&self, speed: T) -> T {
+    pub fn coupling_product_at(&self, speed: f64) -> f64 {
         let kappa = self.radial_coupling;
         kappa * (kappa + self.friction_at(speed)) * self.blade_length * self.blade_length
-    }
-
-    /// Drops the derivatives.
-    #[must_use]
-    pub fn plain(&self) -> Machine {
-        self.map(|number| number.re())
-    }
-
-    /// Converts each number with `of`.
-    pub(crate) fn map<U: Number>(&self, of: impl Fn(T) -> U) -> Machine<U> {
-        Machine {
-            polygon: self.polygon.clone(),
-            clearance: of(self.clearance),
-            nodal_diameters: self.nodal_diameters,
-            casing_mass: of(self.casing_mass),
-            casing_stiffness: of(self.casing_stiffness),
-            casing_damping: of(self.casing_damping),
-            casing_damping_ratio: of(self.casing_damping_ratio),
-            omega_c: of(self.omega_c),
-            blade_inertia: of(self.blade_inertia),
-            blade_modal_mass: of(self.blade_modal_mass),
-            blade_modal_damping: of(self.blade_modal_damping),
-            blade_modal_stiffness: of(self.blade_modal_stiffness),
-            blade_damping_ratio: of(self.blade_damping_ratio),
-            omega_bd: of(self.omega_bd),
-            omega_bd_max: of(self.omega_bd_max),
-            has_sine_mode: self.has_sine_mode,
-            blade_length: of(self.blade_length),
-            radial_coupling: of(self.radial_coupling),
-            blade_diameters: self.blade_diameters,
-            tangential_ratio: of(self.tangential_ratio),
-            friction: of(self.friction),
-            lining: self.lining.map(|lining| LiningLaw {
-                stiffness_n_per_m: of(lining.stiffness_n_per_m),
-                smoothing_m: of(lining.smoothing_m),
-            }),
-            spin: self.spin.map(|spin| spin.map(&of)),
-            tips: self.tips.as_ref().map(|tips| Arc::new(tips.map(&of))),
-        }
     }
 
     /// Returns whether inclined tips or friction couple blades and casing at first order; the
     /// paper's model has neither.
     #[must_use]
     pub fn tips_incline_or_rub(&self) -> bool {
-        self.radial_coupling.re() != 0.0 || self.friction.re() != 0.0
+        self.radial_coupling != 0.0 || self.friction != 0.0
     }
 
     /// Returns whether contact forces load the casing mode otherwise than in the paper's model.
     /// Friction alone, on a casing without tangential motion, loads only the blades.
     #[must_use]
     pub fn casing_feels_tips(&self) -> bool {
-        self.radial_coupling.re() != 0.0 || self.casing_friction_at(T::one()).re() != 0.0
+        self.radial_coupling != 0.0 || self.casing_friction_at(1.0) != 0.0
     }
 
     /// Returns whether the disk modes have other nodal diameters than the casing modes.
@@ -266,30 +216,30 @@ impl<T: Number> Machine<T> {
 
     /// Returns the clearance `g0`, `R_c - l_b` at rest \[m\].
     #[must_use]
-    pub fn clearance(&self) -> T {
+    pub fn clearance(&self) -> f64 {
         self.clearance
     }
 
     /// Returns the wave frequency in the blade frame, `nu = n_d Omega` \[rad/s\].
     #[must_use]
-    pub fn nu(&self, speed: T) -> T {
+    pub fn nu(&self, speed: f64) -> f64 {
         speed * self.nodal_diameters
     }
 
     /// Returns the critical speed `Omega_c = omega_c/n_d`, Eq. (17) \[rad/s\]; `None` for
     /// `n_d = 0`.
     #[must_use]
-    pub fn critical_speed(&self) -> Option<T> {
+    pub fn critical_speed(&self) -> Option<f64> {
         (self.nodal_diameters > 0.0).then(|| self.omega_c / self.nodal_diameters)
     }
 
     /// Returns the positive speeds of Eq. (30), `+-omega_c = n_d Omega +- omega_bd`, in increasing
     /// order \[rad/s\]; empty for `n_d = 0`.
     #[must_use]
-    pub fn coincidence_speeds(&self) -> Vec<T> {
+    pub fn coincidence_speeds(&self) -> Vec<f64> {
         let mut speeds = self.coincidence_differences();
         speeds.extend(self.dangerous_speed());
-        speeds.sort_by(|a, b| a.re().total_cmp(&b.re()));
+        speeds.sort_by(f64::total_cmp);
         speeds
     }
 
@@ -298,10 +248,10 @@ impl<T: Number> Machine<T> {
     /// stiffening there are two or none, because the blade wave can overtake the casing wave or
     /// stay ahead of it.
     #[must_use]
-    pub fn coincidence_differences(&self) -> Vec<T> {
+    pub fn coincidence_differences(&self) -> Vec<f64> {
         let (mut speeds, _) = self.meetings(self.omega_c, self.omega_bd_at_rest());
         speeds.iter_mut().for_each(|speed| *speed = speed.abs());
-        speeds.sort_by(|a, b| a.re().total_cmp(&b.re()));
+        speeds.sort_by(f64::total_cmp);
         speeds
     }
 
@@ -309,7 +259,7 @@ impl<T: Number> Machine<T> {
     /// Eq. (31) \[rad/s\]. `None` for `n_d = 0`, and for `B >= n_d^2`, where the blade frequency
     /// grows faster with speed than the wave frequency.
     #[must_use]
-    pub fn dangerous_speed(&self) -> Option<T> {
+    pub fn dangerous_speed(&self) -> Option<f64> {
         self.meetings(self.omega_c, self.omega_bd_at_rest()).1
     }
 
@@ -322,27 +272,27 @@ impl<T: Number> Machine<T> {
     /// `(n^2 - B) Omega^2 - 2 n casing Omega + casing^2 - blades^2 = 0`; the sum is the root with
     /// `n Omega > casing`.
     #[must_use]
-    pub fn meetings(&self, casing: T, blades: T) -> (Vec<T>, Option<T>) {
+    pub fn meetings(&self, casing: f64, blades: f64) -> (Vec<f64>, Option<f64>) {
         let (n, stiffening) = (self.nodal_diameters, self.stiffening());
         if n == 0.0 {
             return (Vec::new(), None);
         }
-        if stiffening.re() == 0.0 {
+        if stiffening == 0.0 {
             return (vec![(casing - blades) / n], Some((casing + blades) / n));
         }
         let apart = (casing - blades) * (casing + blades);
-        let lead = -stiffening + n * n;
+        let lead = n * n - stiffening;
         // Quarter of the discriminant, in a form without cancellation.
         let square = stiffening * apart + blades * blades * (n * n);
-        if square.re() < 0.0 {
+        if square < 0.0 {
             return (Vec::new(), None);
         }
         // First the root without cancellation, then the other from the product of both.
         let far = casing * n + square.sqrt();
         let [near, far] = [apart / far, far / lead];
-        let is_sum = |root: T| root.re() * n > casing.re();
-        let found = [near, far].into_iter().filter(|root| root.re().is_finite());
-        let (sums, differences): (Vec<T>, Vec<T>) = found.partition(|root| is_sum(*root));
+        let is_sum = |root: f64| root * n > casing;
+        let found = [near, far].into_iter().filter(|root| root.is_finite());
+        let (sums, differences): (Vec<f64>, Vec<f64>) = found.partition(|root| is_sum(*root));
         (differences, sums.first().copied())
     }
 
@@ -350,18 +300,18 @@ impl<T: Number> Machine<T> {
     /// Eq. (31), or the difference of Eq. (30) if the friction is self-locking,
     /// `kappa (kappa + mu) < 0`. The sign is that of `speed`. `None` if it does not exist.
     #[must_use]
-    pub fn coincidence_felt_at(&self, speed: T) -> Option<T> {
-        let digs_in = self.coupling_product_at(speed).re() < 0.0;
+    pub fn coincidence_felt_at(&self, speed: f64) -> Option<f64> {
+        let digs_in = self.coupling_product_at(speed) < 0.0;
         let first = || self.coincidence_differences().first().copied();
         let felt = if digs_in { first() } else { self.dangerous_speed() }?;
-        Some(if speed.re() < 0.0 { -felt } else { felt })
+        Some(if speed < 0.0 { -felt } else { felt })
     }
 
     /// Returns the dangerous coincidence for a rotor that turns in the direction of the sign of
     /// `speed` \[rad/s\]. Backward rotation exchanges the two directions of every wave, so it is
     /// `-(omega_c + omega_bd)/n_d`. `None` as in [`dangerous_speed`](Self::dangerous_speed).
     #[must_use]
-    pub fn dangerous_speed_toward(&self, speed: f64) -> Option<T> {
+    pub fn dangerous_speed_toward(&self, speed: f64) -> Option<f64> {
         self.dangerous_speed().map(|forward| if speed < 0.0 { -forward } else { forward })
     }
 }
@@ -369,7 +319,7 @@ impl<T: Number> Machine<T> {
 /// Returns the blade frequency at rest for `nodal_diameters`, from
 /// `omega_bd^2 = (k_b + 2 k_bb (1 - cos(2 pi n_d/N)))/m_b` \[rad/s\].
 #[must_use]
-pub fn blade_frequency<T: Number>(disk: &BladedDisk<T>, nodal_diameters: u32) -> T {
+pub fn blade_frequency(disk: &BladedDisk, nodal_diameters: u32) -> f64 {
     let angle = TAU * f64::from(nodal_diameters % disk.blades.max(1)) / f64::from(disk.blades);
     let stiffness =
         disk.stiffness_nm_per_rad + disk.coupling_nm_per_rad * 2.0 * (1.0 - angle.cos());

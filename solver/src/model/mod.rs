@@ -9,7 +9,6 @@
 mod lining;
 mod lock;
 mod machine;
-mod number;
 mod parameters;
 mod polygon;
 mod spin;
@@ -19,7 +18,6 @@ mod tips;
 pub use lining::LiningLaw;
 pub use lock::LockWindow;
 pub use machine::{Machine, blade_frequency};
-pub use number::Number;
 pub(crate) use parameters::given_frequency;
 pub use parameters::{
     BladedDisk, Casing, ContactSurface, Excitation, Initial, Mode, ModePart, Operation,

@@ -1,7 +1,6 @@
 //! Input data: bladed disk, casing and operation, as in Table 1 of the paper (docs/theory.md,
 //! section 1), with the extensions of sections 10 and 11. Plain data; the allowed values are
-//! defined in `scene`. The number type `T` is `f64` or a dual number (see `Number` in
-//! `model::number`).
+//! defined in `scene`.
 
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
@@ -123,58 +122,56 @@ fn disk_modes<S: Serializer>(modes: &[Mode], out: S) -> Result<S::Ok, S::Error> 
 
 /// A tuned bladed disk of rigid blades on angular springs, Eqs. (2)-(3).
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct BladedDisk<T = f64> {
+pub struct BladedDisk {
     /// Number of blades `N`.
     pub blades: u32,
     /// Blade length `l_b`, from the axis to the tip \[m\].
-    pub blade_length_m: T,
+    pub blade_length_m: f64,
     /// Moment of inertia of one blade about the axis, the paper's `m_b` \[kg m^2\].
-    pub inertia_kg_m2: T,
+    pub inertia_kg_m2: f64,
     /// Blade-to-disk stiffness `k_b` \[N m/rad\].
-    pub stiffness_nm_per_rad: T,
+    pub stiffness_nm_per_rad: f64,
     /// Blade-to-blade stiffness `k_bb` \[N m/rad\].
-    pub coupling_nm_per_rad: T,
+    pub coupling_nm_per_rad: f64,
     /// Viscous damping ratio of every blade mode at rest, `zeta_bd`.
-    pub damping_ratio: T,
+    pub damping_ratio: f64,
     /// Centrifugal stiffening `B`: at the speed `Omega` every blade frequency is
     /// `sqrt(omega^2 + B Omega^2)`.
-    pub centrifugal_stiffening: T,
+    pub centrifugal_stiffening: f64,
     /// Slope `kappa` of the tip path: a blade angle `alpha` moves the tip outward by
     /// `kappa l_b alpha`; 0 for the paper's tips.
-    pub radial_coupling: T,
+    pub radial_coupling: f64,
     /// Nodal diameters `n_b` of the disk modes; 0 means those of the casing.
     pub nodal_diameters: u32,
     /// Standard deviation of the stiffness `k_b` over the blades, relative to its mean.
-    pub mistuning: T,
+    pub mistuning: f64,
     /// Seed of the random stiffnesses.
     pub mistuning_seed: u32,
     /// Excess length of each blade over `blade_length_m`, one value for each blade; empty if not
     /// given \[m\].
     pub tips_m: Vec<f64>,
     /// Standard deviation of a random excess length that is added to `tips_m` \[m\].
-    pub tip_scatter_m: T,
+    pub tip_scatter_m: f64,
     /// Seed of the random tip lengths.
     pub tip_seed: u32,
     /// Excess length of blade 1, in addition to the two above \[m\].
-    pub longest_tip_m: T,
+    pub longest_tip_m: f64,
     /// Distance of the rotor centre from the axis \[m\].
-    pub orbit_m: T,
+    pub orbit_m: f64,
     /// Direction of that eccentricity in the rotor frame \[rad\].
-    pub orbit_angle_rad: T,
+    pub orbit_angle_rad: f64,
     /// Modes with values of their own, one for each number of nodal diameters.
     #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "disk_modes")]
     pub modes: Vec<Mode>,
 }
 
-impl<T> BladedDisk<T> {
+impl BladedDisk {
     /// Returns the nodal diameters of the disk modes for a casing with `casing` nodal diameters.
     #[must_use]
     pub fn diameters_beside(&self, casing: u32) -> u32 {
         if self.nodal_diameters == 0 { casing } else { self.nodal_diameters }
     }
-}
 
-impl BladedDisk {
     /// Returns whether the blades stiffen with speed in any mode.
     #[must_use]
     pub fn stiffens(&self) -> bool {
@@ -202,31 +199,6 @@ impl BladedDisk {
             tips_m: self.tips_m.clone(),
             modes: Vec::new(),
             ..*self
-        }
-    }
-
-    /// Converts the numbers to `T`; drops the list of modes.
-    #[must_use]
-    pub fn to<T: From<f64>>(&self) -> BladedDisk<T> {
-        BladedDisk {
-            blades: self.blades,
-            blade_length_m: self.blade_length_m.into(),
-            inertia_kg_m2: self.inertia_kg_m2.into(),
-            stiffness_nm_per_rad: self.stiffness_nm_per_rad.into(),
-            coupling_nm_per_rad: self.coupling_nm_per_rad.into(),
-            damping_ratio: self.damping_ratio.into(),
-            centrifugal_stiffening: self.centrifugal_stiffening.into(),
-            radial_coupling: self.radial_coupling.into(),
-            nodal_diameters: self.nodal_diameters,
-            mistuning: self.mistuning.into(),
-            mistuning_seed: self.mistuning_seed,
-            tips_m: self.tips_m.clone(),
-            tip_scatter_m: self.tip_scatter_m.into(),
-            tip_seed: self.tip_seed,
-            longest_tip_m: self.longest_tip_m.into(),
-            orbit_m: self.orbit_m.into(),
-            orbit_angle_rad: self.orbit_angle_rad.into(),
-            modes: Vec::new(),
         }
     }
 
@@ -271,27 +243,27 @@ impl Default for BladedDisk {
 
 /// The casing, reduced to its two modes with `n_d` nodal diameters, Eqs. (5)-(6).
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Casing<T = f64> {
+pub struct Casing {
     /// Inner radius `R_c` \[m\].
-    pub radius_m: T,
+    pub radius_m: f64,
     /// Modal mass `m_c` \[kg\].
-    pub modal_mass_kg: T,
+    pub modal_mass_kg: f64,
     /// Modal stiffness `k_c` \[N/m\].
-    pub modal_stiffness_n_per_m: T,
+    pub modal_stiffness_n_per_m: f64,
     /// Viscous damping ratio `zeta_c`.
-    pub damping_ratio: T,
+    pub damping_ratio: f64,
     /// Ratio `tau` of tangential to radial amplitude of the mode at the inner face: 0 for the
     /// paper's radial casing, `1/n_d` for an inextensible ring.
-    pub tangential_ratio: T,
+    pub tangential_ratio: f64,
     /// Loss of clearance by growth of blades and disk, `c`: at the speed `Omega` the clearance is
     /// `R_c - l_b - c Omega^2` \[m s^2\].
-    pub clearance_loss_m_s2: T,
+    pub clearance_loss_m_s2: f64,
     /// Number of lobes `m` of an out-of-round casing.
     pub lobes: u32,
     /// Height `e` of the lobes \[m\].
-    pub out_of_round_m: T,
+    pub out_of_round_m: f64,
     /// Phase `psi` of the lobes: the shape is `e cos(m phi - psi)` \[rad\].
-    pub out_of_round_angle_rad: T,
+    pub out_of_round_angle_rad: f64,
     /// Modes with values of their own, one for each number of nodal diameters.
     #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "casing_modes")]
     pub modes: Vec<Mode>,
@@ -314,23 +286,6 @@ impl Casing {
             damping_ratio: of(ModePart::Damping, self.damping_ratio),
             modes: Vec::new(),
             ..*self
-        }
-    }
-
-    /// Converts the numbers to `T`; drops the list of modes.
-    #[must_use]
-    pub fn to<T: From<f64>>(&self) -> Casing<T> {
-        Casing {
-            radius_m: self.radius_m.into(),
-            modal_mass_kg: self.modal_mass_kg.into(),
-            modal_stiffness_n_per_m: self.modal_stiffness_n_per_m.into(),
-            damping_ratio: self.damping_ratio.into(),
-            tangential_ratio: self.tangential_ratio.into(),
-            clearance_loss_m_s2: self.clearance_loss_m_s2.into(),
-            lobes: self.lobes,
-            out_of_round_m: self.out_of_round_m.into(),
-            out_of_round_angle_rad: self.out_of_round_angle_rad.into(),
-            modes: Vec::new(),
         }
     }
 
@@ -367,15 +322,15 @@ impl Default for Casing {
 
 /// Contact properties beyond the paper: friction, restitution and lining.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct ContactSurface<T = f64> {
+pub struct ContactSurface {
     /// Coefficient of Coulomb friction `mu`; the direction of sliding is that of the rotor.
-    pub friction: T,
+    pub friction: f64,
     /// Coefficient of restitution `e` of impacts.
-    pub restitution: T,
+    pub restitution: f64,
     /// Stiffness `k_p` of the lining under one blade, used by the smooth law \[N/m\].
-    pub stiffness_n_per_m: T,
+    pub stiffness_n_per_m: f64,
     /// Depth `eps` over which the lining reaches that stiffness \[m\].
-    pub smoothing_m: T,
+    pub smoothing_m: f64,
 }
 
 impl Default for ContactSurface {
@@ -388,17 +343,17 @@ impl Default for ContactSurface {
 
 /// Operating condition: nodal diameters, rotor speed and pulse.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Operation<T = f64> {
+pub struct Operation {
     /// Nodal diameters `n_d` of the retained modes.
     pub nodal_diameters: u32,
     /// Rotor speed `Omega` at t = 0; positive is counter-clockwise \[rad/s\].
-    pub speed_rad_s: T,
+    pub speed_rad_s: f64,
     /// Constant angular acceleration of the rotor \[rad/s^2\].
-    pub speed_ramp_rad_s2: T,
+    pub speed_ramp_rad_s2: f64,
     /// Force of the rectangular pulse on the equation of `u_c` \[N\].
-    pub pulse_n: T,
+    pub pulse_n: f64,
     /// Duration `t_p` of the pulse, which begins at t = 0 \[s\].
-    pub pulse_s: T,
+    pub pulse_s: f64,
 }
 
 impl Default for Operation {
@@ -416,15 +371,15 @@ impl Default for Operation {
 
 /// Casing state at t = 0; the default is rest.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Initial<T = f64> {
+pub struct Initial {
     /// Displacement `u_c` \[m\].
-    pub u_c_m: T,
+    pub u_c_m: f64,
     /// Displacement `u_s` \[m\].
-    pub u_s_m: T,
+    pub u_s_m: f64,
     /// Velocity of `u_c` \[m/s\].
-    pub v_c_m_s: T,
+    pub v_c_m_s: f64,
     /// Velocity of `u_s` \[m/s\].
-    pub v_s_m_s: T,
+    pub v_s_m_s: f64,
 }
 
 /// Engine-order excitation: the torque `amplitude cos(order (theta + Phi_i))` on every blade, a

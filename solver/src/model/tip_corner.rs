@@ -8,71 +8,70 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::{LockWindow, Machine, Number};
+use super::{LockWindow, Machine};
 
 /// Corner between two neighbouring sides that remain part of the polygon.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TipCorner<T = f64> {
+pub struct TipCorner {
     /// Sides `a` and `b`, in the direction of increasing phase.
     pub sides: [u32; 2],
     /// Angle from the outward normal of `a` to the corner, positive towards increasing phase
     /// \[rad\].
-    pub gamma: T,
+    pub gamma: f64,
     /// Angle between both normals \[rad\].
     pub beta: f64,
     /// Distance of the corner from the centre of the polygon \[m\].
-    pub distance: T,
+    pub distance: f64,
 }
 
-impl<T: Number> TipCorner<T> {
+impl TipCorner {
     /// Returns slope and sign of the two conditions `slope Re(1/H) + sign Im(1/H) <= 0` under which
     /// sides `b` and `a` push.
-    pub(super) fn conditions(&self) -> [(T, T); 2] {
-        let rest = -self.gamma + self.beta;
+    pub(super) fn conditions(&self) -> [(f64, f64); 2] {
+        let rest = self.beta - self.gamma;
         [(self.gamma.sin(), self.gamma.cos()), (rest.sin(), -rest.cos())]
     }
 
     /// Returns the speeds, in units of `omega_c/n_d`, at which both sides push for the casing
     /// damping ratio `damping`, without friction and inclined tips. The sign of `toward` is the
     /// direction of rotation. `None` if pushes hold the corner at no speed.
-    pub(super) fn window(&self, damping: T, toward: f64) -> Option<LockWindow<T>> {
-        let gamma = if toward < 0.0 { -self.gamma + self.beta } else { self.gamma };
-        let at = |angle: T| {
+    pub(super) fn window(&self, damping: f64, toward: f64) -> Option<LockWindow> {
+        let gamma = if toward < 0.0 { self.beta - self.gamma } else { self.gamma };
+        let at = |angle: f64| {
             let x = damping / angle.tan();
             x + (x * x + 1.0).sqrt()
         };
-        if gamma.re() <= 0.0 {
+        if gamma <= 0.0 {
             // The drag of a slow wave acts nearly opposite to the corner, which may then be held
             // from standstill on.
             let turned = gamma - self.beta + TAU;
-            let held = turned.re() < PI;
-            return held.then(|| LockWindow { from: T::from(0.0), to: Some(at(turned)) });
+            let held = turned < PI;
+            return held.then(|| LockWindow { from: 0.0, to: Some(at(turned)) });
         }
         let beyond = gamma - self.beta;
-        let to = (beyond.re() > 0.0).then(|| at(beyond));
+        let to = (beyond > 0.0).then(|| at(beyond));
         Some(LockWindow { from: at(gamma), to })
     }
 }
 
-impl<T: Number> Machine<T> {
+impl Machine {
     /// Returns every corner of the polygon at the current clearance.
     #[must_use]
-    pub fn tip_corners(&self) -> Vec<TipCorner<T>> {
+    pub fn tip_corners(&self) -> Vec<TipCorner> {
         let sides = 0..self.polygon.sides;
-        let left =
-            self.polygon.sides_left(&sides.map(|k| self.apothem(k).re()).collect::<Vec<_>>());
+        let left = self.polygon.sides_left(&sides.map(|k| self.apothem(k)).collect::<Vec<_>>());
         let met = left.into_iter().filter(|left| left.next != left.side);
         met.map(|left| self.tip_corner([left.side, left.next])).collect()
     }
 
     /// As [`tip_corners`](Self::tip_corners), with one corner of each run of equal neighbours.
-    fn other_tip_corners(&self) -> Vec<TipCorner<T>> {
+    fn other_tip_corners(&self) -> Vec<TipCorner> {
         let mut corners = self.tip_corners();
-        corners.dedup_by(|one, other| one.gamma.re() == other.gamma.re() && one.beta == other.beta);
+        corners.dedup_by(|one, other| one.gamma == other.gamma && one.beta == other.beta);
         corners
     }
 
-    fn tip_corner(&self, sides: [u32; 2]) -> TipCorner<T> {
+    fn tip_corner(&self, sides: [u32; 2]) -> TipCorner {
         let [a, b] = sides.map(|side| self.apothem(side));
         let polygon = &self.polygon;
         let steps = (sides[1] + polygon.sides - sides[0]) % polygon.sides;
@@ -86,41 +85,36 @@ impl<T: Number> Machine<T> {
     /// turns in the direction of the sign of `toward`. `None` if no corner is held, and where there
     /// is no closed form: on a lining, and with a clearance that changes with speed.
     #[must_use]
-    pub fn lowest_corner(&self, toward: f64) -> Option<(TipCorner<T>, Vec<LockWindow<T>>)> {
+    pub fn lowest_corner(&self, toward: f64) -> Option<(TipCorner, Vec<LockWindow>)> {
         if !self.knows_tip_corners() {
             return None;
         }
-        // The corner is selected in plain numbers; only its own formula carries derivatives.
-        let plain = self.plain();
-        let from = |corner: &TipCorner| plain.windows_of(corner, toward).first().map(|of| of.from);
-        let found = plain.other_tip_corners().into_iter();
-        let lowest = found
-            .filter_map(|corner| Some((from(&corner)?, corner.sides)))
-            .min_by(|one, other| one.0.total_cmp(&other.0))?;
-        let corner = self.tip_corner(lowest.1);
-        let windows = self.windows_of(&corner, toward);
-        Some((corner, windows))
+        let corners = self.other_tip_corners().into_iter();
+        let held = corners.map(|corner| (corner, self.windows_of(&corner, toward)));
+        let lowest = |windows: &[LockWindow]| windows.first().map_or(f64::INFINITY, |of| of.from);
+        held.filter(|(_, windows)| !windows.is_empty())
+            .min_by(|(_, one), (_, other)| lowest(one).total_cmp(&lowest(other)))
     }
 
     /// Whether the closed form for corners of unequal tips applies.
     fn knows_tip_corners(&self) -> bool {
-        self.polygon.has_corners() && self.lining.is_none() && self.clearance_loss().re() == 0.0
+        self.polygon.has_corners() && self.lining.is_none() && self.clearance_loss() == 0.0
     }
 
     /// Returns the disjoint windows of speeds at which pushes hold at least one corner, in
     /// increasing order; empty where there is no closed form.
-    pub(super) fn windows_of_tips(&self, toward: f64) -> Vec<LockWindow<T>> {
+    pub(super) fn windows_of_tips(&self, toward: f64) -> Vec<LockWindow> {
         if !self.knows_tip_corners() {
             return Vec::new();
         }
         let corners = self.other_tip_corners();
         let mut all: Vec<_> =
             corners.iter().flat_map(|corner| self.windows_of(corner, toward)).collect();
-        all.sort_by(|one, other| one.from.re().total_cmp(&other.from.re()));
-        let mut apart: Vec<LockWindow<T>> = Vec::new();
+        all.sort_by(|one, other| one.from.total_cmp(&other.from));
+        let mut apart: Vec<LockWindow> = Vec::new();
         for window in all {
-            let end = |window: &LockWindow<T>| window.to.map_or(f64::INFINITY, |to| to.re());
-            match apart.last_mut().filter(|last| window.from.re() <= end(last)) {
+            let end = |window: &LockWindow| window.to.unwrap_or(f64::INFINITY);
+            match apart.last_mut().filter(|last| window.from <= end(last)) {
                 Some(last) if end(&window) > end(last) => last.to = window.to,
                 Some(_) => {}
                 None => apart.push(window),
@@ -132,7 +126,7 @@ impl<T: Number> Machine<T> {
     /// Returns the windows of speeds at which pushes hold one corner, for a rotor that turns in the
     /// direction of the sign of `toward`.
     #[must_use]
-    pub fn windows_of(&self, corner: &TipCorner<T>, toward: f64) -> Vec<LockWindow<T>> {
+    pub fn windows_of(&self, corner: &TipCorner, toward: f64) -> Vec<LockWindow> {
         if self.casing_feels_tips() {
             return self.windows(corner.conditions(), toward);
         }

@@ -8,55 +8,55 @@ use std::f64::consts::TAU;
 
 use nalgebra::Complex;
 
-use super::{BladedDisk, Casing, ContactPolygon, Machine, Number};
+use super::{BladedDisk, Casing, ContactPolygon, Machine};
 use crate::numeric::normal::normals;
 
 type Plane = Complex<f64>;
 
 /// Excess lengths of the tips, and the shape of the casing.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Tips<T = f64> {
+pub(crate) struct Tips {
     /// Excess length `b_i` of each blade over the nominal one, including the share of an eccentric
     /// rotor centre \[m\].
-    longer: Vec<T>,
+    longer: Vec<f64>,
     /// Largest excess length on each side \[m\].
-    of_sides: Vec<T>,
+    of_sides: Vec<f64>,
     /// Number of lobes `m`.
     pub lobes: u32,
     /// Height `e` \[m\] and phase `psi` \[rad\] of the lobes.
-    pub out_of_round: T,
-    pub angle: T,
+    pub out_of_round: f64,
+    pub angle: f64,
 }
 
-impl<T: Number> Tips<T> {
+impl Tips {
     /// Creates the tips of a machine; `None` for equal tips in a round casing.
-    pub fn new(disk: &BladedDisk<T>, casing: &Casing<T>, polygon: &ContactPolygon) -> Option<Self> {
+    pub fn new(disk: &BladedDisk, casing: &Casing, polygon: &ContactPolygon) -> Option<Self> {
         let numbers = [disk.tip_scatter_m, disk.longest_tip_m, disk.orbit_m, casing.out_of_round_m];
         let own = disk.tips_m.iter().any(|b| *b != 0.0);
-        if !own && numbers.iter().all(|number| number.re() == 0.0) {
+        if !own && numbers.iter().all(|number| *number == 0.0) {
             return None;
         }
-        let drawn = match disk.tip_scatter_m.re() {
+        let drawn = match disk.tip_scatter_m {
             0.0 => Vec::new(),
             _ => normals(disk.tip_seed, disk.blades),
         };
         let mean = drawn.iter().sum::<f64>() / f64::from(disk.blades);
         let at = |list: &[f64], place: u32| list.get(place as usize).copied();
-        let longer: Vec<T> = (0..disk.blades)
+        let longer: Vec<f64> = (0..disk.blades)
             .map(|place| {
                 let phi = TAU * f64::from(place) / f64::from(disk.blades);
                 let scatter = at(&drawn, place).map_or(0.0, |x| x - mean);
                 let first = if place == 0 { 1.0 } else { 0.0 };
                 disk.tip_scatter_m * scatter
                     + disk.longest_tip_m * first
-                    + disk.orbit_m * (-disk.orbit_angle_rad + phi).cos()
+                    + disk.orbit_m * (phi - disk.orbit_angle_rad).cos()
                     + at(&disk.tips_m, place).unwrap_or(0.0)
             })
             .collect();
-        let mut of_sides: Vec<Option<T>> = vec![None; polygon.sides as usize];
+        let mut of_sides: Vec<Option<f64>> = vec![None; polygon.sides as usize];
         for (blade, b) in (1..).zip(&longer) {
             let longest = &mut of_sides[polygon.side_of_blade(blade) as usize];
-            *longest = Some(longest.filter(|known| known.re() >= b.re()).unwrap_or(*b));
+            *longest = Some(longest.filter(|known| known >= b).unwrap_or(*b));
         }
         Some(Self {
             longer,
@@ -67,31 +67,19 @@ impl<T: Number> Tips<T> {
         })
     }
 
-    /// Converts each number with `of`.
-    pub fn map<U: Number>(&self, of: impl Fn(T) -> U) -> Tips<U> {
-        let all = |list: &[T]| list.iter().map(|b| of(*b)).collect();
-        Tips {
-            longer: all(&self.longer),
-            of_sides: all(&self.of_sides),
-            lobes: self.lobes,
-            out_of_round: of(self.out_of_round),
-            angle: of(self.angle),
-        }
-    }
-
     /// Returns the excess length of a blade, numbered from 0 \[m\].
-    pub fn longer(&self, blade: u32) -> T {
-        self.longer.get(blade as usize).copied().unwrap_or_else(T::zero)
+    pub fn longer(&self, blade: u32) -> f64 {
+        self.longer.get(blade as usize).copied().unwrap_or(0.0)
     }
 
     /// Returns whether all tips have the same length.
     pub fn are_equal(&self) -> bool {
-        let first = self.longer(0).re();
-        self.longer.iter().all(|b| b.re() == first)
+        let first = self.longer(0);
+        self.longer.iter().all(|b| *b == first)
     }
 }
 
-impl<T: Number> Machine<T> {
+impl Machine {
     /// Returns whether tips differ or the casing is out of round.
     #[must_use]
     pub fn is_uneven(&self) -> bool {
@@ -106,21 +94,21 @@ impl<T: Number> Machine<T> {
 
     /// Returns the lobe height `e` of the casing \[m\].
     #[must_use]
-    pub fn out_of_round(&self) -> T {
-        self.tips.as_ref().map_or_else(T::zero, |tips| tips.out_of_round)
+    pub fn out_of_round(&self) -> f64 {
+        self.tips.as_ref().map_or(0.0, |tips| tips.out_of_round)
     }
 
     /// Returns the excess length of the longest tip on a side \[m\].
     #[must_use]
-    pub fn longest_of_side(&self, side: u32) -> T {
-        let of_side = |tips: &Tips<T>| tips.of_sides.get(side as usize).copied();
-        self.tips.as_ref().and_then(|tips| of_side(tips)).unwrap_or_else(T::zero)
+    pub fn longest_of_side(&self, side: u32) -> f64 {
+        let of_side = |tips: &Tips| tips.of_sides.get(side as usize).copied();
+        self.tips.as_ref().and_then(|tips| of_side(tips)).unwrap_or(0.0)
     }
 
     /// Returns the apothem of a side, `h = g0 - b` with its longest tip \[m\]. A negative apothem
     /// excludes the centre from the polygon.
     #[must_use]
-    pub fn apothem(&self, side: u32) -> T {
+    pub fn apothem(&self, side: u32) -> f64 {
         if self.tips.is_none() {
             self.clearance
         } else {
@@ -130,21 +118,18 @@ impl<T: Number> Machine<T> {
 
     /// Returns the smallest possible gap with the casing undeformed, `g0 - e - max b` \[m\].
     #[must_use]
-    pub fn least_clearance(&self) -> T {
+    pub fn least_clearance(&self) -> f64 {
         self.clearance - self.most_uneven()
     }
 
     /// Returns the largest possible reduction of a gap below the clearance, `e + max b` \[m\].
     #[must_use]
-    pub fn most_uneven(&self) -> T {
-        let Some(tips) = &self.tips else { return T::zero() };
-        let longest =
-            tips.longer.iter().copied().reduce(|a, b| if a.re() < b.re() { b } else { a });
-        tips.out_of_round + longest.unwrap_or_else(T::zero)
+    pub fn most_uneven(&self) -> f64 {
+        let Some(tips) = &self.tips else { return 0.0 };
+        let longest = tips.longer.iter().copied().reduce(f64::max);
+        tips.out_of_round + longest.unwrap_or(0.0)
     }
-}
 
-impl Machine {
     /// Returns the difference of a blade's gap from the clearance at the rotor angle `theta`,
     /// `e cos(m (theta + Phi_i) - psi) - b_i` \[m\]. The blade is numbered from 0.
     #[must_use]

@@ -13,7 +13,7 @@
 use std::f64::consts::PI;
 
 use super::Plane;
-use crate::model::{Machine, Number, Operation};
+use crate::model::{Machine, Operation};
 use crate::numeric::quadrature::quadrature;
 
 /// Part of the rates below which two roots of an oscillator are nearly one: a
@@ -36,38 +36,38 @@ const TERMS: usize = 18;
 
 /// Coefficients of the equation, prepared for evaluation at any time.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Propagator<T = f64> {
+pub(super) struct Propagator {
     /// Damping `c` \[1/s\], zero or more.
-    pub damping: T,
+    pub damping: f64,
     /// Stiffness per unit mass, of any sign \[1/s^2\].
-    pub stiffness: T,
+    pub stiffness: f64,
     /// Discriminant `c^2 - stiffness`; negative for complex roots.
-    discriminant: T,
+    discriminant: f64,
     /// Square root of the magnitude of the discriminant.
-    root: T,
+    root: f64,
 }
 
 /// Response at one instant.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Response<T = f64> {
+pub(super) struct Response {
     /// Motion from unit displacement with zero rate, `1 - stiffness ramp`.
-    pub hold: T,
+    pub hold: f64,
     /// Motion from rest with unit rate \[s\].
-    pub unit: T,
+    pub unit: f64,
     /// Rate of `unit`.
-    pub slope: T,
+    pub slope: f64,
     /// Motion from rest under unit forcing \[s^2\].
-    pub ramp: T,
+    pub ramp: f64,
 }
 
-impl<T: Number> Propagator<T> {
-    pub(super) fn new(damping: T, stiffness: T) -> Self {
+impl Propagator {
+    pub(super) fn new(damping: f64, stiffness: f64) -> Self {
         let discriminant = damping * damping - stiffness;
         Self { damping, stiffness, discriminant, root: discriminant.abs().sqrt() }
     }
 
     /// Returns the response after `s >= 0` seconds.
-    pub(super) fn at(&self, s: T) -> Response<T> {
+    pub(super) fn at(&self, s: f64) -> Response {
         let (c, q) = (self.damping, self.root);
         if self.discriminant > 0.0 && q * s > 0.2 {
             self.real_roots(s)
@@ -81,9 +81,8 @@ impl<T: Number> Propagator<T> {
                 let (sin, cos) = (q * s).sin_cos();
                 (cos, sin / q)
             } else {
-                // At a double root the value and its derivative are those of the series.
-                let part = self.discriminant * s * s;
-                (part * 0.5 + 1.0, s * (part / 6.0 + 1.0))
+                // A double root.
+                (1.0, s)
             };
             let decay = (-c * s).exp();
             let unit = decay * sin;
@@ -92,17 +91,17 @@ impl<T: Number> Propagator<T> {
                 hold,
                 unit,
                 slope: decay * cos - c * unit,
-                ramp: (-hold + 1.0) / self.stiffness,
+                ramp: (1.0 - hold) / self.stiffness,
             }
         }
     }
 
-    fn real_roots(&self, s: T) -> Response<T> {
+    fn real_roots(&self, s: f64) -> Response {
         let (c, q) = (self.damping, self.root);
         let (slow, fast) = (-self.stiffness / (c + q), -(c + q));
         let ([late, later], [early, earlier]) = (exponential(slow * s), exponential(fast * s));
         // Integral of exp(r s) from 0, smooth at r = 0.
-        let integral = |r: T, less: T| if r == 0.0 { s } else { less / r };
+        let integral = |r: f64, less: f64| if r == 0.0 { s } else { less / r };
         let unit = (later - earlier) / (q * 2.0);
         let slope = (slow * late - fast * early) / (q * 2.0);
         Response {
@@ -114,12 +113,12 @@ impl<T: Number> Propagator<T> {
     }
 
     /// Evaluates the power series, for short times.
-    fn series(&self, s: T) -> Response<T> {
+    fn series(&self, s: f64) -> Response {
         let drag = self.damping * 2.0 * s;
         let spring = self.stiffness * s * s;
         // `term` is the coefficient of s^n times s^(n-1), starting with n = 1.
-        let (mut before, mut term) = (T::zero(), T::one());
-        let (mut slope, mut unit, mut ramp) = (T::one(), T::one(), T::from(0.5));
+        let (mut before, mut term) = (0.0, 1.0);
+        let (mut slope, mut unit, mut ramp) = (1.0, 1.0, 0.5);
         for row in &STEPS {
             let next = -(drag * term + spring * before * row.over_n) * row.over_next;
             before = term;
@@ -131,7 +130,7 @@ impl<T: Number> Propagator<T> {
                 break;
             }
         }
-        Response { hold: -(spring * ramp) + 1.0, unit: unit * s, slope, ramp: ramp * s * s }
+        Response { hold: 1.0 - spring * ramp, unit: unit * s, slope, ramp: ramp * s * s }
     }
 }
 
@@ -174,7 +173,7 @@ impl Propagator {
 }
 
 /// Returns `exp(x)` and `exp(x) - 1`, both to full relative accuracy, from a single exponential.
-fn exponential<T: Number>(x: T) -> [T; 2] {
+fn exponential(x: f64) -> [f64; 2] {
     if x < -0.5 {
         let value = x.exp();
         [value, value - 1.0]
@@ -212,37 +211,42 @@ const STEPS: [Step; TERMS] = {
 
 /// Free motion of the casing from rest to its first contact, with rigid blades.
 #[derive(Clone, Copy, Debug)]
-pub struct FreeFlight<'a, T> {
+pub struct FreeFlight<'a> {
     /// Machine, whose blades are taken as rigid.
-    pub machine: &'a Machine<T>,
+    pub machine: &'a Machine,
     /// Rotor speed and pulse.
-    pub operation: &'a Operation<T>,
+    pub operation: &'a Operation,
 }
 
-impl<T: Number> FreeFlight<'_, T> {
-    /// Returns the casing displacement at `t` per unit of pulse force \[m/N\], and the rotation of
-    /// the blades relative to the wave until then \[rad\].
+impl FreeFlight<'_> {
+    /// Returns the casing displacement at `t` per unit of pulse force \[m/N\], the rotation of the
+    /// blades relative to the wave until then \[rad\], and the rates of both.
     #[must_use]
-    pub fn moved_by_pulse(&self, t: T) -> (T, T) {
+    pub fn moved_by_pulse(&self, t: f64) -> [(f64, f64); 2] {
         let Self { machine, operation } = *self;
         let omega = machine.omega_c;
         let flight = Propagator::new(machine.casing_damping_ratio * omega, omega * omega);
-        let mut ramp = flight.at(t).ramp;
-        if t.re() > operation.pulse_s.re() {
-            ramp -= flight.at(t - operation.pulse_s).ramp;
+        let Response { mut ramp, mut unit, .. } = flight.at(t);
+        if t > operation.pulse_s {
+            let less = flight.at(t - operation.pulse_s);
+            (ramp, unit) = (ramp - less.ramp, unit - less.unit);
         }
-        let rotor = (operation.speed_rad_s + operation.speed_ramp_rad_s2 * t * 0.5) * t;
-        (ramp / machine.casing_mass, machine.nu(rotor))
+        let gained = operation.speed_ramp_rad_s2 * t;
+        let [angle, speed] =
+            [(operation.speed_rad_s + 0.5 * gained) * t, operation.speed_rad_s + gained];
+        let mass = machine.casing_mass;
+        [(ramp / mass, machine.nu(angle)), (unit / mass, machine.nu(speed))]
     }
 
-    /// Returns the change of a side's gap at `t` per unit of pulse force \[m/N\]. The gap is the
-    /// clearance plus this value times the pulse.
+    /// Returns the change of a side's gap at `t` per unit of pulse force \[m/N\], and its rate. The
+    /// gap is the clearance plus this value times the pulse.
     #[must_use]
-    pub fn gap_by_pulse(&self, side: u32, t: T) -> T {
-        let (moved, turn) = self.moved_by_pulse(t);
+    pub fn gap_by_pulse(&self, side: u32, t: f64) -> [f64; 2] {
+        let [(moved, turn), (rate, turn_rate)] = self.moved_by_pulse(t);
         let (turn_sin, turn_cos) = turn.sin_cos();
         let (c, s) = self.machine.polygon.direction(side);
-        moved * (turn_cos * c - turn_sin * s)
+        let (along, across) = (turn_cos * c - turn_sin * s, turn_sin * c + turn_cos * s);
+        [moved * along, rate * along - moved * turn_rate * across]
     }
 }
 

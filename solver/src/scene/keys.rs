@@ -127,7 +127,7 @@ pub struct Key {
     /// Reads the value from a scene.
     pub get: fn(&Scene) -> Value,
     /// Writes a value of the right type to a scene.
-    pub(super) set: fn(&mut Scene, Value),
+    pub(crate) set: fn(&mut Scene, Value),
 }
 
 impl Key {

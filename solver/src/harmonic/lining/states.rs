@@ -24,7 +24,7 @@ use super::cycle::{Tangent, small_motions};
 use super::rest::LeastStiffness;
 use crate::harmonic::LockLoads;
 use crate::harmonic::{HarmonicError, Joint, error};
-use crate::model::{LiningLaw, Machine, Number};
+use crate::model::{LiningLaw, Machine};
 use crate::numeric::maximum::highest;
 use crate::tolerances::{
     AS_ZERO, LINING_ALIKE, LINING_NEUTRAL, NEWTON_STEPS, WINDOW_LOOKS, WINDOW_REACH,
@@ -269,14 +269,7 @@ impl Lining<'_> {
     }
 }
 
-/// A complex number, or a vector in the plane of the wave.
-type Pair<T> = [T; 2];
-
-fn times<T: Number>(a: Pair<T>, b: Pair<T>) -> Pair<T> {
-    [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]]
-}
-
-fn dot<T: Number>(a: Pair<T>, n: [f64; 2]) -> T {
+fn dot(a: [f64; 2], n: [f64; 2]) -> f64 {
     a[0] * n[0] + a[1] * n[1]
 }
 
@@ -285,7 +278,7 @@ const SIDES: [u32; 2] = [0, 1];
 
 /// Returns the displacement of a wave held by two groups alone; `None` if there is none, or if it
 /// is unstable.
-fn place(machine: &Machine, speed: f64) -> Option<(Vector2<f64>, Balance<'_>)> {
+fn place(machine: &Machine, speed: f64) -> Option<Vector2<f64>> {
     let law = machine.lining.filter(|_| Joint::has_one_wave(machine))?;
     let LiningLaw { stiffness_n_per_m, smoothing_m } = law;
     let lining = Lining { machine: Cow::Borrowed(machine), stiffness_n_per_m, smoothing_m };
@@ -293,37 +286,21 @@ fn place(machine: &Machine, speed: f64) -> Option<(Vector2<f64>, Balance<'_>)> {
     let w = balance.solve(balance.sprung(2)?)?;
     let pushing = balance.gaps(w).filter(|(.., gap)| *gap < 0.0).map(|(side, ..)| side);
     let held = pushing.eq(SIDES) && balance.state(w).is_ok_and(|state| state.stable);
-    held.then_some((w, balance))
+    held.then_some(w)
 }
 
 /// Returns the loads of a lock held by two groups on the lining; `None` if no two groups alone hold
 /// one.
-pub(in crate::harmonic) fn lock_loads<T: Number>(
-    machine: &Machine<T>,
-    speed: T,
-) -> Option<LockLoads<T>> {
+pub(in crate::harmonic) fn lock_loads(machine: &Machine, speed: f64) -> Option<LockLoads> {
     let machine = &*machine.at(speed);
-    let (law, plain) = (machine.lining?, machine.plain());
-    let (w, balance) = place(&plain, speed.re())?;
+    let law = machine.lining?;
+    let w = place(machine, speed)?.into();
     let polygon = &machine.polygon;
     let each = f64::from(polygon.blades_per_side);
-    let nu = machine.nu(speed);
-    let casing =
-        [machine.casing_stiffness - nu * nu * machine.casing_mass, machine.casing_damping * nu];
-    let flexible = machine.coupling_product_at(speed) / machine.blade_modal_stiffness;
-    let turned = [T::one(), machine.casing_friction_at(speed)];
-    let pushed = [casing[0] * flexible + turned[0], casing[1] * flexible + turned[1]];
     let normals = SIDES.map(|side| <[f64; 2]>::from(polygon.direction(side)));
-    let push = |w: Pair<T>| normals.map(|n| law.push(machine.clearance() + dot(w, n)) * each);
+    let pushes = normals.map(|n| law.push(machine.clearance() + dot(w, n)) * each);
     let sum =
-        |pushes: Pair<T>| [0, 1].map(|k| pushes[0] * normals[0][k] + pushes[1] * normals[1][k]);
-    // One Newton step from the root attaches the derivatives.
-    let root = [T::from(w.x), T::from(w.y)];
-    let (held, forced) = (times(casing, root), times(pushed, sum(push(root))));
-    let inverse = balance.residual(w).1.try_inverse()? / balance.scale;
-    let residual = [held[0] - forced[0], held[1] - forced[1]];
-    let w = [0, 1].map(|k| root[k] - residual[0] * inverse[(k, 0)] - residual[1] * inverse[(k, 1)]);
-    let pushes = push(w);
+        |pushes: [f64; 2]| [0, 1].map(|k| pushes[0] * normals[0][k] + pushes[1] * normals[1][k]);
     // From a = sum P (A - (kappa + mu) l_b) e^{i psi}/k_a, z = w + kappa l_b a.
     let lead = (machine.radial_coupling + machine.friction_at(speed)) * machine.blade_length;
     let bent = sum(pushes).map(|p| -p * lead / machine.blade_modal_stiffness);

@@ -1,14 +1,13 @@
-//! Limits in closed form, and their derivatives by evaluating the same functions with dual numbers.
-
-use num_dual::Dual64;
+//! Limits in closed form.
 
 use super::limit::{Limit, LimitName, Quantity, Sensitivities};
-use super::parameters::{Parameter, Parameters, acting, sensitivity};
+use super::parameters::{Parameter, acting};
+use super::sensitivity::{CHANGE, sensitivities};
 use crate::harmonic::{
-    flutters, lobes_of, lock_growth, lock_loads, lock_windows, roundness, whirl_beginnings,
-    whirl_onset,
+    LockLoads, flutters, lobes_of, lock_growth, lock_loads, lock_windows, roundness,
+    whirl_beginnings, whirl_onset,
 };
-use crate::model::{Machine, Number};
+use crate::model::Machine;
 use crate::numeric::rounding::rounded;
 use crate::scene::{CheckedScene, ModelSize, Scene};
 
@@ -44,35 +43,34 @@ const SELDOM: [LimitName; 5] = [
 
 /// Returns the first value of every closed form, in the order of [`CLOSED`]; `None` if the machine
 /// has no such limit.
-pub(super) fn values<T: Number>(parameters: &Parameters<T>) -> [Option<T>; CLOSED.len()] {
-    all_values(parameters).map(|found| found.first().copied())
+pub(super) fn values(scene: &Scene) -> [Option<f64>; CLOSED.len()] {
+    all_values(scene).map(|found| found.first().copied())
 }
 
 /// Returns all values of every closed form; a machine that changes with speed can have several.
-fn all_values<T: Number>(parameters: &Parameters<T>) -> [Vec<T>; CLOSED.len()] {
-    let machine = parameters.machine();
-    let speed = parameters.operation.speed_rad_s;
+fn all_values(scene: &Scene) -> [Vec<f64>; CLOSED.len()] {
+    let machine = scene.machine();
+    let speed = scene.operation.speed_rad_s;
     // In the rigid model the contact forces do not bend the blades.
-    let loads = match parameters.model {
+    let loads = match scene.solver.model {
         ModelSize::Rigid => lock_loads(&machine.clone().with_stiff_blades(), speed),
         ModelSize::Modal | ModelSize::Full => lock_loads(&machine, speed),
     };
-    let of = |get: fn(&crate::harmonic::LockLoads<T>) -> T| one(loads.as_ref().map(get));
+    let of = |get: fn(&LockLoads) -> f64| one(loads.as_ref().map(get));
     let of_lock = [
         of(|loads| loads.pushes_n[0]),
         of(|loads| loads.pushes_n[1]),
         of(|loads| loads.torque_nm),
         of(|loads| loads.power_w),
     ];
-    let lobes = lobes_of(parameters.operation.nodal_diameters);
+    let lobes = lobes_of(scene.operation.nodal_diameters);
     let round = lobes.map_while(|lobes| roundness(&machine, speed, lobes)).collect();
     let mut all = speed_values(&machine, speed).into_iter().chain(of_lock).chain([round]);
     std::array::from_fn(|_| all.next().unwrap_or_default())
 }
 
 /// Returns the values of the closed forms that are speeds.
-fn speed_values<T: Number>(machine: &Machine<T>, speed: T) -> [Vec<T>; SPEEDS] {
-    let toward = speed.re();
+fn speed_values(machine: &Machine, toward: f64) -> [Vec<f64>; SPEEDS] {
     let sense = 1_f64.copysign(toward);
     let windows = lock_windows(machine, toward);
     let whirls = if machine.changes_with_speed() {
@@ -95,7 +93,7 @@ fn speed_values<T: Number>(machine: &Machine<T>, speed: T) -> [Vec<T>; SPEEDS] {
     ]
 }
 
-fn one<T>(value: Option<T>) -> Vec<T> {
+fn one(value: Option<f64>) -> Vec<f64> {
     value.into_iter().collect()
 }
 
@@ -105,7 +103,7 @@ const OF_NO_CONTACT: [LimitName; 3] =
 
 /// Removes the limits of rigid contact if a lining is compressed at rest; that case has other
 /// limits (`LiningState`).
-fn keep_known<T>(scene: &Scene, found: &mut [Vec<T>]) {
+fn keep_known(scene: &Scene, found: &mut [Vec<f64>]) {
     if scene.clearance() <= 0.0 {
         for (values, name) in found.iter_mut().zip(CLOSED) {
             if !OF_NO_CONTACT.contains(&name) {
@@ -117,35 +115,46 @@ fn keep_known<T>(scene: &Scene, found: &mut [Vec<T>]) {
 
 /// Returns all limits of a scene that are speeds.
 pub(in crate::study) fn speeds(scene: &Scene) -> Vec<(LimitName, f64)> {
-    every_speed(scene, &Parameters::<f64>::of(scene))
+    let mut found = speed_values(&scene.machine(), scene.operation.speed_rad_s);
+    keep_known(scene, &mut found);
+    let each = CLOSED.into_iter().zip(found);
+    let each = each.flat_map(|(name, values)| values.into_iter().map(move |value| (name, value)));
+    each.filter(|(_, value)| value.is_finite()).collect()
 }
 
 /// Returns the sensitivities of the limits of [`speeds`] to one parameter, in the same order;
-/// `None` as in [`sensitivity`].
+/// `None` as in [`sensitivities`].
 pub(in crate::study) fn speed_sensitivities(
     scene: &Scene,
     parameter: &Parameter,
 ) -> Vec<Option<f64>> {
-    let of = parameter.of(scene);
-    let found = every_speed(scene, &parameter.seeded(scene)).into_iter();
-    found.map(|(_, dual): (_, Dual64)| sensitivity(dual.re, dual.eps, of)).collect()
-}
-
-fn every_speed<T: Number>(scene: &Scene, parameters: &Parameters<T>) -> Vec<(LimitName, T)> {
-    let mut found = speed_values(&parameters.machine(), parameters.operation.speed_rad_s);
-    keep_known(scene, &mut found);
-    let each = CLOSED.into_iter().zip(found);
-    let each = each.flat_map(|(name, values)| values.into_iter().map(move |value| (name, value)));
-    each.filter(|(_, value)| value.re().is_finite()).collect()
+    let known = speeds(scene);
+    sensitivities(scene, parameter, CHANGE, |changed| {
+        let found = speeds(changed);
+        let same = |place: usize| found.get(place).filter(|(name, _)| *name == known[place].0);
+        (0..known.len()).map(|place| same(place).map_or(f64::NAN, |(_, value)| *value)).collect()
+    })
 }
 
 /// Returns the limits of a scene in closed form, with their sensitivities.
 pub(super) fn limits(scene: &CheckedScene) -> Vec<Limit> {
-    let parameters = Parameters::<f64>::of(scene);
-    let mut found = all_values(&parameters);
+    let mut found = all_values(scene);
     keep_known(scene, &mut found);
-    let derived: Vec<[Vec<Dual64>; CLOSED.len()]> =
-        acting(scene).map(|parameter| all_values(&parameter.seeded(scene))).collect();
+    let places: Vec<(usize, usize)> = found
+        .iter()
+        .enumerate()
+        .flat_map(|(place, values)| (0..values.len()).map(move |which| (place, which)))
+        .collect();
+    let by_parameter: Vec<(&str, Vec<Option<f64>>)> = acting(scene)
+        .map(|parameter| {
+            let changed = |scene: &Scene| {
+                let found = all_values(scene);
+                let value = |values: &[f64], which| values.get(which).copied().unwrap_or(f64::NAN);
+                places.iter().map(|&(place, which)| value(&found[place], which)).collect()
+            };
+            (parameter.path, sensitivities(scene, parameter, CHANGE, changed))
+        })
+        .collect();
     let present = |name: LimitName| match name.quantity() {
         Quantity::Height => Some(scene.casing.out_of_round_m),
         quantity => quantity.path().map(|_| scene.operation.speed_rad_s.abs()),
@@ -155,10 +164,8 @@ pub(super) fn limits(scene: &CheckedScene) -> Vec<Limit> {
         let mut limits = Vec::new();
         for (which, &value) in found[place].iter().enumerate() {
             let mut limit = Limit::new(name, Some(value), present(name));
-            let by = acting(scene).zip(&derived).map(|(parameter, derived)| {
-                let slope = derived[place].get(which).map_or(f64::NAN, |dual| dual.eps);
-                (parameter.path, sensitivity(value, slope, parameter.of(scene)))
-            });
+            let at = places.iter().position(|found| *found == (place, which)).unwrap_or_default();
+            let by = by_parameter.iter().map(|(path, by)| (*path, by[at]));
             limit.sensitivities = Sensitivities(by.collect());
             limit.note = note(scene, name, value);
             if name == LimitName::Roundness {

@@ -9,6 +9,7 @@ mod changes;
 mod closed;
 mod limit;
 mod parameters;
+mod sensitivity;
 mod target;
 mod touching;
 

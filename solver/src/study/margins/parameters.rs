@@ -1,15 +1,8 @@
-//! The parameters of a scene as numbers that can carry a derivative, and how each is read and
-//! changed.
+//! The parameters of a scene: how each is read and changed.
 
 use std::f64::consts::TAU;
 
-use num_dual::Dual64;
-
-use crate::model::{
-    BladedDisk, Casing, LiningLaw, Machine, Number, Operation, neighbour_stiffness,
-};
-use crate::motion::FreeFlight;
-use crate::scene::{Allowed, ContactLaw, Key, MOST_HZ, ModelSize, Scene, SceneError, Value, keys};
+use crate::scene::{Allowed, ContactLaw, Key, MOST_HZ, Scene, SceneError, Value, keys};
 
 pub use crate::scene::keys::CLEARANCE;
 
@@ -31,79 +24,49 @@ pub(super) fn is_length(path: &str) -> bool {
     LENGTHS.contains(&path)
 }
 
-/// All real numbers of a scene that a limit can depend on. The initial state is not included,
-/// because limits of the pulse assume a start from rest.
-#[derive(Clone, Debug)]
-pub(super) struct Parameters<T> {
-    pub disk: BladedDisk<T>,
-    pub casing: Casing<T>,
-    pub friction: T,
-    /// Stiffness and smoothing depth of the lining.
-    pub stiffness: T,
-    pub smoothing: T,
-    pub law: ContactLaw,
-    pub model: ModelSize,
-    pub operation: Operation<T>,
-    /// Frequencies of casing and disk; `None` where the scene gives a stiffness \[Hz\].
-    pub frequencies: [Option<T>; 2],
-}
-
 /// A parameter of a scene with a real value.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct Parameter {
     /// Path of its key, or `clearance`.
     pub path: &'static str,
-    place: fn(&mut Parameters<Dual64>) -> &mut Dual64,
 }
 
-impl std::fmt::Debug for Parameter {
-    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(out, "Parameter({})", self.path)
+/// All parameters, in the order of the scene file. The initial state is not included, because
+/// limits of the pulse assume a start from rest.
+pub const PARAMETERS: &[Parameter] = &{
+    const fn at(path: &'static str) -> Parameter {
+        Parameter { path }
     }
-}
-
-macro_rules! at {
-    ($path:expr, $($field:ident).+) => {
-        Parameter { path: $path, place: |all| &mut all.$($field).+ }
-    };
-}
-
-/// All parameters, in the order of the scene file.
-pub const PARAMETERS: &[Parameter] = &[
-    at!(CLEARANCE, casing.radius_m),
-    at!(LENGTH, disk.blade_length_m),
-    at!(keys::BLADE_INERTIA, disk.inertia_kg_m2),
-    at!(keys::BLADE_STIFFNESS, disk.stiffness_nm_per_rad),
-    Parameter {
-        path: BLADE_FREQUENCY,
-        place: |all| all.frequencies[1].get_or_insert(Dual64::new(0.0, 0.0)),
-    },
-    at!(keys::BLADE_COUPLING, disk.coupling_nm_per_rad),
-    at!(keys::BLADE_DAMPING, disk.damping_ratio),
-    at!(keys::STIFFENING, disk.centrifugal_stiffening),
-    at!(keys::RADIAL_COUPLING, disk.radial_coupling),
-    at!(keys::TIP_SCATTER, disk.tip_scatter_m),
-    at!(keys::LONGEST_TIP, disk.longest_tip_m),
-    at!(keys::ORBIT, disk.orbit_m),
-    at!(RADIUS, casing.radius_m),
-    at!(keys::CASING_MASS, casing.modal_mass_kg),
-    at!(keys::CASING_STIFFNESS, casing.modal_stiffness_n_per_m),
-    Parameter {
-        path: CASING_FREQUENCY,
-        place: |all| all.frequencies[0].get_or_insert(Dual64::new(0.0, 0.0)),
-    },
-    at!(keys::CASING_DAMPING, casing.damping_ratio),
-    at!(keys::TANGENTIAL_RATIO, casing.tangential_ratio),
-    at!(keys::CLEARANCE_LOSS, casing.clearance_loss_m_s2),
-    at!(keys::OUT_OF_ROUND, casing.out_of_round_m),
-    at!(keys::FRICTION, friction),
-    at!(STIFFNESS, stiffness),
-    at!(SMOOTHING, smoothing),
-    at!(keys::SPEED, operation.speed_rad_s),
-    at!(keys::SPEED_RAMP, operation.speed_ramp_rad_s2),
-    at!(keys::PULSE, operation.pulse_n),
-    at!(keys::PULSE_TIME, operation.pulse_s),
-];
+    [
+        at(CLEARANCE),
+        at(LENGTH),
+        at(keys::BLADE_INERTIA),
+        at(keys::BLADE_STIFFNESS),
+        at(BLADE_FREQUENCY),
+        at(keys::BLADE_COUPLING),
+        at(keys::BLADE_DAMPING),
+        at(keys::STIFFENING),
+        at(keys::RADIAL_COUPLING),
+        at(keys::TIP_SCATTER),
+        at(keys::LONGEST_TIP),
+        at(keys::ORBIT),
+        at(RADIUS),
+        at(keys::CASING_MASS),
+        at(keys::CASING_STIFFNESS),
+        at(CASING_FREQUENCY),
+        at(keys::CASING_DAMPING),
+        at(keys::TANGENTIAL_RATIO),
+        at(keys::CLEARANCE_LOSS),
+        at(keys::OUT_OF_ROUND),
+        at(keys::FRICTION),
+        at(STIFFNESS),
+        at(SMOOTHING),
+        at(keys::SPEED),
+        at(keys::SPEED_RAMP),
+        at(keys::PULSE),
+        at(keys::PULSE_TIME),
+    ]
+};
 
 /// Parameters that most machines do not have; they are shown only if they are not zero.
 const SELDOM: [&str; 6] = [
@@ -201,6 +164,29 @@ impl Parameter {
     /// # Errors
     /// The key does not allow the value.
     pub fn set(&self, scene: &Scene, value: f64) -> Result<Scene, SceneError> {
+        self.changed(scene, value, Scene::set_value)
+    }
+
+    /// Returns a scene with the parameter multiplied by `1 + part`, also beyond the bounds of its
+    /// key; the scene itself if a frequency cannot be set. For a length `part` is relative to the
+    /// clearance, the small difference of two lengths.
+    pub(super) fn scaled(&self, scene: &Scene, part: f64) -> Scene {
+        let (own, clearance) = (self.of(scene), scene.clearance());
+        let size = if is_length(self.path) && clearance != 0.0 { clearance } else { own };
+        let changed = self.changed(scene, own + part * size, |scene, key, value| {
+            (key.set)(scene, value);
+            Ok(())
+        });
+        changed.unwrap_or_else(|_| scene.clone())
+    }
+
+    /// Returns a scene with another value, which `set` puts there.
+    fn changed(
+        &self,
+        scene: &Scene,
+        value: f64,
+        set: impl Fn(&mut Scene, &Key, Value) -> Result<(), SceneError>,
+    ) -> Result<Scene, SceneError> {
         let mut changed = scene.clone();
         if let Some(which) = self.frequency() {
             changed.set_frequency(which, value)?;
@@ -208,7 +194,7 @@ impl Parameter {
         }
         let of_key =
             if self.path == CLEARANCE { scene.bladed_disk.blade_length_m + value } else { value };
-        changed.set_value(self.key()?, Value::Real(of_key))?;
+        set(&mut changed, self.key()?, Value::Real(of_key))?;
         Ok(changed)
     }
 
@@ -245,89 +231,4 @@ impl Parameter {
         }
         self.key().map_or("", |key| key.unit)
     }
-
-    /// Returns the parameters of a scene, with the derivative with respect to this one.
-    pub(super) fn seeded(&self, scene: &Scene) -> Parameters<Dual64> {
-        let mut all = Parameters::of(scene);
-        if let Some(which) = self.frequency() {
-            all.frequencies[which] = Some(self.of(scene).into());
-        }
-        (self.place)(&mut all).eps = 1.0;
-        all
-    }
-}
-
-impl<T: Number> Parameters<T> {
-    /// Takes the parameters of a scene, without derivatives.
-    pub(super) fn of(scene: &Scene) -> Self {
-        let (disk, casing) = (scene.disk_in_use(), scene.casing_in_use());
-        let operation = &scene.operation;
-        Self {
-            disk: BladedDisk {
-                // As in `Scene::machine`: rigid blades do not bend, so an inclined tip path has no
-                // effect.
-                radial_coupling: match scene.solver.model {
-                    ModelSize::Rigid => T::from(0.0),
-                    _ => disk.radial_coupling.into(),
-                },
-                ..disk.to()
-            },
-            casing: casing.to(),
-            friction: scene.contact.friction.into(),
-            stiffness: scene.contact.stiffness_n_per_m.into(),
-            smoothing: scene.contact.smoothing_m.into(),
-            law: scene.solver.contact,
-            model: scene.solver.model,
-            frequencies: scene.frequencies_in_use().map(|hertz| hertz.map(Into::into)),
-            operation: Operation {
-                nodal_diameters: operation.nodal_diameters,
-                speed_rad_s: operation.speed_rad_s.into(),
-                speed_ramp_rad_s2: operation.speed_ramp_rad_s2.into(),
-                pulse_n: operation.pulse_n.into(),
-                pulse_s: operation.pulse_s.into(),
-            },
-        }
-    }
-
-    /// Returns the motion of the casing before any contact.
-    pub(super) fn flight<'a>(&'a self, machine: &'a Machine<T>) -> FreeFlight<'a, T> {
-        FreeFlight { machine, operation: &self.operation }
-    }
-
-    /// Creates the machine at the speed of these parameters.
-    pub(super) fn machine(&self) -> Machine<T> {
-        let (mut disk, mut casing) = (self.disk.clone(), self.casing.clone());
-        let square = |hertz: T| (hertz * TAU) * (hertz * TAU);
-        let [of_casing, of_disk] = self.frequencies.map(|hertz| hertz.map(square));
-        if let Some(square) = of_casing {
-            casing.modal_stiffness_n_per_m = casing.modal_mass_kg * square;
-        }
-        if let Some(square) = of_disk {
-            let diameters = disk.diameters_beside(self.operation.nodal_diameters);
-            let share = neighbour_stiffness(1.0, diameters, disk.blades);
-            disk.stiffness_nm_per_rad =
-                disk.inertia_kg_m2 * square - disk.coupling_nm_per_rad * share;
-        }
-        let mut machine = Machine::new(&disk, &casing, self.operation.nodal_diameters)
-            .with_friction(self.friction)
-            .with_lining((self.law == ContactLaw::Smooth).then_some(LiningLaw {
-                stiffness_n_per_m: self.stiffness,
-                smoothing_m: self.smoothing,
-            }));
-        machine.turn_at(self.operation.speed_rad_s);
-        machine
-    }
-}
-
-/// Largest meaningful sensitivity: here one per cent of the parameter changes the limit by 100 %,
-/// which no linearisation describes.
-const MOST_SENSITIVE: f64 = 100.0;
-
-/// Returns the sensitivity from a value, its derivative and the parameter; `None` if it is not
-/// finite or above `MOST_SENSITIVE`.
-pub(super) fn sensitivity(value: f64, derivative: f64, parameter: f64) -> Option<f64> {
-    // A relative change of zero is zero, whatever the derivative.
-    let by = if parameter == 0.0 { 0.0 } else { derivative * parameter / value };
-    // Adding zero turns minus zero into zero.
-    (by.abs() <= MOST_SENSITIVE).then_some(by + 0.0)
 }

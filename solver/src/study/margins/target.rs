@@ -8,7 +8,7 @@ use thiserror::Error;
 
 use super::closed::{CLOSED, values};
 use super::limit::LimitName;
-use super::parameters::{PARAMETERS, Parameter, Parameters, parameter};
+use super::parameters::{PARAMETERS, Parameter, parameter};
 use super::touching;
 use crate::motion::GoOn;
 use crate::scene::units::UnitError;
@@ -139,7 +139,7 @@ impl Walk<'_> {
         let scene = self.target.by.set(self.scene, value).and_then(|scene| scene.checked());
         let Ok(scene) = scene else { return Some(None) };
         let limit = match CLOSED.iter().position(|closed| *closed == self.target.name) {
-            Some(place) => values(&Parameters::<f64>::of(&scene))[place],
+            Some(place) => values(&scene)[place],
             None => touching::smallest(&scene).map(|touch| touch.pulse_n),
         };
         if let Some(limit) = limit {

@@ -3,11 +3,10 @@
 
 use std::f64::consts::TAU;
 
-use num_dual::Dual64;
-
 use super::limit::{Limit, LimitName, Sensitivities};
-use super::parameters::{Parameter, Parameters, acting, parameter, sensitivity};
-use crate::model::{Excitation, Initial, Machine, Number};
+use super::parameters::{Parameter, acting, parameter};
+use super::sensitivity::{CHANGE, sensitivities};
+use crate::model::{Excitation, Initial, Machine};
 use crate::motion::FreeFlight;
 use crate::numeric::bisection::bisected;
 use crate::scene::keys::PULSE;
@@ -93,11 +92,11 @@ fn least(scene: &Scene, sense: f64) -> Option<FirstTouch> {
     if !starts_at_rest(scene) {
         return None;
     }
-    let all = Parameters::<f64>::of(scene);
-    let machine = all.machine();
-    let (flight, polygon, operation) = (all.flight(&machine), &machine.polygon, &all.operation);
+    let machine = scene.machine();
+    let (polygon, operation) = (&machine.polygon, &scene.operation);
+    let flight = FreeFlight { machine: &machine, operation };
     let look = |t: f64| {
-        let (moved, turn) = flight.moved_by_pulse(t);
+        let [(moved, turn), _] = flight.moved_by_pulse(t);
         let (sin, cos) = turn.sin_cos();
         let [x, y] = [cos, -sin].map(|part| sense * moved * part);
         let side = polygon.nearest_side(x, y);
@@ -123,7 +122,7 @@ fn least(scene: &Scene, sense: f64) -> Option<FirstTouch> {
         for look in is_nearest.then_some(now).into_iter().chain(last) {
             // A sampled instant underestimates the maximum by less than the square of a step.
             if look.near > 0.0 && look.near * (1.0 + TOUCHING_LOOK * TOUCHING_LOOK) >= best {
-                let touch = polished(&Parameters::of(scene), look, sense, step);
+                let touch = polished(&flight, look, sense, [step, end]);
                 best = best.max(machine.clearance() / touch.pulse_n.abs());
                 found = found
                     .filter(|found| found.pulse_n.abs() <= touch.pulse_n.abs())
@@ -135,29 +134,28 @@ fn least(scene: &Scene, sense: f64) -> Option<FirstTouch> {
     found
 }
 
+/// Change of the angle of blades and casing at the touch \[rad\], over which the force is a smooth
+/// function of a parameter.
+const LEAST_TURN: f64 = 0.02;
+
 /// Returns the force that exactly closes the gap of a side at one instant.
-fn force<T: Number>(flight: &FreeFlight<'_, T>, side: u32, t: T) -> T {
-    -flight.machine.clearance() / flight.gap_by_pulse(side, t)
+fn force(flight: &FreeFlight<'_>, side: u32, t: f64) -> f64 {
+    -flight.machine.clearance() / flight.gap_by_pulse(side, t)[0]
 }
 
-/// Refines the instant at which the side needs the smallest force. If there is no minimum nearby,
-/// the given instant is kept.
-fn polished(all: &Parameters<Dual64>, look: Look, sense: f64, step: f64) -> FirstTouch {
-    let machine = all.machine();
-    let flight = all.flight(&machine);
-    // The time derivative of the force has a single zero near the contact.
-    let slope = |t: f64| force(&flight, look.side, Dual64::new(t, 1.0)).eps * sense;
-    let (early, late) = ((look.t - step).max(0.5 * look.t), look.t + step);
-    let t_s = if slope(early) < 0.0 && slope(late) > 0.0 {
-        bisected([early, late], |t| slope(t) >= 0.0)[1]
-    } else {
-        look.t
-    };
-    FirstTouch { pulse_n: force(&flight, look.side, Dual64::from(t_s)).re, t_s, side: look.side }
+/// Refines the instant, up to the `end`, at which the side needs the smallest force: there it comes
+/// nearest, once within a `step` of the look. If it does not, the given instant is kept.
+fn polished(flight: &FreeFlight<'_>, look: Look, sense: f64, [step, end]: [f64; 2]) -> FirstTouch {
+    let side = look.side;
+    let opens = |t: f64| sense * flight.gap_by_pulse(side, t)[1] >= 0.0;
+    let (early, late) = ((look.t - step).max(0.5 * look.t), (look.t + step).min(end));
+    let is_nearest = !opens(early) && opens(late);
+    let t_s = if is_nearest { bisected([early, late], opens)[1] } else { look.t };
+    FirstTouch { pulse_n: force(flight, side, t_s), t_s, side }
 }
 
-/// Returns the limit with its derivatives by the implicit function theorem: the gap of the touched
-/// side is zero at an instant at which its rate is zero, so the time shift does not contribute.
+/// Returns the limit with its sensitivities, those of the force that closes the gap of the touched
+/// side at the same instant: there the gap has no rate, so a shift in time does not contribute.
 pub(super) fn limit(scene: &CheckedScene) -> Limit {
     let found = smallest(scene);
     let present = Some(scene.operation.pulse_n);
@@ -166,11 +164,19 @@ pub(super) fn limit(scene: &CheckedScene) -> Limit {
         limit.note = Some(why_none(scene).to_string());
         return limit;
     };
+    let there = |scene: &Scene| {
+        let flight = FreeFlight { machine: &scene.machine(), operation: &scene.operation };
+        vec![force(&flight, touch.side, touch.t_s)]
+    };
+    // The casing and the blades have turned so far until then, and must not turn visibly further.
+    let machine = scene.machine();
+    let speeds = [0.0, touch.t_s].map(|t| scene.operation.speed_ramp_rad_s2 * t);
+    let turned = speeds.map(|more| machine.nu(scene.operation.speed_rad_s + more).abs());
+    let turned = (turned[0].max(turned[1]) + machine.omega_c) * touch.t_s;
+    let change = CHANGE.min(LEAST_TURN / turned);
     let by = acting(scene).map(|parameter| {
-        let all = parameter.seeded(scene);
-        let machine = all.machine();
-        let dual = force(&all.flight(&machine), touch.side, Dual64::from(touch.t_s));
-        (parameter.path, sensitivity(touch.pulse_n, dual.eps, parameter.of(scene)))
+        let by = sensitivities(scene, parameter, change, there);
+        (parameter.path, by.first().copied().flatten())
     });
     limit.sensitivities = Sensitivities(by.collect());
     limit
@@ -206,9 +212,9 @@ mod tests {
             scene.operation.speed_rad_s = 50.0;
             scene.operation.speed_ramp_rad_s2 = ramp;
             let found = least(&scene, 1.0).unwrap().pulse_n;
-            let all = Parameters::<f64>::of(&scene);
-            let machine = all.machine();
-            let (flight, end) = (all.flight(&machine), longest(&scene, &machine));
+            let machine = scene.machine();
+            let flight = FreeFlight { machine: &machine, operation: &scene.operation };
+            let end = longest(&scene, &machine);
             let looks = (1..=20_000).map(|k| end * f64::from(k) / 2e4);
             let sides = 0..machine.polygon.sides;
             let forces = looks.flat_map(|t| sides.clone().map(move |side| (side, t)));
