@@ -60,7 +60,7 @@ pub fn write_run(
     if let Some(Value::Object(outcome)) = value.get_mut("outcome") {
         let facts = Facts::of(report);
         let told = facts.sentence(usize::MAX);
-        outcome.insert("state".to_string(), json!(told.what));
+        outcome.insert("state".to_string(), json!(told.state()));
         outcome.insert("history".to_string(), json!(told.history));
         if let Some(growth) = facts.growth {
             outcome.insert("growth_1_s".to_string(), json!(growth));

@@ -4,14 +4,16 @@
 use std::fmt;
 
 use super::line::capital;
-use super::number::{grouped, rounded, short, with_unit};
+use super::number::{grouped, rounded, short, time, with_unit};
 use rubscope_solver::harmonic::{lock_growth, roundness_needed};
 use rubscope_solver::model::Machine;
-use rubscope_solver::motion::{Certainty, Failure, FailureReason, RunReport, Verdict};
+use rubscope_solver::motion::{Certainty, Failure, FailureReason, RunReport, Seen, Verdict};
 use rubscope_solver::scene::{ContactLaw, ModelSize, Scene};
 
 /// Separators: after the verdict, and between the two sentences.
 const APART: [&str; 2] = ["  ", " "];
+/// Beginning of the sentence on a verdict that half the time step changes.
+const AT_THIS_STEP: &str = "At this step only";
 /// A sentence in its long and its short form.
 type Forms = [String; 2];
 
@@ -48,6 +50,10 @@ pub struct Facts {
     /// Verdict of the event solver, whose contact only pushes; `None` if it was not requested or
     /// is not known yet.
     pub other: Option<Verdict>,
+    /// What was seen at the end, where the verdict is judged and not proved.
+    pub seen: Option<Seen>,
+    /// Whether casing and blades have not moved at all.
+    pub still: bool,
     /// Result of the sensitivity check.
     pub certainty: Certainty,
     /// Growth rate of a deviation from the lock at the end \[1/s\]; `None` if the run does not end
@@ -56,8 +62,6 @@ pub struct Facts {
     /// Largest out-of-roundness of the casing that leaves the lock intact \[m\]; `None` if the run
     /// does not end in a lock, if it is unknown, or if usual casings are rounder.
     pub round: Option<f64>,
-    /// Whether the tips differ in length, so that errors of the blade angles matter.
-    pub angles: bool,
 }
 
 /// The verdict of a run as a word and at most two sentences, chosen to fit a given width.
@@ -87,6 +91,23 @@ impl fmt::Display for Sentence {
 }
 
 impl Sentence {
+    /// Returns the sentence on the motion at the end as it stands alone: it begins with the verdict
+    /// where another step changes that.
+    pub fn state(&self) -> String {
+        self.at_this_step().map_or(self.what.clone(), |line| capital(&line))
+    }
+
+    /// Returns the verdict and the sentence on the motion as one line.
+    pub fn verdict_line(&self) -> String {
+        let usual = || format!("{}. {}", self.word.to_lowercase(), self.what);
+        self.at_this_step().unwrap_or_else(usual)
+    }
+
+    fn at_this_step(&self) -> Option<String> {
+        let rest = self.what.strip_prefix(AT_THIS_STEP)?;
+        Some(format!("{} {}{rest}", self.word.to_lowercase(), uncapital(AT_THIS_STEP)))
+    }
+
     /// Creates the word with the long form of a sentence, or with the short one if the long one is
     /// wider than `width` columns.
     pub fn of(word: &str, forms: Forms, width: usize) -> Self {
@@ -137,10 +158,11 @@ impl Facts {
             failure: None,
             pulled: false,
             other: None,
+            seen: None,
+            still: false,
             certainty: Certainty::default(),
             growth: may_grow.then(|| lock_growth(machine, speed)).flatten(),
             round: locked.then(|| roundness_needed(machine, speed)).flatten(),
-            angles: scene.has_other_tips(),
         }
     }
 
@@ -157,6 +179,8 @@ impl Facts {
             failure: report.failure.clone(),
             pulled: report.checks.tensile_steps > 0,
             other: report.pushes_only,
+            seen: report.seen,
+            still: outcome.amplitude_m == 0.0,
             certainty: Certainty {
                 sensitive: outcome.sensitive == Some(true),
                 ends_otherwise: outcome.ends_otherwise == Some(true),
@@ -176,7 +200,12 @@ impl Facts {
         let mut texts: Vec<String> = [0, 1].map(|form| all(form).join(between)).into();
         texts.extend(notes.first().map(|first| first[1].clone()));
         texts.retain(|text| !text.is_empty());
-        Sentence { wrong, ..Sentence::with_notes(&word, self.forms(), &texts, width) }
+        let mut forms = self.forms();
+        if self.certainty.depends_on_step == Some(true) {
+            let long = format!("{AT_THIS_STEP}: {}", uncapital(&forms[0]));
+            forms = [long, format!("{AT_THIS_STEP}.")];
+        }
+        Sentence { wrong, ..Sentence::with_notes(&word, forms, &texts, width) }
     }
 
     /// Describes the motion at the end of the run.
@@ -188,23 +217,23 @@ impl Facts {
         match self.verdict {
             Verdict::Locked => self.held(),
             Verdict::Adhesive => self.pulled(),
-            Verdict::Slip if self.pressed => plain([
+            Verdict::Slip if self.pressed => self.lately([
                 "All blades press the lining, and the wave slips along them.",
                 "The wave slips.",
             ]),
-            Verdict::Slip => plain([
+            Verdict::Slip => self.lately([
                 "A blade always touches, and the wave slips along the blades.",
                 "The wave slips along the blades.",
             ]),
-            Verdict::Whirl => plain([
+            Verdict::Whirl => self.lately([
                 "The contact runs from blade to blade and keeps them swinging.",
                 "The contact swings the blades.",
             ]),
-            Verdict::Forced if self.pressed => plain([
+            Verdict::Forced if self.pressed => self.lately([
                 "All blades press the lining, and the longer ones drag the wave.",
                 "Longer blades drag the wave.",
             ]),
-            Verdict::Forced => plain([
+            Verdict::Forced => self.lately([
                 "One blade or group presses without a break and drags the wave.",
                 "One blade drags it.",
             ]),
@@ -217,6 +246,15 @@ impl Facts {
             }
             Verdict::Failed => self.failed(),
         }
+    }
+
+    /// Says for how long the motion has been so, where that is all that is known.
+    fn lately(&self, [long, short]: [&str; 2]) -> Forms {
+        let long = match self.seen {
+            Some(seen) => format!("In the last {} {}", time(seen.span_s), uncapital(long)),
+            None => long.into(),
+        };
+        [long, short.into()]
     }
 
     /// Describes the motion after a lock broke; `None` if it locked again, diverged or failed.
@@ -233,7 +271,11 @@ impl Facts {
 
     /// Describes the motion of the casing after the last contact.
     fn rest(&self) -> &'static str {
-        if self.damped { "the casing comes to rest" } else { "the casing swings on freely" }
+        match (self.seen, self.damped) {
+            (Some(_), _) => "no blade has touched since",
+            (None, true) => "the casing comes to rest",
+            (None, false) => "the casing swings on freely",
+        }
     }
 
     fn held(&self) -> Forms {
@@ -243,7 +285,8 @@ impl Facts {
             _ => ["hold", "all push"],
         };
         let [who, few] = [named(&self.blades), counted(&self.blades)];
-        [format!("{who} {hold} the casing's wave; {push}."), format!("{few} {hold} it; {push}.")]
+        let long = format!("{who} {hold} the casing's wave; {push}.");
+        self.lately([&long, &format!("{few} {hold} it; {push}.")])
     }
 
     fn pulled(&self) -> Forms {
@@ -276,6 +319,20 @@ impl Facts {
 
     fn decayed(&self) -> Forms {
         let rest = self.rest();
+        if let Some(seen) = self.seen {
+            let span = time(seen.without_contact_s);
+            let at = seen.reach.map_or(String::new(), |reach| {
+                format!(", at {} of the clearance", short(rounded(reach, 2)))
+            });
+            let again = if self.touches == 0 { "yet" } else { "again" };
+            return [
+                format!("No contact in the last {span}{at}; it may touch {again}."),
+                format!("No contact in {span}."),
+            ];
+        }
+        if self.still && self.touches == 0 {
+            return plain(["Nothing moves and no blade touches.", "Nothing moves."]);
+        }
         if self.pressed {
             return plain([
                 "The wave dies away; the blades rub the lining as at rest.",
@@ -297,7 +354,10 @@ impl Facts {
         let Some(failure) = &self.failure else {
             return plain(["The computation stops before the end.", "The computation stops."]);
         };
-        let (at, why) = (with_unit(failure.t_s, 3, "s"), why(&failure.reason));
+        let (at, mut why) = (with_unit(failure.t_s, 3, "s"), why(&failure.reason));
+        if failure.reason.is_of_the_step() && self.certainty.depends_on_step == Some(true) {
+            why = "the step is too long";
+        }
         [format!("The computation stops at {at}: {why}."), "The computation stops.".into()]
     }
 
@@ -306,20 +366,15 @@ impl Facts {
     fn notes(&self) -> (Vec<Forms>, bool) {
         let mut notes: Vec<Forms> = self.growth.map(grows).into_iter().collect();
         let sensitive = self.certainty.sensitive;
-        if self.certainty.depends_on_step == Some(true) {
-            notes.push(plain([
-                "Another step ends otherwise: the step is too long.",
-                "Another step ends otherwise.",
-            ]));
-        }
         if let Some(other) = self.other.filter(|other| *other != self.verdict)
             && !self.pulled
             && !sensitive
             && notes.is_empty()
+            && self.certainty.depends_on_step != Some(true)
         {
             notes.push(self.differs(other));
         }
-        let wrong = !notes.is_empty();
+        let wrong = !notes.is_empty() || self.certainty.depends_on_step == Some(true);
         if self.pulled && self.verdict != Verdict::Adhesive && self.other != Some(self.verdict) {
             notes.push(self.pushes_only());
         }
@@ -357,15 +412,10 @@ impl Facts {
 
     /// Says that the event solver gives another verdict than the time steps.
     fn differs(&self, other: Verdict) -> Forms {
-        let why = if self.angles { "step or angles are too large" } else { "the step is too long" };
         let fails = other == Verdict::Failed;
         let does = if fails { "fails".into() } else { format!("says {other}") };
-        let short = format!("The exact solver {does}.");
-        // The sentence on a failed run already gives its reason.
-        if self.verdict == Verdict::Failed {
-            return [short.clone(), short];
-        }
-        [format!("The exact solver {does}: {why}."), short]
+        let told = format!("The exact solver {does}.");
+        [told.clone(), told]
     }
 }
 
@@ -383,6 +433,12 @@ fn rad_s(speed: f64) -> String {
 /// Counts touches: `1 touch`, `5 touches`.
 fn touches(count: u64) -> String {
     format!("{} touch{}", grouped(count), if count == 1 { "" } else { "es" })
+}
+
+/// Returns a sentence to stand behind other words.
+fn uncapital(sentence: &str) -> String {
+    let mut letters = sentence.chars();
+    letters.next().map_or(String::new(), |first| first.to_lowercase().chain(letters).collect())
 }
 
 /// Creates the long and the short form from constant text.
@@ -422,9 +478,8 @@ fn why(reason: &FailureReason) -> &'static str {
         FailureReason::NoCorner { .. } => "no blades hold the wave",
         FailureReason::Displacement { .. } => "the casing moves too far",
         FailureReason::CasingSpeed { .. } => "the casing outruns the blades",
-        FailureReason::LongStep { .. } | FailureReason::Penetration { .. } => {
-            "the step is too long"
-        }
+        FailureReason::LongStep { .. } => "the casing runs past the blades",
+        FailureReason::Penetration { .. } => "a step goes deeper than the clearance",
         FailureReason::Rows { .. } => "too many blades touch at once",
         FailureReason::Ramp => "the speed must be constant",
         FailureReason::Closed { .. } => "the blades have grown into the casing",

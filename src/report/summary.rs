@@ -46,7 +46,7 @@ pub fn write(report: &RunReport, wall: Wall, out: &mut dyn Write) -> Result<()> 
     }
     writeln!(out)?;
     let told = Facts::of(report).sentence(usize::MAX);
-    writeln!(out, "Verdict: {}. {}", report.outcome.verdict, told.what)?;
+    writeln!(out, "Verdict: {}", told.verdict_line())?;
     told.history.iter().try_for_each(|history| writeln!(out, "{history}"))?;
     if let Some(message) = &report.outcome.message {
         writeln!(out, "Reason: {message}.")?;
@@ -400,7 +400,10 @@ mod tests {
     fn a_run_without_touch_and_without_critical_speed_reads_well() {
         let report = report(&[("operation.pulse_n", "0"), ("operation.nodal_diameters", "0")]);
         let text = text_of(&report);
-        assert!(text.contains("No blade touches") && text.contains("No impact."), "{text}");
+        assert!(
+            text.contains("Nothing moves and no blade touches") && text.contains("No impact."),
+            "{text}"
+        );
         assert!(!text.contains("Omega_c") && !text.contains("not a number"), "{text}");
     }
 }

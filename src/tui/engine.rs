@@ -14,7 +14,7 @@ use super::views::map::plan::{CellRun, LiveMap, MapChoice};
 use super::views::margins::live::LiveMargins;
 use super::views::spectrum::lines::Spectrum;
 use rubscope_solver::motion::{
-    ActiveSet, Certainty, Checks, Failure, Hold, Motion, State, Verdict,
+    ActiveSet, Certainty, Checks, Failure, Hold, Motion, Seen, State, Verdict,
 };
 use rubscope_solver::scene::CheckedScene;
 use rubscope_solver::study::MapPlan;
@@ -148,6 +148,10 @@ pub struct FullRun {
     /// Rotor speed at which the contact at the end began \[rad/s\], and whether the rotor was
     /// accelerating then; `None` at constant speed.
     pub caught: Option<(f64, bool)>,
+    /// What was seen at the end, where the verdict is judged and not proved.
+    pub seen: Option<Seen>,
+    /// Whether the casing is where it was without any motion.
+    pub still: bool,
     /// Verdict of the run.
     pub verdict: Verdict,
     /// Simulated time at which the contact at the end began \[s\].

@@ -59,9 +59,17 @@ fn noisy(scene: &CheckedScene) -> VerdictReached {
 fn sensitive(scene: &CheckedScene) -> [bool; 4] {
     let plain = run_to_verdict(scene, &to_the_end).unwrap();
     let run = |scene: CheckedScene| run_to_verdict(&scene, &to_the_end).unwrap();
-    let pulse = |factor: f64| run(with(scene, |scene| scene.operation.pulse_n *= factor));
+    let pulse = |part: f64| {
+        run(with(scene, |scene| {
+            let operation = &mut scene.operation;
+            // As small a part of the velocity that the pulse gives, across it.
+            let given = (operation.pulse_n * operation.pulse_s).abs();
+            scene.initial.v_s_m_s += part * given / scene.casing.modal_mass_kg;
+            operation.pulse_n *= 1.0 + part;
+        }))
+    };
     let faster = run(with(scene, |scene| scene.operation.speed_rad_s *= 1.0 + 1e-9));
-    [pulse(1.0 - 1e-9), faster, pulse(1.0 + 1e-9), noisy(scene)].map(|other| {
+    [pulse(-1e-9), faster, pulse(1e-9), noisy(scene)].map(|other| {
         let counted = !plain.rested && !other.rested;
         let moved = plain.locked_s.zip(other.locked_s).map_or(0.0, |(one, two)| one - two);
         (plain.verdict, plain.held) != (other.verdict, other.held)

@@ -202,7 +202,7 @@ fn the_first_minute_is_as_it_says() {
     session.press("\u{1b}:scene long-tip\n");
     session.press("");
     let (scene, start) = (&session.app.scene, header(&session));
-    assert!(start.contains("LOCKED") && start.contains("Blades 1 and 3"), "{start}");
+    assert!(start.contains("LOCKED") && start.contains("blades 1 and 3"), "{start}");
     assert_eq!(scene.operation.pulse_n, 0.0);
     let beyond = scene.bladed_disk.longest_tip_m - scene.clearance();
     assert!((beyond - 5e-6).abs() < 1e-12, "{beyond}");

@@ -47,6 +47,12 @@ impl Failure {
 }
 
 impl FailureReason {
+    /// Returns whether another time step may not fail.
+    #[must_use]
+    pub fn is_of_the_step(&self) -> bool {
+        matches!(self, Self::LongStep { .. } | Self::Penetration { .. } | Self::Rows { .. })
+    }
+
     /// Returns whether the motion grew beyond the range of the model.
     #[must_use]
     pub fn is_growth(&self) -> bool {
@@ -167,7 +173,7 @@ pub enum FailureReason {
     /// A step penetrates deeper than the clearance.
     #[error(
         "a predicted penetration of {depth_m:.3e} m is deeper than the clearance {clearance_m:.3e} \
-         m; a smaller step or a weaker pulse is needed"
+         m; a smaller step or a weaker pulse may help"
     )]
     Penetration {
         /// Predicted penetration \[m\].

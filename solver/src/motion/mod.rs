@@ -28,8 +28,9 @@ pub use event::{ExactEvents, LinearEvents};
 pub use failure::{Failure, FailureReason};
 pub use propagator::FreeFlight;
 pub use run::{
-    FinalState, ImpactReport, LAST_PART, RunReport, Sample, Sampling, SolverReport, VerdictReached,
-    caught_at, judge_end, lock_that_broke, run_to_end, run_to_verdict, simulate, verdict_of,
+    FinalState, ImpactReport, LAST_PART, RunReport, Sample, Sampling, Seen, SolverReport,
+    VerdictReached, caught_at, judge_end, lock_that_broke, run_to_end, run_to_verdict, simulate,
+    verdict_of,
 };
 pub use script::{Change, Script};
 pub use sensitivity::{CHANGED_RUNS, Certainty, Spread, certainty, run_with_certainty};

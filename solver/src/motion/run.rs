@@ -144,6 +144,9 @@ pub struct RunReport {
     /// the rotor accelerates; `None` as in [`caught_at`].
     #[serde(skip)]
     pub caught: Option<(f64, bool)>,
+    /// What was seen where the verdict is judged; `None` as in [`Seen::at_end`].
+    #[serde(skip)]
+    pub seen: Option<Seen>,
     /// Verdict of the event solver with unilateral contact; `None` if it was not determined.
     #[serde(skip)]
     pub pushes_only: Option<Verdict>,
@@ -153,6 +156,39 @@ pub struct RunReport {
     /// Values that a perturbed run must reproduce if this one is not sensitive.
     #[serde(skip)]
     pub reached: VerdictReached,
+}
+
+/// What the judged end of a run has shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Seen {
+    /// Length of the part that was judged \[s\].
+    pub span_s: f64,
+    /// Time since the last contact, or since the start if there was none \[s\].
+    pub without_contact_s: f64,
+    /// Displacement of the casing at the end as a part of the clearance; `None` without one.
+    pub reach: Option<f64>,
+}
+
+impl Seen {
+    /// Returns what the end of a motion with this verdict has shown; `None` if the verdict is
+    /// proved, if it decays and no contact can come, and if the run failed or diverged.
+    #[must_use]
+    pub fn at_end(motion: &Motion, verdict: Verdict, window: f64) -> Option<Self> {
+        let rests = motion.over() || motion.rest_rate().is_some_and(|rate| rate > 0.0);
+        if matches!(verdict, Verdict::Failed | Verdict::Divergent)
+            || motion.final_verdict() == Some(verdict)
+            || (verdict == Verdict::Decay && rests)
+        {
+            return None;
+        }
+        let (now, clearance) = (motion.t_s(), motion.machine().clearance());
+        let reach = motion.state().amplitude() / clearance;
+        Some(Self {
+            span_s: window.min(now),
+            without_contact_s: now - motion.contacts().last_contact.unwrap_or(0.0),
+            reach: (clearance > 0.0).then_some(reach),
+        })
+    }
 }
 
 /// Verdict of a run with the values that decide whether two runs agree.
@@ -458,6 +494,7 @@ pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) 
         end_machine: machine.clone(),
         broken: lock_that_broke(motion),
         caught: caught_at(motion),
+        seen: Seen::at_end(motion, verdict, window),
         pushes_only: None,
         failure,
         reached: VerdictReached::of(motion, verdict),

@@ -195,11 +195,11 @@ fn moment(scene: &CheckedScene) -> f64 {
 /// Perturbation of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum TinyChange {
-    /// Weaker pulse.
+    /// Weaker pulse, with a push to one side.
     Weaker,
     /// Faster rotor.
     Faster,
-    /// Stronger pulse.
+    /// Stronger pulse, with a push to the other side.
     Stronger,
     /// Noise and a tighter tolerance (event solver).
     Noise,
@@ -253,9 +253,13 @@ impl TinyChange {
     fn changed(self, scene: &CheckedScene) -> CheckedScene {
         match self {
             Self::Noise => scene.clone(),
-            Self::Weaker => perturbed(scene, 1.0 - PERTURBATION),
-            Self::Stronger => perturbed(scene, MORE),
-            Self::Faster => scene.perturbed(|scene| scene.operation.speed_rad_s *= MORE),
+            Self::Weaker => perturbed(scene, -PERTURBATION),
+            Self::Stronger => perturbed(scene, PERTURBATION),
+            Self::Faster => scene.perturbed(|scene| {
+                let slow = scene.machine().omega_c * PERTURBATION;
+                let speed = &mut scene.operation.speed_rad_s;
+                *speed = if *speed == 0.0 { slow } else { *speed * MORE };
+            }),
             Self::Step => scene.perturbed(|scene| scene.solver.step_s *= OTHER_STEP),
         }
     }
@@ -274,20 +278,23 @@ impl TinyChange {
 
 const MORE: f64 = 1.0 + PERTURBATION;
 
-/// Multiplies what drives the motion by `factor`: the pulse, or without one the initial state and
-/// the excitation. The initial displacement is only reduced, because it may already touch.
-fn perturbed(scene: &CheckedScene, factor: f64) -> CheckedScene {
+/// Changes what drives the motion by this part: the pulse, or without one the excitation and the
+/// initial velocity. So that motion on a symmetry, at rest or in contact changes, too, the casing
+/// gets as small a part of its usual velocity across the pulse, and without a pulse along it.
+fn perturbed(scene: &CheckedScene, part: f64) -> CheckedScene {
     scene.perturbed(|scene| {
-        if scene.operation.pulse_n != 0.0 {
-            scene.operation.pulse_n *= factor;
-            return;
+        let (machine, place) = (scene.machine(), scene.start());
+        let pulse = scene.operation.pulse_n * scene.operation.pulse_s;
+        let swing = machine.omega_c * machine.clearance().abs().max(place.0.hypot(place.1));
+        let usual = if pulse == 0.0 { swing } else { (pulse / machine.casing_mass).abs() };
+        scene.operation.pulse_n *= 1.0 + part;
+        // A state that is given replaces the start that unequal tips find for themselves.
+        (scene.initial.u_c_m, scene.initial.u_s_m) = place;
+        scene.initial.v_s_m_s += part * usual;
+        if pulse == 0.0 {
+            scene.excitation.amplitude_nm *= 1.0 + part;
+            scene.initial.v_c_m_s = scene.initial.v_c_m_s * (1.0 + part) + part * usual;
         }
-        scene.excitation.amplitude_nm *= factor;
-        let initial = &mut scene.initial;
-        initial.v_c_m_s *= factor;
-        initial.v_s_m_s *= factor;
-        initial.u_c_m *= factor.min(1.0);
-        initial.u_s_m *= factor.min(1.0);
     })
 }
 

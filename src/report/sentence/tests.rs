@@ -14,6 +14,8 @@ fn facts(verdict: Verdict) -> Facts {
     Facts { blades: vec![19, 12], touches: 5, law, round: None, ..all }
 }
 
+const SEEN: Seen = Seen { span_s: 0.01, without_contact_s: 0.012_345, reach: Some(0.943) };
+
 const ENDS: Certainty = Certainty { sensitive: true, ends_otherwise: true, depends_on_step: None };
 
 fn pulled(verdict: Verdict, other: Option<Verdict>) -> Facts {
@@ -42,7 +44,7 @@ fn failures() -> Vec<FailureReason> {
     ]
 }
 
-/// Asserts whole sentences that fit, of at most fourteen words each. One that has room in a
+/// Asserts whole sentences that fit, of at most eighteen words each. One that has room in a
 /// width is the one of every width down to its own.
 fn assert_reads_well(facts: &Facts) {
     let mut width = *WIDTHS.end();
@@ -75,7 +77,7 @@ fn assert_is_whole(told: &Sentence, width: usize) {
     let history = told.history.iter().flat_map(|history| history.split_inclusive(". "));
     for sentence in std::iter::once(told.what.as_str()).chain(history).map(str::trim_end) {
         assert!(sentence.ends_with('.') && !sentence.contains(".."), "{width}: {line}");
-        assert!(sentence.split_whitespace().count() <= 14, "{width}: {line}");
+        assert!(sentence.split_whitespace().count() <= 18, "{width}: {line}");
         assert!(
             sentence.starts_with(|c: char| c.is_ascii_uppercase() || c.is_ascii_digit()),
             "{line}"
@@ -93,6 +95,7 @@ fn histories() -> Vec<(bool, Change)> {
         (false, |facts| facts.certainty = ENDS),
         (false, |facts| facts.certainty = Certainty { ends_otherwise: false, ..ENDS }),
         (true, |facts| facts.certainty.depends_on_step = Some(true)),
+        (false, |facts| facts.seen = Some(SEEN)),
         (true, |facts| facts.growth = Some(12.345)),
         (false, |facts| facts.round = Some(2.439_28e-7)),
         (false, |facts| facts.caught = Some((292.149, true))),
@@ -131,7 +134,6 @@ fn every_verdict_law_failure_and_history_has_whole_sentences_at_every_width() {
                                 .clone()
                                 .map(|reason| Failure { t_s: 1.234_5e-4, reason }),
                             other,
-                            angles: case == 1,
                             ..facts(verdict)
                         };
                         change(&mut facts);
@@ -229,17 +231,46 @@ fn a_run_says_its_own_facts() {
     );
     let free = Facts { touches: 0, damped: false, ..decay.clone() };
     assert_eq!(told(free), "DECAY  No blade touches; the casing swings on freely.");
-    let broken = Facts { broken: Some(380.26), ..decay };
+    let broken = Facts { broken: Some(380.26), ..decay.clone() };
     assert_eq!(
         told(broken),
         "DECAY  The lock breaks at 380.3 rad/s; then the casing comes to rest."
     );
+    let judged = Facts { seen: Some(SEEN), ..decay.clone() };
+    assert_eq!(
+        told(judged.clone()),
+        "DECAY  No contact in the last 12.345 ms, at 0.94 of the clearance; it may touch again."
+    );
+    let slip = Facts { verdict: Verdict::Slip, ..judged };
+    assert_eq!(
+        told(slip),
+        "SLIP  In the last 10 ms a blade always touches, and the wave slips along the blades."
+    );
+    let still = Facts { still: true, touches: 0, ..decay };
+    assert_eq!(told(still), "DECAY  Nothing moves and no blade touches.");
+    let mut held = facts(Verdict::Locked);
+    held.certainty.depends_on_step = Some(true);
+    let line = held.sentence(200);
+    assert_eq!(
+        line.to_string(),
+        "LOCKED  At this step only: blades 12 and 19 hold the casing's wave; both push."
+    );
+    let state = "ocked at this step only: blades 12 and 19 hold the casing's wave; both push.";
+    assert_eq!([line.state(), line.verdict_line()], [format!("L{state}"), format!("l{state}")]);
     let held = Facts { blades: vec![4], ..facts(Verdict::Locked) };
     assert_eq!(told(held), "LOCKED  Blade 4 holds the casing's wave; it pushes.");
     let failure = Failure {
         t_s: 2e-4,
         reason: FailureReason::Penetration { depth_m: 1.0, clearance_m: 0.5 },
     };
-    let failed = Facts { failure: Some(failure), ..facts(Verdict::Failed) };
-    assert_eq!(told(failed), "FAILED  The computation stops at 200 us: the step is too long.");
+    let mut failed = Facts { failure: Some(failure), ..facts(Verdict::Failed) };
+    assert_eq!(
+        told(failed.clone()),
+        "FAILED  The computation stops at 200 us: a step goes deeper than the clearance."
+    );
+    failed.certainty.depends_on_step = Some(true);
+    assert_eq!(
+        told(failed),
+        "FAILED  At this step only: the computation stops at 200 us: the step is too long."
+    );
 }

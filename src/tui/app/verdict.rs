@@ -106,6 +106,8 @@ impl App {
             caught: run.caught,
             failure: run.failure.clone(),
             pulled: run.checks.tensile_steps > 0,
+            seen: run.seen,
+            still: run.still,
             other: self.results().reference.as_ref().map(|other| other.verdict),
             certainty: self.results().sensitive.known(),
             ..Facts::at(run.verdict, (&self.scene, &self.machine, self.speed()), contacts)

@@ -9,7 +9,7 @@ use crate::tui::engine::{FORECAST_LIMIT, FullRun, FullRunState};
 use crate::tui::trace::{Mark, Marks, Trace};
 use rubscope_solver::motion::LAST_PART;
 use rubscope_solver::motion::{
-    Motion, Verdict, VerdictReached, caught_at, judge_end, lock_that_broke,
+    Motion, Seen, Verdict, VerdictReached, caught_at, judge_end, lock_that_broke,
 };
 
 /// A full run in progress.
@@ -159,6 +159,8 @@ impl FullRunJob {
             marks: Arc::new(self.marks.seen.clone()),
             broken: lock_that_broke(motion),
             caught: caught_at(motion),
+            seen: Seen::at_end(motion, verdict, self.window),
+            still: motion.state().amplitude() == 0.0,
             verdict,
             since: verdict.keeps_contact().then_some(log.since),
             multipliers: motion.multipliers(),

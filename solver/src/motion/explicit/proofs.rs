@@ -10,11 +10,10 @@ const HELD_AFTER: u64 = 64;
 impl Explicit {
     /// Returns whether no contact can come again: once pulse and lining are over, the energies of
     /// casing and blades, which free steps never increase, do not reach the smallest clearance.
-    pub(super) fn no_contact_to_come(&self) -> bool {
+    pub(super) fn cannot_touch_again(&self) -> bool {
         let least = self.tips.least;
         let pressed = self.lining.as_ref().is_some_and(Lining::presses);
-        if self.scene.solver.plain
-            || pressed
+        if pressed
             || least <= 0.0
             || self.drive.pulse_to_come(self.n)
             || self.drive.excitation.is_some()
@@ -44,7 +43,7 @@ impl Explicit {
         }
         if self.scene.solver.plain {
             None
-        } else if self.no_contact_to_come() {
+        } else if self.cannot_touch_again() {
             Some(Verdict::Decay)
         } else {
             self.corner_for_good()

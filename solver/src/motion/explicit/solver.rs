@@ -127,7 +127,7 @@ impl Solver for Explicit {
     }
 
     fn over(&self) -> bool {
-        self.no_contact_to_come()
+        self.cannot_touch_again()
     }
 
     fn final_verdict(&self) -> Option<Verdict> {
