@@ -8,6 +8,7 @@ passed on. At most 40 pages, or COUNT, are open at once; others are told so. Nee
 it is started: npm install @xterm/xterm @xterm/addon-fit
 """
 import json
+import shutil
 import sys
 
 import terminado
@@ -60,6 +61,11 @@ if "--" not in sys.argv[2:]:
     sys.exit(__doc__.strip())
 split = sys.argv.index("--")
 port, *options = sys.argv[1:split]
+if not (port.isdecimal() and port.isascii() and 1 <= int(port) <= 65535):
+    sys.exit(f"serve.py: PORT = {port}: allowed is a whole number from 1 to 65535")
+command = sys.argv[split + 1 :]
+if not command or not shutil.which(command[0]):
+    sys.exit(f"serve.py: COMMAND = {' '.join(command[:1]) or 'none'}: allowed is a program that can be run")
 write, most = "--write" in options, 40
 if write:
     options.remove("--write")
@@ -67,14 +73,17 @@ if options[:1] == ["--most"] and len(options) == 2 and options[1].isdecimal() an
     most, options = int(options[1]), []
 if options:
     sys.exit(__doc__.strip())
-terminals = terminado.UniqueTermManager(max_terminals=most, shell_command=sys.argv[split + 1 :])
+terminals = terminado.UniqueTermManager(max_terminals=most, shell_command=command)
 handlers = [
     ("/", Page),
     ("/socket", Socket, {"term_manager": terminals}),
-    ("/js/(.*)", tornado.web.StaticFileHandler, {"path": "node_modules/@xterm"}),
+    (r"/js/([\w@./-]*)", tornado.web.StaticFileHandler, {"path": "node_modules/@xterm"}),
 ]
 # A foreign name that is made to point here (DNS rebinding) gets 404.
 application = tornado.web.Application()
 application.add_handlers(r"^(localhost|127\.0\.0\.1)$", handlers)
-application.listen(int(port), "127.0.0.1")
+try:
+    application.listen(int(port), "127.0.0.1")
+except OSError as error:
+    sys.exit(f"serve.py: PORT = {port}: {error.strerror}")
 tornado.ioloop.IOLoop.current().start()

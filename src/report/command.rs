@@ -5,7 +5,7 @@ use std::fmt::{Display, Formatter};
 
 use serde_json::{Value, json};
 
-use rubscope_solver::scene::keys::{differences, view_differences};
+use rubscope_solver::scene::keys::{differences, is_plain, view_differences};
 use rubscope_solver::scene::{BUILTIN, DEFAULT, Scene};
 
 /// Name of the program, as it is typed and as files record it.
@@ -84,14 +84,22 @@ impl Display for CommandLine {
     }
 }
 
-/// Quotes a word for the shell, if it needs quotes.
+/// Quotes a word for the shell, if it needs quotes. What a terminal would obey, or not show, is
+/// written as its bytes: `$'a\x07.toml'`.
 fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=+:,".contains(c);
     if !word.is_empty() && word.chars().all(plain) {
-        word.to_string()
-    } else {
-        format!("'{}'", word.replace('\'', "'\\''"))
+        return word.to_string();
     }
+    if word.chars().all(is_plain) {
+        return format!("'{}'", word.replace('\'', "'\\''"));
+    }
+    let escaped = |c: char| match c {
+        '\'' | '\\' => format!("\\{c}"),
+        c if is_plain(c) => c.to_string(),
+        c => c.to_string().bytes().map(|byte| format!("\\x{byte:02x}")).collect(),
+    };
+    format!("$'{}'", word.chars().map(escaped).collect::<String>())
 }
 
 /// Origin of a result, which its files record.
@@ -121,6 +129,8 @@ mod tests {
         assert_eq!(CommandLine::new("run", &scene).to_string(), "rubscope run slip");
         let dashed = CommandLine::from_base("run", "-a.toml", &scene, &scene);
         assert_eq!(dashed.to_string(), "rubscope run ./-a.toml");
+        let odd = CommandLine::from_base("run", "a\u{7}'\u{202e}.toml", &scene, &scene);
+        assert_eq!(odd.to_string(), "rubscope run $'a\\x07\\'\\xe2\\x80\\xae.toml'");
         scene.set("operation.speed_rad_s", "-430").unwrap();
         scene.set("title", "it's mine").unwrap();
         scene.set("note", "seen on Monday").unwrap();

@@ -153,13 +153,22 @@ pub struct Memory {
 impl Memory {
     /// Reads the config file if `wanted`; otherwise the defaults apply.
     pub fn recall(wanted: bool) -> Self {
-        let places = choose_base_strategy().ok().filter(|_| wanted);
-        let folder = places.and_then(|places| {
+        if !wanted {
+            return Self::at(None);
+        }
+        let folder = choose_base_strategy().ok().and_then(|places| {
             let folder = places.config_dir();
             is_at_home(&folder, places.home_dir()).then_some(folder)
         });
-        let path = folder.map(|folder| folder.join("rubscope/config.toml"));
-        Self::at(path)
+        let mut memory = Self::at(folder.as_ref().map(|at| at.join("rubscope/config.toml")));
+        let is_folder = |folder: &PathBuf| folder.is_dir() || !folder.exists();
+        if memory.complaint.is_none() && !folder.as_ref().is_some_and(is_folder) {
+            let place = folder.map_or("no home folder".into(), |folder| {
+                format!("{} is no folder", folder.display())
+            });
+            memory.complaint = Some(clean(&format!("settings will not be kept: {place}")));
+        }
+        memory
     }
 
     fn at(path: Option<PathBuf>) -> Self {

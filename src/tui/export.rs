@@ -260,7 +260,9 @@ mod tests {
         let name = "a\u{1b}[2J\u{202e}\u{ffff}]]></desc>\u{0}.toml".to_string();
         app.files.source = Some(crate::tui::Source { name, scene });
         let svg = svg(&app);
-        assert!(svg.contains("rubscope run 'a [2J  ]]&gt;&lt;/desc&gt; .toml'"), "{}", &svg[..600]);
+        let command =
+            r"rubscope run $'a\x1b[2J\xe2\x80\xae\xef\xbf\xbf]]&gt;&lt;/desc&gt;\x00.toml'";
+        assert!(svg.contains(command), "{}", &svg[..600]);
         let plain = |c: char| c == '\n' || rubscope_solver::scene::keys::is_plain(c);
         assert_eq!(svg.chars().find(|c| !plain(*c)), None);
     }

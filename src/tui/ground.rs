@@ -17,9 +17,6 @@ pub const QUESTION: &[u8] = b"\x1b]11;?\x07";
 /// Beginning of the terminal's report, after `ESC ]`.
 const BEGINNING: &[u8] = b"11;rgb";
 
-/// Largest length of a report, without `ESC ]` and its end \[bytes\].
-const LONGEST: usize = 40;
-
 /// Relative luminance (0 black, 1 white) above which a background counts as light: that of the grey
 /// which looks half-way between black and white.
 const MIDDLE: f64 = 0.184;
@@ -48,14 +45,6 @@ impl Ground {
         let luminance = weighted(0.2126)? + weighted(0.7152)? + weighted(0.0722)?;
         Some(if luminance > MIDDLE { Self::Light } else { Self::Dark })
     }
-}
-
-/// Returns whether `bytes` can be the beginning of a report, after `ESC ]`.
-pub fn begins_report(bytes: &[u8]) -> bool {
-    let rest = bytes.iter().skip(BEGINNING.len());
-    bytes.len() <= LONGEST
-        && bytes.iter().zip(BEGINNING).all(|(byte, wanted)| byte == wanted)
-        && rest.into_iter().all(|byte| byte.is_ascii_hexdigit() || b":/".contains(byte))
 }
 
 #[cfg(test)]
@@ -94,8 +83,6 @@ mod tests {
             ("", None),
         ] {
             assert_eq!(Ground::reported(report.as_bytes()), ground, "{report}");
-            assert!(report.starts_with("12") || begins_report(report.as_bytes()), "{report}");
         }
-        assert!(!begins_report(b"11;rgb:0/0/0q") && !begins_report(&[b'1'; 50]));
     }
 }

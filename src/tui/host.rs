@@ -78,7 +78,16 @@ impl Host for Shell {
 
     fn copy(&mut self, text: &str) -> Result<()> {
         // OSC 52 sets the clipboard of the terminal, also through SSH.
-        terminal::write(format!("\x1b]52;c;{}\x07", base64(text.as_bytes())).as_bytes())
+        let copy = format!("\x1b]52;c;{}\x07", base64(text.as_bytes()));
+        let inside = |variable: &str| std::env::var_os(variable).is_some_and(|set| !set.is_empty());
+        let bytes = match (inside("TMUX"), inside("STY")) {
+            // tmux takes it where `set-clipboard` is on, and hands the second one through where
+            // `allow-passthrough` is.
+            (true, _) => format!("{copy}\x1bPtmux;\x1b{copy}\x1b\\"),
+            (false, true) => format!("\x1bP{copy}\x1b\\"),
+            (false, false) => copy,
+        };
+        terminal::write(bytes.as_bytes())
     }
 
     fn line(&self) -> Line {

@@ -191,7 +191,7 @@ impl Lines {
             let lines = view.panel().lines(&self.app, usize::from(WIDTH)).unwrap_or_default();
             return lines
                 .iter()
-                .try_for_each(|line| writeln!(out, "{}", self.spelled(line)))
+                .try_for_each(|line| writeln!(out, "{}", self.spelled(&clean(line))))
                 .map(|()| true);
         }
         for line in self.changed(&before) {
@@ -238,6 +238,7 @@ impl Lines {
                 }
             }
             Ok(Effect::Copy(command)) => {
+                // Nothing in it acts on a terminal; a shortened command would be another one.
                 writeln!(out, "{command}")?;
                 return Ok(Some(false));
             }
@@ -253,14 +254,16 @@ impl Lines {
         }
         if let Some(knob) = knob {
             let text = format!("{} is {}: {}", knob.label, knob.text(&self.app.scene), knob.does);
-            writeln!(out, "{}", self.spelled(&text))?;
+            writeln!(out, "{}", self.spelled(&clean(&text)))?;
             return Ok(Some(false));
         }
         match std::mem::replace(&mut self.app.dialogue.mode, InputMode::Main) {
             InputMode::Main => return Ok(Some(true)),
             InputMode::Scenes(_) => self.list("scene", out)?,
             InputMode::Lessons(_) => self.list("lesson", out)?,
-            _ => writeln!(out, "refused: {} needs a screen, or more words; help", found.what)?,
+            _ => {
+                self.refuse(&format!("{} needs a screen, or more words; help", found.what), out)?
+            }
         }
         Ok(Some(false))
     }
@@ -272,14 +275,14 @@ impl Lines {
     /// Prints every scene or every lesson that can be opened; `kind` is `scene` or `lesson`.
     fn list(&self, kind: &str, out: &mut dyn Write) -> Result<(), Error> {
         for found in commands::found(&self.app, &format!("{kind} ")) {
-            writeln!(out, "{}", self.spelled(&format!("{kind} {}", found.what)))?;
+            writeln!(out, "{}", self.spelled(&clean(&format!("{kind} {}", found.what))))?;
         }
         Ok(())
     }
 
     /// Prints the two header lines of the screen.
     fn tell(&self, out: &mut dyn Write) -> Result<(), Error> {
-        panels::head_text(&self.app).iter().try_for_each(|line| writeln!(out, "{line}"))
+        panels::head_text(&self.app).iter().try_for_each(|line| writeln!(out, "{}", clean(line)))
     }
 
     /// Returns a line with the knobs that changed since `before` and their old and new values, and
@@ -363,6 +366,29 @@ mod tests {
         }
         // The same commands give the same answers.
         assert_eq!(answers("speed 450\nt 0.3 ms\nundo\n".as_bytes()), text);
+    }
+
+    #[test]
+    fn a_name_of_a_file_that_a_terminal_would_obey_is_not_printed() {
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["\u{1b}]0;own\u{7}.toml", "m\ndone: forged.toml", "\u{202e}\u{9b}a.toml"] {
+            std::fs::write(folder.path().join(name), Scene::base().to_toml()).unwrap();
+        }
+        let mut own = Lines::of(Scene::base().checked().unwrap(), Marker::Braille);
+        own.app.files.directory = folder.path().to_path_buf();
+        for line in ["scene", "scene own", "open own", "copy", "save a\u{7}B.toml", "save ok.toml"]
+        {
+            let mut out = Vec::new();
+            own.answer(line, &mut out).unwrap();
+            let text = String::from_utf8(out).unwrap();
+            let shown = |c: char| c == '\n' || rubscope_solver::scene::keys::is_plain(c);
+            assert!(text.chars().all(shown), "{line}: {text:?}");
+            assert!(!text.lines().any(|line| line.starts_with("done: forged")), "{text}");
+            let refused = line.starts_with("save a");
+            assert_eq!(text.contains("refused: a file name of letters"), refused, "{text}");
+        }
+        assert!(folder.path().join("ok.toml").exists());
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 4);
     }
 
     #[test]

@@ -13,8 +13,9 @@ const CTRL_C: u8 = 3;
 const ESCAPE: u8 = 0x1b;
 const PASTE_ENDS: &[u8] = b"\x1b[201~";
 
-/// The beginning of a report of the background. It may come in pieces, of which no byte is a key.
-const REPORT: &[u8] = b"\x1b]1";
+/// The letters that begin a report behind Escape: `OSC`, `DCS`, `APC`, `PM`. A report may come in
+/// pieces, of which no byte is a key.
+const REPORTS: &[u8] = b"]P_^";
 /// After so long without a byte the end of a pasted text, or of a report, is lost. Shorter: the
 /// rest of what comes over a slow line acts as keys.
 const LOST: Duration = Duration::from_secs(2);
@@ -68,11 +69,15 @@ impl Decoder {
     /// that came last is a key even where the end of a pasted text was lost.
     pub fn pause(&mut self, silent: Duration, found: &mut VecDeque<Event>) {
         self.end(found);
-        if self.begun == [ESCAPE, b']'] {
-            found.push_back(Event::Key(KeyEvent::new(KeyCode::Char(']'), KeyModifiers::ALT)));
-        }
-        if !self.begun.starts_with(REPORT) || silent >= LOST {
-            self.begun.clear();
+        match *self.begun {
+            // Of a user, with Alt.
+            [ESCAPE, letter] if REPORTS.contains(&letter) => {
+                let key = KeyEvent::new(KeyCode::Char(char::from(letter)), KeyModifiers::ALT);
+                found.push_back(Event::Key(key));
+                self.begun.clear();
+            }
+            [ESCAPE, letter, ..] if REPORTS.contains(&letter) && silent < LOST => {}
+            _ => self.begun.clear(),
         }
         if self.pasted.take_if(|text| text.last() == Some(&CTRL_C)).is_some() {
             found.push_back(Event::Key(KeyEvent::new(KeyCode::Char('c'), KeyModifiers::CONTROL)));
@@ -210,6 +215,11 @@ mod tests {
             "\x1b[;;;~",
             "\x1b[24;80R",
             "\x1bOz",
+            "\x1b]4;1;rgb:ffff/0000/0000\x07",
+            "\x1b]52;c;cXE=\x1b\\",
+            "\x1bP1+r544e=787465726d\x1b\\",
+            "\x1b_Gi=31;OK\x1b\\",
+            "\x1b^q\x1b\\",
         ] {
             let found = events(format!("{bytes}q").as_bytes());
             assert_eq!(found, [key(KeyCode::Char('q'), NONE)], "{bytes:?}");

@@ -5,7 +5,7 @@ use crossterm::event::{
     Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
 };
 
-use crate::tui::ground::{Ground, begins_report};
+use crate::tui::ground::Ground;
 
 /// Interpretation of the bytes since the last event.
 #[derive(Debug)]
@@ -35,7 +35,7 @@ pub fn piece(bytes: &[u8]) -> Piece {
         [0x1b, 0x1b, ..] => press(KeyCode::Esc),
         [0x1b, b'[', rest @ ..] => control_sequence(rest),
         [0x1b, b'O'] => Piece::Unfinished,
-        [0x1b, b']', rest @ ..] => report(rest),
+        [0x1b, b']' | b'P' | b'_' | b'^', rest @ ..] => report(rest),
         [0x1b, b'O', last, ..] => lettered(*last).map(|code| key(code, KeyModifiers::NONE)).into(),
         [0x1b, rest @ ..] => match piece(rest) {
             Piece::Event(Event::Key(with)) => {
@@ -57,13 +57,18 @@ pub fn piece(bytes: &[u8]) -> Piece {
     }
 }
 
-/// Interprets what follows `ESC ]`: a report of the terminal.
+/// Longest report of a terminal that is waited for \[bytes\]; a clipboard may send more, which
+/// then are keys. Longer: after a report without end it takes as many keys until one is heard.
+const LONGEST: usize = 4096;
+
+/// Interprets what follows `ESC ]` and the like: a report of the terminal, of which only that of the
+/// background was asked for.
 fn report(bytes: &[u8]) -> Piece {
     match bytes {
         [report @ .., 0x07] | [report @ .., 0x1b, b'\\'] => {
             Ground::reported(report).map_or(Piece::Nothing, Piece::Ground)
         }
-        [begun @ .., 0x1b] | begun if begins_report(begun) => Piece::Unfinished,
+        bytes if bytes.len() < LONGEST => Piece::Unfinished,
         _ => Piece::Nothing,
     }
 }

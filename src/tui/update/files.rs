@@ -2,10 +2,11 @@
 //! the list. No file is replaced without asking.
 
 use super::Effect;
+use crate::report::line::clean;
 use crate::tui::app::{App, InputMode, Purpose, SceneEntry, Source, Writing};
 use crate::tui::export;
 use crate::tui::files::{FileJob, FileResult, FoundScenes};
-use rubscope_solver::scene::keys::differences;
+use rubscope_solver::scene::keys::{differences, is_plain};
 use rubscope_solver::scene::{CheckedScene, Scene};
 
 impl App {
@@ -14,6 +15,10 @@ impl App {
         let name = name.trim();
         if name.is_empty() {
             self.status = Some("a file name is needed; Esc leaves".into());
+            return Effect::None;
+        }
+        if !name.chars().all(is_plain) {
+            self.status = Some("a file name of letters that can be seen is needed".into());
             return Effect::None;
         }
         self.dialogue.close();
@@ -65,10 +70,11 @@ impl App {
         self.dialogue.asked = true;
     }
 
-    /// Returns the command line for the clipboard, and shows it in the status line.
+    /// Returns the command line for the clipboard, and shows it in the status line: whether the
+    /// terminal takes it is not known.
     pub(super) fn copied(&mut self) -> String {
         let command = self.command();
-        self.status = Some(format!("copied: {command}"));
+        self.status = Some(format!("sent to the terminal to copy: {command}"));
         command
     }
 
@@ -99,7 +105,8 @@ impl App {
     /// # Errors
     /// One line that says why the file has no valid scene.
     pub(super) fn open_entry(&mut self, entry: &SceneEntry) -> Result<(), String> {
-        let refused = |why: &String| format!("{} cannot be opened: {why}", entry.name);
+        let name = clean(&entry.name);
+        let refused = |why: &String| format!("{name} cannot be opened: {why}");
         let scene = entry.scene.as_ref().map_err(refused)?;
         let path = match entry.file && !entry.open {
             true => self.files.directory.join(&entry.name).to_string_lossy().into_owned(),
@@ -107,7 +114,7 @@ impl App {
         };
         self.dialogue.close();
         self.open_scene(path, scene.clone());
-        self.status = Some(format!("opened {}", entry.name));
+        self.status = Some(format!("opened {name}"));
         Ok(())
     }
 
@@ -192,12 +199,12 @@ mod tests {
         let mut app = app();
         press(&mut app, KeyCode::Char('s'));
         let InputMode::Naming(_, name) = &app.dialogue.mode else { panic!() };
-        for _ in name.text().len()..200 {
+        for _ in name.text().len()..1000 {
             press(&mut app, KeyCode::Char('x'));
             assert_eq!(app.status, None);
         }
         press(&mut app, KeyCode::Char('x'));
-        assert_eq!(app.status.as_deref(), Some("no room: at most 200 letters"));
+        assert_eq!(app.status.as_deref(), Some("no room: at most 1000 letters"));
         press(&mut app, KeyCode::Backspace);
         assert_eq!(app.status, None);
     }

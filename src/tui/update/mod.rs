@@ -47,7 +47,7 @@ pub enum Effect {
 }
 
 /// Longest text that can be typed \[characters\].
-const LONGEST_TYPED: usize = 200;
+const LONGEST_TYPED: usize = 1000;
 
 impl App {
     /// Handles a key press: an action of the current context, or a letter for the open text field.
@@ -119,9 +119,13 @@ impl App {
     /// Inserts a pasted text into the open text field. It never acts as keys.
     pub fn paste(&mut self, text: &str) {
         self.files.disturb();
-        // Line breaks and control characters are dropped.
-        let text: String =
-            text.chars().filter(|&letter| line::harmless(letter) == letter).collect();
+        // A line break parts words; what comes of a last one, and control characters, are dropped.
+        let text: String = text
+            .trim_end()
+            .chars()
+            .map(|letter| if letter.is_whitespace() { ' ' } else { letter })
+            .filter(|&letter| line::harmless(letter) == letter)
+            .collect();
         let refused = match self.dialogue.typed() {
             None => Some("the pasted text is ignored: no field is open"),
             Some(field) => (!field.insert(&text, LONGEST_TYPED))
