@@ -123,15 +123,15 @@ fn a_pasted_block_lands_in_the_field_that_is_open_or_is_ignored() {
     terminal.send(&"\u{7f}".repeat(10));
     terminal.wait_for("save the scene as: _");
     terminal.send("\u{1b}[200~mi\r\nne\u{7}.toml\n\u{1b}[201~");
-    terminal.wait_for("save the scene as: mine.toml_");
+    terminal.wait_for("save the scene as: mi ne.toml_");
     terminal.send(&format!("\u{1b}[200~{}\u{1b}[201~", "x".repeat(2000)));
     terminal.wait_for("the pasted text is ignored: it is too long");
     terminal.send("\r");
-    terminal.wait_for("written: mine.toml");
+    terminal.wait_for("written: mi ne.toml");
     terminal.send("q");
     assert_eq!(terminal.wait(), 0);
     let names = std::fs::read_dir(folder.path()).unwrap().map(|file| file.unwrap().file_name());
-    assert_eq!(names.collect::<Vec<_>>(), ["mine.toml"]);
+    assert_eq!(names.collect::<Vec<_>>(), ["mi ne.toml"]);
 }
 
 #[test]

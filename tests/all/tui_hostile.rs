@@ -90,9 +90,9 @@ fn a_pasted_text_never_acts_as_keys() {
         let (app, buffer) = screen("", "", Marker::Braille, &[key(field), paste.clone()]);
         assert_eq!((&*app.scene, app.status), (&*app.files.opened, None), "{field}");
         let text: String = buffer.content.iter().map(|cell| cell.symbol()).collect();
-        assert!(text.contains("qs[Al50_"), "{text}");
+        assert!(text.contains("q s[Al50_"), "{text}");
     }
-    let typed = [key('\n'), ScreenEvent::Pasted("4\n3\u{7}0\r\n".into()), key('\n')];
+    let typed = [key('\n'), ScreenEvent::Pasted("43\u{7}0\r\n".into()), key('\n')];
     let (app, _) = screen("", "", Marker::Braille, &typed);
     assert_eq!(app.scene.operation.speed_rad_s, 430.0);
     let huge = [key('\n'), ScreenEvent::Pasted("9".repeat(1 << 20)), key('5'), key('\n')];

@@ -122,6 +122,7 @@ impl App {
         // A line break parts words; what comes of a last one, and control characters, are dropped.
         let text: String = text
             .trim_end()
+            .replace("\r\n", "\n")
             .chars()
             .map(|letter| if letter.is_whitespace() { ' ' } else { letter })
             .filter(|&letter| line::harmless(letter) == letter)
