@@ -15,7 +15,7 @@ use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use rubscope_solver::harmonic::{Form, locked_motion};
 use rubscope_solver::motion::{
-    ExactEvents, Motion, Sample, Sampling, Script, run_to_end, run_to_verdict, run_with_certainty,
+    Events, Motion, Sample, Sampling, Script, run_to_end, run_to_verdict, run_with_certainty,
     to_the_end,
 };
 use rubscope_solver::scene::{CheckedScene, Scene};
@@ -115,7 +115,7 @@ fn event(criterion: &mut Criterion) {
         let scene = scene(changes);
         group.bench_with_input(name, &scene, |bencher, scene| {
             bencher.iter(|| {
-                let motion = ExactEvents::new(black_box(scene)).unwrap().with_tolerance(tolerance);
+                let motion = Events::new(black_box(scene)).unwrap().with_tolerance(tolerance);
                 to_the_end_of(scene, motion.into()).state().u[0]
             });
         });

@@ -1,14 +1,11 @@
-//! Every threshold, safety factor and bound of work of the solvers, with its
-//! reason and what breaks if it is changed. Numbers of terms, nodes and table
-//! entries stand where the tables are.
+//! Thresholds, safety factors and bounds of work of the solvers, each with its reason and what breaks
+//! if it is changed. Those that rule one file stand there, as all of the event solver do, and so do
+//! numbers of terms, nodes and table entries.
 
-mod event;
 mod harmonic;
 mod lining;
 mod margins;
 
-pub(crate) use event::*;
-pub use event::{MOST_EVENTS, MOST_LOOKS};
 pub(crate) use harmonic::*;
 pub(crate) use lining::*;
 pub(crate) use margins::*;
@@ -34,10 +31,6 @@ pub(crate) const AS_ZERO: f64 = 1e-12;
 /// Largest blade angle the model stands for \[rad\]: the model is linear in it,
 /// and its square is 1 % there. Larger: results the model does not support.
 pub(crate) const LARGEST_BLADE_ANGLE: f64 = 0.1;
-
-/// Part of the way to a closed or a straight corner that blades may turn it.
-/// Larger: sides could pass each other within one series.
-pub(crate) const CORNER_ROOM: f64 = 0.9;
 
 // Time.
 

@@ -137,7 +137,7 @@ pub fn write(report: &Precision, out: &mut dyn Write) -> Result<()> {
         time(reference.wall_s),
     )?;
     writeln!(out, "{}", goodness(reference))?;
-    if report.scene.has_other_tips() && reference.method == Method::Events {
+    if report.scene.has_slope_or_friction() && reference.method == Method::Events {
         writeln!(
             out,
             "It is linearised: blade angles inside the phase of the gap are left out, which the \

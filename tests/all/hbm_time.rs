@@ -4,7 +4,7 @@
 use crate::close;
 use nalgebra::Complex;
 use rubscope_solver::harmonic::{Corner, Form, Locked, SlipOrbit, slip_over};
-use rubscope_solver::motion::{ActiveSet, ExactEvents, Solver};
+use rubscope_solver::motion::{ActiveSet, Events, Solver};
 use rubscope_solver::scene::{ModelSize, Scene};
 
 /// Rigid blades unless a test changes it, as the closed forms have them.
@@ -43,7 +43,7 @@ fn in_corner(diameters: u32, zeta: f64, speed: f64) -> Scene {
 /// Rotor speed of the wave over 100 sides, after neighbouring orbits have
 /// converged to 1e-12.
 fn long_wave_speed(scene: &Scene, orbit: &SlipOrbit) -> f64 {
-    let mut motion = ExactEvents::new(&scene.checked().unwrap()).unwrap();
+    let mut motion = Events::new(&scene.checked().unwrap()).unwrap();
     let steady = orbit.period_s * 1e-12_f64.ln() / orbit.slope.ln();
     motion.advance(0.1 + steady).unwrap();
     let mut sides = Vec::new();
@@ -110,7 +110,7 @@ fn event_locked_motion_is_the_modal_form() {
         scene.solver.model = ModelSize::Modal;
         // The blades' start at rest is forgotten after 0.3 s.
         scene.bladed_disk.damping_ratio = 0.5;
-        let mut motion = ExactEvents::new(&scene.checked().unwrap()).unwrap();
+        let mut motion = Events::new(&scene.checked().unwrap()).unwrap();
         motion.advance(0.3).unwrap();
         let machine = scene.machine();
         let corner = Corner::paper(&machine.polygon).unwrap();

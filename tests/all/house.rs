@@ -126,10 +126,8 @@ fn no_solver_knows_its_sibling() {
     }
     // A folder of `motion`, and what none of its lines may name.
     let apart = [
-        ("explicit", &["motion::event", "LinearEvents", "ExactEvents"][..]),
+        ("explicit", &["motion::event", "Events"][..]),
         ("event", &["motion::explicit", "Explicit::"]),
-        ("event/exact", &["linear::", "LinearEvents"]),
-        ("event/linear", &["exact::"]),
     ];
     for (folder, forbidden) in apart {
         let files = sources(&root().join("solver/src/motion").join(folder));

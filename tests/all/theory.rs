@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use rubscope_solver::harmonic::{Kind, equilibria, equilibrium};
 use rubscope_solver::model::Machine;
-use rubscope_solver::motion::{ExactEvents, Solver, run_to_verdict, to_the_end};
+use rubscope_solver::motion::{Events, Solver, run_to_verdict, to_the_end};
 use rubscope_solver::scene::{ModelSize, Scene};
 use serde_json::Value;
 
@@ -104,7 +104,7 @@ fn closed_form(id: &str) -> f64 {
         "largest-step" => delta / nu,
         "run-down" => {
             let scene = Scene::builtin("run-down").unwrap();
-            let mut event = ExactEvents::new(&scene.checked().unwrap()).unwrap();
+            let mut event = Events::new(&scene.checked().unwrap()).unwrap();
             event.advance(0.06).unwrap();
             let ended = event.contacts().longest_hold.unwrap().until;
             event.rotor().speed(ended)

@@ -8,6 +8,12 @@ use std::sync::Arc;
 use super::spin::Spin;
 use super::{BladedDisk, Casing, ContactPolygon, LiningLaw, Tips};
 
+/// Part of the forces that add up to a contact force of a held corner (`Machine::push_scale`) above
+/// which its sign is certain. At such a force of the paper's machine, a step of 1e-7 s predicts a gap
+/// of 1e-15 of the clearance: a few roundings. Smaller: next to the limit of a lock round-off decides
+/// the sign, and a longer run contradicts the proof.
+pub(crate) const CERTAIN_PUSH: f64 = 1e-8;
+
 /// Model of one machine for one number of nodal diameters, with two casing and two blade
 /// coordinates.
 ///

@@ -17,6 +17,7 @@ mod tips;
 
 pub use lining::LiningLaw;
 pub use lock::LockWindow;
+pub(crate) use machine::CERTAIN_PUSH;
 pub use machine::{Machine, blade_frequency};
 pub(crate) use parameters::given_frequency;
 pub use parameters::{

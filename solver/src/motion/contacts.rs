@@ -138,6 +138,8 @@ pub struct ContactLog {
     pub impacts: Vec<Impact>,
     /// Number of all impacts.
     pub impact_count: u64,
+    /// First instant at which the event solver saw impacts accumulate; `None` if it did not \[s\].
+    pub accumulated: Option<f64>,
 }
 
 impl ContactLog {

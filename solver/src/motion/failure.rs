@@ -1,8 +1,9 @@
 //! Reasons why a motion stopped before its end, and their wording.
 
+use super::event::{MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS};
 use super::{Pulse, Verdict};
 use crate::numeric::rounding::rounded;
-use crate::tolerances::{LARGEST_BLADE_ANGLE, MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS};
+use crate::tolerances::LARGEST_BLADE_ANGLE;
 use thiserror::Error;
 
 /// Most rows that one step closes together: a few in an ordinary step, a hundred

@@ -24,7 +24,8 @@ mod wave;
 
 pub use contacts::{ActiveSet, ContactLog, EnergyAccount, Hold, Impact, in_phase_order};
 pub use drive::{Pulse, Rotor, State};
-pub use event::{ExactEvents, LinearEvents};
+pub(crate) use event::EVENT;
+pub use event::Events;
 pub use failure::{Failure, FailureReason};
 pub use propagator::FreeFlight;
 pub use run::{

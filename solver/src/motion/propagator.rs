@@ -10,25 +10,22 @@
 //! The module also derives from it the gap of a side during free flight after the pulse, and the
 //! energy lost by a damped oscillator.
 
-use std::f64::consts::PI;
-
 use super::Plane;
 use crate::model::{Machine, Operation};
 use crate::numeric::quadrature::quadrature;
 
-/// Part of the rates below which two roots of an oscillator are nearly one: a
-/// sum of two exponentials then loses digits.
+/// Part of the rates below which the two roots of an oscillator are nearly one: a sum of two
+/// exponentials then loses digits.
 const DOUBLE_ROOT: f64 = 0.3;
 
-/// Radians of an oscillator below which its response is a power series: its
-/// closed form cancels there.
+/// Radians of an oscillator below which its response is a power series: its closed form cancels
+/// there.
 const SHORT_TIME: f64 = 0.5;
 
 /// Terms of a power series of order one that are below its round-off.
 const SERIES_END: f64 = 1e-19;
 
-/// Square of an exponent below which its integral is a power series of three
-/// terms.
+/// Square of an exponent below which its integral is a power series of three terms.
 const SMALL_EXPONENT: f64 = 1e-8;
 
 /// Largest number of terms of the power series; for `rate * s = 1/2` the last one is below 1e-20.
@@ -153,22 +150,6 @@ impl Propagator {
     pub(super) fn swing(&self) -> Option<f64> {
         let swings = self.discriminant < 0.0 && self.root > DOUBLE_ROOT * self.damping;
         swings.then_some(self.root)
-    }
-
-    /// Returns the time at which a free motion with displacement `place` and rate `rate` first has
-    /// zero rate, for `stiffness > 0` \[s\]; `None` if it creeps to zero without a turning point.
-    pub(super) fn first_rest(&self, place: f64, rate: f64) -> Option<f64> {
-        let q = self.root;
-        let (across, along) = (rate, self.damping * rate + self.stiffness * place);
-        let time = if self.discriminant < 0.0 {
-            let angle = (q * across).atan2(along);
-            (if angle < 0.0 { angle + PI } else { angle }) / q
-        } else if q > 0.0 {
-            (q * across / along).atanh() / q
-        } else {
-            across / along
-        };
-        (time >= 0.0 && time.is_finite()).then_some(time)
     }
 }
 
@@ -352,27 +333,6 @@ mod tests {
                         error < 1e-11,
                         "c {c}, stiffness {stiffness}, s {s}: {value} {expected}"
                     );
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn a_turning_point_is_where_the_rate_vanishes_first() {
-        for (c, stiffness) in [(0.0, 2.0), (0.3, 1.0), (1.0, 1.0), (0.999_999, 1.0), (3.0, 1.0)] {
-            let propagator = Propagator::new(c, stiffness);
-            for (place, rate) in [(1.0, 0.3), (1.0, -0.1), (-0.2, 1.0), (0.0, 1.0), (0.1, -7.0)] {
-                let rate_at = |s: f64| {
-                    let response = propagator.at(s);
-                    rate * response.slope - place * stiffness * response.unit
-                };
-                let sampled = (1..40_000).map(|k| 1e-3 * f64::from(k));
-                let first = sampled.into_iter().find(|&s| rate_at(s) * rate < 0.0);
-                let found = propagator.first_rest(place, rate).filter(|&time| time < 39.0);
-                assert_eq!(found.is_some(), first.is_some(), "{c} {stiffness} {place} {rate}");
-                if let (Some(time), Some(first)) = (found, first) {
-                    assert!(time <= first && time > first - 1.001e-3, "{time} {first}");
-                    assert!(rate_at(time).abs() < 1e-12, "{c} {stiffness} {place} {rate}");
                 }
             }
         }

@@ -502,9 +502,9 @@ pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) 
 }
 
 /// Returns the first time at which impacts accumulate \[s\]. Rigid contact comes to rest in a
-/// corner, and with restitution also on a side, through infinitely many impacts. The rest must last
-/// for at least a casing period to count; `None` without such a rest, and for any law other than
-/// the unilateral one.
+/// corner, and with restitution also on a side, through infinitely many impacts. The event solver
+/// sees their limit. Steps do not resolve it: the rest that follows must last for at least a casing
+/// period to count. `None` without either, and for any law other than the unilateral one.
 fn accumulation(scene: &CheckedScene, log: &ContactLog, machine: &Machine) -> Option<f64> {
     let lasts = |(from, until): &(f64, f64)| until - from >= TAU / machine.omega_c;
     let now = |from: f64| Some((from, log.last_contact?));
@@ -515,7 +515,7 @@ fn accumulation(scene: &CheckedScene, log: &ContactLog, machine: &Machine) -> Op
     let before = log.longest_hold.map(|hold| (hold.from, hold.until));
     let rigid = scene.solver.contact == ContactLaw::Unilateral && log.impact_count > 0;
     let rests = [before, side, corner].into_iter().flatten().filter(lasts);
-    rests.map(|(from, _)| from).reduce(f64::min).filter(|_| rigid)
+    rests.map(|(from, _)| from).chain(log.accumulated).reduce(f64::min).filter(|_| rigid)
 }
 
 /// Returns the longest hold of a corner that ended during the run, and the rotor speed when it

@@ -6,8 +6,8 @@ use std::ops::{Deref, DerefMut};
 use super::explicit::Explicit;
 use super::verdict::judge;
 use super::{
-    Checks, ContactLog, EnergyAccount, ExactEvents, Failure, FailureReason, LinearEvents, Plane,
-    Pulse, Rotor, State, Verdict,
+    Checks, ContactLog, EnergyAccount, Events, Failure, FailureReason, Plane, Pulse, Rotor, State,
+    Verdict,
 };
 use crate::model::Machine;
 use crate::scene::{CheckedScene, SolverKind};
@@ -246,8 +246,7 @@ impl Motion {
     #[must_use]
     pub fn new(scene: &CheckedScene) -> Self {
         match scene.solver.kind {
-            SolverKind::Event if scene.has_other_tips() => LinearEvents::new(scene).into(),
-            SolverKind::Event => ExactEvents::of(scene).into(),
+            SolverKind::Event => Events::of(scene).into(),
             SolverKind::Explicit => Explicit::new(scene).into(),
         }
     }

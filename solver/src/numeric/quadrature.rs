@@ -7,7 +7,7 @@
 /// Radians over which four Gauss nodes are exact to round-off.
 const FEW_NODES: f64 = 0.3;
 
-/// Panels of one quadrature, at most: of the energy balance of one segment.
+/// Panels of one quadrature, at most.
 const MOST_PANELS: f64 = 1e7;
 
 /// Integrates two functions over `[0, s]`; `rate` is their highest angular frequency.

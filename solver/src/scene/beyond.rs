@@ -42,17 +42,24 @@ impl Scene {
         grows || (stiffens && self.solver.model != ModelSize::Rigid)
     }
 
+    /// Returns whether a contact force bends blades that move by the slope or the friction of their
+    /// tips. The event solver then leaves the blade angles out of the phases of the gaps.
+    #[must_use]
+    pub fn has_slope_or_friction(&self) -> bool {
+        let tips = self.bladed_disk.radial_coupling != 0.0 || self.contact.friction != 0.0;
+        self.solver.model != ModelSize::Rigid && tips
+    }
+
     /// Returns whether the contact of tips and casing differs from the paper's.
     #[must_use]
     pub fn has_other_tips(&self) -> bool {
         let (disk, surface) = (&self.bladed_disk, &self.contact);
         let model = self.solver.model;
-        let tips = disk.radial_coupling != 0.0 || surface.friction != 0.0;
         self.solver.contact == ContactLaw::Smooth
             || self.is_uneven()
             || surface.restitution != 0.0
             || surface.friction * self.casing.tangential_ratio != 0.0
-            || (model != ModelSize::Rigid && tips)
+            || self.has_slope_or_friction()
             || (model == ModelSize::Modal && self.has_other_diameters())
             || (model == ModelSize::Full && disk.mistuning != 0.0)
     }

@@ -60,18 +60,6 @@ impl CheckedScene {
         check::event(&self.0)
     }
 
-    /// Checks that the tips and their contact are those of the paper.
-    ///
-    /// # Errors
-    /// The scene has other tips or another contact.
-    pub fn is_of_the_paper(&self) -> Result<(), SceneError> {
-        if !self.has_other_tips() {
-            return Ok(());
-        }
-        let allowed = "one without what goes beyond the paper, for the paper's own solver";
-        Err(SceneError::refused("scene", &self.title, allowed))
-    }
-
     /// Unwraps the scene, which can then be changed.
     #[must_use]
     pub fn into_scene(self) -> Scene {

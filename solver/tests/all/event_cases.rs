@@ -4,7 +4,7 @@
 use crate::close;
 use crate::event_modal::on_side_0;
 use crate::keys::{DIAMETERS, PULSE, RAMP, SPEED, ZETA};
-use rubscope_solver::motion::{ActiveSet, ExactEvents, Solver, Verdict};
+use rubscope_solver::motion::{ActiveSet, Events, Solver, Verdict};
 use rubscope_solver::scene::Scene;
 
 pub fn scene(changes: &[(&str, f64)]) -> Scene {
@@ -23,8 +23,8 @@ pub fn scene_of(model: &str, changes: &[(&str, f64)]) -> Scene {
     scene
 }
 
-fn run(changes: &[(&str, f64)], until: f64) -> ExactEvents {
-    let mut motion = ExactEvents::new(&scene(changes).checked().unwrap()).unwrap();
+fn run(changes: &[(&str, f64)], until: f64) -> Events {
+    let mut motion = Events::new(&scene(changes).checked().unwrap()).unwrap();
     motion.advance(until).unwrap();
     motion
 }
@@ -35,7 +35,7 @@ fn the_summed_rocking_is_where_stepping_would_be() {
     // crossings; the corner is approached without a jump.
     let changes = [(ZETA, 0.0), (PULSE, 51742.0)];
     let lock = run(&changes, 0.1).contacts().since;
-    let mut motion = ExactEvents::new(&scene(&changes).checked().unwrap()).unwrap();
+    let mut motion = Events::new(&scene(&changes).checked().unwrap()).unwrap();
     let corner = motion.machine().locked_amplitude().unwrap();
     let mut last = f64::INFINITY;
     for part in 0..40 {
@@ -50,10 +50,10 @@ fn the_summed_rocking_is_where_stepping_would_be() {
 }
 
 /// Starts at rest against the blades in the corner of side 0 and the next.
-fn in_a_corner(changes: &[(&str, f64)]) -> ExactEvents {
+fn in_a_corner(changes: &[(&str, f64)]) -> Events {
     let mut scene = scene(changes);
     on_side_0(&mut scene, true, 0.0);
-    ExactEvents::new(&scene.checked().unwrap()).unwrap()
+    Events::new(&scene.checked().unwrap()).unwrap()
 }
 
 #[test]

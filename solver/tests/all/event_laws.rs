@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use crate::plain::scenes::{in_corner, scene};
 use proptest::prelude::*;
-use rubscope_solver::motion::{ExactEvents, Motion, Solver, State};
+use rubscope_solver::motion::{Events, Motion, Solver, State};
 use rubscope_solver::scene::{ModelSize, Scene, SolverKind};
 
 /// A scene of every kind the event solver takes; one in three with moving blades.
@@ -42,7 +42,7 @@ fn scenes() -> impl Strategy<Value = Scene> {
 }
 
 /// Checks the state now; returns the energy scale so far.
-fn lawful(motion: &ExactEvents) -> Result<(), TestCaseError> {
+fn lawful(motion: &Events) -> Result<(), TestCaseError> {
     let state = motion.state();
     let machine = motion.machine();
     let polygon = &machine.polygon;
@@ -87,7 +87,7 @@ proptest! {
 
     #[test]
     fn no_penetration_no_pull_and_a_balance_of_energy(scene in scenes()) {
-        let mut motion = ExactEvents::new(&scene.checked().unwrap()).unwrap();
+        let mut motion = Events::new(&scene.checked().unwrap()).unwrap();
         let end = 0.02;
         let mut largest: f64 = 0.0;
         for part in 1..=200 {
@@ -118,9 +118,9 @@ proptest! {
 
     #[test]
     fn where_one_looks_does_not_change_a_bit(scene in scenes(), cuts in prop::collection::vec(0.0..0.02, 1..6)) {
-        let mut whole = ExactEvents::new(&scene.checked().unwrap()).unwrap();
-        let mut again = ExactEvents::new(&scene.checked().unwrap()).unwrap();
-        let mut parts = ExactEvents::new(&scene.checked().unwrap()).unwrap();
+        let mut whole = Events::new(&scene.checked().unwrap()).unwrap();
+        let mut again = Events::new(&scene.checked().unwrap()).unwrap();
+        let mut parts = Events::new(&scene.checked().unwrap()).unwrap();
         let mut cuts = cuts;
         cuts.sort_by(f64::total_cmp);
         let one = whole.advance(0.02);
@@ -142,7 +142,7 @@ proptest! {
         mirrored.operation.speed_ramp_rad_s2 *= -1.0;
         mirrored.initial.u_s_m *= -1.0;
         mirrored.initial.v_s_m_s *= -1.0;
-        let (mut left, mut right) = (ExactEvents::new(&scene.checked().unwrap()).unwrap(), ExactEvents::new(&mirrored.checked().unwrap()).unwrap());
+        let (mut left, mut right) = (Events::new(&scene.checked().unwrap()).unwrap(), Events::new(&mirrored.checked().unwrap()).unwrap());
         // Grazing contacts amplify round-off: compare the first twenty changes
         // of contact.
         for _ in 0..20 {
@@ -170,7 +170,7 @@ proptest! {
         turned.initial.u_s_m = start.u_c_m * sin + start.u_s_m * cos;
         turned.initial.v_c_m_s = start.v_c_m_s * cos - start.v_s_m_s * sin;
         turned.initial.v_s_m_s = start.v_c_m_s * sin + start.v_s_m_s * cos;
-        let (mut one, mut other) = (ExactEvents::new(&scene.checked().unwrap()).unwrap(), ExactEvents::new(&turned.checked().unwrap()).unwrap());
+        let (mut one, mut other) = (Events::new(&scene.checked().unwrap()).unwrap(), Events::new(&turned.checked().unwrap()).unwrap());
         // Impacts near corners and grazing contacts amplify round-off: compare
         // the first few.
         let mut until: f64 = 0.005;
@@ -179,7 +179,7 @@ proptest! {
             if next.is_err() { return Ok(()) }
             until = next.unwrap();
         }
-        let mut one = ExactEvents::new(&scene.checked().unwrap()).unwrap();
+        let mut one = Events::new(&scene.checked().unwrap()).unwrap();
         one.advance(0.999 * until).unwrap();
         other.advance(0.999 * until).unwrap();
         let (one, other) = (one.state(), other.state());

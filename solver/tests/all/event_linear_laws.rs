@@ -3,7 +3,7 @@
 //! no energy from nowhere.
 
 use proptest::prelude::*;
-use rubscope_solver::motion::{LinearEvents, Motion, Solver, Verdict, to_the_end};
+use rubscope_solver::motion::{Events, Motion, Solver, Verdict, to_the_end};
 use rubscope_solver::scene::{CheckedScene, Scene};
 
 use crate::{drawn, event_linear};
@@ -61,7 +61,7 @@ proptest! {
     #[test]
     fn nothing_pulls_passes_or_comes_from_nowhere(machine in machine()) {
         let scene = scene(&machine);
-        let mut motion = LinearEvents::new(&scene);
+        let mut motion = Events::new(&scene).unwrap();
         let g0 = scene.clearance();
         let mut ended = false;
         for k in 1..=50 {
@@ -94,7 +94,7 @@ proptest! {
     #[test]
     fn where_one_looks_changes_no_bit(machine in machine()) {
         let scene = scene(&machine);
-        let (mut once, mut often) = (LinearEvents::new(&scene), LinearEvents::new(&scene));
+        let (mut once, mut often) = (Events::new(&scene).unwrap(), Events::new(&scene).unwrap());
         let first = once.advance(0.02);
         let mut second = Ok(());
         for k in 1..=100 {

@@ -5,7 +5,7 @@ use crate::close;
 use crate::event_cases::scene_of;
 use crate::tips_support::carried;
 use rubscope_solver::model::Machine;
-use rubscope_solver::motion::{ActiveSet, ExactEvents, Solver, State};
+use rubscope_solver::motion::{ActiveSet, Events, Solver, State};
 use rubscope_solver::scene::Scene;
 
 fn scene(changes: &[(&str, f64)]) -> Scene {
@@ -156,7 +156,7 @@ fn sliding_with_blades_agrees_with_the_constrained_equations() {
         scene.operation.speed_ramp_rad_s2 = ramp;
         scene.operation.pulse_n = pulse;
         scene.operation.pulse_s = 1.0;
-        let mut motion = ExactEvents::new(&scene.checked().unwrap()).unwrap();
+        let mut motion = Events::new(&scene.checked().unwrap()).unwrap();
         let start = phase(&motion.state());
         assert_eq!(motion.contacts().active_set, ActiveSet::Side(0));
         let mut end = motion.clone();
@@ -183,7 +183,7 @@ fn locked_with_blades_agrees_with_the_constrained_equations() {
         scene.operation.speed_ramp_rad_s2 = ramp;
         scene.operation.pulse_n = pulse;
         scene.operation.pulse_s = 1.0;
-        let mut motion = ExactEvents::new(&scene.checked().unwrap()).unwrap();
+        let mut motion = Events::new(&scene.checked().unwrap()).unwrap();
         assert_eq!(motion.contacts().active_set, ActiveSet::Corner(0, 1), "{soft}");
         let start = phase(&motion.state());
         let until = 0.02;
@@ -204,7 +204,7 @@ fn locked_with_blades_agrees_with_the_constrained_equations() {
 fn very_stiff_blades_follow_the_pushes() {
     let mut scene = scene(&[("bladed_disk.stiffness_nm_per_rad", 1e12)]);
     on_side_0(&mut scene, true, 0.0);
-    let mut motion = ExactEvents::new(&scene.checked().unwrap()).unwrap();
+    let mut motion = Events::new(&scene.checked().unwrap()).unwrap();
     motion.advance(1.0).unwrap();
     let (machine, state) = (motion.machine(), motion.state());
     // alpha = (1/K) sum_j -lambda_j A_j exp(i psi_j) with A_j = n_d y_j.

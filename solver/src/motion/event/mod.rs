@@ -1,154 +1,548 @@
-//! Event-driven solvers: between two changes of contact the motion is computed in closed form, or
-//! as a power series to round-off, and the next change is located instead of being stepped over.
+//! Event-driven solver: the true motion, from one change of contact to the next (docs/theory.md,
+//! sections 7, 10 and 11).
 //!
-//! There are two of them: `exact` keeps the blade angles in the gaps (the paper's model), `linear`
-//! neglects them there (inclined and rubbing tips, restitution). Both use the clock (in this file)
-//! and the series and safe steps of `series`.
+//! While the same rows are in contact, casing and blades obey equations with constant coefficients in
+//! the blade frame (polynomials of time during a ramp of the rotor speed). The motion is a power
+//! series, summed to round-off over one stretch after the other, or free flight in closed form; a
+//! stretch ends at the first gap that closes or contact force that vanishes. Complementarity problems
+//! determine what follows.
+//!
+//! A stretch is always evaluated from its start, never from an output time, so that output does not
+//! change the motion, not even by one bit.
+//!
+//! Order in which to read: `flow` (the equations), `flight`, `series`, `stretch`, `seek`, `impact`,
+//! `rocking`, `transitions`, then `energy`, `lasting` (proofs) and `run`.
 
-mod exact;
-mod linear;
+mod energy;
+mod flight;
+mod flow;
+mod impact;
+mod lasting;
+mod rocking;
+mod run;
+mod seek;
 mod series;
+mod stretch;
+mod transitions;
 
-pub use exact::ExactEvents;
-pub use linear::LinearEvents;
+use std::sync::OnceLock;
 
-use crate::motion::{ActiveSet, ContactLog, Failure, FailureReason, Pulse, Rotor};
-use crate::numeric::sum::two_sum;
-use crate::scene::Scene;
-use crate::tolerances::{AN_INSTANT, MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS};
+use crate::model::Machine;
+use crate::motion::point::Point;
+use crate::motion::{
+    Checks, ContactLog, EnergyAccount, Failure, FailureReason, GoOn, Plane, Pulse, Rotor, Solver,
+    State, Verdict, in_phase_order,
+};
+use crate::numeric::lcp::Lcp;
+use crate::scene::{CheckedScene, SceneError};
+use energy::{Energies, Swings};
+use flow::{Flow, dot};
+use impact::Touch;
+use lasting::Rest;
+use run::Run;
+use seek::{Ending, OpenedGap};
+use stretch::{Held, Stretch};
 
-/// Start of the present stretch, and the present instant \[s\].
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Clock {
-    /// Sum of both parts: the second one contains the rounding error of the first.
-    start: (f64, f64),
-    /// Present instant.
-    pub now: f64,
-}
+pub(crate) use flow::EVENT;
+pub use run::{MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS};
 
-impl Clock {
-    /// Returns the start of the stretch \[s\].
-    pub fn start(&self) -> f64 {
-        self.start.0
-    }
+/// A start this close to a side, in parts of the clearance, is on it. A scene may have computed
+/// coordinates; see its check.
+pub(crate) const ON_A_SIDE: f64 = 1e-12;
 
-    /// Returns the time from the start of the stretch to `t` \[s\].
-    pub fn elapsed(&self, t: f64) -> f64 {
-        ((t - self.start.0) - self.start.1).max(0.0)
-    }
+/// Tolerances that may be chosen. Finer than round-off has no meaning; coarser moves impacts by more
+/// than the clearance resolves.
+const EVENT_RANGE: std::ops::RangeInclusive<f64> = 1e-16..=1e-3;
 
-    /// Begins a stretch `s` seconds after the start of the previous one.
-    pub fn pass(&mut self, s: f64) {
-        let (t, low) = self.start;
-        self.start = two_sum(t, s + low);
-        self.arrive(self.start.0);
-    }
-
-    /// Begins a stretch at time `t`.
-    pub fn begin_at(&mut self, t: f64) {
-        self.start = (t, 0.0);
-        self.arrive(t);
-    }
-
-    /// Advances the present instant to `t`; never moves it back.
-    pub fn arrive(&mut self, t: f64) {
-        self.now = self.now.max(t);
-    }
-}
-
-/// Data of a run that both solvers keep: clock, rotor, pulse, contacts, work counters, and the
-/// failure that ended it.
+/// Event-driven solver of a scene, at some instant of its motion.
+///
+/// ```
+/// use rubscope_solver::{motion::{Events, Solver, Verdict}, scene::Scene};
+/// let scene = Scene::base().with(&[
+///     ("solver.kind", "event"),
+///     ("bladed_disk.radial_coupling", "0.3"),
+///     ("operation.speed_rad_s", "450"),
+///     ("operation.pulse_n", "1e5"),
+/// ])?;
+/// let mut motion = Events::new(&scene)?;
+/// motion.advance(3e-3)?;
+/// assert_eq!(motion.contacts().impact_count, 13);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
-struct Run {
-    clock: Clock,
-    rotor: Rotor,
-    pulse: Pulse,
-    log: ContactLog,
-    /// Number of events.
-    events: u64,
-    /// Number of consecutive events, up to the latest, without time between them.
-    idle: u32,
-    /// Number of steps in the search for events.
-    looks: u64,
-    /// Deepest penetration \[m\].
-    deepest: f64,
-    /// Largest blade angle \[rad\].
-    widest: f64,
-    /// Whether energies, the largest angle and the deepest penetration are recorded.
-    checked: bool,
-    /// Failure that ended the run; `None` if it has not failed.
-    failure: Option<Failure>,
+pub struct Events {
+    flow: Flow,
+    run: Run,
+    energies: Energies,
+    /// Whether the scene goes beyond the paper's model.
+    beyond: bool,
+    /// Phase `n_d theta` at the start of the stretch, modulo a full turn \[rad\].
+    phase: f64,
+    /// Rows in contact.
+    held: Held,
+    /// Gaps that have just opened.
+    opened: Vec<OpenedGap>,
+    /// Present stretch of the motion.
+    stretch: Stretch,
+    /// Event that ends the stretch, and its time after the start of the stretch \[s\].
+    next: (f64, Ending),
+    /// Bounds that can prove the present contact permanent, computed on demand; `None` if it has no
+    /// stable equilibrium, or would not last there.
+    rest: OnceLock<Option<Rest>>,
+    swings: Swings,
+    /// Memory for the complementarity problems.
+    problem: Lcp,
 }
 
-impl Run {
-    fn of(scene: &Scene) -> Self {
-        Self {
-            clock: Clock::default(),
-            rotor: Rotor::of(scene),
-            pulse: Pulse::of(scene),
-            log: ContactLog::default(),
-            events: 0,
-            idle: 0,
-            looks: 0,
-            deepest: 0.0,
-            widest: 0.0,
-            checked: true,
-            failure: None,
+impl Events {
+    /// Starts the motion of a scene at t = 0, whichever solver the scene names.
+    ///
+    /// # Errors
+    /// The event solver does not support the contact law, the model size or the excitation.
+    pub fn new(scene: &CheckedScene) -> Result<Self, SceneError> {
+        scene.suits_events()?;
+        Ok(Self::of(scene))
+    }
+
+    /// As `new`, for a scene that names this solver or suits it.
+    pub(in crate::motion) fn of(scene: &CheckedScene) -> Self {
+        let flow = Flow::new(scene);
+        let (initial, start) = (&scene.initial, scene.start());
+        let z = Plane::new(start.0, start.1);
+        let carried = Plane::i() * z * flow.nu;
+        let dz = Plane::new(initial.v_c_m_s, initial.v_s_m_s) - carried;
+        Self::from_point(scene, flow, Point { z, dz, ..Point::default() })
+    }
+
+    fn from_point(scene: &CheckedScene, flow: Flow, point: Point) -> Self {
+        let mut motion = Self {
+            energies: Energies { start: flow.energy(&point, 0.0), ..Energies::default() },
+            run: Run::of(scene),
+            beyond: scene.goes_beyond(),
+            phase: 0.0,
+            held: Held::default(),
+            opened: Vec::new(),
+            stretch: Stretch::flight(point, f64::INFINITY),
+            next: (f64::INFINITY, Ending::StretchEnd),
+            rest: OnceLock::new(),
+            swings: Swings::new(&flow, scene.solver.end_s),
+            problem: Lcp::default(),
+            flow,
+        };
+        motion.begin(point);
+        motion
+    }
+
+    /// Takes gaps below `tolerance` times the size of the motion as closed; 1e-15 otherwise.
+    #[must_use]
+    pub fn with_tolerance(mut self, tolerance: f64) -> Self {
+        self.flow.tolerance = tolerance.clamp(*EVENT_RANGE.start(), *EVENT_RANGE.end());
+        self
+    }
+
+    /// Advances to the next change of contact, or to `limit` if none comes before \[s\]; returns the
+    /// instant reached.
+    ///
+    /// # Errors
+    /// As `advance`.
+    pub fn next_event(&mut self, limit: f64) -> Result<f64, Failure> {
+        let events = self.run.events;
+        while self.run.failure.is_none()
+            && events == self.run.events
+            && self.next.0 <= self.elapsed(limit)
+        {
+            self.pass();
         }
+        let reached = if events == self.run.events { limit } else { self.run.clock.start() };
+        self.advance(reached.max(self.run.clock.now))?;
+        Ok(self.run.clock.now)
     }
 
-    /// Ends the run `s` seconds after the start of the stretch.
-    fn fail(&mut self, s: f64, reason: FailureReason) -> Failure {
-        let t_s = self.clock.start() + s;
-        self.clock.arrive(t_s);
-        self.failure.get_or_insert(Failure { t_s, reason }).clone()
-    }
-
-    /// Counts the end of a stretch that lasted for the phase `phase` \[rad\] and may be an event;
-    /// returns the limit that is exceeded, if any.
-    fn count(&mut self, phase: f64, is_event: bool) -> Option<FailureReason> {
-        self.idle = if phase > AN_INSTANT { 0 } else { self.idle + 1 };
-        self.events += u64::from(is_event);
-        if self.events > MOST_EVENTS {
-            Some(FailureReason::Events)
-        } else if self.looks > MOST_LOOKS {
-            Some(FailureReason::Looks)
+    /// Starts the first stretch.
+    fn begin(&mut self, mut point: Point) {
+        let flow = &self.flow;
+        if flow.clearance() <= 0.0 {
+            let speed_rad_s = flow.speed;
+            self.fail_at(&point, FailureReason::Closed { speed_rad_s });
+            return;
+        }
+        let limit = ON_A_SIDE * flow.clearance();
+        // A closing rate within the round-off of its two contributions counts as zero.
+        let noise = ON_A_SIDE * (flow.carried(&point, 0.0).norm() + flow.nu.abs() * point.z.norm());
+        let mut met: Vec<Touch> = (0..flow.rows.len())
+            .filter(|&row| flow.gap(row, &point) <= limit)
+            .map(|row| {
+                let rate = flow.gap_rate(row, &point);
+                self.touch(&point, row, if rate.abs() <= noise { 0.0 } else { rate })
+            })
+            .collect();
+        if met.is_empty() {
+            self.enter(point);
         } else {
-            (self.idle > MOST_EVENTS_AT_ONCE).then_some(FailureReason::EventsAtOnce)
+            self.meet(&mut point, &mut met);
         }
     }
 
-    /// Starts the pulse at the present instant.
+    /// Returns the energies up to the present instant.
+    fn energies_now(&self) -> Energies {
+        let mut energies = self.energies;
+        energies.book(&self.flow, &self.held, &self.stretch, self.elapsed(self.run.clock.now));
+        energies
+    }
+
+    /// Returns the displacements and rates at the present instant.
+    fn point_now(&self) -> Point {
+        self.stretch.point(&self.flow, self.elapsed(self.run.clock.now))
+    }
+}
+
+impl Solver for Events {
+    fn advance_while(&mut self, until: f64, go_on: GoOn<'_>) -> Result<bool, Failure> {
+        loop {
+            if let Some(failure) = &self.run.failure {
+                return Err(failure.clone());
+            }
+            if self.next.0 > self.elapsed(until) {
+                self.check_angles(self.elapsed(until))?;
+                self.run.clock.arrive(until);
+                if !self.held.rows.is_empty() {
+                    self.run.log.touch(self.run.clock.now, self.run.log.active_set);
+                }
+                return Ok(true);
+            }
+            if !go_on() {
+                return Ok(false);
+            }
+            self.pass();
+        }
+    }
+
+    fn t_s(&self) -> f64 {
+        self.run.clock.now
+    }
+
+    fn state(&self) -> State {
+        let (s, point) = (self.elapsed(self.run.clock.now), self.point_now());
+        let turn = Plane::cis(self.phase + self.flow.turned(s));
+        let (u, v) = (point.z * turn, self.flow.carried(&point, s) * turn);
+        let angle = match &self.flow.following {
+            None => point.a,
+            Some(blades) => {
+                let pushes = self.held.with(self.stretch.pushes_at(s));
+                self.flow.followed(blades, &point, pushes)
+            }
+        };
+        State {
+            t_s: self.run.clock.now,
+            u: [u.re, u.im],
+            v: [v.re, v.im],
+            alpha: [angle.re, angle.im],
+            alpha_rate: [point.da.re, point.da.im],
+        }
+    }
+
+    fn blade_gaps(&self) -> Vec<f64> {
+        let (flow, point) = (&self.flow, self.point_now());
+        let polygon = &flow.machine.polygon;
+        let gap = |blade: u32| {
+            let (cos, sin) = polygon.direction(polygon.side_of_blade(blade));
+            let base = Plane::new(cos, sin);
+            let angle = dot(base, point.a);
+            let normal = base * Plane::cis(flow.diameters() * angle);
+            let unevenness = flow.machine.uneven_at(blade - 1, 0.0);
+            flow.clearance() + unevenness + dot(normal, point.z) - flow.arm() * angle
+        };
+        (1..=polygon.blades).map(gap).collect()
+    }
+
+    fn multipliers(&self) -> Vec<(u32, f64)> {
+        let mass = self.flow.machine.casing_mass;
+        let pushes = self.held.with(self.stretch.pushes_at(self.elapsed(self.run.clock.now)));
+        let mut sides: Vec<(u32, f64)> =
+            pushes.map(|(row, push)| (row as u32, -push * mass)).collect();
+        in_phase_order(&self.flow.machine.polygon, &mut sides);
+        sides
+    }
+
+    fn over(&self) -> bool {
+        let (now, point) = (self.run.clock.now, self.point_now());
+        self.held.rows.is_empty()
+            && self.run.pulse.at(now) == 0.0
+            && self.flow.reach(&point, self.elapsed(now)) < self.flow.room(&point)
+    }
+
+    fn final_verdict(&self) -> Option<Verdict> {
+        if let Some(failure) = &self.run.failure {
+            let beyond = self.beyond.then(|| failure.verdict_beyond(&self.run.pulse));
+            Some(beyond.unwrap_or(Verdict::Failed))
+        } else if self.over() {
+            Some(Verdict::Decay)
+        } else {
+            self.held_for_good(self.elapsed(self.run.clock.now)).then_some(Verdict::Locked)
+        }
+    }
+
+    fn pulse(&self) -> &Pulse {
+        &self.run.pulse
+    }
+
+    fn contacts(&self) -> &ContactLog {
+        &self.run.log
+    }
+
+    fn machine(&self) -> &Machine {
+        &self.flow.machine
+    }
+
+    fn rotor(&self) -> &Rotor {
+        &self.run.rotor
+    }
+
+    fn events(&self) -> Option<u64> {
+        Some(self.run.events)
+    }
+
+    fn swing(&self) -> f64 {
+        let rise = self.machine().radial_coupling * self.machine().blade_length;
+        rise.abs() * self.swings.lasting()
+    }
+
+    fn blades_follow(&self) -> bool {
+        self.flow.following.is_some()
+    }
+
+    fn linearised(&self) -> bool {
+        self.flow.blades.is_some_and(|blades| blades.diameters == 0.0)
+    }
+
+    fn failure(&self) -> Option<&Failure> {
+        self.run.failure.as_ref()
+    }
+
+    fn checks(&self) -> Checks {
+        let (s, flow) = (self.elapsed(self.run.clock.now), &self.flow);
+        let residual = self.energies_now().residual(flow.energy(&self.point_now(), s));
+        Checks {
+            max_penetration_m: self.run.deepest,
+            max_blade_angle_rad: self.widest_until(s),
+            energy_residual_j: Some(flow.machine.casing_mass * residual),
+            ..Checks::default()
+        }
+    }
+
+    fn energy_account(&self) -> Option<EnergyAccount> {
+        let (s, mass) = (self.elapsed(self.run.clock.now), self.flow.machine.casing_mass);
+        let energies = (self.beyond && self.run.checked).then(|| self.energies_now())?;
+        let stored = self.flow.energy(&self.point_now(), s) - energies.start;
+        Some(EnergyAccount {
+            pulse_work_j: mass * energies.pulse,
+            // The rotor works against friction even with the casing at rest; that part is entirely
+            // heat.
+            rotor_work_j: mass * (energies.rotor + energies.sliding),
+            growth_work_j: mass * energies.growth,
+            casing_loss_j: mass * energies.casing,
+            blade_loss_j: mass * energies.blades,
+            friction_heat_j: mass * (energies.sliding - energies.dragged),
+            impact_loss_j: mass * energies.impacts,
+            stored_j: mass * stored,
+        })
+    }
+
+    fn forgo_checks(&mut self) {
+        self.run.checked = false;
+    }
+
     fn fire(&mut self) {
-        let (now, length) = (self.clock.now, self.pulse.end - self.pulse.start);
-        self.pulse = Pulse { start: now, end: now + length, ..self.pulse };
+        self.swings.forget();
+        self.intervene(|motion, _| motion.run.fire());
     }
 
-    /// Records that these sides are in contact from the start of the stretch on.
-    fn hold(&mut self, active_set: ActiveSet) {
-        let (t, before) = (self.clock.start(), self.log.active_set);
-        if before != ActiveSet::Nothing && before != active_set {
-            // The previous contact lasted until now.
-            self.log.touch(t, before);
+    /// A ramp under which coefficients of the equations change in the blade frame is a failure.
+    fn set_speed(&mut self, speed: f64, ramp: f64) {
+        self.swings.forget();
+        self.intervene(|motion, point| {
+            motion.run.rotor.change(motion.run.clock.now, speed, ramp);
+            motion.change_speed(speed, ramp, point);
+        });
+        if self.run.failure.is_some() {
+            return;
         }
-        self.log.touch(t, active_set);
+        let machine = &self.flow.machine;
+        let drags = self.linearised() && machine.friction != 0.0;
+        let changes = machine.changes_with_speed() || drags || self.flow.turn.im != 0.0;
+        if ramp != 0.0 && changes {
+            self.fail(0.0, FailureReason::Ramp);
+        }
+    }
+
+    fn scale_rate(&mut self, factor: f64) {
+        if self.over() || self.held.rows.len() > 1 {
+            return;
+        }
+        self.intervene(|motion, point| {
+            let side = motion.held.rows.first().and_then(|&row| motion.flow.rows.get(row));
+            let free = match side {
+                None => motion.flow.carried(point, 0.0),
+                Some(side) => {
+                    let along = Plane::i() * side;
+                    along * dot(along, point.dz)
+                }
+            };
+            point.dz += free * (factor - 1.0);
+        });
+    }
+
+    fn scale_tolerance(&mut self, factor: f64) {
+        let tolerance = factor * self.flow.tolerance;
+        self.flow.tolerance = tolerance.clamp(*EVENT_RANGE.start(), *EVENT_RANGE.end());
+    }
+
+    fn fork(&self) -> Box<dyn Solver> {
+        Box::new(self.clone())
     }
 }
 
 #[cfg(test)]
 mod tests {
+    //! Motions that start in a corner with bent blades, an initial state that a scene cannot
+    //! describe.
+
     use super::*;
+    use crate::motion::ActiveSet;
+    use crate::scene::Scene;
+
+    fn scene(keys: &[(&str, f64)]) -> CheckedScene {
+        let mut scene = Scene::base();
+        scene.set("solver.kind", "event").unwrap();
+        scene.set("operation.pulse_n", "0").unwrap();
+        for (key, value) in keys {
+            scene.set(key, &value.to_string()).unwrap();
+        }
+        scene.checked().unwrap()
+    }
+
+    /// Returns the keys of `kappa`, `mu`, `tau` and the speed.
+    fn keys([kappa, mu, tau, speed]: [f64; 4]) -> [(&'static str, f64); 4] {
+        [
+            ("bladed_disk.radial_coupling", kappa),
+            ("contact.friction", mu),
+            ("casing.tangential_ratio", tau),
+            ("operation.speed_rad_s", speed),
+        ]
+    }
+
+    /// Starts a motion locked in the corner of sides 0 and 1, from the closed form with the joint
+    /// compliance.
+    fn locked(scene: &CheckedScene) -> Events {
+        let flow = Flow::new(scene);
+        let (machine, nu) = (&flow.machine, flow.nu);
+        let delta = machine.polygon.delta;
+        let stiffness = machine.casing_stiffness - nu * nu * machine.casing_mass;
+        let casing = flow.turn / Plane::new(stiffness, nu * machine.casing_damping);
+        let bending = machine.blade_modal_stiffness;
+        let compliance = casing + machine.coupling_product_at(flow.speed) / bending;
+        let push = -Plane::cis(delta) * machine.clearance() / (compliance * delta.cos());
+        let slope = machine.radial_coupling + flow.friction;
+        let (z, a) = (casing * push, -push * (slope * machine.blade_length / bending));
+        Events::from_point(scene, flow, Point { z, a, ..Point::default() })
+    }
 
     #[test]
-    fn a_million_stretches_lose_no_digit() {
-        let mut clock = Clock::default();
-        for _ in 0..1_000_000 {
-            clock.pass(0.1);
+    fn a_lock_pushes_as_its_closed_form() {
+        for (data, [first, second, z, a]) in [
+            ([0.1, 0.0, 0.0, 500.0], [258.358348020, 55.600932525, 1.051647234e-4, 8.308641313e-5]),
+            (
+                [0.1, 0.15, 0.0, 500.0],
+                [282.221918276, 52.075944593, 1.120426576e-4, 2.213009798e-4],
+            ),
+            (
+                [0.0, 0.15, 1.0 / 3.0, 500.0],
+                [295.465760024, 4.150702554, 1.010283227e-4, 1.195782347e-4],
+            ),
+            (
+                [-0.05, 0.15, 0.0, 500.0],
+                [237.953135565, 57.982055172, 9.907933261e-5, 7.827859089e-5],
+            ),
+        ] {
+            let mut motion = locked(&scene(&keys(data)));
+            for t in [0.0, 1e-3, 0.1, 1e5] {
+                motion.advance(t).unwrap();
+                assert_eq!(motion.final_verdict(), Some(Verdict::Locked), "{data:?} {t}");
+                let [(0, one), (1, other)] = motion.multipliers()[..] else { panic!("{data:?}") };
+                assert!(
+                    (one + first).abs() < 1e-9 && (other + second).abs() < 1e-9,
+                    "{one} {other}"
+                );
+                let state = motion.state();
+                assert!((state.amplitude() / z - 1.0).abs() < 1e-9);
+                assert!((state.alpha[0].hypot(state.alpha[1]) / a - 1.0).abs() < 1e-9);
+            }
+            assert!(motion.run.looks < 1000, "{} stretches of a motion at rest", motion.run.looks);
         }
-        // The floating-point number 0.1 is 0.1 + 5.55e-18.
-        assert!((clock.elapsed(1e5 + 1.0) - (1.0 - 5.551_115_123e-12)).abs() < 1e-15 * 10.0);
-        assert_eq!(clock.now, clock.start());
-        clock.begin_at(7.0);
-        assert!(clock.elapsed(7.5) == 0.5 && clock.now > 7.0);
+    }
+
+    #[test]
+    fn a_lock_is_kept_above_its_speed_and_lost_below() {
+        for ([kappa, mu, casing_friction], speed) in [
+            ([0.0, 0.15, 0.05], 489.713631),
+            ([0.0, 0.1, 0.1 / 3.0], 454.981573),
+            ([0.0, 0.3, 0.1], 787.541069),
+            ([0.1, 0.0, 0.0], 414.855),
+            ([0.1, 0.15, 0.05], 548.980917),
+            ([-0.1, 0.3, 0.0], 406.867471),
+        ] {
+            let tau = if mu > 0.0 { casing_friction / mu } else { 0.0 };
+            // One unit of the last digit given above.
+            let digit = if speed == 414.855 { 1e-3 } else { 2e-6 };
+            // Very close to the limit a contact force is within round-off, so the lock is not
+            // proved.
+            for (at, kept) in [(speed + digit, true), (speed - digit, false), (speed + 0.5, true)] {
+                let mut motion = locked(&scene(&keys([kappa, mu, tau, at])));
+                motion.advance(0.3).unwrap();
+                let held = motion.contacts().active_set == ActiveSet::Corner(0, 1);
+                assert_eq!(held, kept, "{kappa} {mu} {at}: {:?}", motion.contacts());
+                let proved = motion.final_verdict() == Some(Verdict::Locked);
+                assert!(if at > speed + digit { proved } else { kept || !proved }, "{mu} {at}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_held_for_good_stays_and_what_swings_too_far_is_not() {
+        let scene = scene(&keys([0.1, 0.15, 0.0, 500.0]));
+        let calm = locked(&scene);
+        let from = *calm.stretch.from();
+        let mut proven = 0;
+        for k in 0..200 {
+            let size = if k == 0 { 0.0 } else { 1e-6 * 1.08_f64.powi(k) };
+            let da = Plane::cis(f64::from(k)) * size;
+            let point = Point { da, dz: da * calm.flow.arm(), ..from };
+            let mut motion = Events::from_point(&scene, calm.flow.clone(), point);
+            if motion.final_verdict() == Some(Verdict::Locked) {
+                proven += 1;
+                motion.advance(0.5).unwrap();
+                assert_eq!(motion.contacts().since, 0.0, "{size}");
+                assert_eq!(motion.contacts().active_set, ActiveSet::Corner(0, 1));
+            }
+        }
+        assert!((2..200).contains(&proven), "{proven}");
+    }
+
+    #[test]
+    fn a_growing_motion_is_told_as_one() {
+        // Above the flutter speed, which is at most 516 rad/s here.
+        let scene = scene(&keys([0.5, 0.0, 0.0, 560.0]));
+        let mut motion = locked(&scene);
+        let failure = motion.advance(5.0).unwrap_err();
+        assert!(matches!(failure.reason, FailureReason::BladeAngle { .. }), "{failure}");
+        assert_eq!(motion.final_verdict(), Some(Verdict::Divergent));
+    }
+
+    #[test]
+    fn a_ramp_is_refused_by_name() {
+        let mut motion = Events::of(&scene(&keys([0.1, 0.15, 0.0, 500.0])));
+        motion.set_speed(480.0, 10.0);
+        assert_eq!(motion.advance(0.1).unwrap_err().reason, FailureReason::Ramp);
+        assert_eq!(motion.final_verdict(), Some(Verdict::Failed));
     }
 }

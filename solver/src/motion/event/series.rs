@@ -3,10 +3,12 @@
 //! section 7).
 //!
 //! Advancing by that time and repeating cannot miss a contact, however short, because signs are
-//! never tested at sample points. [`values`] and [`product`] evaluate series, [`safe_step`] and
+//! never tested at sample points. [`values`] and [`gap`] evaluate series, [`safe_step`] and
 //! [`curved_step`] give the bounds.
 
-use crate::tolerances::SERIES_TAIL;
+/// Part of the largest term that two of the last terms of a power series may be: the first one
+/// dropped is then round-off.
+const SERIES_TAIL: f64 = 1e-12;
 
 /// Number of terms. Over a stretch of 0.8 rad of the fastest oscillation the first one dropped is
 /// below `0.8^18/18!`, 3e-18.
@@ -16,30 +18,6 @@ pub(in crate::motion::event) const STRETCH: f64 = 0.8;
 
 /// Coefficients of `x^n`, where `0 <= x <= 1` is the fraction of the stretch.
 pub(in crate::motion::event) type Terms = [f64; TERMS];
-
-/// Returns term `n` of a product; terms of both factors up to `n` must be known.
-pub(in crate::motion::event) fn product(a: &Terms, b: &Terms, n: usize) -> f64 {
-    // Two independent sums, from both ends, which the processor can overlap.
-    let (mut low, mut high) = (0.0, 0.0);
-    let half = n.div_ceil(2);
-    for (k, (x, y)) in a.iter().zip(b).take(half).enumerate() {
-        low += x * b[n - k];
-        high += a[n - k] * y;
-    }
-    if n.is_multiple_of(2) { low + high + a[n / 2] * b[n / 2] } else { low + high }
-}
-
-/// Returns term `n` of a quotient whose earlier terms are `result`; `of` is term `n` of the
-/// numerator.
-pub(in crate::motion::event) fn quotient(of: f64, by: &Terms, result: &Terms, n: usize) -> f64 {
-    let known: f64 = by.iter().skip(1).zip(result.iter().take(n).rev()).map(|(a, b)| a * b).sum();
-    (of - known) / by[0]
-}
-
-/// Returns term `n` of the derivative.
-pub(in crate::motion::event) fn slope(terms: &Terms, n: usize) -> f64 {
-    terms.get(n + 1).map_or(0.0, |term| (n as f64 + 1.0) * term)
-}
 
 /// Returns the value and the first two derivatives, by Horner's scheme.
 pub(in crate::motion::event) fn values(terms: &Terms, x: f64) -> [f64; 3] {
@@ -147,40 +125,25 @@ pub(in crate::motion::event) fn curved_step(now: Gap, jounce: f64, span: f64) ->
     t
 }
 
-/// Returns the longest time over which a gap that starts closed and at rest stays open \[s\], from
-/// its second and third derivatives now and a bound on the fourth:
-/// `gap >= t^2 (bend/2 + twist t/6 - jounce t^2/24)`.
-pub(in crate::motion::event) fn leaving_step(bend: f64, twist: f64, jounce: f64) -> f64 {
-    safe_step(0.5 * bend.max(0.0), twist / 6.0, jounce / 12.0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn products_quotients_and_values_of_exponentials() {
+    fn values_of_exponentials() {
         let mut exp = [0.0; TERMS];
         exp[0] = 1.0;
         for n in 1..TERMS {
             exp[n] = exp[n - 1] / n as f64;
-        }
-        let mut square = [0.0; TERMS];
-        let mut back = [0.0; TERMS];
-        for n in 0..TERMS {
-            square[n] = product(&exp, &exp, n);
-            back[n] = quotient(square[n], &exp, &back, n);
         }
         for x in [0.0, 0.3, STRETCH] {
             let [value, rate, bend] = values(&exp, x);
             // The first missing term of the second derivative is 0.8^16/16!.
             assert!((value - x.exp()).abs() + (rate - x.exp()).abs() < 3e-15);
             assert!((bend - x.exp()).abs() < 5e-15);
-            assert!((values(&square, 0.5 * x)[0] - x.exp()).abs() < 3e-15);
-            assert!((values(&back, x)[0] - x.exp()).abs() < 1e-14);
         }
         let scaled: Terms = std::array::from_fn(|n| exp[n] * STRETCH.powi(n as i32));
-        assert!(ended(&scaled) && !ended(&square) && !ended(&[1.0; TERMS]));
+        assert!(ended(&scaled) && !ended(&exp.map(f64::sqrt)) && !ended(&[1.0; TERMS]));
         assert!((jounce(&exp) - 1.0_f64.exp()).abs() < 1e-9);
         let Gap { gap, rate, bend, twist } = gap(&exp, 0.3);
         for derivative in [gap, rate, bend, twist] {
@@ -234,11 +197,5 @@ mod looks_tests {
             assert!(step > 0.9 * root.min(3.0) - 1e-5, "{now:?}: {step} of {root}");
             assert_eq!(curved_step(now, jounce, 0.1 * step), 0.1 * step);
         }
-    }
-
-    #[test]
-    fn a_release_is_followed_by_its_third_derivative() {
-        assert!((leaving_step(0.0, 2.0, 3.0) - 8.0 / 3.0).abs() < 1e-15);
-        assert!(leaving_step(1.0, -2.0, 3.0) > 0.0);
     }
 }

@@ -1,11 +1,20 @@
 //! Verdicts that nothing to come can change (docs/theory.md, section 9).
 
 use super::{Explicit, Lining};
+use crate::model::CERTAIN_PUSH;
 use crate::motion::{ActiveSet, Verdict};
-use crate::tolerances::{CERTAIN_PUSH, LARGEST_BLADE_ANGLE, LIGHT_BLADES, ROOM_TO_CHANGE};
+use crate::tolerances::LARGEST_BLADE_ANGLE;
 
 /// Steps a corner must have been closed before it counts as held. Fewer: a crossing counts.
 const HELD_AFTER: u64 = 64;
+
+/// Mass ratio of the blades in a corner below which their inertia changes its contact forces by less
+/// than the room left to them.
+const LIGHT_BLADES: f64 = 1e-3;
+
+/// Part of a contact force, multiplier or gap that its changes may be for its sign to stay. Twice
+/// the bound is kept in hand.
+const ROOM_TO_CHANGE: f64 = 0.5;
 
 impl Explicit {
     /// Returns whether no contact can come again: once pulse and lining are over, the energies of

@@ -6,10 +6,8 @@ use std::time::Instant;
 use serde::Serialize;
 
 use super::TimedRun;
-use crate::motion::LAST_PART;
-use crate::motion::{ExactEvents, GoOn, Motion, verdict_of};
+use crate::motion::{EVENT, Events, GoOn, LAST_PART, Motion, verdict_of};
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, Scene, SceneError, SolverKind};
-use crate::tolerances;
 
 /// Longest time step used \[s\].
 pub(super) const LONGEST: f64 = 1e-5;
@@ -89,13 +87,7 @@ pub fn ways(scene: &Scene, effort: Effort) -> Vec<Way> {
             ways.extend(TOLERANCES.map(|tolerance| by_events(model, tolerance)));
         }
     }
-    ways.retain(|way| match way.of(scene) {
-        // Beyond the paper the event solver has a fixed tolerance.
-        Ok(scene) if scene.has_other_tips() => {
-            way.tolerance.is_none_or(|tolerance| tolerance <= tolerances::EVENT)
-        }
-        found => found.is_ok(),
-    });
+    ways.retain(|way| way.of(scene).is_ok());
     ways
 }
 
@@ -129,7 +121,7 @@ pub(super) fn reference(scene: &Scene, model: ModelSize, effort: Effort) -> Opti
     blades.contact.restitution = 0.0;
     let own = model == ModelSize::Full && blades.has_other_tips();
     let size = if model == ModelSize::Rigid { ModelSize::Rigid } else { ModelSize::Modal };
-    let exact = by_events(size, tolerances::EVENT);
+    let exact = by_events(size, EVENT);
     if !smooth && !own && exact.of(scene).is_ok() {
         return Some(exact);
     }
@@ -160,10 +152,8 @@ impl Way {
     pub(super) fn start(&self, scene: &Scene) -> Result<Motion, SceneError> {
         let scene = self.of(scene)?;
         Ok(match self.tolerance {
-            Some(tolerance) if !scene.has_other_tips() => {
-                ExactEvents::new(&scene)?.with_tolerance(tolerance).into()
-            }
-            _ => Motion::new(&scene),
+            Some(tolerance) => Events::new(&scene)?.with_tolerance(tolerance).into(),
+            None => Motion::new(&scene),
         })
     }
 

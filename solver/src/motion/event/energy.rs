@@ -1,0 +1,246 @@
+//! Energy balance of a run, per unit casing mass; blade amplitudes; and the detection of motions
+//! that leave the range of the model.
+//!
+//! Contact forces work on casing and blades through the slope of the wave, which moves with the
+//! rotor, and through friction. The product of `mu P` and the sliding speed is heat, which the
+//! rotor supplies. Its much larger part, from sliding on a casing at rest, is kept separate to
+//! preserve digits.
+
+use std::f64::consts::TAU;
+
+use super::Events;
+use super::flight::amplitude;
+use super::flow::{Face, Flow, dot, size};
+use super::stretch::{Held, Stretch};
+use crate::motion::point::Point;
+use crate::motion::propagator::damped;
+use crate::motion::verdict::Trend;
+use crate::motion::{Failure, FailureReason, Plane};
+use crate::numeric::bisection::bisected;
+use crate::numeric::quadrature::GAUSS_8;
+use crate::tolerances::LARGEST_BLADE_ANGLE;
+
+/// Energies per unit casing mass \[m^2/s^2\].
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Energies {
+    /// Kinetic and potential energy at the start.
+    pub start: f64,
+    /// Work of the pulse.
+    pub pulse: f64,
+    /// Work of the rotor through the slope of the casing wave.
+    pub rotor: f64,
+    /// Work of blades that grow with the speed.
+    pub growth: f64,
+    /// Work of the rotor against friction on a casing at rest, all of which becomes heat.
+    pub sliding: f64,
+    /// Work of friction on the motion of casing and blades, which reduces the heat.
+    pub dragged: f64,
+    /// Energy dissipated in the casing damping.
+    pub casing: f64,
+    /// Energy dissipated in the blade damping.
+    pub blades: f64,
+    /// Energy lost in impacts.
+    pub impacts: f64,
+}
+
+impl Energies {
+    /// Returns the error of the balance for a state with this energy.
+    pub(super) fn residual(&self, energy: f64) -> f64 {
+        let lost = self.casing + self.blades + self.impacts;
+        self.pulse + self.rotor + self.growth + self.dragged - lost - (energy - self.start)
+    }
+
+    /// Adds the first `s` seconds of a stretch.
+    pub(super) fn book(&mut self, flow: &Flow, held: &Held, stretch: &Stretch, s: f64) {
+        if stretch.free {
+            let from = stretch.from();
+            self.casing += damped(&flow.casing, from.z, flow.carried(from, 0.0), s);
+            if let Some(blades) = flow.blades {
+                self.blades += blades.mass * damped(&blades.propagator, from.a, from.da, s);
+            }
+            return;
+        }
+        if stretch.length == f64::INFINITY {
+            self.add(flow, held, stretch, 0.0, s);
+            return;
+        }
+        let half = 0.5 * s;
+        for (node, weight) in GAUSS_8 {
+            for signed in [-node, node] {
+                self.add(flow, held, stretch, half + half * signed, half * weight);
+            }
+        }
+    }
+
+    /// Adds the powers at one instant, multiplied by `time` seconds.
+    fn add(&mut self, flow: &Flow, held: &Held, stretch: &Stretch, s: f64, time: f64) {
+        let point = stretch.point(flow, s);
+        let v = flow.carried(&point, s);
+        self.pulse += time * dot(stretch.force_at(s), v);
+        self.casing += time * 2.0 * flow.casing.damping * v.norm_sqr();
+        if let Some(blades) = flow.blades {
+            self.blades +=
+                time * 2.0 * blades.propagator.damping * blades.mass * point.da.norm_sqr();
+        }
+        if !held.rows.is_empty() {
+            let pushes = held.with(stretch.pushes_at(s));
+            let each = pushes.map(|(row, push)| (flow.face(row, &point), push * time));
+            self.push(flow, &point, s, each);
+        }
+    }
+
+    /// Adds the work of impulses at a point `s` seconds after the start of the stretch; its rates
+    /// are the mean of those before and after.
+    pub(super) fn push(
+        &mut self,
+        flow: &Flow,
+        point: &Point,
+        s: f64,
+        impulses: impl Iterator<Item = (Face, f64)>,
+    ) {
+        let (mut sum, mut along, mut bases) = (0.0, Plane::default(), Plane::default());
+        for (face, impulse) in impulses {
+            sum += impulse;
+            along += face.normal * impulse;
+            bases += face.base * impulse;
+        }
+        let nu = flow.nu_at(s);
+        // The sides move with the rotor, so the slope of the wave does work on the casing.
+        let slope = dot(along, Plane::i() * point.z * nu);
+        let sliding = flow.friction * flow.speed * flow.radius * sum;
+        let on_casing = dot(Plane::i() * along * flow.turn.im, flow.carried(point, s));
+        let length = flow.machine.blade_length;
+        let on_blades = flow.blades.map_or(0.0, |_| -flow.friction * length * dot(bases, point.da));
+        self.rotor += slope;
+        self.sliding += sliding;
+        self.dragged += on_casing + on_blades;
+    }
+}
+
+/// Largest blade amplitude over the last one or two casing periods.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Swings {
+    /// Casing period `2 pi/omega_c` \[s\].
+    period: f64,
+    /// End of the present period \[s\].
+    end: f64,
+    /// Largest amplitude in the previous period \[rad\].
+    before: f64,
+    /// Largest amplitude so far in the present period \[rad\].
+    now: f64,
+    /// Trend of the largest amplitudes of whole periods.
+    trend: Trend,
+}
+
+impl Swings {
+    pub(super) fn new(flow: &Flow, end: f64) -> Self {
+        let period = TAU / flow.machine.omega_c;
+        Self { period, end: period, before: 0.0, now: 0.0, trend: Trend::over(end) }
+    }
+
+    /// Records an amplitude at an instant \[rad\].
+    pub(super) fn see(&mut self, t: f64, amplitude: f64) {
+        if t >= self.end {
+            // After a whole period without a record the previous maximum is outdated.
+            self.before = if t < self.end + self.period { self.now } else { 0.0 };
+            (self.now, self.end) = (0.0, t + self.period);
+            self.trend.see(t, self.before);
+        }
+        self.now = self.now.max(amplitude);
+    }
+
+    /// Returns the amplitude to which the recorded ones tend \[rad\].
+    pub(super) fn lasting(&self) -> f64 {
+        self.trend.falls_to(self.largest()).unwrap_or_else(|| self.largest())
+    }
+
+    /// Discards the trend before a change of parameters.
+    pub(super) fn forget(&mut self) {
+        self.trend.forget();
+    }
+
+    pub(super) fn largest(&self) -> f64 {
+        self.now.max(self.before)
+    }
+}
+
+impl Events {
+    /// Returns the first instant within `s` seconds at which a blade angle is beyond the range of the
+    /// model \[s\].
+    fn first_beyond(&self, s: f64) -> Option<f64> {
+        let (flow, stretch) = (&self.flow, &self.stretch);
+        let (from, stiffness) = (stretch.from(), flow.blades.as_ref()?.propagator.stiffness);
+        let reach = if stretch.free {
+            amplitude(from.a, from.da, stiffness)
+        } else {
+            size(from.a) + stretch.swing
+        };
+        if reach <= LARGEST_BLADE_ANGLE {
+            return None;
+        }
+        let is_beyond = |s: f64| flow.largest_angle(stretch.point(flow, s).a) > LARGEST_BLADE_ANGLE;
+        let part = s.min(TAU / stiffness.sqrt()) / 32.0;
+        let high = (0..=32).map(|k| part * f64::from(k)).find(|&s| is_beyond(s))?;
+        Some(bisected([(high - part).max(0.0), high], is_beyond)[1])
+    }
+
+    /// Ends a motion whose blades leave the range of the model in the first `s` seconds of the stretch.
+    ///
+    /// # Errors
+    /// They do.
+    pub(super) fn check_angles(&mut self, s: f64) -> Result<(), Failure> {
+        let Some(s) = self.first_beyond(s) else { return Ok(()) };
+        let angle_rad = self.flow.largest_angle(self.stretch.point(&self.flow, s).a);
+        self.fail(s, FailureReason::BladeAngle { angle_rad });
+        self.run.failure.clone().map_or(Ok(()), Err)
+    }
+
+    /// Ends a motion that has left the range of the model in the first `s` seconds of the stretch.
+    pub(super) fn check_growth(&mut self, s: f64, point: &Point) {
+        if self.check_angles(s).is_err() {
+            return;
+        }
+        let flow = &self.flow;
+        let distance_m = size(point.z);
+        let radius_m = flow.radius;
+        let (drags, tip_m_s) = (flow.turn.im != 0.0, flow.speed.abs() * radius_m);
+        let along = || flow.machine.tangential_ratio * flow.carried(point, s).norm();
+        let reason = if distance_m > radius_m && !flow.machine.polygon.has_corners() {
+            FailureReason::NoCorner { radius_m }
+        } else if distance_m > radius_m {
+            FailureReason::Displacement { distance_m, radius_m }
+        } else if drags && along() > tip_m_s {
+            FailureReason::CasingSpeed { speed_m_s: along(), tip_m_s }
+        } else {
+            return;
+        };
+        self.fail(s, reason);
+    }
+
+    /// Returns the largest blade angle up to `s` seconds into the stretch \[rad\].
+    pub(super) fn widest_until(&self, s: f64) -> f64 {
+        let (flow, stretch) = (&self.flow, &self.stretch);
+        if let Some(blades) = &flow.following {
+            let part = |part: u32| {
+                let s = s * f64::from(part) / 4.0;
+                let pushes = self.held.with(stretch.pushes_at(s));
+                flow.largest_angle(flow.followed(blades, &stretch.point(flow, s), pushes))
+            };
+            return (0..=4).map(part).fold(self.run.widest, f64::max);
+        }
+        let Some(blades) = &flow.blades else { return 0.0 };
+        let from = stretch.from();
+        if stretch.free
+            && amplitude(from.a, from.da, blades.propagator.stiffness) <= self.run.widest
+        {
+            return self.run.widest;
+        }
+        // The largest amplitude of free blades occurs within their first period.
+        let s = s.min(TAU / flow.machine.omega_bd);
+        let parts = if stretch.free { 64 } else { 4 };
+        (0..=parts).fold(self.run.widest, |widest, part| {
+            let point = stretch.point(flow, s * f64::from(part) / f64::from(parts));
+            if size(point.a) <= widest { widest } else { widest.max(flow.largest_angle(point.a)) }
+        })
+    }
+}

@@ -1,0 +1,428 @@
+//! Equations of motion in the blade frame, everything per unit casing mass, and the rows that can
+//! touch (docs/theory.md, section 7; for other tips docs/theory.md, section 10).
+//!
+//! With `z = u exp(-i n_d theta)`, `a = alpha_c + i alpha_s`, `nu = n_d Omega` and the contact force
+//! `Q_j` of row `j` per unit casing mass,
+//!
+//! - `z'' + drag z' + spring z = f exp(-i n_d theta) + (1 + i mu_c) sum Q_j n_j`
+//! - `a'' + 2 c a' + omega_bd^2 a = -sum Q_j lever_j exp(i psi_j)`
+//!
+//! The blades on one side of the polygon touch together, so each side is a row with the same index.
+//! With `alpha = Re[a exp(-i psi)]`, the normal `n = exp(i psi + i d alpha)` and
+//! `x + i y = z conj(n)` its gap is
+//!
+//! - `apothem + x - kappa l_b alpha`, and `lever = ((kappa + mu) l_b - d y)/mass`
+//!
+//! where `d = n_d` for radial tips without friction, the paper's model, and 0 for the others, whose
+//! slope and friction move the blades far more than the phase does.
+
+use crate::model::Machine;
+use crate::motion::Plane;
+use crate::motion::point::Point;
+use crate::motion::propagator::Propagator;
+use crate::scene::{ModelSize, Scene};
+
+/// Gaps below this part of the motion's size count as closed: a few roundings. Larger: impacts come
+/// that much early. Smaller: a touch may be searched again and again.
+pub(crate) const EVENT: f64 = 1e-15;
+
+/// Stiff blades follow the contact forces at once if they are this much faster than all other rates.
+/// Smaller: their vibration is missed.
+const FOLLOWING_RATES: f64 = 100.0;
+
+/// Part of the clearance by which such blades may move a gap. Larger: gaps are wrong in as many
+/// digits.
+const FOLLOWING_GAP: f64 = 1e-9;
+
+/// Speed of the casing that is allowed for, in clearances for each radian of its rates, besides that
+/// of pulse and start.
+const CLEARANCES_A_RADIAN: f64 = 10.0;
+
+/// Constants of the blade modes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Blades {
+    /// Free response of the blades.
+    pub propagator: Propagator,
+    /// Modal mass divided by the casing mass \[m^2\].
+    pub mass: f64,
+    /// Outward displacement of the tip per unit blade angle, `kappa l_b` \[m\].
+    pub arm: f64,
+    /// Lever arm of a contact force, `(kappa + mu) l_b` \[m\].
+    moment: f64,
+    /// Coefficient `d` of the blade angle in the phase of a gap.
+    pub diameters: f64,
+}
+
+/// Gradient of a gap and direction of its contact force at one point of the motion.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Face {
+    /// `exp(i psi)`.
+    pub base: Plane,
+    /// Change of the gap with `z`, and direction of the force without friction.
+    pub normal: Plane,
+    /// Change of the gap with `-alpha` \[m\].
+    lift: f64,
+    /// Angular acceleration of the blades against `alpha` by a unit force \[1/m\].
+    lever: f64,
+}
+
+impl Face {
+    /// Returns the change of the gap by the casing displacement `z` and the blade angle `a` \[m\].
+    pub(super) fn along(&self, z: Plane, a: Plane) -> f64 {
+        dot(self.normal, z) - self.lift * dot(self.base, a)
+    }
+}
+
+/// The equations at one rotor speed.
+#[derive(Clone, Debug)]
+pub(super) struct Flow {
+    pub machine: Machine,
+    /// Rotor speed \[rad/s\], and `nu = n_d` times it.
+    pub speed: f64,
+    pub nu: f64,
+    /// Rate of `nu` \[rad/s^2\].
+    pub nu_rate: f64,
+    /// Direction `1 + i mu_c` of a contact force with its friction.
+    pub turn: Plane,
+    /// Coefficient of friction, positive in the direction of increasing angle.
+    pub friction: f64,
+    /// Free response of the casing in the stationary frame.
+    pub casing: Propagator,
+    /// Constants of the blade modes; `None` for blades that do not move.
+    pub blades: Option<Blades>,
+    /// Blades that are too stiff for the casing to notice and are solved as rigid ones; their angles
+    /// follow the contact forces statically.
+    pub following: Option<Blades>,
+    /// Direction `exp(i psi)` of each row.
+    pub rows: Vec<Plane>,
+    /// Excess length of the longest tip on each row \[m\].
+    longer: Vec<f64>,
+    /// Excess length of the longest tip \[m\].
+    longest: f64,
+    pub restitution: f64,
+    /// Casing radius \[m\].
+    pub radius: f64,
+    /// Fraction of the motion's magnitude below which a gap counts as closed.
+    pub tolerance: f64,
+}
+
+impl Flow {
+    pub(super) fn new(scene: &Scene) -> Self {
+        let machine = scene.machine();
+        let direction = |side| {
+            let (cos, sin) = machine.polygon.direction(side);
+            Plane::new(cos, sin)
+        };
+        let (omega, omega_bd) = (machine.omega_c, machine.omega_bd);
+        let radial = machine.radial_coupling == 0.0 && machine.friction == 0.0;
+        let moving =
+            scene.solver.model != ModelSize::Rigid && !(radial && machine.nodal_diameters == 0.0);
+        let blades = moving.then(|| Blades {
+            propagator: Propagator::new(
+                machine.blade_damping_ratio * omega_bd,
+                omega_bd * omega_bd,
+            ),
+            mass: machine.blade_modal_mass / machine.casing_mass,
+            arm: machine.radial_coupling * machine.blade_length,
+            moment: 0.0,
+            diameters: if radial { machine.nodal_diameters } else { 0.0 },
+        });
+        let follow = radial && blades.is_some_and(|blades| blades.follow(scene, &machine));
+        let longer: Vec<f64> =
+            (0..machine.polygon.sides).map(|side| machine.longest_of_side(side)).collect();
+        let mut flow = Self {
+            rows: (0..machine.polygon.sides).map(direction).collect(),
+            longest: longer.iter().copied().reduce(f64::max).unwrap_or(0.0),
+            longer,
+            casing: Propagator::new(machine.casing_damping_ratio * omega, omega * omega),
+            blades: blades.filter(|_| !follow),
+            following: blades.filter(|_| follow),
+            speed: 0.0,
+            nu: 0.0,
+            nu_rate: 0.0,
+            turn: Plane::default(),
+            friction: 0.0,
+            restitution: scene.contact.restitution,
+            radius: scene.casing.radius_m,
+            tolerance: EVENT,
+            machine,
+        };
+        flow.turn_at(scene.operation.speed_rad_s, scene.operation.speed_ramp_rad_s2);
+        flow
+    }
+
+    /// Updates the blade response to the stiffness of the machine.
+    pub(super) fn stiffen(&mut self) {
+        let machine = &self.machine;
+        for blades in self.blades.iter_mut().chain(&mut self.following) {
+            let omega = machine.omega_bd;
+            blades.propagator = Propagator::new(machine.blade_damping_ratio * omega, omega * omega);
+        }
+    }
+
+    /// Sets speed \[rad/s\] and acceleration \[rad/s^2\] of the rotor.
+    pub(super) fn turn_at(&mut self, speed: f64, ramp: f64) {
+        let machine = &self.machine;
+        self.turn = Plane::new(1.0, machine.casing_friction_at(speed));
+        self.friction = machine.friction_at(speed);
+        let slope = machine.radial_coupling + self.friction;
+        if let Some(blades) = &mut self.blades {
+            blades.moment = slope * machine.blade_length;
+        }
+        (self.speed, self.nu, self.nu_rate) = (speed, machine.nu(speed), machine.nu(ramp));
+    }
+
+    /// Returns the coefficients of `z`, a polynomial of the time from now on.
+    pub(super) fn spring(&self) -> [Plane; 3] {
+        let (nu, ramp, damping) = (self.nu, self.nu_rate, 2.0 * self.casing.damping);
+        // The difference of squares as a product is exactly zero at nu = omega_c.
+        let omega = self.machine.omega_c;
+        [
+            Plane::new((omega - nu) * (omega + nu), nu * damping + ramp),
+            Plane::new(-2.0 * nu * ramp, damping * ramp),
+            Plane::new(-ramp * ramp, 0.0),
+        ]
+    }
+
+    /// Returns the coefficients of `z'` in the same way.
+    pub(super) fn drag(&self) -> [Plane; 2] {
+        let damping = 2.0 * self.casing.damping;
+        [Plane::new(damping, 2.0 * self.nu), Plane::new(0.0, 2.0 * self.nu_rate)]
+    }
+
+    /// Returns the turn `n_d theta` of the rotor in `s` seconds \[rad\].
+    pub(super) fn turned(&self, s: f64) -> f64 {
+        (self.nu + 0.5 * self.nu_rate * s) * s
+    }
+
+    /// Returns `nu` after `s` seconds \[rad/s\].
+    pub(super) fn nu_at(&self, s: f64) -> f64 {
+        self.nu + self.nu_rate * s
+    }
+
+    /// Returns the clearance `g0` \[m\].
+    pub(super) fn clearance(&self) -> f64 {
+        self.machine.clearance()
+    }
+
+    /// Returns the smallest gap with the casing undeformed \[m\].
+    pub(super) fn least_clearance(&self) -> f64 {
+        self.clearance() - self.longest
+    }
+
+    /// Returns the gap of a row with the casing undeformed \[m\].
+    pub(super) fn apothem(&self, row: usize) -> f64 {
+        self.clearance() - self.longer.get(row).copied().unwrap_or(0.0)
+    }
+
+    /// Returns `kappa l_b`, or 0 for rigid blades \[m\].
+    pub(super) fn arm(&self) -> f64 {
+        self.blades.map_or(0.0, |blades| blades.arm)
+    }
+
+    /// Returns the coefficient `d` of the blade angle in the phases of the gaps.
+    pub(super) fn diameters(&self) -> f64 {
+        self.blades.map_or(0.0, |blades| blades.diameters)
+    }
+
+    /// Returns an upper bound on the rates of the free casing in the blade frame \[rad/s\].
+    pub(super) fn casing_rates(&self) -> f64 {
+        let ramp = self.nu_rate.abs().sqrt();
+        self.machine.omega_c + 2.0 * self.casing.damping + self.nu.abs() + ramp
+    }
+
+    /// Returns the rate of the motion along a side with rigid blades, without pulse and ramp; not
+    /// much less than that of the free casing \[rad/s\].
+    pub(super) fn side_rates(&self) -> f64 {
+        let drag = 2.0 * (self.turn.im * self.nu).abs();
+        let own = 2.0 * self.casing.damping + self.spring()[0].re.abs().sqrt() + drag;
+        own.max(0.1 * self.casing_rates())
+    }
+
+    /// Returns the same of casing and blades \[rad/s\].
+    pub(super) fn rates(&self) -> f64 {
+        let own = |blades: Blades| self.machine.omega_bd + 2.0 * blades.propagator.damping;
+        self.casing_rates().max(self.blades.map_or(0.0, own))
+    }
+
+    /// Returns the face of a row at a point.
+    pub(super) fn face(&self, row: usize, point: &Point) -> Face {
+        let base = self.rows.get(row).copied().unwrap_or_default();
+        let Some(blades) = &self.blades else {
+            return Face { base, normal: base, lift: 0.0, lever: 0.0 };
+        };
+        let (normal, y) = match blades.diameters {
+            0.0 => (base, 0.0),
+            d => {
+                let normal = base * Plane::cis(d * dot(base, point.a));
+                (normal, d * across(normal, point.z))
+            }
+        };
+        let (lift, lever) = (blades.arm - y, (blades.moment - y) / blades.mass);
+        Face { base, normal, lift, lever }
+    }
+
+    /// Returns the gap of a row \[m\].
+    pub(super) fn gap(&self, row: usize, point: &Point) -> f64 {
+        self.gap_at(row, &self.face(row, point), point)
+    }
+
+    /// Returns the gap of a row with its face at the point \[m\].
+    pub(super) fn gap_at(&self, row: usize, face: &Face, point: &Point) -> f64 {
+        self.apothem(row) + dot(face.normal, point.z) - self.arm() * dot(face.base, point.a)
+    }
+
+    /// Returns the rows whose gaps may be smaller than `gap`, from the nearest on to both sides:
+    /// beyond them, the direction of the casing is too far from theirs.
+    pub(super) fn near(&self, point: &Point, gap: f64) -> impl Iterator<Item = usize> + use<> {
+        let polygon = &self.machine.polygon;
+        let distance = size(point.z);
+        let turned = (self.arm().abs() + self.diameters() * distance) * size(point.a);
+        let cos = (self.least_clearance() - gap - turned) / distance;
+        let reach = if cos < 1.0 { cos.max(-1.0).acos() } else { 0.0 };
+        let sides = self.rows.len();
+        let beside = (reach / (2.0 * polygon.delta)).ceil() as usize + 1;
+        let nearest = polygon.nearest_side(point.z.re, point.z.im) as usize;
+        (0..sides.min(2 * beside + 1)).map(move |k| {
+            let offset = if k % 2 == 1 { k.div_ceil(2) } else { sides - k / 2 };
+            (nearest + offset) % sides
+        })
+    }
+
+    /// Returns the rate of the gap of a row \[m/s\].
+    pub(super) fn gap_rate(&self, row: usize, point: &Point) -> f64 {
+        self.face(row, point).along(point.dz, point.da)
+    }
+
+    /// Returns the acceleration of the gap of a row without contact forces, for the accelerations
+    /// `free` \[m/s^2\].
+    pub(super) fn gap_bend(&self, row: usize, point: &Point, free: (Plane, Plane)) -> f64 {
+        let face = self.face(row, point);
+        let turning = self.diameters() * dot(face.base, point.da);
+        let (across, along) = (across(face.normal, point.dz), dot(face.normal, point.z));
+        face.along(free.0, free.1) + turning * (2.0 * across - turning * along)
+    }
+
+    /// Returns the accelerations of casing and blades without contact forces.
+    pub(super) fn free(&self, point: &Point, force: Plane) -> (Plane, Plane) {
+        let z = force - self.spring()[0] * point.z - self.drag()[0] * point.dz;
+        let a = self.blades.map_or_else(Plane::default, |blades| {
+            let Propagator { damping, stiffness, .. } = blades.propagator;
+            -(point.a * stiffness + point.da * (2.0 * damping))
+        });
+        (z, a)
+    }
+
+    /// Returns the sum of the magnitudes of those accelerations' terms along a gap, for round-off
+    /// estimates.
+    pub(super) fn size_of_free(&self, point: &Point, force: Plane) -> f64 {
+        let casing = size(force)
+            + (self.casing.stiffness + self.nu * self.nu) * size(point.z)
+            + size(self.drag()[0]) * size(point.dz);
+        let blades = self.blades.map_or(0.0, |blades| {
+            let Propagator { damping, stiffness, .. } = blades.propagator;
+            let lift = blades.arm.abs() + blades.diameters * size(point.z);
+            lift * (stiffness * size(point.a) + 2.0 * damping * size(point.da))
+        });
+        casing + blades
+    }
+
+    /// Returns the accelerations by contact forces on these faces, or the jumps of the rates by
+    /// impulses.
+    pub(super) fn pushed(&self, pushes: impl Iterator<Item = (Face, f64)>) -> (Plane, Plane) {
+        let (mut z, mut a) = (Plane::default(), Plane::default());
+        for (face, push) in pushes {
+            z += face.normal * push;
+            a -= face.base * (face.lever * push);
+        }
+        (self.turn * z, a)
+    }
+
+    /// Returns the acceleration of the gap of `face` due to a unit contact force on `by`, the entry
+    /// of `W`. Not symmetric with friction.
+    pub(super) fn joint(&self, face: &Face, by: &Face) -> f64 {
+        let (z, a) = self.pushed(std::iter::once((*by, 1.0)));
+        face.along(z, a)
+    }
+
+    /// Returns the velocity of the casing in the stationary frame, in components along the axes of
+    /// the blade frame, `s` seconds after the start of the stretch.
+    pub(super) fn carried(&self, point: &Point, s: f64) -> Plane {
+        point.dz + Plane::i() * point.z * self.nu_at(s)
+    }
+
+    /// Returns the energy per unit casing mass `s` seconds after the start of the stretch
+    /// \[m^2/s^2\].
+    pub(super) fn energy(&self, point: &Point, s: f64) -> f64 {
+        let casing = self.carried(point, s).norm_sqr() + self.casing.stiffness * point.z.norm_sqr();
+        let blades = self.blades.map_or(0.0, |blades| {
+            let stiffness = blades.propagator.stiffness;
+            blades.mass * (point.da.norm_sqr() + stiffness * point.a.norm_sqr())
+        });
+        0.5 * (casing + blades)
+    }
+
+    /// Returns the static angle of blades that follow contact forces on these rows \[rad\].
+    pub(super) fn followed(
+        &self,
+        blades: &Blades,
+        point: &Point,
+        pushes: impl Iterator<Item = (usize, f64)>,
+    ) -> Plane {
+        let moment = blades.diameters / (blades.mass * blades.propagator.stiffness);
+        let angle = |(row, push): (usize, f64)| {
+            self.rows
+                .get(row)
+                .map_or_else(Plane::default, |base| base * (moment * push * across(*base, point.z)))
+        };
+        pushes.map(angle).sum()
+    }
+
+    /// Returns a bound on the angle to which such blades vibrate after an impulse on a row \[rad\].
+    pub(super) fn kicked(&self, row: usize, point: &Point, impulse: f64) -> f64 {
+        let (Some(blades), Some(base)) = (&self.following, self.rows.get(row)) else { return 0.0 };
+        let rate = blades.diameters * across(*base, point.z) * impulse / blades.mass;
+        rate.abs() / blades.propagator.stiffness.sqrt()
+    }
+
+    /// Returns the largest angle of any blade \[rad\].
+    pub(super) fn largest_angle(&self, a: Plane) -> f64 {
+        self.machine.polygon.largest_component(a.re, a.im)
+    }
+}
+
+impl Blades {
+    /// Returns whether the casing cannot tell these blades from rigid ones, and they are so much
+    /// faster than the motion that their angles follow the contact forces at once.
+    fn follow(&self, scene: &Scene, machine: &Machine) -> bool {
+        let operation = &scene.operation;
+        let last = operation.speed_rad_s + operation.speed_ramp_rad_s2 * scene.solver.end_s;
+        let nu = machine.nu(operation.speed_rad_s.abs().max(last.abs()));
+        let (rates, omega) = (machine.omega_c + nu, machine.omega_bd);
+        let (clearance, half_side) = (machine.clearance(), machine.polygon.half_side());
+        // Largest contact force per unit mass that lasts, and largest impulse.
+        let pulse = operation.pulse_n.abs() / machine.casing_mass;
+        let start = scene.initial.v_c_m_s.hypot(scene.initial.v_s_m_s);
+        let speed = pulse * operation.pulse_s + start + CLEARANCES_A_RADIAN * rates * clearance;
+        let push = pulse + rates * rates * clearance + 2.0 * nu * speed;
+        let moment_arm = self.diameters / self.mass * half_side;
+        let angle = moment_arm * (push / omega + speed) / omega;
+        omega > FOLLOWING_RATES * rates
+            && self.diameters * angle * half_side < FOLLOWING_GAP * clearance
+    }
+}
+
+/// Returns the length of a vector, without the care of `hypot` at the ends of the number range.
+pub(super) fn size(vector: Plane) -> f64 {
+    vector.norm_sqr().sqrt()
+}
+
+/// Returns the component of a vector along a direction.
+pub(super) fn dot(direction: Plane, vector: Plane) -> f64 {
+    direction.re * vector.re + direction.im * vector.im
+}
+
+/// Returns the component of a vector across a direction, a quarter turn ahead of it.
+pub(super) fn across(direction: Plane, vector: Plane) -> f64 {
+    direction.re * vector.im - direction.im * vector.re
+}

@@ -1,0 +1,164 @@
+//! The event that ends a stretch: the first gap that closes or contact force that vanishes. No
+//! change of contact is missed, however short (`series`).
+//!
+//! A gap that has just opened is stored separately, with its full relative accuracy, so that rocking
+//! at a corner and bouncing on a side are resolved down to round-off.
+
+use super::flow::{EVENT, Flow};
+use super::series::{TERMS, Terms, curved_step, gap, jounce, values};
+use super::stretch::{Held, Stretch};
+
+/// Evaluations of a gap in the search for its zero, at most.
+const MOST_TRIES: f64 = 10_000.0;
+
+/// Event that ends a stretch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Ending {
+    /// The gap of a row closes with this rate, which is zero or negative \[m/s\].
+    Touch(usize, f64),
+    /// The contact force of a row vanishes.
+    Release(usize),
+    /// Rocking into a corner has come to rest.
+    Lock,
+    /// The series ends, without a change of contact.
+    StretchEnd,
+}
+
+/// A gap that has just opened, stored separately to keep its relative accuracy.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OpenedGap {
+    /// Index of the row.
+    pub row: usize,
+    /// Gap \[m\].
+    pub gap: f64,
+    /// Rate of the gap \[m/s\].
+    pub rate: f64,
+    /// Whether the contact force has just vanished, so that the acceleration is zero.
+    pub released: bool,
+    /// Whether an impact opened it.
+    pub struck: bool,
+}
+
+impl OpenedGap {
+    /// Returns the gap as a power series over the stretch.
+    fn terms(&self, flow: &Flow, stretch: &Stretch) -> Terms {
+        let mut terms = stretch.gap(flow, self.row);
+        (terms[0], terms[1]) = (self.gap, self.rate * stretch.length);
+        if self.released {
+            terms[2] = 0.0;
+        }
+        terms
+    }
+
+    /// Advances the gap by `s` seconds.
+    pub(super) fn later(&self, flow: &Flow, stretch: &Stretch, s: f64) -> Self {
+        let terms = self.terms(flow, stretch);
+        let (order, left) = without_zeros(&terms);
+        let (gap, rate) = grown(order, &left, s / stretch.length);
+        Self { gap: gap.max(0.0), rate: rate / stretch.length, released: false, ..*self }
+    }
+}
+
+/// Removes the leading zero terms; returns their number and the rest.
+fn without_zeros(terms: &Terms) -> (usize, Terms) {
+    let order = terms.iter().take(3).take_while(|&&term| term == 0.0).count();
+    let mut left = [0.0; TERMS];
+    for (slot, &term) in left.iter_mut().zip(terms.iter().skip(order)) {
+        *slot = term;
+    }
+    (order, left)
+}
+
+/// Returns value and derivative of `x^order left(x)`.
+fn grown(order: usize, left: &Terms, x: f64) -> (f64, f64) {
+    let [value, rate, _] = values(left, x);
+    let power = |n: usize| x.powi(i32::try_from(n).unwrap_or(0));
+    let grows = if order == 0 { 0.0 } else { order as f64 * power(order - 1) * value };
+    (power(order) * value, grows + power(order) * rate)
+}
+
+/// Returns the first `x` up to `end` at which the series falls to `noise`; `None` if it does not.
+fn first_zero(terms: &Terms, noise: f64, end: f64) -> Option<f64> {
+    let falls: f64 = terms.iter().skip(1).map(|term| term.abs()).sum();
+    if terms[0] > falls {
+        return None;
+    }
+    let bound = jounce(terms);
+    let (mut x, mut looks) = (0.0, 0.0);
+    while x < end {
+        let now = gap(terms, x);
+        looks += 1.0;
+        // A gap that stays this close to contact for so many evaluations counts as contact.
+        if (now.gap <= noise && now.rate < 0.0) || looks > MOST_TRIES {
+            return Some(x);
+        }
+        x = (x + curved_step(now.above(noise), bound, 1.0 - x)).max(x.next_up());
+    }
+    None
+}
+
+/// Finds the event that ends a stretch, and its time \[s\].
+pub(super) fn seek(
+    flow: &Flow,
+    stretch: &Stretch,
+    held: &Held,
+    opened: &[OpenedGap],
+) -> (f64, Ending) {
+    let (mut end, mut what) = (1.0, Ending::StretchEnd);
+    for (&row, terms) in held.rows.iter().zip(&stretch.pushes) {
+        if let Some(x) = vanishes(stretch, terms, flow.tolerance, end) {
+            (end, what) = (x, Ending::Release(row));
+        }
+    }
+    for gap in opened {
+        let (order, left) = without_zeros(&gap.terms(flow, stretch));
+        if left[0] < 0.0 {
+            return (0.0, Ending::Touch(gap.row, gap.rate.min(0.0)));
+        }
+        let noise = flow.tolerance.max(EVENT) * left[0];
+        if let Some(x) = first_zero(&left, noise, end) {
+            // At the zero itself only the derivative of the reduced series contributes.
+            let slope = values(&left, x)[1] * x.powi(i32::try_from(order).unwrap_or(0));
+            (end, what) = (x, Ending::Touch(gap.row, (slope / stretch.length).min(0.0)));
+        }
+    }
+    let [travel, reach] = stretch.travel;
+    if reach + travel >= flow.least_clearance() {
+        let noise = flow.tolerance * (flow.clearance() + reach + travel);
+        let from = stretch.from();
+        for row in flow.near(from, travel + noise) {
+            let known = || held.rows.contains(&row) || opened.iter().any(|gap| gap.row == row);
+            if stretch.least_gap(flow, row, end) > noise || known() {
+                continue;
+            }
+            let terms = stretch.gap(flow, row);
+            if let Some(x) = first_zero(&terms, noise, end) {
+                let rate = values(&terms, x)[1] / stretch.length;
+                (end, what) = (x, Ending::Touch(row, rate.min(0.0)));
+            }
+        }
+    }
+    (end * stretch.length, what)
+}
+
+/// Returns the fraction of the stretch at which a contact force vanishes; `None` if it does not
+/// before `end`, or if the force is entirely round-off.
+fn vanishes(stretch: &Stretch, terms: &Terms, tolerance: f64, end: f64) -> Option<f64> {
+    if stretch.is_noise(terms) {
+        // A row in contact without a force is not opened by round-off.
+        return None;
+    }
+    let size: f64 = terms.iter().map(|term| term.abs()).sum();
+    if terms[0] > stretch.noise {
+        return first_zero(terms, tolerance * size, end);
+    }
+    // The force starts at zero: its first nonzero term decides.
+    let mut left = *terms;
+    let first = left.iter().position(|term| term.abs() > stretch.noise)?;
+    left.iter_mut().take(first).for_each(|term| *term = 0.0);
+    if left[first] < 0.0 {
+        return Some(0.0);
+    }
+    let (_, left) = without_zeros(&left);
+    first_zero(&left, tolerance * size, end)
+}
