@@ -104,13 +104,13 @@ pub fn notes(survey: &Survey, shown: &[&SurveyRow]) -> Vec<String> {
     let tuned = survey.note.iter().map(|note| format!("The limits are {note}."));
     let scattered = survey.scattered.iter().map(|found| of_scatter(&survey.scene, found));
     let shaft = "One nodal diameter also moves the shaft, which this model does not have.";
-    let rigid = "If rigid: these blades bend so much that their lock speed is another.";
-    let of_rows = [any(|row| row.nodal_diameters == 1, shaft), any(|row| row.bends, rigid)];
-    tuned.chain(scattered).chain(of_rows.into_iter().flatten()).collect()
+    let shaft = any(|row| row.nodal_diameters == 1, shaft);
+    tuned.chain(scattered).chain(shaft).chain(growth(survey, shown)).collect()
 }
 
 /// Says which nodal diameters can lock: somewhere in the range or, without a range, at the scene's
-/// speed. `all` includes nodal diameters without modes of their own.
+/// speed. Those with modes of their own are counted; those whose modes are guessed, and those of which
+/// it is not known, are named apart. `all` includes nodal diameters without modes of their own.
 pub fn answer(survey: &Survey, all: bool) -> String {
     let now = survey.scene.operation.speed_rad_s;
     let at = match survey.range_rad_s {
@@ -122,23 +122,49 @@ pub fn answer(survey: &Survey, all: bool) -> String {
         _ => row.locks_at(now),
     };
     let mut rows = survey.shown(all);
-    let known = rows.iter().all(|row| row.locks_in_range.is_some());
-    rows.retain(|row| locks(row));
     rows.sort_by_key(|row| row.nodal_diameters);
-    let all: Vec<String> = rows.iter().map(|row| row.nodal_diameters.to_string()).collect();
-    let which = match all.as_slice() {
-        [] => "no wave can lock".to_string(),
-        [one] if one == "1" => "waves of 1 nodal diameter can lock".to_string(),
-        [one] => format!("waves of {one} nodal diameters can lock"),
-        [.., last] if all.len() > LISTED => {
-            format!("waves of {} different nodal diameters can lock, up to {last}", all.len())
-        }
-        [first @ .., last] => {
-            format!("waves of {} and {last} nodal diameters can lock", first.join(", "))
-        }
+    let of = |is: &dyn Fn(&SurveyRow) -> bool| {
+        let rows = rows.iter().filter(|row| is(row));
+        rows.map(|row| row.nodal_diameters).collect::<Vec<_>>()
     };
-    let unknown = if known { "" } else { "; of these tips or this shape it is not known of all" };
-    format!("{at} {which}{unknown}.")
+    let known = |row: &SurveyRow| row.locks_in_range.is_some();
+    let own = of(&|row| locks(row) && !row.guessed);
+    let guessed = of(&|row| locks(row) && row.guessed);
+    let unknown = of(&|row| !known(row));
+    let every = unknown.len() == rows.len();
+    let mut told = match own.as_slice() {
+        [] if every => format!("{at} it is not known whether a wave can lock"),
+        [] if unknown.is_empty() && guessed.is_empty() => format!("{at} no wave can lock"),
+        [] if unknown.is_empty() => {
+            format!("{at} no wave with modes of its own can lock")
+        }
+        [] => format!("{at} no wave is known that can lock"),
+        own => format!("{at} {} can lock", waves(own)),
+    };
+    if !guessed.is_empty() {
+        told += &format!("; with guessed modes {} could, too", waves(&guessed));
+    }
+    if !every && !unknown.is_empty() {
+        told += &format!("; of {} it is not known", waves(&unknown));
+    }
+    if !unknown.is_empty() {
+        told += ": no formula has these tips or this shape, a run at a speed tells";
+    }
+    told + "."
+}
+
+/// Names waves by their nodal diameters; many only by their number.
+fn waves(diameters: &[u32]) -> String {
+    let all: Vec<String> = diameters.iter().map(u32::to_string).collect();
+    match all.as_slice() {
+        [one] if one == "1" => "waves of 1 nodal diameter".to_string(),
+        [one] => format!("waves of {one} nodal diameters"),
+        [.., last] if all.len() > LISTED => {
+            format!("waves of {} different nodal diameters, up to {last},", all.len())
+        }
+        [first @ .., last] => format!("waves of {} and {last} nodal diameters", first.join(", ")),
+        [] => String::new(),
+    }
 }
 
 /// Formats a speed \[rad/s\] in the shown unit, without naming it: with four digits, or as a whole
@@ -149,7 +175,7 @@ fn shown_speed(omega: f64) -> String {
 }
 
 /// Says at which speeds of the range the waves of a row can lock; and, as a second text that may be
-/// empty, the speed at which they whirl.
+/// empty, at which they whirl and where rubbing grows without bound.
 fn verdict(survey: &Survey, row: &SurveyRow) -> [String; 2] {
     let ([least, most], unit) = (survey.speeds(), speed_unit());
     let span = |[from, to]: &[f64; 2]| match (*from <= least, *to >= most) {
@@ -160,17 +186,63 @@ fn verdict(survey: &Survey, row: &SurveyRow) -> [String; 2] {
         (false, false) => format!("{} to {} {unit}", shown_speed(*from), shown_speed(*to)),
     };
     let locks = match &row.locks_in_range {
-        None => "not known: runs have it".to_string(),
+        None => "not known: a run tells".to_string(),
         Some(locks) if locks.is_empty() => "no lock".to_string(),
         Some(locks) => {
-            let spans = locks.iter().map(span).collect::<Vec<_>>().join(", ");
-            format!("can lock{}: {spans}", if row.bends { " if rigid" } else { "" })
+            format!("can lock: {}", locks.iter().map(span).collect::<Vec<_>>().join(", "))
         }
     };
     let onset = row.limits.iter().any(|limit| limit.name == LimitName::WhirlOnset);
     let from = if onset { "from " } else { "" };
-    let whirls = row.whirls_in_range.first();
-    [locks, whirls.map_or(String::new(), |omega| format!("{from}{} {unit}", shown_speed(*omega)))]
+    let whirl = row.whirls_in_range.iter().copied().reduce(nearer_rest);
+    let whirl = whirl.map(|omega| format!("{from}{} {unit}", shown_speed(omega)));
+    let grows = if row.growth_spans.is_empty() { "" } else { "grows" };
+    let whirls = whirl.unwrap_or_else(|| grows.to_string());
+    [locks, whirls]
+}
+
+/// Returns the ends of a span of speeds \[rad/s\], the slower one first.
+fn slower(&[from, to]: &[f64; 2]) -> [f64; 2] {
+    if from + to < 0.0 { [to, from] } else { [from, to] }
+}
+
+fn nearer_rest(a: f64, b: f64) -> f64 {
+    if b.abs() < a.abs() { b } else { a }
+}
+
+/// Says until where a large rub of the rows whirls and from where on it grows without bound, in a
+/// sentence for all rows that do so at the same speeds.
+fn growth(survey: &Survey, shown: &[&SurveyRow]) -> Vec<String> {
+    let [slowest, fastest] = slower(&survey.speeds());
+    let parts = |spans: &[[f64; 2]], does: &str| {
+        let part = |span: &[f64; 2]| {
+            let [begin, end] = slower(span);
+            let [from, to] = [begin, end].map(speed);
+            let when = match (begin == slowest, end == fastest) {
+                (true, true) => "at every speed".to_string(),
+                (true, false) => format!("until {to}"),
+                (false, true) => format!("from {from} on"),
+                (false, false) => format!("from {from} to {to}"),
+            };
+            (begin.abs(), format!("{when} it {does}"))
+        };
+        spans.iter().map(part).collect::<Vec<_>>()
+    };
+    let mut told: Vec<(Vec<u32>, String)> = Vec::new();
+    for row in shown.iter().filter(|row| !row.growth_spans.is_empty()) {
+        let mut all = parts(&row.whirl_spans, "whirls");
+        all.extend(parts(&row.growth_spans, "grows without bound"));
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let all = all.into_iter().map(|part| part.1).collect::<Vec<_>>().join(", ");
+        match told.iter_mut().find(|(_, other)| *other == all) {
+            Some((diameters, _)) => diameters.push(row.nodal_diameters),
+            None => told.push((vec![row.nodal_diameters], all)),
+        }
+    }
+    let sentence = |(diameters, all): (Vec<u32>, String)| {
+        format!("A large rub in {}: {all}.", waves(&diameters))
+    };
+    told.into_iter().take(LISTED).map(sentence).collect()
 }
 
 /// Returns the speed range covered by the bar, the lower end first \[rad/s\]: the range of the
@@ -247,7 +319,7 @@ pub fn rows(survey: &Survey, shown: &[&SurveyRow]) -> Table {
     let cell = |x: f64, sign: &str| TableCell::Told(x, short(rounded(x, 5)) + sign);
     for row in shown {
         let here = row.nodal_diameters == survey.scene.operation.nodal_diameters;
-        let (sign, known) = (if here { ">" } else { " " }, if row.modes_known { "" } else { "?" });
+        let (sign, known) = (if here { ">" } else { " " }, if row.guessed { "?" } else { "" });
         let own = format!("{sign}{}{known}", row.nodal_diameters);
         let [locks, whirl] = verdict(survey, row);
         let words = [own, locks].into_iter().chain(whirls.then_some(whirl));
@@ -277,7 +349,7 @@ pub fn figure(survey: &Survey, all: bool) -> Figure {
     let rows = survey.shown(all);
     let at = |row: &SurveyRow| f64::from(row.nodal_diameters);
     let over = |of: fn(&SurveyRow) -> f64, known: bool| {
-        let rows = rows.iter().filter(move |row| row.modes_known == known);
+        let rows = rows.iter().filter(move |row| row.guessed != known);
         rows.map(move |row| (at(row), of(row))).collect::<Vec<_>>()
     };
     let now = survey.scene.operation.speed_rad_s;

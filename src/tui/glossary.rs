@@ -10,7 +10,7 @@ use super::axis::number;
 use super::knobs::knob_of;
 use super::views::id::ViewId;
 use crate::report::number::{frequency_unit, in_shown_unit, per_frequency};
-use rubscope_solver::harmonic::Joint;
+use rubscope_solver::model::Frame;
 
 /// The text of the glossary.
 const TEXT: &str = include_str!("../../assets/glossary.toml");
@@ -40,7 +40,8 @@ const VALUES: &[Value] = &[
     ("lambda_b", "N", |app| app.machine.locked_multipliers(app.speed()).map(|[_, b]| b)),
     ("c2", "m²", |app| Some(app.machine.coupling_product_at(app.speed()))),
     ("B(omega)", "m/N at ω = 0", |app| {
-        Some(Joint::at(&app.machine, app.speed()).compliance(0.0).re)
+        let frame = Frame::at(&app.machine, app.speed());
+        Some(frame.turning(-frame.casing.turn).compliance().re)
     }),
 ];
 

@@ -4,10 +4,10 @@
 use crate::close;
 use proptest::prelude::*;
 use rubscope_solver::harmonic::{
-    Character, Form, HarmonicError, Joint, equilibria, flutter_speed, lock_loads, lock_roots,
-    locked_motion, slip_over, undamped_flutter_speed,
+    Character, Form, HarmonicError, equilibria, flutters, lock_loads, locked_motion, slip_over,
+    undamped_flutter_speed,
 };
-use rubscope_solver::model::Machine;
+use rubscope_solver::model::{Frame, Machine};
 use rubscope_solver::scene::Scene;
 
 /// Table 1 with these tips: `kappa`, `mu`, `mu_c`.
@@ -21,6 +21,11 @@ pub fn scene([kappa, mu, mu_c]: [f64; 3]) -> Scene {
 
 fn machine(tips: [f64; 3]) -> Machine {
     scene(tips).machine()
+}
+
+/// Returns the speed from which blades and casing as one grow.
+fn flutter_speed(machine: &Machine, toward: f64) -> Option<f64> {
+    flutters(machine, toward).first().map(|range| range.from)
 }
 
 /// A pull has no friction, so that nothing holds such a lock.
@@ -46,7 +51,7 @@ fn an_undamped_lock_grows_where_its_roots_do() {
             if !point.admissible {
                 continue;
             }
-            let roots = lock_roots(&Joint::at(&machine, speed));
+            let roots = Frame::at(&machine, speed).joined();
             let growth = roots.iter().map(|root| root.re).fold(0.0, f64::max);
             // Round-off of a pair that neither grows nor decays is far smaller.
             assert_eq!(point.stable, growth < 1e-3, "{tips:?} {speed} {growth}");
@@ -82,15 +87,15 @@ fn at_the_flutter_speed_a_whirl_has_no_bound() {
         let machine = machine(tips);
         let limit = flutter_speed(&machine, 1.0).unwrap();
         let grows = |machine: &Machine, speed: f64| {
-            let roots = lock_roots(&Joint::at(machine, speed));
+            let roots = Frame::at(machine, speed).joined();
             roots.iter().any(|root| root.re > 0.0)
         };
         assert!(!grows(&machine, limit * (1.0 - 1e-9)) && grows(&machine, limit * (1.0 + 1e-9)));
-        let joint = Joint::at(&machine, limit);
-        let root = lock_roots(&joint).into_iter().max_by(|a, b| a.re.total_cmp(&b.re)).unwrap();
+        let frame = Frame::at(&machine, limit);
+        let root = frame.joined().into_iter().max_by(|a, b| a.re.total_cmp(&b.re)).unwrap();
         // There the compliance vanishes: a whirl there has no bound.
-        let away = joint.compliance(joint.nu + root.im).norm();
-        assert!(away < 1e-9 * joint.compliance(joint.nu).norm(), "{away:e}");
+        let away = frame.turning(root.im).compliance().norm();
+        assert!(away < 1e-9 * frame.compliance().norm(), "{away:e}");
     }
 }
 
@@ -177,7 +182,7 @@ proptest! {
             for (exact, closed) in point.multipliers_n.iter().zip(closed) {
                 prop_assert!((exact - closed).abs() <= 1e-2 * size, "{exact} {closed}");
             }
-            let grows = lock_roots(&Joint::at(&machine, speed)).iter().any(|root| root.re > 1e-2);
+            let grows = Frame::at(&machine, speed).joined().iter().any(|root| root.re > 1e-2);
             let pushes = point.multipliers_n.iter().all(|&lambda| lambda <= 0.0);
             prop_assert!(!pushes || point.stable != grows, "{point:?}");
         }

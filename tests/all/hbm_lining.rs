@@ -2,7 +2,7 @@
 //! limit cycles, against numbers from time integration by other programs.
 
 use crate::close;
-use rubscope_solver::harmonic::{Cycle, Joint, Lining, growth_threshold, round_whirls};
+use rubscope_solver::harmonic::{Cycle, Lining, growth_threshold, round_whirls};
 use rubscope_solver::scene::Scene;
 
 /// Pressed in by 20 micrometres, with the smooth law.
@@ -173,7 +173,7 @@ fn too_stiff_a_joint_grows_without_bound() {
     with(&preloaded("54e3", &[]), |lining| {
         let unbounded = whirl(lining, 425.0);
         assert_eq!(unbounded, Whirl::Unbounded);
-        let wave = round_whirls(&Joint::at(&lining.machine, 425.0));
+        let wave = round_whirls(&lining.machine, 425.0);
         assert!(wave[0].stiffness_n_per_m < lining.stiffness_far_out());
         assert!(!lining.is_bounded(425.0) && lining.is_bounded(390.0));
     });

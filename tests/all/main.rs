@@ -54,6 +54,7 @@ mod margins;
 mod margins_changes;
 mod margins_command;
 mod margins_odd;
+mod one_answer;
 mod own_machine;
 mod pty;
 mod pty_bursts;

@@ -36,6 +36,11 @@ fn a_stage_of_blades_that_stiffen_is_what_its_table_says_and_locks_where_runs_do
     let survey: serde_json::Value =
         serde_json::from_str(&text(&["survey", &file, "--range", "7000rpm:12000rpm", "--json"]))
             .unwrap();
+    // What is guessed is not counted.
+    let said = text(&["survey", &file, "--range", "7000:12000", "--rpm", "--nd", "9"]);
+    let said = said.lines().take(4).collect::<Vec<_>>().join(" ");
+    let guessed = "; with guessed modes waves of 9 nodal diameters could, too.";
+    assert!(said.contains(guessed) && !said.contains("and 9 nodal"), "{said}");
     // Verdicts of runs of many pulses, of which some lock where a lock is possible.
     for (diameters, rpm, locks) in
         [(4, 9500, true), (5, 7200, false), (5, 11800, true), (6, 11800, false)]

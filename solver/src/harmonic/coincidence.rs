@@ -4,7 +4,7 @@
 
 use serde::Serialize;
 
-use super::{HarmonicError, Joint, Lining, RoundWhirl, error, lock_roots, round_whirls};
+use super::{HarmonicError, Lining, RoundWhirl, error, joined_grow};
 use crate::model::Machine;
 use crate::numeric::is_zero;
 use crate::scene::{ContactLaw, Scene};
@@ -184,16 +184,15 @@ fn on_lining(lining: &Lining, speed: f64) -> Result<CoincidencePoint, HarmonicEr
 /// Computes the wave for rigid contact: the attracting wave has the amplitude of the clearance.
 /// Waves stay bounded unless the coupled structures flutter.
 fn on_rigid_casing(machine: &Machine, speed: f64) -> CoincidencePoint {
-    let joint = Joint::at(machine, speed);
-    let clearance = joint.machine.clearance();
-    let wave = RoundWhirl::lasting(&round_whirls(&joint)).filter(|_| clearance > 0.0);
+    let clearance = machine.at(speed).clearance();
+    let wave = RoundWhirl::lasting(machine, speed);
     CoincidencePoint {
         speed_rad_s: speed,
         growth_1_s: None,
         blade_amplitude_rad: wave.map(|wave| wave.blades_per_w * clearance),
         casing_amplitude_m: wave.map(|wave| wave.casing_per_w * clearance),
         omega_rad_s: wave.map(|wave| wave.omega_rad_s),
-        bounded: lock_roots(&joint).iter().all(|root| root.re <= 0.0),
+        bounded: !joined_grow(machine, speed),
     }
 }
 

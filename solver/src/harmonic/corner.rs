@@ -3,9 +3,10 @@
 //!
 //! [`Configuration`] contains the displacements of casing and blades, from which every gap follows.
 
-use super::stability::ClosedSide;
+use super::equations::Scales;
+use super::stability::Kept;
 use super::{HarmonicError, error};
-use crate::model::{ContactPolygon, Machine};
+use crate::model::{ContactPolygon, Frame, Machine, Row};
 
 /// The pair of blades in the paper.
 pub const PAPER_PAIR: [u32; 2] = [6, 21];
@@ -132,8 +133,6 @@ pub(super) struct Configuration {
     pub turn: (f64, f64),
     /// Effect of a blade angle on its gap, `kappa l_b/(n_d g0)`.
     pub slope: f64,
-    /// Lever of a contact force on its blade, `(kappa + mu) l_b/(n_d g0)`.
-    pub lever: f64,
 }
 
 impl Configuration {
@@ -176,26 +175,40 @@ impl Configuration {
     /// Returns the smallest gap, in units of `g0`, of the sides that are not in `contacts`;
     /// infinite if there are none.
     pub fn smallest_gap(&self, polygon: &ContactPolygon, contacts: &[u32]) -> f64 {
-        (0..polygon.sides)
-            .filter(|side| !contacts.contains(side))
-            .map(|side| self.gap(polygon, side))
-            .fold(f64::INFINITY, f64::min)
+        // Sides that blades hardly turn or raise are farther away than the neighbours.
+        let moved = (1.0 + self.slope.abs()) * self.turn.0.hypot(self.turn.1);
+        let near = polygon.is_regular() && moved < 0.1 * polygon.delta * polygon.delta;
+        let least = |sides: &mut dyn Iterator<Item = u32>| {
+            let open = sides.filter(|side| !contacts.contains(side));
+            open.map(|side| self.gap(polygon, side)).fold(f64::INFINITY, f64::min)
+        };
+        match contacts {
+            [a, .., b] if near => least(&mut [polygon.previous(*a), polygon.next(*b)].into_iter()),
+            _ => least(&mut (0..polygon.sides)),
+        }
     }
 
-    /// Returns the contact geometry of a side with a scaled multiplier.
-    pub fn held(&self, polygon: &ContactPolygon, side: u32, multiplier: f64) -> ClosedSide {
-        let direction = self.direction(polygon, side);
-        let across = self.z.1 * direction.0 - self.z.0 * direction.1;
-        ClosedSide {
-            phase: polygon.direction(side),
-            direction,
-            // From the condition that the gap is closed.
-            along: self.slope * self.turn_of(polygon.direction(side))
-                - polygon.relative_apothem(side),
-            arm: across - self.slope,
-            moment: across - self.lever,
-            multiplier,
-        }
+    /// Returns the tangential offset `Im[z exp(-i (psi + n_d alpha))]` of a side, in units of `g0`.
+    pub fn across(&self, polygon: &ContactPolygon, side: u32) -> f64 {
+        let (c, s) = self.direction(polygon, side);
+        self.z.1 * c - self.z.0 * s
+    }
+
+    /// Returns this state at a rotor speed with the contacts `loads`, each a side and its scaled
+    /// multiplier.
+    pub fn kept(&self, machine: &Machine, speed: f64, loads: &[(u32, f64)]) -> Kept {
+        let frame = Frame::at(machine, speed);
+        let Scales { length, force, .. } = Scales::new(machine);
+        let place = (self.z.0 * length, self.z.1 * length);
+        let multipliers: Vec<f64> = loads.iter().map(|load| load.1 * force).collect();
+        let row = |(&(side, _), multiplier): (&(u32, f64), &f64)| {
+            let direction = machine.polygon.direction(side);
+            let turn = self.turn_of(direction);
+            let alpha = if turn == 0.0 { 0.0 } else { turn / machine.nodal_diameters };
+            Row::new(&frame, direction, place, alpha, *multiplier)
+        };
+        let rows = loads.iter().zip(&multipliers).map(row).collect();
+        Kept { frame, rows, multipliers, rate: machine.omega_c }
     }
 }
 

@@ -207,7 +207,7 @@ impl Equations {
     pub fn configuration(&self, unknowns: &Unknowns) -> Configuration {
         let [x, y, ..] = *unknowns;
         let [turn_c, turn_s] = self.blade_modes(unknowns).map(|alpha| self.softness * alpha);
-        Configuration { z: (x, y), turn: (turn_c, turn_s), slope: self.slope, lever: self.lever }
+        Configuration { z: (x, y), turn: (turn_c, turn_s), slope: self.slope }
     }
 
     /// Returns the derivatives of the residuals (rows) with respect to the unknowns (columns).

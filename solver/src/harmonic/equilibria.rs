@@ -3,13 +3,15 @@
 //! tensile or changes its stability (docs/theory.md, section 8). By symmetry one side and one
 //! corner represent all `N'`.
 
+use std::borrow::Cow;
+
 use nalgebra::Complex;
 use serde::Serialize;
 use strum::AsRefStr;
 
 use super::corner::Configuration;
 use super::equations::{Equations, Scales, Unknowns, Wave};
-use super::stability::{Linearised, at_rest, grows, largest_growth};
+use super::stability::{at_rest, grows, largest_growth};
 use super::{Corner, Form, HarmonicError, error};
 use crate::model::Machine;
 use crate::numeric::bisection::try_bisected;
@@ -187,12 +189,14 @@ pub fn equilibrium(
     error::refuse_endless(&[speed])?;
     error::refuse_other_diameters(machine)?;
     error::refuse_tips(machine, "0 where every equilibrium is asked; the lock takes it")?;
-    let machine = &*machine.at(speed);
+    let machine = machine.at(speed);
+    let machine = if damped { machine } else { Cow::Owned(machine.into_owned().undamped()) };
+    let machine = &*machine;
     if machine.changes_with_speed() && machine.clearance() <= 0.0 {
         // The blades have grown into the casing.
         return Ok(None);
     }
-    let wave = Wave::at(machine, speed, damped);
+    let wave = Wave::at(machine, speed, true);
     let scales = Scales::new(machine);
     let loads = match kind {
         Kind::Rest => Some(((0.0, 0.0), Vec::new())),
@@ -202,7 +206,7 @@ pub fn equilibrium(
     let Some((z, loads)) = loads else { return Ok(None) };
     let compliance = scales.softness * scales.share;
     let configuration = Configuration::bent(&machine.polygon, z, compliance, &loads);
-    judged(machine, kind, speed, damped, &configuration, &loads).map(Some)
+    judged(machine, kind, speed, &configuration, &loads).map(Some)
 }
 
 /// Scaled `z` and contact forces (side, multiplier, lever) of an equilibrium.
@@ -245,10 +249,7 @@ pub(super) fn loads_of(
     configuration: &Configuration,
     &[.., push_a, push_b, _, _]: &Unknowns,
 ) -> Vec<(u32, f64, f64)> {
-    let load = |side: u32, push: f64| {
-        let arm = configuration.held(&machine.polygon, side, -push).arm;
-        (side, -push, arm)
-    };
+    let load = |side: u32, push: f64| (side, -push, configuration.across(&machine.polygon, side));
     vec![load(corner.a, push_a), load(corner.b, push_b)]
 }
 
@@ -260,17 +261,15 @@ pub(super) fn judged(
     machine: &Machine,
     kind: Kind,
     speed: f64,
-    damped: bool,
     configuration: &Configuration,
     loads: &[(u32, f64, f64)],
 ) -> Result<Equilibrium, HarmonicError> {
     let (polygon, scales) = (&machine.polygon, Scales::new(machine));
     let sides: Vec<u32> = loads.iter().map(|load| load.0).collect();
-    let held: Vec<_> =
-        loads.iter().map(|load| configuration.held(polygon, load.0, load.1)).collect();
-    let motion = Linearised::about(machine, speed, damped, &held);
+    let held: Vec<_> = loads.iter().map(|load| (load.0, load.1)).collect();
+    let motion = configuration.kept(machine, speed, &held);
     let eigenvalues = match kind {
-        Kind::Rest => at_rest(machine, speed, damped),
+        Kind::Rest => at_rest(machine, speed),
         _ => motion.eigenvalues().ok_or(HarmonicError::Unsettled { speed })?,
     };
     let open = configuration.smallest_gap(polygon, &sides);
@@ -280,7 +279,7 @@ pub(super) fn judged(
         Character::of(pushes, held_by_pulls, open, || grows(&eigenvalues, machine.omega_c));
     let (x, y) = configuration.z;
     // Torque `sum Lambda A`, which is zero at rest.
-    let moment_arm = Wave::at(machine, speed, damped).drag * (x * x + y * y);
+    let moment_arm = Wave::at(machine, speed, true).drag * (x * x + y * y);
     let torque = machine.nodal_diameters * scales.force * scales.length * moment_arm;
     let angle = if scales.softness > 0.0 { scales.angle / scales.softness } else { 0.0 };
     let contact = |&(side, multiplier, _): &(u32, f64, f64)| GroupContact {

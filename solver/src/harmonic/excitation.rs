@@ -6,11 +6,11 @@
 //! `sum_i exp(i psi_i) Q_i = (N/2) Q exp(+-i E theta)`. In a corner only the blades are free to
 //! move, and the casing follows them.
 
-use nalgebra::{Complex, Matrix2, Vector2, Vector4};
+use nalgebra::{Complex, Matrix6, Vector6};
 
-use super::equations::{Equations, Scales, Wave};
+use super::equations::{Equations, Wave};
 use super::equilibria::{judged, loads_of};
-use super::stability::{ClosedSide, Linearised, blade_scale};
+use super::stability::Kept;
 use super::{Corner, Equilibrium, Form, HarmonicError, Kind, error};
 use crate::model::{Excitation, Machine};
 
@@ -127,21 +127,13 @@ fn at(
     let Some(unknowns) = equations.locked() else { return Ok(None) };
     let configuration = equations.configuration(&unknowns);
     let loads = loads_of(machine, corner, &configuration, &unknowns);
-    let held: Vec<ClosedSide> =
-        loads.iter().map(|load| configuration.held(&machine.polygon, load.0, load.1)).collect();
-    let state = judged(machine, Kind::Corner, speed, true, &configuration, &loads)?;
-    let motion = Linearised::about(machine, speed, true, &held);
-
-    let scales = Scales::new(machine);
-    let angle = blade_scale(machine) / machine.nodal_diameters;
-    let torque = excitation.amplitude_nm * angle / (scales.force * scales.length);
+    let held: Vec<_> = loads.iter().map(|load| (load.0, load.1)).collect();
+    let state = judged(machine, Kind::Corner, speed, &configuration, &loads)?;
+    let kept = configuration.kept(machine, speed, &held);
     let frequency = f64::from(excitation.order) * speed;
-    let load = modal_load(machine, excitation.order).map(|part| part * torque);
-    let forced = motion.forced(load, frequency / machine.omega_c);
-    let Some((shape, pushes)) = forced else { return Ok(None) };
-    let units = [scales.length, scales.length, angle, angle];
-    let response = [0, 1, 2, 3].map(|i| shape[i] * units[i]);
-    let multipliers = [0, 1].map(|i| pushes[i] * scales.force);
+    let load = modal_load(machine, excitation.order).map(|part| part * excitation.amplitude_nm);
+    let Some([x, y, c, s, a, b]) = forced(&kept, load, frequency) else { return Ok(None) };
+    let (response, multipliers) = ([x, y, c, s], [a, b]);
     let means = [0, 1].map(|i| state.contacts.get(i).map_or(0.0, |contact| contact.multiplier_n));
     let over = |change: f64, whole: f64| if change == 0.0 { 0.0 } else { change / whole.abs() };
     let relative = [0, 1].map(|i| over(multipliers[i].norm(), means[i]));
@@ -177,27 +169,30 @@ fn radial(state: &Equilibrium, response: &[Complex<f64>; 4]) -> f64 {
     ((response[0] * state.z_m[0] + response[1] * state.z_m[1]) / amplitude).norm()
 }
 
-/// Scaled coordinates and multipliers of a forced motion.
-type Forced = (Vector4<Complex<f64>>, Vector2<Complex<f64>>);
-
-impl Linearised {
-    /// Returns the steady response to a load `exp(i ratio t)` on the blade modes with both contacts
-    /// of a corner kept: scaled coordinates and multipliers. `None` at an undamped resonance.
-    fn forced(&self, load: [Complex<f64>; 2], ratio: f64) -> Option<Forced> {
-        let basis = self.corner_basis()?.map(real);
-        let dynamic = self.dynamic_stiffness(ratio);
-        let load = Vector4::new(real(0.0), real(0.0), load[0], load[1]);
-        let reduced: Matrix2<Complex<f64>> = basis.transpose() * dynamic * basis;
-        let motion = basis * reduced.try_inverse()? * (basis.transpose() * load);
-        // The casing rows of the full equations give the multipliers.
-        let left = dynamic * motion;
-        let &[a, b] = self.gradients() else { return None };
-        let contact = Matrix2::new(a[0], b[0], a[1], b[1]).map(real);
-        let pushes = contact.try_inverse()? * Vector2::new(-left[0], -left[1]);
-        Some((motion, pushes))
+/// Returns the steady response to a load `exp(i frequency t)` on the blade modes with both contacts
+/// of a corner kept: the four coordinates and both multipliers. `None` at an undamped resonance.
+///
+/// `(K + i frequency C - frequency^2 M) w + sum Lambda f = load` and `g . w = 0` for both rows.
+fn forced(kept: &Kept, load: [Complex<f64>; 2], frequency: f64) -> Option<[Complex<f64>; 6]> {
+    let [mass, damping, stiffness] = kept.frame.matrices(&kept.rows, &[]);
+    // Blade coordinates are lengths at the tip of a lever that makes both stiffnesses equal.
+    let lever = (kept.frame.blades.stiffness / kept.frame.casing.stiffness).sqrt();
+    let unit = [1.0, 1.0, lever, lever].map(f64::recip);
+    let scale = kept.frame.casing.stiffness;
+    let mut system = Matrix6::zeros();
+    for (i, j) in (0..4).flat_map(|i| (0..4).map(move |j| (i, j))) {
+        let still = stiffness[(i, j)] - frequency * frequency * mass[(i, j)];
+        let entry = Complex::new(still, frequency * damping[(i, j)]);
+        system[(i, j)] = entry * (unit[i] * unit[j] / scale);
     }
-}
-
-fn real(x: f64) -> Complex<f64> {
-    Complex::new(x, 0.0)
+    for (place, row) in (4..).zip(&kept.rows) {
+        for i in 0..4 {
+            system[(i, place)] = Complex::from(row.force[i] * unit[i]);
+            system[(place, i)] = Complex::from(row.gap[i] * unit[i]);
+        }
+    }
+    let mut right = Vector6::zeros();
+    (right[2], right[3]) = (load[0] * (unit[2] / scale), load[1] * (unit[3] / scale));
+    let found = system.lu().solve(&right)?;
+    Some(std::array::from_fn(|i| found[i] * unit.get(i).copied().unwrap_or(scale)))
 }

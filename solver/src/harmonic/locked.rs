@@ -7,7 +7,6 @@
 use serde::Serialize;
 
 use super::equations::{Equations, Scales, Unknowns, Wave};
-use super::stability::Linearised;
 use super::{Character, Corner, Form, HarmonicError, error, lining};
 use crate::model::Machine;
 
@@ -164,9 +163,8 @@ impl Locked {
         let [x, y, push_a, push_b, alpha_a, alpha_b] = *unknowns;
         let configuration = equations.configuration(unknowns);
         let smallest_gap = configuration.smallest_gap(polygon, &sides);
-        let held = [(0, push_a), (1, push_b)]
-            .map(|(i, push)| configuration.held(polygon, sides[i], -push));
-        let motion = Linearised::about(machine, speed, self.damped, &held);
+        let loads = [(sides[0], -push_a), (sides[1], -push_b)];
+        let motion = configuration.kept(machine, speed, &loads);
         let mut growth = None;
         let pushes = push_a >= 0.0 && push_b >= 0.0;
         // The equality algorithm is not used with friction: a pull has none.

@@ -10,9 +10,9 @@
 //! - All equilibria, their stability and thresholds: `equilibria`, `stability`.
 //! - Slip as a map from corner to corner: `slip`.
 //! - Coincidences and engine-order excitation: `coincidence`, `excitation`.
-//! - Blades and casing coupled by the contact (section 10), flutter of the lock, and the speed
-//!   ranges of a stable lock: `joint`; whirl in the limit of many blades: `round_whirl`; steady
-//!   states on a lining: `lining`.
+//! - Where a lock holds, and where blades and casing that move as one grow (section 10): `windows`;
+//!   whirl and growth without bound in the limit of many blades: `round_whirl`; steady states on a
+//!   lining: `lining`.
 //! - Roundness of the casing that a lock needs (section 11): `roundness`.
 
 mod coincidence;
@@ -22,13 +22,13 @@ mod equations;
 mod equilibria;
 mod error;
 mod excitation;
-mod joint;
 mod lining;
 mod locked;
 mod round_whirl;
 mod roundness;
 mod slip;
 mod stability;
+mod windows;
 
 pub use coincidence::{
     Campbell, Coincidence, CoincidencePoint, Line, coincidence, shifted_coincidence,
@@ -40,19 +40,17 @@ pub use equilibria::{
 };
 pub use error::HarmonicError;
 pub use excitation::{ExcitedLock, ExcitedLocks, drives};
-pub use joint::{
-    Joint, flutter_speed, flutters, lock_growth, lock_roots, lock_window, lock_windows,
-    undamped_flutter_speed,
-};
 pub use lining::{
     Cycle, Forced, GroupPush, HopfPoint, LeastStiffness, Lining, LiningState, Rest, RestRoot,
     growth_threshold, least_lock_stiffness,
 };
 pub use locked::{LockLoads, Locked, LockedPoint, Sweep, lock_loads, locked_motion};
 pub use round_whirl::{
-    RoundWhirl, RoundWhirlLoads, WhirlOnset, round_whirls, whirl_beginnings, whirl_onset,
-    whirl_onsets,
+    RoundWhirl, RoundWhirlLoads, Rubbing, growth_spans, has_one_wave, round_whirls, whirl_spans,
 };
 pub(crate) use roundness::lobes_of;
 pub use roundness::{roundness, roundness_needed};
 pub use slip::{NoSlip, SlipLimit, SlipOrbit, SlipPoint, slip_limits, slip_over};
+pub use windows::{
+    Locks, flutters, joined_grow, lock_growth, lock_window, lock_windows, undamped_flutter_speed,
+};

@@ -1,26 +1,23 @@
 //! Whirl in the limit of many blades, where the contact polygon becomes a circle (docs/theory.md,
 //! section 10): a travelling wave of contact forces that both structures carry, each at its own
-//! frequency, and the rotor speeds at which it begins. These are folds, where an attracting wave
-//! and its threshold appear as a pair.
+//! frequency; the ranges of rotor speed in which one lasts, and those in which rubbing grows without
+//! bound.
 //!
 //! The relative displacement of casing and tips, `w = z - kappa l_b a`, has a constant magnitude
 //! and turns at `s` in the blade frame. The force `p = w/B(omega)` must point against it, so
-//! `Im B = 0` and `Re B < 0`. `Im B |L_c|^2 |L_a|^2` is a polynomial of degree six in `omega`, all
-//! of whose roots are found.
+//! `Im B = 0` and `Re B < 0`. Waves appear and vanish in pairs, an attracting one and its threshold.
+//! Where none attracts and blades and casing that move as one grow (`B = 0`), a rub that is large
+//! enough grows until blades fail.
 //!
-//! Read [`round_whirls`] (the waves at a speed), then [`whirl_onsets`] (the folds over speed).
+//! Read [`round_whirls`] (the waves at a speed), then [`Rubbing`] and [`whirl_spans`].
 
-use nalgebra::{Complex, DMatrix};
 use serde::Serialize;
+use strum::IntoStaticStr;
 
-use super::joint::Joint;
-use crate::model::Machine;
-use crate::numeric::bisection::bisected;
-use crate::numeric::eigen::eigenvalues;
-use crate::numeric::real_roots::{Coefficients, Point, product, real_roots, sum};
-use crate::tolerances::{
-    BESIDE_A_FOLD, BRANCH_CHANGES, ONSET_FURTHEST, ONSET_STRIDE, REAL_COMPLIANCE,
-};
+use super::windows::{flutters, joined_grow, windows};
+use crate::model::{Frame, LockWindow, Machine, Row};
+use crate::numeric::search::{geometric, zeros};
+use crate::tolerances::{FURTHEST, NARROWEST_PEAK, REAL_COMPLIANCE, WAVE_FURTHEST, WAVE_RATIO};
 
 /// A wave that runs round both structures, per unit of `|w|`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -44,29 +41,82 @@ pub struct RoundWhirl {
     pub growth_per_s: f64,
 }
 
-/// Returns every round whirl at one speed, by increasing stiffness. Empty if blades and casing are
-/// not coupled by a single wave ([`Joint::has_one_wave`]), and without any dissipation, where the
-/// frequency is arbitrary.
+/// Returns every round whirl at one rotor speed \[rad/s\], by increasing stiffness. Empty if blades
+/// and casing are not coupled by a single wave, and without any dissipation, where the frequency is
+/// arbitrary.
 #[must_use]
-pub fn round_whirls(joint: &Joint) -> Vec<RoundWhirl> {
-    let machine = &*joint.machine;
-    if !Joint::has_one_wave(machine) {
-        return Vec::new();
+pub fn round_whirls(machine: &Machine, speed: f64) -> Vec<RoundWhirl> {
+    let (frame, found) = pushing(machine, speed);
+    found.into_iter().filter_map(|wave| RoundWhirl::new(&frame, wave)).collect()
+}
+
+/// Returns frequency \[rad/s\] and stiffness \[N/m\] of every wave whose contact pushes, by increasing
+/// stiffness.
+fn pushing(machine: &Machine, speed: f64) -> (Frame, Vec<(f64, f64)>) {
+    let frame = Frame::at(machine, speed);
+    if !has_one_wave(machine) {
+        return (frame, Vec::new());
     }
-    let scaled = Scaled::new(joint);
-    let breaks = [
-        0.0,
-        1.0,
-        -1.0,
-        scaled.turn,
-        scaled.turn + scaled.blade_rate,
-        scaled.turn - scaled.blade_rate,
-    ];
-    let roots = real_roots(&|from, to| scaled.imaginary(from, to), &breaks);
-    let waves = roots.iter().filter_map(|root| scaled.wave(joint, root * machine.omega_c));
-    let mut waves: Vec<RoundWhirl> = waves.collect();
-    waves.sort_by(|a, b| a.stiffness_n_per_m.total_cmp(&b.stiffness_n_per_m));
-    waves
+    let coupling = frame.coupling() * frame.casing.stiffness / frame.blades.stiffness;
+    // Im B |L_c|^2 |L_a|^2, in units of the stiffnesses.
+    let imaginary = |omega: f64| {
+        let casing = frame.casing.dynamic_stiffness(omega) / frame.casing.stiffness;
+        let s = omega - frame.casing.turn;
+        let blades = frame.blades.dynamic_stiffness(s) / frame.blades.stiffness;
+        (frame.friction * casing.re - casing.im) * blades.norm_sqr()
+            - coupling * blades.im * casing.norm_sqr()
+    };
+    let roots = zeros(&frequencies(&frame), imaginary);
+    let mut waves: Vec<(f64, f64)> =
+        roots.into_iter().filter_map(|omega| Some((omega, stiffness(&frame, omega)?))).collect();
+    waves.sort_by(|a, b| a.1.total_cmp(&b.1));
+    (frame, waves)
+}
+
+/// Returns whether blades and casing are coupled by a single travelling wave: `N' >= 3`, and the disk
+/// modes have the nodal diameters of the casing or an alias of them, `+-n_d` modulo `N`.
+#[must_use]
+pub fn has_one_wave(machine: &Machine) -> bool {
+    let blades = f64::from(machine.polygon.blades);
+    let (disk, casing) = (machine.blade_diameters, machine.nodal_diameters);
+    let meets = |sense: f64| (disk + sense * casing).rem_euclid(blades) == 0.0;
+    machine.polygon.has_corners() && (meets(1.0) || meets(-1.0))
+}
+
+/// Returns the frequencies of the scan, in increasing order: steps that grow by `WAVE_RATIO` away
+/// from every resonance, the first an eighth of its width, and away from zero \[rad/s\].
+fn frequencies(frame: &Frame) -> Vec<f64> {
+    let own = |of: &crate::model::Structure| (of.stiffness / of.mass).sqrt();
+    let (casing, blades, nu) = (own(&frame.casing), own(&frame.blades), frame.casing.turn);
+    let width = |of: &crate::model::Structure| 0.5 * of.damping / of.mass;
+    let (of_casing, of_blades) = (width(&frame.casing), width(&frame.blades));
+    let fastest = casing + blades + nu.abs();
+    let mut places = Vec::new();
+    for (place, width, far) in [
+        (casing, of_casing, 4.0),
+        (-casing, of_casing, 4.0),
+        (nu + blades, of_blades, 4.0),
+        (nu - blades, of_blades, 4.0),
+        (nu, of_blades, 4.0),
+        (0.0, of_casing, WAVE_FURTHEST),
+    ] {
+        let nearest = (0.125 * width).max(NARROWEST_PEAK * fastest);
+        let away = geometric([nearest, far * fastest], WAVE_RATIO);
+        places.push(place);
+        places.extend(away.flat_map(|away| [place - away, place + away]));
+    }
+    places.sort_by(f64::total_cmp);
+    places.dedup();
+    places
+}
+
+/// Returns the stiffness `-1/Re B` of the wave at a root \[rad/s\]; `None` if it would have to pull.
+fn stiffness(frame: &Frame, omega: f64) -> Option<f64> {
+    let compliance = frame.turning(omega - frame.casing.turn).compliance();
+    // At an undamped resonance both parts of B change sign through infinity; such roots are dropped.
+    let real = compliance.im.abs() <= REAL_COMPLIANCE * compliance.re.abs();
+    let pushes = real && compliance.re < 0.0 && compliance.re.is_finite();
+    pushes.then(|| -compliance.re.recip())
 }
 
 /// Loads of a round whirl with rigid contact, `|w| = g0`.
@@ -87,266 +137,134 @@ pub struct RoundWhirlLoads {
 }
 
 impl RoundWhirl {
-    /// Returns the loads at the clearance of the machine. Without friction the rotor power is the
-    /// sum of both dampers: the casing receives the part `omega/nu` and the blades `|s|/nu` (Manley
-    /// and Rowe).
+    /// Creates the wave of a frequency \[rad/s\] and stiffness \[N/m\]; `None` if its small motions
+    /// cannot be computed.
+    fn new(frame: &Frame, (omega, stiffness): (f64, f64)) -> Option<Self> {
+        let s = omega - frame.casing.turn;
+        let turning = frame.turning(s);
+        // The magnitude |w| is held, and the force keeps pointing against w.
+        let [radial, tangential] = [(1.0, 0.0), (0.0, 1.0)].map(|way| Row::fixed(&turning, way));
+        let mut rates = turning.motion(&[radial], &[(tangential, stiffness)]).eigenvalues()?;
+        // A wave shifted in time is the same wave, so one eigenvalue is zero.
+        rates.sort_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()));
+        let growth = rates.iter().skip(1).map(|rate| rate.re).fold(f64::NEG_INFINITY, f64::max);
+        let [casing, blades] = [(&frame.casing, omega), (&frame.blades, s)]
+            .map(|(of, at)| of.dynamic_stiffness(at).norm());
+        Some(Self {
+            omega_rad_s: omega,
+            s_rad_s: s,
+            stiffness_n_per_m: stiffness,
+            casing_per_w: stiffness * frame.friction.hypot(1.0) / casing,
+            blades_per_w: stiffness * frame.lever.abs() / blades,
+            attracts: growth < 0.0,
+            growth_per_s: growth,
+        })
+    }
+
+    /// Returns the loads at the clearance of a machine at a rotor speed \[rad/s\]. Without friction
+    /// the rotor power is the sum of both dampers: the casing receives the part `omega/nu` and the
+    /// blades `|s|/nu` (Manley and Rowe).
     #[must_use]
-    pub fn loads(&self, joint: &Joint) -> RoundWhirlLoads {
-        let machine = &*joint.machine;
+    pub fn loads(&self, machine: &Machine, speed: f64) -> RoundWhirlLoads {
+        let machine = &*machine.at(speed);
         let clearance = machine.clearance();
         let push = self.stiffness_n_per_m * clearance;
         let (casing, blades) = (self.casing_per_w * clearance, self.blades_per_w * clearance);
         let radius = machine.blade_length + clearance;
-        let sliding = joint.nu.abs() / machine.nodal_diameters * radius;
         RoundWhirlLoads {
             push_n: push,
             casing_m: casing,
             blade_rad: blades,
             casing_w: machine.casing_damping * (self.omega_rad_s * casing).powi(2),
             blades_w: machine.blade_modal_damping * (self.s_rad_s * blades).powi(2),
-            friction_w: machine.friction * push * sliding,
+            friction_w: machine.friction * push * speed.abs() * radius,
         }
     }
 
-    /// Returns the stiffest wave that attracts.
+    /// Returns the stiffest wave that attracts at a rotor speed \[rad/s\]. `None` if there is none,
+    /// without clearance, if the tips do not couple casing and blades, and if the lining is too soft
+    /// for it: the stiffness of a lining never exceeds `N k/4`, by lift-off for half of each
+    /// revolution.
     #[must_use]
-    pub fn lasting(waves: &[Self]) -> Option<Self> {
-        waves.iter().rev().find(|wave| wave.attracts).copied()
-    }
-}
-
-/// Both structures in units of their stiffnesses, with frequencies in units of `omega_c`.
-struct Scaled {
-    /// Wave frequency in the blade frame, `nu/omega_c`.
-    turn: f64,
-    /// Blade frequency, `omega_bd/omega_c`.
-    blade_rate: f64,
-    casing_damping: f64,
-    blade_damping: f64,
-    casing_friction: f64,
-    /// Coupling, `c2 k_c/k_a`.
-    coupling: f64,
-}
-
-impl Scaled {
-    fn new(joint: &Joint) -> Self {
-        let machine = &*joint.machine;
-        Self {
-            turn: joint.nu / machine.omega_c,
-            blade_rate: machine.omega_bd / machine.omega_c,
-            casing_damping: 2.0 * machine.casing_damping_ratio,
-            blade_damping: 2.0 * machine.blade_damping_ratio,
-            casing_friction: joint.casing_friction,
-            coupling: joint.coupling_product * machine.casing_stiffness
-                / machine.blade_modal_stiffness,
-        }
-    }
-
-    /// Returns `Im B |L_c|^2 |L_a|^2` on an interval of frequencies.
-    fn imaginary(&self, from: Point, to: Point) -> Coefficients {
-        // Frequency seen by the blades, y = s/omega_bd.
-        let seen = |u: Point| (u.p - self.turn * u.q) / self.blade_rate;
-        let stiff = |x: f64, y: f64, u: Point, v: Point| u.q * v.q - x * y;
-        let drag = |x: f64, y: f64, u: Point, v: Point| 0.5 * (x * v.q + y * u.q);
-        let quadratic = |of: &dyn Fn(Point, Point) -> f64| Coefficients::quadratic(from, to, of);
-        let casing = [
-            quadratic(&|u, v| stiff(u.p, v.p, u, v)),
-            quadratic(&|u, v| self.casing_damping * drag(u.p, v.p, u, v)),
-        ];
-        let blades = [
-            quadratic(&|u, v| stiff(seen(u), seen(v), u, v)),
-            quadratic(&|u, v| self.blade_damping * drag(seen(u), seen(v), u, v)),
-        ];
-        let square =
-            |[re, im]: &[Coefficients; 2]| sum(1.0, &product(re, re), 1.0, &product(im, im));
-        let driven = sum(self.casing_friction, &casing[0], -1.0, &casing[1]);
-        let casing_part = product(&driven, &square(&blades));
-        let blade_part = product(&blades[1], &square(&casing));
-        sum(1.0, &casing_part, -self.coupling, &blade_part)
-    }
-
-    /// Returns the wave at a root \[rad/s\]; `None` if it would have to pull.
-    fn wave(&self, joint: &Joint, omega: f64) -> Option<RoundWhirl> {
-        let compliance = joint.compliance(omega);
-        // At an undamped resonance both parts of B change sign through infinity; such roots are
-        // dropped.
-        let real = compliance.im.abs() <= REAL_COMPLIANCE * compliance.re.abs();
-        if !(real && compliance.re < 0.0 && compliance.re.is_finite()) {
+    pub fn lasting(machine: &Machine, speed: f64) -> Option<Self> {
+        let open = machine.at(speed).clearance() > 0.0;
+        // Without coupling, every undamped resonance would count as a whirl.
+        if !open || machine.coupling_product_at(speed) == 0.0 {
             return None;
         }
-        let stiffness = -compliance.re.recip();
-        let s = omega - joint.nu;
-        let turned = Complex::new(1.0, joint.casing_friction);
-        let growth = self.growth(joint, omega / joint.machine.omega_c)?;
-        Some(RoundWhirl {
-            omega_rad_s: omega,
-            s_rad_s: s,
-            stiffness_n_per_m: stiffness,
-            casing_per_w: stiffness * (turned / joint.casing_stiffness(omega)).norm(),
-            blades_per_w: stiffness * joint.blade_lever() / joint.blade_stiffness(s).norm(),
-            attracts: growth < 0.0,
-            growth_per_s: growth * joint.machine.omega_c,
-        })
-    }
-
-    /// Returns the growth rate of small motions about a wave, in units of `omega_c`. If the wave
-    /// runs slightly ahead, the contact force keeps its direction; with `G = 1/B` and the growth
-    /// rate `l`, `G(x - i l) + conj G(x - i conj l) = 2 G(x)`. One root is zero, the shift in time,
-    /// and is removed.
-    fn growth(&self, joint: &Joint, x: f64) -> Option<f64> {
-        let y = (x - self.turn) / self.blade_rate;
-        let i = Complex::i();
-        // Dynamic stiffnesses at x - i l, in powers of l.
-        let structure = |x: f64, rate: f64, damping: f64| {
-            [
-                Complex::new(1.0 - x * x, damping * x),
-                (i * 2.0 * x + damping) / rate,
-                Complex::new(1.0 / (rate * rate), 0.0),
-            ]
-        };
-        let casing = structure(x, 1.0, self.casing_damping);
-        let blades = structure(y, self.blade_rate, self.blade_damping);
-        let turned = Complex::new(1.0, self.casing_friction);
-        let both = |j: usize| blades[j] * turned + casing[j] * self.coupling;
-        let over = convolved(&casing, &blades);
-        let under = [both(0), both(1), both(2)];
-        let mirror: Vec<_> = under.iter().map(Complex::conj).collect();
-        let (crossed, square) = (convolved(&over, &mirror), convolved(&under, &mirror));
-        let here = (joint.compliance(x * joint.machine.omega_c) * joint.machine.casing_stiffness)
-            .re
-            .recip();
-        let size = crossed.len() - 1;
-        let row = |power: usize| {
-            let squared = square.get(power).map_or(0.0, |value| value.re);
-            2.0 * (crossed[power].re - here * squared)
-        };
-        let leading = row(size);
-        // Companion matrix of the polynomial after the root at zero is removed.
-        let matrix = DMatrix::from_fn(size - 1, size - 1, |r, c| match (r, c) {
-            (0, c) => -row(size - 1 - c) / leading,
-            (r, c) => f64::from(u8::from(r == c + 1)),
+        let softest = machine.lining.map_or(f64::INFINITY, |lining| {
+            0.25 * f64::from(machine.polygon.blades) * lining.stiffness_n_per_m
         });
-        let values = eigenvalues(matrix)?;
-        Some(values.iter().map(|value| value.re).fold(f64::NEG_INFINITY, f64::max))
+        let (frame, waves) = pushing(machine, speed);
+        let mut stiffest_first = waves.into_iter().rev().filter(|wave| wave.1 <= softest);
+        stiffest_first.find_map(|wave| Self::new(&frame, wave).filter(|wave| wave.attracts))
     }
 }
 
-fn convolved(a: &[Complex<f64>], b: &[Complex<f64>]) -> Vec<Complex<f64>> {
-    let mut product = vec![Complex::new(0.0, 0.0); (a.len() + b.len()).saturating_sub(1)];
-    for (i, x) in a.iter().enumerate() {
-        for (slot, y) in product.iter_mut().skip(i).zip(b) {
-            *slot += x * y;
+/// What a rub becomes that is large enough, on a rim of many blades.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, IntoStaticStr)]
+#[serde(rename_all = "lowercase")]
+#[strum(serialize_all = "lowercase")]
+pub enum Rubbing {
+    /// A wave of constant amplitude attracts.
+    Whirls,
+    /// No wave attracts, and motions whose contact lasts grow without bound.
+    Grows,
+    /// Neither.
+    None,
+}
+
+impl Rubbing {
+    /// Classifies a rotor speed \[rad/s\].
+    #[must_use]
+    pub fn at(machine: &Machine, speed: f64) -> Self {
+        if RoundWhirl::lasting(machine, speed).is_some() {
+            Self::Whirls
+        } else if grows(machine, speed) {
+            Self::Grows
+        } else {
+            Self::None
         }
     }
-    product
 }
 
-/// A speed at which a pair of waves appears or vanishes.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct WhirlOnset {
-    /// Rotor speed; negative for backward rotation \[rad/s\].
-    pub speed_rad_s: f64,
-    /// Whether the pair exists above this speed and not below.
-    pub appears: bool,
-    /// One of the two waves, which are equal there.
-    pub wave: RoundWhirl,
+/// Returns whether rubbing grows without bound at a speed at which no wave attracts \[rad/s\].
+fn grows(machine: &Machine, speed: f64) -> bool {
+    let rigid = machine.lining.is_none() && machine.at(speed).clearance() > 0.0;
+    rigid && has_one_wave(machine) && joined_grow(machine, speed)
 }
 
-/// Returns the lowest speed at which whirl begins, for a rotor that turns in the direction of the
-/// sign of `toward` \[rad/s\]. `None` if there is none up to `ONSET_FURTHEST` times the dangerous
-/// coincidence, or if the lining is too soft for that wave.
+/// Returns the ranges of speed in which a wave attracts, in increasing order, for a rotor that turns
+/// in the direction of the sign of `toward`.
 #[must_use]
-pub fn whirl_onset(machine: &Machine, toward: f64) -> Option<f64> {
-    beginnings(machine, toward, true).first().copied()
-}
-
-/// Returns every speed at which whirl begins, in increasing order; see [`whirl_onset`].
-#[must_use]
-pub fn whirl_beginnings(machine: &Machine, toward: f64) -> Vec<f64> {
-    beginnings(machine, toward, false)
-}
-
-fn beginnings(machine: &Machine, toward: f64, first: bool) -> Vec<f64> {
-    // Pairs of waves exist only if both structures are coupled.
-    if machine.coupling_product_at(toward) == 0.0 {
+pub fn whirl_spans(machine: &Machine, toward: f64) -> Vec<LockWindow> {
+    if machine.coupling_product_at(toward) == 0.0 || !has_one_wave(machine) {
         return Vec::new();
     }
-    // The wave stiffness of a lining never exceeds N k/4 by lift-off for half of each revolution.
-    let softest = machine.lining.map(|lining| lining.stiffness_n_per_m);
-    let most = softest.map_or(f64::INFINITY, |k| 0.25 * f64::from(machine.polygon.blades) * k);
-    let onsets = search_onsets(machine, toward, first).into_iter();
-    let begin = onsets.filter(|onset| onset.appears && onset.wave.stiffness_n_per_m <= most);
-    begin.map(|onset| onset.speed_rad_s).collect()
+    let sense = 1_f64.copysign(toward);
+    let rigid = machine.clone().with_lining(None);
+    let spans = windows(machine, FURTHEST, &[], |speed| {
+        RoundWhirl::lasting(&rigid, sense * speed).is_some()
+    });
+    if machine.lining.is_none() {
+        return spans;
+    }
+    // On a lining a range may end soon after it begins.
+    let begins: Vec<f64> = spans.iter().map(|span| span.from).collect();
+    windows(machine, FURTHEST, &begins, |speed| {
+        RoundWhirl::lasting(machine, sense * speed).is_some()
+    })
 }
 
-/// Returns every fold of round whirl, in increasing order of speed, for a rotor that turns in the
-/// direction of the sign of `toward`.
+/// Returns the ranges of speed in which rubbing grows without bound: those of flutter in which no
+/// wave attracts. Empty on a lining.
 #[must_use]
-pub fn whirl_onsets(machine: &Machine, toward: f64) -> Vec<WhirlOnset> {
-    search_onsets(machine, toward, false)
-}
-
-/// Searches for the folds: all of them, or up to the first at which a pair appears, which is much
-/// faster.
-fn search_onsets(machine: &Machine, toward: f64, first: bool) -> Vec<WhirlOnset> {
-    if machine.nodal_diameters == 0.0 {
+pub fn growth_spans(machine: &Machine, toward: f64) -> Vec<LockWindow> {
+    if machine.lining.is_some() || machine.clearance_at_rest() <= 0.0 {
         return Vec::new();
     }
-    // Scale of the search: the coincidence without stiffening.
-    let dangerous = (machine.omega_c + machine.omega_bd_at_rest()) / machine.nodal_diameters;
-    let closed = machine.closing_speed().filter(|_| machine.lining.is_none());
-    let sense = if toward < 0.0 { -1.0 } else { 1.0 };
-    let waves = |speed: f64| round_whirls(&Joint::at(machine, sense * speed));
-    let mut found: Vec<WhirlOnset> = Vec::new();
-    let mut low = dangerous / ONSET_FURTHEST;
-    let mut at_low = waves(low);
-    while low < dangerous * ONSET_FURTHEST && !(first && found.iter().any(|onset| onset.appears)) {
-        let high = low * ONSET_STRIDE;
-        let at_high = waves(high);
-        for (speed, below, above) in changes((low, at_low), (high, at_high.len()), &waves) {
-            // A single wave that appears or vanishes does so with an infinite force and is not a
-            // fold.
-            let appears = above.len() > below.len();
-            let (few, many) = if appears { (below, above) } else { (above, below) };
-            if many.len() < few.len() + 2 || closed.is_some_and(|closed| speed >= closed) {
-                continue;
-            }
-            let there = waves(speed);
-            let distinct = if there.len() == many.len() { there } else { many };
-            let speed_rad_s = sense * speed;
-            found.extend(closest(&distinct).map(|wave| WhirlOnset { speed_rad_s, appears, wave }));
-        }
-        (low, at_low) = (high, at_high);
-    }
-    found
-}
-
-/// Returns the speeds between two at which the number of waves changes, with the waves slightly
-/// below and above. Closer to the fold, round-off can merge or lose its two waves.
-fn changes(
-    (low, mut before): (f64, Vec<RoundWhirl>),
-    (high, last): (f64, usize),
-    waves: &impl Fn(f64) -> Vec<RoundWhirl>,
-) -> Vec<(f64, Vec<RoundWhirl>, Vec<RoundWhirl>)> {
-    let mut found = Vec::new();
-    let mut start = low;
-    while before.len() != last && found.len() < BRANCH_CHANGES {
-        let [below, above] = bisected([start, high], |speed| waves(speed).len() != before.len());
-        start = (above * (1.0 + BESIDE_A_FOLD)).min(high);
-        let after = waves(start);
-        let less = waves(below * (1.0 - BESIDE_A_FOLD));
-        found.push((above, less, after.clone()));
-        before = after;
-    }
-    found
-}
-
-/// Returns the stiffer of the two waves that are nearest to each other in frequency.
-fn closest(waves: &[RoundWhirl]) -> Option<RoundWhirl> {
-    let apart = |pair: &[RoundWhirl]| match pair {
-        [one, other] => (one.omega_rad_s - other.omega_rad_s).abs(),
-        _ => f64::INFINITY,
+    let less = |spans: Vec<LockWindow>, whirl: &LockWindow| {
+        spans.into_iter().flat_map(|span| span.without(whirl)).collect()
     };
-    let nearest = waves.windows(2).min_by(|a, b| apart(a).total_cmp(&apart(b)))?;
-    nearest.last().copied()
+    whirl_spans(machine, toward).iter().fold(flutters(machine, toward), less)
 }

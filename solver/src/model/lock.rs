@@ -14,10 +14,10 @@
 //! window ends where the clearance closes.
 //!
 //! Read [`Machine::lock_windows`] first, then `windows` (the general case) and `Balance` (its
-//! condition as a polynomial).
+//! condition).
 
 use super::Machine;
-use crate::numeric::real_roots::{Coefficients, Point, product, real_roots, sum};
+use crate::numeric::search::{geometric, zeros};
 
 /// Range of rotor speeds at which pushes alone hold a lock, or at which it flutters. Both ends are
 /// magnitudes.
@@ -89,6 +89,15 @@ impl Machine {
         }
         let slope = self.polygon.delta.tan();
         self.with_clearance(self.windows([(slope, 1.0), (slope, -1.0)], toward))
+    }
+
+    /// Returns whether the speeds at which pushes balance a lock are known: not if unequal tips or lobes
+    /// have no closed form.
+    #[must_use]
+    pub fn knows_locks(&self) -> bool {
+        let shape = self.out_of_round() == 0.0 || self.lock_out_of_round().is_some();
+        let tips = !self.has_unequal_tips() || self.knows_tip_corners();
+        !self.polygon.has_corners() || self.clearance_at_rest() <= 0.0 || (shape && tips)
     }
 
     /// Window for an out-of-round casing whose number of lobes equals `n_d`: the lobes act as the
@@ -290,7 +299,7 @@ struct Balance {
 impl Balance {
     /// Returns the left side of the condition at `x`.
     fn at(&self, x: f64, (slope, sign): (f64, f64)) -> f64 {
-        let (stiff, drag) = (1.0 - x * x, self.damping * x);
+        let (stiff, drag) = ((1.0 - x) * (1.0 + x), self.damping * x);
         let square = stiff * stiff + drag * drag;
         let coupling = self.coupling / (1.0 + self.stiffening * x * x);
         let along = stiff + coupling * square + self.friction * drag;
@@ -303,37 +312,14 @@ impl Balance {
         self.sides.iter().all(|&side| self.at(x, side) <= 0.0)
     }
 
-    /// Returns every positive `x` at which one of the two pushes vanishes, in increasing order.
+    /// Returns every positive `x` at which one of the two pushes vanishes, in increasing order: zeros
+    /// between points that differ by a fifth, and by half of their distance from the critical speed.
     fn ends(&self) -> Vec<f64> {
-        let Self { damping, friction, coupling, stiffening, lining, .. } = *self;
-        let on = |(own, sign): (f64, f64)| {
-            move |from: Point, to: Point| -> Coefficients {
-                let quadratic =
-                    |of: &dyn Fn(Point, Point) -> f64| Coefficients::quadratic(from, to, of);
-                let one = quadratic(&|u, v| u.q * v.q);
-                let stiff = quadratic(&|u, v| u.q * v.q - u.p * v.p);
-                let drag = quadratic(&|u, v| 0.5 * damping * (u.p * v.q + v.p * u.q));
-                let square = sum(1.0, &product(&stiff, &stiff), 1.0, &product(&drag, &drag));
-                let alone = sum(
-                    own - sign * friction,
-                    &product(&stiff, &one),
-                    own * friction + sign,
-                    &product(&drag, &one),
-                );
-                if stiffening == 0.0 {
-                    return sum(1.0, &alone, own * coupling + lining, &square);
-                }
-                let stiffer = quadratic(&|u, v| u.q * v.q + stiffening * u.p * v.p);
-                let rigid = sum(1.0, &alone, lining, &square);
-                let tips = product(&one, &square);
-                sum(1.0, &product(&stiffer, &rigid), own * coupling, &tips)
-            }
-        };
-        let mut ends = Vec::new();
-        for side in self.sides {
-            let roots = real_roots(&on(side), &[0.0, 1.0]);
-            ends.extend(roots.into_iter().filter(|x| *x > 0.0));
-        }
+        let beside = geometric([1e-10, 0.5], 1.5).flat_map(|apart| [1.0 - apart, 1.0 + apart]);
+        let mut places: Vec<f64> = geometric([1e-9, 1e9], 1.2).chain(beside).chain([1.0]).collect();
+        places.sort_by(f64::total_cmp);
+        let mut ends: Vec<f64> =
+            self.sides.iter().flat_map(|&side| zeros(&places, |x| self.at(x, side))).collect();
         ends.sort_by(f64::total_cmp);
         ends
     }

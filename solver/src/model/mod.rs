@@ -3,9 +3,11 @@
 //!
 //! Symbols and equations are in docs/theory.md, section 1; signs and numbering in section 2. Order
 //! in which to read: `parameters` (input data), `machine` (modal quantities and coincidences),
-//! `polygon` (contact geometry), `lock` (lock speeds and forces); then the extensions `lining`,
+//! `polygon` (contact geometry), `lock` (lock speeds and forces), `frame` (motion and contact rows in
+//! the frame of the blades); then the extensions `lining`,
 //! `spin`, `tips` and `tip_corner`.
 
+mod frame;
 mod lining;
 mod lock;
 mod machine;
@@ -15,6 +17,7 @@ mod spin;
 mod tip_corner;
 mod tips;
 
+pub use frame::{Frame, Motion, Row, Structure};
 pub use lining::LiningLaw;
 pub use lock::LockWindow;
 pub(crate) use machine::CERTAIN_PUSH;

@@ -97,7 +97,7 @@ impl Machine {
     }
 
     /// Whether the closed form for corners of unequal tips applies.
-    fn knows_tip_corners(&self) -> bool {
+    pub(super) fn knows_tip_corners(&self) -> bool {
         self.polygon.has_corners() && self.lining.is_none() && self.clearance_loss() == 0.0
     }
 

@@ -1,211 +1,37 @@
-//! Eigenvalues of small dense matrices by the QR algorithm.
-//!
-//! Backward stable: the values are those of a matrix within about 1e-14 of the largest entry. Costs
-//! at most [`STEPS`] QR steps for each eigenvalue or pair, of `n^2` products each; returns `None`
-//! beyond that.
-//!
-//! The QR iteration of nalgebra has no exceptional shifts, and it compares a subdiagonal entry only
-//! with its diagonal neighbours, which are zero for undamped motions, so that it never ends on some
-//! matrices. This one follows LAPACK's `dlahqr`: Francis double shifts on a balanced Hessenberg
-//! matrix, exceptional shifts if these stall, and a larger tolerance if rounding keeps a
-//! subdiagonal entry from vanishing.
+//! Eigenvalues of small matrices by nalgebra's Schur decomposition, with a bound on its iterations.
 
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
-use nalgebra::{Complex, DMatrix, Hessenberg};
+use nalgebra::{Complex, DMatrix, DVector, Schur};
 
-/// Maximum number of QR steps for one eigenvalue or pair; three are usual.
-const STEPS: usize = 60;
+/// Iterations after which the decomposition counts as stalled; some 3 per row are usual.
+const MOST_ITERATIONS: usize = 1000;
 
-/// Number of QR steps from one exceptional shift to the next, as in LAPACK.
-const EXCEPTIONAL: usize = 10;
-
-/// From this QR step on, a subdiagonal entry also counts as zero if it is round-off of the largest
-/// entry of the matrix.
-const LAST_RESORT: usize = 40;
-
-/// Returns the eigenvalues of a square matrix in no particular order; `None` if an entry is not
-/// finite or the iteration does not converge.
+/// Returns the eigenvalues of a real matrix; `None` if an entry or eigenvalue is not finite, or if the
+/// iteration stalls.
 pub(crate) fn eigenvalues(mut matrix: DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     let size = matrix.amax();
-    // `amax` ignores NaN, because comparisons with it are false.
-    if !matrix.iter().all(|entry| entry.is_finite()) {
-        return None;
+    if !size.is_finite() || size == 0.0 {
+        return (size == 0.0).then(|| vec![Complex::default(); matrix.nrows()]);
     }
-    if size == 0.0 || matrix.nrows() < 2 {
-        return Some(matrix.diagonal().iter().map(|&value| value.into()).collect());
-    }
-    // Balancing squares the entries; scaled to order one they cannot overflow.
     matrix /= size;
     balance_parlett_reinsch(&mut matrix);
-    let mut iteration = Iteration { h: Hessenberg::new(matrix).unpack_h() };
-    let values: Vec<_> = iteration.run()?.iter().map(|value| value * size).collect();
-    values.iter().all(|value| value.re.is_finite() && value.im.is_finite()).then_some(values)
+    complex_eigenvalues(matrix.map(Complex::from).scale(size))
 }
 
-struct Iteration {
-    /// Hessenberg matrix: zero below its first subdiagonal.
-    h: DMatrix<f64>,
-}
-
-impl Iteration {
-    fn run(&mut self) -> Option<Vec<Complex<f64>>> {
-        let mut values = Vec::with_capacity(self.h.nrows());
-        // Splits off one or two eigenvalues at a time, from the last row up.
-        let mut rows = self.h.nrows();
-        while rows > 0 {
-            let first = self.deflate(rows - 1)?;
-            if first + 1 == rows {
-                values.push(self.h[(first, first)].into());
-            } else {
-                values.extend(self.pair(first));
-            }
-            rows = first;
-        }
-        Some(values)
-    }
-
-    /// Iterates until the last row, or the last two, are decoupled; returns the first of these
-    /// rows, `None` if [`STEPS`] steps do not suffice.
-    fn deflate(&mut self, last: usize) -> Option<usize> {
-        for iteration in 0..STEPS {
-            let whole = if iteration < LAST_RESORT { 0.0 } else { self.h.amax() };
-            let first = (1..=last).rev().find(|&row| self.is_small(row, last, whole)).unwrap_or(0);
-            if first > 0 {
-                self.h[(first, first - 1)] = 0.0;
-            }
-            if first + 1 >= last {
-                return Some(first);
-            }
-            let shift = self.shift(iteration, first, last);
-            self.sweep(shift, first, last);
-        }
-        None
-    }
-
-    /// Returns whether the subdiagonal entry of a row is round-off.
-    fn is_small(&self, row: usize, last: usize, whole: f64) -> bool {
-        let h = &self.h;
-        let coupling = h[(row, row - 1)].abs();
-        let (above, here) = (h[(row - 1, row - 1)], h[(row, row)]);
-        let mut neighbours = above.abs() + here.abs();
-        if neighbours == 0.0 {
-            neighbours += if row >= 2 { h[(row - 1, row - 2)].abs() } else { 0.0 };
-            neighbours += if row < last { h[(row + 1, row)].abs() } else { 0.0 };
-        }
-        if coupling <= f64::MIN_POSITIVE / f64::EPSILON || coupling <= f64::EPSILON * whole {
-            return true;
-        }
-        if coupling > f64::EPSILON * neighbours {
-            return false;
-        }
-        // Test of Ahues and Tisseur, which is accurate for graded matrices.
-        let back = h[(row - 1, row)].abs();
-        let (large, small) = (coupling.max(back), coupling.min(back));
-        let apart = (above - here).abs();
-        let (most, least) = (here.abs().max(apart), here.abs().min(apart));
-        let scale = large + most;
-        small * (large / scale) <= f64::MIN_POSITIVE.max(f64::EPSILON * (least * (most / scale)))
-    }
-
-    /// Returns the two shifts: a complex pair, or one real number twice.
-    fn shift(&self, iteration: usize, first: usize, last: usize) -> [Complex<f64>; 2] {
-        let h = &self.h;
-        let [a, b, c, d] = if iteration > 0 && iteration.is_multiple_of(EXCEPTIONAL) {
-            // Alternates between the first and the last rows.
-            let even = (iteration / EXCEPTIONAL).is_multiple_of(2);
-            let (row, at) = if even { (last - 1, last) } else { (first + 1, first) };
-            let size = h[(row, row - 1)].abs() + h[(row + 1, row)].abs();
-            let middle = 0.75 * size + h[(at, at)];
-            [middle, -0.4375 * size, size, middle]
-        } else {
-            [h[(last - 1, last - 1)], h[(last - 1, last)], h[(last, last - 1)], h[(last, last)]]
-        };
-        let [one, other] = eigenvalues_2x2([a, b, c, d]);
-        if one.im != 0.0 {
-            return [one, other];
-        }
-        // Of two real shifts the one closer to the last entry is used twice.
-        let nearer = if (one.re - d).abs() <= (other.re - d).abs() { one } else { other };
-        [nearer, nearer]
-    }
-
-    /// Performs one double-shift QR step on the rows `first..=last`.
-    fn sweep(&mut self, [one, other]: [Complex<f64>; 2], first: usize, last: usize) {
-        let h = &mut self.h;
-        // First column of (H - s1)(H - s2), which is real.
-        let (top, next) = (h[(first, first)], h[(first + 1, first + 1)]);
-        let below = h[(first + 1, first)];
-        let size = (top - other.re).abs() + other.im.abs() + below.abs();
-        let part = below / size;
-        let mut v = [
-            part * h[(first, first + 1)] + (top - one.re) * ((top - other.re) / size)
-                - one.im * (other.im / size),
-            part * (top + next - one.re - other.re),
-            part * h[(first + 2, first + 1)],
-        ];
-        for k in first..last {
-            let rows = if k + 2 <= last { 3 } else { 2 };
-            if k > first {
-                let third = if rows == 3 { h[(k + 2, k - 1)] } else { 0.0 };
-                v = [h[(k, k - 1)], h[(k + 1, k - 1)], third];
-            }
-            let Some((u, beta)) = reflector(&v[..rows]) else { continue };
-            if k > first {
-                h[(k, k - 1)] = beta;
-                for row in k + 1..k + rows {
-                    h[(row, k - 1)] = 0.0;
-                }
-            }
-            for column in k..=last {
-                let sum: f64 = (0..rows).map(|i| u[i] * h[(k + i, column)]).sum();
-                (0..rows).for_each(|i| h[(k + i, column)] -= sum * u[i]);
-            }
-            for row in first..=last.min(k + 3) {
-                let sum: f64 = (0..rows).map(|i| u[i] * h[(row, k + i)]).sum();
-                (0..rows).for_each(|i| h[(row, k + i)] -= sum * u[i]);
-            }
-        }
-    }
-
-    /// Returns the eigenvalues of the 2x2 block that begins at row `first`.
-    fn pair(&self, first: usize) -> [Complex<f64>; 2] {
-        let (i, j) = (first, first + 1);
-        eigenvalues_2x2([self.h[(i, i)], self.h[(i, j)], self.h[(j, i)], self.h[(j, j)]])
-    }
-}
-
-/// Returns `u` of the reflection `1 - u u^T`, `|u|^2 = 2`, that maps `v` to a multiple of the first
-/// unit vector, and that multiple; `None` for a zero vector.
-fn reflector(v: &[f64]) -> Option<([f64; 3], f64)> {
-    let size = v.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
-    if size == 0.0 {
+/// As [`eigenvalues`], of a complex matrix.
+pub(crate) fn complex_eigenvalues(matrix: DMatrix<Complex<f64>>) -> Option<Vec<Complex<f64>>> {
+    if !matrix.iter().all(|entry| entry.re.is_finite() && entry.im.is_finite()) {
         return None;
     }
-    let norm = size * v.iter().map(|x| (x / size).powi(2)).sum::<f64>().sqrt();
-    let beta = -norm.copysign(v[0]);
-    // |v - beta e|^2 = 2 norm (norm + |v_0|).
-    let scale = norm.sqrt() * (norm + v[0].abs()).sqrt();
-    let mut u = [0.0; 3];
-    for (u, x) in u.iter_mut().zip(v) {
-        *u = x / scale;
-    }
-    u[0] = (v[0] - beta) / scale;
-    Some((u, beta))
-}
-
-/// Returns the eigenvalues of the matrix `[[a, b], [c, d]]`.
-fn eigenvalues_2x2([a, b, c, d]: [f64; 4]) -> [Complex<f64>; 2] {
-    let half = 0.5 * (a - d);
-    let product = b * c;
-    let discriminant = half * half + product;
-    if discriminant < 0.0 {
-        let (re, im) = (d + half, (-discriminant).sqrt());
-        return [Complex::new(re, im), Complex::new(re, -im)];
-    }
-    // The larger root first; the other from the product of both, which avoids cancellation.
-    let root = half + discriminant.sqrt().copysign(half);
-    let other = if root == 0.0 { 0.0 } else { -product / root };
-    [(d + root).into(), (d + other).into()]
+    // A cycle stalls the iteration in its own basis; the reflection of a generic vector changes it.
+    let generic = DVector::from_fn(matrix.nrows(), |k, _| Complex::from(1.0 + (k as f64).sqrt()));
+    let half = (&generic * generic.transpose()).unscale(0.5 * generic.norm_squared());
+    let reflection = DMatrix::identity(matrix.nrows(), matrix.nrows()) - half;
+    let own = Schur::try_new(matrix.clone(), f64::EPSILON, MOST_ITERATIONS);
+    let turned = || &reflection * matrix * &reflection;
+    let schur = own.or_else(|| Schur::try_new(turned(), f64::EPSILON, MOST_ITERATIONS))?;
+    let values: Vec<_> = schur.eigenvalues()?.iter().copied().collect();
+    values.iter().all(|value| value.re.is_finite() && value.im.is_finite()).then_some(values)
 }
 
 #[cfg(test)]

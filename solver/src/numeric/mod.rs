@@ -8,8 +8,8 @@ pub(crate) mod lyapunov;
 pub(crate) mod maximum;
 pub(crate) mod normal;
 pub(crate) mod quadrature;
-pub(crate) mod real_roots;
 pub mod rounding;
+pub(crate) mod search;
 pub(crate) mod sum;
 
 /// Returns whether a number is zero. Used with serde's `skip_serializing_if`.

@@ -10,9 +10,9 @@ use std::time::Instant;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::margins::{LimitName, Parameter, bends, shown_margin, speed_sensitivities, speeds};
-use crate::harmonic::{Joint, RoundWhirl, lock_window, lock_windows, round_whirls};
-use crate::model::Machine;
+use super::margins::{LimitName, Parameter, shown_margin, speed_sensitivities, speeds};
+use crate::harmonic::{growth_spans, lock_windows, whirl_spans};
+use crate::model::{LockWindow, Machine};
 use crate::scene::units::{self, RangeError};
 use crate::scene::{CheckedScene, Scene, SceneError};
 
@@ -95,8 +95,9 @@ impl Scattered {
             let mut rotor = even(scene);
             (rotor.bladed_disk.tip_scatter_m, rotor.bladed_disk.tip_seed) =
                 (tip_scatter_m, tip_seed);
-            let window = lock_window(&rotor.machine(), scene.operation.speed_rad_s);
-            window.map(|window| window.from)
+            // The pushes of rigid blades in closed form: hundreds of corners are compared.
+            let windows = rotor.machine().lock_windows(scene.operation.speed_rad_s);
+            windows.first().map(|window| window.from)
         };
         let (equal_rad_s, tip_scatter_m) = (lock(0.0, 1)?, 0.01 * scene.clearance());
         let draws = (1..=ROTORS).into_par_iter().map(|seed| lock(tip_scatter_m, seed));
@@ -115,17 +116,20 @@ pub struct SurveyRow {
     pub omega_c_rad_s: f64,
     /// Frequency of the bladed disk \[rad/s\].
     pub omega_bd_rad_s: f64,
-    /// Whether the scene lists modes of casing and disk for it, if it lists any.
-    pub modes_known: bool,
-    /// Intervals of speed with a stable lock by pushes, from the lowest, within the range or,
-    /// without one, within all speeds of the scene's direction of rotation; the last may end at
-    /// infinity. `None` if unknown for these tips and this casing \[rad/s\].
+    /// Whether the scene lists modes of other nodal diameters only, so that these frequencies are
+    /// borrowed.
+    pub guessed: bool,
+    /// Intervals of speed in which a lock holds, from the lowest, within the range or, without one,
+    /// within all speeds of the scene's direction of rotation; the last may end at infinity. `None`
+    /// if unknown for these tips and this casing \[rad/s\].
     pub locks_in_range: Option<Vec<[f64; 2]>>,
-    /// Speeds within the range from which inclined tips can whirl, if known, otherwise the
+    /// Speeds within the range from which inclined tips whirl, if they do at any speed, otherwise the
     /// coincidence that is relevant to them \[rad/s\].
     pub whirls_in_range: Vec<f64>,
-    /// Whether the blades are so flexible that the lock speeds for rigid blades do not apply.
-    pub bends: bool,
+    /// Intervals of speed in which a whirl lasts, as `locks_in_range` \[rad/s\].
+    pub whirl_spans: Vec<[f64; 2]>,
+    /// Intervals of speed in which rubbing grows without bound, as `locks_in_range` \[rad/s\].
+    pub growth_spans: Vec<[f64; 2]>,
     /// Existing limits, in the order of `margins`, forward ones first.
     pub limits: Vec<SurveyLimit>,
 }
@@ -228,7 +232,7 @@ impl Survey {
     #[must_use]
     pub fn shown(&self, all: bool) -> Vec<&SurveyRow> {
         let own = self.scene.operation.nodal_diameters;
-        let shown = |row: &&SurveyRow| all || row.modes_known || row.nodal_diameters == own;
+        let shown = |row: &&SurveyRow| all || !row.guessed || row.nodal_diameters == own;
         let mut rows: Vec<&SurveyRow> = self.rows.iter().filter(shown).collect();
         let order = |row: &SurveyRow| row.order(self.speeds());
         rows.sort_by(|a, b| order(a).partial_cmp(&order(b)).unwrap_or(Ordering::Equal));
@@ -251,45 +255,60 @@ fn even(scene: &Scene) -> Scene {
     scene
 }
 
-/// Returns the intervals of these speeds with a stable lock, from the lowest; `None` if unknown.
-fn locks(scene: &Scene, machine: &Machine, [from, to]: [f64; 2]) -> Option<Vec<[f64; 2]>> {
+/// Returns the intervals of these speeds in which a lock holds, from the lowest; `None` if unknown.
+fn locks(scene: &Scene, machine: &Machine, asked: [f64; 2]) -> Option<Vec<[f64; 2]>> {
     if scene.clearance() <= 0.0 {
         return Some(Vec::new());
     }
-    let mut found = Vec::new();
-    for sense in [-1.0, 1.0] {
-        let windows = lock_windows(machine, sense);
-        let of_even = || lock_windows(&even(scene).machine(), sense);
-        if windows.is_empty() && machine.is_uneven() && !of_even().is_empty() {
+    if !machine.knows_locks() {
+        // Tips without lock speeds as they are may have none when equal in a round casing.
+        let even = even(scene).machine();
+        if senses(asked).any(|sense| !lock_windows(&even, sense).is_empty()) {
             return None;
         }
-        found.extend(windows.into_iter().filter_map(|window| {
+    }
+    Some(within(asked, |sense| lock_windows(machine, sense)))
+}
+
+/// Returns the directions of rotation of these speeds.
+fn senses([from, to]: [f64; 2]) -> impl Iterator<Item = f64> {
+    [-1.0, 1.0].into_iter().filter(move |sense| if *sense < 0.0 { from < 0.0 } else { to > 0.0 })
+}
+
+/// Returns the parts within these speeds of ranges of their magnitudes, from the lowest.
+fn within(asked: [f64; 2], of: impl Fn(f64) -> Vec<LockWindow>) -> Vec<[f64; 2]> {
+    let [from, to] = asked;
+    let parts = senses(asked).flat_map(|sense| {
+        of(sense).into_iter().filter_map(move |window| {
             let ends = [window.from, window.to.unwrap_or(f64::INFINITY)].map(|end| sense * end);
             let [low, high] = [ends[0].min(ends[1]).max(from), ends[0].max(ends[1]).min(to)];
             (low < high).then_some([low, high])
-        }));
-    }
+        })
+    });
+    let mut found: Vec<[f64; 2]> = parts.collect();
     found.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    Some(found)
+    found
 }
 
-/// Returns the speeds in this interval at which whirl begins, and its slower end if whirl already
-/// exists there.
-fn whirls(machine: &Machine, limits: &[SurveyLimit], [from, to]: [f64; 2]) -> Vec<f64> {
+/// Returns the speeds in this interval at which whirl begins: the slower ends of its spans or, if no
+/// span is known in a direction, the coincidence that the tips feel.
+fn whirls(
+    machine: &Machine,
+    limits: &[SurveyLimit],
+    spans: &[[f64; 2]],
+    asked: [f64; 2],
+) -> Vec<f64> {
     let of_sense = |sense: f64| {
-        let onset = |limit: &&SurveyLimit| {
-            limit.name == LimitName::WhirlOnset && limit.value * sense >= 0.0
-        };
-        let onsets: Vec<f64> = limits.iter().filter(onset).map(|limit| limit.value).collect();
-        let felt = machine.coincidence_felt_at(sense).filter(|_| onsets.is_empty());
-        let slower = if sense > 0.0 { from } else { to };
-        let lasts = || RoundWhirl::lasting(&round_whirls(&Joint::at(machine, slower))).is_some();
-        let lasting = (slower * sense > 0.0 && !onsets.is_empty() && lasts()).then_some(slower);
-        lasting.into_iter().chain(onsets).chain(felt)
+        let onset =
+            |limit: &SurveyLimit| limit.name == LimitName::WhirlOnset && limit.value * sense >= 0.0;
+        let felt = machine.coincidence_felt_at(sense).filter(|_| !limits.iter().any(onset));
+        let own = spans.iter().filter(move |[from, to]| sense * (from + to) > 0.0);
+        let slower = own.map(move |[from, to]| if sense > 0.0 { *from } else { *to });
+        slower.chain(felt).collect::<Vec<_>>()
     };
     let moves = machine.coupling_product_at(1.0) != 0.0;
-    let all = [1.0, -1.0].into_iter().filter(|_| moves).flat_map(of_sense);
-    all.filter(|speed| (from..=to).contains(speed)).collect()
+    let all = senses(asked).filter(|_| moves).flat_map(of_sense);
+    all.filter(|speed| (asked[0]..=asked[1]).contains(speed)).collect()
 }
 
 fn row(
@@ -312,19 +331,21 @@ fn row(
         _ => &found,
     };
     let limits = [1.0, -1.0].map(|sense| of(sense).limits(&scene, sense, range)).concat();
-    let rigid = machine.lining.is_some() || scene.casing_in_use().damping_ratio == 0.0;
-    let is_asked = |omega: f64| if omega > 0.0 { asked[1] > 0.0 } else { asked[0] < 0.0 };
-    let is_lock = |limit: &&SurveyLimit| {
-        limit.name == LimitName::OmegaLock && is_asked(limit.value) && !rigid
+    // A lining that is compressed at rest has limits of its own.
+    let open = scene.clearance() > 0.0;
+    let spans = |of: fn(&Machine, f64) -> Vec<LockWindow>| {
+        within(asked, |sense| if open { of(&machine, sense) } else { Vec::new() })
     };
+    let (whirl_spans, growth_spans) = (spans(whirl_spans), spans(growth_spans));
     SurveyRow {
         nodal_diameters: diameters,
         omega_c_rad_s: machine.omega_c,
         omega_bd_rad_s: machine.omega_bd,
-        modes_known: scene.modes_note().is_none(),
+        guessed: scene.modes_note().is_some(),
         locks_in_range: locks(&scene, &machine, asked),
-        whirls_in_range: whirls(&machine, &limits, asked),
-        bends: limits.iter().filter(is_lock).any(|lock| bends(&machine, lock.value)),
+        whirls_in_range: whirls(&machine, &limits, &whirl_spans, asked),
+        whirl_spans,
+        growth_spans,
         limits,
     }
 }

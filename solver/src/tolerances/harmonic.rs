@@ -31,41 +31,48 @@ pub(crate) const BRANCH_CHANGES: usize = 16;
 /// nearly defective pair is known to half its digits.
 pub(crate) const NEUTRAL: f64 = 1e-8;
 
-/// Part of its terms that the last Hurwitz determinant must be for its sign to
-/// be clear; else eigenvalues are asked.
-pub(crate) const CLEAR_SIGN: f64 = 1e-9;
-
-/// As `CLEAR_SIGN`, for the coefficients of odd order.
-pub(crate) const CLEAR_DAMPING: f64 = 1e-6;
-
 /// Imaginary part of the joint compliance at a root, as a part of the real part, up to
 /// which it is round-off. Larger: an undamped resonance is taken for a whirl.
 pub(crate) const REAL_COMPLIANCE: f64 = 1e-6;
 
-/// Ratio of neighbouring speeds at which round whirls are counted, before the
-/// speeds where their number changes are halved in. Larger: a pair that lives for less
-/// than this is missed.
-pub(crate) const ONSET_STRIDE: f64 = 1.05;
+/// Ratio of neighbouring distances from a resonance at which waves are searched. Larger: a pair of
+/// waves closer than this may be missed.
+pub(crate) const WAVE_RATIO: f64 = 1.6;
 
-/// Onsets are looked for up to this many times the dangerous coincidence.
-pub(crate) const ONSET_FURTHEST: f64 = 20.0;
+/// Waves are searched up to this many times the sum of all frequencies.
+pub(crate) const WAVE_FURTHEST: f64 = 1e6;
 
-/// Part of the speed beside a fold at which its two waves are told apart for certain.
-/// Smaller: round-off of the double root is taken for a change.
-pub(crate) const BESIDE_A_FOLD: f64 = 1e-10;
+/// First distance from an undamped resonance, as a part of that sum.
+pub(crate) const NARROWEST_PEAK: f64 = 1e-10;
 
 /// Part of the unknowns of a lock at which steps of Newton's method that no longer
 /// shrink are round-off.
 pub(crate) const POLISHED: f64 = 1e-11;
 
-/// Flutter of a machine that changes with the speed is looked for up to so many critical
-/// speeds, from as small a part of one. Beyond, no rotor turns.
-pub(crate) const FLUTTER_FURTHEST: f64 = 100.0;
-
-/// Factor between two speeds at which that growth is asked. Larger: a narrow range of
-/// flutter is stepped over.
-pub(crate) const FLUTTER_STRIDE: f64 = 1.01;
-
 /// Part of the clearance to which usual casings are round: one per cent. A lock that needs
 /// more says so. Larger: every lock says it; smaller: none does.
 pub(crate) const ROUND_ENOUGH: f64 = 0.01;
+
+/// Speeds are searched from the critical speed divided by this.
+pub(crate) const NEAREST: f64 = 20.0;
+
+/// Whirl and flutter are searched up to this many times the fastest of critical speed and
+/// coincidence. Beyond, no rotor turns.
+pub(crate) const FURTHEST: f64 = 50.0;
+
+/// The same of a lock, whose pushes grow with the square of the speed.
+pub(crate) const LOCK_FURTHEST: f64 = 10.0;
+
+/// Ratio of neighbouring speeds of a search. Larger: a range narrower than this is stepped over.
+pub(crate) const SCAN_RATIO: f64 = 1.03;
+
+/// Part of a lock speed up to which it is that of rigid blades in closed form: the slope of the gap
+/// beside the middle of a side makes a thousandth. Larger: blades that bend are said not to.
+pub(crate) const CLOSED_FORM: f64 = 2e-3;
+
+/// Part of a speed beside a known end at which a condition is asked.
+pub(crate) const BESIDE_AN_END: f64 = 1e-6;
+
+/// Turn of a side by its bent blades \[rad\], as a part of the damping ratio, up to which it makes no
+/// motion grow. Larger: a lock that flutters is said to hold; smaller: only more is searched.
+pub(crate) const TURN_BESIDE_DAMPING: f64 = 0.1;

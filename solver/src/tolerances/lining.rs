@@ -17,10 +17,6 @@ pub(crate) const LINING_WIDEST: f64 = 1e9;
 /// found, on a lining that is not pressed in by its whole width.
 pub(crate) const LINING_STRIDES: f64 = 400.0;
 
-/// Steps of the iteration for all roots of a polynomial; ten are usual, and two equal
-/// roots take fifty.
-pub(crate) const ROOT_STEPS: usize = 120;
-
 /// Growth rates up to this part of the fastest frequency are round-off where nothing
 /// is damped.
 pub(crate) const UNDAMPED_GROWTH: f64 = 1e-11;

@@ -7,7 +7,8 @@ use serde_json::{Value, json};
 use super::{Answer, LockBeside, Parts, Request, View};
 use crate::report::number::speed;
 use crate::report::table::{Column, Table, TableCell};
-use rubscope_solver::harmonic::{HarmonicError, Joint, RoundWhirl, RoundWhirlLoads, round_whirls};
+use rubscope_solver::harmonic::{HarmonicError, RoundWhirl, RoundWhirlLoads, round_whirls};
+use rubscope_solver::model::{Frame, Machine};
 use rubscope_solver::scene::keys;
 
 pub const COMPLIANCE: View = View {
@@ -30,13 +31,16 @@ const BEYOND: f64 = 1.5;
 
 fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let machine = &request.machine;
-    let joint = Joint::at(machine, request.fastest());
-    let waves: Vec<Wave> =
-        round_whirls(&joint).into_iter().map(|wave| (wave, wave.loads(&joint))).collect();
-    let at = |omega: f64| (omega, omega - joint.nu, joint.compliance(omega));
-    let points: Vec<Point> = beyond_resonance(&joint).into_iter().map(at).collect();
+    let turning = request.fastest();
+    let frame = Frame::at(machine, turning);
+    let nu = frame.casing.turn;
+    let waves = round_whirls(machine, turning).into_iter();
+    let waves: Vec<Wave> = waves.map(|wave| (wave, wave.loads(machine, turning))).collect();
+    let at = |omega: f64| (omega, omega - nu, frame.turning(omega - nu).compliance());
+    let machine = &*machine.at(turning);
+    let points: Vec<Point> = beyond_resonance(machine, nu).into_iter().map(at).collect();
     let json = Parts::default()
-        .with("speed_rad_s", joint.nu / joint.machine.nodal_diameters)
+        .with("speed_rad_s", turning)
         .with_rows("omega_rad_s", &points, |point| json!(point.0))
         .with_rows("re_m_per_n", &points, |point| json!(finite(point.2.re)))
         .with_rows("im_m_per_n", &points, |point| json!(finite(point.2.im)))
@@ -48,7 +52,7 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
         format!("Where B(omega) crosses the negative real axis {shown}:")
     };
     // On a preloaded lining, stability depends on the amplitude, which this view does not know.
-    let columns = if joint.machine.clearance() <= 0.0 { PRESSED } else { WAVES };
+    let columns = if machine.clearance() <= 0.0 { PRESSED } else { WAVES };
     let tables = vec![(crossings, Table::of(&waves, columns))];
     let json = Parts::default().with("compliance", json);
     Ok(Answer { json, tables, file: Some(Table::of(&points, POINTS)) })
@@ -63,9 +67,8 @@ type Point = (f64, f64, Complex<f64>);
 
 /// Returns evenly spaced frequencies in the fixed frame \[rad/s\], symmetric about 0 and up to
 /// beyond every resonance. Negative ones belong to waves that travel backward.
-fn beyond_resonance(joint: &Joint) -> Vec<f64> {
-    let machine = &joint.machine;
-    let reach = BEYOND * machine.omega_c.max(joint.nu.abs() + machine.omega_bd);
+fn beyond_resonance(machine: &Machine, nu: f64) -> Vec<f64> {
+    let reach = BEYOND * machine.omega_c.max(nu.abs() + machine.omega_bd);
     let part = |n: usize| n as f64 / (FREQUENCIES - 1) as f64;
     (0..FREQUENCIES).map(|n| reach * part(n) - reach * (1.0 - part(n))).collect()
 }

@@ -7,8 +7,8 @@ use super::{Answer, LockBeside, Parts, Request, View, speeds_of};
 use crate::report::number::{speed, speed_unit};
 use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{
-    HarmonicError, Joint, RoundWhirl, RoundWhirlLoads, flutters, lock_window, round_whirls,
-    undamped_flutter_speed, whirl_onset,
+    HarmonicError, RoundWhirl, RoundWhirlLoads, Rubbing, flutters, growth_spans, lock_window,
+    undamped_flutter_speed, whirl_spans,
 };
 use rubscope_solver::model::{LockWindow, Machine};
 
@@ -26,29 +26,43 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let (machine, toward) = (&request.machine, request.fastest());
     let rows = request.speeds.iter().map(|&speed| WhirlRow::at(machine, speed));
     let rows: Vec<WhirlRow> = rows.collect();
-    let (onset, flutter) = (whirl_onset(machine, toward), flutters(machine, toward));
+    let (whirls, flutter) = (whirl_spans(machine, toward), flutters(machine, toward));
     let window = lock_window(machine, toward);
-    let mut title = match onset {
-        Some(onset) => format!("On a rim of many blades whirl begins at {}", speed(onset)),
-        None => "Nothing whirls on a rim of many blades".to_string(),
+    let listed = |spans: &[LockWindow]| {
+        spans.iter().map(|span| between(*span)).collect::<Vec<_>>().join(" and ")
     };
+    let mut title = match whirls.as_slice() {
+        [] => "Nothing whirls on a rim of many blades".to_string(),
+        spans => {
+            let each = spans.iter().map(|span| match (span.from, span.to) {
+                (0.0, None) => "lasts at every speed".to_string(),
+                (0.0, Some(to)) => format!("lasts from rest on, up to {}", speed(to)),
+                (from, None) => format!("begins at {}", speed(from)),
+                (from, Some(to)) => format!("begins at {} and ends at {}", speed(from), speed(to)),
+            });
+            format!("On a rim of many blades whirl {}", each.collect::<Vec<_>>().join("; "))
+        }
+    };
+    let growth = growth_spans(machine, toward);
+    if !growth.is_empty() {
+        title += &format!("; a rub grows without bound {}", listed(&growth));
+    }
     title += &match window {
         Some(window) => format!("; a lock holds from {} {}", speeds_of(window), speed_unit()),
         None => "; no lock holds at any speed".to_string(),
     };
     if !flutter.is_empty() {
-        let ranges: Vec<String> = flutter.iter().map(|range| between(*range)).collect();
-        title += &format!("; blades and casing as one flutter {}", ranges.join(" and "));
+        title += &format!("; blades and casing as one flutter {}", listed(&flutter));
     }
     title.push('.');
     let ranges: Vec<_> = flutter.iter().map(|range| [Some(range.from), range.to]).collect();
     let json = Parts::default()
-        .with("whirl_onset_rad_s", onset)
+        .with("whirl_onset_rad_s", whirls.first().map(|span| span.from))
         .with("flutter_speed_rad_s", flutter.first().map(|range| range.from))
         .with("flutter_rad_s", ranges)
         .with("flutter_undamped_rad_s", undamped_flutter_speed(machine, toward))
         .with("lock_window_rad_s", window.map(|window| [Some(window.from), window.to]))
-        .with_rows("whirl", &rows, value);
+        .with_rows("points", &rows, value);
     Ok(Answer::of(json, vec![(title, Table::of(&rows, WHIRLS))]))
 }
 
@@ -62,22 +76,20 @@ fn between(range: LockWindow) -> String {
     }
 }
 
-/// A rotor speed \[rad/s\], and the whirl that attracts there with its loads. `None` if none lasts,
-/// if there is no clearance, or if the tips do not couple casing and blades.
+/// A rotor speed \[rad/s\], what a large rub becomes there, and the whirl that attracts with its
+/// loads, if one does.
 #[derive(Clone, Copy, Debug)]
 struct WhirlRow {
     speed_rad_s: f64,
+    state: Rubbing,
     wave: Option<(RoundWhirl, RoundWhirlLoads)>,
 }
 
 impl WhirlRow {
     fn at(machine: &Machine, speed: f64) -> Self {
-        let joint = Joint::at(machine, speed);
-        let lasting = RoundWhirl::lasting(&round_whirls(&joint));
-        // Without coupling, every undamped resonance would count as a whirl.
-        let rubs = joint.machine.clearance() > 0.0 && joint.coupling_product != 0.0;
-        let open = lasting.filter(|_| rubs);
-        Self { speed_rad_s: speed, wave: open.map(|wave| (wave, wave.loads(&joint))) }
+        let wave = RoundWhirl::lasting(machine, speed);
+        let wave = wave.map(|wave| (wave, wave.loads(machine, speed)));
+        Self { speed_rad_s: speed, state: Rubbing::at(machine, speed), wave }
     }
 }
 
@@ -86,7 +98,7 @@ fn value(row: &WhirlRow) -> Value {
     let figure = |of: fn(&(RoundWhirl, RoundWhirlLoads)) -> f64| row.wave.as_ref().map(of);
     json!({
         "speed_rad_s": row.speed_rad_s,
-        "exists": row.wave.is_some(),
+        "state": row.state,
         "omega_rad_s": figure(|(wave, _)| wave.omega_rad_s),
         "s_rad_s": figure(|(wave, _)| wave.s_rad_s),
         "growth_per_s": figure(|(wave, _)| wave.growth_per_s),
@@ -102,7 +114,7 @@ fn value(row: &WhirlRow) -> Value {
 
 const WHIRLS: &[Column<'_, WhirlRow>] = &[
     ("speed_rad_s", |row| row.speed_rad_s.into()),
-    ("whirl", |row| if row.wave.is_some() { "attracts" } else { "none" }.into()),
+    ("state", |row| <&str>::from(row.state).into()),
     ("omega_rad_s", |row| figure(row, |(wave, _)| wave.omega_rad_s)),
     ("s_rad_s", |row| figure(row, |(wave, _)| wave.s_rad_s)),
     ("growth_per_s", |row| figure(row, |(wave, _)| wave.growth_per_s)),

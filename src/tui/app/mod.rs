@@ -20,6 +20,8 @@ pub use lesson::{LessonProgress, StepProgress};
 pub use mouse::Target;
 pub use reading::{Cursor, Reading, STEP, cell_of};
 
+use std::cell::OnceCell;
+
 use dialogue::Dialogue;
 use files::Files;
 use knobs::Knobs;
@@ -36,7 +38,7 @@ use super::raster::Marker;
 use super::theme::Theme;
 use super::views::id::ViewId;
 use super::views::map::plan::MapChoice;
-use rubscope_solver::model::Machine;
+use rubscope_solver::model::{LockWindow, Machine};
 use rubscope_solver::scene::{CheckedScene, Scene};
 
 /// Where a scene came from.
@@ -65,6 +67,8 @@ pub struct App {
     pub scene: CheckedScene,
     /// The machine derived from `scene`.
     pub machine: Machine,
+    /// Its lock windows for forward and backward rotation, once asked.
+    pub locks: [OnceCell<Option<LockWindow>>; 2],
     /// Message in the status line, usually about the last key; `None` shows the keys instead.
     pub status: Option<String>,
     /// The selected knob, and undo.
@@ -109,6 +113,7 @@ impl App {
             mouse: Mouse::default(),
             appearance: Appearance::new(theme, marker),
             machine,
+            locks: Default::default(),
             scene,
         }
     }

@@ -184,6 +184,7 @@ impl App {
         let clearance = self.machine.clearance();
         self.scene = scene;
         self.machine = self.scene.machine();
+        self.locks = Default::default();
         if self.machine.clearance() != clearance {
             let follow = self.run.ranges.follow;
             self.run.ranges = Ranges { follow, ..Ranges::of(self.machine.clearance()) };

@@ -299,7 +299,9 @@ impl App {
     /// Returns the speed range in which a lock with pushing contact exists, for the current
     /// direction of rotation; `None` if nothing locks.
     pub fn lock_window(&self) -> Option<LockWindow> {
-        harmonic::lock_window(&self.machine, self.speed())
+        let [forward, backward] = &self.locks;
+        let found = if self.speed() < 0.0 { backward } else { forward };
+        *found.get_or_init(|| harmonic::lock_window(&self.machine, self.speed()))
     }
 
     /// Returns whether contact couples blade and casing vibration, which makes a coincidence

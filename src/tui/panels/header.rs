@@ -203,6 +203,9 @@ fn speed(app: &App) -> Vec<Part> {
                 (" ", vec![("= ".into(), quiet), (ratio, text), (format!(" {name}"), quiet)])
             }
             Some(_) => continue,
+            None if name == "lock" && !app.machine.knows_locks() => {
+                ("", vec![(", lock not known".to_string(), quiet)])
+            }
             None => ("", vec![(format!(", no {name}"), quiet)]),
         };
         parts.push(Part { rank, gap, pieces });

@@ -5,17 +5,14 @@
 //! The conditions are `S(r) = -1/Re B(omega)` and `Im B(omega) = 0`: the stiffness of all blades
 //! must match the joint compliance. The frequency is that in the limit of many blades, so the wave
 //! is steady in a frame that rotates with it, where stability is an eigenvalue problem with eight
-//! real states: casing and blade wave with their rates. With `z -> z e^{ist}` every time derivative
-//! becomes `d/dt + i omega` for the casing and `d/dt + i s` for the blades; a steady state in the
-//! blade frame has `omega = nu`, `s = 0`.
+//! real states: casing and blade wave with their rates (`model::Frame`).
 
-use nalgebra::{Complex, DMatrix};
 use serde::Serialize;
 
 use super::Lining;
-use super::rest::Quartic;
-use crate::harmonic::{HarmonicError, Joint, RoundWhirl, round_whirls};
-use crate::numeric::eigen::eigenvalues;
+use super::rest::Rest;
+use crate::harmonic::{HarmonicError, RoundWhirl, round_whirls};
+use crate::model::{Frame, Row};
 
 /// A wave of constant amplitude.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -48,30 +45,24 @@ impl Lining<'_> {
     /// The stiffnesses differ by too many powers of ten.
     pub fn cycles(&self, speed: f64) -> Result<Vec<Cycle>, HarmonicError> {
         let lining = self.at(speed);
-        let joint = Joint::at(&self.machine, speed);
         let mut found = Vec::new();
-        for wave in round_whirls(&joint) {
+        for wave in round_whirls(&self.machine, speed) {
             for r in lining.amplitudes(wave.stiffness_n_per_m) {
-                found.push(lining.cycle(&joint, speed, &wave, r)?);
+                found.push(lining.cycle(speed, &wave, r)?);
             }
         }
         found.sort_by(|a: &Cycle, b| a.gap_amplitude_m.total_cmp(&b.gap_amplitude_m));
         Ok(found)
     }
 
-    fn cycle(
-        &self,
-        joint: &Joint,
-        speed: f64,
-        wave: &RoundWhirl,
-        r: f64,
-    ) -> Result<Cycle, HarmonicError> {
+    fn cycle(&self, speed: f64, wave: &RoundWhirl, r: f64) -> Result<Cycle, HarmonicError> {
         let stiffness = wave.stiffness_n_per_m;
+        let frame = Frame::at(&self.machine, speed).turning(wave.s_rad_s);
         // A radial change of the amplitude changes the secant stiffness, a tangential one does not.
-        let tangent = [[stiffness + self.stiffness_change(r), 0.0], [0.0, stiffness]];
-        let turns = [wave.omega_rad_s, wave.s_rad_s];
+        let [radial, tangential] = [(1.0, 0.0), (0.0, 1.0)].map(|way| Row::fixed(&frame, way));
+        let springs = [(radial, stiffness + self.stiffness_change(r)), (tangential, stiffness)];
         let mut values =
-            small_motions(joint, turns, tangent).ok_or(HarmonicError::Unsettled { speed })?;
+            frame.motion(&[], &springs).eigenvalues().ok_or(HarmonicError::Unsettled { speed })?;
         // A wave shifted in time is the same wave, so one eigenvalue is zero.
         values.sort_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()));
         let growth = values.iter().skip(1).map(|value| value.re).fold(f64::MIN, f64::max);
@@ -92,61 +83,6 @@ impl Lining<'_> {
     /// lifts off for half of each revolution, must decay.
     #[must_use]
     pub fn is_bounded(&self, speed: f64) -> bool {
-        let joint = Joint::at(&self.machine, speed);
-        !Quartic::new(&joint, self.stiffness_far_out()).rest(speed).grows
+        !Rest::new(&self.machine, speed, self.stiffness_far_out()).grows
     }
-}
-
-/// Real 2x2 matrix that acts on `(Re w, Im w)`.
-pub(super) type Tangent = [[f64; 2]; 2];
-
-/// Returns the eigenvalues, growth rate and frequency, of the motions about a wave with the casing
-/// frequency `omega` and the blade frequency `s` \[rad/s\], whose contact force changes by
-/// `dp = -tangent dw` \[N/m\]; `None` if the eigenvalues overflow.
-pub(super) fn small_motions(
-    joint: &Joint,
-    [omega, s]: [f64; 2],
-    tangent: Tangent,
-) -> Option<Vec<Complex<f64>>> {
-    let m = &*joint.machine;
-    let friction = joint.casing_friction;
-    let (kappa, length) = (m.radial_coupling, m.blade_length);
-    // Blade coordinates are lengths at the tip; time is in units of the fastest frequency.
-    let rate = omega.abs().max(s.abs()).max(m.omega_c).max(m.omega_bd);
-    let lead = kappa + joint.machine.friction_at(joint.nu);
-    let blade_mass = m.blade_modal_mass / (length * length);
-    let mut matrix = DMatrix::zeros(8, 8);
-    let parts = [
-        (omega, m.casing_mass, m.casing_damping, m.casing_stiffness),
-        (s, m.blade_modal_mass, m.blade_modal_damping, m.blade_modal_stiffness),
-    ];
-    for (part, (turn, mass, damping, stiffness)) in parts.into_iter().enumerate() {
-        let (at, to) = (4 * part, 4 * part + 2);
-        let (turn, drag) = (turn / rate, damping / (mass * rate));
-        let spring = stiffness / (mass * rate * rate) - turn * turn;
-        for k in 0..2 {
-            matrix[(at + k, to + k)] = 1.0;
-            matrix[(to + k, at + k)] -= spring;
-            matrix[(to + k, to + k)] -= drag;
-        }
-        // Terms -(2 i turn) times the rate and -(i turn drag) times the displacement.
-        for (row, column, sign) in [(0, 1, 1.0), (1, 0, -1.0)] {
-            matrix[(to + row, to + column)] += sign * 2.0 * turn;
-            matrix[(to + row, at + column)] += sign * turn * drag;
-        }
-    }
-    // Contact force dp = -T (dz - kappa da), with da as a length at the tip.
-    let square = rate * rate;
-    for column in 0..2 {
-        for (from, gain) in [(0, 1.0), (4, -kappa)] {
-            let push = [-tangent[0][column] * gain, -tangent[1][column] * gain];
-            let on_casing = [push[0] - friction * push[1], push[1] + friction * push[0]];
-            for row in 0..2 {
-                matrix[(2 + row, from + column)] += on_casing[row] / (m.casing_mass * square);
-                matrix[(6 + row, from + column)] -= lead * push[row] / (blade_mass * square);
-            }
-        }
-    }
-    let values = eigenvalues(matrix)?;
-    Some(values.into_iter().map(|value| value * rate).collect())
 }

@@ -4,7 +4,7 @@
 use serde::Serialize;
 
 use super::Lining;
-use crate::harmonic::Joint;
+use crate::model::Frame;
 
 /// Wave that the lobes of the casing drive at one rotor speed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -30,27 +30,26 @@ impl Lining<'_> {
     #[must_use]
     pub fn forced(&self, speed: f64, lobes: u32, height: f64) -> Forced {
         let here = self.at(speed);
-        let (joint, machine) = (Joint::at(&self.machine, speed), &here.machine);
+        let (frame, machine) = (Frame::at(&self.machine, speed), &here.machine);
         let (blades, lobes) = (i64::from(machine.polygon.blades), i64::from(lobes));
         let diameters = i64::from(machine.polygon.nodal_diameters);
         let meets = |sense: i64| (lobes - sense * diameters).rem_euclid(blades) == 0;
         let sense = if meets(1) { -1.0 } else { 1.0 };
         let s = sense * lobes as f64 * speed;
-        let omega = s + joint.nu;
+        let omega = s + frame.casing.turn;
         let stiffness = 0.5 * blades as f64 * self.stiffness_n_per_m;
         let driven = meets(1) || meets(-1);
-        let push = (joint.compliance(omega) * stiffness + 1.0).norm().recip() * stiffness * height;
+        let push =
+            (frame.turning(s).compliance() * stiffness + 1.0).norm().recip() * stiffness * height;
         let push = if driven { push } else { 0.0 };
-        let friction = machine.friction_at(speed);
-        let moment = (machine.radial_coupling + friction).abs() * machine.blade_length;
-        let casing = joint.casing_friction.hypot(1.0) / joint.casing_stiffness(omega).norm();
+        let casing = frame.friction.hypot(1.0) / frame.casing.dynamic_stiffness(omega).norm();
         let deep = push / stiffness;
         Forced {
             speed_rad_s: speed,
             s_rad_s: s,
             omega_rad_s: omega,
             amplitude_m: push * casing,
-            blade_angle_rad: push * moment / joint.blade_stiffness(s).norm(),
+            blade_angle_rad: push * frame.lever.abs() / frame.blades.dynamic_stiffness(s).norm(),
             // Change of depth: force divided by the stiffness of all blades; lobes that drive no
             // wave change it by their height.
             all_press: here.preload_m() - self.smoothing_m > if driven { deep } else { height },

@@ -12,7 +12,7 @@ use crate::scene::keys;
 use std::borrow::Cow;
 use std::f64::consts::{PI, TAU};
 
-use crate::harmonic::{HarmonicError, Joint, error};
+use crate::harmonic::{HarmonicError, error, has_one_wave};
 use crate::model::{ContactSurface, LiningLaw, Machine};
 use crate::numeric::bisection::bisected;
 use crate::numeric::quadrature::GAUSS_8;
@@ -39,7 +39,7 @@ impl<'a> Lining<'a> {
         let polygon = &machine.polygon;
         error::refuse_no_wave(machine)?;
         error::refuse_no_corner(polygon)?;
-        if !Joint::has_one_wave(machine) {
+        if !has_one_wave(machine) {
             let (key, value) = (keys::DISK_DIAMETERS, machine.blade_diameters);
             let allowed = "those of the casing, or n_b = +-n_d modulo N, for one wave of both";
             return Err(HarmonicError::refused(key, value, allowed));

@@ -16,10 +16,10 @@ use serde::Serialize;
 
 use super::Lining;
 use super::law::between;
-use crate::harmonic::{HarmonicError, Joint};
-use crate::model::Machine;
+use crate::harmonic::HarmonicError;
+use crate::model::{Frame, Machine};
 use crate::numeric::maximum::highest;
-use crate::tolerances::{GROWTH_SCAN, PEAK_REACH, ROOT_STEPS, TONGUE_SCAN, UNDAMPED_GROWTH};
+use crate::tolerances::{GROWTH_SCAN, PEAK_REACH, TONGUE_SCAN, UNDAMPED_GROWTH};
 
 /// A motion `e^{ist}` about rest.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -47,6 +47,28 @@ pub struct Rest {
 }
 
 impl Rest {
+    /// Creates the motions about rest at a rotor speed \[rad/s\] with this stiffness of all blades
+    /// \[N/m\].
+    pub(super) fn new(machine: &Machine, speed: f64, stiffness: f64) -> Self {
+        let frame = Frame::at(machine, speed);
+        let nu = frame.casing.turn;
+        let root =
+            |l: Complex<f64>| RestRoot { growth_1_s: l.re, s_rad_s: l.im, omega_rad_s: l.im + nu };
+        let unknown = Complex::new(f64::NAN, f64::NAN);
+        let rates = frame.round(stiffness).unwrap_or_default();
+        let mut roots = [0, 1, 2, 3].map(|k| root(rates.get(k).copied().unwrap_or(unknown)));
+        roots.sort_by(|a, b| b.growth_1_s.total_cmp(&a.growth_1_s));
+        let fastest = rates.iter().map(|rate| rate.norm()).fold(0.0, f64::max);
+        let damped = frame.casing.damping > 0.0 && frame.blades.damping > 0.0;
+        let round_off = if damped { 0.0 } else { UNDAMPED_GROWTH * fastest };
+        Self {
+            speed_rad_s: speed,
+            stiffness_n_per_m: stiffness,
+            grows: roots[0].growth_1_s > round_off,
+            roots,
+        }
+    }
+
     /// Returns the motion with the largest growth rate.
     #[must_use]
     pub fn worst(&self) -> RestRoot {
@@ -59,129 +81,7 @@ impl Lining<'_> {
     /// casing and blades without contact.
     #[must_use]
     pub fn rest(&self, speed: f64) -> Rest {
-        let stiffness = self.at(speed).stiffness_at_rest();
-        Quartic::new(&Joint::at(&self.machine, speed), stiffness).rest(speed)
-    }
-}
-
-/// The quartic equation in the dimensionless frequency `t = s/scale`.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Quartic {
-    /// Unit of `t`: the largest of `|nu|` and the frequencies of casing and blades with the
-    /// stiffness of the lining \[rad/s\].
-    pub scale: f64,
-    /// Stiffness of the lining under all blades, `S0` \[N/m\].
-    stiffness: f64,
-    /// Wave frequency `n_d Omega`, in units of `scale`.
-    nu: f64,
-    /// Squared frequency and twice the decay rate of the casing and of the blades without lining,
-    /// in units of `scale`.
-    casing: [f64; 2],
-    blades: [f64; 2],
-    /// Stiffness of the lining on casing and blades, `S0 (1 + i mu_c)/m_c` and `S0 c2/m_a`, in
-    /// units of `scale` squared.
-    on_casing: Complex<f64>,
-    on_blades: f64,
-}
-
-impl Quartic {
-    /// Creates the quartic for a joint and a stiffness of all blades \[N/m\].
-    pub fn new(joint: &Joint, stiffness: f64) -> Self {
-        let m = &*joint.machine;
-        let casing = m.casing_stiffness / m.casing_mass;
-        let blades = m.blade_modal_stiffness / m.blade_modal_mass;
-        let joined = stiffness / m.casing_mass;
-        let felt = stiffness * joint.coupling_product / m.blade_modal_mass;
-        let scale = joint.nu.abs().max((casing + joined).sqrt()).max((blades + felt.abs()).sqrt());
-        let square = scale * scale;
-        Self {
-            scale,
-            stiffness,
-            nu: joint.nu / scale,
-            casing: [casing / square, m.casing_damping / (m.casing_mass * scale)],
-            blades: [blades / square, m.blade_modal_damping / (m.blade_modal_mass * scale)],
-            on_casing: Complex::new(1.0, joint.casing_friction) * (joined / square),
-            on_blades: felt / square,
-        }
-    }
-
-    /// Returns `L_c`, `L_a` and their derivatives.
-    fn parts(&self, t: Complex<f64>) -> [[Complex<f64>; 2]; 2] {
-        let of = |[square, rate]: [f64; 2], at: Complex<f64>| {
-            let turned = Complex::new(0.0, rate);
-            [at * turned - at * at + square, turned - at * 2.0]
-        };
-        [of(self.casing, t + self.nu), of(self.blades, t)]
-    }
-
-    /// Returns value and derivative of the quartic, and the magnitude of its terms.
-    fn at(&self, t: Complex<f64>) -> (Complex<f64>, Complex<f64>, f64) {
-        let [[c, c_slope], [a, a_slope]] = self.parts(t);
-        let (joined_c, joined_a) = (c + self.on_casing, a + self.on_blades);
-        // (L_c + A)(L_a + C) - A C: the diagonal terms are the structures on the lining.
-        let product = self.on_casing * self.on_blades;
-        let value = joined_c * joined_a - product;
-        let slope = c_slope * joined_a + joined_c * a_slope;
-        (value, slope, joined_c.norm() * joined_a.norm() + product.norm())
-    }
-
-    /// Returns the four roots by Aberth-Ehrlich iteration \[rad/s\].
-    pub fn roots(&self) -> [Complex<f64>; 4] {
-        let casing = (Complex::from(self.casing[0]) + self.on_casing).sqrt();
-        let blades = Complex::from(self.blades[0] + self.on_blades).sqrt();
-        // Starts at the roots of the uncoupled structures, slightly separated because these may
-        // coincide.
-        let starts = [casing - self.nu, -casing - self.nu, blades, -blades];
-        let apart = [(0.01, 0.002), (-0.013, -0.003), (0.004, -0.011), (-0.006, 0.007)];
-        let mut roots = [Complex::default(); 4];
-        for (root, (start, (re, im))) in roots.iter_mut().zip(starts.iter().zip(apart)) {
-            *root = start + Complex::new(re, im);
-        }
-        for _ in 0..ROOT_STEPS {
-            let mut largest = 0.0_f64;
-            for k in 0..4 {
-                let here = roots[k];
-                let (value, slope, size) = self.at(here);
-                if value.norm() <= f64::EPSILON * 0.5 * size {
-                    continue;
-                }
-                let mut pull = slope / value;
-                for (other, root) in roots.iter().enumerate() {
-                    if other != k && *root != here {
-                        pull -= (here - root).inv();
-                    }
-                }
-                let step = pull.inv();
-                if !(step.re.is_finite() && step.im.is_finite()) {
-                    continue;
-                }
-                roots[k] = here - step;
-                largest = largest.max(step.norm());
-            }
-            if largest <= 2.0 * f64::EPSILON {
-                break;
-            }
-        }
-        roots.map(|root| root * self.scale)
-    }
-
-    /// Returns the motions about rest.
-    pub fn rest(&self, speed: f64) -> Rest {
-        let nu = self.nu * self.scale;
-        let mut roots = self.roots().map(|s| RestRoot {
-            growth_1_s: -s.im,
-            s_rad_s: s.re,
-            omega_rad_s: s.re + nu,
-        });
-        roots.sort_by(|a, b| b.growth_1_s.total_cmp(&a.growth_1_s));
-        let damped = self.casing[1] > 0.0 && self.blades[1] > 0.0;
-        let round_off = if damped { 0.0 } else { UNDAMPED_GROWTH * self.scale };
-        Rest {
-            speed_rad_s: speed,
-            stiffness_n_per_m: self.stiffness,
-            grows: roots[0].growth_1_s > round_off,
-            roots,
-        }
+        Rest::new(&self.machine, speed, self.at(speed).stiffness_at_rest())
     }
 }
 
@@ -383,9 +283,7 @@ pub fn growth_threshold(machine: &Machine, sense: f64) -> Option<LeastStiffness>
 fn peak(machine: &Machine, stiffness: f64, sense: f64) -> Option<(f64, f64)> {
     let middle = shifted_speed(machine, stiffness, sense)?;
     let reach = PEAK_REACH * width(machine, stiffness, sense);
-    let growth = |speed: f64| {
-        Quartic::new(&Joint::at(machine, speed), stiffness).rest(speed).worst().growth_1_s
-    };
+    let growth = |speed: f64| Rest::new(machine, speed, stiffness).worst().growth_1_s;
     let parts = 6.0 * PEAK_REACH;
     let place = |k: f64| middle + reach * (2.0 * k / parts - 1.0);
     let looks = (0..=parts as u32).map(f64::from).map(|k| (k, growth(place(k))));
@@ -396,20 +294,23 @@ fn peak(machine: &Machine, stiffness: f64, sense: f64) -> Option<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::harmonic::lining::cycle::small_motions;
-    use crate::model::ContactSurface;
+    use crate::model::{ContactSurface, Row};
     use crate::scene::Scene;
     use proptest::prelude::*;
 
-    impl Quartic {
-        /// Returns the residual of a root relative to the magnitude of its terms.
-        fn residual(&self, s: Complex<f64>) -> f64 {
-            let t = s / self.scale;
-            let terms = |[square, rate]: [f64; 2], at: f64| at * at + rate * at + square;
-            let casing = terms(self.casing, (t + self.nu).norm()) + self.on_casing.norm();
-            let blades = terms(self.blades, t.norm()) + self.on_blades.abs();
-            self.at(t).0.norm() / (casing * blades)
-        }
+    /// Returns `L_c L_a + S0 [(1 + i mu_c) L_a + c2 L_c]` at a rate, relative to the magnitude of
+    /// its terms.
+    fn residual(frame: &Frame, stiffness: f64, l: Complex<f64>) -> f64 {
+        let [casing, blades] = [frame.casing.powers(), frame.blades.powers()];
+        let value = |of: &[Complex<f64>; 3]| of[0] + of[1] * l + of[2] * l * l;
+        let size = |of: &[Complex<f64>; 3]| {
+            of[0].norm() + of[1].norm() * l.norm() + of[2].norm() * l.norm_sqr()
+        };
+        let turned = Complex::new(1.0, frame.friction);
+        let (c, a) = (value(&casing), value(&blades));
+        let rest = c * a + (turned * a + c * frame.coupling()) * stiffness;
+        let coupled = turned.norm() * size(&blades) + size(&casing) * frame.coupling().abs();
+        rest.norm() / (size(&casing) * size(&blades) + coupled * stiffness)
     }
 
     proptest! {
@@ -431,21 +332,22 @@ mod tests {
             let surface =
                 ContactSurface { stiffness_n_per_m: 10_f64.powf(stiffness), ..Default::default() };
             let lining = Lining::of(&machine, &surface).unwrap();
-            let joint = Joint::at(&machine, speed);
-            let quartic = Quartic::new(&joint, lining.stiffness_at_rest());
-            for root in quartic.roots() {
-                prop_assert!(quartic.residual(root) < 1e-10, "{root}");
-            }
+            let frame = Frame::at(&machine, speed);
             let rest = lining.rest(speed);
-            let tangent = [[rest.stiffness_n_per_m, 0.0], [0.0, rest.stiffness_n_per_m]];
-            let values = small_motions(&joint, [joint.nu, 0.0], tangent).unwrap();
+            let stiffness = rest.stiffness_n_per_m;
+            for root in rest.roots {
+                let l = Complex::new(root.growth_1_s, root.s_rad_s);
+                prop_assert!(residual(&frame, stiffness, l) < 1e-10, "{root:?}");
+            }
+            let springs = [(1.0, 0.0), (0.0, 1.0)].map(|n| (Row::fixed(&frame, n), stiffness));
+            let values = frame.motion(&[], &springs).eigenvalues().unwrap();
             let growth = values.iter().map(|value| value.re).fold(f64::MIN, f64::max);
             // Nearly equal roots are accurate to half the digits.
             let near = rest.roots.iter().flat_map(|a| rest.roots.iter().map(move |b| (a, b)));
             let apart = near.filter(|(a, b)| a != b)
                 .map(|(a, b)| (a.s_rad_s - b.s_rad_s).hypot(a.growth_1_s - b.growth_1_s))
                 .fold(f64::INFINITY, f64::min);
-            let size = quartic.scale;
+            let size = values.iter().map(|value| value.norm()).fold(0.0, f64::max);
             let bound = 1e-11 * size * (1.0 + size / apart);
             prop_assert!(
                 (rest.worst().growth_1_s - growth).abs() < bound,

@@ -20,11 +20,10 @@ use nalgebra::{Complex, Matrix2, Vector2};
 use serde::Serialize;
 
 use super::Lining;
-use super::cycle::{Tangent, small_motions};
 use super::rest::LeastStiffness;
 use crate::harmonic::LockLoads;
-use crate::harmonic::{HarmonicError, Joint, error};
-use crate::model::{LiningLaw, Machine};
+use crate::harmonic::{HarmonicError, error, has_one_wave};
+use crate::model::{Frame, LiningLaw, Machine, Row};
 use crate::numeric::maximum::highest;
 use crate::tolerances::{
     AS_ZERO, LINING_ALIKE, LINING_NEUTRAL, NEWTON_STEPS, WINDOW_LOOKS, WINDOW_REACH,
@@ -71,7 +70,6 @@ pub struct GroupPush {
 #[derive(Clone, Debug)]
 struct Balance<'a> {
     lining: Lining<'a>,
-    joint: Joint<'a>,
     /// Rotor speed \[rad/s\].
     speed: f64,
     /// `L_c` at `nu` \[N/m\].
@@ -91,13 +89,13 @@ impl<'a> Balance<'a> {
     fn at(lining: &Lining<'a>, speed: f64) -> Self {
         let lining = lining.at(speed);
         let machine = &*lining.machine;
-        let joint = Joint::new(lining.machine.clone(), speed);
-        let casing = joint.casing_stiffness(joint.nu);
-        let turned = Complex::new(1.0, joint.casing_friction);
-        let pushed = turned + casing * (joint.coupling_product / machine.blade_modal_stiffness);
+        let frame = Frame::at(machine, speed);
+        let casing = frame.casing.dynamic_stiffness(frame.casing.turn);
+        let pushed = Complex::new(1.0, frame.friction)
+            + casing * (frame.coupling() / frame.blades.stiffness);
         let together = lining.stiffness_n_per_m * f64::from(machine.polygon.blades_per_side);
         let scale = casing.norm() + pushed.norm() * together;
-        Self { lining, joint, speed, casing, pushed, scale }
+        Self { lining, speed, casing, pushed, scale }
     }
 
     /// Returns index, direction and gap of every side at a displacement.
@@ -209,13 +207,17 @@ impl<'a> Balance<'a> {
     fn state(&self, w: Vector2<f64>) -> Result<LiningState, HarmonicError> {
         let machine = &*self.lining.machine;
         let unsettled = HarmonicError::Unsettled { speed: self.speed };
-        let (push, slope) = self.pushes(w);
-        let tangent: Tangent = [[slope[(0, 0)], slope[(0, 1)]], [slope[(1, 0)], slope[(1, 1)]]];
-        let values =
-            small_motions(&self.joint, [self.joint.nu, 0.0], tangent).ok_or(unsettled.clone())?;
+        let (push, _) = self.pushes(w);
+        let frame = Frame::at(machine, self.speed);
+        let each = f64::from(machine.polygon.blades_per_side);
+        let closed = self.gaps(w).filter(|(.., gap)| *gap < 0.0);
+        let spring = |(_, n, gap): (u32, Vector2<f64>, f64)| {
+            (Row::fixed(&frame, (n.x, n.y)), self.lining.slope(gap) * each)
+        };
+        let springs: Vec<_> = closed.map(spring).collect();
+        let values = frame.motion(&[], &springs).eigenvalues().ok_or(unsettled.clone())?;
         let worst = values.iter().copied().max_by(|a, b| a.re.total_cmp(&b.re)).ok_or(unsettled)?;
         let fastest = values.iter().map(|value| value.norm()).fold(0.0, f64::max);
-        let each = f64::from(machine.polygon.blades_per_side);
         let mut pushes: Vec<GroupPush> = self
             .gaps(w)
             .filter(|(_, _, gap)| *gap < 0.0)
@@ -279,7 +281,7 @@ const SIDES: [u32; 2] = [0, 1];
 /// Returns the displacement of a wave held by two groups alone; `None` if there is none, or if it
 /// is unstable.
 fn place(machine: &Machine, speed: f64) -> Option<Vector2<f64>> {
-    let law = machine.lining.filter(|_| Joint::has_one_wave(machine))?;
+    let law = machine.lining.filter(|_| has_one_wave(machine))?;
     let LiningLaw { stiffness_n_per_m, smoothing_m } = law;
     let lining = Lining { machine: Cow::Borrowed(machine), stiffness_n_per_m, smoothing_m };
     let balance = Balance::at(&lining, speed);
@@ -328,8 +330,7 @@ pub(in crate::harmonic) fn lock_loads(machine: &Machine, speed: f64) -> Option<L
 /// infinite if no lock exists \[N/m\].
 fn needed(machine: &Machine, speed: f64) -> f64 {
     let polygon = &machine.polygon;
-    let joint = Joint::at(machine, speed);
-    let compliance = joint.compliance(joint.nu);
+    let compliance = Frame::at(machine, speed).compliance();
     let left = -compliance.re * polygon.delta.tan() - compliance.im.abs();
     if left <= 0.0 {
         return f64::INFINITY;

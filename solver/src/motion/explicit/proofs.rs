@@ -1,8 +1,10 @@
 //! Verdicts that nothing to come can change (docs/theory.md, section 9).
 
 use super::{Explicit, Lining};
+use crate::harmonic::Locks;
 use crate::model::CERTAIN_PUSH;
 use crate::motion::{ActiveSet, Verdict};
+use crate::scene::ModelSize;
 use crate::tolerances::LARGEST_BLADE_ANGLE;
 
 /// Steps a corner must have been closed before it counts as held. Fewer: a crossing counts.
@@ -109,6 +111,11 @@ impl Explicit {
         let light = inertia < LIGHT_BLADES * self.casing.compliance;
         let certain = light && least > CERTAIN_PUSH * machine.push_scale(nu);
         let verdict = if a > 0.0 || b > 0.0 { Verdict::Adhesive } else { Verdict::Locked };
-        (certain && change < ROOM_TO_CHANGE * least).then_some(verdict)
+        let certain = certain && change < ROOM_TO_CHANGE * least;
+        let speed = self.drive.speed(self.n);
+        let bends = self.scene.solver.model != ModelSize::Rigid;
+        let asked = verdict == Verdict::Locked && bends;
+        let holds = || !asked || Locks::new(machine, speed).hold(speed);
+        (certain && holds()).then_some(verdict)
     }
 }

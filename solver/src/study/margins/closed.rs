@@ -4,10 +4,9 @@ use super::limit::{Limit, LimitName, Quantity, Sensitivities};
 use super::parameters::{Parameter, acting};
 use super::sensitivity::{CHANGE, sensitivities};
 use crate::harmonic::{
-    LockLoads, flutters, lobes_of, lock_growth, lock_loads, lock_windows, roundness,
-    whirl_beginnings, whirl_onset,
+    LockLoads, flutters, lobes_of, lock_growth, lock_loads, lock_windows, roundness, whirl_spans,
 };
-use crate::model::Machine;
+use crate::model::{LockWindow, Machine};
 use crate::numeric::rounding::rounded;
 use crate::scene::{CheckedScene, ModelSize, Scene};
 
@@ -71,13 +70,7 @@ fn all_values(scene: &Scene) -> [Vec<f64>; CLOSED.len()] {
 
 /// Returns the values of the closed forms that are speeds.
 fn speed_values(machine: &Machine, toward: f64) -> [Vec<f64>; SPEEDS] {
-    let sense = 1_f64.copysign(toward);
     let windows = lock_windows(machine, toward);
-    let whirls = if machine.changes_with_speed() {
-        whirl_beginnings(machine, toward)
-    } else {
-        one(whirl_onset(machine, toward))
-    };
     // Flutter applies to rigid contact only.
     let fluttering = if machine.lining.is_none() { flutters(machine, toward) } else { Vec::new() };
     [
@@ -87,8 +80,8 @@ fn speed_values(machine: &Machine, toward: f64) -> [Vec<f64>; SPEEDS] {
         windows.iter().filter_map(|window| window.to).collect(),
         one(machine.dangerous_speed()),
         machine.coincidence_differences(),
-        whirls.into_iter().map(|onset| onset * sense).collect(),
-        fluttering.into_iter().map(|flutter| flutter.from).collect(),
+        whirl_spans(machine, toward).iter().map(|span| span.from).collect(),
+        fluttering.iter().map(|flutter| flutter.from).collect(),
         one(machine.touching_speed()),
     ]
 }
@@ -225,31 +218,13 @@ fn note(scene: &CheckedScene, name: LimitName, value: f64) -> Option<String> {
     if name == LimitName::OmegaLock && fluttering.iter().any(|flutter| flutter.to == Some(value)) {
         return Some("below it the lock flutters".to_string());
     }
-    if !of_speeds || scene.casing_in_use().damping_ratio == 0.0 {
-        return None;
-    }
-    // Flexible blades keep a contact force at the speed at which it would vanish for rigid ones.
-    let sense = 1_f64.copysign(speed);
-    let of_rigid_blades = match name {
-        LimitName::OmegaAdhesive => machine.lock_windows(sense).first()?.from,
-        _ => value,
-    };
-    bends(&machine, sense * of_rigid_blades)
+    // The adhesive limit is that of rigid blades; flexible ones have another if their lock has.
+    let rigid = name == LimitName::OmegaAdhesive && !machine.is_uneven();
+    let locks = |windows: Vec<LockWindow>| windows.first().map(|window| window.from);
+    let bend = rigid && locks(machine.lock_windows(speed)) != locks(lock_windows(&machine, speed));
+    (bend && fluttering.is_empty())
         .then(|| "for rigid blades; these bend so much that it is another".to_string())
 }
-
-/// Returns whether the blades are so flexible that they still push, or have no lock, at this lock
-/// speed for rigid blades.
-pub fn bends(machine: &Machine, speed: f64) -> bool {
-    lock_loads(machine, speed).is_none_or(|loads| {
-        let [a, b] = loads.pushes_n.map(f64::abs);
-        a.min(b) > BENDING * (a + b)
-    })
-}
-
-/// Smaller contact force at the lock speed for rigid blades, relative to the sum of both, up to
-/// which the blades count as rigid.
-const BENDING: f64 = 1e-3;
 
 /// Explains why a machine does not have a limit.
 fn why_none(scene: &CheckedScene, name: LimitName) -> String {
@@ -287,7 +262,12 @@ fn why_none(scene: &CheckedScene, name: LimitName) -> String {
             _ if machine.is_uneven() => {
                 "not known of these tips and this shape of the casing: runs have it"
             }
-            (None, LimitName::OmegaLock) if hard.is_some() => {
+            (None, LimitName::OmegaAdhesive) if machine.friction != 0.0 => {
+                "tips that rub cannot pull"
+            }
+            (None, LimitName::OmegaLock)
+                if hard.is_some() && machine.coupling_product_at(toward) != 0.0 =>
+            {
                 "a lock flutters at every speed at which both blades push"
             }
             _ if machine.tips_incline_or_rub() => {
@@ -324,16 +304,20 @@ mod tests {
     }
 
     #[test]
-    fn only_blades_that_bend_much_have_another_lock_speed_than_rigid_ones() {
-        let note = |stiffness: f64| {
+    fn the_lock_speed_of_blades_that_bend_much_is_their_own() {
+        let speeds = |stiffness: f64| {
             let mut scene = Scene::base();
             scene.bladed_disk.stiffness_nm_per_rad = stiffness;
             scene.bladed_disk.coupling_nm_per_rad = 0.0;
-            let limits = limits(&scene.checked().unwrap());
-            limits.into_iter().find(|limit| limit.name == LimitName::OmegaLock).unwrap().note
+            let limits = limits(&scene.clone().checked().unwrap());
+            let limit = |name| limits.iter().find(|limit| limit.name == name).unwrap();
+            let rigid = scene.machine().lock_speed().unwrap();
+            let noted = limit(LimitName::OmegaAdhesive).note.is_some();
+            (limit(LimitName::OmegaLock).value.unwrap() / rigid - 1.0, noted)
         };
-        assert_eq!([note(15e3), note(5.0)], [None, None]);
-        assert!(note(0.02).is_some_and(|note| note.contains("bend so much")));
+        assert_eq!([speeds(15e3), speeds(500.0)], [(0.0, false); 2]);
+        let (apart, noted) = speeds(0.02);
+        assert!(apart.abs() > 1e-3 && noted, "{apart}");
     }
 
     #[test]

@@ -39,7 +39,8 @@ pub enum LimitName {
     CoincidenceDifference,
     /// The speed from which inclined tips whirl with the casing.
     WhirlOnset,
-    /// Speed above which a lock of inclined tips flutters; 0 if it does from rest on.
+    /// Speed above which blades and casing that move as one flutter; 0 if they do from rest on. The
+    /// curvature of heavy pushes may still hold a lock.
     FlutterSpeed,
     /// Speed at which growing blades first touch the undeformed casing.
     FirstTouch,
@@ -274,7 +275,7 @@ const LIMITS: [Entry; 15] = {
         entry(Coincidence, Speed, "Ω_coincidence", ["coincidence"; 2], "dangerous coincidence (31), of the sum of frequencies"),
         entry(CoincidenceDifference, Speed, "Ω_difference", ["coincidence (30)", "coinc. (30)"], "coincidence (30) of their difference"),
         entry(WhirlOnset, Speed, "Ω_whirl", ["whirl begins", "whirl"], "above it blades and casing whirl, on a rim of many blades"),
-        entry(FlutterSpeed, Speed, "Ω_flutter", ["lock flutters", "flutter"], "from it on a lock of inclined tips flutters"),
+        entry(FlutterSpeed, Speed, "Ω_flutter", ["lock flutters", "flutter"], "from it on blades and casing that move as one flutter"),
         entry(FirstTouch, Speed, "Ω_touch", ["first touch"; 2], "at it blades that grow touch a casing at rest"),
         entry(TouchingPulse, Pulse, "F_touches", ["F that touches", "F touches"], "smallest pulse that touches"),
         entry(PushA, Push, "-λ_a", ["push of group a", "push a"], "push of group a in the lock"),

@@ -21,7 +21,7 @@ use crate::motion::{GoOn, run_to_verdict};
 use crate::scene::CheckedScene;
 
 pub use changes::{ChangedVerdict, Robustness, VerdictChange};
-pub(super) use closed::{bends, speed_sensitivities, speeds};
+pub(super) use closed::{speed_sensitivities, speeds};
 pub(super) use limit::shown_margin;
 pub use limit::{Limit, LimitName, MOST_TIMES, Quantity, Sensitivities, Side};
 pub use parameters::{CLEARANCE, PARAMETERS, Parameter, acting, parameter};

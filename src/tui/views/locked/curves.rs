@@ -2,9 +2,7 @@
 //! with and without damping, and, with radial coupling, the multiplier of the stable whirl.
 
 use crate::tui::axis::nice_step;
-use rubscope_solver::harmonic::{
-    Form, Joint, RoundWhirl, Sweep, flutter_speed, lock_window, locked_motion, round_whirls,
-};
+use rubscope_solver::harmonic::{Form, RoundWhirl, Sweep, flutters, lock_window, locked_motion};
 use rubscope_solver::model::Machine;
 use rubscope_solver::scene::{ContactLaw, ModelSize, Scene};
 
@@ -73,10 +71,8 @@ fn whirl(scene: &Scene, machine: &Machine, speeds: &[f64]) -> Vec<(f64, f64)> {
         return Vec::new();
     }
     let push = |speed: &f64| {
-        let joint = Joint::at(machine, *speed);
-        let wave = RoundWhirl::lasting(&round_whirls(&joint))?;
-        let clearance = joint.machine.clearance();
-        (clearance > 0.0).then(|| (speed.abs(), -wave.stiffness_n_per_m * clearance))
+        let wave = RoundWhirl::lasting(machine, *speed)?;
+        Some((speed.abs(), -wave.stiffness_n_per_m * machine.at(*speed).clearance()))
     };
     speeds.iter().filter_map(push).collect()
 }
@@ -92,11 +88,12 @@ fn marks(scene: &Scene, machine: &Machine) -> Vec<(f64, &'static str)> {
     let toward = scene.operation.speed_rad_s;
     let window = lock_window(machine, toward);
     let shown = machine.lining.is_none() && is_coupled(scene);
+    let flutter = flutters(machine, toward).first().map(|range| range.from);
     let mut marks: Vec<(f64, &'static str)> = [
         (machine.critical_speed(), "Ω_c"),
         (window.map(|window| window.from), "Ω_lock"),
         (window.and_then(|window| window.to), "lock ends"),
-        (flutter_speed(machine, toward).filter(|_| shown), "Ω_f"),
+        (flutter.filter(|_| shown), "Ω_f"),
         (machine.dangerous_speed(), "coincidence"),
     ]
     .into_iter()

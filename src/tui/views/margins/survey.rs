@@ -54,7 +54,7 @@ fn table(
     let height = u16::try_from(told.len()).unwrap_or(0);
     let below = Rect { y: area.y + height, height: area.height - height, ..area };
     if let Some(row) = cell.and_then(|place| rows.get(place)) {
-        let known = if row.modes_known { "" } else { ", no mode of its own" };
+        let known = if row.guessed { ", no mode of its own" } else { "" };
         told = lines(&format!("n_d {}{known}: Enter takes these diameters", row.nodal_diameters));
     }
     for (row, line) in (0..height).zip(&told) {
@@ -70,7 +70,7 @@ fn table(
     let used = drawn.draw(app, buffer, (at, below), |place, column| {
         let role = match rows.get(place) {
             Some(_) if column == 0 && place == home => Role::Focus,
-            Some(row) if !row.modes_known => Role::Quiet,
+            Some(row) if row.guessed => Role::Quiet,
             Some(row) if column == 1 && row.locks_at(now) => Role::Contact,
             _ => Role::Text,
         };

@@ -1,0 +1,340 @@
+//! Casing and blade modes in the frame that rotates with the blades: mass, damping and stiffness,
+//! rows of contact that are held or on springs, and the state matrix (docs/theory.md, sections 8
+//! and 10).
+//!
+//! Coordinates are `w = (x, y, alpha_c, alpha_s)`: the casing `z = x + i y = (u_c + i u_s)
+//! exp(-i n_d theta)` \[m\] and the two blade modes \[rad\]. A structure of mass `m`, damping `d` and
+//! stiffness `k` at rest in another frame, which turns at `t` against this one, has
+//! `d/dt -> d/dt + i t`:
+//!
+//! `L(l) = m (l + i t)^2 + d (l + i t) + k`, with `t = n_d Omega` for the casing and 0 for blades.
+//!
+//! A contact row has a gap gradient `g` and a force direction `f`, `M w'' + C w' + K w + sum
+//! Lambda f = 0`. Without friction and slope both are the same vector. Blades that bend turn `f`,
+//! which adds `Lambda df/dw` to `K` (the curvature of the pushes). A row that is held removes the
+//! motions with `g . w != 0`; a row on a spring `k` adds `k f g^T` to `K`.
+//!
+//! Read [`Frame`], then [`Row`], then [`Frame::motion`].
+
+use nalgebra::{Complex, DMatrix, DVector, Matrix2, Matrix4, Vector2, Vector4};
+
+use super::Machine;
+use crate::numeric::eigen::{complex_eigenvalues, eigenvalues};
+
+/// Mass, damping and stiffness of one structure, and the rate at which its own frame turns against
+/// the frame of the motion \[rad/s\].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Structure {
+    /// Modal mass \[kg\] or inertia \[kg m^2\].
+    pub mass: f64,
+    /// Modal damping \[N s/m\] or \[N m s/rad\].
+    pub damping: f64,
+    /// Modal stiffness \[N/m\] or \[N m/rad\].
+    pub stiffness: f64,
+    /// Turn rate `t` \[rad/s\].
+    pub turn: f64,
+}
+
+impl Structure {
+    /// Returns the dynamic stiffness `L` at a frequency in the structure's own frame \[rad/s\],
+    /// `k - m omega^2 + i d omega`. The factored difference avoids cancellation at a resonance.
+    #[must_use]
+    pub fn dynamic_stiffness(&self, omega: f64) -> Complex<f64> {
+        let own = (self.stiffness / self.mass).sqrt();
+        Complex::new(self.mass * (own - omega) * (own + omega), self.damping * omega)
+    }
+
+    /// Returns the coefficients of `L(l)` for powers 0, 1 and 2 of the rate `l`.
+    #[must_use]
+    pub fn powers(&self) -> [Complex<f64>; 3] {
+        let constant = self.dynamic_stiffness(self.turn);
+        [
+            constant,
+            Complex::new(self.damping, 2.0 * self.mass * self.turn),
+            Complex::from(self.mass),
+        ]
+    }
+}
+
+/// Casing and blades at one rotor speed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// The casing mode; its turn rate is `nu = n_d Omega` in the frame of the blades.
+    pub casing: Structure,
+    /// The blade modes.
+    pub blades: Structure,
+    /// Friction on the casing mode, `mu_c`; negative for backward rotation.
+    pub friction: f64,
+    /// Effect of a blade angle on its gap, `kappa l_b` \[m\].
+    pub slope: f64,
+    /// Lever of a contact force on its blade, `(kappa + mu) l_b` \[m\].
+    pub lever: f64,
+    /// Nodal diameters `n_d`.
+    pub diameters: f64,
+    /// Number of coordinates: 4, or 3 if the disk has one blade mode.
+    coordinates: usize,
+}
+
+impl Frame {
+    /// Creates the frame of the blades at a rotor speed \[rad/s\].
+    #[must_use]
+    pub fn at(machine: &Machine, speed: f64) -> Self {
+        let here = machine.at(speed);
+        let structure =
+            |mass, damping, stiffness, turn| Structure { mass, damping, stiffness, turn };
+        Self {
+            casing: structure(
+                here.casing_mass,
+                here.casing_damping,
+                here.casing_stiffness,
+                here.nu(speed),
+            ),
+            blades: structure(
+                here.blade_modal_mass,
+                here.blade_modal_damping,
+                here.blade_modal_stiffness,
+                0.0,
+            ),
+            friction: here.casing_friction_at(speed),
+            slope: here.radial_coupling * here.blade_length,
+            lever: (here.radial_coupling + here.friction_at(speed)) * here.blade_length,
+            diameters: here.nodal_diameters,
+            coordinates: if here.has_sine_mode { 4 } else { 3 },
+        }
+    }
+
+    /// Returns the frame that turns at `s` against the blades \[rad/s\], in which a wave of that
+    /// frequency is at rest.
+    #[must_use]
+    pub fn turning(mut self, s: f64) -> Self {
+        self.casing.turn += s;
+        self.blades.turn += s;
+        self
+    }
+
+    /// Returns the coupling product `c2 = kappa (kappa + mu) l_b^2` \[m^2\].
+    #[must_use]
+    pub fn coupling(&self) -> f64 {
+        self.slope * self.lever
+    }
+
+    /// Returns the joint compliance `B = (1 + i mu_c)/L_c + c2/L_a` at rest in this frame: the
+    /// relative displacement of casing and tips for a wave of contact forces \[m/N\].
+    #[must_use]
+    pub fn compliance(&self) -> Complex<f64> {
+        let casing =
+            Complex::new(1.0, self.friction) / self.casing.dynamic_stiffness(self.casing.turn);
+        if self.coupling() == 0.0 {
+            return casing;
+        }
+        casing + self.blades.dynamic_stiffness(self.blades.turn).inv() * self.coupling()
+    }
+
+    /// Returns the rates `l` at which casing and blades move as one, `B = 0`: the roots of
+    /// `c2 L_c(l) + (1 + i mu_c) L_a(l)` \[1/s\]. Waves of any amplitude whose contact lasts move so.
+    /// Empty if the tips do not couple both.
+    #[must_use]
+    pub fn joined(&self) -> Vec<Complex<f64>> {
+        let coupling = self.coupling();
+        if coupling == 0.0 {
+            return Vec::new();
+        }
+        let (casing, blades) = (self.casing.powers(), self.blades.powers());
+        let turned = Complex::new(1.0, self.friction);
+        let [constant, linear, square] =
+            [0, 1, 2].map(|k| casing[k] * coupling + turned * blades[k]);
+        let half = linear / (square * 2.0);
+        let root = (half * half - constant / square).sqrt();
+        // The larger root first; the other from the product of both, which avoids cancellation.
+        let far = if (half + root).norm_sqr() >= (half - root).norm_sqr() {
+            -half - root
+        } else {
+            root - half
+        };
+        vec![far, if far.norm() > 0.0 { constant / square / far } else { far }]
+    }
+
+    /// Returns the rates `l` of the four waves about a round state whose contact is a spring in every
+    /// direction \[1/s\]; `stiffness` is that of all blades together \[N/m\]. `None` if the rates
+    /// overflow. With `w = z - kappa l_b a` and `p = -stiffness w`:
+    /// `L_c z = (1 + i mu_c) p`, `L_a a = -(kappa + mu) l_b p`.
+    #[must_use]
+    pub fn round(&self, stiffness: f64) -> Option<Vec<Complex<f64>>> {
+        // Blade coordinates are in the unit that makes both masses equal.
+        let unit = (self.casing.mass / self.blades.mass).sqrt();
+        let [slope, lever] = [self.slope * unit, self.lever * unit];
+        let pushed = Complex::new(1.0, self.friction) * stiffness;
+        let spring = Matrix2::new(
+            pushed,
+            -pushed * slope,
+            Complex::from(-stiffness * lever),
+            Complex::from(stiffness * lever * slope),
+        );
+        let own = |k: usize| {
+            let [casing, blades] =
+                [self.casing.powers()[k], self.blades.powers()[k] * (unit * unit)];
+            Matrix2::from_diagonal(&Vector2::new(casing, blades))
+        };
+        let mass = Complex::from(self.casing.mass);
+        let (damping, stiffness) = (own(1) / mass, (own(0) + spring) / mass);
+        state_rates(
+            stiffness.map(|x| x.norm()).max().sqrt().max(damping.map(|x| x.norm()).max()),
+            |rate| {
+                let mut state = DMatrix::zeros(4, 4);
+                state.view_mut((0, 2), (2, 2)).fill_with_identity();
+                state
+                    .view_mut((2, 0), (2, 2))
+                    .copy_from(&(stiffness / Complex::from(-rate * rate)));
+                state.view_mut((2, 2), (2, 2)).copy_from(&(damping / Complex::from(-rate)));
+                complex_eigenvalues(state)
+            },
+        )
+    }
+
+    /// Returns `M`, `C` and `K` about a state with `held` rows and with rows on `springs` \[N/m\].
+    #[must_use]
+    pub fn matrices(&self, held: &[Row], springs: &[(Row, f64)]) -> [Matrix4<f64>; 3] {
+        let mut matrices = [Matrix4::zeros(); 3];
+        for (at, structure) in [(0, &self.casing), (2, &self.blades)] {
+            let [constant, linear, square] = structure.powers();
+            for (matrix, of) in matrices.iter_mut().zip([square, linear, constant]) {
+                // Multiplication by a complex number.
+                let turned = Matrix2::new(of.re, -of.im, of.im, of.re);
+                matrix.fixed_view_mut::<2, 2>(at, at).copy_from(&turned);
+            }
+        }
+        let [.., stiffness] = &mut matrices;
+        held.iter().for_each(|row| *stiffness += row.turned);
+        springs.iter().for_each(|(row, k)| *stiffness += row.force * row.gap.transpose() * *k);
+        matrices
+    }
+
+    /// Returns the motion about a state whose `held` rows stay closed and whose `springs` yield
+    /// \[N/m\].
+    #[must_use]
+    pub fn motion(&self, held: &[Row], springs: &[(Row, f64)]) -> Motion {
+        let [mass, damping, stiffness] = self.matrices(held, springs);
+        let n = self.coordinates;
+        // In coordinates of unit mass.
+        let weights: Vec<f64> = (0..n).map(|i| mass[(i, i)].sqrt()).collect();
+        let vector = |of: &Vector4<f64>| DVector::from_fn(n, |i, _| of[i] / weights[i]);
+        let free = across(held.iter().map(|row| vector(&row.gap)), n);
+        let along = across(held.iter().map(|row| vector(&row.force)), n);
+        let project = |matrix: &Matrix4<f64>| {
+            let scaled = DMatrix::from_fn(n, n, |i, j| matrix[(i, j)] / weights[i] / weights[j]);
+            along.tr_mul(&(scaled * &free))
+        };
+        Motion {
+            mass: along.tr_mul(&free),
+            damping: project(&damping),
+            stiffness: project(&stiffness),
+        }
+    }
+}
+
+/// Returns an orthonormal basis of the vectors across all of `rows`, one column each.
+fn across(rows: impl Iterator<Item = DVector<f64>>, size: usize) -> DMatrix<f64> {
+    let mut basis = DMatrix::identity(size, size);
+    for row in rows {
+        // Householder reflection of the remaining vectors, after which only the first one has a
+        // part along the row.
+        let mut seen = basis.tr_mul(&row);
+        let length = seen.norm();
+        seen[0] += length.copysign(seen[0]);
+        let square = seen.norm_squared();
+        if square > 0.0 {
+            let shares = (&basis * &seen) * (2.0 / square);
+            basis -= shares * seen.transpose();
+        }
+        basis = basis.remove_column(0);
+    }
+    basis
+}
+
+/// A row of contact: the side with the phase `psi`, whose blades have turned by `alpha`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Gradient of the gap.
+    pub gap: Vector4<f64>,
+    /// Force per unit of the multiplier.
+    pub force: Vector4<f64>,
+    /// Derivative of `Lambda f` with respect to the coordinates.
+    pub turned: Matrix4<f64>,
+}
+
+impl Row {
+    /// Creates the row of a side with the direction `(cos psi, sin psi)`, at the casing place
+    /// `(x, y)` \[m\], a blade angle of the side \[rad\] and a multiplier (negative is a push) \[N\].
+    ///
+    /// With `b = psi + n_d alpha` the gap is `h + Re[z exp(-i b)] - kappa l_b alpha`, and the force
+    /// `(1 + i mu_c) exp(i b)` on the casing and `n_d Im[z exp(-i b)] - (kappa + mu) l_b` on the
+    /// blade.
+    #[must_use]
+    pub fn new(
+        frame: &Frame,
+        (cos, sin): (f64, f64),
+        (x, y): (f64, f64),
+        alpha: f64,
+        multiplier: f64,
+    ) -> Self {
+        let n = frame.diameters;
+        let (sin_turn, cos_turn) = (n * alpha).sin_cos();
+        let (c, s) = (cos * cos_turn - sin * sin_turn, sin * cos_turn + cos * sin_turn);
+        let (along, arm) = (x * c + y * s, n * (y * c - x * s));
+        let push = [c - frame.friction * s, s + frame.friction * c];
+        let row = |[a, b]: [f64; 2], blade: f64| Vector4::new(a, b, blade * cos, blade * sin);
+        let by_blade = row([-n * push[1], n * push[0]], -n * n * along);
+        let by_casing = [-n * s, n * c];
+        let mut turned = Matrix4::zeros();
+        for (i, shape) in [(2, cos), (3, sin)] {
+            turned.set_column(i, &(by_blade * (multiplier * shape)));
+            for (j, part) in by_casing.into_iter().enumerate() {
+                turned[(i, j)] = multiplier * part * shape;
+            }
+        }
+        Self { gap: row([c, s], arm - frame.slope), force: row(push, arm - frame.lever), turned }
+    }
+
+    /// Creates the row of a direction whose gap no blade angle turns: `Re[w exp(-i psi)]`, with
+    /// `w = z - kappa l_b a`.
+    #[must_use]
+    pub fn fixed(frame: &Frame, direction: (f64, f64)) -> Self {
+        Self::new(frame, direction, (0.0, 0.0), 0.0, 0.0)
+    }
+}
+
+/// Small motions about a state, `M q'' + C q' + K q = 0`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Motion {
+    mass: DMatrix<f64>,
+    damping: DMatrix<f64>,
+    stiffness: DMatrix<f64>,
+}
+
+impl Motion {
+    /// Returns the eigenvalues \[1/s\]; `None` if they overflow or cannot be computed, or if the held
+    /// rows leave a motion without mass.
+    #[must_use]
+    pub fn eigenvalues(&self) -> Option<Vec<Complex<f64>>> {
+        let n = self.mass.nrows();
+        let inverse = self.mass.clone().try_inverse()?;
+        let (stiffness, damping) = (&inverse * &self.stiffness, &inverse * &self.damping);
+        state_rates(stiffness.amax().sqrt().max(damping.amax()), |rate| {
+            let mut state = DMatrix::zeros(2 * n, 2 * n);
+            state.view_mut((0, n), (n, n)).fill_with_identity();
+            state.view_mut((n, 0), (n, n)).copy_from(&(&stiffness / (-rate * rate)));
+            state.view_mut((n, n), (n, n)).copy_from(&(&damping / -rate));
+            eigenvalues(state)
+        })
+    }
+}
+
+/// Returns the eigenvalues of a state matrix that `of` computes in units of its fastest rate
+/// \[1/s\].
+fn state_rates(
+    fastest: f64,
+    of: impl FnOnce(f64) -> Option<Vec<Complex<f64>>>,
+) -> Option<Vec<Complex<f64>>> {
+    let rate = if fastest > 0.0 { fastest } else { 1.0 };
+    Some(of(rate)?.into_iter().map(|value| value * rate).collect())
+}
