@@ -14,7 +14,7 @@ use super::equations::{Equations, Scales, Unknowns, Wave};
 use super::stability::{at_rest, grows, largest_growth};
 use super::{Corner, Form, HarmonicError, error};
 use crate::model::Machine;
-use crate::numeric::bisection::try_bisected;
+use crate::numeric::search::try_bisected;
 use crate::tolerances::BRANCH_CHANGES;
 
 /// Kind of equilibrium by its contacts.

@@ -18,7 +18,7 @@ use strum::{Display, IntoStaticStr};
 use super::equilibria::changes;
 use super::{HarmonicError, error};
 use crate::model::Machine;
-use crate::numeric::bisection::bisected;
+use crate::numeric::search::bisected;
 
 /// Reason why there is no lasting slip at a speed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Display, IntoStaticStr)]

@@ -1,11 +1,9 @@
 //! Numerical methods without any mechanics. Each module states its error and its cost.
 
-pub(crate) mod bisection;
 pub(crate) mod eigen;
 pub(crate) mod elimination;
 pub(crate) mod lcp;
 pub(crate) mod lyapunov;
-pub(crate) mod maximum;
 pub(crate) mod normal;
 pub(crate) mod quadrature;
 pub mod rounding;

@@ -1,9 +1,75 @@
-//! Search over a list of places: where a condition is true, and where a function vanishes. What
-//! happens between two neighbouring places and ends before the second is not seen, so the caller
-//! states the density of its list.
+//! Search of numbers: the place at which the answer of a predicate changes, by bisection; the maximum
+//! of a function, by golden section; and over a list of places the spans in which a condition is
+//! true and the zeros of a function. Bisection and golden section take an interval that contains
+//! what is looked for; of several such places they return one. What happens between two neighbours
+//! of a list and ends before the second is not seen, so the caller states the density of its list.
 
-use super::bisection::bisected;
-use super::maximum::highest;
+use std::convert::Infallible;
+
+/// Enough to reduce any interval that occurs to adjacent floating-point numbers, whatever the
+/// scales of its ends.
+pub(crate) const MOST_HALVINGS: usize = 200;
+
+/// As [`bisected`], but stops at the relative width `part` of the far end, and with a predicate
+/// that can fail.
+///
+/// # Errors
+/// Returns the first error of the predicate.
+pub(crate) fn try_bisected<E>(
+    [mut near, mut far]: [f64; 2],
+    part: f64,
+    mut is_far: impl FnMut(f64) -> Result<bool, E>,
+) -> Result<[f64; 2], E> {
+    for _ in 0..MOST_HALVINGS {
+        let middle = 0.5 * near + 0.5 * far;
+        let close = (far - near).abs() <= part * far.abs();
+        if close || middle == near || middle == far {
+            break;
+        }
+        if is_far(middle)? { far = middle } else { near = middle }
+    }
+    Ok([near, far])
+}
+
+/// As [`bisected`], but stops at the relative width `part` of the far end.
+pub(crate) fn bisected_to(
+    ends: [f64; 2],
+    part: f64,
+    mut is_far: impl FnMut(f64) -> bool,
+) -> [f64; 2] {
+    let Ok(found) = try_bisected(ends, part, |x| Ok::<_, Infallible>(is_far(x)));
+    found
+}
+
+/// Returns the adjacent numbers between which `is_far` becomes true, that on the near side first.
+/// The ends are not evaluated: `is_far` must be false at the first and true at the second.
+pub(crate) fn bisected(ends: [f64; 2], is_far: impl FnMut(f64) -> bool) -> [f64; 2] {
+    bisected_to(ends, 0.0, is_far)
+}
+
+/// Number of golden-section steps. Each leaves 0.618 of the interval, all of them 3e-13. The maximum
+/// is accurate to round-off, its place to the square root of that.
+const STEPS: usize = 60;
+
+/// Returns the position of the maximum in the interval, and the value there. Costs [`STEPS`] + 2
+/// evaluations.
+pub(crate) fn highest([mut low, mut high]: [f64; 2], of: impl Fn(f64) -> f64) -> (f64, f64) {
+    const PART: f64 = 0.381_966_011_250_105_1;
+    let (mut a, mut b) = (low + PART * (high - low), high - PART * (high - low));
+    let (mut at_a, mut at_b) = (of(a), of(b));
+    for _ in 0..STEPS {
+        if at_a >= at_b {
+            (high, b, at_b) = (b, a, at_a);
+            a = low + PART * (high - low);
+            at_a = of(a);
+        } else {
+            (low, a, at_a) = (a, b, at_b);
+            b = high - PART * (high - low);
+            at_b = of(b);
+        }
+    }
+    if at_a >= at_b { (a, at_a) } else { (b, at_b) }
+}
 
 /// Returns the spans of `places` (in increasing order) in which a condition is true. Both ends are
 /// inside; each is a place of the list, or is found to the last digit by bisection between two.
@@ -67,6 +133,46 @@ pub(crate) fn geometric([from, to]: [f64; 2], ratio: f64) -> impl Iterator<Item 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn it_ends_at_neighbours_from_either_side() {
+        for edge in [0.3, 1e-12, 7.0 / 3.0] {
+            let [near, far] = bisected([0.0, 5.0], |x| x >= edge);
+            assert_eq!((far, near.next_up()), (edge, edge));
+            let [near, far] = bisected([5.0, 0.0], |x| x < edge);
+            assert_eq!((near, far.next_up()), (edge, edge));
+        }
+    }
+
+    #[test]
+    fn a_part_is_enough_and_work_is_bounded() {
+        let mut asked = 0;
+        let found = try_bisected([1.0, 2.0], 1e-3, |x| {
+            asked += 1;
+            Ok::<_, ()>(x > 1.5001)
+        });
+        let [near, far] = found.unwrap();
+        assert!(near <= 1.5001 && far > 1.5001 && far - near <= 1e-3 * far && asked == 10);
+        asked = 0;
+        let _ = bisected([0.0, f64::MAX], |_| {
+            asked += 1;
+            true
+        });
+        assert_eq!(asked, MOST_HALVINGS);
+        assert!(bisected([0.0, f64::NAN], |_| false)[1].is_nan());
+        assert_eq!(try_bisected([0.0, 1.0], 0.0, Err::<bool, f64>), Err(0.5));
+    }
+
+    #[test]
+    fn the_top_is_found_where_it_is_inside_or_at_an_end() {
+        let (place, value) = highest([-1.0, 3.0], |x| 2.0 - (x - 0.7) * (x - 0.7));
+        // Near a maximum the position is accurate to the square root of round-off only.
+        assert!((place - 0.7).abs() < 3e-8 && value == 2.0, "{place} {value}");
+        for (ends, top) in [([0.0, 1.0], 1.0), ([-1.0, 0.0], 0.0)] {
+            let (place, value) = highest(ends, |x| x);
+            assert!((place - top).abs() < 1e-12 && (value - top).abs() < 1e-12, "{place}");
+        }
+    }
 
     #[test]
     fn spans_end_where_the_condition_changes() {

@@ -10,7 +10,7 @@ use std::time::Instant;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::margins::{LimitName, Parameter, shown_margin, speed_sensitivities, speeds};
+use super::margins::{LimitName, Parameter, shown_margin, speeds};
 use crate::harmonic::{growth_spans, lock_windows, whirl_spans};
 use crate::model::{LockWindow, Machine};
 use crate::scene::units::{self, RangeError};
@@ -351,34 +351,26 @@ fn row(
 }
 
 /// Magnitudes of the limits for one direction of rotation, and their sensitivities.
-struct Speeds {
-    sizes: Vec<(LimitName, f64)>,
-    by: Vec<Option<f64>>,
-}
+struct Speeds(Vec<(LimitName, f64, Option<f64>)>);
 
 impl Speeds {
     fn new(scene: &Scene, sense: f64, by: Option<&Parameter>) -> Self {
         let mut turned = scene.clone();
         turned.operation.speed_rad_s = sense * scene.operation.speed_rad_s.abs().max(1.0);
-        let by = by.map_or(Vec::new(), |by| speed_sensitivities(&turned, by));
-        Self { sizes: speeds(&turned), by }
+        Self(speeds(&turned, by))
     }
 
     /// Converts the magnitudes to limits for a direction of rotation.
     fn limits(&self, scene: &Scene, sense: f64, range: Option<[f64; 2]>) -> Vec<SurveyLimit> {
         let present = scene.operation.speed_rad_s;
-        let limit = |(place, (name, size)): (usize, &(LimitName, f64))| {
+        let limit = |&(name, size, by): &(LimitName, f64, Option<f64>)| {
             let value = sense * size;
-            SurveyLimit {
-                name: *name,
-                value,
-                margin: (present * sense >= 0.0 && *size > 0.0).then(|| present.abs() / size - 1.0),
-                in_range: range.map(|[from, to]| (from..=to).contains(&value)),
-                by: self.by.get(place).copied().flatten(),
-            }
+            let margin = (present * sense >= 0.0 && size > 0.0).then(|| present.abs() / size - 1.0);
+            let in_range = range.map(|[from, to]| (from..=to).contains(&value));
+            SurveyLimit { name, value, margin, in_range, by }
         };
         // The adhesive speed belongs to the paper's algorithm, not to the machine.
         let of_machine = |limit: &SurveyLimit| limit.name != LimitName::OmegaAdhesive;
-        self.sizes.iter().enumerate().map(limit).filter(of_machine).collect()
+        self.0.iter().map(limit).filter(of_machine).collect()
     }
 }

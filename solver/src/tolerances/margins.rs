@@ -1,9 +1,5 @@
 //! Those of the margins.
 
-/// Looks over the first swing for how far the casing moves. Fewer: more of the swings after
-/// it are looked at. Speed only.
-pub(crate) const SWING_LOOKS: u32 = 64;
-
 /// Part of the way from the middle of a side to its corner, and of a radian of the casing,
 /// between two looks for the nearest instant. Larger: its slope has several zeros between
 /// two looks.

@@ -14,8 +14,8 @@ use std::f64::consts::{PI, TAU};
 
 use crate::harmonic::{HarmonicError, error, has_one_wave};
 use crate::model::{ContactSurface, LiningLaw, Machine};
-use crate::numeric::bisection::bisected;
 use crate::numeric::quadrature::GAUSS_8;
+use crate::numeric::search::bisected;
 use crate::tolerances::{LINING_DIVIDED, LINING_NARROWEST, LINING_STRIDES, LINING_WIDEST};
 
 /// A machine whose casing has a lining.

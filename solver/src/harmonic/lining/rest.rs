@@ -18,7 +18,7 @@ use super::Lining;
 use super::law::between;
 use crate::harmonic::HarmonicError;
 use crate::model::{Frame, Machine};
-use crate::numeric::maximum::highest;
+use crate::numeric::search::highest;
 use crate::tolerances::{GROWTH_SCAN, PEAK_REACH, TONGUE_SCAN, UNDAMPED_GROWTH};
 
 /// A motion `e^{ist}` about rest.

@@ -24,7 +24,7 @@ use super::rest::LeastStiffness;
 use crate::harmonic::LockLoads;
 use crate::harmonic::{HarmonicError, error, has_one_wave};
 use crate::model::{Frame, LiningLaw, Machine, Row};
-use crate::numeric::maximum::highest;
+use crate::numeric::search::highest;
 use crate::tolerances::{
     AS_ZERO, LINING_ALIKE, LINING_NEUTRAL, NEWTON_STEPS, WINDOW_LOOKS, WINDOW_REACH,
 };

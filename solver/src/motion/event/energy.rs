@@ -16,8 +16,8 @@ use crate::motion::point::Point;
 use crate::motion::propagator::damped;
 use crate::motion::verdict::Trend;
 use crate::motion::{Failure, FailureReason, Plane};
-use crate::numeric::bisection::bisected;
 use crate::numeric::quadrature::GAUSS_8;
+use crate::numeric::search::bisected;
 use crate::tolerances::LARGEST_BLADE_ANGLE;
 
 /// Energies per unit casing mass \[m^2/s^2\].

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::{Figure, Panel, Quantity, Series, Style, speed_marks};
 use crate::motion::{Verdict, run_to_verdict, to_the_end};
-use crate::numeric::bisection::bisected_to;
+use crate::numeric::search::bisected_to;
 use crate::scene::keys::{PULSE, SPEED};
 use crate::scene::{CheckedScene, ContactLaw, Scene, SolverKind};
 use crate::study::{Axis, Map, MapPlan};

@@ -1,4 +1,4 @@
-//! A limit: its description (`LIMITS`), its value, the position of the scene relative to it, and
+//! A limit: its description, its value, the position of the scene relative to it, and
 //! its sensitivities.
 
 use crate::scene::keys::{OUT_OF_ROUND, PULSE, SPEED};
@@ -7,7 +7,7 @@ use strum::{AsRefStr, Display, EnumIter, EnumString, VariantNames};
 
 use super::parameters::is_length;
 
-/// Name of a limit.
+/// Name of a limit, in the order in which they are shown.
 #[derive(
     Clone,
     Copy,
@@ -27,12 +27,12 @@ use super::parameters::is_length;
 pub enum LimitName {
     /// Critical speed.
     OmegaC,
+    /// Lowest speed at which the paper's equality algorithm holds a lock.
+    OmegaAdhesive,
     /// Lowest speed at which pushes alone hold a lock.
     OmegaLock,
     /// Highest speed at which pushes alone hold a lock.
     LockEnds,
-    /// Lowest speed at which the paper's equality algorithm holds a lock.
-    OmegaAdhesive,
     /// Dangerous coincidence, Eq. (31).
     Coincidence,
     /// Other coincidence of Eq. (30), that of the frequency difference.
@@ -213,87 +213,54 @@ impl Limit {
 }
 
 impl LimitName {
-    /// Returns the row in `LIMITS`.
-    fn entry(self) -> &'static Entry {
-        &LIMITS[self as usize]
+    /// Returns the quantity, the symbol, the titles for wide and for narrow tables, and a short
+    /// description.
+    #[rustfmt::skip]
+    fn entry(self) -> (Quantity, &'static str, [&'static str; 2], &'static str) {
+        use Quantity::{Pulse, Push, Speed};
+        match self {
+            Self::OmegaC => (Speed, "Ω_c", ["Ω_c"; 2], "critical speed: above it the wave is pushed outward"),
+            Self::OmegaAdhesive => (Speed, "Ω_adhesive", ["adhesive limit", "adhesive"], "above it the bilateral law holds, if one blade pulls"),
+            Self::OmegaLock => (Speed, "Ω_lock", ["Ω_lock"; 2], "from it on both blades of a lock push"),
+            Self::LockEnds => (Speed, "Ω_ends", ["lock ends"; 2], "up to it both blades of a lock push"),
+            Self::Coincidence => (Speed, "Ω_coincidence", ["coincidence"; 2], "dangerous coincidence (31), of the sum of frequencies"),
+            Self::CoincidenceDifference => (Speed, "Ω_difference", ["coincidence (30)", "coinc. (30)"], "coincidence (30) of their difference"),
+            Self::WhirlOnset => (Speed, "Ω_whirl", ["whirl begins", "whirl"], "above it blades and casing whirl, on a rim of many blades"),
+            Self::FlutterSpeed => (Speed, "Ω_flutter", ["lock flutters", "flutter"], "from it on blades and casing that move as one flutter"),
+            Self::FirstTouch => (Speed, "Ω_touch", ["first touch"; 2], "at it blades that grow touch a casing at rest"),
+            Self::TouchingPulse => (Pulse, "F_touches", ["F that touches", "F touches"], "smallest pulse that touches"),
+            Self::PushA => (Push, "-λ_a", ["push of group a", "push a"], "push of group a in the lock"),
+            Self::PushB => (Push, "-λ_b", ["push of group b", "push b"], "push of group b in the lock"),
+            Self::Torque => (Quantity::Torque, "T", ["torque"; 2], "torque that holds the lock"),
+            Self::Power => (Quantity::Power, "P", ["power"; 2], "power that the lock takes"),
+            Self::Roundness => (Quantity::Height, "e_max", ["out of round", "e_max"], "largest height of lobes with which the lock lasts"),
+        }
     }
 
     /// Returns the physical quantity.
     #[must_use]
     pub fn quantity(self) -> Quantity {
-        self.entry().quantity
+        self.entry().0
     }
 
     /// Returns the symbol used in formulas.
     #[must_use]
     pub fn symbol(self) -> &'static str {
-        self.entry().symbol
+        self.entry().1
     }
 
     /// Returns the titles for wide and for narrow tables.
     #[must_use]
     pub fn titles(self) -> [&'static str; 2] {
-        self.entry().titles
+        self.entry().2
     }
 
     /// Returns a short description.
     #[must_use]
     pub fn what(self) -> &'static str {
-        self.entry().what
+        self.entry().3
     }
 }
-
-/// Description of a limit, independent of the scene.
-struct Entry {
-    name: LimitName,
-    quantity: Quantity,
-    symbol: &'static str,
-    titles: [&'static str; 2],
-    what: &'static str,
-}
-
-const fn entry(
-    name: LimitName,
-    quantity: Quantity,
-    symbol: &'static str,
-    titles: [&'static str; 2],
-    what: &'static str,
-) -> Entry {
-    Entry { name, quantity, symbol, titles, what }
-}
-
-/// All limits in the order of [`LimitName`].
-#[rustfmt::skip]
-const LIMITS: [Entry; 15] = {
-    use LimitName::*;
-    use Quantity::{Pulse, Push, Speed};
-    [
-        entry(OmegaC, Speed, "Ω_c", ["Ω_c"; 2], "critical speed: above it the wave is pushed outward"),
-        entry(OmegaLock, Speed, "Ω_lock", ["Ω_lock"; 2], "from it on both blades of a lock push"),
-        entry(LockEnds, Speed, "Ω_ends", ["lock ends"; 2], "up to it both blades of a lock push"),
-        entry(OmegaAdhesive, Speed, "Ω_adhesive", ["adhesive limit", "adhesive"], "above it the bilateral law holds, if one blade pulls"),
-        entry(Coincidence, Speed, "Ω_coincidence", ["coincidence"; 2], "dangerous coincidence (31), of the sum of frequencies"),
-        entry(CoincidenceDifference, Speed, "Ω_difference", ["coincidence (30)", "coinc. (30)"], "coincidence (30) of their difference"),
-        entry(WhirlOnset, Speed, "Ω_whirl", ["whirl begins", "whirl"], "above it blades and casing whirl, on a rim of many blades"),
-        entry(FlutterSpeed, Speed, "Ω_flutter", ["lock flutters", "flutter"], "from it on blades and casing that move as one flutter"),
-        entry(FirstTouch, Speed, "Ω_touch", ["first touch"; 2], "at it blades that grow touch a casing at rest"),
-        entry(TouchingPulse, Pulse, "F_touches", ["F that touches", "F touches"], "smallest pulse that touches"),
-        entry(PushA, Push, "-λ_a", ["push of group a", "push a"], "push of group a in the lock"),
-        entry(PushB, Push, "-λ_b", ["push of group b", "push b"], "push of group b in the lock"),
-        entry(Torque, Quantity::Torque, "T", ["torque"; 2], "torque that holds the lock"),
-        entry(Power, Quantity::Power, "P", ["power"; 2], "power that the lock takes"),
-        entry(Roundness, Quantity::Height, "e_max", ["out of round", "e_max"], "largest height of lobes with which the lock lasts"),
-    ]
-};
-
-/// Checks at compile time that each row has the index of its name.
-const _: () = {
-    let mut place = 0;
-    while place < LIMITS.len() {
-        assert!(LIMITS[place].name as usize == place);
-        place += 1;
-    }
-};
 
 impl Quantity {
     /// Returns the SI unit.

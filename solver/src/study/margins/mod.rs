@@ -1,13 +1,15 @@
-//! Margins: the limits of a scene (`closed`, `touching`), their sensitivities to its parameters
-//! (`parameters`), the parameter value that moves a limit to a given value (`target`), and the
-//! distance of a run from another verdict (`changes`). See docs/theory.md, section 9.
+//! Margins: the limits of a scene (`listed`), their values (`evaluated`, `touching`), their
+//! sensitivities to its parameters (`sensitivity`, `parameters`), the parameter value that moves a
+//! limit to a given value (`target`), and the distance of a run from another verdict (`changes`).
+//! See docs/theory.md, section 9.
 //!
 //! A *sensitivity* is `d ln(limit)/d ln(parameter)`: the change of the limit in per cent for one
 //! per cent of the parameter.
 
 mod changes;
-mod closed;
+mod evaluated;
 mod limit;
+mod listed;
 mod parameters;
 mod sensitivity;
 mod target;
@@ -21,7 +23,7 @@ use crate::motion::{GoOn, run_to_verdict};
 use crate::scene::CheckedScene;
 
 pub use changes::{ChangedVerdict, Robustness, VerdictChange};
-pub(super) use closed::{speed_sensitivities, speeds};
+pub(super) use evaluated::speeds;
 pub(super) use limit::shown_margin;
 pub use limit::{Limit, LimitName, MOST_TIMES, Quantity, Sensitivities, Side};
 pub use parameters::{CLEARANCE, PARAMETERS, Parameter, acting, parameter};
@@ -76,10 +78,7 @@ impl Margins {
     #[must_use]
     pub fn of(scene: &CheckedScene) -> Self {
         let start = Instant::now();
-        let mut limits = closed::limits(scene);
-        // The pulse is shown between the speeds and the loads of the lock.
-        let place = limits.iter().position(|limit| limit.quantity != Quantity::Speed);
-        limits.insert(place.unwrap_or(limits.len()), touching::limit(scene));
+        let limits = listed::limits(scene);
         let cost = Cost { wall_s: start.elapsed().as_secs_f64() };
         let (scene, note) = (scene.clone(), scene.tuned_note());
         Self { scene, note, robust: None, pushes_only: None, limits, target: None, cost }

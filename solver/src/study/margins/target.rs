@@ -6,11 +6,11 @@ use serde::Serialize;
 use strum::VariantNames;
 use thiserror::Error;
 
-use super::closed::{CLOSED, values};
+use super::evaluated::Evaluated;
 use super::limit::LimitName;
 use super::parameters::{PARAMETERS, Parameter, parameter};
-use super::touching;
 use crate::motion::GoOn;
+use crate::numeric::search::try_bisected;
 use crate::scene::units::UnitError;
 use crate::scene::{CheckedScene, Quantity};
 use crate::tolerances::{TARGET_FACTOR, TARGET_REACHED, TARGET_SPAN};
@@ -101,15 +101,15 @@ impl Target {
     /// Searches for the value; `None` if `go_on` returned false.
     #[must_use]
     pub fn solve(&self, scene: &CheckedScene, go_on: GoOn<'_>) -> Option<Found> {
-        let from = self.by.of(scene);
-        let mut walk = Walk { target: *self, scene, go_on, met: None, tried: [from; 2] };
-        let start = self.by.walked(scene).1;
-        let solved = match walk.bracket(start)? {
-            Some(ends) => walk.halve(ends)?,
-            None => None,
-        };
-        let (to, reached) = solved.unzip();
         let Self { name, wanted, by } = *self;
+        let from = by.of(scene);
+        let mut walk = Walk { target: *self, scene, go_on, met: None, tried: [from; 2] };
+        let found = match walk.bracket().and_then(|ends| walk.halve(ends)) {
+            Ok(found) => Some(found),
+            Err(End::Nowhere) => None,
+            Err(End::Stopped) => return None,
+        };
+        let (to, reached) = found.unzip();
         let Walk { met, tried, .. } = walk;
         Some(Found { name, wanted, by: by.path, from, to, reached, met, tried })
     }
@@ -125,36 +125,34 @@ struct Walk<'a> {
     tried: [f64; 2],
 }
 
-/// A value of the searched quantity, and the excess of the limit over the wanted value there.
-type Place = (f64, f64);
+/// Why there is no result: no such scene or limit, or `go_on` stopped the search.
+enum End {
+    Nowhere,
+    Stopped,
+}
 
 impl Walk<'_> {
-    /// Returns the excess of the limit over the wanted value; the inner `None` if there is no such
-    /// scene or limit, the outer one if `go_on` stopped the search.
-    fn at(&mut self, walked: f64) -> Option<Option<f64>> {
-        let value = self.target.by.value_at(self.scene, walked);
+    /// Returns the excess of the limit over the wanted value at a value of the searched quantity.
+    fn excess(&mut self, walked: f64) -> Result<f64, End> {
+        let Target { name, wanted, by } = self.target;
+        let value = by.value_at(self.scene, walked);
         if !(self.go_on)() {
-            return None;
+            return Err(End::Stopped);
         }
-        let scene = self.target.by.set(self.scene, value).and_then(|scene| scene.checked());
-        let Ok(scene) = scene else { return Some(None) };
-        let limit = match CLOSED.iter().position(|closed| *closed == self.target.name) {
-            Some(place) => values(&scene)[place],
-            None => touching::smallest(&scene).map(|touch| touch.pulse_n),
-        };
-        if let Some(limit) = limit {
-            let [low, high] = self.tried;
-            self.tried = [low.min(value), high.max(value)];
-            let [least, most] = self.met.unwrap_or([limit; 2]);
-            self.met = Some([least.min(limit), most.max(limit)]);
-        }
-        Some(limit.map(|limit| limit - self.target.wanted))
+        let scene = by.set(self.scene, value).and_then(|scene| scene.checked());
+        let scene = scene.map_err(|_| End::Nowhere)?;
+        let limit = Evaluated::of(&scene).values(name).first().copied().ok_or(End::Nowhere)?;
+        let [low, high] = self.tried;
+        self.tried = [low.min(value), high.max(value)];
+        let [least, most] = self.met.unwrap_or([limit; 2]);
+        self.met = Some([least.min(limit), most.max(limit)]);
+        Ok(limit - wanted)
     }
 
     /// Returns two neighbouring values between which the limit passes the wanted one, the nearest
-    /// to the present value. The inner `None` if there are none, the outer one if `go_on` stopped
-    /// the search.
-    fn bracket(&mut self, from: f64) -> Option<Option<[Place; 2]>> {
+    /// to the present value.
+    fn bracket(&mut self) -> Result<[f64; 2], End> {
+        let from = self.target.by.walked(self.scene).1;
         // If the present value is zero, the search goes only upward, from a value small enough for
         // any unit.
         let up_only = from == 0.0;
@@ -162,50 +160,44 @@ impl Walk<'_> {
             if up_only { (1.0 / TARGET_SPAN, TARGET_SPAN.powi(3)) } else { (from, TARGET_SPAN) };
         let steps = (span.ln() / TARGET_FACTOR.ln()).ceil() as i32;
         let largest = self.target.by.largest();
-        let first = self.at(from)?;
-        let mut ends = [1, -1].map(|sign| (sign, first.map(|value| (from, value))));
+        let is_above = |walk: &mut Self, value| match walk.excess(value) {
+            Ok(excess) => Ok(Some((value, excess > 0.0))),
+            Err(End::Nowhere) => Ok(None),
+            Err(End::Stopped) => Err(End::Stopped),
+        };
+        let first = is_above(self, from)?;
+        let mut ends = vec![(1, first), (-1, first)];
+        ends.truncate(if up_only { 1 } else { 2 });
         for step in 1..=steps + 1 {
             for (sign, before) in &mut ends {
-                if up_only && *sign < 0 {
-                    continue;
-                }
                 // The last step downward goes to zero itself.
                 let value = match (*sign, step > steps) {
                     (-1, true) => 0.0,
                     (_, true) => continue,
                     _ => (start * TARGET_FACTOR.powi(*sign * step)).clamp(-largest, largest),
                 };
-                let now = self.at(value)?.map(|excess| (value, excess));
-                if let Some(((_, one), (_, other))) = before.zip(now)
-                    && (one <= 0.0) != (other <= 0.0)
+                let now = is_above(self, value)?;
+                if let Some((before, now)) = before.zip(now)
+                    && before.1 != now.1
                 {
-                    return Some(before.zip(now).map(|(before, now)| [before, now]));
+                    return Ok([before.0, now.0]);
                 }
                 *before = now;
             }
         }
-        Some(None)
+        Err(End::Nowhere)
     }
 
-    /// Bisects, and returns the parameter and the limit there; the inner `None` if the limit jumps.
-    fn halve(&mut self, [mut low, mut high]: [Place; 2]) -> Option<Option<(f64, f64)>> {
-        for _ in 0..200 {
-            let middle = 0.5 * (low.0 + high.0);
-            if middle == low.0 || middle == high.0 {
-                break;
-            }
-            let Some(excess) = self.at(middle)? else { return Some(None) };
-            if (excess <= 0.0) == (low.1 <= 0.0) {
-                low = (middle, excess);
-            } else {
-                high = (middle, excess);
-            }
-        }
-        let (value, excess) = if low.1.abs() <= high.1.abs() { low } else { high };
+    /// Bisects, and returns the parameter and the limit there, unless the limit jumps.
+    fn halve(&mut self, [low, high]: [f64; 2]) -> Result<(f64, f64), End> {
+        let above = self.excess(high)? > 0.0;
+        let ends = try_bisected([low, high], 0.0, |at| Ok((self.excess(at)? > 0.0) == above))?;
+        let [low, high] = [self.excess(ends[0])?, self.excess(ends[1])?];
+        let (at, excess) = if low.abs() <= high.abs() { (ends[0], low) } else { (ends[1], high) };
         let [least, most] = self.met.unwrap_or_default();
         let size = self.target.wanted.abs().max(least.abs()).max(most.abs());
-        let limit = self.target.wanted + excess;
-        let value = self.target.by.value_at(self.scene, value);
-        Some((excess.abs() <= TARGET_REACHED * size).then_some((value, limit)))
+        let reached = excess.abs() <= TARGET_REACHED * size;
+        let value = self.target.by.value_at(self.scene, at);
+        reached.then_some((value, self.target.wanted + excess)).ok_or(End::Nowhere)
     }
 }

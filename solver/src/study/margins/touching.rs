@@ -3,15 +3,14 @@
 
 use std::f64::consts::TAU;
 
-use super::limit::{Limit, LimitName, Sensitivities};
-use super::parameters::{Parameter, acting, parameter};
-use super::sensitivity::{CHANGE, sensitivities};
+use super::parameters::{Parameter, parameter};
+use super::sensitivity::CHANGE;
 use crate::model::{Excitation, Initial, Machine};
 use crate::motion::FreeFlight;
-use crate::numeric::bisection::bisected;
+use crate::numeric::search::bisected;
 use crate::scene::keys::PULSE;
-use crate::scene::{CheckedScene, ModelSize, Scene};
-use crate::tolerances::{SWING_LOOKS, TOUCHING_LOOK, TOUCHING_PERIODS};
+use crate::scene::{ModelSize, Scene};
+use crate::tolerances::{TOUCHING_LOOK, TOUCHING_PERIODS};
 
 /// The smallest pulse that makes a blade touch, with time and place of the contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,6 +21,28 @@ pub struct FirstTouch {
     pub t_s: f64,
     /// Side that is touched.
     pub side: u32,
+}
+
+/// Change of the angle of blades and casing at the touch \[rad\], up to which the force is a smooth
+/// function of a parameter.
+const MOST_TURN: f64 = 0.02;
+
+impl FirstTouch {
+    /// Returns the force that closes the gap of the same side at the same instant in another scene
+    /// \[N\].
+    pub(super) fn force_in(&self, scene: &Scene) -> f64 {
+        let flight = FreeFlight { machine: &scene.machine(), operation: &scene.operation };
+        force(&flight, self.side, self.t_s)
+    }
+
+    /// Returns the relative change of a parameter for a sensitivity: blades and casing have turned
+    /// far until a late touch, and may turn by `MOST_TURN` more.
+    pub(super) fn change(&self, scene: &Scene) -> f64 {
+        let (machine, operation) = (scene.machine(), &scene.operation);
+        let gained = operation.speed_ramp_rad_s2.abs() * self.t_s;
+        let fastest = machine.nu(operation.speed_rad_s.abs() + gained) + machine.omega_c;
+        CHANGE.min(MOST_TURN / (fastest * self.t_s))
+    }
 }
 
 /// Returns the smallest pulse force that makes a blade touch, for the scene's pulse duration and
@@ -72,22 +93,17 @@ fn longest(scene: &Scene, machine: &Machine) -> f64 {
     (scene.operation.pulse_s + period + wait).min(scene.solver.end_s)
 }
 
-/// Casing position at an instant, per unit of pulse force \[m/N\].
+/// Component of the casing position toward the nearest side at an instant, per unit of pulse force
+/// \[m/N\].
 #[derive(Clone, Copy)]
 struct Look {
     t: f64,
-    /// Distance from the centre, and its component toward the nearest side.
-    moved: f64,
     near: f64,
     side: u32,
 }
 
 /// Finds the smallest pulse of one sign that touches, which corresponds to the largest component
-/// toward a side per unit force.
-///
-/// That component is at most the distance from the centre, and at least the distance times
-/// `cos delta`. So only instants matter at which the distance exceeds the best component so far;
-/// the time until then is skipped, using the highest possible velocity.
+/// toward a side per unit force: looks at steps of [`TOUCHING_LOOK`], and refines each maximum.
 fn least(scene: &Scene, sense: f64) -> Option<FirstTouch> {
     if !starts_at_rest(scene) {
         return None;
@@ -101,42 +117,30 @@ fn least(scene: &Scene, sense: f64) -> Option<FirstTouch> {
         let [x, y] = [cos, -sin].map(|part| sense * moved * part);
         let side = polygon.nearest_side(x, y);
         let (c, s) = polygon.direction(side);
-        Look { t, moved: moved.abs(), near: -(x * c + y * s), side }
+        Look { t, near: -(x * c + y * s), side }
     };
     let end = longest(scene, &machine);
-    let swing = end.min(operation.pulse_s + TAU / machine.omega_c);
-    let looks = (1..=SWING_LOOKS).map(|k| look(swing * f64::from(k) / f64::from(SWING_LOOKS)));
-    let furthest = looks.fold(0.0, |most: f64, look| most.max(look.moved));
-    let mut best = furthest * polygon.delta.cos().max(0.0);
     let speeds = [0.0, end].map(|t| operation.speed_rad_s + operation.speed_ramp_rad_s2 * t);
     let turning = machine.nu(speeds[0].abs().max(speeds[1].abs())) / polygon.delta;
     let step = TOUCHING_LOOK / turning.max(machine.omega_c);
-    let fastest = operation.pulse_s / machine.casing_mass;
     let mut found: Option<FirstTouch> = None;
     let (mut before, mut now) = (0.0, look(0.0));
-    while now.t < end {
-        let passed = (best - now.moved) / fastest - step;
-        let ahead = look((now.t + passed.max(step)).min(end));
-        let is_nearest = now.near > before && now.near >= ahead.near;
-        let last = (ahead.t == end && ahead.near > now.near).then_some(ahead);
-        for look in is_nearest.then_some(now).into_iter().chain(last) {
-            // A sampled instant underestimates the maximum by less than the square of a step.
-            if look.near > 0.0 && look.near * (1.0 + TOUCHING_LOOK * TOUCHING_LOOK) >= best {
-                let touch = polished(&flight, look, sense, [step, end]);
-                best = best.max(machine.clearance() / touch.pulse_n.abs());
-                found = found
-                    .filter(|found| found.pulse_n.abs() <= touch.pulse_n.abs())
-                    .or(Some(touch));
-            }
+    let mut place = 0.0;
+    while before < now.near || now.t < end {
+        place += 1.0;
+        let ahead = look((place * step).min(end));
+        // A sampled instant underestimates the maximum by less than the square of a step.
+        let most = now.near * (1.0 + TOUCHING_LOOK * TOUCHING_LOOK);
+        let best = found.map_or(0.0, |touch| machine.clearance() / touch.pulse_n.abs());
+        if now.near > before && now.near >= ahead.near && most > best {
+            let touch = polished(&flight, now, sense, [step, end]);
+            let nearer = |known: &FirstTouch| known.pulse_n.abs() <= touch.pulse_n.abs();
+            found = found.filter(nearer).or(Some(touch));
         }
         (before, now) = (now.near, ahead);
     }
     found
 }
-
-/// Change of the angle of blades and casing at the touch \[rad\], over which the force is a smooth
-/// function of a parameter.
-const LEAST_TURN: f64 = 0.02;
 
 /// Returns the force that exactly closes the gap of a side at one instant.
 fn force(flight: &FreeFlight<'_>, side: u32, t: f64) -> f64 {
@@ -154,36 +158,8 @@ fn polished(flight: &FreeFlight<'_>, look: Look, sense: f64, [step, end]: [f64; 
     FirstTouch { pulse_n: force(flight, side, t_s), t_s, side }
 }
 
-/// Returns the limit with its sensitivities, those of the force that closes the gap of the touched
-/// side at the same instant: there the gap has no rate, so a shift in time does not contribute.
-pub(super) fn limit(scene: &CheckedScene) -> Limit {
-    let found = smallest(scene);
-    let present = Some(scene.operation.pulse_n);
-    let mut limit = Limit::new(LimitName::TouchingPulse, found.map(|touch| touch.pulse_n), present);
-    let Some(touch) = found else {
-        limit.note = Some(why_none(scene).to_string());
-        return limit;
-    };
-    let there = |scene: &Scene| {
-        let flight = FreeFlight { machine: &scene.machine(), operation: &scene.operation };
-        vec![force(&flight, touch.side, touch.t_s)]
-    };
-    // The casing and the blades have turned so far until then, and must not turn visibly further.
-    let machine = scene.machine();
-    let speeds = [0.0, touch.t_s].map(|t| scene.operation.speed_ramp_rad_s2 * t);
-    let turned = speeds.map(|more| machine.nu(scene.operation.speed_rad_s + more).abs());
-    let turned = (turned[0].max(turned[1]) + machine.omega_c) * touch.t_s;
-    let change = CHANGE.min(LEAST_TURN / turned);
-    let by = acting(scene).map(|parameter| {
-        let by = sensitivities(scene, parameter, change, there);
-        (parameter.path, by.first().copied().flatten())
-    });
-    limit.sensitivities = Sensitivities(by.collect());
-    limit
-}
-
 /// Explains why no pulse touches.
-pub(super) fn why_none(scene: &CheckedScene) -> &'static str {
+pub(super) fn why_none(scene: &Scene) -> &'static str {
     let machine = scene.machine();
     let touches = |side| machine.apothem(side) < machine.out_of_round();
     if machine.clearance() <= 0.0 {

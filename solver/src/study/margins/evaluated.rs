@@ -1,0 +1,166 @@
+//! Evaluates every limit of a scene: closed forms of the model and of `harmonic`, and the search for
+//! the touching pulse.
+
+use std::cell::OnceCell;
+
+use strum::IntoEnumIterator;
+
+use super::limit::{LimitName, Quantity};
+use super::parameters::Parameter;
+use super::sensitivity::{CHANGE, sensitivities};
+use super::touching::{self, FirstTouch};
+use crate::harmonic::{
+    LockLoads, flutters, lobes_of, lock_loads, lock_windows, roundness, whirl_spans,
+};
+use crate::model::{LockWindow, Machine};
+use crate::scene::{ModelSize, Scene};
+
+/// Limits that need no contact. The others are of rigid contact, or of a lining that is not
+/// compressed at rest; a compressed one has other limits (`LiningState`).
+const OF_NO_CONTACT: [LimitName; 3] =
+    [LimitName::OmegaC, LimitName::Coincidence, LimitName::CoincidenceDifference];
+
+/// A scene at which limits are evaluated. What several limits need is computed once.
+pub(super) struct Evaluated<'a> {
+    pub scene: &'a Scene,
+    pub machine: Machine,
+    touch: OnceCell<Option<FirstTouch>>,
+    flutters: OnceCell<Vec<LockWindow>>,
+    locks: OnceCell<Vec<LockWindow>>,
+    loads: OnceCell<Option<LockLoads>>,
+}
+
+impl<'a> Evaluated<'a> {
+    pub fn of(scene: &'a Scene) -> Self {
+        Self {
+            scene,
+            machine: scene.machine(),
+            touch: OnceCell::new(),
+            flutters: OnceCell::new(),
+            locks: OnceCell::new(),
+            loads: OnceCell::new(),
+        }
+    }
+
+    /// Evaluates a scene that differs little from this one. Its touching pulse is that at the same
+    /// side and instant: there the gap has no rate, so a shift in time does not contribute.
+    fn beside<'b>(&self, scene: &'b Scene) -> Evaluated<'b> {
+        Evaluated { touch: self.touch.clone(), ..Evaluated::of(scene) }
+    }
+
+    fn toward(&self) -> f64 {
+        self.scene.operation.speed_rad_s
+    }
+
+    /// Returns the ranges of speeds in which the lock flutters on rigid contact.
+    pub fn flutters(&self) -> &[LockWindow] {
+        let of = || flutters(&self.machine, self.toward());
+        if self.machine.lining.is_some() { &[] } else { self.flutters.get_or_init(of) }
+    }
+
+    /// Returns the ranges of speeds in which a lock holds.
+    pub fn locks(&self) -> &[LockWindow] {
+        self.locks.get_or_init(|| lock_windows(&self.machine, self.toward()))
+    }
+
+    /// Returns one of the loads of the lock at the speed of the scene.
+    fn load(&self, of: fn(&LockLoads) -> f64) -> Vec<f64> {
+        let loads = self.loads.get_or_init(|| {
+            let machine = self.machine.clone();
+            // In the rigid model the contact forces do not bend the blades.
+            let is_rigid = self.scene.solver.model == ModelSize::Rigid;
+            let machine = if is_rigid { machine.with_stiff_blades() } else { machine };
+            lock_loads(&machine, self.toward())
+        });
+        loads.iter().map(of).collect()
+    }
+
+    /// Returns the values of a limit, speeds as magnitudes: none if the machine has no such limit,
+    /// several if it changes with speed, and one for each number of lobes of the casing.
+    pub fn values(&self, name: LimitName) -> Vec<f64> {
+        if self.scene.clearance() <= 0.0 && !OF_NO_CONTACT.contains(&name) {
+            return Vec::new();
+        }
+        let (machine, toward) = (&self.machine, self.toward());
+        let one = |value: Option<f64>| value.into_iter().collect::<Vec<f64>>();
+        let found = match name {
+            LimitName::OmegaC => one(machine.critical_speed()),
+            LimitName::OmegaAdhesive => one(machine.adhesive_speed()),
+            LimitName::OmegaLock => self.locks().iter().map(|window| window.from).collect(),
+            LimitName::LockEnds => self.locks().iter().filter_map(|window| window.to).collect(),
+            LimitName::Coincidence => one(machine.dangerous_speed()),
+            LimitName::CoincidenceDifference => machine.coincidence_differences(),
+            LimitName::WhirlOnset => {
+                whirl_spans(machine, toward).iter().map(|span| span.from).collect()
+            }
+            LimitName::FlutterSpeed => self.flutters().iter().map(|range| range.from).collect(),
+            LimitName::FirstTouch => one(machine.touching_speed()),
+            LimitName::TouchingPulse => {
+                let touch = self.touch.get_or_init(|| touching::smallest(self.scene));
+                one(touch.map(|touch| touch.force_in(self.scene)))
+            }
+            LimitName::PushA => self.load(|loads| loads.pushes_n[0]),
+            LimitName::PushB => self.load(|loads| loads.pushes_n[1]),
+            LimitName::Torque => self.load(|loads| loads.torque_nm),
+            LimitName::Power => self.load(|loads| loads.power_w),
+            LimitName::Roundness => lobes_of(self.scene.operation.nodal_diameters)
+                .map_while(|lobes| roundness(machine, toward, lobes))
+                .collect(),
+        };
+        found.into_iter().filter(|value| value.is_finite()).collect()
+    }
+
+    /// Returns the values of every limit, or of those that are speeds.
+    pub fn all(&self, speeds: bool) -> Vec<(LimitName, Vec<f64>)> {
+        let names = LimitName::iter().filter(|name| !speeds || name.quantity() == Quantity::Speed);
+        names.map(|name| (name, self.values(name))).collect()
+    }
+
+    /// Returns the sensitivities of all these values to one parameter, in one list.
+    pub fn sensitivities(&self, all: &[(LimitName, Vec<f64>)], by: &Parameter) -> Vec<Option<f64>> {
+        let touch = self.touch.get().copied().flatten();
+        let change = touch.map_or(CHANGE, |touch| touch.change(self.scene));
+        sensitivities(self.scene, by, change, |changed| {
+            let there = self.beside(changed);
+            let mut values = Vec::new();
+            for (name, here) in all.iter().filter(|(_, here)| !here.is_empty()) {
+                let found = there.values(*name).into_iter().chain(std::iter::repeat(f64::NAN));
+                values.extend(found.take(here.len()));
+            }
+            values
+        })
+    }
+}
+
+/// Returns the limits of a scene that are speeds, with their sensitivities to one parameter.
+pub(in crate::study) fn speeds(
+    scene: &Scene,
+    by: Option<&Parameter>,
+) -> Vec<(LimitName, f64, Option<f64>)> {
+    let here = Evaluated::of(scene);
+    let all = here.all(true);
+    let by = by.map_or(Vec::new(), |by| here.sensitivities(&all, by)).into_iter();
+    let values = all.iter().flat_map(|(name, values)| values.iter().map(|value| (*name, *value)));
+    values
+        .zip(by.chain(std::iter::repeat(None)))
+        .map(|((name, value), by)| (name, value, by))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tips_that_just_touch_at_rest_have_no_limit_of_a_contact() {
+        let known = |clearance: f64| {
+            let mut scene = Scene::builtin("soft-lining").unwrap();
+            scene.bladed_disk.radial_coupling = 0.3;
+            scene.bladed_disk.blade_length_m = scene.casing.radius_m - clearance;
+            let found = speeds(&scene, None).into_iter().map(|(name, ..)| name);
+            found.filter(|name| !OF_NO_CONTACT.contains(name)).count()
+        };
+        assert!(known(1e-4) > 0);
+        assert_eq!([known(0.0), known(-1e-5)], [0, 0]);
+    }
+}

@@ -1,0 +1,215 @@
+//! The limits of a scene as they are listed: with the position of the scene, the sensitivities, and
+//! a note on what a closed form neglects or why there is no value.
+
+use super::evaluated::Evaluated;
+use super::limit::{Limit, LimitName, Quantity, Sensitivities};
+use super::parameters::acting;
+use super::touching;
+use crate::harmonic::{lobes_of, lock_growth};
+use crate::model::LockWindow;
+use crate::numeric::rounding::rounded;
+use crate::scene::{ModelSize, Scene};
+
+/// Limits that few machines have; a limit of these is listed only if it exists.
+const SELDOM: [LimitName; 5] = [
+    LimitName::LockEnds,
+    LimitName::WhirlOnset,
+    LimitName::FlutterSpeed,
+    LimitName::FirstTouch,
+    LimitName::Roundness,
+];
+
+/// Returns the limits of a scene in the order in which they are shown, with their sensitivities.
+pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
+    let here = Evaluated::of(scene);
+    let all = here.all(false);
+    let by: Vec<_> = acting(scene).map(|by| (by.path, here.sensitivities(&all, by))).collect();
+    let operation = &scene.operation;
+    let mut limits = Vec::new();
+    let mut place = 0;
+    for (name, values) in all {
+        let present = match name.quantity() {
+            Quantity::Speed => Some(operation.speed_rad_s.abs()),
+            Quantity::Pulse => Some(operation.pulse_n),
+            Quantity::Height => Some(scene.casing.out_of_round_m),
+            Quantity::Push | Quantity::Torque | Quantity::Power => None,
+        };
+        if values.is_empty() && !SELDOM.contains(&name) {
+            let note = Some(why_none(&here, name));
+            limits.push(Limit { note, ..Limit::new(name, None, present) });
+        }
+        let lobes = lobes_of(operation.nodal_diameters).filter(|_| name == LimitName::Roundness);
+        let mut lobes = lobes.map(Some).chain(std::iter::repeat(None));
+        for value in values {
+            let of_value = by.iter().map(|(path, by)| (*path, by.get(place).copied().flatten()));
+            limits.push(Limit {
+                lobes: lobes.next().flatten(),
+                sensitivities: Sensitivities(of_value.collect()),
+                note: note(&here, name, value),
+                ..Limit::new(name, Some(value), present)
+            });
+            place += 1;
+        }
+    }
+    limits
+}
+
+/// Returns what a closed form neglects, if that matters for this scene.
+fn note(here: &Evaluated<'_>, name: LimitName, value: f64) -> Option<String> {
+    let (scene, machine) = (here.scene, &here.machine);
+    let of_speeds =
+        [LimitName::OmegaLock, LimitName::LockEnds, LimitName::OmegaAdhesive].contains(&name);
+    let of_lock = of_speeds || name.quantity().path().is_none();
+    if of_lock && scene.operation.speed_ramp_rad_s2 != 0.0 {
+        return Some("at a constant speed; a ramp adds a force along the blades".to_string());
+    }
+    if of_speeds && scene.lining().is_some() {
+        let smoothed = scene.contact.smoothing_m > 0.0;
+        let without = if smoothed { ", without its smoothing" } else { "" };
+        return Some(format!("of two groups on the lining{without}"));
+    }
+    if name == LimitName::LockEnds && machine.closing_speed() == Some(value) {
+        return Some("there the clearance is lost".to_string());
+    }
+    let speed = scene.operation.speed_rad_s;
+    if name.quantity().path().is_none() {
+        let bends = scene.solver.model != ModelSize::Rigid;
+        let growth = lock_growth(machine, speed).filter(|_| bends)?;
+        return Some(format!(
+            "of a lock that does not last: it grows by {} 1/s",
+            rounded(growth, 3)
+        ));
+    }
+    let fluttering = here.flutters();
+    let begins = fluttering.iter().find(|flutter| flutter.from == value);
+    if name == LimitName::FlutterSpeed {
+        let ends = begins?.to.map(|to| format!("up to {} rad/s", rounded(to, 6)));
+        return match ends {
+            Some(ends) if value == 0.0 => Some(format!("from rest on, {ends}")),
+            None if value == 0.0 => Some("at every speed".to_string()),
+            ends => ends,
+        };
+    }
+    if name == LimitName::LockEnds && begins.is_some() {
+        return Some("there the lock begins to flutter".to_string());
+    }
+    if name == LimitName::OmegaLock && fluttering.iter().any(|flutter| flutter.to == Some(value)) {
+        return Some("below it the lock flutters".to_string());
+    }
+    // The adhesive limit is that of rigid blades; flexible ones have another if their lock has.
+    let rigid = name == LimitName::OmegaAdhesive && !machine.is_uneven() && fluttering.is_empty();
+    let locks = |windows: &[LockWindow]| windows.first().map(|window| window.from);
+    (rigid && locks(&machine.lock_windows(speed)) != locks(here.locks()))
+        .then(|| "for rigid blades; these bend so much that it is another".to_string())
+}
+
+/// Explains why a machine does not have a limit.
+fn why_none(here: &Evaluated<'_>, name: LimitName) -> String {
+    let (scene, machine) = (here.scene, &here.machine);
+    let of_speeds = name.quantity().path().is_some();
+    let (polygon, diameters) = (&machine.polygon, scene.operation.nodal_diameters);
+    if name == LimitName::TouchingPulse {
+        touching::why_none(scene).to_string()
+    } else if diameters == 0 {
+        "no wave turns without nodal diameters".to_string()
+    } else if name == LimitName::Coincidence {
+        format!("B = {} >= n_d^2: blades stiffen faster than the wave turns", machine.stiffening())
+    } else if name == LimitName::CoincidenceDifference {
+        "blades stay faster than the casing".to_string()
+    } else if !polygon.has_corners() {
+        format!("{diameters} nodal diameters make no corner of blades")
+    } else {
+        let toward = scene.operation.speed_rad_s;
+        let pushed = machine.clone().with_lining(None).lock_windows(toward);
+        let hard = pushed.first();
+        match (machine.lining, name) {
+            _ if scene.clearance() <= 0.0 => "all blades rub at rest: nothing locks",
+            _ if !of_speeds && machine.clearance() <= 0.0 => {
+                "all blades rub at this speed: nothing locks"
+            }
+            _ if machine.closing_speed().is_some() && hard.is_none() => {
+                "the clearance is lost before blades lock"
+            }
+            (Some(_), LimitName::OmegaAdhesive) => "a lining does not pull",
+            (Some(_), _) if of_speeds && hard.is_some() => {
+                "the lining is too soft: two groups hold a lock on it at no speed"
+            }
+            (Some(_), _) if hard.is_some() => {
+                "two groups alone hold no stable lock on the lining at this speed; others \
+                 may: its steady states"
+            }
+            _ if machine.is_uneven() => {
+                "not known of these tips and this shape of the casing: runs have it"
+            }
+            (None, LimitName::OmegaAdhesive) if machine.friction != 0.0 => {
+                "tips that rub cannot pull"
+            }
+            (None, LimitName::OmegaLock)
+                if hard.is_some() && machine.coupling_product_at(toward) != 0.0 =>
+            {
+                "a lock flutters at every speed at which both blades push"
+            }
+            _ if machine.tips_incline_or_rub() => {
+                "friction or the slope of the tips leaves no lock here"
+            }
+            _ => "the blades are so soft that no lock is left at this speed",
+        }
+        .to_string()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn limits_of(stiffness: f64, smoothing: f64) -> Vec<Limit> {
+        let mut scene = Scene::builtin("soft-lining").unwrap();
+        scene.contact.stiffness_n_per_m = stiffness;
+        scene.contact.smoothing_m = smoothing;
+        limits(&scene)
+    }
+
+    #[test]
+    fn only_the_speeds_of_a_lining_with_smoothing_say_that_they_leave_it_out() {
+        for smoothing in [0.0, 1e-6] {
+            let limits = limits_of(1e9, smoothing);
+            let noted = limits.iter().filter(|limit| {
+                limit.note.as_ref().is_some_and(|note| note.contains("without its smoothing"))
+            });
+            let noted: Vec<LimitName> = noted.map(|limit| limit.name).collect();
+            let speeds = [LimitName::OmegaLock, LimitName::LockEnds];
+            assert_eq!(noted, if smoothing > 0.0 { &speeds[..] } else { &[] }, "{smoothing}");
+        }
+    }
+
+    #[test]
+    fn the_lock_speed_of_blades_that_bend_much_is_their_own() {
+        let speeds = |stiffness: f64| {
+            let mut scene = Scene::base();
+            scene.bladed_disk.stiffness_nm_per_rad = stiffness;
+            scene.bladed_disk.coupling_nm_per_rad = 0.0;
+            let limits = limits(&scene);
+            let limit = |name| limits.iter().find(|limit| limit.name == name).unwrap();
+            let rigid = scene.machine().lock_speed().unwrap();
+            let noted = limit(LimitName::OmegaAdhesive).note.is_some();
+            (limit(LimitName::OmegaLock).value.unwrap() / rigid - 1.0, noted)
+        };
+        assert_eq!([speeds(15e3), speeds(500.0)], [(0.0, false); 2]);
+        let (apart, noted) = speeds(0.02);
+        assert!(apart.abs() > 1e-3 && noted, "{apart}");
+    }
+
+    #[test]
+    fn what_a_soft_lining_does_not_hold_has_its_own_reason() {
+        let limits = limits_of(1e8, 1e-6);
+        for (name, reason) in [
+            (LimitName::OmegaLock, "at no speed"),
+            (LimitName::OmegaAdhesive, "does not pull"),
+            (LimitName::PushA, "at this speed"),
+        ] {
+            let limit = limits.iter().find(|limit| limit.name == name).unwrap();
+            let note = limit.note.as_ref().unwrap();
+            assert!(limit.value.is_none() && note.contains(reason), "{name}: {note}");
+        }
+    }
+}
