@@ -19,9 +19,9 @@ use crate::tolerances::LARGEST_BLADE_ANGLE;
 /// degree, so that a central difference is exact to round-off.
 const DIFFERENCE: f64 = 1e-2;
 
-/// Steps of Newton's method to the equilibrium. Without slope and friction the blades move it by a
-/// part of 1e-6 and less.
-const NEWTON_STEPS: u32 = 4;
+/// Steps of Newton's method to the equilibrium. Soft blades need them: the differences leave a
+/// thousandth of each error.
+const NEWTON_STEPS: u32 = 8;
 
 /// Part of a room that a deviation may use where the motion is linearised.
 const LINEARISED: f64 = 0.5;
@@ -30,7 +30,7 @@ const LINEARISED: f64 = 0.5;
 #[derive(Clone, Debug)]
 pub(super) struct Rest {
     /// Equilibrium.
-    point: Point,
+    pub point: Point,
     /// Matrix `Q`, in states of `units`.
     bound: DMatrix<f64>,
     /// For each contact force, each open gap and the blade angle: the distance of its value at

@@ -239,8 +239,10 @@ impl Stretch {
         }
     }
 
-    /// Makes the motion constant for ever, after its changes have fallen to round-off.
-    pub(super) fn come_to_rest(&mut self) {
+    /// Makes the motion constant for ever at its equilibrium, after its changes have fallen to
+    /// round-off.
+    pub(super) fn come_to_rest(&mut self, point: Point) {
+        self.from = point;
         let hold = |terms: &mut Terms| terms.iter_mut().skip(1).for_each(|term| *term = 0.0);
         self.z.iter_mut().chain(&mut self.a).chain(&mut self.pushes).for_each(hold);
         self.length = f64::INFINITY;

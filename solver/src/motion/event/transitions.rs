@@ -90,7 +90,8 @@ impl Events {
         let swings = self.stretch.swing > ROUNDINGS * angle;
         let rests = !pulses && self.opened.is_empty();
         if rests && !swings && self.stretch.travel[0] <= still && self.held_for_good(0.0) {
-            self.stretch.come_to_rest();
+            let rest = self.rest.get().and_then(Option::as_ref);
+            self.stretch.come_to_rest(rest.map_or(point, |rest| rest.point));
             self.next = (f64::INFINITY, Ending::StretchEnd);
             return;
         }
