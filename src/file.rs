@@ -8,7 +8,7 @@ use std::io::{BufWriter, Error, ErrorKind, Result, Write};
 use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 
-pub use rubscope_solver::scene::read_text;
+pub use rubscope_solver::scene::{read_bytes, read_text};
 use tempfile::NamedTempFile;
 
 /// Outcome of writing a file.

@@ -10,9 +10,8 @@ use clap::Args;
 use super::Done;
 use super::status::{Refusal, Status, note, say, say_noted};
 use crate::file;
-use crate::machine::{Family, ModalData, read_modes};
+use crate::machine::{Family, ModalData, doubts, read_modes};
 use crate::report::check::write_doubts;
-use crate::report::doubts::doubts;
 use crate::report::number::{rounded, tell_in_rpm, with_typed_unit};
 use crate::report::survey as report;
 use rubscope_solver::scene::{Quantity, Scene, SceneError, keys};
@@ -227,9 +226,9 @@ const USUAL_DAMPING: &str = "0.01";
 /// noted for standard error.
 fn table(path: &Path) -> anyhow::Result<[Vec<Family>; 2]> {
     let shown = path.display();
-    let text = file::read_text(path, LARGEST_TABLE)
+    let bytes = file::read_bytes(path, LARGEST_TABLE)
         .map_err(|error| Refusal::because(format!("cannot read {shown}: {error}")))?;
-    let table = read_modes(&text);
+    let table = read_modes(&bytes);
     let table = table.map_err(|error| Refusal::because(format!("{shown}: {error}")))?;
     table.notes.iter().for_each(|said| note(format!("rubscope: {shown}: {said}")));
     Ok(table.modes)

@@ -1,85 +1,105 @@
-//! Reads the modes of a modal analysis from a table saved by a spreadsheet. Handles column names
-//! with units, several separators, decimal commas, and frequencies given at two speeds.
+//! Reads the modes of a modal analysis from a table saved by a spreadsheet or an FE program: column
+//! names with units, several separators and encodings, decimal commas, frequencies at several
+//! speeds, and both modes of a pair.
+
+use std::f64::consts::TAU;
 
 use csv::StringRecord;
-use rubscope_solver::scene::units::UnitError;
 use rubscope_solver::scene::{Quantity, SceneError, frequency_at_rest, hertz_of, keys};
 
 use super::build::{Family, digits};
+use super::cells::{Cells, cells};
+use super::columns::{Columns, DAMPING, MODE, SPEED, STIFFENING, STRUCTURE, is_head};
+use super::error::TableError;
+use super::marks::{Number, decimal_mark};
+use rubscope_solver::numeric::rounding::rounded;
 
 /// Modes read from a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModeTable {
     /// Modes of the casing and of the disk.
     pub modes: [Vec<Family>; 2],
-    /// Messages about columns and cells that were not used.
+    /// Messages about lines, columns and cells that were not used.
     pub notes: Vec<String>,
 }
 
 /// A mode with its measured frequencies, each with its rotor speed \[Hz, rad/s\].
 type Measured = (Family, Vec<(f64, f64)>);
 
-/// A column: name, unit and index.
-type Column = (&'static str, String, usize);
+/// Largest difference between frequencies and masses of the two modes of a pair, as a part. FE
+/// meshes split them by less; modes of other families differ by more.
+const PAIR: f64 = 1e-3;
 
-/// Reads the modes of a table: a header line, then a line for each mode.
+/// Reads the modes of a table: a line of names, then a line for each mode.
 ///
 /// The columns are `structure` (casing or disk), `nodal_diameters`, `frequency_hz`, `modal_mass_kg`
 /// and, optionally, `damping_ratio`. Lines of the disk may also have the rotor `speed` at which the
-/// frequency was determined, and `centrifugal_stiffening`. Two lines with the same nodal diameters
-/// at two speeds are one mode, with the mass and damping of the first.
+/// frequency was determined, and `centrifugal_stiffening`. Lines with the same nodal diameters at
+/// several speeds are one mode, with the mass and damping of the first; more than two frequencies
+/// are fitted. Two lines with the same nodal diameters, speed, frequency and mass are the two modes
+/// of a pair, and one mode here.
 ///
 /// A unit in a column name, as in `Frequency [kHz]`, `Damping (%)` or `speed_rpm`, applies to its
-/// bare numbers. Cells are separated by commas, or by semicolons or tabs; with the latter, numbers
-/// may have a decimal comma. Empty lines and lines that begin with `#` are skipped. Other columns
-/// are ignored and listed in the notes.
+/// bare numbers; a line of units below the names does too. Cells are separated by semicolons, tabs,
+/// bars or commas. Empty lines and lines that begin with `#` are skipped. Other columns, and lines
+/// before that of the names, are ignored and listed in the notes.
 ///
 /// # Errors
-/// A column is missing, or a value is not allowed; the message gives line and column.
-pub fn read_modes(text: &str) -> Result<ModeTable, SceneError> {
-    let text = text.trim_start_matches('\u{feff}').replace("\r\n", "\n").replace('\r', "\n");
-    let head = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#'));
-    let between = |c: &u8| head.unwrap_or_default().as_bytes().contains(c);
-    let delimiter = [b';', b'\t'].into_iter().find(between).unwrap_or(b',');
-    let mut reader = csv::ReaderBuilder::new();
-    reader.delimiter(delimiter).comment(Some(b'#')).flexible(true).trim(csv::Trim::All);
-    let mut reader = reader.has_headers(false).from_reader(text.as_bytes());
-    // Reading text that is already in memory cannot fail, since any number of cells is accepted.
-    let records = reader.records().flatten();
-    let mut records = records.filter(|record| !record.iter().all(str::is_empty));
-    let names = records.next().unwrap_or_default();
-    let (columns, unused) = columns(&names)?;
+/// A column is missing, a value is not allowed, or a number can be read in two ways; the message
+/// gives line and column.
+pub fn read_modes(bytes: &[u8]) -> Result<ModeTable, TableError> {
+    let Cells { mut records, separator } = cells(bytes)?;
     let mut notes = Vec::new();
-    if !unused.is_empty() {
-        notes.push(format!("columns not used: {}", unused.join(", ")));
+    let start = records.iter().position(|(_, record)| is_head(record)).unwrap_or(0);
+    let before: Vec<String> = records.drain(..start).map(|(line, _)| line.to_string()).collect();
+    if !before.is_empty() {
+        notes.push(format!(
+            "lines not used, before the names of the columns: {}",
+            before.join(", ")
+        ));
     }
+    let mut records = records.into_iter().peekable();
+    let (line, mut names) = records.next().unwrap_or_default();
+    let line =
+        if before.is_empty() { "the first line".to_string() } else { format!("line {line}") };
+    if let Some((_, units)) = records.next_if(|(_, record)| is_of_units(record)) {
+        let named = names.iter().zip(&units).map(|(name, unit)| match unit {
+            "" => name.to_string(),
+            unit => format!("{name} [{}]", unit.trim_matches(['[', ']', '(', ')'])),
+        });
+        names = named.collect();
+    }
+    let columns = Columns::of(&names, &line)?;
+    if !columns.unused.is_empty() {
+        notes.push(format!("columns not used: {}", columns.unused.join(", ")));
+    }
+    let records: Vec<_> = records.collect();
+    let mark = decimal_mark(&numbers(&records, &columns), separator == b',')?;
     let mut found: [Vec<Measured>; 2] = Default::default();
-    for record in records {
-        // The reader reports the position before any skipped lines.
-        let (line, start) = record.position().map_or((0, 0), |at| (at.line(), at.byte()));
-        let before = text.get(start as usize..).unwrap_or_default().lines();
-        let is_left_out = |line: &&str| line.is_empty() || line.starts_with('#');
-        let line = line + before.take_while(is_left_out).count() as u64;
-        if record.len() != names.len() {
+    let mut pairs: [Vec<String>; 2] = Default::default();
+    for (line, record) in &records {
+        if record.iter().skip(names.len()).any(|cell| !cell.is_empty())
+            || record.len() < names.len()
+        {
             let allowed = format!("as many as names in the first line, {}", names.len());
             let given = format!("{} cells", record.len());
-            return Err(SceneError::refused(format!("line {line}"), given, allowed));
+            return Err(SceneError::refused(format!("line {line}"), given, allowed).into());
         }
         let given = |name: &str| {
-            let (_, unit, at) = columns.iter().find(|(known, ..)| *known == name)?;
-            let cell = record.get(*at).filter(|cell| !matches!(*cell, "" | "-"))?;
-            let is_decimal = delimiter != b',' && !cell.contains('.');
-            let cell = if is_decimal { cell.replacen(',', ".", 1) } else { cell.to_string() };
+            let (cell, unit) = columns.cell(record, name)?;
+            let has_comma = name == MODE[0] || (name != STRUCTURE && mark == ',');
+            let cell = if has_comma { cell.replacen(',', ".", 1) } else { cell.to_string() };
+            // The two modes of a pair have nodal diameters of both signs.
+            let cell = if name == MODE[0] { cell.trim_start_matches(SIGNS).into() } else { cell };
             let is_bare = !unit.is_empty() && Quantity::bare(&cell).is_some();
             Some(if is_bare { format!("{cell} {unit}") } else { cell })
         };
-        let path = |name: &str| format!("line {line}, {name}");
-        let structure = given(STRUCTURE).unwrap_or_default().to_lowercase();
-        let structure = match structure.as_str() {
-            "casing" => 0,
-            "disk" | "bladed disk" => 1,
-            other => return Err(SceneError::refused(path(STRUCTURE), other, "casing or disk")),
-        };
+        let path = |name: &str| path(*line, name);
+        let structure = given(STRUCTURE).unwrap_or_default();
+        let structure = structure_of(&structure).ok_or_else(|| {
+            let allowed = format!("{} or {}", STRUCTURES[0].join(", "), STRUCTURES[1].join(", "));
+            SceneError::refused(path(STRUCTURE), structure, allowed)
+        })?;
         let mode = Family::read(&given, &path)?;
         let speed =
             given(SPEED).filter(|_| structure == 1).map(|text| match Quantity::bare(&text) {
@@ -90,36 +110,115 @@ pub fn read_modes(text: &str) -> Result<ModeTable, SceneError> {
                 _ => keys::find(keys::SPEED)?.number(&path(SPEED), &text),
             });
         let speed = speed.transpose()?.map(|speed| (mode.frequency_hz, speed));
-        notes.extend(add(&mut found[structure], mode, speed, &path)?);
+        match add(&mut found[structure], &mode, speed, &path)? {
+            Added::Mode(unused) => notes.extend(unused),
+            Added::SecondOfPair => pairs[structure].push(format!("line {line}")),
+        }
+    }
+    for (structure, lines) in
+        ["casing", "disk"].iter().zip(&pairs).filter(|(_, lines)| !lines.is_empty())
+    {
+        notes.push(format!(
+            "second modes of pairs of the {structure}, the same as the first ones and not used: {}",
+            lines.join(", ")
+        ));
     }
     for (mode, speeds) in found[1].iter_mut().filter(|(_, speeds)| !speeds.is_empty()) {
         let name = format!("disk, {} nodal diameters, frequency_hz", mode.nodal_diameters);
         let (rest, stiffening) = frequency_at_rest(&name, speeds, mode.stiffening)?;
+        notes.extend(fit_note(&name, speeds, rest, stiffening.unwrap_or(0.0)));
         (mode.frequency_hz, mode.stiffening) = (digits(rest), stiffening.map(digits));
     }
     let modes = found.map(|modes| modes.into_iter().map(|(mode, _)| mode).collect());
     Ok(ModeTable { modes, notes })
 }
 
-/// Adds a mode, or the second speed of a known one. Returns a note for each value of the second
-/// line that is not used.
+/// Signs of a harmonic index.
+const SIGNS: [char; 4] = ['+', '-', '\u{2212}', '±'];
+
+/// Words for the casing and for the disk.
+const STRUCTURES: [&[&str]; 2] = [
+    &["casing", "housing", "stator"],
+    &["disk", "disc", "bladed disk", "bladed disc", "blisk", "rotor"],
+];
+
+/// Returns 0 for a word for the casing, 1 for one for the disk.
+fn structure_of(cell: &str) -> Option<usize> {
+    let word = cell.to_lowercase().replace(['_', '-'], " ");
+    STRUCTURES.iter().position(|words| words.contains(&word.as_str()))
+}
+
+fn path(line: u64, name: &str) -> String {
+    format!("line {line}, {name}")
+}
+
+/// Returns whether a record has the units of the columns: it has no digit but in `1/min`, no
+/// structure, and a unit of a frequency or a mass.
+fn is_of_units(record: &StringRecord) -> bool {
+    let is_unit = |cell: &str| {
+        let cell = cell.trim_matches(['[', ']', '(', ')']);
+        [Quantity::Speed, Quantity::Mass].iter().any(|of| of.read(&format!("1 {cell}")).is_ok())
+            && Quantity::bare(&format!("1 {cell}")).is_none()
+    };
+    let is_number = |cell: &str| cell.starts_with(|c: char| c.is_ascii_digit()) && !is_unit(cell);
+    record.iter().any(is_unit)
+        && !record.iter().any(|cell| is_number(cell) || structure_of(cell).is_some())
+}
+
+/// Returns the numbers of a table but for nodal diameters, which are whole by either mark.
+fn numbers(records: &[(u64, StringRecord)], columns: &Columns) -> Vec<Number> {
+    let names = MODE[1..].iter().chain(&[DAMPING, SPEED, STIFFENING]);
+    let of_record = |(line, record): &(u64, StringRecord)| {
+        let number = |name: &&str| {
+            let (cell, _) = columns.cell(record, name)?;
+            Some(Number { path: path(*line, name), cell: cell.to_string() })
+        };
+        names.clone().filter_map(number).collect::<Vec<_>>()
+    };
+    records.iter().flat_map(of_record).collect()
+}
+
+/// What a line adds to the modes.
+enum Added {
+    /// A mode or one more speed of a known one, with a note for each value that is not used.
+    Mode(Vec<String>),
+    /// Nothing: the second mode of a pair.
+    SecondOfPair,
+}
+
+/// Adds a mode, or one more speed of a known one.
 ///
 /// # Errors
-/// The mode already has all its lines.
+/// The mode already has a line at this speed, with another frequency or mass.
 fn add(
     modes: &mut Vec<Measured>,
-    mode: Family,
+    mode: &Family,
     speed: Option<(f64, f64)>,
     path: &dyn Fn(&str) -> String,
-) -> Result<Vec<String>, SceneError> {
+) -> Result<Added, SceneError> {
     let same = |(known, _): &&mut Measured| known.nodal_diameters == mode.nodal_diameters;
     let Some((known, speeds)) = modes.iter_mut().find(same) else {
-        modes.push((mode, speed.into_iter().collect()));
-        return Ok(Vec::new());
+        modes.push((*mode, speed.into_iter().collect()));
+        return Ok(Added::Mode(Vec::new()));
     };
-    let Some(speed) = speed.filter(|_| speeds.len() == 1) else {
+    let at_speed = match speed {
+        None if speeds.is_empty() => Some(known.frequency_hz),
+        None => None,
+        Some((_, speed)) => speeds.iter().find(|(_, at)| *at == speed).map(|(hertz, _)| *hertz),
+    };
+    let near = |a: f64, b: f64| (a / b - 1.0).abs() <= PAIR;
+    let is_near =
+        |hertz| near(hertz, mode.frequency_hz) && near(known.modal_mass_kg, mode.modal_mass_kg);
+    if at_speed.is_some_and(is_near) {
+        return Ok(Added::SecondOfPair);
+    }
+    let Some(speed) = speed.filter(|_| at_speed.is_none() && !speeds.is_empty()) else {
         let given = format!("{} twice", mode.nodal_diameters);
-        let allowed = "one mode for each number of diameters, of the disk also at two Speed [rpm]";
+        let allowed = format!(
+            "one mode for each number of diameters, or a pair whose frequencies and masses differ \
+             by {} % at most; of the disk also at several Speed [rpm]",
+            100.0 * PAIR
+        );
         return Err(SceneError::refused(path(MODE[0]), given, allowed));
     };
     speeds.push(speed);
@@ -134,92 +233,28 @@ fn add(
         let path = path(name);
         Some(format!("{path} = {second} is not used: the line before of this mode has {first}"))
     });
-    Ok(unused.collect())
+    Ok(Added::Mode(unused.collect()))
 }
 
-/// Returns the known columns of the header, each with its unit and index, and the names of the
-/// other columns.
-///
-/// # Errors
-/// A required column is missing, a column occurs twice, or a unit is wrong.
-fn columns(names: &StringRecord) -> Result<(Vec<Column>, Vec<&str>), SceneError> {
-    let (mut columns, mut unused) = (Vec::new(), Vec::new());
-    for (at, written) in names.iter().enumerate() {
-        match column(written)? {
-            Some((name, unit)) => columns.push((name, unit, at)),
-            None => unused.extend((!written.is_empty()).then_some(written)),
-        }
-    }
-    for (place, (name, ..)) in COLUMNS.iter().enumerate() {
-        let count = columns.iter().filter(|(known, ..)| known == name).count();
-        if count > 1 || (count == 0 && place < NEEDED) {
-            let given = names.iter().collect::<Vec<_>>().join(",");
-            return Err(SceneError::refused("the first line", given, ALLOWED));
-        }
-    }
-    Ok((columns, unused))
-}
-
-/// Returns the known column that a header cell names, and its unit; `None` for other names.
-///
-/// # Errors
-/// The unit belongs to another quantity, or the brackets contain no known unit.
-fn column(written: &str) -> Result<Option<(&'static str, String)>, SceneError> {
-    let mut words = written.split_whitespace().collect::<Vec<_>>().join("_");
-    if words.eq_ignore_ascii_case("rpm") {
-        words.insert_str(0, "speed_");
-    }
-    let lower = words.to_ascii_lowercase().replace('-', "_");
-    let of = |(name, quantity, others): &(&'static str, Quantity, &[&str])| {
-        let rest = [name].into_iter().chain(*others).find_map(|name| lower.strip_prefix(name))?;
-        (!rest.starts_with(char::is_alphanumeric)).then_some((*name, *quantity, rest.len()))
+/// Returns a note on the fit of three frequencies or more \[Hz, rad/s\] by
+/// `f^2 = rest^2 + stiffening (Omega/2 pi)^2`; `None` for fewer, which it meets exactly.
+fn fit_note(name: &str, speeds: &[(f64, f64)], rest: f64, stiffening: f64) -> Option<String> {
+    let off = |(hertz, speed): &(f64, f64)| {
+        ((rest.powi(2) + stiffening * (speed / TAU).powi(2)).sqrt() / hertz - 1.0).abs()
     };
-    let Some((name, quantity, rest)) = COLUMNS.iter().find_map(of) else { return Ok(None) };
-    let rest = words.get(words.len() - rest..).unwrap_or_default();
-    let parts = rest.split(|c: char| "_/,:[](){}".contains(c));
-    let unit = parts.filter(|part| !matches!(*part, "" | "-" | "in")).collect::<Vec<_>>().join("/");
-    let has_unit = |name: &str| lower.starts_with(name) && !name.ends_with(&unit.to_lowercase());
-    if !unit.is_empty() && MODE[1..].iter().any(|name| has_unit(name)) {
-        return Ok(None);
-    }
-    let one = format!("1 {unit}");
-    let is_prefix = !unit.is_empty() && Quantity::bare(&one).is_some();
-    match quantity.read(&one) {
-        Ok(_) if !is_prefix => Ok(Some((name, unit))),
-        Err(why) if rest.contains(['[', '(']) || matches!(why, UnitError::Other { .. }) => {
-            let why = match why {
-                UnitError::NoNumber => UnitError::Unknown { unit, wanted: quantity },
-                why => why,
-            };
-            Err(SceneError::Unit { key: "the first line".into(), value: written.into(), why })
-        }
-        _ => Ok(None),
-    }
+    let most = speeds.iter().map(off).fold(0.0, f64::max);
+    (speeds.len() > 2).then(|| {
+        format!(
+            "{name}: fitted to {} speeds, at most {} % off",
+            speeds.len(),
+            rounded(100.0 * most, 2)
+        )
+    })
 }
-
-/// Column names, their quantity, and alternative names. The first [`NEEDED`] columns are required.
-const COLUMNS: [(&str, Quantity, &[&str]); 7] = [
-    (STRUCTURE, Quantity::Plain, &[]),
-    (MODE[0], Quantity::Plain, &["nodal_diameter"]),
-    (MODE[1], Quantity::Speed, &["frequency"]),
-    (MODE[2], Quantity::Mass, &["modal_mass", "mass"]),
-    (DAMPING, Quantity::Plain, &["damping"]),
-    (SPEED, Quantity::Speed, &["rotor_speed"]),
-    (STIFFENING, Quantity::Plain, &[]),
-];
-const NEEDED: usize = 4;
-const ALLOWED: &str = "structure, nodal_diameters, frequency_hz, modal_mass_kg and, if known, \
-                       damping_ratio, speed and centrifugal_stiffening, each once";
-const STRUCTURE: &str = "structure";
-const MODE: [&str; 3] = ["nodal_diameters", "frequency_hz", "modal_mass_kg"];
-const DAMPING: &str = "damping_ratio";
-const SPEED: &str = "speed";
-/// Optional column of the disk; also the name of the key in a scene file.
-pub(super) const STIFFENING: &str = "centrifugal_stiffening";
 
 impl Family {
     /// Reads a mode from texts looked up by column name, such as `frequency_hz`. `path` gives the
-    /// name that an error uses.
+    /// name that an error uses. Nodal diameters may be written as `2.0`.
     ///
     /// # Errors
     /// Names the first value that is not allowed.
@@ -230,8 +265,13 @@ impl Family {
         let text = |name| given(name).unwrap_or_default();
         let number = |name, key| keys::find(key)?.number(&path(name), &text(name));
         let known = |name, key| given(name).map(|_| number(name, key)).transpose();
+        let diameters = text(MODE[0]);
+        let is_zero = |decimals: &str| decimals.bytes().all(|digit| digit == b'0');
+        let whole = diameters.split_once('.').filter(|(_, decimals)| is_zero(decimals));
+        let whole = whole.map_or(diameters.as_str(), |(whole, _)| whole);
+        let diameters = keys::find(keys::DIAMETERS)?.number(&path(MODE[0]), whole)?;
         Ok(Self {
-            nodal_diameters: number(MODE[0], keys::DIAMETERS)? as u32,
+            nodal_diameters: diameters as u32,
             frequency_hz: hertz_of(&path(MODE[1]), &text(MODE[1]))?,
             modal_mass_kg: number(MODE[2], keys::CASING_MASS)?,
             damping_ratio: known(DAMPING, keys::CASING_DAMPING)?,
@@ -248,23 +288,29 @@ mod tests {
     fn tables_of_spreadsheets_are_read_or_refused_by_their_line() {
         let head = "structure,nodal_diameters,frequency_hz,modal_mass_kg";
         let table = format!("\u{feff}{head}\r\nCasing,4,310.7,3.1\r\ndisk,4,151.3,5.5\r\n");
-        let [casing, disk] = read_modes(&table).unwrap().modes;
+        let [casing, disk] = read_modes(table.as_bytes()).unwrap().modes;
         assert_eq!((casing[0].frequency_hz, disk[0].modal_mass_kg), (310.7, 5.5));
         for (table, refusal) in [
             (format!("{head}\ncasing,4,310,7,3,1"), "line 2 = 6 cells: allowed is as many as"),
             (format!("{head}\ncasing,4,310"), "line 2 = 3 cells"),
-            (head.replace("structure", "struct"), "the first line = struct,nodal_diameters"),
-            (format!("{head},structure"), "each once"),
-            (format!("{head}\nrotor,4,310.7,3.1"), "line 2, structure = rotor"),
+            (head.replace("structure", "struct"), "the first line has no column for structure"),
+            (
+                format!("{head},structure"),
+                "two columns for structure, structure and structure: leave",
+            ),
+            (
+                format!("{head}\nshaft,4,310.7,3.1"),
+                "line 2, structure = shaft: allowed is casing, h",
+            ),
         ] {
-            let error = read_modes(&table).unwrap_err().to_string();
+            let error = read_modes(table.as_bytes()).unwrap_err().to_string();
             assert!(error.contains(refusal), "{table}: {error}");
         }
     }
 
     #[test]
     fn tables_of_spreadsheets_have_semicolons_decimal_commas_and_names_with_units() {
-        let of = |table: &str| read_modes(table).unwrap().modes;
+        let of = |table: &str| read_modes(table.as_bytes()).unwrap().modes;
         let expected = of("structure,nodal_diameters,frequency_hz,modal_mass_kg,damping_ratio\n\
              casing,4,310.7,3.1,0.01\ndisk,4,151.3,5.5,\n");
         for (separator, comma) in [(";", ","), ("\t", ","), (";", "."), (",", ".")] {
@@ -273,13 +319,15 @@ mod tests {
                          Casing;4;310.7;3.1;0.01;\r\ndisk;4;151.3;5.5;;\"left; or right\"\r\n;;;;;\r\n";
             let table = table.replace('.', comma).replace("left;", "left").replace(';', separator);
             assert_eq!(of(&table), expected, "{table}");
-            assert_eq!(read_modes(&table).unwrap().notes, ["columns not used: Remark"]);
+            assert_eq!(read_modes(table.as_bytes()).unwrap().notes, ["columns not used: Remark"]);
         }
     }
 
     #[test]
     fn units_in_the_names_of_columns_are_heard() {
-        let of = |head: &str, row: &str| read_modes(&format!("{head}\ncasing,4,310,3,\n{row}\n"));
+        let of = |head: &str, row: &str| {
+            read_modes(format!("{head}\ncasing,4,310,3,\n{row}\n").as_bytes())
+        };
         let head = "structure,nodal diameter,frequency,mass [kg]";
         let ratio = |name: &str, cell: &str| {
             let row = format!("bladed disk,4,151,5,{cell}");
@@ -313,7 +361,7 @@ mod tests {
     fn the_unit_of_a_column_is_that_of_its_bare_cells() {
         let of = |names: &str, cells: &str| {
             let head = format!("structure;nodal diameters [-];{names}");
-            read_modes(&format!("{head}\ndisk;5;{cells}\n"))
+            read_modes(format!("{head}\ndisk;5;{cells}\n").as_bytes())
         };
         let (speed, stiffness) = ("Speed [rpm];Centrifugal stiffening", "9000;1,5");
         let names = format!("Frequency;Mass;Damping;{speed}");
@@ -321,11 +369,11 @@ mod tests {
         assert_eq!(expected.notes, [""; 0]);
         for (names, cells) in [
             ("frequency_hz;modal_mass_kg;damping_ratio", "310,7;3,1;0,012"),
-            ("Frequency, Hz;Mass in kg;Damping, %", "310.7;3.1;1.2"),
+            ("Frequency, Hz;Mass in kg;Damping, %", "310,7;3,1;1,2"),
             ("Frequency [kHz];Modal mass (g);Damping [%]", "0,3107;3100;1,2"),
             ("Frequency_khz;mass_t;damping_ratio_percent", "0,3107;0,0031;1,2"),
             ("Frequency (kHz);Mass [g];Damping%", "310,7 Hz;3,1kg;1,2"),
-            ("frequency_hz;Mass [g];Damping", "0,3107k;3.1k;0,012"),
+            ("frequency_hz;Mass [g];Damping", "0,3107k;3,1k;0,012"),
             ("Frequency [Hz];Mass (kg);Damping", "0,3107k;3,1;0,012"),
             ("Frequency {1/min};\"Modal\nmass [kg]\";Damping ratio [-]", "18642;3,1;0,012"),
         ] {
@@ -356,7 +404,7 @@ mod tests {
             assert_eq!(refused.to_string(), format!("the first line = {name}: {why}"));
         }
         for (names, cells, why) in [
-            ("frequency_hz_rad_s;mass", "140;3", "the first line = "),
+            ("frequency_hz_rad_s;mass", "140;3", "nearest found is frequency_hz_rad_s"),
             ("frequency [kHz];mass", "1.4k;3", "no unit k kHz; it takes rad/s, rpm or Hz"),
             ("frequency;mass;Speed", "310;3;9k", "a number with its unit, or Speed [rpm]"),
         ] {
@@ -372,10 +420,8 @@ mod tests {
             assert_eq!(read.notes, [format!("columns not used: {name}")]);
         }
         let twice = of("frequency;mass;Speed [rpm];Speed [Hz]", "310;3;;").unwrap_err();
-        assert!(
-            twice.to_string().contains("speed and centrifugal_stiffening, each once"),
-            "{twice}"
-        );
+        let twice = twice.to_string();
+        assert!(twice.contains("two columns for speed, Speed [rpm] and Speed [Hz]"), "{twice}");
     }
 
     #[test]
@@ -383,7 +429,7 @@ mod tests {
         let table = "structure,nodal_diameters,frequency_hz,modal_mass_kg,damping_ratio,speed_rpm,by\n\
                      disk,2,352,3.9,,0,me\ndisk,2,410,4.1,0.01,10000,\n\
                      disk,3,371,3.7,0.02,0,\ndisk,3,427,3.7,0.03,10000,you\n";
-        let read = read_modes(table).unwrap();
+        let read = read_modes(table.as_bytes()).unwrap();
         let mode =
             |place: usize| (read.modes[1][place].modal_mass_kg, read.modes[1][place].damping_ratio);
         assert_eq!([mode(0), mode(1)], [(3.9, Some(0.01)), (3.7, Some(0.02))]);
@@ -402,26 +448,27 @@ mod tests {
         let head = "structure,nodal_diameters,frequency_hz,modal_mass_kg,damping_ratio\n";
         let text =
             format!("# of the rig\n{head}casing, 3, 139.8, 2.0, 0.05\ndisk,3,45.6,9166 g,\n");
-        let [casing, disk] = read_modes(&text).unwrap().modes;
+        let [casing, disk] = read_modes(text.as_bytes()).unwrap().modes;
         assert_eq!((casing[0].frequency_hz, casing[0].damping_ratio), (139.8, Some(0.05)));
         assert_eq!((disk[0].modal_mass_kg, disk[0].damping_ratio), (9.166, None));
         for (rows, start) in [
-            ("casing,3,0,2,\n", "line 2, frequency_hz = 0: allowed is a frequency above 0"),
-            ("casing,3,9,2,\ncasing,3,9,2,\n", "line 3, nodal_diameters = 3 twice: allowed is one"),
+            ("casing,3,0,2,\n", "line 2, frequency_hz = 0 hz: allowed is a frequency above 0"),
+            (
+                "casing,3,9,2,\ncasing,3,9.1,2,\n",
+                "line 3, nodal_diameters = 3 twice: allowed is one",
+            ),
             ("casing,x,9,2,\n", "line 2, nodal_diameters = x: allowed is a whole number"),
             ("casing,3,9,2 kN,\n", "line 2, modal_mass_kg = 2 kN: this is a force; it takes kg"),
-            ("rotor,3,9,2,\n", "line 2, structure = rotor: allowed is casing or disk"),
+            ("shaft,3,9,2,\n", "line 2, structure = shaft: allowed is casing, "),
             ("\n# 1\n\ncasing,3,x,2,\n", "line 5, frequency_hz = x: allowed is a frequency"),
         ] {
             for end in ["\n", "\r\n", "\r"] {
                 let table = format!("{head}{rows}").replace('\n', end);
-                let message = read_modes(&table).unwrap_err().to_string();
+                let message = read_modes(table.as_bytes()).unwrap_err().to_string();
                 assert!(message.starts_with(start), "{end:?} {message}");
             }
         }
-        let message = read_modes("frequency_hz\n1\n").unwrap_err().to_string();
-        assert!(
-            message.starts_with("the first line = frequency_hz: allowed is structure, nodal_diam")
-        );
+        let message = read_modes(b"frequency_hz\n1\n").unwrap_err().to_string();
+        assert!(message.starts_with("the first line has no column for structure: "), "{message}");
     }
 }

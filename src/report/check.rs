@@ -4,12 +4,12 @@
 use std::f64::consts::TAU;
 use std::io::{Result, Write};
 
-use super::doubts::doubts;
 use super::line::{capital, wrapped};
 use super::margins::words;
 use super::number::{count, rounded, short, speed, with_unit};
 use super::survey;
 use super::table::WIDTH;
+use crate::machine::doubts;
 use rubscope_solver::scene::{CheckedScene, ModelSize};
 use rubscope_solver::study::margins::{LimitName, Margins, Quantity};
 use rubscope_solver::study::survey::Scattered;

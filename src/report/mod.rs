@@ -3,7 +3,6 @@
 
 pub mod check;
 pub mod command;
-pub mod doubts;
 pub mod figure;
 pub mod hbm;
 pub mod history;

@@ -74,6 +74,7 @@ mod signs_of_life;
 mod soak;
 mod stepwise;
 mod survey;
+mod tables;
 mod theory;
 mod tui_help;
 mod tui_hostile;

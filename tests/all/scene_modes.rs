@@ -184,7 +184,7 @@ fn bad_modes_and_units_are_refused_by_name() {
         (
             "[[bladed_disk.modes]]\nnodal_diameters = 3\nfrequency_hz = 100\nat_speed_rad_s = 900\n\
              centrifugal_stiffening = 2.0\n",
-            "bladed_disk.modes.frequency_hz = 100 Hz at 900 rad/s: allowed is two of them, the higher",
+            "bladed_disk.modes.frequency_hz = 100 Hz at 900 rad/s: allowed is two of them or more, the higher",
         ),
         (
             "[[bladed_disk.modes]]\nnodal_diameters = 3\nfrequency_hz = 100\nat_speed_rad_s = 9\n",
@@ -192,7 +192,7 @@ fn bad_modes_and_units_are_refused_by_name() {
         ),
         (
             "[[bladed_disk.modes]]\nnodal_diameters = 3\nat_speed_rad_s = 9\n",
-            "bladed_disk.modes.frequency_hz = 0 Hz at 9 rad/s: allowed is two of them, the higher",
+            "bladed_disk.modes.frequency_hz = 0 Hz at 9 rad/s: allowed is two of them or more, the higher",
         ),
         (
             "[[casing.modes]]\nnodal_diameters = 3\nfrequency_hz = 9\nat_speed_rad_s = 9\n",
@@ -302,4 +302,32 @@ fn where_a_mode_has_a_frequency_it_is_the_parameter_and_a_target_names_the_line_
     let mode = &scene.casing.modes[0];
     assert_eq!((mode.frequency_hz, mode.stiffness), (None, Some(1.5e6)));
     cli_support::text(&["margins", "paper-nd3", "--target", "omega_c=300", "--by", "clearance"]);
+}
+
+#[test]
+fn numbers_in_a_list_have_units_as_everywhere() {
+    let tips = |list: &str| {
+        let text = format!("[bladed_disk]\nblades = 4\ntips_m = [{list}]\n");
+        Scene::from_toml_unchecked(&text).map(|scene| scene.bladed_disk.tips_m)
+    };
+    let expected = vec![6e-6, 0.0, 1e-5, 0.0];
+    for list in [
+        "\"0.006 mm\", 0, 1e-5, 0.0",
+        "\"6 um\", \"0\", \"10 µm\", \"0 mm\"",
+        "\"6u\", 0, \"1e-5\", 0",
+    ] {
+        assert_eq!(tips(list).unwrap(), expected, "{list}");
+        let mut scene = Scene::base();
+        scene.set("bladed_disk.tips_m", &format!("[{list}]")).unwrap();
+        assert_eq!(scene.bladed_disk.tips_m, expected, "{list}");
+    }
+    for (list, refusal) in [
+        ("\"6 N\", 0", "bladed_disk.tips_m = 6 N: this is a force; it takes m"),
+        ("\"0,006 mm\"", "bladed_disk.tips_m = 0,006 mm: a number has a decimal point and no"),
+        ("\"long\"", "bladed_disk.tips_m = [\"long\"]: allowed is a list of up to"),
+        ("true", "bladed_disk.tips_m = [true]: allowed is a list of up to"),
+    ] {
+        let error = tips(list).unwrap_err().to_string();
+        assert!(error.starts_with(refusal), "{error}");
+    }
 }

@@ -8,6 +8,7 @@ use std::path::Path;
 use toml::{Table, Value as Toml};
 
 use super::builtin::unknown;
+use super::units::UnitError;
 use super::{Allowed, BUILTIN, Key, Scene, SceneError, Value, keys, modes};
 
 /// Largest accepted scene file \[bytes\]; the built-in ones have a few hundred.
@@ -120,8 +121,19 @@ impl Scene {
 /// Reads a text file of at most `most` bytes.
 ///
 /// # Errors
-/// The system reports an error, the file is larger, or its content is not UTF-8.
+/// As [`read_bytes`], or the content is not UTF-8.
 pub fn read_text(path: &Path, most: u64) -> std::io::Result<String> {
+    String::from_utf8(read_bytes(path, most)?).map_err(|error| {
+        let place = error.utf8_error().valid_up_to();
+        Error::new(ErrorKind::InvalidData, format!("byte {place} is not UTF-8 text"))
+    })
+}
+
+/// Reads a file of at most `most` bytes.
+///
+/// # Errors
+/// The system reports an error, or the file is larger.
+pub fn read_bytes(path: &Path, most: u64) -> std::io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     // Limits the memory that a device or a huge file can use.
     File::open(path)?.take(most + 1).read_to_end(&mut bytes)?;
@@ -129,11 +141,9 @@ pub fn read_text(path: &Path, most: u64) -> std::io::Result<String> {
         let reason = format!("allowed are up to {most} bytes");
         return Err(Error::new(ErrorKind::FileTooLarge, reason));
     }
-    String::from_utf8(bytes).map_err(|error| {
-        let place = error.utf8_error().valid_up_to();
-        Error::new(ErrorKind::InvalidData, format!("byte {place} is not UTF-8 text"))
-    })
+    Ok(bytes)
 }
+
 fn builtin_text(name: &str) -> Option<&'static str> {
     BUILTIN.iter().find(|scene| scene.name == name).map(|scene| scene.toml)
 }
@@ -162,6 +172,7 @@ fn check_schema(value: &Toml) -> Result<(), SceneError> {
 
 fn read(scene: &mut Scene, path: &str, toml: &Toml) -> Result<(), SceneError> {
     let key = keys::find(path)?;
+    let refused = || SceneError::refused(path, one_line(toml), key.allowed.to_string());
     let value = match (toml, key.allowed) {
         (Toml::Float(x), Allowed::Real { .. }) => Some(Value::Real(*x)),
         (Toml::Integer(n), Allowed::Real { .. }) => Some(Value::Real(*n as f64)),
@@ -174,11 +185,16 @@ fn read(scene: &mut Scene, path: &str, toml: &Toml) -> Result<(), SceneError> {
             Some(Value::Text(text.clone()))
         }
         (Toml::Array(_), Allowed::Modes(_)) => Some(Value::Text(toml.to_string())),
-        (Toml::Array(items), Allowed::Numbers { .. }) => items
-            .iter()
-            .map(|item| item.as_float().or(item.as_integer().map(|n| n as f64)))
-            .collect::<Option<_>>()
-            .map(Value::Numbers),
+        (Toml::Array(items), Allowed::Numbers { .. }) => {
+            let number = |item: &Toml| match item {
+                Toml::String(text) => key.quantity().read(text).map_err(|why| match why {
+                    UnitError::NoNumber => refused(),
+                    why => SceneError::Unit { key: path.into(), value: text.clone(), why },
+                }),
+                item => item.as_float().or(item.as_integer().map(|n| n as f64)).ok_or_else(refused),
+            };
+            Some(Value::Numbers(items.iter().map(number).collect::<Result<_, _>>()?))
+        }
         (Toml::Array(items), Allowed::SomeOf(_)) => items
             .iter()
             .map(|item| item.as_str().map(String::from))
@@ -186,9 +202,7 @@ fn read(scene: &mut Scene, path: &str, toml: &Toml) -> Result<(), SceneError> {
             .map(Value::Words),
         _ => None,
     };
-    let value =
-        value.ok_or_else(|| SceneError::refused(path, one_line(toml), key.allowed.to_string()))?;
-    scene.set_value(key, value)
+    scene.set_value(key, value.ok_or_else(refused)?)
 }
 
 /// Formats a value in one line.

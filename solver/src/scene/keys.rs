@@ -224,7 +224,8 @@ impl Key {
             Allowed::Numbers { .. } => {
                 let list = trimmed.trim_start_matches('[').trim_end_matches(']').trim();
                 let items = list.split(',').filter(|_| !list.is_empty());
-                Value::Numbers(items.map(|item| number(item.trim())).collect::<Result<_, _>>()?)
+                let item = |item: &str| number(item.trim().trim_matches('"'));
+                Value::Numbers(items.map(item).collect::<Result<_, _>>()?)
             }
             Allowed::Whole { .. } => Value::Whole(trimmed.parse().map_err(|_| refused())?),
             Allowed::OneOf(_) | Allowed::Modes(_) => Value::Text(trimmed.to_string()),

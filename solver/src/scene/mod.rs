@@ -24,7 +24,7 @@ pub use builtin::{BUILTIN, Builtin, DEFAULT};
 pub(crate) use check::STEP_ROUND_OFF;
 pub use checked::{Adjustment, CheckedScene};
 pub use error::SceneError;
-pub use file::read_text;
+pub use file::{read_bytes, read_text};
 pub use keys::{Allowed, KEYS, Key, Value};
 pub use law::ContactLaw;
 pub(crate) use modes::MOST_HZ;

@@ -209,8 +209,9 @@ impl Structure {
     }
 }
 
-/// Returns the frequency at rest and `B`, from frequencies at rotor speeds \[Hz, rad/s\]: two
-/// frequencies, one with a known `B`, or one at standstill.
+/// Returns the frequency at rest and `B`, from frequencies at rotor speeds \[Hz, rad/s\]: two or
+/// more frequencies, one with a known `B`, or one at standstill. More than two are fitted by least
+/// squares of `f^2` over `(Omega/2 pi)^2`.
 ///
 /// # Errors
 /// No `B` within its bounds yields these frequencies, or there are too few. The message refers to
@@ -220,16 +221,20 @@ pub fn frequency_at_rest(
     speeds: &[(f64, f64)],
     known: Option<f64>,
 ) -> Result<(f64, Option<f64>), SceneError> {
-    let square = |x: f64| x * x;
-    let (stiffening, (hertz, speed)) = match (speeds, known) {
-        ([one], known) if known.is_some() || one.1 == 0.0 => (known, *one),
-        ([one, other], None) => {
-            let rise = square(TAU * other.0) - square(TAU * one.0);
-            (Some(rise / (square(other.1) - square(one.1))), *one)
-        }
-        (speeds, _) => (Some(f64::NAN), speeds.first().copied().unwrap_or_default()),
+    let squares: Vec<_> = speeds.iter().map(|(f, speed)| (f * f, (speed / TAU).powi(2))).collect();
+    let mean = |of: &dyn Fn(&(f64, f64)) -> f64| {
+        squares.iter().map(of).sum::<f64>() / squares.len() as f64
     };
-    let rest = (square(hertz) - stiffening.unwrap_or(0.0) * square(speed / TAU)).sqrt();
+    let (f_mean, speed_mean) = (mean(&|(f, _)| *f), mean(&|(_, speed)| *speed));
+    let stiffening = match (speeds, known) {
+        ([one], known) if known.is_some() || one.1 == 0.0 => known,
+        ([_, _, ..], None) => Some(
+            mean(&|(f, speed)| (f - f_mean) * (speed - speed_mean))
+                / mean(&|(_, speed)| (speed - speed_mean).powi(2)),
+        ),
+        _ => Some(f64::NAN),
+    };
+    let rest = (f_mean - stiffening.unwrap_or(0.0) * speed_mean).sqrt();
     let key = keys::find(keys::STIFFENING)?;
     let is_known = stiffening.is_none_or(|b| key.check(&Value::Real(b)).is_ok());
     if is_known && rest > 0.0 {
@@ -237,7 +242,7 @@ pub fn frequency_at_rest(
     }
     let given =
         speeds.iter().map(|(hertz, speed)| format!("{hertz} Hz at {} rad/s", rounded(*speed, 9)));
-    let allowed = "two of them, the higher one at the higher speed, or one with its \
+    let allowed = "two of them or more, the higher ones at the higher speeds, or one with its \
                    centrifugal_stiffening B and above what that alone gives";
     Err(SceneError::refused(name, given.collect::<Vec<_>>().join(" and "), allowed))
 }

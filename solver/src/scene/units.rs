@@ -115,6 +115,9 @@ pub enum UnitError {
     /// The number contains a comma.
     #[error("a number has a decimal point and no comma")]
     Comma,
+    /// The number can be thousands with a point between them.
+    #[error("is that {}0 or {}? Write it so", .0, .0.replace('.', ""))]
+    Thousands(String),
     /// The unit belongs to another quantity.
     #[error("this is {is}; {}", accepted_units(*.wanted))]
     Other {
@@ -192,6 +195,10 @@ impl Quantity {
             return Err(UnitError::Comma);
         }
         let written = plain(unit);
+        // No rotor turns so slowly; a spreadsheet may have put the point between thousands.
+        if written.eq_ignore_ascii_case("rpm") && may_be_thousands(number) {
+            return Err(UnitError::Thousands(number.to_string()));
+        }
         let (power, factor) = self.scale(&written).ok_or_else(|| self.refused(&written, unit))?;
         let scaled = decimal.times_ten_to(power).ok_or(UnitError::NoNumber)?;
         Ok(if factor == 1.0 { scaled } else { scaled * factor })
@@ -301,6 +308,18 @@ fn plain(unit: &str) -> String {
     }
 }
 
+/// Returns whether a decimal number is one to three digits, a point and three more, as `9.500`.
+fn may_be_thousands(number: &str) -> bool {
+    let (whole, decimals) =
+        number.trim_start_matches(['+', '-']).split_once('.').unwrap_or_default();
+    let is_digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+    (1..=3).contains(&whole.len())
+        && decimals.len() == 3
+        && !whole.starts_with('0')
+        && is_digits(whole)
+        && is_digits(decimals)
+}
+
 /// Returns the length of the decimal number at the start of a text.
 fn number_end(text: &str) -> usize {
     let bytes = text.as_bytes();
@@ -354,6 +373,9 @@ mod tests {
             (Speed, "9500rpm", 9500.0 * (TAU / 60.0)),
             (Speed, "9500 RPM", 9500.0 * (TAU / 60.0)),
             (Speed, "9.5krpm", 9500.0 * (TAU / 60.0)),
+            (Speed, "9.500 krpm", 9500.0 * (TAU / 60.0)),
+            (Speed, "0.125 rpm", 0.125 * (TAU / 60.0)),
+            (Speed, "9500.000 rpm", 9500.0 * (TAU / 60.0)),
             (Speed, "150Hz", 150.0 * TAU),
             (Speed, "0.15 kHz", 150.0 * TAU),
             (Speed, "1.2k", 1200.0),
@@ -413,6 +435,8 @@ mod tests {
             (Length, "0,3mm", "a number has a decimal point and no comma"),
             (Length, "0,", "no number"),
             (Speed, "100:500:5", "no number"),
+            (Speed, "9.500 rpm", "is that 9.5000 or 9500? Write it so"),
+            (Speed, "-12.000 U/min", "is that -12.0000 or -12000? Write it so"),
         ] {
             assert_eq!(of.read(text).unwrap_err().to_string(), told, "{text}");
         }

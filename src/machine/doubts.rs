@@ -7,7 +7,7 @@ use rubscope_solver::model::Mode;
 use rubscope_solver::scene::{Scene, keys};
 use rubscope_solver::study::margins::Margins;
 
-use super::number::rounded;
+use rubscope_solver::numeric::rounding::rounded;
 
 /// Largest clearance as a part of the radius. Blade tips run within some tenths of a per
 /// cent; larger: millimetres given as metres pass.

@@ -1,0 +1,176 @@
+//! The decimal mark of a table: comma or point. It follows from the numbers that have only one
+//! reading. A number such as `1.300`, one thousand three hundred or 1.3, is asked about if no other
+//! number of the table shows the mark, or if they show the other one.
+
+use super::error::TableError;
+
+/// What the marks in a number can be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Marks {
+    /// One mark, which separates the decimals.
+    Decimal(char),
+    /// One mark before three digits: it separates decimals or thousands.
+    Either(char),
+    /// Several marks, a space or an apostrophe: some of them separate thousands.
+    Thousands,
+}
+
+/// A number of a table.
+pub(super) struct Number {
+    /// Line and name of the value, for messages.
+    pub path: String,
+    /// The cell, which may contain a unit.
+    pub cell: String,
+}
+
+/// Returns the decimal mark of a table with these numbers; the point if no number has a mark.
+/// `point_is_sure` says that a lone point separates decimals, as in a file with commas between the
+/// cells.
+///
+/// # Errors
+/// A number can be read in two ways, or has marks between thousands.
+pub(super) fn decimal_mark(numbers: &[Number], point_is_sure: bool) -> Result<char, TableError> {
+    let marked: Vec<_> =
+        numbers.iter().filter_map(|number| Some((number, number.marks()?))).collect();
+    if let Some((number, _)) = marked.iter().find(|(_, marks)| *marks == Marks::Thousands) {
+        return Err(number.asked(&format!("is that {}", number.without_thousands())));
+    }
+    let shown = marked.iter().find_map(|(number, marks)| match marks {
+        Marks::Decimal(mark) => Some((*mark, Some(*number))),
+        _ => None,
+    });
+    let shown = shown.or(point_is_sure.then_some(('.', None)));
+    let read = |(number, marks): &(&Number, Marks)| match (marks, shown) {
+        (Marks::Either(mark), Some((shown, _))) if *mark == shown => None,
+        (Marks::Either(_), _) => Some(number.either(shown)),
+        _ => None,
+    };
+    if let Some(question) = marked.iter().find_map(read) {
+        return Err(question);
+    }
+    let other = marked.iter().find_map(|(number, marks)| match (marks, shown?) {
+        (Marks::Decimal(mark), (shown, Some(first))) if *mark != shown => Some((number, first)),
+        _ => None,
+    });
+    match other {
+        Some((number, first)) => Err(number.asked(&format!(
+            "which is the decimal mark, that of this number or that of {}, {}",
+            first.path, first.cell
+        ))),
+        None => Ok(shown.map_or('.', |(mark, _)| mark)),
+    }
+}
+
+impl Number {
+    /// Returns the digits and marks at the start of the cell, without a sign, and what follows.
+    fn parts(&self) -> (&str, &str) {
+        let cell = self.cell.trim_start_matches(['+', '-']);
+        let is_part = |c: char| c.is_ascii_digit() || "., '’\u{a0}\u{2009}\u{202f}".contains(c);
+        let (start, _) = cell.split_at(cell.find(|c| !is_part(c)).unwrap_or(cell.len()));
+        let number =
+            start.trim_end_matches(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | ',')));
+        (number, cell.get(number.len()..).unwrap_or_default())
+    }
+
+    fn marks(&self) -> Option<Marks> {
+        let (number, rest) = self.parts();
+        let (whole, decimals) = number.split_once(|c: char| !c.is_ascii_digit())?;
+        let mark = number.chars().find(|c| !c.is_ascii_digit())?;
+        if !matches!(mark, '.' | ',') || !decimals.bytes().all(|byte| byte.is_ascii_digit()) {
+            return Some(Marks::Thousands);
+        }
+        // 1.300e3, 0.300 and 1300.000 have no mark between thousands.
+        let fits = decimals.len() == 3 && (1..=3).contains(&whole.len()) && !whole.starts_with('0');
+        let is_either = fits && !rest.starts_with(['e', 'E']);
+        Some(if is_either { Marks::Either(mark) } else { Marks::Decimal(mark) })
+    }
+
+    /// Returns the number without what separates its thousands.
+    fn without_thousands(&self) -> String {
+        let (number, _) = self.parts();
+        let is_mark = |c: char| matches!(c, '.' | ',');
+        let last = number.rfind(is_mark).filter(|at| {
+            let mark = number[*at..].chars().next();
+            number.chars().filter(|c| Some(*c) == mark).count() == 1
+        });
+        let kept = number.char_indices().filter(|(at, c)| c.is_ascii_digit() || Some(*at) == last);
+        kept.map(|(_, c)| c).collect()
+    }
+
+    /// Asks whether the mark separates decimals or thousands. `shown` is the decimal mark of the
+    /// table with a number that has it.
+    fn either(&self, shown: Option<(char, Option<&Number>)>) -> TableError {
+        let (number, _) = self.parts();
+        let (whole, decimals) = number.split_at(number.find(['.', ',']).unwrap_or(number.len()));
+        let mark = shown.map_or_else(|| decimals.chars().next().unwrap_or('.'), |(mark, _)| mark);
+        let decimals = decimals.trim_start_matches(['.', ',']);
+        let beside = shown.and_then(|(_, number)| number);
+        let beside = beside
+            .map_or(String::new(), |other| format!(" (beside {}, {})", other.path, other.cell));
+        self.asked(&format!("is that {whole}{mark}{decimals}0 or {whole}{decimals}{beside}"))
+    }
+
+    fn asked(&self, question: &str) -> TableError {
+        TableError::Number {
+            path: self.path.clone(),
+            cell: self.cell.clone(),
+            question: format!("{question}? Write it so, without marks between thousands"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mark_that_may_be_one_of_thousands_is_asked_about() {
+        let mark = |cells: &[&str], point_is_sure| {
+            let number = |(at, cell): (usize, &&str)| Number {
+                path: format!("line {}, frequency_hz", at + 2),
+                cell: (*cell).into(),
+            };
+            let numbers: Vec<_> = cells.iter().enumerate().map(number).collect();
+            decimal_mark(&numbers, point_is_sure).map_err(|error| error.to_string())
+        };
+        for (cells, expected) in [
+            (&["145", "272"][..], '.'),
+            (&["145,5", "1,300"], ','),
+            (&["0.310", "1.300 kHz"], '.'),
+            (&["1300.000", "145.000"], '.'),
+            (&["1,300E+03", "272,000"], ','),
+            (&["2,", "272,000"], ','),
+        ] {
+            assert_eq!(mark(cells, false), Ok(expected), "{cells:?}");
+        }
+        assert_eq!(mark(&["1.300", "8"], true), Ok('.'));
+        for (cells, point_is_sure, expected) in [
+            (
+                &["145,5", "1.300 Hz"][..],
+                false,
+                "line 3, frequency_hz = 1.300 Hz: is that 1,3000 or 1300 (beside line 2, frequency_hz, 145,5)? Write",
+            ),
+            (
+                &["145.5", "1,300"],
+                false,
+                "line 3, frequency_hz = 1,300: is that 1.3000 or 1300 (beside",
+            ),
+            (&["1.300", "8"], false, "line 2, frequency_hz = 1.300: is that 1.3000 or 1300? Write"),
+            (&["8", "1,300"], true, "line 3, frequency_hz = 1,300: is that 1.3000 or 1300? Write"),
+            (
+                &["145,5", "9.8"],
+                false,
+                "line 3, frequency_hz = 9.8: which is the decimal mark, that of this number or that of line 2, frequency_hz, 145,5?",
+            ),
+            (&["1.234,5"], false, "is that 1234,5? Write it so"),
+            (&["1,234.5"], true, "is that 1234.5? Write it so"),
+            (&["1.234.567"], false, "is that 1234567? Write it so"),
+            (&["1 300,5 Hz"], false, "is that 1300,5? Write it so"),
+            (&["1'300"], false, "is that 1300? Write it so"),
+            (&["1\u{a0}300 Hz"], false, "is that 1300? Write it so"),
+        ] {
+            let error = mark(cells, point_is_sure).unwrap_err();
+            assert!(error.contains(expected), "{cells:?}: {error}");
+        }
+    }
+}
