@@ -9,6 +9,7 @@ use rubscope_solver::scene::keys::{self, BLADE_DAMPING, CASING_DAMPING};
 use super::range::Range;
 use super::status::{Refusal, note, say};
 use super::words::Words;
+use crate::machine::range_doubt;
 use crate::report::number::{tell_in_rpm, with_typed_unit};
 use rubscope_solver::model::Operation;
 use rubscope_solver::scene::{
@@ -62,6 +63,14 @@ pub struct SceneOptions {
     /// Speeds in rpm, shown and given without a unit; files, JSON and --set keep rad/s
     #[arg(long, help_heading = HEADING)]
     rpm: bool,
+}
+
+/// Notes that a range of speeds without a unit looks like one in rpm. `text` is the range as given
+/// with `option`; `range` has its ends \[rad/s\].
+pub(super) fn ask_unit(option: &str, text: &str, range: [f64; 2], scene: &Scene) {
+    let is_bare = text.split(':').take(2).all(|end| Quantity::bare(end).is_some());
+    let doubt = is_bare.then(|| range_doubt(scene, range)).flatten();
+    doubt.into_iter().for_each(|doubt| note(format!("rubscope: {option}: {doubt}")));
 }
 
 const HEADING: &str = "Options that change the scene";
@@ -168,6 +177,9 @@ impl SceneOptions {
             match range {
                 Some(range) if text.contains(':') => {
                     let parsed = Range::parse(option, text, of)?;
+                    if key == keys::SPEED {
+                        ask_unit(option, text, [parsed.from, parsed.to], &scene);
+                    }
                     *range = Some(parsed);
                     scene.set(key, &parsed.from.to_string())?;
                 }

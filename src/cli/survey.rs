@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::options::SceneOptions;
+use super::options::{SceneOptions, ask_unit};
 use super::status::{self, Refusal, Status};
 use super::{Done, output};
 use crate::report::number::with_typed_unit;
@@ -45,6 +45,11 @@ impl SurveyCommand {
         let scene = self.options.scene()?;
         self.options.note_assumed(&scene);
         let range = self.range().map(|text| speed_range("--range", &text)).transpose()?;
+        if let (Some(text), Some(range)) = (&self.range, range)
+            && !self.options.in_rpm()
+        {
+            ask_unit("--range", text, range, &scene);
+        }
         let by = match &self.by {
             Some(path) => Some(parameter(path.trim()).ok_or_else(|| {
                 Refusal::because(TargetError::Parameter { path: path.clone() }.to_string())

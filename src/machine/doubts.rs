@@ -7,6 +7,8 @@ use rubscope_solver::model::Mode;
 use rubscope_solver::scene::{Scene, keys};
 use rubscope_solver::study::margins::Margins;
 
+use super::range::TIP_SPEED;
+
 use rubscope_solver::numeric::rounding::rounded;
 
 /// Largest clearance as a part of the radius. Blade tips run within some tenths of a per
@@ -16,10 +18,6 @@ const CLEARANCE: f64 = 0.01;
 /// Smallest clearance \[m\]: below it surfaces are not round. Larger: machines of a
 /// laboratory are doubted.
 const GAP: f64 = 1e-6;
-
-/// Largest speed of blade tips \[m/s\]. Metal tips of engines reach some 500. Larger: turns
-/// a minute given as radians a second pass for small machines.
-const TIP_SPEED: f64 = 800.0;
 
 /// Frequencies of first modes, from and to \[Hz\].
 const FREQUENCY: [f64; 2] = [1.0, 2e4];
@@ -42,6 +40,21 @@ const DENSITY: [f64; 2] = [1.0, 6000.0];
 /// third power of few diameters. Larger: a decimal point that is off by one place passes.
 const COURSE: [f64; 2] = [3.0, 3.0];
 
+/// Largest factor by which frequencies fall from few diameters to many. Those of shells fall by less
+/// before they rise; larger: a point between thousands that is read as a decimal point passes.
+const FALL: f64 = 30.0;
+
+/// Largest ratio of the frequencies of casing and disk, either way. Their waves are of the same
+/// size; larger: a mistake by a factor of a thousand passes.
+const APART: f64 = 100.0;
+
+/// Centrifugal stiffening `B` of first modes of blades, from and to; 0 is none. Theory gives some 1
+/// to 5. Wider: speeds in rad/s or Hz given as rpm, or the other way round, pass.
+const STIFFENING: [f64; 2] = [0.1, 20.0];
+
+/// Modal masses to which FE programs scale mode shapes: 1 kg, g or t \[kg\].
+const SCALED_MASSES: [f64; 3] = [1.0, 1e-3, 1e3];
+
 /// Largest pulse \[N\]. Larger: kilonewtons given as newtons twice pass.
 const FORCE: f64 = 1e7;
 
@@ -55,6 +68,8 @@ struct Structure {
     modes: &'static str,
     mass: &'static str,
     damping: &'static str,
+    /// Where the amplitude of a mode shape is taken.
+    amplitude: &'static str,
 }
 
 const STRUCTURES: [Structure; 2] = [
@@ -63,12 +78,14 @@ const STRUCTURES: [Structure; 2] = [
         modes: keys::CASING_MODES,
         mass: keys::CASING_MASS,
         damping: keys::CASING_DAMPING,
+        amplitude: "the rim of the casing, radially",
     },
     Structure {
         name: "bladed disk",
         modes: keys::DISK_MODES,
         mass: keys::BLADE_INERTIA,
         damping: keys::BLADE_DAMPING,
+        amplitude: "the blade tips, along the rim",
     },
 ];
 
@@ -80,6 +97,8 @@ struct CheckedMode {
     /// Modal mass for unit amplitude at the casing rim or at the blade tips \[kg\].
     mass: f64,
     damping: f64,
+    /// Centrifugal stiffening `B` of the disk; 0 for the casing.
+    stiffening: f64,
 }
 
 /// Returns one sentence for each value that looks like a unit error: of the scene, and the push of
@@ -106,14 +125,24 @@ fn of_scene(scene: &Scene) -> Vec<String> {
         [radius, clearance_doubt(scene), speed, force_doubt(scene), diameters_doubt(scene)];
     let mut all: Vec<String> = doubts.into_iter().flatten().collect();
     all.extend(tips_doubt(scene));
+    let (mut both, mut is_usual) = (Vec::new(), true);
     for (structure, own) in STRUCTURES.iter().zip([&scene.casing.modes, &scene.bladed_disk.modes]) {
         all.extend(modes_doubts(scene, structure, own));
         let modes = checked_modes(scene, structure, own);
-        all.extend(mass_doubt(scene, structure, &modes));
-        all.extend(frequency_doubt(structure, &modes));
+        all.extend(
+            scaled_doubt(structure, &modes).or_else(|| mass_doubt(scene, structure, &modes)),
+        );
         all.extend(damping_doubt(structure, &modes));
-        all.extend(course_doubts(structure, modes));
+        all.extend(stiffening_doubt(&modes));
+        let hertz = frequency_doubt(structure, &modes);
+        let course = course_doubts(structure, "frequency", "Hz", FALL, &modes, |mode| mode.hertz);
+        is_usual &= hertz.is_none() && course.is_empty();
+        all.extend(hertz.into_iter().chain(course));
+        let mass = |mode: &CheckedMode| mode.mass;
+        all.extend(course_doubts(structure, "modal mass", "kg", f64::INFINITY, &modes, mass));
+        both.push(modes);
     }
+    all.extend(if is_usual { apart_doubt(&both) } else { None });
     all
 }
 
@@ -140,7 +169,8 @@ fn checked_modes(scene: &Scene, structure: &Structure, own: &[Mode]) -> Vec<Chec
                 (machine.omega_bd, mass, scene.disk_in_use().damping_ratio)
             }
         };
-        CheckedMode { diameters, hertz: omega / TAU, mass, damping }
+        let stiffening = if is_casing { 0.0 } else { scene.disk_in_use().centrifugal_stiffening };
+        CheckedMode { diameters, hertz: omega / TAU, mass, damping, stiffening }
     };
     diameters.into_iter().map(look).collect()
 }
@@ -271,43 +301,83 @@ fn damping_doubt(structure: &Structure, modes: &[CheckedMode]) -> Option<String>
     ))
 }
 
+/// Asks about modal masses that are all the 1 to which FE programs scale mode shapes.
+fn scaled_doubt(structure: &Structure, modes: &[CheckedMode]) -> Option<String> {
+    let is_scaled = |mass: &&f64| modes.iter().all(|mode| (mode.mass / *mass - 1.0).abs() < 1e-9);
+    let mass = SCALED_MASSES.iter().find(is_scaled).filter(|_| modes.len() > 1)?;
+    Some(format!(
+        "Every modal mass of the {} is exactly {mass} kg, to which FE programs scale mode shapes. Wanted is 1/phi^2, with the amplitude phi of such a shape at {}.",
+        structure.name, structure.amplitude
+    ))
+}
+
+fn stiffening_doubt(modes: &[CheckedMode]) -> Option<String> {
+    let [least, most] = STIFFENING;
+    let is_odd = |b: f64| b != 0.0 && !(least..=most).contains(&b);
+    let (mode, at) = first(modes, |mode| is_odd(mode.stiffening))?;
+    Some(format!(
+        "The centrifugal stiffening B of the bladed disk{at} is {}; first modes of blades have some 1 to 5. Are the speeds of its frequencies in the right unit, rpm, rad/s or Hz?",
+        rounded(mode.stiffening, 3)
+    ))
+}
+
 /// Finds modes whose frequency or mass is far from that of the others: both vary smoothly with the
-/// nodal diameters.
-fn course_doubts(structure: &Structure, modes: Vec<CheckedMode>) -> Vec<String> {
+/// nodal diameters, and none falls by more than `fall` with more of them.
+fn course_doubts(
+    structure: &Structure,
+    what: &str,
+    unit: &str,
+    fall: f64,
+    modes: &[CheckedMode],
+    value: impl Fn(&CheckedMode) -> f64,
+) -> Vec<String> {
+    let far = |a: &CheckedMode, b: &CheckedMode| {
+        let [a_n, b_n] = [a, b].map(|mode| f64::from(mode.diameters.max(1)));
+        let (rise, ratio) = ((value(a) / value(b)).ln(), (a_n / b_n).ln());
+        rise.abs() > COURSE[0].ln() + COURSE[1] * ratio.abs()
+            || (rise * ratio < 0.0 && rise.abs() > fall.ln())
+    };
     let mut doubts = Vec::new();
-    for (what, unit, value) in [
-        ("frequency", "Hz", (|mode| mode.hertz) as fn(&CheckedMode) -> f64),
-        ("modal mass", "kg", |mode| mode.mass),
-    ] {
-        let far = |a: &CheckedMode, b: &CheckedMode| {
-            let [a_n, b_n] = [a, b].map(|mode| f64::from(mode.diameters.max(1)));
-            let apart = (value(a) / value(b)).ln().abs();
-            apart > COURSE[0].ln() + COURSE[1] * (a_n / b_n).ln().abs()
+    let mut rest = modes.to_vec();
+    loop {
+        let against = |mode: &CheckedMode| rest.iter().filter(|other| far(mode, other)).count();
+        let Some(place) = (0..rest.len()).max_by_key(|place| against(&rest[*place])) else {
+            break;
         };
-        let mut rest = modes.clone();
-        loop {
-            let against = |mode: &CheckedMode| rest.iter().filter(|other| far(mode, other)).count();
-            let Some(place) = (0..rest.len()).max_by_key(|place| against(&rest[*place])) else {
-                break;
-            };
-            if against(&rest[place]) == 0 {
-                break;
-            }
-            let odd = rest.remove(place);
-            let near = rest.iter().min_by_key(|other| other.diameters.abs_diff(odd.diameters));
-            doubts.extend(near.map(|near| {
-                format!(
-                    "The {what} of the {} is {} {unit} at {} diameters and {} {unit} at {}. Is the decimal point right, and the unit?",
-                    structure.name,
-                    rounded(value(&odd), 4),
-                    odd.diameters,
-                    rounded(value(near), 4),
-                    near.diameters
-                )
-            }));
+        if against(&rest[place]) == 0 {
+            break;
         }
+        let odd = rest.remove(place);
+        let near = rest.iter().min_by_key(|other| other.diameters.abs_diff(odd.diameters));
+        doubts.extend(near.map(|near| {
+            format!(
+                "The {what} of the {} is {} {unit} at {} diameters and {} {unit} at {}. Is the decimal point right, and the unit?",
+                structure.name,
+                rounded(value(&odd), 4),
+                odd.diameters,
+                rounded(value(near), 4),
+                near.diameters
+            )
+        }));
     }
     doubts
+}
+
+/// Asks about frequencies of the casing that are far from those of the disk with the nearest
+/// diameters.
+fn apart_doubt(both: &[Vec<CheckedMode>]) -> Option<String> {
+    let [casing, disk] = both else { return None };
+    let beside = |mode: &CheckedMode| {
+        let apart = |other: &&CheckedMode| other.diameters.abs_diff(mode.diameters);
+        disk.iter().min_by_key(apart).map_or(mode.hertz, |other| other.hertz)
+    };
+    let is_apart = |mode: &CheckedMode| (mode.hertz / beside(mode)).ln().abs() > APART.ln();
+    let (mode, at) = first(casing, is_apart)?;
+    Some(format!(
+        "The frequency of the casing{at} is {} Hz, and that of the bladed disk {} Hz. Is the decimal point right, and the unit?",
+        rounded(mode.hertz, 4),
+        rounded(beside(&mode), 4)
+    ))
 }
 
 #[cfg(test)]
@@ -380,6 +450,80 @@ mod tests {
         ] {
             assert!(doubts.iter().any(|doubt| doubt.contains(asked)), "{asked}: {doubts:?}");
             assert!(doubts.len() <= 2 && !doubts.concat().contains("tips at"), "{doubts:?}");
+        }
+    }
+
+    #[test]
+    fn tables_that_are_off_by_a_unit_or_a_thousand_are_asked_about() {
+        let doubts = |casing: &[(u32, f64, f64)], disk: &[(u32, f64, f64)], stiffening: f64| {
+            let scene = Scene::base();
+            let length = scene.bladed_disk.blade_length_m;
+            let modes = |list: &[(u32, f64, f64)], name: &str, share: f64, more: &str| {
+                let mode = |(n, hertz, mass): &(u32, f64, f64)| {
+                    let mass = share * mass;
+                    format!(
+                        "{{ nodal_diameters = {n}, frequency_hz = {hertz:?}, {name} = {mass:?}{more} }}"
+                    )
+                };
+                format!("[{}]", list.iter().map(mode).collect::<Vec<_>>().join(", "))
+            };
+            let casing = modes(casing, "modal_mass_kg", 1.0, "");
+            let more = format!(", centrifugal_stiffening = {stiffening:?}");
+            let disk = modes(disk, "inertia_kg_m2", length * length / 11.0, &more);
+            let keys = [("casing.modes", casing.as_str()), ("bladed_disk.modes", disk.as_str())];
+            of_scene(&scene.with(&keys).unwrap())
+        };
+        let casing = [(2, 145.0, 9.8), (3, 272.0, 9.1), (6, 1130.0, 7.9)];
+        let disk = [(2, 352.0, 3.9), (3, 371.0, 3.7), (6, 406.0, 3.5)];
+        let with_mass = |list: &[(u32, f64, f64)], mass: f64| {
+            list.iter().map(|(n, hertz, _)| (*n, *hertz, mass)).collect::<Vec<_>>()
+        };
+        for stiffening in [0.0, 0.1, 1.6, 20.0] {
+            assert_eq!(doubts(&casing, &disk, stiffening), [""; 0]);
+        }
+        let cases = [
+            (
+                casing.to_vec(),
+                disk.to_vec(),
+                146.0,
+                "The centrifugal stiffening B of the bladed disk at 2 diameters (and 2 more) is 146; first",
+            ),
+            (casing.to_vec(), disk.to_vec(), 0.00044, "(and 2 more) is 0.00044; first"),
+            (
+                with_mass(&casing, 1.0),
+                disk.to_vec(),
+                0.0,
+                "Every modal mass of the casing is exactly 1 kg, to which FE",
+            ),
+            (
+                casing.to_vec(),
+                with_mass(&disk, 1.0),
+                0.0,
+                "Every modal mass of the bladed disk is exactly 1 kg",
+            ),
+            (
+                with_mass(&casing, 1e3),
+                disk.to_vec(),
+                0.0,
+                "Every modal mass of the casing is exactly 1000 kg",
+            ),
+            (
+                vec![(2, 145.0, 9.8), (8, 1.9, 7.5)],
+                disk.to_vec(),
+                0.0,
+                "The frequency of the casing is 1.9 Hz at 8 diameters and 145 Hz at 2.",
+            ),
+            (
+                vec![(5, 1.3, 8.2), (6, 1.9, 7.9)],
+                disk.to_vec(),
+                0.0,
+                "The frequency of the casing at 5 diameters (and 1 more) is 1.3 Hz, and that of the bladed disk 406 Hz.",
+            ),
+        ];
+        for (casing, disk, stiffening, asked) in cases {
+            let doubts = doubts(&casing, &disk, stiffening);
+            assert_eq!(doubts.len(), 1, "{doubts:?}");
+            assert!(doubts[0].contains(asked), "{asked}: {doubts:?}");
         }
     }
 

@@ -64,6 +64,39 @@ fn a_stage_of_blades_that_stiffen_is_what_its_table_says_and_locks_where_runs_do
     }
 }
 
+#[test]
+fn a_range_without_its_unit_is_asked_about_and_computed_as_given() {
+    let folder = tempfile::tempdir().unwrap();
+    stage(folder.path());
+    let said = |words: &[&str]| {
+        let output = program().current_dir(folder.path()).args(words).output().unwrap();
+        assert!(output.status.success());
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let asked = "rubscope: --range: 6000:13000 is in rad/s and moves the blade tips at 5460 m/s; \
+                 metal ones reach some 500. Was it rpm? Then write 6000rpm:13000rpm.\n";
+    assert_eq!(said(&["survey", "stage.toml", "--range", "6000:13000"]), asked);
+    let swept = said(&["hbm", "stage.toml", "--speed", "6000:13000:2"]);
+    assert_eq!(swept, asked.replace("--range", "--speed"));
+    for words in [
+        &["survey", "stage.toml", "--range", "6000:13000", "--rpm"][..],
+        &["survey", "stage.toml", "--range", "6000rpm:13000rpm"],
+        &["survey", "stage.toml", "--range", "600:1300"],
+        &["hbm", "stage.toml", "--speed", "600:1300:2"],
+    ] {
+        assert_eq!(said(words), "", "{words:?}");
+    }
+    for (words, question) in [
+        ("survey stage.toml --range 7.000:12.000 --rpm", "is that 7.0000 or 7000? Write it so"),
+        ("survey stage.toml --range 7000rpm:12.000rpm", "is that 12.0000 or 12000? Write it so"),
+        ("check stage.toml --speed 9.500 --rpm", "is that 9.5000 or 9500? Write it so"),
+    ] {
+        let output = program().current_dir(folder.path()).args(words.split(' ')).output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.code() == Some(2) && said.contains(question), "{said}");
+    }
+}
+
 /// Another table.
 pub const TABLE: &str = "\
 structure,nodal_diameters,frequency_hz,modal_mass_kg

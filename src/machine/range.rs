@@ -1,0 +1,54 @@
+//! Asks whether a range of speeds is in the unit that was meant.
+
+use std::f64::consts::TAU;
+
+use rubscope_solver::scene::Scene;
+
+/// Largest speed of blade tips \[m/s\]. Metal tips of engines reach some 500. Larger: turns
+/// a minute given as radians a second pass for small machines.
+pub(super) const TIP_SPEED: f64 = 800.0;
+
+/// Asks whether a range of speeds that was given without a unit \[rad/s\] was meant in rpm: blade
+/// tips do not move so fast, or it contains the speed of the scene only in rpm.
+#[must_use]
+pub fn range_doubt(scene: &Scene, range: [f64; 2]) -> Option<String> {
+    let [from, to] = range;
+    let speed = scene.operation.speed_rad_s;
+    let tips = from.abs().max(to.abs()) * scene.casing.radius_m;
+    let contains = |unit: f64| (from.min(to) * unit..=from.max(to) * unit).contains(&speed);
+    let why = if tips > TIP_SPEED {
+        format!("moves the blade tips at {tips:.0} m/s; metal ones reach some 500")
+    } else if !contains(1.0) && contains(TAU / 60.0) {
+        format!("does not contain the speed of the scene, {:.0} rpm", speed * 60.0 / TAU)
+    } else {
+        return None;
+    };
+    Some(format!("{from}:{to} is in rad/s and {why}. Was it rpm? Then write {from}rpm:{to}rpm."))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_range_in_the_wrong_unit_is_asked_about() {
+        let mut scene = Scene::base();
+        let asked = |scene: &Scene, from, to| range_doubt(scene, [from, to]).unwrap_or_default();
+        scene.operation.speed_rad_s = 9500.0 * TAU / 60.0;
+        assert_eq!(
+            asked(&scene, 6000.0, 13000.0),
+            "6000:13000 is in rad/s and moves the blade tips at 6500 m/s; metal ones reach some \
+             500. Was it rpm? Then write 6000rpm:13000rpm."
+        );
+        // A rotor so small that its tips could be so fast.
+        scene.casing.radius_m = 0.03;
+        let small = asked(&scene, 6000.0, 13000.0);
+        assert!(
+            small.contains("and does not contain the speed of the scene, 9500 rpm."),
+            "{small}"
+        );
+        for (from, to) in [(600.0, 1400.0), (995.0, 1400.0), (100.0, 300.0)] {
+            assert_eq!(asked(&scene, from, to), "");
+        }
+    }
+}
