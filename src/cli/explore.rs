@@ -11,9 +11,9 @@ use strum::VariantNames;
 use super::options::{SceneOptions, read_scene};
 use super::status::{self, Refusal, Status};
 use super::words::Words;
-use super::{Cli, Done};
+use super::{Cli, Done, misspelt};
 use crate::tui;
-use rubscope_solver::scene::DEFAULT;
+use rubscope_solver::scene::{DEFAULT, SceneError};
 
 /// Options of the explorer.
 #[derive(Args, Debug)]
@@ -80,7 +80,10 @@ impl ExploreCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
         self.refuse_command()?;
         let name = self.options.name().unwrap_or(DEFAULT);
-        let read = read_scene(name)?;
+        let read = read_scene(name).map_err(|error| match misspelt(name) {
+            Some(refusal) if matches!(error, SceneError::UnknownScene { .. }) => refusal.into(),
+            _ => anyhow::Error::from(error),
+        })?;
         let scene = self.options.change(read.clone())?;
         if !self.is_in_lines() {
             tui::check_terminal().map_err(Refusal::because)?;

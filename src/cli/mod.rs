@@ -26,9 +26,10 @@ mod words;
 use std::ffi::OsString;
 use std::io::{BufWriter, Write};
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
+use rubscope_solver::scene::{BUILTIN, nearest};
 
-use status::Status;
+use status::{Refusal, Status};
 
 /// Version and commit of the program (`build.rs`), for `--version`.
 const VERSION: &str = env!("RUBSCOPE_VERSION");
@@ -72,7 +73,15 @@ pub fn main(args: impl IntoIterator<Item = OsString>) -> u8 {
     let arguments: Vec<OsString> = args.into_iter().collect();
     let cli = match Cli::try_parse_from(&arguments) {
         Ok(cli) => cli,
-        Err(error) => return status::usage(&error, &arguments),
+        Err(error) => {
+            // An unknown first word is read as a scene, so that the rest of the line is refused.
+            let first = arguments.get(1).and_then(|word| word.to_str()).unwrap_or_default();
+            let refusal = misspelt(first).filter(|_| error.use_stderr());
+            return match refusal {
+                Some(refusal) => status::exit(Err(refusal.into())),
+                None => status::usage(&error, &arguments),
+            };
+        }
     };
     // Standard output is not locked for the whole run: other threads that write would have to
     // wait while the output is blocked.
@@ -83,6 +92,26 @@ pub fn main(args: impl IntoIterator<Item = OsString>) -> u8 {
     });
     sign::end();
     status::exit(done)
+}
+
+/// Returns the refusal of a word that is most like the name of a command; `None` for a command, a
+/// scene, a path, an option, and a word that is like no command.
+fn misspelt(word: &str) -> Option<Refusal> {
+    let cli = Cli::command();
+    let commands = || cli.get_subcommands().map(clap::Command::get_name);
+    let scenes = || BUILTIN.iter().map(|scene| scene.name);
+    let is_other = word.starts_with('-') || word.contains(['.', '/']);
+    if is_other || commands().chain(scenes()).any(|known| known == word) {
+        return None;
+    }
+    let meant = nearest(word, commands().chain(scenes()))?;
+    let is_command = commands().any(|command| command == meant);
+    is_command.then(|| {
+        Refusal::because(format!(
+            "unknown command {word} (did you mean {meant}?); see rubscope --help, or rubscope \
+             scenes for the names of scenes"
+        ))
+    })
 }
 
 fn dispatch(cli: Cli, out: &mut dyn Write) -> Done {

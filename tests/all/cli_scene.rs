@@ -98,9 +98,29 @@ fn refused_options_name_key_value_and_what_is_allowed() {
         (&["--end", "-1"], "solver.end_s = -1: allowed is a number above 0"),
         (&["nowhere"], "unknown scene nowhere; allowed: a path ending in .toml, or one of paper"),
         (&["nowhere.toml"], "cannot read scene file nowhere.toml: "),
+        (&["padder-nd3"], "unknown scene padder-nd3 (did you mean paper-nd3?); allowed: a path"),
     ] {
         let message = refusal(&[&["run"], arguments].concat());
         assert!(message.starts_with(&format!("rubscope: {start}")), "{arguments:?}: {message}");
+    }
+}
+
+#[test]
+fn a_misspelt_command_or_scene_is_answered_with_the_nearest_one() {
+    for (arguments, meant) in [
+        (&["runn"][..], "unknown command runn (did you mean run?); see rubscope --help"),
+        (&["runn", "paper-nd3"], "unknown command runn (did you mean run?)"),
+        (&["srvey", "mine.toml", "--range", "6000:11000"], "command srvey (did you mean survey?)"),
+        (&["marigns", "--json"], "unknown command marigns (did you mean margins?)"),
+        (&["grazin"], "unknown scene grazin (did you mean grazing?); allowed: a path"),
+        (&["scenes", "long_tip"], "unknown scene long_tip (did you mean long-tip?); allowed"),
+        (&["nowhere"], "unknown scene nowhere; allowed: a path"),
+        (&["./runn"], "cannot read scene file ./runn"),
+        (&["run", "--speeed", "3"], "unexpected argument '--speeed' found"),
+    ] {
+        let message = refusal(arguments);
+        assert!(message.contains(meant), "{arguments:?}: {message}");
+        assert_eq!(message.matches("did you mean").count(), meant.matches("did you mean").count());
     }
 }
 

@@ -1,5 +1,6 @@
 //! The built-in scenes: the files under `presets/`, embedded in the binary.
 
+use super::nearest::nearest;
 use super::{Scene, SceneError};
 
 /// A scene that is part of the program.
@@ -42,11 +43,15 @@ pub const BUILTIN: &[Builtin] = builtin![
     "oval",
 ];
 
-/// Returns the error for a name that is no built-in scene; it lists those that are.
+/// Returns the error for a name that is no built-in scene; it lists those that are, and names the
+/// nearest one.
 pub(super) fn unknown(name: &str) -> SceneError {
+    let names = || BUILTIN.iter().map(|scene| scene.name);
+    let meant = nearest(name, names());
     SceneError::UnknownScene {
         name: name.to_string(),
-        allowed: BUILTIN.iter().map(|scene| scene.name).collect::<Vec<_>>().join(", "),
+        meant: meant.map_or(String::new(), |meant| format!(" (did you mean {meant}?)")),
+        allowed: names().collect::<Vec<_>>().join(", "),
     }
 }
 

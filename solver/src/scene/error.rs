@@ -48,10 +48,12 @@ pub enum SceneError {
         reason: String,
     },
     /// The name is neither a built-in scene nor a file.
-    #[error("unknown scene {name}; allowed: a path ending in .toml, or one of {allowed}")]
+    #[error("unknown scene {name}{meant}; allowed: a path ending in .toml, or one of {allowed}")]
     UnknownScene {
         /// The name as given.
         name: String,
+        /// Question whether the nearest scene was meant; empty if none is near.
+        meant: String,
         /// Names of the built-in scenes.
         allowed: String,
     },

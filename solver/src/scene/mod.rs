@@ -15,6 +15,7 @@ mod file;
 pub mod keys;
 mod law;
 mod modes;
+mod nearest;
 pub mod units;
 
 use serde::Serialize;
@@ -29,6 +30,7 @@ pub use keys::{Allowed, KEYS, Key, Value};
 pub use law::ContactLaw;
 pub(crate) use modes::MOST_HZ;
 pub use modes::{frequency_at_rest, hertz_of};
+pub use nearest::nearest;
 pub use units::Quantity;
 
 use crate::model::{
