@@ -12,7 +12,7 @@ use super::status::{self, Refusal, Status};
 use super::{Done, output, sign};
 use crate::report::history::HISTORY_VALUES;
 use crate::report::{CommandLine, History, Wall, json, summary};
-use rubscope_solver::motion::{CHANGED_RUNS, Sample, Sampling, Verdict, run_to_end, to_the_end};
+use rubscope_solver::motion::{Sample, Sampling, Verdict, run_to_end, to_the_end};
 use rubscope_solver::scene::{Scene, SolverKind};
 
 /// Simulate a scene in time and report how it ends.
@@ -36,7 +36,8 @@ pub struct RunCommand {
     /// Change the running motion: TIME:PATH=VALUE or TIME:pulse, TIME in seconds; repeatable
     #[arg(long, value_name = "TIME:CHANGE", allow_hyphen_values = true)]
     at: Vec<String>,
-    /// Skip the sensitivity check (one run instead of five)
+    /// One run only: skip the runs that find out whether the outcome is sensitive, depends on the
+    /// step, or differs by events
     #[arg(long)]
     no_sensitivity: bool,
     /// Compute every step of the explicit solver: skip none, and give no early verdict
@@ -74,18 +75,17 @@ impl RunCommand {
             None => Sampling::default(),
         };
         status::say_noted();
-        let changed_runs = if self.no_sensitivity { 0 } else { CHANGED_RUNS };
         let started = Instant::now();
         let mut sink = |sample: &Sample| history.push(sample);
         let mut report = run_to_end(&scene, &acts, sampling, &mut sink);
         let mut wall = Wall { run_s: started.elapsed().as_secs_f64(), certainty_s: None };
-        if changed_runs > 0 {
+        if !self.no_sensitivity {
             sign::doing("changed runs find out which digits hold");
             let started = Instant::now();
             report.ask_changed_runs(&acts, &to_the_end);
+            report.ask_events(&acts, &to_the_end);
             wall.certainty_s = Some(started.elapsed().as_secs_f64());
         }
-        report.ask_events(&acts, &to_the_end);
         let changes = Some(&script).filter(|script| !script.is_empty());
         let command = self.command(&scene);
         if self.json {

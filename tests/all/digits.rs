@@ -117,6 +117,9 @@ fn a_run_that_is_not_asked_is_the_same_run() {
     let arguments = ["run", "--contact", "unilateral", "--pulse", "3e5", "--end", "0.01"];
     let (asked, not) = (json(&arguments), json(&[&arguments[..], &["--no-sensitivity"]].concat()));
     assert!(asked["solver"]["certainty_s"].is_number() && asked["outcome"]["spread"].is_object());
+    // The exact solver says otherwise, which only another run finds out.
+    assert_eq!(asked["outcome"]["by_events"], "decay");
+    assert!(not["outcome"]["by_events"].is_null());
     for path in ["/solver/certainty_s", "/outcome/sensitive", "/outcome/spread"] {
         assert!(not.pointer(path).unwrap().is_null(), "{path} of {not}");
     }

@@ -34,7 +34,7 @@ pub use run::{
     verdict_of,
 };
 pub use script::{Change, Script};
-pub use sensitivity::{CHANGED_RUNS, Certainty, Spread, certainty, run_with_certainty};
+pub use sensitivity::{Certainty, Spread, certainty, run_with_certainty};
 pub use solver::{GoOn, Motion, Solver, to_the_end};
 pub use verdict::{Basis, Checks, Contact, Outcome, Proof, Verdict};
 

@@ -185,7 +185,7 @@ impl RunReport {
 }
 
 /// Number of perturbed runs that determine whether a run is sensitive.
-pub const CHANGED_RUNS: usize = 4;
+const CHANGED_RUNS: usize = 4;
 
 /// Returns the tolerated difference of lock times \[s\].
 fn moment(scene: &CheckedScene) -> f64 {
