@@ -1,5 +1,6 @@
 //! Text on the screen: single rows, rows of styled pieces, and wrapped lines.
 
+use ratatui::widgets::{Clear, Widget};
 use ratatui::{buffer::Buffer, layout::Rect, style::Style};
 
 use crate::report::line::{harmless, wrapped};
@@ -22,6 +23,14 @@ pub fn print(buffer: &mut Buffer, area: Rect, row: u16, text: &str, style: Style
             _ => shorten(text, width, CUT.encode_utf8(&mut [0; 4])),
         };
         buffer.set_stringn(area.x, area.y + row, text, width, style);
+    }
+}
+
+/// Prints lines over what an area shows, one in each row. The rows are cleared first.
+pub fn overlay(buffer: &mut Buffer, area: Rect, lines: &[String], style: Style) {
+    for (row, line) in (0..area.height).zip(lines) {
+        Clear.render(Rect { y: area.y + row, height: 1, ..area }, buffer);
+        print(buffer, area, row, line, style);
     }
 }
 

@@ -1,12 +1,13 @@
 //! The last line: the status message, or the keys that apply now, from the table of bindings. Help
-//! and quit are always at its right end.
+//! and quit are always at its right end. A message that is longer than the line is wrapped, over the
+//! rows above it.
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
 use crate::tui::app::{App, InputMode, Purpose, Target};
 use crate::tui::bindings::{self, Action, Binding, Chord, Context};
 use crate::tui::field::Field;
-use crate::tui::text::{columns, pieces, print, shorten};
+use crate::tui::text::{columns, overlay, pieces, print, shorten, wrap};
 use crate::tui::theme::Role;
 
 /// Gap between two entries.
@@ -49,7 +50,17 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     let kept_width: usize = kept.iter().map(|entry| entry.columns(app)).sum();
     let room = width.saturating_sub(kept_width + GAP.len());
     if let Some((text, role)) = message {
-        print(buffer, area, 0, &shorten(&text, room, mark), look.style(role));
+        let lines = wrap(&text, room);
+        let (last, above) =
+            lines.split_last().map_or((&text, &[][..]), |(last, above)| (last, above));
+        let rows = u16::try_from(above.len()).unwrap_or(u16::MAX);
+        if rows > area.y / 2 {
+            print(buffer, area, 0, &shorten(&text, room, mark), look.style(role));
+        } else {
+            let place = Rect { y: area.y - rows, height: rows, ..area };
+            overlay(buffer, place, above, look.style(role));
+            print(buffer, area, 0, last, look.style(role));
+        }
     } else {
         let room = Rect { width: u16::try_from(room).unwrap_or(0), ..area };
         keys(app, buffer, room);
@@ -165,6 +176,7 @@ fn keys(app: &App, buffer: &mut Buffer, area: Rect) {
 mod tests {
     use super::*;
     use crate::tui::{raster::Marker, theme::Theme};
+    use ratatui::style::Style;
     use rubscope_solver::scene::Scene;
 
     fn line(app: &App, width: u16) -> String {
@@ -198,6 +210,23 @@ mod tests {
             assert!(line(&app, width).ends_with("q quit"), "{}", line(&app, width));
             app.dialogue.mode = InputMode::Main;
         }
+    }
+
+    #[test]
+    fn a_long_message_is_wrapped_over_the_rows_above() {
+        let mut app = app();
+        let words: Vec<String> = (10..60).map(|n| format!("word{n}")).collect();
+        app.status = Some(words.join(" "));
+        let area = Rect::new(0, 0, 80, 24);
+        let mut buffer = Buffer::empty(area);
+        buffer.set_string(0, 22, "x".repeat(80), Style::new());
+        draw(&app, &mut buffer, Rect { y: 23, height: 1, ..area });
+        let shown: String = buffer.content.iter().map(|cell| cell.symbol()).collect();
+        let shown: Vec<&str> = shown.split_whitespace().collect();
+        assert_eq!(
+            shown,
+            [&words.iter().map(String::as_str).collect::<Vec<_>>()[..], &["?", "q"]].concat()
+        );
     }
 
     #[test]

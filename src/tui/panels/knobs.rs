@@ -11,7 +11,7 @@ use strum::VariantArray;
 use crate::report::line::capital;
 use crate::tui::app::{App, InputMode, Target};
 use crate::tui::knobs::{Group, KNOBS, Knob};
-use crate::tui::text::{columns, pieces, print, shorten, wrap};
+use crate::tui::text::{columns, overlay, pieces, print, shorten, wrap};
 use crate::tui::theme::Role;
 use rubscope_solver::scene::Allowed;
 
@@ -65,13 +65,26 @@ pub fn panel(app: &App, buffer: &mut Buffer, area: Rect) {
     }
 }
 
-/// Prints why the value of the knob in row `at` was refused, over the rows below it.
+/// Prints why the value of the knob in row `at` was refused, over the rows below it, or above it if
+/// there are too few.
 fn refusal(app: &App, buffer: &mut Buffer, area: Rect, at: u16) {
     let Some(refusal) = &app.knobs.refusal else { return };
-    let (look, width) = (&app.appearance, usize::from(area.width));
-    for (row, line) in (at + 1..area.height).zip(wrap(&look.spell(refusal), width)) {
-        print(buffer, area, row, &format!("{line:width$}"), look.style(Role::Trouble));
-    }
+    let look = &app.appearance;
+    let lines = wrap(&look.spell(refusal), usize::from(area.width));
+    let rows = u16::try_from(lines.len()).unwrap_or(area.height);
+    let below = area.height.saturating_sub(at + 1);
+    let top = if rows > below && rows <= at { at - rows } else { at + 1 };
+    let area = Rect { y: area.y + top, height: area.height.saturating_sub(top), ..area };
+    overlay(buffer, area, &lines, look.style(Role::Trouble));
+}
+
+/// Prints why the value of the selected knob was refused, over its line and as many rows of `area`
+/// as it takes.
+pub fn strip_refusal(app: &App, buffer: &mut Buffer, area: Rect) {
+    let Some(refusal) = &app.knobs.refusal else { return };
+    let look = &app.appearance;
+    let lines = wrap(&look.spell(refusal), usize::from(area.width));
+    overlay(buffer, area, &lines, look.style(Role::Trouble));
 }
 
 /// Draws the heading of an open group, within a rule.
@@ -161,11 +174,6 @@ pub fn strip(app: &App, buffer: &mut Buffer, area: Rect) {
     app.note(area, Target::Knob(app.knobs.selected));
     let look = &app.appearance;
     let width = usize::from(area.width);
-    if let Some(refusal) = &app.knobs.refusal {
-        let refusal = shorten(&look.spell(refusal), width, look.ellipsis());
-        print(buffer, area, 0, &refusal, look.style(Role::Trouble));
-        return;
-    }
     let Some(knob) = app.selected() else { return };
     let text = strip_text(app, knob);
     let style = look.style(Role::Focus).add_modifier(Modifier::REVERSED);

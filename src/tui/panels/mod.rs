@@ -67,6 +67,10 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
             }
             view.panel().draw(app, buffer, at);
         }
+        if !places.column {
+            let below = places.body.bottom() - places.knobs.y;
+            knobs::strip_refusal(app, buffer, Rect { height: below, ..places.knobs });
+        }
     }
     footer::draw(app, buffer, places.footer);
     for cell in &mut buffer.content {
