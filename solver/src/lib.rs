@@ -44,4 +44,3 @@ pub mod motion;
 pub mod numeric;
 pub mod scene;
 pub mod study;
-pub mod tolerances;

@@ -7,7 +7,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use crate::tolerances::CONVERGED;
+/// Part of an angle at which Newton steps that no longer shrink have converged.
+const CONVERGED: f64 = 1e-7;
 
 /// Equation for the half angle of a corner.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -27,10 +27,31 @@ use super::Corner;
 use super::corner::Configuration;
 use super::corner_angle::CornerAngle;
 use crate::model::Machine;
-use crate::tolerances::{
-    NEWTON_ALIKE, NEWTON_LARGEST, NEWTON_SHRINK, NEWTON_STEPS, NEWTON_STRIDE, NEWTON_STRIDES,
-    POLISHED,
-};
+
+/// Newton steps from one start; five are usual.
+pub(super) const NEWTON_STEPS: usize = 40;
+
+/// How much a Newton step must shrink: by half where the branch is about to
+/// fold, and a little room. Larger: a start may end on another branch.
+const NEWTON_SHRINK: f64 = 0.75;
+
+/// Largest Newton step, as a part of the unknowns, and of the turns \[rad\], in
+/// which alone the equations are not bilinear.
+const NEWTON_LARGEST: f64 = 0.1;
+
+/// How much the determinant may change from one softness to the next: it goes
+/// to zero at a fold, and is another one on another branch.
+const NEWTON_ALIKE: std::ops::Range<f64> = 0.5..2.0;
+
+/// Shortest stride of the softness.
+const NEWTON_STRIDE: f64 = 1e-6;
+
+/// Most strides of the softness.
+const NEWTON_STRIDES: usize = 500;
+
+/// Part of the unknowns of a lock at which steps of Newton's method that no longer
+/// shrink are round-off.
+const POLISHED: f64 = 1e-11;
 
 /// Scaled unknowns `[x, y, P_a, P_b, alpha_a, alpha_b]`.
 pub(super) type Unknowns = [f64; 6];

@@ -15,7 +15,9 @@ use super::stability::{at_rest, grows, largest_growth};
 use super::{Corner, Form, HarmonicError, error};
 use crate::model::Machine;
 use crate::numeric::search::try_bisected;
-use crate::tolerances::BRANCH_CHANGES;
+
+/// Most changes of character looked for between two neighbouring speeds.
+const BRANCH_CHANGES: usize = 16;
 
 /// Kind of equilibrium by its contacts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, AsRefStr)]

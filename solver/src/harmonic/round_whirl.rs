@@ -14,10 +14,23 @@
 use serde::Serialize;
 use strum::IntoStaticStr;
 
-use super::windows::{flutters, joined_grow, windows};
+use super::windows::{FURTHEST, flutters, joined_grow, windows};
 use crate::model::{Frame, LockWindow, Machine, Row};
 use crate::numeric::search::{geometric, zeros};
-use crate::tolerances::{FURTHEST, NARROWEST_PEAK, REAL_COMPLIANCE, WAVE_FURTHEST, WAVE_RATIO};
+
+/// Imaginary part of the joint compliance at a root, as a part of the real part, up to
+/// which it is round-off. Larger: an undamped resonance is taken for a whirl.
+const REAL_COMPLIANCE: f64 = 1e-6;
+
+/// Ratio of neighbouring distances from a resonance at which waves are searched. Larger: a pair of
+/// waves closer than this may be missed.
+const WAVE_RATIO: f64 = 1.6;
+
+/// Waves are searched up to this many times the sum of all frequencies.
+const WAVE_FURTHEST: f64 = 1e6;
+
+/// First distance from an undamped resonance, as a part of that sum.
+const NARROWEST_PEAK: f64 = 1e-10;
 
 /// A wave that runs round both structures, per unit of `|w|`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

@@ -9,7 +9,10 @@ use nalgebra::Complex;
 
 use super::Corner;
 use crate::model::Machine;
-use crate::tolerances::ROUND_ENOUGH;
+
+/// Part of the clearance to which usual casings are round: one per cent. A lock that needs
+/// more says so. Larger: every lock says it; smaller: none does.
+const ROUND_ENOUGH: f64 = 0.01;
 
 /// Returns the lobe counts for which the roundness of a lock is reported: 1 to 4, and `diameters`.
 pub(crate) fn lobes_of(diameters: u32) -> impl Iterator<Item = u32> {

@@ -7,7 +7,11 @@
 use nalgebra::Complex;
 
 use crate::model::{Frame, Machine, Row};
-use crate::tolerances::{NEUTRAL, ROUND_OFF};
+use crate::numeric::rounding::ROUND_OFF;
+
+/// Real parts of eigenvalues up to this part of the rate are round-off: a
+/// nearly defective pair is known to half its digits.
+const NEUTRAL: f64 = 1e-8;
 
 /// Equilibrium with contact rows, and the motion about it.
 #[derive(Clone, Debug)]

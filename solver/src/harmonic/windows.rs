@@ -14,9 +14,30 @@
 use super::{Corner, Form, Locked, LockedPoint};
 use crate::model::{Frame, LockWindow, Machine, TipCorner};
 use crate::numeric::search::{geometric, spans};
-use crate::tolerances::{
-    BESIDE_AN_END, CLOSED_FORM, FURTHEST, LOCK_FURTHEST, NEAREST, SCAN_RATIO, TURN_BESIDE_DAMPING,
-};
+
+/// Whirl and flutter are searched up to this many times the fastest of critical speed and
+/// coincidence. Beyond, no rotor turns.
+pub(super) const FURTHEST: f64 = 50.0;
+
+/// Speeds are searched from the critical speed divided by this.
+const NEAREST: f64 = 20.0;
+
+/// The same of a lock, whose pushes grow with the square of the speed.
+const LOCK_FURTHEST: f64 = 10.0;
+
+/// Ratio of neighbouring speeds of a search. Larger: a range narrower than this is stepped over.
+const SCAN_RATIO: f64 = 1.03;
+
+/// Part of a lock speed up to which it is that of rigid blades in closed form: the slope of the gap
+/// beside the middle of a side makes a thousandth. Larger: blades that bend are said not to.
+const CLOSED_FORM: f64 = 2e-3;
+
+/// Part of a speed beside a known end at which a condition is asked.
+const BESIDE_AN_END: f64 = 1e-6;
+
+/// Turn of a side by its bent blades \[rad\], as a part of the damping ratio, up to which it makes no
+/// motion grow. Larger: a lock that flutters is said to hold; smaller: only more is searched.
+const TURN_BESIDE_DAMPING: f64 = 0.1;
 
 /// The corners of a machine that can hold a lock in one direction of rotation.
 #[derive(Debug)]

@@ -31,3 +31,7 @@ pub use polygon::{ContactPolygon, SideLeft};
 pub(crate) use polygon::{fraction_of_turn, gcd};
 pub use tip_corner::TipCorner;
 pub(crate) use tips::Tips;
+
+/// Largest blade angle the model stands for \[rad\]: the model is linear in it,
+/// and its square is 1 % there. Larger: results the model does not support.
+pub(crate) const LARGEST_BLADE_ANGLE: f64 = 0.1;

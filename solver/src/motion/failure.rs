@@ -2,8 +2,8 @@
 
 use super::event::{MOST_EVENTS, MOST_EVENTS_AT_ONCE, MOST_LOOKS};
 use super::{Pulse, Verdict};
+use crate::model::LARGEST_BLADE_ANGLE;
 use crate::numeric::rounding::rounded;
-use crate::tolerances::LARGEST_BLADE_ANGLE;
 use thiserror::Error;
 
 /// Most rows that one step closes together: a few in an ordinary step, a hundred

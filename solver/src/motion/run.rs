@@ -15,9 +15,9 @@ use super::{
     ActiveSet, Basis, Checks, Contact, ContactLog, EnergyAccount, Failure, FailureReason, GoOn,
     Hold, Motion, Outcome, Proof, State, Verdict, to_the_end,
 };
+use crate::model::LARGEST_BLADE_ANGLE;
 use crate::model::Machine;
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, SolverKind};
-use crate::tolerances::LARGEST_BLADE_ANGLE;
 
 /// Part of the run, at its end, over which the verdict is judged. Shorter: a
 /// pause in a bounce is taken for decay or lock.

@@ -4,7 +4,7 @@
 //! Relative error: round-off times the condition number. Cost: `n^3/3` products for a system, `n^3`
 //! for an inverse. No heap allocation.
 
-use crate::tolerances::AS_ZERO;
+use crate::numeric::rounding::AS_ZERO;
 
 /// Solves `size` equations in place. Each row is followed by its right-hand side, which is
 /// overwritten with the solution. Returns `None` if the matrix is singular.

@@ -8,7 +8,7 @@
 //! of `W`.
 
 use super::elimination::eliminate;
-use crate::tolerances::ROUND_OFF;
+use crate::numeric::rounding::ROUND_OFF;
 
 /// Most multiplications of one step on its contact rows: a tenth of a second.
 /// Least-index pivoting may need any number of tries, though one or two are

@@ -62,7 +62,7 @@ fn a_side_that_lets_go_and_closes_by_round_off_does_not_hang() {
     let outcome = simulate(&scene.checked().unwrap()).outcome;
     assert_eq!(outcome.verdict, Verdict::Decay, "{outcome:?}");
     // None of those runs fails.
-    assert!(outcome.sensitive == Some(false));
+    assert_eq!(outcome.ends_otherwise, Some(false), "{outcome:?}");
 }
 
 /// Full angles may leave a step without an answer where the linearised model has one.

@@ -16,7 +16,23 @@ use crate::harmonic::{HarmonicError, error, has_one_wave};
 use crate::model::{ContactSurface, LiningLaw, Machine};
 use crate::numeric::quadrature::GAUSS_8;
 use crate::numeric::search::bisected;
-use crate::tolerances::{LINING_DIVIDED, LINING_NARROWEST, LINING_STRIDES, LINING_WIDEST};
+
+/// Width of a lining over the amplitude of a wave from which its mean stiffness is a
+/// difference of closed forms. Smaller: the difference loses digits. Larger: eight
+/// nodes do not give all of them.
+const LINING_DIVIDED: f64 = 1e-3;
+
+/// Smallest amplitude of a wave that is looked for, over the preload and the width of
+/// the lining: below it no blade lifts off.
+const LINING_NARROWEST: f64 = 1e-4;
+
+/// Largest one. Larger: the stiffness differs from that of half contact by less than
+/// a part in a thousand million.
+const LINING_WIDEST: f64 = 1e9;
+
+/// Strides from one to the other. Fewer: of two amplitudes in one stride neither is
+/// found, on a lining that is not pressed in by its whole width.
+const LINING_STRIDES: f64 = 400.0;
 
 /// A machine whose casing has a lining.
 #[derive(Clone, Debug)]

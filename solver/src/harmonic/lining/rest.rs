@@ -19,7 +19,21 @@ use super::law::between;
 use crate::harmonic::HarmonicError;
 use crate::model::{Frame, Machine};
 use crate::numeric::search::highest;
-use crate::tolerances::{GROWTH_SCAN, PEAK_REACH, TONGUE_SCAN, UNDAMPED_GROWTH};
+
+/// Growth rates up to this part of the fastest frequency are round-off where nothing
+/// is damped.
+const UNDAMPED_GROWTH: f64 = 1e-11;
+
+/// Speeds of an even scan for changes of the growth at rest.
+const GROWTH_SCAN: u32 = 1000;
+
+/// Speeds on each side of a coincidence, and how many of them are in one width of it.
+/// Less of either: of a tongue as narrow as damping and lining make it the two ends may
+/// be missed.
+const TONGUE_SCAN: (i32, f64) = (240, 8.0);
+
+/// Widths of a tongue between its coincidence and the fastest growth, at most.
+const PEAK_REACH: f64 = 12.0;
 
 /// A motion `e^{ist}` about rest.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

@@ -22,12 +22,26 @@ use serde::Serialize;
 use super::Lining;
 use super::rest::LeastStiffness;
 use crate::harmonic::LockLoads;
+use crate::harmonic::equations::NEWTON_STEPS;
 use crate::harmonic::{HarmonicError, error, has_one_wave};
 use crate::model::{Frame, LiningLaw, Machine, Row};
+use crate::numeric::rounding::AS_ZERO;
 use crate::numeric::search::highest;
-use crate::tolerances::{
-    AS_ZERO, LINING_ALIKE, LINING_NEUTRAL, NEWTON_STEPS, WINDOW_LOOKS, WINDOW_REACH,
-};
+
+/// Natural logarithms of the excess of a speed over the lock of rigid contact, between
+/// which the softest lining is looked for, and looks between them. Smaller: a lining of
+/// nearly rigid stiffness has its window outside.
+const WINDOW_REACH: [f64; 2] = [-30.0, 15.0];
+
+/// See `WINDOW_REACH`.
+const WINDOW_LOOKS: u32 = 450;
+
+/// Distance over the length of the contact up to which two steady states are one.
+/// Larger: two that are about to meet in a fold are one too early.
+const LINING_ALIKE: f64 = 1e-7;
+
+/// Real part of an eigenvalue over the fastest that is round-off.
+const LINING_NEUTRAL: f64 = 1e-10;
 
 /// Grid of starting points: angle in units of `delta`, and amplitude in units of the contact
 /// length.

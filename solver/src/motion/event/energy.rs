@@ -12,13 +12,13 @@ use super::Events;
 use super::flight::amplitude;
 use super::flow::{Face, Flow, dot, size};
 use super::stretch::{Held, Stretch};
+use crate::model::LARGEST_BLADE_ANGLE;
 use crate::motion::point::Point;
 use crate::motion::propagator::damped;
 use crate::motion::verdict::Trend;
 use crate::motion::{Failure, FailureReason, Plane};
 use crate::numeric::quadrature::GAUSS_8;
 use crate::numeric::search::bisected;
-use crate::tolerances::LARGEST_BLADE_ANGLE;
 
 /// Energies per unit casing mass \[m^2/s^2\].
 #[derive(Clone, Copy, Debug, Default)]

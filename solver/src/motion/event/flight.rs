@@ -8,7 +8,7 @@ use super::flow::{Flow, dot, size};
 use crate::motion::Plane;
 use crate::motion::point::Point;
 use crate::motion::propagator::Propagator;
-use crate::tolerances::ROUNDINGS;
+use crate::numeric::rounding::ROUNDINGS;
 
 impl Flow {
     /// Returns the point after `s` seconds of free motion without pulse.

@@ -11,7 +11,7 @@ use super::seek::OpenedGap;
 use super::stretch::Held;
 use crate::motion::point::Point;
 use crate::motion::{ActiveSet, FailureReason};
-use crate::tolerances::ROUND_OFF;
+use crate::numeric::rounding::ROUND_OFF;
 
 /// A closing rate below this part of `omega_c g0` is a touch and not an impact: round-off of the
 /// rates of rows that stay in contact.

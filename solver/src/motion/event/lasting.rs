@@ -10,10 +10,10 @@ use nalgebra::{DMatrix, DVector};
 use super::flow::Flow;
 use super::stretch::{Held, MOST_HELD};
 use crate::model::CERTAIN_PUSH;
+use crate::model::LARGEST_BLADE_ANGLE;
 use crate::motion::Plane;
 use crate::motion::point::{Point, Units, one_of};
 use crate::numeric::lyapunov::lyapunov;
-use crate::tolerances::LARGEST_BLADE_ANGLE;
 
 /// Part of its unit by which a state is changed to find a derivative: the slope is nearly of second
 /// degree, so that a central difference is exact to round-off.

@@ -13,7 +13,7 @@ use crate::motion::Plane;
 use crate::motion::point::Point;
 use crate::motion::propagator::Propagator;
 use crate::numeric::elimination::{Square, inverse};
-use crate::tolerances::ROUND_OFF;
+use crate::numeric::rounding::ROUND_OFF;
 
 /// Most rows that push at once: casing and blades have four modes, and the forces of more rows could
 /// not be told apart.

@@ -9,7 +9,7 @@ use super::seek::{Ending, OpenedGap, seek};
 use super::stretch::{Held, Stretch};
 use crate::motion::point::Point;
 use crate::motion::{FailureReason, Plane};
-use crate::tolerances::ROUNDINGS;
+use crate::numeric::rounding::ROUNDINGS;
 
 /// Part of the clearance up to which a gap that has just opened keeps its own digits, besides those
 /// of the state. Smaller: a short excursion is lost in round-off.

@@ -6,7 +6,7 @@
 use super::disk::{Disk, total};
 use super::oscillator::{Coordinate, Oscillator};
 use super::shapes::dot;
-use crate::tolerances::LARGEST_BLADE_ANGLE;
+use crate::model::LARGEST_BLADE_ANGLE;
 
 /// Radians of the blades between two looks for the largest angle: its square is
 /// the largest part missed, and then searched for.

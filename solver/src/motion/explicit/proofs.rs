@@ -3,9 +3,9 @@
 use super::{Explicit, Lining};
 use crate::harmonic::Locks;
 use crate::model::CERTAIN_PUSH;
+use crate::model::LARGEST_BLADE_ANGLE;
 use crate::motion::{ActiveSet, Verdict};
 use crate::scene::ModelSize;
-use crate::tolerances::LARGEST_BLADE_ANGLE;
 
 /// Steps a corner must have been closed before it counts as held. Fewer: a crossing counts.
 const HELD_AFTER: u64 = 64;

@@ -18,7 +18,7 @@ use super::row::{Row, Tip, TipLaw};
 use crate::motion::failure::MOST_ROWS;
 use crate::motion::{ActiveSet, FailureReason, Plane};
 use crate::numeric::lcp;
-use crate::tolerances::ROUND_OFF;
+use crate::numeric::rounding::ROUND_OFF;
 
 /// Depths of the deepest penetration up to which another gap is looked at, as a push may
 /// close it: of two modes one push closes it by at most

@@ -15,8 +15,8 @@ use super::angles::ANGLE_LOOK;
 use super::oscillator::Coordinate;
 use super::row::Row;
 use super::stride_map::{HELD, HeldTip, SHORTEST, State, StrideMap};
+use crate::model::LARGEST_BLADE_ANGLE;
 use crate::motion::{ActiveSet, Plane};
-use crate::tolerances::LARGEST_BLADE_ANGLE;
 
 /// Steps with the same tips in contact before a stride is tried: more than contact may pause without
 /// an end.

@@ -9,7 +9,25 @@ use super::touching;
 use crate::motion::{GoOn, Verdict, VerdictReached, certainty, run_to_verdict};
 use crate::numeric::rounding::rounded;
 use crate::scene::{CheckedScene, ContactLaw, Scene, SolverKind, keys};
-use crate::tolerances::{CHANGE_DIGITS, CHANGE_FOUND, CHANGE_OF_ZERO, CHANGE_RUNS, CHANGE_STEPS};
+
+/// Steps away from a quantity, as parts of it, at which a run is asked whether its verdict is
+/// still the same. Closer together: more islands are found, by more runs.
+const CHANGE_STEPS: [f64; 7] = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0];
+
+/// Digits of a value that is tried. Fewer: a change is not found to its three digits. More: a
+/// value that is shown does not give the same run.
+const CHANGE_DIGITS: usize = 4;
+
+/// Part of a value to which a change of the verdict is found: three digits. Smaller: more runs
+/// for digits that no machine has.
+const CHANGE_FOUND: f64 = 1e-3;
+
+/// Most runs on one side of a quantity: those steps, and halvings of the widest of them to
+/// three digits of a value that is a hundredth of the present one.
+const CHANGE_RUNS: usize = 20;
+
+/// Largest value that is tried of a damping ratio that is zero, more than structures have.
+const CHANGE_OF_ZERO: f64 = 0.1;
 
 /// Quantities that are varied, and their names; the last two only if they are not zero.
 const CHANGED: [(&str, &str); 7] = [

@@ -13,7 +13,17 @@ use crate::motion::GoOn;
 use crate::numeric::search::try_bisected;
 use crate::scene::units::UnitError;
 use crate::scene::{CheckedScene, Quantity};
-use crate::tolerances::{TARGET_FACTOR, TARGET_REACHED, TARGET_SPAN};
+
+/// Factor between two values of a parameter on the way to a target. Larger: a limit
+/// that goes there and back between two is missed.
+const TARGET_FACTOR: f64 = 1.05;
+
+/// Largest factor by which a parameter is changed for a target, both ways.
+const TARGET_SPAN: f64 = 1e6;
+
+/// Part of a target by which it may be missed: a limit that jumps past it is not
+/// there. Smaller: round-off of a search.
+const TARGET_REACHED: f64 = 1e-6;
 
 /// Reason why a target was rejected.
 #[derive(Clone, Debug, Error, PartialEq)]

@@ -10,7 +10,16 @@ use crate::motion::FreeFlight;
 use crate::numeric::search::bisected;
 use crate::scene::keys::PULSE;
 use crate::scene::{ModelSize, Scene};
-use crate::tolerances::{TOUCHING_LOOK, TOUCHING_PERIODS};
+
+/// Part of the way from the middle of a side to its corner, and of a radian of the casing,
+/// between two looks for the nearest instant. Larger: its slope has several zeros between
+/// two looks.
+const TOUCHING_LOOK: f64 = 0.25;
+
+/// Most casing periods in which the first touch is looked for. More: an undamped
+/// casing takes longer than a hundredth of a second. Fewer: a blade that passes
+/// nearer later is missed.
+const TOUCHING_PERIODS: f64 = 1000.0;
 
 /// The smallest pulse that makes a blade touch, with time and place of the contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
