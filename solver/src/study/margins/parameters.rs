@@ -168,16 +168,35 @@ impl Parameter {
     }
 
     /// Returns a scene with the parameter multiplied by `1 + part`, also beyond the bounds of its
-    /// key; the scene itself if a frequency cannot be set. For a length `part` is relative to the
-    /// clearance, the small difference of two lengths.
+    /// key; the scene itself if a frequency cannot be set. The casing grows with the blade length, so
+    /// that the clearance stays.
     pub(super) fn scaled(&self, scene: &Scene, part: f64) -> Scene {
-        let (own, clearance) = (self.of(scene), scene.clearance());
-        let size = if is_length(self.path) && clearance != 0.0 { clearance } else { own };
-        let changed = self.changed(scene, own + part * size, |scene, key, value| {
+        let more = part * self.of(scene);
+        let changed = self.changed(scene, self.of(scene) + more, |scene, key, value| {
             (key.set)(scene, value);
             Ok(())
         });
-        changed.unwrap_or_else(|_| scene.clone())
+        let mut changed = changed.unwrap_or_else(|_| scene.clone());
+        if self.path == LENGTH {
+            changed.casing.radius_m += more;
+        }
+        changed
+    }
+
+    /// Returns whether the parameter acts through the clearance only.
+    pub(super) fn is_radius(&self) -> bool {
+        self.path == RADIUS
+    }
+
+    /// Returns `d ln(clearance)/d ln(parameter)` if the parameter is a length, otherwise 0.
+    pub(super) fn clearance_share(&self, scene: &Scene) -> f64 {
+        let clearance = scene.clearance();
+        match self.path {
+            _ if clearance == 0.0 => 0.0,
+            LENGTH => -scene.bladed_disk.blade_length_m / clearance,
+            RADIUS => scene.casing.radius_m / clearance,
+            _ => 0.0,
+        }
     }
 
     /// Returns a scene with another value, which `set` puts there.
