@@ -4,18 +4,18 @@
 //! Which module holds which solver to what; those of harmonic balance, of margins and of
 //! maps, which the program's commands print, are in `tests` of the program.
 //!
-//! | law | explicit | on a lining | events, exact | events, linear | harmonic balance |
-//! |---|---|---|---|---|---|
-//! | numbers of other codes | `cases` `explicit_tips` | `explicit_lining` | `theory` | `event_linear` | `theory` `hbm_joined` `hbm_lining` |
-//! | closed forms | `explicit` `explicit_tip_locks` | `lock_ends` | `event_cases` | `event_linear` | `theory` `hbm_laws` `hbm_whirl` |
-//! | plain stepping, or integration | `plain_stepper` `rebound` | `explicit_lining` | `event_modal` | `rebound` | `hbm_time` `hbm_excitation` |
-//! | its order | `live_event` `rebound` | `explicit_lining` | `live_event` | `explicit_tips` | |
-//! | no pull, no energy made, mirrors | `motion_laws` | `motion_laws` | `event_laws` | `event_linear_laws` | `hbm_laws` |
-//! | sizes of the disk agree | `cases` | `explicit_lining` | | | |
-//! | live changes | `live_changes` `live_random` | `motion_laws` | `live_event` | `event_linear_laws` | |
-//! | hard cases, any input | `explicit_hard` `fuzz_cases` | `motion_laws` | `event_hard` | `event_linear_laws` | `hbm_lining_states` `hbm_branches` |
-//! | verdicts, digits, flags | `verdicts` `certainty` `digits` `map_flags` | `explicit_lining` | `verdicts` `digits` | `event_linear` | |
-//! | the paper's bits | `scene_defaults` | | `scene_defaults` | | |
+//! | law | explicit | on a lining | events | harmonic balance |
+//! |---|---|---|---|---|
+//! | numbers of other codes | `cases` `explicit_tips` | `explicit_lining` | `theory` `event_linear` | `theory` `hbm_joined` `hbm_lining` |
+//! | closed forms | `explicit` `explicit_tip_locks` | `lock_ends` | `event_cases` `event_linear` | `theory` `hbm_laws` `hbm_whirl` |
+//! | plain stepping, or integration | `plain_stepper` `rebound` | `explicit_lining` | `event_modal` `rebound` | `hbm_time` `hbm_excitation` |
+//! | its order | `live_event` `rebound` | `explicit_lining` | `live_event` `explicit_tips` | |
+//! | no pull, no energy made, mirrors | `motion_laws` | `motion_laws` | `event_laws` `event_linear_laws` | `hbm_laws` |
+//! | sizes of the disk agree | `cases` | `explicit_lining` | | |
+//! | live changes | `live_changes` `live_random` | `motion_laws` | `live_event` `event_linear_laws` | |
+//! | hard cases, any input | `explicit_hard` `fuzz_cases` | `motion_laws` | `event_hard` `event_linear_laws` | `hbm_lining_states` `hbm_branches` |
+//! | verdicts, digits, flags | `verdicts` `certainty` `digits` `map_flags` | `explicit_lining` | `verdicts` `digits` `event_linear` | |
+//! | the paper's bits | `scene_defaults` | | `scene_defaults` | |
 
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test states what must hold")]
 
