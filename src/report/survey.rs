@@ -239,8 +239,9 @@ fn growth(survey: &Survey, shown: &[&SurveyRow]) -> Vec<String> {
             None => told.push((vec![row.nodal_diameters], all)),
         }
     }
-    let sentence = |(diameters, all): (Vec<u32>, String)| {
-        format!("A large rub in {}: {all}.", waves(&diameters))
+    let sentence = |(mut diameters, all): (Vec<u32>, String)| {
+        diameters.sort_unstable();
+        format!("A large rub in {}: {all}.", waves(&diameters).trim_end_matches(','))
     };
     told.into_iter().take(LISTED).map(sentence).collect()
 }
