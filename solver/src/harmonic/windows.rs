@@ -5,9 +5,9 @@
 //! stable (no motion that keeps the contact grows, with the curvature of the pushes). [`Locks::hold`]
 //! is that condition; `hbm`, `margins`, `survey`, `check`, runs and the screen ask it.
 //!
-//! The scan has a point every 3 % from a twentieth of the critical speed to ten times (a lock) or a
-//! hundred times the fastest of critical speed and coincidence, and every end of the closed form for rigid blades
-//! (`Machine::lock_windows`) with the middles between them. Where blades do not bend, the ends found
+//! The scan has a point every 3 % from a twentieth of the critical speed to ten times (a lock) or
+//! fifty times the faster of critical speed and coincidence, and every end of the closed form for
+//! rigid blades (`Machine::lock_windows`) with the middles between them. Where blades do not bend, the ends found
 //! are those of the closed form to two thousandths; then the closed form is returned. It is not even
 //! searched if tips without slope bend so little up to the last speed that damping decides.
 
@@ -15,7 +15,7 @@ use super::{Corner, Form, Locked, LockedPoint};
 use crate::model::{Frame, LockWindow, Machine, TipCorner};
 use crate::numeric::search::{geometric, spans};
 
-/// Whirl and flutter are searched up to this many times the fastest of critical speed and
+/// Whirl and flutter are searched up to this many times the faster of critical speed and
 /// coincidence. Beyond, no rotor turns.
 pub(super) const FURTHEST: f64 = 50.0;
 
@@ -181,14 +181,14 @@ pub fn joined_grow(machine: &Machine, speed: f64) -> bool {
     Frame::at(machine, speed).joined().iter().any(|rate| rate.re > 0.0)
 }
 
-/// Returns the fastest of critical speed and coincidence without stiffening \[rad/s\].
+/// Returns the faster of critical speed and coincidence without stiffening \[rad/s\].
 fn scale(machine: &Machine) -> Option<f64> {
     let coincidence = (machine.omega_c + machine.omega_bd_at_rest()) / machine.nodal_diameters;
     machine.critical_speed().map(|critical| critical.max(coincidence))
 }
 
 /// Returns the spans of a condition of the speed, which `ends` may bound \[rad/s\], up to `reach` times
-/// the fastest of critical speed and coincidence.
+/// the faster of critical speed and coincidence.
 pub(super) fn windows(
     machine: &Machine,
     reach: f64,

@@ -1,10 +1,10 @@
 //! How far a run is from another verdict: one sentence, and a table with a row per quantity.
 
 use super::words::margin;
-use crate::report::number::{rounded, scaled, short, with_unit};
+use crate::report::number::{count, rounded, scaled, short, with_unit};
 use crate::report::table::{Heading, Table, TableCell};
-use rubscope_solver::scene::{ContactLaw, Scene, keys};
-use rubscope_solver::study::margins::{ChangedVerdict, Margins, Robustness, parameter};
+use rubscope_solver::scene::{ContactLaw, keys};
+use rubscope_solver::study::margins::{ChangedVerdict, LimitName, Margins, Robustness, parameter};
 
 /// Significant digits shown of a value, as many as the values that the search tries have.
 const DIGITS: usize = 4;
@@ -18,8 +18,10 @@ pub fn asked(margins: &Margins) -> impl Iterator<Item = &Robustness> {
     margins.robust.iter().chain(&margins.pushes_only)
 }
 
-/// States the verdict of the run, and the nearest change of a quantity that was found to alter it.
-pub fn sentence(found: &Robustness, scene: &Scene) -> String {
+/// States the verdict of the run, the lobes of the casing that end its lock, and the nearest change
+/// of a quantity that was found to alter it.
+pub fn sentence(found: &Robustness, margins: &Margins) -> String {
+    let scene = &margins.scene;
     let law = match found.contact {
         ContactLaw::Unilateral if found.solver != scene.solver.kind => "pushes only, by events",
         ContactLaw::Unilateral => "pushes only",
@@ -31,6 +33,9 @@ pub fn sentence(found: &Robustness, scene: &Scene) -> String {
     if found.changes.len() < found.rows {
         parts.push(format!("{} of {} quantities tried", found.changes.len(), found.rows));
         return format!("{}.", parts.join("; "));
+    }
+    if found.verdict.is_held() {
+        parts.extend(out_of_round(margins));
     }
     let each = found.changes.iter().filter_map(|row| Some((row, row.nearest()?)));
     let nearest = each.min_by(|(_, (_, a)), (_, (_, b))| a.abs().total_cmp(&b.abs()));
@@ -55,6 +60,22 @@ pub fn sentence(found: &Robustness, scene: &Scene) -> String {
     let mut ends = found.changes.iter().flat_map(|row| [row.below, row.above]).flatten();
     let foot = if ends.any(|end| end.sensitive) { MARKED } else { "" };
     format!("{}.{foot}", parts.join("; "))
+}
+
+/// Names the smallest lobes of the casing that end the lock, in micrometres and as a part of the
+/// clearance; `None` if no number of lobes is known to.
+fn out_of_round(margins: &Margins) -> Option<String> {
+    let heights = margins.limits.iter().filter(|limit| limit.name == LimitName::Roundness);
+    let each = heights.filter_map(|limit| Some((limit.value?, limit.lobes?)));
+    let (height, lobes) = each.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
+    let now = margins.scene.casing.out_of_round_m;
+    let [height_um, now_um] = [height, now].map(|length| short(rounded(1e6 * length, 2)));
+    let part = short(rounded(100.0 * height / margins.scene.clearance(), 2));
+    let lobes = count(u64::from(lobes), "lobe");
+    Some(format!(
+        "a casing out of round by {height_um} um ({lobes}; {part} % of the clearance; now {now_um}) \
+         ends it"
+    ))
 }
 
 /// Returns the mark of an altered verdict: `?` if it is itself sensitive, otherwise nothing.

@@ -21,7 +21,7 @@ pub fn draw(app: &App, margins: &Margins, buffer: &mut Buffer, area: Rect, limit
     let (look, mut lines) = (&app.appearance, Vec::new());
     let (height, width) = (usize::from(area.height), usize::from(area.width.saturating_sub(1)));
     for (place, found) in robust::asked(margins).enumerate() {
-        let sentence = wrap(&look.spell(&robust::sentence(found, &margins.scene)), width);
+        let sentence = wrap(&look.spell(&robust::sentence(found, margins)), width);
         let shown = |at| robust::table(found, at).lines(usize::MAX, 1);
         let wide = |row: &Vec<String>| row.join(" ").chars().count() > width;
         let ways = [" at ", " "].map(shown).into_iter().find(|rows| !rows.iter().any(wide));
