@@ -83,8 +83,9 @@ fn the_answer_begins_with_the_nearest_changes_of_the_verdict() {
     let said = |arguments: &[&str]| text(&[&["margins"], arguments].concat());
     let text = said(&["--speed", "480"]);
     let place = |words: &str| text.find(words).unwrap_or_else(|| panic!("no {words} in {text}"));
-    let bilateral =
-        place("480 rad/s, bilateral law: locked; nearest found: adhesive at speed 411.");
+    let bilateral = place(
+        "480 rad/s, bilateral law: locked; a casing out of round by 0.2 um (4 lobes; 0.2 % of",
+    );
     let pushes = place("480 rad/s, pushes only, by events: decay; ");
     assert!(bilateral < pushes && pushes < place("omega_c  "), "{text}");
     assert!(

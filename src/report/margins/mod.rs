@@ -104,7 +104,7 @@ fn write_limits(margins: &Margins, out: &mut dyn Write) -> Result<()> {
     words::note(margins).iter().try_for_each(|note| tell(note, out))?;
     writeln!(out)?;
     for found in robust::asked(margins) {
-        tell(&robust::sentence(found, margins), out)?;
+        tell(&robust::sentence(found, margins, true), out)?;
         robust::table(found, " at ").write_text_in(WIDTH, out)?;
         writeln!(out)?;
     }

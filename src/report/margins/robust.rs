@@ -18,9 +18,9 @@ pub fn asked(margins: &Margins) -> impl Iterator<Item = &Robustness> {
     margins.robust.iter().chain(&margins.pushes_only)
 }
 
-/// States the verdict of the run, the lobes of the casing that end its lock, and the nearest change
-/// of a quantity that was found to alter it.
-pub fn sentence(found: &Robustness, margins: &Margins) -> String {
+/// States the verdict of the run, where there is room (`wide`) the lobes of the casing that end its
+/// lock, and the nearest change of a quantity that was found to alter it.
+pub fn sentence(found: &Robustness, margins: &Margins, wide: bool) -> String {
     let scene = &margins.scene;
     let law = match found.contact {
         ContactLaw::Unilateral if found.solver != scene.solver.kind => "pushes only, by events",
@@ -34,7 +34,7 @@ pub fn sentence(found: &Robustness, margins: &Margins) -> String {
         parts.push(format!("{} of {} quantities tried", found.changes.len(), found.rows));
         return format!("{}.", parts.join("; "));
     }
-    if found.verdict.is_held() {
+    if wide && found.verdict.is_held() {
         parts.extend(out_of_round(margins));
     }
     let each = found.changes.iter().filter_map(|row| Some((row, row.nearest()?)));

@@ -124,7 +124,7 @@ impl ViewPanel for MarginsView {
         let told = |table: &Table| table.lines(width, 1).into_iter().map(|cells| cells.join(" "));
         let asked = margins::robust::asked(&live.margins).filter(|_| !app.layout.survey);
         let head = asked.flat_map(|found| {
-            let sentence = margins::robust::sentence(found, &live.margins);
+            let sentence = margins::robust::sentence(found, &live.margins, true);
             std::iter::once(sentence).chain(told(&margins::robust::table(found, " at ")))
         });
         Some(head.chain(told(&table)).map(|line| line.trim_end().to_string()).collect())

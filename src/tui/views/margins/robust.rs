@@ -12,6 +12,8 @@ use rubscope_solver::study::margins::Margins;
 
 /// Index of the column with the current value.
 const NOW: usize = 2;
+/// Width from which the sentence names the lobes that end a lock \[columns\].
+const WIDE: usize = 70;
 /// Rows of limits that stay visible below on a small screen.
 const LEFT: usize = 6;
 
@@ -21,7 +23,8 @@ pub fn draw(app: &App, margins: &Margins, buffer: &mut Buffer, area: Rect, limit
     let (look, mut lines) = (&app.appearance, Vec::new());
     let (height, width) = (usize::from(area.height), usize::from(area.width.saturating_sub(1)));
     for (place, found) in robust::asked(margins).enumerate() {
-        let sentence = wrap(&look.spell(&robust::sentence(found, margins)), width);
+        let sentence = robust::sentence(found, margins, width >= WIDE);
+        let sentence = wrap(&look.spell(&sentence), width);
         let shown = |at| robust::table(found, at).lines(usize::MAX, 1);
         let wide = |row: &Vec<String>| row.join(" ").chars().count() > width;
         let ways = [" at ", " "].map(shown).into_iter().find(|rows| !rows.iter().any(wide));
