@@ -55,6 +55,9 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
         title += &format!("; blades and casing as one flutter {}", listed(&flutter));
     }
     title.push('.');
+    if rows.iter().any(|row| row.state == Rubbing::None) {
+        title += FEW_SIDES;
+    }
     let ranges: Vec<_> = flutter.iter().map(|range| [Some(range.from), range.to]).collect();
     let json = Parts::default()
         .with("whirl_onset_rad_s", whirls.first().map(|span| span.from))
@@ -65,6 +68,10 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
         .with_rows("points", &rows, value);
     Ok(Answer::of(json, vec![(title, Table::of(&rows, WHIRLS))]))
 }
+
+/// What a state `none` leaves open.
+const FEW_SIDES: &str = " With few sides or little damping a rub may whirl or grow where this limit \
+    of many blades has none: a run tells.";
 
 /// Describes a range of rotor speeds, which may have no upper end.
 fn between(range: LockWindow) -> String {
