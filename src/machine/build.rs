@@ -199,14 +199,12 @@ mod tests {
     use super::*;
     use crate::machine::read_modes;
 
+    fn family(nodal_diameters: u32, frequency_hz: f64, modal_mass_kg: f64) -> Family {
+        let (damping_ratio, stiffening) = (None, None);
+        Family { nodal_diameters, frequency_hz, modal_mass_kg, damping_ratio, stiffening }
+    }
+
     fn data() -> ModalData {
-        let family = |nodal_diameters, frequency_hz, modal_mass_kg| Family {
-            nodal_diameters,
-            frequency_hz,
-            modal_mass_kg,
-            damping_ratio: None,
-            stiffening: None,
-        };
         ModalData {
             title: "A \"quoted\" machine".into(),
             blades: 36,
@@ -256,13 +254,6 @@ mod tests {
 
     #[test]
     fn every_mode_of_a_blade_family_keeps_its_own_frequency_and_mass() {
-        let family = |nodal_diameters, frequency_hz, modal_mass_kg| Family {
-            nodal_diameters,
-            frequency_hz,
-            modal_mass_kg,
-            damping_ratio: None,
-            stiffening: None,
-        };
         let ordinary = vec![family(2, 214.0, 3.9), family(3, 297.5, 2.9), family(8, 378.0, 2.25)];
         // The second mode is softer than the springs fitted to the other two.
         let odd = vec![family(2, 100.0, 3.0), family(6, 60.0, 3.0), family(8, 400.0, 3.0)];
@@ -286,13 +277,9 @@ mod tests {
         // Modes of a disk with known springs.
         let base = Scene::base();
         let mass = 11.0 * 0.20825 / (0.4999 * 0.4999);
-        let of = |diameters: u32| Family {
-            nodal_diameters: diameters,
-            frequency_hz: rubscope_solver::model::blade_frequency(&base.bladed_disk, diameters)
-                / TAU,
-            modal_mass_kg: mass,
-            damping_ratio: None,
-            stiffening: None,
+        let of = |diameters: u32| {
+            let omega = rubscope_solver::model::blade_frequency(&base.bladed_disk, diameters);
+            family(diameters, omega / TAU, mass)
         };
         let two = ModalData {
             blades: 22,

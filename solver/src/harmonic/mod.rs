@@ -27,6 +27,7 @@ mod locked;
 mod round_whirl;
 mod roundness;
 mod slip;
+mod speed_ranges;
 mod stability;
 mod windows;
 
@@ -46,11 +47,12 @@ pub use lining::{
 };
 pub use locked::{LockLoads, Locked, LockedPoint, Sweep, lock_loads, locked_motion};
 pub use round_whirl::{
-    RoundWhirl, RoundWhirlLoads, Rubbing, growth_spans, has_one_wave, round_whirls, whirl_spans,
+    RoundWhirl, RoundWhirlLoads, Rubbing, has_one_wave, round_whirls, whirl_spans,
 };
 pub(crate) use roundness::lobes_of;
 pub use roundness::{roundness, roundness_needed};
 pub use slip::{NoSlip, SlipLimit, SlipOrbit, SlipPoint, slip_limits, slip_over};
+pub use speed_ranges::SpeedRanges;
 pub use windows::{
     Locks, flutters, joined_grow, lock_growth, lock_window, lock_windows, undamped_flutter_speed,
 };

@@ -14,7 +14,7 @@
 use serde::Serialize;
 use strum::IntoStaticStr;
 
-use super::windows::{FURTHEST, flutters, joined_grow, windows};
+use super::windows::{FURTHEST, joined_grow, windows};
 use crate::model::{Frame, LockWindow, Machine, Row};
 use crate::numeric::search::{geometric, zeros};
 
@@ -269,15 +269,18 @@ pub fn whirl_spans(machine: &Machine, toward: f64) -> Vec<LockWindow> {
     })
 }
 
-/// Returns the ranges of speed in which rubbing grows without bound: those of flutter in which no
-/// wave attracts. Empty on a lining.
-#[must_use]
-pub fn growth_spans(machine: &Machine, toward: f64) -> Vec<LockWindow> {
+/// Returns the ranges of speed in which rubbing grows without bound: those of `flutters` outside
+/// `whirls`. Empty on a lining.
+pub(super) fn growth_spans<'a>(
+    machine: &Machine,
+    flutters: impl FnOnce() -> &'a [LockWindow],
+    whirls: impl FnOnce() -> &'a [LockWindow],
+) -> Vec<LockWindow> {
     if machine.lining.is_some() || machine.clearance_at_rest() <= 0.0 {
         return Vec::new();
     }
     let less = |spans: Vec<LockWindow>, whirl: &LockWindow| {
         spans.into_iter().flat_map(|span| span.without(whirl)).collect()
     };
-    whirl_spans(machine, toward).iter().fold(flutters(machine, toward), less)
+    whirls().iter().fold(flutters().to_vec(), less)
 }

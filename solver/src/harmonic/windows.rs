@@ -11,7 +11,7 @@
 //! are those of the closed form to two thousandths; then the closed form is returned. It is not even
 //! searched if tips without slope bend so little up to the last speed that damping decides.
 
-use super::{Corner, Form, Locked, LockedPoint};
+use super::{Corner, Form, Locked, LockedPoint, SpeedRanges};
 use crate::model::{Frame, LockWindow, Machine, TipCorner};
 use crate::numeric::search::{geometric, spans};
 
@@ -127,6 +127,16 @@ pub fn lock_window(machine: &Machine, toward: f64) -> Option<LockWindow> {
 /// considered. Empty where unequal tips or lobes have no closed form.
 #[must_use]
 pub fn lock_windows(machine: &Machine, toward: f64) -> Vec<LockWindow> {
+    SpeedRanges::new(machine, toward).locks().to_vec()
+}
+
+/// As [`lock_windows`], with the ranges of [`flutters`], which are asked for only where a search needs
+/// them.
+pub(super) fn lock_windows_beside<'a>(
+    machine: &Machine,
+    toward: f64,
+    flutters: impl FnOnce() -> &'a [LockWindow],
+) -> Vec<LockWindow> {
     let pushed = machine.lock_windows(toward);
     let known = machine.out_of_round() == 0.0 && !machine.has_unequal_tips() || !pushed.is_empty();
     if machine.lining.is_some() || machine.out_of_round() != 0.0 || !known {
@@ -137,7 +147,7 @@ pub fn lock_windows(machine: &Machine, toward: f64) -> Vec<LockWindow> {
         return pushed;
     }
     // Where curvature does little, a lock grows where blades and casing as one do.
-    let ranges = pushed.iter().copied().chain(flutters(machine, toward));
+    let ranges = pushed.iter().chain(flutters());
     let ends: Vec<f64> = ranges.flat_map(|range| [Some(range.from), range.to]).flatten().collect();
     windows(machine, LOCK_FURTHEST, &ends, |speed| locks.hold(sense * speed))
 }

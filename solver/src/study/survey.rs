@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::margins::{LimitName, Parameter, shown_margin, speeds};
-use crate::harmonic::{growth_spans, lock_windows, whirl_spans};
+use crate::harmonic::{SpeedRanges, lock_windows};
 use crate::model::{LockWindow, Machine};
 use crate::scene::units::{self, RangeError};
 use crate::scene::{CheckedScene, Scene, SceneError};
@@ -256,7 +256,12 @@ fn even(scene: &Scene) -> Scene {
 }
 
 /// Returns the intervals of these speeds in which a lock holds, from the lowest; `None` if unknown.
-fn locks(scene: &Scene, machine: &Machine, asked: [f64; 2]) -> Option<Vec<[f64; 2]>> {
+fn locks<'a>(
+    scene: &Scene,
+    machine: &Machine,
+    asked: [f64; 2],
+    ranges: impl Fn(f64) -> &'a SpeedRanges,
+) -> Option<Vec<[f64; 2]>> {
     if scene.clearance() <= 0.0 {
         return Some(Vec::new());
     }
@@ -267,7 +272,7 @@ fn locks(scene: &Scene, machine: &Machine, asked: [f64; 2]) -> Option<Vec<[f64; 
             return None;
         }
     }
-    Some(within(asked, |sense| lock_windows(machine, sense)))
+    Some(within(asked, |sense| ranges(sense).locks()))
 }
 
 /// Returns the directions of rotation of these speeds.
@@ -276,10 +281,10 @@ fn senses([from, to]: [f64; 2]) -> impl Iterator<Item = f64> {
 }
 
 /// Returns the parts within these speeds of ranges of their magnitudes, from the lowest.
-fn within(asked: [f64; 2], of: impl Fn(f64) -> Vec<LockWindow>) -> Vec<[f64; 2]> {
+fn within<'a>(asked: [f64; 2], of: impl Fn(f64) -> &'a [LockWindow]) -> Vec<[f64; 2]> {
     let [from, to] = asked;
     let parts = senses(asked).flat_map(|sense| {
-        of(sense).into_iter().filter_map(move |window| {
+        of(sense).iter().filter_map(move |window| {
             let ends = [window.from, window.to.unwrap_or(f64::INFINITY)].map(|end| sense * end);
             let [low, high] = [ends[0].min(ends[1]).max(from), ends[0].max(ends[1]).min(to)];
             (low < high).then_some([low, high])
@@ -331,18 +336,24 @@ fn row(
         _ => &found,
     };
     let limits = [1.0, -1.0].map(|sense| of(sense).limits(&scene, sense, range)).concat();
+    let back = SpeedRanges::new(&machine, -own);
+    let ranges = |sense: f64| match &other {
+        _ if sense == own => &found.ranges,
+        Some(other) => &other.ranges,
+        None => &back,
+    };
     // A lining that is compressed at rest has limits of its own.
     let open = scene.clearance() > 0.0;
-    let spans = |of: fn(&Machine, f64) -> Vec<LockWindow>| {
-        within(asked, |sense| if open { of(&machine, sense) } else { Vec::new() })
+    let spans = |of: fn(&SpeedRanges) -> &[LockWindow]| {
+        within(asked, |sense| if open { of(ranges(sense)) } else { &[] })
     };
-    let (whirl_spans, growth_spans) = (spans(whirl_spans), spans(growth_spans));
+    let (whirl_spans, growth_spans) = (spans(SpeedRanges::whirls), spans(SpeedRanges::growths));
     SurveyRow {
         nodal_diameters: diameters,
         omega_c_rad_s: machine.omega_c,
         omega_bd_rad_s: machine.omega_bd,
         guessed: scene.modes_note().is_some(),
-        locks_in_range: locks(&scene, &machine, asked),
+        locks_in_range: locks(&scene, &machine, asked, ranges),
         whirls_in_range: whirls(&machine, &limits, &whirl_spans, asked),
         whirl_spans,
         growth_spans,
@@ -350,14 +361,19 @@ fn row(
     }
 }
 
-/// Magnitudes of the limits for one direction of rotation, and their sensitivities.
-struct Speeds(Vec<(LimitName, f64, Option<f64>)>);
+/// Magnitudes of the limits for one direction of rotation with their sensitivities, and the ranges
+/// on which they rest.
+struct Speeds {
+    limits: Vec<(LimitName, f64, Option<f64>)>,
+    ranges: SpeedRanges,
+}
 
 impl Speeds {
     fn new(scene: &Scene, sense: f64, by: Option<&Parameter>) -> Self {
         let mut turned = scene.clone();
         turned.operation.speed_rad_s = sense * scene.operation.speed_rad_s.abs().max(1.0);
-        Self(speeds(&turned, by))
+        let (limits, ranges) = speeds(&turned, by);
+        Self { limits, ranges }
     }
 
     /// Converts the magnitudes to limits for a direction of rotation.
@@ -371,6 +387,6 @@ impl Speeds {
         };
         // The adhesive speed belongs to the paper's algorithm, not to the machine.
         let of_machine = |limit: &SurveyLimit| limit.name != LimitName::OmegaAdhesive;
-        self.0.iter().map(limit).filter(of_machine).collect()
+        self.limits.iter().map(limit).filter(of_machine).collect()
     }
 }

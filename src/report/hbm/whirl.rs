@@ -7,8 +7,7 @@ use super::{Answer, LockBeside, Parts, Request, View, speeds_of};
 use crate::report::number::{speed, speed_unit};
 use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{
-    HarmonicError, RoundWhirl, RoundWhirlLoads, Rubbing, flutters, growth_spans, lock_window,
-    undamped_flutter_speed, whirl_spans,
+    HarmonicError, RoundWhirl, RoundWhirlLoads, Rubbing, SpeedRanges, undamped_flutter_speed,
 };
 use rubscope_solver::model::{LockWindow, Machine};
 
@@ -26,12 +25,13 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let (machine, toward) = (&request.machine, request.fastest());
     let rows = request.speeds.iter().map(|&speed| WhirlRow::at(machine, speed));
     let rows: Vec<WhirlRow> = rows.collect();
-    let (whirls, flutter) = (whirl_spans(machine, toward), flutters(machine, toward));
-    let window = lock_window(machine, toward);
+    let ranges = SpeedRanges::new(machine, toward);
+    let (whirls, flutter) = (ranges.whirls(), ranges.flutters());
+    let window = ranges.locks().first().copied();
     let listed = |spans: &[LockWindow]| {
         spans.iter().map(|span| between(*span)).collect::<Vec<_>>().join(" and ")
     };
-    let mut title = match whirls.as_slice() {
+    let mut title = match whirls {
         [] => "Nothing whirls on a rim of many blades".to_string(),
         spans => {
             let each = spans.iter().map(|span| match (span.from, span.to) {
@@ -43,26 +43,26 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
             format!("On a rim of many blades whirl {}", each.collect::<Vec<_>>().join("; "))
         }
     };
-    let growth = growth_spans(machine, toward);
+    let growth = ranges.growths();
     if !growth.is_empty() {
-        title += &format!("; a rub grows without bound {}", listed(&growth));
+        title += &format!("; a rub grows without bound {}", listed(growth));
     }
     title += &match window {
         Some(window) => format!("; a lock holds from {} {}", speeds_of(window), speed_unit()),
         None => "; no lock holds at any speed".to_string(),
     };
     if !flutter.is_empty() {
-        title += &format!("; blades and casing as one flutter {}", listed(&flutter));
+        title += &format!("; blades and casing as one flutter {}", listed(flutter));
     }
     title.push('.');
     if rows.iter().any(|row| row.state == Rubbing::None) {
         title += FEW_SIDES;
     }
-    let ranges: Vec<_> = flutter.iter().map(|range| [Some(range.from), range.to]).collect();
+    let fluttering: Vec<_> = flutter.iter().map(|range| [Some(range.from), range.to]).collect();
     let json = Parts::default()
         .with("whirl_onset_rad_s", whirls.first().map(|span| span.from))
         .with("flutter_speed_rad_s", flutter.first().map(|range| range.from))
-        .with("flutter_rad_s", ranges)
+        .with("flutter_rad_s", fluttering)
         .with("flutter_undamped_rad_s", undamped_flutter_speed(machine, toward))
         .with("lock_window_rad_s", window.map(|window| [Some(window.from), window.to]))
         .with_rows("points", &rows, value);

@@ -9,9 +9,7 @@ use super::limit::{LimitName, Quantity};
 use super::parameters::Parameter;
 use super::sensitivity::{CHANGE, sensitivities};
 use super::touching::{self, FirstTouch};
-use crate::harmonic::{
-    LockLoads, flutters, lobes_of, lock_loads, lock_windows, roundness, whirl_spans,
-};
+use crate::harmonic::{LockLoads, SpeedRanges, lobes_of, lock_loads, roundness};
 use crate::model::{LockWindow, Machine};
 use crate::scene::{ModelSize, Scene};
 
@@ -23,10 +21,9 @@ const OF_NO_CONTACT: [LimitName; 3] =
 /// A scene at which limits are evaluated. What several limits need is computed once.
 pub(super) struct Evaluated<'a> {
     pub scene: &'a Scene,
-    pub machine: Machine,
+    /// Ranges of speed in the direction of rotation of the scene.
+    pub ranges: SpeedRanges,
     touch: OnceCell<Option<FirstTouch>>,
-    flutters: OnceCell<Vec<LockWindow>>,
-    locks: OnceCell<Vec<LockWindow>>,
     loads: OnceCell<Option<LockLoads>>,
 }
 
@@ -34,10 +31,8 @@ impl<'a> Evaluated<'a> {
     pub fn of(scene: &'a Scene) -> Self {
         Self {
             scene,
-            machine: scene.machine(),
+            ranges: SpeedRanges::new(&scene.machine(), scene.operation.speed_rad_s),
             touch: OnceCell::new(),
-            flutters: OnceCell::new(),
-            locks: OnceCell::new(),
             loads: OnceCell::new(),
         }
     }
@@ -52,21 +47,20 @@ impl<'a> Evaluated<'a> {
         self.scene.operation.speed_rad_s
     }
 
-    /// Returns the ranges of speeds in which the lock flutters on rigid contact.
-    pub fn flutters(&self) -> &[LockWindow] {
-        let of = || flutters(&self.machine, self.toward());
-        if self.machine.lining.is_some() { &[] } else { self.flutters.get_or_init(of) }
+    /// Returns the machine at the speed of the scene.
+    pub fn machine(&self) -> &Machine {
+        self.ranges.machine()
     }
 
-    /// Returns the ranges of speeds in which a lock holds.
-    pub fn locks(&self) -> &[LockWindow] {
-        self.locks.get_or_init(|| lock_windows(&self.machine, self.toward()))
+    /// Returns the ranges of speeds in which the lock flutters on rigid contact.
+    pub fn flutters(&self) -> &[LockWindow] {
+        if self.machine().lining.is_some() { &[] } else { self.ranges.flutters() }
     }
 
     /// Returns one of the loads of the lock at the speed of the scene.
     fn load(&self, of: fn(&LockLoads) -> f64) -> Vec<f64> {
         let loads = self.loads.get_or_init(|| {
-            let machine = self.machine.clone();
+            let machine = self.machine().clone();
             // In the rigid model the contact forces do not bend the blades.
             let is_rigid = self.scene.solver.model == ModelSize::Rigid;
             let machine = if is_rigid { machine.with_stiff_blades() } else { machine };
@@ -81,18 +75,16 @@ impl<'a> Evaluated<'a> {
         if self.scene.clearance() <= 0.0 && !OF_NO_CONTACT.contains(&name) {
             return Vec::new();
         }
-        let (machine, toward) = (&self.machine, self.toward());
+        let (machine, toward) = (self.machine(), self.toward());
         let one = |value: Option<f64>| value.into_iter().collect::<Vec<f64>>();
         let found = match name {
             LimitName::OmegaC => one(machine.critical_speed()),
             LimitName::OmegaAdhesive => one(machine.adhesive_speed()),
-            LimitName::OmegaLock => self.locks().iter().map(|window| window.from).collect(),
-            LimitName::LockEnds => self.locks().iter().filter_map(|window| window.to).collect(),
+            LimitName::OmegaLock => self.ranges.locks().iter().map(|lock| lock.from).collect(),
+            LimitName::LockEnds => self.ranges.locks().iter().filter_map(|lock| lock.to).collect(),
             LimitName::Coincidence => one(machine.dangerous_speed()),
             LimitName::CoincidenceDifference => machine.coincidence_differences(),
-            LimitName::WhirlOnset => {
-                whirl_spans(machine, toward).iter().map(|span| span.from).collect()
-            }
+            LimitName::WhirlOnset => self.ranges.whirls().iter().map(|span| span.from).collect(),
             LimitName::FlutterSpeed => self.flutters().iter().map(|range| range.from).collect(),
             LimitName::FirstTouch => one(machine.touching_speed()),
             LimitName::TouchingPulse => {
@@ -132,19 +124,18 @@ impl<'a> Evaluated<'a> {
     }
 }
 
-/// Returns the limits of a scene that are speeds, with their sensitivities to one parameter.
+/// Returns the limits of a scene that are speeds, with their sensitivities to one parameter, and the
+/// ranges of speed on which they rest.
 pub(in crate::study) fn speeds(
     scene: &Scene,
     by: Option<&Parameter>,
-) -> Vec<(LimitName, f64, Option<f64>)> {
+) -> (Vec<(LimitName, f64, Option<f64>)>, SpeedRanges) {
     let here = Evaluated::of(scene);
     let all = here.all(true);
     let by = by.map_or(Vec::new(), |by| here.sensitivities(&all, by)).into_iter();
     let values = all.iter().flat_map(|(name, values)| values.iter().map(|value| (*name, *value)));
-    values
-        .zip(by.chain(std::iter::repeat(None)))
-        .map(|((name, value), by)| (name, value, by))
-        .collect()
+    let found = values.zip(by.chain(std::iter::repeat(None)));
+    (found.map(|((name, value), by)| (name, value, by)).collect(), here.ranges)
 }
 
 #[cfg(test)]
@@ -157,7 +148,7 @@ mod tests {
             let mut scene = Scene::builtin("soft-lining").unwrap();
             scene.bladed_disk.radial_coupling = 0.3;
             scene.bladed_disk.blade_length_m = scene.casing.radius_m - clearance;
-            let found = speeds(&scene, None).into_iter().map(|(name, ..)| name);
+            let found = speeds(&scene, None).0.into_iter().map(|(name, ..)| name);
             found.filter(|name| !OF_NO_CONTACT.contains(name)).count()
         };
         assert!(known(1e-4) > 0);

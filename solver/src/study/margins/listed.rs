@@ -56,7 +56,7 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
 
 /// Returns what a closed form neglects, if that matters for this scene.
 fn note(here: &Evaluated<'_>, name: LimitName, value: f64) -> Option<String> {
-    let (scene, machine) = (here.scene, &here.machine);
+    let (scene, machine) = (here.scene, here.machine());
     let of_speeds =
         [LimitName::OmegaLock, LimitName::LockEnds, LimitName::OmegaAdhesive].contains(&name);
     let of_lock = of_speeds || name.quantity().path().is_none();
@@ -99,13 +99,13 @@ fn note(here: &Evaluated<'_>, name: LimitName, value: f64) -> Option<String> {
     // The adhesive limit is that of rigid blades; flexible ones have another if their lock has.
     let rigid = name == LimitName::OmegaAdhesive && !machine.is_uneven() && fluttering.is_empty();
     let locks = |windows: &[LockWindow]| windows.first().map(|window| window.from);
-    (rigid && locks(&machine.lock_windows(speed)) != locks(here.locks()))
+    (rigid && locks(&machine.lock_windows(speed)) != locks(here.ranges.locks()))
         .then(|| "for rigid blades; these bend so much that it is another".to_string())
 }
 
 /// Explains why a machine does not have a limit.
 fn why_none(here: &Evaluated<'_>, name: LimitName) -> String {
-    let (scene, machine) = (here.scene, &here.machine);
+    let (scene, machine) = (here.scene, here.machine());
     let of_speeds = name.quantity().path().is_some();
     let (polygon, diameters) = (&machine.polygon, scene.operation.nodal_diameters);
     if name == LimitName::TouchingPulse {

@@ -2,7 +2,7 @@
 //! with and without damping, and, with radial coupling, the multiplier of the stable whirl.
 
 use crate::tui::axis::nice_step;
-use rubscope_solver::harmonic::{Form, RoundWhirl, Sweep, flutters, lock_window, locked_motion};
+use rubscope_solver::harmonic::{Form, RoundWhirl, SpeedRanges, Sweep, locked_motion};
 use rubscope_solver::model::Machine;
 use rubscope_solver::scene::{ContactLaw, ModelSize, Scene};
 
@@ -86,9 +86,10 @@ fn is_coupled(scene: &Scene) -> bool {
 /// lock can also have an upper threshold, and rest a flutter speed.
 fn marks(scene: &Scene, machine: &Machine) -> Vec<(f64, &'static str)> {
     let toward = scene.operation.speed_rad_s;
-    let window = lock_window(machine, toward);
+    let ranges = SpeedRanges::new(machine, toward);
+    let window = ranges.locks().first().copied();
     let shown = machine.lining.is_none() && is_coupled(scene);
-    let flutter = flutters(machine, toward).first().map(|range| range.from);
+    let flutter = ranges.flutters().first().map(|range| range.from);
     let mut marks: Vec<(f64, &'static str)> = [
         (machine.critical_speed(), "Ω_c"),
         (window.map(|window| window.from), "Ω_lock"),

@@ -286,8 +286,7 @@ pub fn reading(app: &App, speed: f64) -> String {
     let ratio = point.amplitude_m / app.machine.clearance();
     // With a lining the forces are different; only the speed range of the lock is known here.
     let lining = app.has_lining();
-    let window = lock_windows(&app.machine, speed).into_iter();
-    let on_lining = || window.clone().any(|window| window.has(speed.abs()));
+    let on_lining = || lock_windows(&app.machine, speed).iter().any(|lock| lock.has(speed.abs()));
     let can_last = if lining { on_lining() } else { point.admissible && point.stable };
     let holds = match (a > 0.0 || b > 0.0, point.admissible, point.stable) {
         _ if lining && can_last => "of a rigid casing; on the lining a lock can last",

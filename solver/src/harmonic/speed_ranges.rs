@@ -1,0 +1,68 @@
+//! The ranges of rotor speed of one machine in one direction of rotation: where a lock holds, where
+//! blades and casing that move as one grow, where a wave lasts, and where rubbing grows without
+//! bound. Each is searched once, when it is first asked for.
+
+use std::cell::OnceCell;
+
+use super::round_whirl::{growth_spans, whirl_spans};
+use super::windows::{flutters, lock_windows_beside};
+use crate::model::{LockWindow, Machine};
+
+/// Ranges of rotor speed, each in increasing order of magnitude.
+#[derive(Clone, Debug)]
+pub struct SpeedRanges {
+    machine: Machine,
+    toward: f64,
+    locks: OnceCell<Vec<LockWindow>>,
+    flutters: OnceCell<Vec<LockWindow>>,
+    whirls: OnceCell<Vec<LockWindow>>,
+    growths: OnceCell<Vec<LockWindow>>,
+}
+
+impl SpeedRanges {
+    /// Creates the ranges for a rotor that turns in the direction of the sign of `toward`.
+    #[must_use]
+    pub fn new(machine: &Machine, toward: f64) -> Self {
+        Self {
+            machine: machine.clone(),
+            toward,
+            locks: OnceCell::new(),
+            flutters: OnceCell::new(),
+            whirls: OnceCell::new(),
+            growths: OnceCell::new(),
+        }
+    }
+
+    /// Returns the machine.
+    #[must_use]
+    pub fn machine(&self) -> &Machine {
+        &self.machine
+    }
+
+    /// Returns where a lock holds, as `lock_windows`.
+    #[must_use]
+    pub fn locks(&self) -> &[LockWindow] {
+        let of = || lock_windows_beside(&self.machine, self.toward, || self.flutters());
+        self.locks.get_or_init(of)
+    }
+
+    /// Returns where blades and casing that move as one grow, as `flutters`.
+    #[must_use]
+    pub fn flutters(&self) -> &[LockWindow] {
+        self.flutters.get_or_init(|| flutters(&self.machine, self.toward))
+    }
+
+    /// Returns where a wave attracts, as `whirl_spans`.
+    #[must_use]
+    pub fn whirls(&self) -> &[LockWindow] {
+        self.whirls.get_or_init(|| whirl_spans(&self.machine, self.toward))
+    }
+
+    /// Returns where rubbing grows without bound: where it flutters and no wave attracts. Empty on a
+    /// lining.
+    #[must_use]
+    pub fn growths(&self) -> &[LockWindow] {
+        let of = || growth_spans(&self.machine, || self.flutters(), || self.whirls());
+        self.growths.get_or_init(of)
+    }
+}
