@@ -11,8 +11,8 @@
 //! - Slip as a map from corner to corner: `slip`.
 //! - Coincidences and engine-order excitation: `coincidence`, `excitation`.
 //! - Where a lock holds, and where blades and casing that move as one grow (section 10): `windows`;
-//!   whirl and growth without bound in the limit of many blades: `round_whirl`; steady states on a
-//!   lining: `lining`.
+//!   whirl and growth without bound in the limit of many blades: `round_whirl`; all these ranges of
+//!   one machine, each searched once: `speed_ranges`; steady states on a lining: `lining`.
 //! - Roundness of the casing that a lock needs (section 11): `roundness`.
 
 mod coincidence;
@@ -52,7 +52,5 @@ pub use round_whirl::{
 pub(crate) use roundness::lobes_of;
 pub use roundness::{roundness, roundness_needed};
 pub use slip::{NoSlip, SlipLimit, SlipOrbit, SlipPoint, slip_limits, slip_over};
-pub use speed_ranges::SpeedRanges;
-pub use windows::{
-    Locks, flutters, joined_grow, lock_growth, lock_window, lock_windows, undamped_flutter_speed,
-};
+pub use speed_ranges::{SpeedRanges, lock_window, lock_windows};
+pub use windows::{Locks, flutters, joined_grow, lock_growth, undamped_flutter_speed};

@@ -268,19 +268,3 @@ pub fn whirl_spans(machine: &Machine, toward: f64) -> Vec<LockWindow> {
         RoundWhirl::lasting(machine, sense * speed).is_some()
     })
 }
-
-/// Returns the ranges of speed in which rubbing grows without bound: those of `flutters` outside
-/// `whirls`. Empty on a lining.
-pub(super) fn growth_spans<'a>(
-    machine: &Machine,
-    flutters: impl FnOnce() -> &'a [LockWindow],
-    whirls: impl FnOnce() -> &'a [LockWindow],
-) -> Vec<LockWindow> {
-    if machine.lining.is_some() || machine.clearance_at_rest() <= 0.0 {
-        return Vec::new();
-    }
-    let less = |spans: Vec<LockWindow>, whirl: &LockWindow| {
-        spans.into_iter().flat_map(|span| span.without(whirl)).collect()
-    };
-    whirls().iter().fold(flutters().to_vec(), less)
-}

@@ -4,7 +4,7 @@
 
 use std::cell::OnceCell;
 
-use super::round_whirl::{growth_spans, whirl_spans};
+use super::round_whirl::whirl_spans;
 use super::windows::{flutters, lock_windows_beside};
 use crate::model::{LockWindow, Machine};
 
@@ -39,7 +39,7 @@ impl SpeedRanges {
         &self.machine
     }
 
-    /// Returns where a lock holds, as `lock_windows`.
+    /// Returns where a lock holds, as [`lock_windows`].
     #[must_use]
     pub fn locks(&self) -> &[LockWindow] {
         let of = || lock_windows_beside(&self.machine, self.toward, || self.flutters());
@@ -62,7 +62,27 @@ impl SpeedRanges {
     /// lining.
     #[must_use]
     pub fn growths(&self) -> &[LockWindow] {
-        let of = || growth_spans(&self.machine, || self.flutters(), || self.whirls());
-        self.growths.get_or_init(of)
+        let rigid = self.machine.lining.is_none() && self.machine.clearance_at_rest() > 0.0;
+        let less = |spans: Vec<LockWindow>, whirl: &LockWindow| {
+            spans.into_iter().flat_map(|span| span.without(whirl)).collect()
+        };
+        self.growths.get_or_init(|| match rigid {
+            true => self.whirls().iter().fold(self.flutters().to_vec(), less),
+            false => Vec::new(),
+        })
     }
+}
+
+/// Returns the window of [`lock_windows`] with the lowest speeds; `None` if there is no window.
+#[must_use]
+pub fn lock_window(machine: &Machine, toward: f64) -> Option<LockWindow> {
+    lock_windows(machine, toward).into_iter().next()
+}
+
+/// Returns every window of speeds in which a lock holds, in increasing order, for a rotor that turns
+/// in the direction of the sign of `toward`. On a lining and out of round only the pushes are
+/// considered. Empty where unequal tips or lobes have no closed form.
+#[must_use]
+pub fn lock_windows(machine: &Machine, toward: f64) -> Vec<LockWindow> {
+    SpeedRanges::new(machine, toward).locks().to_vec()
 }

@@ -7,11 +7,12 @@
 //!
 //! The scan has a point every 3 % from a twentieth of the critical speed to ten times (a lock) or
 //! fifty times the faster of critical speed and coincidence, and every end of the closed form for
-//! rigid blades (`Machine::lock_windows`) with the middles between them. Where blades do not bend, the ends found
-//! are those of the closed form to two thousandths; then the closed form is returned. It is not even
-//! searched if tips without slope bend so little up to the last speed that damping decides.
+//! rigid blades (`Machine::lock_windows`) with the middles between them. Where blades do not bend,
+//! the ends found are those of the closed form to two thousandths; then the closed form is returned.
+//! It is not even searched if tips without slope bend so little up to the last speed that damping
+//! decides.
 
-use super::{Corner, Form, Locked, LockedPoint, SpeedRanges};
+use super::{Corner, Form, Locked, LockedPoint};
 use crate::model::{Frame, LockWindow, Machine, TipCorner};
 use crate::numeric::search::{geometric, spans};
 
@@ -116,22 +117,8 @@ pub fn lock_growth(machine: &Machine, speed: f64) -> Option<f64> {
     Locks::new(machine, speed).growth(speed)
 }
 
-/// Returns the window of [`lock_windows`] with the lowest speeds; `None` if there is no window.
-#[must_use]
-pub fn lock_window(machine: &Machine, toward: f64) -> Option<LockWindow> {
-    lock_windows(machine, toward).into_iter().next()
-}
-
-/// Returns every window of speeds in which a lock holds, in increasing order, for a rotor that turns
-/// in the direction of the sign of `toward`. On a lining and out of round only the pushes are
-/// considered. Empty where unequal tips or lobes have no closed form.
-#[must_use]
-pub fn lock_windows(machine: &Machine, toward: f64) -> Vec<LockWindow> {
-    SpeedRanges::new(machine, toward).locks().to_vec()
-}
-
-/// As [`lock_windows`], with the ranges of [`flutters`], which are asked for only where a search needs
-/// them.
+/// Returns every window of speeds in which a lock holds, as `lock_windows`; the ranges of
+/// [`flutters`] are asked for only where a search needs them.
 pub(super) fn lock_windows_beside<'a>(
     machine: &Machine,
     toward: f64,
