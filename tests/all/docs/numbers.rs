@@ -1,5 +1,5 @@
-//! The numbers of docs/accuracy.md that no other test checks, those outside its
-//! console blocks, and of the README.
+//! The numbers of docs/accuracy.md, docs/validation.md and the README that no other test checks,
+//! outside their console blocks.
 
 use rubscope_solver::motion::Verdict;
 use rubscope_solver::scene::Scene;
@@ -115,7 +115,7 @@ fn errors_at_the_end_are_those_of_the_document() {
     let report = json(&arguments);
     let rows = report["rows"].as_array().unwrap();
     let header = "| solver | step or tolerance | error at the end, in clearances | time | bench |";
-    let told = read("docs/accuracy.md").table(header);
+    let told = read("docs/validation.md").table(header);
     assert_eq!(told.len(), 7);
     for row in told {
         let [solver, contact, model] = row[0].split(", ").collect::<Vec<_>>()[..] else {
@@ -212,9 +212,9 @@ fn contact_that_only_pushes_locks_as_many_cells_as_the_readme_says() {
         ["locked", "decay"].map(|word| cells.matches(word).count())
     });
     assert_eq!((steps, events), ([1, 489], [0, 490]));
-    assert!(
-        read("README.md").says("one of these 490 cells still locks by steps, and none by events")
-    );
+    assert!(read("README.md").says(
+        "the time-stepping solver still locks in 1 of the 490 cells; the event solver locks in none"
+    ));
 }
 
 #[test]

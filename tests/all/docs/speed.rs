@@ -54,8 +54,8 @@ fn every_time_in_the_documents_has_a_benchmark_of_its_name() {
 }
 
 #[test]
-fn the_readme_has_the_times_of_the_page_on_accuracy() {
-    let known: BTreeMap<_, _> = rows("docs/accuracy.md").into_iter().collect();
+fn the_readme_has_the_times_of_the_page_on_validation() {
+    let known: BTreeMap<_, _> = rows("docs/validation.md").into_iter().collect();
     let told = rows("README.md");
     assert_eq!(told.len(), 3);
     for (bench, time) in told {
