@@ -12,9 +12,8 @@ use super::{Cli, Done};
 use crate::tui::bindings::{self, Context, keys_text};
 use rubscope_solver::scene::BUILTIN;
 
-/// Date of the last change of content, shown at the foot of the manual pages. Without a date,
-/// viewers show the source of the page there instead.
-const DATE: &str = "2026-11-22";
+/// The change log. The date of its newest version is the date of the manual pages.
+const CHANGES: &str = include_str!("../../CHANGELOG.md");
 
 /// Print the manual page, or that of one command.
 #[derive(Args, Debug)]
@@ -29,7 +28,7 @@ impl ManCommand {
         whole.build();
         let command = self.command.iter().try_fold(whole, |of, name| page_of(&of, name))?;
         let page = clap_mangen::Man::new(command)
-            .date(DATE)
+            .date(newest_date())
             .source(concat!("rubscope ", env!("CARGO_PKG_VERSION")))
             .manual("rubscope manual");
         if !self.command.is_empty() {
@@ -46,6 +45,13 @@ impl ManCommand {
         }
         Ok(Status::Done)
     }
+}
+
+/// Returns the date of the newest version in the change log, `## [0.1.0] - 2026-11-23`.
+fn newest_date() -> &'static str {
+    let mut headings =
+        CHANGES.lines().filter_map(|line| line.strip_prefix("## [")?.split_once("] - "));
+    headings.next().map_or("", |(_, date)| date)
 }
 
 fn page_of(whole: &clap::Command, name: &str) -> Result<clap::Command, Refusal> {

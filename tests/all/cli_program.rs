@@ -114,6 +114,17 @@ fn helps_name_every_contact_law_and_defaults_of_their_own_command() {
 }
 
 #[test]
+fn the_manual_the_citation_and_the_package_have_the_version_and_date_of_the_change_log() {
+    let changes = include_str!("../../CHANGELOG.md");
+    let newest = changes.lines().find_map(|line| line.strip_prefix("## [")).unwrap();
+    let (version, date) = newest.split_once("] - ").unwrap();
+    assert_eq!(version, env!("CARGO_PKG_VERSION"));
+    assert!(printed(&["man"]).contains(&format!(".TH rubscope 1 {date} ")));
+    let citation = include_str!("../../CITATION.cff");
+    assert!(citation.contains(&format!("\nversion: {version}\ndate-released: {date}\n")));
+}
+
+#[test]
 fn every_manual_page_has_a_full_title_line_and_a_name_section() {
     let refused = refusal(&["man", "nothing"]);
     let names = refused.split("one of ").nth(1).unwrap().split(", ");

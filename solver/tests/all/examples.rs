@@ -3,6 +3,9 @@
 use std::error::Error;
 use std::io::Write;
 
+#[path = "../../examples/condition.rs"]
+#[expect(dead_code, reason = "its main is for cargo")]
+mod condition;
 #[path = "../../examples/live_knobs.rs"]
 #[expect(dead_code, reason = "its main is for cargo")]
 mod live_knobs;
@@ -33,6 +36,14 @@ fn one_run_locks_under_one_law_and_decays_under_the_other() {
     assert_eq!(lines[1], "  blades [19]: -244.57 N");
     assert_eq!(lines[2], "  blades [12]: -57.14 N");
     assert_eq!(lines[3..], ["unilateral: decay"]);
+}
+
+#[test]
+fn the_wave_is_caught_where_the_clearance_is_small() {
+    let lines = lines(condition::show);
+    assert_eq!(lines[0], "50 um: caught at 1.1 ms, amplitude 50.51 um");
+    assert_eq!(lines[1], "100 um: caught at 1.1 ms, amplitude 101.03 um");
+    assert!(lines[2].starts_with("400 um: not caught at 100.0 ms"), "{}", lines[2]);
 }
 
 #[test]
