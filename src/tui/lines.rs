@@ -8,16 +8,15 @@ use std::io::{BufRead, Error, Read, Write};
 use anyhow::Context as _;
 
 use super::app::{App, InputMode};
-use super::bindings::{Action, Group};
-use super::commands::{self, Found};
+use super::command::{self, Command, Effect, Group};
 use super::engine::{Order, Pace};
 use super::files::{FileResult, FoundScenes};
 use super::knobs::KNOBS;
 use super::options::ExploreOptions;
 use super::raster::Marker;
 use super::theme::Theme;
-use super::update::Effect;
 use super::views::id::ViewId;
+use super::words::{self, Found};
 use super::worker::Playback;
 use super::{ability, config, panels};
 use crate::report::line::clean;
@@ -157,20 +156,16 @@ impl Lines {
             ("lesson" | "lessons", "") => return self.list("lesson", out).map(|()| true),
             _ => {}
         }
-        let found = match commands::only(&self.app, line) {
+        let found = match words::only(&self.app, line) {
             Ok(found) => found,
             Err(refused) => return self.refuse(&refused, out).map(|()| true),
         };
         self.printed_view = match found.command {
-            commands::Command::Act(Action::View(view)) => {
-                Some(view).filter(|view| PRINTED.contains(view))
-            }
-            commands::Command::Act(Action::Survey) | commands::Command::Range(_) => {
-                Some(ViewId::Margins)
-            }
+            Command::View(view) => Some(view).filter(|view| PRINTED.contains(view)),
+            Command::Survey | Command::Range(_) => Some(ViewId::Margins),
             _ => None,
         };
-        if self.printed_view.is_none() && needs_screen(&found) {
+        if self.printed_view.is_none() && needs_screen(&found.command) {
             let refused = format!("only a screen shows this: {}", found.what);
             return self.refuse(&refused, out).map(|()| true);
         }
@@ -208,12 +203,11 @@ impl Lines {
     /// Executes a command. Returns whether changes remain to be printed; `None` if it quits.
     fn obey(&mut self, found: Found, out: &mut dyn Write) -> Result<Option<bool>, Error> {
         let knob = match found.command {
-            commands::Command::Select(place) => KNOBS.get(place),
+            Command::Select(place) => KNOBS.get(place),
             _ => None,
         };
-        let is_write = matches!(found.command, commands::Command::Write(..));
         self.app.layout.size = PICTURE;
-        let effect = self.app.obey(found.command);
+        let effect = self.app.update(found.command);
         self.app.layout.size = (WIDTH, ROWS);
         // The paused motion moves to the cursor at once.
         self.app.depart();
@@ -242,12 +236,6 @@ impl Lines {
                 writeln!(out, "{command}")?;
                 return Ok(Some(false));
             }
-            // A write that produced no file was refused.
-            Ok(Effect::None) if is_write => {
-                let why = self.app.status.clone().unwrap_or_default();
-                self.refuse(&why, out)?;
-                return Ok(Some(false));
-            }
             Ok(Effect::None) => {}
             // Effects on the screen are ignored.
             Ok(Effect::Suspend | Effect::Redraw | Effect::Mouse(_) | Effect::FindScenes(_)) => {}
@@ -274,7 +262,7 @@ impl Lines {
 
     /// Prints every scene or every lesson that can be opened; `kind` is `scene` or `lesson`.
     fn list(&self, kind: &str, out: &mut dyn Write) -> Result<(), Error> {
-        for found in commands::found(&self.app, &format!("{kind} ")) {
+        for found in words::found(&self.app, &format!("{kind} ")) {
             writeln!(out, "{}", self.spelled(&clean(&format!("{kind} {}", found.what))))?;
         }
         Ok(())
@@ -321,20 +309,15 @@ impl Lines {
 /// Views whose results can be printed as text.
 const PRINTED: [ViewId; 2] = [ViewId::Locked, ViewId::Margins];
 
-/// Returns whether a command has an effect on the screen only.
-fn needs_screen(found: &Found) -> bool {
-    let action = match found.command {
-        commands::Command::Act(action) => action,
-        commands::Command::Axes(_) | commands::Command::Theme(_) => Action::Theme,
-        _ => return false,
-    };
-    let moves = [Action::Step, Action::Restart, Action::Fire, Action::Jump, Action::GoToEnd];
-    match action.group() {
-        Group::Look => action != Action::SpeedUnit,
-        Group::Views => true,
-        // The motion is paused, so commands of playback have no effect.
-        Group::Time => !moves.contains(&action),
-        _ => false,
+/// Returns whether a command has an effect on the screen only. The motion is paused, so most
+/// commands of playback have none.
+fn needs_screen(command: &Command) -> bool {
+    use Command::{Axes, Fire, GoToEnd, Jump, Restart, SpeedUnit, Step, Theme};
+    match command {
+        Axes(_) | Theme(_) => true,
+        Step | Restart | Fire | Jump | GoToEnd | SpeedUnit => false,
+        other => command::group_of(other)
+            .is_some_and(|group| [Group::Time, Group::Views, Group::Look].contains(&group)),
     }
 }
 

@@ -1,14 +1,13 @@
 //! The explorer: a live screen of one motion. Its state (`app`) knows no terminal; `panels` and
 //! `views` draw it; the solver runs in a thread of its own (`worker`). Its tables are in `views`,
-//! `knobs`, `lessons` and `bindings`. Start reading at `app` and `run`.
+//! `knobs`, `lessons` and `command`. Start reading at `app` and `run`.
 
 mod ability;
 mod app;
 mod appearance;
 mod axis;
 #[doc(hidden)]
-pub mod bindings;
-mod commands;
+pub mod command;
 mod config;
 mod encode;
 mod ending;
@@ -47,6 +46,7 @@ pub mod trace;
 mod tty;
 mod update;
 mod views;
+mod words;
 #[doc(hidden)]
 pub mod worker;
 
@@ -55,13 +55,13 @@ use std::io::{IsTerminal, Write};
 use std::sync::{Arc, mpsc};
 
 pub use app::{App, Exit, Source};
+pub use command::Effect;
 pub use line::Line;
 pub use lines::lines;
 pub use options::{Color, ExploreOptions};
 pub use raster::Marker;
 pub use run::run;
 pub use theme::{Theme, ThemeChoice};
-pub use update::Effect;
 
 use crate::report::line::clean;
 use anyhow::Context;

@@ -8,13 +8,13 @@ use std::time::{Duration, Instant};
 use ratatui::{Terminal, backend::Backend};
 
 use super::app::{App, Exit};
+use super::command::Effect;
 use super::engine::{Engine, Order};
 use super::events::ScreenEvent;
 use super::files::FileResult;
 use super::host::Host;
 use super::line::Throttle;
 use super::panels::{self, LEAST_HEIGHT, LEAST_WIDTH};
-use super::update::Effect;
 
 /// Longest time between two frames. Only by drawing does the program notice that the terminal is
 /// gone.

@@ -144,7 +144,7 @@ fn no_solver_knows_its_sibling() {
 
 /// The parts of the explorer from the top, a row each: a part uses itself and what is in a
 /// row below. A path stands for what no longer path stands for.
-const EXPLORER: [&[&str]; 23] = [
+const EXPLORER: [&[&str]; 24] = [
     &[""],
     &["run", "lines"],
     &["host", "options"],
@@ -156,9 +156,10 @@ const EXPLORER: [&[&str]; 23] = [
     &["export"],
     &["panels"],
     &["views"],
-    &["commands", "glossary"],
+    &["words", "glossary"],
     &["app"],
-    &["bindings", "files"],
+    &["command"],
+    &["files"],
     &["worker"],
     &["engine"],
     &["views/map/plan"],

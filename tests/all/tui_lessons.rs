@@ -2,7 +2,7 @@
 //! text says against what the solvers find.
 
 use rubscope::report::number::{in_tenths, tell_in_rpm, with_speeds};
-use rubscope::tui::bindings::{Action, Context};
+use rubscope::tui::command::{Command, Group};
 use rubscope::tui::lessons::{self, Lesson, LessonStep};
 use rubscope::tui::{App, Marker, Theme};
 use rubscope_solver::motion::simulate;
@@ -245,7 +245,7 @@ fn assert_has_words(text: &str, words: &str) {
 /// The step leaves room for a chart at 80x24. At 40x12 an open question and its answers are in
 /// sight, and a chart after the answer.
 fn assert_has_room(session: &mut Session, step: &LessonStep) {
-    let is_open = session.app.context() == Context::Question;
+    let is_open = session.app.keyboard() == Group::Question;
     let shown = if is_open { &step.question } else { &step.reason };
     let shown = &with_speeds(shown.as_ref().unwrap_or(&step.text));
     let answers: Vec<String> = step.answers.iter().map(|answer| with_speeds(answer)).collect();
@@ -293,7 +293,7 @@ fn headers_of(place: usize) -> u32 {
             assert_eq!(session.app.selected().unwrap().path, knob, "{at}");
         }
         if step.question.is_some() {
-            assert_eq!(session.app.context(), Context::Question, "{at}");
+            assert_eq!(session.app.keyboard(), Group::Question, "{at}");
             assert_eq!(session.app.scene, lesson.scene_at(number, false).unwrap(), "{at}");
             assert!(text.contains("[a] ") && text.contains("[c] "), "{at}: {text}");
             assert_has_room(&mut session, step);
@@ -418,7 +418,7 @@ fn a_lesson_gives_back_what_was_there_and_undo_reaches_across() {
     session.press("u");
     assert_eq!(*session.app.scene, Scene { operation: scene().operation, ..scene() });
     for _ in 0..2 {
-        session.app.act(Action::Redo);
+        session.app.act(Command::Redo);
     }
     assert!(session.app.lessons.progress.is_some() && session.app.is_asked());
 }

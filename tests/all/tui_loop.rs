@@ -254,7 +254,7 @@ fn a_burst_of_turns_of_one_knob_is_one_change_and_ends_at_the_refused_value() {
         assert!(joined.run.restarts <= 2 && each.run.restarts > 2, "{}", joined.run.restarts);
         // One undo for the turns, and one for the refused value.
         let mut undone = joined;
-        (0..2).for_each(|_| _ = undone.act(rubscope::tui::bindings::Action::Undo));
+        (0..2).for_each(|_| _ = undone.act(rubscope::tui::command::Command::Undo));
         assert_eq!(undone.scene, app(scene.clone()).scene);
     }
 }

@@ -2,7 +2,7 @@
 //! size is too odd for it.
 
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
-use rubscope::tui::bindings::Action;
+use rubscope::tui::command::Command;
 use rubscope::tui::{Effect, Marker, Theme};
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::margins::{LimitName, Margins};
@@ -209,14 +209,14 @@ fn no_scene_is_too_odd() {
         }
         // Every row and every knob, from the first to the last.
         let rows = session.app.margins().unwrap().0.margins.limits.len();
-        let step = |right, up| Action::Cursor { right, up, coarse: false };
+        let step = |right, up| Command::Cursor { right, up, coarse: false };
         for _ in 0..rows {
             for _ in 0..4 {
                 let before = session.app.scene.clone();
-                session.app.act(Action::OpenPlace);
+                session.app.act(Command::Open);
                 assert!(session.app.scene.checked().is_ok(), "scene {place}");
                 if session.app.scene != before {
-                    session.app.act(Action::Undo);
+                    session.app.act(Command::Undo);
                 }
                 assert_eq!(session.app.scene, before, "scene {place}");
                 session.app.act(step(1, 0));

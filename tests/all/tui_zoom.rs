@@ -319,7 +319,7 @@ fn a_run_that_nobody_watches_to_its_end_opens_with_all_of_it() {
             // Also where it is opened in the explorer, and where that is undone.
             app.open_scene(name.into(), scene.clone().checked().unwrap());
         }
-        app.act(rubscope::tui::bindings::Action::Undo);
+        app.act(rubscope::tui::command::Command::Undo);
         assert_eq!(app.page(), (0.0, 0.02));
     }
 }

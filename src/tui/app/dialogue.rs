@@ -1,5 +1,6 @@
 //! The dialogue that has the keyboard: a prompt, a list, a question, or none.
 
+use crate::tui::command::Purpose;
 use crate::tui::field::Field;
 
 /// What the keyboard acts on: the main screen, or one open dialogue.
@@ -21,15 +22,6 @@ pub enum InputMode {
     Lessons(usize),
     /// The list of scenes, with the index of the selected one; `None` selects the open scene.
     Scenes(Option<usize>),
-}
-
-/// What will be written to the file whose name is being typed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Purpose {
-    /// The scene as a TOML file.
-    Save,
-    /// The large chart's data as CSV, or the screen as SVG.
-    Export,
 }
 
 /// The state of the dialogues.
@@ -105,6 +97,13 @@ pub struct HelpState {
     pub scroll: usize,
 }
 
+impl HelpState {
+    /// Returns whether the help is searched, so that every letter goes into the search.
+    pub fn is_searched(&self) -> bool {
+        self.searches || !self.filter.text().is_empty()
+    }
+}
+
 /// The open command palette.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PaletteState {
@@ -112,6 +111,13 @@ pub struct PaletteState {
     pub typed: Field,
     /// Index of the selected entry among the matches.
     pub place: usize,
+}
+
+impl PaletteState {
+    /// Creates a palette in which `text` is typed.
+    pub fn typing(text: &str) -> Self {
+        Self { typed: text.into(), place: 0 }
+    }
 }
 
 #[cfg(test)]

@@ -4,7 +4,8 @@
 use std::path::{Component, Path, PathBuf};
 
 use crate::report::CommandLine;
-use crate::tui::app::{App, Purpose, Source};
+use crate::tui::app::{App, Source};
+use crate::tui::command::Purpose;
 use crate::tui::files::{FoundScene, FoundScenes, builtin_scenes};
 use rubscope_solver::scene::{CheckedScene, DEFAULT, Scene};
 

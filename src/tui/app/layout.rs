@@ -2,7 +2,6 @@
 
 use super::App;
 use crate::report::number::speed_unit;
-use crate::tui::bindings::Action;
 use crate::tui::views::id::ViewId;
 use rubscope_solver::scene::Scene;
 
@@ -92,14 +91,9 @@ impl Layout {
         }
     }
 
-    /// Applies a layout key.
-    pub fn act(&mut self, action: Action) {
-        match action {
-            Action::Charts => self.beside = (self.beside + 1) % (MOST_BESIDE + 1),
-            Action::FullScreen => self.full_screen = !self.full_screen,
-            Action::Close => self.full_screen = false,
-            _ => {}
-        }
+    /// Changes the number of charts beside the large one, from the most to none.
+    pub fn next_count(&mut self) {
+        self.beside = (self.beside + 1) % (MOST_BESIDE + 1);
     }
 
     /// Returns the view `by` places after the large one in the table, cyclically.
@@ -147,7 +141,7 @@ mod tests {
         assert!(layout.show(ViewId::Response) && !layout.show(ViewId::Response));
         assert_eq!(layout.views()[..3], [ViewId::Response, ViewId::Gaps, ViewId::Map]);
         assert_eq!(layout.neighbour(-1), ViewId::Coincidence);
-        (0..3).for_each(|_| layout.act(Action::Charts));
+        (0..3).for_each(|_| layout.next_count());
         assert_eq!(layout.beside, 2);
     }
 }

@@ -13,11 +13,11 @@ mod reading;
 mod run;
 mod verdict;
 
-pub use dialogue::{HelpState, InputMode, PaletteState, Purpose};
+pub use dialogue::{HelpState, InputMode, PaletteState};
 pub use files::{SceneEntry, Writing};
 pub use knobs::Past;
 pub use lesson::{LessonProgress, StepProgress};
-pub use mouse::Target;
+pub use mouse::Parts;
 pub use reading::{Cursor, Reading, STEP, cell_of};
 
 use std::cell::OnceCell;
@@ -32,7 +32,7 @@ use play::Play;
 use run::Run;
 
 use super::appearance::Appearance;
-use super::bindings::Context;
+use super::command::Group;
 use super::engine::{Moment, Order};
 use super::raster::Marker;
 use super::theme::Theme;
@@ -118,22 +118,20 @@ impl App {
         }
     }
 
-    /// Returns the context of the key bindings: which table of keys applies now.
-    pub fn context(&self) -> Context {
-        match self.dialogue.mode {
-            InputMode::Main if self.reading.on => Context::Reading,
-            InputMode::Main if self.is_asked() => Context::Question,
-            InputMode::Main => Context::Main,
-            InputMode::Typing(_) => Context::Typing,
-            InputMode::Help(ref help) if help.filter.text().is_empty() && !help.searches => {
-                Context::Help
-            }
-            InputMode::Help(_) => Context::Filter,
-            InputMode::Palette(_) => Context::Palette,
-            InputMode::Naming(..) => Context::Typing,
-            InputMode::Replacing(..) => Context::Replacing,
-            InputMode::Lessons(_) => Context::Lessons,
-            InputMode::Scenes(_) => Context::Scenes,
+    /// Returns the group of commands that has the keyboard; [`Group::Program`] on the main screen,
+    /// where the keys of all its groups are valid.
+    pub fn keyboard(&self) -> Group {
+        match &self.dialogue.mode {
+            InputMode::Main if self.reading.on => Group::Reading,
+            InputMode::Main if self.is_asked() => Group::Question,
+            InputMode::Main => Group::Program,
+            InputMode::Help(help) if help.is_searched() => Group::Filter,
+            InputMode::Help(_) => Group::Help,
+            InputMode::Palette(_) => Group::Palette,
+            InputMode::Typing(_) | InputMode::Naming(..) => Group::Typing,
+            InputMode::Replacing(..) => Group::Replacing,
+            InputMode::Lessons(_) => Group::Lessons,
+            InputMode::Scenes(_) => Group::SceneList,
         }
     }
 

@@ -1,31 +1,43 @@
-//! The mouse: whether it acts, and what is drawn where.
+//! The mouse: what is drawn where, and the command of a click or of the wheel there. A key does the
+//! same.
 
 use std::cell::RefCell;
 
+use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use ratatui::layout::Rect;
 
-use super::{App, Cursor};
-use crate::tui::bindings::Action;
+use super::{App, InputMode};
+use crate::tui::command::{self, Command, Effect};
+use crate::tui::knobs::KNOBS;
 use crate::tui::views::id::ViewId;
 
+/// Ranges of fractions, across and up, that an area covers.
+pub type Parts = [(f64, f64); 2];
+
 /// Something that is drawn and can be clicked.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Target {
-    /// A key shown in the footer.
-    Key(Action),
-    /// The heading of a group of knobs, with the index of its first knob.
-    Group(usize),
-    /// The line of the knob with this index.
-    Knob(usize),
-    /// The bar of the knob with this index.
-    Bar(usize),
-    /// A chart beside the large one.
-    View(ViewId),
-    /// The data area of the large chart, as fractions of the whole: `[across, up]`, each from and
-    /// to.
-    Chart([(f64, f64); 2]),
-    /// The lesson with this index in the list.
-    Lesson(usize),
+#[derive(Clone, Debug)]
+struct Spot {
+    area: Rect,
+    /// The command of a click. One that needs a position gets that of the click.
+    command: Command,
+    /// The positions that the area covers.
+    parts: Parts,
+}
+
+impl Spot {
+    /// Returns the command of a click at a cell, with its position.
+    fn command_at(&self, (x, y): (u16, u16)) -> Command {
+        let middle = |(low, high): (f64, f64), cells: u16, width: u16| {
+            low + (high - low) * (f64::from(cells) + 0.5) / f64::from(width)
+        };
+        let across = middle(self.parts[0], x - self.area.x, self.area.width);
+        let up = middle(self.parts[1], self.area.bottom() - 1 - y, self.area.height);
+        match &self.command {
+            Command::PutCursor(_) => Command::PutCursor([across, up]),
+            Command::SetPart(knob, _) => Command::SetPart(*knob, across.clamp(0.0, 1.0)),
+            other => other.clone(),
+        }
+    }
 }
 
 /// The state of the mouse.
@@ -35,9 +47,9 @@ pub struct Mouse {
     pub on: bool,
     /// Screen cell at which the wheel turned a knob last, and the index of that knob; `None` before
     /// the first turn.
-    pub wheeled: Option<((u16, u16), usize)>,
-    /// Clickable areas of the last frame. Where they overlap, the later one is on top.
-    drawn: RefCell<Vec<(Rect, Target)>>,
+    wheeled: Option<((u16, u16), usize)>,
+    /// What can be clicked on the last frame. Where areas overlap, the later one is on top.
+    drawn: RefCell<Vec<Spot>>,
 }
 
 impl Default for Mouse {
@@ -59,34 +71,138 @@ impl Mouse {
 }
 
 impl App {
-    /// Clears the clickable areas before the next frame is drawn.
+    /// Clears what can be clicked, before the next frame is drawn.
     pub fn forget_drawn(&self) {
         self.mouse.drawn.take();
     }
 
-    /// Records that `target` is drawn in `area`.
-    pub fn note(&self, area: Rect, target: Target) {
+    /// Records that a click in `area` executes `command`.
+    pub fn note(&self, area: Rect, command: Command) {
+        self.note_part(area, command, [(0.0, 1.0); 2]);
+    }
+
+    /// As [`Self::note`], for a command that needs a position; `parts` are the fractions that the
+    /// area covers.
+    pub fn note_part(&self, area: Rect, command: Command, parts: Parts) {
         if let Ok(mut drawn) = self.mouse.drawn.try_borrow_mut() {
-            drawn.push((area, target));
+            drawn.push(Spot { area, command, parts });
         }
     }
 
-    /// Returns the topmost target at a cell, with its area; `None` if nothing there can be clicked.
-    pub fn target(&self, at: (u16, u16)) -> Option<(Rect, Target)> {
+    /// Returns the command of a click at a cell; `None` if nothing there can be clicked.
+    pub fn clicked(&self, at: (u16, u16)) -> Option<Command> {
         let drawn = self.mouse.drawn.try_borrow().ok()?;
-        drawn.iter().rev().copied().find(|(area, _)| area.contains(at.into()))
+        let top = drawn.iter().rev().find(|spot| spot.area.contains(at.into()));
+        top.map(|spot| spot.command_at(at))
+    }
+
+    /// Handles a mouse event; `None` if it does nothing.
+    pub fn mouse(&mut self, event: &MouseEvent) -> Option<Effect> {
+        // A typed name is finished or left by a key.
+        let named = matches!(self.dialogue.mode, InputMode::Naming(..) | InputMode::Replacing(..));
+        if !self.mouse.on || named {
+            return None;
+        }
+        let at = (event.column, event.row);
+        let coarse = event.modifiers.intersects(KeyModifiers::SHIFT | KeyModifiers::CONTROL);
+        let command = match event.kind {
+            MouseEventKind::Down(MouseButton::Left) => self.clicked(at),
+            MouseEventKind::Down(MouseButton::Right) => Some(Command::Close),
+            MouseEventKind::ScrollUp => self.wheel(at, true, coarse),
+            MouseEventKind::ScrollDown => self.wheel(at, false, coarse),
+            _ => None,
+        }?;
+        self.files.disturb();
+        // A command beside the open dialogue closes it.
+        if !command::valid(self.keyboard()).any(|binding| binding.command == command) {
+            self.dialogue.close();
+        }
+        let effect = self.act(command);
+        self.check_lesson();
+        Some(effect)
+    }
+
+    /// Returns the command of the wheel at a cell: it moves in lists, turns knobs, and zooms the
+    /// response.
+    fn wheel(&mut self, at: (u16, u16), up: bool, coarse: bool) -> Option<Command> {
+        if !matches!(self.dialogue.mode, InputMode::Main | InputMode::Typing(_)) {
+            return Some(if up { Command::Above } else { Command::Below });
+        }
+        let target = self.clicked(at);
+        // Turning a knob can add or remove the row of its bar, which shifts the rows below under a
+        // resting pointer: keep turning the same knob.
+        let is_chart = matches!(target, Some(Command::PutCursor(_) | Command::View(_)));
+        let same = |(place, knob): &((u16, u16), usize)| {
+            *place == at && *knob == self.knobs.selected && !is_chart
+        };
+        let kept = self.mouse.wheeled.filter(same).map(|(_, knob)| Command::Select(knob));
+        match kept.or(target) {
+            Some(Command::Select(knob) | Command::SetPart(knob, _)) if knob < KNOBS.len() => {
+                self.mouse.wheeled = Some((at, knob));
+                self.knobs.select(knob);
+                Some(Command::Turn { up, coarse })
+            }
+            Some(Command::PutCursor(_)) if self.is_large(ViewId::Response) => {
+                Some(if up { Command::ZoomIn } else { Command::ZoomOut })
+            }
+            _ => None,
+        }
     }
 }
 
-impl Cursor {
-    /// Converts a cell of `area` to chart fractions; `parts` are the fractions that `area` covers.
-    pub fn at((x, y): (u16, u16), area: Rect, parts: [(f64, f64); 2]) -> Self {
-        let middle = |(low, high): (f64, f64), cells: u16, width: u16| {
-            low + (high - low) * (f64::from(cells) + 0.5) / f64::from(width)
-        };
-        Self {
-            across: middle(parts[0], x - area.x, area.width),
-            up: middle(parts[1], area.bottom() - 1 - y, area.height),
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tui::app::tests::on_screen;
+    use crate::tui::command::Purpose;
+
+    fn event(kind: MouseEventKind, (column, row): (u16, u16)) -> MouseEvent {
+        MouseEvent { kind, column, row, modifiers: KeyModifiers::NONE }
+    }
+
+    const LEFT: MouseEventKind = MouseEventKind::Down(MouseButton::Left);
+
+    #[test]
+    fn a_place_of_the_chart_is_the_middle_of_its_cell() {
+        let app = on_screen();
+        let chart = Command::PutCursor([0.0; 2]);
+        app.note_part(Rect::new(10, 5, 20, 10), chart, [(0.0, 1.0), (0.5, 1.0)]);
+        assert_eq!(app.clicked((10, 14)), Some(Command::PutCursor([0.025, 0.525])));
+        assert_eq!(app.clicked((29, 5)), Some(Command::PutCursor([0.975, 0.975])));
+        for at in [(9, 14), (30, 14), (10, 15)] {
+            assert_eq!(app.clicked(at), None);
         }
+        app.forget_drawn();
+        assert_eq!(app.clicked((10, 14)), None);
+    }
+
+    #[test]
+    fn a_key_of_the_last_line_acts_in_every_dialogue_and_nowhere_else() {
+        let mut app = on_screen();
+        let drawn = |app: &App| {
+            app.note(Rect::new(0, 39, 4, 1), Command::Help);
+            app.note(Rect::new(6, 39, 4, 1), Command::Quit);
+        };
+        drawn(&app);
+        assert_eq!(app.mouse(&event(LEFT, (3, 39))), Some(Effect::None));
+        assert!(matches!(app.dialogue.mode, InputMode::Help(_)));
+        // Until the help is drawn, the keys of the main screen are not there.
+        assert_eq!(app.mouse(&event(LEFT, (9, 39))), None);
+        drawn(&app);
+        assert_eq!(app.mouse(&event(LEFT, (5, 39))), None);
+        assert_eq!(app.mouse(&event(LEFT, (9, 39))), Some(Effect::Quit));
+        assert_eq!(app.mouse(&event(MouseEventKind::Moved, (9, 39))), None);
+        // A name that is typed is finished by a key.
+        app.dialogue.mode = InputMode::Naming(Purpose::Save, "a".into());
+        assert_eq!(app.mouse(&event(LEFT, (9, 39))), None);
+    }
+
+    #[test]
+    fn a_mouse_that_is_off_does_nothing() {
+        let mut app = on_screen();
+        app.note(Rect::new(0, 39, 4, 1), Command::Help);
+        assert!(app.mouse.toggle().contains("off") && !app.mouse.on);
+        assert_eq!(app.mouse(&event(LEFT, (0, 39))), None);
+        assert!(app.mouse.toggle().contains("on") && app.dialogue.is_closed());
     }
 }

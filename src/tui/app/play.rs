@@ -3,7 +3,7 @@
 
 use super::App;
 use crate::tui::axis::nice_step;
-use crate::tui::bindings::Action;
+use crate::tui::command::Command;
 use crate::tui::engine::PageRecord;
 use crate::tui::history::{Bin, BinHistory};
 use rubscope_solver::scene::Scene;
@@ -109,9 +109,9 @@ impl Play {
     }
 
     /// Applies a playback key; returns the status message, if any.
-    pub fn act(&mut self, action: Action) -> Option<String> {
-        match action {
-            Action::Pause => {
+    pub fn act(&mut self, command: Command) -> Option<String> {
+        match command {
+            Command::Pause => {
                 self.playing = !self.playing;
                 self.stopped_by_end = false;
                 // We have reported the end more often than the user continued past it, so the
@@ -120,17 +120,17 @@ impl Play {
                     self.extensions = self.extensions.max(self.ends);
                 }
             }
-            Action::Step => (self.playing, self.steps) = (false, self.steps + 1),
-            Action::Jump => (self.playing, self.jumps) = (false, self.jumps + 1),
-            Action::SlowAtEvents => {
+            Command::Step => (self.playing, self.steps) = (false, self.steps + 1),
+            Command::Jump => (self.playing, self.jumps) = (false, self.jumps + 1),
+            Command::SlowAtEvents => {
                 self.slow_at_events = !self.slow_at_events;
                 return Some(match self.slow_at_events {
                     true => "slower at changes of contact, faster between".into(),
                     false => "the same pace all the time".to_string(),
                 });
             }
-            Action::Slower => self.rate = self.rate.saturating_sub(1),
-            Action::Faster => self.rate = (self.rate + 1).min(RATES.len() - 1),
+            Command::Slower => self.rate = self.rate.saturating_sub(1),
+            Command::Faster => self.rate = (self.rate + 1).min(RATES.len() - 1),
             _ => {}
         }
         None
@@ -280,14 +280,14 @@ impl App {
 
     /// Changes the zoom. The page is centred on the cursor or the paused motion; it never extends
     /// past the run.
-    pub fn zoom(&mut self, action: Action) {
+    pub fn zoom(&mut self, command: Command) {
         let middle = self.reading.at_s.or(self.play.middle_s);
         let middle = middle.or((!self.play.playing).then(|| self.played_s()));
         let whole = page_length(self.rate(), self.play.zoom) >= self.end_s();
-        (self.play.zoom, self.play.middle_s) = match action {
-            Action::ZoomIn => ((self.play.zoom + 1).min(MOST_ZOOM), middle),
-            Action::ZoomOut if whole => return,
-            Action::ZoomOut => ((self.play.zoom - 1).max(-MOST_ZOOM), middle),
+        (self.play.zoom, self.play.middle_s) = match command {
+            Command::ZoomIn => ((self.play.zoom + 1).min(MOST_ZOOM), middle),
+            Command::ZoomOut if whole => return,
+            Command::ZoomOut => ((self.play.zoom - 1).max(-MOST_ZOOM), middle),
             _ => (0, self.reading.at_s),
         };
     }
@@ -324,18 +324,18 @@ mod tests {
     fn at_the_end_of_the_run_time_stops_once_and_goes_on_when_asked() {
         let mut play = Play::of(&Scene::base());
         assert!(play.stop_at_end(1) && !play.playing && !play.stop_at_end(1));
-        play.act(Action::Pause);
+        play.act(Command::Pause);
         assert_eq!((play.playing, play.extensions), (true, 1));
         assert!(play.stop_at_end(2));
         // A restart resumes, unless the user had paused.
         play.restart(0.0);
         assert!(play.playing && play.extensions == 0);
-        play.act(Action::Step);
+        play.act(Command::Step);
         play.restart(0.0);
         assert!(!play.playing && play.steps == 1);
-        play.act(Action::Jump);
+        play.act(Command::Jump);
         assert!(play.is_met(1) && !play.is_met(1));
-        play.act(Action::Jump);
+        play.act(Command::Jump);
         play.restart(0.0);
         assert!(!play.is_met(2), "nobody waits for a jump of the motion before");
     }

@@ -1,6 +1,6 @@
 use super::*;
 use crate::tui::Theme;
-use crate::tui::bindings::Action;
+use crate::tui::command::Command;
 use crate::tui::lessons;
 use rubscope_solver::scene::Scene;
 
@@ -31,9 +31,9 @@ fn what_was_chosen_by_key_is_there_at_the_next_start() {
     assert!(first.dialogue.is_new && !path.exists(), "nothing has changed");
     session(&path, |app| {
         app.dialogue.is_new = false;
-        app.act(Action::Theme);
-        app.act(Action::Marker);
-        app.act(Action::Charts);
+        app.act(Command::NextTheme);
+        app.act(Command::Marker);
+        app.act(Command::Charts);
     });
     let config = read(&path);
     assert_eq!(config.theme, Some(ThemeChoice::Light));
@@ -52,7 +52,7 @@ fn the_unit_of_speeds_is_remembered_and_can_be_written_by_hand() {
     let home = tempfile::tempdir().unwrap();
     let path = home.path().join("config.toml");
     std::fs::write(&path, "[units]\nspeed = \"rpm\"\n").unwrap();
-    let first = session(&path, |app| _ = app.act(Action::SpeedUnit));
+    let first = session(&path, |app| _ = app.act(Command::SpeedUnit));
     assert!(first.appearance.rpm);
     assert_eq!(read(&path).units.speed, Some(SpeedUnit::Radians));
     assert!(!session(&path, |_| {}).appearance.rpm);
@@ -74,7 +74,7 @@ fn a_file_is_written_only_if_something_changed_and_keeps_what_is_not_known() {
     std::fs::write(&path, text).unwrap();
     assert_eq!(session(&path, |_| {}).layout.beside, MOST_CHARTS);
     assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
-    session(&path, |app| _ = app.act(Action::Theme));
+    session(&path, |app| _ = app.act(Command::NextTheme));
     let text = std::fs::read_to_string(&path).unwrap();
     for kept in ["later = 3", "[lessons]", "done = [\"lock\"]", "theme = \"light\""] {
         assert!(text.contains(kept), "{text}");
@@ -88,7 +88,7 @@ fn a_file_that_cannot_be_used_is_named_and_left_alone() {
     let long = "#".repeat(70_000);
     for text in ["theme = \"pink\"", "charts = -1", "\u{1b}[2J", "[[", &long, "mouse = \u{1b}"] {
         std::fs::write(&path, text).unwrap();
-        let started = session(&path, |app| _ = app.act(Action::Theme));
+        let started = session(&path, |app| _ = app.act(Command::NextTheme));
         let status = started.status.unwrap();
         assert!(status.starts_with("config.toml is not used: "), "{status}");
         assert!(!status.contains(['\n', '\u{1b}']) && !started.dialogue.is_new, "{status}");
@@ -104,7 +104,7 @@ fn a_file_that_cannot_be_used_is_named_and_left_alone() {
 #[test]
 fn without_a_folder_nothing_is_remembered_and_nothing_is_said() {
     let started = session(Path::new("/dev/null/rubscope/config.toml"), |app| {
-        app.act(Action::Theme);
+        app.act(Command::NextTheme);
     });
     assert_eq!(started.status, None);
     let memory = Memory::at(None);

@@ -4,8 +4,8 @@
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-use crate::tui::app::{App, InputMode, Purpose, Target};
-use crate::tui::bindings::{self, Action, Binding, Chord, Context};
+use crate::tui::app::{App, InputMode};
+use crate::tui::command::{self, Binding, Chord, Command, Purpose};
 use crate::tui::field::Field;
 use crate::tui::text::{columns, overlay, pieces, print, shorten, wrap};
 use crate::tui::theme::Role;
@@ -39,7 +39,8 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     }
     let hint = (app.dialogue.is_new && app.dialogue.mode == InputMode::Main).then_some(TRY);
     // The palette shows the message itself, below the typed text.
-    let status = app.status.as_ref().filter(|_| app.context() != Context::Palette);
+    let status =
+        app.status.as_ref().filter(|_| !matches!(app.dialogue.mode, InputMode::Palette(_)));
     let message = match (status, hint) {
         (Some(status), _) => Some((look.spell(status), Role::Good)),
         (None, hint) => hint.map(|hint| (look.spell(hint), Role::Focus)),
@@ -102,14 +103,14 @@ impl Entry {
     /// Makes the entry clickable: a single-character key performs its own action, the word and
     /// named keys (like `Enter`) that of the binding.
     fn note(&self, app: &App, own: Rect) {
-        app.note(own, Target::Key(self.binding.action));
+        app.note(own, self.binding.command.clone());
         let mut at = own.x;
         for token in self.keys.split(' ') {
             let is_name = token.chars().nth(1).is_some_and(char::is_lowercase);
             for sign in token.chars() {
-                let action = bindings::lookup(app.context(), Chord::from(sign));
-                if let Some(action) = action.filter(|_| !is_name && at < own.right()) {
-                    app.note(Rect { x: at, width: 1, ..own }, Target::Key(action));
+                let command = command::lookup(app.keyboard(), Chord::from(sign));
+                if let Some(command) = command.filter(|_| !is_name && at < own.right()) {
+                    app.note(Rect { x: at, width: 1, ..own }, command);
                 }
                 at = at.saturating_add(1);
             }
@@ -118,9 +119,19 @@ impl Entry {
     }
 }
 
+/// Returns the word for what Enter opens at the cursor; `None` if it opens nothing.
+fn opens(command: &Command) -> Option<&'static str> {
+    match command {
+        Command::OpenRun(_) => Some("open"),
+        Command::JumpTo { .. } => Some("jump"),
+        Command::Select(_) => Some("select"),
+        _ => None,
+    }
+}
+
 /// Returns whether a binding is always shown, at the right end.
 fn is_kept(binding: &Binding) -> bool {
-    matches!(binding.action, Action::Palette | Action::Help | Action::Quit)
+    matches!(binding.command, Command::Palette("") | Command::Help | Command::Quit)
 }
 
 /// Returns the entries at the right end: with words if the message leaves room, otherwise keys
@@ -128,10 +139,12 @@ fn is_kept(binding: &Binding) -> bool {
 fn kept(app: &App, width: u16, message: Option<usize>) -> Vec<Entry> {
     let entries = |words: bool| {
         let mut entries: Vec<Entry> = Vec::new();
-        for binding in bindings::with_behind(app.context()).filter(|binding| is_kept(binding)) {
+        for binding in command::valid(app.keyboard()).filter(|binding| is_kept(binding)) {
             let Some((keys, word)) = binding.footer else { continue };
-            let known = entries.iter().any(|entry| entry.binding.action == binding.action);
-            if known || (binding.action == Action::Palette && !(words && width >= PALETTE_FROM)) {
+            let known = entries.iter().any(|entry| entry.binding.command == binding.command);
+            if known
+                || (binding.command == Command::Palette("") && !(words && width >= PALETTE_FROM))
+            {
                 continue;
             }
             let gap = match (entries.is_empty(), words) {
@@ -151,14 +164,14 @@ fn kept(app: &App, width: u16, message: Option<usize>) -> Vec<Entry> {
 fn keys(app: &App, buffer: &mut Buffer, area: Rect) {
     let mut rest = area;
     // Keys of the main screen have no room while a dialogue is open over it.
-    let own =
-        |binding: &&Binding| binding.context == app.context() || binding.context != Context::Main;
-    let others = bindings::with_behind(app.context()).filter(own).filter(|b| !is_kept(b));
+    let on_main = app.keyboard().is_main();
+    let own = |binding: &&Binding| on_main || !binding.group.is_main();
+    let others = command::valid(app.keyboard()).filter(own).filter(|b| !is_kept(b));
     for (binding, (keys, word)) in others.filter_map(|binding| Some((binding, binding.footer?))) {
-        let word = match binding.action {
-            Action::Pause if !app.play.playing => "go on",
+        let word = match binding.command {
+            Command::Pause if !app.play.playing => "go on",
             // Most charts have nothing to open at the cursor.
-            Action::OpenPlace => match app.opening().and_then(|opening| opening.word()) {
+            Command::Open => match app.opening().and_then(|command| opens(&command)) {
                 Some(word) => word,
                 None => continue,
             },
@@ -203,9 +216,9 @@ mod tests {
             app.status = Some("a knob restarts the run".into());
             assert!(line(&app, width).starts_with("a knob restarts the run "), "{width}");
             app.status = None;
-            app.act(Action::Read);
+            app.act(Command::Read);
             assert!(line(&app, width).ends_with("? help  q quit"), "{}", line(&app, width));
-            app.act(Action::Read);
+            app.act(Command::Read);
             app.dialogue.mode = InputMode::Lessons(0);
             assert!(line(&app, width).ends_with("q quit"), "{}", line(&app, width));
             app.dialogue.mode = InputMode::Main;

@@ -4,26 +4,13 @@ use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 use strum::IntoEnumIterator;
 
 use crate::tui::app::{App, HelpState};
-use crate::tui::bindings::{self, Action, Binding, Context, Group};
+use crate::tui::command::{self, Binding, Group};
 use crate::tui::glossary;
 use crate::tui::text::{print, shorten, wrap};
 use crate::tui::theme::Role;
 
 /// Rows above the list, for the search text.
 const ABOVE: u16 = 1;
-
-/// Headings for the keys outside the main screen, without those that do the same everywhere.
-const ELSEWHERE: &[(&str, &[Context])] = &[
-    ("While a chart is read", &[Context::Reading]),
-    ("While typing", &[Context::Typing, Context::Field]),
-    ("In every list", &[Context::List]),
-    ("In this help", &[Context::Help, Context::Filter]),
-    ("While a command is looked for", &[Context::Palette]),
-    ("Where a file exists", &[Context::Replacing]),
-    ("In the list of lessons", &[Context::Lessons]),
-    ("While a lesson asks", &[Context::Question]),
-    ("In the list of scenes", &[Context::Scenes]),
-];
 
 /// A key or term, and its meaning.
 struct Entry {
@@ -35,7 +22,7 @@ struct Entry {
 
 impl Entry {
     fn of(binding: &Binding) -> Self {
-        let (left, right) = (bindings::keys_text(binding), binding.what.to_string());
+        let (left, right) = (command::keys_text(binding), binding.what.to_string());
         Self { left, right, also: String::new() }
     }
 
@@ -56,16 +43,15 @@ impl Entry {
 /// Returns the sections of the help: heading and entries.
 fn sections(app: &App) -> Vec<(&'static str, Vec<Entry>)> {
     let look = &app.appearance;
-    let keys = Group::iter().map(|group| {
-        let own = bindings::of(Context::Main).filter(move |b| b.action.group() == group);
-        (group.into(), own.map(Entry::of).collect())
-    });
-    let elsewhere = ELSEWHERE.iter().map(|(heading, contexts)| {
-        let own = contexts.iter().flat_map(|c| bindings::of(*c));
-        let own =
-            own.filter(|b| !matches!(b.action, Action::Quit | Action::Suspend | Action::Redraw));
-        (*heading, own.map(Entry::of).collect())
-    });
+    // What a key does everywhere is listed once.
+    let everywhere = |b: &Binding| command::main().any(|main| main.what == b.what);
+    let keys = |is_main: bool| {
+        let groups = Group::iter().filter(move |group| group.is_main() == is_main);
+        groups.map(move |group| {
+            let own = command::of(group).filter(|b| is_main || !everywhere(b));
+            (group.into(), own.map(Entry::of).collect())
+        })
+    };
     let words = glossary::sections().iter().map(|section| {
         let entry = |term: &glossary::Term| Entry {
             left: look.either(term.symbol.as_str(), term.name()).to_string(),
@@ -75,7 +61,7 @@ fn sections(app: &App) -> Vec<(&'static str, Vec<Entry>)> {
         (section.heading.as_str(), section.terms.iter().map(entry).collect())
     });
     let here = std::iter::once(("Here", here(app)));
-    here.chain(keys).chain(words).chain(elsewhere).collect()
+    here.chain(keys(true)).chain(words).chain(keys(false)).collect()
 }
 
 /// Returns what the large chart shows, what to look for, and its keys.
@@ -163,7 +149,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, help: &HelpState) {
         0 => "nothing has these words".to_string(),
         count => format!("{count} found"),
     };
-    let head = match help.filter.text().is_empty() && !help.searches {
+    let head = match !help.is_searched() {
         true => "Type to find a key, a word or a symbol".to_string(),
         false => {
             let typed = help.filter.shown(room.saturating_sub(found.len() + 8));
@@ -190,6 +176,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, help: &HelpState) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tui::command::Command;
     use crate::tui::views::id::ViewId;
     use crate::tui::{raster::Marker, theme::Theme};
     use rubscope_solver::scene::Scene;
@@ -205,13 +192,13 @@ mod tests {
     #[test]
     fn every_binding_and_every_word_is_in_the_help() {
         let text = text("");
-        for binding in bindings::BINDINGS.iter() {
+        for binding in command::BINDINGS.iter() {
             assert!(text.contains(binding.what), "{}", binding.what);
             for key in binding.keys {
                 assert!(text.contains(&key.to_string()), "{}", binding.what);
             }
         }
-        for group in Group::iter() {
+        for group in Group::iter().filter(|group| *group != Group::Dialogue) {
             assert!(text.contains(<&str>::from(group)), "{group:?}");
         }
         for term in glossary::sections().iter().flat_map(|section| &section.terms) {
@@ -243,7 +230,7 @@ mod tests {
     fn it_begins_with_the_view_on_the_screen_in_five_lines_at_most() {
         let mut app = App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Braille);
         for view in ViewId::all() {
-            app.act(Action::View(view));
+            app.act(Command::View(view));
             let (lines, _) = lines(&app, Rect::new(0, 0, 80, 24), "");
             let own: Vec<_> =
                 lines.iter().skip(1).take_while(|(_, what, _)| !what.is_empty()).collect();

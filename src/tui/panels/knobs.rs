@@ -9,7 +9,8 @@ use ratatui::style::Modifier;
 use strum::VariantArray;
 
 use crate::report::line::capital;
-use crate::tui::app::{App, InputMode, Target};
+use crate::tui::app::{App, InputMode};
+use crate::tui::command::Command;
 use crate::tui::knobs::{Group, KNOBS, Knob};
 use crate::tui::text::{columns, overlay, pieces, print, shorten, wrap};
 use crate::tui::theme::Role;
@@ -25,7 +26,7 @@ pub fn panel(app: &App, buffer: &mut Buffer, area: Rect) {
         match *line {
             ColumnLine::Heading(group) | ColumnLine::Folded(group) => {
                 if let Some(first) = group.places().next() {
-                    app.note(row, Target::Group(first));
+                    app.note(row, Command::Unfold(first));
                 }
                 match line {
                     ColumnLine::Heading(_) => heading(app, buffer, row, group),
@@ -33,13 +34,13 @@ pub fn panel(app: &App, buffer: &mut Buffer, area: Rect) {
                 }
             }
             ColumnLine::Knob(place) => {
-                app.note(row, Target::Knob(place));
+                app.note(row, Command::Select(place));
                 if let Some(knob) = KNOBS.get(place) {
                     self::knob(app, buffer, row, knob, place == app.knobs.selected);
                 }
             }
             ColumnLine::Bar(place) => {
-                app.note(row, Target::Knob(place));
+                app.note(row, Command::Select(place));
                 if let Some(knob) = KNOBS.get(place) {
                     draw(app, buffer, bar_cells(row), knob);
                 }
@@ -171,7 +172,7 @@ fn sentence(knob: &Knob) -> String {
 
 /// Draws the selected knob as a single line, with its bar if there is room.
 pub fn strip(app: &App, buffer: &mut Buffer, area: Rect) {
-    app.note(area, Target::Knob(app.knobs.selected));
+    app.note(area, Command::Select(app.knobs.selected));
     let look = &app.appearance;
     let width = usize::from(area.width);
     let Some(knob) = app.selected() else { return };
@@ -293,7 +294,10 @@ pub fn draw(app: &App, buffer: &mut Buffer, cells: Rect, knob: &Knob) {
     if cells.width == 0 {
         return;
     }
-    app.note(cells, Target::Bar(app.knobs.selected));
+    // The first and the last cell are the ends of the range.
+    let half = 0.5 / f64::from(cells.width.max(2) - 1);
+    let parts = [(-half, 1.0 + half), (0.0, 1.0)];
+    app.note_part(cells, Command::SetPart(app.knobs.selected, 0.0), parts);
     let look = &app.appearance;
     let value = knob.number(&app.scene).and_then(|value| range.place(value));
     let here = value.map(|part| cell(cells, part));

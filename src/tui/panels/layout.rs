@@ -133,7 +133,7 @@ pub fn body(app: &App) -> Rect {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tui::bindings::Action;
+    use crate::tui::command::Command;
     use crate::tui::{Marker, Theme};
     use rubscope_solver::scene::Scene;
 
@@ -146,7 +146,7 @@ mod tests {
         for (width, height) in [(80, 24), (100, 30), (120, 40), (200, 50)] {
             for view in ViewId::all() {
                 let mut app = app();
-                app.act(Action::View(view));
+                app.act(Command::View(view));
                 let charts = places(Rect::new(0, 0, width, height), &app).charts;
                 for (shown, area) in charts {
                     // The wheel has no axis.

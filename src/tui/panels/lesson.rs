@@ -4,7 +4,8 @@ use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 
 use super::lists::{first_in_sight, look_of};
 use crate::report::number::with_speeds;
-use crate::tui::app::{App, Target};
+use crate::tui::app::App;
+use crate::tui::command::Command;
 use crate::tui::lessons::{self, LETTERS, LessonStep};
 use crate::tui::text::{columns, print, shorten, whole_parts, wrap};
 use crate::tui::theme::Role;
@@ -23,7 +24,7 @@ pub fn list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
     for (row, (index, lesson)) in
         (2..area.height).zip(lessons::all().iter().enumerate().skip(first))
     {
-        app.note(Rect { y: area.y + row, height: 1, ..area }, Target::Lesson(index));
+        app.note(Rect { y: area.y + row, height: 1, ..area }, Command::Lesson(index));
         let (sign, style) = look_of(look, index == place, Role::Text);
         let (done, steps) = (app.lessons.done.count(lesson), lesson.steps.len());
         // A step that was skipped comes before the last completed one.

@@ -7,15 +7,15 @@ use ratatui::style::{Modifier, Style};
 
 use crate::tui::app::{App, PaletteState, SceneEntry};
 use crate::tui::appearance::Appearance;
-use crate::tui::commands;
 use crate::tui::text::{columns, print, shorten, wrap};
 use crate::tui::theme::Role;
+use crate::tui::words;
 
 /// Draws the command palette.
 pub fn commands(app: &App, buffer: &mut Buffer, area: Rect, palette: &PaletteState) {
     let look = &app.appearance;
     let (width, mark) = (usize::from(area.width), look.ellipsis());
-    let found = commands::found(app, &palette.typed.text());
+    let found = words::found(app, &palette.typed.text());
     let hint = match palette.typed.text().as_str() {
         "" => "  t 0.3 ms, speed 450, blade 7, scene rub, or any words",
         _ => "",

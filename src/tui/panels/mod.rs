@@ -11,7 +11,8 @@ mod lists;
 
 use ratatui::{Frame, buffer::Buffer, layout::Rect, style::Modifier};
 
-use super::app::{App, InputMode, Target};
+use super::app::{App, InputMode};
+use super::command::Command;
 use super::field::CURSOR;
 use super::text::{CUT, print, wrap};
 use super::theme::Role;
@@ -63,7 +64,7 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
         for (view, area) in &places.charts {
             let at = ViewArea { area: *area, digit: view.digit(), large: *view == app.view() };
             if !at.large {
-                app.note(*area, Target::View(*view));
+                app.note(*area, Command::View(*view));
             }
             view.panel().draw(app, buffer, at);
         }

@@ -1,23 +1,21 @@
-//! Dialogues: moving in lists, the command palette, and typed commands.
+//! Dialogues: moving in lists, editing the text, and the command palette.
 
-use super::Effect;
-use crate::report::line::clean;
 use crate::tui::app::{App, HelpState, InputMode, PaletteState};
-use crate::tui::axis::{instant, readable};
-use crate::tui::bindings::Action;
-use crate::tui::commands::{self, Command};
+use crate::tui::command::{Command, Effect};
 use crate::tui::field::Edit;
 use crate::tui::lessons;
 use crate::tui::panels;
+use crate::tui::words;
 
 impl App {
-    /// Moves the selection of the open list, or scrolls the help; returns false for other actions.
-    pub(super) fn move_in_list(&mut self, action: Action) -> bool {
+    /// Moves the selection of the open list, or scrolls the help; returns false for other
+    /// commands.
+    pub(super) fn move_in_list(&mut self, command: &Command) -> bool {
         let last = |count: usize| count.saturating_sub(1);
         let (from, last) = match &self.dialogue.mode {
             InputMode::Help(help) => (help.scroll, panels::help_bottom(self, help)),
             InputMode::Palette(palette) => {
-                (palette.place, last(commands::found(self, &palette.typed.text()).len()))
+                (palette.place, last(words::found(self, &palette.typed.text()).len()))
             }
             InputMode::Lessons(place) => (*place, last(lessons::all().len())),
             InputMode::Scenes(chosen) => {
@@ -30,13 +28,13 @@ impl App {
         // first.
         let from = from.min(last);
         let page = usize::from(panels::body(self).height.saturating_sub(2)).max(1);
-        let to = match action {
-            Action::KnobBelow => from + 1,
-            Action::KnobAbove => from.saturating_sub(1),
-            Action::PageForward => from + page,
-            Action::PageBack => from.saturating_sub(page),
-            Action::First => 0,
-            Action::Last => last,
+        let to = match command {
+            Command::Below => from + 1,
+            Command::Above => from.saturating_sub(1),
+            Command::PageForward => from + page,
+            Command::PageBack => from.saturating_sub(page),
+            Command::First => 0,
+            Command::Last => last,
             _ => return false,
         };
         let to = to.min(last);
@@ -55,71 +53,23 @@ impl App {
     pub(super) fn edit(&mut self, edit: Edit) {
         match (self.dialogue.typed().is_some_and(|field| field.edit(edit)), edit) {
             (true, Edit::Left | Edit::Right | Edit::Start | Edit::End) => {}
-            (false, Edit::Start) => _ = self.move_in_list(Action::First),
-            (false, Edit::End) => _ = self.move_in_list(Action::Last),
+            (false, Edit::Start) => _ = self.move_in_list(&Command::First),
+            (false, Edit::End) => _ = self.move_in_list(&Command::Last),
             _ => self.typed_on(),
         }
     }
 
-    /// Opens the command palette with `typed` as the search text.
-    pub(super) fn look_for(&mut self, typed: &str) {
-        self.dialogue.open(InputMode::Palette(PaletteState { typed: typed.into(), place: 0 }));
-    }
-
-    /// Executes the selected command. If nothing matches, the palette stays open and the status
-    /// line says why.
-    pub(super) fn choose_command(&mut self, palette: &PaletteState) -> Effect {
-        let typed = palette.typed.text();
-        let chosen = commands::found(self, &typed).into_iter().nth(palette.place);
-        let chosen = chosen.map_or_else(|| commands::only(self, &typed), Ok);
-        chosen.and_then(|found| self.obey(found.command)).unwrap_or_else(|reason| {
-            self.status = Some(clean(&reason));
-            Effect::None
-        })
-    }
-
-    /// Executes a command.
+    /// Executes the selected command.
     ///
     /// # Errors
-    /// One line that says why: no such time or blade, or the knob refuses the value.
-    pub fn obey(&mut self, command: Command) -> Result<Effect, String> {
+    /// One line that says why nothing matches, in which case the palette stays open, or why the
+    /// command is refused.
+    pub(super) fn choose_command(&mut self, palette: &PaletteState) -> Result<Effect, String> {
+        let typed = palette.typed.text();
+        let chosen = words::found(self, &typed).into_iter().nth(palette.place);
+        let chosen = chosen.map_or_else(|| words::only(self, &typed), Ok)?;
         self.dialogue.close();
-        match command {
-            Command::Act(action) => return Ok(self.act(action)),
-            Command::GoTo(t) => {
-                let end = self.end_s();
-                if !(0.0..=end).contains(&t) {
-                    let [t, end] = [t, end].map(|t| readable(t, "s"));
-                    return Err(format!("t = {t}: from 0 to {end}, the end of the run"));
-                }
-                self.go_to(t);
-                self.status = Some(format!("paused at {}", instant(t)));
-            }
-            Command::Blade(blade) => self.go_to_blade(blade)?,
-            Command::Axes(paths) => self.put_axes(paths),
-            Command::Range(range) => {
-                self.layout.range = range;
-                self.show_survey(true);
-            }
-            Command::Scene(name) => {
-                let entries = self.scene_entries();
-                if let Some(entry) = entries.iter().find(|entry| entry.name == name) {
-                    self.open_entry(entry)?;
-                }
-            }
-            Command::Lesson(place) => self.begin_lesson(place),
-            Command::Select(place) => self.knobs.select(place),
-            Command::Theme(theme) => self.status = Some(self.appearance.use_theme(theme)),
-            Command::Write(purpose, name) => return Ok(self.write(purpose, &name, false)),
-            Command::Set(place, text) => {
-                self.knobs.select(place);
-                self.accept(&text);
-                if let Some(refusal) = &self.knobs.refusal {
-                    return Err(refusal.to_string());
-                }
-            }
-        }
-        Ok(Effect::None)
+        self.update(chosen.command)
     }
 }
 
@@ -133,11 +83,16 @@ mod tests {
         App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Braille)
     }
 
+    fn look_for(app: &mut App, typed: &str) {
+        app.dialogue.open(InputMode::Palette(PaletteState::typing(typed)));
+    }
+
     #[test]
     fn a_value_that_is_refused_changes_nothing_and_says_so() {
         let mut app = app();
         let before = app.scene.clone();
-        app.choose_command(&PaletteState { typed: "blades 0".into(), place: 0 });
+        look_for(&mut app, "blades 0");
+        app.act(Command::Accept);
         assert_eq!(app.scene, before);
         assert!(app.status.is_some_and(|status| status.contains("blades N: 0 is not possible")));
     }
@@ -145,9 +100,9 @@ mod tests {
     #[test]
     fn what_is_no_command_says_why_and_the_list_stays_open() {
         let mut app = app();
-        app.look_for("speed qqq");
+        look_for(&mut app, "speed qqq");
         let open = app.dialogue.mode.clone();
-        app.choose_command(&PaletteState { typed: "speed qqq".into(), place: 0 });
+        app.act(Command::Accept);
         assert_eq!(app.dialogue.mode, open);
         assert!(app.status.is_some_and(|status| status.contains("qqq")));
     }
@@ -156,15 +111,15 @@ mod tests {
     fn a_key_that_types_nothing_says_so_and_a_letter_ends_a_refusal() {
         use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
         let mut app = app();
-        app.act(Action::Type);
+        app.act(Command::Type);
         for code in [KeyCode::Char(' '), KeyCode::Tab] {
             app.key(&KeyEvent::new(code, KeyModifiers::NONE));
             assert!(app.status.take().is_some_and(|status| status.contains("no meaning here")));
         }
         app.key(&KeyEvent::new(KeyCode::Char('x'), KeyModifiers::NONE));
-        app.act(Action::Accept);
+        app.act(Command::Accept);
         assert!(app.knobs.refusal.is_some());
-        app.act(Action::Edit(Edit::DeleteBefore));
+        app.act(Command::Edit(Edit::DeleteBefore));
         assert!(app.knobs.refusal.is_none() && !app.dialogue.is_closed());
     }
 
@@ -173,11 +128,11 @@ mod tests {
         let mut app = app();
         let before = app.scene.clone();
         app.knobs.live = true;
-        assert_eq!(app.obey(Command::Scene("rocking".into())), Ok(Effect::None));
+        assert_eq!(app.update(Command::Scene("rocking".into())), Ok(Effect::None));
         assert_eq!(*app.scene, Scene::builtin("rocking").unwrap());
         assert_eq!((&app.files.opened, app.knobs.live), (&app.scene, true));
         assert_eq!(app.files.source.as_ref().map(|source| source.name.as_str()), Some("rocking"));
-        app.act(Action::Undo);
+        app.act(Command::Undo);
         assert_eq!(app.scene, before);
     }
 }

@@ -1,48 +1,68 @@
 //! Files: writing the scene, the data of the large chart or the screen, and opening a scene from
 //! the list. No file is replaced without asking.
 
-use super::Effect;
 use crate::report::line::clean;
-use crate::tui::app::{App, InputMode, Purpose, SceneEntry, Source, Writing};
+use crate::tui::app::{App, InputMode, SceneEntry, Source, Writing};
+use crate::tui::command::{Effect, Purpose};
 use crate::tui::export;
 use crate::tui::files::{FileJob, FileResult, FoundScenes};
 use rubscope_solver::scene::keys::{differences, is_plain};
 use rubscope_solver::scene::{CheckedScene, Scene};
 
 impl App {
+    /// Asks for the name of the file to write.
+    pub(super) fn ask_name(&mut self, purpose: Purpose) {
+        let name = match purpose {
+            Purpose::Save => "scene.toml".to_string(),
+            Purpose::Export => format!("{}.csv", self.view().word()),
+        };
+        self.dialogue.open(InputMode::Naming(purpose, name.into()));
+    }
+
+    /// Replaces the file of the open question. A key typed before the question was drawn does not
+    /// answer it.
+    ///
+    /// # Errors
+    /// As [`Self::write`].
+    pub(super) fn replace_file(&mut self) -> Result<Effect, String> {
+        match self.dialogue.mode.clone() {
+            InputMode::Replacing(purpose, name) if self.dialogue.asked => {
+                self.write(purpose, &name, true)
+            }
+            _ => Ok(Effect::None),
+        }
+    }
+
     /// Starts writing a file. If it exists and `replace` is false, the result will ask the user.
-    pub(super) fn write(&mut self, purpose: Purpose, name: &str, replace: bool) -> Effect {
+    ///
+    /// # Errors
+    /// One line that says why nothing is written: the name, another file being written, or no data.
+    pub(super) fn write(
+        &mut self,
+        purpose: Purpose,
+        name: &str,
+        replace: bool,
+    ) -> Result<Effect, String> {
         let name = name.trim();
         if name.is_empty() {
-            self.status = Some("a file name is needed; Esc leaves".into());
-            return Effect::None;
+            return Err("a file name is needed; Esc leaves".into());
         }
         if !name.chars().all(is_plain) {
-            self.status = Some("a file name of letters that can be seen is needed".into());
-            return Effect::None;
+            return Err("a file name of letters that can be seen is needed".into());
         }
         self.dialogue.close();
         if let Some(writing) = &self.files.writing {
-            self.status = Some(format!("{name} not written: still writing {}", writing.name));
-            return Effect::None;
+            return Err(format!("{name} not written: still writing {}", writing.name));
         }
         let content = match purpose {
             Purpose::Save => Ok(self.scene_to_save().to_toml()),
             Purpose::Export if name.ends_with(".svg") => Ok(export::svg(self)),
             Purpose::Export => self.panel().csv(self),
         };
-        match content {
-            Ok(content) => {
-                self.status = Some(format!("writing {name} ..."));
-                self.files.writing =
-                    Some(Writing { name: name.into(), purpose, undisturbed: true });
-                Effect::Write(FileJob { path: self.files.directory.join(name), content, replace })
-            }
-            Err(reason) => {
-                self.status = Some(format!("nothing exported: {reason}"));
-                Effect::None
-            }
-        }
+        let content = content.map_err(|reason| format!("nothing exported: {reason}"))?;
+        self.status = Some(format!("writing {name} ..."));
+        self.files.writing = Some(Writing { name: name.into(), purpose, undisturbed: true });
+        Ok(Effect::Write(FileJob { path: self.files.directory.join(name), content, replace }))
     }
 
     /// Handles the result of the write; returns whether the file was written.
@@ -98,6 +118,16 @@ impl App {
             let same = |entry: &SceneEntry| entry.name == chosen.name && entry.file == chosen.file;
             self.dialogue.mode = InputMode::Scenes(self.scene_entries().iter().position(same));
         }
+    }
+
+    /// Opens the scene of this name, if the list has it.
+    ///
+    /// # Errors
+    /// As [`Self::open_entry`].
+    pub(super) fn open_named(&mut self, name: &str) -> Result<(), String> {
+        let entries = self.scene_entries();
+        let entry = entries.iter().find(|entry| entry.name == name);
+        entry.map_or(Ok(()), |entry| self.open_entry(entry))
     }
 
     /// Opens a scene of the list. Undo returns to the previous one.
@@ -167,7 +197,7 @@ impl App {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tui::bindings::Action;
+    use crate::tui::command::Command;
     use crate::tui::files::FoundScene;
     use crate::tui::{Marker, Theme};
     use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
@@ -248,10 +278,10 @@ mod tests {
     #[test]
     fn a_folder_that_does_not_answer_is_asked_once_and_holds_nothing_up() {
         let mut app = App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Ascii);
-        assert!(matches!(app.act(Action::Scenes), Effect::FindScenes(_)));
-        app.act(Action::Close);
-        assert_eq!(app.act(Action::Scenes), Effect::None);
-        app.act(Action::KnobBelow);
+        assert!(matches!(app.act(Command::Scenes), Effect::FindScenes(_)));
+        app.act(Command::Close);
+        assert_eq!(app.act(Command::Scenes), Effect::None);
+        app.act(Command::Below);
         let chosen = app.scene_entries()[1].name.clone();
         // A file that arrives late does not move the selection.
         let scene = Ok(Scene::base().checked().unwrap());
@@ -259,10 +289,10 @@ mod tests {
         app.scenes_found(FoundScenes { files, ..FoundScenes::default() });
         // Files come before built-in scenes.
         assert_eq!(app.scene_entries()[0].name, "late.toml");
-        app.act(Action::Accept);
+        app.act(Command::Accept);
         assert_eq!(app.files.source.as_ref().unwrap().name, chosen);
         // The directory is read again.
-        assert!(matches!(app.act(Action::Scenes), Effect::FindScenes(_)));
+        assert!(matches!(app.act(Command::Scenes), Effect::FindScenes(_)));
     }
 
     #[test]

@@ -3,15 +3,15 @@
 use crossterm::event::KeyEvent;
 
 use crate::tui::app::{App, LessonProgress, Past};
-use crate::tui::bindings::{Action, Chord, lookup};
-use crate::tui::knobs::Knob;
+use crate::tui::command::{Chord, Command, lookup};
+use crate::tui::knobs::{KNOBS, Knob};
 use rubscope_solver::motion::Change;
 use rubscope_solver::scene::{CheckedScene, Scene, Value};
 
 impl App {
     /// Returns whether a key turns the selected knob.
     pub fn is_turn(&self, key: &KeyEvent) -> bool {
-        matches!(lookup(self.context(), Chord::of(key)), Some(Action::Turn { .. }))
+        matches!(lookup(self.keyboard(), Chord::of(key)), Some(Command::Turn { .. }))
     }
 
     /// Turns the selected knob once for this press of its key and once for each further press that
@@ -35,7 +35,7 @@ impl App {
     }
 
     /// Applies the typed text as a value. The prompt stays open if the value is refused.
-    pub(super) fn accept(&mut self, text: &str) {
+    pub(super) fn take_typed(&mut self, text: &str) {
         let Some(knob) = self.selected() else { return };
         match knob.parse(text) {
             Ok(value) => {
@@ -44,6 +44,34 @@ impl App {
                 }
             }
             Err(error) => self.knobs.refuse(knob, &error),
+        }
+    }
+
+    /// Selects a knob and gives it a value as typed.
+    ///
+    /// # Errors
+    /// One line that says why the value is refused.
+    pub(super) fn set_typed(&mut self, place: usize, text: &str) -> Result<(), String> {
+        self.knobs.select(place);
+        self.take_typed(text);
+        self.knobs.refusal.clone().map_or(Ok(()), Err)
+    }
+
+    /// Selects a knob. While the cursor has the arrow keys, the message says how to turn it.
+    pub(super) fn select(&mut self, place: usize) {
+        self.knobs.select(place);
+        if let Some(knob) = self.selected().filter(|_| self.reading.on) {
+            self.status = Some(format!("{} selected; i gives it the arrows", knob.label));
+        }
+    }
+
+    /// Sets a knob to the value at the fraction `part` of its bar, 0 to 1.
+    pub(super) fn set_part(&mut self, place: usize, part: f64) {
+        let Some(knob) = KNOBS.get(place) else { return };
+        self.knobs.select(place);
+        let range = knob.range(&self.scene, &self.files.opened, &self.machine);
+        if let Some(value) = range.and_then(|range| knob.near(range.at(part))) {
+            self.set(knob, value);
         }
     }
 

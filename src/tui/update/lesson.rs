@@ -10,7 +10,7 @@ use rubscope_solver::scene::Scene;
 
 impl App {
     /// Opens the list of lessons, or goes to the next step.
-    pub(super) fn lesson_key(&mut self) {
+    pub(super) fn guide(&mut self) {
         let Some((lesson, progress)) = self.current_lesson() else {
             let done = &self.lessons.done;
             let next = lessons::all().iter().position(|lesson| done.next(lesson).is_some());
@@ -161,7 +161,7 @@ impl App {
 mod tests {
     use super::*;
     use crate::tui::app::tests::on_screen;
-    use crate::tui::bindings::Action;
+    use crate::tui::command::Command;
     use crate::tui::lessons::Condition;
 
     #[test]
@@ -170,7 +170,7 @@ mod tests {
         app.begin_lesson(1);
         let lesson = &lessons::all()[1];
         assert!(app.is_asked() && app.lessons.progress.is_some());
-        app.lesson_key();
+        app.guide();
         assert!(app.status.as_ref().is_some_and(|status| status.contains("your guess")));
         assert_eq!(app.lessons.progress.as_ref().unwrap().step, 0);
         app.answer(9);
@@ -179,10 +179,10 @@ mod tests {
         assert_eq!((now.answer, now.done), (Some(2), true));
         assert!(app.lessons.done.has(lesson, 0) && !app.lessons.done.has(lesson, 1));
         // A second answer is ignored.
-        app.act(Action::Accept);
+        app.act(Command::Accept);
         app.answer(0);
         assert_eq!(app.lesson_step().unwrap().1.answer, Some(2));
-        app.lesson_key();
+        app.guide();
         assert_eq!((app.lessons.progress.as_ref().unwrap().step, app.is_asked()), (1, true));
         app.lesson_back();
         assert!(!app.is_asked());
@@ -195,8 +195,8 @@ mod tests {
         let mut app = on_screen();
         app.begin_lesson(1);
         let knob = app.selected().map(|knob| knob.path);
-        for action in [Action::KnobBelow, Action::KnobAbove, Action::KnobBelow, Action::Accept] {
-            app.act(action);
+        for command in [Command::Below, Command::Above, Command::Below, Command::Accept] {
+            app.act(command);
         }
         assert_eq!(app.lesson_step().unwrap().1.answer, Some(1));
         assert_eq!(app.selected().map(|knob| knob.path), knob);
@@ -214,7 +214,7 @@ mod tests {
             assert_ne!(app.scene, before);
             for _ in 0..steps {
                 app.answer(0);
-                app.lesson_key();
+                app.guide();
             }
             if app.lessons.progress.is_some() {
                 app.leave_lesson();

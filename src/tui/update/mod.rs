@@ -1,70 +1,45 @@
-//! Keys and actions: each changes the state and returns its effect on the outside. There is one
-//! file for each part of the state in `app`.
+//! Executes commands: each changes the state and returns its effect on the outside. A key is looked
+//! up in the table of commands, or is a letter of the text being typed.
 
 mod dialogue;
 mod files;
 mod knobs;
 mod lesson;
 mod map;
-mod mouse;
 mod reading;
 
 use rubscope_solver::scene::keys::PULSE;
-use std::path::PathBuf;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-use super::app::{App, HelpState, InputMode, Purpose, Reading};
+use super::app::{App, Cursor, HelpState, InputMode, PaletteState, Reading};
 use crate::report::line::{self, clean};
-use crate::tui::axis::instant;
-use crate::tui::bindings::{Action, Chord, lookup};
-use crate::tui::commands::Command;
+use crate::tui::axis::{instant, readable};
+use crate::tui::command::{Chord, Command, Effect, lookup};
 use crate::tui::field::Field;
-use crate::tui::files::FileJob;
 use crate::tui::knobs::knob_of;
 use crate::tui::views::id::ViewId;
 use crate::tui::worker::other_law;
-
-/// An effect outside the state, which the event loop carries out.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Effect {
-    /// No effect except a redraw.
-    None,
-    /// Quit the explorer.
-    Quit,
-    /// Suspend the job.
-    Suspend,
-    /// Redraw the whole screen.
-    Redraw,
-    /// Switch the terminal's mouse reports on or off.
-    Mouse(bool),
-    /// Put a text on the clipboard of the terminal.
-    Copy(String),
-    /// Write a file.
-    Write(FileJob),
-    /// Read the scenes of a directory.
-    FindScenes(PathBuf),
-}
 
 /// Longest text that can be typed \[characters\].
 const LONGEST_TYPED: usize = 1000;
 
 impl App {
-    /// Handles a key press: an action of the current context, or a letter for the open text field.
+    /// Handles a key press: a command of the table, or a letter for the open text field.
     pub fn key(&mut self, event: &KeyEvent) -> Effect {
         self.files.disturb();
         self.dialogue.is_new = false;
         if event.modifiers.contains(KeyModifiers::ALT) && event.code != KeyCode::Esc {
             // Escape followed quickly by a key arrives as Alt with that key.
-            self.act(Action::Close);
+            self.act(Command::Close);
         }
         let chord = Chord::of(event);
-        if let Some(action) = lookup(self.context(), chord) {
+        if let Some(command) = lookup(self.keyboard(), chord) {
             let before = self.dialogue.is_closed().then(|| self.seen());
-            let effect = self.act(action);
+            let effect = self.act(command.clone());
             self.check_lesson();
             if self.status.is_none() && effect == Effect::None && before == Some(self.seen()) {
-                self.status = Some(self.nothing(chord, action));
+                self.status = Some(self.nothing(chord, &command));
             }
             return effect;
         }
@@ -106,12 +81,12 @@ impl App {
     }
 
     /// Returns the status message for a key without effect.
-    fn nothing(&self, chord: Chord, action: Action) -> String {
-        match action {
-            Action::Close if self.lessons.progress.is_some() => "G leaves the lesson".into(),
-            Action::Close => "nothing is open; q quits".into(),
-            Action::LeaveLesson => "no lesson is open; g lists them".into(),
-            Action::Turn { .. } => "this knob goes no further".into(),
+    fn nothing(&self, chord: Chord, command: &Command) -> String {
+        match command {
+            Command::Close if self.lessons.progress.is_some() => "G leaves the lesson".into(),
+            Command::Close => "nothing is open; q quits".into(),
+            Command::LeaveLesson => "no lesson is open; g lists them".into(),
+            Command::Turn { .. } => "this knob goes no further".into(),
             _ => format!("{chord}: as it was, nothing to change here"),
         }
     }
@@ -136,169 +111,226 @@ impl App {
         self.status = refused.map(String::from);
     }
 
-    /// Performs an action and returns its effect.
-    pub fn act(&mut self, action: Action) -> Effect {
+    /// Executes a command on the screen and returns its effect. A refusal goes to the status line.
+    pub fn act(&mut self, command: Command) -> Effect {
+        let before = std::mem::discriminant(&self.dialogue.mode);
+        let effect = self.update(command).unwrap_or_else(|why| {
+            self.status = Some(clean(&why));
+            Effect::None
+        });
+        if std::mem::discriminant(&self.dialogue.mode) != before {
+            // What is still drawn belongs to another dialogue, and a click must not reach it.
+            self.forget_drawn();
+        }
+        effect
+    }
+
+    /// Executes a command and returns its effect.
+    ///
+    /// # Errors
+    /// One line that says why: no such time or blade, or a value or a file that is refused.
+    pub fn update(&mut self, command: Command) -> Result<Effect, String> {
         self.status = None;
         self.appearance.use_speeds();
-        match (self.dialogue.mode.clone(), action) {
-            (_, Action::Quit) => return Effect::Quit,
-            (_, Action::Suspend) => return Effect::Suspend,
-            (_, Action::Redraw) => return Effect::Redraw,
-            (_, Action::Theme) => {
-                self.status = Some(self.appearance.use_theme(self.appearance.theme.next()));
-            }
-            (_, Action::SpeedUnit) => self.status = Some(self.appearance.next_speeds()),
-            (InputMode::Main, Action::Marker) => {
-                self.status = Some(self.appearance.next_marker());
-            }
-            (InputMode::Main, Action::Mouse) => {
+        match command {
+            Command::Quit => return Ok(Effect::Quit),
+            Command::Suspend => return Ok(Effect::Suspend),
+            Command::Redraw => return Ok(Effect::Redraw),
+            Command::Mouse => {
                 self.status = Some(self.mouse.toggle());
-                return Effect::Mouse(self.mouse.on);
+                return Ok(Effect::Mouse(self.mouse.on));
             }
-            (_, action) if self.move_in_list(action) => {}
-            (InputMode::Palette(palette), Action::Accept) => return self.choose_command(&palette),
-            (InputMode::Naming(purpose, name), Action::Accept) => {
-                return self.write(purpose, &name.text(), false);
+            Command::Copy => return Ok(Effect::Copy(self.copied())),
+            Command::Palette(typed) => {
+                self.dialogue.open(InputMode::Palette(PaletteState::typing(typed)));
+                return Ok(self.find_scenes());
             }
-            // A key typed before the question was drawn does not answer it.
-            (InputMode::Replacing(..), Action::Yes) if !self.dialogue.asked => {}
-            (InputMode::Replacing(purpose, name), Action::Yes) => {
-                return self.write(purpose, &name, true);
+            Command::Scenes => {
+                self.dialogue.open(InputMode::Scenes(None));
+                return Ok(self.find_scenes());
             }
-            (_, Action::Edit(edit)) => self.edit(edit),
-            (InputMode::Main, Action::KnobAbove) if self.is_asked() => self.choose_answer(true),
-            (InputMode::Main, Action::KnobBelow) if self.is_asked() => self.choose_answer(false),
-            (InputMode::Main, Action::Accept) => self.answer_chosen(),
-            (InputMode::Scenes(_), Action::TurnNote) => {
-                self.dialogue.note_page = self.dialogue.note_page.wrapping_add(1);
-            }
-            (InputMode::Lessons(_), Action::Search) => self.look_for("lesson "),
-            (InputMode::Scenes(_), Action::Search) => self.look_for("scene "),
-            (_, Action::Search) => {
+            command if self.move_in_list(&command) => {}
+            Command::Accept => return self.accept(),
+            Command::Replace => return self.replace_file(),
+            Command::Write(purpose, name) => return self.write(purpose, &name, false),
+            Command::Open => return self.open_cursor(),
+            Command::PutCursor([across, up]) => return self.click_cursor(Cursor { across, up }),
+            Command::GoTo(t) => self.go_to_asked(t)?,
+            Command::GoToEnd => self.go_to_asked(self.end_s())?,
+            Command::Blade(blade) => self.go_to_blade(blade)?,
+            Command::Scene(name) => self.open_named(&name)?,
+            Command::Set(place, text) => self.set_typed(place, &text)?,
+            Command::Nothing(why) => return Err(why),
+            command => self.change(command),
+        }
+        Ok(Effect::None)
+    }
+
+    /// Executes a command that has no effect outside the state and is not refused.
+    fn change(&mut self, command: Command) {
+        match command {
+            Command::Close => self.close(),
+            Command::Help => self.dialogue.open(InputMode::Help(HelpState::default())),
+            Command::Search => {
                 let searching = HelpState { searches: true, ..HelpState::default() };
                 self.dialogue.open(InputMode::Help(searching));
             }
-            (InputMode::Help(help), Action::Close)
-                if !help.filter.text().is_empty() || help.searches =>
-            {
-                self.dialogue.open(InputMode::Help(HelpState::default()));
+            Command::Edit(edit) => self.edit(edit),
+            Command::TurnNote => {
+                self.dialogue.note_page = self.dialogue.note_page.wrapping_add(1);
             }
-            (InputMode::Lessons(place), Action::Accept) => self.begin_lesson(place),
-            (InputMode::Main, Action::Scenes) => {
-                self.dialogue.open(InputMode::Scenes(None));
-                return self.find_scenes();
+            Command::Ask(purpose) => self.ask_name(purpose),
+            Command::Theme(theme) => self.status = Some(self.appearance.use_theme(theme)),
+            Command::NextTheme => {
+                self.status = Some(self.appearance.use_theme(self.appearance.theme.next()));
             }
-            (InputMode::Main, Action::Palette) => {
-                self.look_for("");
-                return self.find_scenes();
-            }
-            (InputMode::Scenes(chosen), Action::Accept) => {
-                let entries = self.scene_entries();
-                if let Some(entry) = entries.get(self.scene_place(&entries, chosen)) {
-                    self.open_entry(entry).unwrap_or_else(|why| self.status = Some(why));
-                }
-            }
-            (_, Action::Copy) => return Effect::Copy(self.copied()),
-            (InputMode::Typing(text), Action::Accept) => self.accept(&text.text()),
-            (_, Action::Close) => self.close(),
-            _ => self.act_main(action),
-        }
-        Effect::None
-    }
-
-    fn close(&mut self) {
-        self.knobs.refusal = None;
-        if !self.dialogue.is_closed() {
-            self.dialogue.close();
-        } else if self.reading != Reading::default() || self.play.middle_s.is_some() {
-            self.stop_reading();
-        } else {
-            self.layout.act(Action::Close);
-        }
-    }
-
-    fn act_main(&mut self, action: Action) {
-        match action {
-            Action::Help => self.dialogue.open(InputMode::Help(HelpState::default())),
-            Action::NextView => self.walk(self.layout.neighbour(1)),
-            Action::PreviousView => self.walk(self.layout.neighbour(-1)),
-            Action::View(view) => self.walk(view),
-            Action::KnobAbove => self.knobs.walk(true),
-            Action::KnobBelow => self.knobs.walk(false),
-            Action::Turn { up, coarse } => self.turn(up, coarse),
-            Action::Type => {
+            Command::SpeedUnit => self.status = Some(self.appearance.next_speeds()),
+            Command::Marker => self.status = Some(self.appearance.next_marker()),
+            Command::Guide => self.guide(),
+            Command::Lesson(place) => self.begin_lesson(place),
+            Command::LessonBack => self.lesson_back(),
+            Command::Answer(place) => self.answer(place),
+            Command::LeaveLesson => self.leave_lesson(),
+            Command::Above if self.is_asked() => self.choose_answer(true),
+            Command::Below if self.is_asked() => self.choose_answer(false),
+            Command::Above => self.knobs.walk(true),
+            Command::Below => self.knobs.walk(false),
+            Command::Turn { up, coarse } => self.turn(up, coarse),
+            Command::Type => {
                 self.knobs.refusal = None;
                 self.dialogue.open(InputMode::Typing(Field::default()));
             }
-            Action::Reset => self.reset(),
-            Action::Undo => self.step_back(false),
-            Action::Redo => self.step_back(true),
-            Action::Pause | Action::Step | Action::Jump => {
+            Command::Reset => self.reset(),
+            Command::Undo => self.step_back(false),
+            Command::Redo => self.step_back(true),
+            Command::Live => self.status = Some(self.knobs.turn_live()),
+            Command::Select(place) => self.select(place),
+            Command::Unfold(place) => self.knobs.select(place),
+            Command::SetPart(place, part) => self.set_part(place, part),
+            command => self.change_run(command),
+        }
+    }
+
+    /// Executes a command of the playback, the charts or their cursor.
+    fn change_run(&mut self, command: Command) {
+        match command {
+            Command::Pause | Command::Step | Command::Jump => {
                 self.depart();
-                self.status = self.play.act(action);
+                self.status = self.play.act(command);
             }
-            Action::SlowAtEvents | Action::Slower | Action::Faster => {
-                self.status = self.play.act(action);
+            Command::SlowAtEvents | Command::Slower | Command::Faster => {
+                self.status = self.play.act(command);
             }
-            Action::ZoomIn | Action::ZoomOut | Action::ZoomReset => self.zoom(action),
-            Action::Charts | Action::FullScreen => self.layout.act(action),
-            Action::Pin => self.pin(),
-            Action::OtherLaw if self.is_large(ViewId::Map) => self.other_map_law(),
-            Action::MapAxis { up } => self.look_for(if up { "up " } else { "across " }),
-            Action::OtherLaw => match other_law(&self.scene) {
-                Err(why) if !self.run.compare => {
-                    let law = self.scene.solver.contact.other();
-                    self.status = Some(clean(&format!("no {law} law beside this: {why}")));
-                }
-                _ => {
-                    self.run.set_compare(!self.run.compare);
-                    if self.run.compare {
-                        self.show(ViewId::Response);
-                    }
-                }
-            },
-            Action::Save => {
-                self.dialogue.open(InputMode::Naming(Purpose::Save, "scene.toml".into()));
-            }
-            Action::Export => {
-                let name = format!("{}.csv", self.view().word());
-                self.dialogue.open(InputMode::Naming(Purpose::Export, name.into()));
-            }
-            Action::Lesson => self.lesson_key(),
-            Action::LessonBack => self.lesson_back(),
-            Action::Answer(place) => self.answer(place),
-            Action::LeaveLesson => self.leave_lesson(),
-            Action::Survey => self.turn_survey(),
-            Action::PageBack => self.pan(true),
-            Action::PageForward => self.pan(false),
-            Action::GoToEnd => _ = self.obey(Command::GoTo(self.end_s())),
-            Action::Read => self.toggle_reading(),
-            Action::Cursor { right, up, coarse } => self.move_cursor(right, up, coarse),
-            Action::OpenPlace => self.open_cursor(),
-            Action::Restart => {
+            Command::Restart => {
                 self.stop_reading();
                 self.restart();
                 self.status = Some("restarted".into());
             }
-            Action::Fire => {
-                // The pulse acts on the playing motion, not at the cursor.
-                self.stop_reading();
-                self.run.fire();
-                let pulse = knob_of(PULSE).map(|knob| knob.text(&self.scene));
-                let at = instant(self.now());
-                self.status = pulse.map(|pulse| format!("pulse of {pulse} fired at {at}"));
+            Command::Fire => self.fire(),
+            Command::ZoomIn | Command::ZoomOut | Command::ZoomReset => self.zoom(command),
+            Command::PageBack => self.pan(true),
+            Command::PageForward => self.pan(false),
+            Command::View(view) => self.walk(view),
+            Command::NextView => self.walk(self.layout.neighbour(1)),
+            Command::PreviousView => self.walk(self.layout.neighbour(-1)),
+            Command::Charts => self.layout.next_count(),
+            Command::FullScreen => self.layout.full_screen = !self.layout.full_screen,
+            Command::Autoscale => self.status = Some(self.run.autoscale()),
+            Command::Pin => self.pin(),
+            Command::OtherLaw if self.is_large(ViewId::Map) => self.other_map_law(),
+            Command::OtherLaw => self.compare(),
+            Command::Axes(paths) => self.put_axes(paths),
+            Command::Survey => self.turn_survey(),
+            Command::Range(range) => {
+                self.layout.range = range;
+                self.show_survey(true);
             }
-            Action::Autoscale => self.status = Some(self.run.autoscale()),
-            Action::Live => self.status = Some(self.knobs.turn_live()),
+            Command::Read => self.toggle_reading(),
+            Command::Cursor { right, up, coarse } => self.move_cursor(right, up, coarse),
+            Command::OpenRun(scene) => self.open_run(*scene),
+            Command::JumpTo { path, value, to } => self.jump_to_limit(path, value, &to),
             _ => {}
         }
+    }
+
+    /// Takes what is typed or selected in the open dialogue, or the selected answer of a lesson.
+    fn accept(&mut self) -> Result<Effect, String> {
+        match self.dialogue.mode.clone() {
+            InputMode::Palette(palette) => return self.choose_command(&palette),
+            InputMode::Naming(purpose, name) => return self.write(purpose, &name.text(), false),
+            InputMode::Lessons(place) => self.begin_lesson(place),
+            InputMode::Scenes(chosen) => {
+                let entries = self.scene_entries();
+                if let Some(entry) = entries.get(self.scene_place(&entries, chosen)) {
+                    self.open_entry(entry)?;
+                }
+            }
+            InputMode::Typing(text) => self.take_typed(&text.text()),
+            InputMode::Main => self.answer_chosen(),
+            InputMode::Help(_) | InputMode::Replacing(..) => {}
+        }
+        Ok(Effect::None)
+    }
+
+    /// Closes what is open: the search of the help, a dialogue, the cursor, or the full screen.
+    fn close(&mut self) {
+        self.knobs.refusal = None;
+        match &self.dialogue.mode {
+            InputMode::Help(help) if help.is_searched() => {
+                self.dialogue.open(InputMode::Help(HelpState::default()));
+            }
+            InputMode::Main if self.reading != Reading::default() => self.stop_reading(),
+            InputMode::Main if self.play.middle_s.is_some() => self.stop_reading(),
+            InputMode::Main => self.layout.full_screen = false,
+            _ => self.dialogue.close(),
+        }
+    }
+
+    /// Fires the pulse into the playing motion; the cursor, which shows another time, goes.
+    fn fire(&mut self) {
+        self.stop_reading();
+        self.run.fire();
+        let pulse = knob_of(PULSE).map(|knob| knob.text(&self.scene));
+        let at = instant(self.now());
+        self.status = pulse.map(|pulse| format!("pulse of {pulse} fired at {at}"));
+    }
+
+    /// Switches the comparison with the other contact law.
+    fn compare(&mut self) {
+        match other_law(&self.scene) {
+            Err(why) if !self.run.compare => {
+                let law = self.scene.solver.contact.other();
+                self.status = Some(clean(&format!("no {law} law beside this: {why}")));
+            }
+            _ => {
+                self.run.set_compare(!self.run.compare);
+                if self.run.compare {
+                    self.show(ViewId::Response);
+                }
+            }
+        }
+    }
+
+    /// Goes to a simulated time \[s\].
+    ///
+    /// # Errors
+    /// One line if the run does not include the time.
+    fn go_to_asked(&mut self, t: f64) -> Result<(), String> {
+        let end = self.end_s();
+        if !(0.0..=end).contains(&t) {
+            let [t, end] = [t, end].map(|t| readable(t, "s"));
+            return Err(format!("t = {t}: from 0 to {end}, the end of the run"));
+        }
+        self.go_to(t);
+        self.status = Some(format!("paused at {}", instant(t)));
+        Ok(())
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tui::bindings::{Context, of};
+    use crate::tui::command::valid;
     use crate::tui::{Marker, Theme};
     use rubscope_solver::scene::Scene;
 
@@ -309,14 +341,12 @@ mod tests {
         for reads in [false, true] {
             for view in ViewId::all() {
                 let mut app = App::new(scene.clone(), Theme::Mono, Marker::Braille);
-                app.act(Action::View(view));
+                app.act(Command::View(view));
                 if app.reading.on != reads {
-                    app.act(Action::Read);
+                    app.act(Command::Read);
                 }
-                let context = app.context();
-                let others = of(Context::Main).filter(|_| context != Context::Main);
                 let unbound = [Chord::from('d')];
-                let keys = of(context).chain(others).flat_map(|binding| binding.keys);
+                let keys = valid(app.keyboard()).flat_map(|binding| binding.keys);
                 for chord in keys.chain(&unbound) {
                     let mut modifiers = KeyModifiers::NONE;
                     modifiers.set(KeyModifiers::CONTROL, chord.ctrl);

@@ -2,7 +2,7 @@
 
 use crate::tui::app::{App, Cursor, STEP, cell_of};
 use crate::tui::axis::instant;
-use crate::tui::views::Opening;
+use crate::tui::command::Effect;
 use crate::tui::views::id::ViewId;
 
 /// Large step of the cursor in charts without cells, as a fraction of the width or height.
@@ -106,15 +106,27 @@ impl App {
         }
     }
 
-    /// Opens what the large chart offers at the cursor.
-    pub(super) fn open_cursor(&mut self) {
-        match self.opening() {
-            None => self.status = Some("Enter opens nothing in this chart".into()),
-            Some(Opening::Run(scene)) => self.open_run(*scene),
-            Some(Opening::Jump { path, value, to }) => self.jump_to_limit(path, value, &to),
-            Some(Opening::Select(path)) => self.select_to_turn(path),
-            Some(Opening::Nothing(reason)) => self.status = Some(reason),
+    /// Puts the cursor at a position of the large chart, or, if it is there already, opens what the
+    /// chart offers there.
+    ///
+    /// # Errors
+    /// As [`Self::open_cursor`].
+    pub(super) fn click_cursor(&mut self, cursor: Cursor) -> Result<Effect, String> {
+        if self.reading.on && self.reading.cursor == Some(cursor) {
+            return self.open_cursor();
         }
+        self.reading.on = true;
+        self.put_cursor(cursor);
+        Ok(Effect::None)
+    }
+
+    /// Opens what the large chart offers at the cursor.
+    ///
+    /// # Errors
+    /// One line that says why there is nothing to open.
+    pub(super) fn open_cursor(&mut self) -> Result<Effect, String> {
+        let command = self.opening().ok_or("Enter opens nothing in this chart")?;
+        self.update(command)
     }
 
     /// Removes the cursor and moves the motion to its time. If that time is before the motion, the
@@ -143,8 +155,8 @@ impl App {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tui::app::PaletteState;
     use crate::tui::app::tests::on_screen;
+    use crate::tui::command::Command;
 
     #[test]
     fn an_instant_that_is_read_stays_from_view_to_view() {
@@ -178,9 +190,8 @@ mod tests {
         let cursor = app.cursor_in(ViewId::Gaps).unwrap();
         assert_eq!((cell_of(cursor.across, 22), app.reading.on), (6, true));
         for blade in [0, 23] {
-            app.choose_command(&PaletteState { typed: format!("blade {blade}").into(), place: 0 });
             let refused = format!("blade {blade}: from 1 to 22");
-            assert_eq!(app.status.as_deref(), Some(refused.as_str()));
+            assert_eq!(app.update(Command::Blade(blade)), Err(refused));
         }
     }
 

@@ -14,9 +14,10 @@ mod response;
 pub mod spectrum;
 mod table;
 
-pub use panel::{LEAST_ROWS, Opening, ViewArea, ViewPanel};
+pub use panel::{LEAST_ROWS, ViewArea, ViewPanel};
 
 use super::app::{App, cell_of};
+use super::command::Command;
 pub use id::ViewId;
 use margins::COLUMNS;
 use rubscope_solver::scene::keys::CHARTS;
@@ -47,9 +48,9 @@ impl App {
         self.view().panel()
     }
 
-    /// Returns what Enter would do at the cursor; `None` without a cursor, and if the large view
+    /// Returns the command of Enter at the cursor; `None` without a cursor, and if the large view
     /// has nothing to open there.
-    pub fn opening(&self) -> Option<Opening> {
+    pub fn opening(&self) -> Option<Command> {
         self.panel().opening(self, self.reading.cursor?)
     }
 

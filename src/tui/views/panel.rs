@@ -6,15 +6,15 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Modifier, Style};
 
 use crate::report::table::Table;
-use crate::tui::app::{App, Cursor, Target};
+use crate::tui::app::{App, Cursor, Parts};
 use crate::tui::appearance::Appearance;
 use crate::tui::axis::ChartAxis;
+use crate::tui::command::Command;
 use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::text::{columns, pieces, print};
 use crate::tui::theme::Role;
 use crate::tui::views::ViewId;
-use rubscope_solver::scene::CheckedScene;
 
 /// A view of the explorer: drawing, export, and its cursor.
 pub trait ViewPanel: Sync {
@@ -43,41 +43,10 @@ pub trait ViewPanel: Sync {
         Cursor { across: 0.5, up: 0.5 }
     }
 
-    /// Returns what Enter does at a position of the chart; `None` if the view has nothing to open.
-    fn opening(&self, _: &App, _: Cursor) -> Option<Opening> {
+    /// Returns the command of Enter at a position of the chart; `None` if the view has nothing to
+    /// open.
+    fn opening(&self, _: &App, _: Cursor) -> Option<Command> {
         None
-    }
-}
-
-/// What Enter does at a position of a chart.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Opening {
-    /// Opens the run of a scene.
-    Run(Box<CheckedScene>),
-    /// Sets a knob to the value of a limit.
-    Jump {
-        /// Key of the knob.
-        path: &'static str,
-        /// Value of the limit.
-        value: f64,
-        /// Label of the limit.
-        to: String,
-    },
-    /// Selects the knob of a key.
-    Select(&'static str),
-    /// Does nothing, for this reason.
-    Nothing(String),
-}
-
-impl Opening {
-    /// Returns the word that the footer shows for Enter; `None` if Enter does nothing.
-    pub fn word(&self) -> Option<&'static str> {
-        match self {
-            Self::Run(_) => Some("open"),
-            Self::Jump { .. } => Some("jump"),
-            Self::Select(_) => Some("select"),
-            Self::Nothing(_) => None,
-        }
     }
 }
 
@@ -100,16 +69,14 @@ pub struct ViewArea {
 impl ViewArea {
     /// Records the data area of the large chart for the mouse.
     pub fn note(self, app: &App, inner: Rect) {
-        if self.large {
-            app.note(inner, Target::Chart([(0.0, 1.0); 2]));
-        }
+        self.note_part(app, inner, [(0.0, 1.0); 2]);
     }
 
     /// As [`Self::note`], for an area that covers only the fractions `parts` (across, up) of the
     /// chart.
-    pub fn note_part(self, app: &App, inner: Rect, parts: [(f64, f64); 2]) {
+    pub fn note_part(self, app: &App, inner: Rect, parts: Parts) {
         if self.large && inner.area() > 0 {
-            app.note(inner, Target::Chart(parts));
+            app.note_part(inner, Command::PutCursor([0.0; 2]), parts);
         }
     }
 

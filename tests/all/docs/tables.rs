@@ -4,7 +4,7 @@
 
 use clap::{Arg, Command, CommandFactory};
 use rubscope::cli::{Cli, options::SceneOptions};
-use rubscope::tui::bindings::{self, BINDINGS, Binding, Context, Group, keys_text};
+use rubscope::tui::command::{self, Binding, Group, keys_text};
 use rubscope_solver::scene::{KEYS, Scene, Value};
 use strum::IntoEnumIterator;
 
@@ -34,42 +34,22 @@ fn code(text: impl std::fmt::Display) -> String {
     format!("`{text}`")
 }
 
-/// Lists and dialogues, whose keys the screen names on its last line, and what all prompts
-/// and lists take.
-const NAMED_ON_THE_SCREEN: [Context; 11] = [
-    Context::Typing,
-    Context::Help,
-    Context::Filter,
-    Context::Palette,
-    Context::Replacing,
-    Context::Lessons,
-    Context::Question,
-    Context::Scenes,
-    Context::Field,
-    Context::List,
-    Context::Dialogue,
-];
-
 fn keys() -> String {
     let row = |binding: &Binding| {
         let keys: Vec<String> = keys_text(binding).split(", ").map(code).collect();
         vec![keys.join(" "), binding.what.to_string()]
     };
     let mut out = String::new();
-    let mut told = 0;
     let mut part = |title: &str, bindings: Vec<&Binding>| {
-        told += bindings.len();
         let rows = table(&["key", "what it does"], bindings.into_iter().map(row));
         out.push_str(&format!("{title}:\n\n{rows}\n"));
     };
-    for group in Group::iter() {
-        let own = |binding: &&Binding| binding.action.group() == group;
-        part(group.into(), bindings::of(Context::Main).filter(own).collect());
+    // The screen names the keys of lists and dialogues on its last line.
+    for group in Group::iter().filter(|group| group.is_main()) {
+        part(group.into(), command::of(group).collect());
     }
     let reading = "While the arrows read a chart (`i`); all other keys as above";
-    part(reading, bindings::of(Context::Reading).collect());
-    told += NAMED_ON_THE_SCREEN.into_iter().flat_map(bindings::of).count();
-    assert_eq!(told, BINDINGS.len(), "a binding is in no table");
+    part(reading, command::of(Group::Reading).collect());
     out.trim_end().to_string() + "\n"
 }
 

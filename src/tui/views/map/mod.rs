@@ -10,9 +10,10 @@ use ratatui::{buffer::Buffer, layout::Rect};
 
 pub use words::value_text;
 
-use super::panel::{Opening, ViewArea, ViewPanel, not_yet, title};
+use super::panel::{ViewArea, ViewPanel, not_yet, title};
 use crate::report::map::write_csv;
 use crate::tui::app::{App, Cursor};
+use crate::tui::command::Command;
 use crate::tui::text::{pieces, print};
 use crate::tui::theme::Role;
 use plan::LiveMap;
@@ -55,10 +56,10 @@ impl ViewPanel for MapView {
     }
 
     /// Opens the run of the cell under the cursor, with the map's law and solver.
-    fn opening(&self, app: &App, _: Cursor) -> Option<Opening> {
+    fn opening(&self, app: &App, _: Cursor) -> Option<Command> {
         let (plan, [column, row]) = (app.shown_plan()?, app.map_cell()?);
         let scene = plan.scene_of(plan.index(column, row)).ok()?;
-        Some(Opening::Run(Box::new(scene)))
+        Some(Command::OpenRun(Box::new(scene)))
     }
 
     fn csv(&self, app: &App) -> Result<String, String> {

@@ -8,11 +8,12 @@ mod survey;
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-use super::panel::{Opening, ViewArea, ViewPanel, not_yet, table_csv, title};
+use super::panel::{ViewArea, ViewPanel, not_yet, table_csv, title};
 use crate::report::margins;
 use crate::report::survey::rows as report_rows;
 use crate::report::table::Table;
 use crate::tui::app::{App, Cursor};
+use crate::tui::command::Command;
 use crate::tui::text::{first_lines, print, wrap};
 use crate::tui::theme::Role;
 use crate::tui::views::table::Rows;
@@ -93,14 +94,14 @@ impl ViewPanel for MarginsView {
         Cursor { across: 0.5 / f64::from(COLUMNS), up: 1.0 - 0.5 / rows }
     }
 
-    fn opening(&self, app: &App, _: Cursor) -> Option<Opening> {
+    fn opening(&self, app: &App, _: Cursor) -> Option<Command> {
         if app.layout.survey {
             return survey::opening(app);
         }
         let ((live, old), [column, row]) = (app.margins()?, app.margins_cell()?);
         if old {
             let reason = "these margins are of the knobs before; new ones are under way";
-            return Some(Opening::Nothing(reason.into()));
+            return Some(Command::Nothing(reason.into()));
         }
         Some(rows::opening(live.margins.limits.get(row)?, column, app))
     }
@@ -137,7 +138,6 @@ mod tests {
 
     use super::live::LiveMargins;
     use super::*;
-    use crate::tui::bindings::Action;
     use crate::tui::views::ViewId;
     use crate::tui::{Marker, Theme};
     use rubscope_solver::scene::Scene;
@@ -146,7 +146,7 @@ mod tests {
     fn app() -> App {
         let scene = Scene::base().checked().unwrap();
         let mut app = App::new(scene.clone(), Theme::Dark, Marker::Braille);
-        app.act(Action::View(ViewId::Margins));
+        app.act(Command::View(ViewId::Margins));
         app.run.latest.results.found.margins =
             Some(Arc::new(LiveMargins { margins: Margins::of(&scene), survey: None }));
         app
@@ -167,12 +167,12 @@ mod tests {
         let mut app = app();
         app.reading.cursor = Some(MarginsView.here(&app));
         assert!(!text(&app).contains("of the knobs before"));
-        assert!(matches!(app.opening(), Some(Opening::Jump { .. })));
+        assert!(matches!(app.opening(), Some(Command::JumpTo { .. })));
         let mut other = app.scene.clone().into_scene();
         other.casing.damping_ratio = 0.1;
         app.set_scene(other.checked().unwrap(), false);
         assert!(text(&app).contains("of the knobs before"), "{}", text(&app));
-        assert!(matches!(app.opening(), Some(Opening::Nothing(_))));
+        assert!(matches!(app.opening(), Some(Command::Nothing(_))));
     }
 
     #[test]

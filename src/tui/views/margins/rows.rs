@@ -5,9 +5,9 @@ use ratatui::style::Style;
 
 use crate::report::margins::{STRONGEST, words};
 use crate::tui::app::App;
-use crate::tui::knobs::knob_of;
+use crate::tui::command::Command;
+use crate::tui::knobs::{KNOBS, knob_of, place_of};
 use crate::tui::theme::Role;
-use crate::tui::views::Opening;
 use crate::tui::views::margins::LEADING;
 use rubscope_solver::study::margins::{Limit, Quantity, Side};
 
@@ -26,14 +26,14 @@ pub fn reason(row: &Limit) -> Option<String> {
 }
 
 /// Returns what Enter does in a cell.
-pub fn opening(row: &Limit, column: usize, app: &App) -> Opening {
+pub fn opening(row: &Limit, column: usize, app: &App) -> Command {
     let nothing = || {
         let why = reason(row).unwrap_or_else(|| "no such knob moves it".into());
-        Opening::Nothing(format!("{}: {why}", row.name.titles()[0]))
+        Command::Nothing(format!("{}: {why}", row.name.titles()[0]))
     };
     let select = |place: usize| {
-        let knob = row.sensitivities.strongest(STRONGEST).get(place).map(|knob| knob.0);
-        knob.map_or_else(nothing, Opening::Select)
+        let path = row.sensitivities.strongest(STRONGEST).get(place).map(|knob| knob.0);
+        path.and_then(place_of).map_or_else(nothing, Command::Select)
     };
     match (column.checked_sub(1), row.quantity.path(), row.value) {
         (Some(place), ..) => select(place),
@@ -44,7 +44,7 @@ pub fn opening(row: &Limit, column: usize, app: &App) -> Opening {
             let backward = app.scene.operation.speed_rad_s < 0.0;
             let speed = row.quantity == Quantity::Speed;
             let value = if speed && backward { -value } else { value };
-            Opening::Jump { path, value, to: row.name.titles()[0].to_string() }
+            Command::JumpTo { path, value, to: row.name.titles()[0].to_string() }
         }
     }
 }
@@ -124,9 +124,10 @@ fn limit(app: &App, row: &Limit) -> String {
         parts.push(format!("; {note}"));
     }
     // The footer names the action of Enter, but not the knob.
-    if let Opening::Select(path) = opening(row, 0, app) {
-        let knob = knob_of(path).map_or(path, |knob| knob.label);
-        parts.push(format!(". Enter selects {knob}"));
+    if let Command::Select(place) = opening(row, 0, app)
+        && let Some(knob) = KNOBS.get(place)
+    {
+        parts.push(format!(". Enter selects {}", knob.label));
     }
     parts.concat()
 }

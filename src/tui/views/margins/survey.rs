@@ -7,9 +7,9 @@ use ratatui::layout::Rect;
 use crate::report::number::speed_unit;
 use crate::report::survey::{answer, notes, rows as rows_of};
 use crate::tui::app::{App, Cursor};
+use crate::tui::command::Command;
 use crate::tui::text::{print, wrap};
 use crate::tui::theme::Role;
-use crate::tui::views::Opening;
 use crate::tui::views::panel::{ViewArea, not_yet, title};
 use crate::tui::views::table::Rows;
 use rubscope_solver::scene::keys::DIAMETERS;
@@ -116,8 +116,8 @@ pub fn here(app: &App) -> Cursor {
 
 /// Returns what Enter does: it sets the nodal diameters of the row. `None` without a row under the
 /// cursor.
-pub fn opening(app: &App) -> Option<Opening> {
+pub fn opening(app: &App) -> Option<Command> {
     let diameters = shown(app).get(cell(app)?)?.nodal_diameters;
     let to = format!("{diameters} nodal diameters");
-    Some(Opening::Jump { path: DIAMETERS, value: f64::from(diameters), to })
+    Some(Command::JumpTo { path: DIAMETERS, value: f64::from(diameters), to })
 }

@@ -71,12 +71,12 @@ fn a_letter_sets_the_knob_whose_symbol_it_is_and_no_other() {
 #[test]
 fn the_words_of_every_action_run_it() {
     let app = app();
-    for binding in bindings::of(Context::Main) {
-        if matches!(binding.action, Action::Palette | Action::Close) {
+    for binding in command::main() {
+        if only_for_keys(&binding.command) {
             continue;
         }
         let command = only(&app, binding.what).map(|item| item.command);
-        assert_eq!(command, Ok(Command::Act(binding.action)), "{}", binding.what);
+        assert_eq!(command.as_ref(), Ok(&binding.command), "{}", binding.what);
     }
 }
 
@@ -88,10 +88,9 @@ fn first(typed: &str) -> Found {
 fn every_action_scene_lesson_view_and_knob_is_found_by_its_name() {
     let app = app();
     let found = |typed: &str| found(&app, typed);
-    for binding in bindings::of(Context::Main) {
-        let wanted = Command::Act(binding.action);
-        let known = found(binding.what).iter().any(|item| item.command == wanted);
-        assert_eq!(known, !matches!(binding.action, Action::Palette | Action::Close));
+    for binding in command::main() {
+        let known = found(binding.what).iter().any(|item| item.command == binding.command);
+        assert_eq!(known, !only_for_keys(&binding.command));
     }
     for scene in BUILTIN {
         assert_eq!(
@@ -112,7 +111,7 @@ fn every_action_scene_lesson_view_and_knob_is_found_by_its_name() {
         assert!(items.iter().any(|item| item.command == Command::Select(place)));
     }
     assert_eq!(first("undo").beside, "u");
-    assert_eq!(first("theme").command, Command::Act(Action::Theme));
+    assert_eq!(first("theme").command, Command::NextTheme);
 }
 
 #[test]
@@ -151,10 +150,10 @@ fn a_word_of_its_own_goes_to_its_place() {
         ("T=2e-3", Command::GoTo(2e-3)),
         ("5 ms", Command::GoTo(5e-3)),
         ("40us", Command::GoTo(4e-5)),
-        ("compare", Command::Act(Action::OtherLaw)),
-        ("margins", Command::Act(Action::View(ViewId::Margins))),
-        ("survey", Command::Act(Action::Survey)),
-        ("end", Command::Act(Action::GoToEnd)),
+        ("compare", Command::OtherLaw),
+        ("margins", Command::View(ViewId::Margins)),
+        ("survey", Command::Survey),
+        ("end", Command::GoToEnd),
         ("blade 7", Command::Blade(7)),
         ("axes clearance pulse", axes(Some("clearance"), Some(PULSE))),
         ("axes speed over damping zeta_c", axes(Some(keys::SPEED), Some("casing.damping_ratio"))),
@@ -165,8 +164,8 @@ fn a_word_of_its_own_goes_to_its_place() {
         ("scene slip", Command::Scene("slip".into())),
         ("lesson friction", Command::Lesson(11)),
         ("lesson 2", Command::Lesson(1)),
-        ("view 5", Command::Act(Action::View(ViewId::Map))),
-        ("view gaps", Command::Act(Action::View(ViewId::Gaps))),
+        ("view 5", Command::View(ViewId::Map)),
+        ("view gaps", Command::View(ViewId::Gaps)),
         ("save Mine.toml", Command::Write(Purpose::Save, "Mine.toml".into())),
     ] {
         assert_eq!(first(typed).command, command, "{typed}");

@@ -2,9 +2,9 @@
 //! list opened by `:` and for `--lines`. A word that introduces a target (`t 0.3 ms`, `blade 7`,
 //! `scene rub`) or a knob with a value takes precedence over entries that contain the words.
 
-use super::app::{App, Purpose};
+use super::app::App;
 use super::axis::readable;
-use super::bindings::{self, Action, Binding, Chord, Context};
+use super::command::{self, Binding, Chord, Command, Group, Purpose};
 use super::knobs::{Fit, KNOBS, Knob, best, called, fit, knob_of, plain};
 use super::lessons::{self, LETTERS};
 use super::theme::Theme;
@@ -15,33 +15,6 @@ use rubscope_solver::scene::Value;
 use rubscope_solver::scene::keys;
 use rubscope_solver::scene::{Quantity, SceneError};
 use rubscope_solver::study::survey::speed_range;
-
-/// Something that can be done by typing it.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Command {
-    /// An action that also has a key.
-    Act(Action),
-    /// Open a scene, given by its name.
-    Scene(String),
-    /// Begin a lesson, given by index in [`lessons::all`].
-    Lesson(usize),
-    /// Select a knob, given by index in [`KNOBS`].
-    Select(usize),
-    /// Set a knob, given by index in [`KNOBS`], to a value as typed.
-    Set(usize, String),
-    /// Go to a simulated time \[s\].
-    GoTo(f64),
-    /// Show the gap of a blade, numbered from 1.
-    Blade(u32),
-    /// Choose the keys on the horizontal and the vertical axis of the map; `None` leaves that axis.
-    Axes([Option<&'static str>; 2]),
-    /// Survey all nodal diameters over a range of rotor speeds \[rad/s\]; `None` for all speeds.
-    Range(Option<[f64; 2]>),
-    /// Write a file of the given kind to a path.
-    Write(Purpose, String),
-    /// Use a theme.
-    Theme(Theme),
-}
 
 /// A command as an entry of the list.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,7 +60,7 @@ pub fn found(app: &App, typed: &str) -> Vec<Found> {
     // An exact name comes first; entries of equal rank keep the order of the list.
     let place = |item: &Found| match &item.command {
         Command::Scene(name) if name == typed.trim() => 0,
-        Command::Act(Action::View(view)) if view.word() == typed.trim() => 1,
+        Command::View(view) if view.word() == typed.trim() => 1,
         _ if item.what.to_lowercase() == typed.trim() => 0,
         _ => 2,
     };
@@ -104,9 +77,9 @@ pub fn only(app: &App, typed: &str) -> Result<Found, String> {
     let typed = typed.trim();
     let mut signs = typed.chars();
     if let (Some(sign), None) = (signs.next(), signs.next())
-        && let Some(action) = bindings::lookup(app.context(), Chord::from(sign))
+        && let Some(command) = command::lookup(app.keyboard(), Chord::from(sign))
     {
-        return Ok(Found::of("key", typed, Command::Act(action)));
+        return Ok(Found::of("key", typed, command));
     }
     // The name of a knob alone selects it, which prints its value.
     if let Some(place) = called(typed) {
@@ -236,15 +209,14 @@ fn directed(app: &App, typed: &str) -> Option<Vec<Found>> {
                 view.digit().to_string() == lower || view.word().starts_with(&lower)
             };
             let act = |view: ViewId| {
-                Found::of("view", view.what(), Command::Act(Action::View(view)))
-                    .beside(view.digit().to_string())
+                Found::of("view", view.what(), Command::View(view)).beside(view.digit().to_string())
             };
             let found: Vec<Found> = ViewId::all().filter(named).map(act).collect();
             Some(found).filter(|found| !found.is_empty())?
         }
         "answer" => {
             let place = LETTERS.iter().position(|letter| lower == letter.to_string())?;
-            vec![Found::of("go", typed.trim(), Command::Act(Action::Answer(place)))]
+            vec![Found::of("go", typed.trim(), Command::Answer(place))]
         }
         "theme" => {
             let named = Theme::ALL.into_iter().filter(|theme| theme.name().starts_with(&lower));
@@ -373,24 +345,27 @@ fn lessons() -> impl Iterator<Item = Found> {
     })
 }
 
+/// Returns whether a command makes no sense in the list: it opens or closes the list itself.
+fn only_for_keys(command: &Command) -> bool {
+    matches!(command, Command::Palette("") | Command::Close)
+}
+
 /// Returns the list entry of a key binding.
-fn action(binding: &Binding) -> Found {
+fn bound_entry(binding: &Binding) -> Found {
     let key = binding.keys.first().map(ToString::to_string).unwrap_or_default();
-    let also = bindings::keys_text(binding);
-    Found::of("", binding.what, Command::Act(binding.action)).beside(key).also(also)
+    let also = command::keys_text(binding);
+    Found::of("", binding.what, binding.command.clone()).beside(key).also(also)
 }
 
 fn everything(app: &App) -> impl Iterator<Item = Found> {
-    let asked = bindings::of(Context::Question).filter(|_| app.is_asked());
-    let actions = asked.chain(bindings::of(Context::Main));
-    let actions =
-        actions.filter(|binding| !matches!(binding.action, Action::Palette | Action::Close));
+    let asked = command::of(Group::Question).filter(|_| app.is_asked());
+    let bound = asked.chain(command::main()).filter(|binding| !only_for_keys(&binding.command));
     let knobs = KNOBS.iter().enumerate().map(|(place, knob)| {
         Found::of("knob", format!("{}: {}", knob.label, knob.does), Command::Select(place))
             .beside(knob.text(&app.scene))
             .also(format!("{} {}", knob.path, plain(knob.label)))
     });
-    actions.map(action).chain(knobs).chain(scenes(app)).chain(lessons())
+    bound.map(bound_entry).chain(knobs).chain(scenes(app)).chain(lessons())
 }
 
 /// Rates how well an entry matches all the words: lower is better, `None` if some word is missing.

@@ -1,0 +1,176 @@
+//! The table of commands that have keys: group, keys, command, and the words of help and footer.
+
+use std::sync::LazyLock;
+
+use crossterm::event::KeyCode::{
+    self, BackTab, Backspace, Char, Delete, Down, End, Enter, Esc, Home, Left, PageDown, PageUp,
+    Right, Tab, Up,
+};
+
+use super::{Binding, Chord, Command, Group, Purpose};
+use crate::tui::field::Edit;
+use crate::tui::views::id::ViewId;
+
+pub(super) const fn letter(letter: char) -> Chord {
+    Chord { code: Char(letter), ctrl: false, shift: false }
+}
+pub(super) const fn ctrl(letter: char) -> Chord {
+    Chord { code: Char(letter), ctrl: true, shift: false }
+}
+pub(super) const fn key(code: KeyCode) -> Chord {
+    Chord { code, ctrl: false, shift: false }
+}
+pub(super) const fn shift(code: KeyCode) -> Chord {
+    Chord { code, ctrl: false, shift: true }
+}
+
+macro_rules! bind {
+    ($group:ident: [$($key:expr),+], $command:expr, $what:literal) => {
+        Binding { group: Group::$group, keys: &[$($key),+], command: $command, what: $what, footer: None }
+    };
+    ($group:ident: [$($key:expr),+], $command:expr, $what:literal, $short:literal $word:literal) => {
+        Binding { group: Group::$group, keys: &[$($key),+], command: $command, what: $what,
+                  footer: Some(($short, $word)) }
+    };
+}
+
+const fn cursor(right: i64, up: i64, coarse: bool) -> Command {
+    Command::Cursor { right, up, coarse }
+}
+
+const fn turn(up: bool, coarse: bool) -> Command {
+    Command::Turn { up, coarse }
+}
+
+/// Every binding, in the order of the help. Those in the footer are listed by importance.
+pub static BINDINGS: LazyLock<Vec<Binding>> = LazyLock::new(|| {
+    // The bindings of views are built once and leaked, to be static like the others.
+    let views = ViewId::all().map(|view| Binding {
+        group: Group::Views,
+        keys: vec![letter(char::from(b'0' + view.digit()))].leak(),
+        command: Command::View(view),
+        what: format!("view {}: {}", view.digit(), view.what()).leak(),
+        footer: None,
+    });
+    BEFORE_VIEWS.iter().cloned().chain(views).chain(AFTER_VIEWS.iter().cloned()).collect()
+});
+
+/// Bindings listed before those of the views.
+const BEFORE_VIEWS: &[Binding] = &[
+    bind!(Knobs: [key(Up), letter('k')], Command::Above, "select the knob above", "↑↓" "knob"),
+    bind!(Knobs: [key(Down), letter('j')], Command::Below, "select the knob below"),
+    bind!(Knobs: [key(Right), letter('l')], turn(true, false), "turn the knob up", "←→" "turn"),
+    bind!(Knobs: [key(Left), letter('h')], turn(false, false), "turn the knob down"),
+    bind!(Knobs: [shift(Right), letter('L')], turn(true, true), "turn it up in large steps", "HL" "coarse"),
+    bind!(Knobs: [shift(Left), letter('H')], turn(false, true), "turn it down in large steps"),
+    bind!(Knobs: [key(Enter)], Command::Type, "type a value (20k, 1e-7, 50u)", "Enter" "type"),
+    bind!(Time: [letter(' ')], Command::Pause, "pause, or go on", "Space" "pause"),
+    bind!(Views: [key(Tab)], Command::NextView, "next view", "Tab" "view"),
+    bind!(Views: [key(BackTab)], Command::PreviousView, "previous view"),
+    bind!(Program: [letter(':'), ctrl('p')], Command::Palette(""), "go or do in words: t 0.3 ms, blade 7, speed 450, law smooth, scene rub, lesson lock", ":" "commands"),
+    bind!(Program: [letter('?')], Command::Help, "this help; typing in it finds a key or a word", "?" "help"),
+    bind!(Program: [letter('/')], Command::Search, "find a key or a word in this help"),
+    bind!(Program: [letter('q'), ctrl('c')], Command::Quit, "quit", "q" "quit"),
+    bind!(Time: [letter('r')], Command::Restart, "restart the run", "r" "restart"),
+    bind!(Time: [letter('p')], Command::Fire, "fire the pulse into the running motion", "p" "pulse"),
+    bind!(Time: [letter('[')], Command::Slower, "slower motion", "[ ]" "slower, faster"),
+    bind!(Time: [letter(']')], Command::Faster, "faster motion"),
+    bind!(Time: [letter('z')], Command::SlowAtEvents, "slower at changes of contact and faster between, or not"),
+    bind!(Views: [letter('f')], Command::FullScreen, "one chart over the whole screen, or back", "f" "full"),
+    bind!(Look: [letter('M')], Command::Mouse, "mouse on or off; Shift selects text while it is on"),
+    bind!(Time: [letter('.')], Command::Step, "one step (pauses)", "." "step"),
+    bind!(Knobs: [key(Backspace)], Command::Reset, "back to the scene's value"),
+    bind!(Knobs: [letter('u')], Command::Undo, "undo the last turn of a knob", "u" "undo"),
+    bind!(Knobs: [ctrl('r')], Command::Redo, "redo it"),
+    bind!(Knobs: [letter('x')], Command::Live, "knobs act on the running motion (live), or restart it"),
+    bind!(Scenes: [letter('g')], Command::Guide, "guide: choose a lesson; in one, its next step", "g" "guide"),
+    bind!(Scenes: [letter('B')], Command::LessonBack, "in a lesson: the step before"),
+    bind!(Scenes: [letter('G')], Command::LeaveLesson, "leave the lesson; your own scene comes back"),
+    bind!(Scenes: [letter('o')], Command::Scenes, "open a scene: built-in ones, and files of this folder", "o" "scenes"),
+    bind!(Time: [letter('n')], Command::Jump, "on to the next change of contact (pauses)"),
+    bind!(Time: [letter('E'), key(End)], Command::GoToEnd, "end of the run: go there; to another instant with : t 0.3 ms"),
+    bind!(Views: [letter('b')], Command::Pin, "pin this run as a baseline behind the next, or remove it", "b" "pin"),
+    bind!(Views: [letter('c')], Command::OtherLaw, "compare with the other contact law; in the map, its law", "c" "both laws"),
+    bind!(Views: [letter('X')], Command::Palette("across "), "choose the knob across the map"),
+    bind!(Views: [letter('Y')], Command::Palette("up "), "choose the knob up the map"),
+    bind!(Files: [letter('s')], Command::Ask(Purpose::Save), "save the scene"),
+    bind!(Files: [letter('e')], Command::Ask(Purpose::Export), "export the large chart (.csv) or the screen (.svg)"),
+    bind!(Files: [letter('y')], Command::Copy, "copy the command line that repeats this run (OSC 52)"),
+    bind!(Views: [letter('D')], Command::Survey, "margins of all diameters: the survey, or those of n_d alone"),
+    bind!(Views: [letter('v')], Command::Charts, "one, two, three or four charts"),
+    bind!(Time: [letter('<'), key(PageUp)], Command::PageBack, "a page of time back"),
+    bind!(Time: [letter('>'), key(PageDown)], Command::PageForward, "a page of time forward"),
+    bind!(Views: [letter('i')], Command::Read, "read the chart: the arrows move a cursor, or, where it stays, the knobs again", "i" "read"),
+];
+
+/// Bindings listed after those of the views.
+const AFTER_VIEWS: &[Binding] = &[
+    bind!(Time: [letter('+')], Command::ZoomIn, "a shorter page of time"),
+    bind!(Time: [letter('-')], Command::ZoomOut, "a longer page of time"),
+    bind!(Time: [letter('=')], Command::ZoomReset, "the usual page of time, where NOW is"),
+    bind!(Views: [letter('a')], Command::Autoscale, "scales follow the data, or stay fixed"),
+    bind!(Look: [letter('m')], Command::Marker, "next marker (braille, halfblock, dot, ascii)"),
+    bind!(Look: [letter('t')], Command::NextTheme, "next theme (dark, light, colour-blind on dark or light, mono)"),
+    bind!(Look: [letter('U')], Command::SpeedUnit, "units: speeds in rpm, or in rad/s"),
+    bind!(Program: [ctrl('z')], Command::Suspend, "suspend"),
+    bind!(Look: [ctrl('l')], Command::Redraw, "draw the screen again"),
+    bind!(Program: [key(Esc)], Command::Close, "close what is open; never quits"),
+    bind!(Reading: [key(Left), letter('h')], cursor(-1, 0, false), "cursor to the left", "←→↑↓" "read"),
+    bind!(Reading: [key(Right), letter('l')], cursor(1, 0, false), "cursor to the right"),
+    bind!(Reading: [key(Up), letter('k')], cursor(0, 1, false), "cursor up"),
+    bind!(Reading: [key(Down), letter('j')], cursor(0, -1, false), "cursor down"),
+    bind!(Reading: [key(Enter)], Command::Open, "open the run at the cursor (map), jump to a limit or select its knob (margins)", "Enter" "open"),
+    bind!(Reading: [shift(Left), letter('H')], cursor(-1, 0, true), "cursor far to the left", "HJKL" "far"),
+    bind!(Reading: [shift(Right), letter('L')], cursor(1, 0, true), "cursor far to the right"),
+    bind!(Reading: [shift(Up), letter('K')], cursor(0, 1, true), "cursor far up"),
+    bind!(Reading: [shift(Down), letter('J')], cursor(0, -1, true), "cursor far down"),
+    bind!(Reading: [key(Esc)], Command::Close, "no cursor: the motion where it is; i leaves it", "Esc" "knobs"),
+    bind!(Typing: [key(Enter)], Command::Accept, "take the value", "Enter" "take"),
+    bind!(Typing: [key(Esc)], Command::Close, "leave it as it was", "Esc" "leave"),
+    bind!(Help: [letter('?'), key(Esc)], Command::Close, "close the help", "? Esc" "close"),
+    bind!(Help: [letter('/')], Command::Search, "type what to find, whatever its first letter"),
+    bind!(Help: [letter('q')], Command::Quit, "quit", "q" "quit"),
+    bind!(Filter: [key(Esc)], Command::Close, "clear the filter", "Esc" "clear"),
+    bind!(Palette: [key(Enter)], Command::Accept, "do it", "Enter" "do it"),
+    bind!(Palette: [key(Esc)], Command::Close, "leave", "Esc" "leave"),
+    bind!(Palette: [key(Tab)], Command::Below, "the line below"),
+    bind!(Palette: [key(BackTab)], Command::Above, "the line above"),
+    bind!(Replacing: [letter('y')], Command::Replace, "replace the file", "y" "replace"),
+    bind!(Replacing: [letter('n'), key(Esc)], Command::Close, "leave it as it is", "n" "leave it"),
+    bind!(Lessons: [letter('k')], Command::Above, "the lesson above"),
+    bind!(Lessons: [letter('j')], Command::Below, "the lesson below"),
+    bind!(Lessons: [key(Enter), letter('g')], Command::Accept, "begin the lesson", "Enter" "begin"),
+    bind!(Lessons: [letter('/')], Command::Palette("lesson "), "find a lesson by its words", "/" "find"),
+    bind!(Lessons: [key(Esc)], Command::Close, "close the list", "Esc" "close"),
+    bind!(Lessons: [letter('q')], Command::Quit, "quit", "q" "quit"),
+    bind!(Question: [key(Up), letter('k')], Command::Above, "the answer above", "↑↓" "choose"),
+    bind!(Question: [key(Down), letter('j')], Command::Below, "the answer below"),
+    bind!(Question: [key(Enter)], Command::Accept, "answer", "Enter" "answer"),
+    bind!(Question: [letter('B')], Command::LessonBack, "the step before", "B" "back"),
+    bind!(Question: [letter('G')], Command::LeaveLesson, "leave the lesson", "G" "leave"),
+    bind!(SceneList: [letter('k')], Command::Above, "the scene above"),
+    bind!(SceneList: [letter('j')], Command::Below, "the scene below"),
+    bind!(SceneList: [key(Enter)], Command::Accept, "open the scene", "Enter" "open"),
+    bind!(SceneList: [letter('/')], Command::Palette("scene "), "find a scene by its words", "/" "find"),
+    bind!(SceneList: [letter(' ')], Command::TurnNote, "the rest of a long note"),
+    bind!(SceneList: [key(Esc), letter('o')], Command::Close, "close the list", "Esc" "close"),
+    bind!(SceneList: [letter('q')], Command::Quit, "quit", "q" "quit"),
+    bind!(Field: [key(Left), ctrl('b')], Command::Edit(Edit::Left), "cursor to the left", "←→" "move"),
+    bind!(Field: [key(Right), ctrl('f')], Command::Edit(Edit::Right), "cursor to the right"),
+    bind!(Field: [key(Home), ctrl('a')], Command::Edit(Edit::Start), "to the start; there, to the first line"),
+    bind!(Field: [key(End), ctrl('e')], Command::Edit(Edit::End), "to the end; there, to the last line"),
+    bind!(Field: [key(Backspace), ctrl('h')], Command::Edit(Edit::DeleteBefore), "delete the letter before it"),
+    bind!(Field: [key(Delete), ctrl('d')], Command::Edit(Edit::DeleteAfter), "delete the letter under it"),
+    bind!(Field: [ctrl('w')], Command::Edit(Edit::DeleteWord), "delete the word before it"),
+    bind!(Field: [ctrl('u')], Command::Edit(Edit::DeleteToStart), "delete all before it", "Ctrl-U" "clear"),
+    bind!(Field: [ctrl('k')], Command::Edit(Edit::DeleteToEnd), "delete all behind it"),
+    bind!(List: [key(Up)], Command::Above, "a line up", "↑↓" "choose"),
+    bind!(List: [key(Down)], Command::Below, "a line down"),
+    bind!(List: [key(PageUp)], Command::PageBack, "a page up"),
+    bind!(List: [key(PageDown)], Command::PageForward, "a page down"),
+    bind!(List: [key(Home)], Command::First, "the first line"),
+    bind!(List: [key(End)], Command::Last, "the last line"),
+    bind!(Dialogue: [ctrl('c')], Command::Quit, "quit", "Ctrl-C" "quit"),
+    bind!(Dialogue: [ctrl('z')], Command::Suspend, "suspend"),
+    bind!(Dialogue: [ctrl('l')], Command::Redraw, "draw the screen again"),
+];
