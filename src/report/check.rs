@@ -125,8 +125,9 @@ fn limits(margins: &Margins) -> String {
             continue;
         }
         let value = words::value(value, 6, limit.quantity);
-        let margin =
-            limit.margin.map_or(String::new(), |part| format!(" ({})", words::margin(part)));
+        let margin = limit
+            .margin
+            .map_or(String::new(), |part| format!(" ({} from here)", words::to_limit(part)));
         told.push(format!("{} {value}{margin}: {}.", limit.name, limit.name.what()));
     }
     let push = margins.tip_push().map(|push| with_unit(push, 4, "N"));

@@ -33,8 +33,8 @@ pub struct Facts {
     pub touches: u64,
     /// Contact law of the scene.
     pub law: ContactLaw,
-    /// Whether the clearance is negative, so that all blades rub the lining at rest.
-    pub pressed: bool,
+    /// Clearance of the scene; negative if all blades rub the lining at rest \[m\].
+    pub clearance_m: f64,
     /// Whether the casing is damped, so that it comes to rest after the last contact.
     pub damped: bool,
     /// Rotor speed at which the longest lock that ended during the run broke \[rad/s\]; `None` if
@@ -62,6 +62,9 @@ pub struct Facts {
     /// Largest out-of-roundness of the casing that leaves the lock intact \[m\]; `None` if the run
     /// does not end in a lock, if it is unknown, or if usual casings are rounder.
     pub round: Option<f64>,
+    /// Largest deviation of the tips that leaves both pushes of the lock, whichever tips deviate
+    /// \[m\]; `None` as for `round`.
+    pub tips: Option<f64>,
 }
 
 /// The verdict of a run as a word and at most two sentences, chosen to fit a given width.
@@ -151,7 +154,7 @@ impl Facts {
             pulling,
             touches: 0,
             law: scene.solver.contact,
-            pressed: scene.clearance() < 0.0,
+            clearance_m: scene.clearance(),
             damped: machine.casing_damping_ratio > 0.0,
             broken: None,
             caught: None,
@@ -163,6 +166,7 @@ impl Facts {
             certainty: Certainty::default(),
             growth: may_grow.then(|| lock_growth(machine, speed)).flatten(),
             round: locked.then(|| roundness_needed(machine, speed)).flatten(),
+            tips: locked.then(|| machine.tip_deviation(speed)).flatten().filter(|tips| *tips > 0.0),
         }
     }
 
@@ -217,7 +221,7 @@ impl Facts {
         match self.verdict {
             Verdict::Locked => self.held(),
             Verdict::Adhesive => self.pulled(),
-            Verdict::Slip if self.pressed => self.lately([
+            Verdict::Slip if self.clearance_m < 0.0 => self.lately([
                 "All blades press the lining, and the wave slips along them.",
                 "The wave slips.",
             ]),
@@ -229,7 +233,7 @@ impl Facts {
                 "The contact runs from blade to blade and keeps them swinging.",
                 "The contact swings the blades.",
             ]),
-            Verdict::Forced if self.pressed => self.lately([
+            Verdict::Forced if self.clearance_m < 0.0 => self.lately([
                 "All blades press the lining, and the longer ones drag the wave.",
                 "Longer blades drag the wave.",
             ]),
@@ -309,10 +313,9 @@ impl Facts {
         if self.touches == 0 {
             return plain(["Blades and casing meet and part again.", "They meet and part."]);
         }
-        let again = if self.touches > 1 { " again and again" } else { "" };
         let touches = touches(self.touches);
         [
-            format!("Blades and casing meet and part{again}: {touches}."),
+            format!("Blades and casing met and parted, with {touches} so far."),
             "They meet and part.".into(),
         ]
     }
@@ -333,7 +336,7 @@ impl Facts {
         if self.still && self.touches == 0 {
             return plain(["Nothing moves and no blade touches.", "Nothing moves."]);
         }
-        if self.pressed {
+        if self.clearance_m < 0.0 {
             return plain([
                 "The wave dies away; the blades rub the lining as at rest.",
                 "The wave dies away.",
@@ -388,11 +391,19 @@ impl Facts {
             notes.push([format!("A tiny change {does}."), "Sensitive.".into()]);
         }
         if let Some(round) = self.round.filter(|_| notes.is_empty()) {
-            let round = format!("{} um", short(rounded(1e6 * round, 2)));
-            notes.push([
-                format!("It needs a casing round to {round}."),
-                format!("Round to {round}."),
-            ]);
+            let um = |length: f64| format!("{} um", short(rounded(1e6 * length, 2)));
+            let part = |length: f64| short(rounded(100.0 * length / self.clearance_m, 2));
+            let (height, height_part) = (um(round), part(round));
+            let mut needed = [
+                format!("It needs a casing round to {height} ({height_part} % of the clearance)."),
+                format!("Round to {height}"),
+            ];
+            if let Some(tips) = self.tips {
+                needed[0] += &format!(" Tips may be off by {} ({} %).", um(tips), part(tips));
+                needed[1] += &format!(", tips to {}", um(tips));
+            }
+            needed[1].push('.');
+            notes.push(needed);
         }
         (notes, wrong)
     }

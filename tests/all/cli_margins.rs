@@ -63,15 +63,17 @@ fn rows_of_the_text_are_the_limits() {
                 continue;
             };
             close(read(cells[1], limit.quantity.unit()), value, 5.1e-6);
-            match limit.margin.map(|margin| (margin, cells[2].strip_suffix(" x"))) {
-                Some((margin, _)) if margin > MOST_TIMES => assert_eq!(cells[2], "> 100 x"),
-                Some((margin, Some(factor))) => {
-                    close(factor.parse().unwrap(), 1.0 + margin, 5.1e-4)
+            // The change from the scene to the limit, as in the sentence above the table.
+            let change = limit.present.filter(|present| *present != 0.0);
+            match change.map(|present| (value / present - 1.0, cells[2].strip_suffix(" x"))) {
+                Some((change, _)) if change > MOST_TIMES => assert_eq!(cells[2], "> 100 x"),
+                Some((change, Some(factor))) => {
+                    close(factor.parse().unwrap(), 1.0 + change, 5.1e-4)
                 }
-                Some((margin, None)) => {
+                Some((change, None)) => {
                     let percent: f64 = cells[2].strip_suffix(" %").unwrap().parse().unwrap();
                     assert!(cells[2].starts_with(['+', '-']), "{row}");
-                    assert!((percent - 100.0 * margin).abs() < 0.51, "{row}");
+                    assert!((percent - 100.0 * change).abs() < 0.51, "{row}");
                 }
                 None => assert_eq!(cells[2], "-"),
             }

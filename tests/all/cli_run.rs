@@ -171,7 +171,8 @@ fn a_lock_says_at_which_speed_a_run_up_caught_it_and_how_round_the_casing_must_b
     assert!((caught - 294.1).abs() < 0.05, "{caught}");
     assert_eq!(run["outcome"]["history"], "Caught in a run-up at 294.1 rad/s.");
     let run = told(&["run", "rocking", "--no-sensitivity"]);
-    assert_eq!(run["outcome"]["history"], "It needs a casing round to 0.64 um.");
+    let needed = "It needs a casing round to 0.64 um (0.64 % of the clearance). Tips may be off by 2.1 um (2.1 %).";
+    assert_eq!(run["outcome"]["history"], needed);
     let margins = told(&["margins", "rocking", "--no-search"]);
     let limits = margins["limits"].as_array().unwrap().iter();
     let round = limits.filter(|limit| limit["name"] == "roundness");

@@ -190,7 +190,7 @@ fn a_check_says_what_follows_and_what_looks_like_a_slip() {
          of the radius.",
         "With 5 nodal diameters the blades form 36 groups of 1, between which a wave can lock.",
         "The casing has 420.3 Hz (2.9 kg, damping ratio 0.01), the bladed disk 155.9 Hz (5.4 kg",
-        "The rotor turns at 890.118 rad/s. omega_c 528.165 rad/s (+68.5 %): critical speed",
+        "The rotor turns at 890.118 rad/s. omega_c 528.165 rad/s (-40.7 % from here): critical speed",
         "Modes of the casing are known for 3 of 19 nodal diameters",
         "In the lock a blade tip pushes with up to ",
         "Checked: radius, clearance, tip speed, pulse and the push of a tip by their size; frequency, \

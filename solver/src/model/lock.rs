@@ -266,6 +266,29 @@ impl Machine {
         Some([scale * (stiff - drag), scale * (stiff + drag)])
     }
 
+    /// Returns the deviation of the tips `+-e` up to which the corner of equal tips keeps both of
+    /// its pushes whichever tips are long or short \[m\]. Negative where it does not push: the least
+    /// deviation with which a corner can. `None` if tips or casing are uneven already, if the
+    /// contact does not push the casing outward, if the deviation would cut a side off, and where
+    /// `locked_multipliers` are unknown.
+    ///
+    /// Both sides push where `theta <= gamma`, with
+    /// `tan theta = tan(delta) (lambda_a - lambda_b)/(lambda_a + lambda_b)`. The apothems
+    /// `g0 - e` and `g0 + e` of both sides turn `gamma = delta` until
+    /// `e = g0 tan(delta) tan(delta - theta)`.
+    #[must_use]
+    pub fn tip_deviation(&self, speed: f64) -> Option<f64> {
+        let [a, b] = self.locked_multipliers(speed).filter(|_| self.lining.is_none())?;
+        if self.is_uneven() || a + b >= 0.0 {
+            return None;
+        }
+        let (delta, clearance) = (self.polygon.delta, self.at(speed).clearance());
+        let theta = (delta.tan() * ((a - b) / (a + b)).abs()).atan();
+        let deviation = clearance * delta.tan() * (delta - theta).tan();
+        let cut = clearance * ((2.0 * delta).cos().recip() - 1.0);
+        Some(deviation).filter(|deviation| -deviation < cut)
+    }
+
     /// Adds the inclined tips and the friction to `1/H`: `stiff` and `drag` are its real and
     /// imaginary part for the casing alone \[N/m\].
     fn with_tips(&self, stiff: f64, drag: f64, speed: f64) -> [f64; 2] {
@@ -347,6 +370,27 @@ mod tests {
         let lining = LiningLaw { stiffness_n_per_m: 1e9, smoothing_m: 0.0 };
         assert!(rigid.locked_amplitude().is_some());
         assert_eq!(rigid.with_lining(Some(lining)).locked_amplitude(), None);
+    }
+
+    #[test]
+    fn a_corner_keeps_its_pushes_up_to_the_deviation_of_the_tips_and_gains_them_beyond() {
+        let equal = paper(Casing::default());
+        let first = equal.polygon.side_of_blade(1);
+        let sides = [first, (first + 1) % equal.polygon.sides];
+        for speed in [360.0, 380.0, 411.0, 413.0, 480.0, 900.0] {
+            let needed = equal.tip_deviation(speed).unwrap();
+            assert_eq!(needed > 0.0, equal.lock_speed().unwrap() < speed);
+            for (part, pushes) in [(0.99, needed > 0.0), (1.01, needed < 0.0)] {
+                let mut disk = BladedDisk { tips_m: vec![part * needed; 22], ..Default::default() };
+                disk.tips_m[0] = -part * needed;
+                let machine = Machine::new(&disk, &Casing::default(), 3);
+                let corner = machine.tip_corners().into_iter().find(|at| at.sides == sides);
+                let windows = machine.windows_of(&corner.unwrap(), 1.0);
+                let has = windows.iter().any(|window| window.has(speed));
+                assert_eq!(has, pushes, "{speed} {part} {needed}");
+            }
+        }
+        assert_eq!([290.0, 305.0].map(|speed| equal.tip_deviation(speed)), [None; 2]);
     }
 
     #[test]

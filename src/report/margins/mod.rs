@@ -29,7 +29,7 @@ pub fn titled(margins: &Margins, title: fn(LimitName) -> String) -> Table {
     let people = ["+1 % of", "each", "moves it by"].map(Heading::shown);
     let files = [Heading::filed("quantity"), "value".into(), Heading::filed("present")];
     let headings = std::iter::once(Heading::from("name").words("limit")).chain(files);
-    let headings = headings.chain([Heading::from("margin")]).chain(people);
+    let headings = headings.chain([Heading::from("margin").words("away")]).chain(people);
     let mut table = Table::new(headings.chain(parameters.iter().map(|path| Heading::filed(*path))));
     for limit in &margins.limits {
         // Same word as in JSON.

@@ -1,6 +1,6 @@
 //! How far a run is from another verdict: one sentence, and a table with a row per quantity.
 
-use super::words::margin;
+use super::words::from_here;
 use crate::report::number::{count, rounded, scaled, short, with_unit};
 use crate::report::table::{Heading, Table, TableCell};
 use rubscope_solver::scene::{ContactLaw, keys};
@@ -18,8 +18,8 @@ pub fn asked(margins: &Margins) -> impl Iterator<Item = &Robustness> {
     margins.robust.iter().chain(&margins.pushes_only)
 }
 
-/// States the verdict of the run, where there is room (`wide`) the lobes of the casing that end its
-/// lock, and the nearest change of a quantity that was found to alter it.
+/// States the verdict of the run, where there is room (`wide`) the lobes of the casing and the tips
+/// that end its lock, and the nearest change of a quantity that was found to alter it.
 pub fn sentence(found: &Robustness, margins: &Margins, wide: bool) -> String {
     let scene = &margins.scene;
     let law = match found.contact {
@@ -34,8 +34,10 @@ pub fn sentence(found: &Robustness, margins: &Margins, wide: bool) -> String {
         parts.push(format!("{} of {} quantities tried", found.changes.len(), found.rows));
         return format!("{}.", parts.join("; "));
     }
-    if wide && found.verdict.is_held() {
-        parts.extend(out_of_round(margins));
+    if wide {
+        let held = found.verdict.is_held();
+        parts.extend(out_of_round(margins).filter(|_| held));
+        parts.extend(tips(margins, held));
     }
     let each = found.changes.iter().filter_map(|row| Some((row, row.nearest()?)));
     let nearest = each.min_by(|(_, (_, a)), (_, (_, b))| a.abs().total_cmp(&b.abs()));
@@ -47,7 +49,7 @@ pub fn sentence(found: &Robustness, margins: &Margins, wide: bool) -> String {
                 changed.verdict,
                 mark(changed),
                 at.trim_end(),
-                margin(part)
+                from_here(part)
             )
         }
         None => "no change found".into(),
@@ -66,16 +68,33 @@ pub fn sentence(found: &Robustness, margins: &Margins, wide: bool) -> String {
 /// clearance; `None` if no number of lobes is known to.
 fn out_of_round(margins: &Margins) -> Option<String> {
     let heights = margins.limits.iter().filter(|limit| limit.name == LimitName::Roundness);
-    let each = heights.filter_map(|limit| Some((limit.value?, limit.lobes?)));
-    let (height, lobes) = each.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
-    let now = margins.scene.casing.out_of_round_m;
-    let [height_um, now_um] = [height, now].map(|length| short(rounded(1e6 * length, 2)));
-    let part = short(rounded(100.0 * height / margins.scene.clearance(), 2));
+    let each = heights.filter_map(|limit| Some((limit.value?, limit.lobes?, limit.present?)));
+    let (height, lobes, now) = each.min_by(|(a, ..), (b, ..)| a.total_cmp(b))?;
+    let now = short(rounded(1e6 * now, 2));
+    let [height, part] = um_and_part(height, margins);
     let lobes = count(u64::from(lobes), "lobe");
     Some(format!(
-        "a casing out of round by {height_um} um ({lobes}; {part} % of the clearance; now {now_um}) \
-         ends it"
+        "a casing out of round by {height} um ({lobes}; {part} % of the clearance; now {now}) ends it"
     ))
+}
+
+/// Says from which deviation of the tips on the worst ones take a push from the lock or, where the
+/// run is not `held`, the best ones let pushes hold one; `None` if that is not known.
+fn tips(margins: &Margins, held: bool) -> Option<String> {
+    let scene = &margins.scene;
+    let deviation = scene.machine().tip_deviation(scene.operation.speed_rad_s)?;
+    let does = match (held, deviation > 0.0) {
+        (true, true) => "may end it too",
+        (false, false) => "may let pushes hold a lock",
+        _ => return None,
+    };
+    let [deviation, part] = um_and_part(deviation.abs(), margins);
+    Some(format!("tips off by {deviation} um ({part} % of the clearance) {does}"))
+}
+
+/// Returns a length in micrometres and in per cent of the clearance.
+fn um_and_part(length: f64, margins: &Margins) -> [String; 2] {
+    [1e6 * length, 100.0 * length / margins.scene.clearance()].map(|x| short(rounded(x, 2)))
 }
 
 /// Returns the mark of an altered verdict: `?` if it is itself sensitive, otherwise nothing.

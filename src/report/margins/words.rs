@@ -7,7 +7,7 @@ use crate::report::table::TableCell;
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::margins::{Found, LimitName, MOST_TIMES, Margins, Quantity, parameter};
 
-/// Margin from which on the ratio of scene to limit is shown (here `10 x`) instead of per cent.
+/// Change from which on the ratio of both values is shown (here `10 x`) instead of per cent.
 const FACTORS: f64 = 9.0;
 
 /// Formats the value of a limit, in SI units, with `digits` significant digits and its unit.
@@ -15,9 +15,9 @@ pub fn value(x: f64, digits: usize, quantity: Quantity) -> String {
     with_unit(x, digits, quantity.unit())
 }
 
-/// Formats a margin, given as a fraction of the limit (negative if the scene is below it): in per
-/// cent, or as the ratio of scene to limit if the scene is far beyond it.
-pub fn margin(part: f64) -> String {
+/// Formats the change from a value of the scene to another one, as a part of the former: in per
+/// cent, or as the ratio of both if it is large.
+pub fn from_here(part: f64) -> String {
     if part > MOST_TIMES {
         return format!("> {} x", 1.0 + MOST_TIMES);
     }
@@ -28,11 +28,17 @@ pub fn margin(part: f64) -> String {
     if percent.abs() < 99.95 { format!("{percent:+.1} %") } else { format!("{percent:+.0} %") }
 }
 
-/// Returns a margin as a cell, which is empty in files if the margin is above `MOST_TIMES`; `None`
-/// gives an empty cell.
+/// Formats the change from the value of the scene to a limit with the margin `part`, which is that
+/// value as a part of the limit, less one. A dash if the scene has a value of zero.
+pub fn to_limit(part: f64) -> String {
+    if part == -1.0 { "-".into() } else { from_here(1.0 / (1.0 + part) - 1.0) }
+}
+
+/// Returns a margin as a cell: on the screen as the change from here to the limit, in files as it
+/// is, empty if it is above `MOST_TIMES`. `None` gives an empty cell.
 pub fn margin_cell(part: Option<f64>) -> TableCell {
-    let shown = |part: f64| if part > MOST_TIMES { f64::NAN } else { part };
-    part.map_or(TableCell::Empty, |part| TableCell::Told(shown(part), margin(part)))
+    let filed = |part: f64| if part > MOST_TIMES { f64::NAN } else { part };
+    part.map_or(TableCell::Empty, |part| TableCell::Told(filed(part), to_limit(part)))
 }
 
 /// Formats the change of a limit, in per cent, for a change of one per cent of a parameter.
@@ -150,7 +156,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn margins_and_changes_have_the_digits_that_are_known() {
+    fn changes_and_sensitivities_have_the_digits_that_are_known() {
         for (part, told) in [
             (0.0, "+0.0 %"),
             (-0.1234, "-12.3 %"),
@@ -161,7 +167,10 @@ mod tests {
             (98.5, "99.5 x"),
             (262.5, "> 100 x"),
         ] {
-            assert_eq!(margin(part), told);
+            assert_eq!(from_here(part), told);
+        }
+        for (margin, told) in [(0.25, "-20.0 %"), (-0.5, "+100 %"), (-0.95, "20 x"), (-1.0, "-")] {
+            assert_eq!(to_limit(margin), told);
         }
         for (by, told) in [
             (0.333, "+0.33 %"),

@@ -11,7 +11,7 @@ fn facts(verdict: Verdict) -> Facts {
     let (machine, speed) = (scene.machine(), scene.operation.speed_rad_s);
     let all = Facts::at(verdict, (&scene, &machine, speed), std::iter::empty());
     let law = ContactLaw::Unilateral;
-    Facts { blades: vec![19, 12], touches: 5, law, round: None, ..all }
+    Facts { blades: vec![19, 12], touches: 5, law, round: None, tips: None, ..all }
 }
 
 const SEEN: Seen = Seen { span_s: 0.01, without_contact_s: 0.012_345, reach: Some(0.943) };
@@ -127,7 +127,11 @@ fn every_verdict_law_failure_and_history_has_whole_sentences_at_every_width() {
                             blades: blades.to_vec(),
                             pulling: blades.iter().copied().take(case % 3).collect(),
                             touches: [0, 1, 5, 143, 2, 1_234_567][case],
-                            pressed: law == ContactLaw::Smooth && case % 2 == 0,
+                            clearance_m: if law == ContactLaw::Smooth && case % 2 == 0 {
+                                -1e-5
+                            } else {
+                                1e-4
+                            },
                             damped: case != 2,
                             broken: (case == 3).then_some(411.933_5),
                             failure: reason
@@ -204,7 +208,12 @@ fn the_state_comes_first_and_how_it_was_reached_second() {
         ),
         (
             Facts { round: Some(2.439_28e-7), ..facts(Locked) },
-            " It needs a casing round to 0.24 um.",
+            " It needs a casing round to 0.24 um (0.24 % of the clearance).",
+        ),
+        (
+            Facts { round: Some(2.439_28e-7), tips: Some(7.5e-7), ..facts(Locked) },
+            " It needs a casing round to 0.24 um (0.24 % of the clearance). Tips may be off by 0.75 um \
+             (0.75 %).",
         ),
         (Facts { certainty: ENDS, ..facts(Locked) }, " A tiny change ends otherwise."),
         (

@@ -81,18 +81,6 @@ pub enum Quantity {
     Height,
 }
 
-/// Position of the scene relative to a limit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Display)]
-#[strum(serialize_all = "lowercase")]
-pub enum Side {
-    /// The value of the scene is less than the limit.
-    Below,
-    /// Both are equal to nine digits.
-    At,
-    /// The value of the scene is greater than the limit.
-    Beyond,
-}
-
 /// A limit of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Limit {
@@ -170,9 +158,6 @@ pub(in crate::study) fn shown_margin<S: serde::Serializer>(
     margin.filter(|margin| *margin <= MOST_TIMES).serialize(out)
 }
 
-/// Relative distance within which a scene is at a limit.
-const AT: f64 = 1e-9;
-
 impl Limit {
     /// Creates a limit; `present` is the value of the scene to compare with.
     pub(super) fn new(name: LimitName, value: Option<f64>, present: Option<f64>) -> Self {
@@ -188,27 +173,6 @@ impl Limit {
             sensitivities: Sensitivities::default(),
             note: None,
         }
-    }
-
-    /// Returns the direction of a contact force in the lock (`pushes`, `pulls`), or the position of
-    /// the scene relative to another limit.
-    #[must_use]
-    pub fn way(&self) -> String {
-        match (self.quantity, self.value) {
-            (Quantity::Push, Some(push)) if push < 0.0 => "pulls".to_string(),
-            (Quantity::Push, Some(_)) => "pushes".to_string(),
-            _ => self.side().map_or_else(String::new, |side| side.to_string()),
-        }
-    }
-
-    /// Returns the position of the scene relative to the limit; `None` without a margin.
-    #[must_use]
-    pub fn side(&self) -> Option<Side> {
-        Some(match self.margin? {
-            margin if margin.abs() < AT => Side::At,
-            margin if margin < 0.0 => Side::Below,
-            _ => Side::Beyond,
-        })
     }
 }
 
@@ -313,23 +277,10 @@ mod tests {
     }
 
     #[test]
-    fn a_scene_is_below_at_or_beyond() {
-        assert_eq!(limit(100.0, 50.0).margin, Some(-0.5));
-        for (present, side) in [
-            (50.0, Side::Below),
-            (100.0, Side::At),
-            (100.0 * (1.0 - 1e-8), Side::Below),
-            (100.0 * (1.0 + 1e-8), Side::Beyond),
-            (1e9, Side::Beyond),
-        ] {
-            assert_eq!(limit(100.0, present).side(), Some(side), "{present:?}");
-        }
-    }
-
-    #[test]
     fn what_is_no_number_is_no_margin() {
         assert_eq!(limit(0.0, 1.0).margin, None);
         assert_eq!(limit(f64::NAN, 1.0).value, None);
-        assert_eq!(limit(f64::INFINITY, 1.0).side(), None);
+        assert_eq!(limit(f64::INFINITY, 1.0).margin, None);
+        assert_eq!(limit(100.0, 50.0).margin, Some(-0.5));
     }
 }

@@ -42,8 +42,12 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
         let mut lobes = lobes.map(Some).chain(std::iter::repeat(None));
         for value in values {
             let of_value = by.iter().map(|(path, by)| (*path, by.get(place).copied().flatten()));
+            let lobes = lobes.next().flatten();
+            // Lobes of another number than those of the casing have no height.
+            let same = lobes.is_none_or(|lobes| lobes == scene.casing.lobes);
+            let present = if same { present } else { Some(0.0) };
             limits.push(Limit {
-                lobes: lobes.next().flatten(),
+                lobes,
                 sensitivities: Sensitivities(of_value.collect()),
                 note: note(&here, name, value),
                 ..Limit::new(name, Some(value), present)

@@ -25,7 +25,7 @@ use crate::scene::CheckedScene;
 pub use changes::{ChangedVerdict, Robustness, VerdictChange};
 pub(super) use evaluated::speeds;
 pub(super) use limit::shown_margin;
-pub use limit::{Limit, LimitName, MOST_TIMES, Quantity, Sensitivities, Side};
+pub use limit::{Limit, LimitName, MOST_TIMES, Quantity, Sensitivities};
 pub use parameters::{CLEARANCE, PARAMETERS, Parameter, acting, parameter};
 pub use target::{Found, Target, TargetError};
 pub use touching::{FirstTouch, first_touch, grazing_pulse};

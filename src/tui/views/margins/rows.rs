@@ -9,7 +9,7 @@ use crate::tui::command::Command;
 use crate::tui::knobs::{KNOBS, knob_of, place_of};
 use crate::tui::theme::Role;
 use crate::tui::views::margins::LEADING;
-use rubscope_solver::study::margins::{Limit, Quantity, Side};
+use rubscope_solver::study::margins::{Limit, Quantity};
 
 /// Significant digits of a limit.
 pub const DIGITS: usize = 5;
@@ -72,7 +72,7 @@ pub fn role(limit: &Limit, column: usize) -> Role {
         Some((_, by)) if *by < 0.0 => Role::Second,
         Some(_) => Role::First,
         None if limit.value.is_none() => Role::Quiet,
-        None if column + 1 == LEADING && limit.side() == Some(Side::Below) => Role::Quiet,
+        None if column + 1 == LEADING && limit.margin.is_some_and(|by| by < 0.0) => Role::Quiet,
         None => Role::Text,
     }
 }
@@ -114,12 +114,8 @@ fn limit(app: &App, row: &Limit) -> String {
         None => row.name.titles()[0].to_string(),
     }];
     parts.push(format!(": {}", row.name.what()));
-    if let Some(side) = row.side() {
-        parts.push(format!(
-            "; now {} {side}",
-            row.margin.map_or_else(String::new, words::margin).trim_start_matches(['+', '-'])
-        ));
-    }
+    let changed = row.margin.filter(|margin| *margin != -1.0).map(words::to_limit);
+    parts.extend(changed.map(|change| format!("; {change} from here")));
     if let Some(note) = reason(row).as_deref().or(row.note.as_deref()) {
         parts.push(format!("; {note}"));
     }
