@@ -7,7 +7,8 @@ use std::io::{BufRead, Error, Read, Write};
 
 use anyhow::Context as _;
 
-use super::app::{App, InputMode};
+use super::app::words::{self, Found};
+use super::app::{App, InputMode, help, lesson};
 use super::command::{self, Command, Effect, Group};
 use super::engine::{Order, Pace};
 use super::files::{FileResult, FoundScenes};
@@ -16,7 +17,6 @@ use super::options::ExploreOptions;
 use super::raster::Marker;
 use super::theme::Theme;
 use super::views::id::ViewId;
-use super::words::{self, Found};
 use super::worker::Playback;
 use super::{ability, config, panels};
 use crate::report::line::clean;
@@ -193,7 +193,7 @@ impl Lines {
             writeln!(out, "{}", self.spelled(&clean(&line)))?;
         }
         if self.app.lessons.progress != lesson {
-            for line in panels::lesson_text(&self.app, WIDTH) {
+            for line in lesson::lesson_text(&self.app, WIDTH) {
                 writeln!(out, "{line}")?;
             }
         }
@@ -292,7 +292,7 @@ impl Lines {
         match words {
             "" => writeln!(out, "{USAGE}"),
             words => {
-                let found = panels::help_text(&self.app, WIDTH, words);
+                let found = help::help_text(&self.app, WIDTH, words);
                 if found.is_empty() {
                     return writeln!(out, "refused: nothing has these words: {}", clean(words));
                 }

@@ -19,7 +19,6 @@ pub mod export;
 mod field;
 #[doc(hidden)]
 pub mod files;
-mod glossary;
 mod ground;
 #[doc(hidden)]
 pub mod history;
@@ -32,6 +31,7 @@ mod knobs;
 pub mod lessons;
 mod line;
 mod lines;
+mod list;
 mod options;
 mod panels;
 mod plot;
@@ -46,7 +46,6 @@ pub mod trace;
 mod tty;
 mod update;
 mod views;
-mod words;
 #[doc(hidden)]
 pub mod worker;
 

@@ -7,14 +7,14 @@ use std::time::{Duration, Instant};
 
 use ratatui::{Terminal, backend::Backend};
 
-use super::app::{App, Exit};
+use super::app::{App, Exit, LEAST_HEIGHT, LEAST_WIDTH};
 use super::command::Effect;
 use super::engine::{Engine, Order};
 use super::events::ScreenEvent;
 use super::files::FileResult;
 use super::host::Host;
 use super::line::Throttle;
-use super::panels::{self, LEAST_HEIGHT, LEAST_WIDTH};
+use super::panels;
 
 /// Longest time between two frames. Only by drawing does the program notice that the terminal is
 /// gone.

@@ -144,7 +144,7 @@ fn no_solver_knows_its_sibling() {
 
 /// The parts of the explorer from the top, a row each: a part uses itself and what is in a
 /// row below. A path stands for what no longer path stands for.
-const EXPLORER: [&[&str]; 24] = [
+const EXPLORER: [&[&str]; 23] = [
     &[""],
     &["run", "lines"],
     &["host", "options"],
@@ -156,7 +156,6 @@ const EXPLORER: [&[&str]; 24] = [
     &["export"],
     &["panels"],
     &["views"],
-    &["words", "glossary"],
     &["app"],
     &["command"],
     &["files"],
@@ -165,7 +164,7 @@ const EXPLORER: [&[&str]; 24] = [
     &["views/map/plan"],
     &["views/locked/curves", "views/coincidence/curves", "views/margins/live"],
     &["views/id", "views/spectrum/lines", "lessons", "knobs", "plot"],
-    &["axis", "text"],
+    &["axis", "list", "text"],
     &["appearance", "ability"],
     &["encode", "theme", "raster", "job", "job_other"],
     &["ending", "field", "ground", "history", "line", "trace", "tty", "tty_other"],

@@ -1,7 +1,14 @@
-//! The dialogue that has the keyboard: a prompt, a list, a question, or none.
+//! The dialogue that has the keyboard: a prompt, a list, a question, or none; moving in its list,
+//! and editing its text.
 
-use crate::tui::command::Purpose;
-use crate::tui::field::Field;
+use super::App;
+use super::help::{HelpState, help_bottom};
+use super::layout::body;
+use super::palette::PaletteState;
+use super::words;
+use crate::tui::command::{Command, Purpose};
+use crate::tui::field::{Edit, Field};
+use crate::tui::lessons;
 
 /// What the keyboard acts on: the main screen, or one open dialogue.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -85,38 +92,56 @@ impl Dialogue {
     }
 }
 
-/// The open help.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct HelpState {
-    /// Search words: only entries that contain all of them are listed.
-    pub filter: Field,
-    /// Whether every letter goes into the search; otherwise the first one may be a key of the
-    /// help, such as `q`.
-    pub searches: bool,
-    /// Number of lines scrolled past.
-    pub scroll: usize,
-}
-
-impl HelpState {
-    /// Returns whether the help is searched, so that every letter goes into the search.
-    pub fn is_searched(&self) -> bool {
-        self.searches || !self.filter.text().is_empty()
+impl App {
+    /// Moves the selection of the open list, or scrolls the help; returns false for other
+    /// commands.
+    pub fn move_in_list(&mut self, command: &Command) -> bool {
+        let last = |count: usize| count.saturating_sub(1);
+        let (from, last) = match &self.dialogue.mode {
+            InputMode::Help(help) => (help.scroll, help_bottom(self, help)),
+            InputMode::Palette(palette) => {
+                (palette.place, last(words::found(self, &palette.typed.text()).len()))
+            }
+            InputMode::Lessons(place) => (*place, last(lessons::all().len())),
+            InputMode::Scenes(chosen) => {
+                let entries = self.scene_entries();
+                (self.scene_place(&entries, *chosen), last(entries.len()))
+            }
+            _ => return false,
+        };
+        // A resize can leave the place past the end; then a key up would have no visible effect at
+        // first.
+        let from = from.min(last);
+        let page = usize::from(body(self).height.saturating_sub(2)).max(1);
+        let to = match command {
+            Command::Below => from + 1,
+            Command::Above => from.saturating_sub(1),
+            Command::PageForward => from + page,
+            Command::PageBack => from.saturating_sub(page),
+            Command::First => 0,
+            Command::Last => last,
+            _ => return false,
+        };
+        let to = to.min(last);
+        match &mut self.dialogue.mode {
+            InputMode::Help(HelpState { scroll: place, .. })
+            | InputMode::Palette(PaletteState { place, .. })
+            | InputMode::Lessons(place) => *place = to,
+            InputMode::Scenes(place) => *place = Some(to),
+            _ => {}
+        }
+        self.dialogue.note_page = 0;
+        true
     }
-}
 
-/// The open command palette.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct PaletteState {
-    /// The command or search words typed so far.
-    pub typed: Field,
-    /// Index of the selected entry among the matches.
-    pub place: usize,
-}
-
-impl PaletteState {
-    /// Creates a palette in which `text` is typed.
-    pub fn typing(text: &str) -> Self {
-        Self { typed: text.into(), place: 0 }
+    /// Edits the text field. Home and End, if they do not move the text cursor, move in the list.
+    pub fn edit(&mut self, edit: Edit) {
+        match (self.dialogue.typed().is_some_and(|field| field.edit(edit)), edit) {
+            (true, Edit::Left | Edit::Right | Edit::Start | Edit::End) => {}
+            (false, Edit::Start) => _ = self.move_in_list(&Command::First),
+            (false, Edit::End) => _ = self.move_in_list(&Command::Last),
+            _ => self.typed_on(),
+        }
     }
 }
 

@@ -1,12 +1,20 @@
-//! Progress in the lessons: the current step, its answer, and whether its task is done.
+//! The open lesson: its progress, going through its steps and answers, the list of lessons, and the
+//! current step on the screen.
 
 use std::sync::Arc;
 
-use super::{App, Past};
-use crate::tui::knobs::knob_of;
-use crate::tui::lessons::{self, Condition, Lesson, LessonStep, LessonsDone};
+use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
+
+use super::{App, InputMode, Past, Source};
+use crate::report::number::with_speeds;
+use crate::tui::command::Command;
+use crate::tui::knobs::{knob_of, place_of};
+use crate::tui::lessons::{self, Condition, LETTERS, Lesson, LessonStep, LessonsDone};
+use crate::tui::list::draw_list as draw_lines;
+use crate::tui::text::{columns, print, shorten, whole_parts, wrap};
+use crate::tui::theme::Role;
 use crate::tui::views::id::ViewId;
-use rubscope_solver::scene::Value;
+use rubscope_solver::scene::{Scene, Value};
 
 /// Progress in the current lesson.
 #[derive(Clone, Debug, PartialEq)]
@@ -112,6 +120,408 @@ impl App {
                 let word = Value::Text(word.clone());
                 knob_of(path).is_some_and(|knob| knob.get(&self.scene) == word)
             }
+        }
+    }
+}
+
+impl App {
+    /// Opens the list of lessons, or goes to the next step.
+    pub fn guide(&mut self) {
+        let Some((lesson, progress)) = self.current_lesson() else {
+            let done = &self.lessons.done;
+            let next = lessons::all().iter().position(|lesson| done.next(lesson).is_some());
+            self.dialogue.open(InputMode::Lessons(next.unwrap_or(0)));
+            return;
+        };
+        let (number, step) = (progress.lesson, progress.step);
+        if self.is_asked() {
+            self.status = Some("first your guess: ↑ ↓ choose it, Enter answers".into());
+        } else if step + 1 < lesson.steps.len() {
+            self.begin_step(number, step + 1);
+        } else {
+            self.leave_lesson();
+            self.status = Some("end of the lesson; your scene is back".into());
+        }
+    }
+
+    /// Goes back one step.
+    pub fn lesson_back(&mut self) {
+        match self.lessons.progress.as_ref().map(|progress| (progress.lesson, progress.step)) {
+            None => self.status = Some("no lesson is open".into()),
+            Some((_, 0)) => self.status = Some("this is the first step".into()),
+            Some((lesson, step)) => self.begin_step(lesson, step - 1),
+        }
+    }
+
+    /// Starts a lesson at its first unfinished step, with the lesson's own scene.
+    pub fn begin_lesson(&mut self, place: usize) {
+        self.dialogue.close();
+        if let Some(lesson) = lessons::all().get(place) {
+            let step = self.lessons.done.next(lesson).unwrap_or(0);
+            self.begin_step(place, step);
+        }
+    }
+
+    /// Closes the lesson and restores the user's scene.
+    pub fn leave_lesson(&mut self) {
+        if let Some(own) = self.lessons.progress.as_ref().map(|progress| Arc::clone(&progress.own))
+        {
+            // Undo can reopen the lesson.
+            self.knobs.remember(self.past());
+            self.come_back(Past::clone(&own));
+        }
+    }
+
+    /// Drops the lesson without restoring the scene; the modes it had changed are restored.
+    pub fn end_lesson(&mut self) {
+        if let Some(progress) = self.lessons.progress.take() {
+            self.knobs.live = progress.own.live;
+            self.play.slow_at_events = progress.own.tempo.slow_at_events;
+            self.run.set_compare(progress.own.compare);
+        }
+    }
+
+    /// Shows a step; an answer given before stays.
+    fn begin_step(&mut self, place: usize, step: usize) {
+        let Some(lesson) = lessons::all().get(place) else { return };
+        let past = self.past();
+        // A step starts playing even if the cursor had paused the run.
+        self.play.playing |= self.reading.at_s.is_some();
+        self.stop_reading();
+        let begun = self.lessons.progress.clone().filter(|progress| progress.lesson == place);
+        let begun = begun.unwrap_or_else(|| LessonProgress {
+            lesson: place,
+            step,
+            steps: vec![StepProgress::default(); lesson.steps.len()],
+            choice: 0,
+            own: match &self.lessons.progress {
+                Some(other) => Arc::clone(&other.own),
+                None => Arc::new(past.clone()),
+            },
+        });
+        self.lessons.progress = Some(LessonProgress { step, choice: 0, ..begun });
+        let knob = lesson.steps.get(step).and_then(|found| found.knob.as_deref());
+        if let Some(place) = knob.and_then(place_of) {
+            self.knobs.select(place);
+        }
+        self.show_step(past);
+    }
+
+    /// Selects the answer above or below, cyclically.
+    pub fn choose_answer(&mut self, up: bool) {
+        if let Some(progress) = &mut self.lessons.progress {
+            let by = if up { LETTERS.len() - 1 } else { 1 };
+            progress.choice = (progress.choice + by) % LETTERS.len();
+        }
+    }
+
+    /// Gives the selected answer.
+    pub fn answer_chosen(&mut self) {
+        if let Some(choice) = self.lessons.progress.as_ref().map(|progress| progress.choice) {
+            self.answer(choice);
+        }
+    }
+
+    /// Records an answer and runs the scene that it is about.
+    pub fn answer(&mut self, place: usize) {
+        if !self.is_asked() {
+            self.status = Some("no question is open".into());
+            return;
+        }
+        let past = self.past();
+        if let Some(now) = self.lessons.progress.as_mut().and_then(LessonProgress::now_mut) {
+            now.answer = Some(place.min(LETTERS.len() - 1));
+        }
+        self.show_step(past);
+    }
+
+    /// Applies scene and view of the current step; undo returns to `past`.
+    fn show_step(&mut self, past: Past) {
+        let Some((lesson, progress)) = self.current_lesson() else { return };
+        let Some(step) = lesson.steps.get(progress.step) else { return };
+        let answered = !self.is_asked();
+        match lesson.scene_at(progress.step, answered) {
+            Ok(scene) => {
+                self.knobs.remember(past);
+                let name = lesson.scene.clone();
+                let source = Scene::builtin(&name).ok().map(|scene| Source { name, scene });
+                self.files.open(scene.clone(), source);
+                if scene != self.scene {
+                    self.set_scene(scene, false);
+                }
+            }
+            Err(error) => self.status = Some(error.to_string()),
+        }
+        self.knobs.refusal = None;
+        self.knobs.live = step.live;
+        self.run.set_compare(step.compare && answered);
+        self.play.show_closely(step.page_s);
+        let then = step.then_view.as_ref().filter(|_| answered);
+        let view = then.or(step.view.as_ref()).and_then(|word| ViewId::from_word(word));
+        if let Some(view) = view {
+            self.show(view);
+        }
+        // A chart that would reveal the answer goes last until then, and slow studies go after
+        // quick ones.
+        let hidden = step.then_view.as_deref().filter(|_| !answered);
+        let hidden = hidden.and_then(ViewId::from_word);
+        self.layout.order_beside(|view| match view {
+            view if Some(view) == hidden => 2,
+            ViewId::Map | ViewId::Precision | ViewId::Margins => 1,
+            _ => 0,
+        });
+    }
+}
+
+/// Width from which the question stays above its answer.
+const WIDE: usize = 110;
+
+/// Draws the list of lessons with the progress in each.
+pub fn draw_list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
+    let look = &app.appearance;
+    let width = usize::from(area.width);
+    let bold = look.style(Role::Text).add_modifier(Modifier::BOLD);
+    let head = "Lessons: Enter begins one, g goes on, B back, G leaves";
+    print(buffer, area, 0, &whole_parts(head, width, 1).join(""), bold);
+    let line = |(index, lesson): (usize, &Lesson)| {
+        let (done, steps) = (app.lessons.done.count(lesson), lesson.steps.len());
+        // A step that was skipped comes before the last completed one.
+        let passed = app.lessons.done.next(lesson).filter(|next| *next < done);
+        let done = if done == steps { "done".to_string() } else { format!("{done}/{steps}") };
+        let name = |title: &str| format!(" {done:>4}  {}. {title}", index + 1);
+        let [whole, brief] = [lesson.title.as_str(), lesson.brief()].map(name);
+        let minutes = format!("   {} min", lesson.minutes());
+        let needs = match passed {
+            Some(step) => format!("{minutes}, step {} is left", step + 1),
+            None => format!("{minutes}, needs {}", lesson.needs),
+        };
+        // Parts that do not fit are omitted.
+        let ways = [whole.clone() + &needs, whole + &minutes, brief.clone() + &minutes, brief];
+        let ways = ways.map(|way| look.spell(&way));
+        let fits = ways.iter().find(|way| columns(way) < width);
+        (fits.unwrap_or(&ways[3]).clone(), Role::Text)
+    };
+    let lines = lessons::all().iter().enumerate().map(line);
+    let below = Rect { y: area.y + 2, height: area.height.saturating_sub(2), ..area };
+    let first = draw_lines(look, buffer, below, lines, place);
+    for (row, index) in (below.y..below.bottom()).zip(first..lessons::all().len()) {
+        app.note(Rect { y: row, height: 1, ..below }, Command::Lesson(index));
+    }
+}
+
+/// A line and its colour.
+type StepLine = (String, Role);
+
+/// Returns a text with its speeds in the unit of the screen.
+fn told(app: &App, text: &str) -> String {
+    app.appearance.spell(&with_speeds(text))
+}
+
+/// Returns the lines of the current step below its head.
+fn lines(app: &App, width: usize) -> Vec<StepLine> {
+    let Some((step, now)) = app.lesson_step() else { return Vec::new() };
+    let of = |text: &str, role: Role| -> Vec<StepLine> {
+        wrap(&told(app, text), width).into_iter().map(|line| (line, role)).collect()
+    };
+    let mut lines = Vec::new();
+    match (&step.question, now.answer) {
+        (Some(question), None) => {
+            lines.extend(of(&step.text, Role::Text));
+            lines.extend(of(question, Role::Focus));
+            let chosen = app.lessons.progress.as_ref().map_or(0, |progress| progress.choice);
+            let named = LETTERS.iter().zip(&step.answers).enumerate();
+            let named = named.map(|(place, (letter, text))| {
+                format!("{}[{letter}] {text}", if place == chosen { '▸' } else { ' ' })
+            });
+            let named: Vec<String> = named.map(|text| told(app, &text)).collect();
+            let one = named.join("  ");
+            // The answers share a line if they fit.
+            match columns(&one) <= width {
+                true => lines.push((one, Role::Focus)),
+                false => lines.extend(named.iter().flat_map(|line| of(line, Role::Focus))),
+            }
+            return lines;
+        }
+        (Some(question), Some(answer)) => {
+            if width >= WIDE {
+                lines.extend(of(question, Role::Quiet));
+            }
+            lines.extend(of(&judged(step, answer), Role::Good));
+            lines.extend(of(step.reason.as_deref().unwrap_or_default(), Role::Text));
+        }
+        (None, _) => lines.extend(of(&step.text, Role::Text)),
+    }
+    if let Some(equation) = &step.equation {
+        lines.extend(of(equation, Role::First));
+    }
+    match &step.task {
+        Some(task) if now.done => lines.extend(of(&format!("[x] {task}"), Role::Good)),
+        Some(task) => lines.extend(of(&format!("[ ] {task}"), Role::Focus)),
+        None => {}
+    }
+    lines
+}
+
+/// Says whether an answer is right, and which one is.
+fn judged(step: &LessonStep, answer: usize) -> String {
+    let right = step.right_place().unwrap_or(0);
+    let text = step.answers.get(right).map_or("", String::as_str);
+    let [given, right_letter] =
+        [answer, right].map(|place| LETTERS.get(place).copied().unwrap_or('?'));
+    match answer == right {
+        true => format!("Your answer {given} is right: {text}."),
+        false => format!("Not {given}. Right is {right_letter}: {text}."),
+    }
+}
+
+/// Returns the head in two halves: lesson on the left, step and keys on the right.
+fn head(app: &App, width: usize) -> (String, String) {
+    let Some((lesson, progress)) = app.current_lesson() else { return Default::default() };
+    let look = &app.appearance;
+    let count = lessons::all().len();
+    let number = progress.lesson + 1;
+    let whole = format!("Lesson {number} of {count} · {}", lesson.title);
+    let [number, brief] =
+        [&lesson.title, lesson.brief()].map(|title| format!("{number}/{count} {title}"));
+    let of = format!("{} of {}", progress.step + 1, lesson.steps.len());
+    let step = format!("step {of}");
+    let keys = match (app.is_asked(), progress.step + 1 == lesson.steps.len()) {
+        (true, _) => "↑↓ Enter answer",
+        (false, false) => "g next",
+        (false, true) => "g ends",
+    };
+    let long = format!("{step} · {keys} · B back · G leave");
+    let short = format!("{step} · {keys}");
+    let numbers = [(&number, &short), (&number, &step), (&brief, &step), (&brief, &of)];
+    let ways = [[(&whole, &long), (&whole, &short)].as_slice(), &numbers].concat();
+    let mut ways = ways.iter().map(|(left, right)| (look.spell(left), look.spell(right)));
+    let fits = |(left, right): &(String, String)| columns(left) + columns(right) + 2 <= width;
+    let last = ways.clone().next_back();
+    let (left, right) = ways.find(fits).or(last).unwrap_or_default();
+    let room = width.saturating_sub(columns(&right) + 2);
+    (shorten(&left, room, look.ellipsis()), right)
+}
+
+/// Returns the rows the step needs, with its head and a rule below.
+pub fn step_rows(app: &App, width: usize) -> u16 {
+    u16::try_from(lines(app, width).len() + 2).unwrap_or(u16::MAX)
+}
+
+/// Returns the current step as text, in lines of `width` columns; empty if no lesson is open.
+pub fn lesson_text(app: &App, width: u16) -> Vec<String> {
+    let (left, right) = head(app, usize::from(width));
+    let head = [left, right].join("   ");
+    let lines = lines(app, usize::from(width)).into_iter().map(|(line, _)| line);
+    let is_open = app.lessons.progress.is_some();
+    std::iter::once(head).chain(lines).filter(|_| is_open).collect()
+}
+
+pub fn draw_step(app: &App, buffer: &mut Buffer, area: Rect) {
+    let look = &app.appearance;
+    let width = usize::from(area.width);
+    let (left, right) = head(app, width);
+    let bold = look.style(Role::Focus).add_modifier(Modifier::BOLD);
+    print(buffer, area, 0, &left, bold);
+    let start = u16::try_from(width.saturating_sub(columns(&right))).unwrap_or(0);
+    let beside = Rect { x: area.x + start, width: area.width - start, ..area };
+    print(buffer, beside, 0, &right, look.style(Role::Good));
+    let all = lines(app, width);
+    let room = usize::from(area.height.saturating_sub(2));
+    // The end of the step, its answers or its task, must be visible.
+    let skip = all.len().saturating_sub(room);
+    for (row, (text, role)) in (1..area.height).zip(all.iter().skip(skip).take(room)) {
+        print(buffer, area, row, text, look.style(*role));
+    }
+    let last = area.height.saturating_sub(1);
+    let rule = look.either("─", "-").repeat(width);
+    print(buffer, area, last, &rule, look.style(Role::Quiet));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tui::app::tests::on_screen;
+    use crate::tui::command::Command;
+    use crate::tui::lessons::Condition;
+
+    #[test]
+    fn a_step_is_done_by_its_answer_and_the_next_one_waits_for_it() {
+        let mut app = on_screen();
+        app.begin_lesson(1);
+        let lesson = &lessons::all()[1];
+        assert!(app.is_asked() && app.lessons.progress.is_some());
+        app.guide();
+        assert!(app.status.as_ref().is_some_and(|status| status.contains("your guess")));
+        assert_eq!(app.lessons.progress.as_ref().unwrap().step, 0);
+        app.answer(9);
+        app.check_lesson();
+        let now = app.lesson_step().unwrap().1;
+        assert_eq!((now.answer, now.done), (Some(2), true));
+        assert!(app.lessons.done.has(lesson, 0) && !app.lessons.done.has(lesson, 1));
+        // A second answer is ignored.
+        app.act(Command::Accept);
+        app.answer(0);
+        assert_eq!(app.lesson_step().unwrap().1.answer, Some(2));
+        app.guide();
+        assert_eq!((app.lessons.progress.as_ref().unwrap().step, app.is_asked()), (1, true));
+        app.lesson_back();
+        assert!(!app.is_asked());
+        app.lesson_back();
+        assert_eq!(app.status.as_deref(), Some("this is the first step"));
+    }
+
+    #[test]
+    fn arrows_choose_an_answer_and_enter_gives_it() {
+        let mut app = on_screen();
+        app.begin_lesson(1);
+        let knob = app.selected().map(|knob| knob.path);
+        for command in [Command::Below, Command::Above, Command::Below, Command::Accept] {
+            app.act(command);
+        }
+        assert_eq!(app.lesson_step().unwrap().1.answer, Some(1));
+        assert_eq!(app.selected().map(|knob| knob.path), knob);
+    }
+
+    #[test]
+    fn a_lesson_that_is_left_gives_the_own_scene_back_and_one_that_ends_says_so() {
+        let mut app = on_screen();
+        let mut own = app.scene.clone().into_scene();
+        own.operation.speed_rad_s = 333.0;
+        app.set_scene(own.checked().unwrap(), false);
+        let before = app.scene.clone();
+        for steps in [1, lessons::all()[5].steps.len()] {
+            app.begin_lesson(5);
+            assert_ne!(app.scene, before);
+            for _ in 0..steps {
+                app.answer(0);
+                app.guide();
+            }
+            if app.lessons.progress.is_some() {
+                app.leave_lesson();
+            } else {
+                assert!(app.status.as_ref().is_some_and(|status| status.contains("end of the")));
+            }
+            assert_eq!(app.scene, before);
+        }
+        app.lesson_back();
+        assert_eq!(app.status.as_deref(), Some("no lesson is open"));
+    }
+
+    #[test]
+    fn a_condition_of_a_task_is_that_of_the_screen() {
+        let app = on_screen();
+        let speed = || "operation.speed_rad_s".to_string();
+        for (condition, met) in [
+            (Condition::View("response".into()), app.is_large(ViewId::Response)),
+            (Condition::Compare(false), true),
+            (Condition::Above(speed(), 499.0), true),
+            (Condition::Above(speed(), 500.0), false),
+            (Condition::Below(speed(), 501.0), true),
+            (Condition::Is("solver.contact".into(), "bilateral".into()), true),
+            (Condition::Is("solver.contact".into(), "smooth".into()), false),
+            (Condition::Verdict("locked".into()), false),
+        ] {
+            assert_eq!(app.meets(&condition), met, "{condition:?}");
         }
     }
 }

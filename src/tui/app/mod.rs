@@ -1,23 +1,29 @@
-//! The state of the explorer, without a terminal. The screen is a function of this value; only
-//! input events and snapshots of the engine change it.
+//! The state of the explorer, without a terminal, and its parts. The screen is a function of this
+//! value; only commands and snapshots of the engine change it.
 
 mod dialogue;
-mod files;
+pub mod files;
+mod glossary;
+pub mod help;
 mod knobs;
-mod layout;
-mod lesson;
-mod map;
+pub mod layout;
+pub mod lesson;
 mod mouse;
+pub mod palette;
 mod play;
 mod reading;
 mod run;
 mod verdict;
+pub mod words;
 
-pub use dialogue::{HelpState, InputMode, PaletteState};
-pub use files::{SceneEntry, Writing};
+pub use dialogue::InputMode;
+pub use help::HelpState;
 pub use knobs::Past;
-pub use lesson::{LessonProgress, StepProgress};
+pub use knobs::panel as knobs_panel;
+pub use layout::{LEAST_HEIGHT, LEAST_ROWS, LEAST_WIDTH};
+pub use lesson::LessonProgress;
 pub use mouse::Parts;
+pub use palette::PaletteState;
 pub use reading::{Cursor, Reading, STEP, cell_of};
 
 use std::cell::OnceCell;
@@ -59,8 +65,8 @@ pub enum Exit {
     Signal(u8),
 }
 
-/// The state of the explorer. Each part has a file in `app` with its state and queries; the file of
-/// the same name in `update` changes it.
+/// The state of the explorer. Each part has its file in `app`: its state, what changes it, and how it
+/// is drawn.
 #[derive(Clone, Debug)]
 pub struct App {
     /// The scene with the current knob values.

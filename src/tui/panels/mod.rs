@@ -1,26 +1,21 @@
-//! The screen as a function of the state. `layout` says where each panel goes; each panel has a
-//! file.
+//! The screen as a function of the state: header, footer, and between them an open list or the
+//! charts with the knobs and the lesson.
 
 mod footer;
 mod header;
-mod help;
-mod knobs;
-mod layout;
-mod lesson;
-mod lists;
 
 use ratatui::{Frame, buffer::Buffer, layout::Rect, style::Modifier};
 
-use super::app::{App, InputMode};
+use super::app::{
+    App, InputMode, LEAST_HEIGHT, LEAST_WIDTH, files, help, knobs_panel as knobs, layout, lesson,
+    palette,
+};
 use super::command::Command;
 use super::field::CURSOR;
 use super::text::{CUT, print, wrap};
 use super::theme::Role;
 use super::views::ViewArea;
 pub use header::head_text;
-pub use help::{help_bottom, help_text};
-pub use layout::{LEAST_HEIGHT, LEAST_WIDTH, body};
-pub use lesson::lesson_text;
 
 /// Draws the whole screen into a frame of the terminal.
 pub fn draw(frame: &mut Frame, app: &App) {
@@ -47,14 +42,14 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
     if let InputMode::Help(help) = &app.dialogue.mode {
         help::draw(app, buffer, places.body, help);
     } else if let InputMode::Palette(palette) = &app.dialogue.mode {
-        lists::commands(app, buffer, places.body, palette);
+        palette::draw(app, buffer, places.body, palette);
     } else if let InputMode::Lessons(place) = app.dialogue.mode {
-        lesson::list(app, buffer, places.body, place);
+        lesson::draw_list(app, buffer, places.body, place);
     } else if let InputMode::Scenes(place) = app.dialogue.mode {
-        lists::scenes(app, buffer, places.body, place);
+        files::draw_scenes(app, buffer, places.body, place);
     } else {
         if let Some(area) = places.lesson {
-            lesson::draw(app, buffer, area);
+            lesson::draw_step(app, buffer, area);
         }
         if places.column {
             knobs::panel(app, buffer, places.knobs);

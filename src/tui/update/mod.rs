@@ -1,11 +1,6 @@
 //! Executes commands: each changes the state and returns its effect on the outside. A key is looked
 //! up in the table of commands, or is a letter of the text being typed.
 
-mod dialogue;
-mod files;
-mod knobs;
-mod lesson;
-mod map;
 mod reading;
 
 use rubscope_solver::scene::keys::PULSE;
@@ -15,7 +10,8 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use super::app::{App, Cursor, HelpState, InputMode, PaletteState, Reading};
 use crate::report::line::{self, clean};
 use crate::tui::axis::{instant, readable};
-use crate::tui::command::{Chord, Command, Effect, lookup};
+use crate::tui::command::{Chord, Command, Effect, Purpose, lookup};
+use crate::tui::export;
 use crate::tui::field::Field;
 use crate::tui::knobs::knob_of;
 use crate::tui::views::id::ViewId;
@@ -66,7 +62,7 @@ impl App {
     }
 
     /// Updates what depends on the typed text: the refusal and the place in the list.
-    fn typed_on(&mut self) {
+    pub fn typed_on(&mut self) {
         self.knobs.refusal = None;
         self.dialogue.look_again();
     }
@@ -283,6 +279,41 @@ impl App {
             InputMode::Main if self.play.middle_s.is_some() => self.stop_reading(),
             InputMode::Main => self.layout.full_screen = false,
             _ => self.dialogue.close(),
+        }
+    }
+
+    /// Makes a view the large one at the user's request. The map then gives the arrow keys to its
+    /// cell cursor.
+    pub fn walk(&mut self, view: ViewId) {
+        self.show(view);
+        if view == ViewId::Map && self.dialogue.is_closed() && !self.reading.on {
+            self.toggle_reading();
+        }
+    }
+
+    /// Starts writing a file. If it exists and `replace` is false, the result will ask the user.
+    ///
+    /// # Errors
+    /// One line that says why nothing is written: the name, another file being written, or no data.
+    fn write(&mut self, purpose: Purpose, name: &str, replace: bool) -> Result<Effect, String> {
+        let name = self.file_to_write(name)?;
+        let content = match purpose {
+            Purpose::Save => Ok(self.scene_to_save().to_toml()),
+            Purpose::Export if name.ends_with(".svg") => Ok(export::svg(self)),
+            Purpose::Export => self.panel().csv(self),
+        };
+        let content = content.map_err(|reason| format!("nothing exported: {reason}"))?;
+        Ok(self.start_writing(purpose, &name, content, replace))
+    }
+
+    /// Replaces the file of the open question. A key typed before the question was drawn does not
+    /// answer it.
+    fn replace_file(&mut self) -> Result<Effect, String> {
+        match self.dialogue.mode.clone() {
+            InputMode::Replacing(purpose, name) if self.dialogue.asked => {
+                self.write(purpose, &name, true)
+            }
+            _ => Ok(Effect::None),
         }
     }
 

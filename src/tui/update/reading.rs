@@ -12,7 +12,7 @@ const LARGE_CELLS: i64 = 5;
 
 impl App {
     /// Makes a view the large one; a cursor keeps its time.
-    pub(super) fn show(&mut self, view: ViewId) {
+    pub fn show(&mut self, view: ViewId) {
         if self.layout.show(view) {
             self.keep_instant();
         }
@@ -61,7 +61,7 @@ impl App {
     }
 
     /// Keeps the cursor's time when the large chart changes; removes a cursor without a time.
-    pub(super) fn keep_instant(&mut self) {
+    pub fn keep_instant(&mut self) {
         match self.reading.at_s {
             Some(_) => self.reading.cursor = self.reading.cursor.map(|_| self.panel().here(self)),
             None => self.stop_reading(),

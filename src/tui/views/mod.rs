@@ -14,7 +14,7 @@ mod response;
 pub mod spectrum;
 mod table;
 
-pub use panel::{LEAST_ROWS, ViewArea, ViewPanel};
+pub use panel::{ViewArea, ViewPanel};
 
 use super::app::{App, cell_of};
 use super::command::Command;

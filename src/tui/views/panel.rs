@@ -6,7 +6,7 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Modifier, Style};
 
 use crate::report::table::Table;
-use crate::tui::app::{App, Cursor, Parts};
+use crate::tui::app::{App, Cursor, LEAST_ROWS, Parts};
 use crate::tui::appearance::Appearance;
 use crate::tui::axis::ChartAxis;
 use crate::tui::command::Command;
@@ -50,8 +50,6 @@ pub trait ViewPanel: Sync {
     }
 }
 
-/// Smallest legible height of a chart: eight rows of data, title, axis and labels.
-pub const LEAST_ROWS: u16 = 11;
 /// Smallest legible width of a chart beside another.
 const LEAST_COLUMNS: u16 = 38;
 

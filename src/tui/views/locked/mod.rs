@@ -10,7 +10,7 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use crate::report::hbm::locked::FILE;
 use crate::report::number::speed_unit;
 use crate::report::table::Table;
-use crate::tui::app::{App, Cursor, STEP};
+use crate::tui::app::{App, Cursor, LEAST_ROWS, STEP};
 use crate::tui::axis::{ChartAxis, readable};
 use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
@@ -18,7 +18,7 @@ use crate::tui::text::{print, whole_parts, wrap};
 use crate::tui::theme::Role;
 use crate::tui::views::locked::curves::LockedCurves;
 use crate::tui::views::panel::{
-    self, LEAST_ROWS, ViewArea, ViewPanel, csv, dots, entry, lines_above, name_speeds, title,
+    self, ViewArea, ViewPanel, csv, dots, entry, lines_above, name_speeds, title,
 };
 use rubscope_solver::harmonic::{Form, LockedPoint, Sweep, lock_windows, locked_motion};
 use rubscope_solver::motion::{ActiveSet, Verdict};

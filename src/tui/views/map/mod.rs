@@ -1,6 +1,7 @@
 //! View 5: the verdict over two knobs, one block or letter per run, with threshold speeds and the
 //! current knobs as a cross. The cell under the cursor can be read and opened.
 
+mod control;
 mod picture;
 pub use picture::colour;
 pub mod plan;

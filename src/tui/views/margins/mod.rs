@@ -1,6 +1,7 @@
 //! View 8: the distance of the run from another verdict, the distance of the scene from every
 //! limit, and the parameters that move each limit most.
 
+mod control;
 pub mod live;
 mod robust;
 mod rows;

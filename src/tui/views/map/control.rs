@@ -1,27 +1,51 @@
-//! The map and the margins: their axes and law, and what Enter opens.
+//! The axes and the law of the map: its plan, the cell under the cursor, and what keys do with them.
 
-use crate::report::number::rounded;
-use crate::tui::app::App;
-use crate::tui::axis::number;
-use crate::tui::knobs::{Knob, knob_of, place_of};
+use super::plan::{MapAxis, MapChoice};
+use super::{here, value_text};
+use crate::tui::app::{App, cell_of};
+use crate::tui::knobs::{Knob, knob_of};
 use crate::tui::views::id::ViewId;
-use crate::tui::views::map::plan::MapAxis;
-use crate::tui::views::map::{here, value_text};
-use crate::tui::views::margins::DIGITS;
-use rubscope_solver::scene::{Allowed, CheckedScene, Value};
-use rubscope_solver::study::Axis;
+use rubscope_solver::scene::{CheckedScene, ContactLaw};
+use rubscope_solver::study::{Axis, MapPlan};
 
 impl App {
-    /// Makes a view the large one at the user's request. The map then gives the arrow keys to its
-    /// cell cursor.
-    pub(super) fn walk(&mut self, view: ViewId) {
-        self.show(view);
-        if view == ViewId::Map && self.dialogue.is_closed() && !self.reading.on {
-            self.toggle_reading();
-        }
+    /// Builds the plan of the map from the chosen axes and the scene.
+    ///
+    /// # Errors
+    /// One line that says why the scene has no such map.
+    pub fn map_plan(&self) -> Result<MapPlan, String> {
+        self.map_choice().plan(&self.scene)
     }
 
-    pub(super) fn other_map_law(&mut self) {
+    /// Returns the chosen axes and law of the map, with the speed unit of the screen.
+    pub fn map_choice(&self) -> MapChoice {
+        MapChoice { rpm: self.appearance.rpm, ..self.map }
+    }
+
+    /// Returns the plan of the map on the screen, which is the previous map until a new one covers
+    /// it. `None` if there is no map yet and the scene allows none.
+    pub fn shown_plan(&self) -> Option<MapPlan> {
+        let shown = self.results().found.map.as_ref().map(|live| live.map.plan.clone());
+        shown.or_else(|| self.map_plan().ok())
+    }
+
+    /// Returns column and row of the map cell under the cursor, both from 0, row 0 at the bottom.
+    /// `None` without a map, and if the cursor is not in it.
+    pub fn map_cell(&self) -> Option<[u32; 2]> {
+        let cursor = self.cursor_in(ViewId::Map)?;
+        let plan = self.shown_plan()?;
+        Some([cell_of(cursor.across, plan.x.count), cell_of(cursor.up, plan.y.count)])
+    }
+
+    /// Returns the contact law of the map: the chosen one, or that of the scene.
+    pub fn map_law(&self) -> ContactLaw {
+        self.map.law.unwrap_or(self.scene.solver.contact)
+    }
+}
+
+impl App {
+    /// Makes the map one of the other contact law, or of the scene's again.
+    pub fn other_map_law(&mut self) {
         let law = self.map_law().other();
         self.map.law = Some(law).filter(|law| *law != self.scene.solver.contact);
         self.status = Some(match self.map_plan() {
@@ -32,7 +56,7 @@ impl App {
 
     /// Puts knobs on the axes of the map and shows it. If the knob is already on the other axis,
     /// the two axes are swapped.
-    pub(super) fn put_axes(&mut self, [across, up]: [Option<&'static str>; 2]) {
+    pub fn put_axes(&mut self, [across, up]: [Option<&'static str>; 2]) {
         let axis = |path: &'static str| {
             let anchor = knob_of(path).and_then(|knob| knob.number(&self.scene)).unwrap_or(0.0);
             MapAxis { path, anchor }
@@ -68,7 +92,7 @@ impl App {
 
     /// Opens the run of a map cell. It always restarts, also in live mode, because only a run from
     /// the start has the verdict of its cell.
-    pub(super) fn open_run(&mut self, scene: CheckedScene) {
+    pub fn open_run(&mut self, scene: CheckedScene) {
         let opened = self.shown_plan().map(|plan| {
             let values = [&plan.x, &plan.y].map(|axis| {
                 let text = |knob: &Knob| format!("{} {}", knob.label, knob.text(&scene));
@@ -86,36 +110,5 @@ impl App {
         }
         self.knobs.live = live;
         self.status = opened.map(|values| format!("opened {values}, {law}; u undoes"));
-    }
-
-    /// Switches between the survey over all nodal diameters and the margins of one; from another
-    /// view it opens the survey.
-    pub(super) fn turn_survey(&mut self) {
-        self.show_survey(!(self.is_large(ViewId::Margins) && self.layout.survey));
-    }
-
-    /// Shows the survey over all nodal diameters, or the margins of one.
-    pub(super) fn show_survey(&mut self, on: bool) {
-        let said = self.layout.turn_survey(on);
-        self.stop_reading();
-        self.walk(ViewId::Margins);
-        self.status = Some(said);
-    }
-
-    /// Sets a knob exactly to a limit and selects it.
-    pub(super) fn jump_to_limit(&mut self, path: &str, value: f64, to: &str) {
-        let Some((place, knob)) = place_of(path).zip(knob_of(path)) else { return };
-        self.knobs.select(place);
-        let value_of = match knob.allowed() {
-            Allowed::Whole { .. } => Value::Whole(value as u64),
-            _ => Value::Real(value),
-        };
-        if self.set(knob, value_of) {
-            let name = knob.label.split(' ').next().unwrap_or(knob.label);
-            let jumped = format!("{name} {}: {to}", number(rounded(value, DIGITS), knob.unit()));
-            // Keep the message about other effects of the turn.
-            let more = self.status.take().map_or(String::new(), |said| format!("; {said}"));
-            self.status = Some(jumped + &more);
-        }
     }
 }

@@ -3,11 +3,31 @@
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 use strum::IntoEnumIterator;
 
-use crate::tui::app::{App, HelpState};
+use super::layout::body;
+use super::{App, glossary};
 use crate::tui::command::{self, Binding, Group};
-use crate::tui::glossary;
+use crate::tui::field::Field;
 use crate::tui::text::{print, shorten, wrap};
 use crate::tui::theme::Role;
+
+/// The open help.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct HelpState {
+    /// Search words: only entries that contain all of them are listed.
+    pub filter: Field,
+    /// Whether every letter goes into the search; otherwise the first one may be a key of the
+    /// help, such as `q`.
+    pub searches: bool,
+    /// Number of lines scrolled past.
+    pub scroll: usize,
+}
+
+impl HelpState {
+    /// Returns whether the help is searched, so that every letter goes into the search.
+    pub fn is_searched(&self) -> bool {
+        self.searches || !self.filter.text().is_empty()
+    }
+}
 
 /// Rows above the list, for the search text.
 const ABOVE: u16 = 1;
@@ -122,7 +142,7 @@ fn list(body: Rect) -> Rect {
 
 /// Returns the largest scroll position of the help.
 pub fn help_bottom(app: &App, help: &HelpState) -> usize {
-    let area = list(super::body(app));
+    let area = list(body(app));
     lines(app, area, &help.filter.text()).0.len().saturating_sub(usize::from(area.height))
 }
 

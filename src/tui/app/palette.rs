@@ -1,70 +1,38 @@
-//! Dialogues: moving in lists, editing the text, and the command palette.
+//! The command palette: what is typed, the commands that match it, and their list.
 
-use crate::tui::app::{App, HelpState, InputMode, PaletteState};
-use crate::tui::command::{Command, Effect};
-use crate::tui::field::Edit;
-use crate::tui::lessons;
-use crate::tui::panels;
-use crate::tui::words;
+use ratatui::{buffer::Buffer, layout::Rect};
+
+use super::App;
+use super::words::{self, Found};
+use crate::tui::command::Effect;
+use crate::tui::field::Field;
+use crate::tui::list::draw_list;
+use crate::tui::text::{columns, print, shorten, wrap};
+use crate::tui::theme::Role;
+
+/// The open command palette.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct PaletteState {
+    /// The command or search words typed so far.
+    pub typed: Field,
+    /// Index of the selected entry among the matches.
+    pub place: usize,
+}
+
+impl PaletteState {
+    /// Creates a palette in which `text` is typed.
+    pub fn typing(text: &str) -> Self {
+        Self { typed: text.into(), place: 0 }
+    }
+}
 
 impl App {
-    /// Moves the selection of the open list, or scrolls the help; returns false for other
-    /// commands.
-    pub(super) fn move_in_list(&mut self, command: &Command) -> bool {
-        let last = |count: usize| count.saturating_sub(1);
-        let (from, last) = match &self.dialogue.mode {
-            InputMode::Help(help) => (help.scroll, panels::help_bottom(self, help)),
-            InputMode::Palette(palette) => {
-                (palette.place, last(words::found(self, &palette.typed.text()).len()))
-            }
-            InputMode::Lessons(place) => (*place, last(lessons::all().len())),
-            InputMode::Scenes(chosen) => {
-                let entries = self.scene_entries();
-                (self.scene_place(&entries, *chosen), last(entries.len()))
-            }
-            _ => return false,
-        };
-        // A resize can leave the place past the end; then a key up would have no visible effect at
-        // first.
-        let from = from.min(last);
-        let page = usize::from(panels::body(self).height.saturating_sub(2)).max(1);
-        let to = match command {
-            Command::Below => from + 1,
-            Command::Above => from.saturating_sub(1),
-            Command::PageForward => from + page,
-            Command::PageBack => from.saturating_sub(page),
-            Command::First => 0,
-            Command::Last => last,
-            _ => return false,
-        };
-        let to = to.min(last);
-        match &mut self.dialogue.mode {
-            InputMode::Help(HelpState { scroll: place, .. })
-            | InputMode::Palette(PaletteState { place, .. })
-            | InputMode::Lessons(place) => *place = to,
-            InputMode::Scenes(place) => *place = Some(to),
-            _ => {}
-        }
-        self.dialogue.note_page = 0;
-        true
-    }
-
-    /// Edits the text field. Home and End, if they do not move the text cursor, move in the list.
-    pub(super) fn edit(&mut self, edit: Edit) {
-        match (self.dialogue.typed().is_some_and(|field| field.edit(edit)), edit) {
-            (true, Edit::Left | Edit::Right | Edit::Start | Edit::End) => {}
-            (false, Edit::Start) => _ = self.move_in_list(&Command::First),
-            (false, Edit::End) => _ = self.move_in_list(&Command::Last),
-            _ => self.typed_on(),
-        }
-    }
-
     /// Executes the selected command.
     ///
     /// # Errors
     /// One line that says why nothing matches, in which case the palette stays open, or why the
     /// command is refused.
-    pub(super) fn choose_command(&mut self, palette: &PaletteState) -> Result<Effect, String> {
+    pub fn choose_command(&mut self, palette: &PaletteState) -> Result<Effect, String> {
         let typed = palette.typed.text();
         let chosen = words::found(self, &typed).into_iter().nth(palette.place);
         let chosen = chosen.map_or_else(|| words::only(self, &typed), Ok)?;
@@ -73,9 +41,49 @@ impl App {
     }
 }
 
+/// Draws the command palette.
+pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, palette: &PaletteState) {
+    let look = &app.appearance;
+    let (width, mark) = (usize::from(area.width), look.ellipsis());
+    let found = words::found(app, &palette.typed.text());
+    let hint = match palette.typed.text().as_str() {
+        "" => "  t 0.3 ms, speed 450, blade 7, scene rub, or any words",
+        _ => "",
+    };
+    let typed = palette.typed.shown(width.saturating_sub(2));
+    let head = shorten(&format!(": {typed}{hint}"), width, mark);
+    print(buffer, area, 0, &head, look.style(Role::Focus));
+    let status = app.status.as_ref().map_or(Vec::new(), |text| wrap(&look.spell(text), width));
+    let mut said: Vec<_> = status.into_iter().map(|line| (line, Role::Trouble)).collect();
+    if found.is_empty() {
+        said.push(("nothing has these words".into(), Role::Quiet));
+    }
+    let mut top = 1;
+    for (line, role) in said {
+        print(buffer, area, top, &line, look.style(role));
+        top += 1;
+    }
+    let below = Rect { y: area.y + top.min(area.height), ..area };
+    let below = Rect { height: area.bottom() - below.y, ..below };
+    let line = |item: &Found| {
+        let kind = if item.kind.is_empty() { String::new() } else { format!("{} ", item.kind) };
+        let beside = look.spell(&item.beside);
+        // The list has its sign in the first column.
+        let room = width.saturating_sub(columns(&beside) + 2);
+        let what = shorten(&look.spell(&format!("{kind}{}", item.what)), room, mark);
+        let pad = width.saturating_sub(columns(&what) + columns(&beside) + 1);
+        (format!("{what}{}{beside}", " ".repeat(pad)), Role::Text)
+    };
+    let place = palette.place.min(found.len().saturating_sub(1));
+    draw_list(look, buffer, below, found.iter().map(line), place);
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tui::app::InputMode;
+    use crate::tui::command::Command;
+    use crate::tui::field::Edit;
     use crate::tui::{Marker, Theme};
     use rubscope_solver::scene::Scene;
 

@@ -2,15 +2,15 @@
 //! list opened by `:` and for `--lines`. A word that introduces a target (`t 0.3 ms`, `blade 7`,
 //! `scene rub`) or a knob with a value takes precedence over entries that contain the words.
 
-use super::app::App;
-use super::axis::readable;
-use super::command::{self, Binding, Chord, Command, Group, Purpose};
-use super::knobs::{Fit, KNOBS, Knob, best, called, fit, knob_of, plain};
-use super::lessons::{self, LETTERS};
-use super::theme::Theme;
-use super::views::id::ViewId;
-use super::views::map::plan::numeric;
+use super::App;
 use crate::report::number::with_typed_unit;
+use crate::tui::axis::readable;
+use crate::tui::command::{self, Binding, Chord, Command, Group, Purpose};
+use crate::tui::knobs::{Fit, KNOBS, Knob, best, called, fit, knob_of, plain};
+use crate::tui::lessons::{self, LETTERS};
+use crate::tui::theme::Theme;
+use crate::tui::views::id::ViewId;
+use crate::tui::views::map::plan::numeric;
 use rubscope_solver::scene::Value;
 use rubscope_solver::scene::keys;
 use rubscope_solver::scene::{Quantity, SceneError};

@@ -5,15 +5,15 @@ use std::sync::LazyLock;
 
 use serde::Deserialize;
 
-use super::app::App;
-use super::axis::number;
-use super::knobs::knob_of;
-use super::views::id::ViewId;
+use super::App;
 use crate::report::number::{frequency_unit, in_shown_unit, per_frequency};
+use crate::tui::axis::number;
+use crate::tui::knobs::knob_of;
+use crate::tui::views::id::ViewId;
 use rubscope_solver::model::Frame;
 
 /// The text of the glossary.
-const TEXT: &str = include_str!("../../assets/glossary.toml");
+const TEXT: &str = include_str!("../../../assets/glossary.toml");
 
 /// A value computed from the present scene: ASCII name of the term, SI unit, and function.
 type Value = (&'static str, &'static str, fn(&App) -> Option<f64>);

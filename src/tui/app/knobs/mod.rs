@@ -1,0 +1,308 @@
+//! The selected knob, turning it, and undo. A value that the scene's check refuses is shown at its
+//! knob and changes nothing. Undo restores the scene; if another scene was opened since, it also
+//! restores that scene's source and view.
+
+pub mod panel;
+
+use crossterm::event::KeyEvent;
+
+use super::play::Tempo;
+use super::{App, LessonProgress, Source};
+use crate::report::line::clean;
+use crate::tui::command::{Chord, Command, lookup};
+use crate::tui::knobs::{KNOBS, Knob, place_of};
+use crate::tui::views::id::ViewId;
+use rubscope_solver::motion::Change;
+use rubscope_solver::scene::{CheckedScene, Scene, SceneError, Value};
+
+/// The selected knob, and the states that undo and redo restore.
+#[derive(Clone, Debug, Default)]
+pub struct Knobs {
+    /// Index in `KNOBS` of the selected knob.
+    pub selected: usize,
+    /// Why the last value typed or turned was refused; `None` if it was not.
+    pub refusal: Option<String>,
+    /// Whether knobs act on the running motion instead of restarting it.
+    pub live: bool,
+    /// Further presses of the same key already waiting; they are applied together.
+    pub again: usize,
+    undo: Vec<Past>,
+    redo: Vec<Past>,
+}
+
+/// Number of changes that can be undone.
+const KEPT: usize = 1000;
+
+/// A state that undo restores.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Past {
+    /// The scene with its knob values.
+    pub scene: CheckedScene,
+    /// The scene as opened.
+    pub opened: CheckedScene,
+    /// Where it came from; `None` for the built-in default.
+    pub source: Option<Source>,
+    /// The views, the large one first.
+    pub views: Vec<ViewId>,
+    /// Settings of playback.
+    pub tempo: Tempo,
+    /// Whether knobs acted on the running motion.
+    pub live: bool,
+    /// Whether the scene also ran under the other contact law.
+    pub compare: bool,
+    /// Progress in the open lesson; `None` if none was open.
+    pub lesson: Option<LessonProgress>,
+}
+
+impl Knobs {
+    /// Selects the knob at index `place` of `KNOBS`.
+    pub fn select(&mut self, place: usize) {
+        (self.selected, self.refusal) = (place, None);
+    }
+
+    /// Selects the knob above or below, cyclically.
+    pub fn walk(&mut self, up: bool) {
+        let count = KNOBS.len();
+        let next = if up { self.selected + count - 1 } else { self.selected + 1 };
+        self.select(next % count);
+    }
+
+    pub fn refuse(&mut self, knob: &Knob, error: &SceneError) {
+        self.refusal = Some(clean(&knob.refusal(error)));
+    }
+
+    /// Switches live mode; returns the status message.
+    pub fn turn_live(&mut self) -> String {
+        self.live = !self.live;
+        let how = match self.live {
+            true => "live: knobs act on the running motion",
+            false => "a knob restarts the run",
+        };
+        how.into()
+    }
+
+    /// Pushes a state for undo and clears redo.
+    pub fn remember(&mut self, past: Past) {
+        self.undo.push(past);
+        if self.undo.len() > KEPT {
+            self.undo.remove(0);
+        }
+        self.redo.clear();
+    }
+
+    /// Returns the state before `now`, or the one after it if `redo`, and records `now`. `None` if
+    /// there is no such state.
+    pub fn step_back(&mut self, redo: bool, now: Past) -> Option<Past> {
+        let Self { undo, redo: redone, .. } = self;
+        let (from, to) = if redo { (redone, undo) } else { (undo, redone) };
+        let past = from.pop()?;
+        to.push(now);
+        Some(past)
+    }
+}
+
+impl App {
+    /// Returns the selected knob.
+    pub fn selected(&self) -> Option<&'static Knob> {
+        KNOBS.get(self.knobs.selected)
+    }
+
+    /// Selects the knob of a scene key; false if the key has no knob.
+    pub fn select_path(&mut self, path: &str) -> bool {
+        let place = place_of(path);
+        if let Some(place) = place {
+            self.knobs.select(place);
+        }
+        place.is_some()
+    }
+
+    /// Captures the state that undo restores.
+    pub fn past(&self) -> Past {
+        Past {
+            scene: self.scene.clone(),
+            opened: self.files.opened.clone(),
+            source: self.files.source.clone(),
+            views: self.layout.views().to_vec(),
+            tempo: self.play.tempo(),
+            live: self.knobs.live,
+            compare: self.run.compare,
+            lesson: self.lessons.progress.clone(),
+        }
+    }
+}
+
+impl App {
+    /// Returns whether a key turns the selected knob.
+    pub fn is_turn(&self, key: &KeyEvent) -> bool {
+        matches!(lookup(self.keyboard(), Chord::of(key)), Some(Command::Turn { .. }))
+    }
+
+    /// Turns the selected knob once for this press of its key and once for each further press that
+    /// is waiting. It stops at the first refused value and shows the reason.
+    pub fn turn(&mut self, up: bool, coarse: bool) {
+        let again = std::mem::take(&mut self.knobs.again);
+        let Some(knob) = self.selected() else { return };
+        let turned = |scene: &Scene| knob.turned(&knob.get(scene), up, coarse, scene);
+        let next = |scene: &CheckedScene| Some(knob.set(scene, turned(scene)).ok()?.0);
+        let all = std::iter::successors(Some(self.scene.clone()), next);
+        if let Some(scene) = all.take(again + 1).last() {
+            self.turn_to(scene);
+        }
+        self.set(knob, turned(&self.scene));
+    }
+
+    /// Gives the selected knob its value in the opened scene.
+    pub fn reset(&mut self) {
+        if let Some(knob) = self.selected() {
+            self.set(knob, knob.get(&self.files.opened));
+        }
+    }
+
+    /// Applies the typed text as a value. The prompt stays open if the value is refused.
+    pub fn take_typed(&mut self, text: &str) {
+        let Some(knob) = self.selected() else { return };
+        match knob.parse(text) {
+            Ok(value) => {
+                if self.set(knob, value) {
+                    self.dialogue.close();
+                }
+            }
+            Err(error) => self.knobs.refuse(knob, &error),
+        }
+    }
+
+    /// Selects a knob and gives it a value as typed.
+    ///
+    /// # Errors
+    /// One line that says why the value is refused.
+    pub fn set_typed(&mut self, place: usize, text: &str) -> Result<(), String> {
+        self.knobs.select(place);
+        self.take_typed(text);
+        self.knobs.refusal.clone().map_or(Ok(()), Err)
+    }
+
+    /// Selects a knob. While the cursor has the arrow keys, the message says how to turn it.
+    pub fn select(&mut self, place: usize) {
+        self.knobs.select(place);
+        if let Some(knob) = self.selected().filter(|_| self.reading.on) {
+            self.status = Some(format!("{} selected; i gives it the arrows", knob.label));
+        }
+    }
+
+    /// Sets a knob to the value at the fraction `part` of its bar, 0 to 1.
+    pub fn set_part(&mut self, place: usize, part: f64) {
+        let Some(knob) = KNOBS.get(place) else { return };
+        self.knobs.select(place);
+        let range = knob.range(&self.scene, &self.files.opened, &self.machine);
+        if let Some(value) = range.and_then(|range| knob.near(range.at(part))) {
+            self.set(knob, value);
+        }
+    }
+
+    /// Replaces the scene by one with other knob values, as an undoable step.
+    pub fn turn_to(&mut self, scene: CheckedScene) {
+        if scene != self.scene {
+            self.knobs.remember(self.past());
+            self.set_turned_scene(scene);
+        }
+    }
+
+    /// Sets a knob as an undoable step; returns false if the value was refused.
+    pub fn set(&mut self, knob: &'static Knob, value: Value) -> bool {
+        match knob.set(&self.scene, value) {
+            Ok((scene, said)) => {
+                self.knobs.refusal = None;
+                if said.is_some() {
+                    self.status = said;
+                }
+                self.turn_to(scene);
+                true
+            }
+            Err(error) => {
+                self.knobs.refuse(knob, &error);
+                false
+            }
+        }
+    }
+
+    /// Applies a scene with other knob values: to the running motion in live mode if the change can
+    /// act on it, otherwise by a restart.
+    pub fn set_turned_scene(&mut self, scene: CheckedScene) {
+        let failed = self.failure().is_some();
+        let live = self.knobs.live && !failed && Change::acts_live(&self.scene, &scene);
+        if self.knobs.live && !live && self.status.is_none() {
+            self.status = Some("this cannot act on a running motion: restarted".into());
+        }
+        self.set_scene(scene, live);
+    }
+
+    /// Undoes the last change of the scene, or redoes it.
+    pub fn step_back(&mut self, redo: bool) {
+        match self.knobs.step_back(redo, self.past()) {
+            Some(past) => self.come_back(past),
+            None => {
+                let word = if redo { "redo" } else { "undo" };
+                self.status = Some(format!("nothing to {word}"));
+            }
+        }
+    }
+
+    /// Restores a state. If only knobs differ, this counts as turning them, which may act on the
+    /// running motion; another scene or lesson step restarts the run.
+    pub fn come_back(&mut self, past: Past) {
+        self.knobs.refusal = None;
+        let step = |lesson: Option<&LessonProgress>| {
+            lesson.map(|now| (now.lesson, now.step, now.now().answer))
+        };
+        let same_step = step(past.lesson.as_ref()) == step(self.lessons.progress.as_ref());
+        let same_file = past.source.as_ref() == self.files.source.as_ref();
+        if past.opened == self.files.opened && same_file && same_step {
+            self.set_turned_scene(past.scene);
+            return;
+        }
+        (self.files.opened, self.files.source) = (past.opened, past.source);
+        self.lessons.progress = past.lesson;
+        self.knobs.live = past.live;
+        (self.play.rate, self.play.zoom) = (past.tempo.rate, past.tempo.zoom);
+        self.play.slow_at_events = past.tempo.slow_at_events;
+        if self.layout.set_views(past.views) {
+            self.keep_instant();
+        }
+        self.run.set_compare(past.compare);
+        if past.scene != self.scene {
+            self.set_scene(past.scene, false);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tui::{Marker, Theme};
+    use rubscope_solver::scene::Scene;
+
+    #[test]
+    fn undo_and_redo_come_back_and_a_new_change_forgets_what_was_undone() {
+        let app = App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Ascii);
+        let (past, mut knobs) = (app.past(), Knobs::default());
+        assert!(knobs.step_back(false, past.clone()).is_none());
+        let lively = Past { live: true, ..past.clone() };
+        knobs.remember(lively.clone());
+        assert_eq!(knobs.step_back(false, past.clone()), Some(lively.clone()));
+        assert_eq!(knobs.step_back(true, lively), Some(past.clone()));
+        knobs.step_back(false, past.clone());
+        knobs.remember(past.clone());
+        assert!(knobs.step_back(true, past).is_none());
+    }
+
+    #[test]
+    fn the_knobs_go_round_and_another_one_has_no_refusal() {
+        let mut knobs = Knobs::default();
+        knobs.refuse(&KNOBS[1], &Scene::base().set("operation.pulse_n", "x").unwrap_err());
+        assert!(knobs.refusal.is_some());
+        knobs.walk(true);
+        assert_eq!((knobs.selected, knobs.refusal.clone()), (KNOBS.len() - 1, None));
+        knobs.walk(false);
+        assert_eq!(knobs.selected, 0);
+    }
+}
