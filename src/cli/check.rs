@@ -7,7 +7,7 @@ use clap::Args;
 use super::Done;
 use super::options::SceneOptions;
 use super::status::{self, Status};
-use crate::report::check as report;
+use crate::report::{CommandLine, check as report};
 
 /// Summarise a scene in words: derived values, missing data, likely unit mistakes.
 #[derive(Args, Debug)]
@@ -21,7 +21,7 @@ impl CheckCommand {
         let scene = self.options.scene()?;
         self.options.note_assumed(&scene);
         status::say_noted();
-        report::write(&scene, out)?;
+        report::sheet(&scene, CommandLine::new("check", &scene)).write_text(true, out)?;
         Ok(Status::Done)
     }
 }

@@ -27,9 +27,6 @@ pub struct FiguresCommand {
     /// Only these figures, such as 4,9
     #[arg(long, value_name = "FIGURES", value_delimiter = ',')]
     only: Vec<String>,
-    /// Write the captions to text files (.txt) instead of into the pictures
-    #[arg(long)]
-    no_caption: bool,
 }
 
 impl FiguresCommand {
@@ -41,8 +38,7 @@ impl FiguresCommand {
             let stem = which.stem();
             // A figure with several panels has one data file per panel: a, b, c, d.
             let data = ["", "a", "b", "c", "d"].map(|letter| format!("{stem}{letter}.csv"));
-            let text = self.no_caption.then(|| format!("{stem}.txt"));
-            for name in data.iter().chain([&format!("{stem}.svg")]).chain(&text) {
+            for name in data.iter().chain([&format!("{stem}.svg")]) {
                 output::try_place(&self.out.join(name))?;
             }
         }
@@ -81,7 +77,6 @@ impl FiguresCommand {
         let command = CommandLine::without_scene("figures")
             .option("--only", which)
             .option("--out", "figures");
-        let command = command.flag("--no-caption", self.no_caption);
         let origin = Provenance { command, scene };
         let stem = which.stem();
         let (mut wrote, mut replaced) = (Vec::new(), Vec::new());
@@ -89,18 +84,9 @@ impl FiguresCommand {
             Written::New => wrote.push(name),
             Written::Replaced => replaced.push(name),
         };
-        let bare = Figure { caption: Vec::new(), ..figure.clone() };
-        let drawn = if self.no_caption { &bare } else { figure };
         let name = format!("{stem}.svg");
-        let written = write(&self.out.join(&name), out, |out| svg::write(drawn, &origin, out))?;
+        let written = write(&self.out.join(&name), out, |out| svg::write(figure, &origin, out))?;
         note(name, written);
-        if self.no_caption && !figure.caption.is_empty() {
-            let name = format!("{stem}.txt");
-            let caption = figure.caption.join("\n") + "\n";
-            let text = |out: &mut dyn Write| out.write_all(caption.as_bytes());
-            let written = write(&self.out.join(&name), out, text)?;
-            note(name, written);
-        }
         for (panel, letter) in figure.panels.iter().zip('a'..='z') {
             let letter = if figure.panels.len() > 1 { letter.to_string() } else { String::new() };
             let name = format!("{stem}{letter}.csv");

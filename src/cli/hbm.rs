@@ -1,20 +1,19 @@
 //! `rubscope hbm`: steady states against speed, in the frequency domain.
 
 use std::io::Write;
-use std::path::PathBuf;
 
 use clap::{Arg, ArgAction, ArgGroup, ArgMatches, Args, Command, FromArgMatches};
 use strum::VariantNames;
 
+use super::Done;
 use super::options::{SceneOptions, Swept};
+use super::output::OutputOptions;
 use super::range::linspace;
-use super::status::{self, Refusal, Status, say};
+use super::status::{self, Refusal, Status};
 use super::words::Words;
-use super::{Done, output};
-use crate::report::hbm::{Heading, LOCKED, Request, VIEWS, View};
-use crate::report::number::speed;
-use crate::report::{CommandLine, json};
-use rubscope_solver::harmonic::{Form, HarmonicError, Sweep};
+use crate::report::CommandLine;
+use crate::report::hbm::{LOCKED, Request, VIEWS, View};
+use rubscope_solver::harmonic::{Form, HarmonicError};
 use rubscope_solver::scene::Scene;
 
 /// Number of speeds of the default sweep, from standstill to the speed of the scene.
@@ -49,12 +48,8 @@ pub struct HbmCommand {
     blades: Option<String>,
     #[command(flatten)]
     view: RequestedView,
-    /// Print everything as JSON (rubscope.hbm/1)
-    #[arg(long)]
-    json: bool,
-    /// Write the table with every number to FILE (.csv)
-    #[arg(long, value_name = "FILE")]
-    out: Option<PathBuf>,
+    #[command(flatten)]
+    output: OutputOptions,
 }
 
 /// The view chosen by its option; the locked motion without such an option.
@@ -93,7 +88,7 @@ impl FromArgMatches for RequestedView {
 
 impl HbmCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
-        output::format(self.out.as_deref(), &["csv"])?;
+        self.output.ending()?;
         let RequestedView(view) = self.view;
         let resolved = self.options.resolve(Swept { speed: true, pulse: false })?;
         let scene: &Scene = &resolved.scene;
@@ -106,30 +101,10 @@ impl HbmCommand {
         // The paper's own equations have no damping.
         let damped = self.damped || !(self.undamped || form == Form::Printed);
         let (speeds, machine) = (&speeds[..], scene.machine());
-        let mut request = Request { scene, speeds, form, damped, pair, machine, sweep: None };
-        let answer = request.answer(view).map_err(refused)?;
+        let request = Request { scene, speeds, form, damped, pair, machine };
+        let sheet = request.sheet(view, self.command(scene)).map_err(refused)?;
         status::say_noted();
-        if self.json {
-            json::write_as("rubscope.hbm/1", &self.command(scene), &answer.json, out)?;
-        }
-        if let Some((path, file)) = self.out.as_ref().zip(answer.file()) {
-            output::save(path, &format!("{} rows", file.len()), out, |out| file.write_csv(out))?;
-        }
-        // The locked motion is the subject of the view without an option.
-        let sweep = request.sweep.as_ref().filter(|_| view.option.is_empty());
-        if !self.json {
-            let (machine, speed) = (&request.machine, request.fastest());
-            let damped = damped || view.always_damped;
-            Heading { scene, machine, speed, damped, sweep }.write(out)?;
-            for (title, table) in &answer.tables {
-                writeln!(out)?;
-                if !title.is_empty() {
-                    writeln!(out, "{title}")?;
-                }
-                table.write_text(out)?;
-            }
-        }
-        sweep.into_iter().for_each(warn_missing);
+        self.output.deliver(&sheet, out)?;
         Ok(Status::Done)
     }
 
@@ -170,15 +145,4 @@ fn refused(error: HarmonicError) -> Refusal {
         HarmonicError::Blades { .. } => format!("--{message}"),
         _ => message,
     })
-}
-
-fn warn_missing(sweep: &Sweep) {
-    if let Some(first) = sweep.missing.first() {
-        say(&format!(
-            "rubscope: no locked motion at {} of {} speeds, the first of them {}: the blades are so soft that the branch folds back",
-            sweep.missing.len(),
-            sweep.missing.len() + sweep.points.len(),
-            speed(*first)
-        ));
-    }
 }

@@ -1,31 +1,27 @@
 //! `rubscope map`: the verdicts over two parameters of a scene.
-//!
-//! A result that cannot be written goes to standard output instead.
 
 use std::fs::File;
 use std::io::{IsTerminal, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 use rayon::prelude::*;
 
 use super::options::{SceneOptions, Swept};
+use super::output::OutputOptions;
 use super::range::Range;
 use super::status::{self, Refusal, Status};
-use super::{Done, output, sign};
-use crate::file::{self, Written};
+use super::{Done, sign};
+use crate::report::map as report;
 use crate::report::number::from_shown;
 use crate::report::part::{self, Shard};
-use crate::report::{Provenance, json, map as report, svg};
 use rubscope_solver::scene::keys;
-use rubscope_solver::study::{Axis, AxisError, Map, MapPlan, overlay};
+use rubscope_solver::study::{Axis, AxisError, Map, MapPlan};
 
 /// Upper bound of `--threads`, above the number of cores of usual machines.
 const MOST_THREADS: usize = 1024;
 /// Largest number of cells in a picture; each takes about a hundred bytes of SVG.
 const MOST_DRAWN: usize = 1_000_000;
-/// Endings of the files that a complete map can be written to.
-const WHOLE: [&str; 3] = ["csv", "json", "svg"];
 /// Default number of columns and rows: steps of 10 rad/s (or 100 rpm) and 50 kN.
 const COLUMNS: u32 = 51;
 const ROWS: u32 = 21;
@@ -62,18 +58,7 @@ pub struct MapCommand {
     #[arg(long, value_name = "K/COUNT", requires = "out")]
     shard: Option<String>,
     #[command(flatten)]
-    result: ResultOptions,
-}
-
-/// Output options of a finished map.
-#[derive(Args, Debug)]
-struct ResultOptions {
-    /// Print the map as JSON (rubscope.map/1)
-    #[arg(long)]
-    json: bool,
-    /// Write the map to FILE: .csv, .json or .svg
-    #[arg(long, value_name = "FILE")]
-    out: Option<PathBuf>,
+    output: OutputOptions,
 }
 
 #[derive(Subcommand, Debug)]
@@ -88,7 +73,7 @@ struct Merge {
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
     #[command(flatten)]
-    result: ResultOptions,
+    output: OutputOptions,
 }
 
 fn threads(text: &str) -> Result<usize, String> {
@@ -102,21 +87,21 @@ impl MapCommand {
             return merge.run(out);
         }
         let shard = self.shard()?;
-        let format = match shard {
-            Some(_) => self.result.format(&["csv"])?,
-            None => self.result.format(&WHOLE)?,
+        let ending = match shard {
+            Some(_) => self.output.ending_among(&["csv"])?,
+            None => self.output.ending()?,
         };
         let plan = self.plan()?;
-        check_picture(&plan, format)?;
+        check_picture(&plan, ending)?;
         status::say_noted();
         let mut map = Map::empty(plan);
         self.compute(&mut map, shard)?;
-        match (shard, &self.result.out) {
-            (Some(_), Some(path)) => {
-                let what = format!("{} cells", map.runs);
-                output::save(path, &what, out, |out| part::write(&map, out))?;
+        match shard {
+            Some(_) => {
+                let what = format!("{} rows", map.runs);
+                self.output.save(&what, out, |out| part::write(&map, out))?;
             }
-            _ => self.result.deliver(&map, format, out)?,
+            None => self.output.deliver(&report::sheet(&map, width()), out)?,
         }
         Ok(Status::Done)
     }
@@ -173,17 +158,17 @@ impl MapCommand {
 
 impl Merge {
     fn run(&self, out: &mut dyn Write) -> Done {
-        let format = self.result.format(&WHOLE)?;
+        let ending = self.output.ending()?;
         let map = read_shares(&self.files)?;
-        check_picture(&map.plan, format)?;
-        self.result.deliver(&map, format, out)?;
+        check_picture(&map.plan, ending)?;
+        self.output.deliver(&report::sheet(&map, width()), out)?;
         Ok(Status::Done)
     }
 }
 
 /// Refuses a picture with too many cells.
-fn check_picture(plan: &MapPlan, format: Option<&str>) -> Result<(), Refusal> {
-    if format != Some("svg") || plan.len() <= MOST_DRAWN {
+fn check_picture(plan: &MapPlan, ending: Option<&str>) -> Result<(), Refusal> {
+    if ending != Some("svg") || plan.len() <= MOST_DRAWN {
         return Ok(());
     }
     let cells = format!("an .svg of {} cells", plan.len());
@@ -201,54 +186,9 @@ fn read_shares(files: &[PathBuf]) -> anyhow::Result<Map> {
     Ok(part::read_all(shares).map_err(Refusal::because)?)
 }
 
-impl ResultOptions {
-    fn format(&self, endings: &[&'static str]) -> anyhow::Result<Option<&'static str>> {
-        output::format(self.out.as_deref(), endings)
-    }
-
-    /// Prints the finished map and, with `--out`, writes it. If it cannot be written, it goes to
-    /// standard output as JSON, so that nothing computed is lost.
-    fn deliver(&self, map: &Map, format: Option<&str>, out: &mut dyn Write) -> anyhow::Result<()> {
-        if self.json {
-            json::write(&report::MapJson { map, with_time: true }, out)?;
-        } else if self.out.is_none() {
-            report::write_text(map, width(), out)?;
-        }
-        let (Some(path), Some(format)) = (&self.out, format) else { return Ok(()) };
-        // `path` may be standard output itself: the text printed above must come first.
-        out.flush()?;
-        let error = match write_file(map, format, path) {
-            Ok(written) => {
-                let cells = format!("{} cells", map.cells.len());
-                output::say_written(written, &cells, &path.display());
-                return Ok(());
-            }
-            Err(error) => error,
-        };
-        let kept = "the whole map is on standard output as JSON";
-        Err(output::print_instead(path, error, kept, out, |out| match self.json {
-            // `--json` has printed it already.
-            true => Ok(()),
-            false => json::write(&report::MapJson { map, with_time: false }, out),
-        }))
-    }
-}
-
 /// Returns the width of the text map \[characters\]: that of the terminal if standard output is
 /// one, otherwise [`WIDTH`].
 fn width() -> usize {
     let size = crossterm::terminal::size().ok().filter(|_| std::io::stdout().is_terminal());
     size.map_or(WIDTH, |(columns, _)| usize::from(columns))
-}
-
-fn write_file(map: &Map, format: &str, path: &Path) -> std::io::Result<Written> {
-    file::replace(path, |out| match format {
-        "csv" => report::write_csv(map, out),
-        "json" => json::write(&report::MapJson { map, with_time: false }, out),
-        _ => {
-            let command = report::command(map).option("--out", "map.svg");
-            let origin = Provenance { command, scene: map.plan.scene.clone() };
-            svg::write(&report::figure(map, &overlay::curves(&map.plan)), &origin, out)
-        }
-    })
 }

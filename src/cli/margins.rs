@@ -1,15 +1,15 @@
 //! `rubscope margins`: how far a scene is from every limit, and what moves it.
 
 use std::io::Write;
-use std::path::PathBuf;
 
 use clap::Args;
 
 use super::options::SceneOptions;
+use super::output::OutputOptions;
 use super::status::{self, Refusal, Status};
-use super::{Done, output, sign};
+use super::{Done, sign};
 use crate::report::number::with_typed_unit;
-use crate::report::{CommandLine, Provenance, json, margins as report};
+use crate::report::{CommandLine, margins as report};
 use rubscope_solver::motion::to_the_end;
 use rubscope_solver::scene::{CheckedScene, Quantity};
 use rubscope_solver::study::margins::{LimitName, Margins, Target, TargetError};
@@ -23,12 +23,8 @@ use rubscope_solver::study::margins::{LimitName, Margins, Target, TargetError};
 pub struct MarginsCommand {
     #[command(flatten)]
     options: SceneOptions,
-    /// Print everything as JSON (rubscope.margins/1)
-    #[arg(long)]
-    json: bool,
-    /// Write the limits to FILE: .csv, or .svg for a page of the text
-    #[arg(long, value_name = "FILE")]
-    out: Option<PathBuf>,
+    #[command(flatten)]
+    output: OutputOptions,
     /// Find the parameter value at which a limit has this value, such as omega_lock=450
     #[arg(long, value_name = "NAME=VALUE", requires = "by", allow_hyphen_values = true)]
     target: Option<String>,
@@ -42,7 +38,7 @@ pub struct MarginsCommand {
 
 impl MarginsCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
-        let format = output::format(self.out.as_deref(), &["csv", "svg"])?;
+        self.output.ending()?;
         let scene = self.options.scene()?;
         self.options.note_assumed(&scene);
         let target = match (&self.target(), &self.by) {
@@ -61,35 +57,8 @@ impl MarginsCommand {
             bar.set_message("nearest changes of the verdict");
             margins.ask_runs(&to_the_end, &mut |_| bar.inc(1));
         }
-        self.deliver(&margins, &scene, format, out)?;
+        self.output.deliver(&report::sheet(&margins, self.command(&scene)), out)?;
         Ok(Status::Done)
-    }
-
-    fn deliver(
-        &self,
-        margins: &Margins,
-        scene: &CheckedScene,
-        format: Option<&str>,
-        out: &mut dyn Write,
-    ) -> anyhow::Result<()> {
-        let command = self.command(scene);
-        if self.json {
-            json::write_as("rubscope.margins/1", &command, margins, out)?;
-        }
-        if let Some(path) = &self.out {
-            let rows = format!("{} limits", margins.limits.len());
-            if format == Some("svg") {
-                let command = command.option("--out", "margins.svg");
-                let origin = Provenance { command, scene: scene.clone().into_scene() };
-                output::save(path, &rows, out, |out| report::write_page(margins, &origin, out))?;
-            } else {
-                output::save(path, &rows, out, |out| report::table(margins).write_csv(out))?;
-            }
-        }
-        if !self.json {
-            report::write(margins, out)?;
-        }
-        Ok(())
     }
 
     /// Returns the text of `--target`, with `rpm` appended to a speed without a unit if `--rpm` is

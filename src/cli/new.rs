@@ -11,7 +11,8 @@ use super::Done;
 use super::status::{Refusal, Status, note, say, say_noted};
 use crate::file;
 use crate::machine::{Family, ModalData, doubts, read_modes};
-use crate::report::check::write_doubts;
+use crate::report::CommandLine;
+use crate::report::check::doubt_lines;
 use crate::report::number::{rounded, tell_in_rpm, with_typed_unit};
 use crate::report::survey as report;
 use rubscope_solver::scene::{Quantity, Scene, SceneError, keys};
@@ -103,13 +104,15 @@ impl NewCommand {
             .with_context(|| format!("cannot write {shown}"))?;
         writeln!(out, "Wrote {shown}.")?;
         writeln!(out)?;
-        report::write(&Survey::of(&scene, Some(data.range_rad_s), None)?, false, out)?;
+        let survey = Survey::of(&scene, Some(data.range_rad_s), None)?;
+        let command = CommandLine::new("survey", &scene);
+        report::sheet(&survey, false, command).write_text(true, out)?;
         Ok(Status::Done)
     }
 
     /// Prints likely unit errors, and asks whether to write the scene anyway.
     fn ask_about(&self, doubts: &[String], asking: &Asking) -> anyhow::Result<()> {
-        write_doubts(doubts, &mut stderr())?;
+        doubt_lines(doubts).iter().try_for_each(|line| writeln!(stderr(), "{line}"))?;
         if doubts.is_empty() || !asking.answers {
             return Ok(());
         }

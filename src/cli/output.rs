@@ -1,35 +1,98 @@
-//! Output files of the commands: the format follows from the file ending.
+//! Where the result of a command goes: text or JSON on standard output, and a file whose format
+//! follows from its ending.
 
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+use clap::Args;
 
 use super::status::{Refusal, say};
 use crate::file::{self, Written};
-use anyhow::Context;
+use crate::report::Sheet;
+use crate::report::table::Table;
 
-/// Returns the ending of `path`, which must be one of `endings`, and checks that a file can be
-/// written there. `None` if there is no path: nothing is written.
-///
-/// # Errors
-/// The ending is another one, or no file can be written at `path`.
-pub fn format(
-    path: Option<&Path>,
-    endings: &[&'static str],
-) -> anyhow::Result<Option<&'static str>> {
-    let Some(path) = path else { return Ok(None) };
-    let given = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
-    let Some(known) = endings.iter().find(|known| known.eq_ignore_ascii_case(given)) else {
-        let names: Vec<String> = endings.iter().map(|known| format!(".{known}")).collect();
-        let listed = match names.split_last() {
-            Some((last, [])) => last.clone(),
-            Some((last, others)) => format!("{} or {last}", others.join(", ")),
-            None => String::new(),
+/// Where a command puts its result.
+#[derive(Args, Debug)]
+pub struct OutputOptions {
+    /// Print the result as JSON
+    #[arg(long)]
+    json: bool,
+    /// Write the result to FILE: .csv (the table), .svg (the picture) or .json
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+impl OutputOptions {
+    /// Returns whether the result goes to a file.
+    pub fn has_file(&self) -> bool {
+        self.out.is_some()
+    }
+
+    /// Returns the ending of the file, and checks that a file can be written there; `None` without
+    /// a file.
+    ///
+    /// # Errors
+    /// The ending is none of those of a result, or no file can be written.
+    pub fn ending(&self) -> anyhow::Result<Option<&'static str>> {
+        self.ending_among(&["csv", "json", "svg"])
+    }
+
+    /// As [`Self::ending`], which must be one of `endings`.
+    ///
+    /// # Errors
+    /// As `ending`.
+    pub fn ending_among(&self, endings: &[&'static str]) -> anyhow::Result<Option<&'static str>> {
+        let Some(path) = &self.out else { return Ok(None) };
+        let given = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+        let Some(known) = endings.iter().find(|known| known.eq_ignore_ascii_case(given)) else {
+            let names = endings.iter().map(|known| format!(".{known}")).collect::<Vec<_>>();
+            let listed = match names.split_last() {
+                Some((last, others)) if !others.is_empty() => {
+                    format!("{} or {last}", others.join(", "))
+                }
+                _ => names.concat(),
+            };
+            let allowed = format!("a file name ending in {listed}");
+            return Err(Refusal::of("--out", path.display(), allowed).into());
         };
-        let allowed = format!("a file name ending in {listed}");
-        return Err(Refusal::of("--out", path.display(), allowed).into());
-    };
-    try_place(path)?;
-    Ok(Some(known))
+        try_place(path)?;
+        Ok(Some(known))
+    }
+
+    /// Writes the file of `--out`; prints the result as text, or as JSON with `--json`.
+    ///
+    /// # Errors
+    /// Standard output or the file could not be written.
+    pub fn deliver(&self, sheet: &Sheet, out: &mut dyn Write) -> anyhow::Result<()> {
+        if self.json {
+            sheet.write_json(true, out)?;
+        }
+        if let Some(ending) = self.ending()? {
+            let rows = format!("{} rows", sheet.file().map_or(0, Table::len));
+            self.save(&rows, out, |out| sheet.write_file(ending, out))?;
+        }
+        if !self.json {
+            sheet.write_text(true, out)?;
+        }
+        Ok(())
+    }
+
+    /// Writes `content`, described by `what`, to the file of `--out`, if there is one.
+    ///
+    /// # Errors
+    /// The file could not be written.
+    pub fn save(
+        &self,
+        what: &str,
+        out: &mut dyn Write,
+        content: impl Fn(&mut dyn Write) -> std::io::Result<()>,
+    ) -> anyhow::Result<()> {
+        let Some(path) = &self.out else { return Ok(()) };
+        let written = replace_or_print(path, out, &content)?;
+        say_written(written, what, &path.display());
+        Ok(())
+    }
 }
 
 /// Checks that a file can be written at `path`.
@@ -38,23 +101,6 @@ pub fn format(
 /// No file can be written at `path`, for the reason in the message.
 pub fn try_place(path: &Path) -> anyhow::Result<()> {
     file::check_place(path).with_context(|| format!("cannot write {}", path.display()))
-}
-
-/// Writes a file, completely or not at all, and reports on standard error `what` it contains and
-/// whether it replaced another. If it cannot be written, its text goes to standard output, so that
-/// the result of a long computation is not lost.
-///
-/// # Errors
-/// The file could not be written.
-pub fn save(
-    path: &Path,
-    what: &str,
-    out: &mut dyn Write,
-    content: impl Fn(&mut dyn Write) -> std::io::Result<()>,
-) -> anyhow::Result<()> {
-    let written = replace_or_print(path, out, &content)?;
-    say_written(written, what, &path.display());
-    Ok(())
 }
 
 /// Writes a file, completely or not at all. If that fails, its content goes to standard output.
@@ -68,26 +114,18 @@ pub fn replace_or_print(
 ) -> anyhow::Result<Written> {
     // `path` may be standard output itself: what was printed before must come first.
     out.flush()?;
-    file::replace(path, content)
-        .map_err(|error| print_instead(path, error, "its text is on standard output", out, content))
-}
-
-/// Prints the content of a file that could not be written, and returns the error, which also says
-/// if printing failed.
-pub fn print_instead(
-    path: &Path,
-    error: std::io::Error,
-    kept: &str,
-    out: &mut dyn Write,
-    print: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
-) -> anyhow::Error {
-    let shown = path.display();
-    match print(out).and_then(|()| out.flush()) {
-        Ok(()) => anyhow::Error::from(error).context(format!("cannot write {shown}; {kept}")),
-        Err(other) => {
-            anyhow::anyhow!("cannot write {shown}: {error}; nor standard output: {other}")
+    file::replace(path, content).map_err(|error| {
+        let shown = path.display();
+        match content(out).and_then(|()| out.flush()) {
+            Ok(()) => {
+                let message = format!("cannot write {shown}; its text is on standard output");
+                anyhow::Error::from(error).context(message)
+            }
+            Err(other) => {
+                anyhow::anyhow!("cannot write {shown}: {error}; nor standard output: {other}")
+            }
         }
-    }
+    })
 }
 
 /// Reports a written file on standard error.

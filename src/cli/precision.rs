@@ -1,28 +1,24 @@
 //! `rubscope precision`: run time against error of every solver on one scene.
 
 use std::io::Write;
-use std::path::PathBuf;
 
 use clap::Args;
 
 use super::options::SceneOptions;
+use super::output::OutputOptions;
 use super::status::{self, Refusal, Status, say};
-use super::{Done, output, sign};
-use crate::report::{CommandLine, Provenance, json, precision as report, svg};
+use super::{Done, sign};
+use crate::report::{CommandLine, precision as report};
 use rubscope_solver::motion::to_the_end;
-use rubscope_solver::study::precision::{Effort, Measure, Method, Precision, ways};
+use rubscope_solver::study::precision::{Effort, Measure, Method, ways};
 
 /// Measure every solver's speed against its error on a scene.
 #[derive(Args, Debug)]
 pub struct PrecisionCommand {
     #[command(flatten)]
     options: SceneOptions,
-    /// Print the measurements as JSON (rubscope.precision/1)
-    #[arg(long)]
-    json: bool,
-    /// Write the measurements to FILE: .csv, or .svg for the chart
-    #[arg(long, value_name = "FILE")]
-    out: Option<PathBuf>,
+    #[command(flatten)]
+    output: OutputOptions,
     /// Number of runs for the median time
     #[arg(long, value_name = "COUNT", default_value_t = 5,
           value_parser = clap::value_parser!(u32).range(1..=1000))]
@@ -38,7 +34,7 @@ impl PrecisionCommand {
         if self.finest.is_nan() || self.finest <= 0.0 {
             return Err(Refusal::of("--finest", self.finest, "a time step above 0").into());
         }
-        let format = output::format(self.out.as_deref(), &["csv", "svg"])?;
+        self.output.ending()?;
         let effort = Effort { repeats: self.repeat, finest_s: self.finest, ..Effort::default() };
         let ways = ways(&scene, effort);
         let form = "{spinner} {bar:30} {pos}/{len} {msg} {elapsed}";
@@ -54,30 +50,11 @@ impl PrecisionCommand {
             rows.extend(measure.row(way, effort, &to_the_end)?);
             bar.inc(1);
         }
-        self.deliver(&measure.report(rows), format, out)
-    }
-
-    fn deliver(&self, measured: &Precision, format: Option<&str>, out: &mut dyn Write) -> Done {
+        let measured = measure.report(rows);
         let command = CommandLine::new("precision", &measured.scene)
             .option("--repeat", self.repeat)
             .option("--finest", self.finest);
-        if self.json {
-            json::write_as("rubscope.precision/1", &command, measured, out)?;
-        }
-        if let Some(path) = &self.out {
-            let rows = format!("{} rows", measured.rows.len());
-            if format == Some("svg") {
-                let figure = report::figure(measured).map_err(Refusal::because)?;
-                let command = command.option("--out", "precision.svg");
-                let origin = Provenance { command, scene: measured.scene.clone() };
-                output::save(path, &rows, out, |out| svg::write(&figure, &origin, out))?;
-            } else {
-                output::save(path, &rows, out, |out| report::table(measured).write_csv(out))?;
-            }
-        }
-        if !self.json {
-            report::write(measured, out)?;
-        }
+        self.output.deliver(&report::sheet(&measured, command), out)?;
         if measured.reference.method != Method::None {
             return Ok(Status::Done);
         }

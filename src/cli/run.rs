@@ -1,17 +1,18 @@
 //! `rubscope run`: simulates a scene in time; prints a summary or JSON, and writes the history.
 
 use std::io::Write;
-use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::Args;
+use serde_json::json;
 
 use super::options::SceneOptions;
+use super::output::OutputOptions;
 use super::script::{self, RequestedScript};
 use super::status::{self, Refusal, Status};
-use super::{Done, output, sign};
+use super::{Done, sign};
 use crate::report::history::HISTORY_VALUES;
-use crate::report::{CommandLine, History, Wall, json, summary};
+use crate::report::{CommandLine, History, Wall, summary};
 use rubscope_solver::motion::{Sample, Sampling, Verdict, run_to_end, to_the_end};
 use rubscope_solver::scene::{Scene, SolverKind};
 
@@ -20,12 +21,8 @@ use rubscope_solver::scene::{Scene, SolverKind};
 pub struct RunCommand {
     #[command(flatten)]
     options: SceneOptions,
-    /// Print the report as JSON (rubscope.run/1)
-    #[arg(long)]
-    json: bool,
-    /// Write the history to FILE: .csv
-    #[arg(long, value_name = "FILE")]
-    out: Option<PathBuf>,
+    #[command(flatten)]
+    output: OutputOptions,
     /// Samples of the history
     #[arg(long, value_name = "COUNT", default_value_t = 2000, requires = "out",
           value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
@@ -57,7 +54,7 @@ impl RunCommand {
         }
         let script = RequestedScript::resolve(&script::parse(&self.at)?, &scene)?;
         let acts = script.changes();
-        output::format(self.out.as_deref(), &["csv"])?;
+        self.output.ending()?;
         let gaps = if self.gaps { scene.bladed_disk.blades } else { 0 };
         let most = History::most_samples(gaps);
         if self.samples > most {
@@ -70,9 +67,9 @@ impl RunCommand {
         let mut history = History::new(gaps);
         // Both ends are samples, so there is one interval fewer. The smallest gap needs the gaps
         // of all blades, also if they have no columns.
-        let sampling = match self.out {
-            Some(_) => Sampling { intervals: self.samples - 1, gaps: true },
-            None => Sampling::default(),
+        let sampling = match self.output.has_file() {
+            true => Sampling { intervals: self.samples - 1, gaps: true },
+            false => Sampling::default(),
         };
         status::say_noted();
         let started = Instant::now();
@@ -87,20 +84,9 @@ impl RunCommand {
             wall.certainty_s = Some(started.elapsed().as_secs_f64());
         }
         let changes = Some(&script).filter(|script| !script.is_empty());
-        let command = self.command(&scene);
-        if self.json {
-            json::write_run(&report, &command, wall, changes, out)?;
-        }
-        if let Some(path) = &self.out {
-            let samples = format!("{} samples", history.len());
-            output::save(path, &samples, out, |out| history.write_csv(out))?;
-        }
-        if !self.json {
-            summary::write(&report, wall, out)?;
-            if let Some(script) = changes {
-                writeln!(out, "Changed during the run: {script}.")?;
-            }
-        }
+        let changes = changes.map(|script| (script.to_string(), json!(script)));
+        let sheet = summary::sheet(&report, wall, changes, &history, self.command(&scene));
+        self.output.deliver(&sheet, out)?;
         Ok(match report.outcome.verdict {
             Verdict::Failed => Status::Failed,
             _ => Status::Done,

@@ -1,15 +1,15 @@
 //! `rubscope survey`: which nodal diameters can lock at the speeds of a machine.
 
 use std::io::Write;
-use std::path::PathBuf;
 
 use clap::Args;
 
+use super::Done;
 use super::options::{SceneOptions, ask_unit};
+use super::output::OutputOptions;
 use super::status::{self, Refusal, Status};
-use super::{Done, output};
 use crate::report::number::with_typed_unit;
-use crate::report::{CommandLine, Provenance, json, survey as report, svg};
+use crate::report::{CommandLine, survey as report};
 use rubscope_solver::scene::Quantity;
 use rubscope_solver::study::margins::{TargetError, parameter};
 use rubscope_solver::study::survey::{Survey, speed_range};
@@ -31,17 +31,13 @@ pub struct SurveyCommand {
     /// Also show nodal diameters without modes of their own
     #[arg(long)]
     all: bool,
-    /// Print everything as JSON (rubscope.survey/1)
-    #[arg(long)]
-    json: bool,
-    /// Write the limits to FILE: .csv, or .svg for the interference chart
-    #[arg(long, value_name = "FILE")]
-    out: Option<PathBuf>,
+    #[command(flatten)]
+    output: OutputOptions,
 }
 
 impl SurveyCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
-        let format = output::format(self.out.as_deref(), &["csv", "svg"])?;
+        self.output.ending()?;
         let scene = self.options.scene()?;
         self.options.note_assumed(&scene);
         let range = self.range().map(|text| speed_range("--range", &text)).transpose()?;
@@ -62,23 +58,7 @@ impl SurveyCommand {
             .optional("--range", self.range())
             .optional("--by", self.by.as_ref())
             .flag("--all", self.all);
-        if self.json {
-            json::write_as("rubscope.survey/1", &command, &survey, out)?;
-        }
-        if let Some(path) = &self.out {
-            let rows = format!("{} nodal diameters", survey.rows.len());
-            if format == Some("svg") {
-                let command = command.option("--out", "survey.svg");
-                let origin = Provenance { command, scene: scene.into_scene() };
-                let figure = report::figure(&survey, self.all);
-                output::save(path, &rows, out, |out| svg::write(&figure, &origin, out))?;
-            } else {
-                output::save(path, &rows, out, |out| report::table(&survey).write_csv(out))?;
-            }
-        }
-        if !self.json {
-            report::write(&survey, self.all, out)?;
-        }
+        self.output.deliver(&report::sheet(&survey, self.all, command), out)?;
         Ok(Status::Done)
     }
 

@@ -2,24 +2,22 @@
 //! unit errors, in sentences.
 
 use std::f64::consts::TAU;
-use std::io::{Result, Write};
 
 use super::line::{capital, wrapped};
 use super::margins::words;
 use super::number::{count, rounded, short, speed, with_unit};
 use super::survey;
 use super::table::WIDTH;
+use super::{CommandLine, Sheet};
 use crate::machine::doubts;
 use rubscope_solver::scene::{CheckedScene, ModelSize};
 use rubscope_solver::study::margins::{LimitName, Margins, Quantity};
 use rubscope_solver::study::survey::Scattered;
 
-/// Writes the sentences, one paragraph per subject.
-///
-/// # Errors
-/// The writer failed.
-pub fn write(scene: &CheckedScene, out: &mut dyn Write) -> Result<()> {
+/// Returns the sentences, a paragraph for each subject.
+pub fn sheet(scene: &CheckedScene, command: CommandLine) -> Sheet<'static> {
     let margins = Margins::of(scene);
+    let mut sheet = Sheet::new("check", 1, command, scene);
     let mut paragraphs =
         vec![scene.title.clone(), machine(scene), frequencies(scene), limits(&margins)];
     paragraphs.extend(Scattered::of(scene).map(|found| survey::of_scatter(scene, &found)));
@@ -28,10 +26,9 @@ pub fn write(scene: &CheckedScene, out: &mut dyn Write) -> Result<()> {
     if doubts.is_empty() {
         paragraphs.push(CHECKED.to_string());
     }
-    for text in paragraphs.iter().filter(|text| !text.is_empty()) {
-        wrapped(text, WIDTH).iter().try_for_each(|line| writeln!(out, "{line}"))?;
-    }
-    write_doubts(&doubts, out)
+    paragraphs.iter().for_each(|text| sheet.paragraph(text));
+    doubt_lines(&doubts).into_iter().for_each(|line| sheet.line(line));
+    sheet
 }
 
 /// Closing paragraph if no value looks like a unit error: the list of what was checked.
@@ -39,22 +36,20 @@ const CHECKED: &str = "Checked: radius, clearance, tip speed, pulse and the push
     size; frequency, modal mass and damping ratio of every mode, and their course over the \
     diameters. Nothing looks like a slip of a unit or a decimal point.";
 
-/// Writes the likely unit errors as a list, each in a sentence; nothing if there are none.
-///
-/// # Errors
-/// The writer failed.
-pub fn write_doubts(doubts: &[String], out: &mut dyn Write) -> Result<()> {
-    match doubts.len() {
-        0 => return Ok(()),
-        1 => writeln!(out, "This looks like a slip:")?,
-        _ => writeln!(out, "These look like a slip:")?,
-    }
+/// Lists the likely unit errors, each in a sentence; there are no lines without one.
+pub fn doubt_lines(doubts: &[String]) -> Vec<String> {
+    let mut lines = match doubts.len() {
+        0 => Vec::new(),
+        1 => vec!["This looks like a slip:".to_string()],
+        _ => vec!["These look like a slip:".to_string()],
+    };
     for doubt in doubts {
-        for (row, line) in wrapped(doubt, WIDTH - 2).iter().enumerate() {
-            writeln!(out, "{} {line}", if row == 0 { "-" } else { " " })?;
-        }
+        let wrapped = wrapped(doubt, WIDTH - 2).into_iter().enumerate();
+        lines.extend(
+            wrapped.map(|(row, line)| format!("{} {line}", if row == 0 { "-" } else { " " })),
+        );
     }
-    Ok(())
+    lines
 }
 
 fn machine(scene: &CheckedScene) -> String {

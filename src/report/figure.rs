@@ -5,35 +5,31 @@ use rubscope_solver::study::figures::Panel;
 
 /// Returns the data of a panel. If all series have points at the same x, there is one column for x
 /// and one per series; otherwise one row per point, with the name of its series.
-pub fn table(panel: &Panel) -> Table {
+pub fn table(panel: &Panel) -> Table<'_> {
     if panel.shares_x() { wide(panel) } else { long(panel) }
 }
 
-fn wide(panel: &Panel) -> Table {
+fn wide(panel: &Panel) -> Table<'_> {
     let unit = panel.y.column.split_once('_').map_or("", |(_, unit)| unit);
     let names = panel
         .series
         .iter()
         .map(|series| format!("{}_{unit}", series.name.replace(", ", "_").replace(' ', "_")));
-    let mut table = Table::new(std::iter::once(panel.x.column.to_string()).chain(names));
+    let headings = std::iter::once(panel.x.column.to_string()).chain(names);
     let xs = panel.series.first().map(|series| series.points.as_slice()).unwrap_or_default();
-    for (row, (x, _)) in xs.iter().enumerate() {
+    Table::new(headings, xs.len(), move |row| {
         let values = panel.series.iter().map(|series| series.points.get(row).map(|point| point.1));
-        table.push(
-            std::iter::once(TableCell::from(*x)).chain(values.map(TableCell::from)).collect(),
-        );
-    }
-    table
+        std::iter::once(xs[row].0.into()).chain(values.map(TableCell::from)).collect()
+    })
 }
 
-fn long(panel: &Panel) -> Table {
-    let mut table = Table::new(["series".into(), panel.x.column.clone(), panel.y.column.clone()]);
-    for series in &panel.series {
-        for &(x, y) in &series.points {
-            table.push(vec![series.name.as_str().into(), x.into(), y.into()]);
-        }
-    }
-    table
+fn long(panel: &Panel) -> Table<'_> {
+    let headings = ["series".into(), panel.x.column.clone(), panel.y.column.clone()];
+    let rows = panel.series.iter().flat_map(|series| {
+        let row = |&(x, y): &(f64, f64)| vec![series.name.as_str().into(), x.into(), y.into()];
+        series.points.iter().map(row)
+    });
+    Table::with_rows(headings, rows.collect())
 }
 
 #[cfg(test)]

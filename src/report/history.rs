@@ -1,8 +1,6 @@
 //! The history of a run as named columns.
 
-use std::io::{Result, Write};
-
-use super::table::{TableCell, write_csv};
+use super::table::Table;
 use rubscope_solver::motion::Sample;
 
 /// Largest number of values in a history, all columns together: 800 MB. With more, the system may
@@ -100,15 +98,12 @@ impl History {
         self.len() == 0
     }
 
-    /// Writes CSV: a header line, then one line per sample.
-    ///
-    /// # Errors
-    /// The writer failed.
-    pub fn write_csv(&self, out: &mut dyn Write) -> Result<()> {
-        let value =
-            |row: usize| move |column: &HistoryColumn| column.values.get(row).copied().into();
-        let row = |row| self.columns.iter().map(value(row)).collect::<Vec<TableCell>>();
-        write_csv(self.columns.iter().map(|column| &column.name), (0..self.len()).map(row), out)
+    /// Returns the table of the samples.
+    pub fn table(&self) -> Table<'_> {
+        let names = self.columns.iter().map(|column| column.name.clone());
+        Table::new(names, self.len(), |row| {
+            self.columns.iter().map(|column| column.values[row].into()).collect()
+        })
     }
 }
 
@@ -157,7 +152,7 @@ pub(super) mod tests {
         history.push(&sample(0.1 + 0.2));
         history.push(&sample(1.0 / 3.0 * 1e-9));
         let mut text = Vec::new();
-        history.write_csv(&mut text).unwrap();
+        history.table().write_csv(&mut text).unwrap();
         let mut reader = csv::Reader::from_reader(text.as_slice());
         let names: Vec<String> = reader.headers().unwrap().iter().map(String::from).collect();
         let mut rows = 0;

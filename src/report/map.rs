@@ -1,15 +1,13 @@
-//! The interaction map as JSON (`rubscope.map/1`), as CSV, as a figure with the boundary curves of
-//! its zones, and as text with one character per cell.
+//! The interaction map as a sheet: `rubscope.map/1` in JSON, a row for each cell, a figure with the
+//! boundary curves of its zones, and text with one character per cell.
 
-use std::io::{Result, Write};
-
-use serde::ser::{Serialize, SerializeMap, Serializer};
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::number::{per_speed, rounded, short, speed_unit};
 use super::summary::OF_WHAT;
 use super::symbols::greek;
-use super::{CommandLine, table};
+use super::table::Table;
+use super::{CommandLine, Sheet};
 use rubscope_solver::motion::Verdict;
 use rubscope_solver::scene::{Key, keys};
 use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
@@ -21,37 +19,37 @@ const TEXT_ROWS: usize = 40;
 const INDENT: usize = 14;
 const FRAME: usize = INDENT + 1;
 
-/// The map as JSON, written cell by cell, because the text may be much larger than the map in
-/// memory. Files omit the wall time, so that the same map gives the same file.
-#[derive(Clone, Copy, Debug)]
-pub struct MapJson<'a> {
-    /// The map.
-    pub map: &'a Map,
-    /// Whether to include the wall time of the computation; otherwise it is `null`.
-    pub with_time: bool,
+/// Returns the sheet of a map; its text is at most `width` characters wide.
+pub fn sheet(map: &Map, width: usize) -> Sheet<'_> {
+    let (plan, [x, y]) = (&map.plan, names(&map.plan));
+    let mut sheet = Sheet::new("map", 1, command(map), &plan.scene);
+    for (short, name, axis) in [("x", x, &plan.x), ("y", y, &plan.y)] {
+        sheet.fact(short, json!({ "path": axis.path, "log": axis.log }));
+        sheet.fact(name, axis.values());
+    }
+    for (name, value) in CELLS {
+        let row = move |row| {
+            let cells = (0..plan.x.count).map(|column| map.at(column, row as u32));
+            cells.map(|cell| cell.map_or(Value::Null, value)).collect()
+        };
+        sheet.list(name, plan.y.count as usize, row);
+    }
+    sheet.fact("wall_s", map.wall_s);
+    sheet.fact("runs", map.runs);
+    text(map, width).into_iter().for_each(|line| sheet.line(line));
+    sheet.filed(None, table(map));
+    sheet.picture(|| figure(map, &overlay::curves(plan)));
+    sheet
 }
 
-impl Serialize for MapJson<'_> {
-    fn serialize<S: Serializer>(&self, out: S) -> std::result::Result<S::Ok, S::Error> {
-        let Self { map, with_time } = *self;
-        let mut object = out.serialize_map(None)?;
-        object.serialize_entry("schema", "rubscope.map/1")?;
-        object.serialize_entry("program", &command(map).flag("--json", true).program())?;
-        object.serialize_entry("scene", &map.plan.scene.reported())?;
-        let names = names(&map.plan);
-        for (short, name, axis) in [("x", names[0], &map.plan.x), ("y", names[1], &map.plan.y)] {
-            object.serialize_entry(short, &json!({ "path": axis.path, "log": axis.log }))?;
-            object.serialize_entry(name, &axis.values())?;
-        }
-        object.serialize_entry("verdict", &Rows { map, value: |cell| cell.verdict })?;
-        object.serialize_entry("sensitive", &Rows { map, value: |cell| cell.sensitive })?;
-        let value = |cell: Cell| cell.depends_on_step;
-        object.serialize_entry("depends_on_step", &Rows { map, value })?;
-        object.serialize_entry("wall_s", &with_time.then_some(map.wall_s))?;
-        object.serialize_entry("runs", &map.runs)?;
-        object.end()
-    }
-}
+/// Name of a value of each cell in JSON, and the value.
+type CellValue = (&'static str, fn(Cell) -> Value);
+
+const CELLS: [CellValue; 3] = [
+    ("verdict", |cell| json!(cell.verdict)),
+    ("sensitive", |cell| json!(cell.sensitive)),
+    ("depends_on_step", |cell| json!(cell.depends_on_step)),
+];
 
 /// Returns the command that computes this map, all of its shares at once.
 pub fn command(map: &Map) -> CommandLine {
@@ -60,30 +58,6 @@ pub fn command(map: &Map) -> CommandLine {
         .option("--x", &plan.x)
         .option("--y", &plan.y)
         .flag("--no-sensitivity", !plan.sensitivity)
-}
-
-/// One value of each cell, as an array of rows in JSON; `null` for a cell that is not computed.
-struct Rows<'a, T> {
-    map: &'a Map,
-    value: fn(Cell) -> T,
-}
-
-impl<T: Serialize> Serialize for Rows<'_, T> {
-    fn serialize<S: Serializer>(&self, out: S) -> std::result::Result<S::Ok, S::Error> {
-        out.collect_seq((0..self.map.plan.y.count).map(|row| Row { rows: self, row }))
-    }
-}
-
-struct Row<'a, T> {
-    rows: &'a Rows<'a, T>,
-    row: u32,
-}
-
-impl<T: Serialize> Serialize for Row<'_, T> {
-    fn serialize<S: Serializer>(&self, out: S) -> std::result::Result<S::Ok, S::Error> {
-        let Rows { map, value } = self.rows;
-        out.collect_seq((0..map.plan.x.count).map(|column| map.at(column, self.row).map(value)))
-    }
 }
 
 /// Returns the last part of an axis key, such as `speed_rad_s`.
@@ -98,17 +72,15 @@ pub(super) fn names(plan: &MapPlan) -> [&str; 2] {
     if leaf(x) == leaf(y) { [&x.path, &y.path] } else { [leaf(x), leaf(y)] }
 }
 
-/// Writes the map as CSV, one line per cell.
-///
-/// # Errors
-/// The writer failed.
-pub fn write_csv(map: &Map, out: &mut dyn Write) -> Result<()> {
+/// Returns the table for files, one row per cell.
+pub fn table(map: &Map) -> Table<'_> {
     let (x, y) = (&map.plan.x, &map.plan.y);
-    let [first, second] = names(&map.plan);
-    let places = (0..y.count).flat_map(|row| (0..x.count).map(move |column| (row, column)));
-    let rows = places.map(|(row, column)| {
+    let [first, second] = names(&map.plan).map(String::from);
+    let headings = [first, second, "verdict".into(), "sensitive".into(), "depends_on_step".into()];
+    Table::new(headings, map.plan.len(), move |index| {
+        let (row, column) = (index as u32 / x.count, index as u32 % x.count);
         let cell = map.at(column, row);
-        [
+        vec![
             // A plain number: `to_string` never uses a power of ten.
             x.value(column).to_string().into(),
             y.value(row).to_string().into(),
@@ -116,8 +88,7 @@ pub fn write_csv(map: &Map, out: &mut dyn Write) -> Result<()> {
             cell.map(|cell| cell.sensitive).into(),
             cell.map(|cell| cell.depends_on_step).into(),
         ]
-    });
-    table::write_csv([first, second, "verdict", "sensitive", "depends_on_step"], rows, out)
+    })
 }
 
 /// Returns the factor from the SI unit of an axis to the unit shown: 1 except for speeds in rpm.
@@ -193,12 +164,9 @@ pub fn mark(cell: Option<Cell>) -> char {
     if cell.is_doubtful() { doubtful } else { sure }
 }
 
-/// Writes the map as text with a legend, the row of the largest y first. If it is wider than
+/// Returns the map as text with a legend, the row of the largest y first. If it is wider than
 /// `width` characters or has more than `TEXT_ROWS` rows, only every n-th column or row is shown.
-///
-/// # Errors
-/// The writer failed.
-pub fn write_text(map: &Map, width: usize, out: &mut dyn Write) -> Result<()> {
+fn text(map: &Map, width: usize) -> Vec<String> {
     let (x, y) = (&map.plan.x, &map.plan.y);
     let most = width.saturating_sub(FRAME).max(10);
     let across = (x.count as usize).div_ceil(most);
@@ -207,49 +175,49 @@ pub fn write_text(map: &Map, width: usize, out: &mut dyn Write) -> Result<()> {
         true => axis.path.replace("rad_s", &speed_unit().replace('/', "_")),
         false => axis.path.clone(),
     });
-    writeln!(out, "{up} (up) against {right} (right)")?;
+    let mut lines = vec![format!("{up} (up) against {right} (right)")];
     let told = |axis: &Axis, at: u32| short(rounded(factor(axis) * axis.value(at), 12));
     let rows: Vec<u32> = (0..y.count).step_by(down).collect();
     for &row in rows.iter().rev() {
         let line: String =
             (0..x.count).step_by(across).map(|column| mark(map.at(column, row))).collect();
-        writeln!(out, "{:>12} |{line}|", told(y, row))?;
+        lines.push(format!("{:>12} |{line}|", told(y, row)));
     }
     let columns = (x.count as usize).div_ceil(across);
     let (first, last) = (told(x, 0), told(x, x.count - 1));
     // On a map of very few columns, the last label extends past the cells.
     let room = columns.saturating_sub(first.len()).max(last.len() + 1);
-    writeln!(out, "{:>INDENT$}{first}{last:>room$}", "")?;
-    write_speeds(map, across, columns, out)?;
+    lines.push(format!("{:>INDENT$}{first}{last:>room$}", ""));
+    lines.extend(speeds(map, across, columns));
     if across > 1 || down > 1 {
         let part = |of: usize, noun: &str| match of {
             1 => format!("every {noun}"),
             _ => format!("one {noun} of {of}"),
         };
-        writeln!(out, "Shown is {} and {}.", part(across, "column"), part(down, "row"))?;
+        lines.push(format!("Shown is {} and {}.", part(across, "column"), part(down, "row")));
     }
-    write_legend(map, out)
+    lines.extend(legend(map));
+    lines
 }
 
 /// Marks the columns of the critical speed and the lock speed below a map with speeds to the right,
 /// unless they depend on the row. Every `across`-th column of the map is shown.
-fn write_speeds(map: &Map, across: usize, columns: usize, out: &mut dyn Write) -> Result<()> {
-    for curve in overlay::speed_curves(&map.plan) {
-        let Some(&(speed, _)) = curve.points.first() else { continue };
+fn speeds(map: &Map, across: usize, columns: usize) -> Vec<String> {
+    let line = |curve: overlay::Curve| {
+        let &(speed, _) = curve.points.first()?;
         let column = (map.plan.x.place(speed) / across as f64).round();
         let upright = curve.points.iter().all(|point| point.0 == speed);
         if map.plan.x.path != keys::SPEED || !upright || !(0.0..columns as f64).contains(&column) {
-            continue;
+            return None;
         }
         let (column, name) =
             (column as usize, format!("{} = {}", curve.name, short(per_speed(speed))));
-        if column + 2 + name.len() <= columns.max(40) {
-            writeln!(out, "{:>1$}^ {name}", "", INDENT + column)?;
-        } else {
-            writeln!(out, "{name:>0$} ^", (INDENT + column).saturating_sub(1))?;
-        }
-    }
-    Ok(())
+        Some(match column + 2 + name.len() <= columns.max(40) {
+            true => format!("{:>1$}^ {name}", "", INDENT + column),
+            false => format!("{name:>0$} ^", (INDENT + column).saturating_sub(1)),
+        })
+    };
+    overlay::speed_curves(&map.plan).into_iter().filter_map(line).collect()
 }
 
 /// Explains a verdict in a few words, for the legend.
@@ -267,17 +235,16 @@ pub fn means(verdict: Verdict) -> &'static str {
     }
 }
 
-fn write_legend(map: &Map, out: &mut dyn Write) -> Result<()> {
+fn legend(map: &Map) -> Vec<String> {
     let (census, [sensitive, by_step]) = map.census();
     let cells = map.cells.len();
-    for (verdict, count) in census.into_iter().filter(|&(_, count)| count > 0) {
-        let plain = mark(Some(Cell::of(verdict)));
-        let means = means(verdict);
-        writeln!(out, "{plain}  {verdict}, {means}: {count} of {cells} cells")?;
-    }
-    if sensitive + by_step == 0 {
-        return Ok(());
-    }
+    let present = census.into_iter().filter(|&(_, count)| count > 0);
+    let mut lines: Vec<String> = present
+        .map(|(verdict, count)| {
+            let plain = mark(Some(Cell::of(verdict)));
+            format!("{plain}  {verdict}, {}: {count} of {cells} cells", means(verdict))
+        })
+        .collect();
     let doubtful = |verdict| Cell { sensitive: true, ..Cell::of(verdict) };
     let letters = Verdict::ALL.map(|verdict| mark(Some(doubtful(verdict))));
     let letters = letters.map(String::from).join(" ");
@@ -287,14 +254,16 @@ fn write_legend(map: &Map, out: &mut dyn Write) -> Result<()> {
     };
     if sensitive > 0 {
         let marked = cells(sensitive, "sensitive");
-        writeln!(out, "A letter ({letters}) marks {marked}, where a change of 1e-9")?;
-        writeln!(out, "{OF_WHAT} changes the verdict or the number of impacts.")?;
+        lines.push(format!("A letter ({letters}) marks {marked}, where a change of 1e-9"));
+        lines.push(format!("{OF_WHAT} changes the verdict or the number of impacts."));
     }
     if by_step > 0 {
         let marked = cells(by_step, "doubtful");
-        writeln!(out, "A letter ({letters}) marks {marked}, where another step ends otherwise.")?;
+        lines.push(format!(
+            "A letter ({letters}) marks {marked}, where another step ends otherwise."
+        ));
     }
-    Ok(())
+    lines
 }
 
 #[cfg(test)]
@@ -323,9 +292,7 @@ mod tests {
         let axis = |path: &str, to: f64| Axis::new(path, 300.0, to, 3, false).unwrap();
         let (x, y) = (axis(keys::SPEED, 430.5), axis(keys::PULSE, 1e4));
         let map = Map::empty(MapPlan { scene: Scene::base(), x, y, sensitivity: false });
-        let mut text = Vec::new();
-        write_text(&map, 80, &mut text).unwrap();
-        let text = String::from_utf8(text).unwrap();
-        assert!(text.contains("\n              300 430.5\n"), "{text}");
+        let text = text(&map, 80);
+        assert!(text.contains(&"              300 430.5".to_string()), "{text:?}");
     }
 }

@@ -6,7 +6,6 @@ pub mod command;
 pub mod figure;
 pub mod hbm;
 pub mod history;
-pub mod json;
 pub mod line;
 pub mod map;
 pub mod margins;
@@ -14,6 +13,7 @@ pub mod number;
 pub mod part;
 pub mod precision;
 pub mod sentence;
+mod sheet;
 pub mod summary;
 pub mod survey;
 pub mod svg;
@@ -23,6 +23,7 @@ pub mod ticks;
 
 pub use command::{CommandLine, Provenance};
 pub use history::History;
+pub use sheet::Sheet;
 
 /// Wall times of a run and of its sensitivity check.
 #[derive(Clone, Copy, Debug, Default)]

@@ -9,7 +9,7 @@ use std::io::{BufRead, BufReader, Read, Write};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::{map::names, table};
+use super::{map::names, table::Table};
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::{Axis, AxisError, Cell, Map, MapPlan};
 
@@ -75,19 +75,23 @@ pub fn write(map: &Map, out: &mut dyn Write) -> std::io::Result<()> {
     let origin = Origin { scene, x: x.clone(), y: y.clone(), sensitivity };
     writeln!(out, "{START}{}", serde_json::to_string(&origin)?)?;
     let computed = map.cells.iter().enumerate().filter_map(|(index, cell)| Some((index, (*cell)?)));
-    let rows = computed.map(|(index, cell)| {
+    let computed: Vec<(usize, Cell)> = computed.collect();
+    let [x_name, y_name] = names(&map.plan).map(String::from);
+    let headings = ["cell", &x_name, &y_name, "verdict", "sensitive", "depends_on_step"];
+    let headings = headings.map(String::from);
+    let table = Table::new(headings, computed.len(), |place| {
+        let (index, cell) = computed[place];
         let (row, column) = (index / x.count as usize, index % x.count as usize);
-        [
-            index.to_string().into(),
+        vec![
+            (index as u64).into(),
             x.value(column as u32).to_string().into(),
             y.value(row as u32).to_string().into(),
-            cell.verdict.to_string().into(),
+            cell.verdict.as_ref().into(),
             cell.sensitive.into(),
             cell.depends_on_step.into(),
         ]
     });
-    let [x, y] = names(&map.plan);
-    table::write_csv(["cell", x, y, "verdict", "sensitive", "depends_on_step"], rows, out)
+    table.write_csv(out)
 }
 
 /// Reads named shares of one map and joins them.

@@ -1,10 +1,9 @@
 //! Run time against error of the solvers: as a table, as CSV, and as a log-log figure.
 
-use std::io::{Result, Write};
-
 use super::number::{count, rounded, short, time};
 use super::summary::OF_WHAT;
 use super::table::{Column, Heading, Table, TableCell};
+use super::{CommandLine, Sheet};
 use rubscope_solver::scene::{ContactLaw, ModelSize, SolverKind};
 use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
 use rubscope_solver::study::precision::{Method, Precision, Reference, Row, Way};
@@ -77,9 +76,9 @@ pub fn reference_words(reference: &Reference) -> String {
 }
 
 /// Returns the measurements as a table; files get more columns than the screen.
-pub fn table(report: &Precision) -> Table {
+pub fn table(report: &Precision) -> Table<'_> {
     let head = |name, words, digits| Heading::from(name).words(words).digits(digits);
-    let columns: &[Column<'_, Row, Heading>] = &[
+    let columns: Vec<Column<'_, Row, Heading>> = vec![
         ("solver".into(), |row| row.way.solver.as_ref().into()),
         ("contact".into(), |row| row.way.contact.as_ref().into()),
         ("model".into(), |row| row.way.model.as_ref().into()),
@@ -94,9 +93,9 @@ pub fn table(report: &Precision) -> Table {
             TableCell::Told(row.wall_s, short(rounded(1e6 * row.wall_s, 3)))
         }),
         (head("ns_per_step", "ns/step", 3), |row| row.ns_per_step.into()),
-        (head("steps", "taken", 6), |row| count_of(row.steps)),
-        (head("steps_skipped", "skipped", 6), |row| count_of(row.steps_skipped)),
-        (Heading::filed("events"), |row| count_of(row.events)),
+        (head("steps", "taken", 6), |row| row.steps.into()),
+        (head("steps_skipped", "skipped", 6), |row| row.steps_skipped.into()),
+        (Heading::filed("events"), |row| row.events.into()),
         ("verdict".into(), |row| row.verdict.as_ref().into()),
         (Heading::filed("verdict_right"), |row| row.verdict_right.into()),
         (Heading::filed("other_law"), |row| row.other_law.into()),
@@ -117,46 +116,41 @@ pub fn table(report: &Precision) -> Table {
     table
 }
 
-fn count_of(steps: Option<u64>) -> TableCell {
-    steps.map(|n| n as f64).into()
-}
-
-/// Writes the reference and the table as text.
-///
-/// # Errors
-/// The writer failed.
-pub fn write(report: &Precision, out: &mut dyn Write) -> Result<()> {
+/// Returns the sheet of the measurements; `command` reproduces it.
+pub fn sheet(report: &Precision, command: CommandLine) -> Sheet<'_> {
     let reference = &report.reference;
-    writeln!(out, "{}", report.scene.title)?;
-    writeln!(
-        out,
+    let mut sheet = Sheet::new("precision", 1, command, &report.scene);
+    sheet.facts(report);
+    sheet.line(&report.scene.title);
+    sheet.line(format!(
         "Reference: {}: {}, {}, {}.",
         reference_origin(reference),
         reference.verdict,
         count(reference.impact_count, "impact"),
         time(reference.wall_s),
-    )?;
-    writeln!(out, "{}", goodness(reference))?;
+    ));
+    sheet.line(goodness(reference));
     if report.scene.has_slope_or_friction() && reference.method == Method::Events {
-        writeln!(
-            out,
+        sheet.line(
             "It is linearised: blade angles inside the phase of the gap are left out, which the \
-             explicit solver keeps; errors do not fall below that."
-        )?;
+             explicit solver keeps; errors do not fall below that.",
+        );
     }
     if reference.sensitive {
         let same_law = || report.rows.iter().filter(|row| !row.other_law);
         let right = same_law().filter(|row| !row.is_wrong()).count();
-        writeln!(
-            out,
+        sheet.line(format!(
             "This scene is sensitive: a change of 1e-9 {OF_WHAT} changes its outcome. \
              End states are not compared; {right} of {} ways under the same contact law agree \
              with the verdict of the reference.",
             same_law().count()
-        )?;
+        ));
     }
-    writeln!(out)?;
-    table(report).write_text(out)
+    sheet.shown("", table(report));
+    if let Some(figure) = figure(report) {
+        sheet.picture(move || figure.clone());
+    }
+    sheet
 }
 
 /// Position of a row in a chart with two logarithmic axes.
@@ -185,23 +179,13 @@ pub fn decades(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     (low <= high).then(|| (low.floor(), high.ceil().max(low.floor() + 1.0)))
 }
 
-/// Returns the figure: error at the end against wall time, both on logarithmic axes.
-///
-/// # Errors
-/// There is nothing to draw, for this reason.
-pub fn figure(report: &Precision) -> std::result::Result<Figure, String> {
+/// Returns the figure: error at the end against wall time, both on logarithmic axes; `None` if no
+/// row has an error above 0.
+pub fn figure(report: &Precision) -> Option<Figure> {
     let placed: Vec<&Row> = report.rows.iter().filter(|row| place(row).is_some()).collect();
     let is_zero = |row: &Row| row.error_final == Some(0.0);
     if placed.iter().all(|row| is_zero(row)) {
-        let why = match report.reference.method {
-            _ if !placed.is_empty() => {
-                return Err("every error is 0, which a logarithmic axis cannot show".to_string());
-            }
-            Method::None => WHY_NONE,
-            _ if report.reference.sensitive => "the scene is sensitive",
-            _ => "every run fails",
-        };
-        return Err(format!("{why}: there are no errors to draw"));
+        return None;
     }
     let at = |row: &&Row| Some((row.wall_s, row.error_final?));
     let mut all: Vec<Series> = Vec::new();
@@ -217,7 +201,7 @@ pub fn figure(report: &Precision) -> std::result::Result<Figure, String> {
     let x = Quantity::log("wall_s", "wall time [s]");
     let y = Quantity::log("error_final", "error at the end [of the clearance]");
     let title = format!("Speed against error: {}", report.scene.title);
-    Ok(Figure::new(title, "", vec![Panel::new("", x, y, all)]))
+    Some(Figure::new(title, "", vec![Panel::new("", x, y, all)]))
 }
 
 /// Returns the name of a series, with a remark if its contact law is not the reference's.

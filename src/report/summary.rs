@@ -1,12 +1,13 @@
-//! The text summary of a run, one fact per line.
+//! The sheet of a run: its summary in text, one fact a line, `rubscope.run/1` in JSON, and the
+//! history.
 
-use std::io::{Result, Write};
+use serde_json::{Value, json};
 
-use super::Wall;
 use super::line::capital;
 use super::number::Digits;
 use super::number::{count, grouped, per_speed, rounded, short, speed, time};
 use super::sentence::Facts;
+use super::{CommandLine, History, Sheet, Wall};
 use rubscope_solver::harmonic::lock_window;
 use rubscope_solver::model::Machine;
 use rubscope_solver::motion::{Basis, Contact, Proof, RunReport};
@@ -24,41 +25,77 @@ const CONTACTS_TOLD: usize = 4;
 /// double precision may leave a few hundred units in the last place.
 const ROUND_OFF: f64 = 1e-13;
 
-/// Writes the summary of a run and its wall times.
-///
-/// # Errors
-/// The writer failed.
-pub fn write(report: &RunReport, wall: Wall, out: &mut dyn Write) -> Result<()> {
-    let machine = report.scene.machine();
-    if !report.scene.title.is_empty() {
-        writeln!(out, "{}", report.scene.title)?;
+/// Returns the sheet of a run with its wall times, the `changes` made during the run, as text and as
+/// JSON, and the samples for files. `command` reproduces it.
+pub fn sheet<'a>(
+    report: &RunReport,
+    wall: Wall,
+    changes: Option<(String, Value)>,
+    history: &'a History,
+    command: CommandLine,
+) -> Sheet<'a> {
+    let mut sheet = Sheet::new("run", 1, command, &report.scene);
+    sheet.facts(&fields(report, wall));
+    lines(report, wall).into_iter().for_each(|line| sheet.line(line));
+    if let Some((text, json)) = changes {
+        sheet.line(format!("Changed during the run: {text}."));
+        sheet.fact("changes", json);
     }
-    writeln!(out, "{}", how(report))?;
-    let scene = &report.scene;
-    for note in scene.modes_note().into_iter().chain(scene.start_note()) {
-        writeln!(out, "{}.", capital(&note))?;
+    sheet.filed(None, history.table());
+    sheet.chart("casing [m]", &[["u_c_m", "u_c"], ["u_s_m", "u_s"]]);
+    sheet.chart("smallest gap [m]", &[["gap_min_m", "gap"]]);
+    sheet.chart(
+        "multiplier [N]",
+        &[["multiplier_min_n", "smallest"], ["multiplier_max_n", "largest"]],
+    );
+    sheet
+}
+
+/// Returns the fields of the JSON report: those of the run, its wall times and the two sentences of
+/// the headline.
+fn fields(report: &RunReport, wall: Wall) -> Value {
+    let mut value = json!(report);
+    value["solver"]["wall_s"] = json!(wall.run_s);
+    value["solver"]["certainty_s"] = json!(wall.certainty_s);
+    let facts = Facts::of(report);
+    let told = facts.sentence(usize::MAX);
+    value["outcome"]["state"] = json!(told.state());
+    value["outcome"]["history"] = json!(told.history);
+    if let Some(growth) = facts.growth {
+        value["outcome"]["growth_1_s"] = json!(growth);
     }
     if let Some(note) = report.scene.share_note() {
-        writeln!(out, "{}.", capital(note))?;
+        value["notes"] = json!([note]);
     }
+    value
+}
+
+/// Returns the summary as text, one fact a line.
+pub fn lines(report: &RunReport, wall: Wall) -> Vec<String> {
+    let (scene, machine) = (&report.scene, report.scene.machine());
+    let mut lines = Vec::new();
+    if !scene.title.is_empty() {
+        lines.push(scene.title.clone());
+    }
+    lines.push(how(report));
+    let notes = scene.modes_note().into_iter().chain(scene.start_note());
+    let notes = notes.chain(scene.share_note().map(String::from));
+    lines.extend(notes.map(|note| format!("{}.", capital(&note))));
     if report.solver.linearised {
-        writeln!(out, "Blade angles inside the gap's phase are left out (linearised).")?;
+        lines.push("Blade angles inside the gap's phase are left out (linearised).".into());
     }
-    writeln!(out)?;
+    lines.push(String::new());
     let told = Facts::of(report).sentence(usize::MAX);
-    writeln!(out, "Verdict: {}", told.verdict_line())?;
-    told.history.iter().try_for_each(|history| writeln!(out, "{history}"))?;
-    if let Some(message) = &report.outcome.message {
-        writeln!(out, "Reason: {message}.")?;
-    }
-    for line in doubts(report) {
-        writeln!(out, "{line}")?;
-    }
-    writeln!(out)?;
-    motion(report, &machine, out)?;
-    writeln!(out)?;
-    checks(report, &machine, out)?;
-    writeln!(out, "{}", cost(report, wall))
+    lines.push(format!("Verdict: {}", told.verdict_line()));
+    lines.extend(told.history);
+    lines.extend(report.outcome.message.as_ref().map(|message| format!("Reason: {message}.")));
+    lines.extend(doubts(report));
+    lines.push(String::new());
+    lines.extend(motion(report, &machine));
+    lines.push(String::new());
+    lines.extend(checks(report, &machine));
+    lines.push(cost(report, wall));
+    lines
 }
 
 /// Describes the solver, the contact law, the model and the conditions of the run.
@@ -132,49 +169,45 @@ fn basis(basis: Basis) -> String {
     }
 }
 
-fn motion(report: &RunReport, machine: &Machine, out: &mut dyn Write) -> Result<()> {
+fn motion(report: &RunReport, machine: &Machine) -> Vec<String> {
     let outcome = &report.outcome;
     let (spread, digits) = (outcome.spread.as_ref(), Digits::of(outcome.spread.is_some()));
+    let mut lines = Vec::new();
     if let Some(since) = outcome.lock_time_s {
         let since = digits.shown(since, spread.and_then(|spread| spread.lock_time_s), time);
-        writeln!(out, "Held by the same blades since {since}.")?;
+        lines.push(format!("Held by the same blades since {since}."));
     }
     let moved = |group: usize| *spread?.multipliers_n.get(group)?;
     if outcome.contacts.len() > CONTACTS_TOLD {
-        writeln!(out, "{}", many_touch(&outcome.contacts, &moved, &digits))?;
+        lines.push(many_touch(&outcome.contacts, &moved, &digits));
     } else {
-        for (group, contact) in outcome.contacts.iter().enumerate() {
-            writeln!(out, "{}", touch(contact, moved(group), &digits))?;
-        }
+        let each = outcome.contacts.iter().enumerate();
+        lines.extend(each.map(|(group, contact)| touch(contact, moved(group), &digits)));
     }
     let (length, moved) = (outcome.amplitude_m, spread.and_then(|spread| spread.amplitude_m));
     let g0 = machine.clearance().abs();
     let part = digits.shown(length / g0, moved.map(|moved| moved / g0), short);
-    writeln!(
-        out,
+    lines.push(format!(
         "Amplitude of the casing wave at the end: {} m, {part} of the {}.",
         digits.shown(length, moved, short),
         room(machine)
-    )?;
+    ));
     if let Some(wave) = outcome.wave_speed_rad_s {
         let wave = digits.shown(wave, spread.and_then(|spread| spread.wave_speed_rad_s), speed);
-        writeln!(out, "The wave turns at {wave}.")?;
+        lines.push(format!("The wave turns at {wave}."));
     }
-    if let Some(note) = digits.note() {
-        writeln!(out, "{note}")?;
-    }
-    if let Some(rests_on) = outcome.basis {
-        writeln!(out, "{}", basis(rests_on))?;
-    }
+    lines.extend(digits.note().map(String::from));
+    lines.extend(outcome.basis.map(basis));
     if let Some(rate) = outcome.decay_rate_per_s.filter(|rate| *rate != 0.0) {
         let does = if rate < 0.0 { "grows" } else { "dies" };
-        writeln!(out, "The wave {does} at {} 1/s.", short(rate.abs()))?;
+        lines.push(format!("The wave {does} at {} 1/s.", short(rate.abs())));
     }
-    writeln!(out, "{}", speeds(report, machine))?;
+    lines.push(speeds(report, machine));
     if let Some(dangerous) = machine.coincidence_felt_at(report.end_speed_rad_s) {
-        writeln!(out, "Dangerous coincidence speed: {}.", speed(dangerous))?;
+        lines.push(format!("Dangerous coincidence speed: {}.", speed(dangerous)));
     }
-    writeln!(out, "{}", impacts(report))
+    lines.push(impacts(report));
+    lines
 }
 
 /// Names the length that penetrations are compared with: a negative clearance is an interference.
@@ -270,26 +303,28 @@ fn impacts(report: &RunReport) -> String {
     format!("{least}{counted}: {start}{}.{series}", listed.join("; "))
 }
 
-fn checks(report: &RunReport, machine: &Machine, out: &mut dyn Write) -> Result<()> {
+fn checks(report: &RunReport, machine: &Machine) -> Vec<String> {
     let checks = &report.checks;
     let smooth = report.solver.contact == ContactLaw::Smooth;
     let name = if smooth { "Deepest in the lining" } else { "Deepest penetration" };
+    let mut lines = Vec::new();
     if checks.max_penetration_m < ROUND_OFF * machine.clearance().abs() {
-        writeln!(out, "{name}: none beyond round-off.")?;
+        lines.push(format!("{name}: none beyond round-off."));
     } else {
         let deepest = short(checks.max_penetration_m);
         let part = short(checks.max_penetration_m / machine.clearance().abs());
-        writeln!(out, "{name}: {deepest} m, {part} of the {}.", room(machine))?;
+        lines.push(format!("{name}: {deepest} m, {part} of the {}.", room(machine)));
     }
     if let Some(predicted) = checks.max_predicted_penetration_m {
-        writeln!(out, "Deepest penetration predicted before correction: {} m.", short(predicted))?;
+        let predicted = short(predicted);
+        lines.push(format!("Deepest penetration predicted before correction: {predicted} m."));
     }
-    writeln!(out, "Steps with a pulling multiplier: {}.", checks.tensile_steps)?;
-    writeln!(out, "Blade angle: at most {} rad.", short(checks.max_blade_angle_rad))?;
+    lines.push(format!("Steps with a pulling multiplier: {}.", checks.tensile_steps));
+    lines.push(format!("Blade angle: at most {} rad.", short(checks.max_blade_angle_rad)));
     if let Some(residual) = checks.energy_residual_j {
-        writeln!(out, "Energy not accounted for: {} J.", short(residual))?;
+        lines.push(format!("Energy not accounted for: {} J.", short(residual)));
     }
-    Ok(())
+    lines
 }
 
 fn cost(report: &RunReport, wall: Wall) -> String {
@@ -343,10 +378,8 @@ mod tests {
     }
 
     fn text_of(report: &RunReport) -> String {
-        let mut text = Vec::new();
         let wall = Wall { run_s: 0.25, certainty_s: report.outcome.sensitive.map(|_| 0.67) };
-        write(report, wall, &mut text).unwrap();
-        String::from_utf8(text).unwrap()
+        lines(report, wall).join("\n")
     }
 
     #[test]

@@ -3,12 +3,11 @@
 
 use std::borrow::Cow;
 use std::f64::consts::TAU;
-use std::io::{Result, Write};
 
-use super::line::wrapped;
 use super::margins::words;
 use super::number::{count, per_speed, rounded, short, speed, speed_unit, time};
-use super::table::{Heading, Table, TableCell, WIDTH};
+use super::table::{Heading, Table, TableCell};
+use super::{CommandLine, Sheet};
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
 use rubscope_solver::study::margins::LimitName;
@@ -42,17 +41,13 @@ fn present<'a>(
 }
 
 /// Returns the table for files: one row per limit, and one for nodal diameters without any.
-pub fn table(survey: &Survey) -> Table {
+pub fn table(survey: &Survey) -> Table<'static> {
     let names = "nodal_diameters,omega_c_rad_s,omega_bd_rad_s,name,value_rad_s,margin,in_range,by";
-    let mut table = Table::new(names.split(','));
+    let mut rows: Vec<Vec<TableCell>> = Vec::new();
     for row in &survey.rows {
-        let own = [
-            f64::from(row.nodal_diameters).into(),
-            row.omega_c_rad_s.into(),
-            row.omega_bd_rad_s.into(),
-        ];
+        let own = [row.nodal_diameters.into(), row.omega_c_rad_s.into(), row.omega_bd_rad_s.into()];
         if row.limits.is_empty() {
-            table.push(own.to_vec());
+            rows.push(own.iter().cloned().chain(vec![TableCell::Empty; 5]).collect());
         }
         for limit in &row.limits {
             let of_limit = [
@@ -62,38 +57,36 @@ pub fn table(survey: &Survey) -> Table {
                 limit.in_range.into(),
                 limit.by.into(),
             ];
-            table.push(own.iter().cloned().chain(of_limit).collect());
+            rows.push(own.iter().cloned().chain(of_limit).collect());
         }
     }
-    table
+    Table::with_rows(names.split(','), rows)
 }
 
-/// Writes the survey as text; with `all`, also nodal diameters without modes of their own.
-///
-/// # Errors
-/// The writer failed.
-pub fn write(survey: &Survey, all: bool, out: &mut dyn Write) -> Result<()> {
-    let scene = &survey.scene;
-    let mut tell =
-        |text: &str| wrapped(text, WIDTH).iter().try_for_each(|line| writeln!(out, "{line}"));
-    tell(&scene.title)?;
-    tell(&answer(survey, all))?;
+/// Returns the sheet of the survey; with `all`, its text and picture have nodal diameters without
+/// modes of their own, too. `command` reproduces it.
+pub fn sheet(survey: &Survey, all: bool, command: CommandLine) -> Sheet<'_> {
+    let mut sheet = Sheet::new("survey", 1, command, &survey.scene);
+    sheet.facts(survey);
+    sheet.paragraph(&survey.scene.title);
+    sheet.paragraph(&answer(survey, all));
     let marks = if survey.range_rad_s.is_some() { " * marks a limit in the range." } else { "" };
-    tell(&(head(survey) + marks))?;
+    sheet.paragraph(&(head(survey) + marks));
     let shown = survey.shown(all);
-    notes(survey, &shown).iter().try_for_each(|note| tell(note))?;
-    writeln!(out)?;
-    let mut table = rows(survey, &shown[..shown.len().min(ROWS)]);
+    notes(survey, &shown).iter().for_each(|note| sheet.paragraph(note));
+    let mut rows = rows(survey, &shown[..shown.len().min(ROWS)]).within(WIDEST);
     let others = survey.rows.len() - shown.len();
     if shown.len() > ROWS {
-        table.note(format!("and {} more: --json or --out", shown.len() - ROWS));
+        rows.note(format!("and {} more: --json or --out", shown.len() - ROWS));
     }
     if others > 0 {
-        table.note(format!("{others} more have no modes of their own: --all shows them, with ?."));
+        rows.note(format!("{others} more have no modes of their own: --all shows them, with ?."));
     }
-    table.write_text_in(WIDEST, out)?;
-    writeln!(out)?;
-    writeln!(out, "Computed in {}.", time(rounded(survey.wall_s, 2)))
+    sheet.shown("", rows);
+    sheet.filed(None, table(survey));
+    sheet.picture(move || figure(survey, all));
+    sheet.time(format!("Computed in {}.", time(rounded(survey.wall_s, 2))));
+    sheet
 }
 
 /// Returns the remarks of the survey, and those that apply to at least one of the rows shown.
@@ -307,7 +300,7 @@ fn at_speed(survey: &Survey) -> String {
 
 /// Returns a row for each of these nodal diameters: verdict, bar, modes \[Hz\], and the limits for
 /// the sense of rotation of the survey.
-pub fn rows(survey: &Survey, shown: &[&SurveyRow]) -> Table {
+pub fn rows(survey: &Survey, shown: &[&SurveyRow]) -> Table<'static> {
     let limits: Vec<_> = present(shown).collect();
     let [from, to] = ends(survey).map(shown_speed);
     let of_bar = format!("{from:<0$}{to}", BAR.saturating_sub(to.len()));
@@ -316,9 +309,9 @@ pub fn rows(survey: &Survey, shown: &[&SurveyRow]) -> Table {
     let heads = ["n_d", "verdict"].into_iter().chain(whirls.then_some("whirl"));
     let heads = heads.chain([of_bar.as_str(), "casing", "disk"]);
     let heads = heads.chain(limits.iter().map(|limit| limit.1));
-    let mut table = Table::new(heads.map(|head| Heading::shown(head.to_string())));
+    let heads: Vec<Heading> = heads.map(|head| Heading::shown(head.to_string())).collect();
     let cell = |x: f64, sign: &str| TableCell::Told(x, short(rounded(x, 5)) + sign);
-    for row in shown {
+    let row = |row: &&SurveyRow| {
         let here = row.nodal_diameters == survey.scene.operation.nodal_diameters;
         let (sign, known) = (if here { ">" } else { " " }, if row.guessed { "?" } else { "" });
         let own = format!("{sign}{}{known}", row.nodal_diameters);
@@ -333,9 +326,9 @@ pub fn rows(survey: &Survey, shown: &[&SurveyRow]) -> Table {
                 cell(per_speed(limit.value.abs()), &format!("{sign}{by}"))
             })
         });
-        table.push(words.chain(modes).chain(limits).collect());
-    }
-    table
+        words.chain(modes).chain(limits).collect()
+    };
+    Table::with_rows(heads, shown.iter().map(row).collect())
 }
 
 /// Colour number of lines that are not limits.

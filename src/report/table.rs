@@ -1,8 +1,11 @@
 //! A table: headings with names for files and words for people, rows of cells, and notes.
-//! Text, CSV, the page and the screen are written from it.
+//! Text, CSV, JSON, the page and the screen are written from it.
 
 use std::borrow::Cow;
 use std::io::{Result, Write};
+
+use serde::{Serialize, Serializer};
+use serde_json::{Value, json};
 
 use super::line::wrapped;
 use super::number::{exact, per_speed, rounded, short, speed_unit};
@@ -21,15 +24,19 @@ pub enum TableCell {
     /// A number for files, which leave the cell empty if it is not finite, and its text for the
     /// screen.
     Told(f64, String),
+    /// A whole number.
+    Count(u64),
+    /// Yes or no.
+    Flag(bool),
     /// A word or two.
     Word(String),
     /// No value: empty in files, `-` on the screen.
     Empty,
 }
 
-/// Names of columns of rotor or wave speeds, which text shows in the unit the user chose. CSV keeps
+/// Names of columns of rotor or wave speeds, which text shows in the unit the user chose. Files keep
 /// rad/s.
-const SPEEDS: [&str; 3] = ["speed_rad_s", "wave_speed_rad_s", "speed [rad/s]"];
+const SPEEDS: [&str; 2] = ["speed_rad_s", "wave_speed_rad_s"];
 
 /// The heading of a column.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,7 +59,7 @@ impl<S: Into<Cow<'static, str>>> From<S> for Heading {
         let name = name.into();
         let speeds = SPEEDS.contains(&name.as_ref());
         let words = if speeds && speed_unit() == "rpm" {
-            name.replace("rad_s", "rpm").replace("rad/s", "rpm").into()
+            name.replace("rad_s", "rpm").into()
         } else {
             name.clone()
         };
@@ -92,6 +99,8 @@ impl Heading {
                 short(if self.digits < DIGITS { rounded(x, self.digits) } else { x })
             }
             TableCell::Told(_, text) | TableCell::Word(text) => text.clone(),
+            TableCell::Count(n) => n.to_string(),
+            TableCell::Flag(yes) => yes.to_string(),
             TableCell::Empty => "-".to_string(),
         }
     }
@@ -102,7 +111,20 @@ impl TableCell {
         match self {
             Self::Number(x) | Self::Told(x, _) if x.is_finite() => exact(*x),
             Self::Word(word) => word.clone(),
+            Self::Count(n) => n.to_string(),
+            Self::Flag(yes) => yes.to_string(),
             Self::Number(_) | Self::Told(..) | Self::Empty => String::new(),
+        }
+    }
+
+    fn in_json(&self) -> Value {
+        match self {
+            // A number that is not finite is `null`.
+            Self::Number(x) | Self::Told(x, _) => json!(x),
+            Self::Count(n) => json!(n),
+            Self::Flag(yes) => json!(yes),
+            Self::Word(word) => json!(word),
+            Self::Empty => Value::Null,
         }
     }
 }
@@ -121,7 +143,19 @@ impl<T: Into<TableCell>> From<Option<T>> for TableCell {
 
 impl From<bool> for TableCell {
     fn from(yes: bool) -> Self {
-        Self::Word(yes.to_string())
+        Self::Flag(yes)
+    }
+}
+
+impl From<u64> for TableCell {
+    fn from(n: u64) -> Self {
+        Self::Count(n)
+    }
+}
+
+impl From<u32> for TableCell {
+    fn from(n: u32) -> Self {
+        Self::Count(n.into())
     }
 }
 
@@ -137,65 +171,77 @@ impl From<String> for TableCell {
     }
 }
 
-/// Writes a header line and rows as CSV. Numbers have the fewest digits that read back exactly; a
-/// cell without a finite number is empty.
-pub(crate) fn write_csv<R: IntoIterator<Item = TableCell>>(
-    names: impl IntoIterator<Item = impl AsRef<[u8]>>,
-    rows: impl IntoIterator<Item = R>,
-    out: &mut dyn Write,
-) -> Result<()> {
-    let mut csv = csv::Writer::from_writer(out);
-    csv.write_record(names)?;
-    rows.into_iter()
-        .try_for_each(|row| csv.write_record(row.into_iter().map(|cell| cell.in_csv())))?;
-    csv.flush()
-}
-
 /// A column of a table: its heading, and the function that makes its cell from an item.
 pub type Column<'a, T, H = &'a str> = (H, fn(&T) -> TableCell);
 
-/// Rows under headings, with notes below.
-#[derive(Clone, Debug, Default)]
-pub struct Table {
+/// Rows under headings, with notes below. A row is made each time it is written, so that a long
+/// table takes no more memory than the items it is made of.
+pub struct Table<'a> {
     headings: Vec<Heading>,
-    rows: Vec<Vec<TableCell>>,
+    count: usize,
+    row: Box<dyn Fn(usize) -> Vec<TableCell> + 'a>,
     notes: Vec<String>,
+    /// Largest width of the text \[characters\]; columns on the right that do not fit are left out.
+    room: usize,
 }
 
-impl Table {
-    /// Creates an empty table with these columns.
-    pub fn new<H: Into<Heading>>(headings: impl IntoIterator<Item = H>) -> Self {
+impl<'a> Table<'a> {
+    /// Creates a table of `count` rows; `row` returns the cells of a row, one for each heading.
+    pub fn new<H: Into<Heading>>(
+        headings: impl IntoIterator<Item = H>,
+        count: usize,
+        row: impl Fn(usize) -> Vec<TableCell> + 'a,
+    ) -> Self {
         let headings = headings.into_iter().map(Into::into).collect();
-        Self { headings, ..Self::default() }
+        Self { headings, count, row: Box::new(row), notes: Vec::new(), room: usize::MAX }
+    }
+
+    /// Creates a table of these rows.
+    pub fn with_rows<H: Into<Heading>>(
+        headings: impl IntoIterator<Item = H>,
+        rows: Vec<Vec<TableCell>>,
+    ) -> Self {
+        Self::new(headings, rows.len(), move |row| rows[row].clone())
     }
 
     /// Creates a table with a row for each item.
-    pub fn of<T, H: Clone + Into<Heading>>(items: &[T], columns: &[Column<'_, T, H>]) -> Self {
-        let mut table = Self::new(columns.iter().map(|column| column.0.clone()));
-        for item in items {
-            table.push(columns.iter().map(|column| (column.1)(item)).collect());
-        }
-        table
+    pub fn of<T: 'a, H: Clone + Into<Heading> + 'a>(
+        items: impl AsRef<[T]> + 'a,
+        columns: impl AsRef<[(H, fn(&T) -> TableCell)]> + 'a,
+    ) -> Self {
+        let headings: Vec<H> = columns.as_ref().iter().map(|column| column.0.clone()).collect();
+        let count = items.as_ref().len();
+        Self::new(headings, count, move |row| {
+            let item = &items.as_ref()[row];
+            columns.as_ref().iter().map(|column| (column.1)(item)).collect()
+        })
     }
 
-    /// Adds a row, one cell for each column; missing cells at its end are empty.
-    pub fn push(&mut self, mut row: Vec<TableCell>) {
-        row.resize(self.headings.len(), TableCell::Empty);
-        self.rows.push(row);
+    /// Leaves the columns from `count` on to files.
+    pub fn shown(mut self, count: usize) -> Self {
+        self.headings.iter_mut().skip(count).for_each(|heading| heading.words = None);
+        self
+    }
+
+    /// Limits the width of the text \[characters\].
+    pub fn within(self, room: usize) -> Self {
+        Self { room, ..self }
     }
 
     /// Replaces the headings and all text of the cells by what `spell` makes of them, for example
     /// in ASCII. The notes stay.
-    pub fn spelled(mut self, spell: impl Fn(&str) -> String) -> Self {
-        for words in self.headings.iter_mut().filter_map(|heading| heading.words.as_mut()) {
+    pub fn spelled(self, spell: impl Fn(&str) -> String + 'a) -> Self {
+        let Self { mut headings, count, row, notes, room } = self;
+        for words in headings.iter_mut().filter_map(|heading| heading.words.as_mut()) {
             *words = spell(words).into();
         }
-        for cell in self.rows.iter_mut().flatten() {
-            if let TableCell::Told(_, text) | TableCell::Word(text) = cell {
-                *text = spell(text);
-            }
-        }
-        self
+        let spelled = move |cell| match cell {
+            TableCell::Told(x, text) => TableCell::Told(x, spell(&text)),
+            TableCell::Word(text) => TableCell::Word(spell(&text)),
+            other => other,
+        };
+        let row = Box::new(move |place| row(place).into_iter().map(&spelled).collect());
+        Self { headings, count, row, notes, room }
     }
 
     /// Adds a note below the rows.
@@ -210,12 +256,34 @@ impl Table {
 
     /// Returns the number of rows.
     pub fn len(&self) -> usize {
-        self.rows.len()
+        self.count
     }
 
     /// Returns whether there are no rows.
     pub fn is_empty(&self) -> bool {
-        self.rows.is_empty()
+        self.count == 0
+    }
+
+    /// Iterates over the names of the columns in files.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.headings.iter().filter_map(|heading| heading.name.as_deref())
+    }
+
+    /// Iterates over the rows.
+    fn rows(&self) -> impl Iterator<Item = Vec<TableCell>> + '_ {
+        (0..self.count).map(&self.row)
+    }
+
+    /// Returns a column by its name in files; `NaN` stands for a cell without a number, and the
+    /// whole column if there is none of that name.
+    pub fn numbers(&self, name: &str) -> Vec<f64> {
+        let is_it = |heading: &Heading| heading.name.as_deref() == Some(name);
+        let place = self.headings.iter().position(is_it);
+        let number = |row: Vec<TableCell>| match place.and_then(|place| row.get(place)) {
+            Some(TableCell::Number(x) | TableCell::Told(x, _)) => *x,
+            _ => f64::NAN,
+        };
+        self.rows().map(number).collect()
     }
 
     /// Returns the headings and then the rows as cells padded to the width of their column. The
@@ -223,13 +291,13 @@ impl Table {
     /// columns, are left out.
     pub fn lines(&self, room: usize, apart: usize) -> Vec<Vec<String>> {
         let mut layout = Layout::of(&self.headings);
-        self.rows.iter().for_each(|row| layout.meet(row));
+        self.rows().for_each(|row| layout.meet(&row));
         let mut used = 0;
         layout.columns.retain(|(_, _, width, _)| {
             used += width + apart;
             used <= room.saturating_add(apart)
         });
-        let rows = self.rows.iter().map(|row| layout.line(row));
+        let rows = self.rows().map(|row| layout.line(&row));
         std::iter::once(layout.headings()).chain(rows).collect()
     }
 
@@ -241,7 +309,7 @@ impl Table {
     pub fn write_csv(&self, out: &mut dyn Write) -> Result<()> {
         let mut csv = csv::Writer::from_writer(out);
         csv.write_record(self.headings.iter().filter_map(|heading| heading.name.as_deref()))?;
-        for row in &self.rows {
+        for row in self.rows() {
             let cells = row.iter().zip(&self.headings);
             let filed = cells.filter(|(_, heading)| heading.name.is_some());
             csv.write_record(filed.map(|(cell, _)| cell.in_csv()))?;
@@ -255,22 +323,27 @@ impl Table {
     /// # Errors
     /// As `write_csv`.
     pub fn write_text(&self, out: &mut dyn Write) -> Result<()> {
-        self.write_text_in(usize::MAX, out)
-    }
-
-    /// As [`Table::write_text`], with only the columns that fit into `room` characters.
-    ///
-    /// # Errors
-    /// As `write_csv`.
-    pub fn write_text_in(&self, room: usize, out: &mut dyn Write) -> Result<()> {
         if !self.headings.is_empty() {
             let apart = " ".repeat(APART);
-            for line in self.lines(room, APART) {
+            for line in self.lines(self.room, APART) {
                 writeln!(out, "{}", line.join(&apart).trim_end())?;
             }
         }
         let notes = self.notes.iter().flat_map(|note| wrapped(note, WIDTH));
         notes.into_iter().try_for_each(|line| writeln!(out, "{line}"))
+    }
+}
+
+/// Writes the columns that have a name in files as a list of objects, one for each row.
+impl Serialize for Table<'_> {
+    fn serialize<S: Serializer>(&self, out: S) -> std::result::Result<S::Ok, S::Error> {
+        let field = |(heading, cell): (&Heading, &TableCell)| {
+            Some((heading.name.as_deref()?.to_string(), cell.in_json()))
+        };
+        let object = |row: Vec<TableCell>| -> Value {
+            Value::Object(self.headings.iter().zip(&row).filter_map(field).collect())
+        };
+        out.collect_seq(self.rows().map(object))
     }
 }
 
@@ -296,7 +369,7 @@ impl Layout {
         for (place, heading, width, word) in &mut self.columns {
             let Some(cell) = row.get(*place) else { continue };
             *width = (*width).max(heading.text(cell).chars().count());
-            *word |= matches!(cell, TableCell::Word(_));
+            *word |= matches!(cell, TableCell::Word(_) | TableCell::Flag(_));
         }
     }
 
@@ -324,11 +397,10 @@ fn pad(text: String, width: usize, left: bool) -> String {
 mod tests {
     use super::*;
 
-    fn table() -> Table {
-        let mut table = Table::new(["speed_rad_s", "state"]);
-        table.push(vec![(1.0 / 3.0).into(), "locked, a".into()]);
-        table.push(vec![f64::NAN.into()]);
-        table
+    fn table() -> Table<'static> {
+        let rows = [(1.0 / 3.0).into(), "locked, a".into()];
+        let rows = vec![rows.into(), vec![f64::NAN.into(), TableCell::Empty]];
+        Table::with_rows(["speed_rad_s", "state"], rows)
     }
 
     #[test]
@@ -337,6 +409,8 @@ mod tests {
         table().write_csv(&mut out).unwrap();
         let text = String::from_utf8(out).unwrap();
         assert_eq!(text, "speed_rad_s,state\n0.3333333333333333,\"locked, a\"\n,\n");
+        let json = r#"[{"speed_rad_s":0.3333333333333333,"state":"locked, a"},{"speed_rad_s":null,"state":null}]"#;
+        assert_eq!(serde_json::to_string(&table()).unwrap(), json);
     }
 
     #[test]
@@ -346,18 +420,16 @@ mod tests {
             Heading::filed("exact"),
             Heading::shown(""),
         ];
-        let mut table = Table::new(headings);
-        table.push(vec![1.234.into(), 5.0.into(), "wrong".into()]);
-        table.push(vec![TableCell::Told(2000.0, "2 kN".into()), 6.0.into()]);
+        let first = vec![1.234.into(), 5.0.into(), "wrong".into()];
+        let second = vec![TableCell::Told(2000.0, "2 kN".into()), 6.0.into(), TableCell::Empty];
+        let mut table = Table::with_rows(headings, vec![first, second]);
         table.note("one note");
-        let written = |write: fn(&Table, &mut dyn Write) -> Result<()>| {
-            let mut out = Vec::new();
-            write(&table, &mut out).unwrap();
-            String::from_utf8(out).unwrap()
-        };
-        assert_eq!(written(Table::write_csv), "value_n,exact\n1.234,5\n2000,6\n");
+        let (mut csv, mut lines) = (Vec::new(), Vec::new());
+        table.write_csv(&mut csv).unwrap();
+        table.write_text(&mut lines).unwrap();
+        assert_eq!(String::from_utf8(csv).unwrap(), "value_n,exact\n1.234,5\n2000,6\n");
         let text = "value\n  1.2  wrong\n 2 kN  -\none note\n";
-        assert_eq!(written(Table::write_text), text);
+        assert_eq!(String::from_utf8(lines).unwrap(), text);
         assert_eq!(table.lines(7, 2)[1], ["  1.2"]);
     }
 

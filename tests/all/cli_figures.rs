@@ -277,26 +277,6 @@ fn the_same_figure_is_the_same_file_wherever_it_is_written() {
 }
 
 #[test]
-fn a_caption_can_stand_beside_its_picture() {
-    let [with, without] = [&[][..], &["--no-caption"]].map(|more| figures("9", more));
-    let read =
-        |folder: &tempfile::TempDir, name| std::fs::read_to_string(file(folder.path(), name));
-    let caption = read(&without, "fig09.txt").unwrap();
-    assert_eq!(caption, drawn(9).caption.join("\n") + "\n");
-    assert!(read(&with, "fig09.txt").is_err());
-    let words = "Agrees with the paper";
-    assert!(caption.starts_with(words));
-    let [long, short] = [&with, &without].map(|folder| read(folder, "fig09.svg").unwrap());
-    assert!(long.contains(words) && !short.contains(words));
-    assert!(
-        short.contains("rubscope figures --only 9 --out figures --no-caption"),
-        "{}",
-        &short[..400]
-    );
-    assert_eq!(read(&with, "fig09.csv").unwrap(), read(&without, "fig09.csv").unwrap());
-}
-
-#[test]
 fn every_figure_has_a_scene_and_its_number() {
     assert_eq!(Which::of_paper().len(), 7);
     assert!(Which::of_paper().into_iter().all(|which| which.scene().is_ok()));

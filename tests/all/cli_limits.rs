@@ -62,15 +62,15 @@ fn a_file_that_is_replaced_is_told() {
         (
             "run --solver event --end 0.001 --out",
             "h.csv",
-            "wrote 2000 samples to",
-            "replaced {} (2000 samples)",
+            "wrote 2000 rows to",
+            "replaced {} (2000 rows)",
         ),
         ("hbm --speed 0:500:5 --out", "l.csv", "wrote 5 rows to", "replaced {} (5 rows)"),
         (
             "map --solver event --model rigid --speed 250:500:2 --pulse 1e5:2e5:2 --out",
             "m.csv",
-            "wrote 4 cells to",
-            "replaced {} (4 cells)",
+            "wrote 4 rows to",
+            "replaced {} (4 rows)",
         ),
     ] {
         let path = at(name);

@@ -1,7 +1,7 @@
 //! `rubscope margins` for people and files: the text and the table say what the library
 //! gives, and the command of a target shows it.
 
-use rubscope::report::margins as report;
+use rubscope::report::{CommandLine, Sheet, margins as report};
 use rubscope_solver::scene::CheckedScene;
 use rubscope_solver::study::margins::{MOST_TIMES, Margins, Target, acting};
 
@@ -16,9 +16,14 @@ pub fn full(scene: &CheckedScene) -> Margins {
     margins
 }
 
+/// The sheet of margins.
+pub fn sheet(margins: &Margins) -> Sheet<'_> {
+    report::sheet(margins, CommandLine::new("margins", &margins.scene))
+}
+
 pub fn text(margins: &Margins) -> String {
     let mut out = Vec::new();
-    report::write(margins, &mut out).unwrap();
+    sheet(margins).write_text(true, &mut out).unwrap();
     String::from_utf8(out).unwrap()
 }
 

@@ -1,21 +1,19 @@
 //! The page of `rubscope margins`, and what no format of it may have: numbers that are
 //! none, and lines that do not fit.
 
+use rubscope::report::margins as report;
 use rubscope::report::table::WIDTH;
-use rubscope::report::{CommandLine, Provenance, margins as report};
 use rubscope_solver::motion::to_the_end;
 use rubscope_solver::scene::CheckedScene;
 use rubscope_solver::study::margins::Margins;
 
-use crate::cli_margins::{full, text};
+use crate::cli_margins::{full, sheet, text};
 use crate::cli_support::rubscope;
 use crate::scene;
 
 fn page(margins: &Margins) -> String {
-    let scene = margins.scene.clone().into_scene();
-    let origin = Provenance { command: CommandLine::new("margins", &scene), scene };
     let mut out = Vec::new();
-    report::write_page(margins, &origin, &mut out).unwrap();
+    sheet(margins).write_file("svg", &mut out).unwrap();
     String::from_utf8(out).unwrap()
 }
 

@@ -86,7 +86,7 @@ fn is_kept(output: &Output, folder: &Path, name: &str, start: &str) {
 const WRITERS: [(&str, &str, &str); 5] = [
     (SMALL, "h.csv", "t_s,theta_rad"),
     ("hbm --speed 0:500:2000", "h.csv", "speed_rad_s"),
-    (MAP, "m.csv", "{"),
+    (MAP, "m.csv", "speed_rad_s"),
     (MAP, "m.json", "{"),
     (FIGURES, "./fig09.svg", "<svg"),
 ];

@@ -4,7 +4,7 @@ use std::process::Command;
 
 use serde_json::Value;
 
-use crate::cli_support::{self, ended, program, text};
+use crate::cli_support::{self, ended, program, text, words};
 
 fn hbm(args: &[&str]) -> Command {
     let mut command = program();
@@ -72,7 +72,7 @@ fn a_rotor_that_turns_backward_has_its_own_coincidence() {
     {
         let report = json(&["--campbell", "--speed", speeds]);
         assert!((number(&report["coincidence_rad_s"]) - at).abs() < 1e-3, "{speeds}");
-        let all = report["campbell"]["coincidences"].as_array().unwrap();
+        let all = report["coincidences"].as_array().unwrap();
         let dangerous: Vec<_> = all.iter().filter(|found| found["dangerous"] == true).collect();
         assert_eq!(dangerous.len(), 1, "{speeds}");
         assert!((number(&dangerous[0]["speed_rad_s"]) - at).abs() < 1e-3, "{speeds}");
@@ -86,8 +86,8 @@ fn every_view_prints_a_table_and_json() {
     let soft = "bladed_disk.stiffness_nm_per_rad=0.002";
     let load = "excitation.amplitude_nm=10";
     for (args, field, words) in [
-        (vec!["--branches"], "branches", "411.934  corner  adhesive"),
-        (vec!["--campbell"], "campbell", "388.315       878.635      -286.309  yes"),
+        (vec!["--branches"], "thresholds", "411.934  corner  adhesive"),
+        (vec!["--campbell"], "coincidences", "388.315       878.635      -286.309  true"),
         (
             vec![
                 "--branches",
@@ -98,16 +98,35 @@ fn every_view_prints_a_table_and_json() {
                 "--speed",
                 "600:700:2",
             ],
-            "branches",
+            "thresholds",
             "657.872  corner  penetrates  absent",
         ),
-        (vec!["--excitation", "--set", load], "excitation", "Engine order 3 with 10 N m"),
+        (vec!["--excitation", "--set", load], "points", "Engine order 3 with 10 N m"),
     ] {
-        assert!(json(&args)[field].is_object() || json(&args)[field].is_array(), "{field}");
+        assert!(json(&args)[field].is_array(), "{field}");
         let text = ended(&mut hbm(&args), 0).stdout;
         let text = String::from_utf8(text).unwrap();
         assert!(text.contains(words), "{field}: {text}");
         assert!(!text.contains("NaN") && !text.contains("inf"), "{field}");
+    }
+}
+
+#[test]
+fn results_are_drawn_with_their_origin() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.svg");
+    for (command, drawn) in [
+        ("hbm --speed 400:500:3", "multiplier [N]"),
+        ("hbm --campbell --speed 0:500:3", "frequency [rad/s]"),
+        ("run grazing --end 0.001", "smallest gap [m]"),
+        ("map slip --speed 300:500:2 --pulse 2e4:5e4:2", "rotor speed"),
+        ("margins --no-search", "omega_lock"),
+    ] {
+        text(&[&words(command)[..], &["--out", path.to_str().unwrap()]].concat());
+        let picture = std::fs::read_to_string(&path).unwrap();
+        assert!(picture.starts_with("<svg") && picture.contains(drawn), "{command}");
+        let word = command.split(' ').next().unwrap();
+        assert!(picture.contains(&format!("\nrubscope {word} ")), "{command}: {picture}");
     }
 }
 
@@ -151,10 +170,11 @@ fn rigid_blades_do_not_bend_under_a_lock() {
     let soft = ["--set", soft[0], "--set", soft[1], "--speed", "500"];
     let groups = |model: &str| {
         let report = json(&[&soft[..], &["--model", model]].concat());
-        let groups = report["points"][0]["groups"].as_array().unwrap().clone();
-        groups.iter().map(|g| [number(&g["multiplier_n"]), number(&g["alpha_rad"])]).collect()
+        let point = &report["points"][0];
+        let group = |[push, angle]: [&str; 2]| [number(&point[push]), number(&point[angle])];
+        [["multiplier_a_n", "alpha_a_rad"], ["multiplier_b_n", "alpha_b_rad"]].map(group)
     };
-    let [rigid, modal]: [Vec<[f64; 2]>; 2] = ["rigid", "modal"].map(groups);
+    let [rigid, modal] = ["rigid", "modal"].map(groups);
     for (rigid, modal) in rigid.iter().zip(modal) {
         assert!(rigid[1] == 0.0 && modal[1].abs() > 6e-5, "{rigid:?} {modal:?}");
         assert!((rigid[0] / modal[0] - 1.0).abs() > 1e-5, "{rigid:?} {modal:?}");
@@ -185,13 +205,13 @@ fn lobes_that_drive_no_wave_say_so() {
 fn the_compliance_crosses_the_negative_axis_where_the_waves_are() {
     let report = json(&[&INCLINED[..], &["--compliance", "--speed", "450"]].concat());
     let [omega, re, im] = ["omega_rad_s", "re_m_per_n", "im_m_per_n"].map(|name| {
-        let list = report["compliance"][name].as_array().unwrap();
-        list.iter().map(number).collect::<Vec<f64>>()
+        let points = report["points"].as_array().unwrap();
+        points.iter().map(|point| number(&point[name])).collect::<Vec<f64>>()
     });
     let [first, last] = [omega[0], omega[omega.len() - 1]];
     // 1.5 times the fastest resonance, both ways.
     assert!(omega.len() == 201 && first == -last && last > 1.5 * 1350.0, "{first} {last}");
-    let waves = report["compliance"]["waves"].as_array().unwrap();
+    let waves = report["waves"].as_array().unwrap();
     assert_eq!(waves.len(), 2);
     for wave in waves {
         let at = number(&wave["omega_rad_s"]);

@@ -121,9 +121,7 @@ fn scene(name: &str, changes: &[(&str, &str)]) -> CheckedScene {
 
 /// What the program prints of a run.
 fn told(report: &RunReport) -> String {
-    let mut text = Vec::new();
-    rubscope::report::summary::write(report, Default::default(), &mut text).unwrap();
-    String::from_utf8(text).unwrap()
+    rubscope::report::summary::lines(report, Default::default()).join("\n")
 }
 
 /// A scene run to its end once, without the changed runs that say how far to trust it.

@@ -128,5 +128,5 @@ fn a_part_that_went_through_windows_is_read() {
     let output = run(folder.path(), "map merge a.csv --out m.csv");
     let said = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(0), "{said}");
-    assert!(said.contains("12 cells"), "{said}");
+    assert!(said.contains("12 rows"), "{said}");
 }

@@ -189,7 +189,7 @@ fn speeds_are_told_in_turns_a_minute_where_that_is_wanted() {
         assert!(run.contains(words), "{words}: {run}");
     }
     let hbm = text("hbm paper-nd3 --rpm --speed 450:500:2");
-    assert!(hbm.contains("Critical speed 2796.78 rpm") && hbm.contains("speed [rpm]"), "{hbm}");
+    assert!(hbm.contains("Critical speed 2796.78 rpm") && hbm.contains("speed_rpm"), "{hbm}");
     let margins = text("margins paper-nd3 --rpm");
     assert!(margins.contains("2796.78 rpm") && !margins.contains("rad/s"), "{margins}");
     // Files and JSON stay as they are.

@@ -1,8 +1,7 @@
 //! The view `--branches`: every equilibrium, its stability, and the speeds where branches change.
 
-use serde_json::json;
-
-use super::{Answer, LockBeside, Parts, Request, View};
+use super::{Request, View, ViewContact};
+use crate::report::Sheet;
 use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{
     Branches, Corner, Equilibrium, Form, HarmonicError, Kind, Locked, LockedPoint, Threshold,
@@ -15,27 +14,25 @@ pub const BRANCHES: View = View {
     always_damped: false,
     one_speed: false,
     // Rest and sliding on one side exist even if there is no corner to lock in.
-    lock: LockBeside::Rigid(|error| matches!(error, HarmonicError::NoCorner { .. })),
-    answer,
+    contact: ViewContact::Rigid(|error| matches!(error, HarmonicError::NoCorner { .. })),
+    fill,
 };
 
-fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
+fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicError> {
     let Request { machine, speeds, damped, .. } = request;
     if machine.has_unequal_tips() {
-        return corners(request);
+        return corners(request, sheet);
     }
     let branches = Branches::over(machine, speeds, *damped)?;
     let states: Vec<Vec<Equilibrium>> =
         (0..branches.speeds()).map(|place| branches.states_at(place)).collect::<Result<_, _>>()?;
     let states = states.concat();
-    let json = Parts::default().with("thresholds", &branches.thresholds).with("states", &states);
     let damping = if *damped { "with damping" } else { "without damping" };
     let changes = format!("Where branches change between these speeds, {damping}:");
-    let tables = vec![
-        (changes, Table::of(&branches.thresholds, THRESHOLDS)),
-        ("Equilibria of the blade frame:".to_string(), Table::of(&states, STATES)),
-    ];
-    Ok(Answer::of(Parts::default().with("branches", json), tables))
+    sheet.table("thresholds", changes, Table::of(branches.thresholds, THRESHOLDS));
+    sheet.table("points", "Equilibria of the blade frame:", Table::of(states, STATES).shown(8));
+    sheet.chart("growth of a disturbance [1/s]", &[["growth_per_s", "growth"]]);
+    Ok(())
 }
 
 /// A corner of unequal tips at one of the speeds: the blades of its two sides, the corner, the
@@ -43,7 +40,7 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
 type CornerRow = ([Vec<u32>; 2], TipCorner, LockWindow, LockedPoint);
 
 /// Answers for unequal tips: every corner, the speeds at which it holds, and its loads there.
-fn corners(request: &Request<'_>) -> Result<Answer, HarmonicError> {
+fn corners(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicError> {
     let Request { machine, speeds, damped, .. } = request;
     let polygon = machine.polygon.clone();
     let mut found: Vec<CornerRow> = Vec::new();
@@ -56,32 +53,26 @@ fn corners(request: &Request<'_>) -> Result<Answer, HarmonicError> {
             found.extend(points.map(|point| (blades(), corner, window, point)));
         }
     }
-    let json = json!(
-        found
-            .iter()
-            .map(|(blades, corner, window, point)| {
-                json!({
-                    "blades": blades, "gamma_rad": corner.gamma, "beta_rad": corner.beta,
-                    "from_rad_s": window.from, "to_rad_s": window.to, "point": point,
-                })
-            })
-            .collect::<Vec<_>>()
-    );
-    let title = "Every corner of these tips that is held at some speed:".to_string();
-    let json = Parts::default().with("branches", Parts::default().with("corners", json));
-    Ok(Answer::of(json, vec![(title, Table::of(&found, CORNERS))]))
+    let title = "Every corner of these tips that is held at some speed:";
+    sheet.table("points", title, Table::of(found, CORNERS).shown(9));
+    Ok(())
 }
 
 const CORNERS: &[Column<'_, CornerRow>] = &[
     ("speed_rad_s", |row| row.3.speed_rad_s.into()),
-    ("blade_a", |row| row.0[0].first().map(|blade| f64::from(*blade)).into()),
-    ("blade_b", |row| row.0[1].first().map(|blade| f64::from(*blade)).into()),
+    ("blade_a", |row| row.0[0].first().copied().into()),
+    ("blade_b", |row| row.0[1].first().copied().into()),
     ("held_from_rad_s", |row| row.2.from.into()),
     ("held_to_rad_s", |row| row.2.to.into()),
     ("multiplier_a_n", |row| row.3.multipliers_n[0].into()),
     ("multiplier_b_n", |row| row.3.multipliers_n[1].into()),
     ("amplitude_m", |row| row.3.amplitude_m.into()),
     ("character", |row| row.3.character.as_ref().into()),
+    ("smallest_gap_m", |row| row.3.smallest_gap_m.into()),
+    ("torque_nm", |row| row.3.torque_nm.into()),
+    ("power_w", |row| row.3.power_w.into()),
+    ("stable", |row| row.3.stable.into()),
+    ("growth_1_s", |row| row.3.growth_1_s.into()),
 ];
 
 const THRESHOLDS: &[Column<'_, Threshold>] = &[
@@ -105,6 +96,12 @@ const STATES: &[Column<'_, Equilibrium>] = &[
     // At rest there is no drive power.
     ("power_w", |state| (state.kind != Kind::Rest).then_some(state.power_w).into()),
     ("growth_per_s", |state| growth(state).into()),
+    ("smallest_gap_m", |state| state.smallest_gap_m.into()),
+    ("torque_nm", |state| state.torque_nm.into()),
+    ("alpha_c_rad", |state| state.alpha_c_rad.into()),
+    ("alpha_s_rad", |state| state.alpha_s_rad.into()),
+    ("admissible", |state| state.admissible.into()),
+    ("stable", |state| state.stable.into()),
 ];
 
 /// Returns the growth rate of a deviation from an equilibrium \[1/s\], negative if it decays. It is

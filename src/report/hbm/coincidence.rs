@@ -1,7 +1,8 @@
 //! The view `--coincidence`: growth from rest near the coincidences, and the wave that lasts,
 //! against speed.
 
-use super::{Answer, LockBeside, Parts, Request, View};
+use super::{Request, View, ViewContact};
+use crate::report::Sheet;
 use crate::report::number::{per_speed, short, speed, speed_unit};
 use crate::report::table::{Column, Table};
 use rubscope_solver::harmonic::{
@@ -14,11 +15,11 @@ pub const COINCIDENCE: View = View {
     help: "View: what the coincidences do: growth of rest and the wave that lasts, against speed",
     always_damped: true,
     one_speed: false,
-    lock: LockBeside::OfScene,
-    answer,
+    contact: ViewContact::OfScene,
+    fill,
 };
 
-fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
+fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicError> {
     let Request { scene, machine, speeds, .. } = request;
     let points = coincidence(scene, speeds)?;
     let sense = 1_f64.copysign(request.fastest());
@@ -34,12 +35,12 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
         true => "; the wave that lasts once it touches:",
         false => "; growth of rest, and the wave it grows into:",
     };
-    let json = Parts::default()
-        .with("markers_rad_s", markers)
-        .with("shifted_rad_s", shifted)
-        .with("points", &points);
-    let json = Parts::default().with("coincidence", json);
-    Ok(Answer::of(json, vec![(title, Table::of(&points, CURVE))]))
+    sheet.fact("coincidences_rad_s", markers);
+    sheet.fact("shifted_coincidence_rad_s", shifted);
+    sheet.table("points", title, Table::of(points, CURVE));
+    sheet.chart("amplitude of the blades [rad]", &[["blade_amplitude_rad", "wave that lasts"]]);
+    sheet.chart("growth of rest [1/s]", &[["growth_1_s", "growth"]]);
+    Ok(())
 }
 
 /// Columns of the growth from rest and of the lasting wave, one row per rotor speed.

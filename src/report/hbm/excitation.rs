@@ -1,8 +1,7 @@
 //! The view `--excitation`: response of the damped lock to the engine order of the scene.
 
-use serde_json::{Value, json};
-
-use super::{Answer, LockBeside, Parts, Request, View};
+use super::{Request, View, ViewContact};
+use crate::report::Sheet;
 use crate::report::number::short;
 use crate::report::table::{Column, Table};
 use rubscope_solver::harmonic::{ExcitedLock, ExcitedLocks, HarmonicError, drives};
@@ -13,13 +12,13 @@ pub const EXCITATION: View = View {
     help: "View: response of the damped lock to the scene's engine-order excitation",
     always_damped: true,
     one_speed: false,
-    lock: LockBeside::Rigid(|_| false),
-    answer,
+    contact: ViewContact::Rigid(|_| false),
+    fill,
 };
 
-fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
+fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicError> {
     let (machine, excitation) = (request.scene.machine(), &request.scene.excitation);
-    let side = request.corner()?.a;
+    let side = request.lock()?.corner().a;
     if excitation.amplitude_nm <= 0.0 {
         let allowed = "above 0 with --excitation, such as --set excitation.amplitude_nm=10";
         return Err(HarmonicError::refused(keys::EXCITATION, excitation.amplitude_nm, allowed));
@@ -35,31 +34,15 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let amplitude = short(excitation.amplitude_nm);
     let title =
         format!("Engine order {} with {amplitude} N m on each blade{words}", excitation.order);
-    let json = Parts::default()
-        .with("amplitude_nm", excitation.amplitude_nm)
-        .with("order", excitation.order)
-        .with("drives", reaches)
-        .with_rows("points", &locks, value);
-    let json = Parts::default().with("excitation", json);
-    Ok(Answer::of(json, vec![(title, Table::of(&locks, RESPONSE))]))
+    sheet.fact("amplitude_nm", excitation.amplitude_nm);
+    sheet.fact("order", excitation.order);
+    sheet.fact("drives", reaches);
+    sheet.table("points", title, Table::of(locks, RESPONSE).shown(8));
+    sheet.chart("casing [m]", &[["casing_m", "casing"]]);
+    Ok(())
 }
 
-/// Returns the response at one speed as JSON, with amplitudes of the oscillation.
-fn value(lock: &ExcitedLock) -> Value {
-    json!({
-        "speed_rad_s": lock.state.speed_rad_s,
-        "frequency_rad_s": lock.frequency_rad_s,
-        "character": lock.state.character,
-        "casing_m": lock.casing_m(),
-        "alpha_c_rad": lock.response[2].norm(),
-        "alpha_s_rad": lock.response[3].norm(),
-        "multipliers_n": lock.multipliers_n.map(|multiplier| multiplier.norm()),
-        "relative_amplitude": lock.relative_amplitude,
-        "relative_multiplier": lock.relative_multiplier,
-        "release_torque_nm": lock.release_torque_nm,
-    })
-}
-
+/// Columns of the response: amplitudes of the oscillation about the lock. Text has the first ones.
 const RESPONSE: &[Column<'_, ExcitedLock>] = &[
     ("speed_rad_s", |lock| lock.state.speed_rad_s.into()),
     ("frequency_rad_s", |lock| lock.frequency_rad_s.into()),
@@ -68,5 +51,8 @@ const RESPONSE: &[Column<'_, ExcitedLock>] = &[
     ("change_of_amplitude", |lock| lock.relative_amplitude.into()),
     ("change_of_multiplier", |lock| lock.relative_multiplier.into()),
     ("release_torque_nm", |lock| lock.release_torque_nm.into()),
-    ("state", |lock| lock.state.character.as_ref().into()),
+    ("character", |lock| lock.state.character.as_ref().into()),
+    ("alpha_s_rad", |lock| lock.response[3].norm().into()),
+    ("multiplier_a_n", |lock| lock.multipliers_n[0].norm().into()),
+    ("multiplier_b_n", |lock| lock.multipliers_n[1].norm().into()),
 ];

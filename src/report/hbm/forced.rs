@@ -1,7 +1,8 @@
 //! The view `--forced`: the wave that an out-of-round casing drives while all blades rub its
 //! lining.
 
-use super::{Answer, LockBeside, Parts, Request, View};
+use super::{Request, View, ViewContact};
+use crate::report::Sheet;
 use crate::report::number::count;
 use crate::report::table::{Column, Table};
 use rubscope_solver::harmonic::{Forced, HarmonicError, Lining};
@@ -12,11 +13,11 @@ pub const FORCED: View = View {
     help: "View: the wave that a casing out of round drives where all blades rub its lining",
     always_damped: true,
     one_speed: false,
-    lock: LockBeside::OfScene,
-    answer,
+    contact: ViewContact::OfScene,
+    fill,
 };
 
-fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
+fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicError> {
     let Request { scene, machine, speeds, .. } = request;
     let (height, lobes) = (scene.casing.out_of_round_m, scene.casing.lobes);
     if scene.solver.contact != ContactLaw::Smooth {
@@ -31,10 +32,6 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let forced: Vec<Forced> =
         speeds.iter().map(|speed| lining.forced(*speed, lobes, height)).collect();
     let still = forced.iter().all(|point| point.amplitude_m == 0.0);
-    let json = Parts::default()
-        .with("lobes", lobes)
-        .with("out_of_round_m", height)
-        .with("points", &forced);
     let diameters = machine.polygon.nodal_diameters;
     let title = match still {
         true => format!(
@@ -43,8 +40,11 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
         ),
         false => format!("{lobes} lobes of {height:e} m drive, where all blades press:"),
     };
-    let json = Parts::default().with("forced", json);
-    Ok(Answer::of(json, vec![(title, Table::of(&forced, POINTS))]))
+    sheet.fact("lobes", lobes);
+    sheet.fact("out_of_round_m", height);
+    sheet.table("points", title, Table::of(forced, POINTS));
+    sheet.chart("casing [m]", &[["amplitude_m", "amplitude"]]);
+    Ok(())
 }
 
 const POINTS: &[Column<'_, Forced>] = &[

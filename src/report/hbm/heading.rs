@@ -1,100 +1,61 @@
-//! The heading above the tables of `rubscope hbm`: the machine, its limits, and the assumptions
-//! behind the numbers, in sentences.
+//! What all views of `rubscope hbm` begin with: the machine, its limits, and the assumptions behind
+//! the numbers, in sentences and as facts.
 
-use std::io::{Result, Write};
-
-use super::{notes, speeds_of};
+use super::{Request, notes, speeds_of};
+use crate::report::Sheet;
 use crate::report::line::capital;
-use crate::report::number::{self, count, short};
-use rubscope_solver::harmonic::{Form, Sweep, lock_window};
+use crate::report::number::{count, short, speed, speed_unit};
+use rubscope_solver::harmonic::lock_window;
 use rubscope_solver::model::Machine;
-use rubscope_solver::scene::Scene;
 
-/// The heading of one view.
-#[derive(Debug)]
-pub struct Heading<'a> {
-    /// Scene of the view.
-    pub scene: &'a Scene,
-    /// Machine of the scene; without its lining if the view uses rigid contact.
-    pub machine: &'a Machine,
-    /// Rotor speed of largest magnitude in the view; its sign is the sense of rotation \[rad/s\].
-    pub speed: f64,
-    /// Whether the equations include the damping of the scene.
-    pub damped: bool,
-    /// The locked motion; `None` for a view with an option, whose subject is another one.
-    pub sweep: Option<&'a Sweep>,
-}
-
-impl Heading<'_> {
-    /// Writes the machine and the blades that hold the wave, one fact per line.
-    ///
-    /// # Errors
-    /// The writer failed.
-    pub fn write(&self, out: &mut dyn Write) -> Result<()> {
-        let Self { scene, machine, speed, damped, sweep } = *self;
+impl Request<'_> {
+    /// Adds the machine and its limits. `damped` tells whether the view includes damping.
+    pub(super) fn tell(&self, damped: bool, sheet: &mut Sheet) {
+        let Self { scene, machine, .. } = self;
+        self.facts(sheet);
         if !scene.title.is_empty() {
-            writeln!(out, "{}", scene.title)?;
+            sheet.line(&scene.title);
         }
         if let Some(note) = scene.modes_note() {
-            writeln!(out, "{}.", capital(&note))?;
+            sheet.line(format!("{}.", capital(&note)));
         }
         let polygon = &machine.polygon;
-        writeln!(
-            out,
+        sheet.line(format!(
             "{} blades, {}: {} phase groups of {}, clearance {} m.",
             polygon.blades,
             count(u64::from(polygon.nodal_diameters), "nodal diameter"),
             polygon.sides,
             count(u64::from(polygon.blades_per_side), "blade"),
             short(machine.clearance())
-        )?;
-        if let Some(critical) = machine.critical_speed() {
-            write!(out, "Critical speed {}", number::speed(critical))?;
-            let lock_of = |machine: &Machine| lock_window(machine, speed).map(speeds_of);
-            let (zeta, unit) = (short(machine.casing_damping_ratio), number::speed_unit());
-            // On a lining, groups of more blades may lock at other speeds.
-            let groups = if machine.lining.is_some() { " of two groups" } else { "" };
-            match lock_of(machine) {
-                Some(lock) if !damped => {
-                    let without = lock_of(&machine.clone().undamped()).unwrap_or_default();
-                    let words = format!("{unit} without damping");
-                    write!(
-                        out,
-                        ", lock{groups} from {without} {words}, {lock} with zeta_c = {zeta}"
-                    )?;
-                }
-                Some(lock) => {
-                    write!(out, ", lock{groups} from {lock} {unit} (zeta_c = {zeta})")?;
-                }
-                None => {}
-            }
-            if let Some(dangerous) = machine.dangerous_speed_toward(speed) {
-                write!(out, ", dangerous coincidence {}", number::speed(dangerous))?;
-            }
-            writeln!(out, ".")?;
-        }
-        if let Some(sweep) = sweep {
-            let name = |side| {
-                let list: Vec<String> =
-                    polygon.blades_of_side(side).iter().map(|blade| format!("#{blade}")).collect();
-                list.join(" ")
-            };
-            let damping = match (sweep.damped, sweep.form) {
-                (true, _) => "damped",
-                (false, Form::Printed) => "undamped as in the paper",
-                (false, _) => "undamped",
-            };
-            writeln!(
-                out,
-                "Locked motion held between a: {} and b: {}; form {}, {damping}. A negative multiplier pushes; a positive one pulls, which a real contact cannot do.",
-                name(sweep.corner.a),
-                name(sweep.corner.b),
-                sweep.form,
-            )?;
-        }
+        ));
+        self.limits(damped).into_iter().for_each(|limits| sheet.line(limits));
         for note in notes(scene, machine) {
-            writeln!(out, "These numbers are {note}.")?;
+            sheet.line(format!("These numbers are {note}."));
         }
-        Ok(())
+    }
+
+    /// Names the critical speed, the lock and the dangerous coincidence; `None` without a critical
+    /// speed.
+    fn limits(&self, damped: bool) -> Option<String> {
+        let (machine, toward) = (&self.machine, self.fastest());
+        let critical = machine.critical_speed()?;
+        let lock_of = |machine: &Machine| lock_window(machine, toward).map(speeds_of);
+        let (zeta, unit) = (short(machine.casing_damping_ratio), speed_unit());
+        // On a lining, groups of more blades may lock at other speeds.
+        let groups = if machine.lining.is_some() { " of two groups" } else { "" };
+        let lock = lock_of(machine).map(|lock| match damped {
+            true => format!(", lock{groups} from {lock} {unit} (zeta_c = {zeta})"),
+            false => {
+                let without = lock_of(&machine.clone().undamped()).unwrap_or_default();
+                format!(
+                    ", lock{groups} from {without} {unit} without damping, {lock} with zeta_c = \
+                     {zeta}"
+                )
+            }
+        });
+        let dangerous = machine.dangerous_speed_toward(toward);
+        let dangerous = dangerous.map(|at| format!(", dangerous coincidence {}", speed(at)));
+        let rest = [lock, dangerous].into_iter().flatten().collect::<String>();
+        Some(format!("Critical speed {}{rest}.", speed(critical)))
     }
 }

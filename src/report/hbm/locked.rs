@@ -1,11 +1,10 @@
 //! The locked motion, which is shown without the option of a view.
 
-use serde_json::{Value, json};
-
-use super::{Answer, LockBeside, Parts, Request, View};
-use crate::report::table::{Column, Table, TableCell};
-use rubscope_solver::harmonic::{HarmonicError, LockedPoint, Sweep};
-use rubscope_solver::model::ContactPolygon;
+use super::{Request, View, ViewContact};
+use crate::report::Sheet;
+use crate::report::number::speed;
+use crate::report::table::{Column, Table};
+use rubscope_solver::harmonic::{Form, HarmonicError, LockedPoint, Sweep};
 
 /// The default view: the locked motion.
 pub const LOCKED: View = View {
@@ -13,72 +12,70 @@ pub const LOCKED: View = View {
     help: "",
     always_damped: false,
     one_speed: false,
-    lock: LockBeside::Rigid(|_| false),
-    answer,
+    contact: ViewContact::Rigid(|_| false),
+    fill,
 };
 
-/// Returns two tables of the locked motion: a short one for the screen, a full one for files.
-fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
-    let points = request.sweep.as_ref().map_or(&[][..], |sweep| &sweep.points);
-    let tables = vec![(String::new(), Table::of(points, SUMMARY))];
-    Ok(Answer { json: Parts::default(), tables, file: Some(Table::of(points, FILE)) })
-}
-
-/// Adds the locked motion to the JSON of a view.
-pub fn points(json: Parts, polygon: &ContactPolygon, sweep: &Sweep) -> Parts {
-    let blades = sweep.corner.sides().map(|side| polygon.blades_of_side(side));
-    json.with("missing_rad_s", &sweep.missing)
-        .with_rows("points", &sweep.points, |point| with_groups(point, &blades))
-}
-
-/// Returns a point as JSON, with its multipliers and angles grouped by side.
-fn with_groups(point: &LockedPoint, blades: &[Vec<u32>; 2]) -> Value {
-    let mut value = json!(point);
-    if let Some(map) = value.as_object_mut() {
-        let groups = [0, 1].map(|i| {
-            let (multiplier, alpha) = (point.multipliers_n[i], point.alpha_rad[i]);
-            json!({ "blades": blades[i], "multiplier_n": multiplier, "alpha_rad": alpha })
-        });
-        map.shift_remove("multipliers_n");
-        map.shift_remove("alpha_rad");
-        map.shift_insert(1, "groups".to_string(), json!(groups));
+fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicError> {
+    let mut sweep = request.lock()?.sweep(request.speeds)?;
+    if request.is_rigid() {
+        sweep.points.iter_mut().for_each(|point| point.alpha_rad = [0.0; 2]);
     }
-    value
+    let sides = sweep.corner.sides();
+    let blades = sides.map(|side| request.machine.polygon.blades_of_side(side));
+    sheet.line(held(&sweep, &blades));
+    if let Some(first) = sweep.missing.first() {
+        sheet.line(format!(
+            "No locked motion at {} of {} speeds, the first of them {}: the blades are so soft that \
+             the branch folds back.",
+            sweep.missing.len(),
+            request.speeds.len(),
+            speed(*first)
+        ));
+    }
+    sheet.fact("missing_rad_s", sweep.missing);
+    sheet.fact("blades_a", &blades[0]);
+    sheet.fact("blades_b", &blades[1]);
+    sheet.table("points", "", Table::of(sweep.points, POINTS).shown(7));
+    sheet.chart("multiplier [N]", &[["multiplier_a_n", "a"], ["multiplier_b_n", "b"]]);
+    Ok(())
 }
 
-/// Returns `locked` for a stable point, or else the kind of its instability.
-fn state(point: &LockedPoint) -> TableCell {
-    if point.stable { "locked" } else { point.character.as_ref() }.into()
+/// Names the blades that hold the wave, and the equations.
+fn held(sweep: &Sweep, blades: &[Vec<u32>; 2]) -> String {
+    let damping = match (sweep.damped, sweep.form) {
+        (true, _) => "damped",
+        (false, Form::Printed) => "undamped as in the paper",
+        (false, _) => "undamped",
+    };
+    let [a, b] = blades
+        .each_ref()
+        .map(|blades| blades.iter().map(|blade| format!("#{blade}")).collect::<Vec<_>>().join(" "));
+    format!(
+        "Locked motion held between a: {a} and b: {b}; form {}, {damping}. A negative multiplier \
+         pushes; a positive one pulls, which a real contact cannot do.",
+        sweep.form
+    )
 }
 
-/// Columns for the screen.
-const SUMMARY: &[Column<'_, LockedPoint>] = &[
-    ("speed [rad/s]", |point| point.speed_rad_s.into()),
-    ("multiplier a [N]", |point| point.multipliers_n[0].into()),
-    ("multiplier b [N]", |point| point.multipliers_n[1].into()),
-    ("alpha a [rad]", |point| point.alpha_rad[0].into()),
-    ("amplitude [m]", |point| point.amplitude_m.into()),
-    ("power [W]", |point| point.power_w.into()),
-    ("state", state),
-];
-
-/// Columns for files: every number.
-pub const FILE: &[Column<'_, LockedPoint>] = &[
+/// Columns of the locked motion; text has the first ones.
+pub const POINTS: &[Column<'_, LockedPoint>] = &[
     ("speed_rad_s", |point| point.speed_rad_s.into()),
     ("multiplier_a_n", |point| point.multipliers_n[0].into()),
     ("multiplier_b_n", |point| point.multipliers_n[1].into()),
     ("alpha_a_rad", |point| point.alpha_rad[0].into()),
+    ("amplitude_m", |point| point.amplitude_m.into()),
+    ("power_w", |point| point.power_w.into()),
+    ("character", |point| point.character.as_ref().into()),
     ("alpha_b_rad", |point| point.alpha_rad[1].into()),
     ("u_cc_m", |point| point.u_cc_m.into()),
     ("u_cs_m", |point| point.u_cs_m.into()),
     ("u_sc_m", |point| point.u_sc_m.into()),
     ("u_ss_m", |point| point.u_ss_m.into()),
-    ("amplitude_m", |point| point.amplitude_m.into()),
     ("smallest_gap_m", |point| point.smallest_gap_m.into()),
     ("torque_nm", |point| point.torque_nm.into()),
-    ("power_w", |point| point.power_w.into()),
-    ("character", |point| point.character.as_ref().into()),
     ("admissible", |point| point.admissible.into()),
     ("stable", |point| point.stable.into()),
+    ("growth_1_s", |point| point.growth_1_s.into()),
     ("residual", |point| point.residual.into()),
 ];

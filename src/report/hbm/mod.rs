@@ -1,5 +1,5 @@
-//! Steady states against speed (`rubscope hbm`): what each view computes, its tables and its JSON
-//! (`rubscope.hbm/1`). A view is one file with one [`View`], listed in [`VIEWS`].
+//! Steady states against speed (`rubscope hbm`): the sheet of each view (`rubscope.hbm/3` in JSON).
+//! A view is one file with one [`View`], listed in [`VIEWS`].
 
 mod branches;
 mod campbell;
@@ -9,18 +9,15 @@ mod excitation;
 mod forced;
 mod heading;
 pub mod locked;
-mod parts;
 mod slip;
 mod smooth;
 mod whirl;
 
-pub use heading::Heading;
 pub use locked::LOCKED;
-pub use parts::Parts;
 
 use super::number::{per_speed, short};
-use super::table::Table;
-use rubscope_solver::harmonic::{Corner, Form, HarmonicError, Sweep, lock_window, locked_motion};
+use super::{CommandLine, Sheet};
+use rubscope_solver::harmonic::{Corner, Form, HarmonicError, Locked, lock_window};
 use rubscope_solver::model::{LockWindow, Machine};
 use rubscope_solver::scene::{ModelSize, Scene, keys};
 
@@ -48,19 +45,20 @@ pub struct View {
     pub always_damped: bool,
     /// Whether the view is at a single speed, by default that of the scene.
     pub one_speed: bool,
-    /// Whether the view uses rigid contact, with its lock added, or the contact law of the scene.
-    pub lock: LockBeside,
-    /// Computes the tables of the view and its own JSON fields.
-    pub answer: fn(&Request<'_>) -> Result<Answer, HarmonicError>,
+    /// Contact of the view.
+    pub contact: ViewContact,
+    /// Adds the facts, sentences and tables of the view to the sheet. The table for files comes
+    /// last; in JSON it is `points`.
+    pub fill: fn(&Request<'_>, &mut Sheet<'_>) -> Result<(), HarmonicError>,
 }
 
-/// Contact that a view uses, and whether the lock of rigid contact is added to its JSON.
+/// Contact law of a view.
 #[derive(Debug)]
-pub enum LockBeside {
-    /// The view uses the contact law of the scene; no lock is added.
+pub enum ViewContact {
+    /// The contact law of the scene.
     OfScene,
-    /// The view uses rigid contact, and the locked motion is added. If computing it fails with an
-    /// error that the function accepts, the view is shown without it; any other error is returned.
+    /// Rigid contact, and a corner in which it can lock. If there is no lock for a reason that the
+    /// function accepts, the view is computed nevertheless; otherwise it is refused.
     Rigid(fn(&HarmonicError) -> bool),
 }
 
@@ -80,15 +78,54 @@ pub struct Request<'a> {
     pub pair: Option<[u32; 2]>,
     /// Machine of the scene; without its lining if the view uses rigid contact.
     pub machine: Machine,
-    /// The locked motion of rigid contact over `speeds`; `None` before the view is computed, if the
-    /// view uses the contact law of the scene, or if it tolerates that there is no lock.
-    pub sweep: Option<Sweep>,
 }
 
-impl Request<'_> {
+impl<'a> Request<'a> {
+    /// Computes the sheet of a view; `command` reproduces it.
+    ///
+    /// # Errors
+    /// The scene has a key, named in the error, that the view cannot handle; or the view cannot be
+    /// computed.
+    pub fn sheet(
+        mut self,
+        view: &View,
+        command: CommandLine,
+    ) -> Result<Sheet<'static>, HarmonicError> {
+        self.knows_tips(view)?;
+        if let ViewContact::Rigid(tolerates) = view.contact {
+            let machine = self.scene.machine().with_lining(None);
+            // The rigid model ignores the bending of the blades under load.
+            self.machine = if self.is_rigid() { machine.with_stiff_blades() } else { machine };
+            if let Err(error) = self.lock()
+                && !tolerates(&error)
+            {
+                return Err(error);
+            }
+        }
+        let mut sheet = Sheet::new("hbm", 3, command, self.scene);
+        self.tell(self.damped || view.always_damped, &mut sheet);
+        (view.fill)(&self, &mut sheet)?;
+        Ok(sheet)
+    }
+
+    /// Returns the solver of the lock of rigid contact.
+    fn lock(&self) -> Result<Locked, HarmonicError> {
+        let Self { form, damped, pair, speeds, .. } = *self;
+        if self.scene.clearance() <= 0.0 {
+            return Err(no_clearance(self.scene));
+        }
+        let corner = Corner::of(&self.machine, speeds.last().copied().unwrap_or(1.0), pair)?;
+        Locked::new(&self.machine, corner, form, damped)
+    }
+
+    /// Returns whether the model of the scene has rigid blades.
+    fn is_rigid(&self) -> bool {
+        self.scene.solver.model == ModelSize::Rigid
+    }
+
     /// Returns the speed of largest magnitude, with its sign, which determines the sense of
     /// rotation \[rad/s\].
-    pub fn fastest(&self) -> f64 {
+    fn fastest(&self) -> f64 {
         let further = |a: &f64, b: &f64| a.abs().total_cmp(&b.abs());
         self.speeds.iter().copied().max_by(further).unwrap_or(self.scene.operation.speed_rad_s)
     }
@@ -97,43 +134,6 @@ impl Request<'_> {
     fn span(&self) -> [f64; 2] {
         let least = self.speeds.iter().copied().fold(f64::INFINITY, f64::min);
         [least, self.speeds.iter().copied().fold(f64::NEG_INFINITY, f64::max)]
-    }
-
-    fn corner(&self) -> Result<Corner, HarmonicError> {
-        let polygon = &self.machine.polygon;
-        self.pair.map_or_else(|| Corner::paper(polygon), |pair| Corner::of_blades(polygon, pair))
-    }
-
-    /// Computes a view, first the lock of rigid contact if the view uses it. The JSON fields common
-    /// to all views come before the view's own.
-    ///
-    /// # Errors
-    /// The scene has a key, named in the error, that the view cannot handle; or the lock or the
-    /// view cannot be computed.
-    pub fn answer(&mut self, view: &View) -> Result<Answer, HarmonicError> {
-        self.knows_tips(view)?;
-        if let LockBeside::Rigid(tolerates) = view.lock {
-            let machine = self.scene.machine().with_lining(None);
-            // The rigid model ignores the bending of the blades under load.
-            let rigid = self.scene.solver.model == ModelSize::Rigid;
-            self.machine = if rigid { machine.with_stiff_blades() } else { machine };
-            let Self { form, damped, pair, speeds, .. } = *self;
-            let found = match self.scene.clearance() {
-                ..=0.0 => Err(no_clearance(self.scene)),
-                _ => locked_motion(&self.machine, form, damped, pair, speeds),
-            };
-            match found {
-                Ok(mut sweep) => {
-                    let points = sweep.points.iter_mut().filter(|_| rigid);
-                    points.for_each(|point| point.alpha_rad = [0.0; 2]);
-                    self.sweep = Some(sweep);
-                }
-                Err(error) if tolerates(&error) => {}
-                Err(error) => return Err(error),
-            }
-        }
-        let answer = (view.answer)(self)?;
-        Ok(Answer { json: self.json().and(answer.json), ..answer })
     }
 
     /// Refuses unequal tips and an out-of-round casing if the view is not derived for them.
@@ -160,53 +160,25 @@ impl Request<'_> {
         Ok(())
     }
 
-    /// Returns the JSON fields common to all views.
-    fn json(&self) -> Parts {
+    /// Adds the facts that are common to all views.
+    fn facts(&self, sheet: &mut Sheet) {
         let Self { scene, machine, form, damped, .. } = self;
         let (speed, notes) = (self.fastest(), notes(scene, machine));
         let window = lock_window(machine, speed);
-        let json = Parts::default()
-            .with("scene", scene.reported())
-            .with("form", form)
-            .with("damped", damped);
-        let json = if notes.is_empty() { json } else { json.with("notes", notes) };
-        let json = json
-            .with("omega_c_rad_s", machine.critical_speed())
-            .with("omega_lock_rad_s", window.map(|window| window.from))
-            .with("lock_ends_rad_s", window.and_then(|window| window.to))
-            .with("omega_adhesive_rad_s", machine.adhesive_speed())
-            .with("coincidence_rad_s", machine.dangerous_speed_toward(speed))
-            .with("casing_frequency_rad_s", machine.omega_c)
-            .with("blade_frequency_rad_s", machine.omega_bd)
-            .with("clearance_m", machine.clearance())
-            .with("locked_amplitude_m", machine.locked_amplitude());
-        match &self.sweep {
-            Some(sweep) => locked::points(json, &machine.polygon, sweep),
-            None => json.with("missing_rad_s", [(); 0]).with("points", [(); 0]),
+        sheet.fact("form", form);
+        sheet.fact("damped", damped);
+        if !notes.is_empty() {
+            sheet.fact("notes", notes);
         }
-    }
-}
-
-/// Result of a view.
-#[derive(Debug)]
-pub struct Answer {
-    /// The JSON report; before [`Request::answer`] adds the common fields, only the view's own.
-    pub json: Parts,
-    /// Tables to show, each under its title, which may be empty.
-    pub tables: Vec<(String, Table)>,
-    /// The table for files; `None` if it is the last one shown.
-    file: Option<Table>,
-}
-
-impl Answer {
-    /// Creates an answer; the last table also goes to files.
-    fn of(json: Parts, tables: Vec<(String, Table)>) -> Self {
-        Self { json, tables, file: None }
-    }
-
-    /// Returns the table for files; `None` if the answer has no table at all.
-    pub fn file(&self) -> Option<&Table> {
-        self.file.as_ref().or(self.tables.last().map(|(_, table)| table))
+        sheet.fact("omega_c_rad_s", machine.critical_speed());
+        sheet.fact("omega_lock_rad_s", window.map(|window| window.from));
+        sheet.fact("lock_ends_rad_s", window.and_then(|window| window.to));
+        sheet.fact("omega_adhesive_rad_s", machine.adhesive_speed());
+        sheet.fact("coincidence_rad_s", machine.dangerous_speed_toward(speed));
+        sheet.fact("casing_frequency_rad_s", machine.omega_c);
+        sheet.fact("blade_frequency_rad_s", machine.omega_bd);
+        sheet.fact("clearance_m", machine.clearance());
+        sheet.fact("locked_amplitude_m", machine.locked_amplitude());
     }
 }
 
@@ -224,7 +196,7 @@ fn no_clearance(scene: &Scene) -> HarmonicError {
 }
 
 /// Returns remarks on effects of the scene that the view ignores.
-pub fn notes(scene: &Scene, machine: &Machine) -> Vec<String> {
+fn notes(scene: &Scene, machine: &Machine) -> Vec<String> {
     let hard = scene.lining().filter(|_| machine.lining.is_none());
     let hard = hard.map(|_| "of rigid contact; --smooth has the lining of the scene".to_string());
     hard.into_iter().chain(scene.tuned_note()).collect()
@@ -232,7 +204,7 @@ pub fn notes(scene: &Scene, machine: &Machine) -> Vec<String> {
 
 /// Formats the window of lock speeds in the shown unit, which is not named: `472.117 to 566.259`,
 /// or only its start if it has no upper end.
-pub fn speeds_of(window: LockWindow) -> String {
+fn speeds_of(window: LockWindow) -> String {
     match window.to {
         Some(to) => format!("{} to {}", short(per_speed(window.from)), short(per_speed(to))),
         None => short(per_speed(window.from)),

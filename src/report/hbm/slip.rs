@@ -1,8 +1,7 @@
 //! The view `--slip`: lasting slip, and the speeds at which it exists.
 
-use serde_json::{Value, json};
-
-use super::{Answer, LockBeside, Parts, Request, View};
+use super::{Request, View, ViewContact};
+use crate::report::Sheet;
 use crate::report::number::speed;
 use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{
@@ -14,18 +13,21 @@ pub const SLIP: View = View {
     help: "View: lasting slip, the fixed point of the map from corner to corner",
     always_damped: true,
     one_speed: false,
-    lock: LockBeside::Rigid(|_| false),
-    answer,
+    contact: ViewContact::Rigid(|_| false),
+    fill,
 };
 
-fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
+fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicError> {
     let Request { machine, speeds, .. } = request;
     let points = slip_over(machine, speeds)?;
     let limits = slip_limits(machine, speeds)?;
     let title = heading(&points, &limits);
     let limits: Vec<f64> = limits.iter().map(|limit| limit.speed_rad_s).collect();
-    let json = Parts::default().with_rows("slip", &points, value).with("slip_limits_rad_s", limits);
-    Ok(Answer::of(json, vec![(title, Table::of(&points, SLIPS))]))
+    sheet.fact("slip_limits_rad_s", limits);
+    sheet.table("points", title, Table::of(points, SLIPS).shown(8));
+    sheet.chart("speed of the wave [rad/s]", &[["wave_speed_rad_s", "wave"]]);
+    sheet.chart("smallest push [N]", &[["least_push_n", "push"]]);
+    Ok(())
 }
 
 fn heading(points: &[SlipPoint], limits: &[SlipLimit]) -> String {
@@ -45,22 +47,7 @@ fn heading(points: &[SlipPoint], limits: &[SlipLimit]) -> String {
     }
 }
 
-/// Returns the slip at one speed as JSON; the values of the orbit are `null` if there is no slip.
-fn value(point: &SlipPoint) -> Value {
-    let mut value = json!({
-        "speed_rad_s": point.speed_rad_s,
-        "exists": point.exists(),
-        "stable": point.stable(),
-        "reason": point.outcome.err(),
-    });
-    let orbit = json!(point.outcome.unwrap_or_default());
-    if let (Some(map), Value::Object(orbit)) = (value.as_object_mut(), orbit) {
-        let null = |(name, figure)| (name, if point.exists() { figure } else { Value::Null });
-        map.extend(orbit.into_iter().map(null));
-    }
-    value
-}
-
+/// Columns of slip; all but the first two are empty if there is none. Text has the first ones.
 const SLIPS: &[Column<'_, SlipPoint>] = &[
     ("speed_rad_s", |point| point.speed_rad_s.into()),
     ("slip", |point| match point.outcome {
@@ -74,6 +61,11 @@ const SLIPS: &[Column<'_, SlipPoint>] = &[
     ("least_push_n", |point| of_slip(point, |orbit| orbit.least_push_n)),
     ("torque_nm", |point| of_slip(point, |orbit| orbit.torque_nm)),
     ("power_w", |point| of_slip(point, |orbit| orbit.power_w)),
+    ("speed_after_corner_m_s", |point| of_slip(point, |orbit| orbit.speed_after_corner_m_s)),
+    ("speed_before_corner_m_s", |point| of_slip(point, |orbit| orbit.speed_before_corner_m_s)),
+    ("corner_impulse_ns", |point| of_slip(point, |orbit| orbit.corner_impulse_ns)),
+    ("damper_power_w", |point| of_slip(point, |orbit| orbit.damper_power_w)),
+    ("corner_power_w", |point| of_slip(point, |orbit| orbit.corner_power_w)),
 ];
 
 fn of_slip(point: &SlipPoint, figure: fn(SlipOrbit) -> f64) -> TableCell {

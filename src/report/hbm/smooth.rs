@@ -1,9 +1,8 @@
 //! The view `--smooth`: steady states of blades on a lining. With a preload, these are rest and the
 //! waves that grow from it; with a clearance, locks, whirl, and the linings that hold a lock.
 
-use serde_json::json;
-
-use super::{Answer, LockBeside, Parts, Request, View, speeds_of};
+use super::{Request, View, ViewContact, speeds_of};
+use crate::report::Sheet;
 use crate::report::number::{short, speed, speed_unit};
 use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{
@@ -18,15 +17,15 @@ pub const SMOOTH: View = View {
            waves it grows into, locks and which linings hold them",
     always_damped: true,
     one_speed: false,
-    lock: LockBeside::OfScene,
-    answer,
+    contact: ViewContact::OfScene,
+    fill,
 };
 
 /// Rest at one rotor speed, whether large waves stay bounded there, and the stable wave of constant
 /// amplitude, if there is one.
 type RestRow = (Rest, bool, Option<Cycle>);
 
-fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
+fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicError> {
     let Request { scene, machine, speeds, .. } = request;
     if scene.solver.contact != ContactLaw::Smooth {
         let allowed = "\"smooth\" with --smooth: only a lining has these steady states";
@@ -48,45 +47,43 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
     let shifted = shifted_coincidence(scene, fastest);
     let threshold = growth_threshold(machine, fastest);
     let (window, least) = (lock_window(machine, fastest), least_lock_stiffness(machine));
-    let json = Parts::default()
-        .with("preload_m", lining.preload_m())
-        .with("stiffness_at_rest_n_per_m", lining.stiffness_at_rest())
-        .with("shifted_coincidence_rad_s", shifted)
-        .with("threshold_n_per_m", threshold.map(|least| least.stiffness_n_per_m))
-        .with("threshold_rad_s", threshold.map(|least| least.speed_rad_s))
-        .with("hopf", &hopf)
-        .with("rest", rests.iter().map(value).collect::<Vec<_>>())
-        .with("cycles", &cycles)
-        .with("lock_from_rad_s", window.map(|window| window.from))
-        .with("lock_to_rad_s", window.and_then(|window| window.to))
-        .with("least_stiffness_n_per_m", least.map(|least| least.stiffness_n_per_m))
-        .with("least_stiffness_rad_s", least.map(|least| least.speed_rad_s))
-        .with("states", &states);
-    let mut tables = Vec::new();
-    if pressed {
-        tables.push((pressed_title(&lining, shifted, &hopf), Table::of(&rests, RESTS)));
-    } else {
-        if !cycles.is_empty() {
-            let title = "Whirl, waves that turn against the blades:".to_string();
-            tables.push((title, Table::of(&cycles, CYCLES)));
-        }
-        let mut title = "Steady states in the frame of the blades.".to_string();
-        if let Some(least) = least {
-            let held = window.map_or_else(
-                || "holds it at no speed".to_string(),
-                |window| format!("holds it from {} {}", speeds_of(window), speed_unit()),
-            );
-            title += &format!(
-                " Without smoothing a lock of two groups needs a lining of at least {} N/m (at \
-                 {}); one of {} N/m {held}.",
-                short(least.stiffness_n_per_m),
-                speed(least.speed_rad_s),
-                short(lining.stiffness_n_per_m)
-            );
-        }
-        tables.push((title, Table::of(&states, STATES)));
+    sheet.fact("preload_m", lining.preload_m());
+    sheet.fact("stiffness_at_rest_n_per_m", lining.stiffness_at_rest());
+    sheet.fact("shifted_coincidence_rad_s", shifted);
+    sheet.fact("threshold_n_per_m", threshold.map(|least| least.stiffness_n_per_m));
+    sheet.fact("threshold_rad_s", threshold.map(|least| least.speed_rad_s));
+    sheet.fact("lock_from_rad_s", window.map(|window| window.from));
+    sheet.fact("lock_to_rad_s", window.and_then(|window| window.to));
+    sheet.fact("least_stiffness_n_per_m", least.map(|least| least.stiffness_n_per_m));
+    sheet.fact("least_stiffness_rad_s", least.map(|least| least.speed_rad_s));
+    let whirl = "Whirl, waves that turn against the blades:";
+    match cycles.is_empty() || pressed {
+        true => sheet.filed(Some("cycles"), Table::of(cycles, CYCLES)),
+        false => sheet.table("cycles", whirl, Table::of(cycles, CYCLES)),
     }
-    Ok(Answer::of(Parts::default().with("smooth", json), tables))
+    if pressed {
+        let title = pressed_title(&lining, shifted, &hopf);
+        sheet.filed(Some("hopf"), Table::of(hopf, HOPF));
+        sheet.table("points", title, Table::of(rests, RESTS));
+        sheet.chart("growth of rest [1/s]", &[["growth_1_s", "growth"]]);
+        return Ok(());
+    }
+    let mut title = "Steady states in the frame of the blades.".to_string();
+    if let Some(least) = least {
+        let held = window.map_or_else(
+            || "holds it at no speed".to_string(),
+            |window| format!("holds it from {} {}", speeds_of(window), speed_unit()),
+        );
+        title += &format!(
+            " Without smoothing a lock of two groups needs a lining of at least {} N/m (at {}); one \
+             of {} N/m {held}.",
+            short(least.stiffness_n_per_m),
+            speed(least.speed_rad_s),
+            short(lining.stiffness_n_per_m)
+        );
+    }
+    sheet.table("points", title, Table::of(states, STATES).shown(9));
+    Ok(())
 }
 
 fn pressed_title(lining: &Lining<'_>, shifted: Option<f64>, hopf: &[HopfPoint]) -> String {
@@ -109,17 +106,13 @@ fn pressed_title(lining: &Lining<'_>, shifted: Option<f64>, hopf: &[HopfPoint]) 
     }
 }
 
-fn value((rest, bounded, _): &RestRow) -> serde_json::Value {
-    let worst = rest.worst();
-    json!({
-        "speed_rad_s": rest.speed_rad_s,
-        "growth_1_s": worst.growth_1_s,
-        "s_rad_s": worst.s_rad_s,
-        "omega_rad_s": worst.omega_rad_s,
-        "grows": rest.grows,
-        "bounded": bounded,
-    })
-}
+/// Columns of the speeds at which a wave about rest begins or ends to grow.
+const HOPF: &[Column<'_, HopfPoint>] = &[
+    ("speed_rad_s", |point| point.speed_rad_s.into()),
+    ("s_rad_s", |point| point.s_rad_s.into()),
+    ("omega_rad_s", |point| point.omega_rad_s.into()),
+    ("grows_above", |point| point.grows_above.into()),
+];
 
 /// Columns of rest under preload and the wave that grows from it.
 const RESTS: &[Column<'_, RestRow>] = &[
@@ -155,10 +148,10 @@ const CYCLES: &[Column<'_, Cycle>] = &[
     ("character", |cycle| word(cycle.stable)),
 ];
 
-/// Columns of waves that are fixed in the frame of the blades.
+/// Columns of waves that are fixed in the frame of the blades; text has the first ones.
 const STATES: &[Column<'_, LiningState>] = &[
     ("speed_rad_s", |state| state.speed_rad_s.into()),
-    ("pushing", |state| (state.pushing as f64).into()),
+    ("pushing", |state| (state.pushing as u64).into()),
     ("push_a_n", |state| push(state, 0)),
     ("push_b_n", |state| push(state, 1)),
     ("push_c_n", |state| push(state, 2)),
@@ -166,6 +159,10 @@ const STATES: &[Column<'_, LiningState>] = &[
     ("blade_rad", |state| state.blade_rad.into()),
     ("growth_1_s", |state| state.growth_1_s.into()),
     ("character", |state| word(state.stable)),
+    ("frequency_rad_s", |state| state.frequency_rad_s.into()),
+    ("blade_a", |state| blade(state, 0)),
+    ("blade_b", |state| blade(state, 1)),
+    ("blade_c", |state| blade(state, 2)),
 ];
 
 fn word(stable: bool) -> TableCell {
@@ -174,4 +171,9 @@ fn word(stable: bool) -> TableCell {
 
 fn push(state: &LiningState, place: usize) -> TableCell {
     state.pushes.get(place).map(|push| push.push_n).into()
+}
+
+/// Returns the first blade of a group that pushes.
+fn blade(state: &LiningState, place: usize) -> TableCell {
+    state.pushes.get(place).and_then(|push| push.blades.first().copied()).into()
 }

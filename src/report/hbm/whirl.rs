@@ -1,9 +1,8 @@
 //! The view `--whirl`: whirl of inclined tips in the limit of many blades, its onset, and the speed
 //! at which a lock begins to flutter.
 
-use serde_json::{Value, json};
-
-use super::{Answer, LockBeside, Parts, Request, View, speeds_of};
+use super::{Request, View, ViewContact, speeds_of};
+use crate::report::Sheet;
 use crate::report::number::{speed, speed_unit};
 use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{
@@ -17,11 +16,11 @@ pub const WHIRL: View = View {
            a lock flutters",
     always_damped: true,
     one_speed: false,
-    lock: LockBeside::Rigid(|_| false),
-    answer,
+    contact: ViewContact::Rigid(|_| false),
+    fill,
 };
 
-fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
+fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicError> {
     let (machine, toward) = (&request.machine, request.fastest());
     let rows = request.speeds.iter().map(|&speed| WhirlRow::at(machine, speed));
     let rows: Vec<WhirlRow> = rows.collect();
@@ -59,14 +58,15 @@ fn answer(request: &Request<'_>) -> Result<Answer, HarmonicError> {
         title += FEW_SIDES;
     }
     let fluttering: Vec<_> = flutter.iter().map(|range| [Some(range.from), range.to]).collect();
-    let json = Parts::default()
-        .with("whirl_onset_rad_s", whirls.first().map(|span| span.from))
-        .with("flutter_speed_rad_s", flutter.first().map(|range| range.from))
-        .with("flutter_rad_s", fluttering)
-        .with("flutter_undamped_rad_s", undamped_flutter_speed(machine, toward))
-        .with("lock_window_rad_s", window.map(|window| [Some(window.from), window.to]))
-        .with_rows("points", &rows, value);
-    Ok(Answer::of(json, vec![(title, Table::of(&rows, WHIRLS))]))
+    sheet.fact("whirl_onset_rad_s", whirls.first().map(|span| span.from));
+    sheet.fact("flutter_speed_rad_s", flutter.first().map(|range| range.from));
+    sheet.fact("flutter_rad_s", fluttering);
+    sheet.fact("flutter_undamped_rad_s", undamped_flutter_speed(machine, toward));
+    sheet.fact("lock_window_rad_s", window.map(|window| [Some(window.from), window.to]));
+    sheet.table("points", title, Table::of(rows, WHIRLS).shown(8));
+    sheet.chart("push of all blades [N]", &[["push_n", "push"]]);
+    sheet.chart("casing [m]", &[["casing_m", "casing"]]);
+    Ok(())
 }
 
 /// What a state `none` leaves open.
@@ -100,25 +100,7 @@ impl WhirlRow {
     }
 }
 
-/// Returns the whirl at one speed as JSON; its values are `null` if there is no whirl.
-fn value(row: &WhirlRow) -> Value {
-    let figure = |of: fn(&(RoundWhirl, RoundWhirlLoads)) -> f64| row.wave.as_ref().map(of);
-    json!({
-        "speed_rad_s": row.speed_rad_s,
-        "state": row.state,
-        "omega_rad_s": figure(|(wave, _)| wave.omega_rad_s),
-        "s_rad_s": figure(|(wave, _)| wave.s_rad_s),
-        "growth_per_s": figure(|(wave, _)| wave.growth_per_s),
-        "stiffness_n_per_m": figure(|(wave, _)| wave.stiffness_n_per_m),
-        "push_n": figure(|(_, loads)| loads.push_n),
-        "casing_m": figure(|(_, loads)| loads.casing_m),
-        "blade_rad": figure(|(_, loads)| loads.blade_rad),
-        "casing_w": figure(|(_, loads)| loads.casing_w),
-        "blades_w": figure(|(_, loads)| loads.blades_w),
-        "friction_w": figure(|(_, loads)| loads.friction_w),
-    })
-}
-
+/// Columns of whirl; all but the first two are empty if there is none. Text has the first ones.
 const WHIRLS: &[Column<'_, WhirlRow>] = &[
     ("speed_rad_s", |row| row.speed_rad_s.into()),
     ("state", |row| <&str>::from(row.state).into()),
@@ -128,6 +110,10 @@ const WHIRLS: &[Column<'_, WhirlRow>] = &[
     ("push_n", |row| figure(row, |(_, loads)| loads.push_n)),
     ("casing_m", |row| figure(row, |(_, loads)| loads.casing_m)),
     ("blade_rad", |row| figure(row, |(_, loads)| loads.blade_rad)),
+    ("stiffness_n_per_m", |row| figure(row, |(wave, _)| wave.stiffness_n_per_m)),
+    ("casing_w", |row| figure(row, |(_, loads)| loads.casing_w)),
+    ("blades_w", |row| figure(row, |(_, loads)| loads.blades_w)),
+    ("friction_w", |row| figure(row, |(_, loads)| loads.friction_w)),
 ];
 
 fn figure(row: &WhirlRow, of: fn(&(RoundWhirl, RoundWhirlLoads)) -> f64) -> TableCell {

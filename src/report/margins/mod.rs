@@ -4,34 +4,31 @@
 pub mod robust;
 pub mod words;
 
-use std::io::{Result, Write};
-
 use serde_json::json;
 
-use super::command::{PROGRAM, VERSION};
 use super::line::wrapped;
 use super::symbols::symbol;
 use super::table::{Heading, Table, TableCell, WIDTH};
-use super::{Provenance, svg};
-use rubscope_solver::study::margins::{LimitName, Margins, acting};
+use super::{CommandLine, Sheet};
+use rubscope_solver::study::margins::{Limit, LimitName, Margins, acting};
 
 /// Number of parameters listed with each limit: those that move it most.
 pub const STRONGEST: usize = 3;
 
 /// Returns a table with one row per limit, under its name in files.
-pub fn table(margins: &Margins) -> Table {
+pub fn table(margins: &Margins) -> Table<'static> {
     titled(margins, |name| name.to_string())
 }
 
 /// As [`table`], with `title` making the name of each limit.
-pub fn titled(margins: &Margins, title: fn(LimitName) -> String) -> Table {
+pub fn titled(margins: &Margins, title: fn(LimitName) -> String) -> Table<'static> {
     let parameters: Vec<&str> = acting(&margins.scene).map(|parameter| parameter.path).collect();
     let people = ["+1 % of", "each", "moves it by"].map(Heading::shown);
     let files = [Heading::filed("quantity"), "value".into(), Heading::filed("present")];
     let headings = std::iter::once(Heading::from("name").words("limit")).chain(files);
     let headings = headings.chain([Heading::from("margin").words("away")]).chain(people);
-    let mut table = Table::new(headings.chain(parameters.iter().map(|path| Heading::filed(*path))));
-    for limit in &margins.limits {
+    let headings = headings.chain(parameters.iter().map(|path| Heading::filed(*path)));
+    let row = |limit: &Limit| {
         // Same word as in JSON.
         let quantity = json!(limit.quantity).as_str().map_or(TableCell::Empty, TableCell::from);
         let value = limit.value.map_or(TableCell::Empty, |value| {
@@ -54,8 +51,9 @@ pub fn titled(margins: &Margins, title: fn(LimitName) -> String) -> Table {
             TableCell::Word(text.unwrap_or_default())
         });
         let by = parameters.iter().map(|path| limit.sensitivities.by(path).into());
-        table.push(own.into_iter().chain(moved).chain(by).collect());
-    }
+        own.into_iter().chain(moved).chain(by).collect()
+    };
+    let mut table = Table::with_rows(headings, margins.limits.iter().map(row).collect());
     for (note, names) in notes(margins) {
         table.note(format!("{names}: {note}."));
     }
@@ -76,51 +74,25 @@ fn notes(margins: &Margins) -> Vec<(String, String)> {
     found
 }
 
-/// Writes the limits and the computing time as text.
-///
-/// # Errors
-/// The writer failed.
-pub fn write(margins: &Margins, out: &mut dyn Write) -> Result<()> {
-    write_limits(margins, out)?;
-    writeln!(out)?;
-    tell(&words::cost(margins), out)
-}
-
-/// Writes the limits as an SVG page, with the command that reproduces it.
-///
-/// # Errors
-/// The writer failed.
-pub fn write_page(margins: &Margins, origin: &Provenance, out: &mut dyn Write) -> Result<()> {
-    let mut text = Vec::new();
-    write_limits(margins, &mut text)?;
-    writeln!(text, "\n{PROGRAM} {VERSION}: {}", origin.command)?;
-    svg::write_text(&String::from_utf8_lossy(&text), origin, out)
-}
-
-/// Writes the limits without the computing time, so that the same scene gives the same text.
-fn write_limits(margins: &Margins, out: &mut dyn Write) -> Result<()> {
-    tell(&margins.scene.title, out)?;
-    tell(&words::conditions(margins), out)?;
-    words::note(margins).iter().try_for_each(|note| tell(note, out))?;
-    writeln!(out)?;
+/// Returns the sheet of the margins; `command` reproduces it.
+pub fn sheet(margins: &Margins, command: CommandLine) -> Sheet<'_> {
+    let mut sheet = Sheet::new("margins", 1, command, &margins.scene);
+    sheet.facts(margins);
+    sheet.paragraph(&margins.scene.title);
+    sheet.paragraph(&words::conditions(margins));
+    words::note(margins).iter().for_each(|note| sheet.paragraph(note));
     for found in robust::asked(margins) {
-        tell(&robust::sentence(found, margins, true), out)?;
-        robust::table(found, " at ").write_text_in(WIDTH, out)?;
-        writeln!(out)?;
+        let sentence = wrapped(&robust::sentence(found, margins, true), WIDTH).join("\n");
+        sheet.shown(sentence, robust::table(found, " at ").within(WIDTH));
     }
-    table(margins).write_text_in(WIDTH, out)?;
+    sheet.shown("", table(margins).within(WIDTH));
     if let Some(found) = &margins.target {
-        writeln!(out)?;
-        tell(&words::target(found, margins), out)?;
+        sheet.paragraph(&words::target(found, margins));
         // A command to copy is not wrapped.
         if let Some(command) = words::check(found, &margins.scene) {
-            writeln!(out, "Check it: {command}")?;
+            sheet.line(format!("Check it: {command}"));
         }
     }
-    Ok(())
-}
-
-/// Writes a text wrapped to the line width.
-fn tell(text: &str, out: &mut dyn Write) -> Result<()> {
-    wrapped(text, WIDTH).iter().try_for_each(|line| writeln!(out, "{line}"))
+    sheet.time(words::cost(margins));
+    sheet
 }

@@ -4,7 +4,9 @@ use super::words::from_here;
 use crate::report::number::{count, rounded, scaled, short, with_unit};
 use crate::report::table::{Heading, Table, TableCell};
 use rubscope_solver::scene::{ContactLaw, keys};
-use rubscope_solver::study::margins::{ChangedVerdict, LimitName, Margins, Robustness, parameter};
+use rubscope_solver::study::margins::{
+    ChangedVerdict, LimitName, Margins, Robustness, VerdictChange, parameter,
+};
 
 /// Significant digits shown of a value, as many as the values that the search tries have.
 const DIGITS: usize = 4;
@@ -104,10 +106,9 @@ fn mark(changed: ChangedVerdict) -> &'static str {
 
 /// Returns a table with one row per quantity: the nearest values below and above the present one at
 /// which another verdict was found, all in one unit. `at` joins verdict and value.
-pub fn table(found: &Robustness, at: &str) -> Table {
-    let headings = ["what", "found below", "now", "found above"];
-    let mut table = Table::new(headings.map(Heading::shown));
-    for row in &found.changes {
+pub fn table(found: &Robustness, at: &str) -> Table<'static> {
+    let headings = ["what", "found below", "now", "found above"].map(Heading::shown);
+    let row = |row: &VerdictChange| {
         let [now, unit] = amount(row.path, row.present, row.present);
         let side = |found: Option<ChangedVerdict>, tried: f64| match found {
             Some(changed) => {
@@ -120,9 +121,9 @@ pub fn table(found: &Robustness, at: &str) -> Table {
         let what = if unit.is_empty() { row.name.into() } else { format!("{} [{unit}]", row.name) };
         let [low, high] = row.tried;
         let cells = [what, side(row.below, low), now, side(row.above, high)];
-        table.push(cells.map(TableCell::Word).into());
-    }
-    table
+        cells.map(TableCell::Word).into()
+    };
+    Table::with_rows(headings, found.changes.iter().map(row).collect())
 }
 
 /// Returns a value of the key `path` and its unit as text, with the SI prefix that suits `of`.

@@ -21,11 +21,20 @@ pub trait ViewPanel: Sync {
     /// Draws the view.
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea);
 
+    /// Returns the view's data as a table; `None` before there are any.
+    fn table<'a>(&self, app: &'a App) -> Option<Table<'a>>;
+
     /// Exports the view's data as CSV.
     ///
     /// # Errors
     /// Says why there is nothing to export.
-    fn csv(&self, app: &App) -> Result<String, String>;
+    fn csv(&self, app: &App) -> Result<String, String> {
+        let table = self.table(app).filter(|table| !table.is_empty());
+        let mut bytes = Vec::new();
+        let written = table.ok_or("there is no data yet")?.write_csv(&mut bytes);
+        written.map_err(|error| error.to_string())?;
+        String::from_utf8(bytes).map_err(|error| error.to_string())
+    }
 
     /// Returns the content as lines for `--lines`; `None` if only a picture can show it.
     fn lines(&self, _: &App, _: usize) -> Option<Vec<String>> {
@@ -216,24 +225,6 @@ pub fn not_yet(app: &App, buffer: &mut Buffer, inside: Rect) {
         None => "waits for the verdict of the run",
     };
     print(buffer, inside, 1, text, quiet);
-}
-
-/// Writes a table as CSV.
-///
-/// # Errors
-/// Says why it cannot be written.
-pub fn table_csv(table: &Table) -> Result<String, String> {
-    let mut bytes = Vec::new();
-    table.write_csv(&mut bytes).map_err(|error| error.to_string())?;
-    String::from_utf8(bytes).map_err(|error| error.to_string())
-}
-
-/// Writes a table as CSV if it has rows.
-///
-/// # Errors
-/// Says that there are no rows, or why it cannot be written.
-pub fn csv(table: &Table) -> Result<String, String> {
-    if table.is_empty() { Err("there is no data yet".into()) } else { table_csv(table) }
 }
 
 /// Prints the labels of marked speeds, each in the highest free row of the chart, otherwise on the

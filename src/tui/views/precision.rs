@@ -3,9 +3,10 @@
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-use super::panel::{ViewArea, ViewPanel, not_yet, table_csv, title};
+use super::panel::{ViewArea, ViewPanel, not_yet, title};
 use crate::report::number::count;
 use crate::report::precision::{decades, letter, place, reference_words, series, table};
+use crate::report::table::Table;
 use crate::tui::app::App;
 use crate::tui::axis::{ChartAxis, readable};
 use crate::tui::plot::Plot;
@@ -95,9 +96,8 @@ impl ViewPanel for PrecisionView {
         }
     }
 
-    fn csv(&self, app: &App) -> Result<String, String> {
-        let report = app.results().found.precision.as_ref();
-        table_csv(&table(report.ok_or("nothing is measured yet")?))
+    fn table<'a>(&self, app: &'a App) -> Option<Table<'a>> {
+        Some(table(app.results().found.precision.as_ref()?))
     }
 }
 

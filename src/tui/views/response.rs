@@ -3,9 +3,7 @@
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-use super::panel::{
-    ViewArea, ViewPanel, csv, dots, entry, lines_above, name_level, read_before, title,
-};
+use super::panel::{ViewArea, ViewPanel, dots, entry, lines_above, name_level, read_before, title};
 use crate::report::line::clean;
 use crate::report::table::{Table, TableCell};
 use crate::tui::app::{App, Cursor};
@@ -59,9 +57,9 @@ impl ViewPanel for ResponseView {
         Cursor { across: app.part_of_page(), up: 0.5 }
     }
 
-    /// Exports the minimum and maximum of every channel in each bin of the page, up to the current
+    /// Returns the minimum and maximum of every channel in each bin of the page, up to the current
     /// time.
-    fn csv(&self, app: &App) -> Result<String, String> {
+    fn table<'a>(&self, app: &'a App) -> Option<Table<'a>> {
         let channels = [
             (Channel::UC, "u_c_m"),
             (Channel::US, "u_s_m"),
@@ -76,15 +74,16 @@ impl ViewPanel for ResponseView {
             .iter()
             .flat_map(|(_, name)| [format!("{name}_least"), format!("{name}_greatest")]);
         let times = ["from_s", "to_s"].map(String::from).into_iter();
-        let mut table = Table::new(times.chain(of_channels).chain(["contact".into()]));
-        for bin in app.past_and_future(app.record()).0 {
+        let headings: Vec<_> = times.chain(of_channels).chain(["contact".into()]).collect();
+        let bins = app.past_and_future(app.record()).0;
+        Some(Table::new(headings, bins.len(), move |place| {
+            let bin = &bins[place];
             let spans =
                 channels.iter().flat_map(|(channel, _)| <[f64; 2]>::from(bin.span(*channel)));
-            let contact = f64::from(u8::from(bin.contact.is_some()));
-            let row = [bin.from, bin.to].into_iter().chain(spans).chain([contact]);
-            table.push(row.map(TableCell::from).collect());
-        }
-        csv(&table)
+            let contact = u64::from(bin.contact.is_some());
+            let numbers = [bin.from, bin.to].into_iter().chain(spans).map(TableCell::from);
+            numbers.chain([contact.into()]).collect()
+        }))
     }
 }
 

@@ -16,7 +16,7 @@ const HEADING_FROM: u16 = 5;
 
 /// A table, with its cursor.
 pub struct Rows<'a> {
-    pub table: &'a Table,
+    pub table: Table<'a>,
     /// Number of table columns in the first cursor column, and number of cursor columns; each
     /// further cursor column is one table column.
     pub cursor: [usize; 2],
@@ -39,9 +39,7 @@ impl Rows<'_> {
     ) -> u16 {
         let look = &app.appearance;
         // The first column of the screen is for the cursor sign.
-        let spell = |text: &str| look.spell(&greek(text).replace("g_0", "g0"));
-        let table = self.table.clone().spelled(spell);
-        let lines = table.lines(usize::from(area.width.saturating_sub(1)), 1);
+        let lines = self.table.lines(usize::from(area.width.saturating_sub(1)), 1);
         let parts = lines.split_first().filter(|_| area.height > 0);
         let Some((headings, rows)) = parts else { return 0 };
         let head = u16::from(area.height >= HEADING_FROM);
@@ -103,6 +101,11 @@ impl Rows<'_> {
             }
         }
     }
+}
+
+/// Spells a table with the letters that the screen can show.
+pub fn spelled<'a>(app: &'a App, table: Table<'a>) -> Table<'a> {
+    table.spelled(|text| app.appearance.spell(&greek(text).replace("g_0", "g0")))
 }
 
 /// Returns the areas of the cells of a line.

@@ -18,7 +18,7 @@ use crate::tui::theme::Role;
 use crate::tui::views::ViewId;
 use crate::tui::views::coincidence::curves::{CoincidenceCurves, points};
 use crate::tui::views::panel::{
-    ViewArea, ViewPanel, csv, entry, lines_above, name_speeds, not_yet, title, uprights,
+    ViewArea, ViewPanel, entry, lines_above, name_speeds, not_yet, title, uprights,
 };
 use rubscope_solver::harmonic::CoincidencePoint;
 use rubscope_solver::motion::ActiveSet;
@@ -55,10 +55,9 @@ impl ViewPanel for CoincidenceView {
         Cursor { across: across.clamp(0.0, 1.0), up: 0.5 }
     }
 
-    fn csv(&self, app: &App) -> Result<String, String> {
-        let curves = app.results().found.coincidence.as_deref().and_then(Option::as_ref);
-        let points = curves.map_or(&[][..], |curves| &curves.points);
-        csv(&Table::of(points, CURVE))
+    fn table<'a>(&self, app: &'a App) -> Option<Table<'a>> {
+        let curves = app.results().found.coincidence.as_deref()?.as_ref()?;
+        Some(Table::of(&curves.points, CURVE))
     }
 }
 

@@ -7,6 +7,7 @@ use std::f64::consts::TAU;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
+use crate::report::table::Table;
 use crate::tui::app::{App, Cursor};
 use crate::tui::axis::{ChartAxis, instant, readable};
 use crate::tui::history::Channel;
@@ -37,9 +38,9 @@ impl ViewPanel for FrameView {
         }
     }
 
-    /// Exports the same CSV as the response view, which includes the trail (`z`).
-    fn csv(&self, app: &App) -> Result<String, String> {
-        ResponseView.csv(app)
+    /// Returns the table of the response view, which includes the trail (`z`).
+    fn table<'a>(&self, app: &'a App) -> Option<Table<'a>> {
+        ResponseView.table(app)
     }
 }
 

@@ -10,7 +10,7 @@ use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
 use crate::tui::views::ViewId;
-use crate::tui::views::panel::{ViewArea, ViewPanel, csv, name_level, read_before, title};
+use crate::tui::views::panel::{ViewArea, ViewPanel, name_level, read_before, title};
 
 /// The view of the gap of every blade.
 pub struct GapsView;
@@ -78,14 +78,11 @@ impl ViewPanel for GapsView {
         Cursor { across: 0.0, up: 1.0 }
     }
 
-    fn csv(&self, app: &App) -> Result<String, String> {
-        let now = app.shown_now().ok_or("there is no data yet")?;
-        let t = now.state.t_s;
-        let mut table = Table::new(["t_s", "blade", "gap_m"]);
-        for (blade, gap) in (1..).zip(&now.gaps) {
-            table.push(vec![t.into(), f64::from(blade).into(), (*gap).into()]);
-        }
-        csv(&table)
+    fn table<'a>(&self, app: &'a App) -> Option<Table<'a>> {
+        let now = app.shown_now()?;
+        Some(Table::new(["t_s", "blade", "gap_m"], now.gaps.len(), move |place| {
+            vec![now.state.t_s.into(), (place as u64 + 1).into(), now.gaps[place].into()]
+        }))
     }
 }
 

@@ -7,7 +7,7 @@ pub mod curves;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Rect};
 
-use crate::report::hbm::locked::FILE;
+use crate::report::hbm::locked::POINTS;
 use crate::report::number::speed_unit;
 use crate::report::table::Table;
 use crate::tui::app::{App, Cursor, LEAST_ROWS, STEP};
@@ -18,7 +18,7 @@ use crate::tui::text::{print, whole_parts, wrap};
 use crate::tui::theme::Role;
 use crate::tui::views::locked::curves::LockedCurves;
 use crate::tui::views::panel::{
-    self, ViewArea, ViewPanel, csv, dots, entry, lines_above, name_speeds, title,
+    self, ViewArea, ViewPanel, dots, entry, lines_above, name_speeds, title,
 };
 use rubscope_solver::harmonic::{Form, LockedPoint, Sweep, lock_windows, locked_motion};
 use rubscope_solver::motion::{ActiveSet, Verdict};
@@ -64,10 +64,9 @@ impl ViewPanel for LockedView {
         Some(wrap(&reading(app, app.speed().abs()), width))
     }
 
-    fn csv(&self, app: &App) -> Result<String, String> {
-        let damped = app.results().found.locked.as_ref().and_then(|curves| curves.damped.as_ref());
-        let points = damped.map_or(&[][..], |sweep| &sweep.points);
-        csv(&Table::of(points, FILE))
+    fn table<'a>(&self, app: &'a App) -> Option<Table<'a>> {
+        let damped = app.results().found.locked.as_ref()?.damped.as_ref()?;
+        Some(Table::of(&damped.points, POINTS))
     }
 }
 

@@ -12,7 +12,8 @@ use ratatui::{buffer::Buffer, layout::Rect};
 pub use words::value_text;
 
 use super::panel::{ViewArea, ViewPanel, not_yet, title};
-use crate::report::map::write_csv;
+use crate::report::map::table;
+use crate::report::table::Table;
 use crate::tui::app::{App, Cursor};
 use crate::tui::command::Command;
 use crate::tui::text::{pieces, print};
@@ -63,11 +64,8 @@ impl ViewPanel for MapView {
         Some(Command::OpenRun(Box::new(scene)))
     }
 
-    fn csv(&self, app: &App) -> Result<String, String> {
-        let live = app.results().found.map.as_ref().ok_or("there is no map yet")?;
-        let mut bytes = Vec::new();
-        write_csv(&live.map, &mut bytes).map_err(|error| error.to_string())?;
-        String::from_utf8(bytes).map_err(|error| error.to_string())
+    fn table<'a>(&self, app: &'a App) -> Option<Table<'a>> {
+        Some(table(&app.results().found.map.as_ref()?.map))
     }
 }
 

@@ -9,7 +9,7 @@ mod survey;
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-use super::panel::{ViewArea, ViewPanel, not_yet, table_csv, title};
+use super::panel::{ViewArea, ViewPanel, not_yet, title};
 use crate::report::margins;
 use crate::report::survey::rows as report_rows;
 use crate::report::table::Table;
@@ -17,7 +17,7 @@ use crate::tui::app::{App, Cursor};
 use crate::tui::command::Command;
 use crate::tui::text::{first_lines, print, wrap};
 use crate::tui::theme::Role;
-use crate::tui::views::table::Rows;
+use crate::tui::views::table::{Rows, spelled};
 pub use rows::DIGITS;
 
 /// Columns of the cursor: the limit, and its most influential knobs.
@@ -55,7 +55,7 @@ impl ViewPanel for MarginsView {
         let above = Rect { y: above.y + head, height: above.height - head, ..above };
         let table = margins::titled(&live.margins, |name| name.titles()[1].to_string());
         let drawn = Rows {
-            table: &table,
+            table: spelled(app, table),
             cursor: [LEADING, COLUMNS as usize],
             cell,
             home: rows::home(app, limits),
@@ -107,9 +107,9 @@ impl ViewPanel for MarginsView {
         Some(rows::opening(live.margins.limits.get(row)?, column, app))
     }
 
-    fn csv(&self, app: &App) -> Result<String, String> {
-        let (live, _) = app.margins().ok_or("there are no margins yet")?;
-        table_csv(&match &live.survey {
+    fn table<'a>(&self, app: &'a App) -> Option<Table<'a>> {
+        let (live, _) = app.margins()?;
+        Some(match &live.survey {
             Some(survey) if app.layout.survey => crate::report::survey::table(survey),
             _ => margins::table(&live.margins),
         })
@@ -184,6 +184,6 @@ mod tests {
         margins::table(&live.margins).write_csv(&mut bytes).unwrap();
         assert_eq!(MarginsView.csv(&app).unwrap().into_bytes(), bytes);
         app.run.latest.results.found.margins = None;
-        assert_eq!(MarginsView.csv(&app), Err("there are no margins yet".into()));
+        assert_eq!(MarginsView.csv(&app), Err("there is no data yet".into()));
     }
 }

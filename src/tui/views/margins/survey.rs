@@ -11,7 +11,7 @@ use crate::tui::command::Command;
 use crate::tui::text::{print, wrap};
 use crate::tui::theme::Role;
 use crate::tui::views::panel::{ViewArea, not_yet, title};
-use crate::tui::views::table::Rows;
+use crate::tui::views::table::{Rows, spelled};
 use rubscope_solver::scene::keys::DIAMETERS;
 use rubscope_solver::study::survey::{Survey, SurveyRow};
 
@@ -61,7 +61,7 @@ fn table(
         print(buffer, area, row, line, look.style(Role::Focus));
     }
     let drawn = Rows {
-        table: &rows_of(survey, &rows),
+        table: spelled(app, rows_of(survey, &rows)),
         cursor: [1, 1],
         cell: cell.map(|row| [0, row]),
         home,

@@ -6,7 +6,7 @@ pub mod lines;
 use ratatui::buffer::Buffer;
 
 use crate::report::number::{frequency_unit, per_frequency, speed_unit};
-use crate::report::table::Table;
+use crate::report::table::{Table, TableCell};
 use crate::tui::app::App;
 use crate::tui::axis::{ChartAxis, nice_step, readable};
 use crate::tui::plot::Plot;
@@ -14,7 +14,7 @@ use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
 use crate::tui::views::ViewId;
 use crate::tui::views::panel::{
-    ViewArea, ViewPanel, csv, entry, name_level, name_speeds, not_yet, read_before, title,
+    ViewArea, ViewPanel, entry, name_level, name_speeds, not_yet, read_before, title,
 };
 use crate::tui::views::spectrum::lines::Spectrum;
 
@@ -33,14 +33,14 @@ impl ViewPanel for SpectrumView {
         }
     }
 
-    fn csv(&self, app: &App) -> Result<String, String> {
-        let spectrum = app.results().found.spectrum.as_deref().cloned().unwrap_or_default();
-        let mut table = Table::new(["frequency_rad_s", "u_c_m", "u_s_m"]);
-        for (k, (cosine, sine)) in (0..).zip(spectrum.cosine.iter().zip(&spectrum.sine)) {
-            let frequency = f64::from(k) * spectrum.resolution;
-            table.push(vec![frequency.into(), (*cosine).into(), (*sine).into()]);
-        }
-        csv(&table)
+    fn table<'a>(&self, app: &'a App) -> Option<Table<'a>> {
+        let spectrum = app.results().found.spectrum.as_deref()?;
+        let names = ["frequency_rad_s", "u_c_m", "u_s_m"];
+        Some(Table::new(names, spectrum.cosine.len(), |place| {
+            let frequency = place as f64 * spectrum.resolution;
+            let [cosine, sine] = [&spectrum.cosine, &spectrum.sine].map(|part| part[place]);
+            [frequency, cosine, sine].map(TableCell::from).into()
+        }))
     }
 }
 
