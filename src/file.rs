@@ -24,8 +24,8 @@ pub enum Written {
 /// its mode stays, and links to it are followed. A device or a pipe is written to directly.
 ///
 /// # Errors
-/// The system or `write` returned an error, the file at `path` is read-only, or no file can be
-/// created in its folder. A file at `path` is then unchanged.
+/// The system or `write` returned an error, the file at `path` is read-only, `path` is a link to
+/// nothing, or no file can be created in its folder. What is at `path` is then unchanged.
 pub fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<Written> {
     let Some(old) = existing(path)? else {
         complete(path, None, write)?.persist(path)?;
@@ -58,7 +58,7 @@ pub fn create(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> 
 ///
 /// # Errors
 /// The folder does not exist, is not a folder, or no file can be created in it; or `path` is a
-/// folder or a read-only file.
+/// folder, a read-only file or a link to nothing.
 pub fn check_place(path: &Path) -> Result<()> {
     match existing(path)? {
         Some(old) if old.is_file() => beside(&path.canonicalize()?, None).map(drop),
@@ -68,13 +68,17 @@ pub fn check_place(path: &Path) -> Result<()> {
 }
 
 /// Returns the metadata of what is at `path`, with links followed; `None` if there is nothing.
-/// Refuses an empty path, a folder and a read-only file.
+/// Refuses an empty path, a folder, a read-only file and a link to nothing.
 fn existing(path: &Path) -> Result<Option<Metadata>> {
     if path.as_os_str().is_empty() {
         return Err(Error::new(ErrorKind::InvalidInput, "the name is empty"));
     }
     let old = match path.metadata() {
         Ok(old) => old,
+        // A new file would take the place of a link to nothing.
+        Err(error) if error.kind() == ErrorKind::NotFound && path.is_symlink() => {
+            return Err(Error::new(error.kind(), "it is a link to a file that does not exist"));
+        }
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
         Err(error) => return Err(error),
     };

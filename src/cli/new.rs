@@ -85,6 +85,9 @@ impl NewCommand {
         if !is_toml {
             return Err(Refusal::of("FILE", shown, "a name that ends in .toml").into());
         }
+        if !shown.chars().all(keys::is_plain) {
+            return Err(Refusal::of("FILE", shown, "a name of letters that can be seen").into());
+        }
         if path.symlink_metadata().is_ok() {
             let allowed = "a name that is not taken: this file exists";
             return Err(Refusal::of("FILE", shown, allowed).into());

@@ -53,7 +53,9 @@ impl OutputOptions {
                 }
                 _ => names.concat(),
             };
-            let allowed = format!("a file name ending in {listed}");
+            let is_bare = names.iter().any(|name| path.ends_with(name));
+            let before = if is_bare { ", after a name" } else { "" };
+            let allowed = format!("a file name ending in {listed}{before}");
             return Err(Refusal::of("--out", path.display(), allowed).into());
         };
         try_place(path)?;

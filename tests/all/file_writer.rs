@@ -123,6 +123,10 @@ mod unix {
             create(&at("dangling.csv"), text("a")).unwrap_err().kind(),
             ErrorKind::AlreadyExists
         );
+        let refused = replace(&at("dangling.csv"), text("a")).unwrap_err().to_string();
+        assert_eq!(refused, "it is a link to a file that does not exist");
+        assert!(rubscope::file::check_place(&at("dangling.csv")).is_err());
+        assert!(at("dangling.csv").is_symlink() && names(&at("far")) == ["target.csv"]);
         symlink("loop.csv", at("loop.csv")).unwrap();
         assert!(replace(&at("loop.csv"), text("a")).is_err());
     }

@@ -67,6 +67,10 @@ fn axes_are_refused_in_one_line_that_says_what_is_allowed() {
         (&["--shard", "1/2", "--out", "a.svg"], "--out = a.svg: allowed is a file name ending in"),
         (&["--out", "a.part"], "--out = a.part: allowed is a file name ending in .csv, .json or"),
         (&["--out", "a.png"], "--out = a.png: allowed is a file name ending in .csv"),
+        (
+            &["--out", "a/.csv"],
+            "--out = a/.csv: allowed is a file name ending in .csv, .json or .svg, after a name",
+        ),
     ] {
         let refused = refusal(&[&["map"], arguments].concat());
         assert!(refused.starts_with(&format!("rubscope: {said}")), "{refused}");

@@ -153,6 +153,7 @@ fn what_cannot_be_made_is_refused_in_one_line() {
     for (words, says) in [
         (vec!["new", &file], "a name that is not taken: this file exists"),
         (vec!["new", "x.txt"], "FILE = x.txt: allowed is a name that ends in .toml"),
+        (vec!["new", "x\u{202e}.toml"], "FILE = x .toml: allowed is a name of letters that can"),
         (start.to_vec(), "new: --clearance is missing (Clearance of the blade tips"),
         ([&start[..], &more].concat(), "new: --disk is missing (Frequency of the bladed disk"),
         (whole.clone(), "new: --range is missing"),
