@@ -76,9 +76,7 @@ pub fn write(map: &Map, out: &mut dyn Write) -> std::io::Result<()> {
     writeln!(out, "{START}{}", serde_json::to_string(&origin)?)?;
     let computed = map.cells.iter().enumerate().filter_map(|(index, cell)| Some((index, (*cell)?)));
     let computed: Vec<(usize, Cell)> = computed.collect();
-    let [x_name, y_name] = names(&map.plan).map(String::from);
-    let headings = ["cell", &x_name, &y_name, "verdict", "sensitive", "depends_on_step"];
-    let headings = headings.map(String::from);
+    let headings = columns(&map.plan).map(String::from);
     let table = Table::new(headings, computed.len(), |place| {
         let (index, cell) = computed[place];
         let (row, column) = (index / x.count as usize, index % x.count as usize);
@@ -92,6 +90,12 @@ pub fn write(map: &Map, out: &mut dyn Write) -> std::io::Result<()> {
         ]
     });
     table.write_csv(out)
+}
+
+/// Returns the names of the columns of a share.
+fn columns(plan: &MapPlan) -> [&str; 6] {
+    let [x, y] = names(plan);
+    ["cell", x, y, "verdict", "sensitive", "depends_on_step"]
 }
 
 /// Reads named shares of one map and joins them.
@@ -109,20 +113,32 @@ pub fn read_all<R: Read>(shares: impl IntoIterator<Item = (String, R)>) -> Resul
         read.map_err(|error| refused(&error))?;
         let (known, mut map) = match joined {
             Some((known, map)) if known == first.trim_end() => (known, map),
-            Some(_) => return Err(refused(&"its first line is not that of the file before it")),
-            None => {
+            before => {
                 let plan = plan(&first)
                     .map_err(|reason| refused(&format!("not a share of a map: {reason}")))?;
+                if before.is_some() {
+                    return Err(refused(&"a share of another map than the file before it"));
+                }
                 (first.trim_end().to_string(), Map::empty(plan))
             }
         };
-        let table = csv::Reader::from_reader(reader.take(LARGEST_TABLE));
-        for (row, read) in table.into_records().enumerate() {
-            let line = row + 3;
+        let mut table = csv::Reader::from_reader(reader.take(LARGEST_TABLE));
+        let columns = columns(&map.plan);
+        let own = |given: &csv::StringRecord| given.is_empty() || given.iter().eq(columns);
+        if !table.headers().is_ok_and(own) {
+            return Err(refused(&format!("line 2 is not {}", columns.join(","))));
+        }
+        let mut record = csv::StringRecord::new();
+        loop {
+            // The origin is one line above the table.
+            let line = table.position().line() + 1;
+            let read = table.read_record(&mut record);
+            if matches!(read, Ok(false)) {
+                break;
+            }
             let (index, cell) = read
                 .ok()
-                .and_then(|record| parse_row(&record))
-                .filter(|(index, _)| *index < map.plan.len())
+                .and_then(|_| parse_row(&record, &map.plan))
                 .ok_or_else(|| refused(&format!("line {line} is not a row of this map")))?;
             if map.cells[index].is_some() {
                 return Err(refused(&format!("cell {index} (line {line}) is there twice")));
@@ -148,10 +164,21 @@ fn plan(first: &str) -> Result<MapPlan, String> {
     origin.plan().map_err(|error| error.to_string())
 }
 
-fn parse_row(record: &csv::StringRecord) -> Option<(usize, Cell)> {
+/// Parses a row of a share; `None` if it is not the row of one of the cells of the map.
+fn parse_row(record: &csv::StringRecord, plan: &MapPlan) -> Option<(usize, Cell)> {
+    let index = record.get(0)?.parse().ok().filter(|index| *index < plan.len())?;
+    let (row, column) = (index / plan.x.count as usize, index % plan.x.count as usize);
+    // Another machine may round the values of a logarithmic axis otherwise.
+    let is_at = |text: &str, value: f64| {
+        text.parse().is_ok_and(|given: f64| (given - value).abs() <= 1e-12 * value.abs())
+    };
+    let [x, y] = [plan.x.value(column as u32), plan.y.value(row as u32)];
+    if !is_at(record.get(1)?, x) || !is_at(record.get(2)?, y) {
+        return None;
+    }
     let (verdict, sensitive) = (record.get(3)?.parse().ok()?, record.get(4)?.parse().ok()?);
     let depends_on_step = record.get(5)?.parse().ok()?;
-    Some((record.get(0)?.parse().ok()?, Cell { verdict, sensitive, depends_on_step }))
+    Some((index, Cell { verdict, sensitive, depends_on_step }))
 }
 
 #[cfg(test)]

@@ -109,6 +109,11 @@ fn bytes_that_are_no_lines_of_a_part_are_refused() {
         (with(b"-1,250,0,decay,false,false\n"), "line 3 is not a row"),
         (with(b"0,250,0,lost,false,false\n"), "line 3 is not a row"),
         (with(b"0,250,0,decay\n"), "line 3 is not a row"),
+        (with(b"0,251,0,decay,false,false\n"), "line 3 is not a row"),
+        (with(b"0,250,1,decay,false,false\n"), "line 3 is not a row"),
+        (with(b"0,250,0,decay,false,false\n1,250,0,decay,false,false\n"), "line 4 is not a row"),
+        (format!("{}\ncell,a,b,c,d,e\n", lines[0]).into_bytes(), "line 2 is not cell,speed_"),
+        ([lines[0].as_bytes(), b"\n\xff\n"].concat(), "line 2 is not cell,speed_"),
         (with(b"0,250,0,decay,false,1\n"), "line 3 is not a row"),
     ] {
         let said = reason(&bytes);
