@@ -151,12 +151,15 @@ fn missing(meaning: &Meaning, names: &StringRecord, line: &str) -> TableError {
     };
     let others = names.iter().filter(|name| !name.is_empty() && read(name).is_none());
     let nearest = others.max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
-    TableError::Missing {
-        line: line.into(),
-        name: meaning.name,
-        understood: meaning.names.join(", "),
-        nearest: nearest.map_or(String::new(), |name| format!("; the nearest found is {name}")),
-    }
+    let nearest = match nearest {
+        Some(_) if names.len() == 1 => {
+            "; it has one cell only: separate cells by semicolons, tabs, bars or commas".into()
+        }
+        Some(name) => format!("; the nearest found is {name}"),
+        None => String::new(),
+    };
+    let understood = meaning.names.join(", ");
+    TableError::Missing { line: line.into(), name: meaning.name, understood, nearest }
 }
 
 /// What a column name says: the value, the place of the name among the names of this value, and the

@@ -22,7 +22,8 @@ pub enum TableError {
         name: &'static str,
         /// Names that its column can have.
         understood: String,
-        /// The most similar name in the line, in words; empty if the line has no other names.
+        /// The most similar name in the line, in words, or how to separate names; empty if the line
+        /// has no other names.
         nearest: String,
     },
     /// Two columns have the same value.

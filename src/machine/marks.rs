@@ -81,7 +81,7 @@ impl Number {
         }
         // 1.300e3, 0.300 and 1300.000 have no mark between thousands.
         let fits = decimals.len() == 3 && (1..=3).contains(&whole.len()) && !whole.starts_with('0');
-        let is_either = fits && !rest.starts_with(['e', 'E']);
+        let is_either = fits && !rest.starts_with(['e', 'E', 'd', 'D']);
         Some(if is_either { Marks::Either(mark) } else { Marks::Decimal(mark) })
     }
 

@@ -48,6 +48,7 @@ fn names_of_programs_are_understood_and_others_are_listed() {
              is Frequenz [Hz]",
         ),
         ("Structure;ND;Frequency [Hz]", "no column for modal_mass_kg: understood are modal"),
+        ("MODE  EIGENVALUE  CYCLES", "it has one cell only: separate cells by semicolons, tabs"),
         (
             "Structure;ND;Frequency [Hz];Effective mass [kg];Remark",
             "the nearest found is Effective mass [kg]",
@@ -92,6 +93,8 @@ fn encodings_and_separators_of_programs_are_read_or_the_line_says_what_to_do() {
         columns(&format!("sep=|\n{}", table.replace(';', "|"))),
         columns(&table.replace(';', "\t")),
         columns(&table.replace(';', "|")),
+        // Exponents of Fortran.
+        columns(&table.replace(";145;", ";1,450D+02;").replace(";352;", ";0,352d3;")),
         // Empty cells beyond those of the names.
         columns(&table.replace(",8;", ",8;;;")),
     ] {
