@@ -110,7 +110,8 @@ pub fn table(report: &Precision) -> Table<'_> {
     }
     if report.rows.iter().any(|row| row.other_law) {
         table.note(
-            "other law: a different problem than the reference; a different answer is not an error",
+            "other law: a different problem than the reference; a different answer is not an error, \
+             and its end is not compared",
         );
     }
     table

@@ -122,6 +122,7 @@ fn a_wrong_verdict_under_the_same_law_is_called_wrong() {
     };
     assert_eq!(ending("explicit  unilateral  rigid          1e-5"), "locked wrong", "{text}");
     assert_eq!(ending("explicit  bilateral   rigid          1e-6"), "locked other law");
+    assert!(text.contains("explicit  bilateral   rigid          1e-6           - "), "{text}");
     assert_eq!(ending("explicit  unilateral  rigid          1e-6"), "slip");
     assert!(text.contains("\ntaken, skipped: "), "{text}");
 }

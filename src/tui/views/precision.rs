@@ -13,7 +13,7 @@ use crate::tui::plot::Plot;
 use crate::tui::text::{print, wrap};
 use crate::tui::theme::Role;
 use rubscope_solver::scene::SolverKind;
-use rubscope_solver::study::precision::{Effort, Measure, Row, Way};
+use rubscope_solver::study::precision::{Effort, Measure, Precision, Row, Way};
 
 /// The view of computing time against error.
 pub struct PrecisionView;
@@ -37,17 +37,7 @@ impl ViewPanel for PrecisionView {
             return not_yet(app, buffer, inside);
         };
         let words = inside;
-        let (note, role) = if report.reference.sensitive {
-            let text = "sensitive scene: end states mean nothing, compare verdicts";
-            (text.to_string(), Role::Trouble)
-        } else {
-            let same_law = report.rows.iter().filter(|row| !row.other_law).count();
-            let wrong = report.rows.iter().filter(|row| row.is_wrong()).count();
-            let words = reference_words(&report.reference);
-            let law = report.reference.way.contact;
-            let note = format!("reference ({law} law) {words}; {wrong} of its {same_law} differ");
-            (if wrong > 0 { note + "; ! has another verdict" } else { note }, Role::Quiet)
-        };
+        let (note, role) = note(report);
         for line in wrap(&note, usize::from(inside.width)) {
             print(buffer, inside, 0, &line, look.style(role));
             inside = below(inside);
@@ -99,6 +89,27 @@ impl ViewPanel for PrecisionView {
     fn table<'a>(&self, app: &'a App) -> Option<Table<'a>> {
         Some(table(app.results().found.precision.as_ref()?))
     }
+}
+
+/// Describes the reference and how many runs end otherwise, with the role of the text.
+fn note(report: &Precision) -> (String, Role) {
+    if report.reference.sensitive {
+        let text = "sensitive scene: end states mean nothing, compare verdicts";
+        return (text.to_string(), Role::Trouble);
+    }
+    let same_law = report.rows.iter().filter(|row| !row.other_law).count();
+    let wrong = report.rows.iter().filter(|row| row.is_wrong()).count();
+    let words = reference_words(&report.reference);
+    let law = report.reference.way.contact;
+    let mut note = format!("reference ({law} law) {words}; {wrong} of its {same_law} differ");
+    if wrong > 0 {
+        note += "; ! has another verdict";
+    }
+    let ends_otherwise = |row: &&Row| row.other_law && row.verdict_right == Some(false);
+    if let Some(row) = report.rows.iter().find(ends_otherwise) {
+        note += &format!("; none for the {} law, which ends otherwise", row.way.contact);
+    }
+    (note, Role::Quiet)
 }
 
 /// Describes a row: solver, step, error and time.

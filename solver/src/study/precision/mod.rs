@@ -32,8 +32,9 @@ pub struct Row {
     #[serde(flatten)]
     pub way: Way,
     /// Error `|u - u_ref|/g0` at the last instant that this run reached; `None` for a sensitive
-    /// scene, or if this run or the reference failed. Velocities are not compared, because in
-    /// contact those of the explicit scheme are averages over a step.
+    /// scene, if this run or the reference failed, or where another contact law gives another
+    /// verdict. Velocities are not compared, because in contact those of the explicit scheme are
+    /// averages over a step.
     pub error_final: Option<f64>,
     /// Largest error of the times of the first impacts; `None` without a reference, and if this run
     /// has fewer of them or on other blades \[s\].
@@ -196,7 +197,10 @@ impl Measure {
             walls.push(again.wall_s);
         }
         let wall_s = median(&mut walls);
-        let comparable = !self.reference.sensitive && !first.failed;
+        let other_law = way.contact != self.reference.way.contact;
+        let verdict_right = track.map(|track| first.verdict == track.verdict);
+        let other_problem = other_law && verdict_right == Some(false);
+        let comparable = !self.reference.sensitive && !first.failed && !other_problem;
         let clearance = first.motion.machine().clearance().abs();
         let state = first.motion.state();
         let error_final = track
@@ -215,8 +219,8 @@ impl Measure {
             steps_skipped: first.motion.steps_skipped(),
             events: first.motion.events(),
             verdict: first.verdict,
-            verdict_right: track.map(|track| first.verdict == track.verdict),
-            other_law: way.contact != self.reference.way.contact,
+            verdict_right,
+            other_law,
         }))
     }
 
