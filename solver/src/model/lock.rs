@@ -181,11 +181,12 @@ impl Machine {
         if !self.polygon.has_corners() || self.has_other_diameters() {
             return Vec::new();
         }
+        // A rotor that turns backward is the mirrored machine: drag and friction both change their
+        // sign, and the sides change places.
+        let sense = if toward < 0.0 { -1.0 } else { 1.0 };
         let balance = Balance {
-            sides,
+            sides: sides.map(|(slope, sign)| (slope, sense * sign)),
             damping: self.casing_damping_ratio * 2.0,
-            // A rotor that turns backward is the mirrored machine: drag and friction both change
-            // their sign.
             friction: self.casing_friction_at(1.0),
             coupling: self.coupling_product_at(toward) * self.casing_stiffness
                 / self.blade_stiffness_at_rest(),
@@ -391,6 +392,28 @@ mod tests {
             }
         }
         assert_eq!([290.0, 305.0].map(|speed| equal.tip_deviation(speed)), [None; 2]);
+    }
+
+    #[test]
+    fn a_corner_of_unequal_tips_is_held_where_both_forces_push_whichever_way_the_rotor_turns() {
+        let disk = BladedDisk { tips_m: vec![1e-5, 0.0, -4e-6, 2e-6], ..Default::default() };
+        for (mu, radial_coupling) in [(0.0, 0.0), (0.4, 0.0), (0.0, 0.1), (0.3, -0.1)] {
+            let disk = BladedDisk { radial_coupling, ..disk.clone() };
+            let casing = Casing { tangential_ratio: 0.3, ..Casing::default() };
+            let machine = Machine::new(&disk, &casing, 3).with_friction(mu);
+            for toward in [1.0, -1.0] {
+                let (_, windows) = machine.lowest_corner(toward).unwrap();
+                let holds = |speed: &f64| windows.iter().any(|window| window.has(*speed));
+                let pushes = |speed: &f64| {
+                    let forces = machine.locked_multipliers(toward * speed).unwrap();
+                    forces.iter().all(|force| *force < 0.0)
+                };
+                let speeds: Vec<f64> = (1..200).map(|step| 5.0 * f64::from(step)).collect();
+                let held: Vec<_> = speeds.iter().map(holds).collect();
+                assert_eq!(held, speeds.iter().map(pushes).collect::<Vec<_>>(), "{mu} {toward}");
+                assert!(held.contains(&true) && held.contains(&false), "{mu} {toward}");
+            }
+        }
     }
 
     #[test]

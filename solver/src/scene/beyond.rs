@@ -196,7 +196,8 @@ pub(super) fn tips(scene: &Scene) -> Result<(), SceneError> {
     let allowed = "1 or more with casing.out_of_round_m; another clearance is that of \
                    casing.radius_m";
     refuse_if(e != 0.0 && casing.lobes == 0, keys::LOBES, 0, allowed)?;
-    let allowed = "0 with solver.kind = \"event\": a side that moves has no closed form";
+    let allowed = "0 with solver.kind = \"event\": a side that moves has no closed form; \
+                   solver.kind = \"explicit\" takes it";
     let has_events = scene.solver.kind == SolverKind::Event;
     refuse_if(e != 0.0 && has_events, keys::OUT_OF_ROUND, format!("{e:e}"), allowed)?;
     let is_tight = scene.solver.contact != ContactLaw::Smooth
