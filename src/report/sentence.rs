@@ -322,10 +322,18 @@ impl Facts {
 
     fn decayed(&self) -> Forms {
         let rest = self.rest();
+        let touched = self.seen.is_some_and(|seen| seen.without_contact_s < seen.span_s);
+        if self.clearance_m < 0.0 || (self.law == ContactLaw::Smooth && touched) {
+            return self.lately([
+                "The wave dies away; the blades rub the lining as at rest.",
+                "The wave dies away.",
+            ]);
+        }
         if let Some(seen) = self.seen {
             let span = time(seen.without_contact_s);
-            let at = seen.reach.map_or(String::new(), |reach| {
-                format!(", at {} of the clearance", short(rounded(reach, 2)))
+            let at = seen.reach.map_or(String::new(), |reach| match rounded(reach, 2) {
+                1.0 => ", close to the clearance".into(),
+                reach => format!(", at {} of the clearance", short(reach)),
             });
             let again = if self.touches == 0 { "yet" } else { "again" };
             return [
@@ -335,12 +343,6 @@ impl Facts {
         }
         if self.still && self.touches == 0 {
             return plain(["Nothing moves and no blade touches.", "Nothing moves."]);
-        }
-        if self.clearance_m < 0.0 {
-            return plain([
-                "The wave dies away; the blades rub the lining as at rest.",
-                "The wave dies away.",
-            ]);
         }
         if self.touches == 0 {
             return [format!("No blade touches; {rest}."), "No blade touches.".into()];

@@ -162,7 +162,7 @@ impl Lines {
         };
         self.printed_view = match found.command {
             Command::View(view) => Some(view).filter(|view| PRINTED.contains(view)),
-            Command::Survey | Command::Range(_) => Some(ViewId::Margins),
+            Command::Survey | Command::Range { .. } => Some(ViewId::Margins),
             _ => None,
         };
         if self.printed_view.is_none() && needs_screen(&found.command) {

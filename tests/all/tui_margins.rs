@@ -357,6 +357,9 @@ fn the_survey_is_of_the_range_that_is_asked_for_in_the_unit_of_speeds() {
         assert!(answer.starts_with(said), "{answer}");
         assert!(rows.contains(&said[..20]), "{text}");
     }
+    session.press(":range 7000:12000\n");
+    let asked = session.app.status.as_deref().unwrap_or_default();
+    assert!(asked.ends_with("Was it rpm? Then write 7000rpm:12000rpm."), "{asked}");
     session.press("U:range 2000 2900\n");
     session.press("");
     let range = session.app.layout.range.unwrap();

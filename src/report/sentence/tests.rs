@@ -250,6 +250,16 @@ fn a_run_says_its_own_facts() {
         told(judged.clone()),
         "DECAY  No contact in the last 12.345 ms, at 0.94 of the clearance; it may touch again."
     );
+    for (reach, told) in [(0.9949, "at 0.99 of"), (0.9951, "close to"), (1.06, "at 1.1 of")] {
+        let seen = Seen { reach: Some(reach), ..SEEN };
+        let near = Facts { seen: Some(seen), ..decay.clone() }.sentence(120).to_string();
+        assert!(near.contains(&format!("ms, {told} the clearance; it may")), "{near}");
+    }
+    let seen = Some(Seen { without_contact_s: 0.0, ..SEEN });
+    assert_eq!(
+        told(Facts { seen, law: ContactLaw::Smooth, ..decay.clone() }),
+        "DECAY  In the last 10 ms the wave dies away; the blades rub the lining as at rest."
+    );
     let slip = Facts { verdict: Verdict::Slip, ..judged };
     assert_eq!(
         told(slip),

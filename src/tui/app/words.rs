@@ -3,6 +3,7 @@
 //! `scene rub`) or a knob with a value takes precedence over entries that contain the words.
 
 use super::App;
+use crate::machine::range_doubt;
 use crate::report::number::with_typed_unit;
 use crate::tui::axis::readable;
 use crate::tui::command::{self, Binding, Chord, Command, Group, Purpose};
@@ -150,7 +151,7 @@ fn refused(app: &App, typed: &str) -> Option<(Fit, String)> {
             return Some((Fit::Name, why));
         }
         ["range", rest @ ..] if !rest.is_empty() => {
-            return surveyed(&rest.join(" ")).err().map(|why| (Fit::Name, why.to_string()));
+            return surveyed(app, &rest.join(" ")).err().map(|why| (Fit::Name, why.to_string()));
         }
         ["blade", rest @ ..] if rest.first().is_some_and(|word| is_numeric(word)) => {
             let (blade, all) = (rest.join(" "), app.machine.polygon.blades);
@@ -198,7 +199,7 @@ fn directed(app: &App, typed: &str) -> Option<Vec<Found>> {
             None => one_axis(app, "across", &lower),
         },
         "across" | "up" => one_axis(app, &first, &lower),
-        "range" => surveyed(rest).into_iter().collect(),
+        "range" => surveyed(app, rest).into_iter().collect(),
         "scene" => those_with(scenes(app), &lower),
         "lesson" => match lower.parse::<usize>() {
             Ok(number) => lessons().nth(number.checked_sub(1)?).into_iter().collect(),
@@ -234,7 +235,7 @@ fn directed(app: &App, typed: &str) -> Option<Vec<Found>> {
 }
 
 /// Parses the speed range of a survey: `200:600`, `200 600` or `all`.
-fn surveyed(text: &str) -> Result<Found, SceneError> {
+fn surveyed(app: &App, text: &str) -> Result<Found, SceneError> {
     // A space may also separate a number from its unit, so the second number is searched for.
     let second = |&at: &usize| text.get(at + 1..).is_some_and(is_numeric);
     let spaces = text.match_indices(' ').map(|(at, _)| at);
@@ -242,9 +243,12 @@ fn surveyed(text: &str) -> Result<Found, SceneError> {
         Some(at) => format!("{}:{}", text.split_at(at).0, text.split_at(at + 1).1),
         None => text.to_string(),
     };
-    let read = |ends| speed_range("range", &with_typed_unit(ends, Quantity::Speed));
-    let range = (text != "all").then(|| read(&ends)).transpose()?;
-    Ok(Found::of("go", format!("survey of all diameters over {ends}"), Command::Range(range)))
+    let typed = with_typed_unit(&ends, Quantity::Speed);
+    let range = (text != "all").then(|| speed_range("range", &typed)).transpose()?;
+    let is_bare = typed.split(':').all(|end| Quantity::bare(end).is_some());
+    let doubt = range.filter(|_| is_bare).and_then(|range| range_doubt(&app.scene, range));
+    let command = Command::Range { ends: range, doubt };
+    Ok(Found::of("go", format!("survey of all diameters over {ends}"), command))
 }
 
 /// Returns those of the entries that match all of `words`, the best first.

@@ -135,7 +135,8 @@ pub enum Command {
     /// Switch between the margins of all nodal diameters and those of one.
     Survey,
     /// Survey all nodal diameters over a range of rotor speeds \[rad/s\]; `None` for all speeds.
-    Range(Option<[f64; 2]>),
+    /// `doubt` asks about its unit.
+    Range { ends: Option<[f64; 2]>, doubt: Option<String> },
     /// Choose the keys on the horizontal and the vertical axis of the map; `None` leaves that axis.
     Axes([Option<&'static str>; 2]),
     /// Give the arrow keys to the cursor of the large chart, or back to the knobs.

@@ -237,9 +237,10 @@ impl App {
             Command::OtherLaw => self.compare(),
             Command::Axes(paths) => self.put_axes(paths),
             Command::Survey => self.turn_survey(),
-            Command::Range(range) => {
-                self.layout.range = range;
+            Command::Range { ends, doubt } => {
+                self.layout.range = ends;
                 self.show_survey(true);
+                self.status = doubt.or(self.status.take());
             }
             Command::Read => self.toggle_reading(),
             Command::Cursor { right, up, coarse } => self.move_cursor(right, up, coarse),

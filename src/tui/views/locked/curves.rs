@@ -90,9 +90,10 @@ fn marks(scene: &Scene, machine: &Machine) -> Vec<(f64, &'static str)> {
     let window = ranges.locks().first().copied();
     let shown = machine.lining.is_none() && is_coupled(scene);
     let flutter = ranges.flutters().first().map(|range| range.from);
+    let coincide = machine.locks_from_critical_speed();
     let mut marks: Vec<(f64, &'static str)> = [
-        (machine.critical_speed(), "Ω_c"),
-        (window.map(|window| window.from), "Ω_lock"),
+        (machine.critical_speed(), if coincide { "Ω_c = Ω_lock" } else { "Ω_c" }),
+        (window.map(|window| window.from).filter(|_| !coincide), "Ω_lock"),
         (window.and_then(|window| window.to), "lock ends"),
         (flutter.filter(|_| shown), "Ω_f"),
         (machine.dangerous_speed(), "coincidence"),
@@ -100,10 +101,6 @@ fn marks(scene: &Scene, machine: &Machine) -> Vec<(f64, &'static str)> {
     .into_iter()
     .filter_map(|(speed, name)| Some((speed?, name)))
     .collect();
-    if machine.locks_from_critical_speed() {
-        // Both thresholds coincide.
-        marks.retain(|(_, name)| *name != "Ω_lock");
-    }
     marks.sort_by(|a, b| a.0.total_cmp(&b.0));
     marks
 }
@@ -154,6 +151,9 @@ mod tests {
             // Flexible blades change a multiplier by a few parts in a million.
             assert!((lambda - exact).abs() < 1e-4 * exact.abs(), "{lambda} {exact}");
         }
+        let undamped = LockedCurves::of(&scene.with(&[("casing.damping_ratio", "0")]).unwrap());
+        let names: Vec<&str> = undamped.marks.iter().map(|(_, name)| *name).collect();
+        assert_eq!(names, ["Ω_c = Ω_lock", "coincidence"]);
     }
 
     #[test]
