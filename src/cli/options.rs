@@ -26,7 +26,7 @@ pub struct SceneOptions {
     /// Rotor speed; negative turns the other way [rad/s]
     #[arg(long, value_name = "SPEED", allow_hyphen_values = true, help_heading = HEADING)]
     speed: Option<String>,
-    /// Force of the pulse on the casing [N]
+    #[arg(help = "Force of the pulse on the casing [N]")]
     #[arg(long, value_name = "FORCE", allow_hyphen_values = true, help_heading = HEADING)]
     pulse: Option<String>,
     /// Nodal diameters
@@ -51,10 +51,10 @@ pub struct SceneOptions {
     #[arg(long, value_name = "SIZE", help_heading = HEADING,
           value_parser = Words::of::<ModelSize>(), hide_possible_values = true)]
     model: Option<String>,
-    /// Time step of the explicit solver [s]
+    #[arg(help = "Time step of the explicit solver [s]")]
     #[arg(long, value_name = "SECONDS", allow_hyphen_values = true, help_heading = HEADING)]
     step: Option<String>,
-    /// End of the simulation [s]
+    #[arg(help = "End of the simulation [s]")]
     #[arg(long, value_name = "SECONDS", allow_hyphen_values = true, help_heading = HEADING)]
     end: Option<String>,
     /// Any key of the scene file, such as bladed_disk.blades=24; repeatable, applied last

@@ -23,7 +23,7 @@ pub struct PrecisionCommand {
     #[arg(long, value_name = "COUNT", default_value_t = 5,
           value_parser = clap::value_parser!(u32).range(1..=1000))]
     repeat: u32,
-    /// Smallest time step tried [s]
+    #[arg(help = "Smallest time step tried [s]")]
     #[arg(long, value_name = "SECONDS", default_value_t = 1e-8)]
     finest: f64,
 }

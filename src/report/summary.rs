@@ -424,9 +424,9 @@ mod tests {
     fn run_and_certainty_have_a_time_each() {
         let mut report = report(&[]);
         assert!(text_of(&report).contains("; run 250 ms ("), "{}", text_of(&report));
-        assert!(text_of(&report).ends_with("a step taken), certainty 670 ms.\n"));
+        assert!(text_of(&report).ends_with("a step taken), certainty 670 ms."));
         report.outcome.sensitive = None;
-        assert!(text_of(&report).ends_with("a step taken).\n"));
+        assert!(text_of(&report).ends_with("a step taken)."));
     }
 
     #[test]

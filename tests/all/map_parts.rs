@@ -31,8 +31,8 @@ fn seven_shards_merge_to_the_bytes_of_one_run() {
     let parts: Vec<String> = (1..=7).map(|k| text(&at(&format!("part-{k}.csv")))).collect();
     for (k, part) in parts.iter().enumerate() {
         let said = done(&words(MAP, &["--shard", &format!("{}/7", k + 1), "--out", part]));
-        let cells = if k < 3 { 34 } else { 33 };
-        assert_eq!(said, format!("rubscope: wrote {cells} cells to {part}\n"));
+        let rows = if k < 3 { 34 } else { 33 };
+        assert_eq!(said, format!("rubscope: wrote {rows} rows to {part}\n"));
     }
     for format in FORMATS {
         let (single, merged) = (at(&format!("single.{format}")), at(&format!("merged.{format}")));
