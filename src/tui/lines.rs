@@ -169,6 +169,10 @@ impl Lines {
             let refused = format!("only a screen shows this: {}", found.what);
             return self.refuse(&refused, out).map(|()| true);
         }
+        let asked = match &found.command {
+            Command::Range { doubt, .. } => doubt.clone(),
+            _ => None,
+        };
         let (before, lesson) = (self.app.scene.clone(), self.app.lessons.progress.clone());
         // A reading cursor would not be visible.
         self.app.stop_reading();
@@ -181,6 +185,9 @@ impl Lines {
         self.settle();
         self.app.check_lesson();
         self.tell(out)?;
+        if let Some(asked) = asked {
+            writeln!(out, "done: {}", self.spelled(&clean(&asked)))?;
+        }
         if let Some(view) = self.printed_view {
             self.app.status = None;
             let lines = view.panel().lines(&self.app, usize::from(WIDTH)).unwrap_or_default();

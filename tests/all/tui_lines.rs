@@ -23,7 +23,8 @@ fn told(arguments: &[&str], input: &[u8]) -> (String, Option<i32>) {
 
 #[test]
 fn commands_by_a_pipe_are_answered_until_the_input_ends() {
-    let (text, status) = told(&[], "speed 400\npulse 20k\nlaw unilateral\nend\n".as_bytes());
+    let lines = b"speed 400\npulse 20k\nlaw unilateral\nend\nrange 7000:12000\n";
+    let (text, status) = told(&[], lines);
     assert_eq!(status, Some(0));
     for words in [
         "LOCKED",
@@ -32,6 +33,7 @@ fn commands_by_a_pipe_are_answered_until_the_input_ends() {
         "changed: pulse F 1 MN -> 20 kN",
         "changed: contact bilateral -> unilateral",
         "done: paused at 20",
+        "Was it rpm? Then write 7000rpm:12000rpm.",
     ] {
         assert!(text.contains(words), "no {words} in {text}");
     }
