@@ -57,10 +57,19 @@ impl ViewPanel for MapView {
         app.shown_plan().map_or(Cursor { across: 0.5, up: 0.5 }, |plan| here(app, &plan))
     }
 
-    /// Opens the run of the cell under the cursor, with the map's law and solver.
+    /// Opens the run of the cell under the cursor, with the map's law and solver. The cell of the
+    /// scene keeps the scene's values, which may lie beside those of its middle.
     fn opening(&self, app: &App, _: Cursor) -> Option<Command> {
         let (plan, [column, row]) = (app.shown_plan()?, app.map_cell()?);
-        let scene = plan.scene_of(plan.index(column, row)).ok()?;
+        let mut scene = plan.scene_of(plan.index(column, row)).ok()?;
+        let is_in = |axis: &Axis, cell: u32| {
+            (axis.place(words::present(app, axis)) - f64::from(cell)).abs() <= 0.5
+        };
+        if is_in(&plan.x, column) && is_in(&plan.y, row) {
+            let mut own = app.scene.clone().into_scene();
+            own.solver = scene.solver.clone();
+            scene = own.checked().ok()?;
+        }
         Some(Command::OpenRun(Box::new(scene)))
     }
 
