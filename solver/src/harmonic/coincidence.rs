@@ -2,16 +2,13 @@
 //! (docs/theory.md, section 4), and their effect as a function of speed, which the last page of the
 //! paper announces: growth rate where blades rub at rest, and the wave that persists (section 10).
 
-use serde::Serialize;
-
 use super::{HarmonicError, Lining, RoundWhirl, error, joined_grow};
 use crate::model::Machine;
-use crate::numeric::is_zero;
 use crate::scene::{ContactLaw, Scene};
 
 /// Line of a Campbell diagram,
 /// `frequency = +-sqrt(at_standstill^2 + stiffening Omega^2) + slope Omega`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Line {
     /// Label: the formula of the line, such as `n_d Omega + omega_bd`.
     pub name: String,
@@ -20,7 +17,6 @@ pub struct Line {
     /// Slope with respect to the rotor speed.
     pub slope: f64,
     /// Centrifugal stiffening `B`, which makes the lines of the blades curved.
-    #[serde(skip_serializing_if = "is_zero")]
     pub stiffening: f64,
 }
 
@@ -41,7 +37,7 @@ impl Line {
 }
 
 /// A coincidence of Eq. (30), `casing = n_d Omega + blades`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coincidence {
     /// Casing frequency, `+omega_c` or `-omega_c` \[rad/s\].
     pub casing_rad_s: f64,
@@ -118,7 +114,7 @@ impl Campbell {
 }
 
 /// Growth rate and persistent wave at one rotor speed.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoincidencePoint {
     /// Rotor speed \[rad/s\].
     pub speed_rad_s: f64,

@@ -6,7 +6,6 @@
 use std::borrow::Cow;
 
 use nalgebra::Complex;
-use serde::Serialize;
 use strum::AsRefStr;
 
 use super::corner::Configuration;
@@ -20,8 +19,7 @@ use crate::numeric::search::try_bisected;
 const BRANCH_CHANGES: usize = 16;
 
 /// Kind of equilibrium by its contacts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, AsRefStr)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, AsRefStr)]
 #[strum(serialize_all = "lowercase")]
 pub enum Kind {
     /// No contact; the casing is undeformed.
@@ -38,8 +36,7 @@ impl Kind {
 }
 
 /// Whether real contact can hold an equilibrium, or the reason why not.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, AsRefStr)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, AsRefStr)]
 #[strum(serialize_all = "lowercase")]
 pub enum Character {
     /// No such equilibrium exists.
@@ -85,10 +82,9 @@ impl Character {
 }
 
 /// A phase group in contact.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct GroupContact {
     /// Side of the contact polygon.
-    #[serde(skip)]
     pub side: u32,
     /// Blades of the group, numbered from 1.
     pub blades: Vec<u32>,
@@ -97,7 +93,7 @@ pub struct GroupContact {
 }
 
 /// A steady state in the blade frame.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Equilibrium {
     /// Rotor speed \[rad/s\].
     pub speed_rad_s: f64,
@@ -112,7 +108,6 @@ pub struct Equilibrium {
     /// Groups in contact.
     pub contacts: Vec<GroupContact>,
     /// Casing displacement in the blade frame, `z = (u_c + i u_s) exp(-i n_d theta)` \[m\].
-    #[serde(skip)]
     pub z_m: [f64; 2],
     /// Amplitude `|z|` of the casing wave \[m\].
     pub amplitude_m: f64,
@@ -132,12 +127,7 @@ pub struct Equilibrium {
     pub growth_per_s: f64,
     /// Eigenvalues of the motion that keeps the contacts \[1/s\]; written as `[real, imaginary]` in
     /// reports.
-    #[serde(serialize_with = "as_pairs")]
     pub eigenvalues_per_s: Vec<Complex<f64>>,
-}
-
-fn as_pairs<S: serde::Serializer>(values: &[Complex<f64>], out: S) -> Result<S::Ok, S::Error> {
-    out.collect_seq(values.iter().map(|value| [value.re, value.im]))
 }
 
 /// Returns all existing equilibria at one speed \[rad/s\], rest first. The side is the first one of
@@ -310,7 +300,7 @@ pub(super) fn judged(
 }
 
 /// A speed at which a branch changes its character.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Threshold {
     /// Rotor speed, to the last digit \[rad/s\].
     pub speed_rad_s: f64,

@@ -4,14 +4,12 @@
 //! [`locked_motion`] computes it for a list of speeds, with its character and stability.
 //! [`lock_loads`] gives contact forces, torque, power and blade angles.
 
-use serde::Serialize;
-
 use super::equations::{Equations, Scales, Unknowns, Wave};
 use super::{Character, Corner, Form, HarmonicError, error, lining};
 use crate::model::Machine;
 
 /// Locked motion at one rotor speed.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LockedPoint {
     /// Rotor speed `Omega` \[rad/s\].
     pub speed_rad_s: f64,

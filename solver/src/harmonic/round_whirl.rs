@@ -11,7 +11,6 @@
 //!
 //! Read [`round_whirls`] (the waves at a speed), then [`Rubbing`] and [`whirl_spans`].
 
-use serde::Serialize;
 use strum::IntoStaticStr;
 
 use super::windows::{FURTHEST, joined_grow, windows};
@@ -33,7 +32,7 @@ const WAVE_FURTHEST: f64 = 1e6;
 const NARROWEST_PEAK: f64 = 1e-10;
 
 /// A wave that runs round both structures, per unit of `|w|`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RoundWhirl {
     /// Frequency in the stationary frame; negative turns backward \[rad/s\].
     pub omega_rad_s: f64,
@@ -133,7 +132,7 @@ fn stiffness(frame: &Frame, omega: f64) -> Option<f64> {
 }
 
 /// Loads of a round whirl with rigid contact, `|w| = g0`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RoundWhirlLoads {
     /// Total contact force \[N\].
     pub push_n: f64,
@@ -215,8 +214,7 @@ impl RoundWhirl {
 }
 
 /// What a rub becomes that is large enough, on a rim of many blades.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, IntoStaticStr)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr)]
 #[strum(serialize_all = "lowercase")]
 pub enum Rubbing {
     /// A wave of constant amplitude attracts.

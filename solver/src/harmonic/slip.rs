@@ -12,7 +12,6 @@
 //! Order in which to read: [`slip_over`] (result), `SaddleFlow` (motion on a side),
 //! `SaddleFlow::repeating` (the fixed point).
 
-use serde::Serialize;
 use strum::{Display, IntoStaticStr};
 
 use super::equilibria::changes;
@@ -21,8 +20,7 @@ use crate::model::Machine;
 use crate::numeric::search::bisected;
 
 /// Reason why there is no lasting slip at a speed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Display, IntoStaticStr)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Display, IntoStaticStr)]
 #[strum(serialize_all = "kebab-case")]
 pub enum NoSlip {
     /// The angle between neighbouring sides is a right angle or less (`N' <= 4`): the impact at a
@@ -39,7 +37,7 @@ pub enum NoSlip {
 }
 
 /// A lasting slip: the periodic motion from corner to corner.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlipOrbit {
     /// Rotational speed of the casing wave, its frequency divided by `n_d`; between zero and the
     /// rotor speed \[rad/s\].
@@ -104,7 +102,7 @@ pub fn slip_over(machine: &Machine, speeds: &[f64]) -> Result<Vec<SlipPoint>, Ha
 }
 
 /// A speed at which slip appears or vanishes.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlipLimit {
     /// Rotor speed, to the last digit \[rad/s\].
     pub speed_rad_s: f64,

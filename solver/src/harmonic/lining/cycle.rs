@@ -7,15 +7,13 @@
 //! is steady in a frame that rotates with it, where stability is an eigenvalue problem with eight
 //! real states: casing and blade wave with their rates (`model::Frame`).
 
-use serde::Serialize;
-
 use super::Lining;
 use super::rest::Rest;
 use crate::harmonic::{HarmonicError, RoundWhirl, round_whirls};
 use crate::model::{Frame, Row};
 
 /// A wave of constant amplitude.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cycle {
     /// Rotor speed \[rad/s\].
     pub speed_rad_s: f64,

@@ -1,13 +1,11 @@
 //! All blades rub on an out-of-round casing (docs/theory.md, section 11): `m` lobes drive one wave
 //! if `m = +-n_d` modulo `N`, with the force `p = -S0 e/(1 + S0 B(s))`, and none otherwise.
 
-use serde::Serialize;
-
 use super::Lining;
 use crate::model::Frame;
 
 /// Wave that the lobes of the casing drive at one rotor speed.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Forced {
     /// Rotor speed \[rad/s\].
     pub speed_rad_s: f64,

@@ -12,7 +12,6 @@
 //! points is not missed.
 
 use nalgebra::Complex;
-use serde::Serialize;
 
 use super::Lining;
 use super::law::between;
@@ -36,7 +35,7 @@ const TONGUE_SCAN: (i32, f64) = (240, 8.0);
 const PEAK_REACH: f64 = 12.0;
 
 /// A motion `e^{ist}` about rest.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RestRoot {
     /// Growth rate, `-Im s` \[1/s\].
     pub growth_1_s: f64,
@@ -48,7 +47,7 @@ pub struct RestRoot {
 }
 
 /// The four motions about rest at one rotor speed, in decreasing order of growth.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rest {
     /// Rotor speed \[rad/s\].
     pub speed_rad_s: f64,
@@ -100,7 +99,7 @@ impl Lining<'_> {
 }
 
 /// A speed at which a wave about rest begins or ceases to grow.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HopfPoint {
     /// Rotor speed \[rad/s\].
     pub speed_rad_s: f64,
@@ -114,7 +113,7 @@ pub struct HopfPoint {
 
 /// Smallest stiffness of a lining that holds a lock, or that makes rest grow, and the speed at
 /// which it does.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LeastStiffness {
     /// Stiffness under one blade or of all blades together, as stated by the function that returns
     /// it \[N/m\].

@@ -17,7 +17,6 @@
 use std::borrow::Cow;
 
 use nalgebra::{Complex, Matrix2, Vector2};
-use serde::Serialize;
 
 use super::Lining;
 use super::rest::LeastStiffness;
@@ -49,7 +48,7 @@ const GRID: ([f64; 5], [f64; 6]) =
     ([-1.0, -0.5, 0.01, 0.5, 1.0], [1.001, 1.02, 1.1, 1.5, 3.0, 10.0]);
 
 /// A steady state on a lining.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct LiningState {
     /// Rotor speed \[rad/s\].
     pub speed_rad_s: f64,
@@ -72,7 +71,7 @@ pub struct LiningState {
 }
 
 /// Contact force of a phase group.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct GroupPush {
     /// Blades of the group, numbered from 1.
     pub blades: Vec<u32>,
