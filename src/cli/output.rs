@@ -12,6 +12,9 @@ use crate::file::{self, Written};
 use crate::report::Sheet;
 use crate::report::table::Table;
 
+/// Endings of the files that a result can be written to.
+const ENDINGS: [&str; 3] = ["csv", "json", "svg"];
+
 /// Where a command puts its result.
 #[derive(Args, Debug)]
 pub struct OutputOptions {
@@ -35,7 +38,7 @@ impl OutputOptions {
     /// # Errors
     /// The ending is none of those of a result, or no file can be written.
     pub fn ending(&self) -> anyhow::Result<Option<&'static str>> {
-        self.ending_among(&["csv", "json", "svg"])
+        self.ending_among(&ENDINGS)
     }
 
     /// As [`Self::ending`], which must be one of `endings`.
@@ -43,6 +46,13 @@ impl OutputOptions {
     /// # Errors
     /// As `ending`.
     pub fn ending_among(&self, endings: &[&'static str]) -> anyhow::Result<Option<&'static str>> {
+        let ending = self.known_ending(endings)?;
+        self.out.as_deref().map_or(Ok(()), try_place)?;
+        Ok(ending)
+    }
+
+    /// Returns the ending of the file, which must be one of `endings`; `None` without a file.
+    fn known_ending(&self, endings: &[&'static str]) -> Result<Option<&'static str>, Refusal> {
         let Some(path) = &self.out else { return Ok(None) };
         let given = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
         let Some(known) = endings.iter().find(|known| known.eq_ignore_ascii_case(given)) else {
@@ -56,9 +66,8 @@ impl OutputOptions {
             let is_bare = names.iter().any(|name| path.ends_with(name));
             let before = if is_bare { ", after a name" } else { "" };
             let allowed = format!("a file name ending in {listed}{before}");
-            return Err(Refusal::of("--out", path.display(), allowed).into());
+            return Err(Refusal::of("--out", path.display(), allowed));
         };
-        try_place(path)?;
         Ok(Some(known))
     }
 
@@ -70,7 +79,7 @@ impl OutputOptions {
         if self.json {
             sheet.write_json(true, out)?;
         }
-        if let Some(ending) = self.ending()? {
+        if let Some(ending) = self.known_ending(&ENDINGS)? {
             let rows = format!("{} rows", sheet.file().map_or(0, Table::len));
             self.save(&rows, out, |out| sheet.write_file(ending, out))?;
         }

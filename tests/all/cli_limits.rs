@@ -2,8 +2,10 @@
 //! a refusal stands alone.
 
 use std::fs;
+use std::io::Write;
+use std::process::{Command, Stdio};
 
-use crate::cli_support::{json, refusal, rubscope, text, words};
+use crate::cli_support::{json, program, refusal, rubscope, text, words};
 
 fn message(arguments: &[&str]) -> (Option<i32>, String) {
     let output = rubscope(arguments);
@@ -51,6 +53,25 @@ fn a_place_that_takes_no_file_is_said_before_anything_is_computed() {
     assert_eq!((status, said.lines().count()), (Some(1), 1), "{said}");
     assert!(said.contains("cannot write") && said.contains("fig10.svg"), "{said}");
     assert!(!folder.path().join("fig04.svg").exists());
+}
+
+#[test]
+fn a_result_whose_folder_is_gone_is_printed() {
+    let folder = tempfile::tempdir().unwrap();
+    let [place, pipe] = ["results", "scene.toml"].map(|name| folder.path().join(name));
+    fs::create_dir(&place).unwrap();
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let mut command = program();
+    command.arg("hbm").arg(&pipe).arg("--out").arg(place.join("a.csv"));
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    // The place is checked before the scene is read, and opening waits for the reader.
+    let mut scene = fs::OpenOptions::new().write(true).open(&pipe).unwrap();
+    fs::remove_dir(&place).unwrap();
+    scene.write_all(rubscope_solver::scene::BUILTIN[0].toml.as_bytes()).unwrap();
+    drop(scene);
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(1), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(output.stdout.starts_with(b"speed_rad_s,"));
 }
 
 #[test]
