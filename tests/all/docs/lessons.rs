@@ -33,6 +33,9 @@ pub fn sheet() -> String {
                 let answers = answers.map(|(letter, text)| format!("**{letter}** {text}"));
                 paragraph(&answers.collect::<Vec<_>>().join("; "), "");
             }
+            if let Some(task) = &step.task {
+                paragraph(&format!("**Task.** {task}"), "");
+            }
         }
     }
     paragraph("## Answers", "");
