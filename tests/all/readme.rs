@@ -222,16 +222,13 @@ fn the_first_minute_is_as_it_says() {
 /// machine.
 #[test]
 fn every_view_has_its_picture_on_the_page_of_the_explorer() {
-    let page =
-        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/explorer.md")).unwrap();
+    let page = include_str!("../../docs/explorer.md");
     for view in ["1", "2", "3", "4", "5", "6", "8", "9"] {
-        let name = if view == "9" { "coincidence" } else { "paper-nd3" };
-        let scene = Scene::builtin(name).unwrap();
+        let scene = Scene::builtin(if view == "9" { "coincidence" } else { "paper-nd3" }).unwrap();
         let mut session = Session::open(80, 24, scene, Theme::Dark, Marker::Braille);
         session.engine.map_cells = usize::MAX;
-        session.press(&format!("{view}f"));
-        for _ in 0..4 {
-            session.press("");
+        for keys in [format!("{view}f").as_str(), "", "", "", ""] {
+            session.press(keys);
         }
         let file = format!("assets/pictures/view-{view}.svg");
         assert_is_made(&file, &export::svg(&session.app));
