@@ -127,7 +127,7 @@ fn a_key_acts_live_just_where_the_motion_takes_it() {
                 Ok(script) => {
                     let changes = script.changes();
                     let (_, last) = changes.changes().last().unwrap();
-                    let adopted = motion::Change::Parameters(Box::new(changed.checked().unwrap()));
+                    let adopted = motion::Change::Parameters(changed.checked().unwrap().into());
                     assert!(takes && *last == adopted, "{text}");
                 }
                 // Accepted without effect: keys that a running motion does not use.

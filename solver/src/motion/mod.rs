@@ -33,7 +33,7 @@ pub use run::{
     VerdictReached, caught_at, judge_end, lock_that_broke, run_to_end, run_to_verdict, simulate,
     verdict_of,
 };
-pub use script::{Change, Script};
+pub use script::{Change, Script, Scripted};
 pub use sensitivity::{Certainty, Spread, certainty, run_with_certainty};
 pub use solver::{GoOn, Motion, Solver, to_the_end};
 pub use verdict::{Basis, Checks, Contact, Outcome, Proof, Verdict};

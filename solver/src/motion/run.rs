@@ -270,7 +270,7 @@ pub(super) fn run_motion_to_verdict(
 
 /// Advances to `until` and updates the wave tracker.
 fn advance_following(
-    scripted: &mut Scripted<'_>,
+    scripted: &mut Scripted,
     wave: Option<&mut WaveTracker>,
     until: f64,
     go_on: GoOn<'_>,

@@ -1,5 +1,7 @@
 //! Changes of parameters during a run as data, so that an interactive session can be repeated.
 
+use std::sync::Arc;
+
 use super::{Failure, GoOn, Motion};
 use crate::scene::keys::{self, Live};
 use crate::scene::{CheckedScene, ContactLaw, Scene, SolverKind};
@@ -17,7 +19,7 @@ pub enum Change {
         ramp: f64,
     },
     /// Applies the parameters of this scene.
-    Parameters(Box<CheckedScene>),
+    Parameters(Arc<CheckedScene>),
 }
 
 impl Change {
@@ -72,7 +74,7 @@ impl Change {
         let ramp = new.speed_ramp_rad_s2;
         let turns = speed.is_some() || old.speed_ramp_rad_s2 != ramp;
         let rotor = turns.then_some(Self::Rotor { speed, ramp });
-        rotor.into_iter().chain([Self::Parameters(Box::new(now.clone()))]).collect()
+        rotor.into_iter().chain([Self::Parameters(Arc::new(now.clone()))]).collect()
     }
 }
 
@@ -90,10 +92,10 @@ impl Motion {
     }
 }
 
-/// Changes in order of time.
+/// Changes in order of time, which copies of the script share.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Script {
-    changes: Vec<(f64, Change)>,
+    changes: Arc<Vec<(f64, Change)>>,
 }
 
 impl Script {
@@ -102,7 +104,7 @@ impl Script {
     #[must_use]
     pub fn new(mut changes: Vec<(f64, Change)>) -> Self {
         changes.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-        Self { changes }
+        Self { changes: Arc::new(changes) }
     }
 
     /// Returns the changes in order of time \[s\].
@@ -115,20 +117,32 @@ impl Script {
     #[must_use]
     pub fn mapped(&self, map: impl Fn(Change) -> Change) -> Self {
         let changes = self.changes.iter().map(|(t, change)| (*t, map(change.clone())));
-        Self { changes: changes.collect() }
+        Self { changes: Arc::new(changes.collect()) }
+    }
+
+    /// Returns the number of changes with which both scripts begin.
+    #[must_use]
+    pub fn common(&self, other: &Self) -> usize {
+        let pairs = self.changes.iter().zip(other.changes.iter());
+        pairs.take_while(|(own, theirs)| own == theirs).count()
     }
 }
 
-/// A motion with the changes of a script that are still to come.
+/// A motion that follows a script.
 #[derive(Clone, Debug)]
-pub(super) struct Scripted<'a> {
+pub struct Scripted {
+    /// The motion, with the changes up to its time.
     pub motion: Motion,
-    to_come: &'a [(f64, Change)],
+    script: Script,
+    /// Number of changes that the motion has.
+    applied: usize,
 }
 
-impl<'a> Scripted<'a> {
-    pub fn new(motion: Motion, script: &'a Script) -> Self {
-        Self { motion, to_come: &script.changes }
+impl Scripted {
+    /// Starts a script with a motion that has none of its changes.
+    #[must_use]
+    pub fn new(motion: Motion, script: &Script) -> Self {
+        Self { motion, script: script.clone(), applied: 0 }
     }
 
     /// Advances to `until` \[s\] and applies the changes due by then; returns false if `go_on` did.
@@ -136,20 +150,32 @@ impl<'a> Scripted<'a> {
     /// # Errors
     /// The run has failed, now or before.
     pub fn advance_while(&mut self, until: f64, go_on: GoOn<'_>) -> Result<bool, Failure> {
-        while let Some(((t, change), rest)) = self.to_come.split_first()
+        while let Some((t, change)) = self.script.changes.get(self.applied)
             && *t <= until
         {
             if !self.motion.advance_while(*t, go_on)? {
                 return Ok(false);
             }
-            self.to_come = rest;
             self.motion.apply(change);
+            self.applied += 1;
         }
         self.motion.advance_while(until, go_on)
     }
 
     /// Returns whether all changes have been applied.
+    #[must_use]
     pub fn is_through(&self) -> bool {
-        self.to_come.is_empty()
+        self.applied >= self.script.changes.len()
+    }
+
+    /// Returns a copy that goes on with another script, of which the first `common` changes are
+    /// those of this one. `None` if the motion has a change that the other script lacks, or is past
+    /// a change that it does not have.
+    #[must_use]
+    pub fn under(&self, script: &Script, common: usize) -> Option<Self> {
+        let next = script.changes.get(self.applied);
+        let is_ahead = next.is_none_or(|(t, _)| *t >= self.motion.t_s());
+        let shared = self.applied <= common && is_ahead;
+        shared.then(|| Self { script: script.clone(), ..self.clone() })
     }
 }

@@ -7,6 +7,7 @@
 //! digits are reliable ([`Spread`]).
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
@@ -267,7 +268,7 @@ impl TinyChange {
     /// Applies the perturbation to a change during the run.
     fn change(self, change: Change) -> Change {
         match change {
-            Change::Parameters(scene) => Change::Parameters(Box::new(self.changed(&scene))),
+            Change::Parameters(scene) => Change::Parameters(Arc::new(self.changed(&scene))),
             Change::Rotor { speed, ramp } if self == Self::Faster => {
                 Change::Rotor { speed: speed.map(|speed| speed * MORE), ramp }
             }
