@@ -1,11 +1,12 @@
 //! Messages between the screen and the solver thread. The screen sends orders, of which only the
-//! latest counts; the engine answers with snapshots. Both carry the generation of the knobs, so
-//! that outdated results are recognised.
+//! latest counts; the engine answers with snapshots. Both carry the number of the film, so that
+//! outdated results are recognised.
 
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::history::{Bin, BinHistory};
+use super::film::plan::FilmPlan;
+use super::history::Bin;
 use super::trace::{Mark, Trace};
 use super::views::coincidence::curves::CoincidenceCurves;
 use super::views::id::ViewId;
@@ -20,43 +21,33 @@ use rubscope_solver::scene::CheckedScene;
 use rubscope_solver::study::MapPlan;
 use rubscope_solver::study::precision::Precision;
 
-/// What the engine should compute. Requests are counters that only grow, so that no key press is
-/// lost when an order replaces an older one.
+/// What the engine should show: a film and an instant of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Order {
     /// The scene with the current values of the knobs.
     pub scene: CheckedScene,
-    /// Number of restarts of the run that the user has caused.
-    pub restarts: u64,
-    /// Number of changes of knobs that acted on the running motion.
-    pub changes: u64,
-    /// Number of requests for a single time step.
-    pub steps: u64,
-    /// Number of requests to go to a simulated time, the latest to `go_to_s`.
-    pub goes: u64,
-    /// Simulated time to go to, at which the playback also starts after a restart \[s\].
-    pub go_to_s: f64,
-    /// Number of requests to jump to the next change of contact.
-    pub jumps: u64,
-    /// Number of times the pulse was fired again.
-    pub pulses: u64,
+    /// The film of the run.
+    pub film: FilmPlan,
+    /// Number of the film; every film that differs from the one before has a new one.
+    pub number: u64,
+    /// Number of runs that were begun; live changes and pulses do not begin a run.
+    pub run: u64,
+    /// The film of the pinned run; `None` if none is pinned.
+    pub pinned: Option<FilmPlan>,
+    /// Whether to compute the film under the other contact law too.
+    pub compare: bool,
+    /// The moves in time that the engine has yet to make.
+    pub moves: Moves,
     /// Whether the motion plays.
     pub playing: bool,
-    /// Number of times the user continued past the end of the run.
-    pub extensions: u64,
     /// Rate of the playback, simulated time per wall-clock time: 5e-3 plays five milliseconds per
     /// second.
     pub rate: f64,
-    /// Length of one recorded bin, in simulated time \[s\].
-    pub bin_s: f64,
-    /// Start and end of the page on the screen \[s\].
-    pub page: (f64, f64),
-    /// Whether to run the scene under the other contact law too.
-    pub compare: bool,
     /// Whether playback slows down at changes of contact and speeds up between them.
     pub slow_at_events: bool,
-    /// Simulated time of the reading cursor, for which the motion is recomputed \[s\]; `None` if
-    /// no chart is being read.
+    /// Start and end of the page on the screen \[s\].
+    pub page: (f64, f64),
+    /// Simulated time of the reading cursor \[s\]; `None` shows the instant played to.
     pub cursor_s: Option<f64>,
     /// The views on the screen; only their studies run.
     pub open: Vec<ViewId>,
@@ -79,16 +70,68 @@ impl Order {
     pub fn map_plan(&self) -> Option<MapPlan> {
         self.shows(ViewId::Map).then(|| self.map.plan(&self.scene).ok()).flatten()
     }
+}
 
-    /// Returns the generation of the knobs; it grows with every restart, live change and pulse.
-    pub fn generation(&self) -> u64 {
-        generation(self.restarts, self.changes, self.pulses)
+/// A move to another instant of the film.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Move {
+    /// To this simulated time \[s\]; it replaces the moves before it.
+    To(f64),
+    /// By one time step, or one sample if the solver has no steps.
+    Step,
+    /// To the next change of contact.
+    NextChange,
+}
+
+/// Largest number of moves that wait.
+const MOST_MOVES: usize = 1000;
+
+/// The moves that were requested and not yet made. They are numbered, so that none is lost or made
+/// twice when an order replaces an older one.
+#[derive(Clone, Debug, Default)]
+pub struct Moves {
+    /// Number of the last move that was made.
+    made: u64,
+    waiting: Vec<Move>,
+}
+
+impl PartialEq for Moves {
+    /// Returns whether the same moves were requested, wherever each was made.
+    fn eq(&self, other: &Self) -> bool {
+        self.last() == other.last()
     }
 }
 
-/// Returns the generation after these numbers of restarts, live changes and pulses.
-pub fn generation(restarts: u64, changes: u64, pulses: u64) -> u64 {
-    restarts + changes + pulses
+impl Moves {
+    /// Requests a move; returns its number.
+    pub fn push(&mut self, to: Move) -> u64 {
+        if self.waiting.len() < MOST_MOVES || matches!(to, Move::To(_)) {
+            self.waiting.push(to);
+        }
+        self.last()
+    }
+
+    /// Drops the moves up to a number.
+    pub fn drop_made(&mut self, made: u64) {
+        let count = usize::try_from(made.saturating_sub(self.made)).unwrap_or(usize::MAX);
+        self.waiting.drain(..count.min(self.waiting.len()));
+        self.made = self.made.max(made);
+    }
+
+    /// Returns whether all moves were made.
+    pub fn is_empty(&self) -> bool {
+        self.waiting.is_empty()
+    }
+
+    /// Returns the number of the last move requested.
+    pub fn last(&self) -> u64 {
+        self.made + self.waiting.len() as u64
+    }
+
+    /// Returns the moves with their numbers.
+    pub fn numbered(&self) -> impl Iterator<Item = (u64, Move)> + '_ {
+        (self.made + 1..).zip(self.waiting.iter().copied())
+    }
 }
 
 /// Speed of the solver and of the playback.
@@ -168,13 +211,15 @@ pub struct FullRun {
     pub failure: Option<Failure>,
 }
 
-/// Record of one page at the page's own zoom, up to the end of the run.
+/// The curves of one page at the page's own zoom, up to the end of the run.
 #[derive(Clone, Debug)]
 pub struct PageRecord {
     /// Start and end of the page, in simulated time \[s\].
     pub page: (f64, f64),
-    /// Bins of the page.
-    pub record: BinHistory,
+    /// Bins of the page, as far as they are computed.
+    pub bins: Vec<Bin>,
+    /// Whether the whole page is computed.
+    pub is_whole: bool,
 }
 
 /// The state of a motion at one time.
@@ -196,11 +241,6 @@ pub struct Moment {
     pub multipliers: Vec<(u32, f64)>,
     /// The solver's message on why the motion stopped; `None` if it can go on.
     pub failure: Option<String>,
-    /// Number of the latest jump, and the change of contact it reached; `None` if it is under way
-    /// or met none.
-    pub met: (u64, Option<Mark>),
-    /// Number of times the motion has reached the end of the run, where it pauses.
-    pub ends: u64,
 }
 
 impl Moment {
@@ -216,7 +256,6 @@ impl Moment {
             gaps: motion.blade_gaps(),
             multipliers: motion.multipliers(),
             failure: motion.stopped(),
-            ..Self::default()
         }
     }
 }
@@ -282,7 +321,7 @@ impl Sensitive {
     }
 }
 
-/// Results for one generation of the knobs; `None` for what is not known yet or not wanted.
+/// Results for one film; `None` for what is not known yet or not wanted.
 #[derive(Clone, Debug, Default)]
 pub struct Results {
     /// The run to `solver.end_s`.
@@ -291,8 +330,6 @@ pub struct Results {
     pub verdict: Option<Verdict>,
     /// The latest known verdict, possibly of an older scene.
     pub answer: Option<Arc<Answer>>,
-    /// Simulated time at which the playback ends, with extensions \[s\].
-    pub end_s: f64,
     /// Whether a tiny change of the pulse, the speed or the motion changes the verdict.
     pub sensitive: Sensitive,
     /// Reference run: the event solver with push-only contact on the same scene.
@@ -303,32 +340,34 @@ pub struct Results {
     pub found: Found,
     /// The studies that have been running for a while.
     pub working: Vec<Working>,
-    /// Record of the page on the screen.
+    /// Curves of the page on the screen.
     pub page: Option<Arc<PageRecord>>,
-    /// Record of the same page under the other contact law.
+    /// Curves of the same page under the other contact law.
     pub comparison_page: Option<Arc<PageRecord>>,
+    /// Curves of the same page of the pinned run.
+    pub pinned_page: Option<Arc<PageRecord>>,
     /// Speed of the solver and of the playback.
     pub pace: Pace,
-    /// Live changes and pulses so far, as arguments of `run --at`: time \[s\] and change.
-    pub applied: Vec<(f64, String)>,
-    /// The motion recomputed at the time of the cursor.
-    pub reading: Option<Arc<Moment>>,
 }
 
 /// What the engine reports to the screen.
 #[derive(Clone, Debug, Default)]
 pub struct Snapshot {
-    /// Generation of the knobs to which the results belong.
-    pub generation: u64,
-    /// Number of restarts before the run to which the bins belong.
-    pub restarts: u64,
-    /// The latest state of the playing motion; `None` until there is one.
-    pub moment: Option<Moment>,
-    /// Bins recorded since the last snapshot.
-    pub bins: Vec<Bin>,
-    /// Bins of the motion under the other contact law.
-    pub comparison_bins: Vec<Bin>,
-    /// Results for this generation.
+    /// Number of the film to which the results belong.
+    pub number: u64,
+    /// Number of the run to which the instant belongs.
+    pub run: u64,
+    /// Simulated time played to \[s\].
+    pub t_s: f64,
+    /// The instant shown: that of the cursor, or the one played to; `None` until there is one. While
+    /// another instant is computed it is the previous one.
+    pub moment: Option<Arc<Moment>>,
+    /// Number of the last move that was made.
+    pub moved: u64,
+    /// Number of the latest move to a change of contact, and the change it met; `None` if it met
+    /// none.
+    pub met: (u64, Option<Mark>),
+    /// Results for this film.
     pub results: Results,
     /// Message on an internal error of the engine; `None` if it works.
     pub trouble: Option<String>,

@@ -23,7 +23,7 @@ pub fn svg(app: &App) -> String {
     let mut plain = app.clone();
     plain.dialogue.mode = InputMode::Main;
     plain.status = None;
-    let scene = app.run.started.clone().into_scene();
+    let scene = app.run.film.scene.clone().into_scene();
     let mut out = opening(app, 0, &describe(&Provenance { command: app.command_line(), scene }));
     out.extend(rows(&plain));
     out.push_str("</svg>\n");

@@ -1,4 +1,4 @@
-//! The recorded run as time bins with the minimum and maximum of each channel, so that a contact
+//! Curves as time bins with the minimum and maximum of each channel, so that a contact
 //! peak of a single step is visible at any zoom.
 
 /// Recorded quantities. The number of a channel is its index in `Bin::low` and `Bin::high`.
@@ -76,48 +76,23 @@ impl Bin {
     }
 }
 
-/// Largest number of bins of a run; beyond it, neighbours are merged in pairs, which halves the
-/// resolution.
-pub const MOST_BINS: usize = 1 << 15;
-
-/// Largest length of a bin in [`BinHistory::fine_between`], as a fraction of the page.
+/// Largest length of a bin in [`fine_between`], as a fraction of the page.
 const PART_OF_PAGE: f64 = 1.0 / 400.0;
-
-/// The bins of one run, in order of time.
-#[derive(Clone, Debug, Default)]
-pub struct BinHistory {
-    bins: Vec<Bin>,
-}
 
 /// Minimum and maximum of the data in one column of a chart; `None` for a column without data.
 pub type Span = Option<(f64, f64)>;
 
-impl BinHistory {
-    /// Appends bins.
-    pub fn extend(&mut self, new: &[Bin]) {
-        self.bins.extend(new.iter().filter(|bin| bin.from.is_finite()));
-        while self.bins.len() > MOST_BINS {
-            thin(&mut self.bins);
-        }
-    }
+/// Returns the bins that overlap `[from, to]`.
+pub fn between(bins: &[Bin], from: f64, to: f64) -> &[Bin] {
+    let start = bins.partition_point(|bin| bin.to < from);
+    let end = bins.partition_point(|bin| bin.from <= to);
+    bins.get(start..end.max(start)).unwrap_or(&[])
+}
 
-    /// Removes all bins.
-    pub fn clear(&mut self) {
-        self.bins.clear();
-    }
-
-    /// Returns the bins that overlap `[from, to]`.
-    pub fn between(&self, from: f64, to: f64) -> &[Bin] {
-        let start = self.bins.partition_point(|bin| bin.to < from);
-        let end = self.bins.partition_point(|bin| bin.from <= to);
-        self.bins.get(start..end.max(start)).unwrap_or(&[])
-    }
-
-    /// As [`Self::between`], but empty if some bin is long enough to appear as a block.
-    pub fn fine_between(&self, from: f64, to: f64) -> &[Bin] {
-        let (bins, longest) = (self.between(from, to), PART_OF_PAGE * (to - from));
-        if bins.iter().all(|bin| bin.to - bin.from <= longest) { bins } else { &[] }
-    }
+/// As [`between`], but empty if some bin is long enough to appear as a block.
+pub fn fine_between(bins: &[Bin], from: f64, to: f64) -> &[Bin] {
+    let (bins, longest) = (between(bins, from, to), PART_OF_PAGE * (to - from));
+    if bins.iter().all(|bin| bin.to - bin.from <= longest) { bins } else { &[] }
 }
 
 /// Returns the bin that contains the time `t` \[s\], for reading values at the cursor; `None` if
@@ -216,21 +191,6 @@ pub fn interpolated(bins: &[Bin], length: f64, (from, to): (f64, f64)) -> Vec<Bi
     out
 }
 
-/// Merges neighbouring bins in pairs, which halves their number.
-pub fn thin(bins: &mut Vec<Bin>) {
-    let joined = bins
-        .chunks(2)
-        .filter_map(|pair| {
-            let mut first = *pair.first()?;
-            if let Some(second) = pair.get(1) {
-                first.join(second);
-            }
-            Some(first)
-        })
-        .collect();
-    *bins = joined;
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -241,21 +201,17 @@ mod tests {
         bin
     }
 
-    fn ramp(count: u32) -> BinHistory {
-        let mut history = BinHistory::default();
-        for k in 0..count {
-            history.extend(&[bin(f64::from(k), f64::from(k) + 0.999, f64::from(k))]);
-        }
-        history
+    fn ramp(count: u32) -> Vec<Bin> {
+        let of = |k: u32| bin(f64::from(k), f64::from(k) + 0.999, f64::from(k));
+        (0..count).map(of).collect()
     }
 
     #[test]
     fn a_peak_of_one_bin_survives_any_width() {
-        let mut history = ramp(1000);
-        history.bins[517].high[Channel::Push as usize] = 1e6;
+        let mut bins = ramp(1000);
+        bins[517].high[Channel::Push as usize] = 1e6;
         for columns in [1, 7, 40, 300, 2000] {
-            let bins = history.between(0.0, 1000.0);
-            let top = super::columns(bins, Channel::Push, (0.0, 1000.0), columns)
+            let top = super::columns(&bins, Channel::Push, (0.0, 1000.0), columns)
                 .into_iter()
                 .flatten()
                 .map(|(_, high)| high)
@@ -266,9 +222,9 @@ mod tests {
 
     #[test]
     fn columns_beyond_the_data_are_empty_and_nothing_leaks_across_pages() {
-        let history = ramp(10);
+        let bins = ramp(10);
         let shown =
-            |from, to, count| columns(history.between(from, to), Channel::UC, (from, to), count);
+            |from, to, count| columns(between(&bins, from, to), Channel::UC, (from, to), count);
         let columns = shown(0.0, 20.0, 20);
         assert_eq!(columns.iter().flatten().count(), 10);
         assert_eq!(columns[3], Some((3.0, 3.0)));
@@ -277,28 +233,19 @@ mod tests {
     }
 
     #[test]
-    fn a_long_run_keeps_its_extremes_in_bounded_memory() {
-        let history = ramp(100_000);
-        assert!(history.bins.len() <= MOST_BINS);
-        assert_eq!(history.bins[0].from, 0.0);
-        let top = columns(&history.bins, Channel::US, (0.0, 1e5), 1)[0];
-        assert_eq!(top, Some((0.0, 99_999.0)));
-    }
-
-    #[test]
     fn not_a_number_never_reaches_a_column() {
-        let mut history = ramp(3);
-        history.extend(&[bin(3.0, 4.0, f64::NAN), bin(4.0, 5.0, f64::INFINITY)]);
-        for span in columns(&history.bins, Channel::UC, (0.0, 6.0), 12).into_iter().flatten() {
+        let mut bins = ramp(3);
+        bins.extend([bin(3.0, 4.0, f64::NAN), bin(4.0, 5.0, f64::INFINITY)]);
+        for span in columns(&bins, Channel::UC, (0.0, 6.0), 12).into_iter().flatten() {
             assert!(span.0.is_finite() && span.1.is_finite());
         }
     }
 
     #[test]
     fn reading_at_an_instant() {
-        let history = ramp(5);
-        assert_eq!(bin_at(&history.bins, 2.5).unwrap().low[0], 2.0);
-        assert!(bin_at(&history.bins, 7.0).is_none());
-        assert!(bin_at(&history.bins, -1.0).is_none());
+        let bins = ramp(5);
+        assert_eq!(bin_at(&bins, 2.5).unwrap().low[0], 2.0);
+        assert!(bin_at(&bins, 7.0).is_none());
+        assert!(bin_at(&bins, -1.0).is_none());
     }
 }

@@ -19,6 +19,7 @@ pub mod export;
 mod field;
 #[doc(hidden)]
 pub mod files;
+mod film;
 mod ground;
 #[doc(hidden)]
 pub mod history;

@@ -169,11 +169,10 @@ fn until(instant: Option<Instant>) -> Duration {
     instant.map_or(Duration::ZERO, |at| at.saturating_duration_since(Instant::now()))
 }
 
-/// Sends the order to the engine if it has changed; returns whether its generation is new.
+/// Sends the order to the engine if it has changed; returns whether its film is new.
 fn order(app: &App, engine: &mut dyn Engine, ordered: &mut Option<Order>) -> bool {
     let order = app.order();
-    let generation = order.generation();
-    let other = ordered.as_ref().is_none_or(|before| before.generation() != generation);
+    let other = ordered.as_ref().is_none_or(|before| before.number != order.number);
     if ordered.as_ref() != Some(&order) {
         engine.order(&order);
         *ordered = Some(order);

@@ -71,6 +71,14 @@ impl Marks {
         Self { seen: Vec::new(), active_set: log.active_set, impacts: log.impact_count }
     }
 
+    /// Returns the marks up to `t` \[s\] of a motion that goes on from there with this log. Half of
+    /// the room is left for those to come.
+    pub fn up_to(&self, t: f64, log: &ContactLog) -> Self {
+        let known = self.seen.partition_point(|mark| mark.t_s <= t);
+        let seen = self.seen.iter().take(known).skip(known.saturating_sub(MOST_MARKS / 2));
+        Self { seen: seen.copied().collect(), ..Self::from(log) }
+    }
+
     /// Reads the new entries of the log. It contains the instants of the first thousand impacts; of
     /// several contacts since the last call, only the latest is found.
     pub fn look(&mut self, log: &ContactLog) {

@@ -144,7 +144,7 @@ fn no_solver_knows_its_sibling() {
 
 /// The parts of the explorer from the top, a row each: a part uses itself and what is in a
 /// row below. A path stands for what no longer path stands for.
-const EXPLORER: [&[&str]; 23] = [
+const EXPLORER: [&[&str]; 24] = [
     &[""],
     &["run", "lines"],
     &["host", "options"],
@@ -160,8 +160,9 @@ const EXPLORER: [&[&str]; 23] = [
     &["command"],
     &["files"],
     &["worker"],
+    &["film"],
     &["engine"],
-    &["views/map/plan"],
+    &["film/plan", "views/map/plan"],
     &["views/locked/curves", "views/coincidence/curves", "views/margins/live"],
     &["views/id", "views/spectrum/lines", "lessons", "knobs", "plot"],
     &["axis", "list", "text"],

@@ -20,7 +20,7 @@ use crate::stepwise::{NoHost, Stepwise};
 const DELAY: usize = 3;
 
 /// An engine whose answers come late. The impact count of each result is
-/// replaced by the generation of the knobs it was computed for.
+/// replaced by the number of the film it was computed for.
 struct Late {
     engine: Stepwise,
     kept: VecDeque<Snapshot>,
@@ -39,21 +39,21 @@ impl Engine for Late {
 
     fn take(&mut self) -> Option<Snapshot> {
         if let Some(mut snapshot) = self.engine.take() {
-            let Snapshot { generation, results, .. } = &mut snapshot;
+            let Snapshot { number, results, .. } = &mut snapshot;
             let Results { full_run, reference, comparison, .. } = results;
             let full_run = match full_run {
                 Some(FullRunState::Done(run)) => Some(&mut **run),
                 _ => None,
             };
             let results = [full_run, reference.as_mut(), comparison.as_mut()];
-            results.into_iter().flatten().for_each(|result| result.impacts = *generation);
+            results.into_iter().flatten().for_each(|result| result.impacts = *number);
             self.kept.push_back(snapshot);
         }
         if self.kept.len() > DELAY { self.kept.pop_front() } else { None }
     }
 }
 
-/// The results on the screen, as the generations of the knobs they belong to.
+/// The results on the screen, as the numbers of the films they belong to.
 fn results(app: &App) -> Vec<u64> {
     let Results { full_run, reference, comparison, .. } = &app.run.latest.results;
     let full_run = match full_run {
@@ -167,7 +167,7 @@ proptest! {
             terminal.backend_mut().resize(width, height);
             press(&mut terminal, &mut app, &mut engine, keys);
             prop_assert!(app.scene.checked().is_ok(), "a scene that was refused was accepted");
-            let now = app.order().generation();
+            let now = app.order().number;
             prop_assert!(results(&app).iter().all(|&of| of == now), "{now}: {:?}", results(&app));
         }
     }

@@ -19,7 +19,7 @@ type Sample = (f64, f64, bool);
 
 /// Samples of a run from the start to `to`; many between `from` and there.
 fn samples(app: &App, (from, to): (f64, f64)) -> Vec<Sample> {
-    let mut motion = Motion::new(&app.run.started);
+    let mut motion = Motion::new(&app.run.film.scene);
     let mut out: Vec<Sample> = Vec::new();
     let mut impacts = 0;
     let mut look = |motion: &Motion| {
@@ -199,7 +199,7 @@ fn the_gap_of_a_blade_at_an_instant_is_read_in_every_chart() {
 fn the_end_of_the_run_and_any_instant_are_one_command_away() {
     for name in ["rocking", "paper-nd3"] {
         let mut session = open(name);
-        session.engine.stride = 1e-12;
+        session.engine.stride = 1e-15;
         session.press_each("E");
         let end = session.app.scene.solver.end_s;
         let step = session.app.scene.solver.step_s;

@@ -80,15 +80,14 @@ impl App {
             scene: Scene::builtin(DEFAULT).unwrap_or_else(|_| Scene::base()),
         };
         let Source { name, scene: base } = self.files.source.clone().unwrap_or_else(default);
-        // Live changes are applied at their own instants, so the command starts from the scene at
-        // restart, with the extended end of the run.
-        let mut scene = self.run.started.clone().into_scene();
-        scene.solver.end_s = self.end_s();
+        // Live changes are applied at their own instants, so the command starts from the first
+        // scene of the film, with the extended end of the run.
+        let film = &self.run.film;
+        let mut scene = film.scene.clone().into_scene();
+        scene.solver.end_s = film.end_s;
         let start = CommandLine::from_base("run", &name, &base, &scene);
-        let live = &self.results().applied;
-        let at =
-            |line: CommandLine, (t, what): &(f64, _)| line.option("--at", format!("{t:?}:{what}"));
-        live.iter().fold(start, at)
+        let at = |line: CommandLine, (t, what)| line.option("--at", format!("{t:?}:{what}"));
+        film.arguments().into_iter().fold(start, at)
     }
 }
 

@@ -145,20 +145,16 @@ impl App {
     pub fn order(&self) -> Order {
         Order {
             scene: self.scene.clone(),
-            restarts: self.run.restarts,
-            changes: self.run.changes,
-            steps: self.play.steps,
-            goes: self.play.goes,
-            go_to_s: self.play.go_to_s,
-            jumps: self.play.jumps,
-            pulses: self.run.pulses,
-            playing: self.play.playing,
-            extensions: self.play.extensions,
-            rate: self.rate(),
-            bin_s: self.page_s() / BINS_PER_PAGE,
-            page: self.page(),
+            film: self.run.film.clone(),
+            number: self.run.number,
+            run: self.run.runs,
+            pinned: self.run.baseline.as_ref().map(|baseline| baseline.film.clone()),
             compare: self.run.compare,
+            moves: self.play.moves.clone(),
+            playing: self.play.playing,
+            rate: self.rate(),
             slow_at_events: self.play.slow_at_events,
+            page: self.page(),
             cursor_s: self.reading.at_s,
             open: ViewId::all().filter(|view| self.is_open(*view)).collect(),
             map: self.map_choice(),
@@ -172,12 +168,10 @@ impl App {
         self.run.compare && self.is_large(ViewId::Response)
     }
 
-    /// Returns the state last computed for the cursor; without a cursor, or before there is one,
-    /// the state of the playing motion. `None` before the first snapshot.
+    /// Returns the state at the time shown: that of the cursor, or of the playing motion. Until the
+    /// engine has computed it, the state shown before. `None` before the first snapshot.
     pub fn shown(&self) -> Option<&Moment> {
-        let reading = self.results().reading.as_deref();
-        let reading = reading.filter(|_| self.reading.at_s.is_some());
-        reading.or(self.moment())
+        self.run.latest.moment.as_deref()
     }
 
     /// As [`Self::shown`], but `None` until the engine has computed the requested time.
@@ -192,14 +186,11 @@ impl App {
         moment.map_or(self.scene.operation.speed_rad_s, |moment| moment.speed)
     }
 
-    /// Returns why the playing motion failed; `None` if it did not.
+    /// Returns why the motion failed before the time shown; `None` if it did not.
     pub fn failure(&self) -> Option<&String> {
-        self.moment()?.failure.as_ref()
+        self.shown()?.failure.as_ref()
     }
 }
-
-/// Bins recorded per page: more than a wide screen has sub-pixels.
-const BINS_PER_PAGE: f64 = 1024.0;
 
 #[cfg(test)]
 pub mod tests {

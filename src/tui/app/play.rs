@@ -4,8 +4,8 @@
 use super::App;
 use crate::tui::axis::nice_step;
 use crate::tui::command::Command;
-use crate::tui::engine::PageRecord;
-use crate::tui::history::{Bin, BinHistory};
+use crate::tui::engine::{Move, Moves, PageRecord};
+use crate::tui::history::{Bin, between, fine_between};
 use rubscope_solver::scene::Scene;
 
 /// Rates of playback: simulated time over wall-clock time.
@@ -61,24 +61,14 @@ pub struct Play {
     pub slow_at_events: bool,
     /// Centre of the page \[s\]; `None` if the page follows the motion.
     pub middle_s: Option<f64>,
-    /// Target of the latest go-to \[s\].
-    pub go_to_s: f64,
-    /// Number of go-tos requested.
-    pub goes: u64,
-    /// Number of time steps requested.
-    pub steps: u64,
-    /// Number of jumps to the next change of contact requested.
-    pub jumps: u64,
-    /// Number of times that the user continued past the end of this run.
-    pub extensions: u64,
+    /// Moves in time that the engine has yet to make.
+    pub moves: Moves,
+    /// Number of the move whose change of contact is to be reported; `None` if there is none.
+    jump: Option<u64>,
     /// Whether playback stopped because the run ended, not because the user paused it.
     stopped_by_end: bool,
-    /// Page number at the last snapshot.
+    /// Page number to which the ranges of the charts were last fitted.
     pub page: i64,
-    /// Number of the latest jump whose result was reported.
-    met: u64,
-    /// Number of times that the end of this run was reported.
-    ends: u64,
 }
 
 /// Settings of playback that undo restores.
@@ -95,10 +85,10 @@ pub struct Tempo {
 impl Play {
     /// Creates the playback of a scene, playing from its start.
     pub fn of(scene: &Scene) -> Self {
-        let (playing, slow_at_events, go_to_s) = (true, true, begin_s(scene));
-        let mut play =
-            Self { playing, rate: FIRST_RATE, slow_at_events, go_to_s, ..Self::default() };
+        let (playing, slow_at_events) = (true, true);
+        let mut play = Self { playing, rate: FIRST_RATE, slow_at_events, ..Self::default() };
         play.open(scene);
+        play.restart(begin_s(scene));
         play
     }
 
@@ -114,14 +104,15 @@ impl Play {
             Command::Pause => {
                 self.playing = !self.playing;
                 self.stopped_by_end = false;
-                // We have reported the end more often than the user continued past it, so the
-                // motion is waiting there: continue.
-                if self.playing {
-                    self.extensions = self.extensions.max(self.ends);
-                }
             }
-            Command::Step => (self.playing, self.steps) = (false, self.steps + 1),
-            Command::Jump => (self.playing, self.jumps) = (false, self.jumps + 1),
+            Command::Step => {
+                self.playing = false;
+                self.moves.push(Move::Step);
+            }
+            Command::Jump => {
+                self.playing = false;
+                self.jump = Some(self.moves.push(Move::NextChange));
+            }
             Command::SlowAtEvents => {
                 self.slow_at_events = !self.slow_at_events;
                 return Some(match self.slow_at_events {
@@ -141,13 +132,14 @@ impl Play {
         (self.playing, self.stopped_by_end) = (false, false);
     }
 
-    /// Resets what belonged to the previous run; resumes if only its end had stopped playback.
-    pub fn restart(&mut self, go_to_s: f64) {
+    /// Goes to the time at which a new run begins \[s\]; resumes if only the end of the run before
+    /// had stopped playback.
+    pub fn restart(&mut self, begin_s: f64) {
         self.playing |= std::mem::take(&mut self.stopped_by_end);
-        (self.page, self.go_to_s) = (0, go_to_s);
-        (self.ends, self.extensions) = (0, 0);
+        self.page = 0;
         // A jump requested in the previous run needs no answer.
-        self.met = self.jumps;
+        self.jump = None;
+        self.moves.push(Move::To(begin_s));
     }
 
     /// Returns the settings that undo restores.
@@ -162,23 +154,18 @@ impl Play {
         self.zoom = page_s.map_or(0, |length| self.zoom_for(length));
     }
 
-    /// Returns whether the latest jump's result arrives with this snapshot, which counts `jumps`.
-    pub fn is_met(&mut self, jumps: u64) -> bool {
-        let is_new = jumps == self.jumps && jumps > self.met;
+    /// Returns whether the result of the latest jump is that of this number; it is reported once.
+    pub fn is_met(&mut self, number: u64) -> bool {
+        let is_new = self.jump == Some(number);
         if is_new {
-            self.met = jumps;
+            self.jump = None;
         }
         is_new
     }
 
-    /// Pauses when the run has reached its end once more; returns whether it was playing.
-    pub fn stop_at_end(&mut self, ends: u64) -> bool {
-        let is_new = ends > self.ends;
-        if is_new {
-            self.ends = ends;
-            self.stopped_by_end = std::mem::take(&mut self.playing);
-        }
-        is_new && self.stopped_by_end
+    /// Pauses at the end of the run.
+    pub fn stop_at_end(&mut self) {
+        (self.playing, self.stopped_by_end) = (false, true);
     }
 
     /// Returns simulated time over wall-clock time.
@@ -211,15 +198,19 @@ impl App {
         self.reading.at_s.unwrap_or(self.played_s())
     }
 
-    /// Returns the time of the playing motion \[s\]; 0 before the first snapshot.
+    /// Returns the time played to \[s\]; 0 before the first snapshot.
     pub fn played_s(&self) -> f64 {
-        self.moment().map_or(0.0, |moment| moment.state.t_s)
+        self.run.latest.t_s
     }
 
     /// Returns the end of the run, with extensions \[s\].
     pub fn end_s(&self) -> f64 {
-        let end = self.results().end_s;
-        if end > 0.0 { end } else { self.scene.solver.end_s }
+        self.run.film.end_s
+    }
+
+    /// Returns whether the run is played to its end.
+    pub fn is_at_end(&self) -> bool {
+        self.play.moves.is_empty() && self.played_s() >= self.end_s()
     }
 
     /// Returns start and end of the page on the screen \[s\].
@@ -238,18 +229,19 @@ impl App {
         0.5 * (from + to)
     }
 
-    /// Returns the record of the page on the screen: recomputed at its zoom and including the
-    /// future, or, until that arrives, what was recorded during playback.
+    /// Returns the curves of the page on the screen, including the future.
     pub fn record(&self) -> &[Bin] {
-        self.recorded(self.results().page.as_deref(), &self.run.history)
+        self.recorded(self.results().page.as_deref())
     }
 
-    /// Returns the bins of the page from `page` if it matches, otherwise from `played`.
-    pub fn recorded<'a>(&self, page: Option<&'a PageRecord>, played: &'a BinHistory) -> &'a [Bin] {
+    /// Returns the bins of the page on the screen. Of an earlier page they are those that both have
+    /// in common, if they are fine enough.
+    pub fn recorded<'a>(&self, page: Option<&'a PageRecord>) -> &'a [Bin] {
         let (from, to) = self.page();
-        match page.filter(|known| known.page == (from, to)) {
-            Some(known) => known.record.between(from, to),
-            None => played.fine_between(from, to),
+        match page {
+            Some(known) if known.page == (from, to) => between(&known.bins, from, to),
+            Some(known) => fine_between(&known.bins, from, to),
+            None => &[],
         }
     }
 
@@ -321,23 +313,21 @@ mod tests {
     }
 
     #[test]
-    fn at_the_end_of_the_run_time_stops_once_and_goes_on_when_asked() {
+    fn a_restart_resumes_unless_the_user_had_paused_and_needs_no_answer_to_a_jump() {
         let mut play = Play::of(&Scene::base());
-        assert!(play.stop_at_end(1) && !play.playing && !play.stop_at_end(1));
-        play.act(Command::Pause);
-        assert_eq!((play.playing, play.extensions), (true, 1));
-        assert!(play.stop_at_end(2));
-        // A restart resumes, unless the user had paused.
+        play.stop_at_end();
         play.restart(0.0);
-        assert!(play.playing && play.extensions == 0);
+        assert!(play.playing);
         play.act(Command::Step);
         play.restart(0.0);
-        assert!(!play.playing && play.steps == 1);
+        assert!(!play.playing);
         play.act(Command::Jump);
-        assert!(play.is_met(1) && !play.is_met(1));
+        let number = play.moves.last();
+        assert!(play.is_met(number) && !play.is_met(number));
         play.act(Command::Jump);
+        let number = play.moves.last();
         play.restart(0.0);
-        assert!(!play.is_met(2), "nobody waits for a jump of the motion before");
+        assert!(!play.is_met(number), "nobody waits for a jump of the motion before");
     }
 
     #[test]
@@ -355,18 +345,6 @@ mod tests {
         // While paused, the requested rate is shown.
         app.play.playing = false;
         assert_eq!(app.rate_text(), "200x slower");
-    }
-
-    #[test]
-    fn a_last_step_that_passes_the_end_stays_on_the_last_page() {
-        let scene = rubscope_solver::scene::Scene::base().checked().unwrap();
-        let mut app = App::new(scene, crate::tui::Theme::Mono, crate::tui::Marker::Ascii);
-        let mut moment =
-            crate::tui::engine::Moment::of(&rubscope_solver::motion::Motion::new(&app.scene));
-        moment.state.t_s = app.end_s() + 1e-6;
-        app.run.latest.moment = Some(moment);
-        let (from, to) = app.page();
-        assert!(from < app.end_s() && (to - app.end_s()).abs() < 1e-12, "{from} {to}");
     }
 
     #[test]

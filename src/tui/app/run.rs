@@ -6,8 +6,9 @@ use std::sync::Arc;
 use super::App;
 use super::play::begin_s;
 use crate::tui::axis::{AutoRange, instant, readable};
-use crate::tui::engine::{Answer, Moment, Results, Sensitive, Snapshot, generation};
-use crate::tui::history::{Bin, BinHistory, Channel};
+use crate::tui::engine::{Answer, PageRecord, Results, Sensitive, Snapshot};
+use crate::tui::film::FilmPlan;
+use crate::tui::history::{Bin, Channel};
 use crate::tui::knobs::{KNOBS, Knob};
 use rubscope_solver::model::Machine;
 use rubscope_solver::motion::ActiveSet;
@@ -19,9 +20,13 @@ const STILL: f64 = 0.2;
 /// The run on the screen, and what is compared with it.
 #[derive(Clone, Debug)]
 pub struct Run {
-    /// The scene at the start of the run; live changes since then are not in it.
-    pub started: CheckedScene,
-    /// The latest snapshot, with results of the current generation only.
+    /// The film of the run: the scene at its start, and live changes.
+    pub film: FilmPlan,
+    /// Number of films in this session; each live change makes a new one.
+    pub number: u64,
+    /// Number of runs that were begun in this session.
+    pub runs: u64,
+    /// The latest snapshot, with results of the current film only.
     pub latest: Snapshot,
     /// Whether the scene also runs under the other contact law.
     pub compare: bool,
@@ -29,25 +34,15 @@ pub struct Run {
     pub baseline: Option<Baseline>,
     /// Axis ranges of the charts.
     pub ranges: Ranges,
-    /// Record of the playing motion.
-    pub history: BinHistory,
-    /// Record of the motion under the other contact law.
-    pub comparison: BinHistory,
     /// The latest known verdict, whose scene may be an older one; `None` before the first.
     pub answer: Option<Arc<Answer>>,
-    /// Number of restarts in this session.
-    pub restarts: u64,
-    /// Number of live changes of knobs in this session.
-    pub changes: u64,
-    /// Number of pulses fired by a key in this session.
-    pub pulses: u64,
 }
 
 /// A pinned run, drawn behind later ones.
 #[derive(Clone, Debug)]
 pub struct Baseline {
-    /// Record of its motion, up to the time at which it was pinned.
-    pub history: BinHistory,
+    /// Its film.
+    pub film: FilmPlan,
     /// Its verdict as displayed.
     pub word: String,
     /// The scene with the knob values at that time.
@@ -103,52 +98,38 @@ impl Run {
     /// Creates the run of a scene before its first snapshot.
     pub fn of(scene: &CheckedScene, machine: &Machine) -> Self {
         Self {
-            started: scene.clone(),
+            film: FilmPlan::new(scene),
+            number: 0,
+            runs: 0,
             latest: Snapshot::default(),
             compare: false,
             baseline: None,
             ranges: Ranges::of(machine.clearance()),
-            history: BinHistory::default(),
-            comparison: BinHistory::default(),
             answer: None,
-            restarts: 0,
-            changes: 0,
-            pulses: 0,
         }
     }
 
-    /// Clears what belongs to the previous run. Results of studies stay until new ones arrive.
+    /// Begins a run of a scene. Results of studies stay until new ones arrive.
     pub fn restart(&mut self, scene: &CheckedScene) {
-        self.restarts += 1;
-        self.started = scene.clone();
-        self.history.clear();
-        self.comparison.clear();
-        self.forget_forecasts();
-        let mut results = std::mem::take(&mut self.latest.results);
-        results.applied.clear();
-        (results.reading, results.end_s) = (None, 0.0);
+        self.runs += 1;
+        self.show(FilmPlan::new(scene));
+        let results = std::mem::take(&mut self.latest.results);
         self.latest = Snapshot { results, ..Snapshot::default() };
     }
 
-    /// Counts a live change of the motion.
-    fn change(&mut self) {
-        self.changes += 1;
-        self.forget_forecasts();
-    }
-
-    /// Counts another firing of the pulse.
-    pub fn fire(&mut self) {
-        self.pulses += 1;
-        self.forget_forecasts();
-    }
-
-    /// Drops the results that a change of the motion makes invalid.
-    fn forget_forecasts(&mut self) {
+    /// Shows another film; what was computed of the one before is dropped.
+    pub fn show(&mut self, film: FilmPlan) {
+        (self.film, self.number) = (film, self.number + 1);
         let results = &mut self.latest.results;
         (results.full_run, results.verdict) = (None, None);
         (results.reference, results.comparison) = (None, None);
         (results.page, results.comparison_page) = (None, None);
         results.sensitive = Sensitive::Unknown;
+    }
+
+    /// Continues the run past its end. What is known stays until the rest is computed.
+    pub fn extend(&mut self) {
+        (self.film, self.number) = (self.film.extended(), self.number + 1);
     }
 
     /// Switches whether the chart ranges follow the data; returns the status message.
@@ -163,7 +144,6 @@ impl Run {
             self.compare = compare;
             let results = &mut self.latest.results;
             (results.comparison, results.comparison_page) = (None, None);
-            self.comparison.clear();
         }
     }
 }
@@ -174,13 +154,26 @@ impl App {
         &self.run.latest.results
     }
 
-    /// Returns the state of the playing motion; `None` before the first snapshot of the run.
-    pub fn moment(&self) -> Option<&Moment> {
-        self.run.latest.moment.as_ref()
+    /// Replaces the current scene. It restarts the run, or, if `live`, changes the running motion
+    /// at the time played to.
+    pub fn set_scene(&mut self, scene: CheckedScene, live: bool) {
+        if live {
+            let film = self.run.film.changed(self.played_s(), &scene);
+            self.show_film(film, scene);
+        } else {
+            self.use_scene(scene);
+            self.restart();
+        }
     }
 
-    /// Replaces the current scene. It restarts the run, or, if `live`, changes the running motion.
-    pub fn set_scene(&mut self, scene: CheckedScene, live: bool) {
+    /// Shows another film of the same run, which goes on at the time played to with the values of
+    /// `scene`.
+    pub fn show_film(&mut self, film: FilmPlan, scene: CheckedScene) {
+        self.use_scene(scene);
+        self.run.show(film);
+    }
+
+    fn use_scene(&mut self, scene: CheckedScene) {
         let clearance = self.machine.clearance();
         self.scene = scene;
         self.machine = self.scene.machine();
@@ -189,7 +182,6 @@ impl App {
             let follow = self.run.ranges.follow;
             self.run.ranges = Ranges { follow, ..Ranges::of(self.machine.clearance()) };
         }
-        if live { self.run.change() } else { self.restart() }
     }
 
     /// Restarts the run. A cursor keeps its time and page.
@@ -202,6 +194,7 @@ impl App {
     /// Pins the run, to be drawn behind later ones, or removes the pinned one.
     pub fn pin(&mut self) {
         if self.run.baseline.take().is_some() {
+            self.run.latest.results.pinned_page = None;
             self.status = Some("baseline removed".into());
             return;
         }
@@ -209,10 +202,10 @@ impl App {
             self.status = Some("not pinned: the run has no verdict yet".into());
             return;
         }
-        let (history, scene) = (self.run.history.clone(), self.scene.clone());
+        let (film, scene) = (self.run.film.clone(), self.scene.clone());
         let word = self.verdict_word();
         let what = format!("{word} at {}", readable(self.speed(), "rad/s"));
-        self.run.baseline = Some(Baseline { history, word, scene });
+        self.run.baseline = Some(Baseline { film, word, scene });
         self.status = Some(format!("pinned behind the next runs: {what}"));
     }
 
@@ -224,42 +217,65 @@ impl App {
         }
         // The header shows the latest verdict with its knob value, even if it is outdated.
         self.run.answer = snapshot.results.answer.take().or(self.run.answer.take());
-        if snapshot.restarts != self.run.restarts {
+        if snapshot.run != self.run.runs {
             return false;
         }
-        self.grow_ranges(&snapshot.bins);
-        // Both contact laws share their axes, for comparison.
-        self.grow_ranges(&snapshot.comparison_bins);
-        self.run.history.extend(&std::mem::take(&mut snapshot.bins));
-        self.run.comparison.extend(&std::mem::take(&mut snapshot.comparison_bins));
         let had_forecast = self.full_run().is_some();
         let known = std::mem::take(&mut self.run.latest);
-        let results = match snapshot.generation == self.generation() {
-            true => snapshot.results,
-            false => known.results,
-        };
-        self.run.latest = Snapshot { results, trouble: known.trouble, ..snapshot };
-        self.turn_page();
+        if snapshot.number != self.run.number {
+            snapshot.results = known.results;
+        }
+        self.play.moves.drop_made(snapshot.moved);
+        self.run.latest = Snapshot { trouble: known.trouble, ..snapshot };
+        self.fit_to_page();
         self.fit_to_forecast(!had_forecast);
-        self.report_moment();
+        self.report_moves();
         self.check_lesson();
         true
     }
 
-    /// Grows the ranges of casing and blades to include the page and the forecast on it. For a new
+    /// Grows the ranges to include the page of both contact laws, which share their axes. For a new
+    /// page of the playing motion those of casing and blades may also shrink.
+    fn fit_to_page(&mut self) {
+        if !self.run.ranges.follow {
+            return;
+        }
+        let number = self.page_number();
+        let is_whole = |page: &PageRecord| page.is_whole && page.page == self.page();
+        let is_new = self.results().page.as_deref().is_some_and(is_whole)
+            && std::mem::replace(&mut self.play.page, number) != number;
+        let pages = [self.record(), self.recorded(self.results().comparison_page.as_deref())];
+        let of =
+            |channels| pages.into_iter().filter_map(|bins| extremes(bins, channels)).reduce(wider);
+        let [casing, blades, rim] = [CASING, BLADES, RIM].map(of);
+        let most = of([Channel::Amplitude; 2]).map(|(_, most)| most);
+        let least = of([Channel::Gap; 2]).map(|(least, _)| least).filter(|_| self.has_lining());
+        let (roomiest, usual) = (self.roomiest(), self.usual_reach());
+        let ranges = &mut self.run.ranges;
+        for (range, data) in
+            [(&mut ranges.casing, casing), (&mut ranges.blades, blades), (&mut ranges.rim, rim)]
+        {
+            match data {
+                Some((low, high)) if is_new => range.follow(low, high),
+                data => grow(range, data),
+            }
+        }
+        // With radial coupling the tips move outward, so the amplitude can exceed the clearance.
+        let wide = most.filter(|most| *most > usual).map(|most| (-most, most));
+        grow(&mut ranges.rim, wide);
+        // The largest gap is about the clearance plus the amplitude. With a lining, gaps can also
+        // be negative.
+        let low = least.map_or(ranges.gaps.low, |least| least.min(ranges.gaps.low));
+        grow(&mut ranges.gaps, most.map(|most| (low, roomiest + most)));
+    }
+
+    /// Grows the ranges of casing and blades to include the forecast on the page. For a new
     /// forecast they may also shrink, that of the casing not below the clearance.
     fn fit_to_forecast(&mut self, is_new: bool) {
         // Blades that rub at rest have no clearance to include.
         let clearance = self.machine.clearance().max(0.0);
         let (from, to) = self.page();
-        if !self.run.ranges.follow {
-            return;
-        }
-        let page = self.record();
-        let (waves, swings) = (extremes(page, CASING), extremes(page, BLADES));
-        grow(&mut self.run.ranges.casing, waves);
-        grow(&mut self.run.ranges.blades, swings);
-        let Some(run) = self.full_run() else { return };
+        let Some(run) = self.full_run().filter(|_| self.run.ranges.follow) else { return };
         let span = |place: usize| {
             let values = run.trace.between(place, from, to).map(|(_, value)| (value, value));
             values.filter(|(value, _)| value.is_finite()).reduce(wider)
@@ -276,60 +292,19 @@ impl App {
         }
     }
 
-    /// Returns the generation of the knobs: see [`generation`].
-    fn generation(&self) -> u64 {
-        generation(self.run.restarts, self.run.changes, self.run.pulses)
-    }
-
     /// Sets the status message when a jump is complete or the run has ended.
-    fn report_moment(&mut self) {
-        let Some(moment) = self.moment() else { return };
-        let ((jumps, met), ends) = (moment.met, moment.ends);
-        if self.play.is_met(jumps) {
+    fn report_moves(&mut self) {
+        let (number, met) = self.run.latest.met;
+        if self.play.is_met(number) {
             self.status = Some(match met {
                 Some(mark) => format!("{}: {}", instant(mark.t_s), self.happening(mark.what)),
                 None => "no change of contact comes soon".into(),
             });
         }
-        // Do not overwrite the message about a key.
-        if self.play.stop_at_end(ends) && self.status.is_none() {
-            self.status = Some("the end of the run; Space goes on".into());
-        }
-    }
-
-    /// Grows the ranges to include new bins.
-    fn grow_ranges(&mut self, bins: &[Bin]) {
-        if !self.run.ranges.follow {
-            return;
-        }
-        let (roomiest, usual) = (self.roomiest(), self.usual_reach());
-        let lining = self.has_lining();
-        let Ranges { casing, blades, gaps, rim, .. } = &mut self.run.ranges;
-        grow(casing, extremes(bins, CASING));
-        grow(blades, extremes(bins, BLADES));
-        let most = extremes(bins, [Channel::Amplitude; 2]).map(|(_, most)| most);
-        // With radial coupling the tips move outward, so the amplitude can exceed the clearance.
-        grow(rim, most.filter(|most| *most > usual).map(|most| (-most, most)));
-        // The largest gap is about the clearance plus the amplitude. With a lining, gaps can also
-        // be negative.
-        let low = if lining { extremes(bins, [Channel::Gap; 2]) } else { None };
-        let low = low.map_or(gaps.low, |(low, _)| low.min(gaps.low));
-        grow(gaps, most.map(|most| (low, roomiest + most)));
-    }
-
-    /// Fits the ranges to the previous page when a new page starts; they may shrink.
-    fn turn_page(&mut self) {
-        let page = self.page_number();
-        if std::mem::replace(&mut self.play.page, page) == page || !self.run.ranges.follow {
-            return;
-        }
-        let (from, _) = self.page();
-        let bins = self.run.history.between(from - self.page_s(), from);
-        let Ranges { casing, blades, rim, .. } = &mut self.run.ranges;
-        for (range, channels) in [(casing, CASING), (blades, BLADES), (rim, RIM)] {
-            if let Some((low, high)) = extremes(bins, channels) {
-                range.follow(low, high);
-            }
+        if self.play.playing && self.is_at_end() {
+            self.play.stop_at_end();
+            // Do not overwrite the message about a key.
+            self.status.get_or_insert("the end of the run; Space goes on".into());
         }
     }
 
@@ -337,7 +312,7 @@ impl App {
     /// corner has been held for a while.
     pub fn is_still(&self) -> bool {
         !self.play.playing
-            || self.moment().is_some_and(|moment| {
+            || self.shown().is_some_and(|moment| {
                 let held = moment.state.t_s - moment.since;
                 matches!(moment.active_set, ActiveSet::Corner(..)) && held > self.page_s() * STILL
             })
@@ -392,16 +367,18 @@ mod tests {
     fn what_was_computed_of_a_motion_is_forgotten_with_it_and_its_studies_stay() {
         let scene = Scene::base().checked().unwrap();
         let mut run = Run::of(&scene, &scene.machine());
-        run.latest.results.found.map = None;
         run.latest.results.found.spectrum = Some(Arc::default());
-        for change in [Run::change, Run::fire, |run: &mut Run| run.restart(&run.started.clone())] {
-            run.latest.results.reference = None;
+        for begins in [false, true] {
             run.latest.results.sensitive = Sensitive::GivenUp;
-            change(&mut run);
+            if begins {
+                run.restart(&scene)
+            } else {
+                run.show(run.film.fired(1e-3))
+            }
             assert_eq!(run.latest.results.sensitive, Sensitive::Unknown);
             assert!(run.latest.results.found.spectrum.is_some());
         }
-        assert_eq!((run.restarts, run.changes, run.pulses), (1, 1, 1));
+        assert_eq!((run.number, run.runs), (2, 1));
         run.set_compare(true);
         assert!(run.compare);
         assert_eq!(run.autoscale(), "scales stay fixed");

@@ -157,7 +157,7 @@ fn now(app: &App) -> Vec<Part> {
     let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
     let state = app.state_now();
     let touches = state != "free" && state != "starting";
-    let role = match app.moment().is_some_and(|moment| moment.failure.is_some()) {
+    let role = match app.failure().is_some() {
         true => Role::Trouble,
         false if touches => Role::Contact,
         false => Role::Text,
@@ -381,7 +381,7 @@ mod tests {
         assert_eq!(end(&app)[0].pieces[2].0, " decay");
         app.run.latest.results.full_run = Some(FullRunState::GivenUp(0.3));
         assert_eq!(app.verdict_word(), "DECAY");
-        app.run.fire();
+        app.run.show(app.run.film.fired(0.0));
         assert_eq!(app.verdict_word(), "computing");
     }
 

@@ -13,9 +13,9 @@ use crate::tui::axis::{instant, readable};
 use crate::tui::command::{Chord, Command, Effect, Purpose, lookup};
 use crate::tui::export;
 use crate::tui::field::Field;
+use crate::tui::film::other_law;
 use crate::tui::knobs::knob_of;
 use crate::tui::views::id::ViewId;
-use crate::tui::worker::other_law;
 
 /// Longest text that can be typed \[characters\].
 const LONGEST_TYPED: usize = 1000;
@@ -210,10 +210,7 @@ impl App {
     /// Executes a command of the playback, the charts or their cursor.
     fn change_run(&mut self, command: Command) {
         match command {
-            Command::Pause | Command::Step | Command::Jump => {
-                self.depart();
-                self.status = self.play.act(command);
-            }
+            Command::Pause | Command::Step | Command::Jump => self.go_on(command),
             Command::SlowAtEvents | Command::Slower | Command::Faster => {
                 self.status = self.play.act(command);
             }
@@ -321,9 +318,15 @@ impl App {
     /// Fires the pulse into the playing motion; the cursor, which shows another time, goes.
     fn fire(&mut self) {
         self.stop_reading();
-        self.run.fire();
+        let t = self.played_s();
+        if !self.run.film.has_room(t) {
+            self.status = Some("not fired: the run has too many changes; r restarts".into());
+            return;
+        }
+        self.knobs.remember(self.past());
+        self.run.show(self.run.film.fired(t));
         let pulse = knob_of(PULSE).map(|knob| knob.text(&self.scene));
-        let at = instant(self.now());
+        let at = instant(t);
         self.status = pulse.map(|pulse| format!("pulse of {pulse} fired at {at}"));
     }
 

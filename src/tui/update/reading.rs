@@ -2,7 +2,8 @@
 
 use crate::tui::app::{App, Cursor, STEP, cell_of};
 use crate::tui::axis::instant;
-use crate::tui::command::Effect;
+use crate::tui::command::{Command, Effect};
+use crate::tui::engine::Move;
 use crate::tui::views::id::ViewId;
 
 /// Large step of the cursor in charts without cells, as a fraction of the width or height.
@@ -129,16 +130,23 @@ impl App {
         self.update(command)
     }
 
-    /// Removes the cursor and moves the motion to its time. If that time is before the motion, the
-    /// run restarts first.
+    /// Removes the cursor and moves the motion to its time.
     pub fn depart(&mut self) {
         let Some(t) = self.reading.at_s else { return };
         self.stop_reading();
-        if t < self.played_s() {
-            self.restart();
+        if t != self.played_s() {
+            self.play.moves.push(Move::To(t));
         }
-        self.play.go_to_s = t;
-        self.play.goes += u64::from(t != self.played_s());
+    }
+
+    /// Plays on or pauses, or moves by a step or to the next change of contact, from the time
+    /// shown. At the end of the run, playing on continues it.
+    pub(super) fn go_on(&mut self, command: Command) {
+        self.depart();
+        self.play.act(command);
+        if self.play.playing && self.is_at_end() {
+            self.run.extend();
+        }
     }
 
     /// Moves the page by its own length, within the run.

@@ -9,13 +9,13 @@ use crate::report::table::{Table, TableCell};
 use crate::tui::app::{App, Cursor};
 use crate::tui::axis::{AutoRange, ChartAxis, instant, readable};
 use crate::tui::engine::{FullRun, Moment};
+use crate::tui::film::other_law;
 use crate::tui::history::{self, Bin, Channel};
 use crate::tui::plot::{Plot, contact};
 use crate::tui::raster::Pen;
 use crate::tui::text::{columns, print, wrap};
 use crate::tui::theme::Role;
 use crate::tui::trace::Happening;
-use crate::tui::worker::other_law;
 use rubscope_solver::motion::ActiveSet;
 use rubscope_solver::scene::ModelSize;
 
@@ -133,7 +133,7 @@ fn both_laws(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let word =
         comparison.map_or("...".to_string(), |outcome| outcome.verdict.as_ref().to_uppercase());
     let theirs = Page {
-        record: app.recorded(app.results().comparison_page.as_deref(), &app.run.comparison),
+        record: app.recorded(app.results().comparison_page.as_deref()),
         forecast: comparison,
         own: false,
         ..Page::casing(format!("{}: {word}", law.other()), app)
@@ -194,8 +194,8 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
         plot.spans(&history::columns(past, *channel, (from, to), columns), pen);
     }
     plot.ink();
-    if let Some(baseline) = app.run.baseline.as_ref().filter(|_| what.own) {
-        let pinned = baseline.history.fine_between(from, to);
+    if app.run.baseline.is_some() && what.own {
+        let pinned = app.recorded(app.results().pinned_page.as_deref());
         let cells = u16::try_from(columns).unwrap_or(u16::MAX);
         let pinned = history::columns(pinned, what.channels[0], (from, to), columns);
         for (k, span) in (0..cells).zip(pinned).step_by(PINNED) {
@@ -253,7 +253,7 @@ fn reading(app: &App, what: &Page, width: usize) -> Option<String> {
         let [first, second] = what.channels.map(|channel| readable(bin.middle(channel), what.unit));
         return Some(format!("near {}: {first}, {second}", readable(t, "s")));
     }
-    let moment = app.results().reading.as_deref()?;
+    let moment = app.shown()?;
     let named = what.names.iter().zip(values(moment));
     let named: Vec<String> =
         named.map(|(name, value)| format!("{name} {}", readable(value, what.unit))).collect();

@@ -1,213 +1,193 @@
-//! The engine without clock or thread: it applies orders, plays the motion, and makes snapshots.
+//! The engine without clock or thread: it applies orders, plays the film, and makes snapshots.
 
-mod moves;
-
+use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
-use super::comparison::{Comparison, other_law};
-use super::forecasts::Answers;
-use super::forecasts::Forecasts;
-use super::full_run::SLICE;
-use super::pacing::{Reached, Turned, rate_at};
-use super::page::{PER_TURN, Page, next_sample, sample_length};
-use super::reading::Copies;
-use super::reading::Reading;
-use super::recorder::Recorder;
-use super::studies::Studies;
-use crate::tui::engine::{Limit, Moment, Order, Snapshot};
-use crate::tui::trace::Mark;
+use super::films::Films;
+use crate::tui::engine::{Limit, Move, Order, Snapshot};
+use crate::tui::film::{
+    Head, PER_TURN, Reached, SLICE, Turned, longest_sample, met, next_change, rate_at,
+    sample_length,
+};
+use crate::tui::trace::{Mark, Marks};
 use crate::tui::views::id::ViewId;
-use rubscope_solver::motion::{Change, Motion};
-use rubscope_solver::scene::keys::differences;
 
-/// Largest turn of the wave relative to the blades per sample \[rad\].
+/// Largest turn of the wave relative to the blades in the next part of a sample \[rad\]: as much as
+/// that of a free wave in a whole sample, because a wave of small amplitude may turn faster.
 const TURN: f64 = std::f64::consts::TAU / PER_TURN;
+/// Parts of a sample in which the turn of the wave is followed.
+const FINER: f64 = 8.0;
 /// Longest wall-clock time of one call of `play` in the explorer.
 const PLAY_LIMIT: Duration = Duration::from_millis(25);
 /// Most wall-clock time that one tick makes up for, for example after a suspension.
 const LONGEST_TICK: Duration = Duration::from_millis(100);
-/// The playing motion, with its forecasts.
+/// Longest wall-clock time of a jump; a second key press continues from there.
+const JUMP_LIMIT: Duration = Duration::from_secs(1);
+
+/// The films of an order, and the instant that is shown.
 #[derive(Debug)]
 pub struct Playback {
     order: Order,
-    motion: Motion,
-    recorder: Recorder,
-    /// Time up to which the motion is due to be played \[s\].
-    target: f64,
-    /// What kept the last call of `play` from reaching the target.
+    films: Films,
+    head: Head,
+    /// Simulated time played to \[s\].
+    t: f64,
+    /// Time to go to once the film is computed so far \[s\]; `None` if there is none.
+    going: Option<f64>,
+    /// Whether the head is on the instant to be shown.
+    is_there: bool,
+    /// Steps and jumps to make, with their numbers.
+    moves: VecDeque<(u64, Move)>,
+    /// Number of the last move received.
+    received: u64,
+    /// Number of the last move made.
+    moved: u64,
+    /// Number of the last jump, and the change of contact that it met; `None` if it met none.
+    met: (u64, Option<Mark>),
+    /// What kept the last call of `play` from reaching its target.
     limit: Limit,
     turned: Turned,
     reached: Reached,
-    /// Target of a go-to \[s\]; `None` if none is under way.
-    going: Option<f64>,
-    /// Numbers of steps and jumps to execute after the go-to.
-    owed: [u64; 2],
-    copies: Copies,
-    reading: Reading,
-    page: Page,
-    /// The live changes of this run: time \[s\], and the argument of `run --at`.
-    applied: Vec<(f64, String)>,
-    /// Number of jumps executed, and the change of contact that the last one met; `None` if it met
-    /// none.
-    met: (u64, Option<Mark>),
-    /// Number of times that the motion has reached the end of the run.
-    ends: u64,
-    forecasts: Forecasts,
-    /// The motion under the other contact law; `None` if it is not wanted or not possible.
-    comparison: Option<Comparison>,
-    /// Whether the comparison has yet to catch up with the motion.
-    behind: bool,
     /// Longest wall-clock time of one call of `play`.
     time_limit: Duration,
 }
 
 impl Playback {
-    /// Starts the scene of an order.
+    /// Starts the film of an order.
     pub fn new(order: Order) -> Self {
         Self::with_time_limit(order, PLAY_LIMIT)
     }
 
     /// As [`Self::new`], with another limit on the wall-clock time per call of `play`.
     pub fn with_time_limit(order: Order, time_limit: Duration) -> Self {
-        Self::start(order, time_limit, Default::default())
-    }
-
-    fn start(order: Order, time_limit: Duration, kept: (Studies, Answers)) -> Self {
-        let scene = &order.scene;
-        let motion = Motion::new(scene);
+        let films = Films::of(&order);
         let mut playback = Self {
-            recorder: Recorder::default(),
-            target: 0.0,
+            head: Head::of(&films.own),
+            t: 0.0,
+            going: None,
+            is_there: order.cursor_s.is_none(),
+            moves: VecDeque::new(),
+            received: 0,
+            moved: 0,
+            met: (0, None),
             limit: Limit::None,
             turned: Turned::default(),
             reached: Reached::default(),
-            going: Some(order.go_to_s).filter(|t| *t > 0.0),
-            owed: [0; 2],
-            copies: Copies::of(&motion, order.page.1 - order.page.0),
-            reading: Reading::default(),
-            page: Page::default(),
-            applied: Vec::new(),
-            met: (order.jumps, None),
-            ends: 0,
-            forecasts: Forecasts::of(&motion, scene, kept),
-            comparison: None,
-            behind: false,
             time_limit,
-            motion,
+            films,
             order,
         };
-        playback.start_comparison();
-        playback.record();
-        playback.read();
-        playback.want_page();
+        playback.receive_moves();
+        playback.make_moves();
         playback
     }
 
     /// Limits the number of computed map cells, for tests.
     pub fn bound_maps(&mut self, cells: usize) {
-        self.forecasts.studies.most_cells = Some(cells);
+        self.films.studies.most_cells = Some(cells);
     }
 
-    /// Applies a newer order: compares its counters with those of the last one and executes the
-    /// difference.
+    /// Applies a newer order.
     pub fn apply(&mut self, order: &Order) {
         let before = std::mem::replace(&mut self.order, order.clone());
-        self.forecasts.stop_unwanted(order);
-        if order.restarts != before.restarts {
-            let kept = self.forecasts.hand_over(&before.scene, &self.motion);
-            *self = Self::start(order.clone(), self.time_limit, kept);
-            return self.owe(&before);
-        }
-        let length = order.scene.solver.end_s;
-        let changed = order.changes != before.changes || order.pulses != before.pulses;
-        if changed && self.behind {
-            self.level_comparison();
-        }
-        let other = other_law(&order.scene).ok();
-        let theirs = self.comparison.as_mut().map(|theirs| &mut theirs.motion).zip(other.as_ref());
-        for (motion, scene) in std::iter::once((&mut self.motion, &order.scene)).chain(theirs) {
-            if order.changes != before.changes {
-                for change in Change::between(&before.scene, scene) {
-                    motion.apply(&change);
-                }
+        if self.films.want(order, &before.scene, self.head.scripted()) {
+            if order.run == before.run {
+                self.head.follow(&self.films.own);
+            } else {
+                self.head = Head::of(&self.films.own);
             }
-            if order.pulses != before.pulses {
-                motion.fire();
-            }
-        }
-        if changed {
-            self.note_changes(&before);
-            self.copies.changed(&self.motion);
-            self.page.forget();
-            self.forecasts.changed(&before.scene, &self.motion, length);
-            if let Some(comparison) = &mut self.comparison {
-                comparison.changed(length);
-            }
-        }
-        if order.extensions != before.extensions && self.is_at_end() {
-            self.forecast();
-        }
-        if order.compare != before.compare {
-            self.start_comparison();
+            self.going = self.going.or(Some(self.t));
         }
         if (order.rate, order.playing) != (before.rate, before.playing) {
             self.reached = Reached::default();
         }
-        if order.goes != before.goes {
-            self.going = Some(order.go_to_s);
-        }
-        self.owe(&before);
-        if order.cursor_s != before.cursor_s || changed {
-            self.read();
-        }
-        self.want_page();
+        self.is_there &= order.cursor_s == before.cursor_s;
+        self.receive_moves();
+        self.make_moves();
     }
 
-    /// Records what the latest order changed, as arguments of `run --at`.
-    fn note_changes(&mut self, before: &Order) {
-        let now = self.motion.t_s();
-        if self.order.changes != before.changes {
-            let keys = differences(&before.scene, &self.order.scene);
-            self.applied.extend(keys.map(|(path, text)| (now, format!("{path}={text}"))));
-        }
-        if self.order.pulses != before.pulses {
-            self.applied.push((now, "pulse".into()));
-        }
-    }
-
-    /// Starts new full runs from the current time.
-    fn forecast(&mut self) {
-        let length = self.order.scene.solver.end_s;
-        self.forecasts.again(&self.motion, length);
-        if let Some(comparison) = &mut self.comparison {
-            comparison.forecast(length);
+    fn receive_moves(&mut self) {
+        for (number, to) in self.order.moves.numbered() {
+            if number <= self.received {
+                continue;
+            }
+            self.received = number;
+            match to {
+                Move::To(t) => {
+                    self.moves.clear();
+                    self.going = Some(t);
+                }
+                to => self.moves.push_back((number, to)),
+            }
         }
     }
 
-    /// Returns whether the motion has reached the end of its run.
-    fn is_at_end(&self) -> bool {
-        let step = self.motion.steps().map_or(0.0, |_| self.order.scene.solver.step_s);
-        // The explicit solver stops at its last step before the end.
-        self.motion.t_s() + step > self.forecasts.full_run.end() * (1.0 - f64::EPSILON)
+    /// Makes the moves that can be made now, but at most one jump.
+    fn make_moves(&mut self) {
+        while self.arrive() {
+            let Some((number, to)) = self.moves.pop_front() else {
+                self.moved = self.received;
+                return;
+            };
+            self.moved = number;
+            if to == Move::NextChange {
+                return self.jump(number);
+            }
+            self.step();
+        }
     }
 
-    /// Starts the motion under the other contact law, if the order wants it.
-    fn start_comparison(&mut self) {
-        let (from, to) = self.order.page;
-        let other = || Comparison::of(&self.order.scene, to - from);
-        self.comparison = self.order.compare.then(other).flatten();
-        self.play_comparison(self.time_limit);
+    /// Puts the head on the instant to be shown, once the film is computed so far; a film that
+    /// failed or was given up ends earlier. Returns whether it is there.
+    fn arrive(&mut self) -> bool {
+        let film = &self.films.own;
+        let is_known = |t: f64| film.reach() >= t || film.is_done();
+        if let Some(wanted) = self.going.filter(|wanted| is_known(*wanted)) {
+            self.t = wanted.min(film.reach());
+            (self.going, self.is_there) = (None, false);
+        }
+        let shown = self.order.cursor_s.unwrap_or(self.t);
+        if self.going.is_none() && !self.is_there && is_known(shown) {
+            let (began, limit) = (Instant::now(), self.time_limit.min(SLICE));
+            let until = shown.min(film.reach());
+            self.is_there = self.head.seek(film, until, &|| began.elapsed() < limit);
+            self.turned = Turned::default();
+            if self.order.cursor_s.is_none() && self.head.motion().failure().is_some() {
+                self.t = self.t.min(self.head.motion().t_s());
+            }
+        }
+        self.going.is_none() && self.is_there
     }
 
-    fn sample_length(&self) -> f64 {
-        sample_length(&self.motion, self.order.bin_s)
+    /// Takes one time step, or one sample if the solver has no steps.
+    fn step(&mut self) {
+        let (motion, end) = (self.head.motion(), self.films.own.plan().end_s);
+        let now = motion.t_s();
+        // Half a step more, because round-off could leave the motion where it is.
+        let until = match motion.steps() {
+            Some(_) => now + 1.5 * self.order.scene.solver.step_s,
+            None => now + sample_length(motion, self.order.page),
+        };
+        let (began, limit) = (Instant::now(), self.time_limit);
+        self.head.play(until.min(end), &|| began.elapsed() < limit);
+        self.t = self.head.motion().t_s();
+        self.head.show();
     }
 
-    fn record(&mut self) {
-        let state = self.motion.state();
-        self.recorder.record(&mut self.motion, &state, self.order.bin_s);
-        self.copies.follow(&self.motion);
-        self.turned.follow(&self.motion, &state);
+    /// Moves to the next change of contact, if one comes soon.
+    fn jump(&mut self, number: u64) {
+        let (began, limit) = (Instant::now(), self.time_limit.max(JUMP_LIMIT));
+        let go_on = || began.elapsed() < limit;
+        let marks = Marks::from(self.head.motion().contacts());
+        let end = self.films.own.plan().end_s;
+        let sample = longest_sample(self.head.motion());
+        let found = next_change(self.head.scripted(), sample, end, &go_on);
+        if let Some(until) = found {
+            self.head.play(until, &go_on);
+            self.t = until;
+            self.head.show();
+        }
+        self.met = (number, found.and_then(|_| met(marks, self.head.motion())));
     }
 
     /// Reports that a frame was drawn: the wave may turn further.
@@ -220,14 +200,14 @@ impl Playback {
     /// motion advanced.
     pub fn play_paced(&mut self, wall: Duration) -> bool {
         let due = wall.min(LONGEST_TICK).as_secs_f64();
-        let (now, rate) = (self.motion.t_s(), self.order.rate);
+        let (now, rate) = (self.t, self.order.rate);
         let rate = match self.order.slow_at_events {
-            true => rate_at(now, rate, self.forecasts.full_run.marks()),
+            true => rate_at(now, rate, self.films.own.marks()),
             false => rate,
         };
         let turns = self.order.shows(ViewId::Frame) || self.order.shows(ViewId::Gaps);
         self.play_within(due * rate, turns);
-        let played = self.motion.t_s() - now;
+        let played = self.t - now;
         self.reached.add(wall.as_secs_f64(), played);
         played != 0.0
     }
@@ -238,119 +218,77 @@ impl Playback {
     }
 
     fn play_within(&mut self, seconds: f64, turns: bool) {
-        if self.going.is_some() {
+        self.limit = Limit::None;
+        if !self.arrive() || self.order.cursor_s.is_some() {
             return;
         }
-        self.target += seconds;
+        let film = &self.films.own;
         let (began, limit) = (Instant::now(), self.time_limit);
         let go_on = || began.elapsed() < limit;
-        let sample = self.sample_length();
-        self.limit = Limit::None;
-        let (end, before) = (self.forecasts.full_run.end(), self.motion.t_s());
-        loop {
-            let now = self.motion.t_s();
-            let next = if now + sample > end { end } else { now + sample };
-            if next > self.target || next <= now {
-                break;
-            }
+        let target = (self.t + seconds).min(film.plan().end_s);
+        let (before, longest) = (self.t, longest_sample(self.head.motion()));
+        let sample = if turns { longest / FINER } else { longest };
+        while self.t < target {
             if turns && self.turned.must_wait(TURN) {
-                (self.limit, self.target) = (Limit::Wave, now);
+                self.limit = Limit::Wave;
                 break;
             }
-            // The motion stores its failure, and every snapshot reports it.
-            if next_sample(&mut self.motion, next, self.order.scene.solver.step_s, &go_on).is_err()
-            {
+            let next = (self.t + sample).min(target);
+            if next > film.reach() || !go_on() {
+                self.limit = Limit::Solver;
                 break;
             }
-            self.record();
-            if self.is_at_end() {
+            if !self.head.play(next, &go_on) {
+                self.t = self.head.motion().t_s().max(self.t);
                 break;
             }
-            if !go_on() {
-                let now = self.motion.t_s();
-                if now + sample <= self.target {
-                    self.limit = Limit::Solver;
-                }
-                self.target = self.target.min(now + sample);
-                break;
-            }
+            self.t = next;
+            let state = self.head.motion().state();
+            self.turned.follow(self.head.motion(), &state);
         }
-        if self.is_at_end() {
-            self.target = self.motion.t_s();
-            self.ends += u64::from(self.target > before);
+        if self.t > before {
+            self.head.show();
         }
-        if self.motion.failure().is_some() {
-            self.target = self.motion.t_s();
-        }
-        self.play_comparison(self.time_limit);
     }
 
-    fn play_comparison(&mut self, limit: Duration) {
-        let (now, sample, bin) = (self.motion.t_s(), self.sample_length(), self.order.bin_s);
-        self.behind = self.comparison.as_mut().is_some_and(|comparison| {
-            let began = Instant::now();
-            !comparison.catch_up(now, sample, bin, &|| began.elapsed() < limit)
-        });
-    }
-
-    /// Brings the comparison to the current time before a change, which must act on both motions at
-    /// the same time; drops the comparison if that takes too long.
-    fn level_comparison(&mut self) {
-        self.play_comparison(self.time_limit.max(moves::JUMP_LIMIT));
-        if std::mem::take(&mut self.behind) {
-            self.comparison = None;
-        }
+    /// Returns whether the playback has come to the end of a film that was given up: it is computed
+    /// as far as it is watched.
+    fn is_starved(&self) -> bool {
+        let film = &self.films.own;
+        let is_given_up = film.is_done() && film.result().is_none();
+        self.order.playing && self.limit == Limit::Solver && is_given_up
     }
 
     /// Returns whether anything is left to compute.
     pub fn is_computing(&self) -> bool {
-        let comparison = self.comparison.as_ref().map(|comparison| &comparison.full_run);
-        self.behind
-            || self.going.is_some()
-            || !self.reading.is_done()
-            || !self.pages_are_done()
-            || self.forecasts.is_computing(&self.order, comparison)
+        self.going.is_some()
+            || !self.is_there
+            || !self.moves.is_empty()
+            || self.is_starved()
+            || self.films.is_computing(&self.order)
     }
 
-    /// Computes for one slice of wall-clock time: the comparison if it is behind, otherwise the
-    /// cursor, then a go-to, the page, or the forecasts.
+    /// Computes for one slice of wall-clock time.
     pub fn compute(&mut self) {
-        if self.behind {
-            return self.play_comparison(self.time_limit);
+        self.make_moves();
+        if self.is_starved() {
+            self.films.own.compute();
         }
-        self.reading.go_on(self.time_limit.min(SLICE));
-        if self.arrive() || self.compute_page() {
-            return;
-        }
-        let comparison = self.comparison.as_mut().map(|comparison| &mut comparison.full_run);
-        self.forecasts.compute(&self.order, comparison);
+        self.films.compute(&self.order);
     }
 
-    /// Returns the current state, the results, and the bins since the last call.
+    /// Returns the instant shown and the results.
     pub fn snapshot(&mut self) -> Snapshot {
-        let now = Moment {
-            multipliers: self.recorder.mean_forces(),
-            met: self.met,
-            ends: self.ends,
-            ..Moment::of(&self.motion)
-        };
-        let comparison = self.comparison.as_mut();
-        let theirs = comparison.as_ref().map(|comparison| &comparison.full_run);
-        let mut results = self.forecasts.results(&self.order, theirs);
+        let mut results = self.films.results(&self.order);
         results.pace.limit = self.limit;
         results.pace.reached = self.reached.rate();
-        results.reading = self.reading.moment();
-        results.page = self.page.record();
-        results.comparison_page = comparison.as_ref().and_then(|theirs| theirs.page.record());
-        results.applied.clone_from(&self.applied);
         Snapshot {
-            generation: self.order.generation(),
-            restarts: self.order.restarts,
-            moment: Some(now),
-            bins: self.recorder.take_bins(),
-            comparison_bins: comparison
-                .map(|comparison| comparison.recorder.take_bins())
-                .unwrap_or_default(),
+            number: self.order.number,
+            run: self.order.run,
+            t_s: self.t,
+            moment: Some(self.head.moment()),
+            moved: self.moved,
+            met: self.met,
             results,
             trouble: None,
         }

@@ -1,20 +1,33 @@
 //! Tests of the playback against plain runs of the solver.
 
 use super::*;
+use crate::tui::film::{FilmPlan, in_blade_frame};
 use crate::tui::{App, Marker, Theme};
+use rubscope_solver::motion::Motion;
 use rubscope_solver::scene::Scene;
 
 fn order(scene: Scene) -> Order {
     let app = App::new(scene.checked().unwrap(), Theme::Mono, Marker::Ascii);
-    Order { rate: 5e-3, bin_s: 2e-5, slow_at_events: false, ..app.order() }
+    Order { rate: 5e-3, slow_at_events: false, ..app.order() }
+}
+
+fn settle(playback: &mut Playback) {
+    while playback.is_computing() {
+        playback.compute();
+    }
 }
 
 fn computed(order: &Order) -> Playback {
     let mut playback = Playback::with_time_limit(order.clone(), Duration::MAX);
-    while playback.is_computing() {
-        playback.compute();
-    }
+    settle(&mut playback);
     playback
+}
+
+/// Applies an order with another film.
+fn refilmed(playback: &mut Playback, order: &mut Order, film: FilmPlan) {
+    (order.film, order.number) = (film, order.number + 1);
+    playback.apply(order);
+    settle(playback);
 }
 
 #[test]
@@ -24,13 +37,14 @@ fn a_turning_picture_turns_an_eighth_between_two_frames_at_most() {
     order.rate = 0.1;
     let mut playback = computed(&order);
     let phase = |playback: &Playback| {
-        let (state, machine) = (playback.motion.state(), playback.motion.machine());
-        let turned = machine.nodal_diameters * playback.motion.rotor().angle(state.t_s);
-        let [x, y] = super::super::recorder::in_blade_frame(state.u, turned);
+        let motion = playback.head.motion();
+        let (state, machine) = (motion.state(), motion.machine());
+        let turned = machine.nodal_diameters * motion.rotor().angle(state.t_s);
+        let [x, y] = in_blade_frame(state.u, turned);
         (y.atan2(x), state.amplitude() > 0.05 * machine.clearance())
     };
     let (mut frames, mut limited) = (0, 0);
-    while playback.motion.t_s() < 0.02 {
+    while playback.t < 0.02 {
         let (before, shown) = phase(&playback);
         // Several ticks of the clock per frame.
         for _ in 0..5 {
@@ -50,11 +64,11 @@ fn a_turning_picture_turns_an_eighth_between_two_frames_at_most() {
     order.open = vec![ViewId::Response];
     let mut playback = computed(&order);
     (0..5).for_each(|_| _ = playback.play_paced(Duration::from_millis(33)));
-    assert!((playback.motion.t_s() - 0.0165).abs() < 1e-4);
+    assert!((playback.t - 0.0165).abs() < 1e-4);
 }
 
 #[test]
-fn the_motion_waits_at_the_end_of_its_forecast_and_goes_on_when_asked() {
+fn the_motion_waits_at_the_end_of_its_film_and_goes_on_when_asked() {
     for name in ["paper-nd3", "rocking"] {
         let mut scene = Scene::builtin(name).unwrap();
         (scene.solver.end_s, scene.solver.step_s) = (5e-3, 2e-7);
@@ -64,12 +78,11 @@ fn the_motion_waits_at_the_end_of_its_forecast_and_goes_on_when_asked() {
         playback.play(1.0);
         let snapshot = playback.snapshot();
         let moment = snapshot.moment.unwrap();
-        assert!((moment.state.t_s - 5e-3).abs() < 2.1e-7 && moment.ends == 1, "{name}");
-        order.extensions = 1;
-        playback.apply(&order);
-        assert!((playback.forecasts.full_run.end() - 1e-2).abs() < 3e-7);
+        assert!((moment.state.t_s - 5e-3).abs() < 2.1e-7 && snapshot.t_s == 5e-3, "{name}");
+        let longer = order.film.extended();
+        refilmed(&mut playback, &mut order, longer);
         playback.play(1e-3);
-        assert!(playback.motion.t_s() > 5.9e-3);
+        assert!(playback.head.motion().t_s() > 5.9e-3);
     }
 }
 
@@ -80,17 +93,16 @@ fn a_jump_stops_at_the_change_of_contact_at_any_zoom() {
     let mut run = Motion::new(&scene.clone().checked().unwrap());
     run.advance(scene.solver.end_s).unwrap();
     let impacts: Vec<f64> = run.contacts().impacts.iter().map(|impact| impact.t_s).collect();
-    for bin_s in [1e-9, 2e-5, 1e-3] {
-        // A page of 1024 bins, as on the screen.
-        let mut order = Order { bin_s, page: (0.0, 1024.0 * bin_s), ..order(scene.clone()) };
+    for page_s in [1e-6, 2e-2, 1.0] {
+        let mut order = Order { page: (0.0, page_s), playing: false, ..order(scene.clone()) };
         let mut playback = computed(&order);
-        for (number, impact) in (1..).zip(impacts.iter().take(2)) {
-            order.jumps = number;
-            order.playing = false;
+        for impact in impacts.iter().take(2) {
+            let number = order.moves.push(Move::NextChange);
             playback.apply(&order);
-            let now = playback.motion.t_s();
+            let snapshot = playback.snapshot();
+            let now = snapshot.moment.unwrap().state.t_s;
             assert!((now - impact).abs() <= 1e-12 * impact.max(1e-6), "{now} {impact}");
-            let (number_met, met) = playback.snapshot().moment.unwrap().met;
+            let (number_met, met) = snapshot.met;
             assert_eq!((number_met, met.unwrap().t_s), (number, *impact));
         }
     }
@@ -108,11 +120,13 @@ fn the_reading_cursor_has_the_state_of_a_run_that_stops_there() {
         for t in [0.0, 1.8e-3, 7.3e-3, 9.1e-3] {
             order.cursor_s = Some(t);
             playback.apply(&order);
-            let read = playback.snapshot().results.reading.unwrap();
+            let snapshot = playback.snapshot();
+            let read = snapshot.moment.unwrap();
             let mut run = Motion::new(&scene.clone().checked().unwrap());
             run.advance(t).unwrap();
             assert_eq!(read.state, run.state(), "{name} at {t}");
             assert_eq!(read.gaps, run.blade_gaps());
+            assert_eq!(snapshot.t_s, 8e-3);
         }
     }
 }
@@ -122,37 +136,40 @@ fn the_reading_cursor_knows_changes_of_the_motion() {
     let mut order = order(Scene::builtin("rocking").unwrap());
     let mut playback = computed(&order);
     playback.play(2e-3);
-    order.pulses += 1;
-    playback.apply(&order);
+    let fired = order.film.fired(2e-3);
+    refilmed(&mut playback, &mut order, fired);
     playback.play(3e-3);
-    let now = playback.motion.state();
-    order.cursor_s = Some(now.t_s);
+    let now = playback.head.motion().state();
     playback.play(1e-3);
+    order.cursor_s = Some(now.t_s);
     playback.apply(&order);
-    assert_eq!(playback.snapshot().results.reading.unwrap().state, now);
+    assert_eq!(playback.snapshot().moment.unwrap().state, now);
 }
 
 #[test]
-fn a_comparison_that_is_slow_catches_up_before_a_change_acts_on_both() {
+fn a_change_acts_on_both_laws_at_its_instant_and_undo_takes_it_away() {
     let mut scene = Scene::base();
-    scene.solver.step_s = 1e-6;
-    scene.solver.end_s = 1e-3;
-    let mut order = order(scene);
-    let mut playback = Playback::with_time_limit(order.clone(), Duration::MAX);
+    (scene.solver.step_s, scene.solver.end_s) = (1e-6, 3e-3);
+    let mut order = Order { compare: true, ..order(scene) };
+    let mut playback = computed(&order);
+    let results = |playback: &mut Playback| {
+        let results = playback.snapshot().results;
+        let crate::tui::engine::FullRunState::Done(own) = results.full_run.unwrap() else {
+            panic!("the film is computed");
+        };
+        [own.trace, results.comparison.unwrap().trace]
+    };
+    let before = results(&mut playback);
     playback.play(2e-3);
-    // The comparison is requested late and has no time: one sample per call.
-    playback.time_limit = Duration::ZERO;
-    order.compare = true;
-    playback.apply(&order);
-    assert!(playback.behind && playback.is_computing());
-    order.pulses += 1;
-    playback.apply(&order);
-    let (now, theirs) = (playback.motion.t_s(), playback.comparison.as_ref().unwrap());
-    assert!(!playback.behind && now - theirs.motion.t_s() < 1.5e-6, "{now}");
-    assert_eq!(theirs.motion.pulse().start, playback.motion.pulse().start);
-    while playback.is_computing() {
-        playback.compute();
+    let unchanged = order.film.clone();
+    let fired = unchanged.fired(2e-3);
+    refilmed(&mut playback, &mut order, fired);
+    for (fired, before) in results(&mut playback).iter().zip(&before) {
+        assert!(fired.from == 2e-3 && fired.points.last() != before.points.last());
     }
+    assert_eq!(playback.t, 2e-3);
+    refilmed(&mut playback, &mut order, unchanged);
+    assert!(results(&mut playback) == before && playback.t == 2e-3);
 }
 
 /// Returns an order for the paper's scene over one millisecond, with both laws.
@@ -163,37 +180,34 @@ fn short() -> Order {
 }
 
 #[test]
-fn a_change_of_the_motion_forgets_the_pages() {
-    let mut order = short();
-    let mut playback = computed(&order);
-    let known = |playback: &Playback| {
-        let theirs = playback.comparison.as_ref().unwrap();
-        [&playback.page, &theirs.page].map(|page| page.record().is_some())
-    };
-    assert_eq!(known(&playback), [true; 2]);
-    order.pulses += 1;
-    playback.apply(&order);
-    assert_eq!(known(&playback), [false; 2]);
-}
-
-#[test]
-fn going_to_an_instant_neither_goes_back_nor_beyond_the_run() {
+fn going_to_an_instant_goes_back_and_not_beyond_the_run() {
     let mut order = short();
     let mut playback = computed(&order);
     playback.play(8e-4);
-    let now = playback.motion.t_s();
-    for (to, reached) in [(2e-4, now), (9e-4, 9e-4), (1.0, 1e-3)] {
-        order.goes += 1;
-        order.go_to_s = to;
+    for (to, reached) in [(2e-4, 2e-4), (9e-4, 9e-4), (1.0, 1e-3)] {
+        order.moves.push(Move::To(to));
         playback.apply(&order);
-        while playback.is_computing() {
-            playback.compute();
-        }
-        let now = playback.motion.t_s();
-        assert!((now - reached).abs() < 1.1e-6, "{to}: {now}");
-        let ends = playback.snapshot().moment.unwrap().ends;
-        assert_eq!(ends, u64::from(to == 1.0), "{to}");
+        settle(&mut playback);
+        assert_eq!(playback.t, reached);
+        assert!((playback.head.motion().t_s() - reached).abs() < 1.1e-6, "{to}");
+        assert_eq!(playback.snapshot().moved, order.moves.last());
     }
+}
+
+#[test]
+fn steps_and_jumps_are_made_once_each_in_the_order_of_their_keys() {
+    let mut order = short();
+    let mut playback = computed(&order);
+    for (made, to) in [(0, Move::Step), (2, Move::Step), (2, Move::To(5e-4)), (2, Move::Step)] {
+        // Each order repeats moves that the screen does not know to be made.
+        order.moves.drop_made(made);
+        order.moves.push(to);
+        playback.apply(&order);
+    }
+    settle(&mut playback);
+    let steps = (playback.head.motion().t_s() - 5e-4) / 1e-6;
+    assert!((steps - 1.0).abs() < 1e-6, "{steps}");
+    assert_eq!(playback.snapshot().moved, order.moves.last());
 }
 
 #[test]
@@ -206,18 +220,4 @@ fn the_rate_reached_is_forgotten_where_another_is_asked_for() {
     order.rate *= 2.0;
     playback.apply(&order);
     assert_eq!(playback.reached.rate(), None);
-}
-
-#[test]
-fn pages_take_turns_with_the_run_ahead_and_wait_for_an_arrival() {
-    let mut playback = Playback::with_time_limit(short(), Duration::MAX);
-    playback.going = Some(1e-3);
-    assert!(!playback.compute_page() && !playback.pages_are_done());
-    playback.going = None;
-    // The full run has the first slice, because its verdict is wanted first.
-    assert!(!playback.compute_page() && !playback.pages_are_done());
-    while !playback.pages_are_done() {
-        playback.compute();
-    }
-    assert!(!playback.forecasts.full_run.wall().is_zero());
 }

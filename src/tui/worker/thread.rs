@@ -1,13 +1,12 @@
 //! The worker thread: one slot for the latest order, one for the latest snapshot. Neither side
-//! waits for the other: a newer order replaces an older one, and a snapshot that was not taken is
-//! merged into the next.
+//! waits for the other: a newer order replaces an older one, and a newer snapshot one that was not
+//! taken.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use crate::tui::engine::{Engine, Order, Snapshot, Waker};
-use crate::tui::history::{Bin, MOST_BINS, thin};
 use crate::tui::worker::Playback;
 
 /// Name of the thread, by which the panic hook recognises it.
@@ -145,18 +144,7 @@ fn publish(shared: &Shared, mut snapshot: Snapshot, wake: &Waker) {
         let mut slots = shared.lock();
         let waiting = slots.snapshot.take();
         let first = waiting.is_none();
-        if let Some(waiting) = waiting
-            && waiting.restarts == snapshot.restarts
-        {
-            let join = |mut bins: Vec<Bin>, new: &mut Vec<Bin>| {
-                bins.append(new);
-                if bins.len() > MOST_BINS {
-                    thin(&mut bins);
-                }
-                *new = bins;
-            };
-            join(waiting.bins, &mut snapshot.bins);
-            join(waiting.comparison_bins, &mut snapshot.comparison_bins);
+        if let Some(waiting) = waiting.filter(|waiting| waiting.run == snapshot.run) {
             snapshot.trouble = snapshot.trouble.or(waiting.trouble);
         }
         slots.snapshot = Some(snapshot);
@@ -183,16 +171,15 @@ fn catch_panic<T>(work: impl FnOnce() -> T) -> Result<T, String> {
 mod tests {
     use super::*;
     use crate::tui::engine::FullRunState;
-    use crate::tui::history::CHANNELS;
     use crate::tui::{App, Marker, Theme};
     use rubscope_solver::scene::Scene;
 
-    fn order(speed: f64, restarts: u64) -> Order {
+    fn order(speed: f64, number: u64) -> Order {
         let mut scene = Scene::base();
         scene.operation.speed_rad_s = speed;
         scene.solver.step_s = 1e-6;
         let app = App::new(scene.checked().unwrap(), Theme::Mono, Marker::Ascii);
-        Order { restarts, rate: 5e-3, bin_s: 2e-5, open: Vec::new(), ..app.order() }
+        Order { number, run: number, rate: 5e-3, open: Vec::new(), ..app.order() }
     }
 
     #[test]
@@ -204,7 +191,7 @@ mod tests {
         // The limit is generous, because only the arrival of the last order is tested.
         for _ in 0..60_000 {
             if let Some(snapshot) = worker.take()
-                && snapshot.generation == 19
+                && snapshot.number == 19
                 && matches!(snapshot.results.full_run, Some(FullRunState::Done(_)))
             {
                 assert_eq!(snapshot.moment.unwrap().speed, 419.0);
@@ -221,12 +208,12 @@ mod tests {
         let mut endless = Scene::builtin("undamped").unwrap().as_reference();
         endless.solver.end_s = 1e6;
         let app = App::new(endless.checked().unwrap(), Theme::Mono, Marker::Ascii);
-        worker.order(&Order { restarts: 1, compare: true, ..app.order() });
+        worker.order(&Order { number: 1, compare: true, ..app.order() });
         std::thread::sleep(Duration::from_millis(50));
         worker.order(&order(419.0, 2));
         for _ in 0..60_000 {
             if let Some(snapshot) = worker.take()
-                && snapshot.generation == 2
+                && snapshot.number == 2
                 && matches!(snapshot.results.full_run, Some(FullRunState::Done(_)))
             {
                 return;
@@ -240,18 +227,5 @@ mod tests {
     fn a_panic_becomes_a_line() {
         let line = catch_panic(|| -> () { panic!("no {}", "blades") }).unwrap_err();
         assert!(line.contains("no blades"), "{line}");
-    }
-
-    #[test]
-    fn a_snapshot_nobody_took_keeps_its_bins() {
-        let shared = Shared::default();
-        let wake: Waker = Arc::new(|| {});
-        let bin = crate::tui::history::Bin::of(0.0, [0.0; CHANNELS]);
-        for _ in 0..3 {
-            publish(&shared, Snapshot { bins: vec![bin], ..Snapshot::default() }, &wake);
-        }
-        assert_eq!(shared.lock().snapshot.as_ref().unwrap().bins.len(), 3);
-        publish(&shared, Snapshot { restarts: 1, bins: vec![bin], ..Snapshot::default() }, &wake);
-        assert_eq!(shared.lock().snapshot.as_ref().unwrap().bins.len(), 1);
     }
 }

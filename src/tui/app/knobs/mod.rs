@@ -10,6 +10,7 @@ use super::play::Tempo;
 use super::{App, LessonProgress, Source};
 use crate::report::line::clean;
 use crate::tui::command::{Chord, Command, lookup};
+use crate::tui::film::FilmPlan;
 use crate::tui::knobs::{KNOBS, Knob, place_of};
 use crate::tui::views::id::ViewId;
 use rubscope_solver::motion::Change;
@@ -38,6 +39,8 @@ const KEPT: usize = 1000;
 pub struct Past {
     /// The scene with its knob values.
     pub scene: CheckedScene,
+    /// The film of its run.
+    pub film: FilmPlan,
     /// The scene as opened.
     pub opened: CheckedScene,
     /// Where it came from; `None` for the built-in default.
@@ -120,6 +123,7 @@ impl App {
     pub fn past(&self) -> Past {
         Past {
             scene: self.scene.clone(),
+            film: self.run.film.clone(),
             opened: self.files.opened.clone(),
             source: self.files.source.clone(),
             views: self.layout.views().to_vec(),
@@ -228,8 +232,8 @@ impl App {
     /// Applies a scene with other knob values: to the running motion in live mode if the change can
     /// act on it, otherwise by a restart.
     pub fn set_turned_scene(&mut self, scene: CheckedScene) {
-        let failed = self.failure().is_some();
-        let live = self.knobs.live && !failed && Change::acts_live(&self.scene, &scene);
+        let can_act = self.failure().is_none() && self.run.film.has_room(self.played_s());
+        let live = self.knobs.live && can_act && Change::acts_live(&self.scene, &scene);
         if self.knobs.live && !live && self.status.is_none() {
             self.status = Some("this cannot act on a running motion: restarted".into());
         }
@@ -247,8 +251,9 @@ impl App {
         }
     }
 
-    /// Restores a state. If only knobs differ, this counts as turning them, which may act on the
-    /// running motion; another scene or lesson step restarts the run.
+    /// Restores a state. If only live changes differ, the motion goes on without those that are
+    /// undone; other knobs count as turned again, and another scene or lesson step restarts the
+    /// run.
     pub fn come_back(&mut self, past: Past) {
         self.knobs.refusal = None;
         let step = |lesson: Option<&LessonProgress>| {
@@ -257,7 +262,10 @@ impl App {
         let same_step = step(past.lesson.as_ref()) == step(self.lessons.progress.as_ref());
         let same_file = past.source.as_ref() == self.files.source.as_ref();
         if past.opened == self.files.opened && same_file && same_step {
-            self.set_turned_scene(past.scene);
+            match past.film.scene == self.run.film.scene {
+                true => self.show_film(past.film, past.scene),
+                false => self.set_turned_scene(past.scene),
+            }
             return;
         }
         (self.files.opened, self.files.source) = (past.opened, past.source);

@@ -10,6 +10,7 @@ use ratatui::layout::Rect;
 use crate::report::table::Table;
 use crate::tui::app::{App, Cursor};
 use crate::tui::axis::{ChartAxis, instant, readable};
+use crate::tui::film::{in_blade_frame, rim_point};
 use crate::tui::history::Channel;
 use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
@@ -17,7 +18,6 @@ use crate::tui::theme::Role;
 use crate::tui::views::ViewId;
 use crate::tui::views::panel::{ViewArea, ViewPanel, read_before, title};
 use crate::tui::views::response::ResponseView;
-use crate::tui::worker::{in_blade_frame, rim_point};
 use rubscope_solver::model::SideLeft;
 use rubscope_solver::motion::ActiveSet;
 

@@ -15,8 +15,8 @@ use std::sync::mpsc::Sender;
 use std::time::{Duration, Instant};
 
 use super::background::Background;
-use super::full_run::{FullRunJob, SLICE};
 use crate::tui::engine::{Found, Order, Working};
+use crate::tui::film::{Film, SLICE};
 use crate::tui::views::id::ViewId;
 use rubscope_solver::motion::GoOn;
 use rubscope_solver::study::MapPlan;
@@ -32,7 +32,7 @@ pub struct Given<'a> {
     /// Plan of the map; `None` if its view is closed or the scene does not allow a map.
     pub plan: Option<MapPlan>,
     /// The run to its end.
-    pub run: &'a FullRunJob,
+    pub run: &'a Film,
     /// Largest number of computed map cells, for tests; `None` computes all.
     pub most_cells: Option<usize>,
 }
@@ -241,7 +241,7 @@ macro_rules! studies {
             }
 
             /// Collects the results so far.
-            pub fn found(&self, order: &Order, run: &FullRunJob) -> Found {
+            pub fn found(&self, order: &Order, run: &Film) -> Found {
                 let given = self.given(order, run);
                 Found { $($name: self.$name.shown(&given),)* }
             }
@@ -260,31 +260,31 @@ studies! {
 }
 
 impl Studies {
-    fn given<'a>(&self, order: &'a Order, run: &'a FullRunJob) -> Given<'a> {
+    fn given<'a>(&self, order: &'a Order, run: &'a Film) -> Given<'a> {
         Given { order, plan: order.map_plan(), run, most_cells: self.most_cells }
     }
 
     /// Stops unneeded studies, so that the others have the processor.
-    pub fn stop_unwanted(&mut self, order: &Order, run: &FullRunJob) {
+    pub fn stop_unwanted(&mut self, order: &Order, run: &Film) {
         let given = self.given(order, run);
         self.all_mut().for_each(|study| study.stop_unwanted(&given));
     }
 
     /// Returns the progress of the studies that have been running for longer than `LONG`.
-    pub fn working(&self, order: &Order, run: &FullRunJob) -> Vec<Working> {
+    pub fn working(&self, order: &Order, run: &Film) -> Vec<Working> {
         let given = self.given(order, run);
         self.all().filter_map(|study| study.working(&given)).collect()
     }
 
     /// Returns whether a needed study is incomplete.
-    pub fn is_computing(&self, order: &Order, run: &FullRunJob) -> bool {
+    pub fn is_computing(&self, order: &Order, run: &Film) -> bool {
         let given = self.given(order, run);
         self.all().any(|study| !study.is_done(&given))
     }
 
     /// Computes one slice of the first incomplete study. If that is a slow one, the other slow ones
     /// also get a slice.
-    pub fn compute(&mut self, order: &Order, run: &FullRunJob) {
+    pub fn compute(&mut self, order: &Order, run: &Film) {
         let given = &self.given(order, run);
         let mut due: Vec<_> = self.all_mut().filter(|study| !study.is_done(given)).collect();
         match due.first().is_some_and(|first| first.is_beside()) {
@@ -301,15 +301,15 @@ impl Studies {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tui::film::FilmPlan;
     use crate::tui::views::id::ViewId;
     use crate::tui::{App, Marker, Theme};
-    use rubscope_solver::motion::Motion;
     use rubscope_solver::scene::Scene;
 
     /// Calls `with` with the inputs of a study that does not use the run.
     pub(super) fn with_given<T>(scene: &Scene, view: ViewId, with: impl Fn(&Given) -> T) -> T {
         let scene = scene.checked().unwrap();
-        let run = FullRunJob::new(Motion::new(&scene), 1.0);
+        let run = Film::new(FilmPlan::new(&scene));
         let app = App::new(scene, Theme::Mono, Marker::Ascii);
         let order = Order { open: vec![view], ..app.order() };
         with(&Studies::default().given(&order, &run))
@@ -321,7 +321,7 @@ mod tests {
         let app = App::new(scene, Theme::Mono, Marker::Ascii);
         let mut order = Order { open: vec![ViewId::Margins], ..app.order() };
         let mut studies = Studies::default();
-        let run = &FullRunJob::new(Motion::new(&order.scene), 1.0);
+        let run = &Film::new(FilmPlan::new(&order.scene));
         let shown = |studies: &Studies, order: &Order| studies.found(order, run).margins;
         while shown(&studies, &order).is_none() {
             studies.compute(&order, run);

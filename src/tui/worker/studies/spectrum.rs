@@ -12,19 +12,19 @@ use crate::tui::views::spectrum::lines::Spectrum;
 pub struct SpectrumStudy;
 
 impl Study for SpectrumStudy {
-    /// Generation of the knobs and end of the run \[s\], which identify the run.
-    type Key = (u64, f64);
+    /// Number of the film.
+    type Key = u64;
     type Found = Spectrum;
     type Job = Arc<Spectrum>;
     const VIEW: ViewId = ViewId::Spectrum;
     const STAYS: bool = false;
 
-    fn key(given: &Given) -> Option<(u64, f64)> {
+    fn key(given: &Given) -> Option<u64> {
         let shown = given.order.shows(ViewId::Spectrum);
-        shown.then(|| (given.order.generation(), given.run.end()))
+        shown.then_some(given.order.number)
     }
 
-    fn begin(_: &(u64, f64), given: &Given) -> Self::Job {
+    fn begin(_: &u64, given: &Given) -> Self::Job {
         let length = given.order.scene.solver.end_s;
         Arc::new(Spectrum::of(&given.run.signal(), length))
     }

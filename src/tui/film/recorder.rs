@@ -1,7 +1,6 @@
-//! Records samples of a motion as bins of minimum and maximum values, and contact forces as means
-//! between snapshots.
+//! Records samples of a motion as bins of minimum and maximum values.
 
-use crate::tui::history::{Bin, CHANNELS, MOST_BINS, thin};
+use crate::tui::history::{Bin, CHANNELS};
 use rubscope_solver::model::Machine;
 use rubscope_solver::motion::{ActiveSet, ContactLog, Motion, State};
 
@@ -25,10 +24,10 @@ pub fn rim_point(machine: &Machine, state: &State, turned: f64) -> [f64; 2] {
     [z[0] - outward * a_c, z[1] - outward * a_s]
 }
 
-/// Bins and mean contact forces of one motion, as they are recorded.
-#[derive(Debug, Default)]
+/// Bins of one motion, as they are recorded.
+#[derive(Clone, Debug, Default)]
 pub struct Recorder {
-    /// Closed bins that have not been taken.
+    /// Closed bins.
     done: Vec<Bin>,
     /// The bin being filled; `None` before its first sample.
     open: Option<Bin>,
@@ -38,12 +37,6 @@ pub struct Recorder {
     active_set: ActiveSet,
     /// Time of the last sample \[s\]; `None` before the first.
     last: Option<f64>,
-    /// Impulse on each side since the last call of `mean_forces` \[N s\]; negative pushes.
-    sums: Vec<(u32, f64)>,
-    /// Time over which the impulses were summed \[s\].
-    over: f64,
-    /// The latest mean force on each side \[N\]; negative pushes.
-    means: Vec<(u32, f64)>,
 }
 
 impl Recorder {
@@ -53,14 +46,15 @@ impl Recorder {
         Self { impacts: log.impact_count, active_set: log.active_set, ..Self::default() }
     }
 
-    /// Adds a sample of the motion in its current `state`; a bin is closed after `length` seconds.
-    pub fn record(&mut self, motion: &mut Motion, state: &State, length: f64) {
+    /// Adds a sample of the motion; a bin is closed after `length` seconds.
+    pub fn record(&mut self, motion: &mut Motion, length: f64) {
+        let state = motion.state();
         let forces = motion.take_mean_forces();
         let push: f64 = forces.iter().map(|(_, force)| -force).sum();
         let gap = motion.blade_gaps().into_iter().fold(f64::INFINITY, f64::min);
         let turned = motion.machine().nodal_diameters * motion.rotor().angle(state.t_s);
         let [x, y] = in_blade_frame(state.u, turned);
-        let [rim_x, rim_y] = rim_point(motion.machine(), state, turned);
+        let [rim_x, rim_y] = rim_point(motion.machine(), &state, turned);
         let values: [f64; CHANNELS] = [
             state.u[0],
             state.u[1],
@@ -79,7 +73,6 @@ impl Recorder {
         let log = motion.contacts();
         bin.contact = self.contact(log, bin.from, bin.to);
         (self.impacts, self.active_set) = (log.impact_count, log.active_set);
-        self.average(&forces, bin.to - bin.from);
         self.last = Some(state.t_s);
         match &mut self.open {
             Some(open) => open.join(&bin),
@@ -87,9 +80,6 @@ impl Recorder {
         }
         if self.open.is_some_and(|open| open.to - open.from >= length) {
             self.done.extend(self.open.take());
-            if self.done.len() > MOST_BINS {
-                thin(&mut self.done);
-            }
         }
     }
 
@@ -114,39 +104,8 @@ impl Recorder {
         all.reduce(|(a, b), (c, d)| (a.min(c), b.max(d)))
     }
 
-    fn average(&mut self, forces: &[(u32, f64)], elapsed: f64) {
-        if elapsed.is_nan() || elapsed <= 0.0 {
-            return;
-        }
-        self.over += elapsed;
-        for (side, force) in forces.iter().filter(|(_, force)| force.is_finite()) {
-            match self.sums.iter_mut().find(|(known, _)| known == side) {
-                Some((_, sum)) => *sum += force * elapsed,
-                None => self.sums.push((*side, force * elapsed)),
-            }
-        }
-    }
-
-    /// Returns the bins closed since the last call.
-    pub fn take_bins(&mut self) -> Vec<Bin> {
-        std::mem::take(&mut self.done)
-    }
-
-    /// Returns all remaining bins, including the open one.
-    pub fn finish(&mut self) -> Vec<Bin> {
-        self.done.extend(self.open.take());
-        self.take_bins()
-    }
-
-    /// Returns the mean force per side since the last call \[N\], negative where it pushes; the
-    /// previous means if the motion has not advanced.
-    pub fn mean_forces(&mut self) -> Vec<(u32, f64)> {
-        if self.over > 0.0 {
-            self.means = self.sums.iter().map(|(side, sum)| (*side, sum / self.over)).collect();
-            self.means.sort_by_key(|(side, _)| *side);
-            self.sums.clear();
-            self.over = 0.0;
-        }
-        self.means.clone()
+    /// Returns the bins so far, including the open one.
+    pub fn bins(&self) -> Vec<Bin> {
+        self.done.iter().chain(&self.open).filter(|bin| bin.from.is_finite()).copied().collect()
     }
 }

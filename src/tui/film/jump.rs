@@ -1,31 +1,32 @@
 //! Finds the next change of contact of a motion to round-off, independent of the zoom of the page.
 
 use crate::tui::trace::{Mark, Marks};
-use rubscope_solver::motion::{GoOn, Motion};
+use rubscope_solver::motion::{GoOn, Motion, Scripted};
 
 /// Largest number of search steps.
 const MOST_STEPS: usize = 20_000;
 /// Largest number of bisections of the step that has the change; doubles need no more.
 const MOST_HALVINGS: usize = 80;
 
-/// Returns the time of the next change of contact \[s\], searched in steps of `step` seconds and
-/// refined by bisection. `None` if no change comes within the search, the motion ends or fails
-/// before it, its verdict is already proved, or `go_on` stops the search.
-pub fn next_change(motion: &Motion, step: f64, go_on: GoOn<'_>) -> Option<f64> {
-    let log = motion.contacts();
+/// Returns the time of the next change of contact up to `end` \[s\], searched in steps of `step`
+/// seconds and refined by bisection. `None` if no change comes within the search, the motion ends
+/// or fails before it, its verdict is already proved, or `go_on` stops the search.
+pub fn next_change(from: &Scripted, step: f64, end: f64, go_on: GoOn<'_>) -> Option<f64> {
+    let log = from.motion.contacts();
     let before = (log.active_set, log.impact_count);
-    let changed = |motion: &Motion| {
-        let log = motion.contacts();
+    let changed = |at: &Scripted| {
+        let log = at.motion.contacts();
         (log.active_set, log.impact_count) != before
     };
-    let mut at = motion.clone();
-    let mut now = motion.t_s();
+    let mut at = from.clone();
+    let mut now = at.motion.t_s();
     for _ in 0..MOST_STEPS {
-        if at.over() || at.final_verdict().is_some() {
+        let decided = at.motion.over() || at.motion.final_verdict().is_some();
+        if now >= end || (decided && at.is_through()) {
             return None;
         }
         let mut ahead = at.clone();
-        let mut until = now + step;
+        let mut until = (now + step).min(end);
         if ahead.advance_while(until, go_on) != Ok(true) {
             return None;
         }

@@ -1,0 +1,441 @@
+//! The film: a run computed ahead in slices short enough that a new order is not delayed, with its
+//! copies of the motion, trace, changes of contact, and verdict.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use super::copies::Copies;
+use super::page::Page;
+use super::plan::FilmPlan;
+use crate::tui::engine::{FORECAST_LIMIT, FullRun, FullRunState};
+use crate::tui::trace::{Mark, Marks, Trace};
+use rubscope_solver::motion::{
+    LAST_PART, Motion, Scripted, Seen, Verdict, VerdictReached, caught_at, judge_end,
+    lock_that_broke,
+};
+
+/// A film, computed up to some instant.
+#[derive(Clone, Debug)]
+pub struct Film {
+    plan: FilmPlan,
+    /// The furthest instant computed.
+    ahead: Scripted,
+    /// Time up to which the film is computed, where the explicit solver may be at its last step
+    /// before \[s\].
+    reached: f64,
+    /// `u_c`, `u_s` \[m\], `alpha_c` and `alpha_s` \[rad\] at the start of the last part and at
+    /// equal intervals after it.
+    points: Vec<[f64; 4]>,
+    marks: Marks,
+    copies: Copies,
+    /// Wall-clock time spent on the last part and what was missing before it.
+    wall: Duration,
+    /// Wall-clock time of one slice.
+    slice: Duration,
+    /// Wall-clock time after which the film is computed only as far as it is watched.
+    limit: Duration,
+    /// Steps taken and skipped before this film was computed.
+    before: [u64; 2],
+    /// The verdict proved before the end; `None` until then.
+    proved: Option<Verdict>,
+    /// The result; `None` until the film is complete.
+    result: Option<FullRun>,
+    page: Page,
+}
+
+/// Intervals of the last part, enough for its spectrum.
+const SAMPLES: u32 = 2048;
+
+/// Wall-clock time of one slice.
+pub const SLICE: Duration = Duration::from_millis(5);
+
+impl Film {
+    /// Creates a film at the start of its scene.
+    pub fn new(plan: FilmPlan) -> Self {
+        let ahead = Scripted::new(Motion::new(&plan.scene), &plan.script);
+        let mut copies = Copies::default().under(&plan.script, 0, plan.end_s - plan.from_s);
+        copies.push(&ahead);
+        let marks = Marks::from(ahead.motion.contacts());
+        Self::going_on(plan, ahead, copies, marks)
+    }
+
+    fn going_on(plan: FilmPlan, ahead: Scripted, copies: Copies, marks: Marks) -> Self {
+        let mut film = Self {
+            reached: ahead.motion.t_s(),
+            points: Vec::new(),
+            wall: Duration::ZERO,
+            slice: SLICE,
+            limit: FORECAST_LIMIT,
+            before: steps(&ahead.motion).unwrap_or_default(),
+            proved: None,
+            result: None,
+            page: Page::default(),
+            plan,
+            ahead,
+            marks,
+            copies,
+        };
+        if film.reached >= film.plan.from_s {
+            film.points.push(point(&film.ahead.motion));
+        }
+        film
+    }
+
+    /// Returns the film of another plan, which keeps what both have in common. `head` is a motion
+    /// of this film that may be nearer to the cut than the last copy.
+    pub fn replanned(&self, plan: FilmPlan, head: Option<&Scripted>) -> Self {
+        if plan.scene != self.plan.scene {
+            return Self::new(plan);
+        }
+        let common = plan.script.common(&self.plan.script);
+        let copies = self.copies.under(&plan.script, common, plan.end_s - plan.from_s);
+        let under = |at: &Scripted| at.under(&plan.script, common);
+        let last = copies.before(plan.from_s);
+        let ahead = [last, head, Some(&self.ahead)].into_iter().flatten();
+        let ahead = ahead
+            .filter(|at| at.motion.t_s() <= plan.from_s && at.motion.failure().is_none())
+            .filter_map(under)
+            .max_by(|a, b| a.motion.t_s().total_cmp(&b.motion.t_s()));
+        let Some(ahead) = ahead else { return Self::new(plan) };
+        let marks = self.marks.up_to(ahead.motion.t_s(), ahead.motion.contacts());
+        Self::going_on(plan, ahead, copies, marks)
+    }
+
+    /// Returns what the film shows.
+    pub fn plan(&self) -> &FilmPlan {
+        &self.plan
+    }
+
+    /// Computes one slice of wall-clock time.
+    pub fn compute(&mut self) {
+        if self.result.is_some() {
+            return;
+        }
+        let began = Instant::now();
+        let slice = self.slice;
+        let go_on = || began.elapsed() < slice;
+        let mut reached = Ok(true);
+        while reached == Ok(true) && !self.is_through() && go_on() {
+            let sample = self.next_sample();
+            reached = self.ahead.advance_while(sample, &go_on);
+            if reached == Ok(true) {
+                self.reached = sample;
+                self.take_sample();
+            }
+        }
+        self.wall += began.elapsed();
+        if reached.is_err() || self.is_through() {
+            self.result = Some(self.finished());
+        }
+    }
+
+    /// Returns whether all samples are taken.
+    fn is_through(&self) -> bool {
+        self.points.len() > SAMPLES as usize
+    }
+
+    /// Returns the time of the next sample \[s\]; before the last part, samples only collect marks
+    /// and copies.
+    fn next_sample(&self) -> f64 {
+        let FilmPlan { from_s, end_s, .. } = self.plan;
+        let length = end_s - from_s;
+        match self.points.len() as u32 {
+            0 => (self.reached + length / f64::from(SAMPLES)).min(from_s),
+            SAMPLES.. => end_s,
+            taken => from_s + f64::from(taken) / f64::from(SAMPLES) * length,
+        }
+    }
+
+    fn take_sample(&mut self) {
+        self.marks.look(self.ahead.motion.contacts());
+        if self.points.is_empty() && self.reached >= self.plan.from_s {
+            // A change at the same instant, or one soon after it, goes on from here.
+            self.copies.push(&self.ahead);
+            self.points.push(point(&self.ahead.motion));
+            return;
+        }
+        self.copies.follow(&self.ahead);
+        if !self.points.is_empty() {
+            self.points.push(point(&self.ahead.motion));
+            self.proved = self.proved.or_else(|| self.proof());
+        }
+    }
+
+    /// Returns `u_c` and `u_s` of the casing at equal intervals after the start of the last part,
+    /// so far \[m\].
+    pub fn signal(&self) -> Vec<[f64; 2]> {
+        self.points.iter().skip(1).map(|[u_c, u_s, ..]| [*u_c, *u_s]).collect()
+    }
+
+    /// Returns the latest known motion at or before `t` \[s\].
+    pub fn before(&self, t: f64) -> Option<&Scripted> {
+        let ahead = Some(&self.ahead).filter(|ahead| ahead.motion.t_s() <= t);
+        let both = [self.copies.before(t), ahead].into_iter().flatten();
+        both.max_by(|a, b| a.motion.t_s().total_cmp(&b.motion.t_s()))
+    }
+
+    /// Returns a copy of the first motion kept, which is that at t = 0.
+    pub fn first(&self) -> Scripted {
+        self.before(0.0).unwrap_or(&self.ahead).clone()
+    }
+
+    /// Returns a copy of the furthest motion.
+    pub fn latest(&self) -> Scripted {
+        self.ahead.clone()
+    }
+
+    /// Returns the changes of contact so far, in order of time.
+    pub fn marks(&self) -> &[Mark] {
+        &self.marks.seen
+    }
+
+    /// Returns the time up to which instants are known \[s\]; a failed motion stays where it failed
+    /// to the end.
+    pub fn reach(&self) -> f64 {
+        match self.result {
+            Some(_) => self.plan.end_s,
+            None => {
+                let last = self.copies.last().map_or(0.0, |last| last.motion.t_s());
+                self.reached.max(self.ahead.motion.t_s()).max(last)
+            }
+        }
+    }
+
+    /// Returns the outcome with which the sensitivity check compares changed runs; `None` until the
+    /// film is complete.
+    pub fn verdict_reached(&self) -> Option<VerdictReached> {
+        Some(VerdictReached::of(&self.ahead.motion, self.result()?.verdict))
+    }
+
+    /// Returns the verdict; `None` until the film is complete or its verdict is proved.
+    pub fn verdict(&self) -> Option<Verdict> {
+        self.result().map(|run| run.verdict).or(self.proved)
+    }
+
+    /// Returns the result; `None` until the film is complete.
+    pub fn result(&self) -> Option<&FullRun> {
+        self.result.as_ref()
+    }
+
+    /// Returns the length of the part of the run, at its end, that the verdict describes \[s\].
+    fn window(&self) -> f64 {
+        LAST_PART * self.plan.end_s
+    }
+
+    /// Returns the proved verdict if judging the run now would give the same; `None` otherwise, and
+    /// while nothing is proved.
+    fn proof(&self) -> Option<Verdict> {
+        let motion = &self.ahead.motion;
+        let end = || judge_end(motion, &motion.checks(), self.window()).0;
+        motion.final_verdict().filter(|proved| *proved == end())
+    }
+
+    fn finished(&self) -> FullRun {
+        let motion = &self.ahead.motion;
+        let log = motion.contacts();
+        let checks = motion.checks();
+        let (verdict, failure) = judge_end(motion, &checks, self.window());
+        let FilmPlan { from_s: from, end_s, .. } = self.plan;
+        let step = (end_s - from) / f64::from(SAMPLES);
+        FullRun {
+            trace: Arc::new(Trace { from, step, points: self.points.clone() }),
+            marks: Arc::new(self.marks.seen.clone()),
+            broken: lock_that_broke(motion),
+            caught: caught_at(motion),
+            seen: Seen::at_end(motion, verdict, self.window()),
+            still: motion.state().amplitude() == 0.0,
+            verdict,
+            since: verdict.keeps_contact().then_some(log.since),
+            multipliers: motion.multipliers(),
+            impacts: log.impact_count,
+            checks,
+            stopped: motion.stopped().or_else(|| failure.as_ref().map(ToString::to_string)),
+            failure,
+        }
+    }
+
+    /// Returns the progress, or the result.
+    pub fn state(&self) -> FullRunState {
+        if let Some(run) = &self.result {
+            return FullRunState::Done(Box::new(run.clone()));
+        }
+        let FilmPlan { from_s, end_s, .. } = self.plan;
+        let part = ((self.ahead.motion.t_s() - from_s) / (end_s - from_s)).clamp(0.0, 1.0);
+        if self.is_done() { FullRunState::GivenUp(part) } else { FullRunState::Computing(part) }
+    }
+
+    /// Returns whether the film is complete or was given up.
+    pub fn is_done(&self) -> bool {
+        self.result.is_some() || self.wall >= self.limit
+    }
+
+    /// Returns the wall-clock time spent on the film so far.
+    pub fn wall(&self) -> Duration {
+        self.wall
+    }
+
+    /// Returns the wall-clock time per time step that was taken, not skipped \[s\]; `None` for
+    /// solvers without steps, and before the first one.
+    pub fn step_s(&self) -> Option<f64> {
+        let [taken, _] = self.steps()?;
+        (taken > 0).then(|| self.wall.as_secs_f64() / taken as f64)
+    }
+
+    /// Returns the fraction of the time steps that was skipped, 0 to 1; `None` for solvers without
+    /// steps, and before the first one.
+    pub fn skipped(&self) -> Option<f64> {
+        let [taken, skipped] = self.steps()?;
+        (taken + skipped > 0).then(|| skipped as f64 / (taken + skipped) as f64)
+    }
+
+    /// Returns the numbers of steps taken and skipped for this film; `None` for solvers without
+    /// steps.
+    fn steps(&self) -> Option<[u64; 2]> {
+        let [taken, skipped] = steps(&self.ahead.motion)?;
+        let [taken_before, skipped_before] = self.before;
+        Some([taken.saturating_sub(taken_before), skipped.saturating_sub(skipped_before)])
+    }
+
+    /// Returns the page of time whose curves are recorded.
+    pub fn page(&self) -> &Page {
+        &self.page
+    }
+
+    /// Requests the curves of a page (from, to) \[s\].
+    pub fn want_page(&mut self, page: (f64, f64)) {
+        self.page.want(page, self.plan.end_s);
+    }
+
+    /// Returns whether a slice of the page can be computed now: its start is known, or never will
+    /// be.
+    pub fn has_page_due(&self) -> bool {
+        let is_known = |from: f64| self.reach() >= from || self.is_done();
+        self.page.due_from().is_some_and(is_known)
+    }
+
+    /// Computes a slice of the page.
+    pub fn compute_page(&mut self) {
+        let from = self.page.due_from().and_then(|from| self.before(from).cloned());
+        self.page.compute(from, self.plan.scene.solver.step_s);
+    }
+}
+
+/// Returns the numbers of steps that a motion has taken and skipped; `None` for solvers without
+/// steps.
+fn steps(motion: &Motion) -> Option<[u64; 2]> {
+    Some([motion.steps_taken()?, motion.steps_skipped()?])
+}
+
+fn point(motion: &Motion) -> [f64; 4] {
+    let state = motion.state();
+    let ([u_c, u_s], [alpha_c, alpha_s]) = (state.u, state.alpha);
+    [u_c, u_s, alpha_c, alpha_s]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rubscope_solver::scene::{Scene, SolverKind};
+
+    impl Film {
+        /// Changes the length of a slice, so that a test does not depend on the machine's speed.
+        pub(in crate::tui) fn in_slices_of(mut self, slice: Duration) -> Self {
+            self.slice = slice;
+            self
+        }
+
+        /// Computes the film to its end, or until it is given up.
+        pub(in crate::tui) fn computed(mut self) -> Self {
+            while !self.is_done() {
+                self.compute();
+            }
+            self
+        }
+    }
+
+    fn plan(name: &str) -> FilmPlan {
+        FilmPlan::new(&Scene::builtin(name).unwrap().checked().unwrap())
+    }
+
+    #[test]
+    fn the_steps_of_a_film_are_those_that_were_computed_for_it() {
+        let plan = FilmPlan { end_s: 1e-4, ..plan("paper-nd3") };
+        assert_eq!(Film::new(plan.clone()).step_s(), None);
+        let first = Film::new(plan.clone()).computed();
+        let before = first.ahead.motion.steps_taken().unwrap();
+        let longer = FilmPlan { from_s: 1e-4, end_s: 1e-2 + 1e-4, ..plan };
+        let film = first.replanned(longer, None).computed();
+        let [taken, skipped] = film.steps().unwrap();
+        assert_eq!(taken + skipped, 100_000);
+        assert_eq!(taken + before, film.ahead.motion.steps_taken().unwrap());
+        assert_eq!(film.skipped(), Some(skipped as f64 / 1e5));
+        assert_eq!(film.step_s(), Some(film.wall.as_secs_f64() / taken as f64));
+    }
+
+    #[test]
+    fn a_verdict_that_is_proved_is_known_before_the_end_and_is_that_of_the_end() {
+        for (name, key, value) in
+            [("paper-nd3", "operation.pulse_n", "75e3"), ("rub", "operation.speed_rad_s", "400")]
+        {
+            let scene = Scene::builtin(name).unwrap().with(&[(key, value)]).unwrap();
+            let film = Film::new(FilmPlan::new(&scene));
+            let mut film = film.in_slices_of(Duration::from_micros(20));
+            while film.verdict().is_none() {
+                film.compute();
+            }
+            let proved = film.verdict();
+            assert!(matches!(film.state(), FullRunState::Computing(_)), "{name}");
+            assert_eq!(film.computed().result().map(|run| run.verdict), proved, "{name}");
+        }
+    }
+
+    #[test]
+    fn a_run_that_takes_too_long_is_given_up_with_what_it_reached() {
+        let mut scene = Scene::builtin("undamped").unwrap().as_reference();
+        scene.solver.kind = SolverKind::Event;
+        scene.solver.end_s = 1e6;
+        let mut film = Film::new(FilmPlan::new(&scene.checked().unwrap()));
+        film.limit = SLICE * 3;
+        let film = film.computed();
+        let FullRunState::GivenUp(part) = film.state() else { panic!("{:?}", film.state()) };
+        assert!(part > 0.0 && part < 1.0, "{part}");
+        // The last slice may exceed the limit.
+        assert!(film.wall >= film.limit);
+    }
+
+    #[test]
+    fn a_cut_film_is_that_of_its_plan_computed_at_once() {
+        for name in ["paper-nd3", "rub", "rocking"] {
+            let mut now = plan(name);
+            let mut film = Film::new(now.clone()).computed();
+            let mut scene = now.scene.clone().into_scene();
+            for (t, speed) in [(4e-3, 430.0), (2.5e-3, 500.0), (6e-3, 520.0)] {
+                scene.operation.speed_rad_s = speed;
+                now = now.changed(t, &scene.checked().unwrap()).fired(t + 1e-3);
+                film = film.replanned(now.clone(), None).computed();
+                let whole = Film::new(now.clone()).computed();
+                assert_eq!(film.ahead.motion.state(), whole.ahead.motion.state(), "{name}");
+                let [own, other] = [&film, &whole].map(|film| film.result().unwrap());
+                assert_eq!(own.verdict, other.verdict, "{name}");
+                assert_eq!(own.trace, other.trace, "{name}");
+                assert_eq!(own.impacts, other.impacts, "{name}");
+            }
+            assert_eq!(now.script.changes().iter().filter(|(t, _)| *t < 2.5e-3).count(), 0);
+        }
+    }
+
+    #[test]
+    fn a_film_keeps_few_copies_however_long_it_goes_on() {
+        let mut plan = plan("rocking");
+        (plan.end_s, plan.from_s) = (1e-3, 0.0);
+        let mut film = Film::new(plan.clone()).computed();
+        for _ in 0..12 {
+            plan = FilmPlan { from_s: plan.end_s, end_s: plan.end_s + 1e-3, ..plan };
+            film = film.replanned(plan.clone(), None).computed();
+        }
+        let kept = (0..1300).map(|k| film.before(1e-5 * f64::from(k)).unwrap().motion.t_s());
+        let mut kept: Vec<f64> = kept.collect();
+        kept.dedup();
+        assert!((40..130).contains(&kept.len()), "{}", kept.len());
+    }
+}
