@@ -175,17 +175,18 @@ impl Configuration {
     /// Returns the smallest gap, in units of `g0`, of the sides that are not in `contacts`;
     /// infinite if there are none.
     pub fn smallest_gap(&self, polygon: &ContactPolygon, contacts: &[u32]) -> f64 {
-        // Sides that blades hardly turn or raise are farther away than the neighbours.
-        let moved = (1.0 + self.slope.abs()) * self.turn.0.hypot(self.turn.1);
-        let near = polygon.is_regular() && moved < 0.1 * polygon.delta * polygon.delta;
-        let least = |sides: &mut dyn Iterator<Item = u32>| {
-            let open = sides.filter(|side| !contacts.contains(side));
-            open.map(|side| self.gap(polygon, side)).fold(f64::INFINITY, f64::min)
-        };
-        match contacts {
-            [a, .., b] if near => least(&mut [polygon.previous(*a), polygon.next(*b)].into_iter()),
-            _ => least(&mut (0..polygon.sides)),
+        // Bent blades bring no side nearer than this.
+        let nearer = self.turn.0.hypot(self.turn.1) * (self.z.0.hypot(self.z.1) + self.slope.abs());
+        let first = contacts.last().map_or(0, |side| polygon.next(*side));
+        let mut least = f64::INFINITY;
+        for side in (first..polygon.sides).chain(0..first) {
+            let (c, s) = polygon.direction(side);
+            let unbent = polygon.relative_apothem(side) + self.z.0 * c + self.z.1 * s;
+            if unbent - nearer < least && !contacts.contains(&side) {
+                least = least.min(self.gap(polygon, side));
+            }
         }
+        least
     }
 
     /// Returns the tangential offset `Im[z exp(-i (psi + n_d alpha))]` of a side, in units of `g0`.

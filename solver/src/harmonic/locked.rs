@@ -5,6 +5,7 @@
 //! [`lock_loads`] gives contact forces, torque, power and blade angles.
 
 use super::equations::{Equations, Scales, Unknowns, Wave};
+use super::stability::Kept;
 use super::{Character, Corner, Form, HarmonicError, error, lining};
 use crate::model::Machine;
 
@@ -123,13 +124,37 @@ impl Locked {
     pub fn at(&self, speed: f64) -> Result<LockedPoint, HarmonicError> {
         error::refuse_endless(&[speed])?;
         let machine = self.machine.at(speed);
-        let wave = Wave::at(&machine, speed, self.damped);
-        let equations = Equations::new(&machine, self.corner, self.form, wave, speed);
-        let found = Some(&equations).filter(|_| machine.clearance() > 0.0);
-        let unknowns = found.and_then(Equations::locked).ok_or_else(|| {
-            HarmonicError::NotFound { speed, softness: Scales::new(&machine).softness }
-        })?;
+        let Some((equations, unknowns)) = self.solved(&machine, speed) else {
+            return Err(HarmonicError::NotFound {
+                speed,
+                softness: Scales::new(&machine).softness,
+            });
+        };
         Ok(self.point(&machine, speed, &equations, &unknowns))
+    }
+
+    /// Returns the equations of a machine at its speed and their solution; `None` if there is none.
+    fn solved(&self, machine: &Machine, speed: f64) -> Option<(Equations, Unknowns)> {
+        if machine.clearance() <= 0.0 {
+            return None;
+        }
+        let wave = Wave::at(machine, speed, self.damped);
+        let equations = Equations::new(machine, self.corner, self.form, wave, speed);
+        let unknowns = equations.locked()?;
+        Some((equations, unknowns))
+    }
+
+    /// Returns the motion about the lock at a speed \[rad/s\] if it is admissible, as in [`Self::at`]
+    /// but with nothing else computed.
+    pub(super) fn admissible(&self, speed: f64) -> Option<Kept> {
+        let machine = &*self.machine.at(speed);
+        let (equations, unknowns) = self.solved(machine, speed)?;
+        let [_, _, push_a, push_b, ..] = unknowns;
+        let pushes = push_a >= 0.0 && push_b >= 0.0;
+        let (configuration, sides) = (equations.configuration(&unknowns), self.corner.sides());
+        let open = || configuration.smallest_gap(&machine.polygon, &sides) >= 0.0;
+        let loads = [(sides[0], -push_a), (sides[1], -push_b)];
+        (pushes && open()).then(|| configuration.kept(machine, speed, &loads))
     }
 
     /// Computes the locked motion at each speed \[rad/s\].

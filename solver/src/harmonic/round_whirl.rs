@@ -14,22 +14,19 @@
 use strum::IntoStaticStr;
 
 use super::windows::{FURTHEST, joined_grow, windows};
-use crate::model::{Frame, LockWindow, Machine, Row};
-use crate::numeric::search::{geometric, zeros};
+use crate::model::{Frame, LockWindow, Machine, Row, Structure};
+use crate::numeric::real_roots::{isolated, product};
+use crate::numeric::search::bisected;
 
 /// Imaginary part of the joint compliance at a root, as a part of the real part, up to
 /// which it is round-off. Larger: an undamped resonance is taken for a whirl.
 const REAL_COMPLIANCE: f64 = 1e-6;
 
-/// Ratio of neighbouring distances from a resonance at which waves are searched. Larger: a pair of
-/// waves closer than this may be missed.
-const WAVE_RATIO: f64 = 1.6;
-
 /// Waves are searched up to this many times the sum of all frequencies.
 const WAVE_FURTHEST: f64 = 1e6;
 
-/// First distance from an undamped resonance, as a part of that sum.
-const NARROWEST_PEAK: f64 = 1e-10;
+/// Waves whose frequencies are closer than this part of that sum are not told apart.
+const WAVE_APART: f64 = 1e-10;
 
 /// A wave that runs round both structures, per unit of `|w|`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,16 +66,7 @@ fn pushing(machine: &Machine, speed: f64) -> (Frame, Vec<(f64, f64)>) {
     if !has_one_wave(machine) {
         return (frame, Vec::new());
     }
-    let coupling = frame.coupling() * frame.casing.stiffness / frame.blades.stiffness;
-    // Im B |L_c|^2 |L_a|^2, in units of the stiffnesses.
-    let imaginary = |omega: f64| {
-        let casing = frame.casing.dynamic_stiffness(omega) / frame.casing.stiffness;
-        let s = omega - frame.casing.turn;
-        let blades = frame.blades.dynamic_stiffness(s) / frame.blades.stiffness;
-        (frame.friction * casing.re - casing.im) * blades.norm_sqr()
-            - coupling * blades.im * casing.norm_sqr()
-    };
-    let roots = zeros(&frequencies(&frame), imaginary);
+    let roots = real_compliances(&frame);
     let mut waves: Vec<(f64, f64)> =
         roots.into_iter().filter_map(|omega| Some((omega, stiffness(&frame, omega)?))).collect();
     waves.sort_by(|a, b| a.1.total_cmp(&b.1));
@@ -95,31 +83,64 @@ pub fn has_one_wave(machine: &Machine) -> bool {
     machine.polygon.has_corners() && (meets(1.0) || meets(-1.0))
 }
 
-/// Returns the frequencies of the scan, in increasing order: steps that grow by `WAVE_RATIO` away
-/// from every resonance, the first an eighth of its width, and away from zero \[rad/s\].
-fn frequencies(frame: &Frame) -> Vec<f64> {
-    let own = |of: &crate::model::Structure| (of.stiffness / of.mass).sqrt();
-    let (casing, blades, nu) = (own(&frame.casing), own(&frame.blades), frame.casing.turn);
-    let width = |of: &crate::model::Structure| 0.5 * of.damping / of.mass;
-    let (of_casing, of_blades) = (width(&frame.casing), width(&frame.blades));
-    let fastest = casing + blades + nu.abs();
-    let mut places = Vec::new();
-    for (place, width, far) in [
-        (casing, of_casing, 4.0),
-        (-casing, of_casing, 4.0),
-        (nu + blades, of_blades, 4.0),
-        (nu - blades, of_blades, 4.0),
-        (nu, of_blades, 4.0),
-        (0.0, of_casing, WAVE_FURTHEST),
-    ] {
-        let nearest = (0.125 * width).max(NARROWEST_PEAK * fastest);
-        let away = geometric([nearest, far * fastest], WAVE_RATIO);
-        places.push(place);
-        places.extend(away.flat_map(|away| [place - away, place + away]));
+/// Returns the frequencies at which `Im B = 0` \[rad/s\]: the roots of a polynomial of degree 6,
+/// `Im B |L_c|^2 |L_a|^2` in units of the stiffnesses.
+fn real_compliances(frame: &Frame) -> Vec<f64> {
+    let (friction, turn) = (frame.friction, frame.casing.turn);
+    let coupling = frame.coupling() * frame.casing.stiffness / frame.blades.stiffness;
+    let imaginary = |omega: f64| {
+        let casing = frame.casing.dynamic_stiffness(omega) / frame.casing.stiffness;
+        let blades = frame.blades.dynamic_stiffness(omega - turn) / frame.blades.stiffness;
+        (friction * casing.re - casing.im) * blades.norm_sqr()
+            - coupling * blades.im * casing.norm_sqr()
+    };
+    let between = |[from, to]: [f64; 2]| -> [f64; 7] {
+        let casing = Between::of(&frame.casing, [from, to]);
+        let blades = Between::of(&frame.blades, [from - turn, to - turn]);
+        let of_casing: [f64; 3] =
+            std::array::from_fn(|k| friction * casing.real[k] - casing.imaginary[k]);
+        let left: [f64; 7] = product(of_casing, blades.norm_sqr());
+        let right: [f64; 7] = product(blades.imaginary, casing.norm_sqr());
+        std::array::from_fn(|k| left[k] - coupling * right[k])
+    };
+    let (casing, blades) = (own(&frame.casing), own(&frame.blades));
+    let fastest = casing + blades + turn.abs();
+    let furthest = WAVE_FURTHEST * fastest;
+    let mut ends = [-furthest, -casing, casing, turn - blades, turn, turn + blades, 0.0, furthest];
+    ends.sort_by(f64::total_cmp);
+    let root = |([from, to], rises): ([f64; 2], bool)| {
+        let [low, high] = bisected([from, to], |omega| (imaginary(omega) > 0.0) == rises);
+        if imaginary(low).abs() < imaginary(high).abs() { low } else { high }
+    };
+    isolated(&ends, WAVE_APART * fastest, between).into_iter().map(root).collect()
+}
+
+/// Returns the own frequency of a structure \[rad/s\].
+fn own(of: &Structure) -> f64 {
+    (of.stiffness / of.mass).sqrt()
+}
+
+/// Dynamic stiffness of a structure between two frequencies, in units of its stiffness, as lists of
+/// `numeric::real_roots`.
+struct Between {
+    real: [f64; 3],
+    imaginary: [f64; 3],
+}
+
+impl Between {
+    fn of(of: &Structure, [from, to]: [f64; 2]) -> Self {
+        let own = own(of);
+        let slower = [from, to].map(|omega| (own - omega) / own);
+        let faster = [from, to].map(|omega| (own + omega) / own);
+        let damping = [from, to].map(|omega| omega * of.damping / of.stiffness);
+        Self { real: product(slower, faster), imaginary: product(damping, [1.0; 2]) }
     }
-    places.sort_by(f64::total_cmp);
-    places.dedup();
-    places
+
+    fn norm_sqr(&self) -> [f64; 5] {
+        let [real, imaginary]: [[f64; 5]; 2] =
+            [self.real, self.imaginary].map(|part| product(part, part));
+        std::array::from_fn(|k| real[k] + imaginary[k])
+    }
 }
 
 /// Returns the stiffness `-1/Re B` of the wave at a root \[rad/s\]; `None` if it would have to pull.

@@ -12,6 +12,7 @@
 //! It is not even searched if tips without slope bend so little up to the last speed that damping
 //! decides.
 
+use super::stability::Kept;
 use super::{Corner, Form, Locked, LockedPoint};
 use crate::model::{Frame, LockWindow, Machine, TipCorner};
 use crate::numeric::search::{geometric, spans};
@@ -71,13 +72,13 @@ impl Locks {
         Self { corners }
     }
 
-    /// Returns the locks that pushes balance at a speed \[rad/s\], stable or not.
-    fn balanced(&self, speed: f64) -> impl Iterator<Item = LockedPoint> {
+    /// Returns the motions about the locks that pushes balance at a speed \[rad/s\], stable or not.
+    fn balanced(&self, speed: f64) -> impl Iterator<Item = Kept> {
         let here = self.corners.iter().filter(move |(_, windows)| match windows {
             Some(windows) => windows.iter().any(|window| window.has(speed.abs())),
             None => true,
         });
-        here.filter_map(move |(locked, _)| locked.at(speed).ok()).filter(|point| point.admissible)
+        here.filter_map(move |(locked, _)| locked.admissible(speed))
     }
 
     /// Returns whether the blades turn their sides by a small part of the damping ratios, up to the
@@ -97,14 +98,14 @@ impl Locks {
     /// Returns whether a lock holds at a rotor speed \[rad/s\].
     #[must_use]
     pub fn hold(&self, speed: f64) -> bool {
-        self.balanced(speed).any(|point| point.stable)
+        self.balanced(speed).any(|motion| motion.growth().is_none())
     }
 
     /// Returns the growth rate of the lock that pushes balance at a rotor speed \[1/s\]; `None` if one
     /// holds, or if pushes balance none.
     #[must_use]
     pub fn growth(&self, speed: f64) -> Option<f64> {
-        let growth = |point: LockedPoint| if point.stable { None } else { point.growth_1_s };
+        let growth = |motion: Kept| motion.growth().filter(|growth| growth.is_finite());
         let each: Option<Vec<f64>> = self.balanced(speed).map(growth).collect();
         each?.into_iter().reduce(f64::min)
     }

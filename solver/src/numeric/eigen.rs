@@ -1,7 +1,7 @@
 //! Eigenvalues of small matrices by nalgebra's Schur decomposition, with a bound on its iterations.
 
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
-use nalgebra::{Complex, DMatrix, DVector, Schur};
+use nalgebra::{Complex, ComplexField, DMatrix, DVector, Dyn, Schur};
 
 /// Iterations after which the decomposition counts as stalled; some 3 per row are usual.
 const MOST_ITERATIONS: usize = 1000;
@@ -15,23 +15,32 @@ pub(crate) fn eigenvalues(mut matrix: DMatrix<f64>) -> Option<Vec<Complex<f64>>>
     }
     matrix /= size;
     balance_parlett_reinsch(&mut matrix);
-    complex_eigenvalues(matrix.map(Complex::from).scale(size))
+    let values = decomposed(matrix)?.complex_eigenvalues();
+    finite(values.iter().map(|value| value * size).collect())
 }
 
 /// As [`eigenvalues`], of a complex matrix.
 pub(crate) fn complex_eigenvalues(matrix: DMatrix<Complex<f64>>) -> Option<Vec<Complex<f64>>> {
-    if !matrix.iter().all(|entry| entry.re.is_finite() && entry.im.is_finite()) {
+    finite(decomposed(matrix)?.eigenvalues()?.iter().copied().collect())
+}
+
+fn finite(values: Vec<Complex<f64>>) -> Option<Vec<Complex<f64>>> {
+    values.iter().all(|value| value.re.is_finite() && value.im.is_finite()).then_some(values)
+}
+
+fn decomposed<T: ComplexField<RealField = f64>>(matrix: DMatrix<T>) -> Option<Schur<T, Dyn>> {
+    if !matrix.iter().all(|entry| entry.is_finite()) {
         return None;
     }
-    // A cycle stalls the iteration in its own basis; the reflection of a generic vector changes it.
-    let generic = DVector::from_fn(matrix.nrows(), |k, _| Complex::from(1.0 + (k as f64).sqrt()));
-    let half = (&generic * generic.transpose()).unscale(0.5 * generic.norm_squared());
-    let reflection = DMatrix::identity(matrix.nrows(), matrix.nrows()) - half;
     let own = Schur::try_new(matrix.clone(), f64::EPSILON, MOST_ITERATIONS);
-    let turned = || &reflection * matrix * &reflection;
-    let schur = own.or_else(|| Schur::try_new(turned(), f64::EPSILON, MOST_ITERATIONS))?;
-    let values: Vec<_> = schur.eigenvalues()?.iter().copied().collect();
-    values.iter().all(|value| value.re.is_finite() && value.im.is_finite()).then_some(values)
+    own.or_else(|| {
+        // A cycle stalls the iteration in its own basis; the reflection of a generic vector changes it.
+        let entry = |k: usize, _| T::from_real(1.0 + (k as f64).sqrt());
+        let generic = DVector::from_fn(matrix.nrows(), entry);
+        let half = (&generic * generic.transpose()).unscale(0.5 * generic.norm_squared());
+        let reflection = DMatrix::identity(matrix.nrows(), matrix.nrows()) - half;
+        Schur::try_new(&reflection * matrix * &reflection, f64::EPSILON, MOST_ITERATIONS)
+    })
 }
 
 #[cfg(test)]

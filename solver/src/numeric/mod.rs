@@ -6,6 +6,7 @@ pub(crate) mod lcp;
 pub(crate) mod lyapunov;
 pub(crate) mod normal;
 pub(crate) mod quadrature;
+pub(crate) mod real_roots;
 pub mod rounding;
 pub(crate) mod search;
 pub(crate) mod sum;

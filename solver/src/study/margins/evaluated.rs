@@ -37,10 +37,14 @@ impl<'a> Evaluated<'a> {
         }
     }
 
-    /// Evaluates a scene that differs little from this one. Its touching pulse is that at the same
-    /// side and instant: there the gap has no rate, so a shift in time does not contribute.
+    /// Evaluates a scene that differs little from this one, in which the rotor turns in the same
+    /// direction. Its touching pulse is that at the same side and instant: there the gap has no rate,
+    /// so a shift in time does not contribute.
     fn beside<'b>(&self, scene: &'b Scene) -> Evaluated<'b> {
-        Evaluated { touch: self.touch.clone(), ..Evaluated::of(scene) }
+        let there = Evaluated { touch: self.touch.clone(), ..Evaluated::of(scene) };
+        // Parameters of the operation leave the machine as it is.
+        let same = there.machine() == self.machine();
+        if same { Evaluated { ranges: self.ranges.clone(), ..there } } else { there }
     }
 
     fn toward(&self) -> f64 {

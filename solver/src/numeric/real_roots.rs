@@ -1,0 +1,84 @@
+//! Real roots of polynomials that are sums of products, by the rule of signs of Descartes on intervals
+//! that are halved.
+//!
+//! On an interval a polynomial of degree `n` is the list `c_0` to `c_n` of
+//! `sum c_k t^k (1 - t)^(n - k)`, with `t` from 0 to 1. The list of a product is the convolution of the
+//! lists of its factors, so that a factor that vanishes at an end of the interval keeps its digits
+//! there. The signs in a list change as often as the polynomial has roots inside, or more often by an
+//! even number.
+
+/// Returns the list of a product; `C` is `A + B - 1`.
+pub(crate) fn product<const A: usize, const B: usize, const C: usize>(
+    one: [f64; A],
+    other: [f64; B],
+) -> [f64; C] {
+    let mut found = [0.0; C];
+    for (i, x) in one.into_iter().enumerate() {
+        for (place, y) in found[i..].iter_mut().zip(other) {
+            *place += x * y;
+        }
+    }
+    found
+}
+
+/// Returns intervals that contain one root each, and whether the polynomial increases there. `ends` are
+/// in increasing order; `on` returns the list on an interval. Roots closer than `apart` may be left out.
+pub(crate) fn isolated<const N: usize>(
+    ends: &[f64],
+    apart: f64,
+    on: impl Fn([f64; 2]) -> [f64; N],
+) -> Vec<([f64; 2], bool)> {
+    let mut found = Vec::new();
+    let mut left: Vec<[f64; 2]> = ends.windows(2).map(|pair| [pair[0], pair[1]]).collect();
+    while let Some([from, to]) = left.pop() {
+        let list = on([from, to]);
+        let mut signs = list.iter().filter(|x| **x != 0.0).map(|x| *x > 0.0);
+        let Some(first) = signs.next() else { continue };
+        let (last, changes) = signs
+            .fold((first, 0), |(last, changes), sign| (sign, changes + u32::from(sign != last)));
+        if list[0] == 0.0 {
+            found.push(([from, from], first));
+        }
+        if changes == 1 {
+            found.push(([from, to], last));
+        } else if changes > 1 && to - from > apart {
+            let middle = 0.5 * (from + to);
+            left.extend([[from, middle], [middle, to]]);
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Returns the list of `(x - root) (x - root - apart) (x - 5)`.
+    fn cubic(root: f64, apart: f64) -> impl Fn([f64; 2]) -> [f64; 4] {
+        move |[from, to]| {
+            let factor = |root: f64| [from - root, to - root];
+            let pair: [f64; 3] = product(factor(root), factor(root + apart));
+            product(pair, factor(5.0))
+        }
+    }
+
+    #[test]
+    fn each_root_has_an_interval_of_its_own() {
+        for apart in [1.0, 1e-3, 1e-7] {
+            let mut found = isolated(&[-8.0, 0.0, 1e9], 1e-9, cubic(2.1, apart));
+            found.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
+            assert_eq!(found.len(), 3, "{apart} {found:?}");
+            for (([from, to], rises), root) in found.iter().zip([2.1, 2.1 + apart, 5.0]) {
+                assert!(*from <= root && root <= *to && *rises == (root != 2.1 + apart));
+            }
+        }
+        assert_eq!(isolated(&[-8.0, 0.0, 1.0], 1e-9, cubic(2.1, 1.0)), Vec::new());
+    }
+
+    #[test]
+    fn a_root_at_an_end_is_found_once_and_zero_has_none() {
+        let found = isolated(&[0.0, 2.0, 3.0], 1e-9, cubic(2.0, 9.0));
+        assert_eq!(found, [([2.0, 2.0], true)]);
+        assert_eq!(isolated(&[0.0, 1.0], 1e-9, |_| [0.0; 4]), Vec::new());
+    }
+}
