@@ -15,8 +15,7 @@ use strum::IntoStaticStr;
 
 use super::windows::{FURTHEST, joined_grow, windows};
 use crate::model::{Frame, LockWindow, Machine, Row, Structure};
-use crate::numeric::real_roots::{isolated, product};
-use crate::numeric::search::bisected;
+use crate::numeric::real_roots::{product, real_roots};
 
 /// Imaginary part of the joint compliance at a root, as a part of the real part, up to
 /// which it is round-off. Larger: an undamped resonance is taken for a whirl.
@@ -108,11 +107,7 @@ fn real_compliances(frame: &Frame) -> Vec<f64> {
     let furthest = WAVE_FURTHEST * fastest;
     let mut ends = [-furthest, -casing, casing, turn - blades, turn, turn + blades, 0.0, furthest];
     ends.sort_by(f64::total_cmp);
-    let root = |([from, to], rises): ([f64; 2], bool)| {
-        let [low, high] = bisected([from, to], |omega| (imaginary(omega) > 0.0) == rises);
-        if imaginary(low).abs() < imaginary(high).abs() { low } else { high }
-    };
-    isolated(&ends, WAVE_APART * fastest, between).into_iter().map(root).collect()
+    real_roots(&ends, WAVE_APART * fastest, imaginary, between)
 }
 
 /// Returns the own frequency of a structure \[rad/s\].

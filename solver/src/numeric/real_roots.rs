@@ -7,6 +7,8 @@
 //! there. The signs in a list change as often as the polynomial has roots inside, or more often by an
 //! even number.
 
+use super::search::bisected;
+
 /// Returns the list of a product; `C` is `A + B - 1`.
 pub(crate) fn product<const A: usize, const B: usize, const C: usize>(
     one: [f64; A],
@@ -21,9 +23,25 @@ pub(crate) fn product<const A: usize, const B: usize, const C: usize>(
     found
 }
 
-/// Returns intervals that contain one root each, and whether the polynomial increases there. `ends` are
-/// in increasing order; `on` returns the list on an interval. Roots closer than `apart` may be left out.
-pub(crate) fn isolated<const N: usize>(
+/// Returns the roots between the first and the last of `ends`, which are in increasing order. `value`
+/// returns the polynomial, `on` its list on an interval. Roots closer than `apart` may be left out.
+pub(crate) fn real_roots<const N: usize>(
+    ends: &[f64],
+    apart: f64,
+    value: impl Fn(f64) -> f64,
+    on: impl Fn([f64; 2]) -> [f64; N],
+) -> Vec<f64> {
+    let root = |([from, to], rises): ([f64; 2], bool)| {
+        let [low, high] = bisected([from, to], |x| (value(x) > 0.0) == rises);
+        if value(low).abs() < value(high).abs() { low } else { high }
+    };
+    let mut found: Vec<f64> = isolated(ends, apart, on).into_iter().map(root).collect();
+    found.sort_by(f64::total_cmp);
+    found
+}
+
+/// Returns intervals that contain one root each, and whether the polynomial increases there.
+fn isolated<const N: usize>(
     ends: &[f64],
     apart: f64,
     on: impl Fn([f64; 2]) -> [f64; N],
@@ -39,10 +57,12 @@ pub(crate) fn isolated<const N: usize>(
         if list[0] == 0.0 {
             found.push(([from, from], first));
         }
+        let middle = 0.5 * (from + to);
+        // Neighbouring numbers have no number between them.
+        let is_wide = to - from > apart && from < middle && middle < to;
         if changes == 1 {
             found.push(([from, to], last));
-        } else if changes > 1 && to - from > apart {
-            let middle = 0.5 * (from + to);
+        } else if changes > 1 && is_wide {
             left.extend([[from, middle], [middle, to]]);
         }
     }
@@ -73,6 +93,14 @@ mod tests {
             }
         }
         assert_eq!(isolated(&[-8.0, 0.0, 1.0], 1e-9, cubic(2.1, 1.0)), Vec::new());
+    }
+
+    #[test]
+    fn roots_have_all_digits_and_a_pair_of_neighbours_ends_the_search() {
+        let value = |x: f64| (x - 2.1) * (x - 2.1 - 1e-3) * (x - 5.0);
+        let found = real_roots(&[-8.0, 0.0, 1e9], 1e-9, value, cubic(2.1, 1e-3));
+        assert_eq!(found, [2.1, 2.101, 5.0]);
+        assert!(isolated(&[0.0, 1e9], 0.0, cubic(1e6 / 3.0, 1e-12)).len() < 4);
     }
 
     #[test]
