@@ -107,6 +107,9 @@ pub fn run<B: Backend>(
     let mut drawn: Option<Instant> = None;
     let mut again = false;
     let mut answer: Option<Instant> = None;
+    // What is computed depends on what is shown.
+    let size = terminal.size()?;
+    app.layout.size = (size.width, size.height);
     let mut throttle = Throttle::new(host.line(), Instant::now(), host.sent());
     loop {
         order(app, engine, &mut ordered);

@@ -17,7 +17,7 @@ fn opens_turns_a_knob_sees_the_verdict_change_and_quits() {
     assert!(terminal.parser.screen().alternate_screen());
     // Five knobs down is the contact law.
     terminal.send("jjjjj");
-    terminal.wait_for("Contact law");
+    terminal.wait_for("▸contact");
     terminal.send("l");
     terminal.wait_for(" DECAY ");
     terminal.send("h");
@@ -34,11 +34,10 @@ fn the_mouse_acts_and_is_given_back() {
     assert!([1000, 1006].into_iter().all(|mode| terminal.has_mode(mode)));
     // No moves of the pointer.
     assert!([1002, 1003].into_iter().all(|mode| !terminal.has_mode(mode)));
-    // A click in the seventh row, on the damping of the casing, which moves up by the bar
-    // of the knob that was selected.
-    terminal.send("\u{1b}[<0;5;7M\u{1b}[<0;5;7m");
-    terminal.wait_for("▸damping ζ_c");
-    terminal.send("\u{1b}[<64;5;6M");
+    // A click in the third row, on the damping of the casing.
+    terminal.send("\u{1b}[<0;31;3M\u{1b}[<0;31;3m");
+    terminal.wait_for("▸ζ_c");
+    terminal.send("\u{1b}[<64;31;3M");
     terminal.wait_for("0.055");
     terminal.send("M");
     terminal.wait_for("mouse off");

@@ -154,7 +154,7 @@ fn every_row_of_the_help_and_the_palette_is_ascii_if_the_marker_is() {
 fn what_does_not_fit_is_left_out_or_wrapped() {
     let mut session = open((40, 12), Marker::Braille);
     session.press("3");
-    let title = session.rows().into_iter().find(|row| row.contains("3 locked")).unwrap();
+    let title = session.rows().into_iter().find(|row| row.contains("3 λ(Ω)")).unwrap();
     assert!(!title.contains('…') && title.contains("── λ_a"), "{title}");
     // The command is longer than a row.
     session.press("y");

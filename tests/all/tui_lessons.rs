@@ -452,7 +452,9 @@ fn the_knob_that_a_task_asks_for_is_in_the_row_that_its_text_names() {
     };
     assert!(row(&session).contains("ζ_c +0.33 %"), "{}", session.text());
     // Where its column has no room, i reads it.
-    session.press("fi↓↓→→→");
+    session.press("f");
+    session.resize((60, 24));
+    session.press("i↓↓→→→");
     assert!(!row(&session).contains("ζ_c"), "{}", session.text());
     assert!(session.text().contains("of damping ζ_c: Ω_lock +0.33 %"), "{}", session.text());
 }

@@ -92,7 +92,7 @@ fn views_of_equal_blades_say_so_in_the_full_model() {
 
 #[test]
 fn what_is_beyond_the_paper_is_folded_but_for_what_the_scene_has_of_it() {
-    for size in [(80, 24), (120, 40), (200, 50)] {
+    for size in [(100, 24), (120, 40), (200, 50)] {
         let paper = column(&open(size, scene()));
         assert!(!paper.contains("tip slope"), "{paper}");
         let coupled = column(&open(size, pressed()));
@@ -104,7 +104,7 @@ fn what_is_beyond_the_paper_is_folded_but_for_what_the_scene_has_of_it() {
         assert!(!coupled.contains("restitution"), "{coupled}");
     }
     // A click on a folded group opens it.
-    let mut session = open((80, 24), scene());
+    let mut session = open((100, 24), scene());
     for (group, label) in [("beyond the paper 11 ▸", "▸tip slope κ"), ("start 6 ▸", "▸start u_c")]
     {
         let row = session.rows().iter().position(|row| row.contains(group)).unwrap() as u16;

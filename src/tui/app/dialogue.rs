@@ -3,7 +3,7 @@
 
 use super::App;
 use super::help::{HelpState, help_bottom};
-use super::layout::body;
+use super::layout::placed;
 use super::palette::PaletteState;
 use super::words;
 use crate::tui::command::{Command, Purpose};
@@ -112,7 +112,7 @@ impl App {
         // A resize can leave the place past the end; then a key up would have no visible effect at
         // first.
         let from = from.min(last);
-        let page = usize::from(body(self).height.saturating_sub(2)).max(1);
+        let page = usize::from(placed(self).body.height.saturating_sub(2)).max(1);
         let to = match command {
             Command::Below => from + 1,
             Command::Above => from.saturating_sub(1),

@@ -3,7 +3,7 @@
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 use strum::IntoEnumIterator;
 
-use super::layout::body;
+use super::layout::placed;
 use super::{App, glossary};
 use crate::tui::command::{self, Binding, Group};
 use crate::tui::field::Field;
@@ -142,7 +142,7 @@ fn list(body: Rect) -> Rect {
 
 /// Returns the largest scroll position of the help.
 pub fn help_bottom(app: &App, help: &HelpState) -> usize {
-    let area = list(body(app));
+    let area = list(placed(app).body);
     lines(app, area, &help.filter.text()).0.len().saturating_sub(usize::from(area.height))
 }
 

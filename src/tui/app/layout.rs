@@ -3,6 +3,7 @@
 use ratatui::layout::{Constraint, Layout as Split, Rect};
 
 use super::App;
+use super::knobs::strip;
 use super::lesson::step_rows;
 use crate::report::number::speed_unit;
 use crate::tui::views::id::ViewId;
@@ -10,6 +11,10 @@ use rubscope_solver::scene::Scene;
 
 /// Largest number of charts beside the large one.
 const MOST_BESIDE: usize = 3;
+/// Width from which the knobs have a column and the wheel is among the first charts \[columns\].
+const WIDE: u16 = 100;
+/// Smallest width and height of a screen with the overview \[columns, rows\].
+const OVERVIEW: (u16, u16) = (76, 23);
 
 /// Which views are on the screen, and where.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,6 +22,8 @@ pub struct Layout {
     /// All views: the large one, then the others in screen order. Only the first `1 + beside` are
     /// shown.
     views: Vec<ViewId>,
+    /// Whether the user, not the scene, made the first view the large one.
+    chosen: bool,
     /// Number of charts beside the large one.
     pub beside: usize,
     /// Whether the margins view shows the survey over all nodal diameters.
@@ -33,9 +40,9 @@ impl Layout {
     /// Creates the layout with the views that the scene names in front.
     pub fn of(scene: &Scene) -> Self {
         let views = ViewId::all().collect();
-        let (survey, range, full_screen) = (false, None, false);
-        let mut layout =
-            Self { views, beside: MOST_BESIDE, survey, range, full_screen, size: (80, 24) };
+        let (chosen, survey, range, full_screen) = (false, false, None, false);
+        let (beside, size) = (MOST_BESIDE, (80, 24));
+        let mut layout = Self { views, chosen, beside, survey, range, full_screen, size };
         layout.open(scene);
         layout
     }
@@ -47,12 +54,20 @@ impl Layout {
         views.extend(
             self.views.iter().copied().filter(|view| !views.contains(view)).collect::<Vec<_>>(),
         );
-        self.views = views;
+        (self.views, self.chosen) = (views, false);
+    }
+
+    /// Iterates over the views in the order of the screen. A narrow one has the wheel only if the
+    /// user chose it.
+    pub fn shown(&self) -> impl Iterator<Item = ViewId> {
+        let chosen = self.chosen && self.views.first() == Some(&ViewId::Frame);
+        let has_wheel = chosen || self.size.0 >= WIDE;
+        self.views.iter().copied().filter(move |view| *view != ViewId::Frame || has_wheel)
     }
 
     /// Returns the large view.
     pub fn view(&self) -> ViewId {
-        self.views.first().copied().unwrap_or(ViewId::Response)
+        self.shown().next().unwrap_or(ViewId::Response)
     }
 
     /// Returns all views: the large one, then the others in screen order.
@@ -69,9 +84,13 @@ impl Layout {
 
     /// Makes `view` the large one by swapping places; returns false if it was already large.
     pub fn show(&mut self, view: ViewId) -> bool {
+        if view == self.view() {
+            return false;
+        }
         let place = self.views.iter().position(|other| *other == view).unwrap_or(0);
         self.views.swap(0, place);
-        place > 0
+        self.chosen = true;
+        true
     }
 
     /// Sorts the views beside the large one by rank.
@@ -118,10 +137,22 @@ impl App {
         self.view() == view
     }
 
+    /// Returns whether a narrow screen shows the overview: the run, the gaps, the locked motion and
+    /// what ends the lock, which belongs to the margins.
+    pub fn is_overview(&self) -> bool {
+        let Layout { size: (width, height), beside, .. } = self.layout;
+        let fits = (OVERVIEW.0..WIDE).contains(&width) && height >= OVERVIEW.1;
+        let usual = beside == MOST_BESIDE && self.lessons.progress.is_none();
+        fits && usual && !self.is_alone() && ViewId::OVERVIEW.contains(&self.view())
+    }
+
     /// Returns whether the layout includes `view`; a small screen may still leave no room for it.
     pub fn is_open(&self, view: ViewId) -> bool {
+        if self.is_overview() {
+            return view == ViewId::Margins || ViewId::OVERVIEW.contains(&view);
+        }
         let shown = if self.is_alone() { 1 } else { 1 + self.layout.beside };
-        self.layout.views.iter().take(shown).any(|other| *other == view)
+        self.layout.shown().take(shown).any(|other| other == view)
     }
 
     /// Returns whether the large chart is the only one on the screen.
@@ -138,14 +169,14 @@ pub const LEAST_WIDTH: u16 = 40;
 /// Smallest height of a screen that is drawn \[rows\].
 pub const LEAST_HEIGHT: u16 = 12;
 
-/// Width from which the knobs have a column of their own.
-const KNOBS_FROM: u16 = 66;
 /// Width of the column of knobs.
 const KNOBS_WIDTH: u16 = 27;
 /// Width from which the column of knobs stays when two contact laws are compared.
 const KNOBS_BESIDE_LAWS: u16 = 110;
 /// Width from which two charts are side by side.
 const PAIR_FROM: u16 = 76;
+/// Height from which the strip of knobs has a row for the bar of the selected one.
+const BAR_FROM: u16 = 16;
 
 /// The areas of one frame.
 pub struct Places {
@@ -153,12 +184,17 @@ pub struct Places {
     pub header: Rect,
     /// Everything between header and footer.
     pub body: Rect,
-    /// The knobs: a column, or a line with the selected one.
+    /// The knobs: a column, or a strip above the charts.
     pub knobs: Rect,
-    /// Whether the knobs are a column; otherwise only the selected one is shown.
+    /// Whether the knobs are a column.
     pub column: bool,
+    /// The list of the knobs that the strip does not have, over the charts; `None` unless one of
+    /// them is selected, and without room.
+    pub list: Option<Rect>,
     /// The views on the screen with their areas.
     pub charts: Vec<(ViewId, Rect)>,
+    /// What ends the lock; `None` except in the overview.
+    pub ends: Option<Rect>,
     /// The current lesson; `None` if none is open, or the screen is too low for it.
     pub lesson: Option<Rect>,
     /// Status message or keys.
@@ -171,15 +207,35 @@ pub fn places(area: Rect, app: &App) -> Places {
         Split::vertical([Constraint::Length(2), Constraint::Min(1), Constraint::Length(1)])
             .areas(area);
     let (lesson, rest) = lesson(body, app);
-    let from = if app.compares() { KNOBS_BESIDE_LAWS } else { KNOBS_FROM };
+    let from = if app.compares() { KNOBS_BESIDE_LAWS } else { WIDE };
     let column = area.width >= from && !app.layout.full_screen;
     let [knobs, charts] = if column {
         Split::horizontal([Constraint::Length(KNOBS_WIDTH), Constraint::Min(1)]).areas(rest)
     } else {
-        below(rest, 1)
+        below(rest, if area.height < BAR_FROM { 1 } else { 2 })
     };
-    let charts = if app.is_alone() { vec![(app.view(), charts)] } else { split(charts, app) };
-    Places { header, body, knobs, column, charts, lesson, footer }
+    // It would hide the chart that a lesson speaks of.
+    let fits = charts.width >= PAIR_FROM && lesson.is_none();
+    let listed = !column && fits && app.knobs.selected >= strip::count(app, knobs.width);
+    let list = listed.then(|| halves(charts)[1]);
+    let mut ends = None;
+    let charts = if app.is_alone() {
+        vec![(app.view(), charts)]
+    } else if app.is_overview() {
+        let [top, bottom] = below(charts, charts.height / 2).map(halves);
+        ends = Some(bottom[1]);
+        ViewId::OVERVIEW.into_iter().zip([top[0], top[1], bottom[0]]).collect()
+    } else {
+        split(charts, app)
+    };
+    Places { header, body, knobs, column, list, charts, ends, lesson, footer }
+}
+
+/// Splits an area into its left and its right half, with a gap between them. The right one is a
+/// little wider, for a table.
+fn halves(area: Rect) -> [Rect; 2] {
+    let parts = [Constraint::Length((area.width - 3) / 2), Constraint::Min(1)];
+    Split::horizontal(parts).spacing(1).areas(area)
 }
 
 /// Splits off the first `rows` rows of an area.
@@ -205,7 +261,7 @@ const WHEEL_ROWS: u16 = 10;
 /// Splits the area into the large chart and as many smaller ones as remain legible. The wheel is
 /// about square and shares its rows with another chart; any other large chart has the full width.
 fn split(area: Rect, app: &App) -> Vec<(ViewId, Rect)> {
-    let views = app.layout.views().iter().copied();
+    let views = app.layout.shown();
     let beside = u16::try_from(app.layout.beside).unwrap_or(0);
     let wheel = app.is_large(ViewId::Frame);
     let large = if wheel { WHEEL_ROWS } else { LEAST_ROWS };
@@ -215,24 +271,25 @@ fn split(area: Rect, app: &App) -> Vec<(ViewId, Rect)> {
     let lower = (area.height * part).div_ceil(100).max(LEAST_ROWS);
     let two = [Constraint::Min(1), Constraint::Length(lower)];
     let vertical = |parts: &[Constraint]| Split::vertical(parts.iter()).split(area).to_vec();
+    let wheel_part = if app.layout.size.0 < WIDE { 48 } else { WHEEL_PART };
     let pair = |area: Rect, left: u16| {
         let parts = [Constraint::Percentage(left), Constraint::Percentage(100 - left)];
         Split::horizontal(parts).spacing(1).split(area).to_vec()
     };
     let areas = match (area.width >= PAIR_FROM, beside) {
         (_, 0) => vec![area],
-        (true, 1) if wheel => pair(area, WHEEL_PART),
+        (true, 1) if wheel => pair(area, wheel_part),
         (true, _) if below == 0 => {
             if wheel {
-                pair(area, WHEEL_PART)
+                pair(area, wheel_part)
             } else {
                 vec![area]
             }
         }
         (true, 1) => vertical(&two),
         (true, most) => match vertical(&two).as_slice() {
-            [top, bottom] if wheel && most == 2 => [pair(*top, WHEEL_PART), vec![*bottom]].concat(),
-            [top, bottom] if wheel => [pair(*top, WHEEL_PART), pair(*bottom, WHEEL_PART)].concat(),
+            [top, bottom] if wheel && most == 2 => [pair(*top, wheel_part), vec![*bottom]].concat(),
+            [top, bottom] if wheel => [pair(*top, wheel_part), pair(*bottom, wheel_part)].concat(),
             [top, bottom] => [vec![*top], pair(*bottom, 50)].concat(),
             _ => vec![area],
         },
@@ -249,13 +306,12 @@ fn split(area: Rect, app: &App) -> Vec<(ViewId, Rect)> {
 
 /// Height of the charts below the large one on a wide screen \[% of the height of all charts\].
 const LOWER: u16 = 45;
-/// Width of the wheel beside another chart \[% of the width of both\].
+/// Width of the wheel beside another chart on a wide screen \[% of the width of both\].
 const WHEEL_PART: u16 = 44;
 
-/// Returns the room between header and footer on this screen.
-pub fn body(app: &App) -> Rect {
-    let area = Rect::new(0, 0, app.layout.size.0, app.layout.size.1);
-    places(area, app).body
+/// Returns the areas on this screen.
+pub fn placed(app: &App) -> Places {
+    places(Rect::new(0, 0, app.layout.size.0, app.layout.size.1), app)
 }
 
 #[cfg(test)]
@@ -284,9 +340,10 @@ mod tests {
 
     #[test]
     fn every_chart_beside_the_knobs_has_eight_rows_of_data() {
-        for (width, height) in [(80, 24), (100, 30), (120, 40), (200, 50)] {
+        for (width, height) in [(100, 30), (120, 40), (200, 50)] {
             for view in ViewId::all() {
                 let mut app = app();
+                app.layout.size = (width, height);
                 app.act(Command::View(view));
                 let charts = places(Rect::new(0, 0, width, height), &app).charts;
                 for (shown, area) in charts {
@@ -296,8 +353,21 @@ mod tests {
                 }
             }
         }
-        let first = places(Rect::new(0, 0, 80, 24), &app()).charts;
-        assert_eq!(first.len(), 2, "the wheel and the response");
+    }
+
+    #[test]
+    fn a_narrow_screen_opens_with_three_charts_and_what_ends_the_lock() {
+        let (area, mut app) = (Rect::new(0, 0, 80, 24), app());
+        let first = places(area, &app);
+        assert!(first.charts.iter().map(|(view, _)| *view).eq(ViewId::OVERVIEW));
+        // Six rows of data, a title and an axis.
+        let areas: Vec<Rect> =
+            first.charts.iter().map(|(_, area)| *area).chain(first.ends).collect();
+        assert!(areas.len() == 4 && areas.iter().all(|area| area.height >= 9), "{areas:?}");
+        app.act(Command::View(ViewId::Frame));
+        let wheel = places(area, &app);
+        assert_eq!(wheel.charts[0].0, ViewId::Frame);
+        assert!(wheel.ends.is_none() && wheel.charts[0].1.height >= 18);
     }
 
     #[test]

@@ -19,7 +19,7 @@ pub mod words;
 pub use dialogue::InputMode;
 pub use help::HelpState;
 pub use knobs::Past;
-pub use knobs::panel as knobs_panel;
+pub use knobs::{panel as knobs_panel, strip};
 pub use layout::{LEAST_HEIGHT, LEAST_ROWS, LEAST_WIDTH};
 pub use lesson::LessonProgress;
 pub use mouse::Parts;

@@ -4,17 +4,19 @@
 mod footer;
 mod header;
 
+use ratatui::widgets::{Clear, Widget};
 use ratatui::{Frame, buffer::Buffer, layout::Rect, style::Modifier};
 
 use super::app::{
     App, InputMode, LEAST_HEIGHT, LEAST_WIDTH, files, help, knobs_panel as knobs, layout, lesson,
-    palette,
+    palette, strip,
 };
 use super::command::Command;
 use super::field::CURSOR;
 use super::text::{CUT, print, wrap};
 use super::theme::Role;
 use super::views::ViewArea;
+use super::views::margins::ends;
 pub use header::head_text;
 
 /// Draws the whole screen into a frame of the terminal.
@@ -52,9 +54,9 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
             lesson::draw_step(app, buffer, area);
         }
         if places.column {
-            knobs::panel(app, buffer, places.knobs);
+            knobs::panel(app, buffer, places.knobs, 0);
         } else {
-            knobs::strip(app, buffer, places.knobs);
+            strip::draw(app, buffer, places.knobs, places.list.is_some());
         }
         for (view, area) in &places.charts {
             let at = ViewArea { area: *area, digit: view.digit(), large: *view == app.view() };
@@ -63,9 +65,15 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
             }
             view.panel().draw(app, buffer, at);
         }
-        if !places.column {
+        if let Some(area) = places.ends {
+            ends::draw(app, buffer, area);
+        }
+        if let Some(area) = places.list {
+            Clear.render(area, buffer);
+            knobs::panel(app, buffer, area, strip::count(app, places.knobs.width));
+        } else if !places.column {
             let below = places.body.bottom() - places.knobs.y;
-            knobs::strip_refusal(app, buffer, Rect { height: below, ..places.knobs });
+            knobs::refusal(app, buffer, Rect { height: below, ..places.knobs }, 0);
         }
     }
     footer::draw(app, buffer, places.footer);

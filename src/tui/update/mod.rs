@@ -9,6 +9,7 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use super::app::{App, Cursor, HelpState, InputMode, PaletteState, Reading};
 use crate::report::line::{self, clean};
+use crate::tui::app::layout::placed;
 use crate::tui::axis::{instant, readable};
 use crate::tui::command::{Chord, Command, Effect, Purpose, lookup};
 use crate::tui::export;
@@ -275,6 +276,7 @@ impl App {
             }
             InputMode::Main if self.reading != Reading::default() => self.stop_reading(),
             InputMode::Main if self.play.middle_s.is_some() => self.stop_reading(),
+            InputMode::Main if placed(self).list.is_some() => self.knobs.select(0),
             InputMode::Main => self.layout.full_screen = false,
             _ => self.dialogue.close(),
         }
@@ -396,7 +398,7 @@ mod tests {
         }
         assert!(silent.is_empty(), "{silent:?}");
         let mut app = App::new(scene, Theme::Mono, Marker::Braille);
-        for (letter, says) in [('d', "no meaning here"), ('4', "as it was"), ('G', "no lesson")] {
+        for (letter, says) in [('d', "no meaning here"), ('1', "as it was"), ('G', "no lesson")] {
             app.key(&KeyEvent::new(KeyCode::Char(letter), KeyModifiers::NONE));
             assert!(app.status.as_ref().is_some_and(|status| status.contains(says)), "{letter}");
         }

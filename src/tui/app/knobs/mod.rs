@@ -3,6 +3,7 @@
 //! restores that scene's source and view.
 
 pub mod panel;
+pub mod strip;
 
 use crossterm::event::KeyEvent;
 

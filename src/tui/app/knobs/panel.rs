@@ -1,26 +1,25 @@
-//! The knobs: a column of groups with a note on the selected knob, or, without room, a line with
-//! that knob alone. The first group and that of the selected knob are open; the others are folded
+//! The knobs: a column of groups with a note on the selected knob. The first group and that of the selected knob are open; the others are folded
 //! and show only changed values. The selected knob has a bar with marks at its limits. The mouse
 //! uses the same layout of lines.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
-use ratatui::style::Modifier;
+use ratatui::style::{Modifier, Style};
 use strum::VariantArray;
 
 use crate::report::line::capital;
 use crate::tui::app::{App, InputMode};
 use crate::tui::command::Command;
 use crate::tui::knobs::{Group, KNOBS, Knob};
-use crate::tui::text::{columns, overlay, pieces, print, shorten, wrap};
+use crate::tui::text::{columns, overlay, pieces, print, wrap};
 use crate::tui::theme::Role;
 use rubscope_solver::scene::Allowed;
 
-/// Draws the knobs as a column.
-pub fn panel(app: &App, buffer: &mut Buffer, area: Rect) {
+/// Draws the knobs from the index `from` on as a column.
+pub fn panel(app: &App, buffer: &mut Buffer, area: Rect, from: usize) {
     let area = inside(area);
     let look = &app.appearance;
-    let lines = lines(app, area.height);
+    let lines = lines(app, area.height, from);
     for (y, line) in (area.y..area.bottom()).zip(&lines) {
         let row = Rect { y, height: 1, ..area };
         match *line {
@@ -68,7 +67,7 @@ pub fn panel(app: &App, buffer: &mut Buffer, area: Rect) {
 
 /// Prints why the value of the knob in row `at` was refused, over the rows below it, or above it if
 /// there are too few.
-fn refusal(app: &App, buffer: &mut Buffer, area: Rect, at: u16) {
+pub fn refusal(app: &App, buffer: &mut Buffer, area: Rect, at: u16) {
     let Some(refusal) = &app.knobs.refusal else { return };
     let look = &app.appearance;
     let lines = wrap(&look.spell(refusal), usize::from(area.width));
@@ -76,15 +75,6 @@ fn refusal(app: &App, buffer: &mut Buffer, area: Rect, at: u16) {
     let below = area.height.saturating_sub(at + 1);
     let top = if rows > below && rows <= at { at - rows } else { at + 1 };
     let area = Rect { y: area.y + top, height: area.height.saturating_sub(top), ..area };
-    overlay(buffer, area, &lines, look.style(Role::Trouble));
-}
-
-/// Prints why the value of the selected knob was refused, over its line and as many rows of `area`
-/// as it takes.
-pub fn strip_refusal(app: &App, buffer: &mut Buffer, area: Rect) {
-    let Some(refusal) = &app.knobs.refusal else { return };
-    let look = &app.appearance;
-    let lines = wrap(&look.spell(refusal), usize::from(area.width));
     overlay(buffer, area, &lines, look.style(Role::Trouble));
 }
 
@@ -106,7 +96,7 @@ fn folded(app: &App, buffer: &mut Buffer, row: Rect, group: Group) {
     let changed: Vec<String> = group
         .places()
         .filter_map(|place| KNOBS.get(place))
-        .filter(|knob| knob.get(&app.scene) != knob.get(&app.files.opened))
+        .filter(|knob| is_changed(app, knob))
         .map(|knob| look.spell(&format!(" {}* {}", knob.symbol(), knob.text(&app.scene))))
         .collect();
     let mut shown = changed.concat();
@@ -119,28 +109,43 @@ fn folded(app: &App, buffer: &mut Buffer, row: Rect, group: Group) {
 
 /// Draws a knob: label and value.
 fn knob(app: &App, buffer: &mut Buffer, row: Rect, knob: &Knob, selected: bool) {
-    let look = &app.appearance;
-    let value = knob.get(&app.scene);
-    let changed = value != knob.get(&app.files.opened);
-    let inert = knob.inert(&app.scene).is_some();
-    let sign = if selected { '▸' } else { ' ' };
-    let label = look.spell(&format!("{sign}{}{}", knob.label, if changed { '*' } else { ' ' }));
+    let [label, _] = parts(app, knob, selected, knob.label, 0);
     let width = usize::from(row.width);
     let room = width.saturating_sub(columns(&label) + 1);
-    let shown = match (&app.dialogue.mode, selected) {
-        (InputMode::Typing(text), true) => look.spell(&knob.typed(text, room)),
-        // Brackets mark a knob without effect in themes without colour.
-        _ if inert => look.spell(&format!("({})", knob.shown(&value))),
-        _ => look.spell(&knob.shown(&value)),
-    };
+    let [_, shown] = parts(app, knob, selected, knob.label, room);
     let pad = width.saturating_sub(columns(&label) + columns(&shown));
-    let style = match (selected, changed) {
+    let text = format!("{label}{}{shown}", " ".repeat(pad));
+    print(buffer, row, 0, &text, style(app, knob, selected));
+}
+
+/// Returns a knob under `name` with the signs for *selected* and *changed*, and its value, or what
+/// is typed for it, in at most `room` columns.
+pub fn parts(app: &App, knob: &Knob, selected: bool, name: &str, room: usize) -> [String; 2] {
+    let sign = if selected { '▸' } else { ' ' };
+    let label = format!("{sign}{name}{}", if is_changed(app, knob) { '*' } else { ' ' });
+    let shown = match (&app.dialogue.mode, selected) {
+        (InputMode::Typing(text), true) => knob.typed(text, room),
+        // Brackets mark a knob without effect in themes without colour.
+        _ if knob.inert(&app.scene).is_some() => format!("({})", knob.text(&app.scene)),
+        _ => knob.text(&app.scene),
+    };
+    [label, shown].map(|text| app.appearance.spell(&text))
+}
+
+/// Returns the style of a knob.
+pub fn style(app: &App, knob: &Knob, selected: bool) -> Style {
+    let look = &app.appearance;
+    match (selected, is_changed(app, knob)) {
         (true, _) => look.style(Role::Focus).add_modifier(Modifier::REVERSED),
-        _ if inert => look.style(Role::Quiet),
+        _ if knob.inert(&app.scene).is_some() => look.style(Role::Quiet),
         (false, true) => look.style(Role::Text).add_modifier(Modifier::BOLD),
         (false, false) => look.style(Role::Text),
-    };
-    print(buffer, row, 0, &format!("{label}{}{shown}", " ".repeat(pad)), style);
+    }
+}
+
+/// Returns whether a knob differs from the opened scene.
+fn is_changed(app: &App, knob: &Knob) -> bool {
+    knob.get(&app.scene) != knob.get(&app.files.opened)
 }
 
 /// Returns the notes on the selected knob: why it has no effect, what it does, and which limit it
@@ -170,44 +175,6 @@ fn sentence(knob: &Knob) -> String {
     }
 }
 
-/// Draws the selected knob as a single line, with its bar if there is room.
-pub fn strip(app: &App, buffer: &mut Buffer, area: Rect) {
-    app.note(area, Command::Select(app.knobs.selected));
-    let look = &app.appearance;
-    let width = usize::from(area.width);
-    let Some(knob) = app.selected() else { return };
-    let text = strip_text(app, knob);
-    let style = look.style(Role::Focus).add_modifier(Modifier::REVERSED);
-    print(buffer, area, 0, &shorten(&text, width, look.ellipsis()), style);
-    if let Some(cells) = strip_bar(app, area) {
-        draw(app, buffer, cells, knob);
-    }
-}
-
-fn strip_text(app: &App, knob: &Knob) -> String {
-    let shown = match &app.dialogue.mode {
-        InputMode::Typing(text) => knob.typed(text, usize::from(TEXT)),
-        _ => knob.text(&app.scene),
-    };
-    let changed = if knob.get(&app.scene) == knob.get(&app.files.opened) { "" } else { "*" };
-    let text =
-        format!("◄ {}{changed} {shown} ►  {}/{}", knob.label, app.knobs.selected + 1, KNOBS.len());
-    app.appearance.spell(&text)
-}
-
-/// Least width of the bar beside a single knob.
-const LEAST_BAR: u16 = 8;
-/// Least width of the text of a single knob, so that its bar does not move while the value changes.
-const TEXT: u16 = 27;
-
-/// Returns the area of the bar in the single line; `None` if there is no room for it.
-pub fn strip_bar(app: &App, area: Rect) -> Option<Rect> {
-    let text = u16::try_from(columns(&strip_text(app, app.selected()?))).ok()?;
-    let start = text.max(TEXT) + 2;
-    let width = area.width.checked_sub(start + 1).filter(|width| *width >= LEAST_BAR)?;
-    Some(Rect { x: area.x + start, width, height: 1, ..area })
-}
-
 /// A line of the column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ColumnLine {
@@ -226,13 +193,14 @@ pub const NOTES: u16 = 5;
 /// Width of a note \[columns\].
 const NOTE_WIDTH: usize = 26;
 
-/// Returns the lines of the column for this height, including the selected knob.
-pub fn lines(app: &App, height: u16) -> Vec<ColumnLine> {
+/// Returns the lines of the column for this height, including the selected knob, from the knob at
+/// index `from` on.
+pub fn lines(app: &App, height: u16, from: usize) -> Vec<ColumnLine> {
     let note = app.selected().map_or(0, |knob| wrap(&sentence(knob), NOTE_WIDTH).len());
     let rows =
         usize::from(height - NOTES.min(height / 2)) + usize::from(NOTES).saturating_sub(note);
     let chosen = app.selected().map_or(Group::Operation, |knob| knob.group);
-    let with = |open: &[Group], telling: bool| all(app, open, telling);
+    let with = |open: &[Group], telling: bool| all(app, open, telling, from);
     let ways = [(&[Group::Operation, chosen][..], true), (&[Group::Operation, chosen], false)];
     let fitting = ways.into_iter().map(|(open, telling)| with(open, telling));
     let fitting = fitting.into_iter().find(|lines| lines.len() <= rows);
@@ -246,8 +214,9 @@ pub fn lines(app: &App, height: u16) -> Vec<ColumnLine> {
 }
 
 /// Returns all lines with the groups in `open` unfolded. With `telling`, folded groups also list
-/// the knobs by which the scene leaves the paper's model.
-fn all(app: &App, open: &[Group], telling: bool) -> Vec<ColumnLine> {
+/// the knobs by which the scene leaves the paper's model. A column that does not begin with the
+/// first knob has no bar; the strip above it has.
+fn all(app: &App, open: &[Group], telling: bool, from: usize) -> Vec<ColumnLine> {
     let mut lines = Vec::new();
     for &group in Group::VARIANTS {
         let open = open.contains(&group);
@@ -261,9 +230,9 @@ fn all(app: &App, open: &[Group], telling: bool) -> Vec<ColumnLine> {
             let knob = KNOBS.get(*place);
             open || (telling && knob.is_some_and(|knob| knob.leaves_the_paper(&app.scene)))
         };
-        for place in group.places().filter(shown) {
+        for place in group.places().filter(|place| *place >= from).filter(shown) {
             lines.push(ColumnLine::Knob(place));
-            if place == app.knobs.selected && has_bar(app, place) {
+            if from == 0 && place == app.knobs.selected && has_bar(app, place) {
                 lines.push(ColumnLine::Bar(place));
             }
         }

@@ -25,6 +25,9 @@ use rubscope_solver::motion::{ActiveSet, Verdict};
 
 /// Height from which the large chart also shows the undamped curve of the paper.
 const ROOMY: u16 = 14;
+/// Width from which the title says of what the multipliers are and has the present ones; below it
+/// they stand at their points \[columns\].
+const NAMED_FROM: u16 = 46;
 /// Largest number of rows for the values at the cursor.
 const READ_ROWS: usize = 3;
 
@@ -111,7 +114,9 @@ fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
     if app.speed() < 0.0 {
         legend.push(("over |Ω|, turning backwards".into(), quiet));
     }
-    let inside = title(app, buffer, at, "locked λ(Ω)", &legend);
+    let narrow = at.area.width < NAMED_FROM;
+    let name = if narrow { "λ(Ω)" } else { "locked λ(Ω)" };
+    let inside = title(app, buffer, at, name, &legend);
     let Some(curves) = curves else { return };
     let Some(damped) = &curves.damped else {
         let text = if app.is_pressed() {
@@ -153,7 +158,11 @@ fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
         } else {
             (point, force)
         };
-        plot.point(app.speed().abs(), shown, sign, look.style(Role::Contact));
+        let style = look.style(Role::Contact);
+        plot.point(app.speed().abs(), shown, sign, style);
+        if let Some(row) = plot.row(shown).filter(|_| narrow) {
+            plot.free_note(app.speed().abs(), row, &short(force), style);
+        }
     }
     name_speeds(&mut plot, &curves.marks, app);
 }

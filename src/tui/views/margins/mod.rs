@@ -2,6 +2,7 @@
 //! limit, and the parameters that move each limit most.
 
 mod control;
+pub mod ends;
 pub mod live;
 mod robust;
 mod rows;

@@ -1,0 +1,129 @@
+//! What ends the lock of the run: for each quantity the nearest value at which a run was found to
+//! end otherwise, and the smallest lobes of the casing. Where nothing is locked, what would lock.
+//! View 8 has the whole of it.
+
+use ratatui::{buffer::Buffer, layout::Rect};
+
+use crate::report::margins::words::from_here;
+use crate::report::number::{count, rounded};
+use crate::report::table::{Heading, Table, TableCell};
+use crate::tui::app::App;
+use crate::tui::axis::number;
+use crate::tui::command::Command;
+use crate::tui::knobs::knob_of;
+use crate::tui::text::{print, wrap};
+use crate::tui::theme::Role;
+use crate::tui::views::ViewId;
+use crate::tui::views::panel::{ViewArea, not_yet, title};
+use rubscope_solver::motion::Verdict;
+use rubscope_solver::scene::keys::{OUT_OF_ROUND, SPEED};
+use rubscope_solver::study::margins::{ChangedVerdict, LimitName, Margins, VerdictChange};
+
+/// Significant digits of a value.
+const DIGITS: usize = 3;
+
+/// Where to go from here: keys and what they show.
+const NEXT: &str = "4 wheel  5 map  g lessons";
+
+/// What is changed, to which value, and the change from the scene or, where it has none, `now 0`.
+/// In front of it the magnitude of the change for the order of the rows: a part of the present
+/// value, of a length a part of the clearance.
+type Row = (f64, [String; 3]);
+
+/// Draws the panel.
+pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
+    let look = &app.appearance;
+    app.note(area, Command::View(ViewId::Margins));
+    let at = ViewArea { area, digit: ViewId::Margins.digit(), large: false };
+    let known = app.margins();
+    let old = known.as_ref().is_some_and(|(_, old)| *old);
+    let locked = app.verdict() == Some(Verdict::Locked);
+    let name = if locked { "what ends this lock" } else { "what would lock" };
+    let legend = old.then(|| ("of the knobs before".to_string(), look.style(Role::Focus)));
+    let inside = title(app, buffer, at, name, legend.as_slice());
+    let Some(margins) = known.map(|(live, _)| &live.margins) else {
+        return not_yet(app, buffer, inside);
+    };
+    let role = if old { Role::Quiet } else { Role::Text };
+    let inside = Rect { x: inside.x + 1, width: inside.width.saturating_sub(1), ..inside };
+    let rows = rows(margins, locked).into_iter();
+    let rows = rows.map(|(_, cells)| cells.map(TableCell::Word).into()).collect();
+    // Without the headings.
+    let lines = Table::with_rows([""; 3].map(Heading::shown), rows).lines(usize::MAX, 1);
+    let lines = lines.into_iter().skip(1);
+    let mut lines: Vec<String> = lines.map(|cells| cells.join(" ")).collect();
+    // Every quantity was searched.
+    let is_complete = margins.robust.as_ref().is_some_and(|of| of.changes.len() == of.rows);
+    if lines.is_empty() && is_complete {
+        lines = wrap(&nothing(app, locked), usize::from(inside.width));
+    }
+    for (row, line) in (0..inside.height).zip(&lines) {
+        print(buffer, inside, row, &look.spell(line), look.style(role));
+    }
+    if lines.len() + 1 < usize::from(inside.height) {
+        print(buffer, inside, inside.height - 1, NEXT, look.style(Role::Quiet));
+    }
+}
+
+/// Returns the rows, the smallest change first.
+fn rows(margins: &Margins, locked: bool) -> Vec<Row> {
+    let changes = margins.robust.iter().flat_map(|found| &found.changes);
+    let mut rows: Vec<Row> = changes.filter_map(|change| changed(change, locked)).collect();
+    let varied = margins.scene.casing.out_of_round_m != 0.0;
+    rows.extend(lobes(margins).filter(|_| locked && !varied));
+    rows.extend(tips(margins, locked));
+    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+    rows
+}
+
+/// Returns the nearest change of one quantity that ends the lock or, without one, that locks;
+/// `None` if none was found.
+fn changed(row: &VerdictChange, locked: bool) -> Option<Row> {
+    let part = |found: ChangedVerdict| (found.value - row.present) / row.present.abs();
+    let both = [("down to", row.below), ("up to", row.above)];
+    let both = both.into_iter().filter_map(|(way, found)| Some((way, found?)));
+    let ends = both.filter(|(_, found)| (found.verdict == Verdict::Locked) != locked);
+    let (way, found) = ends.min_by(|a, b| part(a.1).abs().total_cmp(&part(b.1).abs()))?;
+    let knob = knob_of(row.path)?;
+    // Symbols as in the strip of knobs, except where the word is shorter than what one must know.
+    let name = if [SPEED, OUT_OF_ROUND].contains(&row.path) { row.name } else { knob.symbol() };
+    let doubt = if found.sensitive { "?" } else { "" };
+    let value = number(rounded(found.value, DIGITS), knob.unit());
+    let here = if row.present == 0.0 { "now 0".into() } else { from_here(part(found)) };
+    Some((part(found).abs(), [format!("{name} {way}"), format!("{value}{doubt}"), here]))
+}
+
+/// Returns the smallest lobes that end the lock of a round casing; `None` if none are known to.
+fn lobes(margins: &Margins) -> Option<Row> {
+    let heights = margins.limits.iter().filter(|limit| limit.name == LimitName::Roundness);
+    let each = heights.filter_map(|limit| Some((limit.value?, limit.lobes?)));
+    let (height, lobes) = each.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
+    let now = format!("now 0, {}", count(lobes.into(), "lobe"));
+    Some(imperfection("out of round", height, now, margins))
+}
+
+/// Returns the deviation of equal tips from which on the worst of them take a push from the lock or,
+/// without one, the best of them can let pushes hold one; `None` if that is not known.
+fn tips(margins: &Margins, locked: bool) -> Option<Row> {
+    let scene = &margins.scene;
+    let deviation = scene.machine().tip_deviation(scene.operation.speed_rad_s)?;
+    let row = || imperfection("tips off by", deviation.abs(), "now 0".into(), margins);
+    (locked == (deviation > 0.0)).then(row)
+}
+
+/// Returns the row of a length \[m\] by which a machine is imperfect.
+fn imperfection(what: &str, length: f64, now: String, margins: &Margins) -> Row {
+    let cells = [what.to_string(), number(rounded(length, 2), "m"), now];
+    (length / margins.scene.clearance(), cells)
+}
+
+/// Says why there is no row.
+fn nothing(app: &App, locked: bool) -> String {
+    let exists = match app.lock_window().map(|window| rounded(window.from, DIGITS)) {
+        _ if locked => return "No run that was tried ends otherwise.".into(),
+        Some(from) => format!("A lock exists from {} on", number(from, "rad/s")),
+        None if app.machine.knows_locks() => "No pair of blades locks".into(),
+        None => "A lock is not known".into(),
+    };
+    format!("{exists}; no run that was tried locks.")
+}
