@@ -12,7 +12,7 @@ const MODES: [(&str, &str); 8] = [
     ("g", "Lessons: Enter begins one"),
     ("g\r", "lower"),
     ("s", "save the scene as"),
-    ("i", "u_c 0.000 m"),
+    ("i", "Esc knobs"),
 ];
 
 /// A letter, an arrow, a click of the middle button and a pasted text.
