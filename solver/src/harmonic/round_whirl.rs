@@ -102,17 +102,12 @@ fn real_compliances(frame: &Frame) -> Vec<f64> {
         let right: [f64; 7] = product(blades.imaginary, casing.norm_sqr());
         std::array::from_fn(|k| left[k] - coupling * right[k])
     };
-    let (casing, blades) = (own(&frame.casing), own(&frame.blades));
+    let (casing, blades) = (frame.casing.own_frequency(), frame.blades.own_frequency());
     let fastest = casing + blades + turn.abs();
     let furthest = WAVE_FURTHEST * fastest;
     let mut ends = [-furthest, -casing, casing, turn - blades, turn, turn + blades, 0.0, furthest];
     ends.sort_by(f64::total_cmp);
     real_roots(&ends, WAVE_APART * fastest, imaginary, between)
-}
-
-/// Returns the own frequency of a structure \[rad/s\].
-fn own(of: &Structure) -> f64 {
-    (of.stiffness / of.mass).sqrt()
 }
 
 /// Dynamic stiffness of a structure between two frequencies, in units of its stiffness, as lists of
@@ -124,7 +119,7 @@ struct Between {
 
 impl Between {
     fn of(of: &Structure, [from, to]: [f64; 2]) -> Self {
-        let own = own(of);
+        let own = of.own_frequency();
         let slower = [from, to].map(|omega| (own - omega) / own);
         let faster = [from, to].map(|omega| (own + omega) / own);
         let damping = [from, to].map(|omega| omega * of.damping / of.stiffness);

@@ -36,11 +36,16 @@ pub struct Structure {
 }
 
 impl Structure {
+    /// Returns the undamped own frequency `sqrt(k/m)` \[rad/s\].
+    pub(crate) fn own_frequency(&self) -> f64 {
+        (self.stiffness / self.mass).sqrt()
+    }
+
     /// Returns the dynamic stiffness `L` at a frequency in the structure's own frame \[rad/s\],
     /// `k - m omega^2 + i d omega`. The factored difference avoids cancellation at a resonance.
     #[must_use]
     pub fn dynamic_stiffness(&self, omega: f64) -> Complex<f64> {
-        let own = (self.stiffness / self.mass).sqrt();
+        let own = self.own_frequency();
         Complex::new(self.mass * (own - omega) * (own + omega), self.damping * omega)
     }
 

@@ -25,8 +25,8 @@ use rubscope_solver::motion::{ActiveSet, Verdict};
 
 /// Height from which the large chart also shows the undamped curve of the paper.
 const ROOMY: u16 = 14;
-/// Width from which the title says of what the multipliers are and has the present ones; below it
-/// they stand at their points \[columns\].
+/// Width from which the title names the motion of the multipliers and gives their present values. A
+/// narrower chart prints the values at their points \[columns\].
 const NAMED_FROM: u16 = 46;
 /// Largest number of rows for the values at the cursor.
 const READ_ROWS: usize = 3;
