@@ -3,6 +3,7 @@
 
 use strum::VariantNames;
 
+pub use super::handle::{Handle, Turn};
 use super::modes::{self, Structure};
 use super::units::{Quantity, UnitError};
 use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
@@ -124,6 +125,8 @@ pub struct Key {
     pub live: Live,
     /// Allowed values.
     pub allowed: Allowed,
+    /// How the explorer turns it; `None` if it has no knob.
+    pub handle: Option<Handle>,
     /// Reads the value from a scene.
     pub get: fn(&Scene) -> Value,
     /// Writes a value of the right type to a scene.
@@ -303,6 +306,7 @@ macro_rules! key {
             what: $what,
             live: Live::$live,
             allowed: $allowed,
+            handle: None,
             get: |$from| Value::$kind($get),
             set: |$to, value| {
                 if let Value::$kind($value) = value {
@@ -465,70 +469,130 @@ fn text_of(key: &Key, scene: &Scene) -> String {
 /// set by the casing radius.
 pub const CLEARANCE: &str = "clearance";
 
-/// For each row, defines a constant with the path of the key, and adds the key to `KEYS`.
+/// Builds the [`Handle`] of a key, if it has one.
+macro_rules! handle {
+    () => {
+        None
+    };
+    ($label:literal, $turn:expr, $does:literal) => {
+        Some(Handle { label: $label, turn: $turn, does: $does })
+    };
+}
+
+/// For each row, defines a constant with the path of the key, and adds the key to `KEYS`; behind a
+/// key that has a knob stand its label, its steps and its sentence.
 macro_rules! keys {
-    ($($name:ident $path:literal = $kind:ident($($of:tt)+);)+) => {
+    ($($name:ident $path:literal = $kind:ident($($of:tt)+)
+        $(, $label:literal $turn:ident $(($($step:literal),+))? $does:literal)?;)+) => {
         $(
             #[doc = concat!("Path of the key `", $path, "`.")]
             pub const $name: &str = $path;
         )+
 
         /// All keys except `schema`, in the order of the file.
-        pub const KEYS: &[Key] = &[$($kind!($name, $($of)+)),+];
+        pub const KEYS: &[Key] = &[$(Key {
+            handle: handle!($($label, Turn::$turn $(($($step),+))?, $does)?),
+            ..$kind!($name, $($of)+)
+        }),+];
     };
 }
 
 keys! {
     TITLE "title" = text(Aside, "one line that names the scene", 200, title);
     NOTE "note" = text(Aside, "what to look for", 4000, note);
-    BLADES "bladed_disk.blades" = whole(Never, "number of blades N", 1..4096, bladed_disk.blades);
-    BLADE_LENGTH "bladed_disk.blade_length_m" = real(Never, "m", "blade length l_b", true 0.0..1e3, bladed_disk.blade_length_m);
-    BLADE_INERTIA "bladed_disk.inertia_kg_m2" = moded(Steps, "kg m^2", "blade inertia m_b", true 0.0..1e9, disk_in_use.inertia_kg_m2, disk_part Mass);
-    BLADE_STIFFNESS "bladed_disk.stiffness_nm_per_rad" = moded(Steps, "N m/rad", "blade-to-disk stiffness k_b", true 0.0..1e15, disk_in_use.stiffness_nm_per_rad, disk_part Stiffness);
-    BLADE_COUPLING "bladed_disk.coupling_nm_per_rad" = real(Steps, "N m/rad", "blade-to-blade stiffness k_bb", false 0.0..1e15, bladed_disk.coupling_nm_per_rad);
-    BLADE_DAMPING "bladed_disk.damping_ratio" = moded(Steps, "-", "blade damping zeta_bd", false 0.0..10.0, disk_in_use.damping_ratio, disk_part Damping);
-    STIFFENING "bladed_disk.centrifugal_stiffening" = moded(Steps, "-", "centrifugal stiffening, omega^2 + B Omega^2, B", false 0.0..1e3, disk_in_use.centrifugal_stiffening, disk_part Stiffening);
-    RADIAL_COUPLING "bladed_disk.radial_coupling" = real(Steps, "-", "slope of the path of a blade tip kappa", false -10.0..10.0, bladed_disk.radial_coupling);
-    DISK_DIAMETERS "bladed_disk.nodal_diameters" = whole(Never, "nodal diameters of the disk, 0 as the casing, n_b", 0..4096, bladed_disk.nodal_diameters);
-    MISTUNING "bladed_disk.mistuning" = real(Never, "-", "standard deviation of single k_b (full model), sd", false 0.0..0.2, bladed_disk.mistuning);
-    MISTUNING_SEED "bladed_disk.mistuning_seed" = whole(Never, "draw of the single k_b, seed", 0..1_000_000, bladed_disk.mistuning_seed);
+    BLADES "bladed_disk.blades" = whole(Never, "number of blades N", 1..4096, bladed_disk.blades),
+        "blades N" Whole(1, 10) "number of blades; with n_d it gives the sides that can touch";
+    BLADE_LENGTH "bladed_disk.blade_length_m" = real(Never, "m", "blade length l_b", true 0.0..1e3, bladed_disk.blade_length_m),
+        "blade l_b" Linear(1e-6, 1e-5) "blade length from the axis to the tip; longer closes the clearance";
+    BLADE_INERTIA "bladed_disk.inertia_kg_m2" = moded(Steps, "kg m^2", "blade inertia m_b", true 0.0..1e9, disk_in_use.inertia_kg_m2, disk_part Mass),
+        "blade m_b" Decades(1e-9) "moment of inertia of a blade about the axis";
+    BLADE_STIFFNESS "bladed_disk.stiffness_nm_per_rad" = moded(Steps, "N m/rad", "blade-to-disk stiffness k_b", true 0.0..1e15, disk_in_use.stiffness_nm_per_rad, disk_part Stiffness),
+        "blade k_b" Decades(1e-6) "stiffness of a blade on the disk";
+    BLADE_COUPLING "bladed_disk.coupling_nm_per_rad" = real(Steps, "N m/rad", "blade-to-blade stiffness k_bb", false 0.0..1e15, bladed_disk.coupling_nm_per_rad),
+        "blade k_bb" Decades(1e-3) "stiffness between neighbouring blades";
+    BLADE_DAMPING "bladed_disk.damping_ratio" = moded(Steps, "-", "blade damping zeta_bd", false 0.0..10.0, disk_in_use.damping_ratio, disk_part Damping),
+        "damping ζ_bd" Linear(0.005, 0.05) "damping ratio of the blades";
+    STIFFENING "bladed_disk.centrifugal_stiffening" = moded(Steps, "-", "centrifugal stiffening, omega^2 + B Omega^2, B", false 0.0..1e3, disk_in_use.centrifugal_stiffening, disk_part Stiffening),
+        "stiffening B" Linear(0.1, 0.5) "centrifugal stiffening: ω_bd² grows by B Ω²; 0 in the paper";
+    RADIAL_COUPLING "bladed_disk.radial_coupling" = real(Steps, "-", "slope of the path of a blade tip kappa", false -10.0..10.0, bladed_disk.radial_coupling),
+        "tip slope κ" Linear(0.05, 0.1) "radial coupling: a blade tip moves outward by κ l_b α; 0 in the paper";
+    DISK_DIAMETERS "bladed_disk.nodal_diameters" = whole(Never, "nodal diameters of the disk, 0 as the casing, n_b", 0..4096, bladed_disk.nodal_diameters),
+        "diameters n_b" Whole(1, 4) "nodal diameters of the disk; 0 for those of the casing";
+    MISTUNING "bladed_disk.mistuning" = real(Never, "-", "standard deviation of single k_b (full model), sd", false 0.0..0.2, bladed_disk.mistuning),
+        "mistuning" Linear(0.005, 0.01) "standard deviation of the stiffness of single blades, in the full model";
+    MISTUNING_SEED "bladed_disk.mistuning_seed" = whole(Never, "draw of the single k_b, seed", 0..1_000_000, bladed_disk.mistuning_seed),
+        "draw" Whole(1, 10) "number of the draw of the single stiffnesses";
     TIPS "bladed_disk.tips_m" = numbers(Steps, "m", "how much longer the tip of each blade is, one number a blade", 1.0, bladed_disk.tips_m);
-    TIP_SCATTER "bladed_disk.tip_scatter_m" = real(Steps, "m", "standard deviation of single blade lengths, sigma_b", false 0.0..1.0, bladed_disk.tip_scatter_m);
-    TIP_SEED "bladed_disk.tip_seed" = whole(Steps, "draw of the single blade lengths, seed_b", 0..1_000_000, bladed_disk.tip_seed);
-    LONGEST_TIP "bladed_disk.longest_tip_m" = real(Steps, "m", "how much longer blade 1 is, b_1", false -1.0..1.0, bladed_disk.longest_tip_m);
-    ORBIT "bladed_disk.orbit_m" = real(Steps, "m", "how far the rotor is off its centre, r", false 0.0..1.0, bladed_disk.orbit_m);
-    ORBIT_ANGLE "bladed_disk.orbit_angle_rad" = real(Steps, "rad", "direction of that in the rotor, chi", false -100.0..100.0, bladed_disk.orbit_angle_rad);
+    TIP_SCATTER "bladed_disk.tip_scatter_m" = real(Steps, "m", "standard deviation of single blade lengths, sigma_b", false 0.0..1.0, bladed_disk.tip_scatter_m),
+        "tip scatter" Decades(1e-9) "standard deviation of the lengths of single blades; 0 for equal tips";
+    TIP_SEED "bladed_disk.tip_seed" = whole(Steps, "draw of the single blade lengths, seed_b", 0..1_000_000, bladed_disk.tip_seed),
+        "tip seed" Whole(1, 10) "number of the draw of those lengths";
+    LONGEST_TIP "bladed_disk.longest_tip_m" = real(Steps, "m", "how much longer blade 1 is, b_1", false -1.0..1.0, bladed_disk.longest_tip_m),
+        "longest tip" Linear(1e-6, 1e-5) "how much longer blade 1 is than the others; beyond the clearance it drags the wave";
+    ORBIT "bladed_disk.orbit_m" = real(Steps, "m", "how far the rotor is off its centre, r", false 0.0..1.0, bladed_disk.orbit_m),
+        "orbit r" Decades(1e-9) "how far the rotor is off its centre";
+    ORBIT_ANGLE "bladed_disk.orbit_angle_rad" = real(Steps, "rad", "direction of that in the rotor, chi", false -100.0..100.0, bladed_disk.orbit_angle_rad),
+        "orbit χ" Linear(0.1, 1.0) "direction of that in the frame of the rotor";
     DISK_MODES "bladed_disk.modes" = modes(Aside, "modes of the disk by their diameters", DISK, bladed_disk);
-    CASING_RADIUS "casing.radius_m" = real(Never, "m", "casing radius R_c", true 0.0..1e3, casing.radius_m);
-    CASING_MASS "casing.modal_mass_kg" = moded(Steps, "kg", "casing modal mass m_c", true 0.0..1e9, casing_in_use.modal_mass_kg, casing_part Mass);
-    CASING_STIFFNESS "casing.modal_stiffness_n_per_m" = moded(Steps, "N/m", "casing modal stiffness k_c", true 0.0..1e15, casing_in_use.modal_stiffness_n_per_m, casing_part Stiffness);
-    CASING_DAMPING "casing.damping_ratio" = moded(Steps, "-", "casing damping zeta_c", false 0.0..10.0, casing_in_use.damping_ratio, casing_part Damping);
-    TANGENTIAL_RATIO "casing.tangential_ratio" = real(Steps, "-", "tangential over radial casing amplitude tau", false 0.0..10.0, casing.tangential_ratio);
-    CLEARANCE_LOSS "casing.clearance_loss_m_s2" = real(Steps, "m s^2", "clearance lost with speed, g0 - c Omega^2, c", false 0.0..1.0, casing.clearance_loss_m_s2);
-    LOBES "casing.lobes" = whole(Steps, "lobes of a casing out of round, m", 0..4096, casing.lobes);
-    OUT_OF_ROUND "casing.out_of_round_m" = real(Steps, "m", "height of the lobes, e_m", false 0.0..1.0, casing.out_of_round_m);
-    OUT_OF_ROUND_ANGLE "casing.out_of_round_angle_rad" = real(Steps, "rad", "phase of the lobes, psi", false -100.0..100.0, casing.out_of_round_angle_rad);
+    CASING_RADIUS "casing.radius_m" = real(Never, "m", "casing radius R_c", true 0.0..1e3, casing.radius_m),
+        "casing R_c" Linear(1e-6, 1e-5) "inner radius of the casing; larger opens the clearance";
+    CASING_MASS "casing.modal_mass_kg" = moded(Steps, "kg", "casing modal mass m_c", true 0.0..1e9, casing_in_use.modal_mass_kg, casing_part Mass),
+        "casing m_c" Decades(1e-9) "modal mass of the casing; heavier lowers Ω_c";
+    CASING_STIFFNESS "casing.modal_stiffness_n_per_m" = moded(Steps, "N/m", "casing modal stiffness k_c", true 0.0..1e15, casing_in_use.modal_stiffness_n_per_m, casing_part Stiffness),
+        "casing k_c" Decades(1e-6) "modal stiffness of the casing; stiffer raises Ω_c";
+    CASING_DAMPING "casing.damping_ratio" = moded(Steps, "-", "casing damping zeta_c", false 0.0..10.0, casing_in_use.damping_ratio, casing_part Damping),
+        "damping ζ_c" Linear(0.005, 0.05) "damping ratio of the casing: lets waves die away, and moves Ω_lock up";
+    TANGENTIAL_RATIO "casing.tangential_ratio" = real(Steps, "-", "tangential over radial casing amplitude tau", false 0.0..10.0, casing.tangential_ratio),
+        "tangential τ" Linear(0.05, 0.1) "tangential over radial motion of the casing: 1/n_d for a ring";
+    CLEARANCE_LOSS "casing.clearance_loss_m_s2" = real(Steps, "m s^2", "clearance lost with speed, g0 - c Omega^2, c", false 0.0..1.0, casing.clearance_loss_m_s2),
+        "growth c" Decades(1e-14) "clearance lost as blades grow with the speed, c Ω²; 0 in the paper";
+    LOBES "casing.lobes" = whole(Steps, "lobes of a casing out of round, m", 0..4096, casing.lobes),
+        "lobes" Whole(1, 5) "lobes of a casing that is out of round; 0 for none";
+    OUT_OF_ROUND "casing.out_of_round_m" = real(Steps, "m", "height of the lobes, e_m", false 0.0..1.0, casing.out_of_round_m),
+        "out of round" Decades(1e-9) "height of those lobes; 0 for a round casing";
+    OUT_OF_ROUND_ANGLE "casing.out_of_round_angle_rad" = real(Steps, "rad", "phase of the lobes, psi", false -100.0..100.0, casing.out_of_round_angle_rad),
+        "shape ψ" Linear(0.1, 1.0) "phase of those lobes";
     CASING_MODES "casing.modes" = modes(Aside, "modes of the casing by their diameters", CASING, casing);
-    FRICTION "contact.friction" = real(Steps, "-", "friction coefficient mu", false 0.0..5.0, contact.friction);
-    RESTITUTION "contact.restitution" = real(Steps, "-", "coefficient of restitution e", false 0.0..0.95, contact.restitution);
-    LINING_STIFFNESS "contact.stiffness_n_per_m" = real(Steps, "N/m", "stiffness of the lining under a blade (smooth only) k_p", true 0.0..1e15, contact.stiffness_n_per_m);
-    LINING_SMOOTHING "contact.smoothing_m" = real(Steps, "m", "depth over which that stiffness sets in (smooth only) eps", false 0.0..1.0, contact.smoothing_m);
-    DIAMETERS "operation.nodal_diameters" = whole(Never, "nodal diameters n_d", 0..4096, operation.nodal_diameters);
-    SPEED "operation.speed_rad_s" = real(Always, "rad/s", "rotor speed Omega", false -1e6..1e6, operation.speed_rad_s);
-    SPEED_RAMP "operation.speed_ramp_rad_s2" = real(Always, "rad/s^2", "rotor acceleration", false -1e9..1e9, operation.speed_ramp_rad_s2);
-    PULSE "operation.pulse_n" = real(Steps, "N", "pulse force on u_c", false -1e12..1e12, operation.pulse_n);
-    PULSE_TIME "operation.pulse_s" = real(Steps, "s", "pulse duration t_p", false 0.0..1e6, operation.pulse_s);
-    INITIAL_U_C "initial.u_c_m" = real(Start, "m", "u_c at t = 0", false -1e3..1e3, initial.u_c_m);
-    INITIAL_U_S "initial.u_s_m" = real(Start, "m", "u_s at t = 0", false -1e3..1e3, initial.u_s_m);
-    INITIAL_V_C "initial.v_c_m_s" = real(Start, "m/s", "rate of u_c at t = 0", false -1e6..1e6, initial.v_c_m_s);
-    INITIAL_V_S "initial.v_s_m_s" = real(Start, "m/s", "rate of u_s at t = 0", false -1e6..1e6, initial.v_s_m_s);
-    EXCITATION "excitation.amplitude_nm" = real(Steps, "N m", "engine-order torque on each blade, 0 for none", false 0.0..1e9, excitation.amplitude_nm);
-    ENGINE_ORDER "excitation.order" = whole(Steps, "engine order of that torque", 1..4096, excitation.order);
-    SOLVER "solver.kind" = word(Never, "solver", SolverKind, solver.kind);
-    LAW "solver.contact" = word(Steps, "contact law", ContactLaw, solver.contact);
-    MODEL "solver.model" = word(Never, "model size", ModelSize, solver.model);
-    STEP "solver.step_s" = real(Never, "s", "time step h (explicit only)", true 0.0..1e3, solver.step_s);
-    END "solver.end_s" = real(Aside, "s", "end of the simulation", true 0.0..1e6, solver.end_s);
+    FRICTION "contact.friction" = real(Steps, "-", "friction coefficient mu", false 0.0..5.0, contact.friction),
+        "friction μ" Linear(0.05, 0.1) "Coulomb friction of the blades, which slide forward; 0 in the paper";
+    RESTITUTION "contact.restitution" = real(Steps, "-", "coefficient of restitution e", false 0.0..0.95, contact.restitution),
+        "restitution e" Linear(0.05, 0.1) "part of the speed that an impact gives back; 0 in the paper";
+    LINING_STIFFNESS "contact.stiffness_n_per_m" = real(Steps, "N/m", "stiffness of the lining under a blade (smooth only) k_p", true 0.0..1e15, contact.stiffness_n_per_m),
+        "lining k_p" Decades(1e-3) "stiffness of the lining under one blade, for the smooth law";
+    LINING_SMOOTHING "contact.smoothing_m" = real(Steps, "m", "depth over which that stiffness sets in (smooth only) eps", false 0.0..1.0, contact.smoothing_m),
+        "lining eps" Decades(1e-9) "depth over which the stiffness of the lining sets in, for the smooth law";
+    DIAMETERS "operation.nodal_diameters" = whole(Never, "nodal diameters n_d", 0..4096, operation.nodal_diameters),
+        "diameters n_d" Whole(1, 4) "nodal diameters of the wave in casing and blades";
+    SPEED "operation.speed_rad_s" = real(Always, "rad/s", "rotor speed Omega", false -1e6..1e6, operation.speed_rad_s),
+        "speed Ω" Linear(5.0, 50.0) "rotor speed: above Ω_c the wave is pushed onto the blades, above Ω_lock a lock only pushes";
+    SPEED_RAMP "operation.speed_ramp_rad_s2" = real(Always, "rad/s^2", "rotor acceleration", false -1e9..1e9, operation.speed_ramp_rad_s2),
+        "speed ramp" Decades(1.0) "how fast the rotor speeds up, or slows down if negative";
+    PULSE "operation.pulse_n" = real(Steps, "N", "pulse force on u_c", false -1e12..1e12, operation.pulse_n),
+        "pulse F" Decades(1.0) "force of the push on u_c that starts the motion";
+    PULSE_TIME "operation.pulse_s" = real(Steps, "s", "pulse duration t_p", false 0.0..1e6, operation.pulse_s),
+        "pulse time t_p" Decades(1e-9) "how long the pulse pushes";
+    INITIAL_U_C "initial.u_c_m" = real(Start, "m", "u_c at t = 0", false -1e3..1e3, initial.u_c_m),
+        "start u_c" Linear(5e-6, 2e-5) "casing position u_c at t = 0; every gap must be open there";
+    INITIAL_U_S "initial.u_s_m" = real(Start, "m", "u_s at t = 0", false -1e3..1e3, initial.u_s_m),
+        "start u_s" Linear(5e-6, 2e-5) "casing position u_s at t = 0; every gap must be open there";
+    INITIAL_V_C "initial.v_c_m_s" = real(Start, "m/s", "rate of u_c at t = 0", false -1e6..1e6, initial.v_c_m_s),
+        "start u_c'" Linear(5e-3, 5e-2) "casing velocity along u_c at t = 0";
+    INITIAL_V_S "initial.v_s_m_s" = real(Start, "m/s", "rate of u_s at t = 0", false -1e6..1e6, initial.v_s_m_s),
+        "start u_s'" Linear(5e-3, 5e-2) "casing velocity along u_s at t = 0";
+    EXCITATION "excitation.amplitude_nm" = real(Steps, "N m", "engine-order torque on each blade, 0 for none", false 0.0..1e9, excitation.amplitude_nm),
+        "EO torque" Decades(1e-3) "engine-order torque on each blade, fixed in space; 0 for none";
+    ENGINE_ORDER "excitation.order" = whole(Steps, "engine order of that torque", 1..4096, excitation.order),
+        "EO order" Whole(1, 5) "engine order: load cycles of that torque per turn";
+    SOLVER "solver.kind" = word(Never, "solver", SolverKind, solver.kind),
+        "solver" Words "solver: explicit takes time steps; event goes from impact to impact exactly";
+    LAW "solver.contact" = word(Steps, "contact law", ContactLaw, solver.contact),
+        "contact" Words "contact law: unilateral pushes; bilateral, the paper's, pulls too; smooth is elastic";
+    MODEL "solver.model" = word(Never, "model size", ModelSize, solver.model),
+        "model" Words "model size: rigid moves the casing only, modal two blade modes too, full every blade";
+    STEP "solver.step_s" = real(Never, "s", "time step h (explicit only)", true 0.0..1e3, solver.step_s),
+        "step h" Decades(1e-12) "time step of the explicit solver: shorter is more exact and slower";
+    END "solver.end_s" = real(Aside, "s", "end of the simulation", true 0.0..1e6, solver.end_s),
+        "run end" Decades(1e-9) "end of the run that the verdict judges";
     VIEW_CHARTS "view.charts" = charts(Aside, "charts the explorer opens with", view.charts);
     VIEW_BEGIN "view.begin_s" = real(Aside, "s", "where the explorer begins to play, at most the end", false 0.0..1e6, view.begin_s);
 }

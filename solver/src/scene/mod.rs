@@ -12,6 +12,7 @@ mod check;
 mod checked;
 mod error;
 mod file;
+mod handle;
 pub mod keys;
 mod law;
 mod modes;

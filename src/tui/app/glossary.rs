@@ -102,6 +102,12 @@ pub fn sections() -> &'static [Section] {
     &GLOSSARY.section
 }
 
+/// Returns whether a term of the file explains the knob of a key.
+pub fn explains(path: &str) -> bool {
+    let mut terms = GLOSSARY.section.iter().flat_map(|section| &section.terms);
+    terms.any(|term| term.knob.as_deref() == Some(path))
+}
+
 /// Returns the description of a view; `None` if the glossary has none.
 pub fn view(view: ViewId) -> Option<&'static ViewWords> {
     GLOSSARY.view.iter().find(|words| words.name == view.word())

@@ -7,6 +7,7 @@ use super::layout::placed;
 use super::{App, glossary};
 use crate::tui::command::{self, Binding, Group};
 use crate::tui::field::Field;
+use crate::tui::knobs::{KNOBS, Knob};
 use crate::tui::text::{print, shorten, wrap};
 use crate::tui::theme::Role;
 
@@ -81,7 +82,15 @@ fn sections(app: &App) -> Vec<(&'static str, Vec<Entry>)> {
         (section.heading.as_str(), section.terms.iter().map(entry).collect())
     });
     let here = std::iter::once(("Here", here(app)));
-    here.chain(keys(true)).chain(words).chain(keys(false)).collect()
+    // The other knobs are explained by a term of the glossary.
+    let explained = KNOBS.iter().filter(|knob| !glossary::explains(knob.path));
+    let knob = |knob: &Knob| Entry {
+        left: look.spell(knob.label),
+        right: look.spell(&format!("{}; here {}", knob.does, knob.text(&app.scene))),
+        also: format!("glossary {}", knob.path),
+    };
+    let knobs = std::iter::once(("What each knob does", explained.map(knob).collect()));
+    here.chain(keys(true)).chain(words).chain(knobs).chain(keys(false)).collect()
 }
 
 /// Returns what the large chart shows, what to look for, and its keys.

@@ -22,27 +22,12 @@ use crate::tui::field::Field;
 use rubscope_solver::scene::units::UnitError;
 use rubscope_solver::scene::{
     Adjustment, Allowed, CheckedScene, ContactLaw, Quantity, Scene, SceneError, Value, keys,
-    keys::Key,
+    keys::{Key, Turn},
 };
 
 /// The contact laws in the order of their knob: one step up from the paper's bilateral law is the
 /// unilateral one.
 const LAWS: [&str; 3] = ["bilateral", "unilateral", "smooth"];
-
-/// How a knob steps through its values.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Turn {
-    /// Equal steps of a real number, fine and coarse, in the unit of the key; steps in rpm are ten
-    /// times as many rpm.
-    Linear(f64, f64),
-    /// Round mantissas in each decade. A step below this magnitude, in the unit of the key, leads
-    /// to zero.
-    Decades(f64),
-    /// Equal steps of a whole number, fine and coarse.
-    Whole(u64, u64),
-    /// Steps through a list of words, and from its end to its start.
-    Words,
-}
 
 /// Groups of knobs, in the order of the panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, VariantArray)]
@@ -396,7 +381,7 @@ mod tests {
     #[test]
     fn every_knob_reads_and_writes_a_scene() {
         let scene = Scene::base();
-        for knob in KNOBS {
+        for knob in KNOBS.iter() {
             let value = knob.get(&scene);
             let (again, _) = knob.set(&scene, value.clone()).unwrap();
             assert_eq!(knob.get(&again), value, "{}", knob.label);

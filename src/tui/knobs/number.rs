@@ -2,6 +2,7 @@
 //! `g0 = R_c - l_b`, which sets the casing radius. With a lining it can become negative; then all
 //! blades rub at rest.
 
+use rubscope_solver::scene::keys::{Handle, Turn};
 use rubscope_solver::scene::{Allowed, ContactLaw, Scene};
 
 /// Mantissas of fine steps: two digits. Coarse steps use 1, 2 and 5.
@@ -50,7 +51,14 @@ pub(super) use rubscope_solver::scene::keys::CLEARANCE;
 pub(super) const ALLOWED: Allowed = Allowed::Real { min: -1e3, max: 1e3, above: false };
 
 /// Smallest positive clearance that steps reach, without a lining \[m\].
-pub(super) const LEAST: f64 = 1e-9;
+const LEAST: f64 = 1e-9;
+/// Label, steps and sentence of the clearance.
+pub(super) const CLEARANCE_HANDLE: Handle = Handle {
+    label: "clearance g0",
+    turn: Turn::Decades(LEAST),
+    does: "clearance at rest g0 = R_c - l_b; below 0, with the smooth law, all blades rub",
+};
+
 /// Smallest positive clearance that steps reach on a lining \[m\]; one more step down changes its
 /// sign.
 const LEAST_ON_LINING: f64 = 1e-6;

@@ -2,8 +2,9 @@
 //! smallest pulse that makes a blade touch), and the value at a position on the bar.
 
 use crate::report::number::rounded;
-use crate::tui::knobs::{Knob, Turn};
+use crate::tui::knobs::Knob;
 use rubscope_solver::model::Machine;
+use rubscope_solver::scene::keys::Turn;
 use rubscope_solver::scene::{Allowed, ContactLaw, Scene, Value};
 
 /// The range of values that a bar covers, for a knob or a limit. Values outside it are shown at its
@@ -309,7 +310,7 @@ mod tests {
     fn every_number_has_a_bar_and_its_place_gives_it_back() {
         for name in ["paper-nd3", "paper-nd4", "run-down", "grazing", "undamped"] {
             let scene = Scene::builtin(name).unwrap();
-            for knob in KNOBS {
+            for knob in KNOBS.iter() {
                 let Some(range) = knob.range(&scene, &scene, &scene.machine()) else {
                     assert!(matches!(knob.turn, Turn::Words), "{name} {}", knob.label);
                     continue;

@@ -309,7 +309,7 @@ mod tests {
 
     #[test]
     fn every_note_on_a_knob_fits_below_the_knobs() {
-        for knob in KNOBS {
+        for knob in KNOBS.iter() {
             let lines = wrap(&sentence(knob), NOTE_WIDTH);
             assert!(lines.len() <= usize::from(NOTES), "{lines:#?}");
             let range = knob.range_words();
