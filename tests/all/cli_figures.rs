@@ -1,5 +1,4 @@
-//! `rubscope figures`: the files it writes, the numbers in them, and what the
-//! captions say.
+//! The figures of the paper: their numbers, and what the captions say.
 
 use std::path::Path;
 
@@ -8,7 +7,7 @@ use rubscope_solver::motion::Verdict;
 use rubscope_solver::scene::{CheckedScene, Scene};
 use rubscope_solver::study::figures::{Figure, Panel, Which};
 
-use crate::cli_support::{refusal, rubscope};
+use crate::cli_support::rubscope;
 
 fn figures(only: &str, more: &[&str]) -> tempfile::TempDir {
     let directory = tempfile::tempdir().unwrap();
@@ -98,15 +97,6 @@ fn figure_10_has_a_casing_that_does_not_notice_the_speed_and_three_forms() {
         assert!((value / expected - 1.0).abs() < 1e-3, "{value} {expected}");
         assert!(says(&drawn(10), said), "{said}");
     }
-}
-
-#[test]
-fn figures_in_time_have_their_samples() {
-    let directory = figures("5,6", &[]);
-    let gaps = columns(directory.path(), "fig05.csv");
-    assert_eq!(gaps.len(), 1 + 22);
-    assert!(gaps.iter().all(|(_, values)| values.len() == 2001));
-    assert_eq!(columns(directory.path(), "fig06a.csv")[1].0, "u_c_m");
 }
 
 /// The paper: locked from about 0.08 s, on blades #6 and #21.
@@ -265,30 +255,8 @@ fn figure_8_has_a_verdict_for_every_cell() {
 }
 
 #[test]
-fn the_same_figure_is_the_same_file_wherever_it_is_written() {
-    let (one, other) = (figures("9", &[]), tempfile::tempdir().unwrap());
-    let again = other.path().join("elsewhere");
-    let output = rubscope(&["figures", "--only", "9", "--out", again.to_str().unwrap()]);
-    assert!(output.status.success());
-    for name in ["fig09.svg", "fig09.csv"] {
-        let first = std::fs::read(file(one.path(), name)).unwrap();
-        assert_eq!(first, std::fs::read(again.join(name)).unwrap());
-    }
-}
-
-#[test]
 fn every_figure_has_a_scene_and_its_number() {
     assert_eq!(Which::of_paper().len(), 7);
     assert!(Which::of_paper().into_iter().all(|which| which.scene().is_ok()));
     assert!(drawn(9).title.starts_with("Figure 9. ") && drawn(10).caption.len() == 3);
-}
-
-#[test]
-fn what_cannot_be_drawn_is_refused() {
-    assert!(refusal(&["figures"]).contains("--out <DIR>"));
-    let nowhere = ["figures", "--out", "unused", "--only"];
-    assert_eq!(
-        refusal(&[&nowhere[..], &["3"]].concat()),
-        "rubscope: --only = 3: allowed is numbers from 4 to 10"
-    );
 }

@@ -34,11 +34,6 @@ pub fn words(line: &str) -> Vec<&str> {
     line.split_whitespace().collect()
 }
 
-/// The words of a command line, and more.
-pub fn map_words<'a>(line: &'a str, more: &[&'a str]) -> Vec<&'a str> {
-    [&words(line), more].concat()
-}
-
 /// What a command that must succeed prints.
 pub fn text(arguments: &[&str]) -> String {
     String::from_utf8(ended(program().args(arguments), 0).stdout).unwrap()

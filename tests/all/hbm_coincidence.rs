@@ -1,15 +1,10 @@
-//! What a coincidence does against speed, as the library, the command line and its files
-//! give it.
+//! What a coincidence does against speed, as the library gives it.
 
 use rubscope_solver::harmonic::{coincidence, shifted_coincidence};
 use rubscope_solver::scene::Scene;
 
-use crate::cli_support::{self, refusal, words};
 use crate::close;
 use crate::hbm_lining::preloaded;
-
-const PRELOADED: &str = "--contact smooth --set casing.radius_m=0.49988 --set \
-    bladed_disk.radial_coupling=0.5 --set contact.stiffness_n_per_m=27e3";
 
 #[test]
 fn under_preload_it_is_growth_and_the_wave_it_ends_in() {
@@ -58,34 +53,4 @@ fn over_a_clearance_it_is_the_whirl_on_the_rim() {
     }
     scene.set("operation.nodal_diameters", "11").unwrap();
     assert!(coincidence(&scene, &[400.0]).is_err());
-}
-
-#[test]
-fn tables_say_what_they_show() {
-    let text = |line: &str| cli_support::text(&words(&format!("hbm {line}")));
-    let rest = text(&format!("--smooth {PRELOADED} --speed 390:440:6"));
-    assert!(rest.contains("A wave grows from 399.464 rad/s, decays from 437.888 rad/s."), "{rest}");
-    assert!(rest.contains("grows to a wave") && !rest.contains(", lock "), "{rest}");
-    let lined = "--contact smooth --set contact.stiffness_n_per_m=3e8 --speed 500:600:2";
-    let lock = text(&format!("--smooth {lined}"));
-    assert!(lock.contains("holds it from 438.158 to 732.355 rad/s"), "{lock}");
-    assert!(lock.contains("a lock of two groups needs a lining of at least"), "{lock}");
-    let curve = text("--coincidence --set bladed_disk.radial_coupling=0.3 --speed 400:500:2");
-    assert!(curve.contains("Coincidences (30) at 197.442 and 388.315 rad/s; the wave"), "{curve}");
-}
-
-#[test]
-fn what_has_no_meaning_is_refused_by_name() {
-    let refused = |line: &str| refusal(&words(&format!("hbm {line}")));
-    for view in ["", "--slip", "--branches", "--excitation"] {
-        let said = refused(&format!("{view} {PRELOADED}"));
-        assert!(
-            said.starts_with("rubscope: casing.radius_m = 0.49988: allowed is above"),
-            "{said}"
-        );
-        assert!(said.contains("hbm --smooth has the steady states of a preloaded lining"));
-    }
-    let said = refused("--smooth");
-    assert!(said.contains("solver.contact = ") && said.contains("allowed is \"smooth\""), "{said}");
-    assert!(refused("--coincidence --nd 11").contains("operation.nodal_diameters = 11"));
 }

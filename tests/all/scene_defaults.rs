@@ -1,7 +1,8 @@
 //! With the defaults of every key beyond the paper nothing changes: the scenes of the
-//! paper's model are solved by its own solvers, bit for bit as without those keys.
+//! paper's model are solved by its own solvers, bit for bit as without those keys. And the bounds
+//! of tips whose pushes would close their own gap.
 
-use crate::cli_support::{refusal, rubscope, words};
+use crate::cli_support::{refusal, words};
 use rubscope_solver::motion::{RunReport, simulate};
 use rubscope_solver::scene::{BUILTIN, KEYS, Scene};
 
@@ -71,72 +72,6 @@ fn an_empty_file_has_none_of_it() {
     assert!(KEYS.iter().any(|key| key.path == "bladed_disk.mistuning"));
 }
 
-/// What has no meaning is refused by name, in one line.
-#[test]
-fn combinations_without_a_meaning_are_refused() {
-    let refused = |changes: &[(&str, &str)]| {
-        Scene::base().with(changes).map_or_else(|error| error.to_string(), |_| String::new())
-    };
-    let (mu, kappa) = (("contact.friction", "0.3"), ("bladed_disk.radial_coupling", "-0.15"));
-    let (full, smooth) = (("solver.model", "full"), ("solver.contact", "smooth"));
-    let bilateral = ("solver.contact", "bilateral");
-    for (changes, start) in [
-        (&[mu, bilateral][..], "contact.friction = 0.3: allowed is 0 with solver.contact"),
-        (
-            &[mu, ("operation.speed_ramp_rad_s2", "-5000")],
-            "contact.friction = 0.3: allowed is 0 where a ramp",
-        ),
-        (
-            &[mu, kappa, full],
-            "bladed_disk.radial_coupling = -0.15: allowed is not between 0 and -0.3",
-        ),
-        (
-            &[("bladed_disk.nodal_diameters", "4")],
-            "bladed_disk.nodal_diameters = 4: allowed is 0 or that of the casing, 3, with rigid",
-        ),
-        (
-            &[("bladed_disk.nodal_diameters", "4"), bilateral],
-            "bladed_disk.nodal_diameters = 4: allowed is 0 or that of the casing, 3, with rigid",
-        ),
-        (
-            &[kappa, bilateral],
-            "bladed_disk.radial_coupling = -0.15: allowed is 0 with solver.contact",
-        ),
-        (
-            &[("contact.restitution", "0.5"), bilateral],
-            "contact.restitution = 0.5: allowed is 0, or",
-        ),
-        (&[("contact.restitution", "0.5"), smooth], "contact.restitution = 0.5: allowed is 0, or"),
-        (&[("bladed_disk.mistuning", "0.02")], "bladed_disk.mistuning = 0.02: allowed is 0, or"),
-        (&[("casing.radius_m", "0.49988")], "casing.radius_m = 0.49988: allowed is above"),
-        (&[("casing.radius_m", "0.4999"), smooth], "casing.radius_m = 0.4999: allowed is other"),
-        (
-            &[smooth, ("solver.kind", "event")],
-            "solver.contact = \"smooth\": allowed is \"unilateral\"",
-        ),
-        (
-            &[("solver.kind", "event"), mu, ("operation.speed_ramp_rad_s2", "10")],
-            "operation.speed_ramp_rad_s2 = 10: allowed is 0 with solver.kind",
-        ),
-    ] {
-        let message = refused(changes);
-        assert!(message.starts_with(start), "{changes:?}: {message}");
-        assert_eq!(message.lines().count(), 1);
-    }
-    for allowed in [
-        &[mu, kappa][..],
-        &[mu, kappa, full, smooth, ("solver.step_s", "1e-7")],
-        &[mu, ("operation.speed_rad_s", "0")],
-        &[mu, ("operation.speed_rad_s", "-430")],
-        &[smooth, ("casing.radius_m", "0.49988")],
-        &[("bladed_disk.mistuning", "0.02"), full],
-        &[("bladed_disk.nodal_diameters", "4"), smooth],
-        &[("bladed_disk.nodal_diameters", "3")],
-    ] {
-        assert_eq!(refused(allowed), "", "{allowed:?}");
-    }
-}
-
 /// `kappa (kappa + mu) l_b^2/m_a` not above `-1/m_c`: a push closes its own gap. Refused
 /// between bounds that are themselves accepted.
 #[test]
@@ -185,30 +120,4 @@ fn tips_whose_pushes_close_their_own_gap_are_refused_with_the_bounds() {
     let set = "hbm digs-in --set contact.friction=5 --set bladed_disk.radial_coupling=-2.5";
     let hbm = refusal(&words(set));
     assert!(hbm.starts_with("rubscope: bladed_disk.radial_coupling = -2.5: allowed is not from"));
-}
-
-/// One motion needs a direction of sliding, and a casing inside the blades a law that
-/// lets them press.
-#[test]
-fn a_run_that_needs_another_law_is_refused_by_the_name_of_the_law() {
-    let mu = "contact.friction=0.3";
-    for command in ["run", "margins", "precision"] {
-        let said = refusal(&[command, "--contact", "unilateral", "--set", mu, "--speed", "0"]);
-        let start = "rubscope: contact.friction = 0.3: allowed is 0 with operation.speed_rad_s = 0";
-        assert!(said.starts_with(start) && said.contains("Coulomb's law"), "{said}");
-    }
-    // Nor may a running rotor be stopped.
-    let words = format!("run --contact unilateral --set {mu} --at 0.05:operation.speed_rad_s=0");
-    let said = refusal(&words.split(' ').collect::<Vec<_>>());
-    let start = "rubscope: --at 0.05:operation.speed_rad_s=0: contact.friction = 0.3: allowed is 0";
-    assert!(said.starts_with(start) && said.contains("Coulomb's law"), "{said}");
-    // A sweep may begin there.
-    for command in ["map --pulse 0:1e4:2 --end 0.001", "hbm --whirl"] {
-        let words = format!("{command} --contact unilateral --set {mu} --speed 0:300:2");
-        let output = rubscope(&words.split(' ').collect::<Vec<_>>());
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    }
-    let said = refusal(&["run", "--set", "casing.radius_m=0.4"]);
-    assert!(said.contains("above bladed_disk.blade_length_m = 0.4999"), "{said}");
-    assert!(said.contains("solver.contact = \"smooth\""), "{said}");
 }

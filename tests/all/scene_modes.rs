@@ -1,5 +1,4 @@
-//! The modes of casing and disk by their diameters, and numbers with units, as files and
-//! options give them.
+//! The modes of casing and disk by their diameters, and numbers with units, as files give them.
 
 use std::f64::consts::TAU;
 
@@ -7,7 +6,6 @@ use rubscope::report::CommandLine;
 use rubscope_solver::model::Mode;
 use rubscope_solver::scene::{BUILTIN, Scene};
 
-use crate::cli_support::{self, json, refusal, text, words};
 use crate::close;
 
 fn scene(name: &str, changes: &[(&str, &str)]) -> Scene {
@@ -16,19 +14,6 @@ fn scene(name: &str, changes: &[(&str, &str)]) -> Scene {
 
 const DIAMETERS: &str = "operation.nodal_diameters";
 const STIFFNESS: &str = "casing.modal_stiffness_n_per_m";
-
-#[test]
-fn a_missing_mode_is_said_in_text_and_json() {
-    let note = "o mode of the casing with 5 nodal diameters is known (known: 3, 4): the casing's \
-                common values are taken";
-    for command in ["run --nd 5 --end 0.001", "margins --nd 5", "hbm --nd 5"] {
-        let text = words(&text(&words(command))).join(" ");
-        assert!(text.contains(&format!("N{note}.")), "{command}: {text}");
-        let json = json(&words(&format!("{command} --json")));
-        let told = json["scene"]["modes_note"].as_str().unwrap();
-        assert_eq!(told, format!("n{note}"), "{command}");
-    }
-}
 
 #[test]
 fn keys_act_on_the_mode_in_use_and_others_keep_their_values() {
@@ -147,106 +132,6 @@ fn a_frequency_of_turning_blades_gives_that_at_rest_for_each_mode() {
 }
 
 #[test]
-fn bad_modes_and_units_are_refused_by_name() {
-    for (toml, start) in [
-        (
-            "[[casing.modes]]\nnodal_diameters = 3\n[[casing.modes]]\nnodal_diameters = 3\n",
-            "casing.modes.nodal_diameters = 3 twice: allowed is one mode for each number",
-        ),
-        (
-            "[[casing.modes]]\nnodal_diameters = 3\nfrequency_hz = 0\n",
-            "casing.modes[1].frequency_hz = 0: allowed is a frequency above 0",
-        ),
-        (
-            "[[casing.modes]]\nfrequency_hz = 100.0\n",
-            "casing.modes[1] = { frequency_hz = 100.0 }: allowed is a mode with nodal_diameters",
-        ),
-        (
-            "[[casing.modes]]\nnodal_diameters = 3\ncolour = 1\n",
-            "unknown key casing.modes[1].colour; allowed: nodal_diameters, modal_mass_kg",
-        ),
-        (
-            "[[casing.modes]]\nnodal_diameters = 3\nfrequency_hz = 1\nmodal_stiffness_n_per_m = 1\n",
-            "casing.modes[1].frequency_hz = 1: allowed is frequency_hz or modal_stiffness_n_per_m",
-        ),
-        (
-            "[[casing.modes]]\nnodal_diameters = 3\nmodal_mass_kg = \"2 kN\"\n",
-            "casing.modes[1].modal_mass_kg = 2 kN: this is a force; it takes kg, g or t",
-        ),
-        (
-            "[[casing.modes]]\nnodal_diameters = 3\nmodal_mass_kg = -2\n",
-            "casing.modes[1].modal_mass_kg = -2: allowed is a number above 0",
-        ),
-        (
-            "[[bladed_disk.modes]]\nnodal_diameters = 11\nfrequency_hz = 20\n",
-            "bladed_disk.modes.frequency_hz = 20.0000: allowed is above 38.2",
-        ),
-        (
-            "[[bladed_disk.modes]]\nnodal_diameters = 3\nfrequency_hz = 100\nat_speed_rad_s = 900\n\
-             centrifugal_stiffening = 2.0\n",
-            "bladed_disk.modes.frequency_hz = 100 Hz at 900 rad/s: allowed is two of them or more, the higher",
-        ),
-        (
-            "[[bladed_disk.modes]]\nnodal_diameters = 3\nfrequency_hz = 100\nat_speed_rad_s = 9\n",
-            "bladed_disk.modes.frequency_hz = 100 Hz at 9 rad/s: allowed is two of them",
-        ),
-        (
-            "[[bladed_disk.modes]]\nnodal_diameters = 3\nat_speed_rad_s = 9\n",
-            "bladed_disk.modes.frequency_hz = 0 Hz at 9 rad/s: allowed is two of them or more, the higher",
-        ),
-        (
-            "[[casing.modes]]\nnodal_diameters = 3\nfrequency_hz = 9\nat_speed_rad_s = 9\n",
-            "unknown key casing.modes[1].at_speed_rad_s; allowed: nodal_diameters, modal_mass_kg",
-        ),
-        ("[casing]\nmodes = 3\n", "casing.modes = 3: allowed is a list of modes"),
-        (
-            "[operation]\nspeed_rad_s = \"43 kN\"\n",
-            "operation.speed_rad_s = 43 kN: this is a force; it takes rad/s, rpm or Hz",
-        ),
-    ] {
-        let message = Scene::from_toml(toml).unwrap_err().to_string();
-        assert!(message.starts_with(start), "{message}");
-        assert_eq!(message.lines().count(), 1, "{message}");
-    }
-    for (words, start) in [
-        ("run --speed 43kN", "rubscope: operation.speed_rad_s = 43kN: this is a force; it takes"),
-        ("run --pulse 9500rpm", "rubscope: operation.pulse_n = 9500rpm: this is a speed or freq"),
-        ("map --speed 0:1mm:3", "rubscope: --speed = 0:1mm:3: this is a length; it takes rad/s"),
-        ("run --at 3N:pulse", "rubscope: --at 3N:pulse: this is a force; it takes s"),
-        (
-            "margins --target omega_c=3mm --by casing.modal_mass_kg",
-            "rubscope: target omega_c=3mm: this is a length; it takes rad/s, rpm or Hz",
-        ),
-        ("run --set casing.modes=3", "rubscope: casing.modes = 3: allowed is a list of modes"),
-    ] {
-        let said = refusal(&cli_support::words(words));
-        assert!(said.starts_with(start), "{said}");
-    }
-}
-
-#[test]
-fn options_take_units_and_mean_the_same_as_bare_numbers() {
-    let json = |line: &str| {
-        let mut value = json(&words(line));
-        for table in ["cost", "solver"] {
-            value[table] = serde_json::Value::Null;
-        }
-        value["program"]["command"] = serde_json::Value::Null;
-        value
-    };
-    for (with, bare) in [
-        ("run --pulse 43.4kN --step 0.2us --end 1ms", "run --pulse 43400 --step 2e-7 --end 1e-3"),
-        (
-            "run --end 1ms --at 0.2ms:operation.pulse_n=2kN",
-            "run --end 1e-3 --at 2e-4:operation.pulse_n=2000",
-        ),
-        ("margins --speed 75Hz", "margins --speed 471.23889803846896"),
-    ] {
-        assert_eq!(json(&format!("{with} --json")), json(&format!("{bare} --json")), "{with}");
-    }
-}
-
-#[test]
 fn a_mode_is_named_by_what_it_has() {
     let mode = Mode { nodal_diameters: 3, stiffness: Some(2e6), ..Mode::default() };
     let mut scene = Scene::base();
@@ -265,43 +150,6 @@ fn an_axis_over_the_diameters_takes_their_modes() {
         axis.apply(&mut scene, index).unwrap();
         close(scene.machine().critical_speed().unwrap(), critical, 1e-5);
     }
-}
-
-#[test]
-fn where_a_mode_has_a_frequency_it_is_the_parameter_and_a_target_names_the_line_to_write() {
-    let modes = "[{ nodal_diameters = 3, frequency_hz = 139.84, modal_mass_kg = 2.0 }]";
-    let set = format!("casing.modes={modes}");
-    let text = |more: &[&str]| {
-        let told = text(&[&["margins", "paper-nd3", "--set", &set], more].concat());
-        words(&told).join(" ")
-    };
-    // A mass beside a frequency moves no frequency, in the table of sensitivities and in a target.
-    let scene = Scene::builtin("paper-nd3").unwrap().with(&[("casing.modes", modes)]).unwrap();
-    let margins = rubscope_solver::study::margins::Margins::of(&scene);
-    let critical = margins.limit(rubscope_solver::study::margins::LimitName::OmegaC).unwrap();
-    let by = |path| critical.sensitivities.by(path);
-    assert_eq!(by("casing.modal_mass_kg"), Some(0.0));
-    close(by("casing.frequency_hz").unwrap(), 1.0, 1e-12);
-    assert_eq!(by("casing.modal_stiffness_n_per_m"), None);
-    let target = ["--target", "omega_c=300", "--by"];
-    let none = text(&[&target[..], &["casing.modal_mass_kg"]].concat());
-    assert!(none.contains("puts omega_c at 300 rad/s: it does not depend on it"), "{none}");
-    let found = text(&[&target[..], &["casing.frequency_hz"]].concat());
-    let line = "In the scene file: frequency_hz = ";
-    let (_, rest) = found.split_once(line).unwrap_or_else(|| panic!("{found}"));
-    let (value, place) = rest.split_once(' ').unwrap();
-    assert!(place.starts_with("in [[casing.modes]] of 3 diameters."), "{found}");
-    // The line does what is said.
-    let changed = modes.replace("139.84", value);
-    let scene = Scene::builtin("paper-nd3").unwrap().with(&[("casing.modes", &changed)]).unwrap();
-    close(scene.machine().critical_speed().unwrap(), 300.0, 1e-9);
-    // The knob of the stiffness takes the place of the frequency, and both are kept in a file.
-    let mut scene = scene.into_scene();
-    assert_eq!(Scene::from_toml(&scene.to_toml()).unwrap(), scene);
-    scene.set("casing.modal_stiffness_n_per_m", "1.5e6").unwrap();
-    let mode = &scene.casing.modes[0];
-    assert_eq!((mode.frequency_hz, mode.stiffness), (None, Some(1.5e6)));
-    cli_support::text(&["margins", "paper-nd3", "--target", "omega_c=300", "--by", "clearance"]);
 }
 
 #[test]

@@ -177,9 +177,7 @@ fn a_companion_has_the_symbols_per_cents_and_words_and_mono_needs_no_colour() {
 #[test]
 fn no_scene_is_too_odd() {
     let with = |set: &[(&str, &str)]| short().with(set).unwrap().into_scene();
-    let half = Scene { solver: short().solver, ..crate::scene_support::half_n() };
     let scenes = [
-        half,
         with(&[("operation.nodal_diameters", "0")]),
         with(&[("operation.nodal_diameters", "11")]),
         with(&[("casing.damping_ratio", "0"), ("bladed_disk.damping_ratio", "0")]),

@@ -1,4 +1,4 @@
-//! `rubscope --version` says of which commit the program is, where that is known.
+//! Of which commit and of which version the program is, in every place that says it.
 
 #[path = "../../build.rs"]
 #[expect(dead_code, reason = "its main is for cargo")]
@@ -116,4 +116,19 @@ fn the_program_prints_its_version_and_its_commit() {
     // The manual is of a version, whatever the commit.
     let page = String::from_utf8(rubscope(&["man"]).stdout).unwrap();
     assert!(!page.contains(rest), "{page}");
+}
+
+#[test]
+fn the_manual_the_citation_and_the_package_have_the_version_and_date_of_the_change_log() {
+    let changes = include_str!("../../CHANGELOG.md");
+    let newest = changes.lines().find_map(|line| line.strip_prefix("## [")).unwrap();
+    let (version, date) = newest.split_once("] - ").unwrap();
+    assert_eq!(version, env!("CARGO_PKG_VERSION"));
+    assert!(
+        String::from_utf8(rubscope(&["man"]).stdout)
+            .unwrap()
+            .contains(&format!(".TH rubscope 1 {date} "))
+    );
+    let citation = include_str!("../../CITATION.cff");
+    assert!(citation.contains(&format!("\nversion: {version}\ndate-released: {date}\n")));
 }

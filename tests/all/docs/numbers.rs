@@ -1,14 +1,20 @@
 //! The numbers of docs/accuracy.md, docs/validation.md and the README that no other test checks,
 //! outside their console blocks.
 
-use rubscope_solver::motion::Verdict;
+use rubscope_solver::harmonic::Lining;
+use rubscope_solver::motion::{RunReport, Verdict, simulate};
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::Cell;
 
 use super::read;
 use crate::cli_support::{json, text};
 use crate::close;
-use crate::scene_notes::run;
+use crate::scene;
+
+/// A run of a built-in scene with some keys set.
+fn run(name: &str, changes: &[(&str, &str)]) -> RunReport {
+    simulate(&scene(name, changes))
+}
 
 /// The number at the start of a cell.
 fn number(cell: &str) -> f64 {
@@ -274,4 +280,15 @@ fn the_readme_has_the_numbers_of_the_page_on_accuracy_and_the_speeds_of_the_mach
     assert!(readme.says(&format!("**Omega_c**, {} here", rounded(machine.critical_speed()))));
     assert!(readme.says(&format!("**Omega_lock**, {},", rounded(machine.lock_speed()))));
     assert!(readme.says(&format!("({:.0} rad/s here)", machine.dangerous_speed().unwrap())));
+}
+
+/// The note of the oval casing: the part of the lining's stiffness that its arcs have.
+#[test]
+fn the_arcs_of_the_oval_casing_have_the_stiffness_of_its_note() {
+    let scene = scene("oval", &[]);
+    assert!(scene.note.contains("a lining of 0.39 of the stiffness"), "{}", scene.note);
+    let machine = scene.machine();
+    let lining = Lining::of(&machine, &scene.contact).unwrap();
+    let all = 11.0 * scene.contact.stiffness_n_per_m;
+    close(lining.stiffness_at_rest() / all, 0.39, 0.012);
 }
