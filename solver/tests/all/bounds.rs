@@ -1,5 +1,6 @@
 //! Work has bounds, and what passes them is told by name: scenes that once ran
-//! for minutes or for ever, and those next to a bound that must still run.
+//! for minutes or for ever, and those next to a bound that must still run. A case is a scene and
+//! the words of its outcome.
 
 use rubscope_solver::motion::{Motion, Verdict, simulate};
 use rubscope_solver::scene::Scene;

@@ -1,9 +1,9 @@
-//! The event solver on motions whose numbers are known in closed form: rocking into a corner
-//! and thresholds in speed. Those of the reference cases are in docs/numbers.csv.
+//! The event solver on motions whose thresholds are known in closed form. A case is some keys and
+//! the formula; numbers of the reference cases stand in docs/numbers.csv.
 
 use crate::close;
 use crate::event_modal::on_side_0;
-use crate::keys::{DIAMETERS, PULSE, RAMP, SPEED, ZETA};
+use crate::keys::{DIAMETERS, RAMP, SPEED, ZETA};
 use rubscope_solver::motion::{ActiveSet, Events, Solver, Verdict};
 use rubscope_solver::scene::Scene;
 
@@ -23,32 +23,6 @@ pub fn scene_of(model: &str, changes: &[(&str, f64)]) -> Scene {
     scene
 }
 
-fn run(changes: &[(&str, f64)], until: f64) -> Events {
-    let mut motion = Events::new(&scene(changes).checked().unwrap()).unwrap();
-    motion.advance(until).unwrap();
-    motion
-}
-
-#[test]
-fn the_summed_rocking_is_where_stepping_would_be() {
-    // A sample between the last computed crossing and the limit repeats the
-    // crossings; the corner is approached without a jump.
-    let changes = [(ZETA, 0.0), (PULSE, 51742.0)];
-    let lock = run(&changes, 0.1).contacts().since;
-    let mut motion = Events::new(&scene(&changes).checked().unwrap()).unwrap();
-    let corner = motion.machine().locked_amplitude().unwrap();
-    let mut last = f64::INFINITY;
-    for part in 0..40 {
-        motion.advance(lock * (1.0 - 0.5_f64.powi(part + 6))).unwrap();
-        let distance = corner - motion.state().amplitude();
-        assert!(distance > -1e-15 * corner);
-        last = distance;
-    }
-    assert!(last < 1e-15 * corner, "{last:e}");
-    motion.advance(lock + 1e-15).unwrap();
-    assert!(matches!(motion.contacts().active_set, ActiveSet::Corner(..)));
-}
-
 /// Starts at rest against the blades in the corner of side 0 and the next.
 fn in_a_corner(changes: &[(&str, f64)]) -> Events {
     let mut scene = scene(changes);
@@ -58,7 +32,7 @@ fn in_a_corner(changes: &[(&str, f64)]) -> Events {
 
 #[test]
 fn a_corner_lets_go_below_the_lock_speed() {
-    for (zeta, diameters) in [(0.05, 3.0), (0.01, 3.0), (0.0, 3.0), (0.05, 4.0), (0.2, 5.0)] {
+    for (zeta, diameters) in [(0.0, 3.0), (0.05, 4.0)] {
         let holds = |speed: f64| {
             let mut motion = in_a_corner(&[(ZETA, zeta), (DIAMETERS, diameters), (SPEED, speed)]);
             motion.advance(1e-3).unwrap();

@@ -1,5 +1,6 @@
 //! The hard cases of the event solver, each with its right answer or a clear
-//! error: no hang, no NaN, no silent wrong result.
+//! error: no hang, no NaN, no silent wrong result. A new case is some keys and numbers for
+//! `run` or `arrives`, and what must be true at the end.
 
 use crate::keys::{BLADES, DIAMETERS, LENGTH, PULSE, RAMP, SPEED, ZETA};
 use std::f64::consts::FRAC_PI_2;
@@ -34,13 +35,9 @@ fn arrives(changes: &[(&str, f64)], until: f64) -> Events {
 
 #[test]
 fn a_giganewton_is_borne() {
-    for zeta in [0.0, 0.05, 1.0, 10.0] {
-        let motion = arrives(&[(PULSE, 1e9), (ZETA, zeta)], 0.1);
-        assert!(motion.contacts().impact_count > 0);
+    for more in [(ZETA, 0.0), (ZETA, 10.0), (LENGTH, 0.01)] {
+        assert!(arrives(&[(PULSE, 1e9), more], 0.02).contacts().impact_count > 0);
     }
-    // Long enough to hold the casing in any corner it is pressed into.
-    let motion = arrives(&[(PULSE, 1e9), (LENGTH, 0.01), (SPEED, 100.0)], 0.02);
-    assert!(motion.contacts().impact_count > 0);
 }
 
 #[test]
@@ -89,7 +86,7 @@ fn at_the_critical_speed_a_slide_keeps_its_pace() {
 }
 
 #[test]
-fn speeds_of_zero_and_below_and_every_alias() {
+fn speeds_of_zero_and_below_every_alias_and_any_number_of_blades() {
     let still = arrives(&[(SPEED, 0.0)], 0.1);
     assert_eq!(still.final_verdict(), Some(Verdict::Decay));
     let (forward, backward) = (arrives(&[], 0.1), arrives(&[(SPEED, -500.0)], 0.1));
@@ -100,11 +97,18 @@ fn speeds_of_zero_and_below_and_every_alias() {
     let plain = arrives(&[(DIAMETERS, 3.0), (SPEED, 500.0)], 0.1);
     assert!((alias.state().u[0] - plain.state().u[0]).abs() < 1e-16);
     // Half the blades of an even number: a slab; the same again with every blade.
-    for diameters in [0.0, 2.0, 4.0, 11.0, 22.0, 33.0, 44.0, 4000.0] {
+    for diameters in [0.0, 4.0, 11.0, 22.0, 33.0, 4000.0] {
         for speed in [20.0, 500.0] {
             let (motion, result) = run(&[(DIAMETERS, diameters), (SPEED, speed)], 0.1);
             let cornered = motion.machine().polygon.has_corners();
             assert!(result.is_ok() || !cornered, "{diameters} {result:?}");
+        }
+    }
+    for blades in [1.0, 2.0, 3.0, 5.0, 500.0, 4096.0] {
+        for speed in [100.0, 1000.0] {
+            let changes = [(BLADES, blades), (DIAMETERS, 1.0), (SPEED, speed), (PULSE, 5e4)];
+            let (motion, result) = run(&changes, 0.02);
+            assert!(result.is_ok() || !motion.machine().polygon.has_corners());
         }
     }
 }
@@ -121,17 +125,6 @@ fn a_side_without_corners_lets_the_wave_run_away_with_a_reason() {
 }
 
 #[test]
-fn any_number_of_blades() {
-    for blades in [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 500.0, 4096.0] {
-        for (diameters, speed) in [(1.0, 1000.0), (1.0, 100.0), (3.0, 500.0)] {
-            let changes = [(BLADES, blades), (DIAMETERS, diameters), (SPEED, speed), (PULSE, 5e4)];
-            let (motion, result) = run(&changes, 0.02);
-            assert!(result.is_ok() || !motion.machine().polygon.has_corners());
-        }
-    }
-}
-
-#[test]
 fn clearances_from_a_picometre_to_a_metre() {
     for (blade, touches) in [(0.5 - 1e-12, true), (0.5 - 1e-9, true), (0.4, false)] {
         let motion = arrives(&[(BLADE, blade)], 0.01);
@@ -144,8 +137,8 @@ fn clearances_from_a_picometre_to_a_metre() {
 
 #[test]
 fn every_casing_damping_and_ramp() {
-    for zeta in [0.0, 1e-12, 0.5, 0.999_999, 1.0, 1.000_001, 2.0, 10.0] {
-        for ramp in [0.0, 1.0, -1e4, 1e6, -1e8, 1e9] {
+    for zeta in [0.0, 1e-12, 0.999_999, 1.0, 1.000_001, 10.0] {
+        for ramp in [0.0, 1.0, 1e6, -1e8] {
             let motion = arrives(&[(ZETA, zeta), (RAMP, ramp), (PULSE, 1e5)], 0.003);
             let residual = motion.checks().energy_residual_j.unwrap();
             // The pulse does (F t_p)^2/2m = 6 J; what turns at nu has nu^2 g0^2.
@@ -219,28 +212,17 @@ fn blades_that_turn_two_sides_onto_each_other_end_the_motion() {
 /// a rate, also where blades move: no endless crossings, and energy balances.
 #[test]
 fn crossings_of_moving_blades_are_clean_of_round_off() {
-    let mut still = Scene::base();
-    still.bladed_disk.blades = 4;
-    still.bladed_disk.blade_length_m = 0.4999898089726025;
-    still.casing.modal_stiffness_n_per_m = 1709405.6704526693;
-    still.casing.modal_mass_kg = 1.8930829502420177;
-    still.casing.damping_ratio = 0.0;
-    still.operation.speed_rad_s = 1218.0002700696834;
-    still.operation.pulse_n = 0.0;
-    let initial = &mut still.initial;
-    (initial.u_c_m, initial.u_s_m) = (1.0191027381492726e-5, 1.019102739752132e-5);
-    (initial.v_c_m_s, initial.v_s_m_s) = (-0.03723802236740554, 0.03723802230883704);
-    let mut struck = Scene::base();
-    struck.bladed_disk.blades = 24;
-    struck.bladed_disk.blade_length_m = 0.35;
-    struck.bladed_disk.damping_ratio = 1.0;
-    struck.casing.modal_mass_kg = 30.0;
-    struck.casing.damping_ratio = 0.0;
-    struck.operation.nodal_diameters = 11;
-    struck.operation.speed_rad_s = 62.77;
-    struck.operation.pulse_s = 0.00119;
-    struck.operation.pulse_n = 47616673.0;
-    for (mut scene, end, events, scale) in [(still, 1e-5, 3, 1e-3), (struck, 5.8e-4, 20, 1e3)] {
+    let still = "contact unilateral bladed_disk.blades 4 bladed_disk.blade_length_m 0.4999898089726025 \
+                 casing.modal_stiffness_n_per_m 1709405.6704526693 \
+                 casing.modal_mass_kg 1.8930829502420177 zeta-casing 0 \
+                 speed 1218.0002700696834 pulse 0 initial.u_c_m 1.0191027381492726e-5 \
+                 initial.u_s_m 1.019102739752132e-5 initial.v_c_m_s -0.03723802236740554 \
+                 initial.v_s_m_s 0.03723802230883704";
+    let struck = "contact unilateral bladed_disk.blades 24 bladed_disk.blade_length_m 0.35 zeta-disk 1 \
+                  casing.modal_mass_kg 30 zeta-casing 0 nd 11 speed 62.77 \
+                  operation.pulse_s 0.00119 pulse 47616673";
+    for (words, end, events, scale) in [(still, 1e-5, 3, 1e-3), (struck, 5.8e-4, 20, 1e3)] {
+        let mut scene = crate::cases::scene("paper-nd3", words);
         scene.solver.model = ModelSize::Modal;
         let mut motion = Events::new(&scene.checked().unwrap()).unwrap();
         motion.advance(end).unwrap();
@@ -248,6 +230,24 @@ fn crossings_of_moving_blades_are_clean_of_round_off() {
         let residual = motion.checks().energy_residual_j.unwrap();
         assert!(residual.abs() < 1e-10 * scale, "{residual:e} J");
     }
+}
+
+/// The report is of the state at which a run that grows without bound was ended.
+#[test]
+fn a_divergent_run_ends_in_one_state_with_its_energy() {
+    let words = "solver event model modal contact unilateral end 0.05 speed 517 pulse 15699 \
+                 bladed_disk.radial_coupling 0.58 contact.friction 0.27";
+    let report = crate::run_once(&crate::cases::scene("paper-nd3", words).checked().unwrap());
+    assert_eq!(report.outcome.verdict, Verdict::Divergent);
+    let end = &report.r#final;
+    assert!(end.alpha_c_rad.hypot(end.alpha_s_rad) > 0.1, "the state is that which was told");
+    let ledger = report.energy.unwrap();
+    let residual = report.checks.energy_residual_j.unwrap();
+    assert!((ledger.residual() - residual).abs() <= 1e-9 * ledger.stored_j);
+    assert!(residual.abs() <= 1e-9 * ledger.stored_j, "{residual} of {ledger:?}");
+    assert!(ledger.friction_heat_j > 0.0 && ledger.rotor_work_j > ledger.stored_j, "{ledger:?}");
+    let message = report.outcome.message.unwrap();
+    assert!(message.starts_with("left the range of the model at t = 2.6"), "{message}");
 }
 
 #[test]
@@ -267,7 +267,7 @@ fn the_event_solver_refuses_what_it_does_not_know() {
 /// side is tried on shorter and shorter stretches.
 #[test]
 fn strong_pulses_between_two_sides() {
-    for pulse in ["1e5", "5e5", "-1e6", "5e6"] {
+    for pulse in ["-1e6", "5e6"] {
         let run = |changes: &[(&str, &str)]| {
             let fixed = [
                 ("operation.nodal_diameters", "11"),

@@ -1,5 +1,7 @@
-//! Laws that need no reference, over random scenes: nothing penetrates, nothing
-//! pulls, energy balances, and the motion does not depend on when it is sampled.
+//! Laws of the event solver that need no reference, over random scenes of the paper and beyond:
+//! nothing penetrates, nothing pulls, energy balances, a mirrored or turned start gives a
+//! mirrored or turned motion, and the motion does not depend on when it is sampled. A new law is
+//! a function of a scene; a new kind of scene is a part of `scenes`.
 
 use std::f64::consts::TAU;
 
@@ -17,65 +19,69 @@ fn scenes() -> impl Strategy<Value = Scene> {
     let pulse = (prop_oneof![Just(0.0), 1.0..6.5], prop_oneof![Just(50e-6), 1e-6..3e-3]);
     let start = (-0.9..0.9, -0.9..0.9, -3.0..3.0, -3.0..3.0);
     let model = prop_oneof![2 => Just(ModelSize::Rigid), 1 => Just(ModelSize::Modal)];
-    (sizes, zeta, ramp, speed, pulse, any::<bool>(), start, model).prop_map(
-        |(sizes, zeta, ramp, speed, (decades, length), negative, start, model)| {
-            let mut scene = Scene::base();
-            scene.bladed_disk.blades = sizes.0;
-            scene.operation.nodal_diameters = sizes.1;
-            scene.bladed_disk.blade_length_m = scene.casing.radius_m - sizes.2;
-            scene.casing.damping_ratio = zeta;
-            scene.operation.speed_ramp_rad_s2 = ramp;
-            scene.operation.speed_rad_s = speed;
-            let force = if decades > 0.0 { 10_f64.powf(decades) } else { 0.0 };
-            scene.operation.pulse_n = if negative { -force } else { force };
-            scene.operation.pulse_s = length;
-            let clearance = scene.machine().clearance();
-            let speed = clearance * 878.0;
-            scene.initial.u_c_m = 0.7 * clearance * start.0;
-            scene.initial.u_s_m = 0.7 * clearance * start.1;
-            scene.initial.v_c_m_s = speed * start.2;
-            scene.initial.v_s_m_s = speed * start.3;
-            scene.solver.model = model;
-            scene
-        },
-    )
+    // Slope of the tips, friction, restitution, and the part of the push along the casing.
+    let beyond = (-0.5..0.8, 0.0..0.5, 0.0..0.9, 0.0..0.4);
+    let more = (model, prop_oneof![2 => Just(None), 1 => beyond.prop_map(Some)]);
+    (sizes, zeta, ramp, speed, pulse, any::<bool>(), start, more)
+        .prop_map(
+            |(sizes, zeta, ramp, speed, (decades, length), negative, start, (model, beyond))| {
+                let mut scene = Scene::base();
+                scene.bladed_disk.blades = sizes.0;
+                scene.operation.nodal_diameters = sizes.1;
+                scene.bladed_disk.blade_length_m = scene.casing.radius_m - sizes.2;
+                scene.casing.damping_ratio = zeta;
+                scene.operation.speed_ramp_rad_s2 = ramp;
+                scene.operation.speed_rad_s = speed;
+                let force = if decades > 0.0 { 10_f64.powf(decades) } else { 0.0 };
+                scene.operation.pulse_n = if negative { -force } else { force };
+                scene.operation.pulse_s = length;
+                let clearance = scene.machine().clearance();
+                let speed = clearance * 878.0;
+                scene.initial.u_c_m = 0.7 * clearance * start.0;
+                scene.initial.u_s_m = 0.7 * clearance * start.1;
+                scene.initial.v_c_m_s = speed * start.2;
+                scene.initial.v_s_m_s = speed * start.3;
+                scene.solver.model = model;
+                if let Some((slope, friction, restitution, ratio)) = beyond {
+                    scene.bladed_disk.radial_coupling = slope;
+                    scene.contact.friction = friction;
+                    scene.contact.restitution = restitution;
+                    scene.casing.tangential_ratio = ratio;
+                    scene.operation.speed_ramp_rad_s2 = 0.0;
+                }
+                scene.solver.kind = SolverKind::Event;
+                scene
+            },
+        )
+        .prop_filter("a scene that is taken", |scene| scene.checked().is_ok())
 }
 
-/// Checks the state now; returns the energy scale so far.
+/// Checks the state now.
 fn lawful(motion: &Events) -> Result<(), TestCaseError> {
-    let state = motion.state();
-    let machine = motion.machine();
-    let polygon = &machine.polygon;
-    let phase = machine.nodal_diameters * motion.rotor().angle(state.t_s);
-    let (sin, cos) = phase.sin_cos();
-    let z = (state.u[0] * cos + state.u[1] * sin, state.u[1] * cos - state.u[0] * sin);
+    let (state, machine) = (motion.state(), motion.machine());
+    let numbers = [state.u, state.v, state.alpha, state.alpha_rate].concat();
+    prop_assert!(numbers.iter().all(|x| x.is_finite()), "{state:?}");
     // Round-off of a phase of up to 1e4 rad, twice, and of the motion.
     let size = machine.clearance() + state.amplitude();
-    prop_assert!(size.is_finite());
-    let gap = |side: u32| {
-        let (c, s) = polygon.direction(side);
-        let alpha = machine.nodal_diameters * (state.alpha[0] * c + state.alpha[1] * s);
-        let (sin, cos) = alpha.sin_cos();
-        polygon.gap(side, z.0 * cos + z.1 * sin, z.1 * cos - z.0 * sin)
-    };
-    for side in 0..polygon.sides {
-        let gap = gap(side);
-        prop_assert!(gap > -1e-10 * size, "gap {gap:e} of side {side} at {}", state.t_s);
-    }
+    let gaps = motion.blade_gaps();
+    let least = gaps.iter().fold(f64::INFINITY, |least, gap| least.min(*gap));
+    prop_assert!(least > -1e-10 * size, "gap {least:e} at {}", state.t_s);
     let nu = machine.nu(motion.rotor().speed(state.t_s));
     let scale = size * machine.casing_mass * (nu * nu + machine.omega_c.powi(2));
     for (side, multiplier) in motion.multipliers() {
         prop_assert!(multiplier <= 1e-9 * scale, "{multiplier} N pulls at {}", state.t_s);
-        let gap = gap(side);
+        let gap = gaps[machine.polygon.blades_of_side(side)[0] as usize - 1];
         prop_assert!(gap < 1e-10 * size, "push {multiplier} over a gap {gap:e}");
     }
     Ok(())
 }
 
 /// Whether a motion may leave the range of the model: a wave that no corner
-/// holds, or blades that turn sides past each other.
+/// holds, blades that turn sides past each other, or growth by friction.
 fn may_fail(scene: &Scene) -> bool {
-    !scene.machine().polygon.has_corners() || scene.solver.model == ModelSize::Modal
+    !scene.machine().polygon.has_corners()
+        || scene.solver.model == ModelSize::Modal
+        || scene.contact.friction > 0.0
 }
 
 fn same(a: &State, b: &State) -> bool {
@@ -112,7 +118,10 @@ proptest! {
         let scale = largest + impulse * impulse / motion.machine().casing_mass;
         let checks = motion.checks();
         let residual = checks.energy_residual_j.unwrap();
-        prop_assert!(residual.abs() <= 1e-10 * scale, "{residual:e} of {scale:e} J");
+        // Each change of contact rounds the energy once.
+        let rounds = 1e-12 * motion.events().unwrap() as f64;
+        let part = if scene.contact.friction > 0.0 { 1e-8 } else { 1e-10 } + rounds;
+        prop_assert!(residual.abs() <= part * scale, "{residual:e} of {scale:e} J");
         prop_assert!(checks.max_penetration_m <= 1e-12 * motion.machine().clearance().max(1.0));
     }
 
@@ -140,6 +149,7 @@ proptest! {
         let mut mirrored = scene.clone();
         mirrored.operation.speed_rad_s *= -1.0;
         mirrored.operation.speed_ramp_rad_s2 *= -1.0;
+        mirrored.bladed_disk.radial_coupling *= -1.0;
         mirrored.initial.u_s_m *= -1.0;
         mirrored.initial.v_s_m_s *= -1.0;
         let (mut left, mut right) = (Events::new(&scene.checked().unwrap()).unwrap(), Events::new(&mirrored.checked().unwrap()).unwrap());
@@ -188,15 +198,33 @@ proptest! {
         prop_assert!((one.u[0] - back[0]).abs() < 1e-6 * size, "{one:?} {back:?}");
         prop_assert!((one.u[1] - back[1]).abs() < 1e-6 * size, "{one:?} {back:?}");
     }
+
+    #[test]
+    fn changes_on_the_way_are_followed(scene in scenes(), turn in -600.0..600.0_f64) {
+        let mut motion = Motion::new(&scene.checked().unwrap());
+        for k in 1..=20 {
+            if motion.advance(1e-3 * f64::from(k)).is_err() {
+                break;
+            }
+            match k % 4 {
+                0 => motion.fire(),
+                1 => motion.set_speed(turn, 0.0),
+                2 => motion.scale_rate(1.0 + 1e-9),
+                _ => motion.scale_tolerance(0.1),
+            }
+        }
+        let state = motion.state();
+        prop_assert!(state.u.iter().chain(&state.alpha).all(|x| x.is_finite()));
+    }
 }
 
 #[test]
 fn a_corner_under_a_pulse_lets_go_before_it_pulls() {
-    for speed in ["413", "420", "430", "500"] {
+    for speed in ["413", "430"] {
         let rigid = [("solver.model", "rigid"), ("operation.speed_rad_s", speed)];
         let mut scene = in_corner(scene(&rigid));
         (scene.solver.kind, scene.operation.pulse_s) = (SolverKind::Event, 4e-3);
-        for force in [-300.0, -30.0, -10.0, -3.0, 3.0, 10.0, 30.0, 300.0] {
+        for force in [-300.0, -10.0, -3.0, 3.0, 10.0, 300.0] {
             scene.operation.pulse_n = force;
             for k in 1..=40 {
                 // A separate run for each time: sampling must not change the result.

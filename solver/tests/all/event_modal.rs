@@ -1,5 +1,6 @@
-//! The event solver with moving blades, against a plain integration of the
-//! equations of motion with the constraints differentiated twice.
+//! The event solver with moving blades, against a plain integration of the equations of motion
+//! with the constraints differentiated twice. A case is a start on a side or in its corner, and
+//! the speed ramp and the force that act on it.
 
 use crate::close;
 use crate::event_cases::scene_of;

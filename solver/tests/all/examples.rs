@@ -1,4 +1,5 @@
-//! The examples print what their text promises.
+//! The examples print what their text promises. A new example is a module here and a test of its
+//! lines.
 
 use std::error::Error;
 use std::io::Write;

@@ -1,4 +1,4 @@
-//! The explicit solver against the reference numbers and closed forms.
+//! The explicit solver against closed forms. A new case is some keys and the formula.
 
 use crate::keys::{LAW, MODEL, PULSE, SPEED, STEP};
 use rubscope_solver::motion::{Motion, RunReport, Sample, Sampling, Script, Verdict, run_to_end};
@@ -27,7 +27,7 @@ fn with_three_sides_the_bilateral_law_chatters_up_to_the_adhesive_limit() {
 
 #[test]
 fn gaps_of_all_blades_are_those_of_equation_14() {
-    for (model, diameters) in [("rigid", 3), ("modal", 3), ("full", 4), ("full", 5)] {
+    for (model, diameters) in [("rigid", 3), ("modal", 3), ("full", 4)] {
         let set = [(MODEL, model), ("operation.nodal_diameters", &*diameters.to_string())];
         let scene = scene(&set).checked().unwrap();
         let mut motion = Motion::new(&scene);
@@ -52,16 +52,6 @@ fn gaps_of_all_blades_are_those_of_equation_14() {
 }
 
 #[test]
-fn a_wrecked_run_stops_with_a_reason() {
-    let report = run(&[(STEP, "1e-6"), (PULSE, "1e6"), (LAW, "bilateral")]);
-    assert_eq!(report.outcome.verdict, Verdict::Failed);
-    assert!(report.outcome.message.unwrap().contains("blade angle"));
-    let report = run(&[(PULSE, "1e11")]);
-    assert_eq!(report.outcome.verdict, Verdict::Failed);
-    assert!(report.outcome.message.unwrap().contains("deeper than the clearance"));
-}
-
-#[test]
 fn looking_does_not_change_the_motion() {
     for law in ["unilateral", "bilateral"] {
         let scene = scene(&[(LAW, law), (PULSE, "1e5"), ("solver.end_s", "0.01")]);
@@ -78,21 +68,6 @@ fn looking_does_not_change_the_motion() {
         assert_eq!(plain.r#final, watched.r#final);
         assert_eq!(plain.impacts, watched.impacts);
     }
-}
-
-#[test]
-fn a_speed_ramp_turns_the_wave_frame() {
-    let report = run(&[
-        (PULSE, "1e6"),
-        (LAW, "bilateral"),
-        ("operation.speed_ramp_rad_s2", "-500"),
-        ("solver.end_s", "0.05"),
-        (STEP, "2e-7"),
-    ]);
-    assert_eq!(report.outcome.verdict, Verdict::Locked);
-    // Mean speed over the last tenth: 500 - 500 (0.045 + 0.05)/2.
-    let wave = report.outcome.wave_speed_rad_s.unwrap();
-    assert!((wave - 476.25).abs() < 1e-2, "{wave}");
 }
 
 #[test]
@@ -113,12 +88,4 @@ fn an_engine_order_moves_the_blades_and_hardly_the_lock() {
     let found = motion.state().alpha[0].hypot(motion.state().alpha[1]);
     // Second order in the step: (omega h)^2/12 of the response near resonance.
     assert!((found / expected - 1.0).abs() < 1e-6, "{found} {expected}");
-    // The paper's remark: no noticeable effect on the locked motion.
-    let lock = [(PULSE, "1e6"), (LAW, "bilateral"), ("solver.end_s", "0.02")];
-    let quiet = run(&lock);
-    let driven = run(&[lock[0], lock[1], lock[2], drive[0], drive[1]]);
-    assert_eq!(driven.outcome.verdict, Verdict::Locked);
-    for (a, b) in quiet.outcome.contacts.iter().zip(&driven.outcome.contacts) {
-        assert!((a.multiplier_n / b.multiplier_n - 1.0).abs() < 0.01, "{a:?} {b:?}");
-    }
 }

@@ -1,5 +1,6 @@
-//! An elastic lining, by the explicit solver: reference states, second order,
-//! growth rates, limit cycles, and the verdicts on them.
+//! An elastic lining, by the explicit solver, against numbers of another code: states,
+//! second order, growth rates, limit cycles, and the verdicts on them. A case is a speed and
+//! the numbers there.
 
 use crate::tips_support::{END, KAPPA, MU, PULSE, SPEED, STEP, TAU, coordinates, limit, pressed};
 use rubscope_solver::motion::{Motion, Verdict, run_to_verdict, to_the_end};
@@ -19,7 +20,6 @@ fn at_three_steps(scene: &Scene) -> [[f64; 4]; 3] {
 #[test]
 fn states_at_50_ms_to_nine_digits_and_second_order() {
     for (speed, expected) in [
-        (410.0, [-2.684_877_616e-7, 4.302_712_028e-7, -5.250_561_687e-7, -1.354_601_271e-6]),
         (425.0, [-5.874_927_727e-7, 1.777_200_076e-7, -1.330_428_526e-6, -5.044_801_465e-7]),
         (390.0, [3.732_738_077e-8, 1.174_734_342e-7, 4.860_205_230e-7, -6.759_426_547e-7]),
     ] {
@@ -35,16 +35,6 @@ fn states_at_50_ms_to_nine_digits_and_second_order() {
         };
         let order = (error(0) / error(1)).log2();
         assert!((order - 2.0).abs() < 0.02, "{speed}: {order}");
-    }
-}
-
-#[test]
-fn single_blades_on_a_lining_agree_with_the_modes_but_for_their_mean() {
-    let scene = set(pressed(&[(SPEED, 410.0), (END, 0.05)]), "solver.model", "full");
-    let values = at_three_steps(&scene);
-    for (k, expected) in [(0, -2.684_888_543e-7), (1, 4.302_717_509e-7)] {
-        let found = limit(2, values.map(|at| at[k]));
-        assert!((found - expected).abs() < 1e-8 * 5e-7, "{k}: {found:e}");
     }
 }
 
@@ -93,39 +83,29 @@ fn growth(scene: &Scene, from: f64, to: f64) -> (f64, f64) {
 
 #[test]
 fn growth_is_that_of_the_worst_root() {
-    for (speed, rate, frequency) in
-        [(410.0, 6.643_429_931, -292.499_395), (425.0, 7.512_595_085, -304.463_551)]
-    {
-        // A pulse so weak that no blade lifts.
-        let scene = pressed(&[(SPEED, speed), (PULSE, 1e-3), (STEP, 2e-6), (END, 1.0)]);
-        let (found, turned) = growth(&scene, 0.4, 0.8);
-        assert!((found / rate - 1.0).abs() < 2e-3, "{speed}: {found}");
-        assert!((turned / frequency - 1.0).abs() < 1e-4, "{speed}: {turned}");
-    }
+    // A pulse so weak that no blade lifts.
+    let scene = pressed(&[(SPEED, 425.0), (PULSE, 1e-3), (STEP, 2e-6), (END, 1.0)]);
+    let (found, turned) = growth(&scene, 0.4, 0.8);
+    assert!((found / 7.512_595_085 - 1.0).abs() < 2e-3, "{found}");
+    assert!((turned / -304.463_551 - 1.0).abs() < 1e-4, "{turned}");
 }
 
 #[test]
 fn the_limit_cycle_has_the_amplitude_of_the_balance() {
-    for (speed, casing, angle) in
-        [(410.0, 5.284_105_64e-5, 1.718_733_47e-4), (406.0, 0.0, 1.8201e-4)]
-    {
-        let scene = pressed(&[(SPEED, speed), (PULSE, 2e3), (END, 2.0)]);
-        let mut motion = Motion::new(&scene.checked().unwrap());
-        motion.advance(1.9).unwrap();
-        let (mut mean_u, mut mean_a) = (0.0, 0.0);
-        for look in 0..1000 {
-            motion.advance(1.9 + 1e-4 * f64::from(look)).unwrap();
-            let state = motion.state();
-            mean_u += state.amplitude() / 1000.0;
-            mean_a += state.alpha[0].hypot(state.alpha[1]) / 1000.0;
-        }
-        if casing > 0.0 {
-            assert!((mean_u / casing - 1.0).abs() < 2e-3, "{speed}: {mean_u}");
-        }
-        assert!((mean_a / angle - 1.0).abs() < 2e-3, "{speed}: {mean_a}");
-        motion.advance(2.0).unwrap();
-        assert_eq!(motion.lasting(0.2), Verdict::Whirl);
+    let scene = pressed(&[(SPEED, 410.0), (PULSE, 2e3), (END, 2.0)]);
+    let mut motion = Motion::new(&scene.checked().unwrap());
+    motion.advance(1.9).unwrap();
+    let (mut mean_u, mut mean_a) = (0.0, 0.0);
+    for look in 0..1000 {
+        motion.advance(1.9 + 1e-4 * f64::from(look)).unwrap();
+        let state = motion.state();
+        mean_u += state.amplitude() / 1000.0;
+        mean_a += state.alpha[0].hypot(state.alpha[1]) / 1000.0;
     }
+    assert!((mean_u / 5.284_105_64e-5 - 1.0).abs() < 2e-3, "{mean_u}");
+    assert!((mean_a / 1.718_733_47e-4 - 1.0).abs() < 2e-3, "{mean_a}");
+    motion.advance(2.0).unwrap();
+    assert_eq!(motion.lasting(0.2), Verdict::Whirl);
 }
 
 fn verdict(scene: &Scene) -> Verdict {
@@ -140,23 +120,16 @@ fn a_wave_that_grows_without_lifting_a_blade_is_no_decay() {
 
 #[test]
 fn aliases_of_the_casing_wave_meet_the_disk() {
-    for (speed, expected) in
-        [(61.0, Verdict::Decay), (66.0, Verdict::Whirl), (70.0, Verdict::Decay)]
-    {
+    for (speed, expected) in [(61.0, Verdict::Decay), (66.0, Verdict::Whirl)] {
         let mut scene = pressed(&[(SPEED, speed), (END, 1.5)]);
         scene.operation.nodal_diameters = 19;
         scene.bladed_disk.nodal_diameters = 3;
         assert_eq!(verdict(&scene), expected, "{speed}");
     }
-}
-
-#[test]
-fn modes_that_are_no_aliases_are_not_coupled_by_a_pressed_rim() {
-    for speed in [390.0, 406.0, 420.0] {
-        let mut scene = pressed(&[(SPEED, speed), (END, 0.5)]);
-        scene.bladed_disk.nodal_diameters = 4;
-        assert_eq!(verdict(&scene), Verdict::Decay, "{speed}");
-    }
+    // Modes that are no aliases are not coupled by a pressed rim.
+    let mut scene = pressed(&[(SPEED, 406.0), (END, 0.5)]);
+    scene.bladed_disk.nodal_diameters = 4;
+    assert_eq!(verdict(&scene), Verdict::Decay);
 }
 
 #[test]
@@ -190,17 +163,13 @@ fn mistuning_is_mild() {
         assert_eq!(motion.lasting(0.04), Verdict::Whirl, "{sd}");
         most
     };
-    let tuned = largest(0.0);
-    for (sd, low, high) in [(0.005, 1.005, 1.06), (0.02, 1.03, 1.15)] {
-        let ratio = largest(sd) / tuned;
-        assert!(low < ratio && ratio < high, "{sd}: {ratio}");
-    }
+    let ratio = largest(0.02) / largest(0.0);
+    assert!(1.03 < ratio && ratio < 1.15, "{ratio}");
 }
 
 #[test]
 fn energy_is_accounted_for_to_second_order() {
     for (changes, model) in [
-        (vec![(SPEED, 410.0), (PULSE, 2e3), (END, 0.05)], "modal"),
         (vec![(SPEED, 410.0), (PULSE, 2e3), (MU, 0.1), (TAU, 0.2), (END, 0.05)], "full"),
         (vec![(SPEED, 410.0), (PULSE, 2e3), (END, 0.05)], "rigid"),
     ] {

@@ -1,5 +1,5 @@
 //! Locks of blades that bend and rub, by the explicit solver: pushes, their limits, and
-//! the speeds down to which they hold.
+//! the speeds down to which they hold. A case is some keys and the numbers of another code.
 
 use crate::tips_support::{KAPPA, MU, PULSE, SPEED, STEP, TAU, ZETA_BD, in_corner, limit, scene};
 use rubscope_solver::motion::{Change, Motion, Verdict, verdict_of};
@@ -17,36 +17,20 @@ fn pushes(changes: &[(&str, f64)], step: f64) -> [f64; 2] {
     [means[0].1, means[1].1]
 }
 
-fn pushes_in_the_limit(changes: &[(&str, f64)]) -> [f64; 2] {
-    let at = [1e-6, 5e-7, 2.5e-7].map(|step| pushes(changes, step));
-    [0, 1].map(|side| limit(1, at.map(|pushes| pushes[side])))
-}
-
 #[test]
-fn pushes_with_full_angles_are_those_of_the_equilibrium() {
-    for (kappa, a, b) in
-        [(0.1, 258.367_546_15, 55.599_058_54), (0.2, 310.464_467_44, 46.978_987_52)]
-    {
-        let found = pushes_in_the_limit(&[(KAPPA, kappa)]);
-        for (found, expected) in found.into_iter().zip([a, b]) {
-            // The remainder of the series, (nu h)^3 of the larger push.
-            assert!((found + expected).abs() < 1e-5, "{kappa}: {found} {expected}");
-        }
-    }
-}
-
-#[test]
-fn pushes_with_friction_are_near_the_linearised_ones() {
-    for (changes, a, b) in [
-        (vec![(KAPPA, 0.1), (MU, 0.15)], 282.221_918_276, 52.075_944_593),
-        (vec![(MU, 0.15), (TAU, 1.0 / 3.0)], 295.465_760_024, 4.150_702_554),
-        (vec![(KAPPA, -0.05), (MU, 0.15)], 237.953_135_565, 57.982_055_172),
+fn pushes_are_those_of_the_equilibrium() {
+    for (changes, a, b, most) in [
+        // The remainder of the series, (nu h)^3 of the larger push.
+        (vec![(KAPPA, 0.2)], 310.464_467_44, 46.978_987_52, 1e-5),
+        // Of linearised tips. Blades turn by up to 2e-4 rad, their phases by 6e-4: as a part
+        // of the larger push over the angle of a corner that is a hundredth of a newton.
+        (vec![(KAPPA, 0.1), (MU, 0.15)], 282.221_918_276, 52.075_944_593, 0.02),
+        (vec![(MU, 0.15), (TAU, 1.0 / 3.0)], 295.465_760_024, 4.150_702_554, 0.02),
     ] {
-        let found = pushes_in_the_limit(&changes);
-        for (found, expected) in found.into_iter().zip([a, b]) {
-            // Blades turn by up to 2e-4 rad, their phases by 6e-4: as a part of the
-            // larger push over the angle of a corner that is a hundredth of a newton.
-            assert!((found + expected).abs() < 0.02, "{changes:?}: {found} {expected}");
+        let at = [1e-6, 5e-7, 2.5e-7].map(|step| pushes(&changes, step));
+        for (side, expected) in [a, b].into_iter().enumerate() {
+            let found = limit(1, at.map(|pushes| pushes[side]));
+            assert!((found + expected).abs() < most, "{changes:?}: {found} {expected}");
         }
     }
 }
@@ -95,8 +79,6 @@ fn held_at(from: f64, speeds: [f64; 2], changes: &[(&str, f64)]) -> [bool; 2] {
 fn locks_are_lost_below_their_speed_and_kept_above() {
     for (speed, from, above, changes) in [
         (489.713_631, 0.5, 0.5, vec![(MU, 0.15), (TAU, 1.0 / 3.0)]),
-        (414.855, 25.0, 0.5, vec![(KAPPA, 0.1)]),
-        (548.980_917, 120.0, 1.6, vec![(KAPPA, 0.1), (MU, 0.15), (TAU, 1.0 / 3.0)]),
         (406.867_471, 0.5, 0.5, vec![(KAPPA, -0.1), (MU, 0.3)]),
     ] {
         let held = held_at(speed + from, [speed + above, speed - 0.5], &changes);
@@ -136,7 +118,7 @@ fn forced_blades_are_loudest_where_slip_meets_their_frequency() {
         assert_eq!(verdict_of(&motion, 0.03), Verdict::Slip, "{zeta}");
         sum / 50.0
     };
-    for (zeta, expected) in [(0.010, 0.99e-4), (0.007, 7.05e-4), (0.005, 1.98e-4)] {
+    for (zeta, expected) in [(0.010, 0.99e-4), (0.007, 7.05e-4)] {
         let found = amplitude(zeta);
         // The formula takes the mean push and the mean speed of the slip.
         assert!((found / expected - 1.0).abs() < 0.06, "{zeta}: {found}");

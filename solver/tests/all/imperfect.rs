@@ -1,5 +1,6 @@
 //! Tips of their own lengths and a casing out of round: closed forms to their digits, and runs.
-//! The numbers are those of two other codes (docs/theory.md, section 11).
+//! The numbers are those of two other codes (docs/theory.md, section 11). A case is some keys and
+//! such a number.
 
 use crate::keys::SPEED;
 use crate::machine_at_speed::close;
@@ -56,16 +57,6 @@ fn rotors_of_one_per_cent_lock_from_361_on_the_mean() {
     close(found.equal_rad_s, 411.933_517, 1e-9);
     // The mean of 200 draws, of a spread of 15 rad/s.
     assert!((found.mean_rad_s - 361.0).abs() < 3.5, "{found:?}");
-    for (scatter, mean) in [(2e-6, 342.0), (5e-6, 325.0), (10e-6, 315.0)] {
-        let of_seed = |seed: u32| {
-            lock_speed(&[
-                ("bladed_disk.tip_scatter_m", &format!("{scatter:e}")),
-                ("bladed_disk.tip_seed", &seed.to_string()),
-            ])
-        };
-        let sum: f64 = (1..=200).map(of_seed).sum();
-        assert!((sum / 200.0 - mean).abs() < 3.5, "{} at {scatter}", sum / 200.0);
-    }
 }
 
 /// A scene that starts in the corner of its tips that is held at the lowest speed, where lobes
@@ -103,13 +94,13 @@ fn held_with(keys: &[(&str, &str)], lobes: u32, height: f64) -> Option<(CheckedS
     Some((start.checked().ok()?, ActiveSet::of(&sides)))
 }
 
-/// Whether the corner of a scene's tips is held for 0.3 s.
+/// Whether the corner of a scene's tips is held for 0.2 s.
 fn holds(keys: &[(&str, &str)], speed: f64, solver: &str) -> bool {
     let speed = speed.to_string();
-    let base = [(SPEED, &*speed), ("solver.kind", solver), ("solver.step_s", "2e-7")];
+    let base = [(SPEED, &*speed), ("solver.kind", solver), ("solver.step_s", "1e-6")];
     let (scene, sides) = held_with(&[keys, &base].concat(), 0, 0.0).unwrap();
     let mut motion = Motion::new(&scene);
-    motion.advance(0.3).unwrap();
+    motion.advance(0.2).unwrap();
     motion.contacts().active_set == sides
 }
 
@@ -117,10 +108,8 @@ fn holds(keys: &[(&str, &str)], speed: f64, solver: &str) -> bool {
 fn runs_hold_a_corner_above_its_speed_and_lose_it_below() {
     for keys in [
         &[(LONGEST, "10e-6")][..],
-        &[(LONGEST, "-10e-6")],
         &[("bladed_disk.orbit_m", "10e-6")],
         &[("bladed_disk.tip_scatter_m", "5e-6"), ("bladed_disk.tip_seed", "3")],
-        &[("bladed_disk.tip_scatter_m", "5e-6"), ("bladed_disk.tip_seed", "4")],
     ] {
         let lock = lock_speed(keys);
         for solver in ["explicit", "event"] {
@@ -154,43 +143,13 @@ fn one_tip_beyond_the_clearance_drags_the_wave_and_then_locks_it() {
 }
 
 #[test]
-fn strides_in_a_corner_of_unequal_tips_are_plain_steps() {
-    for (model, blades) in [("rigid", "22"), ("modal", "22"), ("modal", "24")] {
-        let keys = [
-            (LONGEST, "105e-6"),
-            ("bladed_disk.blades", blades),
-            ("bladed_disk.tip_scatter_m", "1e-6"),
-            ("operation.nodal_diameters", if blades == "24" { "2" } else { "3" }),
-            ("casing.modal_stiffness_n_per_m", if blades == "24" { "7e5" } else { "1.544e6" }),
-            (SPEED, "400"),
-            ("solver.model", model),
-            ("solver.step_s", "1e-6"),
-            ("solver.end_s", "0.05"),
-        ];
-        let striding = crate::run_once(&scene(&keys));
-        let plain = crate::run_once(&scene(&keys).by_every_step());
-        let [one, other] = [&striding, &plain].map(|report| &report.r#final);
-        let apart = (one.u_c_m - other.u_c_m).hypot(one.u_s_m - other.u_s_m);
-        assert!(apart < 1e-13, "{model} {apart:e}");
-        assert_eq!(striding.impact_count, plain.impact_count);
-        for (one, other) in striding.outcome.contacts.iter().zip(&plain.outcome.contacts) {
-            close(one.multiplier_n, other.multiplier_n, 1e-8);
-        }
-    }
-}
-
-#[test]
 fn a_casing_must_be_round_to_these_heights() {
     let machine = scene(&[]).machine();
     let [_, b] = machine.locked_multipliers(500.0).unwrap();
     let closed = -b * (2.0 * machine.polygon.delta).sin() / machine.casing_stiffness;
     close(roundness(&machine, 500.0, 3).unwrap(), closed, 1e-12);
     let long = scene(&[(LONGEST, "10e-6")]).machine();
-    for (lobes, expected) in
-        [(1, 6.904_44e-7), (2, 5.880_36e-7), (3, 3.787_513e-5), (4, 8.615_82e-7)]
-    {
-        close(roundness(&long, 500.0, lobes).unwrap(), expected, 2e-6);
-    }
+    close(roundness(&long, 500.0, 3).unwrap(), 3.787_513e-5, 2e-6);
     // As many lobes as diameters are a static force on the casing.
     for (height, expected) in [("2e-6", 430.610_955), ("5e-6", 456.789_050)] {
         let keys = [("casing.lobes", "3"), ("casing.out_of_round_m", height)];
@@ -205,19 +164,17 @@ fn a_casing_must_be_round_to_these_heights() {
 
 #[test]
 fn a_lock_lasts_in_a_casing_rounder_than_that_and_breaks_in_another() {
-    for longest in ["0", "10e-6"] {
-        let keys = [(LONGEST, longest), (SPEED, "500"), ("solver.step_s", "2e-7")];
-        for lobes in 1..=4 {
-            let most = roundness(&scene(&keys).machine(), 500.0, lobes).unwrap();
-            for (part, lasts) in [(0.96, true), (1.04, false)] {
-                let held = held_with(&keys, lobes, part * most).map(|(scene, sides)| {
-                    let mut motion = Motion::new(&scene);
-                    motion.advance(0.2).unwrap();
-                    let log = motion.contacts();
-                    log.active_set == sides && log.since < 1e-5
-                });
-                assert_eq!(held.unwrap_or(false), lasts, "{longest} {lobes} {part}");
-            }
+    for (longest, lobes) in [("0", 1), ("0", 3), ("10e-6", 2), ("10e-6", 4)] {
+        let keys = [(LONGEST, longest), (SPEED, "500"), ("solver.step_s", "5e-7")];
+        let most = roundness(&scene(&keys).machine(), 500.0, lobes).unwrap();
+        for (part, lasts) in [(0.96, true), (1.04, false)] {
+            let held = held_with(&keys, lobes, part * most).map(|(scene, sides)| {
+                let mut motion = Motion::new(&scene);
+                motion.advance(0.2).unwrap();
+                let log = motion.contacts();
+                log.active_set == sides && log.since < 1e-5
+            });
+            assert_eq!(held.unwrap_or(false), lasts, "{longest} {lobes} {part}");
         }
     }
 }
@@ -295,27 +252,6 @@ fn a_rub_on_arcs_makes_the_coincidence_grow_by_itself() {
     let sharp = [("contact.stiffness_n_per_m", "40e3"), ("contact.smoothing_m", "0")];
     let softer = growth(&sharp, 410.0);
     assert!((softer + 2.84).abs() < 5e-3, "{softer}");
-    // In time, from a small wave on.
-    let seen = |speed, keys: &[(&str, &str)]| {
-        let base = [(SPEED, speed), ("initial.u_c_m", "1e-9"), ("contact.smoothing_m", "1e-7")];
-        let scene = rubbing(&[&on_arcs[..], &base, keys].concat());
-        let mut motion = Motion::new(&scene);
-        let mut mean = |from: f64| {
-            let sum: f64 = (0..200_u32)
-                .map(|k| {
-                    motion.advance(from + 1e-3 * f64::from(k)).unwrap();
-                    motion.state().amplitude().powi(2)
-                })
-                .sum();
-            sum.sqrt()
-        };
-        let (before, after) = (mean(0.4), mean(0.8));
-        (after / before).ln() / 0.4
-    };
-    let found = seen("420", &[]);
-    assert!((found - 8.911).abs() < 0.15, "{found}");
-    let softer = seen("410", &[("contact.stiffness_n_per_m", "40e3")]);
-    assert!((softer + 2.75).abs() < 0.2, "{softer}");
 }
 
 #[test]
@@ -392,20 +328,12 @@ fn a_corner_of_two_tips_beyond_the_clearance_is_held_from_rest_on() {
 
 #[test]
 fn unequal_tips_that_all_press_a_lining_drag_its_wave() {
-    let keys = [(SPEED, "350"), ("bladed_disk.tip_scatter_m", "5e-6"), ("solver.end_s", "0.4")];
-    let scene = || Scene::builtin("coincidence").unwrap();
-    assert_eq!(crate::run_once(&scene().with(&keys).unwrap()).outcome.verdict, Verdict::Forced);
-    let equal = [keys[0], keys[2]];
-    assert_eq!(crate::run_once(&scene().with(&equal).unwrap()).outcome.verdict, Verdict::Decay);
-}
-
-#[test]
-fn a_wave_that_dies_in_a_casing_whose_lobes_rub_has_decayed() {
-    let oval = || Scene::builtin("oval").unwrap();
-    let softer = oval().with(&[("contact.stiffness_n_per_m", "40e3"), ("solver.end_s", "2")]);
-    assert_eq!(crate::run_once(&softer.unwrap()).outcome.verdict, Verdict::Decay);
-    let grows = oval().with(&[("solver.end_s", "1")]).unwrap();
-    assert_ne!(crate::run_once(&grows).outcome.verdict, Verdict::Decay);
+    for (scatter, verdict) in [("5e-6", Verdict::Forced), ("0", Verdict::Decay)] {
+        let keys =
+            [(SPEED, "350"), ("bladed_disk.tip_scatter_m", scatter), ("solver.end_s", "0.4")];
+        let scene = Scene::builtin("coincidence").unwrap().with(&keys).unwrap();
+        assert_eq!(crate::run_once(&scene).outcome.verdict, verdict);
+    }
 }
 
 #[test]

@@ -1,13 +1,14 @@
-//! Live changes of the event solver against the plain stepper at decreasing
-//! steps: their difference must vanish in proportion to the step.
+//! Live changes of the event solver against the plain stepper at decreasing steps: their
+//! difference must vanish in proportion to the step. A case is a start, what is changed when,
+//! an end, and how far the order may be from one; a new one is a row of its test.
 
 use crate::plain::Plain;
 use crate::plain::scenes::{in_corner, scene};
 use rubscope_solver::motion::{ActiveSet, Motion};
-use rubscope_solver::scene::{Scene, SolverKind};
+use rubscope_solver::scene::{ModelSize, Scene, SolverKind};
 
 /// Steps that divide every instant below.
-const STEPS: [f64; 4] = [4e-6, 1e-6, 2.5e-7, 1e-7];
+const STEPS: [f64; 3] = [4e-6, 1e-6, 2.5e-7];
 
 /// A change of a motion.
 #[derive(Clone, Copy, Debug)]
@@ -49,50 +50,36 @@ fn stepped(scene: &Scene, acts: &[(f64, Act)], end: f64, step: f64) -> Plain {
     plain
 }
 
-/// Slope of the logarithms of errors over those of the steps, by least squares.
-fn slope(errors: &[f64]) -> f64 {
-    let points: Vec<(f64, f64)> = STEPS.iter().zip(errors).map(|(h, e)| (h.ln(), e.ln())).collect();
-    let count = points.len() as f64;
-    let (mx, my) = points.iter().fold((0.0, 0.0), |(x, y), (a, b)| (x + a / count, y + b / count));
-    let (xy, xx) = points
-        .iter()
-        .fold((0.0, 0.0), |(xy, xx), (a, b)| (xy + (a - mx) * (b - my), xx + (a - mx) * (a - mx)));
-    xy / xx
+/// Mean order of the errors over the steps, each a quarter of the one before.
+fn order(errors: &[f64; 3]) -> f64 {
+    (errors[0] / errors[2]).log2() / 4.0
 }
 
-/// Casing and blades converge with the first power of the step, to this error
-/// of the slope: little in smooth contact, more where the instants of impacts
-/// fall anywhere in a step.
+/// Casing and blades converge with the first power of the step, to this error of the order:
+/// little in smooth contact, more where the instants of impacts fall anywhere in a step.
 fn converges(scene: &Scene, acts: &[(f64, Act)], end: f64, tolerance: f64) -> Motion {
     let motion = exact(scene, acts, end);
     let (state, clearance) = (motion.state(), scene.machine().clearance());
     let runs = STEPS.map(|step| stepped(scene, acts, end, step));
-    let apart = runs.each_ref().map(|run| {
-        let u = run.u();
-        (u[0] - state.u[0]).hypot(u[1] - state.u[1]) / clearance
-    });
-    let what = format!("{:?} {acts:?} until {end}", scene.solver.model);
-    // Two gaps closed say where the casing is, with no step in it but through
-    // the blades.
+    let apart = |at: &dyn Fn(&Plain) -> [f64; 2], there: [f64; 2], size: f64| {
+        runs.each_ref().map(|run| (at(run)[0] - there[0]).hypot(at(run)[1] - there[1]) / size)
+    };
+    let casing = apart(&|run| run.u(), state.u, clearance);
+    let what = format!("{:?} {acts:?} until {end}: {casing:?}", scene.solver.model);
+    // Two gaps closed say where the casing is, with no step in it but through the blades.
     let pinned = matches!(motion.contacts().active_set, ActiveSet::Corner(..))
         && runs.iter().all(|run| run.multipliers().len() == 2 && run.in_contact());
-    let found = slope(&apart);
     if pinned {
-        assert!(apart[3] < 1e-8, "{what}: {apart:?}");
+        assert!(casing[2] < 3e-8, "{what}");
     } else {
-        assert!((found - 1.0).abs() < tolerance, "{what}: slope {found} of {apart:?}");
-        assert!(apart[3] < 5e-3, "{what}: {apart:?}");
+        assert!((order(&casing) - 1.0).abs() < tolerance && casing[2] < 0.0125, "{what}");
     }
-    if scene.solver.model == rubscope_solver::scene::ModelSize::Modal {
-        let turned = runs.each_ref().map(|run| {
-            let alpha = run.modal();
-            (alpha[0] - state.alpha[0]).hypot(alpha[1] - state.alpha[1]) / run.widest
-        });
-        let found = slope(&turned);
+    if scene.solver.model == ModelSize::Modal {
+        let blades = apart(&|run| run.modal(), state.alpha, runs[2].widest);
         // The scheme uses the moment arm of an impact one step late: a tenth at
         // the longest step.
-        assert!((found - 1.0).abs() < tolerance + 0.05, "{what}: blades {found} of {turned:?}");
-        assert!(turned[3] < 0.02, "{what}: blades {turned:?}");
+        let close = (order(&blades) - 1.0).abs() < tolerance + 0.05;
+        assert!(close && blades[2] < 0.05, "{what}: blades {blades:?}");
     }
     motion
 }
@@ -107,10 +94,8 @@ fn each(run: impl Fn(Scene)) {
 fn in_flight() {
     each(|scene| {
         converges(&scene, &[(1e-3, Speed(450.0, 0.0)), (3e-3, Fire)], 4e-3, 0.3);
-        converges(&scene, &[(1e-4, Speed(300.0, -1e5))], 1e-3, 0.3);
-        converges(&scene, &[(1e-4, Speed(-300.0, 0.0))], 1e-3, 0.3);
+        converges(&scene, &[(1e-4, Speed(-300.0, -1e5))], 1e-3, 0.3);
         // Twice within the pulse: the second cuts the first.
-        converges(&scene, &[(2e-5, Fire)], 1e-3, 0.3);
         converges(&scene, &[(2e-5, Fire), (4e-5, Speed(0.0, 0.0)), (4e-5, Fire)], 1e-3, 0.3);
     });
 }
@@ -127,26 +112,14 @@ fn sliding(mut scene: Scene, force: f64) -> Scene {
 #[test]
 fn sliding_along_a_side() {
     each(|scene| {
-        let scene = sliding(scene, 0.0);
-        let changes = [(520.0, 0.0), (480.0, 0.0), (500.0, 2e4), (500.0, -2e4)];
-        for (speed, ramp) in changes {
-            let motion = converges(&scene, &[(2e-4, Speed(speed, ramp))], 4e-4, 0.05);
+        let free = sliding(scene.clone(), 0.0);
+        for (speed, ramp) in [(520.0, 0.0), (500.0, -2e4)] {
+            let motion = converges(&free, &[(2e-4, Speed(speed, ramp))], 4e-4, 0.05);
             assert_eq!(motion.contacts().active_set, ActiveSet::Side(0));
         }
-        for speed in [-500.0, 0.0] {
-            converges(&scene, &[(2e-4, Speed(speed, 0.0))], 4e-4, 0.4);
-        }
-    });
-}
-
-#[test]
-fn fired_while_sliding() {
-    each(|scene| {
         // A second pulse at the end of the first, and one during it.
-        for force in [300.0, -300.0] {
-            let pressed = sliding(scene.clone(), force);
-            converges(&pressed, &[(2e-4, Fire)], 4e-4, 0.1);
-            converges(&pressed, &[(5e-5, Fire)], 4e-4, 0.2);
+        for (force, at) in [(300.0, 2e-4), (-300.0, 5e-5)] {
+            converges(&sliding(scene.clone(), force), &[(at, Fire)], 4e-4, 0.2);
         }
     });
 }
@@ -154,26 +127,13 @@ fn fired_while_sliding() {
 #[test]
 fn locked() {
     each(|scene| {
-        let scene = in_corner(scene);
-        for (speed, ramp, tolerance) in [
-            (520.0, 0.0, 0.05),
-            (500.0, 2e4, 0.05),
-            (500.0, -2e4, 0.05),
-            (350.0, 0.0, 0.1),
-            (0.0, 0.0, 0.2),
-            (-500.0, 0.0, 0.5),
-        ] {
-            converges(&scene, &[(1e-3, Speed(speed, ramp))], 2e-3, tolerance);
+        let still = in_corner(scene.clone());
+        for (speed, ramp, tolerance) in [(500.0, 2e4, 0.05), (350.0, 0.0, 0.1), (0.0, 0.0, 0.2)] {
+            converges(&still, &[(1e-3, Speed(speed, ramp))], 2e-3, tolerance);
         }
-    });
-}
-
-#[test]
-fn fired_while_locked() {
-    each(|scene| {
         // The first pulse acts on the corner too; it holds, or closes again
         // well before the second.
-        for force in [20.0, -300.0, 150.0] {
+        for force in [20.0, -300.0] {
             let mut scene = in_corner(scene.clone());
             (scene.operation.pulse_n, scene.operation.pulse_s) = (force, 1e-4);
             let locked = exact(&scene, &[], 0.006).contacts().active_set;

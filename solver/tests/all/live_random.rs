@@ -1,5 +1,5 @@
 //! Random scripts of live changes, seeded: after any change of a running motion
-//! the program agrees with the plain stepper.
+//! the program agrees with the plain stepper. A new kind of change is a part of `turn` or `play`.
 
 use crate::plain::compare::Pair;
 use crate::plain::scenes::{in_corner, scene};
@@ -52,7 +52,8 @@ fn first_scene(dice: &mut Dice) -> Scene {
     scene.casing.damping_ratio = dice.one_of(&[0.0, 0.01, 0.05, 0.3]);
     scene.operation.speed_rad_s = dice.one_of(&[500.0, 430.0, -500.0, 300.0, 0.0, 120.0]);
     scene.operation.pulse_n = dice.scale(5e3, 1e5) * dice.one_of(&[1.0, -1.0]);
-    scene.operation.pulse_s = dice.scale(2e-6, 1e-4);
+    // Shorter than a step, no multiple of it, nothing at all, and long.
+    scene.operation.pulse_s = dice.scale(2e-6, 1e-4) * dice.one_of(&[1.0, 1.0, 0.1, 0.0, 10.0]);
     if dice.chance(0.25) {
         scene.operation.speed_ramp_rad_s2 = dice.between(-2e4, 2e4);
     }
@@ -91,8 +92,8 @@ fn play(seed: u64) -> u32 {
     let mut pair = Pair::new(&first);
     let mut told = format!("script {seed}: {first:?}");
     for done in 0..12 {
-        // From one step to a time far beyond the planned flight.
-        let wait = dice.scale(first.solver.step_s, 3e-3);
+        // From nothing or one step to a time far beyond the planned flight.
+        let wait = dice.scale(first.solver.step_s, 3e-3) * dice.one_of(&[1.0, 1.0, 1.0, 0.0]);
         let until = pair.plain.time() + wait;
         for look in 1..=4 {
             let then = until - wait * (1.0 - f64::from(look) / 4.0);
@@ -101,8 +102,6 @@ fn play(seed: u64) -> u32 {
             }
             pair.check(&told);
         }
-        // Windows of a part of a casing period, and of one and more.
-        pair.check_verdict(&told, dice.scale(3e-4, 1e-2));
         match dice.bits() % 4 {
             0 | 1 => {
                 pair.fire();
@@ -130,8 +129,8 @@ fn play(seed: u64) -> u32 {
 
 #[test]
 fn random_scripts() {
-    let compared: Vec<u32> = (1..=40).map(play).collect();
+    let compared: Vec<u32> = (1..=60).map(play).collect();
     // Some end early, in chaos or in a failure both agree on; most do not.
     let whole = compared.iter().filter(|&&count| count == 12).count();
-    assert!(whole >= 30, "{compared:?}");
+    assert!(whole >= 40, "{compared:?}");
 }

@@ -1,11 +1,12 @@
 //! Both ends of the speeds at which a lock only pushes, of rigid contact and on a lining:
 //! against the formula of docs/theory.md, section 10, written once more from bare numbers,
-//! with its derivatives, and against runs in time on both sides of each.
+//! with its derivatives, and against runs in time on both sides of each. A new case is a row of
+//! `windows`: a scene, and speeds below, inside and beyond.
 
 use nalgebra::Complex;
 use rubscope_solver::harmonic::{Lining, coincidence, lock_loads};
 use rubscope_solver::motion::{Change, Motion, Verdict};
-use rubscope_solver::scene::{ContactLaw, Scene};
+use rubscope_solver::scene::{ContactLaw, Scene, Value};
 use rubscope_solver::study::margins::{LimitName, Margins, Target};
 
 use crate::tips_support::{KAPPA, MU, SPEED, STEP, TAU, ZETA_C, carried, in_corner, scene};
@@ -62,11 +63,7 @@ fn between(scene: &Scene, [low, high]: [f64; 2]) -> f64 {
 fn windows() -> Vec<(Scene, [f64; 3])> {
     vec![
         (scene(&[(KAPPA, 0.3)]), [400.0, 520.0, 700.0]),
-        (scene(&[(KAPPA, 0.2)]), [380.0, 520.0, 1200.0]),
-        (scene(&[(KAPPA, 0.1)]), [380.0, 520.0, 2400.0]),
         (scene(&[(KAPPA, 0.1), (MU, 0.15), (TAU, 1.0 / 3.0)]), [450.0, 600.0, 1500.0]),
-        (lined(1e9, &[]), [400.0, 500.0, 2000.0]),
-        (lined(3e8, &[]), [400.0, 500.0, 900.0]),
         (lined(1e8, &[(ZETA_C, 0.01)]), [300.0, 400.0, 700.0]),
         (lined(1e9, &[(KAPPA, 0.1), (MU, 0.05), (TAU, 0.3)]), [400.0, 520.0, 1500.0]),
     ]
@@ -77,7 +74,8 @@ fn value(margins: &Margins, name: LimitName) -> Option<f64> {
 }
 
 #[test]
-fn both_ends_are_those_of_the_plain_formula() {
+fn both_ends_are_those_of_the_plain_formula_and_move_as_it_does() {
+    let mut compared = 0;
     for (scene, [below, inside, beyond]) in windows() {
         let margins = Margins::of(&scene.clone().checked().unwrap());
         let rigid = scene.machine().lock_windows(1.0)[0];
@@ -88,48 +86,27 @@ fn both_ends_are_those_of_the_plain_formula() {
             let (closed, plain) = (closed.unwrap(), between(&scene, range));
             assert!((closed / plain - 1.0).abs() < 1e-12, "{name}: {closed} {plain}");
             // Heavy pushes bend the blades: the lock ends where it does with its own blades.
-            let told = value(&margins, name).unwrap();
+            let limit = margins.limit(name).unwrap();
+            let told = limit.value.unwrap();
             assert!((told / plain - 1.0).abs() < 1e-2, "{name}: {told} {plain}");
             assert!(told == closed || scene.lining().is_none(), "{name}: {told} {closed}");
-        }
-    }
-    for kappa in [0.35, 0.0] {
-        let margins = Margins::of(&scene(&[(KAPPA, kappa)]).checked().unwrap());
-        assert_eq!(value(&margins, LimitName::LockEnds), None, "{kappa}");
-        assert_eq!(value(&margins, LimitName::OmegaLock).is_none(), kappa > 0.0);
-    }
-}
-
-#[test]
-fn both_ends_move_as_the_plain_formula_does() {
-    let mut compared = 0;
-    for (scene, [below, inside, beyond]) in windows() {
-        let margins = Margins::of(&scene.checked().unwrap());
-        for (name, range) in
-            [(LimitName::OmegaLock, [below, inside]), (LimitName::LockEnds, [inside, beyond])]
-        {
-            let limit = margins.limit(name).unwrap();
             // The formula is of rigid blades.
-            if (limit.value.unwrap() / between(&scene, range) - 1.0).abs() > 1e-12 {
+            if (told / plain - 1.0).abs() > 1e-12 {
                 continue;
             }
             compared += 1;
-            for (path, value) in [
-                (KAPPA, scene.bladed_disk.radial_coupling),
-                (MU, scene.contact.friction),
-                (TAU, scene.casing.tangential_ratio),
-                (ZETA_C, scene.casing.damping_ratio),
-                (STIFFNESS, scene.contact.stiffness_n_per_m),
-                ("casing.modal_mass_kg", scene.casing.modal_mass_kg),
-                ("casing.modal_stiffness_n_per_m", scene.casing.modal_stiffness_n_per_m),
-                ("bladed_disk.stiffness_nm_per_rad", scene.bladed_disk.stiffness_nm_per_rad),
+            for path in [
+                KAPPA,
+                MU,
+                TAU,
+                ZETA_C,
+                STIFFNESS,
+                "casing.modal_mass_kg",
+                "casing.modal_stiffness_n_per_m",
+                "bladed_disk.stiffness_nm_per_rad",
             ] {
                 let step = 1e-6;
-                let at = |part: f64| {
-                    let mut beside = scene.clone();
-                    beside.set(path, &format!("{:?}", value * part)).unwrap();
-                    between(&beside, range)
-                };
+                let at = |part: f64| between(&times(&scene, path, part), range);
                 let measured = (at(1.0 + step) / at(1.0 - step)).ln() / (2.0 * step);
                 // Rigid contact has no lining.
                 let told = limit.sensitivities.by(path);
@@ -140,7 +117,21 @@ fn both_ends_move_as_the_plain_formula_does() {
             }
         }
     }
-    assert!(compared > 12, "{compared}");
+    assert!(compared > 5, "{compared}");
+    for kappa in [0.35, 0.0] {
+        let margins = Margins::of(&scene(&[(KAPPA, kappa)]).checked().unwrap());
+        assert_eq!(value(&margins, LimitName::LockEnds), None, "{kappa}");
+        assert_eq!(value(&margins, LimitName::OmegaLock).is_none(), kappa > 0.0);
+    }
+}
+
+/// The scene with a number of it multiplied.
+pub fn times(scene: &Scene, path: &str, part: f64) -> Scene {
+    let key = rubscope_solver::scene::keys::find(path).unwrap();
+    let Value::Real(x) = (key.get)(scene) else { panic!("{path}") };
+    let mut beside = scene.clone();
+    beside.set(path, &format!("{:?}", x * part)).unwrap();
+    beside
 }
 
 /// A start in the lock of two groups on the lining of a scene; blades soon come to rest.
@@ -182,28 +173,14 @@ fn runs_in_time_keep_a_lock_to_its_ends_and_lose_it_beyond() {
     for (scene, speeds) in [
         // The shift of mu_c by nu h, and full angles, move the end by a part of this.
         (scene(&[(KAPPA, 0.3), (SPEED, 540.0), (STEP, 1e-7)]), [563.5, 569.0]),
-        (stiff(460.0), [439.5, 437.0]),
         (stiff(700.0), [729.0, 736.0]),
         (joined(520.0), {
-            let window = joined(520.0).machine().lock_windows(1.0).first().copied().unwrap();
-            [window.from + 2.0, window.from - 2.0]
+            let from = joined(520.0).machine().lock_windows(1.0)[0].from;
+            [from + 2.0, from - 2.0]
         }),
     ] {
         assert_eq!(held_at(scene, speeds), [true, false], "{speeds:?}");
     }
-}
-
-/// In time, as the steady state has them.
-#[test]
-fn a_lining_pushes_a_lock_just_above_its_lowest_speed() {
-    let mut motion = Motion::new(
-        &pressed_in_corner(lined(1e9, &[(SPEED, 418.616_650_8), (STEP, 1e-6)])).checked().unwrap(),
-    );
-    motion.advance(0.1).unwrap();
-    let pushes = motion.multipliers();
-    // The scheme's own error is of second order, 1e-6 of the larger push.
-    assert!((pushes[0].1 + 163.825_941).abs() < 2e-3, "{pushes:?}");
-    assert!((pushes[1].1 + 0.541_935).abs() < 2e-3, "{pushes:?}");
 }
 
 #[test]
@@ -244,12 +221,9 @@ fn loads_beyond_the_end_of_two_groups_are_absent() {
 /// and their derivatives.
 #[test]
 fn loads_on_a_lining_are_those_of_its_steady_state() {
-    for (smoothing, changes) in [
-        (0.0, &[][..]),
-        (1e-6, &[]),
-        (1e-6, &[(KAPPA, 0.1), (MU, 0.05), (TAU, 0.3)]),
-        (1e-7, &[(KAPPA, -0.05), (SPEED, -500.0)]),
-    ] {
+    for (smoothing, changes) in
+        [(0.0, &[][..]), (1e-6, &[(KAPPA, 0.1), (MU, 0.05), (TAU, 0.3), (SPEED, -500.0)])]
+    {
         let mut scene = lined(1e9, changes);
         scene.contact.smoothing_m = smoothing;
         let (machine, speed) = (scene.machine(), scene.operation.speed_rad_s);
@@ -272,19 +246,20 @@ fn loads_on_a_lining_are_those_of_its_steady_state() {
             let torque = machine.nodal_diameters * machine.casing_damping * nu * square;
             assert!((value(&base, LimitName::Torque).unwrap() / torque - 1.0).abs() < 1e-9);
         }
-        for (path, value_of) in
-            [(STIFFNESS, 1e9), (SMOOTHING, smoothing), (ZETA_C, 0.05), (SPEED, speed)]
-        {
+        for path in [STIFFNESS, SMOOTHING, ZETA_C, SPEED] {
             let step = 1e-5;
             let beside = [1.0 - step, 1.0 + step].map(|part| {
-                let mut scene = scene.clone();
-                scene.set(path, &format!("{:?}", value_of * part)).unwrap();
-                Margins::of(&scene.checked().unwrap())
+                let scene = times(&scene, path, part);
+                let loads = lock_loads(&scene.machine(), scene.operation.speed_rad_s).unwrap();
+                [loads.pushes_n[0], loads.pushes_n[1], loads.power_w].map(f64::abs)
             });
             for name in [LimitName::PushA, LimitName::PushB, LimitName::Power] {
-                let [low, high] = [value(&beside[0], name), value(&beside[1], name)];
-                let measured = (high.unwrap() / low.unwrap()).ln() / (2.0 * step);
-                let told = base.limit(name).unwrap().sensitivities.by(path).unwrap();
+                let limit = base.limit(name).unwrap();
+                let near = |at: &usize| (beside[0][*at] / limit.value.unwrap() - 1.0).abs();
+                let place = (0..3).min_by(|a, b| near(a).total_cmp(&near(b))).unwrap();
+                assert!(near(&place) < 1e-3, "{name}: {limit:?} {beside:?}");
+                let measured = (beside[1][place] / beside[0][place]).ln() / (2.0 * step);
+                let told = limit.sensitivities.by(path).unwrap();
                 let error = (told - measured).abs();
                 assert!(error < 1e-5 + 1e-5 * measured.abs(), "{name} {path}: {told} {measured}");
             }
@@ -307,7 +282,7 @@ fn a_lining_is_found_that_holds_a_lock_from_a_speed() {
 /// for its wave: as the waves that last say on both sides of it.
 #[test]
 fn a_whirl_begins_on_a_lining_that_is_stiff_enough_for_it() {
-    for (stiffness, begins) in [(1e6, true), (8e4, true), (7e4, false)] {
+    for (stiffness, begins) in [(8e4, true), (7e4, false)] {
         let scene = lined(stiffness, &[(KAPPA, 0.3), (SPEED, 450.0)]);
         let margins = Margins::of(&scene.checked().unwrap());
         let onset = value(&margins, LimitName::WhirlOnset);

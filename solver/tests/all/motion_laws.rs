@@ -1,5 +1,6 @@
 //! Laws of motions beyond the paper, over random scenes: a refusal or a verdict and
-//! never a number that is none, pushes that only push, energy that is never created.
+//! never a number that is none, pushes that only push, energy that is never created. A new kind
+//! of machine is a part of `machines`.
 
 use crate::drawn;
 use proptest::prelude::*;
@@ -64,7 +65,7 @@ fn machines() -> impl Strategy<Value = Scene> {
 }
 
 proptest! {
-    #![proptest_config(drawn(300))]
+    #![proptest_config(drawn(150))]
 
     #[test]
     fn a_scene_is_refused_or_has_a_verdict(scene in machines()) {

@@ -1,6 +1,6 @@
 //! Rebounds of the explicit solver beside exact ones, over random scenes, steps and
 //! coefficients of restitution: none is lost, and each comes at its time to first order
-//! in the step.
+//! in the step. A new kind of scene is a part of `scenes`.
 
 use crate::drawn;
 use proptest::prelude::*;
@@ -145,7 +145,7 @@ fn no_rebound_is_lost_or_late() {
 
 #[test]
 fn no_rebound_of_bending_tips_is_lost_or_late() {
-    compare_all(8, 0.05..0.5_f64);
+    compare_all(4, 0.05..0.5_f64);
 }
 
 #[test]
@@ -160,25 +160,4 @@ fn a_target_that_binds_at_an_open_gap_is_met() {
         let blade = scene.machine().polygon.blades_of_side(second.1);
         assert!((second.0 - t).abs() < 6.0 * step && blade == [22], "{e}: {second:?}");
     }
-}
-
-#[test]
-fn a_change_on_the_way_loses_no_rebound() {
-    let mut scene = Scene::base();
-    scene.solver.model = ModelSize::Rigid;
-    (scene.contact.restitution, scene.solver.step_s) = (0.8, 1e-6);
-    // Every step is taken, so that a stride cut elsewhere rounds nothing else.
-    let checked = scene.checked().unwrap().by_every_step();
-    let mut changed = Motion::new(&checked);
-    // The same parameters again, between any two steps of the first impact.
-    for step in 222..242_u32 {
-        changed.advance(f64::from(step) * 1e-6).unwrap();
-        changed.set_parameters(&checked);
-    }
-    let mut plain = Motion::new(&checked);
-    for motion in [&mut changed, &mut plain] {
-        motion.advance(3e-3).unwrap();
-    }
-    assert_eq!(changed.contacts().impacts, plain.contacts().impacts);
-    assert_eq!(changed.state(), plain.state());
 }

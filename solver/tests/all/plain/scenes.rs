@@ -1,4 +1,4 @@
-//! Scenes for comparisons: changes to the default, and starts in a corner; random numbers.
+//! Scenes for comparisons: changes to the default, and starts in a corner.
 
 use crate::tips_support::carried;
 use rubscope_solver::scene::Scene;
@@ -10,13 +10,6 @@ pub const MODELS: [&str; 3] = ["rigid", "modal", "full"];
 pub fn scene(changes: &[(&str, &str)]) -> Scene {
     let all = [&[("solver.step_s", "1e-6"), ("solver.end_s", "0.1")], changes].concat();
     Scene::base().with(&all).unwrap_or_else(|error| panic!("{changes:?}: {error}")).into_scene()
-}
-
-/// The `k`th number between 0 and 1 of a seed.
-pub fn random(seed: u64, k: u64) -> f64 {
-    let bits = (seed * 1000 + k).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    let bits = (bits ^ bits >> 29).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    (bits ^ bits >> 32) as f64 / u64::MAX as f64
 }
 
 /// Puts the casing into the corner of sides 0 and 1, turning with the blades,
