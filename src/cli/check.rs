@@ -9,7 +9,7 @@ use super::options::SceneOptions;
 use super::status::{self, Status};
 use crate::report::{CommandLine, check as report};
 
-/// Summarise a scene in words: derived values, missing data, likely unit mistakes.
+/// Summarise a scene in words: derived values, missing data, likely unit errors.
 #[derive(Args, Debug)]
 pub struct CheckCommand {
     #[command(flatten)]

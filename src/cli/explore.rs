@@ -38,9 +38,9 @@ pub struct ExploreCommand {
     #[arg(long, value_name = "MARKER",
           value_parser = choice::<tui::Marker>(), hide_possible_values = true)]
     marker: Option<tui::Marker>,
-    /// How much the connection to the terminal carries: thin (at most 5 kB/s while the motion
-    /// plays, so that a larger window has fewer frames, down to one in ten seconds), full, or
-    /// auto (thin over SSH or if the terminal is slow)
+    /// Data rate to the terminal: thin (at most 5 kB/s while the motion plays, so a large window
+    /// gets fewer frames, at least one in ten seconds), full, or auto (thin over SSH or if the
+    /// terminal is slow)
     #[arg(long, value_name = "LINE", default_value = "auto",
           value_parser = choice::<tui::Line>(), hide_possible_values = true)]
     line: tui::Line,
@@ -48,7 +48,7 @@ pub struct ExploreCommand {
     /// answers as text (default if TERM=dumb)
     #[arg(long)]
     lines: bool,
-    /// Leave the mouse to the terminal
+    /// Do not use the mouse: leave it to the terminal
     #[arg(long)]
     no_mouse: bool,
     /// Neither read nor write the config file

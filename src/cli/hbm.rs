@@ -40,10 +40,10 @@ pub struct HbmCommand {
     /// Drop the damping of casing and blades, as the paper's equations do
     #[arg(long)]
     undamped: bool,
-    /// Keep the damping, as without this option; with --form printed too
+    /// Keep the damping; the default except with --form printed
     #[arg(long, hide = true, conflicts_with = "undamped")]
     damped: bool,
-    /// The two blades that hold the wave, phase neighbours [default: 6,21 where they are]
+    /// The two blades that hold the wave, neighbours in phase [default: 6,21 if they are]
     #[arg(long, value_name = "I,J", allow_hyphen_values = true)]
     blades: Option<String>,
     #[command(flatten)]

@@ -18,7 +18,7 @@ const CHANGES: &str = include_str!("../../CHANGELOG.md");
 /// Print the manual page, or that of one command.
 #[derive(Args, Debug)]
 pub struct ManCommand {
-    /// A command, for its own page; of a command within one, both names
+    /// A command, for its page; for a subcommand both names, such as map merge
     command: Vec<String>,
 }
 
@@ -93,7 +93,7 @@ const ENVIRONMENT: &[(&str, &str)] = &[
     ),
     (
         "TERM",
-        "dumb: the explorer works in lines, as with --lines. linux, vt100 and \
+        "dumb: the explorer runs without a screen, as with --lines. linux, vt100 and \
          similar: the explorer draws with ASCII characters only, unless --marker is given.",
     ),
     (
@@ -103,15 +103,15 @@ const ENVIRONMENT: &[(&str, &str)] = &[
     ),
     (
         "SSH_CONNECTION, SSH_TTY",
-        "Set: the explorer takes the line for a thin one, unless --line is given.",
+        "Set: the explorer assumes a slow connection, unless --line is given.",
     ),
 ];
 
 /// Files that the program reads or writes without being asked, and what they contain.
 const FILES: &[(&str, &str)] = &[(
     "~/.config/rubscope/config.toml",
-    "What the explorer remembers: theme, marker, number of charts, mouse. Options win over it; \
-     --no-config does without it. It may be removed at any time.",
+    "Settings that the explorer remembers: theme, marker, number of charts, mouse. Options \
+     override them; --no-config ignores the file. It may be deleted at any time.",
 )];
 
 const EXAMPLES: &[(&str, &str)] = &[

@@ -60,7 +60,7 @@ pub struct NewCommand {
     /// repeatable
     #[arg(long, value_name = "DIAMETERS:FREQUENCY:MASS")]
     casing: Vec<String>,
-    /// A mode of the bladed disk, in the same way; two of them give the stiffness between
+    /// A mode of the bladed disk, in the same form; two modes determine the stiffness between
     /// blades; repeatable
     #[arg(long, value_name = "DIAMETERS:FREQUENCY:MASS")]
     disk: Vec<String>,

@@ -23,7 +23,7 @@ pub struct RunCommand {
     options: SceneOptions,
     #[command(flatten)]
     output: OutputOptions,
-    /// Samples of the history
+    /// Number of samples in the history
     #[arg(long, value_name = "COUNT", default_value_t = 2000, requires = "out",
           value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     samples: u32,
@@ -33,11 +33,11 @@ pub struct RunCommand {
     /// Change the running motion: TIME:PATH=VALUE or TIME:pulse, TIME in seconds; repeatable
     #[arg(long, value_name = "TIME:CHANGE", allow_hyphen_values = true)]
     at: Vec<String>,
-    /// One run only: skip the runs that find out whether the outcome is sensitive, depends on the
-    /// step, or differs by events
+    /// One run only: skip the extra runs that check whether a tiny change, half the step or the
+    /// event solver changes the outcome
     #[arg(long)]
     no_sensitivity: bool,
-    /// Compute every step of the explicit solver: skip none, and give no early verdict
+    /// Compute every step of the explicit solver: no skipped steps, no early verdict
     #[arg(long)]
     plain: bool,
 }

@@ -222,7 +222,7 @@ fn clearance_doubt(scene: &Scene) -> Option<String> {
         ));
     }
     (0.0..GAP).contains(&gap).then(|| {
-        format!("{given}, less than a surface is round. Are both lengths given to enough digits?")
+        format!("{given}, less than a machined surface deviates from a circle. Are both lengths given to enough digits?")
     })
 }
 
@@ -240,7 +240,7 @@ fn speed_doubt(scene: &Scene) -> Option<String> {
 fn diameters_doubt(scene: &Scene) -> Option<String> {
     let (diameters, blades) = (scene.operation.nodal_diameters, scene.bladed_disk.blades);
     (diameters > blades / 2).then(|| {
-        format!("{} = {diameters} is more than half of the {blades} blades, which cannot tell it from {}.", keys::DIAMETERS, diameters.abs_diff(blades * ((diameters + blades / 2) / blades)))
+        format!("{} = {diameters} is more than half of the {blades} blades, which cannot distinguish it from {}.", keys::DIAMETERS, diameters.abs_diff(blades * ((diameters + blades / 2) / blades)))
     })
 }
 
@@ -248,7 +248,7 @@ fn modes_doubts(scene: &Scene, structure: &Structure, own: &[Mode]) -> Vec<Strin
     let (blades, key) = (scene.bladed_disk.blades, structure.modes);
     let far = own.iter().filter(|mode| mode.nodal_diameters > blades / 2);
     far.map(|mode| {
-        format!("{key} has a mode of {} diameters, more than half of the {blades} blades; it is never in use.", mode.nodal_diameters)
+        format!("{key} has a mode of {} nodal diameters, more than half of the {blades} blades; it is never in use.", mode.nodal_diameters)
     })
     .collect()
 }
@@ -296,7 +296,7 @@ fn damping_doubt(structure: &Structure, modes: &[CheckedMode]) -> Option<String>
     let (mode, at) = first(modes, |mode| mode.damping > DAMPING)?;
     let ratio = mode.damping;
     Some(format!(
-        "{} = {ratio}{at} is a part of critical damping; structures have thousandths to hundredths. Was it per cent? Then write \"{ratio} %\".",
+        "{} = {ratio}{at} is a fraction of critical damping; structures have some thousandths to hundredths. Was it per cent? Then write \"{ratio} %\".",
         structure.damping
     ))
 }
@@ -306,7 +306,7 @@ fn scaled_doubt(structure: &Structure, modes: &[CheckedMode]) -> Option<String> 
     let is_scaled = |mass: &&f64| modes.iter().all(|mode| (mode.mass / *mass - 1.0).abs() < 1e-9);
     let mass = SCALED_MASSES.iter().find(is_scaled).filter(|_| modes.len() > 1)?;
     Some(format!(
-        "Every modal mass of the {} is exactly {mass} kg, to which FE programs scale mode shapes. Wanted is 1/phi^2, with the amplitude phi of such a shape at {}.",
+        "Every modal mass of the {} is exactly {mass} kg, to which FE programs scale mode shapes. rubscope needs 1/phi^2, where phi is the amplitude of such a shape at {}.",
         structure.name, structure.amplitude
     ))
 }
@@ -440,7 +440,7 @@ mod tests {
             ),
             (
                 told(&[("bladed_disk.modes", "[{ nodal_diameters = 4, damping_ratio = 5.0 }]")]),
-                "bladed_disk.damping_ratio = 5 is a part of critical damping",
+                "bladed_disk.damping_ratio = 5 is a fraction of critical damping",
             ),
             (
                 told(&[("casing.radius_m", "420"), ("bladed_disk.blade_length_m", "419.7")]),
@@ -543,7 +543,7 @@ mod tests {
             (
                 "casing.modes",
                 "[{ nodal_diameters = 12, frequency_hz = 140.0 }]",
-                "casing.modes has a mode of 12 diameters, more than half of the 22 blades",
+                "casing.modes has a mode of 12 nodal diameters, more than half of the 22 blades",
             ),
             (
                 "operation.speed_rad_s",
@@ -560,12 +560,16 @@ mod tests {
                 "2e-6",
                 "The modal mass of the casing is 0.000002 kg (casing.modal_mass_kg); at this radius",
             ),
-            ("casing.damping_ratio", "5", "casing.damping_ratio = 5 is a part of critical damping"),
+            (
+                "casing.damping_ratio",
+                "5",
+                "casing.damping_ratio = 5 is a fraction of critical damping",
+            ),
             ("casing.modal_stiffness_n_per_m", "15", "The frequency of the casing is 0.4359 Hz"),
             (
                 "operation.nodal_diameters",
                 "19",
-                "is more than half of the 22 blades, which cannot tell it from 3.",
+                "is more than half of the 22 blades, which cannot distinguish it from 3.",
             ),
         ] {
             let mut scene = Scene::base();

@@ -260,7 +260,7 @@ fn legend(map: &Map) -> Vec<String> {
     if by_step > 0 {
         let marked = cells(by_step, "doubtful");
         lines.push(format!(
-            "A letter ({letters}) marks {marked}, where another step ends otherwise."
+            "A letter ({letters}) marks {marked}, where another step changes the verdict."
         ));
     }
     lines

@@ -277,10 +277,10 @@ impl Digits {
     pub fn note(&self) -> Option<&'static str> {
         if self.none.get() {
             Some(
-                "No digit holds of what is \"about\": a tiny change or another step moves it by as much.",
+                "A value given as \"about\" has no reliable digit: a tiny change or another step moves it by as much.",
             )
         } else if self.left_out.get() {
-            Some("Digits that a tiny change or another step moves are left out.")
+            Some("Digits that a tiny change or another step changes are not shown.")
         } else {
             None
         }
@@ -400,10 +400,10 @@ mod digits_tests {
         let digits = Digits::of(true);
         assert_eq!((digits.shown(1.25, Some(0.0), short), digits.note()), ("1.25".into(), None));
         let _ = digits.shown(1.25, Some(0.04), short);
-        assert!(digits.note().unwrap().contains("left out"));
+        assert!(digits.note().unwrap().contains("not shown"));
         // A number that does not exist in a changed run has no reliable digit.
         let _ = digits.shown(1.25, None, short);
-        assert!(digits.note().unwrap().contains("No digit holds"));
+        assert!(digits.note().unwrap().contains("has no reliable digit"));
         assert_eq!(Digits::of(false).shown(1.25, None, short), "1.25");
     }
 }

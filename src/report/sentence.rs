@@ -389,7 +389,7 @@ impl Facts {
         }
         if sensitive {
             let ends = self.certainty.ends_otherwise;
-            let does = if ends { "ends otherwise" } else { "gives other impacts" };
+            let does = if ends { "changes the verdict" } else { "gives other impacts" };
             notes.push([format!("A tiny change {does}."), "Sensitive.".into()]);
         }
         if let Some(round) = self.round.filter(|_| notes.is_empty()) {
@@ -413,7 +413,7 @@ impl Facts {
     /// Says that contact pulled during the run, and what a contact that only pushes gives instead.
     fn pushes_only(&self) -> Forms {
         let locked = self.verdict == Verdict::Locked;
-        let ends = if locked { "would not catch it" } else { "ends otherwise" };
+        let ends = if locked { "would not catch it" } else { "gives another verdict" };
         match self.other {
             None | Some(Verdict::Failed) => plain(["Contact pulled on the way."; 2]),
             Some(other) => [

@@ -82,7 +82,7 @@ pub fn lines(report: &RunReport, wall: Wall) -> Vec<String> {
     let notes = notes.chain(scene.share_note().map(String::from));
     lines.extend(notes.map(|note| format!("{}.", capital(&note))));
     if report.solver.linearised {
-        lines.push("Blade angles inside the gap's phase are left out (linearised).".into());
+        lines.push("Blade angles in the phase of the gap are neglected (linearised).".into());
     }
     lines.push(String::new());
     let told = Facts::of(report).sentence(usize::MAX);
@@ -114,7 +114,7 @@ fn how(report: &RunReport) -> String {
         ),
     };
     let follow = if report.solver.blades_follow {
-        " (blades too stiff to be felt: rigid, with angles that follow the pushes)"
+        " (very stiff blades, solved as rigid; their angles follow the pushes)"
     } else {
         ""
     };
@@ -156,9 +156,11 @@ fn basis(basis: Basis) -> String {
         Basis::Proved { by, since_s } => {
             let since = time(since_s);
             let why = match by {
-                Proof::NoContact => format!("nothing touches since {since}, and nothing can"),
+                Proof::NoContact => format!("no blade has touched since {since}, and none can"),
                 Proof::HeldCorner => {
-                    format!("no force of the blades that hold since {since} can change its sign")
+                    format!(
+                        "the forces of the blades that hold the wave since {since} cannot change their sign"
+                    )
                 }
             };
             format!("The verdict is proved: {why}.")
@@ -199,7 +201,7 @@ fn motion(report: &RunReport, machine: &Machine) -> Vec<String> {
     lines.extend(digits.note().map(String::from));
     lines.extend(outcome.basis.map(basis));
     if let Some(rate) = outcome.decay_rate_per_s.filter(|rate| *rate != 0.0) {
-        let does = if rate < 0.0 { "grows" } else { "dies" };
+        let does = if rate < 0.0 { "grows" } else { "decays" };
         lines.push(format!("The wave {does} at {} 1/s.", short(rate.abs())));
     }
     lines.push(speeds(report, machine));
@@ -293,7 +295,7 @@ fn impacts(report: &RunReport) -> String {
             (
                 "At least ",
                 format!(
-                    " They accumulate at {at}: infinitely many end there, of which so many were counted."
+                    " They accumulate at {at}: infinitely many end there, of which this many were counted."
                 ),
             )
         }

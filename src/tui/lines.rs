@@ -72,7 +72,7 @@ pub fn lines(
     lines.app.appearance.use_speeds();
     lines.settle();
     lines.tell(out)?;
-    writeln!(out, "{}", lines.app.appearance.spell("help: what can be asked for"))?;
+    writeln!(out, "{}", lines.app.appearance.spell("help lists the commands"))?;
     loop {
         if prompt {
             write!(out, "> ")?;
@@ -301,7 +301,7 @@ impl Lines {
             words => {
                 let found = help::help_text(&self.app, WIDTH, words);
                 if found.is_empty() {
-                    return writeln!(out, "refused: nothing has these words: {}", clean(words));
+                    return writeln!(out, "refused: no command matches: {}", clean(words));
                 }
                 found.iter().try_for_each(|line| writeln!(out, "{line}"))
             }
@@ -392,11 +392,11 @@ mod tests {
         let (long, longer) = ("x".repeat(1000), "x".repeat(1001));
         let longest = "x".repeat(5000);
         for (bad, says) in [
-            ("speed fast".as_bytes(), "refused: speed Ω: fast is no number; from -1e6"),
-            (b"nonsense qqq", "nothing has these words"),
-            (b"bla\x1b[31mde", "nothing has these words"),
+            ("speed fast".as_bytes(), "refused: speed Ω: fast is not a number; from -1e6"),
+            (b"nonsense qqq", "no command matches"),
+            (b"bla\x1b[31mde", "no command matches"),
             (b"\xff\xfe", "not UTF-8"),
-            (long.as_bytes(), "nothing has these words: xxx"),
+            (long.as_bytes(), "no command matches: xxx"),
             (longer.as_bytes(), "refused: a line of more than 1000 bytes"),
             (longest.as_bytes(), "refused: a line of more than 1000 bytes"),
             (b"type a value", "needs a screen"),
@@ -406,8 +406,8 @@ mod tests {
             (b"t 1", "refused: t = 1.000 s: from 0 to 5.000 ms"),
             (b"export map.csv", "refused: nothing exported: "),
             (b"save /", "refused: cannot write /"),
-            (b"t abc", "refused: t abc: this is no time"),
-            (b"43kN", "refused: 43kN: of which knob?"),
+            (b"t abc", "refused: t abc: not a time"),
+            (b"43kN", "refused: 43kN: which knob?"),
             (b"speed 43kN", "43kN cannot be read: this is a force; it takes rad/s, rpm or Hz"),
             (
                 b"start u_c 1",
@@ -420,7 +420,7 @@ mod tests {
             (b"answer b", "done: no question is open"),
             (b"view map", "refused: only a screen shows this: map of the verdict over two knobs"),
             (b"theme light", "refused: only a screen shows this: theme light"),
-            (b"pause", "refused: only a screen shows this: pause, or go on"),
+            (b"pause", "refused: only a screen shows this: pause or continue"),
             (b"undo", "done: nothing to undo"),
             (b"law", "contact is unilateral"),
         ] {
@@ -477,7 +477,7 @@ mod tests {
     #[test]
     fn the_help_and_lists_are_in_words() {
         let text = answers(b"help\nhelp omega_lock\nhelp qqq\nscenes\nlesson\n");
-        for words in ["speed 450, pulse 20k", "411.9 rad/s", "words: qqq", "scene rub: "] {
+        for words in ["speed 450, pulse 20k", "411.9 rad/s", "matches: qqq", "scene rub: "] {
             assert!(text.contains(words), "{words}: {text}");
         }
     }

@@ -45,7 +45,7 @@ fn a_typed_value_that_is_refused_says_so_in_place() {
     let mut session = Session::open(100, 24, scene(), Theme::Dark, Marker::Braille);
     session.press("\nfast\n");
     let text = column(&session);
-    assert!(text.contains("speed Ω: fast is no\nnumber; from -1e6 to 1e6\nrad/s"), "{text}");
+    assert!(text.contains("speed Ω: fast is not a\nnumber; from -1e6 to 1e6\nrad/s"), "{text}");
     assert_eq!(session.app.scene.operation.speed_rad_s, 500.0);
     session.press("\u{1b}\n-430\n");
     assert_eq!(session.app.scene.operation.speed_rad_s, -430.0);
@@ -166,7 +166,7 @@ fn a_narrow_screen_has_the_knobs_as_a_strip_and_lists_the_others() {
     assert!(strip(&session).contains("▸Ω* 430 rad/s"), "{}", strip(&session));
     assert!(strip(&session).contains("just above Ω_lock"), "{}", strip(&session));
     session.press("\nfast\n");
-    assert!(strip(&session).contains("speed Ω: fast is no number;"), "{}", strip(&session));
+    assert!(strip(&session).contains("speed Ω: fast is not a number;"), "{}", strip(&session));
     session.press("\u{1b}jjjjj");
     assert!(strip(&session).contains("▸contact bilateral"), "{}", strip(&session));
     assert!(session.text().contains("2 gaps") && !session.text().contains("time 2 ▸"));

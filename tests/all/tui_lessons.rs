@@ -343,7 +343,7 @@ fn an_open_question_shows_nothing_of_its_answer_and_a_wrong_one_is_explained() {
     second.press(&keys_of(right(1)));
     assert!(second.text().contains("3 locked"), "{}", second.text());
     session.press("g");
-    assert!(session.text().contains("first your guess"), "{}", session.text());
+    assert!(session.text().contains("your guess first"), "{}", session.text());
     session.press(&keys_of('a'));
     let text = session.text();
     assert!(text.contains("Not a. Right is c: in a corner of two walls."), "{text}");
@@ -381,7 +381,7 @@ fn a_step_that_was_passed_over_is_named_in_the_list() {
     session.press("g");
     let row = |text: &str| text.lines().find(|line| line.contains(" 1. The")).unwrap().to_string();
     let left = row(&session.text());
-    assert!(left.contains(" 3/4 ") && left.contains("step 2 is left"), "{left}");
+    assert!(left.contains(" 3/4 ") && left.contains("go on at step 2"), "{left}");
 }
 
 /// The right answer of a step of the second lesson.

@@ -42,7 +42,7 @@ fn the_keys_of_the_last_line_can_be_clicked() {
     let commands = session.find(": commands");
     mouse(&mut session, LEFT, (commands.0 + 3, commands.1));
     session.press("undo");
-    let choose = session.find("Enter do it");
+    let choose = session.find("Enter run");
     assert_eq!(mouse(&mut session, LEFT, choose), Some(Effect::None));
     assert_eq!(session.app.scene.operation.speed_rad_s, 500.0);
     session.press("");

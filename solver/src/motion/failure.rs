@@ -82,8 +82,8 @@ pub enum FailureReason {
     },
     /// Two sides of a corner are about to change their order.
     #[error(
-        "blade angles of {angle_rad:.3e} rad close or open a corner; up to {most_rad:.3e} rad \
-         sides keep their order"
+        "blade angles of {angle_rad:.3e} rad close or open a corner; the sides keep their order \
+         only up to {most_rad:.3e} rad"
     )]
     CornerAngle {
         /// Amplitude of the blade angles \[rad\].
@@ -106,7 +106,7 @@ pub enum FailureReason {
         radius_m: f64,
     },
     /// The solver supports constant speed only.
-    #[error("this solver of what goes beyond the paper's model needs a constant speed")]
+    #[error("beyond the paper's model the event solver needs a constant speed")]
     Ramp,
     /// Growth of blades and disk has closed the clearance.
     #[error(
@@ -119,7 +119,7 @@ pub enum FailureReason {
     },
     /// The power series of a motion in contact does not converge.
     #[error(
-        "blades and casing in contact move each other ever faster, beyond what their series can \
+        "blades and casing in contact accelerate each other, faster than the power series can \
          follow"
     )]
     Series,
@@ -130,7 +130,7 @@ pub enum FailureReason {
     #[error("{MOST_EVENTS_AT_ONCE} changes of contact at one instant")]
     EventsAtOnce,
     /// The search for changes of contact takes too many evaluations.
-    #[error("more than {MOST_LOOKS} looks ahead for the next change of contact")]
+    #[error("more than {MOST_LOOKS} stretches in the search for changes of contact")]
     Looks,
     /// Too many rows penetrate in one step.
     #[error(
@@ -151,8 +151,8 @@ pub enum FailureReason {
     },
     /// The casing moves faster than the blade tips, which would reverse the friction.
     #[error(
-        "the casing moves along its rim with {speed_m_s:.3e} m/s, faster than the blade tips, \
-         {tip_m_s:.3e} m/s, and friction has one direction"
+        "the casing moves along its rim at {speed_m_s:.3e} m/s, faster than the blade tips, \
+         {tip_m_s:.3e} m/s, but the model has friction in one direction only"
     )]
     CasingSpeed {
         /// Tangential speed of the casing \[m/s\].
@@ -162,8 +162,8 @@ pub enum FailureReason {
     },
     /// The wave moves along the polygon too fast for the time step, for many steps.
     #[error(
-        "the casing runs along the blades by {moved_m:.3e} m a step, much of the {side_m:.3e} m \
-         from blade to blade, and faster than this step can follow"
+        "the casing moves {moved_m:.3e} m along the blades in one step, a large part of the \
+         {side_m:.3e} m from blade to blade; the step is too long to follow it"
     )]
     LongStep {
         /// Displacement of the casing in a step \[m\].
@@ -192,7 +192,7 @@ pub enum FailureReason {
         force_n: f64,
     },
     /// The equations of a step are singular.
-    #[error("the multipliers of {rows} penetrating rows cannot be told apart (singular equations)")]
+    #[error("the multipliers of {rows} penetrating rows are not unique (singular equations)")]
     Singular {
         /// Number of rows.
         rows: usize,

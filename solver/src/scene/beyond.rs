@@ -166,17 +166,18 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     let turns = first != last && first * last <= 0.0;
     refuse_if(turns && mu != 0.0, keys::FRICTION, mu, allowed)?;
     let e = surface.restitution;
-    let allowed = "0, or solver.contact = \"unilateral\": only rigid pushes rebound";
+    let allowed = "0, or solver.contact = \"unilateral\": only rigid push-only contact rebounds";
     refuse_if(e != 0.0 && law != ContactLaw::Unilateral, keys::RESTITUTION, e, allowed)?;
     let sd = disk.mistuning;
-    let allowed = "0, or solver.model = \"full\": only there has each blade its own stiffness";
+    let allowed =
+        "0, or solver.model = \"full\": only there does each blade have its own stiffness";
     refuse_if(sd != 0.0 && !full, keys::MISTUNING, sd, allowed)?;
     // Self-locking friction has no unique contact forces once three blades touch.
     let forward = if first < 0.0 { -mu } else { mu };
     let locks_itself = rigid && full && kappa * (kappa + forward) < 0.0;
     let allowed = format!(
         "not between 0 and {} with solver.model = \"full\" and rigid contact, whose pushes are \
-         not unique there; solver.model = \"modal\" or solver.contact = \"smooth\" have them",
+         not unique there; they are with solver.model = \"modal\" or solver.contact = \"smooth\"",
         -forward
     );
     refuse_if(locks_itself, keys::RADIAL_COUPLING, kappa, &allowed)?;
@@ -193,8 +194,7 @@ pub(super) fn tips(scene: &Scene) -> Result<(), SceneError> {
     let is_part = given != 0 && given != blades;
     refuse_if(is_part, keys::TIPS, format!("{given} numbers"), &allowed)?;
     let e = casing.out_of_round_m;
-    let allowed = "1 or more with casing.out_of_round_m; another clearance is that of \
-                   casing.radius_m";
+    let allowed = "1 or more with casing.out_of_round_m; casing.radius_m changes the clearance";
     refuse_if(e != 0.0 && casing.lobes == 0, keys::LOBES, 0, allowed)?;
     let allowed = "0 with solver.kind = \"event\": a side that moves has no closed form; \
                    solver.kind = \"explicit\" takes it";
@@ -203,8 +203,8 @@ pub(super) fn tips(scene: &Scene) -> Result<(), SceneError> {
     let is_tight = scene.solver.contact != ContactLaw::Smooth
         && scene.is_uneven()
         && !scene.machine().at(scene.fastest_rad_s()).has_room();
-    let allowed = "less: no place of the casing leaves every gap open; solver.contact = \
-                   \"smooth\" takes it";
+    let allowed = "less: no casing position leaves every gap open; solver.contact = \
+                   \"smooth\" allows it";
     let all = scene.unevenness().into_iter();
     let (key, value) = all.fold(("", 0.0), |most, next| if next.1 > most.1 { next } else { most });
     refuse_if(is_tight, key, format!("{value:e}"), allowed)

@@ -514,26 +514,26 @@ keys! {
         "damping ζ_bd" Linear(0.005, 0.05) "damping ratio of the blades";
     STIFFENING "bladed_disk.centrifugal_stiffening" = moded(Steps, "-", "centrifugal stiffening, omega^2 + B Omega^2, B", false 0.0..1e3, disk_in_use.centrifugal_stiffening, disk_part Stiffening),
         "stiffening B" Linear(0.1, 0.5) "centrifugal stiffening: ω_bd² grows by B Ω²; 0 in the paper";
-    RADIAL_COUPLING "bladed_disk.radial_coupling" = real(Steps, "-", "slope of the path of a blade tip kappa", false -10.0..10.0, bladed_disk.radial_coupling),
+    RADIAL_COUPLING "bladed_disk.radial_coupling" = real(Steps, "-", "slope of the blade tip's path, kappa", false -10.0..10.0, bladed_disk.radial_coupling),
         "tip slope κ" Linear(0.05, 0.1) "radial coupling: a blade tip moves outward by κ l_b α; 0 in the paper";
-    DISK_DIAMETERS "bladed_disk.nodal_diameters" = whole(Never, "nodal diameters of the disk, 0 as the casing, n_b", 0..4096, bladed_disk.nodal_diameters),
+    DISK_DIAMETERS "bladed_disk.nodal_diameters" = whole(Never, "nodal diameters of the disk, 0 for those of the casing, n_b", 0..4096, bladed_disk.nodal_diameters),
         "diameters n_b" Whole(1, 4) "nodal diameters of the disk; 0 for those of the casing";
-    MISTUNING "bladed_disk.mistuning" = real(Never, "-", "standard deviation of single k_b (full model), sd", false 0.0..0.2, bladed_disk.mistuning),
-        "mistuning" Linear(0.005, 0.01) "standard deviation of the stiffness of single blades, in the full model";
-    MISTUNING_SEED "bladed_disk.mistuning_seed" = whole(Never, "draw of the single k_b, seed", 0..1_000_000, bladed_disk.mistuning_seed),
-        "draw" Whole(1, 10) "number of the draw of the single stiffnesses";
-    TIPS "bladed_disk.tips_m" = numbers(Steps, "m", "how much longer the tip of each blade is, one number a blade", 1.0, bladed_disk.tips_m);
-    TIP_SCATTER "bladed_disk.tip_scatter_m" = real(Steps, "m", "standard deviation of single blade lengths, sigma_b", false 0.0..1.0, bladed_disk.tip_scatter_m),
-        "tip scatter" Decades(1e-9) "standard deviation of the lengths of single blades; 0 for equal tips";
-    TIP_SEED "bladed_disk.tip_seed" = whole(Steps, "draw of the single blade lengths, seed_b", 0..1_000_000, bladed_disk.tip_seed),
-        "tip seed" Whole(1, 10) "number of the draw of those lengths";
-    LONGEST_TIP "bladed_disk.longest_tip_m" = real(Steps, "m", "how much longer blade 1 is, b_1", false -1.0..1.0, bladed_disk.longest_tip_m),
-        "longest tip" Linear(1e-6, 1e-5) "how much longer blade 1 is than the others; beyond the clearance it drags the wave";
-    ORBIT "bladed_disk.orbit_m" = real(Steps, "m", "how far the rotor is off its centre, r", false 0.0..1.0, bladed_disk.orbit_m),
-        "orbit r" Decades(1e-9) "how far the rotor is off its centre";
-    ORBIT_ANGLE "bladed_disk.orbit_angle_rad" = real(Steps, "rad", "direction of that in the rotor, chi", false -100.0..100.0, bladed_disk.orbit_angle_rad),
-        "orbit χ" Linear(0.1, 1.0) "direction of that in the frame of the rotor";
-    DISK_MODES "bladed_disk.modes" = modes(Aside, "modes of the disk by their diameters", DISK, bladed_disk);
+    MISTUNING "bladed_disk.mistuning" = real(Never, "-", "relative standard deviation of k_b over the blades (full model), sd", false 0.0..0.2, bladed_disk.mistuning),
+        "mistuning" Linear(0.005, 0.01) "scatter of the blade stiffness k_b (standard deviation, full model)";
+    MISTUNING_SEED "bladed_disk.mistuning_seed" = whole(Never, "seed of the random blade stiffnesses, seed", 0..1_000_000, bladed_disk.mistuning_seed),
+        "draw" Whole(1, 10) "seed of the random blade stiffnesses";
+    TIPS "bladed_disk.tips_m" = numbers(Steps, "m", "extra length of each blade, one number per blade", 1.0, bladed_disk.tips_m);
+    TIP_SCATTER "bladed_disk.tip_scatter_m" = real(Steps, "m", "standard deviation of the blade lengths, sigma_b", false 0.0..1.0, bladed_disk.tip_scatter_m),
+        "tip scatter" Decades(1e-9) "standard deviation of the blade lengths; 0 for equal tips";
+    TIP_SEED "bladed_disk.tip_seed" = whole(Steps, "seed of the random blade lengths, seed_b", 0..1_000_000, bladed_disk.tip_seed),
+        "tip seed" Whole(1, 10) "seed of the random blade lengths";
+    LONGEST_TIP "bladed_disk.longest_tip_m" = real(Steps, "m", "extra length of blade 1, b_1", false -1.0..1.0, bladed_disk.longest_tip_m),
+        "longest tip" Linear(1e-6, 1e-5) "extra length of blade 1; above the clearance it drags the wave";
+    ORBIT "bladed_disk.orbit_m" = real(Steps, "m", "eccentricity of the rotor, r", false 0.0..1.0, bladed_disk.orbit_m),
+        "orbit r" Decades(1e-9) "eccentricity of the rotor: its centre is off the axis of rotation";
+    ORBIT_ANGLE "bladed_disk.orbit_angle_rad" = real(Steps, "rad", "direction of the eccentricity in the rotor, chi", false -100.0..100.0, bladed_disk.orbit_angle_rad),
+        "orbit χ" Linear(0.1, 1.0) "direction of the eccentricity in the frame of the rotor";
+    DISK_MODES "bladed_disk.modes" = modes(Aside, "modes of the disk, one per number of nodal diameters", DISK, bladed_disk);
     CASING_RADIUS "casing.radius_m" = real(Never, "m", "casing radius R_c", true 0.0..1e3, casing.radius_m),
         "casing R_c" Linear(1e-6, 1e-5) "inner radius of the casing; larger opens the clearance";
     CASING_MASS "casing.modal_mass_kg" = moded(Steps, "kg", "casing modal mass m_c", true 0.0..1e9, casing_in_use.modal_mass_kg, casing_part Mass),
@@ -541,36 +541,36 @@ keys! {
     CASING_STIFFNESS "casing.modal_stiffness_n_per_m" = moded(Steps, "N/m", "casing modal stiffness k_c", true 0.0..1e15, casing_in_use.modal_stiffness_n_per_m, casing_part Stiffness),
         "casing k_c" Decades(1e-6) "modal stiffness of the casing; stiffer raises Ω_c";
     CASING_DAMPING "casing.damping_ratio" = moded(Steps, "-", "casing damping zeta_c", false 0.0..10.0, casing_in_use.damping_ratio, casing_part Damping),
-        "damping ζ_c" Linear(0.005, 0.05) "damping ratio of the casing: lets waves die away, and moves Ω_lock up";
-    TANGENTIAL_RATIO "casing.tangential_ratio" = real(Steps, "-", "tangential over radial casing amplitude tau", false 0.0..10.0, casing.tangential_ratio),
-        "tangential τ" Linear(0.05, 0.1) "tangential over radial motion of the casing: 1/n_d for a ring";
+        "damping ζ_c" Linear(0.005, 0.05) "damping ratio of the casing: damps waves and raises Ω_lock";
+    TANGENTIAL_RATIO "casing.tangential_ratio" = real(Steps, "-", "ratio of tangential to radial casing amplitude, tau", false 0.0..10.0, casing.tangential_ratio),
+        "tangential τ" Linear(0.05, 0.1) "ratio of tangential to radial casing amplitude: 1/n_d for a ring";
     CLEARANCE_LOSS "casing.clearance_loss_m_s2" = real(Steps, "m s^2", "clearance lost with speed, g0 - c Omega^2, c", false 0.0..1.0, casing.clearance_loss_m_s2),
         "growth c" Decades(1e-14) "clearance lost as blades grow with the speed, c Ω²; 0 in the paper";
-    LOBES "casing.lobes" = whole(Steps, "lobes of a casing out of round, m", 0..4096, casing.lobes),
-        "lobes" Whole(1, 5) "lobes of a casing that is out of round; 0 for none";
+    LOBES "casing.lobes" = whole(Steps, "number of lobes of an out-of-round casing, m", 0..4096, casing.lobes),
+        "lobes" Whole(1, 5) "number of lobes of an out-of-round casing; 0 for none";
     OUT_OF_ROUND "casing.out_of_round_m" = real(Steps, "m", "height of the lobes, e_m", false 0.0..1.0, casing.out_of_round_m),
-        "out of round" Decades(1e-9) "height of those lobes; 0 for a round casing";
+        "out of round" Decades(1e-9) "height of the casing's lobes; 0 for a round casing";
     OUT_OF_ROUND_ANGLE "casing.out_of_round_angle_rad" = real(Steps, "rad", "phase of the lobes, psi", false -100.0..100.0, casing.out_of_round_angle_rad),
-        "shape ψ" Linear(0.1, 1.0) "phase of those lobes";
-    CASING_MODES "casing.modes" = modes(Aside, "modes of the casing by their diameters", CASING, casing);
+        "shape ψ" Linear(0.1, 1.0) "phase of the casing's lobes";
+    CASING_MODES "casing.modes" = modes(Aside, "modes of the casing, one per number of nodal diameters", CASING, casing);
     FRICTION "contact.friction" = real(Steps, "-", "friction coefficient mu", false 0.0..5.0, contact.friction),
         "friction μ" Linear(0.05, 0.1) "Coulomb friction of the blades, which slide forward; 0 in the paper";
     RESTITUTION "contact.restitution" = real(Steps, "-", "coefficient of restitution e", false 0.0..0.95, contact.restitution),
-        "restitution e" Linear(0.05, 0.1) "part of the speed that an impact gives back; 0 in the paper";
-    LINING_STIFFNESS "contact.stiffness_n_per_m" = real(Steps, "N/m", "stiffness of the lining under a blade (smooth only) k_p", true 0.0..1e15, contact.stiffness_n_per_m),
+        "restitution e" Linear(0.05, 0.1) "ratio of rebound speed to impact speed; 0 in the paper";
+    LINING_STIFFNESS "contact.stiffness_n_per_m" = real(Steps, "N/m", "stiffness of the lining under a blade (smooth only), k_p", true 0.0..1e15, contact.stiffness_n_per_m),
         "lining k_p" Decades(1e-3) "stiffness of the lining under one blade, for the smooth law";
-    LINING_SMOOTHING "contact.smoothing_m" = real(Steps, "m", "depth over which that stiffness sets in (smooth only) eps", false 0.0..1.0, contact.smoothing_m),
+    LINING_SMOOTHING "contact.smoothing_m" = real(Steps, "m", "depth over which the lining's stiffness sets in (smooth only), eps", false 0.0..1.0, contact.smoothing_m),
         "lining eps" Decades(1e-9) "depth over which the stiffness of the lining sets in, for the smooth law";
     DIAMETERS "operation.nodal_diameters" = whole(Never, "nodal diameters n_d", 0..4096, operation.nodal_diameters),
         "diameters n_d" Whole(1, 4) "nodal diameters of the wave in casing and blades";
     SPEED "operation.speed_rad_s" = real(Always, "rad/s", "rotor speed Omega", false -1e6..1e6, operation.speed_rad_s),
         "speed Ω" Linear(5.0, 50.0) "rotor speed: above Ω_c the wave is pushed onto the blades, above Ω_lock a lock only pushes";
     SPEED_RAMP "operation.speed_ramp_rad_s2" = real(Always, "rad/s^2", "rotor acceleration", false -1e9..1e9, operation.speed_ramp_rad_s2),
-        "speed ramp" Decades(1.0) "how fast the rotor speeds up, or slows down if negative";
+        "speed ramp" Decades(1.0) "rotor acceleration; negative slows down";
     PULSE "operation.pulse_n" = real(Steps, "N", "pulse force on u_c", false -1e12..1e12, operation.pulse_n),
         "pulse F" Decades(1.0) "force of the push on u_c that starts the motion";
     PULSE_TIME "operation.pulse_s" = real(Steps, "s", "pulse duration t_p", false 0.0..1e6, operation.pulse_s),
-        "pulse time t_p" Decades(1e-9) "how long the pulse pushes";
+        "pulse time t_p" Decades(1e-9) "duration of the pulse";
     INITIAL_U_C "initial.u_c_m" = real(Start, "m", "u_c at t = 0", false -1e3..1e3, initial.u_c_m),
         "start u_c" Linear(5e-6, 2e-5) "casing position u_c at t = 0; every gap must be open there";
     INITIAL_U_S "initial.u_s_m" = real(Start, "m", "u_s at t = 0", false -1e3..1e3, initial.u_s_m),
@@ -581,18 +581,18 @@ keys! {
         "start u_s'" Linear(5e-3, 5e-2) "casing velocity along u_s at t = 0";
     EXCITATION "excitation.amplitude_nm" = real(Steps, "N m", "engine-order torque on each blade, 0 for none", false 0.0..1e9, excitation.amplitude_nm),
         "EO torque" Decades(1e-3) "engine-order torque on each blade, fixed in space; 0 for none";
-    ENGINE_ORDER "excitation.order" = whole(Steps, "engine order of that torque", 1..4096, excitation.order),
-        "EO order" Whole(1, 5) "engine order: load cycles of that torque per turn";
+    ENGINE_ORDER "excitation.order" = whole(Steps, "engine order of the torque", 1..4096, excitation.order),
+        "EO order" Whole(1, 5) "engine order: cycles of the torque per turn";
     SOLVER "solver.kind" = word(Never, "solver", SolverKind, solver.kind),
         "solver" Words "solver: explicit takes time steps; event goes from impact to impact exactly";
     LAW "solver.contact" = word(Steps, "contact law", ContactLaw, solver.contact),
         "contact" Words "contact law: unilateral pushes; bilateral, the paper's, pulls too; smooth is elastic";
     MODEL "solver.model" = word(Never, "model size", ModelSize, solver.model),
-        "model" Words "model size: rigid moves the casing only, modal two blade modes too, full every blade";
+        "model" Words "model size: rigid: casing only; modal: two blade modes too; full: every blade";
     STEP "solver.step_s" = real(Never, "s", "time step h (explicit only)", true 0.0..1e3, solver.step_s),
-        "step h" Decades(1e-12) "time step of the explicit solver: shorter is more exact and slower";
+        "step h" Decades(1e-12) "time step of the explicit solver: shorter is more accurate and slower";
     END "solver.end_s" = real(Aside, "s", "end of the simulation", true 0.0..1e6, solver.end_s),
-        "run end" Decades(1e-9) "end of the run that the verdict judges";
+        "run end" Decades(1e-9) "end of the run; the verdict describes its last tenth";
     VIEW_CHARTS "view.charts" = charts(Aside, "charts the explorer opens with", view.charts);
-    VIEW_BEGIN "view.begin_s" = real(Aside, "s", "where the explorer begins to play, at most the end", false 0.0..1e6, view.begin_s);
+    VIEW_BEGIN "view.begin_s" = real(Aside, "s", "time at which the explorer starts to play, at most solver.end_s", false 0.0..1e6, view.begin_s);
 }

@@ -12,7 +12,7 @@ use rubscope_solver::harmonic::{
 /// The view: growth and lasting wave against speed.
 pub const COINCIDENCE: View = View {
     option: "coincidence",
-    help: "View: what the coincidences do: growth of rest and the wave that lasts, against speed",
+    help: "View: effect of the coincidences: growth rate of rest and the limit cycle, against speed",
     always_damped: true,
     one_speed: false,
     contact: ViewContact::OfScene,

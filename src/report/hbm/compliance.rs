@@ -13,8 +13,8 @@ use rubscope_solver::scene::keys;
 
 pub const COMPLIANCE: View = View {
     option: "compliance",
-    help: "View: the joint compliance B(omega), in JSON and CSV; a whirl is where it crosses the \
-           negative real axis",
+    help: "View: the joint compliance B(omega), in JSON and CSV; a whirl is possible where it \
+           crosses the negative real axis",
     always_damped: true,
     one_speed: true,
     // The compliance belongs to the structures, with or without a preload.

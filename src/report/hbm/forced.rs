@@ -10,7 +10,7 @@ use rubscope_solver::scene::{ContactLaw, keys};
 
 pub const FORCED: View = View {
     option: "forced",
-    help: "View: the wave that a casing out of round drives where all blades rub its lining",
+    help: "View: the wave that an out-of-round casing drives if all blades rub its lining",
     always_damped: true,
     one_speed: false,
     contact: ViewContact::OfScene,

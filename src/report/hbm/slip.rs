@@ -10,7 +10,7 @@ use rubscope_solver::harmonic::{
 
 pub const SLIP: View = View {
     option: "slip",
-    help: "View: lasting slip, the fixed point of the map from corner to corner",
+    help: "View: lasting slip, a fixed point of the map from corner to corner",
     always_damped: true,
     one_speed: false,
     contact: ViewContact::Rigid(|_| false),

@@ -13,8 +13,8 @@ use rubscope_solver::scene::{ContactLaw, keys};
 
 pub const SMOOTH: View = View {
     option: "smooth",
-    help: "View: steady states of blades on a lining (solver.contact = \"smooth\"): rest, the \
-           waves it grows into, locks and which linings hold them",
+    help: "View: steady states of blades on a lining (solver.contact = \"smooth\"): rest, \
+           limit cycles, locks, and the linings that can hold a lock",
     always_damped: true,
     one_speed: false,
     contact: ViewContact::OfScene,

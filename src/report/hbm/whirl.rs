@@ -12,8 +12,8 @@ use rubscope_solver::model::{LockWindow, Machine};
 
 pub const WHIRL: View = View {
     option: "whirl",
-    help: "View: whirl of inclined tips in the limit of many blades, where it begins, and where \
-           a lock flutters",
+    help: "View: whirl of inclined tips (limit of many blades), its onset, and the speeds at \
+           which a lock flutters",
     always_damped: true,
     one_speed: false,
     contact: ViewContact::Rigid(|_| false),

@@ -12,7 +12,7 @@ use rubscope_solver::study::margins::{
 const DIGITS: usize = 4;
 
 /// Explanation of the mark `?`, added to a sentence.
-const MARKED: &str = " A ? marks a doubt (a tiny change, another step): run --plain.";
+const MARKED: &str = " ? marks a verdict that a tiny change or another step changes.";
 
 /// Iterates over the searches for another verdict: with the contact law of the scene, then with
 /// push-only contact, as far as they were made.
@@ -59,7 +59,8 @@ pub fn sentence(found: &Robustness, margins: &Margins, wide: bool) -> String {
     let pulse = found.changes.iter().find(|row| row.path == keys::PULSE && row.present != 0.0);
     if let Some(row) = pulse.filter(|row| row.below.is_none() && row.above.is_none()) {
         let [from, to] = row.tried.map(|tried| short(rounded(tried / row.present, 3)));
-        parts.push(format!("no pulse tried from {from} to {to} times this one ends otherwise"));
+        parts
+            .push(format!("no pulse tried from {from} to {to} times this one changes the verdict"));
     }
     let mut ends = found.changes.iter().flat_map(|row| [row.below, row.above]).flatten();
     let foot = if ends.any(|end| end.sensitive) { MARKED } else { "" };

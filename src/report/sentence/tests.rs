@@ -169,7 +169,7 @@ fn a_run_that_pulls_is_called_sensitive_too_where_it_is() {
     let history = |width| both.sentence(width).history.unwrap();
     assert_eq!(
         history(200),
-        "Contact that only pushes would not catch it: decay. A tiny change ends otherwise."
+        "Contact that only pushes would not catch it: decay. A tiny change changes the verdict."
     );
     assert_eq!(history(80), "Pushes only: decay. Sensitive.");
     // The first alone, where there is no room for two.
@@ -215,7 +215,7 @@ fn the_state_comes_first_and_how_it_was_reached_second() {
             " It needs a casing round to 0.24 um (0.24 % of the clearance). Tips may be off by 0.75 um \
              (0.75 %).",
         ),
-        (Facts { certainty: ENDS, ..facts(Locked) }, " A tiny change ends otherwise."),
+        (Facts { certainty: ENDS, ..facts(Locked) }, " A tiny change changes the verdict."),
         (
             Facts { certainty: Certainty { ends_otherwise: false, ..ENDS }, ..facts(Locked) },
             " A tiny change gives other impacts.",

@@ -175,7 +175,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, help: &HelpState) {
     let place = format!("{last}/{}", lines.len());
     let room = width.saturating_sub(place.len() + 1);
     let found = match count {
-        0 => "nothing has these words".to_string(),
+        0 => "no match".to_string(),
         count => format!("{count} found"),
     };
     let head = match !help.is_searched() {
@@ -245,14 +245,14 @@ mod tests {
             ("files", "export the large chart", "redo it"),
             ("glossary", "critical speed", "redo it"),
             ("c", "contact law", "quit"),
-            ("━", "a blade touches in this stretch", "quit"),
+            ("━", "under a chart over time: a blade touches", "quit"),
             ("*", "changed since the scene was opened", "quit"),
         ] {
             let text = text(filter);
             assert!(text.contains(found), "{filter}: {found}");
             assert!(!text.contains(gone), "{filter}: {gone}");
         }
-        assert!(text("no such thing").contains("nothing has these words"));
+        assert!(text("no such thing").contains("no match"));
     }
 
     #[test]

@@ -135,7 +135,7 @@ impl App {
         };
         let (number, step) = (progress.lesson, progress.step);
         if self.is_asked() {
-            self.status = Some("first your guess: ↑ ↓ choose it, Enter answers".into());
+            self.status = Some("your guess first: ↑ ↓ choose, Enter answers".into());
         } else if step + 1 < lesson.steps.len() {
             self.begin_step(number, step + 1);
         } else {
@@ -292,7 +292,7 @@ pub fn draw_list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
         let [whole, brief] = [lesson.title.as_str(), lesson.brief()].map(name);
         let minutes = format!("   {} min", lesson.minutes());
         let needs = match passed {
-            Some(step) => format!("{minutes}, step {} is left", step + 1),
+            Some(step) => format!("{minutes}, go on at step {}", step + 1),
             None => format!("{minutes}, needs {}", lesson.needs),
         };
         // Parts that do not fit are omitted.

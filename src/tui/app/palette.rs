@@ -56,7 +56,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, palette: &PaletteState) 
     let status = app.status.as_ref().map_or(Vec::new(), |text| wrap(&look.spell(text), width));
     let mut said: Vec<_> = status.into_iter().map(|line| (line, Role::Trouble)).collect();
     if found.is_empty() {
-        said.push(("nothing has these words".into(), Role::Quiet));
+        said.push(("no command matches".into(), Role::Quiet));
     }
     let mut top = 1;
     for (line, role) in said {

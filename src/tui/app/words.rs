@@ -105,11 +105,9 @@ pub fn only(app: &App, typed: &str) -> Result<Found, String> {
         (Some(item), _) => Ok(item),
         (None, Some((_, why))) => Err(why),
         (None, None) if is_numeric(typed) => {
-            Err(format!("{typed}: of which knob? Such as speed 450 rad/s"))
+            Err(format!("{typed}: which knob? Write for example speed 450 rad/s"))
         }
-        (None, None) => {
-            Err(format!("nothing has these words: {typed}; help lists what can be asked for"))
-        }
+        (None, None) => Err(format!("no command matches: {typed}; help lists the commands")),
     }
 }
 
@@ -147,7 +145,7 @@ fn refused(app: &App, typed: &str) -> Option<(Fit, String)> {
     let words: Vec<&str> = typed.split([' ', '=']).filter(|word| !word.is_empty()).collect();
     match words.as_slice() {
         ["t" | "T", time @ ..] if !time.is_empty() => {
-            let why = format!("t {}: this is no time, such as 0.3 ms", time.join(" "));
+            let why = format!("t {}: not a time; write for example 0.3 ms", time.join(" "));
             return Some((Fit::Name, why));
         }
         ["range", rest @ ..] if !rest.is_empty() => {
@@ -248,7 +246,7 @@ fn surveyed(app: &App, text: &str) -> Result<Found, SceneError> {
     let is_bare = typed.split(':').all(|end| Quantity::bare(end).is_some());
     let doubt = range.filter(|_| is_bare).and_then(|range| range_doubt(&app.scene, range));
     let command = Command::Range { ends: range, doubt };
-    Ok(Found::of("go", format!("survey of all diameters over {ends}"), command))
+    Ok(Found::of("go", format!("survey of all nodal diameters over {ends}"), command))
 }
 
 /// Returns those of the entries that match all of `words`, the best first.

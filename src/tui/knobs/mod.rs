@@ -315,7 +315,7 @@ impl Knob {
                 format!("{}: {value} is no whole number; {}", self.label, self.range_words())
             }
             Allowed::Real { .. } if own && !reads => {
-                format!("{}: {value} is no number; {}", self.label, self.range_words())
+                format!("{}: {value} is not a number; {}", self.label, self.range_words())
             }
             own_range if own && *allowed == own_range.to_string() => {
                 let value = match (value.parse::<f64>(), in_shown_unit(1.0, self.unit())) {

@@ -107,7 +107,7 @@ fn note(report: &Precision) -> (String, Role) {
     }
     let ends_otherwise = |row: &&Row| row.other_law && row.verdict_right == Some(false);
     if let Some(row) = report.rows.iter().find(ends_otherwise) {
-        note += &format!("; none for the {} law, which ends otherwise", row.way.contact);
+        note += &format!("; none for the {} law, which gives another verdict", row.way.contact);
     }
     (note, Role::Quiet)
 }

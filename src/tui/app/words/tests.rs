@@ -178,20 +178,20 @@ fn a_word_of_its_own_goes_to_its_place() {
 fn what_is_no_command_is_one_line_that_says_why() {
     let app = app();
     for (typed, begins) in [
-        ("speed fast", "speed Ω: fast is no number; from -1e6 to 1e6 rad/s"),
-        ("speed qqq", "speed Ω: qqq is no number"),
+        ("speed fast", "speed Ω: fast is not a number; from -1e6 to 1e6 rad/s"),
+        ("speed qqq", "speed Ω: qqq is not a number"),
         ("law soft", "contact: soft is unknown; one of"),
         ("law x", "contact: x is unknown; one of"),
         ("blade 1.5", "blade 1.5: from 1 to 22"),
         ("blade -3", "blade -3: from 1 to 22"),
-        ("something odd", "nothing has these words: something odd"),
-        ("qqq", "nothing has these words: qqq"),
-        ("t inf", "t inf: this is no time, such as 0.3 ms"),
-        ("t nan", "t nan: this is no time, such as 0.3 ms"),
-        ("450,5", "450,5: of which knob? Such as speed 450 rad/s"),
+        ("something odd", "no command matches: something odd"),
+        ("qqq", "no command matches: qqq"),
+        ("t inf", "t inf: not a time; write for example 0.3 ms"),
+        ("t nan", "t nan: not a time; write for example 0.3 ms"),
+        ("450,5", "450,5: which knob? Write for example speed 450 rad/s"),
         ("speed 450,5", "speed Ω: 450,5 cannot be read: a number has a decimal point"),
-        ("scene qqq", "nothing has these words: scene qqq"),
-        ("axes qqq", "nothing has these words: axes qqq"),
+        ("scene qqq", "no command matches: scene qqq"),
+        ("axes qqq", "no command matches: axes qqq"),
     ] {
         let line = only(&app, typed).unwrap_err();
         assert!(line.starts_with(begins) && line.lines().count() == 1, "{line}");

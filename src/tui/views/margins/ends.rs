@@ -120,10 +120,10 @@ fn imperfection(what: &str, length: f64, now: String, margins: &Margins) -> Row 
 /// Says why there is no row.
 fn nothing(app: &App, locked: bool) -> String {
     let exists = match app.lock_window().map(|window| rounded(window.from, DIGITS)) {
-        _ if locked => return "No run that was tried ends otherwise.".into(),
+        _ if locked => return "No value that was tried changes the verdict.".into(),
         Some(from) => format!("A lock exists from {} on", number(from, "rad/s")),
         None if app.machine.knows_locks() => "No pair of blades locks".into(),
-        None => "A lock is not known".into(),
+        None => "Whether a lock exists is not known".into(),
     };
-    format!("{exists}; no run that was tried locks.")
+    format!("{exists}; no run tried here locks.")
 }
