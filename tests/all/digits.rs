@@ -56,7 +56,10 @@ fn a_number_that_a_changed_run_does_not_have_has_no_spread() {
     assert_eq!(spread.multipliers_n, [None, None]);
     assert!(spread.amplitude_m.is_some());
     let text = crate::told(&report);
-    assert!(text.contains(" pushes with about 200 N") && text.contains("has no reliable digit"), "{text}");
+    assert!(
+        text.contains(" pushes with about 200 N") && text.contains("has no reliable digit"),
+        "{text}"
+    );
 }
 
 /// Numbers that move by amounts of their own are each told in the digits that hold.
