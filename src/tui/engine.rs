@@ -123,6 +123,14 @@ impl Moves {
         self.waiting.is_empty()
     }
 
+    /// Returns the time to which the motion goes next, if that is known \[s\].
+    pub fn target(&self) -> Option<f64> {
+        match self.waiting.last() {
+            Some(Move::To(t)) => Some(*t),
+            _ => None,
+        }
+    }
+
     /// Returns the number of the last move requested.
     pub fn last(&self) -> u64 {
         self.made + self.waiting.len() as u64

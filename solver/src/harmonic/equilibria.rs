@@ -266,7 +266,7 @@ pub(super) fn judged(
     };
     let open = configuration.smallest_gap(polygon, &sides);
     let pushes = loads.iter().all(|load| load.1 <= 0.0);
-    let held_by_pulls = kind == Kind::Corner && motion.closes();
+    let held_by_pulls = kind == Kind::Corner && machine.contact_can_pull() && motion.closes();
     let character =
         Character::of(pushes, held_by_pulls, open, || grows(&eigenvalues, machine.omega_c));
     let (x, y) = configuration.z;

@@ -190,8 +190,7 @@ impl Locked {
         let motion = configuration.kept(machine, speed, &loads);
         let mut growth = None;
         let pushes = push_a >= 0.0 && push_b >= 0.0;
-        // The equality algorithm is not used with friction: a pull has none.
-        let held_by_pulls = machine.friction == 0.0 && motion.closes();
+        let held_by_pulls = machine.contact_can_pull() && motion.closes();
         let character = Character::of(pushes, held_by_pulls, smallest_gap, || {
             growth = motion.growth();
             growth.is_some()

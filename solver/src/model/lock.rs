@@ -131,11 +131,11 @@ impl Machine {
     /// Returns the adhesive speed: the lowest speed at which the paper's equality algorithm holds a
     /// lock, one multiplier being tensile \[rad/s\]. The formula is that of
     /// [`lock_speed`](Self::lock_speed) with `tan delta` for `cot delta`. `None` without corners,
-    /// without clearance at rest, with friction, because a pull has none, and on a lining, which
-    /// cannot pull. For unequal tips also `None` if a lock of pushes begins at a lower speed.
+    /// without clearance at rest, where no contact can pull, and for unequal tips if a lock of pushes
+    /// begins at a lower speed.
     #[must_use]
     pub fn adhesive_speed(&self) -> Option<f64> {
-        if self.lining.is_some() || self.clearance_at_rest() <= 0.0 {
+        if !self.contact_can_pull() || self.clearance_at_rest() <= 0.0 {
             return None;
         }
         if self.is_uneven() {
@@ -146,15 +146,8 @@ impl Machine {
             let below = |speed: &f64| windows.first().is_none_or(|lock| *speed < lock.from);
             return self.threshold(slope).filter(|speed| known && below(speed));
         }
-        let slope = 1.0 / self.polygon.delta.tan();
-        let windows = if !self.tips_incline_or_rub() {
-            let from = self.threshold(self.polygon.delta.tan());
-            from.map(|from| LockWindow { from, to: None }).into_iter().collect()
-        } else if self.friction == 0.0 {
-            self.windows([(slope, 1.0), (slope, -1.0)], 1.0)
-        } else {
-            Vec::new()
-        };
+        let from = self.threshold(self.polygon.delta.tan())?;
+        let windows = vec![LockWindow { from, to: None }];
         self.with_clearance(windows).first().map(|window| window.from)
     }
 

@@ -207,6 +207,13 @@ impl Machine {
         self.radial_coupling != 0.0 || self.friction != 0.0
     }
 
+    /// Returns whether the paper's bilateral law, which pulls, takes this machine: radial tips without
+    /// friction, and no lining.
+    #[must_use]
+    pub fn contact_can_pull(&self) -> bool {
+        self.lining.is_none() && !self.tips_incline_or_rub()
+    }
+
     /// Returns whether contact forces load the casing mode otherwise than in the paper's model.
     /// Friction alone, on a casing without tangential motion, loads only the blades.
     #[must_use]

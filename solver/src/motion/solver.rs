@@ -222,6 +222,9 @@ pub trait Solver: Debug + Send + Sync {
     /// the next pulse.
     fn set_parameters(&mut self, _: &CheckedScene) {}
 
+    /// Moves the end of the run \[s\], up to which the swing of the tips is followed.
+    fn set_end(&mut self, end: f64);
+
     /// Multiplies the tolerance of the solver by `factor`, if it has one.
     fn scale_tolerance(&mut self, _factor: f64) {}
 

@@ -2,8 +2,8 @@
 //! (docs/theory.md, section 9). A proved verdict (`Solver::final_verdict`) applies at once;
 //! otherwise the last part of the run is judged ([`judge`]).
 //!
-//! A `Trend` extrapolates an amplitude from its values in the middle of the run, at three quarters,
-//! and now.
+//! A `Trend` extrapolates an amplitude from its values in the middle of the time since the last
+//! change, at three quarters of it, and now.
 
 use serde::Serialize;
 use strum::{AsRefStr, Display, EnumString};
@@ -199,33 +199,42 @@ pub fn judge(log: &ContactLog, now: f64, window: f64) -> Verdict {
 /// Values of an amplitude at two instants of a run.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Trend {
+    /// Start of the run, or its last change \[s\].
+    from: f64,
     /// End of the run \[s\].
     end: f64,
-    /// Amplitude in the middle of the run and at three quarters of it; `None` before that time.
+    /// Amplitude in the middle between the two and at three quarters; `None` before that time.
     marks: [Option<f64>; 2],
 }
 
 impl Trend {
     /// Creates the trend for a run that ends at `end` \[s\].
     pub fn over(end: f64) -> Self {
-        Self { end, marks: [None; 2] }
+        Self { from: 0.0, end, marks: [None; 2] }
+    }
+
+    /// Begins again at the time `t` \[s\], where the run changes.
+    pub fn change(&mut self, t: f64) {
+        *self = Self { from: t, ..Self::over(self.end) };
+    }
+
+    /// Moves the end of the run, at the time `t` \[s\]: the values so far are of other instants.
+    pub fn set_end(&mut self, t: f64, end: f64) {
+        if end != self.end {
+            *self = Self { from: t, ..Self::over(end) };
+        }
     }
 
     /// Records `value` as the amplitude at the time `t` \[s\]: its largest value over a preceding
     /// interval.
     pub fn see(&mut self, t: f64, value: f64) {
-        let [middle, later] = &mut self.marks;
-        if t >= 0.5 * self.end {
-            middle.get_or_insert(value);
+        let part = (t - self.from) / (self.end - self.from);
+        match &mut self.marks {
+            [middle @ None, _] if part >= 0.5 => *middle = Some(value),
+            // Not the value that is in the middle already.
+            [Some(_), later @ None] if part >= 0.75 => *later = Some(value),
+            _ => {}
         }
-        if t >= 0.75 * self.end {
-            later.get_or_insert(value);
-        }
-    }
-
-    /// Discards the values recorded before a change of parameters.
-    pub fn forget(&mut self) {
-        self.marks = [None; 2];
     }
 
     /// Returns whether the amplitudes of both earlier instants are known.
@@ -332,5 +341,15 @@ mod trend_tests {
         let mut short = Trend::over(1.0);
         short.see(0.3, 1.0);
         assert_eq!(short.falls_to(0.1), None);
+        // Too little is seen after a late change, and one look is not two.
+        short.change(0.9);
+        (90..=100).for_each(|n| short.see(f64::from(n) / 100.0, 2.0 - f64::from(n) / 100.0));
+        assert!(short.is_known());
+        short.change(0.99);
+        short.see(1.0, 1.0);
+        assert!(!short.is_known() && short.falls_to(0.9).is_none());
+        short.set_end(1.0, 2.0);
+        short.see(1.6, 1.0);
+        assert_eq!((short.falls_to(0.5), short.is_known()), (None, false));
     }
 }

@@ -198,9 +198,10 @@ impl App {
         self.reading.at_s.unwrap_or(self.played_s())
     }
 
-    /// Returns the time played to \[s\]; 0 before the first snapshot.
+    /// Returns the time played to, or to which the motion is going \[s\]; 0 before the first
+    /// snapshot.
     pub fn played_s(&self) -> f64 {
-        self.run.latest.t_s
+        self.play.moves.target().unwrap_or(self.run.latest.t_s)
     }
 
     /// Returns the end of the run, with extensions \[s\].

@@ -154,10 +154,11 @@ impl App {
         &self.run.latest.results
     }
 
-    /// Replaces the current scene. It restarts the run, or, if `live`, changes the running motion
-    /// at the time played to.
+    /// Replaces the current scene. It restarts the run, or, if `live`, changes the motion at the
+    /// time shown, from which it goes on.
     pub fn set_scene(&mut self, scene: CheckedScene, live: bool) {
         if live {
+            self.depart();
             let film = self.run.film.changed(self.played_s(), &scene);
             self.show_film(film, scene);
         } else {

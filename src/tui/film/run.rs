@@ -96,7 +96,8 @@ impl Film {
             .filter(|at| at.motion.t_s() <= plan.from_s && at.motion.failure().is_none())
             .filter_map(under)
             .max_by(|a, b| a.motion.t_s().total_cmp(&b.motion.t_s()));
-        let Some(ahead) = ahead else { return Self::new(plan) };
+        let Some(mut ahead) = ahead else { return Self::new(plan) };
+        ahead.motion.set_end(plan.end_s);
         let marks = self.marks.up_to(ahead.motion.t_s(), ahead.motion.contacts());
         Self::going_on(plan, ahead, copies, marks)
     }
@@ -335,7 +336,7 @@ fn point(motion: &Motion) -> [f64; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rubscope_solver::scene::{Scene, SolverKind};
+    use rubscope_solver::scene::{Scene, SolverKind, keys};
 
     impl Film {
         /// Changes the length of a slice, so that a test does not depend on the machine's speed.
@@ -386,6 +387,22 @@ mod tests {
             let proved = film.verdict();
             assert!(matches!(film.state(), FullRunState::Computing(_)), "{name}");
             assert_eq!(film.computed().result().map(|run| run.verdict), proved, "{name}");
+        }
+    }
+
+    #[test]
+    fn a_live_change_late_in_a_run_is_judged_as_in_a_run_of_the_longer_end() {
+        for (name, at) in [("rub", 0.35), ("rub", 0.4), ("rub", 0.49), ("digs-in", 0.4)] {
+            let whole = Film::new(plan(name)).computed();
+            let now = Scene::clone(&whole.plan.scene).with(&[(keys::CASING_DAMPING, "0.04")]);
+            let changed = whole.plan.changed(at, &now.unwrap());
+            let live = whole.replanned(changed.clone(), None).computed();
+            let mut scene = Scene::clone(&changed.scene);
+            scene.solver.end_s = changed.end_s;
+            let scene = scene.checked().unwrap();
+            let run = Film::new(FilmPlan { scene, from_s: 0.0, ..changed }).computed();
+            let verdicts = [live.verdict(), run.verdict()];
+            assert_eq!(verdicts, [Some(Verdict::Whirl); 2], "{name} changed at {at} s");
         }
     }
 

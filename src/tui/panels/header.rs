@@ -308,7 +308,8 @@ fn modes(app: &App) -> Vec<Part> {
     let ((from, to), now) = (app.page(), app.now().min(app.end_s()));
     let word = if now > to { "back" } else { "ahead" };
     let pages = ((now - from) / (to - from) - 1e-9).floor().abs();
-    let pages = (now < from || now > to).then(|| format!("{pages} {word}"));
+    let is_off = (now < from || now > to) && pages >= 1.0;
+    let pages = is_off.then(|| format!("{pages} {word}"));
     let live = app.knobs.live.then(|| "LIVE".to_string());
     let missing = app.scene.modes_note().map(|_| "own mode: none known of n_d".to_string());
     pages.into_iter().chain(live).chain(missing).map(|text| plain(1, text, focus)).collect()

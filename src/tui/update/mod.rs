@@ -11,7 +11,7 @@ use super::app::{App, Cursor, HelpState, InputMode, PaletteState, Reading};
 use crate::report::line::{self, clean};
 use crate::tui::app::layout::placed;
 use crate::tui::axis::{instant, readable};
-use crate::tui::command::{Chord, Command, Effect, Purpose, lookup};
+use crate::tui::command::{Chord, Command, Effect, Group, Purpose, lookup};
 use crate::tui::export;
 use crate::tui::field::Field;
 use crate::tui::film::other_law;
@@ -54,6 +54,9 @@ impl App {
         } else {
             let way = match self.dialogue.is_closed() {
                 true => "? lists the keys",
+                false if self.keyboard() == Group::Filter => {
+                    "the list is of what is typed, Esc clears"
+                }
                 false if self.dialogue.typed().is_some() => "Enter takes what is typed, Esc leaves",
                 false => "Esc leaves",
             };
@@ -319,7 +322,7 @@ impl App {
 
     /// Fires the pulse into the playing motion; the cursor, which shows another time, goes.
     fn fire(&mut self) {
-        self.stop_reading();
+        self.depart();
         let t = self.played_s();
         if !self.run.film.has_room(t) {
             self.status = Some("not fired: the run has too many changes; r restarts".into());
@@ -367,9 +370,25 @@ impl App {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tui::app::tests::on_screen;
     use crate::tui::command::valid;
     use crate::tui::{Marker, Theme};
     use rubscope_solver::scene::Scene;
+
+    #[test]
+    fn a_live_change_acts_at_the_time_shown() {
+        let mut app = on_screen();
+        app.act(Command::Live);
+        for (t, change) in [(5e-3, Command::Set(0, "450".into())), (8e-3, Command::Fire)] {
+            app.update(Command::GoTo(t)).unwrap();
+            assert_eq!(app.now(), t);
+            app.update(change).unwrap();
+            // The motion is not there yet, but goes there.
+            assert_eq!((app.reading.at_s, app.now(), app.run.film.from_s), (None, t, t));
+        }
+        let times: Vec<f64> = app.run.film.arguments().iter().map(|(t, _)| *t).collect();
+        assert_eq!(times, [5e-3, 8e-3]);
+    }
 
     #[test]
     fn a_key_that_changes_nothing_says_so() {

@@ -154,9 +154,14 @@ impl Swings {
         self.trend.falls_to(self.largest()).unwrap_or_else(|| self.largest())
     }
 
-    /// Discards the trend before a change of parameters.
-    pub(super) fn forget(&mut self) {
-        self.trend.forget();
+    /// Begins the trend again, at a change on the way \[s\].
+    pub(super) fn change(&mut self, t: f64) {
+        self.trend.change(t);
+    }
+
+    /// Moves the end of the run \[s\], seen from the time `t` \[s\].
+    pub(super) fn set_end(&mut self, t: f64, end: f64) {
+        self.trend.set_end(t, end);
     }
 
     pub(super) fn largest(&self) -> f64 {

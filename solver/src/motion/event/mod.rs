@@ -353,13 +353,17 @@ impl Solver for Events {
     }
 
     fn fire(&mut self) {
-        self.swings.forget();
+        self.swings.change(self.run.clock.now);
         self.intervene(|motion, _| motion.run.fire());
+    }
+
+    fn set_end(&mut self, end: f64) {
+        self.swings.set_end(self.run.clock.now, end);
     }
 
     /// A ramp under which coefficients of the equations change in the blade frame is a failure.
     fn set_speed(&mut self, speed: f64, ramp: f64) {
-        self.swings.forget();
+        self.swings.change(self.run.clock.now);
         self.intervene(|motion, point| {
             motion.run.rotor.change(motion.run.clock.now, speed, ramp);
             motion.change_speed(speed, ramp, point);

@@ -25,7 +25,7 @@ impl Explicit {
         if *scene == *self.scene || !Change::is_live(&self.scene, scene) {
             return;
         }
-        self.forget();
+        self.begin_change();
         let (stored, deepest) = (self.stored(), self.deepest());
         self.scene = Arc::new(scene.clone());
         let speed = self.drive.speed(self.n);
@@ -53,7 +53,7 @@ impl Explicit {
 
     /// Turns with another speed and acceleration from the latest step on.
     pub(super) fn take_speed(&mut self, speed: f64, ramp: f64) {
-        self.forget();
+        self.begin_change();
         self.drive.set_speed(self.n, speed, ramp);
         if !self.machine.changes_with_speed() {
             return;
@@ -79,9 +79,14 @@ impl Explicit {
         }
     }
 
-    /// Forgets what a change makes invalid.
+    /// Forgets what a change by the user makes invalid.
+    pub(super) fn begin_change(&mut self) {
+        self.lasting.change(self.drive.time_of(self.n));
+        self.forget();
+    }
+
+    /// Forgets what another state makes invalid.
     pub(super) fn forget(&mut self) {
-        self.lasting.forget();
         self.strides.forget();
         self.stride_began = None;
         self.changed = self.n;

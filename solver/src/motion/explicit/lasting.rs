@@ -150,9 +150,15 @@ impl Lasting {
         self.now.wave().max(self.before.wave())
     }
 
-    /// Forgets what was before a change on the way.
-    pub fn forget(&mut self) {
-        self.trends.iter_mut().for_each(Trend::forget);
+    /// Begins the trends again, at a change on the way \[s\].
+    pub fn change(&mut self, t: f64) {
+        self.trends.iter_mut().for_each(|trend| trend.change(t));
+    }
+
+    /// Moves the end of the run \[s\], seen from the time `t` \[s\].
+    pub fn set_end(&mut self, t: f64, end: f64) {
+        self.length = 0.5 * LAST_PART * end;
+        self.trends.iter_mut().for_each(|trend| trend.set_end(t, end));
     }
 
     /// The verdict over the last `window` seconds, of a machine with this clearance and

@@ -213,7 +213,7 @@ impl Solver for Explicit {
     }
 
     fn fire(&mut self) {
-        self.forget();
+        self.begin_change();
         let before = self.stored();
         let force = self.drive.fire(self.n);
         self.u[0].increment -= self.casing.start_shift(force);
@@ -237,6 +237,10 @@ impl Solver for Explicit {
 
     fn set_parameters(&mut self, scene: &CheckedScene) {
         self.take_parameters(scene);
+    }
+
+    fn set_end(&mut self, end: f64) {
+        self.lasting.set_end(self.drive.time_of(self.n), end);
     }
 
     fn fork(&self) -> Box<dyn Solver> {

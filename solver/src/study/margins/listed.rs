@@ -148,6 +148,9 @@ fn why_none(here: &Evaluated<'_>, name: LimitName) -> String {
             (None, LimitName::OmegaAdhesive) if machine.friction != 0.0 => {
                 "tips that rub cannot pull"
             }
+            (None, LimitName::OmegaAdhesive) if !machine.contact_can_pull() => {
+                "the bilateral law, which pulls, takes no inclined tips"
+            }
             (None, LimitName::OmegaLock)
                 if hard.is_some() && machine.coupling_product_at(toward) != 0.0 =>
             {

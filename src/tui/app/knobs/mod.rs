@@ -233,7 +233,7 @@ impl App {
     /// Applies a scene with other knob values: to the running motion in live mode if the change can
     /// act on it, otherwise by a restart.
     pub fn set_turned_scene(&mut self, scene: CheckedScene) {
-        let can_act = self.failure().is_none() && self.run.film.has_room(self.played_s());
+        let can_act = self.failure().is_none() && self.run.film.has_room(self.now());
         let live = self.knobs.live && can_act && Change::acts_live(&self.scene, &scene);
         if self.knobs.live && !live && self.status.is_none() {
             self.status = Some("this cannot act on a running motion: restarted".into());

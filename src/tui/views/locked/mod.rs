@@ -299,6 +299,7 @@ pub fn reading(app: &App, speed: f64) -> String {
     let holds = match (a > 0.0 || b > 0.0, point.admissible, point.stable) {
         _ if lining && can_last => "of a rigid casing; on the lining a lock can last",
         _ if lining => "of a rigid casing; the lining holds no lock here",
+        (true, ..) if !app.machine.contact_can_pull() => "one pulls: no lock",
         (true, ..) => "one pulls: only an adhesive lock",
         (_, true, true) => "both push: a lock can last",
         (_, true, false) => "both push, but it is unstable",
