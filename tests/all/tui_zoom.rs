@@ -300,10 +300,10 @@ fn steps_and_jumps_go_on_from_the_cursor() {
         session.press_each(".");
         assert!(session.app.now() > next && !session.app.play.playing);
     }
-    // A pulse acts on the motion, wherever the cursor is, and says when.
+    // A pulse acts at the instant that the cursor shows, and says so.
     session.press_each(":t 9 ms\np");
     let said = session.app.status.clone().unwrap();
-    assert!(said.contains(" fired at 2.74") && session.app.reading.at_s.is_none(), "{said}");
+    assert!(said.contains(" fired at 9.00") && session.app.reading.at_s.is_none(), "{said}");
 }
 
 #[test]
