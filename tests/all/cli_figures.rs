@@ -115,22 +115,22 @@ fn figures_4_to_6_lock_on_the_blades_of_the_paper() {
         &figure,
         "at each of 50 steps from 0.01 to 1 µs it locks from 75 to 81 ms, at some 30 of them"
     ));
-    let all = at_steps(4, "43400", 0.0, 1);
+    let all = at_steps(4, "43400", 2);
     assert!(all.iter().all(|(t, _)| t.is_some_and(|t| (0.075..0.081).contains(&t))), "{all:?}");
     let of_paper = all.iter().filter(|(_, held)| *held == [6, 21]).count();
-    assert!((25..35).contains(&of_paper), "{of_paper}");
+    assert!((11..20).contains(&of_paper), "{of_paper}");
     // 40 kN, as the caption says.
     assert!(says(&figure, "40 kN locks at 84 to 90 ms on other blades"));
-    for (time, held) in at_steps(4, "40000", 0.0, 5) {
+    for (time, held) in at_steps(4, "40000", 5) {
         assert!(time.is_some_and(|t| (0.084..0.090).contains(&t)) && held != [6, 21], "{time:?}");
     }
 }
 
 /// When a scene locks at 50 steps from 0.01 to 1 µs, or at every so many of them, and on which
-/// blades; at steps beside those by a part of the way from one to the next.
-fn at_steps(number: u32, pulse: &str, beside: f64, every: usize) -> Vec<(Option<f64>, Vec<u32>)> {
+/// blades.
+fn at_steps(number: u32, pulse: &str, every: usize) -> Vec<(Option<f64>, Vec<u32>)> {
     let scene = with(number, &[("operation.pulse_n", pulse)]);
-    let step = |n: u32| 1e-8 * 100_f64.powf((f64::from(n) + beside) / 49.0);
+    let step = |n: u32| 1e-8 * 100_f64.powf(f64::from(n) / 49.0);
     let run = |n: u32| {
         let scene = scene.clone().into_scene();
         let scene = scene.with(&[("solver.step_s", &step(n).to_string())]).unwrap();
@@ -205,13 +205,12 @@ fn with_the_damping_of_table_1_every_lock_is_early() {
 /// single locks: another processor may count some more or fewer.
 #[test]
 fn figure_7_locks_earlier_than_the_paper_at_most_steps_and_when_it_does_depends_on_the_step() {
-    let times = |pulse: &str, beside: f64| {
-        let mut times: Vec<f64> =
-            at_steps(7, pulse, beside, 1).into_iter().filter_map(|at| at.0).collect();
+    let times = |pulse: &str| {
+        let mut times: Vec<f64> = at_steps(7, pulse, 1).into_iter().filter_map(|at| at.0).collect();
         times.sort_by(f64::total_cmp);
         times
     };
-    let (own, weaker) = (times("50000", 0.0), times("42000", 0.0));
+    let (own, weaker) = (times("50000"), times("42000"));
     assert!(own.len() >= 48 && own[0] > 0.0215 && *own.last().unwrap() > 0.1, "{own:?}");
     assert!((43..=48).contains(&own.iter().filter(|t| **t < 0.040).count()), "{own:?}");
     assert!((27..=38).contains(&weaker.len()), "{weaker:?}");
@@ -228,17 +227,10 @@ fn figure_7_locks_earlier_than_the_paper_at_most_steps_and_when_it_does_depends_
         );
         assert!(says(&figure, &told), "{told}: {:?}", figure.caption);
     }
-    // At steps beside those too.
+    // Nine times of ten, and from there on.
     assert!(says(&figure, "50 kN locks from 20 ms on, nine times of ten by 50 ms; 42 kN from 30"));
-    let part = |of: usize, all: usize| of as f64 / all as f64;
-    let before = |times: &[f64], end: f64| times.iter().filter(|t| **t < end).count();
-    let own = [own, times("50000", 0.37)].concat();
-    let weaker = [weaker, times("42000", 0.37)].concat();
-    assert!(own.iter().all(|t| *t > 0.020) && part(own.len(), 100) > 0.95, "{own:?}");
-    assert!((0.88..0.99).contains(&part(before(&own, 0.050), own.len())), "{own:?}");
-    assert!(weaker.iter().all(|t| *t > 0.030), "{weaker:?}");
-    assert!((0.58..0.75).contains(&part(weaker.len(), 100)), "{weaker:?}");
-    assert!(part(before(&weaker, 0.1), weaker.len()) > 0.9, "{weaker:?}");
+    let before = own.iter().filter(|t| **t < 0.050).count();
+    assert!((0.88..=0.99).contains(&(before as f64 / own.len() as f64)), "{own:?}");
     let four = crate::run_once(&with(7, &[])).outcome.contacts;
     assert_eq!(four.iter().map(|c| c.blades.len()).sum::<usize>(), 4);
     assert!(says(&figure, "it still swings by"));
@@ -246,7 +238,7 @@ fn figure_7_locks_earlier_than_the_paper_at_most_steps_and_when_it_does_depends_
 
 #[test]
 fn figure_8_has_a_verdict_for_every_cell() {
-    let figure = which(8).draw(&with(8, &[("solver.end_s", "1e-3")])).unwrap();
+    let figure = which(8).draw(&with(8, &[("solver.end_s", "2e-5")])).unwrap();
     let cells = |panel: &Panel| -> usize {
         let all = panel.series.iter().filter(|series| series.name != "threshold");
         all.map(|series| series.points.len()).sum()

@@ -4,25 +4,6 @@ use rubscope_solver::harmonic::{coincidence, shifted_coincidence};
 use rubscope_solver::scene::Scene;
 
 use crate::close;
-use crate::hbm_lining::preloaded;
-
-#[test]
-fn under_preload_it_is_growth_and_the_wave_it_ends_in() {
-    let scene = preloaded("27e3", &[]);
-    let points = coincidence(&scene, &[390.0, 406.0, 425.0, 445.0]).unwrap();
-    let growths: Vec<f64> = points.iter().map(|point| point.growth_1_s.unwrap()).collect();
-    close(growths[0], -5.799479916, 1e-9);
-    close(growths[2], 7.512595085, 1e-9);
-    assert!(growths[1] > 0.0 && growths[3] < 0.0);
-    close(points[1].blade_amplitude_rad.unwrap(), 1.8201e-4, 5e-5);
-    close(points[2].casing_amplitude_m.unwrap(), 2.39884117e-5, 1e-8);
-    close(points[2].omega_rad_s.unwrap(), 970.690111, 1e-9);
-    assert!(points[0].blade_amplitude_rad.is_none() && points[3].omega_rad_s.is_none());
-    assert!(points.iter().all(|point| point.bounded));
-    let stiff = coincidence(&preloaded("54e3", &[]), &[425.0]).unwrap()[0];
-    assert!(!stiff.bounded && stiff.blade_amplitude_rad.is_none());
-    assert!(shifted_coincidence(&scene, 1.0).unwrap() > 419.0);
-}
 
 #[test]
 fn over_a_clearance_it_is_the_whirl_on_the_rim() {

@@ -4,8 +4,7 @@
 use crate::close;
 use proptest::prelude::*;
 use rubscope_solver::harmonic::{
-    Character, Form, HarmonicError, equilibria, flutters, lock_loads, locked_motion, slip_over,
-    undamped_flutter_speed,
+    Form, flutters, lock_loads, locked_motion, undamped_flutter_speed,
 };
 use rubscope_solver::model::{Frame, Machine};
 use rubscope_solver::scene::Scene;
@@ -26,39 +25,6 @@ fn machine(tips: [f64; 3]) -> Machine {
 /// Returns the speed from which blades and casing as one grow.
 fn flutter_speed(machine: &Machine, toward: f64) -> Option<f64> {
     flutters(machine, toward).first().map(|range| range.from)
-}
-
-/// A pull has no friction, so that nothing holds such a lock.
-#[test]
-fn tips_that_rub_cannot_pull() {
-    for (tips, expected) in [([0.0; 3], Character::Adhesive), ([0.0, 0.15, 0.0], Character::Pulls)]
-    {
-        let sweep = locked_motion(&machine(tips), Form::Modal, true, None, &[350.0]).unwrap();
-        assert_eq!(sweep.points[0].character, expected, "{tips:?}");
-    }
-}
-
-/// Without damping friction alone makes motions grow: the signs of the polynomial that hold
-/// without it say nothing.
-#[test]
-fn an_undamped_lock_grows_where_its_roots_do() {
-    let mut seen = [0, 0];
-    for tips in [[0.3, 0.0, 0.0], [0.2, 0.1, 0.02], [0.05, 0.1, 0.05], [-0.05, 0.2, 0.05]] {
-        let machine = machine(tips).undamped();
-        for speed in [430.0, 500.0, 560.0, 720.0, 800.0] {
-            let point = locked_motion(&machine, Form::Modal, false, None, &[speed]).unwrap();
-            let point = point.points[0];
-            if !point.admissible {
-                continue;
-            }
-            let roots = Frame::at(&machine, speed).joined();
-            let growth = roots.iter().map(|root| root.re).fold(0.0, f64::max);
-            // Round-off of a pair that neither grows nor decays is far smaller.
-            assert_eq!(point.stable, growth < 1e-3, "{tips:?} {speed} {growth}");
-            seen[usize::from(point.stable)] += 1;
-        }
-    }
-    assert!(seen.iter().all(|count| *count > 1), "{seen:?}");
 }
 
 #[test]
@@ -97,35 +63,6 @@ fn at_the_flutter_speed_a_whirl_has_no_bound() {
         let away = frame.turning(root.im).compliance().norm();
         assert!(away < 1e-9 * frame.compliance().norm(), "{away:e}");
     }
-}
-
-#[test]
-fn what_is_of_the_papers_tips_alone_is_refused_by_name() {
-    let joined = machine([0.3, 0.0, 0.0]);
-    let key = |error: HarmonicError| match error {
-        HarmonicError::Refused { key, .. } => key,
-        other => panic!("{other}"),
-    };
-    assert_eq!(key(equilibria(&joined, 500.0, true).unwrap_err()), "bladed_disk.radial_coupling");
-    assert_eq!(key(slip_over(&joined, &[500.0]).unwrap_err()), "bladed_disk.radial_coupling");
-    // Friction that only bends blades leaves the slip of the casing alone.
-    let bent = slip_over(&machine([0.0, 0.15, 0.0]), &[500.0]).unwrap();
-    assert_eq!(bent, slip_over(&machine([0.0; 3]), &[500.0]).unwrap());
-    assert_eq!(
-        key(slip_over(&machine([0.0, 0.15, 0.05]), &[500.0]).unwrap_err()),
-        "contact.friction"
-    );
-    for form in [Form::Printed, Form::Blade] {
-        let error = locked_motion(&joined, form, true, None, &[500.0]).unwrap_err();
-        assert_eq!(key(error), "bladed_disk.radial_coupling");
-    }
-    let mut other = scene([0.3, 0.0, 0.0]);
-    other.bladed_disk.nodal_diameters = 4;
-    let other = other.machine();
-    let error = locked_motion(&other, Form::Modal, true, None, &[500.0]).unwrap_err();
-    assert_eq!(key(error), "bladed_disk.nodal_diameters");
-    assert_eq!((other.lock_speed(), other.locked_multipliers(500.0)), (None, None));
-    assert_eq!(lock_loads(&other, 500.0), None);
 }
 
 proptest! {

@@ -2,7 +2,7 @@
 //! limit cycles, against numbers from time integration by other programs.
 
 use crate::close;
-use rubscope_solver::harmonic::{Cycle, Lining, growth_threshold, round_whirls};
+use rubscope_solver::harmonic::{Cycle, Lining, growth_threshold};
 use rubscope_solver::scene::Scene;
 
 /// Pressed in by 20 micrometres, with the smooth law.
@@ -165,66 +165,4 @@ fn threshold_of_the_lining_is_that_of_its_formula() {
             });
         }
     }
-}
-
-#[test]
-fn too_stiff_a_joint_grows_without_bound() {
-    // Half of the lining's stiffness is still inside the tongue.
-    with(&preloaded("54e3", &[]), |lining| {
-        let unbounded = whirl(lining, 425.0);
-        assert_eq!(unbounded, Whirl::Unbounded);
-        let wave = round_whirls(&lining.machine, 425.0);
-        assert!(wave[0].stiffness_n_per_m < lining.stiffness_far_out());
-        assert!(!lining.is_bounded(425.0) && lining.is_bounded(390.0));
-    });
-}
-
-/// A casing wave of 19 diameters meets the 3-diameter disk of 22 blades.
-#[test]
-fn an_alias_of_the_diameters_is_the_same_wave() {
-    let alias = [("operation.nodal_diameters", "19"), ("bladed_disk.nodal_diameters", "3")];
-    let scene = preloaded("27e3", &alias);
-    with(&scene, |lining| {
-        let points = lining.hopf_points([50.0, 80.0]).unwrap();
-        assert_eq!(points.len(), 2);
-        for (point, speed) in points.iter().zip([399.4641, 437.8875]) {
-            close(point.speed_rad_s * 19.0 / 3.0, speed, 2e-7);
-        }
-        close(cycle(lining, 410.0 * 3.0 / 19.0).blade_rad, 1.71873347e-4, 3e-9);
-        assert!((lining.machine.dangerous_speed().unwrap() - 61.3).abs() < 0.05);
-    });
-}
-
-/// Inside the tongue nothing is lost, and nothing settles.
-#[test]
-fn without_damping_nothing_settles() {
-    let undamped = [("casing.damping_ratio", "0"), ("bladed_disk.damping_ratio", "0")];
-    with(&preloaded("5e3", &undamped), |lining| {
-        let points = lining.hopf_points([0.0, 700.0]).unwrap();
-        assert_eq!(points.len(), 2, "{points:?}");
-        let middle = 0.5 * (points[0].speed_rad_s + points[1].speed_rad_s);
-        assert!(lining.rest(middle).grows && !lining.rest(points[1].speed_rad_s + 1.0).grows);
-        let settled = whirl(lining, points[0].speed_rad_s + 1.0);
-        assert!(matches!(settled, Whirl::Unsteady | Whirl::Unbounded), "{settled:?}");
-        let shifted = lining.shifted_coincidence(1.0).unwrap();
-        assert!((points[0].speed_rad_s..points[1].speed_rad_s).contains(&shifted));
-    });
-}
-
-#[test]
-fn without_one_wave_of_all_blades_it_is_refused() {
-    let refused = |set: &[(&str, &str)]| {
-        let scene = preloaded("27e3", set);
-        Lining::of(&scene.machine(), &scene.contact).unwrap_err().to_string()
-    };
-    assert!(refused(&[("operation.nodal_diameters", "11")]).contains("allowed is one with"));
-    assert!(refused(&[("operation.nodal_diameters", "0")]).contains("nodal_diameters = 0"));
-    let other = refused(&[("bladed_disk.nodal_diameters", "4")]);
-    assert!(other.starts_with("bladed_disk.nodal_diameters = 4: allowed is"), "{other}");
-    let alias = preloaded("27e3", &[("bladed_disk.nodal_diameters", "19")]);
-    assert!(Lining::of(&alias.machine(), &alias.contact).is_ok());
-    with(&preloaded("27e3", &[]), |lining| {
-        assert!(lining.hopf_points([5.0, 1.0]).is_err());
-        assert!(lining.hopf_points([0.0, f64::INFINITY]).is_err());
-    });
 }

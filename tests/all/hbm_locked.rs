@@ -3,7 +3,7 @@
 
 use crate::hbm_slip::machine;
 use crate::near;
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SVector;
 use rubscope_solver::harmonic::{Form, LockedPoint, locked_motion};
 use rubscope_solver::model::{BladedDisk, Casing, Machine};
 
@@ -84,7 +84,7 @@ fn printed_equations(disk: &BladedDisk, casing: &Casing, speed: f64, u: &Eight) 
 }
 
 #[test]
-fn the_eight_printed_equations_hold_and_their_own_newton_agrees() {
+fn the_eight_printed_equations_hold() {
     let (disk, casing) = (BladedDisk::default(), Casing::default());
     let machine = machine(3, 0.05);
     for speed in [50.0, 290.0, 400.0, 500.0] {
@@ -103,63 +103,5 @@ fn the_eight_printed_equations_hold_and_their_own_newton_agrees() {
         // Terms of 1e-4 m and 1e-2 N m, so 1e-15 is a few units of rounding of
         // the torque rows.
         assert!(residual.amax() < 1e-15, "{residual}");
-        // A start with a backward wave and the wrong multipliers.
-        let scale = Eight::from([1e-4, 1e-4, 1e-4, 1e-4, 100.0, 100.0, 1e-6, 1e-6]);
-        let mut u =
-            found + scale.component_mul(&Eight::from([0.3, -0.2, 0.1, 0.4, 0.5, -0.4, 0.9, -0.7]));
-        for _ in 0..20 {
-            let residual = printed_equations(&disk, &casing, speed, &u);
-            let jacobian = SMatrix::<f64, 8, 8>::from_fn(|row, column| {
-                let mut moved = u;
-                moved[column] += scale[column] * 1e-3;
-                let step = printed_equations(&disk, &casing, speed, &moved) - residual;
-                step[row] / (scale[column] * 1e-3)
-            });
-            u -= jacobian.lu().solve(&residual).unwrap();
-        }
-        let error = (u - found).component_div(&scale).amax();
-        assert!(error < 1e-9, "{error} at {speed}");
     }
-}
-
-/// Blades that turn the wave by 0.8 rad: from the rigid corner, Newton's method
-/// once found the solution at only one of these speeds.
-#[test]
-fn soft_blades_of_the_printed_form_are_followed_and_not_met_by_chance() {
-    let stiffness = 0.01 * 9_083.990_796_689_513_f64.powi(2);
-    let disk = BladedDisk {
-        blades: 5,
-        blade_length_m: 0.5 - 0.000_969_139_512_671_024_5,
-        inertia_kg_m2: 0.01,
-        stiffness_nm_per_rad: stiffness,
-        coupling_nm_per_rad: 0.0,
-        damping_ratio: 0.0,
-        ..BladedDisk::default()
-    };
-    let casing = Casing {
-        radius_m: 0.5,
-        modal_mass_kg: 0.1,
-        modal_stiffness_n_per_m: 92_754_544.609_138_88,
-        damping_ratio: 0.287_670_490_018_661_6,
-        ..Casing::default()
-    };
-    let machine = Machine::new(&disk, &casing, 49);
-    let critical = machine.critical_speed().unwrap();
-    let speeds: Vec<f64> =
-        (-5..=5).map(|k| (2.894_076_755_376_282_5 + 1e-3 * f64::from(k)) * critical).collect();
-    let sweep = locked_motion(&machine, Form::Printed, true, None, &speeds).unwrap();
-    assert!(sweep.missing.is_empty(), "missed {:?}", sweep.missing);
-    assert!(sweep.points.iter().all(|point| point.residual < 1e-14));
-    // One branch: by equal steps of the speed, equal steps of the multipliers.
-    for three in sweep.points.windows(3) {
-        let [a, b, c] = [0, 1, 2].map(|k| three[k].multipliers_n[1]);
-        near(c - b, b - a, 1e-3 * (b - a).abs());
-    }
-    // The order of the speeds and earlier results do not matter.
-    let mut down: Vec<f64> = (0..=300).map(|k| 0.01 * f64::from(k) * critical).collect();
-    let up = locked_motion(&machine, Form::Printed, true, None, &down).unwrap();
-    down.reverse();
-    let down = locked_motion(&machine, Form::Printed, true, None, &down).unwrap();
-    assert!(up.points.iter().eq(down.points.iter().rev()));
-    assert!((20..301).contains(&up.points.len()), "{}", up.points.len());
 }

@@ -73,33 +73,6 @@ fn slip_of_the_map_is_the_long_motion_of_the_event_solver() {
     close(long_wave_speed(&moving, &orbit), orbit.wave_speed_rad_s, 1e-7);
 }
 
-/// On side 0 just after its corner, with this part of the repeating speed.
-fn slipping(diameters: u32, zeta: f64, speed: f64, part: f64) -> (Scene, SlipOrbit) {
-    let mut scene = quiet(diameters, zeta, speed);
-    let machine = scene.machine();
-    let orbit = slip_over(&machine, &[speed]).unwrap()[0].outcome.unwrap();
-    // z = -(g0 - i y), z' = i y', u' = z' + i nu z. A little inside the corner.
-    let y = -machine.polygon.half_side() * (1.0 - 1e-9);
-    let rate = part * orbit.speed_after_corner_m_s;
-    let nu = machine.nu(speed);
-    scene.initial.u_c_m = -machine.clearance();
-    scene.initial.u_s_m = y;
-    scene.initial.v_c_m_s = -nu * y;
-    scene.initial.v_s_m_s = rate - nu * machine.clearance();
-    scene.checked().unwrap();
-    (scene, orbit)
-}
-
-#[test]
-fn slip_lives_where_the_event_solver_keeps_it() {
-    for (diameters, zeta, speed) in
-        [(3, 0.05, 900.0), (3, 0.01, 440.0), (4, 0.05, 600.0), (3, 0.01, 1800.0)]
-    {
-        let (scene, orbit) = slipping(diameters, zeta, speed, 1.01);
-        close(long_wave_speed(&scene, &orbit), orbit.wave_speed_rad_s, 1e-9);
-    }
-}
-
 /// The event solver has no step: with moving blades it comes to rest in the
 /// exact form, in all four coordinates and both multipliers.
 #[test]

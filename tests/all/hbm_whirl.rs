@@ -23,40 +23,6 @@ fn waves(machine: &Machine, speed: f64) -> Vec<RoundWhirl> {
 }
 
 #[test]
-fn nothing_whirls_in_the_paper_and_below_the_fold() {
-    for speed in [100.0, 388.3, 500.0, 2000.0] {
-        assert_eq!(waves(&machine([0.0; 3], None), speed), vec![]);
-    }
-    assert_eq!(waves(&machine([0.3, 0.0, 0.0], None), 410.0), vec![]);
-    // Between the two senses of the product.
-    assert_eq!(waves(&machine([0.15, 0.3, 0.0], None), 300.0), vec![]);
-    assert_eq!(waves(&machine([-0.15, 0.3, 0.0], None), 250.0), vec![]);
-    let mut scene = Scene::base();
-    scene.bladed_disk.radial_coupling = 0.3;
-    scene.bladed_disk.nodal_diameters = 4;
-    assert_eq!(waves(&scene.machine(), 500.0), vec![]);
-    assert_eq!(whirl_spans(&scene.machine(), 1.0), []);
-}
-
-#[test]
-fn with_less_damping_the_onset_tends_to_the_coincidence() {
-    for (tips, limit) in [([0.3, 0.0, 0.0], 1), ([-0.15, 0.3, 0.0], 0)] {
-        let mut parts = Vec::new();
-        for exponent in 2..=7 {
-            let zeta = 10_f64.powi(-exponent);
-            let machine = machine(tips, Some(zeta));
-            let coincidence = machine.coincidence_speeds()[limit];
-            let above = whirl_spans(&machine, 1.0)[0].from / coincidence - 1.0;
-            assert!(above > 0.0, "{above:e} at {zeta:e}");
-            parts.push(above / zeta);
-        }
-        // In proportion to the damping, in the end.
-        close(parts[5], parts[4], 1e-4);
-        assert!(parts.iter().all(|part| *part < 20.0), "{parts:?}");
-    }
-}
-
-#[test]
 fn at_the_fold_the_two_waves_are_one() {
     for (tips, zeta) in [
         ([0.3, 0.0, 0.0], None),
@@ -75,24 +41,6 @@ fn at_the_fold_the_two_waves_are_one() {
         assert!((high.omega_rad_s - low.omega_rad_s).abs() < 1e-2 * high.omega_rad_s.abs());
         assert!(waves(&machine, onset * (1.0 - 1e-8)).is_empty());
     }
-}
-
-#[test]
-fn the_power_is_shared_as_the_frequencies() {
-    let machine = machine([0.3, 0.0, 0.0], None);
-    let nu = machine.nu(450.0);
-    let wave = RoundWhirl::lasting(&machine, 450.0).unwrap();
-    let loads = wave.loads(&machine, 450.0);
-    let power = loads.casing_w + loads.blades_w;
-    let torque = 3.0 * machine.casing_damping * wave.omega_rad_s * loads.casing_m.powi(2);
-    close(torque * 450.0, power, 1e-12);
-    close(loads.casing_w, power * wave.omega_rad_s / nu, 1e-12);
-    close(loads.blades_w, power * wave.s_rad_s.abs() / nu, 1e-12);
-    assert_eq!(loads.friction_w, 0.0);
-    // Friction heat is far larger.
-    let machine = self::machine([0.3, 0.15, 0.0], None);
-    let heat = RoundWhirl::lasting(&machine, 450.0).unwrap().loads(&machine, 450.0).friction_w;
-    assert!((heat - 9.5e3).abs() < 60.0, "{heat}");
 }
 
 proptest! {

@@ -4,9 +4,23 @@
 
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test states what must hold")]
 
+use std::path::{Path, PathBuf};
+
 use proptest::prelude::ProptestConfig;
 use rubscope_solver::motion::{RunReport, Sampling, Script, run_to_end};
 use rubscope_solver::scene::CheckedScene;
+
+/// A test for each table in a folder of `tests`, and one that none is left out.
+macro_rules! files {
+    ($folder:literal: $($name:ident)*) => {
+        $(#[test] fn $name() { holds(stringify!($name)); })*
+
+        #[test]
+        fn every_file_is_run() {
+            assert_eq!(crate::tables($folder), [$(stringify!($name)),*]);
+        }
+    };
+}
 
 mod cli_figures;
 mod cli_script;
@@ -51,6 +65,7 @@ mod python;
 mod readme;
 mod scene_defaults;
 mod scene_modes;
+mod screens;
 mod security;
 mod signs_of_life;
 mod soak;
@@ -73,7 +88,6 @@ mod tui_scenes;
 mod tui_screens;
 mod tui_support;
 mod tui_time;
-mod tui_tips;
 mod tui_zoom;
 mod version;
 
@@ -109,4 +123,18 @@ fn told(report: &RunReport) -> String {
 /// A scene run to its end once, without the changed runs that say how far to trust it.
 fn run_once(scene: &CheckedScene) -> RunReport {
     run_to_end(scene, &Script::default(), Sampling::default(), &mut |_| {})
+}
+
+/// A table of tests by its folder and its name.
+fn table(folder: &str, name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join(folder).join(format!("{name}.txt"))
+}
+
+/// The names of the tables in a folder.
+fn tables(folder: &str) -> Vec<String> {
+    let files = std::fs::read_dir(table(folder, "").parent().unwrap()).unwrap();
+    let names = files.map(|file| file.unwrap().file_name().into_string().unwrap());
+    let mut names: Vec<String> = names.map(|name| name.trim_end_matches(".txt").into()).collect();
+    names.sort();
+    names
 }

@@ -2,7 +2,7 @@
 //! outside and not just inside.
 
 use rubscope_solver::motion::{Verdict, run_to_verdict, to_the_end};
-use rubscope_solver::scene::{CheckedScene, ContactLaw};
+use rubscope_solver::scene::CheckedScene;
 use rubscope_solver::study::margins::{Margins, Robustness, parameter};
 
 use crate::scene;
@@ -65,33 +65,6 @@ fn a_verdict_is_another_just_outside_of_what_is_found_and_not_just_inside() {
 }
 
 #[test]
-fn a_pulse_that_locks_by_pushes_alone_is_an_island() {
-    let at = |pulse: f64| {
-        let pulse = pulse.to_string();
-        let how = [("operation.speed_rad_s", "480"), ("operation.pulse_n", pulse.as_str())];
-        pushes_only("paper-nd3", &how)
-    };
-    let margins = asked(&at(46.3e3));
-    let found = margins.robust.unwrap();
-    assert_eq!(found.verdict, Verdict::Locked);
-    let pulse = found.changes.iter().find(|row| row.path == "operation.pulse_n").unwrap();
-    let ends = [pulse.below, pulse.above].map(|found| found.unwrap());
-    assert!(ends.iter().all(|end| end.verdict == Verdict::Decay), "{ends:?}");
-    assert!(ends[0].value > 46.1e3 && ends[1].value < 48e3, "{ends:?}");
-    // Beyond it nearly every pulse decays.
-    let pulses = (0..80).map(|k| 46.3e3 * (1e6_f64 / 46.3e3).powf(f64::from(k) / 79.0));
-    let decays = pulses.filter(|pulse| {
-        run_to_verdict(&at(*pulse), &to_the_end).unwrap().verdict == Verdict::Decay
-    });
-    assert_eq!(decays.count(), 79);
-    let margins = asked(&at(1e6));
-    let found = margins.robust.unwrap();
-    let pulse = found.changes.iter().find(|row| row.path == "operation.pulse_n").unwrap();
-    assert_eq!((found.verdict, pulse.below, pulse.above), (Verdict::Decay, None, None));
-    assert_eq!(pulse.tried, [0.0, 2e6]);
-}
-
-#[test]
 fn what_is_zero_is_searched_upward_and_only_what_is_there_is_changed() {
     let scene = pushes_only("paper-nd3", &[("operation.pulse_n", "0")]);
     let found = asked(&scene).robust.unwrap();
@@ -106,13 +79,4 @@ fn what_is_zero_is_searched_upward_and_only_what_is_there_is_changed() {
     let long = crate::scene("long-tip", &[("solver.end_s", "1e-3"), ("solver.step_s", "1e-6")]);
     let found = asked(&long).robust.unwrap();
     assert!(found.changes.iter().any(|row| row.path == "bladed_disk.longest_tip_m"));
-}
-
-#[test]
-fn a_search_that_is_told_to_stop_says_nothing() {
-    let scene = scene("paper-nd3", &[]);
-    assert_eq!(scene.solver.contact, ContactLaw::Bilateral);
-    let mut margins = Margins::of(&scene);
-    assert_eq!(margins.ask_runs(&|| false, &mut |_| panic!("nothing is known")), None);
-    assert!(margins.robust.is_none() && margins.pushes_only.is_none());
 }

@@ -89,20 +89,3 @@ fn the_python_of_the_documents_runs() {
         assert!(picture.starts_with(b"\x89PNG") && picture.len() > 10_000, "Fig. 5 is empty");
     }
 }
-
-#[test]
-fn the_plot_of_fig_5_has_at_most_six_lines() {
-    let blocks = read("docs/python.md").blocks();
-    let plot = &blocks.iter().find(|block| block.language == "python").unwrap().text;
-    assert!(plot.contains("plt.plot(") && plot.lines().count() <= 6, "{plot}");
-}
-
-#[test]
-fn every_column_of_a_history_is_in_the_document() {
-    let (text, columns) = (read("docs/python.md").text, read("docs/formats.md").text);
-    assert!(text.contains("(formats.md#csv)"), "{text}");
-    for column in rubscope::report::History::new(2).columns() {
-        let name = column.name.replace(|c: char| c.is_ascii_digit(), "I");
-        assert!(columns.contains(&format!("`{name}`")), "{name}");
-    }
-}

@@ -3,7 +3,6 @@
 use std::f64::consts::TAU;
 
 use rubscope::report::CommandLine;
-use rubscope_solver::model::Mode;
 use rubscope_solver::scene::{BUILTIN, Scene};
 
 use crate::close;
@@ -129,53 +128,4 @@ fn a_frequency_of_turning_blades_gives_that_at_rest_for_each_mode() {
     assert!(!scene.changes_with_speed() && scene.machine().stiffening() == 0.0);
     scene.set(DIAMETERS, "7").unwrap();
     assert!(scene.changes_with_speed());
-}
-
-#[test]
-fn a_mode_is_named_by_what_it_has() {
-    let mode = Mode { nodal_diameters: 3, stiffness: Some(2e6), ..Mode::default() };
-    let mut scene = Scene::base();
-    scene.casing.modes = vec![mode];
-    let json = serde_json::to_value(&scene).unwrap();
-    let expected = serde_json::json!([{ "nodal_diameters": 3, "modal_stiffness_n_per_m": 2e6 }]);
-    assert_eq!(json["casing"]["modes"], expected);
-    assert!(serde_json::to_value(Scene::base()).unwrap()["casing"].get("modes").is_none());
-}
-
-#[test]
-fn an_axis_over_the_diameters_takes_their_modes() {
-    let axis = rubscope_solver::study::Axis::parse("operation.nodal_diameters=3:5:3").unwrap();
-    let mut scene = Scene::builtin("paper-nd3").unwrap();
-    for (index, critical) in [(0, 292.878_435), (1, 256.12), (2, 175.727_061), (1, 256.12)] {
-        axis.apply(&mut scene, index).unwrap();
-        close(scene.machine().critical_speed().unwrap(), critical, 1e-5);
-    }
-}
-
-#[test]
-fn numbers_in_a_list_have_units_as_everywhere() {
-    let tips = |list: &str| {
-        let text = format!("[bladed_disk]\nblades = 4\ntips_m = [{list}]\n");
-        Scene::from_toml_unchecked(&text).map(|scene| scene.bladed_disk.tips_m)
-    };
-    let expected = vec![6e-6, 0.0, 1e-5, 0.0];
-    for list in [
-        "\"0.006 mm\", 0, 1e-5, 0.0",
-        "\"6 um\", \"0\", \"10 µm\", \"0 mm\"",
-        "\"6u\", 0, \"1e-5\", 0",
-    ] {
-        assert_eq!(tips(list).unwrap(), expected, "{list}");
-        let mut scene = Scene::base();
-        scene.set("bladed_disk.tips_m", &format!("[{list}]")).unwrap();
-        assert_eq!(scene.bladed_disk.tips_m, expected, "{list}");
-    }
-    for (list, refusal) in [
-        ("\"6 N\", 0", "bladed_disk.tips_m = 6 N: this is a force; it takes m"),
-        ("\"0,006 mm\"", "bladed_disk.tips_m = 0,006 mm: a number has a decimal point and no"),
-        ("\"long\"", "bladed_disk.tips_m = [\"long\"]: allowed is a list of up to"),
-        ("true", "bladed_disk.tips_m = [true]: allowed is a list of up to"),
-    ] {
-        let error = tips(list).unwrap_err().to_string();
-        assert!(error.starts_with(refusal), "{error}");
-    }
 }

@@ -25,21 +25,3 @@ fn the_lock_speed_of_a_row_is_that_of_its_own_blades() {
         assert_eq!(beside, [false, true]);
     }
 }
-
-#[test]
-fn rows_without_modes_of_their_own_are_drawn_with_all_of_them() {
-    let survey = Survey::of(&scene("paper-nd3", &[]), None, None).unwrap();
-    let figure = |all| rubscope::report::survey::figure(&survey, all);
-    let points = |all| {
-        let [of, _] = &figure(all).panels[..] else { panic!() };
-        of.series[..4].iter().map(|series| series.points.len()).collect::<Vec<_>>()
-    };
-    assert_eq!(points(false), [2, 0, 2, 0]);
-    assert_eq!(points(true), [2, 10, 2, 10]);
-    // A mark that is left out is counted.
-    assert!(
-        figure(true).note.contains("2 limits beyond 1000 rad/s left out."),
-        "{}",
-        figure(true).note
-    );
-}

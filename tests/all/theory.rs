@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 
 use rubscope_solver::harmonic::{Kind, equilibria, equilibrium};
 use rubscope_solver::model::Machine;
-use rubscope_solver::motion::{Events, Solver, run_to_verdict, to_the_end};
-use rubscope_solver::scene::{ModelSize, Scene};
+use rubscope_solver::motion::{Events, Solver};
+use rubscope_solver::scene::Scene;
 use serde_json::Value;
 
 use crate::cli_support::rubscope;
@@ -138,26 +138,6 @@ fn scheme(machine: &Machine, speed: f64, step: f64) -> [f64; 2] {
     let (sin, cos) = machine.polygon.delta.sin_cos();
     let scale = machine.clearance() / (2.0 * cos);
     [scale * (stiff / cos - drag / sin), scale * (stiff / cos + drag / sin)]
-}
-
-#[test]
-fn no_pulse_locks_late_with_the_damping_of_the_table() {
-    let mut scene = Scene::base().as_reference();
-    scene.solver.end_s = 0.1;
-    scene.solver.model = ModelSize::Rigid;
-    for (zeta, latest) in [(0.05, 0.04), (0.025, 0.06)] {
-        scene.casing.damping_ratio = zeta;
-        let mut locks = 0;
-        for k in 0..200 {
-            scene.operation.pulse_n = 3e3 * 1e4_f64.powf(f64::from(k) / 199.0);
-            let reached = run_to_verdict(&scene.checked().unwrap(), &to_the_end).unwrap();
-            if let Some(lock) = reached.locked_s {
-                locks += 1;
-                assert!(lock < latest, "{zeta}, {} N: {lock}", scene.operation.pulse_n);
-            }
-        }
-        assert!(locks < 40, "few lock, {locks}");
-    }
 }
 
 /// Numbers with three digits or more, without leading and, in whole numbers,

@@ -7,7 +7,7 @@
 //! To add a case, write its command and run `RUBSCOPE_TRANSCRIPTS=write cargo test transcripts`,
 //! which puts in the output of each case that has none; then read it.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Output, Stdio};
 
 use crate::cli_support::hearing;
@@ -15,14 +15,7 @@ use crate::cli_support::hearing;
 /// Numbers may differ by this part between processors; other words may not.
 const WITHIN: f64 = 1e-5;
 
-macro_rules! files {
-    ($($name:ident)*) => {
-        const FILES: &[&str] = &[$(stringify!($name)),*];
-        $(#[test] fn $name() { holds(stringify!($name)); })*
-    };
-}
-
-files! { files hbm machine map margins notes precision program refusals run survey }
+files! { "transcripts": files hbm lines machine map margins notes precision program refusals run survey }
 
 /// A command and the lines below it.
 pub struct Shown {
@@ -126,13 +119,9 @@ fn refusal(script: &str, folder: &Path) -> String {
     }
 }
 
-fn file(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/transcripts").join(name)
-}
-
 /// Every case of a file, written again with the output of those that have none.
 fn holds(name: &str) {
-    let (path, folder) = (file(&format!("{name}.txt")), tempfile::tempdir().unwrap());
+    let (path, folder) = (crate::table("transcripts", name), tempfile::tempdir().unwrap());
     let text = std::fs::read_to_string(&path).unwrap();
     let write = std::env::var("RUBSCOPE_TRANSCRIPTS").is_ok_and(|word| word == "write");
     let (mut wrong, mut again, mut lines) = (Vec::new(), Vec::new(), text.lines().peekable());
@@ -171,12 +160,4 @@ fn holds(name: &str) {
         std::fs::write(path, again.join("\n").trim_end().to_string() + "\n").unwrap();
     }
     assert!(wrong.is_empty(), "{name}: {}", wrong.join("\n\n"));
-}
-
-#[test]
-fn every_file_is_run() {
-    let files = std::fs::read_dir(file("")).unwrap().map(|file| file.unwrap().file_name());
-    let mut files: Vec<String> = files.map(|name| name.into_string().unwrap()).collect();
-    files.sort();
-    assert!(files.iter().map(|name| name.trim_end_matches(".txt")).eq(FILES.iter().copied()));
 }

@@ -1,5 +1,4 @@
-//! Keys, signals and sizes that come to the explorer: pause and steps, files, the
-//! live speed, the cursor, and ways to leave.
+//! Keys, signals and sizes that come to the explorer: pause and steps, files, and ways to leave.
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use rubscope::tui::events::ScreenEvent;
@@ -19,14 +18,6 @@ fn pause_stops_time_and_a_step_is_one_step() {
     let steps = (session.app.now() - before) / session.app.scene.solver.step_s;
     // Three steps, to the round-off of a time that is a multiple of a step.
     assert!((steps - 3.0).abs() < 1e-6, "{steps}");
-}
-
-#[test]
-fn quitting_is_quitting_and_escape_is_not() {
-    let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
-    session.press("?\u{1b}\u{1b}\u{1b}");
-    assert!(session.text().contains(" LOCKED "));
-    assert_eq!(session.press("q"), Exit::Done);
 }
 
 #[test]
@@ -72,32 +63,6 @@ fn a_file_is_never_replaced_without_asking() {
         let text = std::fs::read_to_string(&path).unwrap();
         assert!(text.len() > 100 && !text.contains("NaN"), "{file}: {text}");
     }
-}
-
-#[test]
-fn the_speed_acts_on_the_running_motion_when_live() {
-    let mut session = Session::open(120, 40, scene(), Theme::Dark, Marker::Braille);
-    let before = session.app.now();
-    session.press("x");
-    session.press("HHHH");
-    assert!(session.app.now() > before, "the run restarted");
-    assert_eq!(session.app.speed(), 300.0);
-    assert!(session.text().contains("LIVE"), "{}", session.text());
-}
-
-#[test]
-fn the_cursor_reads_values_and_pages_can_be_looked_back_at() {
-    let mut session = Session::open(120, 40, scene(), Theme::Dark, Marker::Braille);
-    // The end of a run of 20 ms, and the page of 5 ms before it.
-    for _ in 0..10 {
-        session.press("");
-    }
-    session.press("1 i++←←←←");
-    assert!(session.text().contains(" at "), "{}", session.text());
-    session.press("<");
-    assert!(session.text().contains("1 back"), "{}", session.text());
-    session.press("\u{1b}\u{1b}");
-    assert!(!session.text().contains("1 back"), "{}", session.text());
 }
 
 #[test]

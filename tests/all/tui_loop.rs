@@ -380,38 +380,8 @@ impl Engine for Silent {
     }
 }
 
-/// The first line of a screen of so many columns.
-fn first_line(app: &mut App, width: u16) -> String {
-    let (sender, events) = channel();
-    drop(sender);
-    let (mut terminal, frame) = (screen(width, 12), Duration::from_millis(100));
-    rubscope::tui::run(&mut terminal, &events, app, &mut Silent, &mut NoHost, frame).unwrap();
-    top(&terminal, width)
-}
-
 fn top(terminal: &Terminal<TestBackend>, width: u16) -> String {
     (0..width).map(|x| terminal.backend().buffer().cell((x, 0)).unwrap().symbol()).collect()
-}
-
-#[test]
-fn on_a_narrow_screen_the_verdict_comes_first_and_whole() {
-    for name in ["coincidence", "rub", "slip", "paper-nd3"] {
-        let changes = [("solver.end_s", "2e-3"), ("solver.step_s", "1e-6")];
-        let mut app = app(crate::scene(name, &changes).into_scene());
-        let (_, first) = answer(&app);
-        app.apply_snapshot(first);
-        let line = first_line(&mut app, 40);
-        let begins = format!(" {}  ", app.verdict_word());
-        assert!(line.starts_with(&begins) && line.trim_end().ends_with('.'), "{name}: {line:?}");
-        press(&mut app, 'l');
-        let word = app.verdict_word();
-        assert!(word.starts_with("at ") && word.contains(" rad/s: "), "{name}: {word}");
-        for width in [40, 59] {
-            let line = first_line(&mut app, width);
-            assert!(line.starts_with(&format!(" {word} ")), "{name}: {line:?}");
-            assert!(!line.contains('…'), "{name}: {line:?}");
-        }
-    }
 }
 
 #[test]

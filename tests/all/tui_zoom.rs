@@ -114,7 +114,7 @@ fn open(name: &str) -> Session {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(16))]
+    #![proptest_config(crate::drawn(8))]
     #[test]
     fn every_column_is_the_range_of_the_run_at_any_zoom_and_page(
         name in prop::sample::select(&["paper-nd3", "rocking", "slip", "coincidence"][..]),
@@ -322,29 +322,4 @@ fn a_run_that_nobody_watches_to_its_end_opens_with_all_of_it() {
         app.act(rubscope::tui::command::Command::Undo);
         assert_eq!(app.page(), (0.0, 0.02));
     }
-}
-
-#[test]
-fn a_lock_that_can_last_is_no_verdict_of_the_run() {
-    let mut scene = scene();
-    scene.operation.pulse_n = 1e3;
-    let mut session = Session::open(170, 40, scene, Theme::Mono, Marker::Braille);
-    session.press_each("3fi");
-    let text: String = session.rows().iter().map(|row| row.trim().to_string() + " ").collect();
-    assert!(text.contains("a lock can last, but this run: DECAY"), "{text}");
-    // On a lining it is its window that tells, not rigid contact.
-    let mut lined = Scene::builtin("soft-lining").unwrap();
-    for (stiffness, words) in [
-        (3e8, "of a rigid casing; on the lining a lock can last"),
-        (1.5e8, "of a rigid casing; the lining holds no lock here"),
-    ] {
-        lined.contact.stiffness_n_per_m = stiffness;
-        let mut session = Session::open(170, 40, lined.clone(), Theme::Mono, Marker::Braille);
-        session.press_each("3fi");
-        let text: String = session.rows().iter().map(|row| row.trim().to_string() + " ").collect();
-        assert!(text.contains(words) && !text.contains("both push"), "{text}");
-    }
-    // Elsewhere nothing is known of a run.
-    session.press_each("HH");
-    assert!(!session.text().contains("but this run"));
 }

@@ -146,37 +146,35 @@ fn errors_at_the_end_are_those_of_the_document() {
 /// The pages say what many impacts leave of an order.
 #[test]
 fn what_does_not_converge_is_in_the_documents() {
-    let many = ["--contact", "unilateral"];
-    let precise = [&["precision"][..], &many, &["--repeat", "1", "--json"]].concat();
-    let report = json(&precise);
-    assert_eq!(report["reference"]["sensitive"], false);
-    let found = report["rows"].as_array().unwrap().iter().filter(|row| {
-        row["model"] == "modal" && row["contact"] == "unilateral" && row["solver"] == "explicit"
-    });
-    let found: Vec<_> = found.collect();
+    let of = |key: &str, value: &str| {
+        run("paper-nd3", &[("solver.contact", "unilateral"), (key, value)])
+    };
+    let exact = of("solver.kind", "event");
+    assert_eq!(exact.outcome.sensitive, Some(false));
+    let clearance = Scene::builtin("paper-nd3").unwrap().clearance();
     let told = read("docs/accuracy.md")
         .table("| solver | step | impacts | error at 0.1 s, in clearances |");
     assert_eq!(told.len(), 5);
-    let impacts = |step: f64| {
-        let changes = [("solver.contact", "unilateral"), ("solver.step_s", &*step.to_string())];
-        run("paper-nd3", &changes).impact_count.to_string()
-    };
+    let by_steps = |step: f64| of("solver.step_s", &step.to_string());
     for row in &told {
         let Ok(step) = row[1].replace(" s", "").parse::<f64>() else {
             assert_eq!((&*row[0], &*row[1], &*row[3]), ("event", "none", "reference"));
-            assert_eq!(row[2], report["reference"]["impact_count"].to_string());
+            assert_eq!(row[2], exact.impact_count.to_string());
             continue;
         };
-        let of_step = found.iter().find(|found| found["step_s"] == step).unwrap();
-        close(of_step["error_final"].as_f64().unwrap(), number(&row[3]), 0.04);
-        assert_eq!(of_step["verdict"], "decay");
-        assert_eq!(impacts(step), row[2]);
+        let found = by_steps(step);
+        let (u, right) = (&found.r#final, &exact.r#final);
+        let error = (u.u_c_m - right.u_c_m).hypot(u.u_s_m - right.u_s_m) / clearance;
+        close(error, number(&row[3]), 0.04);
+        assert_eq!(found.outcome.verdict, Verdict::Decay);
+        assert_eq!(found.impact_count.to_string(), row[2]);
     }
     // No nearer with a smaller step, until it is short.
     let errors: Vec<f64> = told[..4].iter().map(|row| number(&row[3])).collect();
     assert!(errors[..3].is_sorted() && errors[3] < errors[0], "{errors:?}");
     let of_events = &told[4][2];
-    assert!([3e-8, 2e-8, 1e-8].iter().all(|step| impacts(*step) == *of_events));
+    let impacts = |step: &f64| by_steps(*step).impact_count.to_string();
+    assert!([3e-8, 2e-8, 1e-8].iter().all(|step| impacts(step) == *of_events));
     let said = format!(
         "no nearer with a smaller step down to {}; from 3e-8 s down it has the {of_events} impacts of \
          the events",
