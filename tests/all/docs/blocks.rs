@@ -57,18 +57,12 @@ fn console(block: &Block, folder: &Path, wrong: &mut Vec<String>) {
     }
 }
 
-/// Whether GNU parallel is installed.
-fn has_parallel() -> bool {
-    std::process::Command::new("parallel").arg("--version").output().is_ok()
-}
-
 /// Whether a block of commands calls the program, and can be run anywhere.
 fn is_run(block: &Block) -> bool {
     let lines = || block.text.lines().map(str::trim_start);
     let calls = |line: &str| line.split(' ').any(|word| word == "rubscope");
     lines().any(calls)
         && !lines().any(|line| NOT_RUN.iter().any(|(start, _)| line.starts_with(start)))
-        && (!lines().any(|line| line.starts_with("parallel ")) || has_parallel())
 }
 
 fn toml(block: &Block, folder: &Path) -> Result<(), String> {
