@@ -23,28 +23,22 @@ const COLUMNS: [&str; 11] = [
     "multiplier_max_n",
 ];
 
-/// One named column.
-#[derive(Clone, Debug, PartialEq)]
-pub struct HistoryColumn {
-    /// Name in the CSV file; it ends in the SI unit.
-    pub name: String,
-    /// One value per sample.
-    pub values: Vec<f64>,
-}
-
 /// A run as sampled columns. A multiplier (contact force \[N\]) belongs to a blade group; it is the
 /// mean since the previous sample, and negative for a push.
 #[derive(Clone, Debug, PartialEq)]
 pub struct History {
-    columns: Vec<HistoryColumn>,
+    /// Names of the columns; they end in the SI unit.
+    names: Vec<String>,
+    /// The values of each sample, one for each column.
+    rows: Vec<Vec<f64>>,
 }
 
 impl History {
     /// Creates an empty history with one gap column for each of `blades` blades.
     pub fn new(blades: u32) -> Self {
         let gaps = (1..=blades).map(|blade| format!("gap_{blade}_m"));
-        let names = COLUMNS.into_iter().map(String::from).chain(gaps);
-        Self { columns: names.map(|name| HistoryColumn { name, values: Vec::new() }).collect() }
+        let names = COLUMNS.into_iter().map(String::from).chain(gaps).collect();
+        Self { names, rows: Vec::new() }
     }
 
     /// Returns the largest number of samples that a history with a gap column for each of `blades`
@@ -75,34 +69,16 @@ impl History {
             forces().reduce(f64::max).unwrap_or(0.0),
         ];
         let row = row.into_iter().chain(sample.gaps.iter().copied());
-        if !row.clone().take(self.columns.len()).all(f64::is_finite) {
-            return;
+        let row: Vec<f64> = row.take(self.names.len()).collect();
+        if row.iter().all(|value| value.is_finite()) {
+            self.rows.push(row);
         }
-        for (column, value) in self.columns.iter_mut().zip(row) {
-            column.values.push(value);
-        }
-    }
-
-    /// Returns the columns, all of the same length.
-    pub fn columns(&self) -> &[HistoryColumn] {
-        &self.columns
-    }
-
-    /// Returns the number of samples.
-    pub fn len(&self) -> usize {
-        self.columns.first().map_or(0, |column| column.values.len())
-    }
-
-    /// Returns whether there are no samples.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
     }
 
     /// Returns the table of the samples.
     pub fn table(&self) -> Table<'_> {
-        let names = self.columns.iter().map(|column| column.name.clone());
-        Table::new(names, self.len(), |row| {
-            self.columns.iter().map(|column| column.values[row].into()).collect()
+        Table::new(self.names.iter().cloned(), self.rows.len(), |row| {
+            self.rows[row].iter().map(|value| (*value).into()).collect()
         })
     }
 }
@@ -122,20 +98,17 @@ pub(super) mod tests {
         }
     }
 
-    fn column<'a>(history: &'a History, name: &str) -> &'a [f64] {
-        &history.columns().iter().find(|column| column.name == name).unwrap().values
-    }
-
     #[test]
     fn a_sample_fills_every_column() {
         let mut history = History::new(3);
         history.push(&sample(0.25));
-        assert_eq!(history.len(), 1);
-        assert_eq!(column(&history, "gap_min_m"), [1e-4]);
-        assert_eq!(column(&history, "gap_3_m"), [3e-4]);
-        assert_eq!(column(&history, "multiplier_sum_n"), [-60.0]);
-        assert_eq!(column(&history, "multiplier_max_n"), [40.0]);
-        assert!(history.columns().iter().all(|column| column.values.len() == 1));
+        let table = history.table();
+        assert_eq!(table.len(), 1);
+        assert_eq!(table.numbers("gap_min_m"), [1e-4]);
+        assert_eq!(table.numbers("gap_3_m"), [3e-4]);
+        assert_eq!(table.numbers("multiplier_sum_n"), [-60.0]);
+        assert_eq!(table.numbers("multiplier_max_n"), [40.0]);
+        assert!(history.names.iter().all(|name| table.numbers(name)[0].is_finite()));
     }
 
     #[test]
@@ -143,7 +116,7 @@ pub(super) mod tests {
         let mut history = History::new(0);
         history.push(&sample(f64::NAN));
         history.push(&Sample { rotor_angle_rad: f64::INFINITY, ..sample(0.1) });
-        assert!(history.is_empty());
+        assert!(history.table().is_empty());
     }
 
     #[test]
@@ -158,9 +131,8 @@ pub(super) mod tests {
         let mut rows = 0;
         for (row, record) in reader.records().enumerate() {
             for (index, cell) in record.unwrap().iter().enumerate() {
-                let column = &history.columns()[index];
-                assert_eq!(column.name, names[index]);
-                assert_eq!(cell.parse::<f64>().unwrap(), column.values[row]);
+                assert_eq!(history.names[index], names[index]);
+                assert_eq!(cell.parse::<f64>().unwrap(), history.rows[row][index]);
             }
             rows += 1;
         }

@@ -32,24 +32,6 @@ pub fn series(way: &Way) -> String {
     format!("{} {} {}{plain}", way.solver, way.contact, way.model)
 }
 
-/// Returns the remark on a row, which may be empty: it has another contact law than the reference, or
-/// another verdict, or takes every step.
-fn remark(row: &Row) -> &'static str {
-    match row {
-        Row { other_law: true, .. } => "other law",
-        Row { verdict_right: Some(false), .. } => "wrong",
-        Row { way: Way { plain: true, .. }, .. } => "every step",
-        _ => "",
-    }
-}
-
-/// Names the run that is the reference.
-fn reference_origin(reference: &Reference) -> String {
-    let Way { solver, contact, model, step_s, .. } = reference.way;
-    let step = step_s.map_or(String::new(), |step| format!(", the finest step, {} s", short(step)));
-    format!("{solver} solver, {contact}, {model} model{step}")
-}
-
 /// Reason why there is no reference, as the end of a sentence.
 pub const WHY_NONE: &str = "the run of the reference fails before its end";
 
@@ -99,7 +81,12 @@ pub fn table(report: &Precision) -> Table<'_> {
         ("verdict".into(), |row| row.verdict.as_ref().into()),
         (Heading::filed("verdict_right"), |row| row.verdict_right.into()),
         (Heading::filed("other_law"), |row| row.other_law.into()),
-        (Heading::shown(""), |row| remark(row).into()),
+        (Heading::shown(""), |row| match row {
+            Row { other_law: true, .. } => "other law".into(),
+            Row { verdict_right: Some(false), .. } => "wrong".into(),
+            Row { way: Way { plain: true, .. }, .. } => "every step".into(),
+            _ => "".into(),
+        }),
     ];
     let mut table = Table::of(&report.rows, columns);
     if report.rows.iter().any(|row| row.steps.is_some()) {
@@ -121,11 +108,12 @@ pub fn table(report: &Precision) -> Table<'_> {
 pub fn sheet(report: &Precision, command: CommandLine) -> Sheet<'_> {
     let reference = &report.reference;
     let mut sheet = Sheet::new("precision", 1, command, &report.scene);
-    sheet.facts(report);
+    let Way { solver, contact, model, step_s, .. } = reference.way;
+    let step = step_s.map_or(String::new(), |step| format!(", the finest step, {} s", short(step)));
+    sheet.fact("reference", reference);
     sheet.line(&report.scene.title);
     sheet.line(format!(
-        "Reference: {}: {}, {}, {}.",
-        reference_origin(reference),
+        "Reference: {solver} solver, {contact}, {model} model{step}: {}, {}, {}.",
         reference.verdict,
         count(reference.impact_count, "impact"),
         time(reference.wall_s),
@@ -147,28 +135,17 @@ pub fn sheet(report: &Precision, command: CommandLine) -> Sheet<'_> {
             same_law().count()
         ));
     }
-    sheet.shown("", table(report));
+    sheet.table("rows", "", table(report));
     if let Some(figure) = figure(report) {
         sheet.picture(move || figure.clone());
     }
     sheet
 }
 
-/// Position of a row in a chart with two logarithmic axes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PlotPlace {
-    /// log10 of the wall time in seconds.
-    pub time: f64,
-    /// log10 of the error at the end, which is relative to the clearance; `None` for an error of
-    /// zero, which has no logarithm.
-    pub error: Option<f64>,
-}
-
-/// Returns the position of a row in the chart; `None` if its error or its time was not measured.
-pub fn place(row: &Row) -> Option<PlotPlace> {
-    let error = row.error_final?;
-    let error = (error > 0.0).then(|| error.log10());
-    (row.wall_s > 0.0).then(|| PlotPlace { time: row.wall_s.log10(), error })
+/// Returns the wall time \[s\] of a row and its error at the end, a part of the clearance; `None` if
+/// either was not measured.
+pub fn place(row: &Row) -> Option<(f64, f64)> {
+    row.error_final.filter(|_| row.wall_s > 0.0).map(|error| (row.wall_s, error))
 }
 
 /// Returns the two whole exponents, at least 1 apart, that enclose some exponents of ten; `None` if
@@ -183,19 +160,19 @@ pub fn decades(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
 /// Returns the figure: error at the end against wall time, both on logarithmic axes; `None` if no
 /// row has an error above 0.
 pub fn figure(report: &Precision) -> Option<Figure> {
-    let placed: Vec<&Row> = report.rows.iter().filter(|row| place(row).is_some()).collect();
-    let is_zero = |row: &Row| row.error_final == Some(0.0);
-    if placed.iter().all(|row| is_zero(row)) {
+    let is_zero = |row: &&Row| row.error_final == Some(0.0);
+    let (zeros, placed): (Vec<&Row>, Vec<&Row>) =
+        report.rows.iter().filter(|row| place(row).is_some()).partition(is_zero);
+    if placed.is_empty() {
         return None;
     }
-    let at = |row: &&Row| Some((row.wall_s, row.error_final?));
     let mut all: Vec<Series> = Vec::new();
     for group in placed.chunk_by(|a, b| name(a) == name(b)) {
         let Some(first) = group.first() else { continue };
-        let points = group.iter().filter(|row| !is_zero(row)).filter_map(at);
+        let points = group.iter().filter_map(|row| place(row));
         all.push(Series::new(name(first), style(&first.way), points));
     }
-    let zeros: Vec<_> = placed.iter().filter(|row| is_zero(row)).filter_map(at).collect();
+    let zeros: Vec<_> = zeros.into_iter().filter_map(place).collect();
     if !zeros.is_empty() {
         all.push(Series::new("error 0, off this scale", Style::Edge, zeros));
     }

@@ -112,14 +112,9 @@ impl Sentence {
     }
 
     /// Creates the word with the long form of a sentence, or with the short one if the long one is
-    /// wider than `width` columns.
-    pub fn of(word: &str, forms: Forms, width: usize) -> Self {
-        Self::with_notes(word, forms, &[], width)
-    }
-
-    /// As [`Self::of`], with the first of `notes` that fits behind the long or the short form. If
+    /// wider than `width` columns; and with the first of `notes` that fits behind one of them. If
     /// none fits, there is no history.
-    fn with_notes(word: &str, forms: Forms, notes: &[String], width: usize) -> Self {
+    pub fn of(word: &str, forms: Forms, notes: &[String], width: usize) -> Self {
         let sentence = |what: &String, history: Option<&String>| Self {
             word: word.to_string(),
             what: what.clone(),
@@ -209,7 +204,7 @@ impl Facts {
             let long = format!("{AT_THIS_STEP}: {}", uncapital(&forms[0]));
             forms = [long, format!("{AT_THIS_STEP}.")];
         }
-        Sentence { wrong, ..Sentence::with_notes(&word, forms, &texts, width) }
+        Sentence { wrong, ..Sentence::of(&word, forms, &texts, width) }
     }
 
     /// Describes the motion at the end of the run.
@@ -241,7 +236,14 @@ impl Facts {
                 "One blade or group presses without a break and drags the wave.",
                 "One blade drags it.",
             ]),
-            Verdict::Bounce => self.bounced(),
+            Verdict::Bounce if self.touches == 0 => {
+                plain(["Blades and casing meet and part again.", "They meet and part."])
+            }
+            Verdict::Bounce => {
+                let touches = touches(self.touches);
+                let long = format!("Blades and casing met and parted, with {touches} so far.");
+                [long, "They meet and part.".into()]
+            }
             Verdict::Decay => self.decayed(),
             Verdict::Divergent => {
                 let why = self.failure.as_ref().map(|failure| why(&failure.reason));
@@ -307,17 +309,6 @@ impl Facts {
             _ => format!("{}: no real contact can.", capital(&pulls)),
         };
         [long, "A pull holds the wave.".into()]
-    }
-
-    fn bounced(&self) -> Forms {
-        if self.touches == 0 {
-            return plain(["Blades and casing meet and part again.", "They meet and part."]);
-        }
-        let touches = touches(self.touches);
-        [
-            format!("Blades and casing met and parted, with {touches} so far."),
-            "They meet and part.".into(),
-        ]
     }
 
     fn decayed(&self) -> Forms {

@@ -101,14 +101,15 @@ impl<'a> Sheet<'a> {
         self.parts.push(Part::List(name.into(), count, Box::new(entry)));
     }
 
-    /// Adds a table that is shown and, under its name, is part of the JSON report.
-    pub fn table(&mut self, name: &'static str, title: impl Into<String>, table: Table<'a>) {
-        self.parts.push(Part::Table { name: Some(name), title: Some(title.into()), table });
-    }
-
-    /// Adds a table that the JSON report has in another form.
-    pub fn shown(&mut self, title: impl Into<String>, table: Table<'a>) {
-        self.parts.push(Part::Table { name: None, title: Some(title.into()), table });
+    /// Adds a table that is shown and, under its name, is part of the JSON report. Without a name
+    /// that has it in another form.
+    pub fn table(
+        &mut self,
+        name: impl Into<Option<&'static str>>,
+        title: impl Into<String>,
+        table: Table<'a>,
+    ) {
+        self.parts.push(Part::Table { name: name.into(), title: Some(title.into()), table });
     }
 
     /// Adds a table for files only; it is part of the JSON report if it has a name.

@@ -82,7 +82,7 @@ pub fn sheet(survey: &Survey, all: bool, command: CommandLine) -> Sheet<'_> {
     if others > 0 {
         rows.note(format!("{others} more have no modes of their own: --all shows them, with ?."));
     }
-    sheet.shown("", rows);
+    sheet.table(None, "", rows);
     sheet.filed(None, table(survey));
     sheet.picture(move || figure(survey, all));
     sheet.time(format!("Computed in {}.", time(rounded(survey.wall_s, 2))));
@@ -187,7 +187,8 @@ fn verdict(survey: &Survey, row: &SurveyRow) -> [String; 2] {
     };
     let onset = row.limits.iter().any(|limit| limit.name == LimitName::WhirlOnset);
     let from = if onset { "from " } else { "" };
-    let whirl = row.whirls_in_range.iter().copied().reduce(nearer_rest);
+    let whirls = row.whirls_in_range.iter().copied();
+    let whirl = whirls.min_by(|a, b| a.abs().total_cmp(&b.abs()));
     let whirl = whirl.map(|omega| format!("{from}{} {unit}", shown_speed(omega)));
     let grows = if row.growth_spans.is_empty() { "" } else { "grows" };
     let whirls = whirl.unwrap_or_else(|| grows.to_string());
@@ -197,10 +198,6 @@ fn verdict(survey: &Survey, row: &SurveyRow) -> [String; 2] {
 /// Returns the ends of a span of speeds \[rad/s\], the slower one first.
 fn slower(&[from, to]: &[f64; 2]) -> [f64; 2] {
     if from + to < 0.0 { [to, from] } else { [from, to] }
-}
-
-fn nearer_rest(a: f64, b: f64) -> f64 {
-    if b.abs() < a.abs() { b } else { a }
 }
 
 /// Says until where a large rub of the rows whirls and from where on it grows without bound, in a

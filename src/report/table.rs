@@ -290,15 +290,33 @@ impl<'a> Table<'a> {
     /// columns on the right that do not fit into `room` characters, with `apart` spaces between
     /// columns, are left out.
     pub fn lines(&self, room: usize, apart: usize) -> Vec<Vec<String>> {
-        let mut layout = Layout::of(&self.headings);
-        self.rows().for_each(|row| layout.meet(&row));
+        let headings = self.headings.iter().enumerate();
+        let shown: Vec<(usize, &Heading)> =
+            headings.filter(|(_, heading)| heading.words.is_some()).collect();
+        let words = shown.iter().filter_map(|(_, heading)| heading.words.as_deref());
+        let mut lines: Vec<Vec<String>> = vec![words.map(String::from).collect()];
+        // Words are aligned to the left.
+        let mut left = vec![false; shown.len()];
+        for row in self.rows() {
+            for (left, (place, _)) in left.iter_mut().zip(&shown) {
+                *left |= matches!(row[*place], TableCell::Word(_) | TableCell::Flag(_));
+            }
+            lines.push(shown.iter().map(|(place, heading)| heading.text(&row[*place])).collect());
+        }
         let mut used = 0;
-        layout.columns.retain(|(_, _, width, _)| {
+        for (column, left) in left.into_iter().enumerate() {
+            let widths = lines.iter().map(|line| line[column].chars().count());
+            let width = widths.max().unwrap_or(0);
             used += width + apart;
-            used <= room.saturating_add(apart)
-        });
-        let rows = self.rows().map(|row| layout.line(&row));
-        std::iter::once(layout.headings()).chain(rows).collect()
+            if used > room.saturating_add(apart) {
+                lines.iter_mut().for_each(|line| line.truncate(column));
+                break;
+            }
+            for cell in lines.iter_mut().map(|line| &mut line[column]) {
+                *cell = if left { format!("{cell:<width$}") } else { format!("{cell:>width$}") };
+            }
+        }
+        lines
     }
 
     /// Writes the columns that have a name in files as CSV: a header line, then numbers that read
@@ -345,52 +363,6 @@ impl Serialize for Table<'_> {
         };
         out.collect_seq(self.rows().map(object))
     }
-}
-
-/// The columns of a table as shown; their widths grow with the cells measured.
-#[derive(Clone, Debug)]
-struct Layout {
-    /// For each column on the screen: index in the table, heading, width \[characters\], and
-    /// whether it contains words, which are aligned to the left.
-    columns: Vec<(usize, Heading, usize, bool)>,
-}
-
-impl Layout {
-    fn of(headings: &[Heading]) -> Self {
-        let shown = headings.iter().enumerate().filter_map(|(place, heading)| {
-            let width = heading.words.as_ref()?.chars().count();
-            Some((place, heading.clone(), width, false))
-        });
-        Self { columns: shown.collect() }
-    }
-
-    /// Widens the columns to fit a row.
-    fn meet(&mut self, row: &[TableCell]) {
-        for (place, heading, width, word) in &mut self.columns {
-            let Some(cell) = row.get(*place) else { continue };
-            *width = (*width).max(heading.text(cell).chars().count());
-            *word |= matches!(cell, TableCell::Word(_) | TableCell::Flag(_));
-        }
-    }
-
-    fn headings(&self) -> Vec<String> {
-        let words = |heading: &Heading| heading.words.as_deref().unwrap_or_default().to_string();
-        self.columns
-            .iter()
-            .map(|(_, heading, width, left)| pad(words(heading), *width, *left))
-            .collect()
-    }
-
-    fn line(&self, row: &[TableCell]) -> Vec<String> {
-        let cell = |(place, heading, width, left): &(usize, Heading, usize, bool)| {
-            pad(row.get(*place).map_or_else(String::new, |cell| heading.text(cell)), *width, *left)
-        };
-        self.columns.iter().map(cell).collect()
-    }
-}
-
-fn pad(text: String, width: usize, left: bool) -> String {
-    if left { format!("{text:<width$}") } else { format!("{text:>width$}") }
 }
 
 #[cfg(test)]

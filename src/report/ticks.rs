@@ -57,6 +57,8 @@ pub fn log_ticks(low: f64, high: f64, most: usize) -> Vec<f64> {
 /// powers.
 pub fn power_of_ten(exponent: f64) -> String {
     let whole = (exponent + 1e-9).floor();
+    let raised =
+        |c: char| c.to_digit(10).and_then(|digit| RAISED.get(digit as usize)).unwrap_or(&'⁻');
     let digits: String = format!("{whole}").chars().map(raised).collect();
     match 10_f64.powf(exponent - whole).round() {
         1.0 => format!("10{digits}"),
@@ -76,14 +78,8 @@ pub fn scientific(x: f64) -> String {
     }
 }
 
-/// Returns the superscript of a digit or sign.
-fn raised(c: char) -> char {
-    let digits = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    match c.to_digit(10).and_then(|digit| digits.get(digit as usize)) {
-        Some(digit) => *digit,
-        None => '⁻',
-    }
-}
+/// Superscripts of the digits.
+const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
 
 #[cfg(test)]
 mod tests {

@@ -30,11 +30,10 @@ impl ChartAxis {
 
     /// Creates an axis with round ends that includes zero and all values.
     pub fn around(values: impl Iterator<Item = f64>) -> Self {
-        let (low, high) = values
-            .filter(|value| value.is_finite())
-            .fold((0.0_f64, 0.0_f64), |(a, b), v| (a.min(v), b.max(v)));
-        let step = nice_step(high - low, 6).unwrap_or(1.0);
-        Self::scaled((low / step).floor() * step, (high / step).ceil() * step)
+        let values = values.filter(|value| value.is_finite());
+        let (low, high) = values.fold((0.0_f64, 0.0_f64), |(a, b), v| (a.min(v), b.max(v)));
+        let (low, high) = round_out(low, high, 6);
+        Self::scaled(low, high)
     }
 
     /// Creates an axis without a prefix.
@@ -54,14 +53,10 @@ impl ChartAxis {
         Self { scale, ..Self::speeds(low, high) }
     }
 
-    /// Creates a logarithmic axis between two exponents of ten.
-    pub fn powers(low: f64, high: f64) -> Self {
-        Self { powers: true, ..Self::plain(low, high) }
-    }
-
-    /// As [`Self::powers`], with labels in a unit: `100 kN` for `1e5`.
-    pub fn powers_of(low: f64, high: f64, unit: &'static str) -> Self {
-        Self { unit: Some(unit), ..Self::powers(low, high) }
+    /// Creates a logarithmic axis between two exponents of ten, with labels in `unit`, as in
+    /// `100 kN`, or such as `1e5`.
+    pub fn powers(low: f64, high: f64, unit: Option<&'static str>) -> Self {
+        Self { powers: true, unit, ..Self::plain(low, high) }
     }
 
     /// Returns the round values on the axis, at most `most + 1`, and their spacing; on a
@@ -167,7 +162,7 @@ impl AutoRange {
         let outside = low < self.low || high > self.high;
         if outside || data < SHRINK_BELOW * width {
             let margin = 0.05 * data.max(1e-12 * high.abs()).max(f64::MIN_POSITIVE);
-            let (low, high) = round_out(low - margin, high + margin);
+            let (low, high) = round_out(low - margin, high + margin, 8);
             if high > low {
                 *self = Self { low, high };
             }
@@ -175,9 +170,10 @@ impl AutoRange {
     }
 }
 
-/// Returns the smallest range with round ends that contains `[low, high]`.
-fn round_out(low: f64, high: f64) -> (f64, f64) {
-    match nice_step(high - low, 8) {
+/// Returns the smallest range that contains `[low, high]` and ends at multiples of the round step
+/// that divides it into at most `most` parts.
+pub fn round_out(low: f64, high: f64, most: usize) -> (f64, f64) {
+    match nice_step(high - low, most) {
         Some(step) => ((low / step).floor() * step, (high / step).ceil() * step),
         None => (low, high),
     }

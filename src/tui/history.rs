@@ -72,7 +72,7 @@ impl Bin {
             *low = low.min(*new_low);
             *high = high.max(*new_high);
         }
-        self.contact = hull(self.contact, later.contact);
+        self.contact = self.contact.into_iter().chain(later.contact).reduce(wider);
     }
 }
 
@@ -151,12 +151,9 @@ pub fn contacts(bins: &[Bin], (from, to): (f64, f64), columns: usize) -> Vec<boo
     out
 }
 
-/// Returns the smallest interval that contains both; `None` if there is neither.
-fn hull(first: Option<(f64, f64)>, second: Option<(f64, f64)>) -> Option<(f64, f64)> {
-    match (first, second) {
-        (Some((a, b)), Some((c, d))) => Some((a.min(c), b.max(d))),
-        (first, second) => first.or(second),
-    }
+/// Returns the smallest interval that contains both.
+pub fn wider((a, b): (f64, f64), (low, high): (f64, f64)) -> (f64, f64) {
+    (a.min(low), b.max(high))
 }
 
 /// Splits bins longer than 1.5 times `length` into shorter ones with linearly interpolated values,

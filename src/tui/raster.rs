@@ -91,13 +91,6 @@ impl Raster {
         Self { area, marker, dots: vec![Dots::default(); area.area() as usize] }
     }
 
-    /// Returns whether a pen draws at position `along` of its dash pattern \[sub-pixels\]. In
-    /// ASCII, lines are solid: series differ by character, and gaps would look like missing data.
-    fn is_dash(&self, along: i64, pen: &Pen) -> bool {
-        let [dash, period] = if self.marker.grain().0 == 1 { [1, 2] } else { [3, 6] };
-        !pen.dashed || self.marker == Marker::Ascii || along.rem_euclid(period) < dash
-    }
-
     /// Returns the number of sub-pixels in a cell, horizontally and vertically.
     pub fn grain(&self) -> (i64, i64) {
         let (across, down) = self.marker.grain();
@@ -144,10 +137,15 @@ impl Raster {
         let (x0, y0, x1, y1) = (bound(from.0), bound(from.1), bound(to.0), bound(to.1));
         let steps = (x1 - x0).abs().max((y1 - y0).abs()).max(1);
         let steep = (y1 - y0).abs() > (x1 - x0).abs();
+        // In ASCII, lines are solid: series differ by character, and gaps would look like missing
+        // data.
+        let dashed = pen.dashed && self.marker != Marker::Ascii;
+        let [dash, period] = if self.marker.grain().0 == 1 { [1, 2] } else { [3, 6] };
         for k in 0..=steps {
             let x = x0 + ((x1 - x0) * k + (x1 - x0).signum() * steps / 2) / steps;
             let y = y0 + ((y1 - y0) * k + (y1 - y0).signum() * steps / 2) / steps;
-            if self.is_dash(if steep { y } else { x }, pen) {
+            let along = if steep { y } else { x };
+            if !dashed || along.rem_euclid(period) < dash {
                 self.set(x, y, pen);
             }
         }

@@ -8,7 +8,7 @@ use crate::report::Sheet;
 use crate::report::number::speed;
 use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{HarmonicError, RoundWhirl, RoundWhirlLoads, round_whirls};
-use rubscope_solver::model::{Frame, Machine};
+use rubscope_solver::model::Frame;
 use rubscope_solver::scene::keys;
 
 pub const COMPLIANCE: View = View {
@@ -24,7 +24,8 @@ pub const COMPLIANCE: View = View {
     fill,
 };
 
-/// Number of frequencies in the table, odd so that 0 is one of them.
+/// Number of frequencies in the table, evenly spaced and odd so that 0 is one of them. Negative ones
+/// belong to waves that travel backward.
 const FREQUENCIES: usize = 201;
 /// The table extends to this multiple of the highest resonance, in both directions of travel.
 const BEYOND: f64 = 1.5;
@@ -38,7 +39,10 @@ fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicErro
     let waves: Vec<Wave> = waves.map(|wave| (wave, wave.loads(machine, turning))).collect();
     let at = |omega: f64| (omega, omega - nu, frame.turning(omega - nu).compliance());
     let machine = &*machine.at(turning);
-    let points: Vec<Point> = beyond_resonance(machine, nu).into_iter().map(at).collect();
+    let reach = BEYOND * machine.omega_c.max(nu.abs() + machine.omega_bd);
+    let part = |n: usize| n as f64 / (FREQUENCIES - 1) as f64;
+    let frequencies = (0..FREQUENCIES).map(|n| reach * part(n) - reach * (1.0 - part(n)));
+    let points: Vec<Point> = frequencies.map(at).collect();
     let shown = format!("at {}", speed(request.fastest()));
     let crossings = if waves.is_empty() {
         format!("B(omega) does not cross the negative real axis {shown}: nothing whirls.")
@@ -63,14 +67,6 @@ type Wave = (RoundWhirl, RoundWhirlLoads);
 /// Frequency of the wave in the fixed frame and in the frame of the blades \[rad/s\], and the joint
 /// compliance there \[m/N\].
 type Point = (f64, f64, Complex<f64>);
-
-/// Returns evenly spaced frequencies in the fixed frame \[rad/s\], symmetric about 0 and up to
-/// beyond every resonance. Negative ones belong to waves that travel backward.
-fn beyond_resonance(machine: &Machine, nu: f64) -> Vec<f64> {
-    let reach = BEYOND * machine.omega_c.max(nu.abs() + machine.omega_bd);
-    let part = |n: usize| n as f64 / (FREQUENCIES - 1) as f64;
-    (0..FREQUENCIES).map(|n| reach * part(n) - reach * (1.0 - part(n))).collect()
-}
 
 /// Columns of the whirls if there is a clearance.
 const WAVES: &[Column<'_, Wave>] =

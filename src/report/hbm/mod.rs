@@ -112,7 +112,14 @@ impl<'a> Request<'a> {
     fn lock(&self) -> Result<Locked, HarmonicError> {
         let Self { form, damped, pair, speeds, .. } = *self;
         if self.scene.clearance() <= 0.0 {
-            return Err(no_clearance(self.scene));
+            // The limit of rigid contact needs a clearance.
+            let allowed = format!(
+                "above bladed_disk.blade_length_m = {} here: hbm --smooth has the steady states of \
+                 a preloaded lining",
+                self.scene.bladed_disk.blade_length_m
+            );
+            let radius = self.scene.casing.radius_m;
+            return Err(HarmonicError::refused(keys::CASING_RADIUS, radius, allowed));
         }
         let corner = Corner::of(&self.machine, speeds.last().copied().unwrap_or(1.0), pair)?;
         Locked::new(&self.machine, corner, form, damped)
@@ -180,19 +187,6 @@ impl<'a> Request<'a> {
         sheet.fact("clearance_m", machine.clearance());
         sheet.fact("locked_amplitude_m", machine.locked_amplitude());
     }
-}
-
-/// Refuses a preloaded lining: the limit of rigid contact needs a clearance.
-fn no_clearance(scene: &Scene) -> HarmonicError {
-    let length = scene.bladed_disk.blade_length_m;
-    HarmonicError::refused(
-        keys::CASING_RADIUS,
-        scene.casing.radius_m,
-        format!(
-            "above bladed_disk.blade_length_m = {length} here: hbm --smooth has the steady states of \
-         a preloaded lining"
-        ),
-    )
 }
 
 /// Returns remarks on effects of the scene that the view ignores.

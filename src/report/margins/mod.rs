@@ -83,9 +83,9 @@ pub fn sheet(margins: &Margins, command: CommandLine) -> Sheet<'_> {
     words::note(margins).iter().for_each(|note| sheet.paragraph(note));
     for found in robust::asked(margins) {
         let sentence = wrapped(&robust::sentence(found, margins, true), WIDTH).join("\n");
-        sheet.shown(sentence, robust::table(found, " at ").within(WIDTH));
+        sheet.table(None, sentence, robust::table(found, " at ").within(WIDTH));
     }
-    sheet.shown("", table(margins).within(WIDTH));
+    sheet.table(None, "", table(margins).within(WIDTH));
     if let Some(found) = &margins.target {
         sheet.paragraph(&words::target(found, margins));
         // A command to copy is not wrapped.

@@ -10,7 +10,7 @@ use super::paper::{Area, Drawn, FINE, TEXT, colour, font, px, strokes, width_of,
 use super::{LEFT, LINE};
 use crate::report::number::short;
 use crate::report::ticks::{log_ticks, power_of_ten, scientific, ticks};
-use rubscope_solver::study::figures::{Mark, Panel, Quantity, Series, Style};
+use rubscope_solver::study::figures::{Panel, Quantity, Series, Style};
 
 /// Height of a panel's title \[px\].
 const TITLE: u32 = 24;
@@ -155,19 +155,15 @@ pub fn draw(panel: &Panel, area: &Area) -> Drawn<()> {
             }
             let ink = BLACK.stroke_width(FINE);
             chart.draw_series(DashedLineSeries::new(line, px(3), px(3), ink))?;
-            draw_mark(mark, &chart.backend_coord(&(at, y.high)), &rest)?;
+            // The label is centred above the line.
+            let (left, top) = rest.get_base_pixel();
+            let (column, row) = chart.backend_coord(&(at, y.high));
+            let half = px(width_of(mark.label) as i32) / 2;
+            let place = (column - left - half, row - top - px(19));
+            rest.draw_text(mark.label, &font(TEXT).into_text_style(&rest), place)?;
         }
     }
     Ok(())
-}
-
-/// Draws the mark's label, centred above its line.
-fn draw_mark(mark: &Mark, at: &(i32, i32), area: &Area) -> Drawn<()> {
-    let (left, top) = area.get_base_pixel();
-    let half = px(width_of(mark.label) as i32) / 2;
-    let style = font(TEXT).into_text_style(area);
-    let place = (at.0 - left - half, at.1 - top - px(19));
-    Ok(area.draw_text(mark.label, &style, place)?)
 }
 
 /// Draws the legend (without faint or empty series); returns its height.

@@ -8,7 +8,7 @@ use super::play::begin_s;
 use crate::tui::axis::{AutoRange, instant, readable};
 use crate::tui::engine::{Answer, PageRecord, Results, Sensitive, Snapshot};
 use crate::tui::film::FilmPlan;
-use crate::tui::history::{Bin, Channel};
+use crate::tui::history::{Bin, Channel, wider};
 use crate::tui::knobs::{KNOBS, Knob};
 use rubscope_solver::model::Machine;
 use rubscope_solver::motion::ActiveSet;
@@ -328,10 +328,6 @@ const BLADES: [Channel; 2] = [Channel::AlphaC, Channel::AlphaS];
 fn extremes(bins: &[Bin], channels: [Channel; 2]) -> Option<(f64, f64)> {
     let spans = bins.iter().flat_map(|bin| channels.map(|channel| bin.span(channel)));
     spans.filter(|(low, high)| low.is_finite() && high.is_finite()).reduce(wider)
-}
-
-fn wider((a, b): (f64, f64), (low, high): (f64, f64)) -> (f64, f64) {
-    (a.min(low), b.max(high))
 }
 
 /// Extends a range if the data exceed it.

@@ -37,7 +37,7 @@ impl App {
     pub fn sentence(&self, width: usize) -> Sentence {
         if let Some(trouble) = &self.run.latest.trouble {
             let forms = [format!("The computation stopped: {trouble}."), "It stopped.".into()];
-            return Sentence::of("STOPPED", forms, width);
+            return Sentence::of("STOPPED", forms, &[], width);
         }
         match &self.results().full_run {
             Some(FullRunState::Done(run)) => self.facts(run).sentence(width),
@@ -47,7 +47,7 @@ impl App {
                     format!("{limit} s of work reached {part:.0} % of the run."),
                     format!("{part:.0} % in {limit} s."),
                 ];
-                Sentence::of(&self.proved().unwrap_or("NO FORECAST".into()), forms, width)
+                Sentence::of(&self.proved().unwrap_or("NO FORECAST".into()), forms, &[], width)
             }
             Some(FullRunState::Computing(part)) => {
                 let part = 100.0 * part;
@@ -70,10 +70,10 @@ impl App {
         let forms =
             [format!("{proved}Computing the run{part}."), format!("{proved}Computing{part}.")];
         match self.proved().or_else(|| self.older_answer()) {
-            Some(answer) => Sentence::of(&answer, forms, width),
+            Some(answer) => Sentence::of(&answer, forms, &[], width),
             None => {
                 let part = part.trim_start_matches(", ").to_string();
-                Sentence::of("computing", [part.clone(), part], width)
+                Sentence::of("computing", [part.clone(), part], &[], width)
             }
         }
     }

@@ -66,7 +66,7 @@ pub fn headline(app: &App, width: usize) -> (Sentence, Style) {
     // The verdict would answer the open question of a lesson.
     if app.is_asked() {
         let forms = ["Your answer first.", ""].map(String::from);
-        return (Sentence::of("?", forms, width), look.style(Role::Quiet));
+        return (Sentence::of("?", forms, &[], width), look.style(Role::Quiet));
     }
     let sentence = app.sentence(width);
     let style = match app.verdict() {

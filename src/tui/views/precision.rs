@@ -40,12 +40,13 @@ impl ViewPanel for PrecisionView {
         let (note, role) = note(report);
         for line in wrap(&note, usize::from(inside.width)) {
             print(buffer, inside, 0, &line, look.style(role));
-            inside = below(inside);
+            inside = Rect { y: inside.y + 1, height: inside.height.saturating_sub(1), ..inside };
         }
-        let placed = || report.rows.iter().filter_map(|row| Some((place(row)?, row)));
-        let points: Vec<_> =
-            placed().filter_map(|(at, row)| Some(((at.time, at.error?), row))).collect();
         // A logarithmic axis has no zero, and no position for a run without an error.
+        let placed = report.rows.iter().filter_map(|row| Some((place(row)?, row)));
+        let points = placed.filter(|((_, error), _)| *error > 0.0);
+        let points: Vec<_> =
+            points.map(|((time, error), row)| ((time.log10(), error.log10()), row)).collect();
         let off = report.rows.len() - points.len();
         let height = inside.height.saturating_sub(u16::from(off > 0));
         if off > 0 {
@@ -56,7 +57,7 @@ impl ViewPanel for PrecisionView {
         let times = decades(points.iter().map(|((x, _), _)| *x));
         let errors = decades(points.iter().map(|((_, y), _)| *y));
         let (Some((left, right)), Some((bottom, top))) = (times, errors) else { return };
-        let (x, y) = (ChartAxis::powers(left, right), ChartAxis::powers(bottom, top));
+        let (x, y) = (ChartAxis::powers(left, right, None), ChartAxis::powers(bottom, top, None));
         let mut reading = None;
         let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
         at.note(app, plot.inner);
@@ -118,9 +119,4 @@ fn told(row: &Row) -> String {
     let error = row.error_final.map_or("-".to_string(), |error| format!("{error:.2e}"));
     let (letter, series) = (letter(&row.way), series(&row.way));
     format!("{letter} {series}{step}: error {error} in {}", readable(row.wall_s, "s"))
-}
-
-/// Returns an area without its first row.
-fn below(area: Rect) -> Rect {
-    Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area }
 }

@@ -26,10 +26,9 @@ use ways::reference;
 const FIRST_IMPACTS: usize = 4;
 
 /// Result and cost of one way to solve the scene.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Row {
     /// Solver, law, model size, and step or tolerance.
-    #[serde(flatten)]
     pub way: Way,
     /// Error `|u - u_ref|/g0` at the last instant that this run reached; `None` for a sensitive
     /// scene, if this run or the reference failed, or where another contact law gives another
@@ -103,7 +102,7 @@ pub struct Reference {
 }
 
 /// The complete comparison.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Precision {
     /// Scene; its solver settings are not used.
     pub scene: Scene,

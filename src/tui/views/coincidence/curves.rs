@@ -52,11 +52,10 @@ impl CoincidenceCurves {
     pub fn key(scene: &Scene) -> Scene {
         let mut key = scene.clone();
         let machine = scene.machine();
-        let usual = range(&at_rest(scene), &markers(scene, &machine));
-        let speed = &mut key.operation.speed_rad_s;
-        if usual.is_some_and(|(from, to)| (from..=to).contains(&speed.abs())) {
-            *speed = speed.signum();
-        }
+        let speed = std::mem::take(&mut key.operation.speed_rad_s);
+        let usual = range(&key, &markers(scene, &machine));
+        let is_usual = usual.is_some_and(|(from, to)| (from..=to).contains(&speed.abs()));
+        key.operation.speed_rad_s = if is_usual { speed.signum() } else { speed };
         (key.operation.pulse_n, key.operation.pulse_s) = (0.0, 0.0);
         key.operation.speed_ramp_rad_s2 = 0.0;
         key.initial = Initial::default();
@@ -65,12 +64,6 @@ impl CoincidenceCurves {
         (key.view, key.title, key.note) = (View::default(), String::new(), String::new());
         key
     }
-}
-
-fn at_rest(scene: &Scene) -> Scene {
-    let mut scene = scene.clone();
-    scene.operation.speed_rad_s = 0.0;
-    scene
 }
 
 /// Returns `count` equally spaced speeds.

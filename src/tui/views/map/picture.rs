@@ -80,7 +80,10 @@ pub fn is_inside(axis: &Axis, place: f64) -> bool {
 
 fn chart_axis(axis: &Axis) -> ChartAxis {
     match axis.log {
-        true => ChartAxis::powers_of(axis.from.log10(), axis.to.log10(), words::unit(&axis.path)),
+        true => {
+            let unit = Some(words::unit(&axis.path));
+            ChartAxis::powers(axis.from.log10(), axis.to.log10(), unit)
+        }
         false if axis.path == SPEED => ChartAxis::speeds(axis.from, axis.to),
         false => ChartAxis::scaled(axis.from, axis.to),
     }

@@ -8,7 +8,7 @@ use ratatui::buffer::Buffer;
 use crate::report::number::{frequency_unit, per_frequency, speed_unit};
 use crate::report::table::{Table, TableCell};
 use crate::tui::app::App;
-use crate::tui::axis::{ChartAxis, nice_step, readable};
+use crate::tui::axis::{ChartAxis, readable, round_out};
 use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
@@ -44,13 +44,6 @@ impl ViewPanel for SpectrumView {
     }
 }
 
-fn highest(app: &App) -> f64 {
-    let machine = &app.machine;
-    let most = (machine.nu(app.speed().abs()) + machine.omega_bd).max(machine.omega_c);
-    let step = nice_step(1.3 * most, 5).unwrap_or(most);
-    (1.3 * most / step).ceil() * step
-}
-
 /// Returns the frequencies of the wave, the casing and the blades in the fixed frame at a speed
 /// \[rad/s\], as magnitudes \[rad/s\] with their labels.
 fn lines(app: &App, speed: f64) -> [(f64, &'static str); 4] {
@@ -67,7 +60,8 @@ fn lines(app: &App, speed: f64) -> [(f64, &'static str); 4] {
 fn amplitudes(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let quiet = look.style(Role::Quiet);
-    let x = ChartAxis::frequencies(0.0, highest(app));
+    let most = (app.machine.nu(app.speed().abs()) + app.machine.omega_bd).max(app.machine.omega_c);
+    let x = ChartAxis::frequencies(0.0, round_out(0.0, 1.3 * most, 5).1);
     let cursor = app.cursor_in(ViewId::Spectrum).map(|at| x.at(at.across));
     let spectrum = app.results().found.spectrum.as_ref();
     let mut legend = vec![(format!("m by {}", frequency_unit()), quiet)];
@@ -79,7 +73,7 @@ fn amplitudes(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let Some(spectrum) = spectrum else {
         return not_yet(app, buffer, inside);
     };
-    let y = ChartAxis::powers(DECADES.0, DECADES.1);
+    let y = ChartAxis::powers(DECADES.0, DECADES.1, None);
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     at.note(app, plot.inner);
     let marks = lines(app, app.speed());
