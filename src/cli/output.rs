@@ -100,8 +100,11 @@ impl OutputOptions {
         content: impl Fn(&mut dyn Write) -> std::io::Result<()>,
     ) -> anyhow::Result<()> {
         let Some(path) = &self.out else { return Ok(()) };
-        let written = replace_or_print(path, out, &content)?;
-        say_written(written, what, &path.display());
+        let shown = path.display();
+        say(&match replace_or_print(path, out, &content)? {
+            Written::New => format!("rubscope: wrote {what} to {shown}"),
+            Written::Replaced => format!("rubscope: replaced {shown} ({what})"),
+        });
         Ok(())
     }
 }
@@ -137,14 +140,6 @@ pub fn replace_or_print(
             }
         }
     })
-}
-
-/// Reports a written file on standard error.
-pub fn say_written(written: Written, what: &str, shown: &impl std::fmt::Display) {
-    say(&match written {
-        Written::New => format!("rubscope: wrote {what} to {shown}"),
-        Written::Replaced => format!("rubscope: replaced {shown} ({what})"),
-    });
 }
 
 /// Makes a write beyond the file size limit (`ulimit -f`) fail with an error. By default SIGXFSZ

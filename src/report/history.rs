@@ -127,15 +127,8 @@ pub(super) mod tests {
         let mut text = Vec::new();
         history.table().write_csv(&mut text).unwrap();
         let mut reader = csv::Reader::from_reader(text.as_slice());
-        let names: Vec<String> = reader.headers().unwrap().iter().map(String::from).collect();
-        let mut rows = 0;
-        for (row, record) in reader.records().enumerate() {
-            for (index, cell) in record.unwrap().iter().enumerate() {
-                assert_eq!(history.names[index], names[index]);
-                assert_eq!(cell.parse::<f64>().unwrap(), history.rows[row][index]);
-            }
-            rows += 1;
-        }
-        assert_eq!(rows, 2);
+        assert_eq!(reader.headers().unwrap(), &history.names);
+        let read: Vec<Vec<f64>> = reader.deserialize().map(Result::unwrap).collect();
+        assert_eq!((read.len(), read), (2, history.rows));
     }
 }

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use super::command::{PROGRAM, VERSION};
 use super::line::wrapped;
-use super::number::{per_speed, speed_unit};
+use super::number::{per_speed, rounded, speed_unit, time};
 use super::svg;
 use super::table::{Table, WIDTH};
 use super::{CommandLine, Provenance};
@@ -73,9 +73,9 @@ impl<'a> Sheet<'a> {
         self.parts.extend(wrapped(text, WIDTH).into_iter().map(Part::Line));
     }
 
-    /// Adds a line about the wall time.
-    pub fn time(&mut self, line: impl Into<String>) {
-        self.parts.push(Part::Time(line.into()));
+    /// Adds a line about the wall time \[s\].
+    pub fn time(&mut self, wall_s: f64) {
+        self.parts.push(Part::Time(format!("Computed in {}.", time(rounded(wall_s, 2)))));
     }
 
     /// Adds a field of the JSON report.

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use std::f64::consts::TAU;
 
 use super::margins::words;
-use super::number::{count, per_speed, rounded, short, speed, speed_unit, time};
+use super::number::{count, per_speed, rounded, short, speed, speed_unit};
 use super::table::{Heading, Table, TableCell};
 use super::{CommandLine, Sheet};
 use rubscope_solver::scene::Scene;
@@ -85,7 +85,7 @@ pub fn sheet(survey: &Survey, all: bool, command: CommandLine) -> Sheet<'_> {
     sheet.table(None, "", rows);
     sheet.filed(None, table(survey));
     sheet.picture(move || figure(survey, all));
-    sheet.time(format!("Computed in {}.", time(rounded(survey.wall_s, 2))));
+    sheet.time(survey.wall_s);
     sheet
 }
 

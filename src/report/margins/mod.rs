@@ -93,6 +93,6 @@ pub fn sheet(margins: &Margins, command: CommandLine) -> Sheet<'_> {
             sheet.line(format!("Check it: {command}"));
         }
     }
-    sheet.time(words::cost(margins));
+    sheet.time(margins.cost.wall_s);
     sheet
 }

@@ -146,11 +146,6 @@ pub fn check(found: &Found, scene: &Scene) -> Option<CommandLine> {
 /// decides.
 const BEYOND: f64 = 1.001;
 
-/// Says how long the computation took.
-pub fn cost(margins: &Margins) -> String {
-    format!("Computed in {}.", time(rounded(margins.cost.wall_s, 2)))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

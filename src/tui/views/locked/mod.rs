@@ -18,7 +18,7 @@ use crate::tui::text::{print, whole_parts, wrap};
 use crate::tui::theme::Role;
 use crate::tui::views::locked::curves::LockedCurves;
 use crate::tui::views::panel::{
-    self, ViewArea, ViewPanel, dots, entry, lines_above, name_speeds, title,
+    ViewArea, ViewPanel, dots, entry, lines_above, name_speeds, title, uprights,
 };
 use rubscope_solver::harmonic::{Form, LockedPoint, Sweep, lock_windows, locked_motion};
 use rubscope_solver::motion::{ActiveSet, Verdict};
@@ -138,17 +138,16 @@ fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
     at.note(app, plot.inner);
     plot.level(0.0, look.either('┈', '.'), quiet);
-    uprights(&mut plot, app, curves);
+    uprights(&mut plot, app, &curves.marks, cursor_speed(app, curves));
     plot.curve(curves.whirl.iter().copied(), &going_round);
     if let Some(undamped) = curves.undamped.as_ref().filter(|_| roomy) {
-        let points = undamped.points.iter();
-        let points = points.map(|point| (point.speed_rad_s.abs(), point.multipliers_n[0]));
+        let points = over_speed(undamped, |point| point.multipliers_n[0]);
         plot.dotted(points, x.low, 1.0, &look.quiet());
     }
     if pair {
-        curve(&mut plot, damped, 1, &look.second());
+        plot.curve(over_speed(damped, |point| point.multipliers_n[1]), &look.second());
     }
-    curve(&mut plot, damped, 0, &look.first());
+    plot.curve(over_speed(damped, |point| point.multipliers_n[0]), &look.first());
     plot.ink();
     for force in points {
         let (sign, shown) = if force < y.low {
@@ -186,15 +185,9 @@ fn read(app: &App, curves: &LockedCurves, buffer: &mut Buffer, inside: Rect) -> 
     lines_above(app, buffer, inside, &lines, Role::Focus)
 }
 
-/// Draws the threshold speeds, the current speed and the cursor as vertical lines.
-fn uprights(plot: &mut Plot, app: &App, curves: &LockedCurves) {
-    panel::uprights(plot, app, &curves.marks, cursor_speed(app, curves));
-}
-
-fn curve(plot: &mut Plot, sweep: &Sweep, place: usize, pen: &Pen) {
-    let lambda =
-        |point: &LockedPoint| Some((point.speed_rad_s.abs(), *point.multipliers_n.get(place)?));
-    plot.curve(sweep.points.iter().filter_map(lambda), pen);
+/// Returns a quantity of the locked motion over the magnitude of the speed.
+fn over_speed(sweep: &Sweep, of: impl Fn(&LockedPoint) -> f64) -> impl Iterator<Item = (f64, f64)> {
+    sweep.points.iter().map(move |point| (point.speed_rad_s.abs(), of(point)))
 }
 
 /// Returns the mean multipliers of the running motion \[N\]; negative pushes. Empty without
@@ -262,13 +255,12 @@ impl Chart {
         let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
         at.note(app, plot.inner);
         plot.level(0.0, look.either('┈', '.'), quiet);
-        uprights(&mut plot, app, curves);
+        uprights(&mut plot, app, &curves.marks, cursor_speed(app, curves));
         if let Some((_, of)) = third {
-            let curve = points.iter().map(|point| (point.speed_rad_s.abs(), of(point)));
-            plot.dotted(curve, x.low, 1.0, &look.quiet());
+            plot.dotted(over_speed(damped, of), x.low, 1.0, &look.quiet());
         }
         for (pen, (_, of)) in pens.iter().zip(self.quantities).rev() {
-            plot.curve(points.iter().map(|point| (point.speed_rad_s.abs(), of(point))), pen);
+            plot.curve(over_speed(damped, of), pen);
         }
         plot.ink();
     }
