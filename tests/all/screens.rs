@@ -7,7 +7,7 @@
 //! | `>> KEYS` | presses them one by one |
 //! | `= 120x40` | gives the screen another size |
 //! | `* KEY` | selects the knob of a key |
-//! | `^ WORDS` | clicks on them |
+//! | `^ WORDS`, `v WORDS` | clicks on them; turns the wheel down over them |
 //! | `~ KEY VALUE` | asserts a value of the scene |
 //! | `1: WORDS` | stand in this row, from 0 |
 //! | `! WORDS` | stand nowhere |
@@ -60,9 +60,8 @@ fn keys_of(text: &str) -> String {
     text.chars().map(key).collect()
 }
 
-fn click(session: &mut Session, words: &str) {
+fn mouse(session: &mut Session, kind: MouseEventKind, words: &str) {
     let (column, row) = session.find(words);
-    let kind = MouseEventKind::Down(MouseButton::Left);
     session.app.mouse(&MouseEvent { kind, column, row, modifiers: KeyModifiers::NONE });
     session.press("");
 }
@@ -92,7 +91,8 @@ fn follow(session: &mut Session, line: &str) -> bool {
             session.select(rest);
             session.press("");
         }
-        "^" => click(session, rest),
+        "^" => mouse(session, MouseEventKind::Down(MouseButton::Left), rest),
+        "v" => mouse(session, MouseEventKind::ScrollDown, rest),
         "~" => {
             let (key, value) = rest.split_once(' ').unwrap();
             let held = (keys::find(key).unwrap().get)(&session.app.scene).to_string();
@@ -140,7 +140,7 @@ fn wrong(case: &[&str]) -> Option<String> {
     let mut session = open(case[0].strip_prefix("@ ").unwrap());
     let line = case[1..].iter().find(|line| !follow(&mut session, line));
     let asserts =
-        |line: &&&str| ![">", ">>", "=", "*", "^"].contains(&line.split(' ').next().unwrap());
+        |line: &&&str| ![">", ">>", "=", "*", "^", "v"].contains(&line.split(' ').next().unwrap());
     let line = if case[1..].iter().any(|line| asserts(&line)) { *line? } else { "no words" };
     Some(format!("{}: {line}\n{}", case[0], session.text()))
 }
