@@ -6,9 +6,8 @@ use crate::model::LARGEST_BLADE_ANGLE;
 use crate::numeric::rounding::rounded;
 use thiserror::Error;
 
-/// Most rows that one step closes together: a few in an ordinary step, a hundred
-/// on a rim of thousands of blades. The work grows with their cube; more are a
-/// step too long for the blades.
+/// Largest number of rows that one step closes together: a few in an ordinary step, a hundred on a rim
+/// of thousands of blades. The cost grows with their cube; more rows mean that the step is too long.
 pub(crate) const MOST_ROWS: usize = 512;
 
 /// A run that stopped before its end.

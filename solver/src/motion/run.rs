@@ -19,20 +19,19 @@ use crate::model::LARGEST_BLADE_ANGLE;
 use crate::model::Machine;
 use crate::scene::{CheckedScene, ContactLaw, ModelSize, SolverKind};
 
-/// Part of the run, at its end, over which the verdict is judged. Shorter: a
-/// pause in a bounce is taken for decay or lock.
+/// Final part of the run over which the verdict is judged. Shorter: a pause in a bounce counts as
+/// decay or lock.
 pub const LAST_PART: f64 = 0.1;
 
-/// Part of the elastic force of the casing by which a contact that only pushes may pull at
-/// the end of a run. Smaller: round-off of forces in balance fails a run. Larger: a
-/// run whose result is wrong goes unnoticed.
+/// Largest pull of push-only contact at the end of a run, as a part of the elastic force of the casing.
+/// Smaller: round-off of forces in equilibrium fails a run. Larger: a wrong result goes unnoticed.
 const PULL_ROUND_OFF: f64 = 1e-9;
 
-/// Looks at a run in each casing period, for a verdict that is proved. Speed only.
+/// Number of checks for a proved verdict per casing period. Speed only.
 const LOOKS_A_PERIOD: u64 = 4;
 
-/// Casing periods of a run that are looked at one by one, at most. More: a run of many
-/// casing periods costs more to look at than to solve.
+/// Largest number of casing periods that are checked one by one. More: in a long run the checks cost
+/// more than the solution.
 const RUN_LOOKS: f64 = 1e6;
 
 /// State of a run as passed to a recorder.

@@ -19,20 +19,19 @@ use super::wave::WaveTracker;
 use super::{Contact, GoOn, Motion, RunReport, Verdict};
 use crate::scene::{CheckedScene, ContactLaw, SolverKind};
 
-/// Relative change that no trustworthy verdict may notice: below any
-/// measurement, above round-off by six digits. Smaller: a sensitive run is not
-/// found.
+/// Relative change of the input that must not change a reliable verdict: below any measurement error,
+/// six digits above round-off. Smaller: sensitive runs are not found.
 const PERTURBATION: f64 = 1e-9;
 
 /// Part of a casing period by which a lock may come earlier or later. Larger: a
 /// lock time with no correct digit is trusted.
 const LOCK_MOMENT: f64 = 0.1;
 
-/// Part of its tolerance at which the event solver is tried again.
+/// Factor on the tolerance of the event solver in its repetition.
 const FINER: f64 = 0.1;
 
-/// Part of its step with which a run by steps is tried again. Nearer to one: fewer verdicts
-/// that depend on the step are found. Smaller: it costs more than the run itself.
+/// Factor on the time step in the repetition of a run by steps. Larger: fewer verdicts that depend on
+/// the step are found. Smaller: it costs more.
 const OTHER_STEP: f64 = 0.5;
 
 /// Result of comparing perturbed runs with a run.

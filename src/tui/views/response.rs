@@ -7,6 +7,7 @@ use super::panel::{ViewArea, ViewPanel, dots, entry, lines_above, name_level, re
 use crate::report::line::clean;
 use crate::report::table::{Table, TableCell};
 use crate::tui::app::{App, Cursor};
+use crate::tui::appearance::Appearance;
 use crate::tui::axis::{AutoRange, ChartAxis, instant, readable};
 use crate::tui::engine::{FullRun, Moment};
 use crate::tui::film::other_law;
@@ -19,8 +20,6 @@ use crate::tui::trace::Happening;
 use rubscope_solver::motion::ActiveSet;
 use rubscope_solver::scene::ModelSize;
 
-/// Distance along the time axis between the `+` marks of a pinned run \[sub-pixels\].
-const PINNED: usize = 8;
 /// Largest number of changes of contact per page that are considered for labels.
 const MOST_NAMES: usize = 500;
 /// Width from which two contact laws are side by side.
@@ -164,11 +163,17 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
     let mark = contact(look);
     let mut legend: Vec<_> =
         pens.iter().zip(what.names).map(|(pen, name)| entry(look, pen, name)).collect();
-    let read = reading(app, what, usize::from(at.area.width));
-    let name = read_before(look, &mut legend, read, &what.name);
+    // Of two laws each keeps its name.
+    let kept = if app.run.compare { what.name.as_str() } else { "" };
+    let read = reading(app, what, usize::from(at.area.width).saturating_sub(columns(kept)));
+    let name = match read_before(look, &mut legend, read, &what.name) {
+        "" => kept,
+        name => name,
+    };
     legend.push((format!("{}{} by {}s", y.scale.prefix, what.unit, x.scale.prefix), quiet));
     if let Some(baseline) = app.run.baseline.as_ref().filter(|_| what.own) {
-        legend.push((format!("+ + pinned: {}", baseline.what(app)), quiet));
+        let name = format!("{} pinned: {}", what.names[0], baseline.what(app));
+        legend.push(entry(look, &pinned(look), &name));
     }
     if what.forecast.is_some() {
         legend.push(dots(look, "to come"));
@@ -189,22 +194,16 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
     }
     let columns = plot.columns();
     let (past, _) = app.past_and_future(what.record);
+    if app.run.baseline.is_some() && what.own {
+        let record = app.recorded(app.results().pinned_page.as_deref());
+        let spans = history::columns(record, what.channels[0], (from, to), columns);
+        plot.spans(&spans, &pinned(look));
+    }
     ghost(app, &mut plot, what);
     for (channel, pen) in what.channels.iter().zip(&pens).rev() {
         plot.spans(&history::columns(past, *channel, (from, to), columns), pen);
     }
     plot.ink();
-    if app.run.baseline.is_some() && what.own {
-        let pinned = app.recorded(app.results().pinned_page.as_deref());
-        let cells = u16::try_from(columns).unwrap_or(u16::MAX);
-        let pinned = history::columns(pinned, what.channels[0], (from, to), columns);
-        for (k, span) in (0..cells).zip(pinned).step_by(PINNED) {
-            let t = x.at((f64::from(k) + 0.5) / f64::from(cells));
-            if let Some((low, high)) = span {
-                plot.point(t, 0.5 * (low + high), '+', quiet);
-            }
-        }
-    }
     for (level, name) in levels {
         name_level(&mut plot, x, level, name, quiet);
     }
@@ -216,6 +215,11 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
         plot.text(column, row, &mark.to_string(), look.style(Role::Contact));
     }
     names_of_marks(app, &mut plot, what);
+}
+
+/// Returns the pen of a pinned run.
+fn pinned(look: &Appearance) -> Pen {
+    Pen { sign: '+', ..look.quiet() }
 }
 
 /// Prints the solver's message above the chart if the motion failed; returns the rest of the area.

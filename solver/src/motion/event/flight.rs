@@ -1,6 +1,5 @@
-//! Free flight: casing and blades without contact and pulse, in closed form, and how long it cannot
-//! end. While the casing stays within a circle that no side enters, no gap can close, whatever rotor
-//! and blades do.
+//! Free flight of casing and blades without contact and pulse, in closed form, and a lower bound on
+//! its duration: while the casing stays within a circle that no side enters, no gap can close.
 
 use std::f64::consts::TAU;
 
@@ -70,7 +69,7 @@ impl Flow {
             return f64::INFINITY;
         }
         if place > square - ROUNDINGS * most {
-            // Round-off does not tell whether it rises or falls through.
+            // Within round-off it is unknown whether the distance rises or falls.
             return 0.0;
         }
         let angle = sin.atan2(cos) - ((square - mean) / wave).clamp(-1.0, 1.0).acos();

@@ -34,8 +34,8 @@ const FOLLOWING_RATES: f64 = 100.0;
 /// digits.
 const FOLLOWING_GAP: f64 = 1e-9;
 
-/// Speed of the casing that is allowed for, in clearances for each radian of its rates, besides that
-/// of pulse and start.
+/// Assumed bound on the casing speed besides that of pulse and start: clearances per radian of the
+/// casing's rates.
 const CLEARANCES_A_RADIAN: f64 = 10.0;
 
 /// Constants of the blade modes.
@@ -239,7 +239,7 @@ impl Flow {
         own.max(0.1 * self.casing_rates())
     }
 
-    /// Returns the same of casing and blades \[rad/s\].
+    /// Returns an upper bound on the rates of casing and blades \[rad/s\].
     pub(super) fn rates(&self) -> f64 {
         let own = |blades: Blades| self.machine.omega_bd + 2.0 * blades.propagator.damping;
         self.casing_rates().max(self.blades.map_or(0.0, own))
@@ -392,15 +392,15 @@ impl Flow {
 }
 
 impl Blades {
-    /// Returns whether the casing cannot tell these blades from rigid ones, and they are so much
-    /// faster than the motion that their angles follow the contact forces at once.
+    /// Returns whether these blades act on the casing as rigid ones, and are so much faster than the
+    /// motion that their angles follow the contact forces statically.
     fn follow(&self, scene: &Scene, machine: &Machine) -> bool {
         let operation = &scene.operation;
         let last = operation.speed_rad_s + operation.speed_ramp_rad_s2 * scene.solver.end_s;
         let nu = machine.nu(operation.speed_rad_s.abs().max(last.abs()));
         let (rates, omega) = (machine.omega_c + nu, machine.omega_bd);
         let (clearance, half_side) = (machine.clearance(), machine.polygon.half_side());
-        // Largest contact force per unit mass that lasts, and largest impulse.
+        // Bounds on a lasting contact force and on an impulse, per unit mass.
         let pulse = operation.pulse_n.abs() / machine.casing_mass;
         let start = scene.initial.v_c_m_s.hypot(scene.initial.v_s_m_s);
         let speed = pulse * operation.pulse_s + start + CLEARANCES_A_RADIAN * rates * clearance;

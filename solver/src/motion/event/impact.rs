@@ -21,7 +21,7 @@ const SOFT_TOUCH: f64 = 1e-12;
 /// sides of which each opens the other impact in turn without end.
 const AT_A_CORNER: f64 = 16.0;
 
-/// Most rows that one impact or one instant without rates may bring together.
+/// Largest number of rows in one impact, or in one contact problem at rest.
 const MOST_TOUCHING: usize = 12;
 
 /// A row that touches: one of several at one instant.
@@ -125,7 +125,7 @@ impl Events {
         });
         let t = self.run.clock.start();
         if ends {
-            // The impacts of a series have become too slow to be told from rest.
+            // The impacts of a series have become slower than round-off of rest.
             self.run.log.accumulated.get_or_insert(t);
         }
         self.opened.retain(|gap| met.iter().all(|touch| touch.row != gap.row));

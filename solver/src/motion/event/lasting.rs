@@ -3,7 +3,7 @@
 //! While the same rows are in contact, a small deviation from the equilibrium obeys `x' = M x`. With
 //! `Q` from `M^T Q + Q M = -1`, `x^T Q x` never increases if `Q` is positive definite. It thus bounds
 //! all future contact forces and gaps. With slope or friction the motion is linear; without, it is
-//! linearised, and half of each room is kept for what that leaves out.
+//! linearised, and half of each margin is reserved for the neglected terms.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -15,15 +15,15 @@ use crate::motion::Plane;
 use crate::motion::point::{Point, Units, one_of};
 use crate::numeric::lyapunov::lyapunov;
 
-/// Part of its unit by which a state is changed to find a derivative: the slope is nearly of second
-/// degree, so that a central difference is exact to round-off.
+/// Part of its unit by which a state is changed for a central difference. The function is nearly of
+/// second degree, so the difference is exact to round-off.
 const DIFFERENCE: f64 = 1e-2;
 
 /// Steps of Newton's method to the equilibrium. Soft blades need them: the differences leave a
 /// thousandth of each error.
 const NEWTON_STEPS: u32 = 8;
 
-/// Part of a room that a deviation may use where the motion is linearised.
+/// Part of a margin that a deviation may use if the motion is linearised.
 const LINEARISED: f64 = 0.5;
 
 /// Equilibrium of the motion with some rows in contact, and the bounds of deviations from it.
@@ -37,7 +37,7 @@ pub(super) struct Rest {
     /// equilibrium from the value that it must not reach, and its largest change per unit of
     /// `sqrt(x^T Q x)`.
     rooms: Vec<(f64, f64)>,
-    /// Part of the rooms that a deviation may use.
+    /// Part of the margins that a deviation may use.
     part: f64,
 }
 
@@ -59,7 +59,7 @@ impl Rest {
             return is_certain(flow, &held, &pushes).then_some(rest);
         }
         let (units, rate, diameters) = (units(flow), flow.rates(), flow.diameters());
-        // Blades that do not affect the casing are left out.
+        // Blades that do not affect the casing are omitted.
         let size = if flow.arm() == 0.0 && diameters == 0.0 { 4 } else { 8 };
         let mut x = DVector::zeros(size);
         let mut matrix = DMatrix::zeros(size, size);

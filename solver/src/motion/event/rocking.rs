@@ -10,8 +10,8 @@
 //! - `p_a = 2/A_a + r_a p_b`
 //! - `q_a = -4 c/(3 A_a) (1/A_a + r_a p_b) + r_a^2 q_b`
 //!
-//! and the same with `a` and `b` exchanged. What is left out of it is its square, in radians of all
-//! rates. From where the sum is taken, the casing is within the square of one excursion of its corner.
+//! and the same with `a` and `b` exchanged. The relative error is the square of `T` in radians of the
+//! fastest rate. Meanwhile the casing is within the square of one excursion of its corner.
 
 use super::Events;
 use super::seek::{Ending, OpenedGap};
@@ -23,11 +23,12 @@ use crate::motion::{ActiveSet, FailureReason, Plane};
 /// one radian of all rates. Larger: the state is wrong by more than 1e-10 of the clearance.
 const BRIEF: f64 = 1e-3;
 
-/// The same of blades that move, which vibrate meanwhile. Larger: they notice.
+/// The same for moving blades, which vibrate meanwhile. Larger: the neglected rocking changes their
+/// vibration.
 const BRIEF_FOR_BLADES: f64 = 1e-6;
 
-/// Rocking is summed where either side pushes by more than this many Coriolis terms of the rate.
-/// Less: a side could let go on the way.
+/// Rocking is summed if both sides push by more than this many Coriolis terms of the rate. Smaller: a
+/// contact could open during the rocking.
 const MARGIN: f64 = 4.0;
 
 impl Events {

@@ -6,15 +6,16 @@ use crate::motion::{ActiveSet, ContactLog, Failure, FailureReason, Pulse, Rotor}
 use crate::numeric::sum::two_sum;
 use crate::scene::Scene;
 
-/// Most changes of contact in one run: a million take a second, ten where blades move; ten times
-/// that is a scene to be examined. Smaller: long bounces fail.
+/// Largest number of changes of contact in a run: a million take a second, ten seconds with moving
+/// blades. Smaller: long bounces fail.
 pub const MOST_EVENTS: u64 = 10_000_000;
 
 /// Most stretches of one run: a minute or two of work. An undamped casing that bounces for hours
 /// needs them.
 pub const MOST_LOOKS: u64 = 100_000_000;
 
-/// Most changes of contact in a row that take no time. Physical ones are a few; more are a loop.
+/// Largest number of consecutive changes of contact that take no time. Physical ones are a few; more
+/// are an endless loop.
 pub const MOST_EVENTS_AT_ONCE: u32 = 1000;
 
 /// Start of the present stretch, and the present instant \[s\].

@@ -15,15 +15,16 @@ use crate::motion::propagator::Propagator;
 use crate::numeric::elimination::{Square, inverse};
 use crate::numeric::rounding::ROUND_OFF;
 
-/// Most rows that push at once: casing and blades have four modes, and the forces of more rows could
-/// not be told apart.
+/// Largest number of rows that push at once: casing and blades have four modes, so the forces of more
+/// rows would not be unique.
 pub(super) const MOST_HELD: usize = 4;
 
 /// Clearances that the casing may cross in one stretch. Larger: round-off of the series is a larger
 /// part of the clearance.
 const FARTHEST: f64 = 1e3;
 
-/// Halvings of a stretch whose series does not converge. Ten decades of rates are thirty.
+/// Largest number of halvings of a stretch whose series does not converge; thirty cover ten decades of
+/// rates.
 const MOST_HALVINGS: usize = 60;
 
 /// Rows in contact.
@@ -117,7 +118,7 @@ impl Held {
         Some(())
     }
 
-    /// Returns whether nothing can move: rigid blades in a corner.
+    /// Returns whether no motion is left: rigid blades in a corner.
     pub(super) fn is_fixed(&self, flow: &Flow) -> bool {
         flow.blades.is_none() && self.rows.len() == 2
     }
@@ -152,7 +153,7 @@ struct Turning {
     /// Rate `d alpha'` at which the normal turns.
     rate: Terms,
     normal: Wave,
-    /// Place along the side \[m\].
+    /// Position along the side \[m\].
     y: Terms,
     /// The sum of `rate[j] normal[n + 1 - j]` over `j <= n`, of the latest order `n`.
     sum: Plane,
@@ -239,8 +240,7 @@ impl Stretch {
         }
     }
 
-    /// Makes the motion constant for ever at its equilibrium, after its changes have fallen to
-    /// round-off.
+    /// Fixes the motion at its equilibrium, after its changes have fallen to round-off.
     pub(super) fn come_to_rest(&mut self, point: Point) {
         self.from = point;
         let hold = |terms: &mut Terms| terms.iter_mut().skip(1).for_each(|term| *term = 0.0);
@@ -509,7 +509,8 @@ impl Turning {
         x + dot(Plane::i() * sum / (order + 2.0), term(z, 0))
     }
 
-    /// Returns what the forces up to term `n - 1` do in term `n`, as normal and place change.
+    /// Returns the contribution of the forces up to term `n - 1` to term `n`, due to the change of normal
+    /// and position.
     fn left(&self, pushes: &Terms, n: usize) -> [f64; 3] {
         let mut left = [0.0; 3];
         for (k, push) in pushes.iter().enumerate().take(n) {

@@ -11,13 +11,12 @@ use crate::motion::point::Point;
 use crate::motion::{FailureReason, Plane};
 use crate::numeric::rounding::ROUNDINGS;
 
-/// Part of the clearance up to which a gap that has just opened keeps its own digits, besides those
-/// of the state. Smaller: a short excursion is lost in round-off.
+/// Part of the clearance up to which a gap that has just opened is stored separately from the state.
+/// Smaller: a short excursion is lost in round-off.
 const JUST_OPENED: f64 = 1e-6;
 
-/// Radians of all rates that take no time: ten digits below what a clock of double precision
-/// resolves in one. Zero: a row that opens and closes again by round-off, in steps as small as
-/// numbers are, does so for ever.
+/// Phase of the fastest rate that counts as no time \[rad\], far below what the clock resolves. Zero: a
+/// row that opens and closes by round-off does so endlessly.
 pub(super) const AN_INSTANT: f64 = 1e-26;
 
 impl Events {

@@ -1,18 +1,18 @@
-//! How far blades turn: now, in all free motion to come, and at most in all steps so far.
+//! Bounds on the blade angles: now, in all free motion to come, and in all steps so far.
 //!
-//! Of a pair of modes these are a few products. All blades of a full disk are looked at now and then;
-//! between two looks no blade turns by more than a slack that every step adds to.
+//! For a pair of modes these are a few products. The angles of a full disk are evaluated only now
+//! and then; between two evaluations every step adds its largest possible change to a slack.
 
 use super::disk::{Disk, total};
 use super::oscillator::{Coordinate, Oscillator};
 use super::shapes::dot;
 use crate::model::LARGEST_BLADE_ANGLE;
 
-/// Radians of the blades between two looks for the largest angle: its square is
-/// the largest part missed, and then searched for.
+/// Phase that the blades turn between two evaluations of the largest angle \[rad\]. The relative
+/// error is at most its square; within it the maximum is searched for.
 pub(super) const ANGLE_LOOK: f64 = 0.125;
 
-/// Angles of all blades when they were last looked at, and how far they may be from them since.
+/// Angles of all blades at the latest evaluation, and how far they may have changed since.
 #[derive(Clone, Debug)]
 pub(super) struct Seen {
     pub angles: Vec<f64>,
@@ -23,7 +23,7 @@ pub(super) struct Seen {
 }
 
 impl Disk {
-    /// Hands the angle of each row to `put`, for more than a pair of modes \[rad\].
+    /// Calls `put` with the angle of each row of a disk with more than a pair of modes \[rad\].
     pub fn all_angles(&mut self, mut put: impl FnMut(usize, f64)) {
         self.see_all();
         let (members, (rows, per_row)) = (&self.seen.angles, self.rows());
@@ -33,14 +33,14 @@ impl Disk {
         }
     }
 
-    /// Returns the angles of the blades that differ when they were last looked at, and how far each may
-    /// have turned since; empty for a pair.
+    /// Returns the angles of the distinct blades at the latest evaluation, and how far each may have
+    /// turned since; empty for a pair.
     pub fn seen(&mut self) -> (&[f64], f64) {
         self.see();
         (&self.seen.angles, self.seen.slack)
     }
 
-    /// Looks at all blades, if they may have turned too far since the last look.
+    /// Evaluates all blade angles, if they may have changed too much since the latest evaluation.
     fn see(&mut self) {
         if self.seen.slack > self.fixed.most_slack || self.seen.steps >= self.fixed.steps_unseen {
             self.see_all();
@@ -70,7 +70,7 @@ impl Disk {
         self.seen.largest[0] + self.seen.slack
     }
 
-    /// Returns the largest angle about the mean of all blades; of a pair, its amplitude \[rad\].
+    /// Returns the largest angle about the mean of all blades; for a pair, its amplitude \[rad\].
     pub fn swing(&mut self) -> f64 {
         if self.fixed.is_pair {
             return self.amplitude();
@@ -99,7 +99,7 @@ impl Disk {
         self.largest
     }
 
-    /// From now on, looks only for angles beyond the limit of the model.
+    /// From now on records only angles beyond the limit of the model.
     pub fn forgo_largest(&mut self) {
         self.largest = self.largest.max(LARGEST_BLADE_ANGLE);
     }
@@ -126,7 +126,7 @@ impl Disk {
         (!fits).then_some(now)
     }
 
-    /// Returns the largest of the angles that may be beyond `least`, and a bound on all.
+    /// Returns the largest of the angles that may exceed `least`, and a bound on all angles.
     fn look_beyond(&mut self, least: f64) -> (f64, f64) {
         if self.fixed.is_pair {
             let ([c, s], phases) = (self.pair_angles(), &self.fixed.phases);
@@ -139,7 +139,7 @@ impl Disk {
             let shapes = self.fixed.blades.row(member);
             size(total(dot(&shapes, self.modes.iter().map(|four| four.x))))
         };
-        // One by one they cost more than all at once where many may be beyond.
+        // If many blades may exceed it, evaluating all at once costs less than one by one.
         let mut left = self.fixed.blades.count() / 8;
         let (mut now, mut bound) = (0.0_f64, 0.0_f64);
         for (member, seen) in self.seen.angles.iter().enumerate() {
@@ -202,7 +202,7 @@ impl Disk {
     }
 }
 
-/// Returns the size of an angle; what is no number is beyond any bound.
+/// Returns the magnitude of an angle; NaN counts as infinite.
 fn size(angle: f64) -> f64 {
     if angle.is_nan() { f64::INFINITY } else { angle.abs() }
 }

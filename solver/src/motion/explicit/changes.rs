@@ -14,8 +14,8 @@ use super::{Explicit, Oscillator, long_step, steps_unseen};
 use crate::motion::{Change, Failure, FailureReason, Plane};
 use crate::scene::CheckedScene;
 
-/// Times that displacements shrink where a clearance is smaller all at once: each leaves
-/// what is of second order in blade angles.
+/// Number of times that displacements are reduced after a sudden loss of clearance: each pass leaves
+/// an error of second order in the blade angles.
 const GIVE_WAY: usize = 4;
 
 impl Explicit {
@@ -51,7 +51,7 @@ impl Explicit {
         self.ledger.start += self.stored() - stored;
     }
 
-    /// Turns with another speed and acceleration from the latest step on.
+    /// Sets speed and acceleration of the rotor from the latest step on.
     pub(super) fn take_speed(&mut self, speed: f64, ramp: f64) {
         self.begin_change();
         self.drive.set_speed(self.n, speed, ramp);
@@ -79,13 +79,13 @@ impl Explicit {
         }
     }
 
-    /// Forgets what a change by the user makes invalid.
+    /// Discards cached data that a change by the user makes invalid.
     pub(super) fn begin_change(&mut self) {
         self.lasting.change(self.drive.time_of(self.n));
         self.forget();
     }
 
-    /// Forgets what another state makes invalid.
+    /// Discards cached data that a new state makes invalid.
     pub(super) fn forget(&mut self) {
         self.strides.forget();
         self.stride_began = None;
@@ -99,7 +99,7 @@ impl Explicit {
         self.machine.changes_with_speed() && self.drive.rotor.ramp() != 0.0
     }
 
-    /// Goes from the machine at the beginning of a step to the one at its end.
+    /// Updates the machine from the beginning of a step to its end.
     ///
     /// # Errors
     /// Rigid blades have grown into the casing.
@@ -125,7 +125,7 @@ impl Explicit {
         if has_room { Ok(()) } else { Err(FailureReason::Closed { speed_rad_s }) }
     }
 
-    /// Sets what the clearance lost in the two steps before now, along the ramp of now.
+    /// Sets the loss of clearance over the last two steps, as if the present ramp had acted.
     pub(super) fn begin_closing(&mut self) {
         self.closed = [0.0; 2];
         if self.follows_speed() {

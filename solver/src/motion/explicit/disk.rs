@@ -49,16 +49,16 @@ pub(super) struct Disk {
     /// Torques of the excitation in the last step, each with its mode \[N m\].
     driven: Vec<(usize, f64)>,
     pub(super) seen: Seen,
-    /// Phase of the blades of a pair that had the largest angle when it was looked for.
+    /// Phase of the blades of a pair that had the largest angle at the latest evaluation.
     pub(super) widest: u32,
     /// Largest angle of any blade in any step \[rad\].
     pub(super) largest: f64,
-    /// Lower bound on how far every angle is below it \[rad\].
+    /// Lower bound on the difference between that largest angle and every present angle \[rad\].
     pub(super) room: f64,
 }
 
 impl Disk {
-    /// Creates the disk of a scene at rest; `alike` blades at most are one.
+    /// Creates the disk of a scene at rest; at most `alike` blades share one coordinate.
     pub fn new(scene: &Scene, machine: &Machine, alike: u32) -> Self {
         let fixed = Fixed::new(scene, machine, alike);
         let disk = &scene.disk_in_use();
@@ -103,8 +103,8 @@ impl Disk {
         Self { modes, oscillators, fixed, driven, seen, widest: 0, largest: 0.0, room: 0.0 }
     }
 
-    /// Returns the disk with these coordinates and the parameters of another scene. Blades that
-    /// something has told apart stay so.
+    /// Returns the disk with these coordinates and the parameters of another scene. Blades that have
+    /// moved differently keep their own coordinates.
     pub fn with_parameters(&self, scene: &Scene, machine: &Machine) -> Self {
         let mut disk = Self::new(scene, machine, self.fixed.alike);
         for m in 0..disk.fixed.labels.len() {
@@ -132,13 +132,13 @@ impl Disk {
         (self.fixed.rows.count(), self.fixed.per_row)
     }
 
-    /// Returns whether it has the modes of one number of diameters, or none.
+    /// Returns whether it has the modes of one number of nodal diameters, or none.
     pub fn is_pair(&self) -> bool {
         self.fixed.is_pair
     }
 
-    /// Takes one step under an excitation, and under the torques that lining and springs had at
-    /// its beginning, Eq. (10).
+    /// Takes one step, Eq. (10), under an excitation and the torques of lining and springs at its
+    /// beginning.
     #[inline]
     pub fn predict(&mut self, excitation: Option<(&EngineOrderTorque, f64)>) {
         if let Some((excitation, phase)) = excitation {
@@ -206,13 +206,13 @@ impl Disk {
         }
     }
 
-    /// Forgets the torques of `feel`.
+    /// Clears the torques added by `feel`.
     pub fn forget_felt(&mut self) {
         self.modes.iter_mut().for_each(|four| four.felt = [0.0; 4]);
     }
 
-    /// Takes the torques of `feel` back into the step before the first, which must know every
-    /// force at the start.
+    /// Includes the torques added by `feel` in the fictitious step before the first, so that the start
+    /// is of second order.
     pub fn begin(&mut self) {
         for (m, oscillator) in self.oscillators.iter().enumerate() {
             let four = &mut self.modes[m / 4];
@@ -220,7 +220,7 @@ impl Disk {
         }
     }
 
-    /// Takes the torque of an excitation at the start into the step before the first.
+    /// Includes the torque of an excitation at the start in the fictitious step before the first.
     pub fn begin_driven(&mut self, excitation: Option<(&EngineOrderTorque, f64)>) {
         let Some((excitation, phase)) = excitation else { return };
         for &(m, _) in &self.driven {
@@ -251,7 +251,7 @@ impl Disk {
         total(dot(&shapes, self.modes.iter().map(before)))
     }
 
-    /// Returns the angle of row `a` that a unit torque on row `b` makes in one step
+    /// Returns the angle of row `a` caused by a unit torque on row `b` in one step
     /// \[rad/(N m)\].
     #[inline]
     pub fn compliance(&self, a: usize, b: usize) -> f64 {
@@ -291,8 +291,8 @@ impl Disk {
         self.has_moved(change);
     }
 
-    /// Sets what the square of each blade frequency is more than at rest \[rad^2/s^2\]. Returns
-    /// the change of energy \[J\].
+    /// Sets the increase of the squared blade frequencies over those at standstill \[rad^2/s^2\].
+    /// Returns the change of energy \[J\].
     pub fn stiffen(&mut self, added: f64) -> f64 {
         let before = self.energy();
         let oscillators = Arc::make_mut(&mut self.oscillators);
@@ -303,7 +303,7 @@ impl Disk {
         self.energy() - before
     }
 
-    /// Multiplies every angle by `part`, without a change of the rates.
+    /// Multiplies every angle by `part`; rates do not change.
     pub fn shrink(&mut self, part: f64) {
         self.modes.iter_mut().for_each(|four| four.x.iter_mut().for_each(|x| *x *= part));
         (self.seen.slack, self.seen.steps) = (f64::INFINITY, u32::MAX);
@@ -347,7 +347,7 @@ impl Disk {
         (c * c + s * s).sqrt()
     }
 
-    /// Returns the largest angle of any blade that a unit torque makes in one step
+    /// Returns the largest blade angle caused by a unit torque in one step
     /// \[rad/(N m)\].
     #[inline]
     pub fn most_turned(&self) -> f64 {
@@ -362,18 +362,18 @@ impl Disk {
         Coordinate { x: four.x[m % 4], increment: four.increment[m % 4] }
     }
 
-    /// Returns the modes of a pair that moves; none of other disks.
+    /// Returns the modes of a moving pair; `None` for other disks.
     pub fn modes_of_pair(&self) -> &[Oscillator] {
         if self.fixed.is_pair { &self.oscillators } else { &[] }
     }
 
-    /// Returns the coordinates of a pair; zeros for what is not there.
+    /// Returns the coordinates of a pair; missing ones are zero.
     pub fn coordinates_of_pair(&self) -> [Coordinate; 2] {
         let known = |m| m < self.modes_of_pair().len();
         [0, 1].map(|m| if known(m) { self.at(m) } else { Coordinate::default() })
     }
 
-    /// Puts the modes of a pair at these coordinates.
+    /// Sets the coordinates of a pair.
     pub fn set_pair(&mut self, coordinates: [Coordinate; 2]) {
         for (m, at) in coordinates.into_iter().enumerate().take(self.oscillators.len()) {
             self.put(m, at);
@@ -395,7 +395,7 @@ impl Disk {
         self.oscillators.iter().map(Oscillator::change).collect()
     }
 
-    /// Takes free steps at once that change the modes by these.
+    /// Takes many free steps at once, whose change of each mode is given.
     pub fn fly(&mut self, changes: &[[f64; 4]]) {
         for (m, change) in changes.iter().enumerate() {
             self.put(m, self.at(m).changed(change));
@@ -406,7 +406,7 @@ impl Disk {
         }
     }
 
-    /// Puts a mode at a coordinate.
+    /// Sets the coordinate of a mode.
     fn put(&mut self, m: usize, at: Coordinate) {
         let (four, k) = (&mut self.modes[m / 4], m % 4);
         (four.x[k], four.increment[k]) = (at.x, at.increment);
@@ -431,7 +431,7 @@ impl Disk {
         0.5 * (twice + springs)
     }
 
-    /// Returns the energy that damping took in the last step, and the work of the excitation
+    /// Returns the energy dissipated in the last step, and the work of the excitation
     /// \[J\].
     pub fn flows(&self) -> [f64; 2] {
         let mut loss = [0.0; 4];

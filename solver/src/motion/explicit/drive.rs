@@ -1,7 +1,6 @@
-//! What drives a motion, as steps of one length see it: the rotor and its phase, the
-//! pulse, and the engine-order excitation, a torque `Q cos(E (theta + Phi_i))` on every
-//! blade, fixed in the standing frame, which only some modes feel (docs/theory.md,
-//! section 8).
+//! Drive of a motion with constant time step: the rotor and its phase, the pulse, and the
+//! engine-order excitation, a torque `Q cos(E (theta + Phi_i))` on every blade, fixed in space,
+//! which excites only some modes (docs/theory.md, section 8).
 
 use crate::motion::{Plane, Pulse, Rotor};
 use crate::scene::Scene;
@@ -18,11 +17,11 @@ pub(super) struct Drive {
     next_pulse: Pulse,
     /// First step on which no pulse acts any more.
     quiet_from: u64,
-    /// A step, and the mean force in it of a pulse that another has replaced \[N\].
+    /// Step index, and the mean force within that step of a pulse that was replaced in it \[N\].
     left_over: (u64, f64),
     diameters: f64,
     phasor: Phasor,
-    /// Lobes of a casing out of round, zero of a round one, and their turn against the blades.
+    /// Number of lobes of the casing (0 if round), and their rotation relative to the blades.
     lobes: f64,
     lobe_phasor: Phasor,
 }
@@ -55,7 +54,8 @@ impl Drive {
         self.rotor.speed(self.time_of(n))
     }
 
-    /// Returns the mean force of the pulse over the step centred on `n`; at n = 0 all of it \[N\].
+    /// Returns the mean force of the pulse over the step centred on `n`, for n = 0 over the half step
+    /// after the start \[N\].
     #[inline]
     pub fn force(&self, n: u64) -> f64 {
         if n >= self.quiet_from {
@@ -71,15 +71,15 @@ impl Drive {
         Some((torque, torque.phase(&self.rotor, self.time_of(n))))
     }
 
-    /// Returns `exp(i n_d theta)` at step `n`, the turn of the frame of the blades, and keeps what
-    /// the steps after it need.
+    /// Returns `exp(i n_d theta)` at step `n`, the rotation of the blade frame, and updates the cache
+    /// for the following steps.
     #[inline]
     pub fn turn(&mut self, n: u64) -> Plane {
         self.phasor.at(n, &self.rotor, self.diameters, self.step)
     }
 
-    /// Returns `exp(i m theta)` at step `n`, the turn of the lobes, and keeps what the steps after
-    /// it need.
+    /// Returns `exp(i m theta)` at step `n`, the rotation of the lobes, and updates the cache for the
+    /// following steps.
     #[inline]
     pub fn lobe_turn(&mut self, n: u64) -> Plane {
         self.lobe_phasor.at(n, &self.rotor, self.lobes, self.step)
@@ -91,7 +91,7 @@ impl Drive {
         self.lobes != 0.0
     }
 
-    /// Returns both turns so many steps before step `n`, a few, which may be before the start.
+    /// Returns both rotations a few steps before step `n`, possibly before the start.
     pub fn turns_before(&self, n: u64, back: u64) -> (Plane, Plane) {
         let before = |phasor: &Phasor, order: f64| {
             if let Some(turn) = phasor.table.get(back as usize) {
@@ -103,9 +103,9 @@ impl Drive {
         (before(&self.phasor, self.diameters), before(&self.lobe_phasor, self.lobes))
     }
 
-    /// Fires the next pulse at step `n`; what the pulse before gave in the half step until
-    /// then is kept. Returns the change of the mean force in the half step after the start, which
-    /// the start did not know; zero at n > 0 \[N\].
+    /// Fires the next pulse at step `n`; the force of the previous pulse in the half step before `n`
+    /// is kept. Returns the change of the mean force in the first half step of the run, which the
+    /// start did not include; zero for n > 0 \[N\].
     pub fn fire(&mut self, n: u64) -> f64 {
         let (start, half) = (self.time_of(n), 0.5 * self.step);
         let (old, next) = (self.pulse, self.next_pulse);
@@ -120,14 +120,14 @@ impl Drive {
         0.0
     }
 
-    /// Turns with this speed and acceleration from step `n` on.
+    /// Sets speed and acceleration from step `n` on.
     pub fn set_speed(&mut self, n: u64, speed: f64, ramp: f64) {
         self.rotor.change(self.time_of(n), speed, ramp);
         self.phasor = Phasor::new(&self.rotor, self.diameters, self.step, n);
         self.lobe_phasor = Phasor::new(&self.rotor, self.lobes, self.step, n);
     }
 
-    /// Takes the excitation of a scene from step `n` on, its lobes, and its pulse for the next fire.
+    /// Sets the excitation and the lobes of a scene from step `n` on, and its pulse for the next fire.
     pub fn set_parameters(&mut self, n: u64, scene: &Scene, lobes: f64) {
         if lobes != self.lobes {
             self.lobes = lobes;
@@ -184,7 +184,7 @@ impl Phasor {
         Self { table, rate, from, at_from, block: u64::MAX, at_block }
     }
 
-    /// Returns the value at step `n`, and keeps the one at the beginning of its block.
+    /// Returns the value at step `n`, and caches the value at the beginning of its block.
     #[inline]
     fn at(&mut self, n: u64, rotor: &Rotor, order: f64, step: f64) -> Plane {
         if !self.table.is_empty() && n / TABLE != self.block {
@@ -235,7 +235,7 @@ impl EngineOrderTorque {
         self.order
     }
 
-    /// Returns whether modes of so many diameters feel it.
+    /// Returns whether it excites modes with this number of nodal diameters.
     pub fn drives(&self, diameters: u32) -> bool {
         let (k, order) = (diameters % self.blades, self.order % self.blades);
         k == order || (k + order).is_multiple_of(self.blades)

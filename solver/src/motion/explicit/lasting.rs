@@ -1,5 +1,5 @@
-//! How a motion beyond the paper lasts: what the verdict needs of the last part of the
-//! run, kept as it goes (docs/theory.md, section 10).
+//! Contact state over the last part of a run beyond the paper's model, recorded during the run as
+//! the basis of its verdict (docs/theory.md, section 10).
 
 use crate::motion::LAST_PART;
 use crate::motion::solver::WHIRL_SWING;
@@ -9,15 +9,15 @@ use crate::motion::{ActiveSet, ContactLog, Plane, Verdict};
 /// Part of the clearance below which a wave on a lining is at rest.
 const WAVE_AT_REST: f64 = 1e-3;
 
-/// The same below which there is no wave, only round-off.
+/// Part of the clearance below which a wave is only round-off.
 const WAVE_ROUND_OFF: f64 = 1e-12;
 
-/// Part of a wave on a lining now to which it must fall, as it goes, to be dying. Larger: a
-/// wave that comes down to its limit cycle is said to die.
+/// A wave on a lining decays if its extrapolated trend falls below this part of its present size.
+/// Larger: a wave that settles on a limit cycle from above counts as decaying.
 const WAVE_DYING: f64 = 0.5;
 
-/// Part of the wave of half a last part before, below which it dies where too little was
-/// seen of it since a change: above it by the round-off of extremes.
+/// After a recent change, when there is no trend yet, a wave decays if it is below this part of the
+/// wave in the previous stretch; below 1 by the round-off of extremes.
 const WAVE_FALLS_SOON: f64 = 1.0 - 1e-6;
 
 /// Extremes over one stretch of time.
@@ -25,8 +25,8 @@ const WAVE_FALLS_SOON: f64 = 1.0 - 1e-6;
 struct Stretch {
     /// Largest swing of a tip, `|kappa| l_b |a|` \[m\].
     swing: f64,
-    /// Ends of the two parts of the casing wave in the frame of the blades, and of the
-    /// blades' own \[m\].
+    /// Minimum and maximum of both components of the casing wave in the blade frame, and of the tip
+    /// displacement by the blade modes \[m\].
     ends: [(f64, f64); 4],
 }
 
@@ -37,26 +37,26 @@ impl Default for Stretch {
 }
 
 impl Stretch {
-    /// Half the size of the box that the wave has kept to \[m\].
+    /// Returns the amplitude of the wave, half the size of the box that contains it \[m\].
     fn wave(&self) -> f64 {
         let [a, b, ..] = self.ends.map(half);
         a.hypot(b) + self.tips()
     }
 
-    /// The same of the tips alone \[m\].
+    /// Returns the amplitude of the tip displacement by the blade modes \[m\].
     fn tips(&self) -> f64 {
         let [_, _, c, d] = self.ends.map(half);
         c.hypot(d)
     }
 
-    /// Distance of the middle of the box of the wave from the centre \[m\].
+    /// Returns the distance of the centre of that box from zero \[m\].
     fn centre(&self) -> f64 {
         let [a, b, ..] = self.ends.map(|(low, high)| 0.5 * (low + high));
         a.hypot(b)
     }
 }
 
-/// What a verdict asks of the surfaces in contact.
+/// Properties of the surfaces in contact that the verdict depends on.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Surface {
     /// Whether the casing has a lining.
@@ -71,7 +71,7 @@ fn half((low, high): (f64, f64)) -> f64 {
     if high > low { 0.5 * (high - low) } else { 0.0 }
 }
 
-/// What has lasted since when.
+/// Contact state over the last part of the run.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lasting {
     /// Length of a stretch: half of the last part of the run \[s\].
@@ -79,12 +79,12 @@ pub(super) struct Lasting {
     since: f64,
     now: Stretch,
     before: Stretch,
-    /// Of the swing of the tips, of what the modes move them, and of the whole wave.
+    /// Trends of the tip swing, of the tip displacement by the modes, and of the wave amplitude.
     trends: [Trend; 3],
-    /// A number for the set of rows that touch, and since when it is the same \[s\].
+    /// Hash of the set of rows that touch, and the time since which it is constant \[s\].
     set: u64,
     set_since: f64,
-    /// Since when every row has touched \[s\].
+    /// Time since which every row touches \[s\].
     all_since: Option<f64>,
 }
 
@@ -102,8 +102,8 @@ impl Lasting {
         }
     }
 
-    /// The wave now: the casing in the frame of the blades, what the modes move the
-    /// tips outward, and how far the tips swing \[m\].
+    /// Records one observation: casing displacement in the blade frame, outward tip displacement by
+    /// the modes, and tip swing \[m\].
     pub fn look(&mut self, t: f64, casing: Plane, tips: Plane, swing: f64) {
         if t > self.since + self.length {
             self.before = self.now;
@@ -120,8 +120,8 @@ impl Lasting {
         self.now.swing = self.now.swing.max(swing);
     }
 
-    /// The rows that touch now, as the sum of `mark` of each, and whether all do; since
-    /// when they are the same \[s\].
+    /// Records the rows that touch now, as the sum of their `mark`s, and whether all rows do. Returns
+    /// the time since which they are the same \[s\].
     pub fn touch(&mut self, t: f64, set: u64, all: bool) -> f64 {
         if set != self.set {
             (self.set, self.set_since) = (set, t);
@@ -134,23 +134,22 @@ impl Lasting {
         self.set_since
     }
 
-    /// The largest swing of the last stretches \[m\].
+    /// Returns the largest tip swing of the last two stretches \[m\].
     pub fn swing(&self) -> f64 {
         self.now.swing.max(self.before.swing)
     }
 
-    /// Whether the casing moves about its rest by more than round-off, where a clearance
-    /// has this size \[m\].
+    /// Returns whether the casing moves by more than round-off, for a clearance of this size \[m\].
     fn moves(&self, size: f64) -> bool {
         self.largest_wave() > WAVE_ROUND_OFF * size
     }
 
-    /// The largest wave of the last stretches \[m\].
+    /// Returns the largest wave amplitude of the last two stretches \[m\].
     fn largest_wave(&self) -> f64 {
         self.now.wave().max(self.before.wave())
     }
 
-    /// Begins the trends again, at a change on the way \[s\].
+    /// Restarts the trends after a change during the run, at `t` \[s\].
     pub fn change(&mut self, t: f64) {
         self.trends.iter_mut().for_each(|trend| trend.change(t));
     }
@@ -228,11 +227,10 @@ impl Lasting {
     }
 }
 
-/// Odd and without a pattern, so that sums and products of it differ for different sets.
+/// Odd constant without a pattern, so that its multiples are well mixed.
 const MARK: u64 = 0x9e37_79b9_7f4a_7c15;
 
-/// A number of one row, so that sums of them differ for different sets (the finisher of
-/// SplitMix64).
+/// Returns the hash of a row index (the finisher of SplitMix64); the sum over a set identifies it.
 pub(super) fn mark(row: usize) -> u64 {
     let mut x = (row as u64 + 1).wrapping_mul(MARK);
     x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

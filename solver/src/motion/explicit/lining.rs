@@ -1,10 +1,9 @@
 //! An elastic lining: a push `P(g)` on every tip that is pressed in, by the gaps at the beginning
 //! of a step (docs/theory.md, sections 6 and 10).
 //!
-//! The rows stand in arrays, four side by side, so that one vector instruction takes four; fours
-//! of which no row is near the casing are passed over. One pass gives the pushes and all sums that
-//! the next step needs; sets and sides are worked out again only where other rows press than
-//! before.
+//! The rows are stored in groups of four, so that one vector instruction processes four; groups with
+//! no row near the casing are skipped. One pass computes the pushes and all sums that the next step
+//! needs; sets and sides are computed only if other rows press than before.
 
 use super::Explicit;
 use super::disk::{Disk, total};
@@ -17,7 +16,7 @@ use super::shapes::Four;
 use crate::model::LiningLaw;
 use crate::motion::{ActiveSet, Plane};
 
-/// The lining and what presses it.
+/// State of the lining: its indentation and its pushes.
 #[derive(Clone, Debug)]
 pub(super) struct Lining {
     pub law: LiningLaw,
@@ -26,12 +25,12 @@ pub(super) struct Lining {
     order: Vec<usize>,
     /// Torques of all rows in the latest step \[N m\].
     torques: Vec<f64>,
-    /// Turn of the frame of the blades at the pushes.
+    /// Rotation of the blade frame at the pushes.
     turn: Plane,
     sums: Sums,
-    /// Energy at the step before, where the depths of the step before do not tell it \[J\].
+    /// Energy at the previous step, if it does not follow from the depths of that step \[J\].
     held_before: Option<f64>,
-    /// Sides that press, a number for the set of rows, and whether all rows do.
+    /// Sides that press, the hash of the set of rows, and whether all rows press.
     sides: ActiveSet,
     set: u64,
     all: bool,
@@ -59,7 +58,7 @@ struct Rows {
 struct Sums {
     /// Pushes along the normals, without friction \[N\].
     force: Plane,
-    /// What a pair of modes feels of the torques \[N m\].
+    /// Modal torques on a pair of modes \[N m\].
     felt: [f64; 2],
     deepest: f64,
     /// Whether other rows press than in the step before.
@@ -121,7 +120,7 @@ impl Lining {
         pressed.map(|(row, depth)| (tips.rows[row].side, -each * self.law.push(-depth))).collect()
     }
 
-    /// Gives the sums of the pushes until now to the record.
+    /// Passes the sums of the pushes so far to the record.
     pub fn give_impulses(&mut self, tips: &Tips, record: &mut Record) {
         for (row, impulse) in self.rows(|four| four.impulse).filter(|(_, sum)| *sum != 0.0) {
             record.impulse(tips.rows[row].side, -impulse);
@@ -144,7 +143,7 @@ impl Lining {
         self.fours.iter().map(of).sum()
     }
 
-    /// Nothing presses at step `n`.
+    /// Records that no row presses at step `n`.
     fn release(&mut self, tips: &Tips, record: &mut Record, n: u64) {
         if !self.presses() {
             self.held_before = Some(0.0);
@@ -192,7 +191,7 @@ impl Lining {
         };
     }
 
-    /// Does the same with lobes of this shape and height, and this sine and cosine.
+    /// As [`Self::press`], for a casing with lobes.
     #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "one pass for every kind of tip and angle")]
     fn press_by(

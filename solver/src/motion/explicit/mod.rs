@@ -7,8 +7,8 @@
 //! `angles` (the blades as oscillators, their shapes, and how far they turn), `row` (gap and
 //! directions of a tip), `step` (section 4.2 of the paper line by line), `lining` (a push by the gap
 //! in place of the multiplier), `stride_map` and `strides` (many steps at once); then `drive`,
-//! `record` and `lasting` (what drives a motion and what it leaves behind), `changes` (a machine that
-//! changes on the way), `rest` and `proofs` (verdicts before the end). `solver` puts them together.
+//! `record` and `lasting` (the drive of a motion, and the records of it), `changes` (a machine that
+//! changes during the run), `rest` and `proofs` (verdicts before the end). `solver` combines them.
 
 mod angles;
 mod changes;
@@ -62,12 +62,11 @@ pub(super) struct Explicit {
     /// Increments of the casing in the step before the last \[m\].
     before: [f64; 2],
     disk: Disk,
-    /// Law of the tips at the current rotor speed, and whether they rub as those of a rotor that
-    /// turns backward.
+    /// Tip law at the present rotor speed, and whether its friction is that of backward rotation.
     tips: TipLaw,
     backward: bool,
     tips_of_rows: Arc<Tips>,
-    /// Turn of the lobes of the casing at the latest contact.
+    /// Rotation of the casing's lobes at the latest contact.
     lobe_turn: Plane,
     /// Side at which the search for the smallest gap begins.
     near: usize,
@@ -79,11 +78,11 @@ pub(super) struct Explicit {
     dips: [f64; 2],
     /// Loss of clearance in the latest step and in the one before \[m\].
     closed: [f64; 2],
-    /// Motion of the casing in a step that passes much of a side \[m\], and the number of such
-    /// steps in a row.
+    /// Casing displacement per step above which the step is too long \[m\], and the number of
+    /// consecutive such steps.
     long_step: f64,
     long_steps: u32,
-    /// Next step at which the swing of the tips is looked at, and the steps between two.
+    /// Next step at which the tip swing is recorded, and the steps between two records.
     next_look: u64,
     steps_unseen: u64,
     record: Record,
@@ -92,9 +91,9 @@ pub(super) struct Explicit {
     /// The linear motion about rest at this speed, once asked for.
     rest: OnceLock<Option<Rest>>,
     strides: Strides,
-    /// The motion where the stride began inside of which the latest step lies.
+    /// The motion at the start of the stride that contains the latest step.
     stride_began: Option<Box<Explicit>>,
-    /// Step of the latest change on the way.
+    /// Step of the latest change during the run.
     changed: u64,
     /// Number of steps that were not computed one by one, but many at once by strides.
     skipped: u64,
@@ -157,8 +156,8 @@ impl Explicit {
         motion
     }
 
-    /// Returns the turn of the frame of the blades at the latest step, `exp(i n_d theta)`, and
-    /// turns the lobes there, too.
+    /// Returns the rotation of the blade frame at the latest step, `exp(i n_d theta)`, and rotates the
+    /// lobes to that step.
     #[inline]
     fn turn_now(&mut self) -> Plane {
         if self.drive.has_lobes() {
@@ -167,7 +166,7 @@ impl Explicit {
         self.drive.turn(self.n)
     }
 
-    /// Returns the casing in the frame of the blades, which has turned so far \[m\].
+    /// Returns the casing displacement in the blade frame with this rotation \[m\].
     #[inline(always)]
     fn place(&self, turn: Plane) -> Plane {
         Plane::new(self.u[0].x, self.u[1].x) * turn.conj()
@@ -232,15 +231,15 @@ impl Explicit {
     }
 }
 
-/// Returns the motion of the casing in a step that passes much of a side; the paper's tips drive no
-/// wave so fast for long \[m\].
+/// Returns the casing displacement per step above which the step is too long; infinite for the
+/// paper's tips, which drive no wave so fast for long \[m\].
 fn long_step(scene: &CheckedScene, machine: &Machine) -> f64 {
     let side = 2.0 * machine.clearance() * machine.polygon.delta.tan();
     let is_limited = machine.polygon.has_corners() && scene.goes_beyond();
     if is_limited { LONG_STEP * side } else { f64::INFINITY }
 }
 
-/// Returns the number of steps between two looks at the swing of the tips.
+/// Returns the number of steps between two records of the tip swing.
 fn steps_unseen(scene: &CheckedScene, machine: &Machine) -> u64 {
     let fastest = match scene.solver.model {
         ModelSize::Full => machine.omega_bd_max,

@@ -34,7 +34,7 @@ pub(super) struct Coordinate {
 }
 
 impl Coordinate {
-    /// Returns it after a change, `[x, increment]` by `[x, increment]`.
+    /// Returns the state after a change, given as a matrix on `[x, increment]` minus 1.
     #[inline]
     pub fn changed(self, [a, b, c, d]: &[f64; 4]) -> Self {
         let Self { x, increment } = self;
@@ -65,7 +65,7 @@ impl Oscillator {
         Coordinate { x, increment: self.step * (rate - 0.5 * self.step * acceleration) }
     }
 
-    /// Returns how much an additional force at n = 0 lowers the increment of `start`.
+    /// Returns by how much an additional force at n = 0 reduces the increment of `start`.
     pub fn start_shift(&self, force: f64) -> f64 {
         0.5 * self.step * self.step * force / self.mass
     }
@@ -83,7 +83,7 @@ impl Oscillator {
         Coordinate { x: at.x + increment, increment }
     }
 
-    /// Returns the change of a free coordinate in a step, `[x, increment]` by `[x, increment]`.
+    /// Returns the matrix of a free step minus 1, on `[x, increment]`.
     pub fn change(&self) -> [f64; 4] {
         [-self.pull, self.ratio, -self.pull, -self.loss]
     }
@@ -95,8 +95,8 @@ impl Oscillator {
         self.mass * rate * rate + self.stiffness * at.x * (at.x - at.increment)
     }
 
-    /// Returns the energy that damping takes in a step over the square of the sum of the last two
-    /// increments, `d/4h` of this scheme \[J/m^2\] or \[J/rad^2\].
+    /// Returns the energy dissipated in a step, divided by the square of the sum of the last two
+    /// increments: `d/4h` in this scheme \[J/m^2\] or \[J/rad^2\].
     pub fn lost(&self) -> f64 {
         self.damping / (4.0 * self.step)
     }
@@ -106,8 +106,8 @@ impl Oscillator {
         self.step * (self.stiffness / self.mass).sqrt()
     }
 
-    /// Returns a bound on the amplitude of coordinates together over all free steps to come.
-    /// On the ellipse of constant energy `x = (x - increment/2) + increment/2`.
+    /// Returns a bound on the joint amplitude of coordinates over all future free steps, from the
+    /// ellipse of constant energy and `x = (x - increment/2) + increment/2`.
     pub fn reach(&self, coordinates: &[Coordinate]) -> f64 {
         let energy: f64 = coordinates.iter().map(|at| self.twice_energy(*at)).sum();
         let inertia = self.mass / (self.step * self.step);

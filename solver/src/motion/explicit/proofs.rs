@@ -1,4 +1,4 @@
-//! Verdicts that nothing to come can change (docs/theory.md, section 9).
+//! Verdicts that no later motion can change (docs/theory.md, section 9).
 
 use super::{Explicit, Lining};
 use crate::harmonic::Locks;
@@ -14,8 +14,8 @@ const HELD_AFTER: u64 = 64;
 /// than the room left to them.
 const LIGHT_BLADES: f64 = 1e-3;
 
-/// Part of a contact force, multiplier or gap that its changes may be for its sign to stay. Twice
-/// the bound is kept in hand.
+/// Largest bound on the change of a contact force, multiplier or gap, relative to its value, for which
+/// its sign counts as certain: half of what would be needed, as a reserve.
 const ROOM_TO_CHANGE: f64 = 0.5;
 
 impl Explicit {
@@ -42,7 +42,7 @@ impl Explicit {
         risen < least && self.casing.reach(&self.u) + risen < least
     }
 
-    /// Returns the verdict, once nothing to come can change it.
+    /// Returns the verdict if no later motion can change it.
     pub(super) fn decided(&self) -> Option<Verdict> {
         if let Some(failure) = &self.failure {
             let beyond = self.scene.goes_beyond();

@@ -1,5 +1,4 @@
-//! What the steps of a motion leave behind: the record of contacts, impulses and depths, and
-//! the ledger of energy.
+//! Records of a motion in steps: contacts, impulses and penetrations, and the energy account.
 
 use crate::model::ContactPolygon;
 use crate::motion::contacts::in_phase_order;
@@ -22,8 +21,8 @@ pub(super) struct Record {
     step: f64,
     /// Step of the latest contact of each side, plus one; 0 for none.
     touched: Vec<u64>,
-    /// Impulse on each side since the start, and what `take_mean_forces` has told of it, until which
-    /// step \[N s\].
+    /// Impulse on each side since the start, and the part of it that `take_mean_forces` has returned,
+    /// up to which step \[N s\].
     impulses: Vec<f64>,
     told: Vec<f64>,
     told_until: u64,
@@ -128,7 +127,7 @@ impl Record {
         means
     }
 
-    /// Takes over what `take_mean_forces` has told of another record of the same motion.
+    /// Copies the state of `take_mean_forces` from another record of the same motion.
     pub fn keep_told(&mut self, of: &mut Self) {
         self.told = std::mem::take(&mut of.told);
         self.told_until = of.told_until;

@@ -18,7 +18,7 @@ use crate::motion::point::{Point, Units, one_of};
 use crate::numeric::eigen::eigenvalues;
 
 /// Round-off of the growth in one step of a wave on a preloaded lining, in units of the last
-/// place. Smaller: a wave that nothing damps is said to grow or to die.
+/// place. Smaller: an undamped wave counts as growing or decaying.
 const REST_ROUNDINGS: f64 = 64.0;
 
 /// Steps of the singular value decomposition that gives an eigenmode of that wave, at most;
@@ -50,7 +50,7 @@ struct Step<'a> {
 /// An eigenmode of the linear step.
 #[derive(Clone, Debug)]
 struct Eigenmode {
-    /// Rate at which it dies, 0 within the round-off of a step \[1/s\].
+    /// Decay rate, 0 within the round-off of a step \[1/s\].
     rate: f64,
     /// Left eigenvector; its product with a state is the amplitude.
     left: DVector<Complex<f64>>,
@@ -62,10 +62,9 @@ struct Eigenmode {
 #[derive(Clone, Debug)]
 pub(super) struct Rest {
     units: Units,
-    /// The eigenmodes that the lining feels.
+    /// The eigenmodes that indent the lining.
     modes: Vec<Eigenmode>,
-    /// Rate at which the slowest of them dies; negative where it grows, 0 where it does neither
-    /// beyond round-off \[1/s\].
+    /// Smallest of their decay rates; negative for growth, 0 within round-off \[1/s\].
     pub rate: f64,
     /// Indentation beyond rest up to which all pushes stay linear in the gaps \[m\].
     room: f64,
@@ -136,7 +135,7 @@ impl Explicit {
 }
 
 impl Step<'_> {
-    /// Returns how much a row is pressed in beyond rest, to first order \[m\].
+    /// Returns the indentation of a row beyond that at rest, to first order \[m\].
     fn pressed(&self, row: &Pressed, state: &Point) -> f64 {
         let angle = (state.a * row.shape.conj()).re;
         self.tips.rise * angle - (state.z * row.normal.conj()).re
@@ -201,7 +200,7 @@ impl Step<'_> {
     }
 }
 
-/// Returns whether equal pushes of all rows leave casing and blades alone.
+/// Returns whether equal pushes of all rows exert no modal force on casing and blades.
 fn is_even(rows: &[Pressed]) -> bool {
     let sum = |of: fn(&Pressed) -> Plane| rows.iter().map(of).sum::<Plane>().norm();
     let round_off = f64::EPSILON * rows.len() as f64;

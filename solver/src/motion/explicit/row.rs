@@ -18,11 +18,11 @@ use crate::motion::{ActiveSet, Plane};
 /// \[rad\]: exact to round-off.
 const SMALL_PHASE: f64 = 1e-4;
 
-/// Blade phase below which sine and cosine are two and three terms of it \[rad\]: exact to
-/// round-off of one. Speed only.
+/// Blade phase below which sine and cosine are two and three terms of their series \[rad\]: exact to
+/// the round-off of 1. Speed only.
 pub(super) const SHORT_SERIES_PHASE: f64 = 1.5e-3;
 
-/// Blade phase below which they are four terms of it \[rad\]: exact to round-off.
+/// Blade phase below which they are four terms of their series \[rad\]: exact to round-off.
 pub(super) const SERIES_PHASE: f64 = 0.03;
 
 /// Geometry and friction of the tips at the current rotor speed.
@@ -109,7 +109,7 @@ pub(super) struct Tip {
     pub longer: f64,
 }
 
-/// Directions of the rows, and what tells their tips apart.
+/// Directions of the rows, and how their tips differ.
 #[derive(Clone, Debug)]
 pub(super) struct Tips {
     pub rows: Vec<Tip>,

@@ -139,7 +139,7 @@ impl Shapes {
         angles
     }
 
-    /// Hands what each mode feels of torques at all places to `add`.
+    /// Calls `add` with the modal force of each mode due to torques at all places.
     pub fn feel(&self, torques: &[f64], mut add: impl FnMut(usize, f64)) {
         let Some(ring) = &self.ring else {
             let mut felt = vec![[0.0; 4]; self.width];

@@ -1,4 +1,4 @@
-//! The explicit solver as every solver is seen: advanced, looked at, and changed on the way.
+//! The common solver interface of the explicit solver: advance, observe, change.
 
 use super::lasting::Surface;
 use super::strides::Stride;
@@ -11,8 +11,7 @@ use crate::motion::{
 use crate::scene::CheckedScene;
 use crate::scene::STEP_ROUND_OFF;
 
-/// Updates of one coordinate between two questions whether to go on: some tens
-/// of microseconds.
+/// Coordinate updates between two checks of `go_on`: some tens of microseconds.
 const UPDATES_UNASKED: usize = 4096;
 
 impl Explicit {
@@ -41,7 +40,8 @@ impl Explicit {
         self.stride_began = Some(began);
     }
 
-    /// Goes back to where the stride of the latest step began; what was told stays told.
+    /// Returns to the start of the stride that contains the latest step; forces already reported stay
+    /// reported.
     fn go_back(&mut self, mut began: Self) {
         began.record.keep_told(&mut self.record);
         *self = began;

@@ -20,8 +20,8 @@ use crate::motion::{ActiveSet, FailureReason, Plane};
 use crate::numeric::lcp;
 use crate::numeric::rounding::ROUND_OFF;
 
-/// Depths of the deepest penetration up to which another gap is looked at, as a push may
-/// close it: of two modes one push closes it by at most
+/// Gaps up to this multiple of the deepest penetration are included, as a push may close them: with
+/// two modes one push closes another gap by at most
 /// `|T|/Re T`, `sqrt(1 + mu_c^2)` of its own depth where `kappa (kappa + mu) >= 0`.
 /// Smaller: a neighbour is closed a step late. Larger: speed only.
 pub(super) const NEIGHBOUR_DEPTHS: f64 = 4.0;
@@ -30,8 +30,8 @@ pub(super) const NEIGHBOUR_DEPTHS: f64 = 4.0;
 /// single longer step is an impact; see `MOST_LONG_STEPS`.
 pub(super) const LONG_STEP: f64 = 0.25;
 
-/// Longer steps in a row after which the run has failed: what a wave does that friction
-/// drives so fast is the step's doing.
+/// Number of consecutive longer steps after which the run fails: so fast a wave driven by friction is
+/// an artefact of the step.
 const MOST_LONG_STEPS: u32 = 2000;
 
 impl Explicit {
@@ -195,7 +195,7 @@ impl Explicit {
         (deepest, next)
     }
 
-    /// Returns a bound on how far the tips of a row have risen \[m\].
+    /// Returns a bound on the outward displacement of a row's tips by the blade angles \[m\].
     fn highest_rise(&mut self, row: usize, tips: &TipLaw) -> f64 {
         if self.disk.is_pair() {
             return tips.rise * self.disk.angle(row);
@@ -376,7 +376,7 @@ impl Explicit {
         self.rows.clear();
     }
 
-    /// Records how far the tips swing, as often as needed.
+    /// Records the swing of the tips, as often as needed.
     pub(super) fn look_at_swing(&mut self) {
         if self.n < self.next_look {
             return;

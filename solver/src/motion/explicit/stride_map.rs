@@ -55,7 +55,7 @@ type Whole = SVector<f64, WHOLE>;
 /// A function of each held tip, linear in the state.
 type OfTips = SMatrix<f64, HELD, SIZE>;
 
-/// A tip that pushes, in the frame of the blades, at the prediction from the reference.
+/// A held tip in the blade frame, at the state predicted from the reference.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct HeldTip {
     /// \[m\]
@@ -70,9 +70,9 @@ pub(super) struct HeldTip {
 /// A function of the state that must keep its sign over a stride.
 #[derive(Clone, Copy, Debug)]
 struct Sign {
-    /// Its value is the product with the whole state.
+    /// Coefficients: its value is their product with the whole state.
     by: Whole,
-    /// Its second difference per unit norm of the change, at most.
+    /// Bound on its second difference per unit norm of the change.
     bend: f64,
 }
 
@@ -85,9 +85,9 @@ pub(super) struct StrideMap {
     changes: Vec<SMatrix<f64, WHOLE, WHOLE>>,
     /// `|E x|` is the norm of a state.
     units: Square,
-    /// `L^2 |T|^L / 8` of each power: what a stride may bend a function off its line.
+    /// `L^2 |T|^L / 8` of each power: bound on the deviation of a function from its straight line.
     limits: Vec<f64>,
-    /// Predicted place of the casing; `bend` as in `Sign`.
+    /// Predicted casing position; `bend` as in `Sign`.
     place: SMatrix<f64, 2, SIZE>,
     place_bend: f64,
     pushes: Vec<Sign>,
@@ -198,8 +198,8 @@ impl StrideMap {
         let from = self.whole(state);
         let change = (self.changes.first()? * from).fixed_rows::<SIZE>(0).into_owned();
         let speed = (self.units * change).norm();
-        // A push may close another gap by some depths of its own tip, and a turned tip is nearer by
-        // its part of the way.
+        // A push may close another gap by a multiple of its own depth, and the rotation of a tip by
+        // its blade reduces the gap.
         let depth_bend = self.depths.iter().fold(0.0, |most, depth| f64::max(most, depth.bend));
         let open_bend = self.place_bend * (1.0 + 2.0 * turned) + NEIGHBOUR_DEPTHS * depth_bend;
         let room = |whole: &Whole| {
@@ -231,7 +231,7 @@ impl StrideMap {
         None
     }
 
-    /// Takes steps at once. Returns the state after them, and the sums of the pushes \[N\].
+    /// Takes many steps at once. Returns the state after them, and the sums of the pushes \[N\].
     pub fn take(&self, state: &State, steps: u64) -> (State, [f64; HELD]) {
         let whole = self.after(state, steps);
         (whole.fixed_rows::<SIZE>(0) + self.reference, [whole[SIZE + 1], whole[SIZE + 2]])

@@ -1,12 +1,12 @@
 //! Strides: many steps at once between changes of contact, by the maps of `stride_map`.
 //!
-//! In flight the casing and the blade modes swing by themselves, each with powers of its own; the
-//! map tells how far they may. Rigid blades are held at a side or in a corner by a map of the
-//! casing, and blades that move, in a corner, by one for small deviations. Elsewhere, as where a
-//! side of blades that move is held, steps are taken one by one.
+//! In free flight the casing and the blade modes are uncoupled, each with its own powers; the map
+//! bounds how many steps are safe. With rigid blades on a side or in a corner the map is that of the
+//! casing; with moving blades in a corner it is that of small deviations. All other motion, such as
+//! moving blades on one side, is computed step by step.
 //!
-//! A look at the motion inside of a stride does not cut it: the motion goes on from where the
-//! stride began, whoever looks.
+//! Observing the motion inside a stride does not change it: the motion continues from the start of
+//! the stride.
 
 use std::sync::Arc;
 
@@ -18,18 +18,19 @@ use super::stride_map::{HELD, HeldTip, SHORTEST, State, StrideMap};
 use crate::model::LARGEST_BLADE_ANGLE;
 use crate::motion::{ActiveSet, Plane};
 
-/// Steps with the same tips in contact before a stride is tried: more than contact may pause without
-/// an end.
+/// Steps with the same tips in contact before a stride is tried: longer than a pause within one
+/// contact.
 const SAME_STEPS: u64 = 4;
-/// Steps in the same corner before the map of a corner of blades that move is made.
+/// Steps in the same corner before the map of a corner with moving blades is computed.
 const SAME_STEPS_OF_CORNER: u64 = 64;
-/// Turn `n_d alpha` of held tips since their map was made, the square of which is left out \[rad\].
+/// Largest rotation `n_d alpha` of held tips since their map was computed; the map neglects its square
+/// \[rad\].
 const SMALL_TURN: f64 = 3e-6;
-/// Largest turn of tips at which such a map is made \[rad\].
+/// Largest rotation of tips at which such a map is computed \[rad\].
 const LARGEST_TURN: f64 = 1e-3;
 /// Steps that cost about as much as a map.
 const STEPS_OF_MAP: u64 = 512;
-/// Maps that are kept.
+/// Number of cached maps.
 const MOST_MAPS: usize = 64;
 
 /// Change of a free coordinate over some steps, `[x, increment]` by `[x, increment]`.
@@ -39,7 +40,7 @@ type Change = [f64; 4];
 #[derive(Clone, Debug, Default)]
 pub(super) struct Strides {
     maps: Vec<(Vec<HeldTip>, Arc<StrideMap>)>,
-    /// Map of the corner that blades that move hold now, and the row whose direction is its real axis.
+    /// Map of the corner held by moving blades, and the row whose direction is its real axis.
     corner: Option<(usize, Arc<StrideMap>)>,
     /// Sides in contact at the last step, and the number of steps that they have been.
     sides: ActiveSet,
@@ -51,7 +52,7 @@ pub(super) struct Strides {
 }
 
 impl Strides {
-    /// Forgets maps of another machine or speed.
+    /// Discards maps of another machine or speed.
     pub fn forget(&mut self) {
         *self = Self { sides: self.sides, next: self.next, ..Self::default() };
     }
@@ -118,8 +119,8 @@ impl Explicit {
         }
     }
 
-    /// Shortens a stride so that the largest blade angle is that of some step, and that held tips
-    /// turn little.
+    /// Shortens a stride so that no maximum of a blade angle lies inside it, and so that held tips
+    /// rotate little.
     fn shortened(&mut self, mut stride: Stride) -> Option<Stride> {
         if !self.disk.is_pair() {
             return (self.disk.reach() <= self.disk.largest()).then_some(stride);
@@ -149,7 +150,7 @@ impl Explicit {
 
     fn find_flight(&mut self) -> Option<Stride> {
         let (reach, farthest) = (self.disk.reach(), self.casing.reach(&self.u));
-        // Nothing that makes a run fail may come on the way.
+        // No cause of a failure may lie within the stride.
         let fails = reach > LARGEST_BLADE_ANGLE || farthest > self.scene.casing.radius_m;
         if fails || self.dips != [0.0; 2] || !self.disk.is_tuned() {
             return None;
@@ -164,7 +165,7 @@ impl Explicit {
         let exponent = map.longest(&state, false, law.diameters * reach, |place| {
             tips.least_gap(place, law, ActiveSet::Nothing) - margin
         })?;
-        // No blade angle, and no swing of a tip, may pass its extreme unseen.
+        // No extreme of a blade angle or of a tip swing may lie inside the stride.
         let steps = (1 << exponent).min(self.steps_of_small_turn());
         Some(Stride { steps, map, first, state, held: Vec::new() })
     }
@@ -208,7 +209,7 @@ impl Explicit {
         Some(Stride { steps, map, first, state, held })
     }
 
-    /// Returns a bound on how far blades have turned their tips since a map was made \[rad\].
+    /// Returns a bound on the rotation of the tips by their blades since a map was computed \[rad\].
     fn turned_since(&self, map: &StrideMap, modes: [Coordinate; 2]) -> f64 {
         let [c, s] = modes_of(&map.reference);
         self.tips.diameters * ((modes[0].x - c.x).abs() + (modes[1].x - s.x).abs())
@@ -348,7 +349,7 @@ impl Explicit {
         StrideMap::new(&self.casing, modes, frame, &tips, state).map(Arc::new)
     }
 
-    /// Turn of the frame of the blades in a step \[rad\].
+    /// Rotation of the blade frame in a step \[rad\].
     fn frame_turn(&self) -> f64 {
         self.machine.nu(self.drive.speed(self.n)) * self.drive.step
     }
@@ -361,7 +362,7 @@ impl Explicit {
 }
 
 impl HeldTip {
-    /// Whether two tips are one but for round-off.
+    /// Returns whether two tips are equal within round-off.
     fn is_near(&self, other: &Self) -> bool {
         let near = |a: f64, b: f64| (a - b).abs() < 1e-13;
         let near_plane = |a: Plane, b: Plane| near(a.re, b.re) && near(a.im, b.im);
