@@ -8,11 +8,13 @@
 #[path = "../tests/all/stepwise.rs"]
 mod stepwise;
 
+mod bench;
+
 use std::hint::black_box;
 use std::sync::mpsc;
 use std::time::Duration;
 
-use criterion::{Criterion, criterion_group, criterion_main};
+use bench::benchmark_group;
 use ratatui::{Terminal, backend::TestBackend};
 use rubscope::tui::worker::Playback;
 use rubscope::tui::{App, Marker, Theme, run};
@@ -25,18 +27,16 @@ fn app() -> App {
     App::new(scene, Theme::Dark, Marker::Braille)
 }
 
-fn explorer(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("explorer");
+fn main() {
+    let mut group = benchmark_group("explorer");
     for (name, size) in [("a frame, 80 x 24", (80, 24)), ("a frame, 200 x 60", (200, 60))] {
         let mut terminal = Terminal::new(TestBackend::new(size.0, size.1)).unwrap();
         let mut app = app();
         let mut engine = Stepwise::new(33e-3 * 5e-3);
-        group.bench_function(name, |bencher| {
-            bencher.iter(|| {
-                // An end of all events is one frame.
-                let (_, none) = mpsc::channel();
-                run(&mut terminal, &none, &mut app, &mut engine, &mut NoHost, Duration::ZERO)
-            });
+        group.bench(name, || {
+            // An end of all events is one frame.
+            let (_, none) = mpsc::channel();
+            run(&mut terminal, &none, &mut app, &mut engine, &mut NoHost, Duration::ZERO)
         });
     }
     // 33 ms of the clock, at the rate it starts with.
@@ -44,22 +44,8 @@ fn explorer(criterion: &mut Criterion) {
     while playback.is_computing() {
         playback.compute();
     }
-    group.bench_function("a tick of the worker", |bencher| {
-        bencher.iter(|| {
-            playback.play_paced(black_box(std::time::Duration::from_millis(33)));
-            playback.snapshot()
-        });
+    group.bench("a tick of the worker", || {
+        playback.play_paced(black_box(Duration::from_millis(33)));
+        playback.snapshot()
     });
-    group.finish();
 }
-
-/// Short, so that all of it takes a minute; the options of criterion make it longer.
-fn short() -> Criterion {
-    Criterion::default()
-        .sample_size(20)
-        .warm_up_time(Duration::from_millis(200))
-        .measurement_time(Duration::from_millis(1200))
-}
-
-criterion_group! { name = all; config = short(); targets = explorer }
-criterion_main!(all);

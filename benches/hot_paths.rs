@@ -8,11 +8,11 @@
 
 #![expect(clippy::unwrap_used, reason = "a benchmark states what must hold")]
 
-use std::hint::black_box;
-use std::time::Duration;
+mod bench;
 
-use criterion::measurement::WallTime;
-use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
+use std::hint::black_box;
+
+use bench::{Group, benchmark_group};
 use rubscope_solver::harmonic::{Form, locked_motion};
 use rubscope_solver::motion::{
     Events, Motion, Sample, Sampling, Script, run_to_end, run_to_verdict, run_with_certainty,
@@ -40,8 +40,8 @@ fn to_the_end_of(scene: &CheckedScene, mut motion: Motion) -> Motion {
 
 /// Whole runs of the explicit solver: case A is nearly all flight, the default
 /// scene nearly all lock, slip is contact without a break.
-fn explicit(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("explicit");
+fn explicit() {
+    let mut group = benchmark_group("explicit");
     let cases: [(&str, Changes); 9] = [
         ("default scene", &[("operation.pulse_n", "1e6"), ("solver.contact", "bilateral")]),
         ("default scene, unilateral", &[("operation.pulse_n", "1e6")]),
@@ -57,12 +57,11 @@ fn explicit(criterion: &mut Criterion) {
     for (name, changes) in cases.into_iter().chain([full]) {
         whole_run(&mut group, name, &scene(changes));
     }
-    group.finish();
 }
 
 /// The same of scenes beyond the paper, of locks at a step that leaves more vibration, and
 /// of three sides.
-fn beyond(criterion: &mut Criterion) {
+fn beyond() {
     const COARSE: (&str, &str) = ("solver.step_s", "5e-7");
     const SHORT: (&str, &str) = ("solver.end_s", "0.02");
     const SIDES: [(&str, &str); 2] =
@@ -72,7 +71,7 @@ fn beyond(criterion: &mut Criterion) {
         let size = [("bladed_disk.blades", blades), ("contact.stiffness_n_per_m", stiffness)];
         [&size[..], &[FULL, ("solver.end_s", "0.001")]].concat()
     };
-    let mut group = criterion.benchmark_group("explicit, beyond");
+    let mut group = benchmark_group("explicit, beyond");
     for (name, preset, changes) in [
         ("coincidence", "coincidence", vec![("solver.end_s", "0.1")]),
         ("coincidence, 352 blades, full", "coincidence", many("352", "1687.5")),
@@ -86,23 +85,20 @@ fn beyond(criterion: &mut Criterion) {
     ] {
         whole_run(&mut group, name, &Scene::builtin(preset).unwrap().with(&changes).unwrap());
     }
-    group.finish();
 }
 
 /// A run to its end, by the step taken where most are taken.
-fn whole_run(group: &mut BenchmarkGroup<'_, WallTime>, name: &str, scene: &CheckedScene) {
+fn whole_run(group: &mut Group, name: &str, scene: &CheckedScene) {
     let motion = to_the_end_of(scene, Motion::new(scene));
     let (taken, skipped) = (motion.steps_taken().unwrap(), motion.steps_skipped().unwrap());
     // Where most steps are skipped, the time over those taken tells nothing.
-    group.throughput(Throughput::Elements(if taken > skipped { taken } else { 0 }));
-    group.bench_with_input(name, scene, |bencher, scene| {
-        bencher.iter(|| to_the_end_of(scene, Motion::new(black_box(scene))).state().u[0]);
-    });
+    group.count = if taken > skipped { taken } else { 0 };
+    group.bench(name, || to_the_end_of(scene, Motion::new(black_box(scene))).state().u[0]);
 }
 
 /// Whole runs of the event solver.
-fn event(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("event");
+fn event() {
+    let mut group = benchmark_group("event");
     let cases: [(&str, f64, Changes); 6] = [
         ("case A, 1e-6", 1e-6, &[EVENT]),
         ("case A, 1e-15", 1e-15, &[EVENT]),
@@ -113,77 +109,62 @@ fn event(criterion: &mut Criterion) {
     ];
     for (name, tolerance, changes) in cases {
         let scene = scene(changes);
-        group.bench_with_input(name, &scene, |bencher, scene| {
-            bencher.iter(|| {
-                let motion = Events::new(black_box(scene)).unwrap().with_tolerance(tolerance);
-                to_the_end_of(scene, motion.into()).state().u[0]
-            });
+        group.bench(name, || {
+            let motion = Events::new(black_box(&scene)).unwrap().with_tolerance(tolerance);
+            to_the_end_of(&scene, motion.into()).state().u[0]
         });
     }
-    group.finish();
 }
 
 /// The locked motion at 500 speeds.
-fn harmonic(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("hbm");
+fn harmonic() {
+    let mut group = benchmark_group("hbm");
     let machine = Scene::base().machine();
     let speeds: Vec<f64> = (1..=500).map(f64::from).collect();
-    group.throughput(Throughput::Elements(500));
+    group.count = 500;
     for (name, form) in [
         ("500 speeds, printed", Form::Printed),
         ("500 speeds, blade", Form::Blade),
         ("500 speeds, modal", Form::Modal),
     ] {
-        group.bench_function(name, |bencher| {
-            bencher
-                .iter(|| locked_motion(&machine, form, false, None, black_box(&speeds)).unwrap());
+        group.bench(name, || {
+            locked_motion(&machine, form, false, None, black_box(&speeds)).unwrap()
         });
     }
-    group.finish();
 }
 
 /// A cell of a map, alone and with the runs that find out whether it is
 /// sensitive.
-fn map(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("map");
+fn map() {
+    let mut group = benchmark_group("map");
     let cell = scene(&[EVENT, RIGID, ("operation.pulse_n", "4e5")]);
-    group.throughput(Throughput::Elements(1));
-    group.bench_function("a cell", |bencher| {
-        bencher.iter(|| run_to_verdict(black_box(&cell), &to_the_end));
-    });
-    group.bench_function("a cell with certainty", |bencher| {
-        bencher.iter(|| run_with_certainty(black_box(&cell), &to_the_end));
-    });
-    group.finish();
+    group.count = 1;
+    group.bench("a cell", || run_to_verdict(black_box(&cell), &to_the_end));
+    group.bench("a cell with certainty", || run_with_certainty(black_box(&cell), &to_the_end));
 }
 
 /// What recording a history adds to solving.
-fn record(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("record");
+fn record() {
+    let mut group = benchmark_group("record");
     let slip = scene(&[SLIP[0], SLIP[1], MICROSECOND]);
-    group.bench_function("slip, no history", |bencher| {
+    group.bench("slip, no history", || {
         let none = Sampling::default();
-        bencher.iter(|| run_to_end(black_box(&slip), &Script::default(), none, &mut |_| {}));
+        run_to_end(black_box(&slip), &Script::default(), none, &mut |_| {})
     });
-    group.bench_function("slip, 2000 samples", |bencher| {
-        let sampling = Sampling { intervals: 2000, gaps: true };
-        bencher.iter(|| {
-            let mut sum = 0.0;
-            let mut add = |sample: &Sample| sum += sample.state.u[0];
-            run_to_end(black_box(&slip), &Script::default(), sampling, &mut add);
-            sum
-        });
+    let sampling = Sampling { intervals: 2000, gaps: true };
+    group.bench("slip, 2000 samples", || {
+        let mut sum = 0.0;
+        let mut add = |sample: &Sample| sum += sample.state.u[0];
+        run_to_end(black_box(&slip), &Script::default(), sampling, &mut add);
+        sum
     });
-    group.finish();
 }
 
-/// Short, so that all of it takes a minute; the options of criterion make it longer.
-fn short() -> Criterion {
-    Criterion::default()
-        .sample_size(20)
-        .warm_up_time(Duration::from_millis(200))
-        .measurement_time(Duration::from_millis(1200))
+fn main() {
+    explicit();
+    beyond();
+    event();
+    harmonic();
+    map();
+    record();
 }
-
-criterion_group! { name = hot_paths; config = short(); targets = explicit, beyond, event, harmonic, map, record }
-criterion_main!(hot_paths);

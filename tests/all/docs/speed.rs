@@ -34,7 +34,7 @@ fn every_time_in_the_documents_has_a_benchmark_of_its_name() {
         let (group, name) = bench.split_once('/').unwrap();
         sources.iter().any(|source| {
             let group = match group {
-                "program" => source.contains("\"criterion\" / \"program\""),
+                "program" => source.contains("\"benches\" / \"program\""),
                 group => source.contains(&format!("benchmark_group(\"{group}\")")),
             };
             group && source.contains(&format!("\"{name}\""))
