@@ -253,26 +253,6 @@ mod tests {
     }
 
     #[test]
-    fn every_mode_of_a_blade_family_keeps_its_own_frequency_and_mass() {
-        let ordinary = vec![family(2, 214.0, 3.9), family(3, 297.5, 2.9), family(8, 378.0, 2.25)];
-        // The second mode is softer than the springs fitted to the other two.
-        let odd = vec![family(2, 100.0, 3.0), family(6, 60.0, 3.0), family(8, 400.0, 3.0)];
-        for disk in [ordinary, odd] {
-            for nodal_diameters in [2, 3, 8, 6] {
-                let data = ModalData { nodal_diameters, disk: disk.clone(), ..data() };
-                let mut scene = Scene::from_toml(&data.to_toml().unwrap()).unwrap();
-                for mode in &disk {
-                    scene.operation.nodal_diameters = mode.nodal_diameters;
-                    let machine = scene.machine();
-                    close(machine.omega_bd, TAU * mode.frequency_hz);
-                    let tip = machine.blade_length * machine.blade_length;
-                    close(machine.blade_modal_mass / tip, mode.modal_mass_kg);
-                }
-            }
-        }
-    }
-
-    #[test]
     fn two_families_of_the_disk_give_the_stiffness_between_blades() {
         // Modes of a disk with known springs.
         let base = Scene::base();
@@ -329,31 +309,20 @@ mod tests {
         let scene = Scene::from_toml(&ModalData { disk, ..data() }.to_toml().unwrap()).unwrap();
         let machine = scene.machine();
         close(machine.at(TAU * 7000.0 / 60.0).omega_bd, TAU * at(7000.0));
-        for (rows, start) in [
-            (
-                "disk;2;352;3;0\ndisk;2;340;3;9000",
-                "disk, 2 nodal diameters, frequency_hz = 352 Hz at 0 rad/s and 340 Hz at 942.477796 rad/s: allowed is two",
-            ),
-            (
-                "disk;2;352;3;900",
-                "disk, 2 nodal diameters, frequency_hz = 352 Hz at 94.2477796 rad/s: allowed",
-            ),
-            (
-                "disk;2;352;3;0\ndisk;2;360;3;0",
-                "line 3, nodal_diameters = 2 twice: allowed is one mode",
-            ),
-            (
-                "disk;2;352;3;0\ndisk;2;360;3;",
-                "line 3, nodal_diameters = 2 twice: allowed is one mode",
-            ),
-            ("casing;2;352;3;0\ncasing;2;360;3;1", "line 3, nodal_diameters = 2 twice"),
-            ("disk;2;352;3;1 kN", "line 2, speed = 1 kN: this is a force; it takes rad/s, rpm"),
-            ("disk;2;352;3;x", "line 2, speed = x: allowed is a number"),
+        let mut told = String::new();
+        for rows in [
+            "disk;2;352;3;0\ndisk;2;340;3;9000",
+            "disk;2;352;3;900",
+            "disk;2;352;3;0\ndisk;2;360;3;0",
+            "disk;2;352;3;0\ndisk;2;360;3;",
+            "casing;2;352;3;0\ncasing;2;360;3;1",
+            "disk;2;352;3;1 kN",
+            "disk;2;352;3;x",
         ] {
-            let message =
-                read_modes(format!("{head}\n{rows}\n").as_bytes()).unwrap_err().to_string();
-            assert!(message.starts_with(start), "{message}");
+            let refused = read_modes(format!("{head}\n{rows}\n").as_bytes()).unwrap_err();
+            told += &format!("{refused}\n");
         }
+        insta::assert_snapshot!(told);
     }
 
     fn close(value: f64, expected: f64) {

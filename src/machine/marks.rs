@@ -144,33 +144,22 @@ mod tests {
             assert_eq!(mark(cells, false), Ok(expected), "{cells:?}");
         }
         assert_eq!(mark(&["1.300", "8"], true), Ok('.'));
-        for (cells, point_is_sure, expected) in [
-            (
-                &["145,5", "1.300 Hz"][..],
-                false,
-                "line 3, frequency_hz = 1.300 Hz: is that 1,3000 or 1300 (beside line 2, frequency_hz, 145,5)? Write",
-            ),
-            (
-                &["145.5", "1,300"],
-                false,
-                "line 3, frequency_hz = 1,300: is that 1.3000 or 1300 (beside",
-            ),
-            (&["1.300", "8"], false, "line 2, frequency_hz = 1.300: is that 1.3000 or 1300? Write"),
-            (&["8", "1,300"], true, "line 3, frequency_hz = 1,300: is that 1.3000 or 1300? Write"),
-            (
-                &["145,5", "9.8"],
-                false,
-                "line 3, frequency_hz = 9.8: which is the decimal mark, that of this number or that of line 2, frequency_hz, 145,5?",
-            ),
-            (&["1.234,5"], false, "is that 1234,5? Write it so"),
-            (&["1,234.5"], true, "is that 1234.5? Write it so"),
-            (&["1.234.567"], false, "is that 1234567? Write it so"),
-            (&["1 300,5 Hz"], false, "is that 1300,5? Write it so"),
-            (&["1'300"], false, "is that 1300? Write it so"),
-            (&["1\u{a0}300 Hz"], false, "is that 1300? Write it so"),
+        let mut told = String::new();
+        for (cells, point_is_sure) in [
+            (&["145,5", "1.300 Hz"][..], false),
+            (&["145.5", "1,300"], false),
+            (&["1.300", "8"], false),
+            (&["8", "1,300"], true),
+            (&["145,5", "9.8"], false),
+            (&["1.234,5"], false),
+            (&["1,234.5"], true),
+            (&["1.234.567"], false),
+            (&["1 300,5 Hz"], false),
+            (&["1'300"], false),
+            (&["1\u{a0}300 Hz"], false),
         ] {
-            let error = mark(cells, point_is_sure).unwrap_err();
-            assert!(error.contains(expected), "{cells:?}: {error}");
+            told += &format!("{}\n", mark(cells, point_is_sure).unwrap_err());
         }
+        insta::assert_snapshot!(told);
     }
 }

@@ -25,30 +25,3 @@ pub fn range_doubt(scene: &Scene, range: [f64; 2]) -> Option<String> {
     };
     Some(format!("{from}:{to} is in rad/s and {why}. Was it rpm? Then write {from}rpm:{to}rpm."))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_range_in_the_wrong_unit_is_asked_about() {
-        let mut scene = Scene::base();
-        let asked = |scene: &Scene, from, to| range_doubt(scene, [from, to]).unwrap_or_default();
-        scene.operation.speed_rad_s = 9500.0 * TAU / 60.0;
-        assert_eq!(
-            asked(&scene, 6000.0, 13000.0),
-            "6000:13000 is in rad/s and moves the blade tips at 6500 m/s; metal ones reach some \
-             500. Was it rpm? Then write 6000rpm:13000rpm."
-        );
-        // A rotor so small that its tips could be so fast.
-        scene.casing.radius_m = 0.03;
-        let small = asked(&scene, 6000.0, 13000.0);
-        assert!(
-            small.contains("and does not contain the speed of the scene, 9500 rpm."),
-            "{small}"
-        );
-        for (from, to) in [(600.0, 1400.0), (995.0, 1400.0), (100.0, 300.0)] {
-            assert_eq!(asked(&scene, from, to), "");
-        }
-    }
-}

@@ -297,22 +297,17 @@ mod tests {
         let table = format!("\u{feff}{head}\r\nCasing,4,310.7,3.1\r\ndisk,4,151.3,5.5\r\n");
         let [casing, disk] = read_modes(table.as_bytes()).unwrap().modes;
         assert_eq!((casing[0].frequency_hz, disk[0].modal_mass_kg), (310.7, 5.5));
-        for (table, refusal) in [
-            (format!("{head}\ncasing,4,310,7,3,1"), "line 2 = 6 cells: allowed is as many as"),
-            (format!("{head}\ncasing,4,310"), "line 2 = 3 cells"),
-            (head.replace("structure", "struct"), "the first line has no column for structure"),
-            (
-                format!("{head},structure"),
-                "two columns for structure, structure and structure: leave",
-            ),
-            (
-                format!("{head}\nshaft,4,310.7,3.1"),
-                "line 2, structure = shaft: allowed is casing, h",
-            ),
+        let mut told = String::new();
+        for table in [
+            format!("{head}\ncasing,4,310,7,3,1"),
+            format!("{head}\ncasing,4,310"),
+            head.replace("structure", "struct"),
+            format!("{head},structure"),
+            format!("{head}\nshaft,4,310.7,3.1"),
         ] {
-            let error = read_modes(table.as_bytes()).unwrap_err().to_string();
-            assert!(error.contains(refusal), "{table}: {error}");
+            told += &format!("{}\n", read_modes(table.as_bytes()).unwrap_err());
         }
+        insta::assert_snapshot!(told);
     }
 
     #[test]
@@ -346,22 +341,11 @@ mod tests {
         {
             assert!((ratio(name, cell) - 0.003).abs() < 1e-15, "{name}");
         }
-        let bare = of(&format!("{head},Speed"), "disk,4,151,5,9000").unwrap_err().to_string();
-        assert_eq!(
-            bare,
-            "line 3, speed = 9000: allowed is a number with its unit, or Speed [rpm] in the first line"
-        );
         for name in ["Rotor speed [rpm]", "RPM", "Speed [U/min]", "Speed [Hz]"] {
             assert!(of(&format!("{head},{name}"), "disk,4,151,5,0").is_ok(), "{name}");
             let turning = of(&format!("{head},{name}"), "disk,4,151,5,50").unwrap_err();
             assert!(turning.to_string().contains("centrifugal_stiffening"), "{turning}");
         }
-        let strange =
-            of(&format!("{head},Speed [m/s]"), "disk,4,151,5,50").unwrap_err().to_string();
-        assert!(
-            strange.starts_with("the first line = Speed [m/s]: this is a velocity; it takes rad/s"),
-            "{strange}"
-        );
     }
 
     #[test]
@@ -401,23 +385,20 @@ mod tests {
                 assert!(near(read.damping_ratio.unwrap(), 0.012), "{names}: {read:?}");
             }
         }
-        for (name, why) in [
-            ("Speed [m/s]", "this is a velocity; it takes rad/s, rpm or Hz"),
-            ("Speed (knots)", "no unit knots; it takes rad/s, rpm or Hz"),
-            ("speed_kg", "this is a mass; it takes rad/s, rpm or Hz"),
-            ("Damping [‰]", "no unit ‰; it takes %"),
+        let mut told = String::new();
+        for (names, cells) in [
+            ("frequency;mass;Speed [m/s]", "310;3;1"),
+            ("frequency;mass;Speed (knots)", "310;3;1"),
+            ("frequency;mass;speed_kg", "310;3;1"),
+            ("frequency;mass;Damping [‰]", "310;3;1"),
+            ("frequency_hz_rad_s;mass", "140;3"),
+            ("frequency [kHz];mass", "1.4k;3"),
+            ("frequency;mass;Speed", "310;3;9k"),
+            ("frequency;mass;Speed [rpm];Speed [Hz]", "310;3;;"),
         ] {
-            let refused = of(&format!("frequency;mass;{name}"), "310;3;1").unwrap_err();
-            assert_eq!(refused.to_string(), format!("the first line = {name}: {why}"));
+            told += &format!("{}\n", of(names, cells).unwrap_err());
         }
-        for (names, cells, why) in [
-            ("frequency_hz_rad_s;mass", "140;3", "nearest found is frequency_hz_rad_s"),
-            ("frequency [kHz];mass", "1.4k;3", "no unit k kHz; it takes rad/s, rpm or Hz"),
-            ("frequency;mass;Speed", "310;3;9k", "a number with its unit, or Speed [rpm]"),
-        ] {
-            let refused = of(names, cells).unwrap_err().to_string();
-            assert!(refused.contains(why), "{names}: {refused}");
-        }
+        insta::assert_snapshot!(told);
         // A name that ends in something other than a unit is an unknown column, even if it is an SI
         // prefix.
         for name in
@@ -426,28 +407,6 @@ mod tests {
             let read = of(&format!("frequency;mass;{name}"), "310;3;1").unwrap();
             assert_eq!(read.notes, [format!("columns not used: {name}")]);
         }
-        let twice = of("frequency;mass;Speed [rpm];Speed [Hz]", "310;3;;").unwrap_err();
-        let twice = twice.to_string();
-        assert!(twice.contains("two columns for speed, Speed [rpm] and Speed [Hz]"), "{twice}");
-    }
-
-    #[test]
-    fn what_two_lines_of_a_mode_say_otherwise_is_told() {
-        let table = "structure,nodal_diameters,frequency_hz,modal_mass_kg,damping_ratio,speed_rpm,by\n\
-                     disk,2,352,3.9,,0,me\ndisk,2,410,4.1,0.01,10000,\n\
-                     disk,3,371,3.7,0.02,0,\ndisk,3,427,3.7,0.03,10000,you\n";
-        let read = read_modes(table.as_bytes()).unwrap();
-        let mode =
-            |place: usize| (read.modes[1][place].modal_mass_kg, read.modes[1][place].damping_ratio);
-        assert_eq!([mode(0), mode(1)], [(3.9, Some(0.01)), (3.7, Some(0.02))]);
-        assert_eq!(
-            read.notes,
-            [
-                "columns not used: by",
-                "line 3, modal_mass_kg = 4.1 is not used: the line before of this mode has 3.9",
-                "line 5, damping_ratio = 0.03 is not used: the line before of this mode has 0.02",
-            ]
-        );
     }
 
     #[test]
@@ -458,24 +417,21 @@ mod tests {
         let [casing, disk] = read_modes(text.as_bytes()).unwrap().modes;
         assert_eq!((casing[0].frequency_hz, casing[0].damping_ratio), (139.8, Some(0.05)));
         assert_eq!((disk[0].modal_mass_kg, disk[0].damping_ratio), (9.166, None));
-        for (rows, start) in [
-            ("casing,3,0,2,\n", "line 2, frequency_hz = 0 hz: allowed is a frequency above 0"),
-            (
-                "casing,3,9,2,\ncasing,3,9.1,2,\n",
-                "line 3, nodal_diameters = 3 twice: allowed is one",
-            ),
-            ("casing,x,9,2,\n", "line 2, nodal_diameters = x: allowed is a whole number"),
-            ("casing,3,9,2 kN,\n", "line 2, modal_mass_kg = 2 kN: this is a force; it takes kg"),
-            ("shaft,3,9,2,\n", "line 2, structure = shaft: allowed is casing, "),
-            ("\n# 1\n\ncasing,3,x,2,\n", "line 5, frequency_hz = x: allowed is a frequency"),
+        let mut told = String::new();
+        for rows in [
+            "casing,3,0,2,\n",
+            "casing,3,9,2,\ncasing,3,9.1,2,\n",
+            "casing,x,9,2,\n",
+            "casing,3,9,2 kN,\n",
+            "\n# 1\n\ncasing,3,x,2,\n",
         ] {
-            for end in ["\n", "\r\n", "\r"] {
+            let refused = ["\n", "\r\n", "\r"].map(|end| {
                 let table = format!("{head}{rows}").replace('\n', end);
-                let message = read_modes(table.as_bytes()).unwrap_err().to_string();
-                assert!(message.starts_with(start), "{end:?} {message}");
-            }
+                read_modes(table.as_bytes()).unwrap_err().to_string()
+            });
+            assert!(refused.iter().all(|line| *line == refused[0]), "{refused:?}");
+            told += &format!("{}\n", refused[0]);
         }
-        let message = read_modes(b"frequency_hz\n1\n").unwrap_err().to_string();
-        assert!(message.starts_with("the first line has no column for structure: "), "{message}");
+        insta::assert_snapshot!(told);
     }
 }

@@ -389,48 +389,35 @@ mod tests {
 
     #[test]
     fn bad_input_is_one_line_and_the_next_line_is_answered() {
-        let (long, longer) = ("x".repeat(1000), "x".repeat(1001));
-        let longest = "x".repeat(5000);
-        for (bad, says) in [
-            ("speed fast".as_bytes(), "refused: speed Ω: fast is not a number; from -1e6"),
-            (b"nonsense qqq", "no command matches"),
-            (b"bla\x1b[31mde", "no command matches"),
-            (b"\xff\xfe", "not UTF-8"),
-            (long.as_bytes(), "no command matches: xxx"),
-            (longer.as_bytes(), "refused: a line of more than 1000 bytes"),
-            (longest.as_bytes(), "refused: a line of more than 1000 bytes"),
-            (b"type a value", "needs a screen"),
-            (b"blades 0", "refused: blades N: 0 is not possible; from 1 to 4096"),
-            (b"blade 23", "refused: blade 23: from 1 to 22"),
-            (b"blade 1.5", "refused: blade 1.5: from 1 to 22"),
-            (b"t 1", "refused: t = 1.000 s: from 0 to 5.000 ms"),
-            (b"export map.csv", "refused: nothing exported: "),
-            (b"save /", "refused: cannot write /"),
-            (b"t abc", "refused: t abc: not a time"),
-            (b"43kN", "refused: 43kN: which knob?"),
-            (b"speed 43kN", "43kN cannot be read: this is a force; it takes rad/s, rpm or Hz"),
-            (
-                b"start u_c 1",
-                "start u_c: 1 with u_s = 0 is not possible; allowed is a casing position",
-            ),
-            (b"initial 1", "refused: initial 1: which of start u_c, start u_s, "),
-            (b"k 5000", "refused: k 5000: which of casing k_c, blade k_b, "),
-            (b"run end", "run end is 5 ms: "),
-            (b"law x", "refused: contact: x is unknown"),
-            (b"answer b", "done: no question is open"),
-            (b"view map", "refused: only a screen shows this: map of the verdict over two knobs"),
-            (b"theme light", "refused: only a screen shows this: theme light"),
-            (b"pause", "refused: only a screen shows this: pause or continue"),
-            (b"undo", "done: nothing to undo"),
-            (b"law", "contact is unilateral"),
+        let longer = "x".repeat(1001);
+        let mut told = String::new();
+        for bad in [
+            "speed fast".as_bytes(),
+            b"bla\x1b[31mde",
+            b"\xff\xfe",
+            longer.as_bytes(),
+            b"type a value",
+            b"blades 0",
+            b"t 1",
+            b"export map.csv",
+            b"43kN",
+            b"start u_c 1",
+            b"run end",
+            b"answer b",
+            b"view map",
+            b"theme light",
+            b"pause",
+            b"undo",
+            b"law",
         ] {
             let input = [bad, b"\n# a remark\n\nspeed\n"].concat();
             let text = answers(&input);
-            let answer = text.lines().skip(3).collect::<Vec<_>>();
-            assert!(answer.iter().any(|line| line.contains(says)), "{text}");
-            assert!(answer.last().unwrap().starts_with("speed Ω is 500 rad/s"), "{text}");
+            assert!(text.lines().last().unwrap().starts_with("speed Ω is 500 rad/s"), "{text}");
             assert!(!text.contains('\u{1b}'), "{text}");
+            let said = text.lines().skip(3).find(|line| line.starts_with(char::is_lowercase));
+            told += &format!("{}\n", said.unwrap());
         }
+        insta::assert_snapshot!(told);
     }
 
     #[test]
@@ -450,20 +437,6 @@ mod tests {
         let text = answers(b"speed 450\nview 3\n");
         assert!(text.contains("at 450.0 rad/s: λ_a -"), "{text}");
         assert!(!text.contains("screen shows"), "{text}");
-    }
-
-    #[test]
-    fn a_scene_that_was_just_saved_is_found() {
-        let folder = tempfile::tempdir().unwrap();
-        let mut lines = Lines::of(Scene::base().checked().unwrap(), Marker::Braille);
-        lines.app.files.directory = folder.path().into();
-        let mut out = Vec::new();
-        for line in ["speed 450", "save mine.toml", "scene rub", "scene mine"] {
-            assert!(lines.answer(line, &mut out).unwrap());
-        }
-        let text = String::from_utf8(out).unwrap();
-        assert!(text.contains("done: opened mine.toml"), "{text}");
-        assert_eq!(lines.app.scene.operation.speed_rad_s, 450.0);
     }
 
     #[test]

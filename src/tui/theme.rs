@@ -275,14 +275,4 @@ mod tests {
             }
         }
     }
-
-    #[test]
-    fn mono_has_no_colour_at_all_and_the_cycle_visits_every_theme() {
-        assert!(ROLES.iter().all(|role| Theme::Mono.style(*role).fg == Some(Color::Reset)));
-        let mut theme = Theme::Dark;
-        for _ in 0..Theme::ALL.len() {
-            theme = theme.next();
-        }
-        assert_eq!(theme, Theme::Dark);
-    }
 }

@@ -198,36 +198,6 @@ mod tests {
     use crate::scene::Scene;
 
     #[test]
-    fn lines_cross_at_the_coincidences() {
-        let machine = Scene::base().machine();
-        let campbell = Campbell::of(&machine, &[1, 3], 500.0).unwrap();
-        assert_eq!(campbell.lines.len(), 6);
-        for found in &campbell.coincidences {
-            let casing = if found.casing_rad_s > 0.0 { 0 } else { 1 };
-            let blades = if found.blades_rad_s > 0.0 { 2 } else { 3 };
-            let gap = campbell.lines[casing].at(found.speed_rad_s)
-                - campbell.lines[blades].at(found.speed_rad_s);
-            assert!(gap.abs() < 1e-12 * machine.omega_c);
-        }
-        for speed in [500.0, -430.0] {
-            let campbell = Campbell::of(&machine, &[], speed).unwrap();
-            let dangerous: Vec<_> = campbell.coincidences.iter().filter(|c| c.dangerous).collect();
-            assert_eq!(dangerous.len(), 1);
-            let expected = machine.dangerous_speed_toward(speed);
-            assert_eq!(Some(dangerous[0].speed_rad_s), expected);
-            assert!(expected.unwrap() * speed > 0.0);
-        }
-        let mut positive: Vec<f64> = campbell
-            .coincidences
-            .iter()
-            .map(|c| c.speed_rad_s)
-            .filter(|&speed| speed > 0.0)
-            .collect();
-        positive.sort_by(f64::total_cmp);
-        assert_eq!(positive, machine.coincidence_speeds());
-    }
-
-    #[test]
     fn without_nodal_diameters_there_is_no_wave() {
         let mut scene = Scene::base();
         scene.set("operation.nodal_diameters", "0").unwrap();

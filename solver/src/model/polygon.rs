@@ -278,25 +278,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn paper_rim_has_one_blade_a_side_and_the_locked_pair_is_a_corner() {
-        let polygon = ContactPolygon::new(22, 3, 1e-4);
-        assert_eq!((polygon.sides, polygon.blades_per_side), (22, 1));
-        assert_eq!(polygon.side_of_blade(6), 15);
-        assert_eq!(polygon.side_of_blade(21), 16);
-    }
-
-    #[test]
-    fn four_diameters_put_two_blades_on_each_of_eleven_sides() {
-        let polygon = ContactPolygon::new(22, 4, 1e-4);
-        assert_eq!((polygon.sides, polygon.blades_per_side), (11, 2));
-        for side in 0..11 {
-            let blades = polygon.blades_of_side(side);
-            assert_eq!(blades.len(), 2);
-            assert_eq!(blades[1] - blades[0], 11);
-        }
-    }
-
-    #[test]
     fn degenerate_and_aliased_diameters() {
         assert_eq!(ContactPolygon::new(22, 0, 1.0).sides, 1);
         assert_eq!(ContactPolygon::new(22, 11, 1.0).sides, 2);

@@ -136,30 +136,3 @@ impl Pulse {
         self.mean(if n == 0 { 0.0 } else { t - half }, t + half)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn pulse_means_sum_to_the_impulse_at_any_step() {
-        let pulse = Pulse { start: 0.0, end: 50e-6, force: 20e3 };
-        for step in [1e-3, 7.3e-5, 1e-5, 3.1e-7] {
-            let first = 0.5 * pulse.mean(0.0, 0.5 * step);
-            let later: f64 = (1..2000)
-                .map(|n| pulse.mean((f64::from(n) - 0.5) * step, (f64::from(n) + 0.5) * step))
-                .sum();
-            let impulse = step * (first + later);
-            assert!((impulse - 1.0).abs() < 1e-12, "{impulse} at {step}");
-        }
-    }
-
-    #[test]
-    fn a_changed_rotor_goes_on_from_its_angle() {
-        let mut rotor = Rotor { since: 0.0, angle: 0.0, speed: 500.0, ramp: -100.0 };
-        let before = rotor.angle(0.02);
-        rotor.change(0.02, rotor.speed(0.02), -100.0);
-        assert!((rotor.angle(0.02) - before).rem_euclid(TAU) < 1e-12);
-        assert_eq!(rotor.speed(0.02), 498.0);
-    }
-}

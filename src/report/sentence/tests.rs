@@ -176,120 +176,53 @@ fn a_run_that_pulls_is_called_sensitive_too_where_it_is() {
     assert_eq!(history(60), "Pushes only: decay.");
 }
 
-#[test]
-fn what_is_told_at_the_widths_of_terminals() {
-    let locked = pulled(Verdict::Locked, Some(Verdict::Decay));
-    for (width, line) in [
-        (40, "LOCKED  12 + 19 hold it; both push."),
-        (79, "LOCKED  Blades 12 and 19 hold the casing's wave; both push. Pushes only: decay."),
-        (
-            120,
-            "LOCKED  Blades 12 and 19 hold the casing's wave; both push. \
-             Contact that only pushes would not catch it: decay.",
-        ),
-    ] {
-        assert_eq!(locked.sentence(width).to_string(), line);
-        assert!(!locked.sentence(width).wrong);
-    }
-}
-
-#[test]
-fn the_state_comes_first_and_how_it_was_reached_second() {
-    use Verdict::{Adhesive, Decay, Locked};
-    let told = |facts: Facts| facts.sentence(200).to_string();
-    let locked = "LOCKED  Blades 12 and 19 hold the casing's wave; both push.";
-    for (facts, history) in [
-        (facts(Locked), ""),
-        (pulled(Locked, None), " Contact pulled on the way."),
-        (pulled(Locked, Some(Locked)), ""),
-        (
-            Facts { caught: Some((291.98, true)), ..facts(Locked) },
-            " Caught in a run-up at 292 rad/s.",
-        ),
-        (
-            Facts { round: Some(2.439_28e-7), ..facts(Locked) },
-            " It needs a casing round to 0.24 um (0.24 % of the clearance).",
-        ),
-        (
-            Facts { round: Some(2.439_28e-7), tips: Some(7.5e-7), ..facts(Locked) },
-            " It needs a casing round to 0.24 um (0.24 % of the clearance). Tips may be off by 0.75 um \
-             (0.75 %).",
-        ),
-        (Facts { certainty: ENDS, ..facts(Locked) }, " A tiny change changes the verdict."),
-        (
-            Facts { certainty: Certainty { ends_otherwise: false, ..ENDS }, ..facts(Locked) },
-            " A tiny change gives other impacts.",
-        ),
-    ] {
-        assert_eq!(told(facts), format!("{locked}{history}"));
-    }
-    let pulls = Facts { pulling: vec![19], ..pulled(Adhesive, Some(Decay)) };
-    assert_eq!(
-        told(pulls),
-        "ADHESIVE  Blade 12 pushes the wave and blade 19 pulls it: no real contact can."
-    );
-}
-
+/// A line of the picture is one run's facts, at the width of a terminal.
 #[test]
 fn a_run_says_its_own_facts() {
-    let told = |facts: Facts| facts.sentence(120).to_string();
-    let decay = facts(Verdict::Decay);
-    assert_eq!(
-        told(decay.clone()),
-        "DECAY  The blades let go after 5 touches; the casing comes to rest."
-    );
-    let free = Facts { touches: 0, damped: false, ..decay.clone() };
-    assert_eq!(told(free), "DECAY  No blade touches; the casing swings on freely.");
-    let broken = Facts { broken: Some(380.26), ..decay.clone() };
-    assert_eq!(
-        told(broken),
-        "DECAY  The lock breaks at 380.3 rad/s; then the casing comes to rest."
-    );
+    use Verdict::{Adhesive, Decay, Locked};
+    let (locked, decay) = (facts(Locked), facts(Decay));
+    let on_step = Certainty { depends_on_step: Some(true), ..Certainty::default() };
     let judged = Facts { seen: Some(SEEN), ..decay.clone() };
-    assert_eq!(
-        told(judged.clone()),
-        "DECAY  No contact in the last 12.345 ms, at 0.94 of the clearance; it may touch again."
-    );
-    for (reach, told) in [(0.9949, "at 0.99 of"), (0.9951, "close to"), (1.06, "at 1.1 of")] {
-        let seen = Seen { reach: Some(reach), ..SEEN };
-        let near = Facts { seen: Some(seen), ..decay.clone() }.sentence(120).to_string();
-        assert!(near.contains(&format!("ms, {told} the clearance; it may")), "{near}");
+    let near = |reach| Facts { seen: Some(Seen { reach: Some(reach), ..SEEN }), ..decay.clone() };
+    let rubs = Some(Seen { without_contact_s: 0.0, ..SEEN });
+    let failed = Facts { failure: Some(failure()), ..facts(Verdict::Failed) };
+    let round = Facts { round: Some(2.439_28e-7), ..locked.clone() };
+    let mut told = Vec::new();
+    for width in [40, 79, 120] {
+        told.push(pulled(Locked, Some(Decay)).sentence(width).to_string());
     }
-    let seen = Some(Seen { without_contact_s: 0.0, ..SEEN });
-    assert_eq!(
-        told(Facts { seen, law: ContactLaw::Smooth, ..decay.clone() }),
-        "DECAY  In the last 10 ms the wave dies away; the blades rub the lining as at rest."
-    );
-    let slip = Facts { verdict: Verdict::Slip, ..judged };
-    assert_eq!(
-        told(slip),
-        "SLIP  In the last 10 ms a blade always touches, and the wave slips along the blades."
-    );
-    let still = Facts { still: true, touches: 0, ..decay };
-    assert_eq!(told(still), "DECAY  Nothing moves and no blade touches.");
-    let mut held = facts(Verdict::Locked);
-    held.certainty.depends_on_step = Some(true);
-    let line = held.sentence(200);
-    assert_eq!(
-        line.to_string(),
-        "LOCKED  At this step only: blades 12 and 19 hold the casing's wave; both push."
-    );
-    let state = "ocked at this step only: blades 12 and 19 hold the casing's wave; both push.";
-    assert_eq!([line.state(), line.verdict_line()], [format!("L{state}"), format!("l{state}")]);
-    let held = Facts { blades: vec![4], ..facts(Verdict::Locked) };
-    assert_eq!(told(held), "LOCKED  Blade 4 holds the casing's wave; it pushes.");
-    let failure = Failure {
-        t_s: 2e-4,
-        reason: FailureReason::Penetration { depth_m: 1.0, clearance_m: 0.5 },
-    };
-    let mut failed = Facts { failure: Some(failure), ..facts(Verdict::Failed) };
-    assert_eq!(
-        told(failed.clone()),
-        "FAILED  The computation stops at 200 us: a step goes deeper than the clearance."
-    );
-    failed.certainty.depends_on_step = Some(true);
-    assert_eq!(
-        told(failed),
-        "FAILED  At this step only: the computation stops at 200 us: the step is too long."
-    );
+    for facts in [
+        locked.clone(),
+        pulled(Locked, None),
+        pulled(Locked, Some(Locked)),
+        Facts { caught: Some((291.98, true)), ..locked.clone() },
+        round.clone(),
+        Facts { tips: Some(7.5e-7), ..round },
+        Facts { certainty: ENDS, ..locked.clone() },
+        Facts { certainty: Certainty { ends_otherwise: false, ..ENDS }, ..locked.clone() },
+        Facts { certainty: on_step, ..locked.clone() },
+        Facts { blades: vec![4], ..locked },
+        Facts { pulling: vec![19], ..pulled(Adhesive, Some(Decay)) },
+        decay.clone(),
+        Facts { touches: 0, damped: false, ..decay.clone() },
+        Facts { broken: Some(380.26), ..decay.clone() },
+        near(0.9949),
+        near(0.9951),
+        near(1.06),
+        Facts { seen: rubs, law: ContactLaw::Smooth, ..decay.clone() },
+        Facts { still: true, touches: 0, ..decay },
+        Facts { verdict: Verdict::Slip, ..judged.clone() },
+        judged,
+        failed.clone(),
+        Facts { certainty: on_step, ..failed },
+    ] {
+        let sentence = facts.sentence(200);
+        told.push(format!("{sentence}\n  {}\n  {}", sentence.state(), sentence.verdict_line()));
+    }
+    insta::assert_snapshot!(told.join("\n"));
+}
+
+fn failure() -> Failure {
+    let reason = FailureReason::Penetration { depth_m: 1.0, clearance_m: 0.5 };
+    Failure { t_s: 2e-4, reason }
 }

@@ -484,22 +484,6 @@ mod tests {
     }
 
     #[test]
-    fn the_command_names_what_differs_and_nothing_else() {
-        let mut scene = Scene::builtin("paper-nd3").unwrap();
-        let app = App::new(scene.checked().unwrap(), Theme::Dark, Marker::Braille);
-        assert_eq!(app.command(), "rubscope run paper-nd3");
-        scene.set("operation.speed_rad_s", "-430").unwrap();
-        scene.set("solver.contact", "unilateral").unwrap();
-        scene.set("title", "it's mine").unwrap();
-        let app = App::new(scene.checked().unwrap(), Theme::Dark, Marker::Braille);
-        assert_eq!(
-            app.command(),
-            "rubscope run paper-nd3 --set 'title=it'\\''s mine' \
-             --set operation.speed_rad_s=-430.0 --set solver.contact=unilateral"
-        );
-    }
-
-    #[test]
     fn a_folder_that_does_not_answer_is_asked_once_and_holds_nothing_up() {
         let mut app = App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Ascii);
         assert!(matches!(app.act(Command::Scenes), Effect::FindScenes(_)));

@@ -236,26 +236,6 @@ mod tests {
     }
 
     #[test]
-    fn what_is_typed_finds_keys_words_and_symbols() {
-        for (filter, found, gone) in [
-            ("undo", "undo the last turn of a knob", "quit"),
-            ("CTRL-R", "redo it", "quit"),
-            ("omega_lock", "Ω_lock", "redo it"),
-            ("polygon corner", "δ", "redo it"),
-            ("files", "export the large chart", "redo it"),
-            ("glossary", "critical speed", "redo it"),
-            ("c", "contact law", "quit"),
-            ("━", "under a chart over time: a blade touches", "quit"),
-            ("*", "changed since the scene was opened", "quit"),
-        ] {
-            let text = text(filter);
-            assert!(text.contains(found), "{filter}: {found}");
-            assert!(!text.contains(gone), "{filter}: {gone}");
-        }
-        assert!(text("no such thing").contains("no match"));
-    }
-
-    #[test]
     fn it_begins_with_the_view_on_the_screen_in_five_lines_at_most() {
         let mut app = App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Braille);
         for view in ViewId::all() {

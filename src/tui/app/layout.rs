@@ -354,28 +354,4 @@ mod tests {
             }
         }
     }
-
-    #[test]
-    fn a_narrow_screen_opens_with_three_charts_and_what_ends_the_lock() {
-        let (area, mut app) = (Rect::new(0, 0, 80, 24), app());
-        let first = places(area, &app);
-        assert!(first.charts.iter().map(|(view, _)| *view).eq(ViewId::OVERVIEW));
-        // Six rows of data, a title and an axis.
-        let areas: Vec<Rect> =
-            first.charts.iter().map(|(_, area)| *area).chain(first.ends).collect();
-        assert!(areas.len() == 4 && areas.iter().all(|area| area.height >= 9), "{areas:?}");
-        app.act(Command::View(ViewId::Frame));
-        let wheel = places(area, &app);
-        assert_eq!(wheel.charts[0].0, ViewId::Frame);
-        assert!(wheel.ends.is_none() && wheel.charts[0].1.height >= 18);
-    }
-
-    #[test]
-    fn a_screen_that_is_too_small_says_so_whole() {
-        let area = Rect::new(0, 0, 30, 8);
-        let mut buffer = ratatui::buffer::Buffer::empty(area);
-        crate::tui::panels::paint(&app(), &mut buffer, area);
-        let text: String = buffer.content.iter().map(|cell| cell.symbol()).collect();
-        assert!(text.contains("needs 40x12") && text.contains("30x8"), "{text}");
-    }
 }

@@ -445,32 +445,6 @@ mod tests {
     use crate::tui::lessons::Condition;
 
     #[test]
-    fn a_step_is_done_by_its_answer_and_the_next_one_waits_for_it() {
-        let mut app = on_screen();
-        app.begin_lesson(1);
-        let lesson = &lessons::all()[1];
-        assert!(app.is_asked() && app.lessons.progress.is_some());
-        app.guide();
-        assert!(app.status.as_ref().is_some_and(|status| status.contains("your guess")));
-        assert_eq!(app.lessons.progress.as_ref().unwrap().step, 0);
-        app.answer(9);
-        app.check_lesson();
-        let now = app.lesson_step().unwrap().1;
-        assert_eq!((now.answer, now.done), (Some(2), true));
-        assert!(app.lessons.done.has(lesson, 0) && !app.lessons.done.has(lesson, 1));
-        // A second answer is ignored.
-        app.act(Command::Accept);
-        app.answer(0);
-        assert_eq!(app.lesson_step().unwrap().1.answer, Some(2));
-        app.guide();
-        assert_eq!((app.lessons.progress.as_ref().unwrap().step, app.is_asked()), (1, true));
-        app.lesson_back();
-        assert!(!app.is_asked());
-        app.lesson_back();
-        assert_eq!(app.status.as_deref(), Some("this is the first step"));
-    }
-
-    #[test]
     fn arrows_choose_an_answer_and_enter_gives_it() {
         let mut app = on_screen();
         app.begin_lesson(1);
@@ -480,31 +454,6 @@ mod tests {
         }
         assert_eq!(app.lesson_step().unwrap().1.answer, Some(1));
         assert_eq!(app.selected().map(|knob| knob.path), knob);
-    }
-
-    #[test]
-    fn a_lesson_that_is_left_gives_the_own_scene_back_and_one_that_ends_says_so() {
-        let mut app = on_screen();
-        let mut own = app.scene.clone().into_scene();
-        own.operation.speed_rad_s = 333.0;
-        app.set_scene(own.checked().unwrap(), false);
-        let before = app.scene.clone();
-        for steps in [1, lessons::all()[5].steps.len()] {
-            app.begin_lesson(5);
-            assert_ne!(app.scene, before);
-            for _ in 0..steps {
-                app.answer(0);
-                app.guide();
-            }
-            if app.lessons.progress.is_some() {
-                app.leave_lesson();
-            } else {
-                assert!(app.status.as_ref().is_some_and(|status| status.contains("end of the")));
-            }
-            assert_eq!(app.scene, before);
-        }
-        app.lesson_back();
-        assert_eq!(app.status.as_deref(), Some("no lesson is open"));
     }
 
     #[test]

@@ -154,13 +154,6 @@ impl App {
 mod tests {
     use super::*;
     use crate::tui::app::tests::on_screen;
-    use crate::tui::command::Purpose;
-
-    fn event(kind: MouseEventKind, (column, row): (u16, u16)) -> MouseEvent {
-        MouseEvent { kind, column, row, modifiers: KeyModifiers::NONE }
-    }
-
-    const LEFT: MouseEventKind = MouseEventKind::Down(MouseButton::Left);
 
     #[test]
     fn a_place_of_the_chart_is_the_middle_of_its_cell() {
@@ -174,35 +167,5 @@ mod tests {
         }
         app.forget_drawn();
         assert_eq!(app.clicked((10, 14)), None);
-    }
-
-    #[test]
-    fn a_key_of_the_last_line_acts_in_every_dialogue_and_nowhere_else() {
-        let mut app = on_screen();
-        let drawn = |app: &App| {
-            app.note(Rect::new(0, 39, 4, 1), Command::Help);
-            app.note(Rect::new(6, 39, 4, 1), Command::Quit);
-        };
-        drawn(&app);
-        assert_eq!(app.mouse(&event(LEFT, (3, 39))), Some(Effect::None));
-        assert!(matches!(app.dialogue.mode, InputMode::Help(_)));
-        // Until the help is drawn, the keys of the main screen are not there.
-        assert_eq!(app.mouse(&event(LEFT, (9, 39))), None);
-        drawn(&app);
-        assert_eq!(app.mouse(&event(LEFT, (5, 39))), None);
-        assert_eq!(app.mouse(&event(LEFT, (9, 39))), Some(Effect::Quit));
-        assert_eq!(app.mouse(&event(MouseEventKind::Moved, (9, 39))), None);
-        // A name that is typed is finished by a key.
-        app.dialogue.mode = InputMode::Naming(Purpose::Save, "a".into());
-        assert_eq!(app.mouse(&event(LEFT, (9, 39))), None);
-    }
-
-    #[test]
-    fn a_mouse_that_is_off_does_nothing() {
-        let mut app = on_screen();
-        app.note(Rect::new(0, 39, 4, 1), Command::Help);
-        assert!(app.mouse.toggle().contains("off") && !app.mouse.on);
-        assert_eq!(app.mouse(&event(LEFT, (0, 39))), None);
-        assert!(app.mouse.toggle().contains("on") && app.dialogue.is_closed());
     }
 }

@@ -96,16 +96,6 @@ mod tests {
     }
 
     #[test]
-    fn a_value_that_is_refused_changes_nothing_and_says_so() {
-        let mut app = app();
-        let before = app.scene.clone();
-        look_for(&mut app, "blades 0");
-        app.act(Command::Accept);
-        assert_eq!(app.scene, before);
-        assert!(app.status.is_some_and(|status| status.contains("blades N: 0 is not possible")));
-    }
-
-    #[test]
     fn what_is_no_command_says_why_and_the_list_stays_open() {
         let mut app = app();
         look_for(&mut app, "speed qqq");
@@ -129,18 +119,5 @@ mod tests {
         assert!(app.knobs.refusal.is_some());
         app.act(Command::Edit(Edit::DeleteBefore));
         assert!(app.knobs.refusal.is_none() && !app.dialogue.is_closed());
-    }
-
-    #[test]
-    fn a_scene_that_is_opened_can_be_undone() {
-        let mut app = app();
-        let before = app.scene.clone();
-        app.knobs.live = true;
-        assert_eq!(app.update(Command::Scene("rocking".into())), Ok(Effect::None));
-        assert_eq!(*app.scene, Scene::builtin("rocking").unwrap());
-        assert_eq!((&app.files.opened, app.knobs.live), (&app.scene, true));
-        assert_eq!(app.files.source.as_ref().map(|source| source.name.as_str()), Some("rocking"));
-        app.act(Command::Undo);
-        assert_eq!(app.scene, before);
     }
 }

@@ -24,30 +24,6 @@ fn read(path: &Path) -> Config {
 }
 
 #[test]
-fn what_was_chosen_by_key_is_there_at_the_next_start() {
-    let home = tempfile::tempdir().unwrap();
-    let path = home.path().join("deep/rubscope/config.toml");
-    let first = session(&path, |_| {});
-    assert!(first.dialogue.is_new && !path.exists(), "nothing has changed");
-    session(&path, |app| {
-        app.dialogue.is_new = false;
-        app.act(Command::NextTheme);
-        app.act(Command::Marker);
-        app.act(Command::Charts);
-    });
-    let config = read(&path);
-    assert_eq!(config.theme, Some(ThemeChoice::Light));
-    assert!(config.marker.is_some() && config.introduced);
-    let next = session(&path, |_| {});
-    assert_eq!((next.layout.beside, next.dialogue.is_new), (config.charts.unwrap(), false));
-    {
-        use std::os::unix::fs::PermissionsExt;
-        let mode = |path: &Path| path.metadata().unwrap().permissions().mode() & 0o777;
-        assert_eq!(mode(path.parent().unwrap()), 0o700);
-    }
-}
-
-#[test]
 fn the_unit_of_speeds_is_remembered_and_can_be_written_by_hand() {
     let home = tempfile::tempdir().unwrap();
     let path = home.path().join("config.toml");

@@ -371,7 +371,6 @@ impl Knob {
 mod tests {
     use super::*;
     use crate::report::number::tell_in_rpm;
-    use rubscope_solver::scene::SolverKind;
     use std::f64::consts::TAU;
 
     fn knob(path: &str) -> &'static Knob {
@@ -484,20 +483,6 @@ mod tests {
     }
 
     #[test]
-    fn typed_values_take_prefixes_and_units_and_refuse_nonsense() {
-        let pulse = knob("operation.pulse_n");
-        for (text, value) in [("20k", 20e3), ("1M", 1e6), ("-3.5e3", -3.5e3), ("20000 N", 20e3)] {
-            assert_eq!(pulse.parse(text).unwrap(), Value::Real(value), "{text}");
-        }
-        assert_eq!(knob("operation.pulse_s").parse("50u").unwrap(), Value::Real(50e-6));
-        for text in ["", "fast", "1e", "--3", "5q", "e3"] {
-            let line = pulse.parse(text).unwrap_err().to_string();
-            assert!(line.starts_with("operation.pulse_n = "), "{line}");
-        }
-        assert_eq!(knob("solver.contact").parse("bi").unwrap(), Value::Text("bilateral".into()));
-    }
-
-    #[test]
     fn a_rotor_with_friction_is_not_turned_to_rest() {
         let mut scene = Scene::base();
         let speed = |x| Value::Real(x);
@@ -509,15 +494,5 @@ mod tests {
         scene.operation.speed_rad_s = 0.0;
         // A scene at rest may come from a file; its other knobs still work.
         assert!(knob("operation.pulse_n").set(&scene, speed(1e4)).is_ok());
-    }
-
-    #[test]
-    fn a_solver_takes_the_nearest_law_it_knows_and_says_so() {
-        let paper = Scene::builtin("paper-nd3").unwrap();
-        let (event, said) = knob("solver.kind").set(&paper, Value::Text("event".into())).unwrap();
-        assert_eq!(event.solver.contact, ContactLaw::Unilateral);
-        assert!(said.unwrap().contains("unilateral"));
-        let back = knob("solver.contact").set(&event, Value::Text("bilateral".into())).unwrap().0;
-        assert_eq!(back.solver.kind, SolverKind::Explicit);
     }
 }

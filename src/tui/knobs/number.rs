@@ -85,34 +85,6 @@ mod tests {
         knob_of(super::CLEARANCE).unwrap()
     }
 
-    /// Turns the knob `count` coarse steps; returns the scene and the values shown.
-    fn turns(scene: &Scene, up: bool, count: usize) -> (Scene, Vec<String>) {
-        let (mut scene, mut seen) = (scene.clone(), Vec::new());
-        for _ in 0..count {
-            let value = clearance().turned(&clearance().get(&scene), up, true, &scene);
-            scene = clearance().set(&scene, value).unwrap().0.into_scene();
-            seen.push(clearance().text(&scene));
-        }
-        (scene, seen)
-    }
-
-    #[test]
-    fn a_lining_is_turned_through_zero_to_an_interference_and_back() {
-        let mut scene = Scene::base();
-        scene.solver.contact = rubscope_solver::scene::ContactLaw::Smooth;
-        let (pressed, seen) = turns(&scene, false, 11);
-        let down = ["50", "20", "10", "5", "2", "1", "-1", "-2", "-5", "-10", "-20"];
-        assert_eq!(seen, down.map(|x| format!("{x} µm")));
-        let (open, seen) = turns(&pressed, true, 11);
-        assert_eq!(seen.last().unwrap(), "100 µm");
-        assert_eq!(seen[3..5], ["-1 µm", "1 µm"]);
-        assert!((open.clearance() - scene.clearance()).abs() < 1e-15);
-        // Fine steps also cross zero.
-        scene.casing.radius_m = scene.bladed_disk.blade_length_m - 1e-6;
-        let up = clearance().turned(&clearance().get(&scene), true, false, &scene);
-        assert_eq!(up, Value::Real(1e-6));
-    }
-
     #[test]
     fn a_rigid_casing_refuses_what_is_not_above_zero_in_one_line() {
         let scene = Scene::base();

@@ -204,28 +204,6 @@ mod tests {
     }
 
     #[test]
-    fn help_and_the_way_out_are_always_at_the_right_end() {
-        let mut app = app();
-        for width in [40, 66, 80, 200] {
-            app.status = None;
-            assert!(line(&app, width).ends_with("? help  q quit"), "{}", line(&app, width));
-            assert_eq!(line(&app, width).contains(": commands"), width >= 60);
-            app.status = Some("a status that is longer than any screen is wide ".repeat(6));
-            let text = line(&app, width);
-            assert!(text.ends_with("…  ? q"), "{text}");
-            app.status = Some("a knob restarts the run".into());
-            assert!(line(&app, width).starts_with("a knob restarts the run "), "{width}");
-            app.status = None;
-            app.act(Command::Read);
-            assert!(line(&app, width).ends_with("? help  q quit"), "{}", line(&app, width));
-            app.act(Command::Read);
-            app.dialogue.mode = InputMode::Lessons(0);
-            assert!(line(&app, width).ends_with("q quit"), "{}", line(&app, width));
-            app.dialogue.mode = InputMode::Main;
-        }
-    }
-
-    #[test]
     fn a_long_message_is_wrapped_over_the_rows_above() {
         let mut app = app();
         let words: Vec<String> = (10..60).map(|n| format!("word{n}")).collect();

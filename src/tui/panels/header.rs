@@ -385,18 +385,4 @@ mod tests {
         app.run.show(app.run.film.fired(0.0));
         assert_eq!(app.verdict_word(), "computing");
     }
-
-    #[test]
-    fn a_state_that_is_wrong_has_the_colour_of_trouble_and_every_other_its_own() {
-        let look = Appearance::new(Theme::Dark, Marker::Braille);
-        let trouble = look.style(Role::Trouble).fg;
-        for verdict in Verdict::ALL {
-            use Verdict::{Adhesive, Divergent, Failed};
-            let wrong = matches!(verdict, Failed | Adhesive | Divergent);
-            let fg = verdict_style(&look, verdict).fg;
-            assert_eq!(fg == trouble, wrong, "{verdict}");
-            let own = colour(&look, verdict).or(look.style(Role::Text).fg);
-            assert!(wrong || fg == own, "{verdict}");
-        }
-    }
 }

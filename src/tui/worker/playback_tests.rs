@@ -68,25 +68,6 @@ fn a_turning_picture_turns_an_eighth_between_two_frames_at_most() {
 }
 
 #[test]
-fn the_motion_waits_at_the_end_of_its_film_and_goes_on_when_asked() {
-    for name in ["paper-nd3", "rocking"] {
-        let mut scene = Scene::builtin(name).unwrap();
-        (scene.solver.end_s, scene.solver.step_s) = (5e-3, 2e-7);
-        let mut order = order(scene);
-        let mut playback = computed(&order);
-        playback.play(1.0);
-        playback.play(1.0);
-        let snapshot = playback.snapshot();
-        let moment = snapshot.moment.unwrap();
-        assert!((moment.state.t_s - 5e-3).abs() < 2.1e-7 && snapshot.t_s == 5e-3, "{name}");
-        let longer = order.film.extended();
-        refilmed(&mut playback, &mut order, longer);
-        playback.play(1e-3);
-        assert!(playback.head.motion().t_s() > 5.9e-3);
-    }
-}
-
-#[test]
 fn a_jump_stops_at_the_change_of_contact_at_any_zoom() {
     // The first two impacts of the event solver, as a plain run records them.
     let scene = Scene::builtin("rocking").unwrap();
@@ -177,21 +158,6 @@ fn short() -> Order {
     let mut scene = Scene::base();
     (scene.solver.step_s, scene.solver.end_s) = (1e-6, 1e-3);
     Order { compare: true, ..order(scene) }
-}
-
-#[test]
-fn going_to_an_instant_goes_back_and_not_beyond_the_run() {
-    let mut order = short();
-    let mut playback = computed(&order);
-    playback.play(8e-4);
-    for (to, reached) in [(2e-4, 2e-4), (9e-4, 9e-4), (1.0, 1e-3)] {
-        order.moves.push(Move::To(to));
-        playback.apply(&order);
-        settle(&mut playback);
-        assert_eq!(playback.t, reached);
-        assert!((playback.head.motion().t_s() - reached).abs() < 1.1e-6, "{to}");
-        assert_eq!(playback.snapshot().moved, order.moves.last());
-    }
 }
 
 #[test]

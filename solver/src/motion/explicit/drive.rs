@@ -270,28 +270,6 @@ mod tests {
     use crate::scene::Scene;
 
     #[test]
-    fn a_pulse_is_to_come_as_long_as_it_acts_and_steps_are_steady_soon_after() {
-        for steps in [10.0, 10.3, 10.5, 10.7] {
-            let mut scene = Scene::base();
-            scene.solver.step_s = 1e-6;
-            scene.operation.pulse_s = steps * 1e-6;
-            let mut drive = Drive::of(&scene, 0.0);
-            for fired in [0, 30] {
-                if fired > 0 {
-                    drive.fire(fired);
-                }
-                for n in fired..fired + 15 {
-                    let comes = (n..60).any(|n| drive.force(n) != 0.0);
-                    assert_eq!(drive.pulse_to_come(n), comes, "{steps} {fired} {n}");
-                    let steady = drive.is_steady(n);
-                    assert!(!(steady && comes), "{steps} {fired} {n}");
-                    assert!(steady || n < fired + 13, "{steps} {fired} {n}");
-                }
-            }
-        }
-    }
-
-    #[test]
     fn a_phase_of_many_turns_keeps_what_its_product_loses() {
         let mut phasor = Phasor::new(&Rotor::of(&Scene::base()), 3.0, 1e-6, 0);
         // The product is 2^30 + 1 + 2^-10 + 2^-40, whose last term a number of 53 bits drops.
@@ -317,34 +295,6 @@ mod tests {
                 // Round-off of an angle of 18 rad, twice.
                 let apart = (seen.re - cos).hypot(seen.im - sin);
                 assert!(apart < 8e-15, "{n}: {apart}");
-            }
-        }
-    }
-}
-
-#[cfg(test)]
-mod excitation_tests {
-    use super::*;
-    use std::f64::consts::TAU;
-
-    #[test]
-    fn torque_on_a_mode_pair_is_the_sum_over_blades() {
-        for blades in [1, 2, 5, 22] {
-            for (diameters, order) in [(3, 3), (3, 19), (3, 25), (4, 3), (0, 22), (11, 11), (2, 0)]
-            {
-                let excitation = EngineOrderTorque { amplitude: 1.7, order, blades };
-                let phase = 0.6;
-                let [c, s] = excitation.torque_on(diameters, phase);
-                let mut sum = [0.0; 2];
-                for i in 0..blades {
-                    let angle = TAU * f64::from(i) / f64::from(blades);
-                    let torque = 1.7 * (phase + f64::from(order) * angle).cos();
-                    sum[0] += torque * (f64::from(diameters) * angle).cos();
-                    sum[1] += torque * (f64::from(diameters) * angle).sin();
-                }
-                // Round-off of N terms with phases up to 25 turns.
-                let close = (c - sum[0]).abs() + (s - sum[1]).abs() < 1e-11;
-                assert!(close, "{blades} {diameters} {order}: {c} {s} {sum:?}");
             }
         }
     }

@@ -54,18 +54,6 @@ fn a_letter_sets_the_knob_whose_symbol_it_is_and_no_other() {
     ] {
         assert_eq!(sets(typed).map(|place| KNOBS[place].label), Ok(label), "{typed}");
     }
-    for (typed, among) in [
-        ("n 3", "blades N"),
-        ("b 4", "blades N"),
-        ("s 1", "speed Ω"),
-        ("k 5000", "casing k_c"),
-        ("m 2", "casing m_c"),
-        ("damping 0.1", "damping ζ_c, damping ζ_bd?"),
-    ] {
-        let why = sets(typed).unwrap_err();
-        assert!(why.starts_with(&format!("{typed}: which of ")), "{why}");
-        assert!(why.contains(among) && why.ends_with('?'), "{why}");
-    }
 }
 
 #[test]
@@ -85,13 +73,9 @@ fn first(typed: &str) -> Found {
 }
 
 #[test]
-fn every_action_scene_lesson_view_and_knob_is_found_by_its_name() {
+fn every_scene_and_lesson_is_found_by_its_name() {
     let app = app();
     let found = |typed: &str| found(&app, typed);
-    for binding in command::main() {
-        let known = found(binding.what).iter().any(|item| item.command == binding.command);
-        assert_eq!(known, !only_for_keys(&binding.command));
-    }
     for scene in BUILTIN {
         assert_eq!(
             found(scene.name)[0].command,
@@ -105,10 +89,6 @@ fn every_action_scene_lesson_view_and_knob_is_found_by_its_name() {
         let first = &found(&lesson.title)[..2.min(found(&lesson.title).len())];
         let known = first.iter().any(|item| item.command == Command::Lesson(place));
         assert!(known, "{}", lesson.title);
-    }
-    for (place, knob) in KNOBS.iter().enumerate() {
-        let items = found(knob.path);
-        assert!(items.iter().any(|item| item.command == Command::Select(place)));
     }
     assert_eq!(first("undo").beside, "u");
     assert_eq!(first("theme").command, Command::NextTheme);
@@ -177,23 +157,28 @@ fn a_word_of_its_own_goes_to_its_place() {
 #[test]
 fn what_is_no_command_is_one_line_that_says_why() {
     let app = app();
-    for (typed, begins) in [
-        ("speed fast", "speed Ω: fast is not a number; from -1e6 to 1e6 rad/s"),
-        ("speed qqq", "speed Ω: qqq is not a number"),
-        ("law soft", "contact: soft is unknown; one of"),
-        ("law x", "contact: x is unknown; one of"),
-        ("blade 1.5", "blade 1.5: from 1 to 22"),
-        ("blade -3", "blade -3: from 1 to 22"),
-        ("something odd", "no command matches: something odd"),
-        ("qqq", "no command matches: qqq"),
-        ("t inf", "t inf: not a time; write for example 0.3 ms"),
-        ("t nan", "t nan: not a time; write for example 0.3 ms"),
-        ("450,5", "450,5: which knob? Write for example speed 450 rad/s"),
-        ("speed 450,5", "speed Ω: 450,5 cannot be read: a number has a decimal point"),
-        ("scene qqq", "no command matches: scene qqq"),
-        ("axes qqq", "no command matches: axes qqq"),
+    let mut told = String::new();
+    for typed in [
+        "speed fast",
+        "law soft",
+        "blade 1.5",
+        "blade -3",
+        "something odd",
+        "t inf",
+        "450,5",
+        "speed 450,5",
+        "scene qqq",
+        "axes qqq",
+        "n 3",
+        "b 4",
+        "s 1",
+        "k 5000",
+        "m 2",
+        "damping 0.1",
     ] {
         let line = only(&app, typed).unwrap_err();
-        assert!(line.starts_with(begins) && line.lines().count() == 1, "{line}");
+        assert_eq!(line.lines().count(), 1, "{line}");
+        told += &format!("{typed}: {line}\n");
     }
+    insta::assert_snapshot!(told);
 }
