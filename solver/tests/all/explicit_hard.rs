@@ -130,3 +130,13 @@ fn undamped_flight_keeps_its_energy() {
     let amplitude = 3000.0 * 50e-6 / 2.0 / omega;
     assert!(report.r#final.u_s_m == 0.0 && report.r#final.u_c_m.abs() <= amplitude * (1.0 + 1e-3));
 }
+
+#[test]
+fn a_start_may_be_round_off_beyond_a_side_and_no_more() {
+    let depth = Scene::base().clearance();
+    for (part, taken) in [(1e-13, true), (1e-11, false)] {
+        let start = (-depth * (1.0 + part)).to_string();
+        let ran = run(&[("initial.u_c_m", &start), ("operation.pulse_n", "0")]);
+        assert_eq!(ran.is_ok(), taken, "{part}");
+    }
+}

@@ -297,35 +297,6 @@ fn what_leaves_no_room_or_is_no_list_is_refused_by_name() {
     assert!(Scene::base().with(&open).is_ok());
 }
 
-/// Tips of which two are longer than the clearance.
-fn two_long_tips(speed: &str) -> CheckedScene {
-    let mut tips = vec!["0"; 22];
-    (tips[0], tips[2]) = ("1.1e-4", "1.1e-4");
-    let tips = format!("[{}]", tips.join(","));
-    let keys = [
-        ("solver.model", "rigid"),
-        ("operation.speed_ramp_rad_s2", "0"),
-        ("bladed_disk.longest_tip_m", "0"),
-        ("bladed_disk.tips_m", &tips),
-        (SPEED, speed),
-        ("solver.end_s", "0.5"),
-    ];
-    Scene::builtin("long-tip").unwrap().with(&keys).unwrap()
-}
-
-#[test]
-fn a_corner_of_two_tips_beyond_the_clearance_is_held_from_rest_on() {
-    let windows = two_long_tips("150").machine().lock_windows(1.0);
-    let [slow, fast] = windows[..] else { panic!("{windows:?}") };
-    assert!(slow.from == 0.0 && (slow.to.unwrap() - 280.5).abs() < 0.1, "{slow:?}");
-    assert!((fast.from - 291.412).abs() < 1e-3, "{fast:?}");
-    for (speed, verdict) in
-        [("150", Verdict::Locked), ("279", Verdict::Locked), ("285", Verdict::Forced)]
-    {
-        assert_eq!(crate::run_once(&two_long_tips(speed)).outcome.verdict, verdict, "{speed}");
-    }
-}
-
 #[test]
 fn unequal_tips_that_all_press_a_lining_drag_its_wave() {
     for (scatter, verdict) in [("5e-6", Verdict::Forced), ("0", Verdict::Decay)] {
