@@ -2,8 +2,8 @@
 //! the formula; numbers of the reference cases stand in docs/numbers.csv.
 
 use crate::close;
-use crate::event_modal::on_side_0;
 use crate::keys::{DIAMETERS, RAMP, SPEED, ZETA};
+use crate::tips_support::on_side_0;
 use rubscope_solver::motion::{ActiveSet, Events, Solver, Verdict};
 use rubscope_solver::scene::Scene;
 

@@ -6,7 +6,7 @@ use crate::keys::{BLADES, DIAMETERS, LENGTH, PULSE, RAMP, SPEED, ZETA};
 use std::f64::consts::FRAC_PI_2;
 
 use crate::event_cases::scene as event_scene;
-use crate::event_modal::on_side_0;
+use crate::tips_support::on_side_0;
 use rubscope_solver::motion::{ActiveSet, Events, Failure, Solver, Verdict};
 use rubscope_solver::scene::{ModelSize, Scene};
 

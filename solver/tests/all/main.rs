@@ -10,7 +10,7 @@
 //! |---|---|---|---|---|
 //! | numbers of other codes | `cases` `explicit_tips` | `explicit_lining` | `theory` | `theory` `hbm_joined` `hbm_lining` |
 //! | closed forms | `explicit` `explicit_tip_locks` | `lock_ends` | `event_cases` `event_hard` | `theory` `hbm_laws` `hbm_whirl` |
-//! | plain stepping, or integration | `plain_stepper` `rebound` | `explicit_lining` | `event_modal` `rebound` | `hbm_time` `hbm_excitation` |
+//! | plain stepping, or integration | `plain_stepper` `rebound` | `explicit_lining` `machine_in_time` | `live_event` `rebound` | `hbm_time` `hbm_excitation` |
 //! | its order | `live_event` `rebound` | `explicit_lining` | `live_event` `explicit_tips` | |
 //! | no pull, no energy made, mirrors | `motion_laws` | `motion_laws` | `event_laws` | `hbm_laws` |
 //! | sizes of the disk agree | `cases` | `explicit_lining` | | |
@@ -31,7 +31,6 @@ mod certainty;
 mod event_cases;
 mod event_hard;
 mod event_laws;
-mod event_modal;
 mod examples;
 mod explicit;
 mod explicit_hard;

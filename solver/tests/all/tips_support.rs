@@ -49,6 +49,14 @@ pub fn carried(scene: &mut Scene, [x, y]: [f64; 2]) {
     scene.operation.pulse_n = 0.0;
 }
 
+/// A start on side 0, or in its corner with the next, carried by the rotor.
+pub fn on_side_0(scene: &mut Scene, corner: bool, pace: f64) {
+    let machine = scene.machine();
+    let y = if corner { -machine.polygon.half_side() } else { 0.0 };
+    carried(scene, [-machine.clearance(), y]);
+    scene.initial.v_s_m_s += pace;
+}
+
 /// The state at the end.
 pub fn state(scene: &Scene) -> State {
     let mut motion = Motion::new(&scene.checked().unwrap());
