@@ -168,4 +168,19 @@ mod tests {
         app.forget_drawn();
         assert_eq!(app.clicked((10, 14)), None);
     }
+
+    fn event(kind: MouseEventKind, (column, row): (u16, u16)) -> MouseEvent {
+        MouseEvent { kind, column, row, modifiers: KeyModifiers::NONE }
+    }
+
+    const LEFT: MouseEventKind = MouseEventKind::Down(MouseButton::Left);
+
+    #[test]
+    fn a_mouse_that_is_off_does_nothing() {
+        let mut app = on_screen();
+        app.note(Rect::new(0, 39, 4, 1), Command::Help);
+        assert!(app.mouse.toggle().contains("off") && !app.mouse.on);
+        assert_eq!(app.mouse(&event(LEFT, (0, 39))), None);
+        assert!(app.mouse.toggle().contains("on") && app.dialogue.is_closed());
+    }
 }

@@ -191,4 +191,29 @@ mod tests {
         (0..9).for_each(|_| app.move_cursor(1, 0, true));
         assert_eq!((cell(&app), cell_of(1.0, 22), cell_of(0.5, 0)), (21, 21, 0));
     }
+
+    #[test]
+    fn an_instant_that_is_read_stays_from_view_to_view() {
+        let mut app = on_screen();
+        app.walk(ViewId::Response);
+        app.reading.on = true;
+        app.put_cursor(Cursor { across: 0.25, up: 0.5 });
+        let read = Some(5e-3);
+        for view in ViewId::all().chain([ViewId::Gaps, ViewId::Response]) {
+            app.walk(view);
+            assert_eq!(app.reading.at_s, read, "{}", view.word());
+            assert_eq!(app.order().cursor_s, read);
+        }
+        assert_eq!(app.cursor_in(ViewId::Response), Some(Cursor { across: 0.25, up: 0.5 }));
+        // The time is kept even off the page, until the cursor moves across.
+        app.play.zoom = 6;
+        app.play.middle_s = None;
+        assert!(app.page().1 < 5e-3);
+        app.move_cursor(0, 1, false);
+        assert_eq!(app.reading.at_s, read);
+        app.move_cursor(-1, 0, false);
+        assert!(app.reading.at_s.is_some_and(|t| t < app.page().1));
+        app.stop_reading();
+        assert_eq!((app.reading.at_s, app.reading.on), (None, false));
+    }
 }

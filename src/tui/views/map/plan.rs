@@ -379,4 +379,29 @@ mod tests {
             assert!(order.into_iter().eq(0..plan.len()), "{x} {y}");
         }
     }
+
+    #[test]
+    fn a_rotor_that_turns_the_other_way_has_a_map_of_its_own() {
+        let mut scene = Scene::base();
+        scene.operation.speed_rad_s = -430.0;
+        let plan = MapChoice::default().plan(&scene).unwrap();
+        assert_eq!((plan.x.from, plan.x.to), (-600.0, 0.0));
+    }
+
+    #[test]
+    fn cells_are_round_values_in_the_unit_that_is_shown() {
+        let scene = Scene::base();
+        let plan = MapChoice::default().plan(&scene).unwrap();
+        assert_eq!((plan.x.value(46), plan.x.value(45)), (460.0, 450.0));
+        let plan = MapChoice { rpm: true, ..MapChoice::default() }.plan(&scene).unwrap();
+        let turns = |at: u32| plan.x.value(at) * 60.0 / TAU;
+        for (at, rpm) in [(0, 0.0), (1, 100.0), (45, 4500.0), (plan.x.count - 1, 5800.0)] {
+            assert!((turns(at) - rpm).abs() < 1e-9, "{}", turns(at));
+        }
+        let damping = MapAxis { path: keys::CASING_DAMPING, anchor: 0.05 };
+        let plan = MapChoice { y: damping, ..MapChoice::default() }.plan(&scene).unwrap();
+        // Steps of 1, 2 or 5 times a power of ten give round values everywhere.
+        let step = format!("{:.1e}", plan.y.value(1) - plan.y.value(0));
+        assert!(["1.0", "2.0", "5.0"].contains(&&step[..3]) && plan.y.count > 20, "{step}");
+    }
 }

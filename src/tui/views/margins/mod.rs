@@ -164,4 +164,27 @@ mod tests {
         app.run.latest.results.found.margins = None;
         assert_eq!(MarginsView.csv(&app), Err("there is no data yet".into()));
     }
+
+    fn text(app: &App) -> String {
+        let area = Rect::new(0, 0, 100, 24);
+        let mut buffer = Buffer::empty(area);
+        MarginsView.draw(app, &mut buffer, ViewArea { area, digit: 8, large: true });
+        let line = |row: &[ratatui::buffer::Cell]| {
+            row.iter().map(|cell| cell.symbol()).collect::<String>() + "\n"
+        };
+        buffer.content.chunks(100).map(line).collect()
+    }
+
+    #[test]
+    fn margins_of_other_knobs_are_marked_and_nothing_jumps_there() {
+        let mut app = app();
+        app.reading.cursor = Some(MarginsView.here(&app));
+        assert!(!text(&app).contains("of the knobs before"));
+        assert!(matches!(app.opening(), Some(Command::JumpTo { .. })));
+        let mut other = app.scene.clone().into_scene();
+        other.casing.damping_ratio = 0.1;
+        app.set_scene(other.checked().unwrap(), false);
+        assert!(text(&app).contains("of the knobs before"), "{}", text(&app));
+        assert!(matches!(app.opening(), Some(Command::Nothing(_))));
+    }
 }
