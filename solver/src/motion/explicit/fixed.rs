@@ -1,9 +1,9 @@
-//! What does not change of the bladed disk: which modes it has, which blades move alike, which form
-//! a row, and the extra springs of a mistuned disk.
+//! Data of the bladed disk that is constant during a run: its modes, the blades that move alike, the
+//! rows, and the extra springs of a mistuned disk.
 //!
-//! Blades `N/d` apart do the same for ever where `d` divides the number of blades, the nodal
-//! diameters of the casing and the engine order, and tips and stiffnesses are equal: then `d` of
-//! them are one, and only modes of multiples of `d` diameters move.
+//! If tips and stiffnesses are equal and `d` divides the number of blades, the nodal diameters of the
+//! casing and the engine order, blades `N/d` apart always move alike: `d` of them share one
+//! coordinate, and only modes whose nodal diameters are multiples of `d` are excited.
 
 use std::sync::Arc;
 
@@ -15,11 +15,11 @@ use crate::model::{ContactPolygon, Machine, blade_frequency, gcd};
 use crate::numeric::normal::normals;
 use crate::scene::{ModelSize, Scene};
 
-/// Part of the clearance that a single blade may rise or sink until all are looked at.
-/// Speed only.
+/// Displacement of a single tip, as a part of the clearance, after which all blade angles are
+/// evaluated. Speed only.
 const TIP_SLACK: f64 = 0.02;
 
-/// What does not change during a run.
+/// Data that is constant during a run.
 #[derive(Debug)]
 pub(super) struct Fixed {
     pub labels: Vec<Label>,
@@ -28,7 +28,7 @@ pub(super) struct Fixed {
     /// Shapes at blades that differ, and at rows.
     pub blades: Arc<Shapes>,
     pub rows: Arc<Shapes>,
-    /// Blades that are one in `blades`, as nothing tells them apart.
+    /// Number of blades that move alike and share one entry of `blades`.
     pub alike: u32,
     pub per_row: u32,
     /// Phases of the blades in the modes of a pair.
@@ -43,9 +43,9 @@ pub(super) struct Fixed {
     pub springs: Vec<f64>,
     /// Modes and signs of `alpha_c` and `alpha_s`.
     pub shown: [Option<(usize, f64)>; 2],
-    /// Steps between two looks at all blades, at most.
+    /// Largest number of steps between two evaluations of all blade angles.
     pub steps_unseen: u32,
-    /// Change of an angle after which all blades are looked at \[rad\].
+    /// Change of an angle after which all blade angles are evaluated \[rad\].
     pub most_slack: f64,
 }
 

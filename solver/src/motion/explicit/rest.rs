@@ -58,7 +58,7 @@ struct Eigenmode {
     pressed: f64,
 }
 
-/// What is known of the linear motion about rest.
+/// The linear motion about rest.
 #[derive(Clone, Debug)]
 pub(super) struct Rest {
     units: Units,
@@ -123,7 +123,7 @@ impl Explicit {
         if room <= 0.0 || !has_corners || !is_even(&rows) || turn == 0.0 {
             return None;
         }
-        // A lining does not feel the blades of tips without a slope, to first order.
+        // To first order, blades with radial tips do not indent the lining.
         let feels_blades = blades.is_some() && self.tips.rise != 0.0;
         let size = if feels_blades { STATES } else { STATES / 2 };
         let column = |k| units.states(&step.change(&units.point(&one_of(size, k))), size);

@@ -13,12 +13,11 @@ use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use crate::model::fraction_of_turn;
 use crate::motion::Plane;
 
-/// Fours of mode shapes that are kept as a table, 2 MiB: those of 512 single blades. Of a
-/// larger disk a row is worked out when it is asked for. Speed only.
+/// Largest table of mode shapes, in groups of four: 2 MiB, those of 512 single blades. For a larger
+/// disk each row is computed on demand. Speed only.
 const SHAPES_KEPT: usize = 1 << 16;
 
-/// Single blades from which on all of them at once cost less by a Fourier transform than by
-/// products. Speed only.
+/// Number of single blades from which a Fourier transform costs less than products. Speed only.
 const SHAPES_TRANSFORMED: usize = 64;
 
 /// One number of each of four modes.
