@@ -503,9 +503,11 @@ pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) 
 /// Returns the first time at which impacts accumulate \[s\]. Rigid contact comes to rest in a
 /// corner, and with restitution also on a side, through infinitely many impacts. The event solver
 /// sees their limit. Steps do not resolve it: the rest that follows must last for at least a casing
-/// period to count. `None` without either, and for any law other than the unilateral one.
+/// period to count, and no impact leads to one from the start. `None` without either, and for any law
+/// other than the unilateral one.
 fn accumulation(scene: &CheckedScene, log: &ContactLog, machine: &Machine) -> Option<f64> {
-    let lasts = |(from, until): &(f64, f64)| until - from >= TAU / machine.omega_c;
+    let period = TAU / machine.omega_c;
+    let lasts = |(from, until): &(f64, f64)| *from > 0.0 && until - from >= period;
     let now = |from: f64| Some((from, log.last_contact?));
     let held = matches!(log.active_set, ActiveSet::Corner(..));
     let corner = now(log.since).filter(|_| held);
