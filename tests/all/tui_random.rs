@@ -1,12 +1,11 @@
-//! Random keys at random sizes: no panic, no hang, and never a result of
-//! knobs that have been turned since.
+//! Answers that come late: the screen never shows a result of knobs that have been turned since.
+//! `fuzz_keys` presses keys at random.
 
 use std::collections::VecDeque;
 use std::sync::mpsc;
 use std::time::Duration;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
-use proptest::prelude::*;
 use ratatui::{Terminal, backend::TestBackend};
 use rubscope::tui::command::BINDINGS;
 use rubscope::tui::engine::{Engine, FullRunState, Order, Results, Snapshot};
@@ -132,43 +131,4 @@ pub fn bound_keys() -> Vec<KeyEvent> {
         KeyEvent::new(chord.code, modifiers)
     };
     chords.map(key).collect()
-}
-
-/// Every key of the table, and the characters of typed values.
-fn any_key() -> impl Strategy<Value = KeyEvent> {
-    let mut keys = bound_keys();
-    // Typing is rare among the bindings and takes several keys, so it has a
-    // larger weight.
-    for letter in "0123456789.-ekMu".chars() {
-        keys.push(KeyEvent::new(KeyCode::Char(letter), KeyModifiers::NONE));
-    }
-    for _ in 0..6 {
-        keys.push(KeyEvent::new(KeyCode::Enter, KeyModifiers::NONE));
-    }
-    proptest::sample::select(keys)
-}
-
-proptest! {
-    #![proptest_config(crate::drawn(24))]
-    #[test]
-    fn random_keys_at_random_sizes(
-        live: bool,
-        rounds in proptest::collection::vec(
-            (0u16..140, 0u16..50, proptest::collection::vec(any_key(), 0..12)), 1..8),
-    ) {
-        let mut app = App::new(scene().checked().unwrap(), Theme::Dark, Marker::Braille);
-        (app.knobs.live, app.run.compare) = (live, live);
-        // Keys at random save and export, too.
-        let files = tempfile::tempdir().unwrap();
-        app.files.directory = files.path().to_path_buf();
-        let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
-        let mut engine = Late::new();
-        for (width, height, keys) in rounds {
-            terminal.backend_mut().resize(width, height);
-            press(&mut terminal, &mut app, &mut engine, keys);
-            prop_assert!(app.scene.checked().is_ok(), "a scene that was refused was accepted");
-            let now = app.order().number;
-            prop_assert!(results(&app).iter().all(|&of| of == now), "{now}: {:?}", results(&app));
-        }
-    }
 }

@@ -267,37 +267,6 @@ fn the_longest_tip_touches_first_as_blades_grow() {
 }
 
 #[test]
-fn what_leaves_no_room_or_is_no_list_is_refused_by_name() {
-    for (keys, start) in [
-        (&[("bladed_disk.orbit_m", "130e-6")][..], "bladed_disk.orbit_m = 1.3e-4: allowed is less"),
-        (&[("bladed_disk.tips_m", "1e-6,2e-6")], "bladed_disk.tips_m = 2 numbers: allowed is none"),
-        (
-            &[("casing.lobes", "2"), ("casing.out_of_round_m", "150e-6")],
-            "casing.out_of_round_m = 1.5e-4: allowed is less",
-        ),
-        (&[("casing.out_of_round_m", "1e-6")], "casing.lobes = 0: allowed is 1 or more"),
-        (
-            &[("casing.lobes", "2"), ("casing.out_of_round_m", "1e-6"), ("solver.kind", "event")],
-            "casing.out_of_round_m = 1e-6: allowed is 0 with solver.kind",
-        ),
-        (
-            &[
-                ("bladed_disk.orbit_m", "1e-6"),
-                ("solver.kind", "event"),
-                ("operation.speed_ramp_rad_s2", "1"),
-            ],
-            "operation.speed_ramp_rad_s2 = 1: allowed is 0",
-        ),
-    ] {
-        let message = Scene::base().with(keys).unwrap_err().to_string();
-        assert!(message.starts_with(start) && message.lines().count() == 1, "{message}");
-    }
-    // As many lobes as diameters the mode opens itself.
-    let open = [("casing.lobes", "3"), ("casing.out_of_round_m", "150e-6")];
-    assert!(Scene::base().with(&open).is_ok());
-}
-
-#[test]
 fn unequal_tips_that_all_press_a_lining_drag_its_wave() {
     for (scatter, verdict) in [("5e-6", Verdict::Forced), ("0", Verdict::Decay)] {
         let keys =

@@ -355,23 +355,3 @@ fn limits_change_with_every_parameter_as_their_derivatives_say() {
     assert!(by(LimitName::PushA, LOSS) < -0.1);
     assert!(by(LimitName::OmegaC, STIFFENING) == 0.0);
 }
-
-#[test]
-fn what_has_no_clearance_left_is_refused_by_name() {
-    let refused = |changes: &[(&str, f64)]| scene(changes).checked().unwrap_err().to_string();
-    let told = refused(&[(LOSS, 5e-10)]);
-    assert_eq!(
-        told,
-        "casing.clearance_loss_m_s2 = 5e-10: allowed is at most 3.999e-10, so that a clearance is \
-         left at 500 rad/s, or any with solver.contact = \"smooth\", whose lining blades may press"
-    );
-    assert!(scene(&[(LOSS, 3.999e-10)]).checked().is_ok());
-    // Over the whole run: a ramp of 0.1 s.
-    assert!(refused(&[(LOSS, 3e-10), ("operation.speed_ramp_rad_s2", 1e3)]).contains("600 rad/s"));
-    for changes in [[(STIFFENING, 1.0)], [(LOSS, 1e-11)]] {
-        let mut event = changed(scene(&changes), &[("operation.speed_ramp_rad_s2", -60.0)]);
-        event.set("solver.kind", "event").unwrap();
-        let told = event.checked().unwrap_err().to_string();
-        assert!(told.starts_with("operation.speed_ramp_rad_s2 = -60: allowed is 0"), "{told}");
-    }
-}
