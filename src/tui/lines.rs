@@ -213,6 +213,9 @@ impl Lines {
             Command::Select(place) => KNOBS.get(place),
             _ => None,
         };
+        if found.command == Command::Leave {
+            return Ok(None);
+        }
         self.app.layout.size = PICTURE;
         let effect = self.app.update(found.command);
         self.app.layout.size = (WIDTH, ROWS);

@@ -45,7 +45,7 @@ fn the_mouse_acts_and_is_given_back() {
     terminal.send("M");
     terminal.wait_for("mouse on");
     assert!(terminal.has_mode(1000));
-    terminal.send("q");
+    terminal.send("\u{3}");
     assert_eq!(terminal.wait(), 0);
     terminal.assert_restored();
 }
@@ -152,7 +152,7 @@ fn a_pipe_a_device_or_a_folder_is_refused_as_a_file_and_the_screen_lives() {
     }
     terminal.send("?");
     terminal.wait_for("select the knob above");
-    terminal.send("q");
+    terminal.send("\u{3}");
     assert_eq!(terminal.wait(), 0);
     terminal.assert_restored();
 }
@@ -167,7 +167,7 @@ fn a_file_above_the_limit_of_the_system_is_refused_and_the_screen_lives() {
     terminal.wait_for("cannot write scene.toml: ");
     terminal.send("?");
     terminal.wait_for("select the knob above");
-    terminal.send("q");
+    terminal.send("\u{3}");
     terminal.wait_for("ended with 0");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
     terminal.assert_restored();

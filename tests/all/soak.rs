@@ -140,7 +140,7 @@ fn soak(done: impl Fn(Duration, usize) -> bool) {
     let (before, after) = (most(first).unwrap(), most(second).unwrap());
     println!("most: {before:?} in the first half, {after:?} in the second (MB, threads)");
     assert!(after.0 <= before.0 + MOST_GROWTH, "memory grows: {looks:?}");
-    session.send("q");
+    session.send("\u{3}");
     assert_eq!(session.wait(), 0);
 }
 

@@ -25,6 +25,8 @@ pub enum InputMode {
     Naming(Purpose, Field),
     /// Asking whether to replace the existing file of this name.
     Replacing(Purpose, String),
+    /// Asking whether to quit with a changed scene.
+    Leaving,
     /// The list of lessons, with the index of the selected one.
     Lessons(usize),
     /// The list of scenes, with the index of the selected one; `None` selects the open scene.
@@ -93,6 +95,14 @@ impl Dialogue {
 }
 
 impl App {
+    /// Returns whether something is open over the main screen: a dialogue, a cursor, the full screen
+    /// or a lesson.
+    pub fn has_open(&self) -> bool {
+        let reads = self.reading.on || self.reading.cursor.is_some();
+        let wide = self.layout.full_screen;
+        !self.dialogue.is_closed() || reads || wide || self.lessons.progress.is_some()
+    }
+
     /// Moves the selection of the open list, or scrolls the help; returns false for other
     /// commands.
     pub fn move_in_list(&mut self, command: &Command) -> bool {

@@ -9,11 +9,13 @@ use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 use super::{App, InputMode, Source};
 use crate::report::CommandLine;
 use crate::report::line::clean;
+use crate::report::number::in_shown_unit;
 use crate::tui::command::{Effect, Purpose};
 use crate::tui::files::{FileJob, FileResult, FoundScene, FoundScenes, builtin_scenes};
 use crate::tui::list::draw_list;
 use crate::tui::text::{columns, print, shorten, wrap};
 use crate::tui::theme::Role;
+use crate::tui::views::id::ViewId;
 use rubscope_solver::scene::keys::{differences, is_plain};
 use rubscope_solver::scene::{CheckedScene, DEFAULT, Scene};
 
@@ -38,6 +40,8 @@ pub struct Files {
     pub opened: CheckedScene,
     /// Where the scene came from, for the command line; `None` for the built-in default.
     pub source: Option<Source>,
+    /// The scene as last saved; `None` if it was not.
+    pub saved: Option<CheckedScene>,
     /// The write under way; `None` if there is none.
     pub writing: Option<Writing>,
     /// The scene files of the directory, as last read.
@@ -48,13 +52,18 @@ impl Files {
     /// Creates the state with `opened` as the open scene and no known source.
     pub fn of(opened: CheckedScene) -> Self {
         let (directory, found) = (PathBuf::new(), FoundScenes::default());
-        Self { directory, opened, source: None, writing: None, found }
+        Self { directory, opened, source: None, saved: None, writing: None, found }
     }
 
     /// Makes `scene` the open one. Without a new source the old one is kept.
     pub fn open(&mut self, scene: CheckedScene, source: Option<Source>) {
         self.opened = scene;
         self.source = source.or(self.source.take());
+    }
+
+    /// Returns whether a scene is neither the one that was opened nor the one that was saved.
+    pub fn is_changed(&self, scene: &CheckedScene) -> bool {
+        self.opened != *scene && self.saved.as_ref() != Some(scene)
     }
 
     /// Records that a key was pressed during a write.
@@ -74,12 +83,7 @@ impl App {
     /// Builds `rubscope run SCENE` with an option for every key that differs from the scene, and
     /// `--at` for every live change.
     pub fn command_line(&self) -> CommandLine {
-        // Without a source the scene is the built-in default.
-        let default = || Source {
-            name: DEFAULT.into(),
-            scene: Scene::builtin(DEFAULT).unwrap_or_else(|_| Scene::base()),
-        };
-        let Source { name, scene: base } = self.files.source.clone().unwrap_or_else(default);
+        let Source { name, scene: base } = self.base();
         // Live changes are applied at their own instants, so the command starts from the first
         // scene of the film, with the extended end of the run.
         let film = &self.run.film;
@@ -184,6 +188,9 @@ impl App {
         replace: bool,
     ) -> Effect {
         self.status = Some(format!("writing {name} ..."));
+        if purpose == Purpose::Save {
+            self.files.saved = Some(self.scene.clone());
+        }
         self.files.writing = Some(Writing { name: name.into(), purpose, undisturbed: true });
         Effect::Write(FileJob { path: self.files.directory.join(name), content, replace })
     }
@@ -193,6 +200,9 @@ impl App {
         let Some(Writing { name, purpose, undisturbed }) = self.files.writing.take() else {
             return true;
         };
+        if purpose == Purpose::Save && result != FileResult::Written {
+            self.files.saved = None;
+        }
         self.status = match &result {
             FileResult::Written => Some(format!("written: {name}")),
             FileResult::Failed(reason) => Some(format!("cannot write {name}: {reason}")),
@@ -213,10 +223,44 @@ impl App {
         self.dialogue.asked = true;
     }
 
+    /// Builds the command line that computes what the large view shows.
+    pub fn view_command(&self) -> CommandLine {
+        let Source { name, scene: base } = self.base();
+        let of = |command: &str| CommandLine::from_base(command, &name, &base, &self.scene);
+        let line = match (self.view(), self.map_plan()) {
+            (ViewId::Map, Ok(plan)) => CommandLine::from_base("map", &name, &base, &plan.scene)
+                .option("--x", &plan.x)
+                .option("--y", &plan.y)
+                .flag("--no-sensitivity", !plan.sensitivity),
+            (ViewId::Locked, _) => of("hbm"),
+            (ViewId::Coincidence, _) => of("hbm").flag("--coincidence", true),
+            (ViewId::Precision, _) => of("precision"),
+            (ViewId::Margins, _) if self.layout.survey => {
+                let end = |speed| {
+                    let (value, unit) = in_shown_unit(speed, "rad/s");
+                    format!("{value}{unit}")
+                };
+                let range = self.layout.range.map(|range| range.map(end).join(":"));
+                of("survey").optional("--range", range)
+            }
+            (ViewId::Margins, _) => of("margins"),
+            _ => self.command_line(),
+        };
+        line.flag("--rpm", self.appearance.rpm)
+    }
+
+    /// Returns the scene that a command line starts from: the open one, or the built-in default.
+    fn base(&self) -> Source {
+        self.files.source.clone().unwrap_or_else(|| Source {
+            name: DEFAULT.into(),
+            scene: Scene::builtin(DEFAULT).unwrap_or_else(|_| Scene::base()),
+        })
+    }
+
     /// Returns the command line for the clipboard, and shows it in the status line: whether the
     /// terminal takes it is not known.
     pub fn copied(&mut self) -> String {
-        let command = self.command();
+        let command = self.view_command().to_string();
         self.status = Some(format!("sent to the terminal to copy: {command}"));
         command
     }
@@ -481,6 +525,57 @@ mod tests {
         assert!(!app.written(FileResult::Exists));
         assert_eq!(app.dialogue.mode, InputMode::Main);
         assert!(matches!(press(&mut app, KeyCode::Char('y')), Effect::Copy(_)));
+    }
+
+    #[test]
+    fn the_command_to_copy_is_that_of_the_large_view() {
+        let mut app = App::new(
+            Scene::builtin("paper-nd3").unwrap().checked().unwrap(),
+            Theme::Dark,
+            Marker::Braille,
+        );
+        app.update(Command::Set(0, "450".into())).unwrap();
+        for (view, command) in [
+            (ViewId::Response, "run paper-nd3 --set operation.speed_rad_s=450.0"),
+            (ViewId::Locked, "hbm paper-nd3 --set operation.speed_rad_s=450.0"),
+            (ViewId::Precision, "precision paper-nd3 --set operation.speed_rad_s=450.0"),
+            (ViewId::Margins, "margins paper-nd3 --set operation.speed_rad_s=450.0"),
+        ] {
+            app.update(Command::View(view)).unwrap();
+            assert_eq!(app.view_command().to_string(), format!("rubscope {command}"));
+        }
+        let range = Command::Range { ends: Some([200.0, 600.0]), doubt: None };
+        app.update(range).unwrap();
+        let survey = app.view_command().to_string();
+        assert!(survey.ends_with("450.0 --range 200rad/s:600rad/s"), "{survey}");
+        app.update(Command::View(ViewId::Map)).unwrap();
+        let map = app.view_command().to_string();
+        assert!(map.starts_with("rubscope map paper-nd3 --set"), "{map}");
+        assert!(map.contains(" --x operation.speed_rad_s="), "{map}");
+        app.update(Command::SpeedUnit).unwrap();
+        assert!(app.view_command().to_string().ends_with(" --rpm"));
+        app.update(Command::SpeedUnit).unwrap();
+    }
+
+    #[test]
+    fn quitting_asks_where_the_scene_is_changed_and_closes_one_level_before() {
+        let mut app = app();
+        press(&mut app, KeyCode::Right);
+        press(&mut app, KeyCode::Char('f'));
+        press(&mut app, KeyCode::Char('q'));
+        assert!(!app.layout.full_screen && app.dialogue.is_closed());
+        assert_eq!(press(&mut app, KeyCode::Char('q')), Effect::None);
+        // Until the question is drawn, no key answers it.
+        assert_eq!(press(&mut app, KeyCode::Char('q')), Effect::None);
+        app.drawn();
+        assert_eq!(press(&mut app, KeyCode::Char('s')), Effect::None);
+        assert!(matches!(press(&mut app, KeyCode::Enter), Effect::Write(_)));
+        app.written(FileResult::Written);
+        assert_eq!(press(&mut app, KeyCode::Char('q')), Effect::Quit);
+        press(&mut app, KeyCode::Right);
+        press(&mut app, KeyCode::Char('q'));
+        app.drawn();
+        assert_eq!(press(&mut app, KeyCode::Char('q')), Effect::Quit);
     }
 
     #[test]

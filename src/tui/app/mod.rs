@@ -136,6 +136,7 @@ impl App {
             InputMode::Palette(_) => Group::Palette,
             InputMode::Typing(_) | InputMode::Naming(..) => Group::Typing,
             InputMode::Replacing(..) => Group::Replacing,
+            InputMode::Leaving => Group::Leaving,
             InputMode::Lessons(_) => Group::Lessons,
             InputMode::Scenes(_) => Group::SceneList,
         }

@@ -33,6 +33,8 @@ pub enum Purpose {
 pub enum Command {
     /// Quit the explorer.
     Quit,
+    /// Close what is open; on the main screen quit, and ask where the scene is changed.
+    Leave,
     /// Return the terminal to the shell until the job is continued.
     Suspend,
     /// Draw the whole screen again.
@@ -188,7 +190,7 @@ pub enum Command {
     Ask(Purpose),
     /// Write a file of this kind and name.
     Write(Purpose, String),
-    /// Copy the command line that repeats the run.
+    /// Copy the command line that computes what the large view shows.
     Copy,
     /// Use the next marker.
     Marker,
@@ -267,6 +269,9 @@ pub enum Group {
     /// Answering whether to replace an existing file.
     #[strum(serialize = "Where a file exists")]
     Replacing,
+    /// Answering whether to quit with a changed scene.
+    #[strum(serialize = "Where the scene is changed")]
+    Leaving,
     /// Choosing a lesson.
     #[strum(serialize = "In the list of lessons")]
     Lessons,
@@ -294,7 +299,7 @@ impl Group {
             Self::Typing => &[Self::Field, Self::Dialogue],
             Self::Filter | Self::Palette => &[Self::Field, Self::List, Self::Dialogue],
             Self::Help | Self::Lessons | Self::SceneList => &[Self::List, Self::Dialogue],
-            Self::Replacing => &[Self::Dialogue],
+            Self::Replacing | Self::Leaving => &[Self::Dialogue],
             _ => &[],
         }
     }

@@ -30,6 +30,9 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
         InputMode::Naming(Purpose::Save, name) => Some(asked("save the scene as: ", name)),
         InputMode::Naming(Purpose::Export, name) => Some(asked("export as .csv or .svg: ", name)),
         InputMode::Replacing(_, name) => Some(format!("{name} exists: y replaces it, n leaves it")),
+        InputMode::Leaving => {
+            Some("the scene is changed: q quits, s saves it, Esc stays".to_string())
+        }
         _ => None,
     };
     if let Some(question) = question.filter(|_| app.status.is_none()) {
@@ -131,7 +134,7 @@ fn opens(command: &Command) -> Option<&'static str> {
 
 /// Returns whether a binding is always shown, at the right end.
 fn is_kept(binding: &Binding) -> bool {
-    matches!(binding.command, Command::Palette("") | Command::Help | Command::Quit)
+    matches!(binding.command, Command::Palette("") | Command::Help | Command::Leave | Command::Quit)
 }
 
 /// Returns the entries at the right end: with words if the message leaves room, otherwise keys
@@ -141,6 +144,8 @@ fn kept(app: &App, width: u16, message: Option<usize>) -> Vec<Entry> {
         let mut entries: Vec<Entry> = Vec::new();
         for binding in command::valid(app.keyboard()).filter(|binding| is_kept(binding)) {
             let Some((keys, word)) = binding.footer else { continue };
+            let closes = binding.command == Command::Leave && app.has_open();
+            let word = if closes { "close" } else { word };
             let known = entries.iter().any(|entry| entry.binding.command == binding.command);
             if known
                 || (binding.command == Command::Palette("") && !(words && width >= PALETTE_FROM))

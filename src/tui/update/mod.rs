@@ -134,6 +134,7 @@ impl App {
         self.appearance.use_speeds();
         match command {
             Command::Quit => return Ok(Effect::Quit),
+            Command::Leave => return Ok(self.leave()),
             Command::Suspend => return Ok(Effect::Suspend),
             Command::Redraw => return Ok(Effect::Redraw),
             Command::Mouse => {
@@ -265,9 +266,29 @@ impl App {
             }
             InputMode::Typing(text) => self.take_typed(&text.text()),
             InputMode::Main => self.answer_chosen(),
-            InputMode::Help(_) | InputMode::Replacing(..) => {}
+            InputMode::Help(_) | InputMode::Replacing(..) | InputMode::Leaving => {}
         }
         Ok(Effect::None)
+    }
+
+    /// Closes one level of what is open. On the main screen it quits, but asks where the scene is
+    /// changed and not saved.
+    fn leave(&mut self) -> Effect {
+        if self.dialogue.mode == InputMode::Leaving {
+            // A key typed before the question was drawn does not answer it.
+            return if self.dialogue.asked { Effect::Quit } else { Effect::None };
+        }
+        let over = !self.dialogue.is_closed() || self.reading.on || self.layout.full_screen;
+        if self.has_open() && (over || self.reading.cursor.is_some()) {
+            self.close();
+        } else if self.has_open() {
+            self.leave_lesson();
+        } else if self.files.is_changed(&self.scene) {
+            self.dialogue.ask(InputMode::Leaving);
+        } else {
+            return Effect::Quit;
+        }
+        Effect::None
     }
 
     /// Closes what is open: the search of the help, a dialogue, the cursor, or the full screen.
