@@ -15,9 +15,10 @@ use crate::report::CommandLine;
 use crate::report::check::doubt_lines;
 use crate::report::number::{rounded, tell_in_rpm, with_typed_unit};
 use crate::report::survey as report;
+use rubscope_solver::scene::speed_range;
 use rubscope_solver::scene::{Quantity, Scene, SceneError, keys};
 use rubscope_solver::study::margins::{LimitName, Margins};
-use rubscope_solver::study::survey::{Survey, speed_range};
+use rubscope_solver::study::survey::Survey;
 
 /// Largest size of a mode table \[bytes\].
 const LARGEST_TABLE: u64 = 1 << 20;
@@ -202,9 +203,12 @@ impl NewCommand {
             ratio("--disk-damping", &self.disk_damping, what[1], keys::BLADE_DAMPING, &disk)?,
         ];
         let what = "Speeds of the machine, FROM:TO, such as 6000rpm:11000rpm";
-        let read =
-            |text: &str| Ok(speed_range("--range", &with_typed_unit(text, Quantity::Speed))?);
-        let range_rad_s = asking.value("--range", self.range.as_ref(), what, None, &read)?;
+        let read = |text: &str| {
+            let speeds = with_typed_unit(text, Quantity::Speed);
+            Ok((speed_range("--range", &speeds)?, speeds))
+        };
+        let (range_rad_s, speeds) =
+            asking.value("--range", self.range.as_ref(), what, None, &read)?;
         let speed = |text: &String| number("--speed", text, keys::SPEED);
         let speed_rad_s = self.speed.as_ref().map(speed).transpose()?;
         let title =
@@ -219,6 +223,7 @@ impl NewCommand {
             disk,
             damping_ratios,
             range_rad_s,
+            speeds,
             speed_rad_s: speed_rad_s.unwrap_or(0.5 * (range_rad_s[0] + range_rad_s[1])),
             pulse_n: 1.0,
         })

@@ -11,8 +11,9 @@ use super::status::{self, Refusal, Status};
 use crate::report::number::with_typed_unit;
 use crate::report::{CommandLine, survey as report};
 use rubscope_solver::scene::Quantity;
+use rubscope_solver::scene::speed_range;
 use rubscope_solver::study::margins::{TargetError, parameter};
-use rubscope_solver::study::survey::{Survey, speed_range};
+use rubscope_solver::study::survey::Survey;
 
 /// Find which nodal diameters can lock in a range of speeds, and their limits.
 ///

@@ -49,6 +49,8 @@ pub struct ModalData {
     pub damping_ratios: [f64; 2],
     /// Speed range of the machine \[rad/s\].
     pub range_rad_s: [f64; 2],
+    /// The same range as it was given, with units.
+    pub speeds: String,
     /// Speed that the scene starts with \[rad/s\].
     pub speed_rad_s: f64,
     /// Pulse that starts the motion \[N\].
@@ -74,20 +76,14 @@ impl ModalData {
         let damping = of_disk.unwrap_or(self.damping_ratios[1]);
         let (stiffness, coupling) = self.springs(&disk, length);
         let omega = TAU * casing.frequency_hz;
-        let [from, to] = self.range_rad_s;
         let mut text = String::new();
         let mut line = |line: &str| {
             text.push_str(line);
             text.push('\n');
         };
-        let rpm = |omega: f64| digits(omega * 60.0 / TAU);
         line("# A machine for rubscope. All numbers are in SI units; a number with another unit");
         line("# stands in quotes: speed_rad_s = \"9500 rpm\", pulse_n = \"2 kN\".");
-        line(&format!(
-            "# Its speeds: rubscope survey FILE --range {}rpm:{}rpm",
-            rpm(from),
-            rpm(to)
-        ));
+        line(&format!("# Its speeds: rubscope survey FILE --range {}", self.speeds));
         line("schema = 1");
         line(&format!("title = {}", toml::Value::from(self.title.as_str())));
         line("");
@@ -157,6 +153,10 @@ impl ModalData {
         line("model = \"modal\"  # rigid, modal or full");
         let end = 1e-2 * (4e4 / casing.frequency_hz).ceil();
         line(&format!("end_s = {end:?}  # end of a run, s"));
+        line("");
+        line("[view]");
+        let speeds = toml::Value::from(self.speeds.as_str());
+        line(&format!("speeds = {speeds}  # of the machine, for the survey of the explorer"));
         Scene::from_toml(&text)?;
         Ok(text)
     }
@@ -215,6 +215,7 @@ mod tests {
             disk: vec![family(4, 151.3, 5.5), family(5, 155.9, 5.4), family(6, 159.7, 5.3)],
             damping_ratios: [0.01, 0.002],
             range_rad_s: [TAU * 100.0, TAU * 180.0],
+            speeds: "6000rpm:10800rpm".into(),
             speed_rad_s: TAU * 140.0,
             pulse_n: 2e4,
         }

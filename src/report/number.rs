@@ -40,17 +40,12 @@ pub fn exact(x: f64) -> String {
 
 /// Formats a time \[s\] with the prefix that suits it.
 pub fn time(seconds: f64) -> String {
-    let (factor, unit) = match seconds.abs() {
-        x if x == 0.0 || x >= 1.0 => (1.0, "s"),
-        x if x >= 1e-3 => (1e3, "ms"),
-        x if x >= 1e-6 => (1e6, "us"),
-        _ => (1e9, "ns"),
-    };
-    format!("{} {unit}", short(seconds * factor))
+    let of = if seconds == 0.0 { 1.0 } else { seconds.abs().clamp(1e-9, 1.0) };
+    scaled(seconds, of, 6, "s").join(" ")
 }
 
 /// Formats a number with at most `digits` significant digits and its unit, with a suitable SI
-/// prefix, in ASCII (`u` for micro).
+/// prefix. Micro is `u`, or `µ` on a screen that is not ASCII.
 pub fn with_unit(x: f64, digits: usize, unit: &str) -> String {
     scaled(x, x, digits, unit).join(" ").trim_end().to_string()
 }
@@ -60,12 +55,21 @@ pub fn with_unit(x: f64, digits: usize, unit: &str) -> String {
 pub fn scaled(x: f64, of: f64, digits: usize, unit: &str) -> [String; 2] {
     let ((x, _), (of, unit)) = (in_shown_unit(x, unit), in_shown_unit(of, unit));
     let scale = SiScale::before(unit, of);
-    [short(rounded(x / scale.factor, digits)), scale.prefix.replace('µ', "u") + unit]
+    let shown = rounded(x / scale.factor, digits);
+    let number = if unit == RPM { in_tenths(shown) } else { short(shown) };
+    [number, scale.prefix.replace('µ', micro()) + unit]
 }
 
 thread_local! {
     /// Whether this thread shows speeds in rpm; otherwise in rad/s.
     static IN_RPM: Cell<bool> = const { Cell::new(false) };
+    /// How this thread spells the prefix micro.
+    static MICRO: Cell<&'static str> = const { Cell::new("u") };
+}
+
+/// Makes this thread spell the prefix micro like this.
+pub fn spell_micro(sign: &'static str) {
+    MICRO.set(sign);
 }
 
 /// Makes this thread show speeds in rpm (true) or in rad/s.
@@ -73,9 +77,14 @@ pub fn tell_in_rpm(rpm: bool) {
     IN_RPM.set(rpm);
 }
 
+/// Returns how this thread spells the prefix micro.
+pub fn micro() -> &'static str {
+    MICRO.get()
+}
+
 /// Returns the unit in which speeds are shown.
 pub fn speed_unit() -> &'static str {
-    if IN_RPM.get() { "rpm" } else { RAD_S }
+    if IN_RPM.get() { RPM } else { RAD_S }
 }
 
 /// Converts a speed from rad/s to the unit in which speeds are shown.
@@ -83,9 +92,9 @@ pub fn per_speed(omega: f64) -> f64 {
     if IN_RPM.get() { omega * 60.0 / TAU } else { omega }
 }
 
-/// Formats a speed \[rad/s\] with at most six significant digits and its unit.
+/// Formats a speed \[rad/s\] with its unit: at most six significant digits, or tenths of an rpm.
 pub fn speed(omega: f64) -> String {
-    format!("{} {}", short(per_speed(omega)), speed_unit())
+    with_unit(omega, 6, RAD_S)
 }
 
 /// Formats a speed that is already in the shown unit: one decimal, or three below 10.
@@ -149,6 +158,7 @@ pub fn with_typed_unit(text: &str, of: Quantity) -> String {
 }
 
 const RAD_S: &str = "rad/s";
+const RPM: &str = "rpm";
 
 /// Formats a count with its noun: "1 step", "2 steps", "1,000,000 steps".
 pub fn count(n: u64, noun: &str) -> String {
@@ -367,7 +377,11 @@ mod tests {
     fn times_and_counts_read_well() {
         assert_eq!(time(2.282_19e-4), "228.219 us");
         assert_eq!(time(0.1), "100 ms");
-        assert_eq!(time(0.0), "0 s");
+        assert_eq!((time(0.0), time(2.5)), ("0 s".into(), "2.5 s".into()));
+        spell_micro("µ");
+        let told = [time(2.282_19e-4), with_unit(2.4e-7, 6, "m"), with_unit(1e-4, 6, "m")];
+        spell_micro("u");
+        assert_eq!(told, ["228.219 µs", "240 nm", "100 µm"]);
         assert_eq!(count(1, "step"), "1 step");
         assert_eq!(count(1_000_000, "step"), "1,000,000 steps");
         assert_eq!(count(999, "impact"), "999 impacts");

@@ -6,7 +6,7 @@ use super::field::CURSOR;
 use super::ground::Ground;
 use super::raster::{Marker, Pen};
 use super::theme::{Role, Theme};
-use crate::report::number::{speed_unit, tell_in_rpm};
+use crate::report::number::{speed_unit, spell_micro, tell_in_rpm};
 
 /// Theme, marker and unit of speeds that the screen uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,13 +50,15 @@ impl Appearance {
     /// Switches speeds between rpm and rad/s; returns the message for the status line.
     pub fn next_speeds(&mut self) -> String {
         self.rpm = !self.rpm;
-        self.use_speeds();
+        self.use_units();
         format!("speeds in {}", speed_unit())
     }
 
-    /// Makes this thread format speeds in the chosen unit.
-    pub fn use_speeds(&self) {
+    /// Makes this thread format speeds in the chosen unit, and the prefix micro as the marker has
+    /// it.
+    pub fn use_units(&self) {
         tell_in_rpm(self.rpm);
+        spell_micro(self.either("µ", "u"));
     }
 
     /// Returns the style of a role.

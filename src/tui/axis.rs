@@ -2,7 +2,7 @@
 //! follow the data with hysteresis, so that the scale does not jump.
 
 pub use crate::report::number::SiScale;
-use crate::report::number::{in_shown_unit, per_frequency, per_speed, trimmed};
+use crate::report::number::{in_shown_unit, in_tenths, per_frequency, per_speed, trimmed};
 pub use crate::report::ticks::{nice_step, ticks};
 
 /// The axis of a chart: its range and the prefix of its labels.
@@ -95,12 +95,15 @@ impl ChartAxis {
 }
 
 /// Formats a number in the SI unit `unit` with up to seven digits, without trailing zeros, and with
-/// a prefix if the unit takes one. Speeds are converted to the unit the user chose.
+/// a prefix if the unit takes one. Speeds are converted to the unit the user chose; of an rpm they
+/// show tenths.
 pub fn number(x: f64, unit: &str) -> String {
     let (x, unit) = in_shown_unit(x, unit);
     let scale = SiScale::before(unit, x);
     let shown = x / scale.factor;
-    let text = if shown != 0.0 && !(1e-4..1e7).contains(&shown.abs()) {
+    let text = if unit == "rpm" {
+        in_tenths(shown)
+    } else if shown != 0.0 && !(1e-4..1e7).contains(&shown.abs()) {
         format!("{shown:e}")
     } else {
         let digits = 6 - shown.abs().max(1e-4).log10().floor() as i32;
@@ -235,7 +238,7 @@ mod tests {
         crate::report::number::tell_in_rpm(false);
         assert!(labels.len() > 2, "{labels:?}");
         assert!(labels.iter().all(|label| label.parse::<u32>().unwrap() % 1000 == 0), "{labels:?}");
-        assert_eq!(shown, ("1500 rpm".into(), "-954.9297 rpm".into()));
+        assert_eq!(shown, ("1500 rpm".into(), "-954.9 rpm".into()));
         assert_eq!(ChartAxis::speeds(0.0, 600.0).ticks(6).0[1], 100.0);
     }
 

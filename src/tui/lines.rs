@@ -68,8 +68,8 @@ pub fn lines(
     let marker = options.marker(&config::Config::default(), ability::only_ascii(&variable));
     let mut lines = Lines::of(scene, marker);
     lines.app.files.source.clone_from(&options.source);
-    lines.app.appearance.rpm = options.rpm;
-    lines.app.appearance.use_speeds();
+    lines.app.appearance.rpm |= options.rpm;
+    lines.app.appearance.use_units();
     lines.settle();
     lines.tell(out)?;
     writeln!(out, "{}", lines.app.appearance.spell("help lists the commands"))?;

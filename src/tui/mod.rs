@@ -117,7 +117,7 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
     app.appearance.follows_ground = choice.follows_ground();
     app.files.source.clone_from(&options.source);
     app.mouse.on = options.mouse;
-    app.appearance.rpm = options.rpm;
+    app.appearance.rpm |= options.rpm;
     memory.prepare(&mut app);
     terminal::set_mouse(app.mouse.on)?;
     terminal::set_whole_frames(!is_plain);

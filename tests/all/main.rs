@@ -28,6 +28,7 @@ mod cli_support;
 mod dependencies;
 mod digits;
 mod docs;
+mod file_names;
 mod file_places;
 mod file_signals;
 mod file_writer;

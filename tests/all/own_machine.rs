@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
+use rubscope::tui::{App, Marker, Theme};
 use rubscope_solver::scene::Scene;
 
 use crate::cli_support::{program, text};
@@ -62,4 +63,15 @@ fn a_stage_of_blades_that_stiffen_is_what_its_table_says_and_locks_where_runs_do
         });
         assert_eq!(locked, locks, "{diameters} at {rpm} rpm");
     }
+}
+
+#[test]
+fn the_explorer_keeps_the_speeds_of_a_new_machine_and_their_unit() {
+    let folder = tempfile::tempdir().unwrap();
+    stage(folder.path());
+    let scene = Scene::load(folder.path().join("stage.toml").to_str().unwrap()).unwrap();
+    let app = App::new(scene.checked().unwrap(), Theme::Mono, Marker::Ascii);
+    let ends = app.order().range.unwrap().map(|end| end * 60.0 / TAU);
+    assert!((ends[0] - 7000.0).abs() < 1e-6 && (ends[1] - 12000.0).abs() < 1e-6, "{ends:?}");
+    assert!(app.appearance.rpm);
 }

@@ -3,6 +3,7 @@
 use super::beyond;
 use super::error::refuse_if;
 use super::keys;
+use super::units::{self, RangeError};
 use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
 
 /// Part of a step by which an end that is so many steps may fall short of them. Smaller: a
@@ -31,10 +32,36 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     initial_state(scene)?;
     excitation(scene)?;
     beyond::check(scene)?;
+    if !scene.view.speeds.is_empty() {
+        speed_range(keys::VIEW_SPEEDS, &scene.view.speeds)?;
+    }
     match scene.solver.kind {
         SolverKind::Explicit => explicit(scene),
         SolverKind::Event => event(scene),
     }
+}
+
+/// Reads `FROM:TO` as rotor speeds \[rad/s\]. Errors refer to the option or key `name`.
+///
+/// # Errors
+/// The text has another form, an end is of another quantity, or the first end is not the lower one.
+pub fn speed_range(name: &str, text: &str) -> Result<[f64; 2], SceneError> {
+    match units::read_ends(text, units::Quantity::Speed) {
+        Ok((range, None)) if is_speed_range(range) => Ok(range),
+        Err(RangeError::End(why)) => {
+            Err(SceneError::Unit { key: name.to_string(), value: text.to_string(), why })
+        }
+        _ => Err(SceneError::refused(name, text, SPEED_RANGE)),
+    }
+}
+
+/// Description of a range of speeds.
+pub(crate) const SPEED_RANGE: &str =
+    "FROM:TO, two speeds, the lower one first, such as 6000rpm:11000rpm";
+
+/// Returns whether the first end of a range is the lower one, and both are finite.
+pub(crate) fn is_speed_range([from, to]: [f64; 2]) -> bool {
+    from < to && (to - from).is_finite()
 }
 
 fn clearance(scene: &Scene) -> Result<(), SceneError> {

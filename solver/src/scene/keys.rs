@@ -372,17 +372,9 @@ macro_rules! numbers {
     };
 }
 macro_rules! text {
-    ($path:expr, $live:ident, $what:literal, $most:literal, $field:ident) => {
-        key!(
-            $path,
-            $live,
-            "-",
-            $what,
-            Allowed::Text { most: $most },
-            Text,
-            |scene| scene.$field.clone(),
-            |scene, text| scene.$field = text
-        )
+    ($path:expr, $live:ident, $what:literal, $most:literal, $($field:ident).+) => {
+        key!($path, $live, "-", $what, Allowed::Text { most: $most },
+            Text, |scene| scene.$($field).+.clone(), |scene, text| scene.$($field).+ = text)
     };
 }
 macro_rules! charts {
@@ -595,4 +587,5 @@ keys! {
         "run end" Decades(1e-9) "end of the run; the verdict describes its last tenth";
     VIEW_CHARTS "view.charts" = charts(Aside, "charts the explorer opens with", view.charts);
     VIEW_BEGIN "view.begin_s" = real(Aside, "s", "time at which the explorer starts to play, at most solver.end_s", false 0.0..1e6, view.begin_s);
+    VIEW_SPEEDS "view.speeds" = text(Aside, "speeds of the machine, such as 7000rpm:12000rpm, for the survey; empty for all", 60, view.speeds);
 }

@@ -23,7 +23,8 @@ use serde::Serialize;
 use strum::{AsRefStr, Display, EnumString, VariantNames};
 
 pub use builtin::{BUILTIN, Builtin, DEFAULT};
-pub(crate) use check::STEP_ROUND_OFF;
+pub use check::speed_range;
+pub(crate) use check::{SPEED_RANGE, STEP_ROUND_OFF, is_speed_range};
 pub use checked::{Adjustment, CheckedScene};
 pub use error::SceneError;
 pub use file::{read_bytes, read_text};
@@ -105,12 +106,15 @@ pub struct View {
     pub charts: Vec<String>,
     /// Time at which playback begins, at most the end of the run \[s\].
     pub begin_s: f64,
+    /// Speeds of the machine, `FROM:TO` with units; empty for all speeds.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub speeds: String,
 }
 
 impl Default for View {
     fn default() -> Self {
         let charts = ["wheel", "response", "gaps", "locked"].map(String::from).to_vec();
-        Self { charts, begin_s: 0.0 }
+        Self { charts, begin_s: 0.0, speeds: String::new() }
     }
 }
 
@@ -184,6 +188,15 @@ impl Scene {
         }
         machine.turn_at(self.operation.speed_rad_s);
         machine
+    }
+
+    /// Returns whether contact couples blade and casing vibration, which makes a coincidence
+    /// speed dangerous: on a lining, or by blades that bend along an inclined path.
+    #[must_use]
+    pub fn is_coupled(&self) -> bool {
+        let bends = self.solver.model != ModelSize::Rigid;
+        let lined = self.solver.contact == ContactLaw::Smooth;
+        lined || (bends && self.bladed_disk.radial_coupling != 0.0)
     }
 
     /// Returns the initial casing position \[m\]: the given one, or, if none is given and the tips
@@ -316,6 +329,8 @@ mod tests {
         let mode = crate::model::Mode { nodal_diameters: 3, ..Default::default() };
         scene.casing.modes = vec![mode.clone()];
         scene.bladed_disk.modes = vec![mode];
+        // A field that is empty is left out.
+        scene.view.speeds = "0:1".into();
         let table = toml::Table::try_from(&scene).unwrap();
         let mut paths = Vec::new();
         for (name, value) in &table {

@@ -89,12 +89,15 @@ impl std::fmt::Display for Axis {
 }
 
 impl Axis {
-    /// Creates an axis over a numeric key; both ends are checked.
+    /// Creates an axis over a numeric key; both ends are checked, and rounded for a whole-numbered
+    /// key.
     ///
     /// # Errors
     /// The key is unknown or not numeric, or the range is not allowed.
     pub fn new(path: &str, from: f64, to: f64, count: u32, log: bool) -> Result<Self, AxisError> {
         let key = key_of(path)?;
+        let whole = key.is_some_and(|key| matches!(key.allowed, Allowed::Whole { .. }));
+        let [from, to] = if whole { [from.round(), to.round()] } else { [from, to] };
         let axis = Self { path: path.to_string(), from, to, count, log };
         let refused = |allowed: &str| AxisError::Range {
             path: path.to_string(),

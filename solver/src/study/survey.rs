@@ -13,29 +13,7 @@ use serde::Serialize;
 use super::margins::{LimitName, Parameter, shown_margin, speeds};
 use crate::harmonic::{SpeedRanges, lock_windows};
 use crate::model::{LockWindow, Machine};
-use crate::scene::units::{self, RangeError};
-use crate::scene::{CheckedScene, Scene, SceneError};
-
-/// Reads `FROM:TO` as rotor speeds \[rad/s\]. Errors refer to the option `name`.
-///
-/// # Errors
-/// The text has another form, an end is of another quantity, or the first end is not the lower one.
-pub fn speed_range(name: &str, text: &str) -> Result<[f64; 2], SceneError> {
-    match units::read_ends(text, units::Quantity::Speed) {
-        Ok((range, None)) if is_range(range) => Ok(range),
-        Err(RangeError::End(why)) => {
-            Err(SceneError::Unit { key: name.to_string(), value: text.to_string(), why })
-        }
-        _ => Err(SceneError::refused(name, text, RANGE)),
-    }
-}
-
-/// Description of a range of speeds.
-const RANGE: &str = "FROM:TO, two speeds, the lower one first, such as 6000rpm:11000rpm";
-
-fn is_range([from, to]: [f64; 2]) -> bool {
-    from < to && (to - from).is_finite()
-}
+use crate::scene::{CheckedScene, SPEED_RANGE, Scene, SceneError, is_speed_range};
 
 /// Survey of a machine over all nodal diameters.
 ///
@@ -194,8 +172,8 @@ impl Survey {
         range: Option<[f64; 2]>,
         by: Option<&Parameter>,
     ) -> Result<Self, SceneError> {
-        if let Some([from, to]) = range.filter(|range| !is_range(*range)) {
-            return Err(SceneError::refused("range", format!("{from}:{to}"), RANGE));
+        if let Some([from, to]) = range.filter(|range| !is_speed_range(*range)) {
+            return Err(SceneError::refused("range", format!("{from}:{to}"), SPEED_RANGE));
         }
         let start = Instant::now();
         let most = scene.bladed_disk.blades / 2;

@@ -1,7 +1,7 @@
 //! How far a run is from another verdict: one sentence, and a table with a row per quantity.
 
 use super::words::from_here;
-use crate::report::number::{count, rounded, scaled, short, with_unit};
+use crate::report::number::{count, micro, rounded, scaled, short, with_unit};
 use crate::report::table::{Heading, Table, TableCell};
 use rubscope_solver::scene::{ContactLaw, keys};
 use rubscope_solver::study::margins::{
@@ -77,7 +77,8 @@ fn out_of_round(margins: &Margins) -> Option<String> {
     let [height, part] = um_and_part(height, margins);
     let lobes = count(u64::from(lobes), "lobe");
     Some(format!(
-        "a casing out of round by {height} um ({lobes}; {part} % of the clearance; now {now}) ends it"
+        "a casing out of round by {height} {}m ({lobes}; {part} % of the clearance; now {now}) ends it",
+        micro()
     ))
 }
 
@@ -92,7 +93,7 @@ fn tips(margins: &Margins, held: bool) -> Option<String> {
         _ => return None,
     };
     let [deviation, part] = um_and_part(deviation.abs(), margins);
-    Some(format!("tips off by {deviation} um ({part} % of the clearance) {does}"))
+    Some(format!("tips off by {deviation} {}m ({part} % of the clearance) {does}", micro()))
 }
 
 /// Returns a length in micrometres and in per cent of the clearance.

@@ -95,12 +95,10 @@ impl Dialogue {
 }
 
 impl App {
-    /// Returns whether something is open over the main screen: a dialogue, a cursor, the full screen
-    /// or a lesson.
+    /// Returns whether a dialogue, a cursor or the full screen is open over the main screen.
     pub fn has_open(&self) -> bool {
         let reads = self.reading.on || self.reading.cursor.is_some();
-        let wide = self.layout.full_screen;
-        !self.dialogue.is_closed() || reads || wide || self.lessons.progress.is_some()
+        !self.dialogue.is_closed() || reads || self.layout.full_screen
     }
 
     /// Moves the selection of the open list, or scrolls the help; returns false for other

@@ -7,7 +7,7 @@ use super::knobs::strip;
 use super::lesson::step_rows;
 use crate::report::number::speed_unit;
 use crate::tui::views::id::ViewId;
-use rubscope_solver::scene::Scene;
+use rubscope_solver::scene::{Scene, keys, speed_range};
 
 /// Largest number of charts beside the large one.
 const MOST_BESIDE: usize = 3;
@@ -47,7 +47,7 @@ impl Layout {
         layout
     }
 
-    /// Moves the views that the scene names to the front.
+    /// Moves the views that the scene names to the front, and takes the speeds of its machine.
     pub fn open(&mut self, scene: &Scene) {
         let named = scene.view.charts.iter().filter_map(|word| ViewId::from_word(word));
         let mut views: Vec<ViewId> = named.collect();
@@ -55,6 +55,7 @@ impl Layout {
             self.views.iter().copied().filter(|view| !views.contains(view)).collect::<Vec<_>>(),
         );
         (self.views, self.chosen) = (views, false);
+        self.range = speed_range(keys::VIEW_SPEEDS, &scene.view.speeds).ok().or(self.range);
     }
 
     /// Iterates over the views in the order of the screen. A narrow one has the wheel only if the

@@ -317,17 +317,36 @@ fn told(app: &App, text: &str) -> String {
     app.appearance.spell(&with_speeds(text))
 }
 
-/// Returns the lines of the current step below its head.
-fn lines(app: &App, width: usize) -> Vec<StepLine> {
+/// Returns the lines of the current step below its head, at most `room`. If there are more, the
+/// first sentences are left out: the end of the step, its answers or its task, must be visible.
+fn lines(app: &App, width: usize, room: usize) -> Vec<StepLine> {
+    let mut texts = texts(app, width);
+    loop {
+        let wrapped = |(text, role): &StepLine| {
+            let role = *role;
+            wrap(text, width).into_iter().map(move |line| (line, role))
+        };
+        let mut lines: Vec<StepLine> = texts.iter().flat_map(wrapped).collect();
+        let Some((first, _)) = texts.first_mut().filter(|_| lines.len() > room) else {
+            return lines;
+        };
+        match first.find(". ") {
+            Some(end) => *first = first.split_off(end + 2),
+            None if texts.len() > 1 => drop(texts.remove(0)),
+            None => return lines.split_off(lines.len() - room),
+        }
+    }
+}
+
+/// Returns the texts of the current step below its head, each before it is wrapped.
+fn texts(app: &App, width: usize) -> Vec<StepLine> {
     let Some((step, now)) = app.lesson_step() else { return Vec::new() };
-    let of = |text: &str, role: Role| -> Vec<StepLine> {
-        wrap(&told(app, text), width).into_iter().map(|line| (line, role)).collect()
-    };
-    let mut lines = Vec::new();
+    let of = |text: &str, role: Role| (told(app, text), role);
+    let mut texts = Vec::new();
     match (&step.question, now.answer) {
         (Some(question), None) => {
-            lines.extend(of(&step.text, Role::Text));
-            lines.extend(of(question, Role::Focus));
+            texts.push(of(&step.text, Role::Text));
+            texts.push(of(question, Role::Focus));
             let chosen = app.lessons.progress.as_ref().map_or(0, |progress| progress.choice);
             let named = LETTERS.iter().zip(&step.answers).enumerate();
             let named = named.map(|(place, (letter, text))| {
@@ -337,29 +356,26 @@ fn lines(app: &App, width: usize) -> Vec<StepLine> {
             let one = named.join("  ");
             // The answers share a line if they fit.
             match columns(&one) <= width {
-                true => lines.push((one, Role::Focus)),
-                false => lines.extend(named.iter().flat_map(|line| of(line, Role::Focus))),
+                true => texts.push((one, Role::Focus)),
+                false => texts.extend(named.into_iter().map(|line| (line, Role::Focus))),
             }
-            return lines;
+            return texts;
         }
         (Some(question), Some(answer)) => {
             if width >= WIDE {
-                lines.extend(of(question, Role::Quiet));
+                texts.push(of(question, Role::Quiet));
             }
-            lines.extend(of(&judged(step, answer), Role::Good));
-            lines.extend(of(step.reason.as_deref().unwrap_or_default(), Role::Text));
+            texts.push(of(&judged(step, answer), Role::Good));
+            texts.extend(step.reason.iter().map(|reason| of(reason, Role::Text)));
         }
-        (None, _) => lines.extend(of(&step.text, Role::Text)),
+        (None, _) => texts.push(of(&step.text, Role::Text)),
     }
-    if let Some(equation) = &step.equation {
-        lines.extend(of(equation, Role::First));
-    }
-    match &step.task {
-        Some(task) if now.done => lines.extend(of(&format!("[x] {task}"), Role::Good)),
-        Some(task) => lines.extend(of(&format!("[ ] {task}"), Role::Focus)),
-        None => {}
-    }
-    lines
+    texts.extend(step.equation.iter().map(|equation| of(equation, Role::First)));
+    texts.extend(step.task.iter().map(|task| match now.done {
+        true => of(&format!("[x] {task}"), Role::Good),
+        false => of(&format!("[ ] {task}"), Role::Focus),
+    }));
+    texts
 }
 
 /// Says whether an answer is right, and which one is.
@@ -404,14 +420,14 @@ fn head(app: &App, width: usize) -> (String, String) {
 
 /// Returns the rows the step needs, with its head and a rule below.
 pub fn step_rows(app: &App, width: usize) -> u16 {
-    u16::try_from(lines(app, width).len() + 2).unwrap_or(u16::MAX)
+    u16::try_from(lines(app, width, usize::MAX).len() + 2).unwrap_or(u16::MAX)
 }
 
 /// Returns the current step as text, in lines of `width` columns; empty if no lesson is open.
 pub fn lesson_text(app: &App, width: u16) -> Vec<String> {
     let (left, right) = head(app, usize::from(width));
     let head = [left, right].join("   ");
-    let lines = lines(app, usize::from(width)).into_iter().map(|(line, _)| line);
+    let lines = lines(app, usize::from(width), usize::MAX).into_iter().map(|(line, _)| line);
     let is_open = app.lessons.progress.is_some();
     std::iter::once(head).chain(lines).filter(|_| is_open).collect()
 }
@@ -425,11 +441,8 @@ pub fn draw_step(app: &App, buffer: &mut Buffer, area: Rect) {
     let start = u16::try_from(width.saturating_sub(columns(&right))).unwrap_or(0);
     let beside = Rect { x: area.x + start, width: area.width - start, ..area };
     print(buffer, beside, 0, &right, look.style(Role::Good));
-    let all = lines(app, width);
     let room = usize::from(area.height.saturating_sub(2));
-    // The end of the step, its answers or its task, must be visible.
-    let skip = all.len().saturating_sub(room);
-    for (row, (text, role)) in (1..area.height).zip(all.iter().skip(skip).take(room)) {
+    for (row, (text, role)) in (1..area.height).zip(&lines(app, width, room)) {
         print(buffer, area, row, text, look.style(*role));
     }
     let last = area.height.saturating_sub(1);
@@ -443,6 +456,20 @@ mod tests {
     use crate::tui::app::tests::on_screen;
     use crate::tui::command::Command;
     use crate::tui::lessons::Condition;
+
+    #[test]
+    fn a_step_that_is_too_long_begins_at_the_start_of_a_sentence() {
+        let mut app = on_screen();
+        for place in 0..lessons::all().len() {
+            app.begin_lesson(place);
+            let whole = texts(&app, 40).into_iter().map(|(text, _)| text);
+            let whole = whole.collect::<Vec<_>>().join(". ");
+            let (all, cut) = (lines(&app, 40, usize::MAX), lines(&app, 40, 5));
+            assert!(cut.len() <= 5 && all.ends_with(&cut[cut.len() - 1..]), "{cut:?}");
+            let (before, _) = whole.split_once(&cut[0].0).unwrap();
+            assert!(before.is_empty() || before.ends_with(". "), "{cut:?}");
+        }
+    }
 
     #[test]
     fn arrows_choose_an_answer_and_enter_gives_it() {

@@ -1,6 +1,7 @@
 //! The state of the explorer, without a terminal, and its parts. The screen is a function of this
 //! value; only commands and snapshots of the engine change it.
 
+mod command_line;
 mod dialogue;
 pub mod files;
 mod glossary;
@@ -105,6 +106,7 @@ impl App {
     /// Creates the explorer's state for a checked scene.
     pub fn new(scene: CheckedScene, theme: Theme, marker: Marker) -> Self {
         let machine = scene.machine();
+        let rpm = scene.view.speeds.contains("rpm");
         Self {
             status: None,
             knobs: Knobs::default(),
@@ -117,7 +119,7 @@ impl App {
             files: Files::of(scene.clone()),
             lessons: Lessons::default(),
             mouse: Mouse::default(),
-            appearance: Appearance::new(theme, marker),
+            appearance: Appearance { rpm, ..Appearance::new(theme, marker) },
             machine,
             locks: Default::default(),
             scene,

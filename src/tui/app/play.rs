@@ -63,6 +63,8 @@ pub struct Play {
     pub middle_s: Option<f64>,
     /// Moves in time that the engine has yet to make.
     pub moves: Moves,
+    /// Start of the run that the last key restarted \[s\]; `None` after any other key.
+    pub begun_s: Option<f64>,
     /// Number of the move whose change of contact is to be reported; `None` if there is none.
     jump: Option<u64>,
     /// Whether playback stopped because the run ended, not because the user paused it.
@@ -111,6 +113,10 @@ impl Play {
             }
             Command::Jump => {
                 self.playing = false;
+                // Playback has passed the first impact before a hand can press the next key.
+                if let Some(begin) = self.begun_s.take() {
+                    self.moves.push(Move::To(begin));
+                }
                 self.jump = Some(self.moves.push(Move::NextChange));
             }
             Command::SlowAtEvents => {

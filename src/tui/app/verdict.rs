@@ -12,7 +12,7 @@ use crate::tui::trace::{Happening, Mark};
 use rubscope_solver::harmonic;
 use rubscope_solver::model::LockWindow;
 use rubscope_solver::motion::{ActiveSet, Verdict};
-use rubscope_solver::scene::{ContactLaw, ModelSize};
+use rubscope_solver::scene::ContactLaw;
 
 impl App {
     /// Returns the run to its end; `None` until it is complete, and if it was given up.
@@ -302,13 +302,6 @@ impl App {
         let [forward, backward] = &self.locks;
         let found = if self.speed() < 0.0 { backward } else { forward };
         *found.get_or_init(|| harmonic::lock_window(&self.machine, self.speed()))
-    }
-
-    /// Returns whether contact couples blade and casing vibration, which makes a coincidence
-    /// dangerous: through radial coupling of the tips, or a lining.
-    pub fn is_coupled(&self) -> bool {
-        let bends = self.scene.solver.model != ModelSize::Rigid;
-        self.has_lining() || (bends && self.machine.radial_coupling != 0.0)
     }
 
     /// Returns a note that the frequency-domain results assume equal blades in two modes; `None`

@@ -14,8 +14,8 @@ use crate::tui::views::id::ViewId;
 use crate::tui::views::map::plan::numeric;
 use rubscope_solver::scene::Value;
 use rubscope_solver::scene::keys;
+use rubscope_solver::scene::speed_range;
 use rubscope_solver::scene::{Quantity, SceneError};
-use rubscope_solver::study::survey::speed_range;
 
 /// A command as an entry of the list.
 #[derive(Clone, Debug, PartialEq)]
@@ -160,7 +160,7 @@ fn refused(app: &App, typed: &str) -> Option<(Fit, String)> {
     let splits = (1..words.len()).rev().filter_map(|at| words.split_at_checked(at));
     let named = splits.filter_map(|(name, value)| {
         let (fit, knob) = best(KNOBS.iter(), name)?;
-        knob.parse(&value.join(" ")).err().map(|error| (fit, knob.refusal(&error)))
+        app.parse(knob, &value.join(" ")).err().map(|error| (fit, knob.refusal(&error)))
     });
     named.min_by_key(|(fit, _)| *fit)
 }
@@ -319,7 +319,8 @@ fn assignments(app: &App, typed: &str) -> Vec<(Fit, Found)> {
             && (is_number || ["rpm", "Hz", "rad/s"].iter().any(|unit| nameless.ends_with(unit)));
         let alone = alone.then(|| (Fit::Name, nameless.clone()));
         let values = named.chain(alone);
-        let values = values.filter_map(|(fit, text)| Some((fit, knob.parse(&text).ok()?, text)));
+        let values =
+            values.filter_map(|(fit, text)| Some((fit, app.parse(knob, &text).ok()?, text)));
         if let Some((fit, value, text)) = values.min_by_key(|(fit, ..)| *fit) {
             let what = format!("{} = {}", knob.label, knob.shown(&value));
             let set = Found::of("set", what, Command::Set(place, text));

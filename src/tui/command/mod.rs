@@ -35,6 +35,8 @@ pub enum Command {
     Quit,
     /// Close what is open; on the main screen quit, and ask where the scene is changed.
     Leave,
+    /// Take every step of the run one by one, or skip again those whose result is known.
+    Plain,
     /// Return the terminal to the shell until the job is continued.
     Suspend,
     /// Draw the whole screen again.

@@ -88,6 +88,7 @@ const BEFORE_VIEWS: &[Binding] = &[
     bind!(Scenes: [letter('B')], Command::LessonBack, "in a lesson: the previous step"),
     bind!(Scenes: [letter('G')], Command::LeaveLesson, "leave the lesson and return to your scene"),
     bind!(Scenes: [letter('o')], Command::Scenes, "open a scene: built-in, or a file in this folder", "o" "scenes"),
+    bind!(Time: [letter('A')], Command::Plain, "plain: take every step, or skip again the steps whose result is known"),
     bind!(Time: [letter('n')], Command::Jump, "go to the next change of contact (pauses)"),
     bind!(Time: [letter('E'), key(End)], Command::GoToEnd, "go to the end of the run; to another instant with : t 0.3 ms"),
     bind!(Views: [letter('b')], Command::Pin, "pin this run as a baseline behind the next ones, or unpin it", "b" "pin"),

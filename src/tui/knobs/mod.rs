@@ -274,7 +274,7 @@ impl Knob {
 
     /// Describes the allowed values: the words, or the bounds with the unit shown.
     pub fn range_words(&self) -> String {
-        let (factor, unit) = in_shown_unit(1.0, self.unit());
+        let (factor, unit) = self.bounds_unit();
         let words = match self.allowed() {
             Allowed::OneOf(words) => return format!("one of {}", words.join(", ")),
             Allowed::Real { min, max, above } if factor != 1.0 => {
@@ -285,6 +285,19 @@ impl Knob {
         };
         let words = words.trim_start_matches("a whole number ").trim_start_matches("a number ");
         format!("{words} {unit}").trim_end().to_string()
+    }
+
+    /// Returns whether a share of this length is one of the clearance.
+    pub fn is_of_clearance(&self) -> bool {
+        self.group == Group::Tips && self.unit() == "m"
+    }
+
+    /// Returns the factor and the unit in which the bounds are told.
+    fn bounds_unit(&self) -> (f64, &str) {
+        match self.is_of_clearance() {
+            true => (1e3, "mm or % of g0"),
+            false => in_shown_unit(1.0, self.unit()),
+        }
     }
 
     /// Returns the text typed so far in at most `columns` columns, with a cursor and the unit that
@@ -318,7 +331,7 @@ impl Knob {
                 format!("{}: {value} is not a number; {}", self.label, self.range_words())
             }
             own_range if own && *allowed == own_range.to_string() => {
-                let value = match (value.parse::<f64>(), in_shown_unit(1.0, self.unit())) {
+                let value = match (value.parse::<f64>(), self.bounds_unit()) {
                     (Ok(x), (factor, _)) if factor != 1.0 => exact(rounded(factor * x, 9)),
                     _ => value.clone(),
                 };

@@ -175,13 +175,15 @@ pub mod bars {
         let machine = case.machine;
         let window = lock_window(machine, case.value);
         let lock = window.map(|window| window.from);
+        // Without a coupling nothing drives the coincidence.
+        let driven = machine.dangerous_speed().filter(|_| case.scene.is_coupled());
         let limits = [machine.critical_speed(), lock, machine.dangerous_speed()];
         let most = limits.into_iter().flatten().fold(0.0, f64::max);
         let most = if most > 0.0 { most } else { machine.omega_c };
         KnobRange::linear(0.0, BEYOND * most).signed(case.value).marked(&[
             ("the adhesive limit", machine.adhesive_speed()),
             ("the end of the lock", window.and_then(|window| window.to)),
-            ("the coincidence", limits[2]),
+            ("the coincidence", driven),
             ("Ω_c", limits[0]),
             ("Ω_lock", limits[1]),
         ])
@@ -331,8 +333,8 @@ mod tests {
         let mut scene = Scene::builtin("paper-nd3").unwrap();
         let forward = range("operation.speed_rad_s", &scene).unwrap();
         let names: Vec<&str> = forward.marks.iter().map(|(name, _)| *name).collect();
-        assert_eq!(names, ["the adhesive limit", "the coincidence", "Ω_c", "Ω_lock"]);
-        for (mark, speed) in forward.marks.iter().zip([294.990, 388.311, 292.878, 411.928]) {
+        assert_eq!(names, ["the adhesive limit", "Ω_c", "Ω_lock"]);
+        for (mark, speed) in forward.marks.iter().zip([294.990, 292.878, 411.928]) {
             assert!((forward.at(mark.1) - speed).abs() < 1e-2, "{mark:?} {speed}");
         }
         scene.operation.speed_rad_s = -430.0;
@@ -352,8 +354,10 @@ mod tests {
         let mut scene = Scene::builtin("paper-nd3").unwrap();
         scene.bladed_disk.radial_coupling = 0.3;
         let bar = range("operation.speed_rad_s", &scene).unwrap();
-        let end = bar.marks.iter().find(|(name, _)| *name == "the end of the lock").unwrap();
-        assert!((bar.at(end.1) - 566.259).abs() < 1e-2, "{end:?}");
+        let at = |mark: &str| bar.marks.iter().find(|(name, _)| *name == mark).map(|mark| mark.1);
+        assert!((bar.at(at("the end of the lock").unwrap()) - 566.259).abs() < 1e-2);
+        // Inclined tips also drive the coincidence.
+        assert!(at("the coincidence").is_some());
     }
 
     #[test]

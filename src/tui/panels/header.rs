@@ -176,7 +176,7 @@ fn now(app: &App) -> Vec<Part> {
     vec![
         Part { rank: 0, gap: GAP, pieces: time },
         Part { rank: 2, gap: " ", pieces: vec![(state, look.style(role))] },
-        Part { rank: 6, gap: " ", pieces: rate },
+        Part { rank: 7, gap: " ", pieces: rate },
     ]
 }
 
@@ -218,7 +218,7 @@ fn speed(app: &App) -> Vec<Part> {
 fn named_limits(app: &App) -> Vec<(&'static str, Option<f64>)> {
     let (critical, lock) = (("Ω_c", app.machine.critical_speed()), app.lock_speed());
     let lock = (if lock.is_none() { "lock" } else { "Ω_lock" }, lock);
-    let coincidence = app.coincidence().filter(|_| app.is_coupled());
+    let coincidence = app.coincidence().filter(|_| app.scene.is_coupled());
     let mut limits = match coincidence {
         Some(speed) => vec![("coincidence", Some(speed)), lock, critical],
         None => vec![critical, lock],
@@ -240,7 +240,7 @@ fn limits(app: &App) -> Option<Part> {
             format!("{name} {}{}", short(limit), to.unwrap_or_default())
         })
         .collect();
-    if !app.is_coupled()
+    if !app.scene.is_coupled()
         && let Some(coincidence) = app.machine.dangerous_speed_toward(app.speed())
     {
         listed.push(format!("coincidence {}", short(coincidence)));
@@ -248,23 +248,17 @@ fn limits(app: &App) -> Option<Part> {
     (!listed.is_empty()).then(|| plain(10, listed.join(", "), quiet))
 }
 
-/// Returns the end of the run and its verdict: `AT 100 ms locked since 38.1 µs`.
+/// Returns the end of the run and its verdict, which the first line has too: `AT 100 ms locked since
+/// 38.1 µs`.
 fn end(app: &App) -> Vec<Part> {
     let look = &app.appearance;
     let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
-    let at = |what: String| {
-        let end = (duration(app.end_s()), text);
-        let pieces = vec![("AT ".into(), quiet), end, (format!(" {what}"), quiet)];
-        Part { rank: 0, gap: GAP, pieces }
-    };
-    let Some(run) = app.full_run().filter(|_| !app.is_asked()) else {
-        let proved = app
-            .verdict()
-            .filter(|_| !app.is_asked())
-            .map_or("?".into(), |verdict| verdict.to_string());
-        return vec![at(proved)];
-    };
-    let mut parts = vec![at(run.verdict.to_string())];
+    let piece = |rank, gap, text| Part { rank, gap, pieces: vec![(text, quiet)] };
+    let at = vec![("AT ".into(), quiet), (duration(app.end_s()), text)];
+    let verdict = app.verdict().filter(|_| !app.is_asked());
+    let verdict = verdict.map_or("?".into(), |verdict| verdict.to_string());
+    let mut parts = vec![Part { rank: 0, gap: GAP, pieces: at }, piece(5, " ", verdict)];
+    let Some(run) = app.full_run().filter(|_| !app.is_asked()) else { return parts };
     // Of a whirl or a slip, only the latest change of sides is known; where a tiny change
     // decides, no instant is known at all.
     let known = !app.results().sensitive.known().sensitive;
@@ -273,8 +267,7 @@ fn end(app: &App) -> Vec<Part> {
     let since = held.map(|t| (" ", format!("since {}", readable(t, "s"))));
     let until =
         broken.map(|(hold, _)| ("", format!(", locked until {}", readable(hold.ended, "s"))));
-    let piece = |(gap, text)| Part { rank: 5, gap, pieces: vec![(text, quiet)] };
-    parts.extend(since.or(until).map(piece));
+    parts.extend(since.or(until).map(|(gap, text)| piece(6, gap, text)));
     parts
 }
 
@@ -284,9 +277,9 @@ fn unsure(app: &App) -> Option<Part> {
     let (results, known) = (app.results(), app.results().sensitive.known());
     let doubtful = known.sensitive || known.depends_on_step == Some(true);
     let (rank, text) = if results.sensitive == Sensitive::GivenUp {
-        (6, format!("small changes: not checked in {} s", FORECAST_LIMIT.as_secs()))
+        (7, format!("small changes: not checked in {} s", FORECAST_LIMIT.as_secs()))
     } else if doubtful && results.pace.skipped.is_some_and(|part| part > 0.0) {
-        (2, "audit: run --plain".to_string())
+        (2, "audit: A".to_string())
     } else {
         return None;
     };
@@ -301,8 +294,8 @@ fn baseline(app: &App) -> Option<Part> {
     (*word != app.verdict_word()).then(|| plain(3, text, app.appearance.style(Role::Text)))
 }
 
-/// Returns reminders of unusual states: the motion is not on the page shown, knobs are live, and no
-/// own mode is known for the number of nodal diameters.
+/// Returns reminders of unusual states: the motion is not on the page shown, knobs are live, every
+/// step is taken, and no own mode is known for the number of nodal diameters.
 fn modes(app: &App) -> Vec<Part> {
     let focus = app.appearance.style(Role::Focus);
     let ((from, to), now) = (app.page(), app.now().min(app.end_s()));
@@ -311,8 +304,10 @@ fn modes(app: &App) -> Vec<Part> {
     let is_off = (now < from || now > to) && pages >= 1.0;
     let pages = is_off.then(|| format!("{pages} {word}"));
     let live = app.knobs.live.then(|| "LIVE".to_string());
+    let stepped = app.scene.solver.plain.then(|| "PLAIN".to_string());
     let missing = app.scene.modes_note().map(|_| "own mode: none known of n_d".to_string());
-    pages.into_iter().chain(live).chain(missing).map(|text| plain(1, text, focus)).collect()
+    let all = pages.into_iter().chain(live).chain(stepped).chain(missing);
+    all.map(|text| plain(1, text, focus)).collect()
 }
 
 /// Returns the next change of contact and the time until then: `next: impact on 6 in 12 µs`. `None`
@@ -379,7 +374,7 @@ mod tests {
             ("DECAY", "Proved. Computing the run, 13 %.")
         );
         assert_eq!(style, verdict_style(&app.appearance, Verdict::Decay));
-        assert_eq!(end(&app)[0].pieces[2].0, " decay");
+        assert_eq!(end(&app)[1].pieces[0].0, "decay");
         app.run.latest.results.full_run = Some(FullRunState::GivenUp(0.3));
         assert_eq!(app.verdict_word(), "DECAY");
         app.run.show(app.run.film.fired(0.0));

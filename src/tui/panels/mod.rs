@@ -28,7 +28,7 @@ pub fn draw(frame: &mut Frame, app: &App) {
 /// Paints the whole screen into a buffer.
 pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
     app.forget_drawn();
-    app.appearance.use_speeds();
+    app.appearance.use_units();
     if area.width < LEAST_WIDTH || area.height < LEAST_HEIGHT {
         let needs = format!(
             "rubscope needs {LEAST_WIDTH}x{LEAST_HEIGHT}; this is {}x{}",

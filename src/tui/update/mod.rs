@@ -131,7 +131,10 @@ impl App {
     /// One line that says why: no such time or blade, or a value or a file that is refused.
     pub fn update(&mut self, command: Command) -> Result<Effect, String> {
         self.status = None;
-        self.appearance.use_speeds();
+        self.appearance.use_units();
+        if command != Command::Jump {
+            self.play.begun_s = None;
+        }
         match command {
             Command::Quit => return Ok(Effect::Quit),
             Command::Leave => return Ok(self.leave()),
@@ -161,6 +164,7 @@ impl App {
             Command::Blade(blade) => self.go_to_blade(blade)?,
             Command::Scene(name) => self.open_named(&name)?,
             Command::Set(place, text) => self.set_typed(place, &text)?,
+            Command::Plain => self.turn_plain()?,
             Command::Nothing(why) => return Err(why),
             command => self.change(command),
         }
@@ -222,6 +226,7 @@ impl App {
             Command::Restart => {
                 self.stop_reading();
                 self.restart();
+                self.play.begun_s = Some(self.scene.view.begin_s);
                 self.status = Some("restarted".into());
             }
             Command::Fire => self.fire(),
@@ -278,10 +283,9 @@ impl App {
             // A key typed before the question was drawn does not answer it.
             return if self.dialogue.asked { Effect::Quit } else { Effect::None };
         }
-        let over = !self.dialogue.is_closed() || self.reading.on || self.layout.full_screen;
-        if self.has_open() && (over || self.reading.cursor.is_some()) {
+        if self.has_open() {
             self.close();
-        } else if self.has_open() {
+        } else if self.lessons.progress.is_some() {
             self.leave_lesson();
         } else if self.files.is_changed(&self.scene) {
             self.dialogue.ask(InputMode::Leaving);

@@ -10,12 +10,13 @@ use crossterm::event::KeyEvent;
 use super::play::Tempo;
 use super::{App, LessonProgress, Source};
 use crate::report::line::clean;
+use crate::report::number::rounded;
 use crate::tui::command::{Chord, Command, lookup};
 use crate::tui::film::FilmPlan;
 use crate::tui::knobs::{KNOBS, Knob, place_of};
 use crate::tui::views::id::ViewId;
 use rubscope_solver::motion::Change;
-use rubscope_solver::scene::{CheckedScene, Scene, SceneError, Value};
+use rubscope_solver::scene::{CheckedScene, Scene, SceneError, SolverKind, Value};
 
 /// The selected knob, and the states that undo and redo restore.
 #[derive(Clone, Debug, Default)]
@@ -166,7 +167,7 @@ impl App {
     /// Applies the typed text as a value. The prompt stays open if the value is refused.
     pub fn take_typed(&mut self, text: &str) {
         let Some(knob) = self.selected() else { return };
-        match knob.parse(text) {
+        match self.parse(knob, text) {
             Ok(value) => {
                 if self.set(knob, value) {
                     self.dialogue.close();
@@ -174,6 +175,19 @@ impl App {
             }
             Err(error) => self.knobs.refuse(knob, &error),
         }
+    }
+
+    /// Parses the text of a knob's value. A share of a tip's length or of a shape's height is one of
+    /// the clearance.
+    ///
+    /// # Errors
+    /// The text is refused, for this reason.
+    pub fn parse(&self, knob: &Knob, text: &str) -> Result<Value, SceneError> {
+        let share = text.trim().strip_suffix('%').filter(|_| knob.is_of_clearance());
+        let share = share.and_then(|share| share.trim().parse::<f64>().ok());
+        let length = |share| rounded(0.01 * share * self.machine.clearance(), 9);
+        let length = share.filter(|share| share.is_finite()).map(length);
+        length.map_or_else(|| knob.parse(text), |length| Ok(Value::Real(length)))
     }
 
     /// Selects a knob and gives it a value as typed.
@@ -228,6 +242,24 @@ impl App {
                 false
             }
         }
+    }
+
+    /// Restarts the run so that it takes every step one by one, or again skips those whose result is
+    /// known.
+    ///
+    /// # Errors
+    /// The event solver takes no steps.
+    pub fn turn_plain(&mut self) -> Result<(), String> {
+        if self.scene.solver.kind == SolverKind::Event {
+            return Err("the event solver has no steps: nothing is skipped".into());
+        }
+        let mut scene = self.scene.clone().into_scene();
+        scene.solver.plain = !scene.solver.plain;
+        let how =
+            if scene.solver.plain { "every step is taken" } else { "known steps are skipped" };
+        self.turn_to(scene.checked().map_err(|error| error.to_string())?);
+        self.status = Some(how.into());
+        Ok(())
     }
 
     /// Applies a scene with other knob values: to the running motion in live mode if the change can
@@ -302,6 +334,22 @@ mod tests {
         knobs.step_back(false, past.clone());
         knobs.remember(past.clone());
         assert!(knobs.step_back(true, past).is_none());
+    }
+
+    #[test]
+    fn every_step_is_taken_until_asked_again_and_the_event_solver_has_none() {
+        let mut app = crate::tui::app::tests::on_screen();
+        app.turn_plain().unwrap();
+        assert!(app.run.film.scene.solver.plain && !app.files.is_changed(&app.scene));
+        assert_eq!(app.command(), "rubscope run paper-nd3 --plain");
+        app.turn_plain().unwrap();
+        assert!(!app.run.film.scene.solver.plain);
+        app.update(Command::Undo).unwrap();
+        assert!(app.scene.solver.plain);
+        let event = app.scene.clone().into_scene();
+        let event = event.with(&[("solver.contact", "unilateral"), ("solver.kind", "event")]);
+        app.set_scene(event.unwrap(), false);
+        assert!(app.turn_plain().unwrap_err().contains("has no steps"));
     }
 
     #[test]

@@ -111,6 +111,9 @@ fn a_name_and_a_value_set_a_knob() {
         ("zeta_c 0.01", "casing.damping_ratio", "0.01"),
         ("contact bi", "solver.contact", "bilateral"),
         ("speed ramp -400", "operation.speed_ramp_rad_s2", "-400 rad/s^2"),
+        // A share of the clearance, which is 100 µm here.
+        ("longest 5%", keys::LONGEST_TIP, "5 µm"),
+        ("out of round 0.24 %", keys::OUT_OF_ROUND, "240 nm"),
     ] {
         let item = first(typed);
         assert_eq!(item.kind, "set", "{typed}");
@@ -119,6 +122,8 @@ fn a_name_and_a_value_set_a_knob() {
         assert!(item.what.ends_with(shown), "{typed}: {}", item.what);
     }
     assert_ne!(first("speed").kind, "set");
+    let refused = only(&app(), "longest tip x").unwrap_err();
+    assert!(refused.ends_with("from -1000 to 1000 mm or % of g0"), "{refused}");
     assert_eq!(found(&app(), "speed qqq"), []);
 }
 

@@ -4,7 +4,7 @@
 use crate::tui::axis::nice_step;
 use rubscope_solver::harmonic::{Form, RoundWhirl, SpeedRanges, Sweep, locked_motion};
 use rubscope_solver::model::Machine;
-use rubscope_solver::scene::{ContactLaw, ModelSize, Scene};
+use rubscope_solver::scene::{ContactLaw, Scene};
 
 /// Number of speeds per curve.
 const POINTS: u32 = 161;
@@ -67,7 +67,7 @@ impl LockedCurves {
 fn whirl(scene: &Scene, machine: &Machine, speeds: &[f64]) -> Vec<(f64, f64)> {
     let open = machine.clearance_at_rest() > 0.0;
     let rigid = scene.solver.contact != ContactLaw::Smooth && open;
-    if !rigid || !is_coupled(scene) || machine.is_uneven() {
+    if !rigid || !scene.is_coupled() || machine.is_uneven() {
         return Vec::new();
     }
     let push = |speed: &f64| {
@@ -77,18 +77,13 @@ fn whirl(scene: &Scene, machine: &Machine, speeds: &[f64]) -> Vec<(f64, f64)> {
     speeds.iter().filter_map(push).collect()
 }
 
-/// Returns whether flexible blades with radial coupling can drive the casing.
-fn is_coupled(scene: &Scene) -> bool {
-    scene.bladed_disk.radial_coupling != 0.0 && scene.solver.model != ModelSize::Rigid
-}
-
 /// Returns the threshold speeds of a scene \[rad/s\], with their labels. With radial coupling a
 /// lock can also have an upper threshold, and rest a flutter speed.
 fn marks(scene: &Scene, machine: &Machine) -> Vec<(f64, &'static str)> {
     let toward = scene.operation.speed_rad_s;
     let ranges = SpeedRanges::new(machine, toward);
     let window = ranges.locks().first().copied();
-    let shown = machine.lining.is_none() && is_coupled(scene);
+    let shown = machine.lining.is_none() && scene.is_coupled();
     let flutter = ranges.flutters().first().map(|range| range.from);
     let coincide = machine.locks_from_critical_speed();
     let mut marks: Vec<(f64, &'static str)> = [
@@ -138,6 +133,7 @@ pub fn speed_range(scene: &Scene) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rubscope_solver::scene::ModelSize;
 
     #[test]
     fn the_curves_reach_beyond_every_threshold_and_meet_the_closed_form() {

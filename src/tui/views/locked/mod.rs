@@ -98,7 +98,7 @@ fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let points = running(app);
     let forces: Vec<String> = points.iter().take(2).map(|force| short(*force)).collect();
     let now = if points.is_empty() { "no contact".to_string() } else { forces.join(" ") };
-    let going_round = Pen { style: look.style(Role::Contact), sign: 'w', dashed: true };
+    let going_round = Pen { style: look.style(Role::Trouble), sign: 'w', dashed: true };
     if curves.is_some_and(|curves| !curves.whirl.is_empty()) {
         legend.push(entry(look, &going_round, "whirl"));
     }

@@ -26,7 +26,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea, cell: Option<usize>) {
     let quiet = look.style(Role::Quiet);
     let found = app.margins().and_then(|(live, old)| Some((live.survey.as_deref()?, old)));
     let mut legend = vec![(format!("speeds in {}, modes in Hz", speed_unit()), quiet)];
-    legend.push(("can lock now".to_string(), look.style(Role::Contact)));
+    legend.push(("can lock now".to_string(), look.style(Role::Trouble)));
     if found.is_some_and(|(_, old)| old) {
         legend.insert(0, ("of the knobs before".to_string(), look.style(Role::Focus)));
     }
@@ -71,7 +71,7 @@ fn table(
         let role = match rows.get(place) {
             Some(_) if column == 0 && place == home => Role::Focus,
             Some(row) if row.guessed => Role::Quiet,
-            Some(row) if column == 1 && row.locks_at(now) => Role::Contact,
+            Some(row) if column == 1 && row.locks_at(now) => Role::Trouble,
             _ => Role::Text,
         };
         look.style(role)
