@@ -100,9 +100,10 @@ async def types(opened, keys):
 
 
 async def check():
-    (teacher_line,) = [line for line in lines if "--write" in line]
-    (class_line,) = [line for line in lines if "serve.py" in line and "--write" not in line]
-    assert " attach -r " in class_line and " attach -r " not in teacher_line
+    (class_line,) = [line for line in lines if "serve.py" in line]
+    assert " attach -r " in class_line
+    # A page that can type, as the page says of `--write`.
+    teacher_line = class_line.replace(" -r ", " ").replace(" -- ", " --write -- ")
     teacher = await page(serve(teacher_line))
     port = serve(class_line)
     few = serve(class_line.replace(" -- ", " --most 2 -- "))
@@ -155,6 +156,8 @@ async def check():
         assert "403" in str(refused), refused
     else:
         sys.exit("FAILED: a page from elsewhere may open the socket")
+    await types(teacher, "q")
+    expect("a changed scene is asked about", lambda: "the scene is changed" in screen())
     await types(teacher, "q")
 
 

@@ -304,8 +304,10 @@ impl App {
         }
         if self.play.playing && self.is_at_end() {
             self.play.stop_at_end();
-            // Do not overwrite the message about a key.
-            self.status.get_or_insert("the end of the run; Space goes on".into());
+            // Do not cover the message about a key, or a question.
+            if self.dialogue.is_closed() {
+                self.status.get_or_insert("the end of the run; Space goes on".into());
+            }
         }
     }
 
