@@ -144,10 +144,9 @@ fn kept(app: &App, width: u16, message: Option<usize>) -> Vec<Entry> {
         let mut entries: Vec<Entry> = Vec::new();
         for binding in command::valid(app.keyboard()).filter(|binding| is_kept(binding)) {
             let Some((keys, word)) = binding.footer else { continue };
-            let closes = app.has_open() || app.lessons.progress.is_some();
-            let quits = app.dialogue.mode == InputMode::Leaving;
-            let closes = closes && !quits && binding.command == Command::Leave;
-            let word = if closes { "close" } else { word };
+            let asked = app.dialogue.mode == InputMode::Leaving;
+            let closes = !asked && (app.has_open() || app.lessons.progress.is_some());
+            let word = if closes && binding.command == Command::Leave { "close" } else { word };
             let known = entries.iter().any(|entry| entry.binding.command == binding.command);
             if known
                 || (binding.command == Command::Palette("") && !(words && width >= PALETTE_FROM))
