@@ -342,9 +342,9 @@ mod trend_tests {
         short.see(0.3, 1.0);
         assert_eq!(short.falls_to(0.1), None);
         // Too little is seen after a late change, and one look is not two.
-        short.change(0.9);
-        (90..=100).for_each(|n| short.see(f64::from(n) / 100.0, 2.0 - f64::from(n) / 100.0));
-        assert!(short.is_known());
+        short.change(0.5);
+        [(0.6, 9.0), (0.76, 1.0), (0.88, 0.5)].map(|(t, value)| short.see(t, value));
+        assert!((short.falls_to(0.4).unwrap() - 0.375).abs() < 1e-12);
         short.change(0.99);
         short.see(1.0, 1.0);
         assert!(!short.is_known() && short.falls_to(0.9).is_none());
