@@ -343,7 +343,7 @@ mod trend_tests {
         assert_eq!(short.falls_to(0.1), None);
         // Too little is seen after a late change, and one look is not two.
         short.change(0.5);
-        [(0.6, 9.0), (0.76, 1.0), (0.88, 0.5)].map(|(t, value)| short.see(t, value));
+        [(0.6, 9.0), (0.76, 1.0), (0.88, 0.5)].iter().for_each(|look| short.see(look.0, look.1));
         assert!((short.falls_to(0.4).unwrap() - 0.375).abs() < 1e-12);
         short.change(0.99);
         short.see(1.0, 1.0);
