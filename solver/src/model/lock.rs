@@ -141,14 +141,13 @@ impl Machine {
         if self.is_uneven() {
             let (corner, windows) = self.lowest_corner(1.0)?;
             let slope = (corner.beta - corner.gamma).tan();
-            let known = !self.casing_feels_tips() && self.out_of_round() == 0.0;
+            let known = self.out_of_round() == 0.0;
             // If a lock of pushes begins below this speed, there is no range of adhesive locks.
             let below = |speed: &f64| windows.first().is_none_or(|lock| *speed < lock.from);
             return self.threshold(slope).filter(|speed| known && below(speed));
         }
         let from = self.threshold(self.polygon.delta.tan())?;
-        let windows = vec![LockWindow { from, to: None }];
-        self.with_clearance(windows).first().map(|window| window.from)
+        self.closing_speed().is_none_or(|closed| from < closed).then_some(from)
     }
 
     /// Returns whether every lock above the critical speed pushes: without damping, inclined tips

@@ -175,9 +175,9 @@ pub mod bars {
         let machine = case.machine;
         let window = lock_window(machine, case.value);
         let lock = window.map(|window| window.from);
-        // Without a coupling nothing drives the coincidence.
-        let driven = machine.dangerous_speed().filter(|_| case.scene.is_coupled());
         let limits = [machine.critical_speed(), lock, machine.dangerous_speed()];
+        // Without a coupling nothing drives the coincidence.
+        let driven = limits[2].filter(|_| case.scene.is_coupled());
         let most = limits.into_iter().flatten().fold(0.0, f64::max);
         let most = if most > 0.0 { most } else { machine.omega_c };
         KnobRange::linear(0.0, BEYOND * most).signed(case.value).marked(&[
