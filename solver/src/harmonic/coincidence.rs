@@ -1,13 +1,13 @@
 //! Coincidences of casing and disk: the intersections in a Campbell diagram, Eq. (30)
-//! (docs/theory.md, section 4), and their effect as a function of speed, which the last page of the
-//! paper announces: growth rate where blades rub at rest, and the wave that persists (section 10).
+//! (docs/theory.md, section 4), and their effect as a function of speed, which the paper leaves to
+//! later work: the growth rate if blades rub at rest, and the wave that persists (section 10).
 
 use super::{HarmonicError, Lining, RoundWhirl, error, joined_grow};
 use crate::model::Machine;
 use crate::scene::{ContactLaw, Scene};
 
-/// Line of a Campbell diagram,
-/// `frequency = +-sqrt(at_standstill^2 + stiffening Omega^2) + slope Omega`.
+/// Line of a Campbell diagram, `frequency = +-sqrt(at_standstill^2 + stiffening Omega^2) + slope
+/// Omega`, with the sign of `at_standstill`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
     /// Label: the formula of the line, such as `n_d Omega + omega_bd`.
@@ -133,13 +133,13 @@ pub struct CoincidencePoint {
 }
 
 /// Computes growth rate and persistent wave of a scene for a list of speeds \[rad/s\]. With
-/// preload, rest grows into the wave; with a clearance, a sufficiently large pulse starts it.
+/// preload the wave grows from rest; with a clearance a sufficiently large pulse starts it.
 ///
 /// # Errors
 /// Blades and casing are not coupled by a single travelling wave, or a speed is not finite.
 pub fn coincidence(scene: &Scene, speeds: &[f64]) -> Result<Vec<CoincidencePoint>, HarmonicError> {
     let machine = scene.machine();
-    // Created also for rigid contact, because it checks the machine.
+    // Created for rigid contact, too, because it checks the machine.
     let lining = Lining::of(&machine, &scene.contact)?;
     let smooth = scene.solver.contact == ContactLaw::Smooth;
     let point = |&speed: &f64| {
@@ -177,8 +177,8 @@ fn on_lining(lining: &Lining, speed: f64) -> Result<CoincidencePoint, HarmonicEr
     })
 }
 
-/// Computes the wave for rigid contact: the attracting wave has the amplitude of the clearance.
-/// Waves stay bounded unless the coupled structures flutter.
+/// Computes the wave for rigid contact: the gaps of the attracting wave have the amplitude of the
+/// clearance. Waves stay bounded unless casing and blades flutter in lasting contact.
 fn on_rigid_casing(machine: &Machine, speed: f64) -> CoincidencePoint {
     let clearance = machine.at(speed).clearance();
     let wave = RoundWhirl::lasting(machine, speed);

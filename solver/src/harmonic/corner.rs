@@ -175,7 +175,7 @@ impl Configuration {
     /// Returns the smallest gap, in units of `g0`, of the sides that are not in `contacts`;
     /// infinite if there are none.
     pub fn smallest_gap(&self, polygon: &ContactPolygon, contacts: &[u32]) -> f64 {
-        // Bent blades bring no side nearer than this.
+        // Bent blades reduce no gap by more than this.
         let nearer = self.turn.0.hypot(self.turn.1) * (self.z.0.hypot(self.z.1) + self.slope.abs());
         let first = contacts.last().map_or(0, |side| polygon.next(*side));
         let mut least = f64::INFINITY;

@@ -7,7 +7,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-/// Part of an angle at which Newton steps that no longer shrink have converged.
+/// Relative size below which a Newton step that no longer shrinks counts as converged.
 const CONVERGED: f64 = 1e-7;
 
 /// Equation for the half angle of a corner.

@@ -14,10 +14,9 @@
 //! Inclined or rubbing tips (section 10) are available in the form `modal` only.
 //!
 //! Far from the solution Newton's method is unreliable: it can fail, or converge to another branch,
-//! at one speed and not at the next. A start is therefore accepted only if the steps are small and
-//! shrink. If they are not, because the blades are soft, the solution is continued from rigid to
-//! soft blades, up to the fold of that branch. The form `modal` with the paper's tips starts from
-//! its closed form.
+//! at one speed and not at the next. A result is therefore accepted only if the steps are small and
+//! shrink. The forms `printed` and `blade` are continued from rigid to soft blades, up to the fold of
+//! that branch. The form `modal` starts from a closed form.
 
 use nalgebra::{Complex, SMatrix, SVector};
 use serde::Serialize;
@@ -28,29 +27,29 @@ use super::corner::Configuration;
 use super::corner_angle::CornerAngle;
 use crate::model::Machine;
 
-/// Newton steps from one start; five are usual.
+/// Largest number of Newton steps from one start; five are usual.
 pub(super) const NEWTON_STEPS: usize = 40;
 
-/// How much a Newton step must shrink: by half where the branch is about to
-/// fold, and a little room. Larger: a start may end on another branch.
+/// Each Newton step must shrink at least by this factor. Near a fold of the branch steps shrink by
+/// half; with a larger factor a start could converge to another branch.
 const NEWTON_SHRINK: f64 = 0.75;
 
-/// Largest Newton step, as a part of the unknowns, and of the turns \[rad\], in
-/// which alone the equations are not bilinear.
+/// Largest Newton step, relative to the unknowns, and largest change of a group's direction in it
+/// \[rad\]: only in the directions are the equations not bilinear.
 const NEWTON_LARGEST: f64 = 0.1;
 
-/// How much the determinant may change from one softness to the next: it goes
-/// to zero at a fold, and is another one on another branch.
+/// Allowed ratio of the determinants of the Jacobian at successive softnesses: the determinant
+/// vanishes at a fold, and jumps on the way to another branch.
 const NEWTON_ALIKE: std::ops::Range<f64> = 0.5..2.0;
 
-/// Shortest stride of the softness.
+/// Smallest increment of the softness, as a part of its final value.
 const NEWTON_STRIDE: f64 = 1e-6;
 
-/// Most strides of the softness.
+/// Largest number of increments of the softness.
 const NEWTON_STRIDES: usize = 500;
 
-/// Part of the unknowns of a lock at which steps of Newton's method that no longer
-/// shrink are round-off.
+/// Residual, relative to the magnitude of the equations, that is accepted when the Newton steps no
+/// longer shrink.
 const POLISHED: f64 = 1e-11;
 
 /// Scaled unknowns `[x, y, P_a, P_b, alpha_a, alpha_b]`.

@@ -15,7 +15,7 @@ use super::{Corner, Form, HarmonicError, error};
 use crate::model::Machine;
 use crate::numeric::search::try_bisected;
 
-/// Most changes of character looked for between two neighbouring speeds.
+/// Largest number of changes of character that are located between two neighbouring speeds.
 const BRANCH_CHANGES: usize = 16;
 
 /// Kind of equilibrium by its contacts.
@@ -55,8 +55,8 @@ pub enum Character {
 }
 
 impl Character {
-    /// Classifies a steady state: whether its multipliers push, whether the equality algorithm
-    /// would hold it with pulls, its smallest other gap, and whether a motion about it grows.
+    /// Classifies a steady state by its multipliers, by whether the equality algorithm would hold it
+    /// with pulls, by its smallest other gap, and by whether a motion about it grows.
     pub(super) fn of(
         pushes: bool,
         held_by_pulls: bool,

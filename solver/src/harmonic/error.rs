@@ -11,8 +11,8 @@ use crate::model::{ContactPolygon, Machine};
 pub enum HarmonicError {
     /// The polygon has fewer than three sides, so that neighbouring sides never meet.
     #[error(
-        "operation.nodal_diameters = {nodal_diameters}: allowed is one with N' = N/gcd(N, n_d) >= 3 \
-         phase groups; a corner needs three sides (N = {blades} gives {sides} here)"
+        "operation.nodal_diameters = {nodal_diameters}: allowed is a number with N' = N/gcd(N, n_d) \
+         >= 3 phase groups, because a corner needs three sides; with N = {blades} there are {sides}"
     )]
     NoCorner {
         /// Nodal diameters `n_d`.
@@ -45,8 +45,8 @@ pub enum HarmonicError {
     /// There is no locked motion: the blades are so soft that the branch folds back before this
     /// speed, or they have grown into the casing.
     #[error(
-        "no locked motion at speed = {speed} rad/s: the branch of these blades (softness {softness:e}) \
-         ends before it"
+        "no locked motion at speed = {speed} rad/s: blades this soft (softness {softness:e}) hold no \
+         lock there"
     )]
     NotFound {
         /// Rotor speed \[rad/s\].
@@ -57,8 +57,8 @@ pub enum HarmonicError {
     /// The eigenvalues of the motion about an equilibrium overflow, or their iteration does not
     /// converge.
     #[error(
-        "speed = {speed}: allowed is one where the eigenvalues of the motion about a steady state \
-         can be computed; here its stiffnesses differ by too many powers of ten"
+        "speed = {speed}: allowed is a speed at which the eigenvalues of the motion about a steady \
+         state can be computed; here its stiffnesses differ by too many powers of ten"
     )]
     Unsettled {
         /// Rotor speed \[rad/s\].
@@ -73,12 +73,12 @@ impl HarmonicError {
     }
 }
 
-/// Returns the error for unequal tips without a corner that is ever held, or without a closed form
-/// for one.
+/// Returns the error for unequal tips that hold the wave at no speed, or for which no closed form is
+/// known.
 pub(super) fn no_corner_of_tips() -> HarmonicError {
     let allowed = "tips of which two hold the wave at some speed, with rigid contact and a \
-                   clearance that does not change with the speed";
-    HarmonicError::refused("bladed_disk", "tips of their own lengths", allowed)
+                   clearance that does not change with speed";
+    HarmonicError::refused("bladed_disk", "unequal tips", allowed)
 }
 
 /// Rejects inclined or rubbing tips.
@@ -93,10 +93,10 @@ pub(super) fn refuse_tips(machine: &Machine, allowed: &str) -> Result<(), Harmon
     Err(HarmonicError::refused(key, value, allowed))
 }
 
-/// Rejects tips that act on the casing otherwise than the paper's. Friction that only bends the
+/// Rejects tips that load the casing in another way than the paper's. Friction that only bends the
 /// blades is accepted.
 pub(super) fn refuse_tips_on_casing(machine: &Machine, what: &str) -> Result<(), HarmonicError> {
-    let allowed = format!("0 with {what}, which is of tips that move with the casing alone");
+    let allowed = format!("0 with {what}, whose equations neglect slope and friction of the tips");
     if machine.casing_feels_tips() { refuse_tips(machine, &allowed) } else { Ok(()) }
 }
 
@@ -111,8 +111,8 @@ pub(super) fn refuse_preload(machine: &Machine) -> Result<(), HarmonicError> {
 /// both.
 pub(super) fn refuse_other_diameters(machine: &Machine) -> Result<(), HarmonicError> {
     let (key, value) = (keys::DISK_DIAMETERS, machine.blade_diameters);
-    let allowed = "0 or the nodal diameters of the casing; with others no single harmonic \
-                   balances blades and casing";
+    let allowed = "0 or the nodal diameters of the casing; with other ones a single harmonic cannot \
+                   balance blades and casing";
     refuse_unless(!machine.has_other_diameters(), key, value, allowed)
 }
 

@@ -3,8 +3,8 @@
 //!
 //! A load `Q cos(E (theta + Phi_i))`, fixed in the stationary frame, drives the modes with `n_d`
 //! nodal diameters only if `E = +-n_d` modulo `N`, with the frequency `E Omega` in the blade frame:
-//! `sum_i exp(i psi_i) Q_i = (N/2) Q exp(+-i E theta)`. In a corner only the blades are free to
-//! move, and the casing follows them.
+//! `sum_i exp(i psi_i) Q_i = (N/2) Q exp(+-i E theta)`. In a corner the casing follows the blades,
+//! because both gaps stay closed.
 
 use nalgebra::{Complex, Matrix6, Vector6};
 
@@ -84,7 +84,7 @@ impl ExcitedLocks {
     ) -> Result<Self, HarmonicError> {
         let corner = Corner::after(&machine.polygon, side)?;
         error::refuse_other_diameters(machine)?;
-        error::refuse_tips(machine, "0 where a lock is excited")?;
+        error::refuse_tips(machine, "0 for an excited lock")?;
         let (machine, excitation) = (machine.clone(), excitation.clone());
         let mut found = Self { machine, corner, excitation, speeds: speeds.to_vec(), count: 0 };
         for place in 0..speeds.len() {

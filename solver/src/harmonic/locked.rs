@@ -96,11 +96,11 @@ impl Locked {
         error::refuse_other_diameters(machine)?;
         error::refuse_preload(&machine.at(0.0))?;
         if form != Form::Modal && machine.has_unequal_tips() {
-            let allowed = "modal with tips of their own lengths";
+            let allowed = "modal with unequal tips";
             return Err(HarmonicError::refused("form", form, allowed));
         }
         if form != Form::Modal {
-            let allowed = format!("0 with the form {form}; the form modal has it");
+            let allowed = format!("0 with the form {form}; only the form modal includes it");
             error::refuse_tips(machine, &allowed)?;
         }
         Ok(Self {
@@ -144,8 +144,8 @@ impl Locked {
         Some((equations, unknowns))
     }
 
-    /// Returns the motion about the lock at a speed \[rad/s\] if it is admissible, as in [`Self::at`]
-    /// but with nothing else computed.
+    /// Returns the motion about the lock at a speed \[rad/s\] if the lock is admissible as in
+    /// [`Self::at`]; nothing else is computed.
     pub(super) fn admissible(&self, speed: f64) -> Option<Kept> {
         let machine = &*self.machine.at(speed);
         let (equations, unknowns) = self.solved(machine, speed)?;

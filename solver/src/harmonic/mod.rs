@@ -2,17 +2,18 @@
 //! section 8).
 //!
 //! In that frame a locked motion is an equilibrium: the casing displacement is a point in a corner
-//! of the `model::ContactPolygon`, one harmonic is exact, and stability is a matter of eigenvalues.
-//! There are no time steps and no initial conditions.
+//! of the `model::ContactPolygon`. One harmonic is therefore exact, and stability follows from
+//! eigenvalues. There are no time steps and no initial conditions.
 //!
 //! - The lock, Eq. (27) in three forms: `corner`, `equations`, `locked` ([`locked_motion`],
 //!   [`lock_loads`]); for very soft blades `corner_angle`.
 //! - All equilibria, their stability and thresholds: `equilibria`, `stability`.
 //! - Slip as a map from corner to corner: `slip`.
 //! - Coincidences and engine-order excitation: `coincidence`, `excitation`.
-//! - Where a lock holds, and where blades and casing that move as one grow (section 10): `windows`;
-//!   whirl and growth without bound in the limit of many blades: `round_whirl`; all these ranges of
-//!   one machine, each searched once: `speed_ranges`; steady states on a lining: `lining`.
+//! - Ranges of speed with a lock or with flutter (section 10): `windows`; with whirl or with growth
+//!   without bound, in the limit of many blades: `round_whirl`; all of them for one machine:
+//!   `speed_ranges`.
+//! - Steady states on a lining: `lining`.
 //! - Roundness of the casing that a lock needs (section 11): `roundness`.
 
 mod coincidence;

@@ -1,13 +1,12 @@
-//! Whirl in the limit of many blades, where the contact polygon becomes a circle (docs/theory.md,
-//! section 10): a travelling wave of contact forces that both structures carry, each at its own
-//! frequency; the ranges of rotor speed in which one lasts, and those in which rubbing grows without
-//! bound.
+//! Whirl in the limit of many blades, in which the contact polygon becomes a circle (docs/theory.md,
+//! section 10): a travelling wave of contact forces that drives casing and blades; the ranges of
+//! rotor speed in which such a wave lasts, and those in which rubbing grows without bound.
 //!
 //! The relative displacement of casing and tips, `w = z - kappa l_b a`, has a constant magnitude
 //! and turns at `s` in the blade frame. The force `p = w/B(omega)` must point against it, so
 //! `Im B = 0` and `Re B < 0`. Waves appear and vanish in pairs, an attracting one and its threshold.
-//! Where none attracts and blades and casing that move as one grow (`B = 0`), a rub that is large
-//! enough grows until blades fail.
+//! At a speed without an attracting wave at which blades and casing in lasting contact flutter
+//! (`B = 0` has a growing root), a sufficiently large rub grows without bound.
 //!
 //! Read [`round_whirls`] (the waves at a speed), then [`Rubbing`] and [`whirl_spans`].
 
@@ -17,14 +16,14 @@ use super::windows::{FURTHEST, joined_grow, windows};
 use crate::model::{Frame, LockWindow, Machine, Row, Structure};
 use crate::numeric::real_roots::{product, real_roots};
 
-/// Imaginary part of the joint compliance at a root, as a part of the real part, up to
-/// which it is round-off. Larger: an undamped resonance is taken for a whirl.
+/// Imaginary part of the joint compliance at a root, relative to the real part, up to which it counts
+/// as round-off. With a larger one an undamped resonance would count as a whirl.
 const REAL_COMPLIANCE: f64 = 1e-6;
 
-/// Waves are searched up to this many times the sum of all frequencies.
+/// Largest frequency in the search for waves, relative to the sum of all frequencies.
 const WAVE_FURTHEST: f64 = 1e6;
 
-/// Waves whose frequencies are closer than this part of that sum are not told apart.
+/// Difference of frequencies, relative to that sum, below which two waves may be missed.
 const WAVE_APART: f64 = 1e-10;
 
 /// A wave that runs round both structures, per unit of `|w|`.
@@ -41,8 +40,8 @@ pub struct RoundWhirl {
     pub casing_per_w: f64,
     /// Amplitude of the blades, `|a|/|w|` \[rad/m\].
     pub blades_per_w: f64,
-    /// Whether neighbouring motions with rigid contact converge to the wave. Of a pair it is the
-    /// stiffer one that attracts; the other is the threshold between it and rest.
+    /// Whether neighbouring motions with rigid contact converge to the wave. The stiffer wave of a
+    /// pair attracts; the other is the threshold between it and rest.
     pub attracts: bool,
     /// Growth rate of the least stable small motion about the wave with rigid contact, other than a
     /// shift in time; negative if the wave attracts \[1/s\].
@@ -168,7 +167,7 @@ impl RoundWhirl {
         // The magnitude |w| is held, and the force keeps pointing against w.
         let [radial, tangential] = [(1.0, 0.0), (0.0, 1.0)].map(|way| Row::fixed(&turning, way));
         let mut rates = turning.motion(&[radial], &[(tangential, stiffness)]).eigenvalues()?;
-        // A wave shifted in time is the same wave, so one eigenvalue is zero.
+        // The wave shifted in time is also a solution, so one eigenvalue is zero.
         rates.sort_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()));
         let growth = rates.iter().skip(1).map(|rate| rate.re).fold(f64::NEG_INFINITY, f64::max);
         let [casing, blades] = [(&frame.casing, omega), (&frame.blades, s)]
@@ -224,13 +223,13 @@ impl RoundWhirl {
     }
 }
 
-/// What a rub becomes that is large enough, on a rim of many blades.
+/// What a sufficiently large rub becomes, in the limit of many blades.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr)]
 #[strum(serialize_all = "lowercase")]
 pub enum Rubbing {
     /// A wave of constant amplitude attracts.
     Whirls,
-    /// No wave attracts, and motions whose contact lasts grow without bound.
+    /// No wave attracts, and motions with lasting contact grow without bound.
     Grows,
     /// Neither.
     None,

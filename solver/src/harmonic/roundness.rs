@@ -10,8 +10,8 @@ use nalgebra::Complex;
 use super::Corner;
 use crate::model::Machine;
 
-/// Part of the clearance to which usual casings are round: one per cent. A lock that needs
-/// more says so. Larger: every lock says it; smaller: none does.
+/// Roundness of usual casings, relative to the clearance: one per cent. A lock that needs a rounder
+/// casing is reported.
 const ROUND_ENOUGH: f64 = 0.01;
 
 /// Returns the lobe counts for which the roundness of a lock is reported: 1 to 4, and `diameters`.
@@ -19,9 +19,9 @@ pub(crate) fn lobes_of(diameters: u32) -> impl Iterator<Item = u32> {
     (1..=4).chain((diameters > 4).then_some(diameters))
 }
 
-/// Returns the lobe height up to which the lock of a machine persists at a speed, for 1 to 4 and
-/// for `n_d` lobes \[m\]. `None` if it is unknown, larger than in any usual casing, or if tips or
-/// casing are uneven already.
+/// Returns the lobe height up to which the lock of a machine persists at a speed, the smallest over 1
+/// to 4 and `n_d` lobes \[m\]. `None` if it is unknown, if usual casings are round enough, or if tips
+/// or casing are uneven already.
 #[must_use]
 pub fn roundness_needed(machine: &Machine, speed: f64) -> Option<f64> {
     let lobes = lobes_of(machine.polygon.nodal_diameters);

@@ -280,7 +280,7 @@ impl SaddleFlow {
         let roots = [excess / (root + zeta), -root - zeta];
         let saddle = -2.0 * zeta * ratio / excess;
         let (struck, kept) = (2.0 * delta).sin_cos();
-        // For N' <= 4 the wave runs into the corner and stays there.
+        // For N' <= 4 the impact at a corner stops the wave.
         let kept = if machine.polygon.sides <= 4 { 0.0 } else { kept };
         let slide = Self { zeta, ratio, end: delta.tan(), saddle, roots, kept, struck };
         saddle.is_finite().then_some(slide)

@@ -1,6 +1,5 @@
-//! The ranges of rotor speed of one machine in one direction of rotation: where a lock holds, where
-//! blades and casing that move as one grow, where a wave lasts, and where rubbing grows without
-//! bound. Each is searched once, when it is first asked for.
+//! The ranges of rotor speed of one machine in one direction of rotation: with a lock, with flutter,
+//! with whirl, and with rubbing that grows without bound. Each is computed on first use and kept.
 
 use std::cell::OnceCell;
 
@@ -39,27 +38,27 @@ impl SpeedRanges {
         &self.machine
     }
 
-    /// Returns where a lock holds, as [`lock_windows`].
+    /// Returns the ranges with a lock, as [`lock_windows`].
     #[must_use]
     pub fn locks(&self) -> &[LockWindow] {
         let of = || lock_windows_beside(&self.machine, self.toward, || self.flutters());
         self.locks.get_or_init(of)
     }
 
-    /// Returns where blades and casing that move as one grow, as `flutters`.
+    /// Returns the ranges with flutter, as `windows::flutters`.
     #[must_use]
     pub fn flutters(&self) -> &[LockWindow] {
         self.flutters.get_or_init(|| flutters(&self.machine, self.toward))
     }
 
-    /// Returns where a wave attracts, as `whirl_spans`.
+    /// Returns the ranges in which a wave attracts, as `whirl_spans`.
     #[must_use]
     pub fn whirls(&self) -> &[LockWindow] {
         self.whirls.get_or_init(|| whirl_spans(&self.machine, self.toward))
     }
 
-    /// Returns where rubbing grows without bound: where it flutters and no wave attracts. Empty on a
-    /// lining.
+    /// Returns the ranges in which rubbing grows without bound: with flutter and without an attracting
+    /// wave. Empty on a lining.
     #[must_use]
     pub fn growths(&self) -> &[LockWindow] {
         let rigid = self.machine.lining.is_none() && self.machine.clearance_at_rest() > 0.0;

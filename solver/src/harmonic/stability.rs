@@ -1,16 +1,16 @@
 //! Stability of an equilibrium in the blade frame: eigenvalues of the motion about it with the
 //! contacts kept (`model::Frame`; docs/theory.md, section 8).
 //!
-//! Every answer about a lock (run, `hbm`, margins, survey, check, screen) uses [`Kept`]: it contains
-//! the curvature of the pushes, and the turning of their directions where tips are inclined or rub.
+//! Run, `hbm`, margins, survey, check and screen all judge a lock by [`Kept`]. It includes the change
+//! of the contact forces' directions as blades bend (the curvature of the pushes).
 
 use nalgebra::Complex;
 
 use crate::model::{Frame, Machine, Row};
 use crate::numeric::rounding::ROUND_OFF;
 
-/// Real parts of eigenvalues up to this part of the rate are round-off: a
-/// nearly defective pair is known to half its digits.
+/// Real part of an eigenvalue, relative to the eigenvalue, up to which it counts as round-off: a
+/// nearly defective pair of eigenvalues is accurate to half the digits only.
 const NEUTRAL: f64 = 1e-8;
 
 /// Equilibrium with contact rows, and the motion about it.
@@ -53,9 +53,9 @@ impl Kept {
     }
 }
 
-/// Returns whether a motion with one of these eigenvalues grows. Real parts up to a small fraction
-/// of the eigenvalue, or of `rate`, are round-off: a nearly defective pair has half the digits, and
-/// all eigenvalues have the round-off of the largest.
+/// Returns whether a motion with one of these eigenvalues grows. Real parts up to [`NEUTRAL`] times
+/// the eigenvalue or `rate` count as round-off, and so do those within the round-off of the largest
+/// eigenvalue.
 pub(super) fn grows(values: &[Complex<f64>], rate: f64) -> bool {
     let fastest = values.iter().map(|value| value.norm()).fold(0.0, f64::max);
     values

@@ -1,44 +1,45 @@
-//! Ranges of rotor speed in which a lock holds, and in which it flutters (docs/theory.md, sections
-//! 4 and 10): spans of a condition of the speed, found by one scan and bisection.
+//! Ranges of rotor speed with a lock, and with flutter (docs/theory.md, sections 4 and 10). The spans
+//! of a condition are found by one scan over the speed and by bisection.
 //!
-//! A lock **holds** where it is admissible (both groups only push, every other gap is open) and
-//! stable (no motion that keeps the contact grows, with the curvature of the pushes). [`Locks::hold`]
-//! is that condition; `hbm`, `margins`, `survey`, `check`, runs and the screen ask it.
+//! A lock **holds** if it is admissible (both groups push, every other gap is open) and stable (no
+//! motion that keeps the contacts grows, with the curvature of the pushes). [`Locks::hold`] is this
+//! condition; `hbm`, `margins`, `survey`, `check`, runs and the screen use it.
 //!
-//! The scan has a point every 3 % from a twentieth of the critical speed to ten times (a lock) or
-//! fifty times the faster of critical speed and coincidence, and every end of the closed form for
-//! rigid blades (`Machine::lock_windows`) with the middles between them. Where blades do not bend,
-//! the ends found are those of the closed form to two thousandths; then the closed form is returned.
-//! It is not even searched if tips without slope bend so little up to the last speed that damping
-//! decides.
+//! The scan has a point every 3 %, from a twentieth of the critical speed to ten times (lock) or
+//! fifty times (whirl and flutter) the faster of critical speed and coincidence. It also includes
+//! the ends of the closed form for rigid blades (`Machine::lock_windows`), points beside them and
+//! the middles between them. An end of the scan within 0.2 % of one of the closed form is replaced
+//! by it. Without slope, and if the blades hardly bend up to the last speed, there is no scan: the
+//! closed form is returned.
 
 use super::stability::Kept;
 use super::{Corner, Form, Locked, LockedPoint};
 use crate::model::{Frame, LockWindow, Machine, TipCorner};
 use crate::numeric::search::{geometric, spans};
 
-/// Whirl and flutter are searched up to this many times the faster of critical speed and
-/// coincidence. Beyond, no rotor turns.
+/// Highest speed of the search for whirl and flutter, relative to the faster of critical speed and
+/// coincidence. No rotor turns faster.
 pub(super) const FURTHEST: f64 = 50.0;
 
-/// Speeds are searched from the critical speed divided by this.
+/// Critical speed divided by the lowest speed of the scan.
 const NEAREST: f64 = 20.0;
 
-/// The same of a lock, whose pushes grow with the square of the speed.
+/// As [`FURTHEST`], for a lock. It is smaller because the contact forces of a lock grow with the
+/// square of the speed.
 const LOCK_FURTHEST: f64 = 10.0;
 
-/// Ratio of neighbouring speeds of a search. Larger: a range narrower than this is stepped over.
+/// Ratio of neighbouring speeds of the scan. A narrower range can be missed.
 const SCAN_RATIO: f64 = 1.03;
 
-/// Part of a lock speed up to which it is that of rigid blades in closed form: the slope of the gap
-/// beside the middle of a side makes a thousandth. Larger: blades that bend are said not to.
+/// Relative difference up to which an end of the scan is replaced by that of the closed form for
+/// rigid blades. With a larger one the effect of blades that bend would be lost.
 const CLOSED_FORM: f64 = 2e-3;
 
-/// Part of a speed beside a known end at which a condition is asked.
+/// Relative distance from a known end at which the condition is evaluated on both sides.
 const BESIDE_AN_END: f64 = 1e-6;
 
-/// Turn of a side by its bent blades \[rad\], as a part of the damping ratio, up to which it makes no
-/// motion grow. Larger: a lock that flutters is said to hold; smaller: only more is searched.
+/// Rotation of a side by its bent blades \[rad\], relative to the damping ratio, up to which the lock
+/// counts as stable without a search. With a larger one a lock that flutters could count as stable.
 const TURN_BESIDE_DAMPING: f64 = 0.1;
 
 /// The corners of a machine that can hold a lock in one direction of rotation.
@@ -72,7 +73,7 @@ impl Locks {
         Self { corners }
     }
 
-    /// Returns the motions about the locks that pushes balance at a speed \[rad/s\], stable or not.
+    /// Returns the motions about the admissible locks at a speed \[rad/s\], stable or not.
     fn balanced(&self, speed: f64) -> impl Iterator<Item = Kept> {
         let here = self.corners.iter().filter(move |(_, windows)| match windows {
             Some(windows) => windows.iter().any(|window| window.has(speed.abs())),
@@ -81,8 +82,9 @@ impl Locks {
         here.filter_map(move |(locked, _)| locked.admissible(speed))
     }
 
-    /// Returns whether the blades turn their sides by a small part of the damping ratios, up to the
-    /// last speed of the search. Tips without slope couple blades and casing by that turn alone.
+    /// Returns whether the bent blades rotate their sides by less than [`TURN_BESIDE_DAMPING`] times
+    /// the damping ratios at the last speed of the search. This rotation is the only coupling of
+    /// blades and casing for tips without slope.
     fn bend_little(&self, machine: &Machine, sense: f64) -> bool {
         let damping = machine.casing_damping_ratio.min(machine.blade_damping_ratio);
         let least = TURN_BESIDE_DAMPING * damping;
@@ -101,8 +103,8 @@ impl Locks {
         self.balanced(speed).any(|motion| motion.growth().is_none())
     }
 
-    /// Returns the growth rate of the lock that pushes balance at a rotor speed \[1/s\]; `None` if one
-    /// holds, or if pushes balance none.
+    /// Returns the growth rate of the unstable lock at a rotor speed \[1/s\]; `None` if a lock holds,
+    /// or if none is admissible.
     #[must_use]
     pub fn growth(&self, speed: f64) -> Option<f64> {
         let growth = |motion: Kept| motion.growth().filter(|growth| growth.is_finite());
@@ -111,15 +113,14 @@ impl Locks {
     }
 }
 
-/// Returns the growth rate of a lock that is held by pushes at a constant speed, without a lining
+/// Returns the growth rate of the admissible lock of a machine without a lining at a constant speed
 /// \[1/s\]. `None` if it is stable, or if there is no such lock.
 #[must_use]
 pub fn lock_growth(machine: &Machine, speed: f64) -> Option<f64> {
     Locks::new(machine, speed).growth(speed)
 }
 
-/// Returns every window of speeds in which a lock holds, as `lock_windows`; the ranges of
-/// [`flutters`] are asked for only where a search needs them.
+/// As `lock_windows`; the ranges of [`flutters`] are computed only if the search needs them.
 pub(super) fn lock_windows_beside<'a>(
     machine: &Machine,
     toward: f64,
@@ -134,16 +135,16 @@ pub(super) fn lock_windows_beside<'a>(
     if machine.radial_coupling == 0.0 && locks.bend_little(machine, sense) {
         return pushed;
     }
-    // Where curvature does little, a lock grows where blades and casing as one do.
+    // If curvature has little effect, the lock is unstable exactly in the ranges of flutter.
     let ranges = pushed.iter().chain(flutters());
     let ends: Vec<f64> = ranges.flat_map(|range| [Some(range.from), range.to]).flatten().collect();
     windows(machine, LOCK_FURTHEST, &ends, |speed| locks.hold(sense * speed))
 }
 
-/// Returns every range of speeds in which blades and casing that move as one grow, `B = 0`: waves of
-/// any amplitude whose contact lasts do. For a rotor that turns in the direction of the sign of
-/// `toward`, before the clearance closes. Empty without corners, with disk modes of other nodal
-/// diameters, and if the tips do not couple blades and casing.
+/// Returns every range of speeds with flutter: blades and casing in lasting contact (`B = 0`) have a
+/// growing wave. The rotor turns in the direction of the sign of `toward`; ranges end where the
+/// clearance closes. Empty without corners, with disk modes of other nodal diameters, and if the tips
+/// do not couple blades and casing.
 #[must_use]
 pub fn flutters(machine: &Machine, toward: f64) -> Vec<LockWindow> {
     if !machine.polygon.has_corners() || machine.has_other_diameters() {
@@ -173,7 +174,8 @@ pub fn undamped_flutter_speed(machine: &Machine, toward: f64) -> Option<f64> {
     speed.is_finite().then_some(speed)
 }
 
-/// Returns whether blades and casing that move as one grow at a rotor speed \[rad/s\].
+/// Returns whether blades and casing in lasting contact have a growing wave at a rotor speed
+/// \[rad/s\].
 #[must_use]
 pub fn joined_grow(machine: &Machine, speed: f64) -> bool {
     Frame::at(machine, speed).joined().iter().any(|rate| rate.re > 0.0)
@@ -185,8 +187,8 @@ fn scale(machine: &Machine) -> Option<f64> {
     machine.critical_speed().map(|critical| critical.max(coincidence))
 }
 
-/// Returns the spans of a condition of the speed, which `ends` may bound \[rad/s\], up to `reach` times
-/// the faster of critical speed and coincidence.
+/// Returns the spans of speed in which a condition is true, up to `reach` times the faster of critical
+/// speed and coincidence \[rad/s\]. `ends` are speeds at which the condition probably changes.
 pub(super) fn windows(
     machine: &Machine,
     reach: f64,

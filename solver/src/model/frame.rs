@@ -1,5 +1,5 @@
 //! Casing and blade modes in the frame that rotates with the blades: mass, damping and stiffness,
-//! rows of contact that are held or on springs, and the state matrix (docs/theory.md, sections 8
+//! contact rows that stay closed or act as springs, and the state matrix (docs/theory.md, sections 8
 //! and 10).
 //!
 //! Coordinates are `w = (x, y, alpha_c, alpha_s)`: the casing `z = x + i y = (u_c + i u_s)
@@ -21,8 +21,8 @@ use nalgebra::{Complex, DMatrix, DVector, Matrix2, Matrix4, Vector2, Vector4};
 use super::Machine;
 use crate::numeric::eigen::{complex_eigenvalues, eigenvalues};
 
-/// Mass, damping and stiffness of one structure, and the rate at which its own frame turns against
-/// the frame of the motion \[rad/s\].
+/// Mass, damping and stiffness of one structure, and the rotational rate of its own frame relative to
+/// the frame of the motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Structure {
     /// Modal mass \[kg\] or inertia \[kg m^2\].
@@ -36,7 +36,7 @@ pub struct Structure {
 }
 
 impl Structure {
-    /// Returns the undamped own frequency `sqrt(k/m)` \[rad/s\].
+    /// Returns the undamped natural frequency `sqrt(k/m)` \[rad/s\].
     pub(crate) fn own_frequency(&self) -> f64 {
         (self.stiffness / self.mass).sqrt()
     }
@@ -135,9 +135,9 @@ impl Frame {
         casing + self.blades.dynamic_stiffness(self.blades.turn).inv() * self.coupling()
     }
 
-    /// Returns the rates `l` at which casing and blades move as one, `B = 0`: the roots of
-    /// `c2 L_c(l) + (1 + i mu_c) L_a(l)` \[1/s\]. Waves of any amplitude whose contact lasts move so.
-    /// Empty if the tips do not couple both.
+    /// Returns the eigenvalues `l` of waves in which casing and blades stay in contact, `B = 0`: the
+    /// roots of `c2 L_c(l) + (1 + i mu_c) L_a(l)` \[1/s\]. They do not depend on the amplitude. Empty
+    /// if the tips do not couple casing and blades.
     #[must_use]
     pub fn joined(&self) -> Vec<Complex<f64>> {
         let coupling = self.coupling();
@@ -159,13 +159,13 @@ impl Frame {
         vec![far, if far.norm() > 0.0 { constant / square / far } else { far }]
     }
 
-    /// Returns the rates `l` of the four waves about a round state whose contact is a spring in every
-    /// direction \[1/s\]; `stiffness` is that of all blades together \[N/m\]. `None` if the rates
-    /// overflow. With `w = z - kappa l_b a` and `p = -stiffness w`:
+    /// Returns the eigenvalues `l` of the four waves about an axisymmetric state in which contact acts
+    /// as a spring in every direction \[1/s\]; `stiffness` is that of all blades together \[N/m\].
+    /// `None` if they overflow. With `w = z - kappa l_b a` and `p = -stiffness w`:
     /// `L_c z = (1 + i mu_c) p`, `L_a a = -(kappa + mu) l_b p`.
     #[must_use]
     pub fn round(&self, stiffness: f64) -> Option<Vec<Complex<f64>>> {
-        // Blade coordinates are in the unit that makes both masses equal.
+        // Blade coordinates are scaled so that both masses are equal.
         let unit = (self.casing.mass / self.blades.mass).sqrt();
         let [slope, lever] = [self.slope * unit, self.lever * unit];
         let pushed = Complex::new(1.0, self.friction) * stiffness;
@@ -196,7 +196,8 @@ impl Frame {
         )
     }
 
-    /// Returns `M`, `C` and `K` about a state with `held` rows and with rows on `springs` \[N/m\].
+    /// Returns `M`, `C` and `K` about a state with `held` rows, which stay closed, and `springs`, rows
+    /// that act as springs of a stiffness \[N/m\].
     #[must_use]
     pub fn matrices(&self, held: &[Row], springs: &[(Row, f64)]) -> [Matrix4<f64>; 3] {
         let mut matrices = [Matrix4::zeros(); 3];
@@ -214,8 +215,8 @@ impl Frame {
         matrices
     }
 
-    /// Returns the motion about a state whose `held` rows stay closed and whose `springs` yield
-    /// \[N/m\].
+    /// Returns the small motions about a state, with `held` and `springs` as in
+    /// [`matrices`](Self::matrices).
     #[must_use]
     pub fn motion(&self, held: &[Row], springs: &[(Row, f64)]) -> Motion {
         let [mass, damping, stiffness] = self.matrices(held, springs);
@@ -237,12 +238,12 @@ impl Frame {
     }
 }
 
-/// Returns an orthonormal basis of the vectors across all of `rows`, one column each.
+/// Returns an orthonormal basis of the vectors orthogonal to all `rows`, one in each column.
 fn across(rows: impl Iterator<Item = DVector<f64>>, size: usize) -> DMatrix<f64> {
     let mut basis = DMatrix::identity(size, size);
     for row in rows {
         // Householder reflection of the remaining vectors, after which only the first one has a
-        // part along the row.
+        // component along the row.
         let mut seen = basis.tr_mul(&row);
         let length = seen.norm();
         seen[0] += length.copysign(seen[0]);
@@ -256,7 +257,7 @@ fn across(rows: impl Iterator<Item = DVector<f64>>, size: usize) -> DMatrix<f64>
     basis
 }
 
-/// A row of contact: the side with the phase `psi`, whose blades have turned by `alpha`.
+/// A contact row: the side with the phase `psi`, whose blades have turned by `alpha`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
     /// Gradient of the gap.
@@ -300,8 +301,8 @@ impl Row {
         Self { gap: row([c, s], arm - frame.slope), force: row(push, arm - frame.lever), turned }
     }
 
-    /// Creates the row of a direction whose gap no blade angle turns: `Re[w exp(-i psi)]`, with
-    /// `w = z - kappa l_b a`.
+    /// Creates the row of a side whose direction does not depend on the blade angle: its gap changes
+    /// by `Re[w exp(-i psi)]`, with `w = z - kappa l_b a`.
     #[must_use]
     pub fn fixed(frame: &Frame, direction: (f64, f64)) -> Self {
         Self::new(frame, direction, (0.0, 0.0), 0.0, 0.0)
@@ -317,8 +318,8 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// Returns the eigenvalues \[1/s\]; `None` if they overflow or cannot be computed, or if the held
-    /// rows leave a motion without mass.
+    /// Returns the eigenvalues \[1/s\]; `None` if they overflow or cannot be computed, or if the mass
+    /// matrix of the motions that the held rows allow is singular.
     #[must_use]
     pub fn eigenvalues(&self) -> Option<Vec<Complex<f64>>> {
         let n = self.mass.nrows();
@@ -334,7 +335,7 @@ impl Motion {
     }
 }
 
-/// Returns the eigenvalues of a state matrix that `of` computes in units of its fastest rate
+/// Returns the eigenvalues that `of` computes for a state matrix with rates in units of `fastest`
 /// \[1/s\].
 fn state_rates(
     fastest: f64,

@@ -16,7 +16,7 @@ pub struct LiningLaw {
 }
 
 impl LiningLaw {
-    /// Takes the stiffness and the smoothing depth of a contact surface.
+    /// Creates the law from the stiffness and the smoothing depth of a contact surface.
     #[must_use]
     pub fn of(surface: &ContactSurface) -> Self {
         Self { stiffness_n_per_m: surface.stiffness_n_per_m, smoothing_m: surface.smoothing_m }

@@ -4,7 +4,7 @@
 //! Two neighbouring phase groups carry the contact force `q = -(g0/cos delta)/H`, where `H = B(nu)`
 //! is the joint compliance of casing and blades. Both groups push where `|arg(-1/H)| <= delta`.
 //! With `K = k_c - nu^2 m_c`, `D = d_c nu`, `c = c2/k_a` and `mu_c = mu tau`, `1/H` is a positive
-//! number times `K + c (K^2 + D^2) + mu_c D + i (D - mu_c K)`.
+//! factor times `K + c (K^2 + D^2) + mu_c D + i (D - mu_c K)`.
 //!
 //! On a lining with the group stiffness `k` (no smoothing) both push where
 //! `-tan(delta) Re H - |Im H| >= 1/(k sin 2 delta)`, which adds the term
@@ -19,8 +19,8 @@
 use super::Machine;
 use crate::numeric::search::{geometric, zeros};
 
-/// Range of rotor speeds at which pushes alone hold a lock, or at which it flutters. Both ends are
-/// magnitudes.
+/// Range of rotor speeds with a lock, flutter, whirl or growth, as the function that returns it
+/// states. Both ends are magnitudes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LockWindow {
     /// Lowest speed; 0 if the range begins at standstill \[rad/s\].
@@ -65,8 +65,8 @@ impl Machine {
     }
 
     /// Returns every window of speeds at which pushes alone balance a lock, in increasing order,
-    /// for a rotor that turns in the direction of the sign of `toward`. Whether such a lock is
-    /// stable is decided by `harmonic::lock_windows`.
+    /// for a rotor that turns in the direction of the sign of `toward`. The lock may be unstable;
+    /// `harmonic::lock_windows` returns the windows with a stable one.
     ///
     /// Empty without corners, if the blades rub at rest, and where unequal tips or an out-of-round
     /// casing have no closed form. Also empty if inclined tips have modes with other nodal
@@ -91,8 +91,8 @@ impl Machine {
         self.with_clearance(self.windows([(slope, 1.0), (slope, -1.0)], toward))
     }
 
-    /// Returns whether the speeds at which pushes balance a lock are known: not if unequal tips or lobes
-    /// have no closed form.
+    /// Returns whether the speeds at which pushes balance a lock are known; they are not if unequal
+    /// tips or lobes have no closed form.
     #[must_use]
     pub fn knows_locks(&self) -> bool {
         let shape = self.out_of_round() == 0.0 || self.lock_out_of_round().is_some();
@@ -259,11 +259,11 @@ impl Machine {
         Some([scale * (stiff - drag), scale * (stiff + drag)])
     }
 
-    /// Returns the deviation of the tips `+-e` up to which the corner of equal tips keeps both of
-    /// its pushes whichever tips are long or short \[m\]. Negative where it does not push: the least
-    /// deviation with which a corner can. `None` if tips or casing are uneven already, if the
-    /// contact does not push the casing outward, if the deviation would cut a side off, and where
-    /// `locked_multipliers` are unknown.
+    /// Returns the largest deviation `e` of the tips, between `-e` and `e`, with which both sides of
+    /// the corner push whichever tips are long or short \[m\]. If they do not push with equal tips,
+    /// the value is negative; its magnitude is the smallest deviation with which a corner can push.
+    /// `None` if tips or casing are uneven already, if the contact does not push the casing outward,
+    /// if the deviation would cut a side off, and where `locked_multipliers` are unknown.
     ///
     /// Both sides push where `theta <= gamma`, with
     /// `tan theta = tan(delta) (lambda_a - lambda_b)/(lambda_a + lambda_b)`. The apothems
@@ -282,8 +282,8 @@ impl Machine {
         Some(deviation).filter(|deviation| -deviation < cut)
     }
 
-    /// Adds the inclined tips and the friction to `1/H`: `stiff` and `drag` are its real and
-    /// imaginary part for the casing alone \[N/m\].
+    /// Adds the effect of inclined tips and friction to `1/H`, whose real and imaginary part for the
+    /// casing alone are `stiff` and `drag` \[N/m\].
     fn with_tips(&self, stiff: f64, drag: f64, speed: f64) -> [f64; 2] {
         let friction = self.casing_friction_at(speed);
         let c = self.coupling_product_at(speed) / self.blade_modal_stiffness;

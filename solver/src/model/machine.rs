@@ -1,6 +1,6 @@
 //! The machine: modal masses, stiffnesses, damping and frequencies that follow from the parameters
 //! and the nodal diameters (docs/theory.md, section 1), and the coincidence speeds of casing and
-//! disk (docs/theory.md, section 4). What changes with the rotor speed is in `spin`.
+//! disk (docs/theory.md, section 4). `spin` contains the dependence on rotor speed.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -8,10 +8,11 @@ use std::sync::Arc;
 use super::spin::Spin;
 use super::{BladedDisk, Casing, ContactPolygon, LiningLaw, Tips};
 
-/// Part of the forces that add up to a contact force of a held corner (`Machine::push_scale`) above
-/// which its sign is certain. At such a force of the paper's machine, a step of 1e-7 s predicts a gap
-/// of 1e-15 of the clearance: a few roundings. Smaller: next to the limit of a lock round-off decides
-/// the sign, and a longer run contradicts the proof.
+/// A contact force of a held corner has a certain sign if its magnitude exceeds this part of
+/// `Machine::push_scale`, the forces of which it is the sum. On the paper's machine, a step of 1e-7 s
+/// predicts a gap of 1e-15 of the clearance for such a force: a few roundings. With a smaller value
+/// round-off would decide the sign near the limit of a lock, and a longer run could contradict the
+/// proof.
 pub(crate) const CERTAIN_PUSH: f64 = 1e-8;
 
 /// Model of one machine for one number of nodal diameters, with two casing and two blade
@@ -72,8 +73,7 @@ pub struct Machine {
     pub(crate) tips: Option<Arc<Tips>>,
 }
 
-/// Factor on the stiffness and mass of blades that are to be rigid. With a larger one squares would
-/// overflow.
+/// Factor on stiffness and mass that makes blades rigid. With a larger one squares would overflow.
 const STIFF_BLADES: f64 = 1e120;
 
 impl Machine {
@@ -207,15 +207,15 @@ impl Machine {
         self.radial_coupling != 0.0 || self.friction != 0.0
     }
 
-    /// Returns whether the paper's bilateral law, which pulls, takes this machine: radial tips without
-    /// friction, and no lining.
+    /// Returns whether the paper's bilateral law, which pulls, is defined for this machine: radial tips
+    /// without friction, and no lining.
     #[must_use]
     pub fn contact_can_pull(&self) -> bool {
         self.lining.is_none() && !self.tips_incline_or_rub()
     }
 
-    /// Returns whether contact forces load the casing mode otherwise than in the paper's model.
-    /// Friction alone, on a casing without tangential motion, loads only the blades.
+    /// Returns whether contact forces load the casing mode in another way than in the paper's model.
+    /// Friction on a casing without tangential motion loads only the blades.
     #[must_use]
     pub fn casing_feels_tips(&self) -> bool {
         self.radial_coupling != 0.0 || self.casing_friction_at(1.0) != 0.0

@@ -32,6 +32,6 @@ pub(crate) use polygon::{fraction_of_turn, gcd};
 pub use tip_corner::TipCorner;
 pub(crate) use tips::Tips;
 
-/// Largest blade angle the model stands for \[rad\]: the model is linear in it,
-/// and its square is 1 % there. Larger: results the model does not support.
+/// Largest blade angle for which results are valid \[rad\]. The model is linear in the angle, whose
+/// square is 1 % there.
 pub(crate) const LARGEST_BLADE_ANGLE: f64 = 0.1;

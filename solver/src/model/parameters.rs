@@ -295,7 +295,7 @@ impl Casing {
         let own = match part {
             ModePart::Mass => &mut self.modal_mass_kg,
             ModePart::Stiffness => &mut self.modal_stiffness_n_per_m,
-            // A casing does not rotate, so no key asks for its stiffening.
+            // A casing does not rotate, so it has no key for centrifugal stiffening.
             ModePart::Damping | ModePart::Stiffening => &mut self.damping_ratio,
         };
         own_part(&mut self.modes, diameters, part).unwrap_or(own)

@@ -40,7 +40,7 @@ impl PartialEq for Directions {
     }
 }
 
-/// Part of a side that the other sides do not cut off.
+/// The part of a side that the other sides do not cut off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SideLeft {
     /// Index of the side.
@@ -196,8 +196,8 @@ impl ContactPolygon {
         self.largest_component_near(x, y, &mut self.nearest_side(-x, -y))
     }
 
-    /// As [`largest_component`](Self::largest_component), but the search starts at side `near`,
-    /// which is then set to the side found. Cheap if successive points are close to each other.
+    /// As [`largest_component`](Self::largest_component), but starts at side `near` and sets it to the
+    /// side of the maximum. Fast if successive points are close to each other.
     #[must_use]
     pub fn largest_component_near(&self, x: f64, y: f64, near: &mut u32) -> f64 {
         let along = |side: u32| {

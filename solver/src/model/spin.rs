@@ -25,7 +25,7 @@ pub(super) struct Spin {
 }
 
 impl Spin {
-    /// Takes the values of a machine at rest; `None` if nothing changes with speed.
+    /// Stores the values of a machine at rest; `None` if nothing changes with speed.
     pub fn new(disk: &BladedDisk, casing: &Casing, machine: &Machine) -> Option<Self> {
         let (stiffening, clearance_loss) =
             (disk.centrifugal_stiffening, casing.clearance_loss_m_s2);
@@ -42,8 +42,8 @@ impl Spin {
 }
 
 impl Machine {
-    /// Returns the machine at a rotor speed \[rad/s\]. Earlier evaluations do not matter: values at
-    /// rest are kept.
+    /// Returns the machine at a rotor speed \[rad/s\]. The result does not depend on earlier
+    /// evaluations, because values at rest are kept.
     #[must_use]
     pub fn at(&self, speed: f64) -> Cow<'_, Self> {
         if self.spin.is_none() {

@@ -81,9 +81,9 @@ impl Machine {
         TipCorner { sides, gamma: along.atan2(a), beta, distance: (a * a + along * along).sqrt() }
     }
 
-    /// Returns the corner that is held at the lowest speed, and its speed windows, for a rotor that
-    /// turns in the direction of the sign of `toward`. `None` if no corner is held, and where there
-    /// is no closed form: on a lining, and with a clearance that changes with speed.
+    /// Returns the corner that pushes hold at the lowest speed, and its speed windows, for a rotor
+    /// that turns in the direction of the sign of `toward`. `None` if pushes hold no corner, and if
+    /// there is no closed form: on a lining, and with a clearance that changes with speed.
     #[must_use]
     pub fn lowest_corner(&self, toward: f64) -> Option<(TipCorner, Vec<LockWindow>)> {
         if !self.knows_tip_corners() {

@@ -1,8 +1,8 @@
 //! Unequal tips and an out-of-round casing (docs/theory.md, section 11).
 //!
 //! Both change the gap of blade `i` by `-b_i + e cos(m phi_i - psi)`. This module evaluates that
-//! term and finds the room that the tips leave to the casing: a polygon whose sides have the
-//! apothems `h_i = g0 - b_i`.
+//! term, and the polygon in which the tips let the casing move: its sides have the apothems
+//! `h_i = g0 - b_i`.
 
 use std::f64::consts::TAU;
 
@@ -191,8 +191,8 @@ impl Machine {
         nearest(&rows, Plane::new(from.0, from.1)).map(|z| (z.re, z.im))
     }
 
-    /// Returns whether rigid tips leave room for the casing at every rotor angle. With lobes this
-    /// is checked at 64 to 1024 angles.
+    /// Returns whether some casing position leaves every gap open, at every rotor angle. With lobes
+    /// this is checked at 64 to 1024 angles.
     #[must_use]
     pub fn has_room(&self) -> bool {
         let Some(tips) = &self.tips else { return self.clearance > 0.0 };

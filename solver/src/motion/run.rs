@@ -275,11 +275,11 @@ fn advance_following(
     go_on: GoOn<'_>,
 ) -> Result<bool, Failure> {
     if let Some(wave) = wave {
-        while wave.next_look() <= until {
-            if !scripted.advance_while(wave.next_look(), go_on)? {
+        while wave.next_observation() <= until {
+            if !scripted.advance_while(wave.next_observation(), go_on)? {
                 return Ok(false);
             }
-            wave.look(scripted.motion.state());
+            wave.observe(scripted.motion.state());
         }
     }
     scripted.advance_while(until, go_on)
@@ -387,24 +387,24 @@ pub fn run_to_end(
             n if sample > n => f64::INFINITY,
             n => end * (f64::from(sample) / f64::from(n)),
         };
-        let until = sample_time.min(wave.next_look()).min(end);
+        let until = sample_time.min(wave.next_observation()).min(end);
         if scripted.advance_while(until, &to_the_end).is_err() {
             break;
         }
-        if until >= wave.next_look() {
+        if until >= wave.next_observation() {
             // A motion that is certain to decay has no wave speed, and a locked wave turns with the
             // rotor.
-            let decided = !wave.has_looked()
+            let decided = !wave.has_observed()
                 && scripted.is_through()
                 && scripted.motion.final_verdict().is_some();
-            if decided { wave.stop() } else { wave.look(scripted.motion.state()) }
+            if decided { wave.stop() } else { wave.observe(scripted.motion.state()) }
         }
         if until >= sample_time {
             sink(&take_sample(&mut scripted.motion, sampling.gaps));
             sample += 1;
         }
         let sampled = sampling.intervals == 0 || sample > sampling.intervals;
-        if until >= end && wave.next_look() > end && sampled {
+        if until >= end && wave.next_observation() > end && sampled {
             break;
         }
     }

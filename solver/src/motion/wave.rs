@@ -8,17 +8,16 @@ use crate::model::Machine;
 use crate::motion::LAST_PART;
 use crate::scene::CheckedScene;
 
-/// Looks at the wave for its speed, at most, so that a long run is not slowed
-/// down.
-const WAVE_LOOKS: f64 = 100_000.0;
+/// Largest number of observations of the wave, so that they do not slow down a long run.
+const MOST_OBSERVATIONS: f64 = 100_000.0;
 
-/// Looks for each turn of the fastest motion. Two or fewer: a half turn is
-/// taken for its opposite.
-const WAVE_LOOKS_A_TURN: f64 = 16.0;
+/// Number of observations in one revolution of the fastest motion. With two or fewer the direction
+/// of a half turn would be ambiguous.
+const OBSERVATIONS_PER_TURN: f64 = 16.0;
 
-/// Accumulates the angle through which the casing wave turns, at intervals so short that it turns
-/// by less than half a revolution in each: over the last part of the run, or over as much of its
-/// end as the limit on evaluations allows.
+/// Accumulates the angle through which the casing wave turns over the last part of the run, or over
+/// as much of its end as [`MOST_OBSERVATIONS`] allows. Between two observations the wave turns by
+/// less than half a revolution.
 #[derive(Clone, Debug)]
 pub(super) struct WaveTracker {
     /// End of the run \[s\].
@@ -56,18 +55,18 @@ impl WaveTracker {
             }
         }
         fastest = fastest.max(at(rotor, end).abs());
-        let interval = TAU / WAVE_LOOKS_A_TURN / (machine.nu(fastest) + frequency);
-        let next = ((1.0 - LAST_PART) * end).max(end - WAVE_LOOKS * interval);
+        let interval = TAU / OBSERVATIONS_PER_TURN / (machine.nu(fastest) + frequency);
+        let next = ((1.0 - LAST_PART) * end).max(end - MOST_OBSERVATIONS * interval);
         Self { end, interval, next, first: None, last: (0.0, 0.0), turned: 0.0 }
     }
 
     /// Returns the time of the next observation; infinite after the end \[s\].
-    pub fn next_look(&self) -> f64 {
+    pub fn next_observation(&self) -> f64 {
         self.next
     }
 
-    /// Returns whether an observation was made.
-    pub fn has_looked(&self) -> bool {
+    /// Returns whether a wave was observed.
+    pub fn has_observed(&self) -> bool {
         self.first.is_some()
     }
 
@@ -77,7 +76,7 @@ impl WaveTracker {
     }
 
     /// Records the state at the time of the next observation.
-    pub fn look(&mut self, state: State) {
+    pub fn observe(&mut self, state: State) {
         self.next = if self.next < self.end {
             (self.next + self.interval).min(self.end)
         } else {
@@ -113,14 +112,14 @@ mod tests {
     /// observations.
     fn found(scene: &CheckedScene, rate: f64) -> (f64, u32) {
         let mut wave = WaveTracker::over(scene, &Script::default());
-        let (machine, mut looks) = (scene.machine(), 0);
-        while wave.next_look() <= scene.solver.end_s {
-            let t_s = wave.next_look();
+        let (machine, mut count) = (scene.machine(), 0);
+        while wave.next_observation() <= scene.solver.end_s {
+            let t_s = wave.next_observation();
             let (sin, cos) = (machine.nodal_diameters * rate * t_s).sin_cos();
-            wave.look(State { t_s, u: [1e-4 * cos, 1e-4 * sin], ..State::default() });
-            looks += 1;
+            wave.observe(State { t_s, u: [1e-4 * cos, 1e-4 * sin], ..State::default() });
+            count += 1;
         }
-        (wave.speed(&machine).unwrap(), looks)
+        (wave.speed(&machine).unwrap(), count)
     }
 
     #[test]
@@ -130,10 +129,10 @@ mod tests {
         for end in [1e-3, 0.1, 100.0, 1e4, 1e6] {
             scene.solver.end_s = end;
             for rate in [500.0, 385.3, -292.9] {
-                let (speed, looks) = found(&scene.checked().unwrap(), rate);
+                let (speed, count) = found(&scene.checked().unwrap(), rate);
                 // Angles of up to 1e9 rad have lost some digits.
                 assert!((speed / rate - 1.0).abs() < 1e-6, "{speed} {rate} over {end} s");
-                assert!(looks <= 100_002, "{looks}");
+                assert!(count <= 100_002, "{count}");
             }
         }
     }

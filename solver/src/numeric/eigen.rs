@@ -34,7 +34,8 @@ fn decomposed<T: ComplexField<RealField = f64>>(matrix: DMatrix<T>) -> Option<Sc
     }
     let own = Schur::try_new(matrix.clone(), f64::EPSILON, MOST_ITERATIONS);
     own.or_else(|| {
-        // A cycle stalls the iteration in its own basis; the reflection of a generic vector changes it.
+        // The iteration can cycle. A similar matrix, reflected along a generic vector, breaks the
+        // cycle.
         let entry = |k: usize, _| T::from_real(1.0 + (k as f64).sqrt());
         let generic = DVector::from_fn(matrix.nrows(), entry);
         let half = (&generic * generic.transpose()).unscale(0.5 * generic.norm_squared());

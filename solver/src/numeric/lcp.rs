@@ -2,29 +2,28 @@
 //! closed as equalities `W lambda = g` (docs/theory.md, sections 2 and 6). A multiplier below zero
 //! pushes.
 //!
-//! One corner of the polygon touches in an ordinary step, so two rows are solved by cases. More
-//! rows, by principal pivoting with the least index (Murty), which ends for every positive definite
-//! `W`; the work is bounded by `MOST_PIVOTING` products. An error of round-off times the condition
-//! of `W`.
+//! In an ordinary step one corner of the polygon touches, so a problem of two rows is solved by
+//! cases. A larger one is solved by principal pivoting with the least index (Murty), which
+//! terminates for every positive definite `W`; `MOST_PIVOTING` bounds its work. Relative error:
+//! round-off times the condition number of `W`.
 
 use super::elimination::eliminate;
 use crate::numeric::rounding::ROUND_OFF;
 
-/// Most multiplications of one step on its contact rows: a tenth of a second.
-/// Least-index pivoting may need any number of tries, though one or two are
-/// usual.
+/// Largest number of multiplications in one solution, about 0.1 s. Pivoting usually ends after one
+/// or two tries, but its worst case is exponential.
 const MOST_PIVOTING: usize = 100_000_000;
 
-/// Part of the deepest gap of a step that the pushes of two rows may leave of a third: the
-/// round-off of three sides that meet in one place.
+/// Penetration of a row, relative to the deepest one, that counts as round-off when two rows are
+/// closed and three or more sides meet in one point.
 const CLOSED_PART: f64 = 1e-9;
 
-/// Part of the gaps that round-off may leave open before the equations of a
-/// step count as singular.
+/// Residual of the closed rows, relative to their largest gap, above which the equations count as
+/// singular.
 const SINGULAR: f64 = 1e-3;
 
-/// Most penetrating rows of different sides that begin closed: more are too many for two
-/// coordinates and soft blades, and closing them costs more than finding those that push.
+/// Pivoting starts with all penetrating rows closed if there are at most this many. Of more rows
+/// only some push, and closing all of them first costs more than starting with none.
 const FEW_ROWS: usize = 4;
 
 /// Closes two rows as equalities; not finite where the rows are dependent.
@@ -34,8 +33,8 @@ pub(crate) fn equality_of_two(w: [[f64; 2]; 2], g: [f64; 2]) -> [f64; 2] {
     [(w[1][1] * g[0] - w[0][1] * g[1]) * over, (w[0][0] * g[1] - w[1][0] * g[0]) * over]
 }
 
-/// Solves the complementarity problem of two rows by cases: neither, the first, the second, both.
-/// `None` where no case is an answer.
+/// Solves the complementarity problem of two rows by cases: neither closed, the first, the second,
+/// both. `None` if no case is a solution.
 #[inline]
 pub(crate) fn complementary_of_two(w: [[f64; 2]; 2], g: [f64; 2]) -> Option<[f64; 2]> {
     if g[0] >= 0.0 && g[1] >= 0.0 {
@@ -53,7 +52,7 @@ pub(crate) fn complementary_of_two(w: [[f64; 2]; 2], g: [f64; 2]) -> Option<[f64
     (both[0] <= 0.0 && both[1] <= 0.0).then_some(both)
 }
 
-/// The rows of one problem, filled anew for each, in memory that stays.
+/// The rows of one problem. The buffers are reused from problem to problem.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Lcp {
     /// `W`, row by row, and the gaps `g`.
@@ -62,13 +61,13 @@ pub(crate) struct Lcp {
     /// The rows that are closed.
     closed: Vec<bool>,
     chosen: Vec<usize>,
-    /// Equations of the chosen rows, and behind each its right side.
+    /// Equations of the chosen rows, each followed by its right-hand side.
     equations: Vec<f64>,
     multipliers: Vec<f64>,
 }
 
 impl Lcp {
-    /// Fills in rows with these gaps, where a unit multiplier of row `b` closes the gap of row `a`
+    /// Sets the gaps `g` and the matrix `W`: a unit multiplier of row `b` reduces the gap of row `a`
     /// by `entry(a, b)`.
     #[inline]
     pub fn fill(&mut self, gaps: impl Iterator<Item = f64>, entry: impl Fn(usize, usize) -> f64) {
@@ -80,18 +79,18 @@ impl Lcp {
         }
     }
 
-    /// Closes every row as an equality, Eq. (13a). `None` where `W` is singular, to the digits it
-    /// has: more rows than coordinates that could close them.
+    /// Closes every row as an equality, Eq. (13a). `None` if `W` is numerically singular, which it
+    /// is with more rows than coordinates.
     pub fn equality(&mut self) -> Option<&[f64]> {
         self.begin(|_| true);
         self.close(SINGULAR)?;
         Some(&self.multipliers)
     }
 
-    /// Solves the complementarity problem. Few rows begin with all penetrations closed, which is
-    /// nearly always the answer; where this has none, and for more rows, they begin open. Rows that
-    /// `may_meet` in one place, which `W` does not tell apart, are then tried one and two at a time.
-    /// `None` where no choice of rows is an answer.
+    /// Solves the complementarity problem. Up to [`FEW_ROWS`] penetrating rows start closed, which
+    /// is nearly always the solution; if pivoting fails from there, and for more rows, all start
+    /// open. If that fails, too, and the sides `may_meet` in one point, where `W` is singular, each
+    /// row and each pair of rows is tried. `None` if no solution is found.
     pub fn complementary(&mut self, may_meet: bool) -> Option<&[f64]> {
         let few = self.gaps.iter().filter(|gap| **gap < 0.0).count() <= FEW_ROWS;
         let mut found = few && {
@@ -105,13 +104,14 @@ impl Lcp {
         (found || (may_meet && self.try_pairs())).then_some(&self.multipliers[..])
     }
 
-    /// Begins with the rows of these gaps closed.
+    /// Chooses the rows that start closed, by their gaps.
     fn begin(&mut self, is_closed: impl Fn(f64) -> bool) {
         self.closed.clear();
         self.closed.extend(self.gaps.iter().map(|&gap| is_closed(gap)));
     }
 
-    /// Closes and opens rows until none is wrong.
+    /// Closes penetrated rows and opens pulling ones, the first wrong row at a time, until none is
+    /// wrong. `None` if the equations become singular or the work exceeds its bound.
     fn pivot(&mut self, singular: f64) -> Option<()> {
         let rows = self.gaps.len();
         let round_off = ROUND_OFF * self.gaps.iter().fold(0.0_f64, |most, gap| most.max(gap.abs()));
@@ -131,8 +131,8 @@ impl Lcp {
         None
     }
 
-    /// Closes one or two rows so that all others are open, but for the round-off of rows that meet
-    /// in one place.
+    /// Tries each row and each pair of rows; returns whether one pushes and leaves every other row
+    /// open, up to [`CLOSED_PART`].
     fn try_pairs(&mut self) -> bool {
         let rows = self.gaps.len();
         let deepest = self.gaps.iter().fold(0.0_f64, |deepest, gap| deepest.max(-gap));
@@ -151,15 +151,15 @@ impl Lcp {
         false
     }
 
-    /// Returns the gap of a row that the multipliers leave.
+    /// Returns the gap of a row under the multipliers.
     fn left(&self, row: usize) -> f64 {
         let rows = self.gaps.len();
         let moved = self.w[row * rows..].iter().zip(&self.multipliers);
         self.gaps[row] - moved.map(|(w, lambda)| w * lambda).sum::<f64>()
     }
 
-    /// Finds the multipliers that close the chosen rows. `None` where more than the part `singular`
-    /// of the largest gap is left of them.
+    /// Computes the multipliers that close the chosen rows. `None` if the matrix is singular or a
+    /// residual exceeds `singular` times the largest gap of these rows.
     fn close(&mut self, singular: f64) -> Option<()> {
         let rows = self.gaps.len();
         self.chosen.clear();

@@ -1,13 +1,13 @@
 //! Gauss-Legendre quadrature of smooth oscillating functions: panels of four radians of the fastest
 //! oscillation with eight nodes each, error about 1e-13.
 //!
-//! Costs two evaluations a radian, at least eight (four for short intervals), and at most eight in
-//! each of `MOST_PANELS` panels.
+//! Cost: two evaluations a radian, but at least eight (four for an interval up to `FEW_NODES`) and
+//! at most eight in each of `MOST_PANELS` panels.
 
-/// Radians over which four Gauss nodes are exact to round-off.
+/// Phase angle up to which four nodes are exact to round-off \[rad\].
 const FEW_NODES: f64 = 0.3;
 
-/// Panels of one quadrature, at most.
+/// Largest number of panels.
 const MOST_PANELS: f64 = 1e7;
 
 /// Integrates two functions over `[0, s]`; `rate` is their highest angular frequency.

@@ -1,10 +1,10 @@
-//! Real roots of polynomials that are sums of products, by the rule of signs of Descartes on intervals
-//! that are halved.
+//! Real roots of polynomials that are sums of products, by Descartes' rule of signs on intervals that
+//! are halved until each has at most one root.
 //!
-//! On an interval a polynomial of degree `n` is the list `c_0` to `c_n` of
-//! `sum c_k t^k (1 - t)^(n - k)`, with `t` from 0 to 1. The list of a product is the convolution of the
-//! lists of its factors, so that a factor that vanishes at an end of the interval keeps its digits
-//! there. The signs in a list change as often as the polynomial has roots inside, or more often by an
+//! On an interval a polynomial of degree `n` is given by the list `c_0` to `c_n` of its coefficients
+//! in `sum c_k t^k (1 - t)^(n - k)`, with `t` from 0 to 1. The list of a product is the convolution of
+//! the lists of its factors, so a factor that vanishes at an end of the interval keeps its digits
+//! there. The number of sign changes in the list is the number of roots inside, or exceeds it by an
 //! even number.
 
 use super::search::bisected;
@@ -24,7 +24,8 @@ pub(crate) fn product<const A: usize, const B: usize, const C: usize>(
 }
 
 /// Returns the roots between the first and the last of `ends`, which are in increasing order. `value`
-/// returns the polynomial, `on` its list on an interval. Roots closer than `apart` may be left out.
+/// evaluates the polynomial; `on` returns its list on an interval. Roots closer to each other than
+/// `apart` may be missed.
 pub(crate) fn real_roots<const N: usize>(
     ends: &[f64],
     apart: f64,
@@ -58,7 +59,7 @@ fn isolated<const N: usize>(
             found.push(([from, from], first));
         }
         let middle = 0.5 * (from + to);
-        // Neighbouring numbers have no number between them.
+        // Adjacent floating-point numbers cannot be halved.
         let is_wide = to - from > apart && from < middle && middle < to;
         if changes == 1 {
             found.push(([from, to], last));

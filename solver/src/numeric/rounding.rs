@@ -1,21 +1,21 @@
-//! Round-off as a part of a size, and rounding to significant decimal digits, exact because it goes
-//! through the decimal text.
+//! Relative tolerances for round-off, and rounding to significant decimal digits.
 
-/// Part of the terms of a sum that its round-off may make: some fifty
-/// roundings. Smaller: a side at rest counts as opening, and pivoting may not end.
+/// Round-off of one sum, relative to its terms: about fifty roundings. With a smaller value a side
+/// at rest would count as opening, and pivoting might not end.
 pub(crate) const ROUND_OFF: f64 = 1e-14;
 
-/// Part of a size that many sums in a row may round off: a thousand roundings. Smaller: a
-/// wave never rests, blades that stand alike count as two, and where a casing just
-/// rises to its side round-off could take it for falling.
+/// Round-off of many sums in a row, relative to their size: about five hundred roundings. With a
+/// smaller value a wave would never come to rest, and a casing that just reaches its side could be
+/// taken for one that falls short of it.
 pub(crate) const ROUNDINGS: f64 = 1e-13;
 
-/// Part of a size up to which a pivot, a residual, a step of Newton's method, a
-/// discriminant or what is left of a gap counts as zero: ten thousand roundings. Smaller:
-/// equations that have no better answer are said to have none.
+/// A pivot or a residual counts as zero up to this part of the largest entry: about five thousand
+/// roundings. With a smaller value equations would count as unsolved although no number solves them
+/// better.
 pub(crate) const AS_ZERO: f64 = 1e-12;
 
-/// Rounds a number to `digits` significant digits, at least one.
+/// Rounds a number to `digits` significant digits, at least one. Exact, because it goes through the
+/// decimal text.
 pub fn rounded(x: f64, digits: usize) -> f64 {
     format!("{x:.*e}", digits.saturating_sub(1)).parse().unwrap_or(x)
 }

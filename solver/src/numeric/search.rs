@@ -1,13 +1,12 @@
-//! Search of numbers: the place at which the answer of a predicate changes, by bisection; the maximum
-//! of a function, by golden section; and over a list of places the spans in which a condition is
-//! true and the zeros of a function. Bisection and golden section take an interval that contains
-//! what is looked for; of several such places they return one. What happens between two neighbours
-//! of a list and ends before the second is not seen, so the caller states the density of its list.
+//! One-dimensional search: the change of a predicate by bisection, the maximum of a function by
+//! golden section, and over a list of places the spans in which a condition is true and the zeros
+//! of a function. Bisection and golden section need an interval that contains the result; if it
+//! contains several, they return one of them. A span that lies between two neighbouring places of a
+//! list is missed, so the caller chooses the density of its list.
 
 use std::convert::Infallible;
 
-/// Enough to reduce any interval that occurs to adjacent floating-point numbers, whatever the
-/// scales of its ends.
+/// Number of halvings that reduces any interval that occurs to adjacent floating-point numbers.
 pub(crate) const MOST_HALVINGS: usize = 200;
 
 /// As [`bisected`], but stops at the relative width `part` of the far end, and with a predicate
@@ -41,14 +40,14 @@ pub(crate) fn bisected_to(
     found
 }
 
-/// Returns the adjacent numbers between which `is_far` becomes true, that on the near side first.
-/// The ends are not evaluated: `is_far` must be false at the first and true at the second.
+/// Returns the adjacent numbers between which `is_far` becomes true, the false one first. The ends
+/// are not evaluated: `is_far` must be false at the first and true at the second.
 pub(crate) fn bisected(ends: [f64; 2], is_far: impl FnMut(f64) -> bool) -> [f64; 2] {
     bisected_to(ends, 0.0, is_far)
 }
 
-/// Number of golden-section steps. Each leaves 0.618 of the interval, all of them 3e-13. The maximum
-/// is accurate to round-off, its place to the square root of that.
+/// Number of golden-section steps. Each leaves 0.618 of the interval; all of them leave 3e-13 of it.
+/// The value of the maximum is accurate to round-off, its position to the square root of round-off.
 const STEPS: usize = 60;
 
 /// Returns the position of the maximum in the interval, and the value there. Costs [`STEPS`] + 2
@@ -71,8 +70,9 @@ pub(crate) fn highest([mut low, mut high]: [f64; 2], of: impl Fn(f64) -> f64) ->
     if at_a >= at_b { (a, at_a) } else { (b, at_b) }
 }
 
-/// Returns the spans of `places` (in increasing order) in which a condition is true. Both ends are
-/// inside; each is a place of the list, or is found to the last digit by bisection between two.
+/// Returns the spans of `places` (in increasing order) in which a condition is true. The condition
+/// is true at both ends of a span. An end between two places is located to the last digit by
+/// bisection.
 pub(crate) fn spans(places: &[f64], is_true: impl Fn(f64) -> bool) -> Vec<[f64; 2]> {
     let mut found: Vec<[f64; 2]> = Vec::new();
     let mut last: Option<(f64, bool)> = None;
@@ -96,8 +96,8 @@ pub(crate) fn spans(places: &[f64], is_true: impl Fn(f64) -> bool) -> Vec<[f64; 
 }
 
 /// Returns the zeros of a continuous function between the first and the last of `places` (in
-/// increasing order). Every extremum towards zero is refined, so that two zeros between places are
-/// found.
+/// increasing order). Where the function approaches zero and turns back, its extremum is refined, so
+/// that two zeros between neighbouring places are found.
 pub(crate) fn zeros(places: &[f64], of: impl Fn(f64) -> f64) -> Vec<f64> {
     let mut known: Vec<(f64, f64)> = places.iter().map(|&place| (place, of(place))).collect();
     let extremes: Vec<(f64, f64)> = known

@@ -6,8 +6,8 @@ use super::error::refuse_if;
 use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind, Value, keys};
 
 impl Scene {
-    /// Returns whether the scene uses any feature beyond the paper's model. Its runs keep an account
-    /// of energy, and take the steps of held tips one by one.
+    /// Returns whether the scene uses any feature beyond the paper's model. Such a run keeps an
+    /// energy balance and computes the steps of held tips one by one.
     #[must_use]
     pub fn goes_beyond(&self) -> bool {
         self.has_other_tips() || self.changes_with_speed()
@@ -42,8 +42,8 @@ impl Scene {
         grows || (stiffens && self.solver.model != ModelSize::Rigid)
     }
 
-    /// Returns whether a contact force bends blades that move by the slope or the friction of their
-    /// tips. The event solver then leaves the blade angles out of the phases of the gaps.
+    /// Returns whether blades move and a contact force bends them by the slope or the friction of
+    /// their tips. The event solver then neglects the blade angles in the phases of the gaps.
     #[must_use]
     pub fn has_slope_or_friction(&self) -> bool {
         let tips = self.bladed_disk.radial_coupling != 0.0 || self.contact.friction != 0.0;
@@ -72,7 +72,7 @@ impl Scene {
     }
 
     /// Returns, for the full model, the note that steady states and limits are computed for equal
-    /// blades in the modes of one number of nodal diameters, while runs treat every blade alone;
+    /// blades in the modes of one number of nodal diameters, while runs compute every blade;
     /// `None` for the other models.
     #[must_use]
     pub fn tuned_note(&self) -> Option<String> {
@@ -84,16 +84,16 @@ impl Scene {
         };
         (self.solver.model == ModelSize::Full).then(|| {
             format!(
-                "of equal blades in the modes of {diameters} nodal diameters; runs of this \
-                 scene (solver.model = \"full\") have every blade alone{mistuned}"
+                "for equal blades in the modes of {diameters} nodal diameters; runs of this \
+                 scene (solver.model = \"full\") compute every blade{mistuned}"
             )
         })
     }
 
     /// Returns the note that the contact forces of this scene are not unique; `None` if they are.
-    /// With friction, radial tips and several blades with an angle of their own on a side, the
-    /// product of the blade levers `A (A - mu l_b)` is negative for `0 < A < mu l_b`, so the blades
-    /// can share a contact force in more than one way.
+    /// They are not with friction, radial tips and several blades on a side, each with its own angle:
+    /// the product of the blade levers `A (A - mu l_b)` is negative for `0 < A < mu l_b`, so the
+    /// blades can share a contact force in more than one way.
     #[must_use]
     pub fn share_note(&self) -> Option<&'static str> {
         let rubs = self.contact.friction != 0.0 && self.bladed_disk.radial_coupling == 0.0;
@@ -101,7 +101,7 @@ impl Scene {
         let several = self.machine().polygon.blades_per_side > 1;
         (rubs && rigid && several && self.solver.model == ModelSize::Full).then_some(
             "with friction several blades of a side can share its push in more than one way; \
-             this run takes the even share, one answer of several",
+             this run shares it evenly, which is one solution of several",
         )
     }
 

@@ -6,8 +6,8 @@ use super::keys;
 use super::units::{self, RangeError};
 use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
 
-/// Part of a step by which an end that is so many steps may fall short of them. Smaller: a
-/// run ends a step before its end.
+/// Part of a step by which the end of a run may fall short of a whole number of steps by round-off.
+/// With a smaller value a run could end one step early.
 pub(crate) const STEP_ROUND_OFF: f64 = 1e-6;
 
 /// Largest number of coordinate updates in an explicit run: minutes of computing if nothing is

@@ -66,7 +66,7 @@ impl CheckedScene {
         self.0
     }
 
-    /// Returns this scene, run by every step: one by one, and to the end.
+    /// Returns this scene with every step to be computed one by one, to the end of the run.
     #[must_use]
     pub fn by_every_step(mut self) -> Self {
         self.0.solver.plain = true;

@@ -135,7 +135,7 @@ pub fn read_text(path: &Path, most: u64) -> std::io::Result<String> {
 /// The system reports an error, or the file is larger.
 pub fn read_bytes(path: &Path, most: u64) -> std::io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    // Limits the memory that a device or a huge file can use.
+    // A device or a huge file must not fill the memory.
     File::open(path)?.take(most + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > most {
         let reason = format!("allowed are up to {most} bytes");

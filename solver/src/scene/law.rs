@@ -29,7 +29,7 @@ pub enum ContactLaw {
 }
 
 impl ContactLaw {
-    /// Returns the law to compare with.
+    /// Returns the law that the explorer compares this one with.
     #[must_use]
     pub fn other(self) -> Self {
         match self {
@@ -38,7 +38,7 @@ impl ContactLaw {
         }
     }
 
-    /// Returns why the event solver does not know the law; `None` where it does.
+    /// Returns why the event solver does not support the law; `None` if it does.
     #[must_use]
     pub fn lacks_events(self) -> Option<&'static str> {
         match self {
@@ -48,15 +48,15 @@ impl ContactLaw {
         }
     }
 
-    /// Returns whether a multiplier may pull. A lining has the rigid law of its stiff limit.
+    /// Returns whether a multiplier may pull.
     #[must_use]
     pub fn pulls(self) -> bool {
         self == Self::Bilateral
     }
 
-    /// Returns the force that keeps a corner closed, for the multipliers of its sides and the
-    /// cosine of the angle between them; the corner opens where it is zero \[N\]. It lasts while
-    /// both sides push, or, where they may pull, are predicted to penetrate.
+    /// Returns the force that keeps a corner closed \[N\], from the multipliers of its sides and the
+    /// cosine of the angle between them. The corner opens when it falls to zero: when a side stops
+    /// pushing or, if multipliers may pull, is no longer predicted to penetrate.
     #[must_use]
     pub fn hold(self, [a, b]: [f64; 2], cos: f64) -> f64 {
         if self.pulls() { (-(a + cos * b)).min(-(b + cos * a)) } else { (-a).min(-b) }

@@ -80,8 +80,8 @@ pub struct SolverChoice {
     pub step_s: f64,
     /// End of the simulation \[s\].
     pub end_s: f64,
-    /// Whether the explicit solver takes every step, one by one, and the verdict is that of the
-    /// whole run; no key of a scene file.
+    /// Whether the explicit solver computes every step one by one, and the verdict is not proved
+    /// early. Not a key of a scene file.
     #[serde(skip)]
     pub plain: bool,
 }
@@ -135,7 +135,7 @@ pub struct Scene {
     pub schema: u32,
     /// Title, one line.
     pub title: String,
-    /// What to look for, for the reader of the scene.
+    /// What the scene shows, for its reader.
     pub note: String,
     /// The bladed disk.
     pub bladed_disk: BladedDisk,

@@ -1,12 +1,12 @@
-//! The nearest of known names to one that is unknown, for messages.
+//! The known name that is nearest to an unknown one, for error messages.
 
 use strsim::normalized_damerau_levenshtein;
 
-/// Least part of the letters of a name that was meant that is right.
+/// Smallest similarity of the two names, from 0 to 1 (normalised Damerau-Levenshtein).
 const LIKE: f64 = 0.6;
 
-/// Returns the known name with the fewest changes from an unknown one: letters added, left out,
-/// replaced or swapped with the next; `None` if all names need many.
+/// Returns the known name that differs least from an unknown one in letters added, left out,
+/// replaced or swapped with the next; `None` if none is similar.
 #[must_use]
 pub fn nearest<'a>(unknown: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let likeness = |name: &&str| normalized_damerau_levenshtein(unknown, name);

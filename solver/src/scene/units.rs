@@ -195,7 +195,7 @@ impl Quantity {
             return Err(UnitError::Comma);
         }
         let written = plain(unit);
-        // No rotor turns so slowly; a spreadsheet may have put the point between thousands.
+        // A spreadsheet may have put the point between thousands, as in 9.500 for 9500 rpm.
         if written.eq_ignore_ascii_case("rpm") && may_be_thousands(number) {
             return Err(UnitError::Thousands(number.to_string()));
         }

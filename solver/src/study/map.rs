@@ -1,5 +1,5 @@
 //! Interaction map: the verdict of every cell over two axes, computed in parallel. A cell takes one
-//! byte of memory, so only the time of the runs limits the size of a map.
+//! byte of memory, so the time of the runs limits the size of a map.
 
 use std::ops::Index;
 use std::sync::{Mutex, PoisonError};
@@ -11,7 +11,7 @@ use super::Axis;
 use crate::motion::{Certainty, GoOn, Verdict, run_to_verdict, run_with_certainty};
 use crate::scene::{CheckedScene, Scene, SceneError};
 
-/// Largest number of cells, about 4000 x 4000; so many take days to compute.
+/// Largest number of cells, about 4000 x 4000, which take days to compute.
 const MOST_CELLS: usize = 16_000_000;
 
 /// Plan of a map: everything that determines its cells.
@@ -124,8 +124,8 @@ impl Map {
         Self { plan, cells, runs: 0, wall_s: 0.0 }
     }
 
-    /// Computes those of the given cells that are missing, in parallel, as long as `go_on` returns
-    /// true, and passes each to `keep` as soon as it is ready.
+    /// Computes the missing ones of the given cells in parallel while `go_on` returns true, and
+    /// passes each to `keep` as soon as it is ready.
     pub fn fill(
         &mut self,
         indices: impl IndexedParallelIterator<Item = usize>,
@@ -185,7 +185,7 @@ pub struct Cell {
 }
 
 impl Cell {
-    /// Creates a cell with a verdict that is not doubtful.
+    /// Creates a cell whose verdict is not doubtful.
     #[must_use]
     pub const fn of(verdict: Verdict) -> Self {
         Self { verdict, sensitive: false, depends_on_step: false }
@@ -198,8 +198,8 @@ impl Cell {
     }
 }
 
-/// Meaning of a byte: not computed, then each verdict, first without doubt, then sensitive, then
-/// dependent on the time step.
+/// Meaning of a cell's byte: not computed, then every verdict without doubt, every verdict marked
+/// sensitive, and every verdict marked as dependent on the time step.
 static MEANING: [Option<Cell>; 1 + 3 * KINDS] = {
     let mut meaning = [None; 1 + 3 * KINDS];
     let mut kind = 0;

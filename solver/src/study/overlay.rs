@@ -17,7 +17,8 @@ pub struct Curve {
     pub points: Vec<(f64, f64)>,
 }
 
-/// Returns the curves that apply to the axes of a map, at its resolution.
+/// Returns the curves that apply to the axes of a map, with one point for each of its columns or
+/// rows.
 #[must_use]
 pub fn curves(plan: &MapPlan) -> Vec<Curve> {
     let mut curves = speed_curves(plan);

@@ -101,12 +101,13 @@ pub struct SurveyRow {
     /// within all speeds of the scene's direction of rotation; the last may end at infinity. `None`
     /// if unknown for these tips and this casing \[rad/s\].
     pub locks_in_range: Option<Vec<[f64; 2]>>,
-    /// Speeds within the range from which inclined tips whirl, if they do at any speed, otherwise the
-    /// coincidence that is relevant to them \[rad/s\].
+    /// Speeds within the range at which inclined tips begin to whirl; if they whirl at no speed, the
+    /// coincidence that acts on them \[rad/s\].
     pub whirls_in_range: Vec<f64>,
-    /// Intervals of speed in which a whirl lasts, as `locks_in_range` \[rad/s\].
+    /// Intervals of speed in which a whirl lasts, in the form of `locks_in_range` \[rad/s\].
     pub whirl_spans: Vec<[f64; 2]>,
-    /// Intervals of speed in which rubbing grows without bound, as `locks_in_range` \[rad/s\].
+    /// Intervals of speed in which rubbing grows without bound, in the form of `locks_in_range`
+    /// \[rad/s\].
     pub growth_spans: Vec<[f64; 2]>,
     /// Existing limits, in the order of `margins`, forward ones first.
     pub limits: Vec<SurveyLimit>,
@@ -244,7 +245,7 @@ fn locks<'a>(
         return Some(Vec::new());
     }
     if !machine.knows_locks() {
-        // Tips without lock speeds as they are may have none when equal in a round casing.
+        // Equal tips in a round casing may have no lock either; that is known.
         let even = even(scene).machine();
         if senses(asked).any(|sense| !lock_windows(&even, sense).is_empty()) {
             return None;

@@ -38,7 +38,7 @@ fn flutter_from_rest_on_is_found_and_no_lock_holds_there() {
         assert_eq!((flutter.value, flutter.margin), (Some(0.0), None));
         assert_eq!(flutter.note.as_deref(), Some("at every speed"));
         let push = margins.limit(LimitName::PushA).unwrap();
-        assert!(push.note.as_ref().unwrap().contains("does not last"), "{push:?}");
+        assert!(push.note.as_ref().unwrap().contains("this lock is unstable"), "{push:?}");
     }
 }
 

@@ -1,6 +1,6 @@
-//! Limit cycles on a lining: waves of constant amplitude, at which the growth of rest ends because
-//! blades lift off, or which exist over a clearance; and the small motions about any steady wave
-//! (docs/theory.md, section 10).
+//! Limit cycles on a lining: waves of constant amplitude, with preload or with a clearance, and the
+//! small motions about any steady wave (docs/theory.md, section 10). With preload, growth from rest
+//! ends in such a wave because blades lift off.
 //!
 //! The conditions are `S(r) = -1/Re B(omega)` and `Im B(omega) = 0`: the stiffness of all blades
 //! must match the joint compliance. The frequency is that in the limit of many blades, so the wave
@@ -56,12 +56,12 @@ impl Lining<'_> {
     fn cycle(&self, speed: f64, wave: &RoundWhirl, r: f64) -> Result<Cycle, HarmonicError> {
         let stiffness = wave.stiffness_n_per_m;
         let frame = Frame::at(&self.machine, speed).turning(wave.s_rad_s);
-        // A radial change of the amplitude changes the secant stiffness, a tangential one does not.
+        // A change of the amplitude alters the secant stiffness; a change of the phase does not.
         let [radial, tangential] = [(1.0, 0.0), (0.0, 1.0)].map(|way| Row::fixed(&frame, way));
         let springs = [(radial, stiffness + self.stiffness_change(r)), (tangential, stiffness)];
         let mut values =
             frame.motion(&[], &springs).eigenvalues().ok_or(HarmonicError::Unsettled { speed })?;
-        // A wave shifted in time is the same wave, so one eigenvalue is zero.
+        // The wave shifted in time is also a solution, so one eigenvalue is zero.
         values.sort_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()));
         let growth = values.iter().skip(1).map(|value| value.re).fold(f64::MIN, f64::max);
         Ok(Cycle {

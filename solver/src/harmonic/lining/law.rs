@@ -17,21 +17,21 @@ use crate::model::{ContactSurface, LiningLaw, Machine};
 use crate::numeric::quadrature::GAUSS_8;
 use crate::numeric::search::bisected;
 
-/// Width of a lining over the amplitude of a wave from which its mean stiffness is a
-/// difference of closed forms. Smaller: the difference loses digits. Larger: eight
-/// nodes do not give all of them.
+/// Ratio of the smoothing depth to the amplitude above which the mean stiffness is computed as a
+/// difference of closed forms. Below it the difference would lose digits, and quadrature with eight
+/// nodes is exact to round-off.
 const LINING_DIVIDED: f64 = 1e-3;
 
-/// Smallest amplitude of a wave that is looked for, over the preload and the width of
-/// the lining: below it no blade lifts off.
+/// Smallest amplitude in the search, relative to preload plus smoothing depth: below it no blade
+/// lifts off.
 const LINING_NARROWEST: f64 = 1e-4;
 
-/// Largest one. Larger: the stiffness differs from that of half contact by less than
-/// a part in a thousand million.
+/// Largest amplitude in the search, relative to the same length: there the stiffness differs from its
+/// limit, contact over half of each revolution, by about 1e-9.
 const LINING_WIDEST: f64 = 1e9;
 
-/// Strides from one to the other. Fewer: of two amplitudes in one stride neither is
-/// found, on a lining that is not pressed in by its whole width.
+/// Number of intervals of equal ratio between the two. Two solutions in one interval are missed,
+/// which can happen where the preload is smaller than the smoothing depth.
 const LINING_STRIDES: f64 = 400.0;
 
 /// A machine whose casing has a lining.

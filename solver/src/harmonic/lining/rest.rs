@@ -19,19 +19,17 @@ use crate::harmonic::HarmonicError;
 use crate::model::{Frame, Machine};
 use crate::numeric::search::highest;
 
-/// Growth rates up to this part of the fastest frequency are round-off where nothing
-/// is damped.
+/// Without damping, growth rates up to this part of the fastest frequency count as round-off.
 const UNDAMPED_GROWTH: f64 = 1e-11;
 
-/// Speeds of an even scan for changes of the growth at rest.
+/// Number of equal intervals of speed in the scan for changes of the growth at rest.
 const GROWTH_SCAN: u32 = 1000;
 
-/// Speeds on each side of a coincidence, and how many of them are in one width of it.
-/// Less of either: of a tongue as narrow as damping and lining make it the two ends may
-/// be missed.
+/// Number of additional speeds on each side of a coincidence, and the number of them in one width of
+/// its range of growth. With fewer, both ends of a narrow range could be missed.
 const TONGUE_SCAN: (i32, f64) = (240, 8.0);
 
-/// Widths of a tongue between its coincidence and the fastest growth, at most.
+/// Largest distance of the fastest growth from the coincidence, in widths of the range of growth.
 const PEAK_REACH: f64 = 12.0;
 
 /// A motion `e^{ist}` about rest.
@@ -111,8 +109,8 @@ pub struct HopfPoint {
     pub grows_above: bool,
 }
 
-/// Smallest stiffness of a lining that holds a lock, or that makes rest grow, and the speed at
-/// which it does.
+/// Smallest stiffness of a lining that holds a lock, or with which waves grow from rest, and the
+/// speed at which it does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LeastStiffness {
     /// Stiffness under one blade or of all blades together, as stated by the function that returns
@@ -259,9 +257,9 @@ impl Lining<'_> {
 }
 
 /// Returns the smallest stiffness `S0` (all blades together) of a lining under preload at which
-/// rest grows near the coincidence, for a rotor that turns in the direction of the sign of `sense`.
-/// Zero if casing or blades are undamped; `None` if they are not coupled, have no coincidence, or
-/// no stiffness that can be built makes rest grow.
+/// waves grow from rest near the coincidence, for a rotor that turns in the direction of the sign of
+/// `sense`. Zero if casing or blades are undamped; `None` if they are not coupled, if they have no
+/// coincidence, or if no stiffness that can be built makes waves grow.
 #[must_use]
 pub fn growth_threshold(machine: &Machine, sense: f64) -> Option<LeastStiffness> {
     let product = machine.coupling_product_at(sense).abs();

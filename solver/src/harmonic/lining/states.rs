@@ -27,19 +27,19 @@ use crate::model::{Frame, LiningLaw, Machine, Row};
 use crate::numeric::rounding::AS_ZERO;
 use crate::numeric::search::highest;
 
-/// Natural logarithms of the excess of a speed over the lock of rigid contact, between
-/// which the softest lining is looked for, and looks between them. Smaller: a lining of
-/// nearly rigid stiffness has its window outside.
+/// Range of `ln(speed/lock - 1)` in which the softest lining is searched, with the lock speed of rigid
+/// contact. A smaller range would exclude the optimum of nearly rigid linings.
 const WINDOW_REACH: [f64; 2] = [-30.0, 15.0];
 
-/// See `WINDOW_REACH`.
+/// Number of intervals of that range.
 const WINDOW_LOOKS: u32 = 450;
 
-/// Distance over the length of the contact up to which two steady states are one.
-/// Larger: two that are about to meet in a fold are one too early.
+/// Distance of two steady states, relative to the contact length, up to which they count as one. With
+/// a larger one, two states near their fold would count as one.
 const LINING_ALIKE: f64 = 1e-7;
 
-/// Real part of an eigenvalue over the fastest that is round-off.
+/// Real part of an eigenvalue, relative to the largest eigenvalue, up to which it counts as
+/// round-off.
 const LINING_NEUTRAL: f64 = 1e-10;
 
 /// Grid of starting points: angle in units of `delta`, and amplitude in units of the contact
@@ -149,7 +149,7 @@ impl<'a> Balance<'a> {
         let (mut residual, mut jacobian) = self.residual(w);
         for _ in 0..NEWTON_STEPS {
             let step = jacobian.lu().solve(&residual)?;
-            // Halved if it overshoots a kink of the law.
+            // The step is halved if it overshoots a kink of the law.
             let mut part = 1.0;
             let mut next = self.residual(w - step);
             while next.0.norm() > residual.norm() && part > 1.0 / 64.0 {
@@ -174,8 +174,8 @@ impl<'a> Balance<'a> {
         self.lining.machine.clearance().abs() + self.lining.smoothing_m
     }
 
-    /// Returns the displacement that the first `sides` neighbouring sides would hold if they were
-    /// springs (`eps = 0`) \[m\]; `None` if the equations are singular.
+    /// Returns the displacement that contact on the first `sides` neighbouring sides would hold with
+    /// a linear lining (`eps = 0`) \[m\]; `None` if the equations are singular.
     fn sprung(&self, sides: u32) -> Option<Vector2<f64>> {
         let machine = &*self.lining.machine;
         let each = self.lining.stiffness_n_per_m * f64::from(machine.polygon.blades_per_side);

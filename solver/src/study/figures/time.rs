@@ -5,7 +5,7 @@ use crate::motion::{RunReport, Sample, Sampling, Script, run_to_end, run_to_verd
 use crate::scene::keys;
 use crate::scene::{CheckedScene, SolverKind};
 
-/// Number of samples of a run; a line of the figure cannot resolve more.
+/// Number of intervals between the samples of a run; the figure cannot resolve more.
 const INTERVALS: u32 = 2000;
 /// Time steps of Fig. 4 \[s\].
 const STEPS: [f64; 3] = [1e-6, 5e-7, 1e-7];

@@ -136,8 +136,9 @@ fn series(scene: Scene) -> Vec<Series> {
     series
 }
 
-/// Returns the smallest pulse of a column from which every larger one of the map gives a held wave,
-/// located by bisection between two cells. `None` if only a few of the largest pulses do, or all.
+/// Returns the threshold of a column: the smallest pulse above which every larger one of the map
+/// leads to a held wave, located by bisection between two cells. `None` if fewer than
+/// [`LASTING_ROWS`] of the largest pulses do, or if all do.
 fn threshold(map: &Map, column: u32) -> Option<f64> {
     let lasts = |row: u32| map.at(column, row).is_some_and(|cell| cell.verdict.is_held());
     let rows = map.plan.y.count;

@@ -10,26 +10,25 @@ use crate::motion::{GoOn, Verdict, VerdictReached, certainty, run_to_verdict};
 use crate::numeric::rounding::rounded;
 use crate::scene::{CheckedScene, ContactLaw, Scene, SolverKind, keys};
 
-/// Steps away from a quantity, as parts of it, at which a run is asked whether its verdict is
-/// still the same. Closer together: more islands are found, by more runs.
+/// Relative changes of a quantity at which runs are tried, in this order. Closer ones would find more
+/// islands, at the cost of more runs.
 const CHANGE_STEPS: [f64; 7] = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0];
 
-/// Digits of a value that is tried. Fewer: a change is not found to its three digits. More: a
-/// value that is shown does not give the same run.
+/// Number of digits of a value that is tried: one more than [`CHANGE_FOUND`] needs, and few enough
+/// that the displayed value reproduces the run.
 const CHANGE_DIGITS: usize = 4;
 
-/// Part of a value to which a change of the verdict is found: three digits. Smaller: more runs
-/// for digits that no machine has.
+/// Relative accuracy to which a change of the verdict is located: three digits.
 const CHANGE_FOUND: f64 = 1e-3;
 
-/// Most runs on one side of a quantity: those steps, and halvings of the widest of them to
-/// three digits of a value that is a hundredth of the present one.
+/// Largest number of runs on one side of a quantity: the steps, and the halvings of the widest step
+/// that locate a value of a hundredth of the present one to three digits.
 const CHANGE_RUNS: usize = 20;
 
-/// Largest value that is tried of a damping ratio that is zero, more than structures have.
+/// Largest value that is tried if a damping ratio is zero; few structures have more.
 const CHANGE_OF_ZERO: f64 = 0.1;
 
-/// Quantities that are varied, and their names; the last two only if they are not zero.
+/// Keys and names of the quantities that are varied; the last two only if they are not zero.
 const CHANGED: [(&str, &str); 7] = [
     (keys::SPEED, "speed"),
     (keys::PULSE, "pulse"),
@@ -70,8 +69,7 @@ pub struct VerdictChange {
     pub below: Option<ChangedVerdict>,
     /// Nearest change found above `present`; `None` if none was found.
     pub above: Option<ChangedVerdict>,
-    /// On each side, the last value up to which every run that was tried has the same verdict, or
-    /// the change itself.
+    /// On each side, the change, or without one the last value with the same verdict.
     pub tried: [f64; 2],
 }
 
@@ -98,8 +96,8 @@ impl VerdictChange {
     }
 }
 
-/// Returns the scenes to be examined: the given one, and for the bilateral law also that with
-/// contact that only pushes.
+/// Returns the scenes to be examined: the given one, and for the bilateral law also the same scene
+/// with contact that only pushes.
 pub(super) fn scenes_to_run(scene: &CheckedScene) -> Vec<CheckedScene> {
     let mut scenes = vec![scene.clone()];
     if scene.solver.contact == ContactLaw::Bilateral {

@@ -13,8 +13,8 @@ use crate::harmonic::{LockLoads, SpeedRanges, lobes_of, lock_loads, roundness};
 use crate::model::{LockWindow, Machine};
 use crate::scene::{ModelSize, Scene};
 
-/// Limits that need no contact. The others are of rigid contact, or of a lining that is not
-/// compressed at rest; a compressed one has other limits (`LiningState`).
+/// Limits that do not depend on contact. The others assume rigid contact, or a lining that is not
+/// compressed at rest; a compressed lining has other limits (`LiningState`).
 const OF_NO_CONTACT: [LimitName; 3] =
     [LimitName::OmegaC, LimitName::Coincidence, LimitName::CoincidenceDifference];
 
@@ -37,12 +37,12 @@ impl<'a> Evaluated<'a> {
         }
     }
 
-    /// Evaluates a scene that differs little from this one, in which the rotor turns in the same
-    /// direction. Its touching pulse is that at the same side and instant: there the gap has no rate,
-    /// so a shift in time does not contribute.
+    /// Evaluates a scene that differs little from this one, with the rotor in the same direction. Its
+    /// touching pulse is computed for the same side and instant: the gap has no rate there, so a
+    /// shift in time does not contribute to first order.
     fn beside<'b>(&self, scene: &'b Scene) -> Evaluated<'b> {
         let there = Evaluated { touch: self.touch.clone(), ..Evaluated::of(scene) };
-        // Parameters of the operation leave the machine as it is.
+        // Parameters of the operation do not change the machine.
         let same = there.machine() == self.machine();
         if same { Evaluated { ranges: self.ranges.clone(), ..there } } else { there }
     }
@@ -61,7 +61,7 @@ impl<'a> Evaluated<'a> {
         if self.machine().lining.is_some() { &[] } else { self.ranges.flutters() }
     }
 
-    /// Returns one of the loads of the lock at the speed of the scene.
+    /// Returns one load of the lock at the speed of the scene; empty without a lock.
     fn load(&self, of: fn(&LockLoads) -> f64) -> Vec<f64> {
         let loads = self.loads.get_or_init(|| {
             let machine = self.machine().clone();
@@ -129,7 +129,7 @@ impl<'a> Evaluated<'a> {
 }
 
 /// Returns the limits of a scene that are speeds, with their sensitivities to one parameter, and the
-/// ranges of speed on which they rest.
+/// ranges of speed from which they follow.
 pub(in crate::study) fn speeds(
     scene: &Scene,
     by: Option<&Parameter>,

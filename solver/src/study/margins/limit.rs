@@ -27,7 +27,7 @@ use super::parameters::is_length;
 pub enum LimitName {
     /// Critical speed.
     OmegaC,
-    /// Lowest speed at which the paper's equality algorithm holds a lock.
+    /// Lowest speed at which the paper's equality algorithm holds a lock, with a pull.
     OmegaAdhesive,
     /// Lowest speed at which pushes alone hold a lock.
     OmegaLock,
@@ -37,10 +37,10 @@ pub enum LimitName {
     Coincidence,
     /// Other coincidence of Eq. (30), that of the frequency difference.
     CoincidenceDifference,
-    /// The speed from which inclined tips whirl with the casing.
+    /// Lowest speed at which inclined tips whirl with the casing.
     WhirlOnset,
-    /// Speed above which blades and casing that move as one flutter; 0 if they do from rest on. The
-    /// curvature of heavy pushes may still hold a lock.
+    /// Speed above which blades and casing flutter if their contact lasts; 0 if they do from
+    /// standstill on. The curvature of large contact forces can still stabilise a lock.
     FlutterSpeed,
     /// Speed at which growing blades first touch the undeformed casing.
     FirstTouch,
@@ -184,20 +184,20 @@ impl LimitName {
         use Quantity::{Pulse, Push, Speed};
         match self {
             Self::OmegaC => (Speed, "Ω_c", ["Ω_c"; 2], "critical speed: above it the wave is pushed outward"),
-            Self::OmegaAdhesive => (Speed, "Ω_adhesive", ["adhesive limit", "adhesive"], "above it the bilateral law holds, if one blade pulls"),
-            Self::OmegaLock => (Speed, "Ω_lock", ["Ω_lock"; 2], "from it on both blades of a lock push"),
-            Self::LockEnds => (Speed, "Ω_ends", ["lock ends"; 2], "up to it both blades of a lock push"),
-            Self::Coincidence => (Speed, "Ω_coincidence", ["coincidence"; 2], "dangerous coincidence (31), of the sum of frequencies"),
-            Self::CoincidenceDifference => (Speed, "Ω_difference", ["coincidence (30)", "coinc. (30)"], "coincidence (30) of their difference"),
-            Self::WhirlOnset => (Speed, "Ω_whirl", ["whirl begins", "whirl"], "above it blades and casing whirl, on a rim of many blades"),
-            Self::FlutterSpeed => (Speed, "Ω_flutter", ["lock flutters", "flutter"], "from it on blades and casing that move as one flutter"),
-            Self::FirstTouch => (Speed, "Ω_touch", ["first touch"; 2], "at it blades that grow touch a casing at rest"),
-            Self::TouchingPulse => (Pulse, "F_touches", ["F that touches", "F touches"], "smallest pulse that touches"),
-            Self::PushA => (Push, "-λ_a", ["push of group a", "push a"], "push of group a in the lock"),
-            Self::PushB => (Push, "-λ_b", ["push of group b", "push b"], "push of group b in the lock"),
-            Self::Torque => (Quantity::Torque, "T", ["torque"; 2], "torque that holds the lock"),
-            Self::Power => (Quantity::Power, "P", ["power"; 2], "power that the lock takes"),
-            Self::Roundness => (Quantity::Height, "e_max", ["out of round", "e_max"], "largest height of lobes with which the lock lasts"),
+            Self::OmegaAdhesive => (Speed, "Ω_adhesive", ["adhesive limit", "adhesive"], "above it the bilateral law locks; one group pulls"),
+            Self::OmegaLock => (Speed, "Ω_lock", ["Ω_lock"; 2], "lowest speed at which both groups of a lock push"),
+            Self::LockEnds => (Speed, "Ω_ends", ["lock ends"; 2], "highest speed at which both groups of a lock push"),
+            Self::Coincidence => (Speed, "Ω_coincidence", ["coincidence"; 2], "dangerous coincidence (31), from the sum of both frequencies"),
+            Self::CoincidenceDifference => (Speed, "Ω_difference", ["coincidence (30)", "coinc. (30)"], "coincidence (30), from their difference"),
+            Self::WhirlOnset => (Speed, "Ω_whirl", ["whirl begins", "whirl"], "above it blades and casing whirl, in the limit of many blades"),
+            Self::FlutterSpeed => (Speed, "Ω_flutter", ["lock flutters", "flutter"], "above it blades and casing in lasting contact flutter"),
+            Self::FirstTouch => (Speed, "Ω_touch", ["first touch"; 2], "speed at which growing blades reach the casing at rest"),
+            Self::TouchingPulse => (Pulse, "F_touches", ["F that touches", "F touches"], "smallest pulse that makes a blade touch"),
+            Self::PushA => (Push, "-λ_a", ["push of group a", "push a"], "contact force of group a in the lock"),
+            Self::PushB => (Push, "-λ_b", ["push of group b", "push b"], "contact force of group b in the lock"),
+            Self::Torque => (Quantity::Torque, "T", ["torque"; 2], "torque of the rotor that sustains the lock"),
+            Self::Power => (Quantity::Power, "P", ["power"; 2], "power of that torque"),
+            Self::Roundness => (Quantity::Height, "e_max", ["out of round", "e_max"], "largest lobe height with which the lock lasts"),
         }
     }
 

@@ -1,5 +1,5 @@
-//! The limits of a scene as they are listed: with the position of the scene, the sensitivities, and
-//! a note on what a closed form neglects or why there is no value.
+//! The limits of a scene with its margins to them, the sensitivities, and a note on what a closed
+//! form neglects or why there is no value.
 
 use super::evaluated::Evaluated;
 use super::limit::{Limit, LimitName, Quantity, Sensitivities};
@@ -10,7 +10,7 @@ use crate::model::LockWindow;
 use crate::numeric::rounding::rounded;
 use crate::scene::{ModelSize, Scene};
 
-/// Limits that few machines have; a limit of these is listed only if it exists.
+/// Limits that few machines have; such a limit is listed only if it exists.
 const SELDOM: [LimitName; 5] = [
     LimitName::LockEnds,
     LimitName::WhirlOnset,
@@ -43,7 +43,7 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
         for value in values {
             let of_value = by.iter().map(|(path, by)| (*path, by.get(place).copied().flatten()));
             let lobes = lobes.next().flatten();
-            // Lobes of another number than those of the casing have no height.
+            // The casing has lobes of one count only; other counts have no height to compare.
             let same = lobes.is_none_or(|lobes| lobes == scene.casing.lobes);
             let present = if same { present } else { Some(0.0) };
             limits.push(Limit {
@@ -65,22 +65,22 @@ fn note(here: &Evaluated<'_>, name: LimitName, value: f64) -> Option<String> {
         [LimitName::OmegaLock, LimitName::LockEnds, LimitName::OmegaAdhesive].contains(&name);
     let of_lock = of_speeds || name.quantity().path().is_none();
     if of_lock && scene.operation.speed_ramp_rad_s2 != 0.0 {
-        return Some("at a constant speed; a ramp adds a force along the blades".to_string());
+        return Some("for a constant speed; a ramp adds a force along the blades".to_string());
     }
     if of_speeds && scene.lining().is_some() {
         let smoothed = scene.contact.smoothing_m > 0.0;
         let without = if smoothed { ", without its smoothing" } else { "" };
-        return Some(format!("of two groups on the lining{without}"));
+        return Some(format!("for two groups on the lining{without}"));
     }
     if name == LimitName::LockEnds && machine.closing_speed() == Some(value) {
-        return Some("there the clearance is lost".to_string());
+        return Some("the clearance closes at this speed".to_string());
     }
     let speed = scene.operation.speed_rad_s;
     if name.quantity().path().is_none() {
         let bends = scene.solver.model != ModelSize::Rigid;
         let growth = lock_growth(machine, speed).filter(|_| bends)?;
         return Some(format!(
-            "of a lock that does not last: it grows by {} 1/s",
+            "this lock is unstable: deviations grow at {} 1/s",
             rounded(growth, 3)
         ));
     }
@@ -89,22 +89,23 @@ fn note(here: &Evaluated<'_>, name: LimitName, value: f64) -> Option<String> {
     if name == LimitName::FlutterSpeed {
         let ends = begins?.to.map(|to| format!("up to {} rad/s", rounded(to, 6)));
         return match ends {
-            Some(ends) if value == 0.0 => Some(format!("from rest on, {ends}")),
+            Some(ends) if value == 0.0 => Some(format!("from standstill {ends}")),
             None if value == 0.0 => Some("at every speed".to_string()),
             ends => ends,
         };
     }
     if name == LimitName::LockEnds && begins.is_some() {
-        return Some("there the lock begins to flutter".to_string());
+        return Some("above it the lock flutters".to_string());
     }
     if name == LimitName::OmegaLock && fluttering.iter().any(|flutter| flutter.to == Some(value)) {
         return Some("below it the lock flutters".to_string());
     }
-    // The adhesive limit is that of rigid blades; flexible ones have another if their lock has.
+    // The adhesive limit is computed for rigid blades. If their lock speed differs from that of the
+    // flexible blades, so does the adhesive limit.
     let rigid = name == LimitName::OmegaAdhesive && !machine.is_uneven() && fluttering.is_empty();
     let locks = |windows: &[LockWindow]| windows.first().map(|window| window.from);
     (rigid && locks(&machine.lock_windows(speed)) != locks(here.ranges.locks()))
-        .then(|| "for rigid blades; these bend so much that it is another".to_string())
+        .then(|| "for rigid blades; these bend so much that theirs differs".to_string())
 }
 
 /// Explains why a machine does not have a limit.
@@ -115,13 +116,13 @@ fn why_none(here: &Evaluated<'_>, name: LimitName) -> String {
     if name == LimitName::TouchingPulse {
         touching::why_none(scene).to_string()
     } else if diameters == 0 {
-        "no wave turns without nodal diameters".to_string()
+        "without nodal diameters no wave travels".to_string()
     } else if name == LimitName::Coincidence {
-        format!("B = {} >= n_d^2: blades stiffen faster than the wave turns", machine.stiffening())
+        format!("B = {} >= n_d^2: blades stiffen faster than n_d Omega rises", machine.stiffening())
     } else if name == LimitName::CoincidenceDifference {
-        "blades stay faster than the casing".to_string()
+        "the blade wave is faster than the casing wave at every speed".to_string()
     } else if !polygon.has_corners() {
-        format!("{diameters} nodal diameters make no corner of blades")
+        format!("with {diameters} nodal diameters the contact polygon has no corners")
     } else {
         let toward = scene.operation.speed_rad_s;
         let pushed = machine.clone().with_lining(None).lock_windows(toward);
@@ -132,24 +133,24 @@ fn why_none(here: &Evaluated<'_>, name: LimitName) -> String {
                 "all blades rub at this speed: nothing locks"
             }
             _ if machine.closing_speed().is_some() && hard.is_none() => {
-                "the clearance is lost before blades lock"
+                "the clearance closes below every lock speed"
             }
-            (Some(_), LimitName::OmegaAdhesive) => "a lining does not pull",
+            (Some(_), LimitName::OmegaAdhesive) => "a lining cannot pull",
             (Some(_), _) if of_speeds && hard.is_some() => {
-                "the lining is too soft: two groups hold a lock on it at no speed"
+                "the lining is too soft for two groups to hold a lock at any speed"
             }
             (Some(_), _) if hard.is_some() => {
-                "two groups alone hold no stable lock on the lining at this speed; others \
-                 may: its steady states"
+                "two groups alone hold no stable lock on the lining at this speed; more groups \
+                 may, as its steady states show"
             }
             _ if machine.is_uneven() => {
-                "not known of these tips and this shape of the casing: runs have it"
+                "no formula is known for these tips and this casing; a run computes it"
             }
             (None, LimitName::OmegaAdhesive) if machine.friction != 0.0 => {
-                "tips that rub cannot pull"
+                "contact with friction cannot pull"
             }
             (None, LimitName::OmegaAdhesive) if !machine.contact_can_pull() => {
-                "the bilateral law, which pulls, takes no inclined tips"
+                "the bilateral law, which can pull, does not allow inclined tips"
             }
             (None, LimitName::OmegaLock)
                 if hard.is_some() && machine.coupling_product_at(toward) != 0.0 =>
@@ -157,9 +158,9 @@ fn why_none(here: &Evaluated<'_>, name: LimitName) -> String {
                 "a lock flutters at every speed at which both blades push"
             }
             _ if machine.tips_incline_or_rub() => {
-                "friction or the slope of the tips leaves no lock here"
+                "with this friction or tip slope there is no lock here"
             }
-            _ => "the blades are so soft that no lock is left at this speed",
+            _ => "blades this soft cannot hold a lock at this speed",
         }
         .to_string()
     }
@@ -210,8 +211,8 @@ mod tests {
     fn what_a_soft_lining_does_not_hold_has_its_own_reason() {
         let limits = limits_of(1e8, 1e-6);
         for (name, reason) in [
-            (LimitName::OmegaLock, "at no speed"),
-            (LimitName::OmegaAdhesive, "does not pull"),
+            (LimitName::OmegaLock, "at any speed"),
+            (LimitName::OmegaAdhesive, "cannot pull"),
             (LimitName::PushA, "at this speed"),
         ] {
             let limit = limits.iter().find(|limit| limit.name == name).unwrap();

@@ -31,8 +31,8 @@ pub struct Parameter {
     pub path: &'static str,
 }
 
-/// All parameters, in the order of the scene file. The initial state is not included, because
-/// limits of the pulse assume a start from rest.
+/// All parameters, in the order of the scene file. The initial state is not included, because the
+/// touching pulse assumes a start from rest.
 pub const PARAMETERS: &[Parameter] = &{
     const fn at(path: &'static str) -> Parameter {
         Parameter { path }
@@ -137,7 +137,7 @@ impl Parameter {
             _ => (&scene.bladed_disk.modes, &changed.bladed_disk.modes, scene.disk_diameters()),
         };
         Some(match before != now {
-            true => format!("{leaf} = {value:?} in [[{table}.modes]] of {diameters} diameters"),
+            true => format!("{leaf} = {value:?} in [[{table}.modes]], {diameters} diameters"),
             false => format!("{leaf} = {value:?} in [{table}]"),
         })
     }
@@ -199,7 +199,7 @@ impl Parameter {
         }
     }
 
-    /// Returns a scene with another value, which `set` puts there.
+    /// Returns a scene with another value, which `set` writes.
     fn changed(
         &self,
         scene: &Scene,

@@ -4,27 +4,27 @@ use super::parameters::{CLEARANCE, Parameter, parameter};
 use crate::numeric::rounding::rounded;
 use crate::scene::Scene;
 
-/// Relative change of a parameter. Smaller: round-off of a limit, 1e-16 to 1e-13, is divided by it.
-/// Larger: the error of the two differences together, of fourth order, spoils the fourth digit where
-/// a limit changes a hundred times as much as its parameter.
+/// Relative change of a parameter. A smaller one would amplify the round-off of a limit, 1e-16 to
+/// 1e-13, which is divided by it. With a larger one the error of fourth order would reach the fourth
+/// digit of a limit that changes a hundred times as much as its parameter.
 pub(super) const CHANGE: f64 = 2e-4;
 
 /// Largest meaningful sensitivity: here one per cent of the parameter changes the limit by 100 %,
 /// which no linearisation describes.
 const MOST: f64 = 100.0;
 
-/// Digits of a sensitivity, and its size below which it is zero: round-off, 1e-12 to 1e-9, is
-/// divided by nothing larger.
+/// Number of digits of a sensitivity, and the magnitude below which it is set to zero, above its
+/// round-off of 1e-12 to 1e-9.
 const DIGITS: usize = 8;
 const ROUND_OFF: f64 = 1e-6;
 
 /// Returns the sensitivities of several limits to one parameter. `limits` returns their values in a
-/// changed scene, always as many and in the same order; not a number where there is no such limit.
+/// changed scene, always as many and in the same order, NaN for a limit that does not exist.
 /// `change` is the relative change of the parameter, usually `CHANGE`. `None` without a derivative,
 /// and above `MOST`.
 ///
-/// A length acts through the clearance, a small difference of two lengths, and by itself; each of
-/// both parts is a difference over `change`.
+/// A length acts through the clearance, which is a small difference of two lengths, and directly; the
+/// two contributions are computed separately.
 pub(super) fn sensitivities(
     scene: &Scene,
     by: &Parameter,
@@ -45,8 +45,9 @@ pub(super) fn sensitivities(
     found.into_iter().map(told).collect()
 }
 
-/// Returns the differences of logarithms, which are exact for a power of the parameter. Those over
-/// the whole and the half of the change together have an error of fourth order (Richardson).
+/// Returns `d ln(limit)/d ln(parameter)` from central differences of logarithms, which are exact for
+/// a power of the parameter. Differences over the whole and over half the change are combined so that
+/// the error is of fourth order (Richardson).
 fn differences(
     scene: &Scene,
     by: &Parameter,

@@ -14,15 +14,15 @@ use crate::numeric::search::try_bisected;
 use crate::scene::units::UnitError;
 use crate::scene::{CheckedScene, Quantity};
 
-/// Factor between two values of a parameter on the way to a target. Larger: a limit
-/// that goes there and back between two is missed.
+/// Factor between successive values of the parameter in the search. With a larger one a limit that
+/// passes the target and returns between two values would be missed.
 const TARGET_FACTOR: f64 = 1.05;
 
-/// Largest factor by which a parameter is changed for a target, both ways.
+/// Largest factor by which the search increases or decreases the parameter.
 const TARGET_SPAN: f64 = 1e6;
 
-/// Part of a target by which it may be missed: a limit that jumps past it is not
-/// there. Smaller: round-off of a search.
+/// Relative deviation from the target up to which it counts as reached. A limit that jumps past the
+/// target deviates by more; the round-off of the search deviates by less.
 const TARGET_REACHED: f64 = 1e-6;
 
 /// Reason why a target was rejected.

@@ -11,17 +11,16 @@ use crate::numeric::search::bisected;
 use crate::scene::keys::PULSE;
 use crate::scene::{ModelSize, Scene};
 
-/// Part of the way from the middle of a side to its corner, and of a radian of the casing,
-/// between two looks for the nearest instant. Larger: its slope has several zeros between
-/// two looks.
-const TOUCHING_LOOK: f64 = 0.25;
+/// Sampling step of the search for the instant at which the casing comes nearest: the part of half a
+/// side that the wave passes, and the casing's phase angle \[rad\], in one step. With a larger one
+/// several extrema could lie between two samples.
+const TOUCHING_STEP: f64 = 0.25;
 
-/// Most casing periods in which the first touch is looked for. More: an undamped
-/// casing takes longer than a hundredth of a second. Fewer: a blade that passes
-/// nearer later is missed.
+/// Number of casing periods after which the search for the first touch ends. It bounds the time for
+/// an undamped casing to about 10 ms, but a blade that comes nearer later is missed.
 const TOUCHING_PERIODS: f64 = 1000.0;
 
-/// The smallest pulse that makes a blade touch, with time and place of the contact.
+/// The smallest pulse that makes a blade touch, with the time and the side of the contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FirstTouch {
     /// Force of the pulse \[N\].
@@ -32,8 +31,8 @@ pub struct FirstTouch {
     pub side: u32,
 }
 
-/// Change of the angle of blades and casing at the touch \[rad\], up to which the force is a smooth
-/// function of a parameter.
+/// Change of the angles of blades and casing at the touch up to which the force is a smooth function
+/// of a parameter \[rad\].
 const MOST_TURN: f64 = 0.02;
 
 impl FirstTouch {
@@ -44,8 +43,9 @@ impl FirstTouch {
         force(&flight, self.side, self.t_s)
     }
 
-    /// Returns the relative change of a parameter for a sensitivity: blades and casing have turned
-    /// far until a late touch, and may turn by `MOST_TURN` more.
+    /// Returns the relative change of a parameter from which a sensitivity is computed. It is smaller
+    /// for a late touch, because it may alter the angles of blades and casing there by at most
+    /// `MOST_TURN`.
     pub(super) fn change(&self, scene: &Scene) -> f64 {
         let (machine, operation) = (scene.machine(), &scene.operation);
         let gained = operation.speed_ramp_rad_s2.abs() * self.t_s;
@@ -70,8 +70,8 @@ pub fn first_touch(scene: &Scene, most: f64) -> Option<FirstTouch> {
     least(scene, sense).filter(|touch| touch.pulse_n.abs() <= most.abs())
 }
 
-/// Returns the smallest pulse that touches, with the sign of the scene's pulse; `None` as in
-/// [`grazing_pulse`], with the largest pulse that the key allows.
+/// Returns the smallest pulse that makes a blade touch, with the sign of the scene's pulse; `None` as
+/// in [`grazing_pulse`], with the largest pulse that the key allows.
 pub(super) fn smallest(scene: &Scene) -> Option<FirstTouch> {
     let most = parameter(PULSE).map_or(f64::MAX, Parameter::largest);
     first_touch(scene, if scene.operation.pulse_n < 0.0 { -most } else { most })
@@ -89,9 +89,8 @@ fn starts_at_rest(scene: &Scene) -> bool {
         && scene.checked().is_ok()
 }
 
-/// Returns the time until which a later swing can come closer to a blade than an earlier one \[s\]:
-/// after that the decay exceeds the factor `1/cos delta` by which the distance depends on the
-/// direction.
+/// Returns the time after which no swing can come closer to a blade than an earlier one \[s\]: the
+/// decay then exceeds the factor `1/cos delta` by which the distance depends on the direction.
 fn longest(scene: &Scene, machine: &Machine) -> f64 {
     let period = TAU / machine.omega_c;
     let hidden = -machine.polygon.delta.cos().max(0.0).ln();
@@ -105,14 +104,15 @@ fn longest(scene: &Scene, machine: &Machine) -> f64 {
 /// Component of the casing position toward the nearest side at an instant, per unit of pulse force
 /// \[m/N\].
 #[derive(Clone, Copy)]
-struct Look {
+struct Sample {
     t: f64,
     near: f64,
     side: u32,
 }
 
-/// Finds the smallest pulse of one sign that touches, which corresponds to the largest component
-/// toward a side per unit force: looks at steps of [`TOUCHING_LOOK`], and refines each maximum.
+/// Finds the smallest pulse of one sign that makes a blade touch, which corresponds to the largest
+/// component toward a side per unit force: samples at steps of [`TOUCHING_STEP`], and refines each
+/// maximum.
 fn least(scene: &Scene, sense: f64) -> Option<FirstTouch> {
     if !starts_at_rest(scene) {
         return None;
@@ -120,26 +120,26 @@ fn least(scene: &Scene, sense: f64) -> Option<FirstTouch> {
     let machine = scene.machine();
     let (polygon, operation) = (&machine.polygon, &scene.operation);
     let flight = FreeFlight { machine: &machine, operation };
-    let look = |t: f64| {
+    let sample = |t: f64| {
         let [(moved, turn), _] = flight.moved_by_pulse(t);
         let (sin, cos) = turn.sin_cos();
         let [x, y] = [cos, -sin].map(|part| sense * moved * part);
         let side = polygon.nearest_side(x, y);
         let (c, s) = polygon.direction(side);
-        Look { t, near: -(x * c + y * s), side }
+        Sample { t, near: -(x * c + y * s), side }
     };
     let end = longest(scene, &machine);
     let speeds = [0.0, end].map(|t| operation.speed_rad_s + operation.speed_ramp_rad_s2 * t);
     let turning = machine.nu(speeds[0].abs().max(speeds[1].abs())) / polygon.delta;
-    let step = TOUCHING_LOOK / turning.max(machine.omega_c);
+    let step = TOUCHING_STEP / turning.max(machine.omega_c);
     let mut found: Option<FirstTouch> = None;
-    let (mut before, mut now) = (0.0, look(0.0));
+    let (mut before, mut now) = (0.0, sample(0.0));
     let mut place = 0.0;
     while before < now.near || now.t < end {
         place += 1.0;
-        let ahead = look((place * step).min(end));
+        let ahead = sample((place * step).min(end));
         // A sampled instant underestimates the maximum by less than the square of a step.
-        let most = now.near * (1.0 + TOUCHING_LOOK * TOUCHING_LOOK);
+        let most = now.near * (1.0 + TOUCHING_STEP * TOUCHING_STEP);
         let best = found.map_or(0.0, |touch| machine.clearance() / touch.pulse_n.abs());
         if now.near > before && now.near >= ahead.near && most > best {
             let touch = polished(&flight, now, sense, [step, end]);
@@ -156,14 +156,14 @@ fn force(flight: &FreeFlight<'_>, side: u32, t: f64) -> f64 {
     -flight.machine.clearance() / flight.gap_by_pulse(side, t)[0]
 }
 
-/// Refines the instant, up to the `end`, at which the side needs the smallest force: there it comes
-/// nearest, once within a `step` of the look. If it does not, the given instant is kept.
-fn polished(flight: &FreeFlight<'_>, look: Look, sense: f64, [step, end]: [f64; 2]) -> FirstTouch {
-    let side = look.side;
+/// Refines the instant, up to the `end`, at which the casing comes nearest to the side, which is the
+/// zero of its rate within a `step` of the sample. If there is no zero, the sample is returned.
+fn polished(flight: &FreeFlight<'_>, at: Sample, sense: f64, [step, end]: [f64; 2]) -> FirstTouch {
+    let side = at.side;
     let opens = |t: f64| sense * flight.gap_by_pulse(side, t)[1] >= 0.0;
-    let (early, late) = ((look.t - step).max(0.5 * look.t), (look.t + step).min(end));
+    let (early, late) = ((at.t - step).max(0.5 * at.t), (at.t + step).min(end));
     let is_nearest = !opens(early) && opens(late);
-    let t_s = if is_nearest { bisected([early, late], opens)[1] } else { look.t };
+    let t_s = if is_nearest { bisected([early, late], opens)[1] } else { at.t };
     FirstTouch { pulse_n: force(flight, side, t_s), t_s, side }
 }
 
@@ -176,13 +176,13 @@ pub(super) fn why_none(scene: &Scene) -> &'static str {
     } else if (0..machine.polygon.sides).any(touches) {
         "a tip touches without a pulse"
     } else if machine.is_uneven() {
-        "of equal tips in a round casing only"
+        "it is computed for equal tips in a round casing only"
     } else if scene.casing.clearance_loss_m_s2 != 0.0 && scene.operation.speed_ramp_rad_s2 != 0.0 {
-        "at a constant speed only, as the clearance changes with it"
+        "it is computed for a constant speed only if the clearance changes with speed"
     } else if scene.initial == Initial::default() {
         "no pulse of this length touches within the run"
     } else {
-        "only for a casing that starts at rest"
+        "it is computed for a casing that starts at rest only"
     }
 }
 

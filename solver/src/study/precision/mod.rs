@@ -1,13 +1,12 @@
-//! Speed against error: every solver, law and model size on one scene, each
-//! over its steps or tolerances, against a reference: the event solver, and where that does
-//! not know the scene (a lining, an excitation, ramps and single blades beyond the paper) the
-//! explicit solver at its finest step.
+//! Wall time against error on one scene, for every solver, law and model size, each with several
+//! steps or tolerances. The reference is the event solver or, for a scene that it does not support (a
+//! lining, an excitation, ramps and single blades beyond the paper), the explicit solver at its
+//! finest step.
 //!
-//! An explicit run ends at its last step, up to a step before the end of the
-//! scene, so the reference is evaluated at the time that each run really
-//! reached. The reference itself is checked by half its tolerance or twice its step. Where a
-//! tiny change of the pulse changes the outcome (a *sensitive* scene), end states mean
-//! nothing, and only verdicts are compared.
+//! An explicit run ends at its last step, up to a step before the end of the scene, so the reference
+//! is evaluated at the time that each run reached. The error of the reference is estimated with half
+//! its tolerance or twice its step. In a *sensitive* scene a tiny change of the pulse changes the
+//! outcome; end states then mean nothing, and only verdicts are compared.
 
 mod track;
 mod ways;
@@ -31,12 +30,12 @@ pub struct Row {
     /// Solver, law, model size, and step or tolerance.
     pub way: Way,
     /// Error `|u - u_ref|/g0` at the last instant that this run reached; `None` for a sensitive
-    /// scene, if this run or the reference failed, or where another contact law gives another
-    /// verdict. Velocities are not compared, because in contact those of the explicit scheme are
+    /// scene, if this run or the reference failed, or if another contact law gives another
+    /// verdict. Velocities are not compared, because in contact the explicit scheme computes their
     /// averages over a step.
     pub error_final: Option<f64>,
-    /// Largest error of the times of the first impacts; `None` without a reference, and if this run
-    /// has fewer of them or on other blades \[s\].
+    /// Largest error of the times of the first impacts \[s\]; `None` without a reference, and if this
+    /// run has fewer impacts or impacts on other blades.
     pub error_impact_time_s: Option<f64>,
     /// Deepest penetration of a corrected state \[m\].
     pub max_penetration_m: f64,
@@ -76,7 +75,7 @@ pub enum Method {
     Events,
     /// Explicit solver at the finest step.
     FinestStep,
-    /// There is none: its run failed.
+    /// No reference, because its run failed.
     None,
 }
 
@@ -94,8 +93,8 @@ pub struct Reference {
     pub impact_count: u64,
     /// Whether the scene is sensitive.
     pub sensitive: bool,
-    /// Distance of the final casing position from that with half the tolerance or twice the step,
-    /// in clearances; `None` if either run failed.
+    /// Distance of its final casing position from that of a run with half the tolerance or twice the
+    /// step, in clearances; `None` if either run failed.
     pub error: Option<f64>,
     /// Wall time of its run \[s\].
     pub wall_s: f64,
@@ -128,8 +127,8 @@ pub struct Measure {
 }
 
 impl Measure {
-    /// Rejects a scene without a reference: the event solver cannot give one, and the explicit
-    /// solver would need more than `effort.most_steps` steps.
+    /// Rejects a scene that the event solver does not support and for which the explicit solver would
+    /// need more than `effort.most_steps` steps.
     ///
     /// # Errors
     /// The scene has no reference; the error names its end time.
@@ -138,13 +137,13 @@ impl Measure {
             return Ok(());
         }
         let allowed = format!(
-            "fewer than {:e} steps of those the scene allows, for a reference by steps",
+            "an end of at most {:e} time steps, because its reference is explicit",
             effort.most_steps
         );
         Err(SceneError::refused(keys::END, scene.solver.end_s, allowed))
     }
 
-    /// Computes the references of a scene for every model size among its ways; `None` if `go_on`
+    /// Computes a reference for every model size in which the scene is solved; `None` if `go_on`
     /// stopped it.
     ///
     /// # Errors
@@ -173,8 +172,8 @@ impl Measure {
         &self.reference
     }
 
-    /// Solves the scene in one way, repeatedly, and compares the result; `None` if `go_on` stopped
-    /// it.
+    /// Solves the scene repeatedly with one set of solver settings, and compares the result with the
+    /// reference; `None` if `go_on` stopped it.
     ///
     /// # Errors
     /// The scene does not allow this way.
@@ -223,7 +222,7 @@ impl Measure {
         }))
     }
 
-    /// Combines the rows to a report.
+    /// Combines the rows into a report.
     #[must_use]
     pub fn report(self, rows: Vec<Row>) -> Precision {
         let Self { scene, reference, .. } = self;

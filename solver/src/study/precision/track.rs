@@ -1,5 +1,5 @@
-//! The reference motion at any time near the end. This is needed because an
-//! explicit run ends at its last step, up to one step before the end of the scene.
+//! The reference motion at any time near the end of the scene: an explicit run ends at its last
+//! step, up to one step before that end.
 
 use std::time::Instant;
 
@@ -10,18 +10,18 @@ use crate::scene::{Scene, SceneError};
 
 /// Reference for one model size, at the end of the run and shortly before.
 pub(super) struct Track {
-    /// How it was computed: by events, or at the finest step.
+    /// Solver settings of the reference.
     pub(super) way: Way,
     pub(super) end: Motion,
     pub(super) verdict: Verdict,
     /// Wall time of the run \[s\].
     pub(super) wall_s: f64,
-    /// The motion at a time after which every explicit run takes at least one step.
+    /// The reference motion slightly more than the longest step before the end.
     before: Motion,
 }
 
 impl Track {
-    /// Runs the reference; `None` where `go_on` stopped it.
+    /// Runs the reference; `None` if `go_on` stopped it.
     pub(super) fn run(
         way: Way,
         scene: &Scene,

@@ -1,5 +1,5 @@
-//! The ways to solve a scene: combinations of solver, contact law, model size, and step or
-//! tolerance.
+//! The solver settings that are compared: combinations of solver, contact law, model size, and step
+//! or tolerance.
 
 use std::time::Instant;
 
@@ -15,7 +15,8 @@ pub(super) const LONGEST: f64 = 1e-5;
 const STEPS: [f64; 5] = [LONGEST, 1e-6, 5e-7, 1e-7, 1e-8];
 /// Tolerances used with the event solver, relative to the magnitude of the motion.
 const TOLERANCES: [f64; 4] = [1e-6, 1e-9, 1e-12, 1e-15];
-/// A way to solve the scene.
+
+/// Solver settings for one row of the comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Way {
     /// Solver.
@@ -26,10 +27,10 @@ pub struct Way {
     pub model: ModelSize,
     /// Time step; `None` for the event solver \[s\].
     pub step_s: Option<f64>,
-    /// Tolerance of the event solver for closed gaps, as a part of the motion's size; `None` for
-    /// the explicit solver.
+    /// Tolerance of the event solver for closed gaps, relative to the magnitude of the motion; `None`
+    /// for the explicit solver.
     pub tolerance: Option<f64>,
-    /// Whether every step is taken, without strides.
+    /// Whether every step is computed one by one.
     pub plain: bool,
 }
 
@@ -40,7 +41,7 @@ pub struct Effort {
     pub repeats: u32,
     /// Smallest time step used \[s\].
     pub finest_s: f64,
-    /// Total time after which a row is not repeated any more \[s\].
+    /// Total time after which a row is not repeated again \[s\].
     pub seconds: f64,
     /// Largest number of steps of a reference.
     pub most_steps: f64,
@@ -57,9 +58,9 @@ impl Effort {
     pub const QUICK: Self = Self { repeats: 1, finest_s: 1e-7, seconds: 0.0, most_steps: 5e5 };
 }
 
-/// Returns every way to solve a scene, coarse to fine, without steps beyond the stability limit
-/// or the end and without other refused combinations. Where the reference is the explicit
-/// solver, its step is the finest.
+/// Returns all solver settings for a scene, coarse to fine, without the ones that the scene does not
+/// allow (such as steps beyond the stability limit). If the reference is the explicit solver, its
+/// step is the finest.
 #[must_use]
 pub fn ways(scene: &Scene, effort: Effort) -> Vec<Way> {
     let laws: &[ContactLaw] = match scene.solver.contact {
@@ -74,7 +75,7 @@ pub fn ways(scene: &Scene, effort: Effort) -> Vec<Way> {
         let steps: Vec<f64> = STEPS.into_iter().filter(|step| allowed.contains(step)).collect();
         for &contact in laws {
             ways.extend(steps.iter().map(|&step| by_steps(contact, model, step)));
-            // The scene as it is, by every step: what strides save, and what they cost.
+            // The same run with every step computed, to compare its time and error with skipping.
             let own = (scene.solver.contact, scene.solver.model) == (contact, model);
             if own && allowed.contains(&scene.solver.step_s) {
                 let own = by_steps(contact, model, scene.solver.step_s);
@@ -91,13 +92,13 @@ pub fn ways(scene: &Scene, effort: Effort) -> Vec<Way> {
     ways
 }
 
-/// Returns the explicit solver with a law, a model size and a step \[s\].
+/// Returns settings of the explicit solver; the step is in \[s\].
 fn by_steps(contact: ContactLaw, model: ModelSize, step: f64) -> Way {
     let solver = SolverKind::Explicit;
     Way { solver, contact, model, step_s: Some(step), tolerance: None, plain: false }
 }
 
-/// Returns the event solver with a model size and a tolerance.
+/// Returns settings of the event solver.
 pub(super) fn by_events(model: ModelSize, tolerance: f64) -> Way {
     Way {
         solver: SolverKind::Event,
@@ -109,10 +110,10 @@ pub(super) fn by_events(model: ModelSize, tolerance: f64) -> Way {
     }
 }
 
-/// Returns what the runs of one model size are compared with: the event solver where it
-/// supports the scene, else the explicit solver at the finest step within `effort`; `None`
-/// where the run is too long for that. The event solver represents all blades by the modes of
-/// the disk as long as single blades do not matter to contact.
+/// Returns the settings of the reference for one model size: the event solver if it supports the
+/// scene, otherwise the explicit solver at the finest step within `effort`; `None` if the run is too
+/// long for that. For the full model the event solver uses the modes of the disk, which is valid
+/// unless contact depends on single blades.
 pub(super) fn reference(scene: &Scene, model: ModelSize, effort: Effort) -> Option<Way> {
     let smooth = scene.solver.contact == ContactLaw::Smooth;
     let contact = if smooth { ContactLaw::Smooth } else { ContactLaw::Unilateral };
@@ -157,7 +158,7 @@ impl Way {
         })
     }
 
-    /// Runs to the end, and measures the time; `None` where `go_on` stopped it.
+    /// Runs to the end, and measures the wall time; `None` if `go_on` stopped it.
     pub(super) fn run(
         &self,
         scene: &Scene,
