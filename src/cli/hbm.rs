@@ -8,11 +8,11 @@ use strum::VariantNames;
 use super::Done;
 use super::options::{SceneOptions, Swept};
 use super::output::OutputOptions;
-use super::range::linspace;
 use super::status::{self, Refusal, Status};
 use super::words::Words;
 use crate::report::CommandLine;
 use crate::report::hbm::{LOCKED, Request, VIEWS, View};
+use crate::report::ticks::linspace;
 use rubscope_solver::harmonic::{Form, HarmonicError};
 use rubscope_solver::scene::Scene;
 

@@ -1,6 +1,7 @@
 //! `FROM:TO:COUNT`, a range of values that a command sweeps.
 
 use super::status::Refusal;
+use crate::report::ticks::linspace;
 use rubscope_solver::scene::Quantity;
 use rubscope_solver::scene::units::RangeError;
 use rubscope_solver::study::parse_range;
@@ -44,24 +45,6 @@ impl Range {
     pub fn values(&self) -> Vec<f64> {
         linspace(self.from, self.to, self.count)
     }
-}
-
-/// Returns `count` evenly spaced values from `from` to `to`, with both ends exact; only `from` if
-/// `count` is 1.
-pub fn linspace(from: f64, to: f64, count: usize) -> Vec<f64> {
-    let last = count.saturating_sub(1);
-    (0..count)
-        .map(|n| {
-            if n == 0 {
-                from
-            } else if n == last {
-                to
-            } else {
-                let part = n as f64 / last as f64;
-                from * (1.0 - part) + to * part
-            }
-        })
-        .collect()
 }
 
 #[cfg(test)]

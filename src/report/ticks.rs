@@ -81,6 +81,24 @@ pub fn scientific(x: f64) -> String {
 /// Superscripts of the digits.
 const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
 
+/// Returns `count` evenly spaced values from `from` to `to`, with both ends exact; only `from` if
+/// `count` is 1.
+pub fn linspace(from: f64, to: f64, count: usize) -> Vec<f64> {
+    let last = count.saturating_sub(1);
+    (0..count)
+        .map(|n| {
+            if n == 0 {
+                from
+            } else if n == last {
+                to
+            } else {
+                let part = n as f64 / last as f64;
+                from * (1.0 - part) + to * part
+            }
+        })
+        .collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

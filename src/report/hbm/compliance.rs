@@ -7,6 +7,7 @@ use super::{Request, View, ViewContact};
 use crate::report::Sheet;
 use crate::report::number::speed;
 use crate::report::table::{Column, Table, TableCell};
+use crate::report::ticks::linspace;
 use rubscope_solver::harmonic::{HarmonicError, RoundWhirl, RoundWhirlLoads, round_whirls};
 use rubscope_solver::model::Frame;
 use rubscope_solver::scene::keys;
@@ -40,9 +41,7 @@ fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicErro
     let at = |omega: f64| (omega, omega - nu, frame.turning(omega - nu).compliance());
     let machine = &*machine.at(turning);
     let reach = BEYOND * machine.omega_c.max(nu.abs() + machine.omega_bd);
-    let part = |n: usize| n as f64 / (FREQUENCIES - 1) as f64;
-    let frequencies = (0..FREQUENCIES).map(|n| reach * part(n) - reach * (1.0 - part(n)));
-    let points: Vec<Point> = frequencies.map(at).collect();
+    let points: Vec<Point> = linspace(-reach, reach, FREQUENCIES).into_iter().map(at).collect();
     let shown = format!("at {}", speed(request.fastest()));
     let crossings = if waves.is_empty() {
         format!("B(omega) does not cross the negative real axis {shown}: nothing whirls.")

@@ -2,15 +2,16 @@
 //! range around both coincidences (docs/theory.md, section 10). They are closed forms, except on a
 //! lining, where each point is a search.
 
+use crate::report::ticks::linspace;
 use crate::tui::axis::nice_step;
 use rubscope_solver::harmonic::{CoincidencePoint, coincidence, shifted_coincidence};
 use rubscope_solver::model::{Initial, Machine};
 use rubscope_solver::scene::{ModelSize, Scene, SolverChoice, View};
 
 /// Number of equally spaced speeds over the whole range.
-const POINTS: u32 = 121;
+const POINTS: usize = 121;
 /// Number of further speeds around each coincidence.
-const POINTS_NEAR: u32 = 81;
+const POINTS_NEAR: usize = 81;
 /// Half width of the finely sampled range around a coincidence, relative to it.
 const NEAR: f64 = 0.15;
 /// Margin of the speed range beyond the outermost marked speeds, relative to them.
@@ -35,9 +36,9 @@ impl CoincidenceCurves {
         let machine = scene.machine();
         let markers = markers(scene, &machine);
         let (from, to) = range(scene, &markers)?;
-        let mut speeds = even(from, to, POINTS);
+        let mut speeds = linspace(from, to, POINTS);
         for (speed, _) in &markers {
-            speeds.extend(even((1.0 - NEAR) * speed, (1.0 + NEAR) * speed, POINTS_NEAR));
+            speeds.extend(linspace((1.0 - NEAR) * speed, (1.0 + NEAR) * speed, POINTS_NEAR));
         }
         speeds.retain(|speed| (from..=to).contains(speed));
         speeds.sort_by(f64::total_cmp);
@@ -64,12 +65,6 @@ impl CoincidenceCurves {
         (key.view, key.title, key.note) = (View::default(), String::new(), String::new());
         key
     }
-}
-
-/// Returns `count` equally spaced speeds.
-fn even(from: f64, to: f64, count: u32) -> Vec<f64> {
-    let step = (to - from) / f64::from(count - 1);
-    (0..count).map(|k| from + f64::from(k) * step).collect()
 }
 
 /// Returns both coincidences, and that of the machine on its lining if the blades rub at rest.
