@@ -9,7 +9,7 @@ use clap_mangen::roff::{Roff, bold, roman};
 
 use super::status::{Refusal, Status};
 use super::{Cli, Done};
-use crate::tui::command::{self, keys_text};
+use crate::tui::command::table::{self, keys_text};
 use rubscope_solver::scene::BUILTIN;
 
 /// The change log. The date of its newest version is the date of the manual pages.
@@ -141,7 +141,7 @@ fn added() -> Roff {
          and the file over the default.",
         names.join(", ")
     ))]);
-    list(&mut page, "KEYS", command::main().map(|b| (keys_text(b), b.what)));
+    list(&mut page, "KEYS", table::main().map(|b| (keys_text(b), b.what)));
     let owned = |entries: &'static [(&str, &'static str)]| {
         entries.iter().map(|(term, text)| (term.to_string(), *text))
     };

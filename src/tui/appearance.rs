@@ -6,7 +6,7 @@ use super::field::CURSOR;
 use super::ground::Ground;
 use super::raster::{Marker, Pen};
 use super::theme::{Role, Theme};
-use crate::report::number::{speed_unit, spell_micro, tell_in_rpm};
+use crate::report::number::{spell_micro, tell_in_rpm};
 
 /// Theme, marker and unit of speeds that the screen uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,19 +39,6 @@ impl Appearance {
         if self.follows_ground {
             self.theme = self.theme.on(ground);
         }
-    }
-
-    /// Switches to the next marker; returns the message for the status line.
-    pub fn next_marker(&mut self) -> String {
-        self.marker = self.marker.next();
-        format!("marker {}", self.marker)
-    }
-
-    /// Switches speeds between rpm and rad/s; returns the message for the status line.
-    pub fn next_speeds(&mut self) -> String {
-        self.rpm = !self.rpm;
-        self.use_units();
-        format!("speeds in {}", speed_unit())
     }
 
     /// Makes this thread format speeds in the chosen unit, and the prefix micro as the marker has

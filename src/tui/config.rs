@@ -12,6 +12,7 @@ use etcetera::{BaseStrategy, choose_base_strategy};
 use serde::{Deserialize, Serialize};
 
 use super::app::App;
+use super::app::layout::MOST_BESIDE;
 use super::files::FILES_NAME;
 use super::lessons::LessonsDone;
 use super::raster::Marker;
@@ -21,8 +22,6 @@ use crate::report::line::clean;
 
 /// Largest file that is read \[bytes\].
 const MOST_BYTES: u64 = 64 * 1024;
-/// Largest number of small charts next to the large one.
-const MOST_CHARTS: usize = 3;
 
 /// Contents of the config file. A missing field has its default; unknown fields are kept.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -106,7 +105,7 @@ impl Config {
         }
         let text = file::read_text(path, MOST_BYTES).map_err(|error| error.to_string())?;
         let read: Self = toml::from_str(&text).map_err(|error| error.message().to_string())?;
-        Ok(Self { charts: read.charts.map(|count| count.min(MOST_CHARTS)), ..read })
+        Ok(Self { charts: read.charts.map(|count| count.min(MOST_BESIDE)), ..read })
     }
 
     fn write(&self, path: &Path) -> std::io::Result<()> {

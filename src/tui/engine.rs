@@ -175,6 +175,9 @@ pub enum Limit {
 /// Wall-clock time after which the full run is given up. The playback continues.
 pub const FORECAST_LIMIT: Duration = Duration::from_secs(20);
 
+/// Wall-clock time for which the engine computes before it looks at the next order.
+pub const SLICE: Duration = Duration::from_millis(5);
+
 /// State of the full run.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FullRunState {

@@ -9,7 +9,8 @@ use anyhow::Context as _;
 
 use super::app::words::{self, Found};
 use super::app::{App, InputMode, help, lesson};
-use super::command::{self, Command, Effect, Group};
+use super::command::table::{BINDINGS, Group};
+use super::command::{Command, Effect};
 use super::engine::{Order, Pace};
 use super::files::{FileResult, FoundScenes};
 use super::knobs::KNOBS;
@@ -326,8 +327,9 @@ fn needs_screen(command: &Command) -> bool {
     match command {
         Axes(_) | Theme(_) => true,
         Step | Restart | Fire | Jump | GoToEnd | SpeedUnit => false,
-        other => command::group_of(other)
-            .is_some_and(|group| [Group::Time, Group::Views, Group::Look].contains(&group)),
+        other => BINDINGS.iter().find(|binding| binding.command == *other).is_some_and(|binding| {
+            [Group::Time, Group::Views, Group::Look].contains(&binding.group)
+        }),
     }
 }
 

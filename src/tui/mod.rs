@@ -54,13 +54,13 @@ use std::fs::File;
 use std::io::{IsTerminal, Write};
 use std::sync::{Arc, mpsc};
 
-pub use app::{App, Exit, Source};
+pub use app::{App, Source};
 pub use command::Effect;
 pub use line::Line;
 pub use lines::lines;
 pub use options::{Color, ExploreOptions};
 pub use raster::Marker;
-pub use run::run;
+pub use run::{Exit, run};
 pub use theme::{Theme, ThemeChoice};
 
 use crate::report::line::clean;

@@ -7,7 +7,8 @@ use std::time::{Duration, Instant};
 
 use ratatui::{Terminal, backend::Backend};
 
-use super::app::{App, Exit, LEAST_HEIGHT, LEAST_WIDTH};
+use super::app::App;
+use super::app::layout::{LEAST_HEIGHT, LEAST_WIDTH};
 use super::command::Effect;
 use super::engine::{Engine, Order};
 use super::events::ScreenEvent;
@@ -15,6 +16,15 @@ use super::files::FileResult;
 use super::host::Host;
 use super::line::Throttle;
 use super::panels;
+
+/// How the explorer ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Exit {
+    /// The user quit, or the input ended.
+    Done,
+    /// The process received this signal.
+    Signal(u8),
+}
 
 /// Longest time between two frames. Only by drawing does the program notice that the terminal is
 /// gone.
@@ -206,7 +216,8 @@ fn show<B: Backend>(
     engine.drawn();
     // A screen that is too small shows only a note about its size, and no message.
     if size.width >= LEAST_WIDTH && size.height >= LEAST_HEIGHT {
-        app.drawn();
+        // Keys may now answer an open question.
+        app.dialogue.asked = true;
         host.unseen(None);
     }
     Ok(())

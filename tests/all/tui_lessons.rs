@@ -2,7 +2,8 @@
 //! text says against what the solvers find.
 
 use rubscope::report::number::{in_tenths, tell_in_rpm, with_speeds};
-use rubscope::tui::command::{Command, Group};
+use rubscope::tui::command::Command;
+use rubscope::tui::command::table::Group;
 use rubscope::tui::lessons::{self, Lesson, LessonStep};
 use rubscope::tui::{App, Marker, Theme};
 use rubscope_solver::motion::simulate;
@@ -349,14 +350,14 @@ fn a_lesson_gives_back_what_was_there_and_undo_reaches_across() {
     session.press(&(keys_of('b') + "[["));
     session.press("G");
     let same = |app: &App| {
-        let live = (app.knobs.live, app.view(), app.layout.views().to_vec(), app.run.compare);
+        let live = (app.knobs.live, app.view(), app.layout.views.clone(), app.run.compare);
         app.lessons.progress.is_none()
             && app.scene == own.scene
             && app.files.opened == own.files.opened
             && app.files.source == own.files.source
-            && live == (own.knobs.live, own.view(), own.layout.views().to_vec(), own.run.compare)
+            && live == (own.knobs.live, own.view(), own.layout.views.clone(), own.run.compare)
     };
-    assert!(same(&session.app) && session.app.play.rate == own.play.rate);
+    assert!(same(&session.app) && session.app.play.tempo.rate == own.play.tempo.rate);
     // Undo: the lesson with its answer, the open question, and the time before.
     session.press("u");
     assert_eq!(session.app.lessons.progress.as_ref().unwrap().now().answer, Some(1));

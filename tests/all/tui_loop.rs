@@ -16,6 +16,7 @@ use rubscope::tui::{App, Exit, Line, Marker, Theme};
 use rubscope_solver::scene::Scene;
 
 use crate::stepwise::{NoHost, Stepwise};
+use crate::tui_support::select;
 
 /// An explorer of a scene.
 fn app(scene: Scene) -> App {
@@ -234,7 +235,7 @@ fn a_burst_of_turns_of_one_knob_is_one_change_and_ends_at_the_refused_value() {
         let presses = if refused { 300 } else { 40 };
         let one = |presses: usize, at_once: bool| {
             let mut app = app(scene.clone());
-            assert!(app.select_path("operation.speed_rad_s"));
+            select(&mut app, "operation.speed_rad_s");
             let mut send = |presses: usize| {
                 let (sender, events) = channel();
                 (0..presses).for_each(|_| sender.send(key(keys)).unwrap());

@@ -126,12 +126,12 @@ fn the_wheel_zooms_time_and_nothing_else() {
     let (left, row) = session.find("0┤");
     mouse(&mut session, ScrollUp, (left + 9, row));
     mouse(&mut session, ScrollUp, (left + 9, row));
-    assert_eq!(session.app.play.zoom, 2);
+    assert_eq!(session.app.play.tempo.zoom, 2);
     mouse(&mut session, ScrollDown, (left + 9, row));
-    assert_eq!(session.app.play.zoom, 1);
+    assert_eq!(session.app.play.tempo.zoom, 1);
     session.press("3f");
     assert_eq!(mouse(&mut session, ScrollUp, (40, 12)), None);
-    assert_eq!(session.app.play.zoom, 1);
+    assert_eq!(session.app.play.tempo.zoom, 1);
 }
 
 #[test]

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::{Terminal, backend::TestBackend};
-use rubscope::tui::command::BINDINGS;
+use rubscope::tui::command::table::BINDINGS;
 use rubscope::tui::engine::{Engine, FullRunState, Order, Results, Snapshot};
 use rubscope::tui::events::ScreenEvent;
 use rubscope::tui::{App, Exit, Marker, Theme, run};
@@ -124,7 +124,7 @@ fn a_snapshot_of_a_run_before_a_restart_changes_nothing() {
 /// Every key of the table.
 pub fn bound_keys() -> Vec<KeyEvent> {
     let chords = BINDINGS.iter().flat_map(|binding| binding.keys);
-    let key = |chord: &rubscope::tui::command::Chord| {
+    let key = |chord: &rubscope::tui::command::chord::Chord| {
         let mut modifiers = KeyModifiers::NONE;
         modifiers.set(KeyModifiers::CONTROL, chord.ctrl);
         modifiers.set(KeyModifiers::SHIFT, chord.shift);

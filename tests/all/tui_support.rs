@@ -106,7 +106,7 @@ impl Session {
 
     /// Selects the knob of a key, wherever it stands.
     pub fn select(&mut self, path: &str) {
-        assert!(self.app.select_path(path), "{path}");
+        select(&mut self.app, path);
     }
 
     /// The rows of the screen, over their whole width.
@@ -120,4 +120,15 @@ impl Session {
     pub fn text(&self) -> String {
         self.rows().iter().map(|row| row.trim_end().to_string() + "\n").collect()
     }
+}
+
+/// Selects the knob of a key.
+pub fn select(app: &mut App, path: &str) {
+    for _ in 0..100 {
+        app.knobs.walk(false);
+        if app.selected().unwrap().path == path {
+            return;
+        }
+    }
+    panic!("{path} is no knob");
 }

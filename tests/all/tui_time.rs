@@ -77,11 +77,11 @@ fn the_run_to_come_is_on_the_chart_before_it_is_played() {
 fn a_lesson_slows_down_at_changes_and_gives_the_pace_back() {
     let mut session = open(scene("rocking"), 1e-3);
     session.press_each("z");
-    assert!(!session.app.play.slow_at_events);
+    assert!(!session.app.play.tempo.slow_at_events);
     session.press_each("g\n");
-    assert!(session.app.play.slow_at_events);
+    assert!(session.app.play.tempo.slow_at_events);
     session.press_each("G");
-    assert!(!session.app.play.slow_at_events && session.app.lessons.progress.is_none());
+    assert!(!session.app.play.tempo.slow_at_events && session.app.lessons.progress.is_none());
 }
 
 #[test]

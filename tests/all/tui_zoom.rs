@@ -270,7 +270,7 @@ fn zoom_keeps_the_cursor_in_the_middle_and_stays_inside_the_run() {
     check(&session.app);
     // At the ends of the run the page is as far as it goes; it is never longer than the run.
     session.press_each("--------");
-    assert_eq!((page(&session), session.app.play.zoom), ([0.0, 0.02], 0));
+    assert_eq!((page(&session), session.app.play.tempo.zoom), ([0.0, 0.02], 0));
     session.press_each("-");
     assert!(session.app.status.as_ref().is_some_and(|said| said.contains("nothing to change")));
     session.press_each("++E");

@@ -1,7 +1,7 @@
 //! Command lines for the clipboard: that of the run with its live changes, and that of the large
 //! view.
 
-use super::{App, Source};
+use super::model::{App, Source};
 use crate::report::CommandLine;
 use crate::report::number::in_shown_unit;
 use crate::tui::views::id::ViewId;

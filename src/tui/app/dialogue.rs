@@ -1,58 +1,14 @@
 //! The dialogue that has the keyboard: a prompt, a list, a question, or none; moving in its list,
 //! and editing its text.
 
-use super::App;
-use super::help::{HelpState, help_bottom};
+use super::help::help_bottom;
 use super::layout::placed;
-use super::palette::PaletteState;
+use super::model::{App, Dialogue, HelpState, InputMode, PaletteState, Reading};
 use super::words;
-use crate::tui::command::{Command, Purpose};
+use crate::tui::command::table::Group;
+use crate::tui::command::{Command, Effect};
 use crate::tui::field::{Edit, Field};
 use crate::tui::lessons;
-
-/// What the keyboard acts on: the main screen, or one open dialogue.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum InputMode {
-    /// Knobs and charts.
-    Main,
-    /// Typing a value for the selected knob.
-    Typing(Field),
-    /// The help, with its search.
-    Help(HelpState),
-    /// The command palette: commands are searched by name.
-    Palette(PaletteState),
-    /// Typing a file name.
-    Naming(Purpose, Field),
-    /// Asking whether to replace the existing file of this name.
-    Replacing(Purpose, String),
-    /// Asking whether to quit with a changed scene.
-    Leaving,
-    /// The list of lessons, with the index of the selected one.
-    Lessons(usize),
-    /// The list of scenes, with the index of the selected one; `None` selects the open scene.
-    Scenes(Option<usize>),
-}
-
-/// The state of the dialogues.
-#[derive(Clone, Debug)]
-pub struct Dialogue {
-    /// What the keyboard acts on.
-    pub mode: InputMode,
-    /// How often the note of the selected scene was turned to its next page; after the last page
-    /// follows the first.
-    pub note_page: usize,
-    /// Whether this is the first start and no key was pressed yet: the footer then says what to
-    /// try.
-    pub is_new: bool,
-    /// Whether a frame has shown the open question. Keys typed ahead must not answer it unseen.
-    pub asked: bool,
-}
-
-impl Default for Dialogue {
-    fn default() -> Self {
-        Self { mode: InputMode::Main, note_page: 0, is_new: false, asked: true }
-    }
-}
 
 impl Dialogue {
     pub fn is_closed(&self) -> bool {
@@ -83,18 +39,96 @@ impl Dialogue {
             _ => None,
         }
     }
+}
 
-    /// Goes to the top of the list after its search text has changed.
-    pub fn look_again(&mut self) {
-        match &mut self.mode {
+impl App {
+    /// Returns the group of commands that has the keyboard; [`Group::Program`] on the main screen,
+    /// where the keys of all its groups are valid.
+    pub fn keyboard(&self) -> Group {
+        match &self.dialogue.mode {
+            InputMode::Main if self.reading.on => Group::Reading,
+            InputMode::Main if self.is_asked() => Group::Question,
+            InputMode::Main => Group::Program,
+            InputMode::Help(help) if help.is_searched() => Group::Filter,
+            InputMode::Help(_) => Group::Help,
+            InputMode::Palette(_) => Group::Palette,
+            InputMode::Typing(_) | InputMode::Naming(..) => Group::Typing,
+            InputMode::Replacing(..) => Group::Replacing,
+            InputMode::Leaving => Group::Leaving,
+            InputMode::Lessons(_) => Group::Lessons,
+            InputMode::Scenes(_) => Group::SceneList,
+        }
+    }
+
+    /// Drops the refusal of the former text, and goes to the top of the list, after a text field was
+    /// edited.
+    pub fn typed_on(&mut self) {
+        self.knobs.refusal = None;
+        match &mut self.dialogue.mode {
             InputMode::Help(help) => help.scroll = 0,
             InputMode::Palette(palette) => palette.place = 0,
             _ => {}
         }
     }
-}
 
-impl App {
+    /// Takes what is typed or selected in the open dialogue, or the selected answer of a lesson.
+    pub fn accept(&mut self) -> Result<Effect, String> {
+        match self.dialogue.mode.clone() {
+            InputMode::Palette(palette) => return self.choose_command(&palette),
+            InputMode::Naming(purpose, name) => return self.write(purpose, &name.text(), false),
+            InputMode::Lessons(place) => self.begin_lesson(place),
+            InputMode::Scenes(chosen) => {
+                let entries = self.scene_entries();
+                if let Some(entry) = entries.get(self.scene_place(&entries, chosen)) {
+                    self.open_entry(entry)?;
+                }
+            }
+            InputMode::Typing(text) => self.take_typed(&text.text()),
+            InputMode::Main => {
+                if let Some(choice) = self.lessons.progress.as_ref().map(|progress| progress.choice)
+                {
+                    self.answer(choice);
+                }
+            }
+            InputMode::Help(_) | InputMode::Replacing(..) | InputMode::Leaving => {}
+        }
+        Ok(Effect::None)
+    }
+
+    /// Closes one level of what is open. On the main screen it quits, but asks where the scene is
+    /// changed and not saved.
+    pub fn leave(&mut self) -> Effect {
+        if self.dialogue.mode == InputMode::Leaving {
+            // A key typed before the question was drawn does not answer it.
+            return if self.dialogue.asked { Effect::Quit } else { Effect::None };
+        }
+        if self.has_open() {
+            self.close();
+        } else if self.lessons.progress.is_some() {
+            self.leave_lesson();
+        } else if self.files.is_changed(&self.scene) {
+            self.dialogue.ask(InputMode::Leaving);
+        } else {
+            return Effect::Quit;
+        }
+        Effect::None
+    }
+
+    /// Closes what is open: the search of the help, a dialogue, the cursor, or the full screen.
+    pub fn close(&mut self) {
+        self.knobs.refusal = None;
+        match &self.dialogue.mode {
+            InputMode::Help(help) if help.is_searched() => {
+                self.dialogue.open(InputMode::Help(HelpState::default()));
+            }
+            InputMode::Main if self.reading != Reading::default() => self.stop_reading(),
+            InputMode::Main if self.play.middle_s.is_some() => self.stop_reading(),
+            InputMode::Main if placed(self).list.is_some() => self.knobs.select(0),
+            InputMode::Main => self.layout.full_screen = false,
+            _ => self.dialogue.close(),
+        }
+    }
+
     /// Returns whether a dialogue, a cursor or the full screen is open over the main screen.
     pub fn has_open(&self) -> bool {
         let reads = self.reading.on || self.reading.cursor.is_some();
@@ -156,19 +190,21 @@ impl App {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tui::app::tests::on_screen;
+    use crate::tui::command::Purpose;
 
     #[test]
     fn what_is_typed_is_of_the_open_dialogue_and_a_list_begins_at_its_top() {
-        let mut dialogue = Dialogue::default();
-        assert!(dialogue.is_closed() && dialogue.asked && dialogue.typed().is_none());
-        dialogue.open(InputMode::Palette(PaletteState { typed: "ab".into(), place: 3 }));
-        dialogue.look_again();
-        let expected = PaletteState { typed: "ab".into(), place: 0 };
-        assert_eq!(dialogue.mode, InputMode::Palette(expected));
-        dialogue.ask(InputMode::Replacing(Purpose::Save, "a".into()));
-        assert!(!dialogue.asked);
-        dialogue.asked = true;
-        dialogue.close();
-        assert!(dialogue.asked && dialogue.is_closed());
+        let mut app = on_screen();
+        assert!(app.dialogue.is_closed() && app.dialogue.asked && app.dialogue.typed().is_none());
+        let palette = |place| InputMode::Palette(PaletteState { typed: "ab".into(), place });
+        app.dialogue.open(palette(3));
+        app.typed_on();
+        assert_eq!(app.dialogue.mode, palette(0));
+        app.dialogue.ask(InputMode::Replacing(Purpose::Save, "a".into()));
+        assert!(!app.dialogue.asked);
+        app.dialogue.asked = true;
+        app.dialogue.close();
+        assert!(app.dialogue.asked && app.dialogue.is_closed());
     }
 }

@@ -6,44 +6,15 @@ use std::path::{Component, Path, PathBuf};
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 
-use super::{App, InputMode, Source};
+use super::model::{App, Files, InputMode, Source, Writing};
 use crate::report::line::clean;
 use crate::tui::command::{Effect, Purpose};
-use crate::tui::files::{FileJob, FileResult, FoundScene, FoundScenes, builtin_scenes};
+use crate::tui::files::{FileResult, FoundScene, FoundScenes, builtin_scenes};
 use crate::tui::list::draw_list;
 use crate::tui::text::{columns, print, shorten, wrap};
 use crate::tui::theme::Role;
-use rubscope_solver::scene::keys::{differences, is_plain};
+use rubscope_solver::scene::keys::differences;
 use rubscope_solver::scene::{CheckedScene, DEFAULT, Scene};
-
-/// A file that is being written.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Writing {
-    /// File name as typed.
-    pub name: String,
-    /// What is written to it.
-    pub purpose: Purpose,
-    /// Whether no key was pressed since the write began.
-    pub undisturbed: bool,
-}
-
-/// The open scene, and the files of the directory.
-#[derive(Clone, Debug)]
-pub struct Files {
-    /// Directory in which scenes are found and files are written; empty means the working
-    /// directory.
-    pub directory: PathBuf,
-    /// The scene as opened; `Backspace` restores its values.
-    pub opened: CheckedScene,
-    /// Where the scene came from, for the command line; `None` for the built-in default.
-    pub source: Option<Source>,
-    /// The scene as last saved; `None` if it was not.
-    pub saved: Option<CheckedScene>,
-    /// The write under way; `None` if there is none.
-    pub writing: Option<Writing>,
-    /// The scene files of the directory, as last read.
-    pub found: FoundScenes,
-}
 
 impl Files {
     /// Creates the state with `opened` as the open scene and no known source.
@@ -137,41 +108,6 @@ impl App {
         self.dialogue.open(InputMode::Naming(purpose, name.into()));
     }
 
-    /// Returns the name of a file to write, and closes its prompt.
-    ///
-    /// # Errors
-    /// One line that says why no file of this name is written now.
-    pub fn file_to_write(&mut self, name: &str) -> Result<String, String> {
-        let name = name.trim();
-        if name.is_empty() {
-            return Err("a file name is needed; Esc leaves".into());
-        }
-        if !name.chars().all(is_plain) {
-            return Err("a file name of letters that can be seen is needed".into());
-        }
-        self.dialogue.close();
-        match &self.files.writing {
-            Some(writing) => Err(format!("{name} not written: still writing {}", writing.name)),
-            None => Ok(name.into()),
-        }
-    }
-
-    /// Starts writing a file with this content.
-    pub fn start_writing(
-        &mut self,
-        purpose: Purpose,
-        name: &str,
-        content: String,
-        replace: bool,
-    ) -> Effect {
-        self.status = Some(format!("writing {name} ..."));
-        if purpose == Purpose::Save {
-            self.files.saved = Some(self.scene.clone());
-        }
-        self.files.writing = Some(Writing { name: name.into(), purpose, undisturbed: true });
-        Effect::Write(FileJob { path: self.files.directory.join(name), content, replace })
-    }
-
     /// Handles the result of the write; returns whether the file was written.
     pub fn written(&mut self, result: FileResult) -> bool {
         let Some(Writing { name, purpose, undisturbed }) = self.files.writing.take() else {
@@ -194,12 +130,6 @@ impl App {
         result == FileResult::Written
     }
 
-    /// Records that a frame has shown the current state, so that keys may now answer an open
-    /// question.
-    pub fn drawn(&mut self) {
-        self.dialogue.asked = true;
-    }
-
     /// Requests the scene files of the directory.
     pub fn find_scenes(&mut self) -> Effect {
         if std::mem::replace(&mut self.files.found.reading, true) {
@@ -220,16 +150,6 @@ impl App {
             let same = |entry: &SceneEntry| entry.name == chosen.name && entry.file == chosen.file;
             self.dialogue.mode = InputMode::Scenes(self.scene_entries().iter().position(same));
         }
-    }
-
-    /// Opens the scene of this name, if the list has it.
-    ///
-    /// # Errors
-    /// As [`Self::open_entry`].
-    pub fn open_named(&mut self, name: &str) -> Result<(), String> {
-        let entries = self.scene_entries();
-        let entry = entries.iter().find(|entry| entry.name == name);
-        entry.map_or(Ok(()), |entry| self.open_entry(entry))
     }
 
     /// Opens a scene of the list. Undo returns to the previous one.
@@ -453,7 +373,7 @@ mod tests {
         // Nor does a key pressed before the question was drawn.
         assert_eq!(press(&mut app, KeyCode::Char('y')), Effect::None);
         assert!(matches!(app.dialogue.mode, InputMode::Replacing(..)));
-        app.drawn();
+        app.dialogue.asked = true;
         let Effect::Write(job) = press(&mut app, KeyCode::Char('y')) else { panic!() };
         assert!(job.replace);
         // A key pressed before the result arrives suppresses the question: `y` copies instead.
@@ -473,14 +393,14 @@ mod tests {
         assert_eq!(press(&mut app, KeyCode::Char('q')), Effect::None);
         // Until the question is drawn, no key answers it.
         assert_eq!(press(&mut app, KeyCode::Char('q')), Effect::None);
-        app.drawn();
+        app.dialogue.asked = true;
         assert_eq!(press(&mut app, KeyCode::Char('s')), Effect::None);
         assert!(matches!(press(&mut app, KeyCode::Enter), Effect::Write(_)));
         app.written(FileResult::Written);
         assert_eq!(press(&mut app, KeyCode::Char('q')), Effect::Quit);
         press(&mut app, KeyCode::Right);
         press(&mut app, KeyCode::Char('q'));
-        app.drawn();
+        app.dialogue.asked = true;
         assert_eq!(press(&mut app, KeyCode::Char('q')), Effect::Quit);
     }
 

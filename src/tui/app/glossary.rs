@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 use serde::Deserialize;
 
-use super::App;
+use super::model::App;
 use crate::report::number::{frequency_unit, in_shown_unit, per_frequency};
 use crate::tui::axis::number;
 use crate::tui::knobs::knob_of;

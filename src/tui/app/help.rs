@@ -3,25 +3,13 @@
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 use strum::IntoEnumIterator;
 
+use super::glossary;
 use super::layout::placed;
-use super::{App, glossary};
-use crate::tui::command::{self, Binding, Group};
-use crate::tui::field::Field;
+use super::model::{App, HelpState};
+use crate::tui::command::table::{self, Binding, Group};
 use crate::tui::knobs::{KNOBS, Knob};
 use crate::tui::text::{print, shorten, wrap};
 use crate::tui::theme::Role;
-
-/// The open help.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct HelpState {
-    /// Search words: only entries that contain all of them are listed.
-    pub filter: Field,
-    /// Whether every letter goes into the search; otherwise the first one may be a key of the
-    /// help, such as `q`.
-    pub searches: bool,
-    /// Number of lines scrolled past.
-    pub scroll: usize,
-}
 
 impl HelpState {
     /// Returns whether the help is searched, so that every letter goes into the search.
@@ -43,7 +31,7 @@ struct Entry {
 
 impl Entry {
     fn of(binding: &Binding) -> Self {
-        let (left, right) = (command::keys_text(binding), binding.what.to_string());
+        let (left, right) = (table::keys_text(binding), binding.what.to_string());
         Self { left, right, also: String::new() }
     }
 
@@ -65,11 +53,11 @@ impl Entry {
 fn sections(app: &App) -> Vec<(&'static str, Vec<Entry>)> {
     let look = &app.appearance;
     // What a key does everywhere is listed once.
-    let everywhere = |b: &Binding| command::main().any(|main| main.what == b.what);
+    let everywhere = |b: &Binding| table::main().any(|main| main.what == b.what);
     let keys = |is_main: bool| {
         let groups = Group::iter().filter(move |group| group.is_main() == is_main);
         groups.map(move |group| {
-            let own = command::of(group).filter(|b| is_main || !everywhere(b));
+            let own = table::of(group).filter(|b| is_main || !everywhere(b));
             (group.into(), own.map(Entry::of).collect())
         })
     };
@@ -221,7 +209,7 @@ mod tests {
     #[test]
     fn every_binding_and_every_word_is_in_the_help() {
         let text = text("");
-        for binding in command::BINDINGS.iter() {
+        for binding in table::BINDINGS.iter() {
             assert!(text.contains(binding.what), "{}", binding.what);
             for key in binding.keys {
                 assert!(text.contains(&key.to_string()), "{}", binding.what);

@@ -2,39 +2,18 @@
 
 use ratatui::layout::{Constraint, Layout as Split, Rect};
 
-use super::App;
 use super::knobs::strip;
 use super::lesson::step_rows;
-use crate::report::number::speed_unit;
+use super::model::{App, Layout};
 use crate::tui::views::id::ViewId;
 use rubscope_solver::scene::{Scene, keys, speed_range};
 
 /// Largest number of charts beside the large one.
-const MOST_BESIDE: usize = 3;
+pub const MOST_BESIDE: usize = 3;
 /// Width from which the knobs have a column and the wheel is among the first charts \[columns\].
 const WIDE: u16 = 100;
 /// Smallest width and height of a screen with the overview \[columns, rows\].
 const OVERVIEW: (u16, u16) = (76, 23);
-
-/// Which views are on the screen, and where.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Layout {
-    /// All views: the large one, then the others in screen order. Only the first `1 + beside` are
-    /// shown.
-    views: Vec<ViewId>,
-    /// Whether the user, not the scene, made the first view the large one.
-    chosen: bool,
-    /// Number of charts beside the large one.
-    pub beside: usize,
-    /// Whether the margins view shows the survey over all nodal diameters.
-    pub survey: bool,
-    /// Speed range of the survey \[rad/s\]; `None` covers all speeds.
-    pub range: Option<[f64; 2]>,
-    /// Whether the large chart fills the screen.
-    pub full_screen: bool,
-    /// Width and height of the screen \[cells\].
-    pub size: (u16, u16),
-}
 
 impl Layout {
     /// Creates the layout with the views that the scene names in front.
@@ -71,18 +50,6 @@ impl Layout {
         self.shown().next().unwrap_or(ViewId::Response)
     }
 
-    /// Returns all views: the large one, then the others in screen order.
-    pub fn views(&self) -> &[ViewId] {
-        &self.views
-    }
-
-    /// Restores an order of views; returns whether the large view changed.
-    pub fn set_views(&mut self, views: Vec<ViewId>) -> bool {
-        let before = self.view();
-        self.views = views;
-        self.view() != before
-    }
-
     /// Makes `view` the large one by swapping places; returns false if it was already large.
     pub fn show(&mut self, view: ViewId) -> bool {
         if view == self.view() {
@@ -92,31 +59,6 @@ impl Layout {
         self.views.swap(0, place);
         self.chosen = true;
         true
-    }
-
-    /// Sorts the views beside the large one by rank.
-    pub fn order_beside(&mut self, rank: impl Fn(ViewId) -> u8) {
-        if let Some((_, others)) = self.views.split_first_mut() {
-            others.sort_by_key(|view| rank(*view));
-        }
-    }
-
-    /// Switches between the survey over all nodal diameters and the margins of one; returns the
-    /// status message.
-    pub fn turn_survey(&mut self, on: bool) -> String {
-        self.survey = on;
-        let ends = if speed_unit() == "rpm" { "2000:6000" } else { "200:600" };
-        match on {
-            true => {
-                format!("margins of all diameters; : range {ends} gives the speeds of a machine")
-            }
-            false => "margins of n_d alone".to_string(),
-        }
-    }
-
-    /// Changes the number of charts beside the large one, from the most to none.
-    pub fn next_count(&mut self) {
-        self.beside = (self.beside + 1) % (MOST_BESIDE + 1);
     }
 
     /// Returns the view `by` places after the large one in the table, cyclically.
@@ -131,6 +73,22 @@ impl App {
     /// Returns the large view.
     pub fn view(&self) -> ViewId {
         self.layout.view()
+    }
+
+    /// Makes a view the large one; a cursor keeps its time.
+    pub fn show(&mut self, view: ViewId) {
+        if self.layout.show(view) {
+            self.keep_instant();
+        }
+    }
+
+    /// Makes a view the large one at the user's request. The map then gives the arrow keys to its
+    /// cell cursor.
+    pub fn walk(&mut self, view: ViewId) {
+        self.show(view);
+        if view == ViewId::Map && self.dialogue.is_closed() && !self.reading.on {
+            self.toggle_reading();
+        }
     }
 
     /// Returns whether `view` is the large one.
@@ -326,13 +284,11 @@ mod tests {
         let mut scene = Scene::base();
         scene.view.charts = vec!["map".into(), "gaps".into()];
         let mut layout = Layout::of(&scene);
-        assert_eq!(layout.views()[..3], [ViewId::Map, ViewId::Gaps, ViewId::Response]);
-        assert_eq!(layout.views().len(), ViewId::all().count());
+        assert_eq!(layout.views[..3], [ViewId::Map, ViewId::Gaps, ViewId::Response]);
+        assert_eq!(layout.views.len(), ViewId::all().count());
         assert!(layout.show(ViewId::Response) && !layout.show(ViewId::Response));
-        assert_eq!(layout.views()[..3], [ViewId::Response, ViewId::Gaps, ViewId::Map]);
+        assert_eq!(layout.views[..3], [ViewId::Response, ViewId::Gaps, ViewId::Map]);
         assert_eq!(layout.neighbour(-1), ViewId::Coincidence);
-        (0..3).for_each(|_| layout.next_count());
-        assert_eq!(layout.beside, 2);
     }
 
     fn app() -> App {

@@ -5,40 +5,16 @@ use std::sync::Arc;
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 
-use super::{App, InputMode, Past, Source};
+use super::model::{App, InputMode, LessonProgress, Past, Source, StepProgress};
 use crate::report::number::with_speeds;
 use crate::tui::command::Command;
 use crate::tui::knobs::{knob_of, place_of};
-use crate::tui::lessons::{self, Condition, LETTERS, Lesson, LessonStep, LessonsDone};
+use crate::tui::lessons::{self, Condition, LETTERS, Lesson, LessonStep};
 use crate::tui::list::draw_list as draw_lines;
 use crate::tui::text::{columns, print, shorten, whole_parts, wrap};
 use crate::tui::theme::Role;
 use crate::tui::views::id::ViewId;
 use rubscope_solver::scene::{Scene, Value};
-
-/// Progress in the current lesson.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LessonProgress {
-    /// Index of the lesson.
-    pub lesson: usize,
-    /// Index of the current step.
-    pub step: usize,
-    /// Answer and task of every step.
-    pub steps: Vec<StepProgress>,
-    /// Index of the answer that Enter gives.
-    pub choice: usize,
-    /// State before the lesson, restored when it ends.
-    pub own: Arc<Past>,
-}
-
-/// Progress in one step of a lesson.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct StepProgress {
-    /// Index of the answer given; `None` before that, and without a question.
-    pub answer: Option<usize>,
-    /// Whether the question is answered and the task done.
-    pub done: bool,
-}
 
 impl LessonProgress {
     /// Returns the progress in the current step.
@@ -50,15 +26,6 @@ impl LessonProgress {
     pub fn now_mut(&mut self) -> Option<&mut StepProgress> {
         self.steps.get_mut(self.step)
     }
-}
-
-/// The open lesson, and the steps completed in all lessons.
-#[derive(Clone, Debug, Default)]
-pub struct Lessons {
-    /// Progress in the open lesson; `None` if none is open.
-    pub progress: Option<LessonProgress>,
-    /// All steps completed so far, in any session.
-    pub done: LessonsDone,
 }
 
 impl App {
@@ -176,7 +143,7 @@ impl App {
     pub fn end_lesson(&mut self) {
         if let Some(progress) = self.lessons.progress.take() {
             self.knobs.live = progress.own.live;
-            self.play.slow_at_events = progress.own.tempo.slow_at_events;
+            self.play.tempo.slow_at_events = progress.own.tempo.slow_at_events;
             self.run.set_compare(progress.own.compare);
         }
     }
@@ -212,13 +179,6 @@ impl App {
         if let Some(progress) = &mut self.lessons.progress {
             let by = if up { LETTERS.len() - 1 } else { 1 };
             progress.choice = (progress.choice + by) % LETTERS.len();
-        }
-    }
-
-    /// Gives the selected answer.
-    pub fn answer_chosen(&mut self) {
-        if let Some(choice) = self.lessons.progress.as_ref().map(|progress| progress.choice) {
-            self.answer(choice);
         }
     }
 
@@ -265,11 +225,13 @@ impl App {
         // quick ones.
         let hidden = step.then_view.as_deref().filter(|_| !answered);
         let hidden = hidden.and_then(ViewId::from_word);
-        self.layout.order_beside(|view| match view {
-            view if Some(view) == hidden => 2,
-            ViewId::Map | ViewId::Precision | ViewId::Margins => 1,
-            _ => 0,
-        });
+        if let Some((_, others)) = self.layout.views.split_first_mut() {
+            others.sort_by_key(|view| match *view {
+                view if Some(view) == hidden => 2,
+                ViewId::Map | ViewId::Precision | ViewId::Margins => 1,
+                _ => 0,
+            });
+        }
     }
 }
 

@@ -1,28 +1,14 @@
 //! The mouse: what is drawn where, and the command of a click or of the wheel there. A key does the
 //! same.
 
-use std::cell::RefCell;
-
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use ratatui::layout::Rect;
 
-use super::{App, InputMode};
-use crate::tui::command::{self, Command, Effect};
+use super::model::{App, InputMode, Parts, Spot};
+use crate::tui::command::table::valid;
+use crate::tui::command::{Command, Effect};
 use crate::tui::knobs::KNOBS;
 use crate::tui::views::id::ViewId;
-
-/// Ranges of fractions, across and up, that an area covers.
-pub type Parts = [(f64, f64); 2];
-
-/// Something that is drawn and can be clicked.
-#[derive(Clone, Debug)]
-struct Spot {
-    area: Rect,
-    /// The command of a click. One that needs a position gets that of the click.
-    command: Command,
-    /// The positions that the area covers.
-    parts: Parts,
-}
 
 impl Spot {
     /// Returns the command of a click at a cell, with its position.
@@ -37,36 +23,6 @@ impl Spot {
             Command::SetPart(knob, _) => Command::SetPart(*knob, across.clamp(0.0, 1.0)),
             other => other.clone(),
         }
-    }
-}
-
-/// The state of the mouse.
-#[derive(Clone, Debug)]
-pub struct Mouse {
-    /// Whether mouse events are used.
-    pub on: bool,
-    /// Screen cell at which the wheel turned a knob last, and the index of that knob; `None` before
-    /// the first turn.
-    wheeled: Option<((u16, u16), usize)>,
-    /// What can be clicked on the last frame. Where areas overlap, the later one is on top.
-    drawn: RefCell<Vec<Spot>>,
-}
-
-impl Default for Mouse {
-    fn default() -> Self {
-        Self { on: true, wheeled: None, drawn: RefCell::default() }
-    }
-}
-
-impl Mouse {
-    /// Switches the mouse on or off; returns the status message.
-    pub fn toggle(&mut self) -> String {
-        self.on = !self.on;
-        let how = match self.on {
-            true => "mouse on: click, wheel; with Shift it selects text",
-            false => "mouse off: it selects text",
-        };
-        how.into()
     }
 }
 
@@ -114,7 +70,7 @@ impl App {
         }?;
         self.files.disturb();
         // A command beside the open dialogue closes it.
-        if !command::valid(self.keyboard()).any(|binding| binding.command == command) {
+        if !valid(self.keyboard()).any(|binding| binding.command == command) {
             self.dialogue.close();
         }
         let effect = self.act(command);
@@ -179,8 +135,9 @@ mod tests {
     fn a_mouse_that_is_off_does_nothing() {
         let mut app = on_screen();
         app.note(Rect::new(0, 39, 4, 1), Command::Help);
-        assert!(app.mouse.toggle().contains("off") && !app.mouse.on);
+        assert_eq!(app.act(Command::Mouse), Effect::Mouse(false));
         assert_eq!(app.mouse(&event(LEFT, (0, 39))), None);
-        assert!(app.mouse.toggle().contains("on") && app.dialogue.is_closed());
+        assert_eq!(app.act(Command::Mouse), Effect::Mouse(true));
+        assert!(app.dialogue.is_closed());
     }
 }

@@ -2,22 +2,12 @@
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-use super::App;
+use super::model::{App, PaletteState};
 use super::words::{self, Found};
 use crate::tui::command::Effect;
-use crate::tui::field::Field;
 use crate::tui::list::draw_list;
 use crate::tui::text::{columns, print, shorten, wrap};
 use crate::tui::theme::Role;
-
-/// The open command palette.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct PaletteState {
-    /// The command or search words typed so far.
-    pub typed: Field,
-    /// Index of the selected entry among the matches.
-    pub place: usize,
-}
 
 impl PaletteState {
     /// Creates a palette in which `text` is typed.

@@ -1,10 +1,10 @@
 //! Playback in slow motion, and pages of time. A page takes about four seconds to fill at any rate;
 //! then a new one starts.
 
-use super::App;
+use super::model::{App, Play, Tempo};
 use crate::tui::axis::nice_step;
 use crate::tui::command::Command;
-use crate::tui::engine::{Move, Moves, PageRecord};
+use crate::tui::engine::{Move, PageRecord};
 use crate::tui::history::{Bin, between, fine_between};
 use rubscope_solver::scene::Scene;
 
@@ -48,47 +48,11 @@ pub fn begin_s(scene: &Scene) -> f64 {
     scene.view.begin_s.min(scene.solver.end_s)
 }
 
-/// The state of the playback.
-#[derive(Clone, Debug, Default)]
-pub struct Play {
-    /// Whether the motion plays; otherwise it is paused.
-    pub playing: bool,
-    /// Index in `RATES`.
-    pub rate: usize,
-    /// Zoom steps from the usual page length; positive is shorter.
-    pub zoom: i32,
-    /// Whether playback slows down at changes of contact and speeds up between them.
-    pub slow_at_events: bool,
-    /// Centre of the page \[s\]; `None` if the page follows the motion.
-    pub middle_s: Option<f64>,
-    /// Moves in time that the engine has yet to make.
-    pub moves: Moves,
-    /// Start of the run that the last key restarted \[s\]; `None` after any other key.
-    pub begun_s: Option<f64>,
-    /// Number of the move whose change of contact is to be reported; `None` if there is none.
-    jump: Option<u64>,
-    /// Whether playback stopped because the run ended, not because the user paused it.
-    stopped_by_end: bool,
-    /// Page number to which the ranges of the charts were last fitted.
-    pub page: i64,
-}
-
-/// Settings of playback that undo restores.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tempo {
-    /// Index in `RATES`.
-    pub rate: usize,
-    /// Zoom steps from the usual page length; positive is shorter.
-    pub zoom: i32,
-    /// Whether playback slows down at changes of contact.
-    pub slow_at_events: bool,
-}
-
 impl Play {
     /// Creates the playback of a scene, playing from its start.
     pub fn of(scene: &Scene) -> Self {
-        let (playing, slow_at_events) = (true, true);
-        let mut play = Self { playing, rate: FIRST_RATE, slow_at_events, ..Self::default() };
+        let tempo = Tempo { rate: FIRST_RATE, zoom: 0, slow_at_events: true };
+        let mut play = Self { playing: true, tempo, ..Self::default() };
         play.open(scene);
         play.restart(begin_s(scene));
         play
@@ -97,40 +61,7 @@ impl Play {
     /// Sets the zoom for a scene's first page: the whole run if nobody would watch it to the end.
     pub fn open(&mut self, scene: &Scene) {
         let end = scene.solver.end_s;
-        self.zoom = if end > WATCHED * self.rate() { self.zoom_for(end) } else { 0 };
-    }
-
-    /// Applies a playback key; returns the status message, if any.
-    pub fn act(&mut self, command: Command) -> Option<String> {
-        match command {
-            Command::Pause => {
-                self.playing = !self.playing;
-                self.stopped_by_end = false;
-            }
-            Command::Step => {
-                self.playing = false;
-                self.moves.push(Move::Step);
-            }
-            Command::Jump => {
-                self.playing = false;
-                // Playback has passed the first impact before a hand can press the next key.
-                if let Some(begin) = self.begun_s.take() {
-                    self.moves.push(Move::To(begin));
-                }
-                self.jump = Some(self.moves.push(Move::NextChange));
-            }
-            Command::SlowAtEvents => {
-                self.slow_at_events = !self.slow_at_events;
-                return Some(match self.slow_at_events {
-                    true => "slower at changes of contact, faster between".into(),
-                    false => "the same pace all the time".to_string(),
-                });
-            }
-            Command::Slower => self.rate = self.rate.saturating_sub(1),
-            Command::Faster => self.rate = (self.rate + 1).min(RATES.len() - 1),
-            _ => {}
-        }
-        None
+        self.tempo.zoom = if end > WATCHED * self.rate() { self.zoom_for(end) } else { 0 };
     }
 
     /// Pauses at the user's request, so that a restart does not resume.
@@ -148,16 +79,11 @@ impl Play {
         self.moves.push(Move::To(begin_s));
     }
 
-    /// Returns the settings that undo restores.
-    pub fn tempo(&self) -> Tempo {
-        Tempo { rate: self.rate, zoom: self.zoom, slow_at_events: self.slow_at_events }
-    }
-
     /// Slows down at changes of contact, on pages of at least `page_s` seconds; `None` sets the
     /// usual length.
     pub fn show_closely(&mut self, page_s: Option<f64>) {
-        self.slow_at_events = true;
-        self.zoom = page_s.map_or(0, |length| self.zoom_for(length));
+        self.tempo.slow_at_events = true;
+        self.tempo.zoom = page_s.map_or(0, |length| self.zoom_for(length));
     }
 
     /// Returns whether the result of the latest jump is that of this number; it is reported once.
@@ -169,14 +95,9 @@ impl Play {
         is_new
     }
 
-    /// Pauses at the end of the run.
-    pub fn stop_at_end(&mut self) {
-        (self.playing, self.stopped_by_end) = (false, true);
-    }
-
     /// Returns simulated time over wall-clock time.
-    fn rate(&self) -> f64 {
-        RATES.get(self.rate).copied().unwrap_or(5e-3)
+    pub fn rate(&self) -> f64 {
+        RATES.get(self.tempo.rate).copied().unwrap_or(5e-3)
     }
 
     /// Returns the largest zoom whose page is at least `length` seconds long, or the smallest zoom
@@ -189,14 +110,9 @@ impl Play {
 }
 
 impl App {
-    /// Returns the requested rate: simulated time over wall-clock time.
-    pub fn rate(&self) -> f64 {
-        self.play.rate()
-    }
-
     /// Returns the length of a page, limited to the run \[s\].
     pub fn page_s(&self) -> f64 {
-        page_length(self.rate(), self.play.zoom).min(self.end_s())
+        page_length(self.play.rate(), self.play.tempo.zoom).min(self.end_s())
     }
 
     /// Returns the time shown: that of the cursor, or of the playing motion \[s\].
@@ -282,19 +198,51 @@ impl App {
     pub fn zoom(&mut self, command: Command) {
         let middle = self.reading.at_s.or(self.play.middle_s);
         let middle = middle.or((!self.play.playing).then(|| self.played_s()));
-        let whole = page_length(self.rate(), self.play.zoom) >= self.end_s();
-        (self.play.zoom, self.play.middle_s) = match command {
-            Command::ZoomIn => ((self.play.zoom + 1).min(MOST_ZOOM), middle),
+        let whole = page_length(self.play.rate(), self.play.tempo.zoom) >= self.end_s();
+        (self.play.tempo.zoom, self.play.middle_s) = match command {
+            Command::ZoomIn => ((self.play.tempo.zoom + 1).min(MOST_ZOOM), middle),
             Command::ZoomOut if whole => return,
-            Command::ZoomOut => ((self.play.zoom - 1).max(-MOST_ZOOM), middle),
+            Command::ZoomOut => ((self.play.tempo.zoom - 1).max(-MOST_ZOOM), middle),
             _ => (0, self.reading.at_s),
         };
+    }
+
+    /// Plays on or pauses, or moves by a step or to the next change of contact, from the time
+    /// shown. At the end of the run, playing on continues it.
+    pub fn go_on(&mut self, command: &Command) {
+        self.depart();
+        let was_playing = std::mem::take(&mut self.play.playing);
+        match command {
+            Command::Step => _ = self.play.moves.push(Move::Step),
+            Command::Jump => {
+                // Playback has passed the first impact before a hand can press the next key.
+                if let Some(begin) = self.play.begun_s.take() {
+                    self.play.moves.push(Move::To(begin));
+                }
+                self.play.jump = Some(self.play.moves.push(Move::NextChange));
+            }
+            _ => (self.play.playing, self.play.stopped_by_end) = (!was_playing, false),
+        }
+        if self.play.playing && self.is_at_end() {
+            self.run.extend();
+        }
+    }
+
+    /// Moves the page by its own length, within the run.
+    pub fn pan(&mut self, back: bool) {
+        let by = if back { -self.page_s() } else { self.page_s() };
+        self.play.middle_s = Some(self.middle_s() + by);
+        let (from, to) = self.page();
+        if self.reading.at_s.is_none() && (from..to).contains(&self.played_s()) {
+            self.play.middle_s = None;
+        }
     }
 
     /// Returns the rate as text, e.g. `200x slower`: the rate reached, or, while paused, the one
     /// requested.
     pub fn rate_text(&self) -> String {
-        let rate = if self.play.playing { self.results().pace.reached } else { Some(self.rate()) };
+        let rate =
+            if self.play.playing { self.results().pace.reached } else { Some(self.play.rate()) };
         let Some(rate) = rate else { return self.appearance.ellipsis().into() };
         match rate {
             rate if rate >= REAL => "real time".into(),
@@ -322,17 +270,16 @@ mod tests {
     #[test]
     fn a_restart_resumes_unless_the_user_had_paused_and_needs_no_answer_to_a_jump() {
         let mut play = Play::of(&Scene::base());
-        play.stop_at_end();
+        (play.playing, play.stopped_by_end) = (false, true);
         play.restart(0.0);
         assert!(play.playing);
-        play.act(Command::Step);
+        play.pause();
         play.restart(0.0);
         assert!(!play.playing);
-        play.act(Command::Jump);
-        let number = play.moves.last();
+        let number = play.moves.push(Move::NextChange);
+        play.jump = Some(number);
         assert!(play.is_met(number) && !play.is_met(number));
-        play.act(Command::Jump);
-        let number = play.moves.last();
+        play.jump = Some(number);
         play.restart(0.0);
         assert!(!play.is_met(number), "nobody waits for a jump of the motion before");
     }

@@ -1,53 +1,22 @@
 //! The run on the screen and its results. Snapshots of the engine are applied here; results of an
 //! older run or of other knob values are dropped.
 
-use std::sync::Arc;
-
-use super::App;
+use super::model::{App, Baseline, Ranges, Run};
 use super::play::begin_s;
+use crate::report::line::clean;
 use crate::tui::axis::{AutoRange, instant, readable};
-use crate::tui::engine::{Answer, PageRecord, Results, Sensitive, Snapshot};
-use crate::tui::film::FilmPlan;
+use crate::tui::engine::{Moment, Order, PageRecord, Results, Sensitive, Snapshot};
+use crate::tui::film::{FilmPlan, other_law};
 use crate::tui::history::{Bin, Channel, wider};
-use crate::tui::knobs::{KNOBS, Knob};
+use crate::tui::knobs::{KNOBS, Knob, knob_of};
+use crate::tui::views::id::ViewId;
 use rubscope_solver::model::Machine;
 use rubscope_solver::motion::ActiveSet;
 use rubscope_solver::scene::CheckedScene;
+use rubscope_solver::scene::keys::PULSE;
 
 /// A corner held for this fraction of a page counts as standing still.
 const STILL: f64 = 0.2;
-
-/// The run on the screen, and what is compared with it.
-#[derive(Clone, Debug)]
-pub struct Run {
-    /// The film of the run: the scene at its start, and live changes.
-    pub film: FilmPlan,
-    /// Number of films in this session; each live change makes a new one.
-    pub number: u64,
-    /// Number of runs that were begun in this session.
-    pub runs: u64,
-    /// The latest snapshot, with results of the current film only.
-    pub latest: Snapshot,
-    /// Whether the scene also runs under the other contact law.
-    pub compare: bool,
-    /// The pinned run that is drawn behind the current one; `None` if none is pinned.
-    pub baseline: Option<Baseline>,
-    /// Axis ranges of the charts.
-    pub ranges: Ranges,
-    /// The latest known verdict, whose scene may be an older one; `None` before the first.
-    pub answer: Option<Arc<Answer>>,
-}
-
-/// A pinned run, drawn behind later ones.
-#[derive(Clone, Debug)]
-pub struct Baseline {
-    /// Its film.
-    pub film: FilmPlan,
-    /// Its verdict as displayed.
-    pub word: String,
-    /// The scene with the knob values at that time.
-    pub scene: CheckedScene,
-}
 
 impl Baseline {
     /// Describes the pinned run: up to two knobs that differ from the current scene, and the
@@ -59,21 +28,6 @@ impl Baseline {
         parts.push(self.word.clone());
         parts.join(", ")
     }
-}
-
-/// Axis ranges of the charts; they follow the data with hysteresis.
-#[derive(Clone, Copy, Debug)]
-pub struct Ranges {
-    /// `u_c`, `u_s` \[m\].
-    pub casing: AutoRange,
-    /// `alpha_c`, `alpha_s` \[rad\].
-    pub blades: AutoRange,
-    /// Gaps between tips and casing \[m\]; negative in a lining.
-    pub gaps: AutoRange,
-    /// Casing displacement relative to the tips, in the frame of the blades \[m\].
-    pub rim: AutoRange,
-    /// Whether the ranges follow the data.
-    pub follow: bool,
 }
 
 impl Ranges {
@@ -132,12 +86,6 @@ impl Run {
         (self.film, self.number) = (self.film.extended(), self.number + 1);
     }
 
-    /// Switches whether the chart ranges follow the data; returns the status message.
-    pub fn autoscale(&mut self) -> String {
-        self.ranges.follow = !self.ranges.follow;
-        format!("scales {}", if self.ranges.follow { "follow the data" } else { "stay fixed" })
-    }
-
     /// Switches the comparison with the other contact law.
     pub fn set_compare(&mut self, compare: bool) {
         if compare != self.compare {
@@ -149,6 +97,56 @@ impl Run {
 }
 
 impl App {
+    /// Builds the order for the engine from the current state.
+    pub fn order(&self) -> Order {
+        Order {
+            scene: self.scene.clone(),
+            film: self.run.film.clone(),
+            number: self.run.number,
+            run: self.run.runs,
+            pinned: self.run.baseline.as_ref().map(|baseline| baseline.film.clone()),
+            compare: self.run.compare,
+            moves: self.play.moves.clone(),
+            playing: self.play.playing,
+            rate: self.play.rate(),
+            slow_at_events: self.play.tempo.slow_at_events,
+            page: self.page(),
+            cursor_s: self.reading.at_s,
+            open: ViewId::all().filter(|view| self.is_open(*view)).collect(),
+            map: self.map_choice(),
+            cell: self.map_cell(),
+            range: self.layout.range,
+        }
+    }
+
+    /// Returns whether the large chart shows both contact laws; then it is the only chart.
+    pub fn compares(&self) -> bool {
+        self.run.compare && self.is_large(ViewId::Response)
+    }
+
+    /// Returns the state at the time shown: that of the cursor, or of the playing motion. Until the
+    /// engine has computed it, the state shown before. `None` before the first snapshot.
+    pub fn shown(&self) -> Option<&Moment> {
+        self.run.latest.moment.as_deref()
+    }
+
+    /// As [`Self::shown`], but `None` until the engine has computed the requested time.
+    pub fn shown_now(&self) -> Option<&Moment> {
+        let step = self.scene.solver.step_s;
+        self.shown().filter(|moment| (moment.state.t_s - self.now()).abs() <= step)
+    }
+
+    /// Returns the rotor speed at the time shown \[rad/s\]; negative if the rotor turns backward.
+    pub fn speed(&self) -> f64 {
+        let moment = self.shown();
+        moment.map_or(self.scene.operation.speed_rad_s, |moment| moment.speed)
+    }
+
+    /// Returns why the motion failed before the time shown; `None` if it did not.
+    pub fn failure(&self) -> Option<&String> {
+        self.shown()?.failure.as_ref()
+    }
+
     /// Returns the results of the current run.
     pub fn results(&self) -> &Results {
         &self.run.latest.results
@@ -208,6 +206,37 @@ impl App {
         let what = format!("{word} at {}", readable(self.speed(), "rad/s"));
         self.run.baseline = Some(Baseline { film, word, scene });
         self.status = Some(format!("pinned behind the next runs: {what}"));
+    }
+
+    /// Fires the pulse into the playing motion; the cursor, which shows another time, goes.
+    pub fn fire(&mut self) {
+        self.depart();
+        let t = self.played_s();
+        if !self.run.film.has_room(t) {
+            self.status = Some("not fired: the run has too many changes; r restarts".into());
+            return;
+        }
+        self.knobs.remember(self.past());
+        self.run.show(self.run.film.fired(t));
+        let pulse = knob_of(PULSE).map(|knob| knob.text(&self.scene));
+        let at = instant(t);
+        self.status = pulse.map(|pulse| format!("pulse of {pulse} fired at {at}"));
+    }
+
+    /// Switches the comparison with the other contact law.
+    pub fn compare(&mut self) {
+        match other_law(&self.scene) {
+            Err(why) if !self.run.compare => {
+                let law = self.scene.solver.contact.other();
+                self.status = Some(clean(&format!("no {law} law beside this: {why}")));
+            }
+            _ => {
+                self.run.set_compare(!self.run.compare);
+                if self.run.compare {
+                    self.show(ViewId::Response);
+                }
+            }
+        }
     }
 
     /// Applies a snapshot; returns false if it belongs to an older run.
@@ -303,7 +332,7 @@ impl App {
             });
         }
         if self.play.playing && self.is_at_end() {
-            self.play.stop_at_end();
+            (self.play.playing, self.play.stopped_by_end) = (false, true);
             // Do not cover the message about a key, or a question.
             if self.dialogue.is_closed() {
                 self.status.get_or_insert("the end of the run; Space goes on".into());
@@ -346,6 +375,7 @@ mod tests {
     use super::*;
     use crate::tui::engine::FullRunState;
     use rubscope_solver::scene::Scene;
+    use std::sync::Arc;
 
     #[test]
     fn a_run_without_a_verdict_is_not_pinned() {
@@ -380,7 +410,5 @@ mod tests {
         assert_eq!((run.number, run.runs), (2, 1));
         run.set_compare(true);
         assert!(run.compare);
-        assert_eq!(run.autoscale(), "scales stay fixed");
-        assert!(!run.ranges.follow);
     }
 }

@@ -1,9 +1,9 @@
 //! The state of the run in words: its verdict as one sentence, the blades in contact and their
 //! depth in a lining, and the lock and coincidence speeds.
 
+use super::model::App;
 use crate::report::number::count;
 use crate::report::sentence::{Facts, Sentence};
-use crate::tui::app::App;
 use crate::tui::axis::readable;
 use crate::tui::engine::{Answer, FORECAST_LIMIT, FullRun, FullRunState};
 use crate::tui::knobs::KNOBS;

@@ -2,11 +2,13 @@
 //! list opened by `:` and for `--lines`. A word that introduces a target (`t 0.3 ms`, `blade 7`,
 //! `scene rub`) or a knob with a value takes precedence over entries that contain the words.
 
-use super::App;
+use super::model::App;
 use crate::machine::range_doubt;
 use crate::report::number::with_typed_unit;
 use crate::tui::axis::readable;
-use crate::tui::command::{self, Binding, Chord, Command, Group, Purpose};
+use crate::tui::command::chord::Chord;
+use crate::tui::command::table::{self, Binding, Group};
+use crate::tui::command::{Command, Purpose};
 use crate::tui::knobs::{Fit, KNOBS, Knob, best, called, fit, knob_of, plain};
 use crate::tui::lessons::{self, LETTERS};
 use crate::tui::theme::Theme;
@@ -78,7 +80,7 @@ pub fn only(app: &App, typed: &str) -> Result<Found, String> {
     let typed = typed.trim();
     let mut signs = typed.chars();
     if let (Some(sign), None) = (signs.next(), signs.next())
-        && let Some(command) = command::lookup(app.keyboard(), Chord::from(sign))
+        && let Some(command) = table::lookup(app.keyboard(), Chord::from(sign))
     {
         return Ok(Found::of("key", typed, command));
     }
@@ -356,13 +358,13 @@ fn only_for_keys(command: &Command) -> bool {
 /// Returns the list entry of a key binding.
 fn bound_entry(binding: &Binding) -> Found {
     let key = binding.keys.first().map(ToString::to_string).unwrap_or_default();
-    let also = command::keys_text(binding);
+    let also = table::keys_text(binding);
     Found::of("", binding.what, binding.command.clone()).beside(key).also(also)
 }
 
 fn everything(app: &App) -> impl Iterator<Item = Found> {
-    let asked = command::of(Group::Question).filter(|_| app.is_asked());
-    let bound = asked.chain(command::main()).filter(|binding| !only_for_keys(&binding.command));
+    let asked = table::of(Group::Question).filter(|_| app.is_asked());
+    let bound = asked.chain(table::main()).filter(|binding| !only_for_keys(&binding.command));
     let knobs = KNOBS.iter().enumerate().map(|(place, knob)| {
         Found::of("knob", format!("{}: {}", knob.label, knob.does), Command::Select(place))
             .beside(knob.text(&app.scene))

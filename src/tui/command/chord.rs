@@ -30,6 +30,26 @@ impl Chord {
     }
 }
 
+/// Creates the chord of a letter.
+pub const fn letter(letter: char) -> Chord {
+    key(KeyCode::Char(letter))
+}
+
+/// Creates the chord of a letter with Control.
+pub const fn ctrl(letter: char) -> Chord {
+    Chord { code: KeyCode::Char(letter), ctrl: true, shift: false }
+}
+
+/// Creates the chord of a key without modifiers.
+pub const fn key(code: KeyCode) -> Chord {
+    Chord { code, ctrl: false, shift: false }
+}
+
+/// Creates the chord of a key with Shift.
+pub const fn shift(code: KeyCode) -> Chord {
+    Chord { code, ctrl: false, shift: true }
+}
+
 /// Creates the key that a character stands for in the footer and in `--lines`: that of an arrow
 /// sign, or of the character itself.
 impl From<char> for Chord {
@@ -41,7 +61,7 @@ impl From<char> for Chord {
             '↓' => KeyCode::Down,
             letter => KeyCode::Char(letter),
         };
-        Self { code, ctrl: false, shift: false }
+        key(code)
     }
 }
 
@@ -69,7 +89,6 @@ impl std::fmt::Display for Chord {
 
 #[cfg(test)]
 mod tests {
-    use super::super::table::{key, letter, shift};
     use super::*;
 
     #[test]

@@ -3,25 +3,109 @@
 use std::sync::LazyLock;
 
 use crossterm::event::KeyCode::{
-    self, BackTab, Backspace, Char, Delete, Down, End, Enter, Esc, Home, Left, PageDown, PageUp,
-    Right, Tab, Up,
+    BackTab, Backspace, Delete, Down, End, Enter, Esc, Home, Left, PageDown, PageUp, Right, Tab, Up,
 };
 
-use super::{Binding, Chord, Command, Group, Purpose};
+use strum::{EnumIter, IntoStaticStr};
+
+use super::chord::{Chord, ctrl, key, letter, shift};
+use super::{Command, Purpose};
 use crate::tui::field::Edit;
 use crate::tui::views::id::ViewId;
 
-pub(super) const fn letter(letter: char) -> Chord {
-    Chord { code: Char(letter), ctrl: false, shift: false }
+/// A group of bindings: the heading of the help, and where the keys are valid. The groups up to
+/// [`Group::Program`] are those of the main screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, EnumIter, IntoStaticStr)]
+pub enum Group {
+    /// Select and turn knobs.
+    Knobs,
+    /// Play the motion and choose the part shown.
+    Time,
+    /// Choose and read charts.
+    #[strum(serialize = "Views and charts")]
+    Views,
+    /// Open scenes and lessons.
+    #[strum(serialize = "Scenes and lessons")]
+    Scenes,
+    /// Write and copy files.
+    Files,
+    /// Colours, marker and units.
+    Look,
+    /// Control the program itself.
+    Program,
+    /// The arrows move the cursor of a chart; other keys as on the main screen.
+    #[strum(serialize = "While a chart is read")]
+    Reading,
+    /// Typing a value or a name.
+    #[strum(serialize = "While typing")]
+    Typing,
+    /// The editing keys of any text.
+    #[strum(serialize = "In every text")]
+    Field,
+    /// The keys that move in any list.
+    #[strum(serialize = "In every list")]
+    List,
+    /// The unfiltered help.
+    #[strum(serialize = "In this help")]
+    Help,
+    /// Typing a filter into the help.
+    #[strum(serialize = "While the help is searched")]
+    Filter,
+    /// Typing a command.
+    #[strum(serialize = "While a command is looked for")]
+    Palette,
+    /// Answering whether to replace an existing file.
+    #[strum(serialize = "Where a file exists")]
+    Replacing,
+    /// Answering whether to quit with a changed scene.
+    #[strum(serialize = "Where the scene is changed")]
+    Leaving,
+    /// Choosing a lesson.
+    #[strum(serialize = "In the list of lessons")]
+    Lessons,
+    /// Answering a question of a lesson; other keys as on the main screen.
+    #[strum(serialize = "While a lesson asks")]
+    Question,
+    /// Choosing a scene.
+    #[strum(serialize = "In the list of scenes")]
+    SceneList,
+    /// The keys of every dialogue.
+    #[strum(serialize = "In every dialogue")]
+    Dialogue,
 }
-pub(super) const fn ctrl(letter: char) -> Chord {
-    Chord { code: Char(letter), ctrl: true, shift: false }
+
+impl Group {
+    /// Returns whether the keys of the group are those of the main screen.
+    pub fn is_main(self) -> bool {
+        self <= Self::Program
+    }
+
+    /// Returns the groups whose keys are valid in every dialogue of this one's kind, the nearest
+    /// first.
+    fn behind(self) -> &'static [Self] {
+        match self {
+            Self::Typing => &[Self::Field, Self::Dialogue],
+            Self::Filter | Self::Palette => &[Self::Field, Self::List, Self::Dialogue],
+            Self::Help | Self::Lessons | Self::SceneList => &[Self::List, Self::Dialogue],
+            Self::Replacing | Self::Leaving => &[Self::Dialogue],
+            _ => &[],
+        }
+    }
 }
-pub(super) const fn key(code: KeyCode) -> Chord {
-    Chord { code, ctrl: false, shift: false }
-}
-pub(super) const fn shift(code: KeyCode) -> Chord {
-    Chord { code, ctrl: false, shift: true }
+
+/// One row of the table.
+#[derive(Clone, Debug)]
+pub struct Binding {
+    /// Group that lists the binding and where it is valid.
+    pub group: Group,
+    /// Keys of the command; the help lists all of them.
+    pub keys: &'static [Chord],
+    /// Command of the keys.
+    pub command: Command,
+    /// The command in a few words, for the help, and to be typed after `:`.
+    pub what: &'static str,
+    /// Keys and word in the footer, such as `↑↓` and `knob`; `None` if it is not shown there.
+    pub footer: Option<(&'static str, &'static str)>,
 }
 
 macro_rules! bind {
@@ -176,3 +260,65 @@ const AFTER_VIEWS: &[Binding] = &[
     bind!(Dialogue: [ctrl('z')], Command::Suspend, "suspend"),
     bind!(Dialogue: [ctrl('l')], Command::Redraw, "draw the screen again"),
 ];
+
+/// Iterates over the bindings of a group.
+pub fn of(group: Group) -> impl Iterator<Item = &'static Binding> {
+    BINDINGS.iter().filter(move |binding| binding.group == group)
+}
+
+/// Iterates over the bindings of the main screen.
+pub fn main() -> impl Iterator<Item = &'static Binding> {
+    BINDINGS.iter().filter(|binding| binding.group.is_main())
+}
+
+/// Iterates over the bindings that are valid while `group` has the keyboard, the nearest first.
+pub fn valid(group: Group) -> impl Iterator<Item = &'static Binding> {
+    let over_main = [Group::Reading, Group::Question].contains(&group) || group.is_main();
+    let own = of(group).filter(move |_| !group.is_main());
+    let behind = group.behind().iter().copied().flat_map(of);
+    own.chain(behind).chain(main().filter(move |_| over_main))
+}
+
+/// Returns the command of a key while `group` has the keyboard; `None` if the key has none.
+pub fn lookup(group: Group, chord: Chord) -> Option<Command> {
+    let found = valid(group).find(|binding| binding.keys.contains(&chord));
+    found.map(|binding| binding.command.clone())
+}
+
+/// Lists the keys of a binding as text, such as `Up, k`.
+pub fn keys_text(binding: &Binding) -> String {
+    binding.keys.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use strum::IntoEnumIterator;
+
+    #[test]
+    fn no_key_is_bound_twice_in_a_group_or_on_the_main_screen() {
+        for group in Group::iter() {
+            let keys: Vec<&Chord> = valid(group)
+                .filter(|binding| binding.group == group || binding.group.is_main())
+                .flat_map(|binding| binding.keys)
+                .collect();
+            let own = keys.len();
+            let distinct = keys.iter().enumerate().filter(|(at, key)| !keys[..*at].contains(key));
+            let over_main = [Group::Reading, Group::Question].contains(&group);
+            assert!(over_main || distinct.count() == own, "{group:?}");
+        }
+    }
+
+    #[test]
+    fn every_binding_says_what_it_does_and_every_dialogue_can_be_left() {
+        for binding in BINDINGS.iter() {
+            assert!(!binding.what.is_empty() && !binding.keys.is_empty());
+        }
+        let parts = [Group::Field, Group::List, Group::Dialogue];
+        for group in Group::iter().filter(|group| !parts.contains(group)) {
+            assert_eq!(lookup(group, ctrl('c')), Some(Command::Quit));
+            assert_eq!(lookup(group, key(Esc)), Some(Command::Close));
+            assert_eq!(lookup(group, ctrl('z')), Some(Command::Suspend));
+        }
+    }
+}

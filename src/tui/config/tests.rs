@@ -48,7 +48,7 @@ fn a_file_is_written_only_if_something_changed_and_keeps_what_is_not_known() {
     let path = home.path().join("config.toml");
     let text = "later = 3\nintroduced=true\ncharts = 99\n[lessons]\ndone = [\"lock\"]\n";
     std::fs::write(&path, text).unwrap();
-    assert_eq!(session(&path, |_| {}).layout.beside, MOST_CHARTS);
+    assert_eq!(session(&path, |_| {}).layout.beside, MOST_BESIDE);
     assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
     session(&path, |app| _ = app.act(Command::NextTheme));
     let text = std::fs::read_to_string(&path).unwrap();

@@ -4,40 +4,22 @@ use std::sync::Arc;
 
 use super::run::Film;
 use crate::tui::engine::Moment;
-use rubscope_solver::motion::{GoOn, Motion, Scripted};
+use rubscope_solver::motion::{GoOn, Scripted};
 
 /// A motion at the instant shown.
 #[derive(Debug)]
 pub struct Head {
-    at: Scripted,
-    moment: Arc<Moment>,
+    /// The motion with the changes to come.
+    pub at: Scripted,
+    /// The instant shown.
+    pub moment: Arc<Moment>,
 }
 
 impl Head {
     /// Puts the head on the start of a film.
     pub fn of(film: &Film) -> Self {
-        let at = film.first();
+        let at = film.before(0.0).unwrap_or(&film.ahead).clone();
         Self { moment: Arc::new(Moment::of(&at.motion)), at }
-    }
-
-    /// Follows a film that was cut; the instant shown stays until the next move.
-    pub fn follow(&mut self, film: &Film) {
-        self.at = film.latest();
-    }
-
-    /// Returns the motion with the changes to come.
-    pub fn scripted(&self) -> &Scripted {
-        &self.at
-    }
-
-    /// Returns the motion.
-    pub fn motion(&self) -> &Motion {
-        &self.at.motion
-    }
-
-    /// Returns the instant shown.
-    pub fn moment(&self) -> Arc<Moment> {
-        Arc::clone(&self.moment)
     }
 
     /// Moves to the instant `t` \[s\] of a film, forward or back; returns false if `go_on` stopped

@@ -1,7 +1,6 @@
 //! Finds the next change of contact of a motion to round-off, independent of the zoom of the page.
 
-use crate::tui::trace::{Mark, Marks};
-use rubscope_solver::motion::{GoOn, Motion, Scripted};
+use rubscope_solver::motion::{GoOn, Scripted};
 
 /// Largest number of search steps.
 const MOST_STEPS: usize = 20_000;
@@ -48,10 +47,4 @@ pub fn next_change(from: &Scripted, step: f64, end: f64, go_on: GoOn<'_>) -> Opt
         return Some(until);
     }
     None
-}
-
-/// Returns the latest change of contact since `marks` was created; `None` if there was none.
-pub fn met(mut marks: Marks, motion: &Motion) -> Option<Mark> {
-    marks.look(motion.contacts());
-    marks.seen.last().copied()
 }

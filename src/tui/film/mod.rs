@@ -14,9 +14,9 @@ mod recorder;
 mod run;
 
 pub use head::Head;
-pub use jump::{met, next_change};
+pub use jump::next_change;
 pub use pacing::{Reached, Turned, rate_at};
 pub use page::{PER_TURN, longest_sample, sample_length};
 pub use plan::{FilmPlan, other_law};
 pub use recorder::{in_blade_frame, rim_point};
-pub use run::{Film, SLICE};
+pub use run::Film;

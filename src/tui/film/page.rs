@@ -5,8 +5,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::recorder::Recorder;
-use super::run::SLICE;
-use crate::tui::engine::{FORECAST_LIMIT, PageRecord};
+use crate::tui::engine::{FORECAST_LIMIT, PageRecord, SLICE};
 use crate::tui::history::interpolated;
 use rubscope_solver::motion::{Failure, GoOn, Motion, Scripted};
 
@@ -26,8 +25,8 @@ pub struct Page {
     is_due: bool,
     /// The computation of the requested page; `None` before it begins.
     job: Option<PageJob>,
-    /// The latest page that was computed, which may be an earlier one.
-    done: Option<Arc<PageRecord>>,
+    /// The latest page that was computed, which may be an earlier one, as far as it is computed.
+    pub done: Option<Arc<PageRecord>>,
 }
 
 #[derive(Clone, Debug)]
@@ -93,11 +92,6 @@ impl Page {
     /// Returns the wall-clock time spent on the page being computed; 0 if there is none.
     pub fn wall(&self) -> Duration {
         self.job.as_ref().map_or(Duration::ZERO, |job| job.wall)
-    }
-
-    /// Returns the latest page, as far as it is computed; `None` before the first.
-    pub fn record(&self) -> Option<Arc<PageRecord>> {
-        self.done.clone()
     }
 }
 
@@ -190,7 +184,7 @@ mod tests {
     #[test]
     fn a_page_is_computed_again_where_the_run_has_another_end() {
         let (mut page, _) = computed(&Scene::base(), (0.0, 1e-3), 5e-4);
-        let reached = page.record().unwrap().bins.last().unwrap().to;
+        let reached = page.done.as_ref().unwrap().bins.last().unwrap().to;
         assert!((reached - 5e-4).abs() < 2e-7, "{reached}");
         let mut want = |end: f64| {
             page.want((0.0, 1e-3), end);
@@ -210,7 +204,7 @@ mod tests {
             at.motion.advance(from + steps * step).unwrap();
             at.motion.state().u[0]
         };
-        let record = page.record().unwrap();
+        let record = page.done.as_ref().unwrap();
         for k in [0.0, 1.0, 2.0, 3.0] {
             let (before, after) = (at(k), at(k + 1.0));
             let inside = between(&record.bins, from + (k + 0.1) * step, from + (k + 0.9) * step);
@@ -228,7 +222,7 @@ mod tests {
         let mut scene = Scene::base();
         (scene.initial.v_c_m_s, scene.operation.pulse_n) = (-0.05, 0.0);
         let (page, _) = computed(&scene, (0.0, 1e-3), 1e-3);
-        let first = page.record().unwrap().bins[0];
+        let first = page.done.as_ref().unwrap().bins[0];
         // The casing moves away from its start and does not return.
         assert_eq!((first.from, first.high[0]), (0.0, 0.0));
     }

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use super::copies::Copies;
 use super::page::Page;
 use super::plan::FilmPlan;
-use crate::tui::engine::{FORECAST_LIMIT, FullRun, FullRunState};
+use crate::tui::engine::{FORECAST_LIMIT, FullRun, FullRunState, SLICE};
 use crate::tui::trace::{Mark, Marks, Trace};
 use rubscope_solver::motion::{
     LAST_PART, Motion, Scripted, Seen, Verdict, VerdictReached, caught_at, judge_end,
@@ -17,9 +17,10 @@ use rubscope_solver::motion::{
 /// A film, computed up to some instant.
 #[derive(Clone, Debug)]
 pub struct Film {
-    plan: FilmPlan,
+    /// What the film shows.
+    pub plan: FilmPlan,
     /// The furthest instant computed.
-    ahead: Scripted,
+    pub ahead: Scripted,
     /// Time up to which the film is computed, where the explicit solver may be at its last step
     /// before \[s\].
     reached: f64,
@@ -29,7 +30,7 @@ pub struct Film {
     marks: Marks,
     copies: Copies,
     /// Wall-clock time spent on the last part and what was missing before it.
-    wall: Duration,
+    pub wall: Duration,
     /// Wall-clock time of one slice.
     slice: Duration,
     /// Wall-clock time after which the film is computed only as far as it is watched.
@@ -39,15 +40,13 @@ pub struct Film {
     /// The verdict proved before the end; `None` until then.
     proved: Option<Verdict>,
     /// The result; `None` until the film is complete.
-    result: Option<FullRun>,
-    page: Page,
+    pub result: Option<FullRun>,
+    /// The page of time whose curves are recorded.
+    pub page: Page,
 }
 
 /// Intervals of the last part, enough for its spectrum.
 const SAMPLES: u32 = 2048;
-
-/// Wall-clock time of one slice.
-pub const SLICE: Duration = Duration::from_millis(5);
 
 impl Film {
     /// Creates a film at the start of its scene.
@@ -100,11 +99,6 @@ impl Film {
         ahead.motion.set_end(plan.end_s);
         let marks = self.marks.up_to(ahead.motion.t_s(), ahead.motion.contacts());
         Self::going_on(plan, ahead, copies, marks)
-    }
-
-    /// Returns what the film shows.
-    pub fn plan(&self) -> &FilmPlan {
-        &self.plan
     }
 
     /// Computes one slice of wall-clock time.
@@ -175,16 +169,6 @@ impl Film {
         both.max_by(|a, b| a.motion.t_s().total_cmp(&b.motion.t_s()))
     }
 
-    /// Returns a copy of the first motion kept, which is that at t = 0.
-    pub fn first(&self) -> Scripted {
-        self.before(0.0).unwrap_or(&self.ahead).clone()
-    }
-
-    /// Returns a copy of the furthest motion.
-    pub fn latest(&self) -> Scripted {
-        self.ahead.clone()
-    }
-
     /// Returns the changes of contact so far, in order of time.
     pub fn marks(&self) -> &[Mark] {
         &self.marks.seen
@@ -205,17 +189,12 @@ impl Film {
     /// Returns the outcome with which the sensitivity check compares changed runs; `None` until the
     /// film is complete.
     pub fn verdict_reached(&self) -> Option<VerdictReached> {
-        Some(VerdictReached::of(&self.ahead.motion, self.result()?.verdict))
+        Some(VerdictReached::of(&self.ahead.motion, self.result.as_ref()?.verdict))
     }
 
     /// Returns the verdict; `None` until the film is complete or its verdict is proved.
     pub fn verdict(&self) -> Option<Verdict> {
-        self.result().map(|run| run.verdict).or(self.proved)
-    }
-
-    /// Returns the result; `None` until the film is complete.
-    pub fn result(&self) -> Option<&FullRun> {
-        self.result.as_ref()
+        self.result.as_ref().map(|run| run.verdict).or(self.proved)
     }
 
     /// Returns the length of the part of the run, at its end, that the verdict describes \[s\].
@@ -270,11 +249,6 @@ impl Film {
         self.result.is_some() || self.wall >= self.limit
     }
 
-    /// Returns the wall-clock time spent on the film so far.
-    pub fn wall(&self) -> Duration {
-        self.wall
-    }
-
     /// Returns the wall-clock time per time step that was taken, not skipped \[s\]; `None` for
     /// solvers without steps, and before the first one.
     pub fn step_s(&self) -> Option<f64> {
@@ -295,16 +269,6 @@ impl Film {
         let [taken, skipped] = steps(&self.ahead.motion)?;
         let [taken_before, skipped_before] = self.before;
         Some([taken.saturating_sub(taken_before), skipped.saturating_sub(skipped_before)])
-    }
-
-    /// Returns the page of time whose curves are recorded.
-    pub fn page(&self) -> &Page {
-        &self.page
-    }
-
-    /// Requests the curves of a page (from, to) \[s\].
-    pub fn want_page(&mut self, page: (f64, f64)) {
-        self.page.want(page, self.plan.end_s);
     }
 
     /// Returns whether a slice of the page can be computed now: its start is known, or never will
@@ -386,7 +350,7 @@ mod tests {
             }
             let proved = film.verdict();
             assert!(matches!(film.state(), FullRunState::Computing(_)), "{name}");
-            assert_eq!(film.computed().result().map(|run| run.verdict), proved, "{name}");
+            assert_eq!(film.computed().result.map(|run| run.verdict), proved, "{name}");
         }
     }
 
@@ -432,7 +396,7 @@ mod tests {
                 film = film.replanned(now.clone(), None).computed();
                 let whole = Film::new(now.clone()).computed();
                 assert_eq!(film.ahead.motion.state(), whole.ahead.motion.state(), "{name}");
-                let [own, other] = [&film, &whole].map(|film| film.result().unwrap());
+                let [own, other] = [&film, &whole].map(|film| film.result.as_ref().unwrap());
                 assert_eq!(own.verdict, other.verdict, "{name}");
                 assert_eq!(own.trace, other.trace, "{name}");
                 assert_eq!(own.impacts, other.impacts, "{name}");

@@ -1,22 +1,11 @@
-//! When a knob has no effect because of the values of others, and when its value takes a scene
-//! beyond the paper's model.
+//! When a knob has no effect because of the values of others.
 
-use std::sync::LazyLock;
-
-use crate::tui::knobs::{Group, Knob};
 use rubscope_solver::scene::{ContactLaw, ModelSize, Scene, SolverKind};
 
 /// Function that returns why a knob has no effect in a scene; `None` if it has an effect.
 pub type Inert = fn(&Scene) -> Option<&'static str>;
 
 const STILL: &str = "the blades of the rigid model do not move";
-
-impl Knob {
-    /// Returns why this knob has no effect on the run of a scene; `None` if it has an effect.
-    pub fn inert(&self, scene: &Scene) -> Option<&'static str> {
-        (self.inert)(scene)
-    }
-}
 
 fn has(model: ModelSize, scene: &Scene) -> bool {
     scene.solver.model == model
@@ -79,25 +68,10 @@ pub fn order(scene: &Scene) -> Option<&'static str> {
     torque(scene).or(none)
 }
 
-/// The base scene, which has the paper's values.
-static PAPER: LazyLock<Scene> = LazyLock::new(Scene::base);
-
-impl Knob {
-    /// Returns whether the knob takes the scene beyond the paper's model: it is of the group
-    /// [`Group::Beyond`], and its value differs from the paper's or describes the lining of the
-    /// scene.
-    pub fn leaves_the_paper(&self, scene: &Scene) -> bool {
-        let lining = self.path.starts_with("contact.s");
-        self.group == Group::Beyond
-            && (self.get(scene) != self.get(&PAPER)
-                || (lining && scene.solver.contact == ContactLaw::Smooth))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tui::knobs::KNOBS;
+    use crate::tui::knobs::{Group, KNOBS, Knob};
     use rubscope_solver::motion::simulate;
 
     /// Changes of the scene; each makes other knobs inert.

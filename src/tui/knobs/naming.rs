@@ -1,10 +1,12 @@
 //! Finds the knob that typed words name, and rates the match.
 
-use super::{KNOBS, Knob};
+use super::knob::Knob;
+use super::table::KNOBS;
+use crate::report::number::{exact, rounded};
 use crate::tui::appearance::Appearance;
 use crate::tui::raster::Marker;
 use crate::tui::theme::Theme;
-use rubscope_solver::scene::keys;
+use rubscope_solver::scene::{Allowed, SceneError, keys};
 
 /// Quality of a match, the best first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -79,4 +81,39 @@ pub fn called(typed: &str) -> Option<usize> {
 /// Spells a text in ASCII.
 pub fn plain(text: &str) -> String {
     Appearance::new(Theme::Mono, Marker::Ascii).spell(text)
+}
+
+impl Knob {
+    /// Returns the message for a refused value, with the labels of knobs in place of keys.
+    pub fn refusal(&self, error: &SceneError) -> String {
+        if let SceneError::Unit { value, why, .. } = error {
+            return format!("{}: {value} cannot be read: {why}", self.label);
+        }
+        let SceneError::Refused { key, value, allowed } = error else { return error.to_string() };
+        let words = |text: &str| {
+            KNOBS.iter().fold(text.to_string(), |text, knob| text.replace(knob.path, knob.label))
+        };
+        let own = key == self.path;
+        // False if the error comes from `parse` itself: the text is not a value at all.
+        let reads = self.parse(value).err().as_ref() != Some(error);
+        match self.allowed() {
+            Allowed::OneOf(_) if own && !reads => {
+                format!("{}: {value} is unknown; {}", self.label, self.range_words())
+            }
+            Allowed::Whole { .. } if own && !reads => {
+                format!("{}: {value} is no whole number; {}", self.label, self.range_words())
+            }
+            Allowed::Real { .. } if own && !reads => {
+                format!("{}: {value} is not a number; {}", self.label, self.range_words())
+            }
+            own_range if own && *allowed == own_range.to_string() => {
+                let value = match (value.parse::<f64>(), self.bounds_unit()) {
+                    (Ok(x), (factor, _)) if factor != 1.0 => exact(rounded(factor * x, 9)),
+                    _ => value.clone(),
+                };
+                format!("{}: {value} is not possible; {}", self.label, self.range_words())
+            }
+            _ => format!("{}: {value} is not possible; allowed is {}", words(key), words(allowed)),
+        }
+    }
 }

@@ -1,11 +1,9 @@
 //! The bar of a knob as numbers: its usual range, the limits marked on it (speed limits, and the
 //! smallest pulse that makes a blade touch), and the value at a position on the bar.
 
-use crate::report::number::rounded;
-use crate::tui::knobs::Knob;
 use rubscope_solver::model::Machine;
 use rubscope_solver::scene::keys::Turn;
-use rubscope_solver::scene::{Allowed, ContactLaw, Scene, Value};
+use rubscope_solver::scene::{ContactLaw, Scene};
 
 /// The range of values that a bar covers, for a knob or a limit. Values outside it are shown at its
 /// ends.
@@ -32,11 +30,11 @@ impl KnobRange {
         Self { log: true, ..Self::linear(low, high) }
     }
 
-    fn signed(self, value: f64) -> Self {
+    pub fn signed(self, value: f64) -> Self {
         Self { sign: if value < 0.0 { -1.0 } else { 1.0 }, ..self }
     }
 
-    fn marked(mut self, marks: &[(&'static str, Option<f64>)]) -> Self {
+    pub fn marked(mut self, marks: &[(&'static str, Option<f64>)]) -> Self {
         let inside = |at: f64| at.is_finite() && at > self.low && at < self.high;
         let marks = marks.iter().filter_map(|(name, at)| Some((*name, (*at)?)));
         let marks: Vec<_> = marks.filter(|(_, at)| inside(*at)).collect();
@@ -102,7 +100,7 @@ impl KnobRange {
 /// Largest distance at which a value counts as near a limit, as a fraction of the bar.
 const NEAR: f64 = 0.1;
 /// Ratio of the upper end of a logarithmic bar to the usual value, and of that to the lower end.
-const AROUND: f64 = 10.0;
+pub const AROUND: f64 = 10.0;
 
 /// How the range of a knob's bar is chosen.
 #[derive(Clone, Copy, Debug)]
@@ -119,182 +117,42 @@ pub enum Bar {
 /// Data from which the range of a bar is computed.
 #[derive(Debug)]
 pub struct Case<'a> {
-    knob: &'a Knob,
-    value: f64,
+    /// How the knob steps through its values.
+    pub turn: Turn,
+    /// Value of the knob.
+    pub value: f64,
     /// Value of the knob in the scene as it was opened.
-    opened: f64,
-    scene: &'a Scene,
-    machine: &'a Machine,
+    pub opened: f64,
+    /// Magnitude of the value where it was 0 as the scene was opened.
+    pub usual: f64,
+    pub scene: &'a Scene,
+    pub machine: &'a Machine,
 }
 
 impl Case<'_> {
-    fn clearance(&self) -> f64 {
+    /// Returns the magnitude of the clearance \[m\].
+    pub fn clearance(&self) -> f64 {
         self.machine.clearance().abs()
     }
 
-    fn blades(&self) -> f64 {
+    pub fn blades(&self) -> f64 {
         f64::from(self.scene.bladed_disk.blades)
     }
 
-    fn has_lining(&self) -> bool {
+    pub fn has_lining(&self) -> bool {
         self.scene.solver.contact == ContactLaw::Smooth
     }
 
     /// Returns the magnitude of the knob in the opened scene, or its usual one if that is 0.
-    fn usual(&self) -> f64 {
-        if self.opened == 0.0 { self.knob.usual } else { self.opened.abs() }
+    pub fn usual(&self) -> f64 {
+        if self.opened == 0.0 { self.usual } else { self.opened.abs() }
     }
 
-    fn around(&self) -> KnobRange {
+    pub fn around(&self) -> KnobRange {
         let usual = self.usual();
-        match self.knob.turn {
+        match self.turn {
             Turn::Whole(..) => KnobRange::linear((0.5 * usual).floor(), 2.0 * usual),
             _ => KnobRange::log(usual / AROUND, usual * AROUND).signed(self.value),
-        }
-    }
-}
-
-/// The ranges that are computed from the scene.
-pub mod bars {
-    use super::{AROUND, Case, KnobRange};
-    use rubscope_solver::harmonic::lock_window;
-    use rubscope_solver::model::Initial;
-    use rubscope_solver::study::margins::grazing_pulse;
-    use std::f64::consts::TAU;
-
-    /// The largest interference on the bar, relative to the largest clearance. It is not 1, so that
-    /// zero lies between two cells of a map.
-    const PRESSED: f64 = 0.9;
-    /// The smallest pulse that makes a blade touch is sought in this many periods of the casing.
-    const PERIODS: f64 = 20.0;
-    /// Upper end of the speed bar, as a multiple of the highest of critical speed, lock speed and
-    /// coincidence.
-    const BEYOND: f64 = 1.5;
-
-    pub fn speed(case: &Case) -> KnobRange {
-        let machine = case.machine;
-        let window = lock_window(machine, case.value);
-        let lock = window.map(|window| window.from);
-        let limits = [machine.critical_speed(), lock, machine.dangerous_speed()];
-        // Without a coupling nothing drives the coincidence.
-        let driven = limits[2].filter(|_| case.scene.is_coupled());
-        let most = limits.into_iter().flatten().fold(0.0, f64::max);
-        let most = if most > 0.0 { most } else { machine.omega_c };
-        KnobRange::linear(0.0, BEYOND * most).signed(case.value).marked(&[
-            ("the adhesive limit", machine.adhesive_speed()),
-            ("the end of the lock", window.and_then(|window| window.to)),
-            ("the coincidence", driven),
-            ("Ω_c", limits[0]),
-            ("Ω_lock", limits[1]),
-        ])
-    }
-
-    pub fn ramp(case: &Case) -> KnobRange {
-        let turn = case.scene.operation.speed_rad_s.abs().max(1.0) / case.scene.solver.end_s;
-        let usual = if case.opened == 0.0 { turn } else { case.opened.abs() };
-        KnobRange::log(usual / AROUND, usual * AROUND).signed(case.value)
-    }
-
-    pub fn pulse(case: &Case) -> KnobRange {
-        let mut scene = case.scene.clone();
-        // Later passes of a blade come only slightly closer.
-        scene.solver.end_s = scene.solver.end_s.min(PERIODS * TAU / case.machine.omega_c);
-        let touch = grazing_pulse(&scene, f64::MAX.copysign(case.value));
-        let middle = touch.map_or_else(|| case.usual(), f64::abs);
-        let range = KnobRange::log(middle / 30.0, middle * 3000.0);
-        range.signed(case.value).marked(&[("the first touch", touch.map(f64::abs))])
-    }
-
-    pub fn casing_diameters(case: &Case) -> KnobRange {
-        KnobRange::linear(1.0, (case.blades() / 2.0).floor().max(2.0))
-    }
-
-    pub fn disk_diameters(case: &Case) -> KnobRange {
-        KnobRange::linear(0.0, (case.blades() / 2.0).floor().max(2.0))
-    }
-
-    pub fn order(case: &Case) -> KnobRange {
-        KnobRange::linear(1.0, case.blades().max(2.0))
-    }
-
-    pub fn blade_length(case: &Case) -> KnobRange {
-        let (radius, room) = (case.scene.casing.radius_m, 4.0 * case.clearance());
-        let most = if case.has_lining() { radius + PRESSED * room } else { radius };
-        KnobRange::linear(radius - room, most)
-    }
-
-    pub fn casing_radius(case: &Case) -> KnobRange {
-        let (length, room) = (case.scene.bladed_disk.blade_length_m, 4.0 * case.clearance());
-        let least = if case.has_lining() { length - PRESSED * room } else { length };
-        KnobRange::linear(least, length + room)
-    }
-
-    pub fn clearance(case: &Case) -> KnobRange {
-        let most = 0.5 * AROUND * case.usual();
-        match case.has_lining() {
-            true => KnobRange::linear(-PRESSED * most, most),
-            false => case.around(),
-        }
-    }
-
-    pub fn position(case: &Case) -> KnobRange {
-        let Initial { u_c_m, u_s_m, .. } = case.scene.initial;
-        let across = u_c_m * u_c_m + u_s_m * u_s_m - case.value * case.value;
-        let most = (case.clearance().powi(2) - across).max(0.0).sqrt().max(case.value.abs());
-        KnobRange::linear(-most, most)
-    }
-
-    pub fn growth(case: &Case) -> KnobRange {
-        let usual = 0.1 * case.clearance() / case.scene.fastest_rad_s().max(1.0).powi(2);
-        let usual = if case.opened == 0.0 { usual } else { case.opened };
-        KnobRange::log(0.1 * usual, usual)
-    }
-
-    pub fn velocity(case: &Case) -> KnobRange {
-        let most = 2.0 * case.clearance() * case.machine.omega_c;
-        KnobRange::linear(-most, most)
-    }
-}
-
-impl Knob {
-    /// Returns the range of the knob's bar with its marks; `None` for words, and for a range that
-    /// is empty or not finite. It follows from the opened scene and the machine, and hardly from
-    /// the present value except for its sign, so that the scale stays put while the knob turns.
-    pub fn range(&self, scene: &Scene, opened: &Scene, machine: &Machine) -> Option<KnobRange> {
-        self.range_around(self.number(opened)?, scene, machine)
-    }
-
-    /// As [`Self::range`], with `opened` in place of the value in the opened scene.
-    pub fn range_around(&self, opened: f64, scene: &Scene, machine: &Machine) -> Option<KnobRange> {
-        let case = Case { knob: self, value: self.number(scene)?, opened, scene, machine };
-        let range = match self.bar {
-            Bar::Around => case.around(),
-            Bar::From(low, high) => KnobRange::linear(low, high),
-            Bar::Of(range) => range(&case),
-        };
-        Some(range).filter(KnobRange::is_sound)
-    }
-
-    /// Returns the value of the knob in a scene as a number; `None` for words.
-    pub fn number(&self, scene: &Scene) -> Option<f64> {
-        match self.get(scene) {
-            Value::Real(x) => Some(x),
-            Value::Whole(n) => Some(n as f64),
-            _ => None,
-        }
-    }
-
-    /// Returns the value nearest to `x` that turning the knob can give, for a click in its bar;
-    /// `None` for words.
-    pub fn near(&self, x: f64) -> Option<Value> {
-        match (self.turn, self.allowed()) {
-            (Turn::Linear(fine, _), _) => Some(Value::Real(self.stepped(x, fine, None))),
-            (Turn::Decades(_), _) => Some(Value::Real(self.bounded(rounded(x, 2)))),
-            (Turn::Whole(..), Allowed::Whole { min, max }) => {
-                // The cast saturates, so negative and huge numbers end at a bound.
-                Some(Value::Whole((x.round() as u64).clamp(min, max)))
-            }
-            _ => None,
         }
     }
 }
@@ -303,6 +161,7 @@ impl Knob {
 mod tests {
     use super::*;
     use crate::tui::knobs::{KNOBS, knob_of};
+    use rubscope_solver::scene::Value;
 
     fn range(path: &str, scene: &Scene) -> Option<KnobRange> {
         knob_of(path).unwrap().range(scene, scene, &scene.machine())

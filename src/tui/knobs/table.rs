@@ -1,10 +1,11 @@
 //! The table of knobs in the order of the panel, group after group: key, range of the bar, and when
 //! the knob has no effect. Label, steps and sentence are those of the key.
 
+use super::bars;
 use super::inert::{self, Inert};
+use super::knob::{Group, Knob};
 use super::number::{CLEARANCE, CLEARANCE_HANDLE};
-use super::range::{Bar, bars};
-use super::{Group, Knob};
+use super::range::Bar;
 use Bar::{From, Of};
 use Group::{Beyond, Machine, Model, Operation, Start, Time, Tips};
 use rubscope_solver::scene::keys::{self, Handle, KEYS};
@@ -36,7 +37,7 @@ pub static KNOBS: LazyLock<Vec<Knob>> = LazyLock::new(|| {
     vec![
         knob(Operation, keys::SPEED).bar(Of(bars::speed)),
         knob(Operation, keys::PULSE).bar(Of(bars::pulse)).usual(1e4).unless(inert::without_time),
-        knob(Operation, keys::DIAMETERS).bar(Of(bars::casing_diameters)),
+        knob(Operation, keys::DIAMETERS).bar(Of(|case| bars::diameters(1.0, case))),
         knob(Operation, keys::CASING_DAMPING).bar(From(0.0, 0.2)),
         knob(Operation, keys::BLADE_DAMPING).bar(From(0.0, 0.2)).unless(inert::rigid),
         knob(Operation, keys::LAW),
@@ -61,7 +62,9 @@ pub static KNOBS: LazyLock<Vec<Knob>> = LazyLock::new(|| {
         knob(Beyond, keys::LINING_STIFFNESS).unless(inert::lining),
         knob(Beyond, keys::LINING_SMOOTHING).usual(1e-6).unless(inert::lining),
         knob(Beyond, keys::RESTITUTION).bar(From(0.0, 0.95)).unless(inert::restitution),
-        knob(Beyond, keys::DISK_DIAMETERS).bar(Of(bars::disk_diameters)).unless(inert::not_modal),
+        knob(Beyond, keys::DISK_DIAMETERS)
+            .bar(Of(|case| bars::diameters(0.0, case)))
+            .unless(inert::not_modal),
         knob(Beyond, keys::MISTUNING).bar(From(0.0, 0.05)).unless(inert::not_full),
         knob(Beyond, keys::MISTUNING_SEED).bar(From(0.0, 20.0)).unless(inert::draw),
         knob(Beyond, keys::STIFFENING).bar(From(0.0, 3.0)).unless(inert::rigid),
@@ -82,3 +85,20 @@ pub static KNOBS: LazyLock<Vec<Knob>> = LazyLock::new(|| {
         knob(Start, keys::ENGINE_ORDER).bar(Of(bars::order)).unless(inert::order),
     ]
 });
+
+impl Group {
+    /// Iterates over the indices of the group's knobs in [`KNOBS`].
+    pub fn places(self) -> impl Iterator<Item = usize> {
+        KNOBS.iter().enumerate().filter(move |(_, knob)| knob.group == self).map(|(place, _)| place)
+    }
+}
+
+/// Returns the index in [`KNOBS`] of the knob that sets a key.
+pub fn place_of(path: &str) -> Option<usize> {
+    KNOBS.iter().position(|knob| knob.path == path)
+}
+
+/// Returns the knob that sets a key.
+pub fn knob_of(path: &str) -> Option<&'static Knob> {
+    KNOBS.get(place_of(path)?)
+}

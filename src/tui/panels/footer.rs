@@ -5,7 +5,9 @@
 use ratatui::{buffer::Buffer, layout::Rect};
 
 use crate::tui::app::{App, InputMode};
-use crate::tui::command::{self, Binding, Chord, Command, Purpose};
+use crate::tui::command::chord::Chord;
+use crate::tui::command::table::{Binding, lookup, valid};
+use crate::tui::command::{Command, Purpose};
 use crate::tui::field::Field;
 use crate::tui::text::{columns, overlay, pieces, print, shorten, wrap};
 use crate::tui::theme::Role;
@@ -111,7 +113,7 @@ impl Entry {
         for token in self.keys.split(' ') {
             let is_name = token.chars().nth(1).is_some_and(char::is_lowercase);
             for sign in token.chars() {
-                let command = command::lookup(app.keyboard(), Chord::from(sign));
+                let command = lookup(app.keyboard(), Chord::from(sign));
                 if let Some(command) = command.filter(|_| !is_name && at < own.right()) {
                     app.note(Rect { x: at, width: 1, ..own }, command);
                 }
@@ -142,7 +144,7 @@ fn is_kept(binding: &Binding) -> bool {
 fn kept(app: &App, width: u16, message: Option<usize>) -> Vec<Entry> {
     let entries = |words: bool| {
         let mut entries: Vec<Entry> = Vec::new();
-        for binding in command::valid(app.keyboard()).filter(|binding| is_kept(binding)) {
+        for binding in valid(app.keyboard()).filter(|binding| is_kept(binding)) {
             let Some((keys, word)) = binding.footer else { continue };
             let asked = app.dialogue.mode == InputMode::Leaving;
             let closes = !asked && (app.has_open() || app.lessons.progress.is_some());
@@ -172,7 +174,7 @@ fn keys(app: &App, buffer: &mut Buffer, area: Rect) {
     // Keys of the main screen have no room while a dialogue is open over it.
     let on_main = app.keyboard().is_main();
     let own = |binding: &&Binding| on_main || !binding.group.is_main();
-    let others = command::valid(app.keyboard()).filter(own).filter(|b| !is_kept(b));
+    let others = valid(app.keyboard()).filter(own).filter(|b| !is_kept(b));
     for (binding, (keys, word)) in others.filter_map(|binding| Some((binding, binding.footer?))) {
         let word = match binding.command {
             Command::Pause if !app.play.playing => "go on",

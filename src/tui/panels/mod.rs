@@ -7,10 +7,9 @@ mod header;
 use ratatui::widgets::{Clear, Widget};
 use ratatui::{Frame, buffer::Buffer, layout::Rect, style::Modifier};
 
-use super::app::{
-    App, InputMode, LEAST_HEIGHT, LEAST_WIDTH, files, help, knobs_panel as knobs, layout, lesson,
-    palette, strip,
-};
+use super::app::knobs::{panel as knobs, strip};
+use super::app::layout::{LEAST_HEIGHT, LEAST_WIDTH};
+use super::app::{App, InputMode, files, help, layout, lesson, palette};
 use super::command::Command;
 use super::field::CURSOR;
 use super::text::{CUT, print, wrap};

@@ -16,7 +16,8 @@ mod table;
 
 pub use panel::{ViewArea, ViewPanel};
 
-use super::app::{App, cell_of};
+use super::app::App;
+use super::app::reading::cell_of;
 use super::command::Command;
 pub use id::ViewId;
 use margins::COLUMNS;

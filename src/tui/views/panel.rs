@@ -6,7 +6,8 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Modifier, Style};
 
 use crate::report::table::Table;
-use crate::tui::app::{App, Cursor, LEAST_ROWS, Parts};
+use crate::tui::app::layout::LEAST_ROWS;
+use crate::tui::app::{App, Cursor, Parts};
 use crate::tui::appearance::Appearance;
 use crate::tui::axis::ChartAxis;
 use crate::tui::command::Command;

@@ -8,8 +8,10 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread::available_parallelism;
 use std::time::Duration;
 
-use super::thread::WORKER_NAME;
 use rubscope_solver::motion::GoOn;
+
+/// Name of the threads that compute, by which the panic hook recognises them.
+pub const WORKER_NAME: &str = "rubscope-worker";
 
 /// A running computation that sends results one by one.
 pub struct Background<T> {
@@ -30,7 +32,6 @@ pub fn spare_threads() -> usize {
 
 /// Runs `work` on a thread pool that leaves one core free, because the playback continues.
 pub fn on_spare_cores<R: Send>(work: impl FnOnce() -> R + Send) -> R {
-    // The panic hook must know these threads by name, too.
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(spare_threads())
         .thread_name(|_| WORKER_NAME.to_string())
@@ -48,7 +49,6 @@ impl<T: Send + 'static> Background<T> {
         let (sender, results) = channel();
         let dropped = Arc::new(AtomicBool::new(false));
         let flag = Arc::clone(&dropped);
-        // The panic hook does not touch the terminal for threads of this name.
         let thread = std::thread::Builder::new().name(WORKER_NAME.to_string());
         let started =
             thread.spawn(move || work(&sender, &|| !flag.load(Ordering::Relaxed))).is_ok();

@@ -5,8 +5,8 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crate::tui::engine::{Answer, FORECAST_LIMIT, Order, Pace, Results, Sensitive};
-use crate::tui::film::{Film, FilmPlan, SLICE};
+use crate::tui::engine::{Answer, FORECAST_LIMIT, Order, Pace, Results, SLICE, Sensitive};
+use crate::tui::film::{Film, FilmPlan};
 use crate::tui::worker::background::{Background, on_spare_cores};
 use crate::tui::worker::studies::Studies;
 use rubscope_solver::motion::{Certainty, Scripted, Verdict, VerdictReached, certainty};
@@ -53,7 +53,7 @@ impl Films {
     /// which shows the scene `before`. Returns whether the film of the run is another one.
     pub fn want(&mut self, order: &Order, before: &CheckedScene, head: &Scripted) -> bool {
         self.studies.stop_unwanted(order, &self.own);
-        let plan = self.own.plan();
+        let plan = &self.own.plan;
         let is_other = *plan != order.film;
         if is_other {
             let same_motion = plan.scene == order.film.scene && plan.script == order.film.script;
@@ -75,13 +75,11 @@ impl Films {
         self.other = replanned(self.other.take(), law);
         self.reference = replanned(self.reference.take(), order.film.reference());
         self.pinned = match &order.pinned {
-            Some(plan) if self.pinned.is_none() && self.own.plan() == plan => {
-                Some(self.own.clone())
-            }
+            Some(plan) if self.pinned.is_none() && self.own.plan == *plan => Some(self.own.clone()),
             plan => replanned(self.pinned.take(), plan.clone()),
         };
         for film in self.with_pages() {
-            film.want_page(order.page);
+            film.page.want(order.page, film.plan.end_s);
         }
     }
 
@@ -97,7 +95,7 @@ impl Films {
 
     /// Returns whether any computation is unfinished.
     pub fn is_computing(&self, order: &Order) -> bool {
-        self.all().any(|film| !film.is_done() || !film.page().is_done())
+        self.all().any(|film| !film.is_done() || !film.page.is_done())
             || self.answers.older.is_some()
             || self.sensitive.is_none()
             || self.studies.is_computing(order, &self.own)
@@ -106,8 +104,8 @@ impl Films {
     /// Computes for one slice of wall-clock time, the most urgent first.
     pub fn compute(&mut self, order: &Order) {
         self.answers.look();
-        let wall = self.own.wall();
-        let is_first = |film: &Film| film.has_page_due() && 2 * film.page().wall() < wall;
+        let wall = self.own.wall;
+        let is_first = |film: &Film| film.has_page_due() && 2 * film.page.wall() < wall;
         let is_done = self.own.is_done();
         // A page gets a third of the time until the run is computed.
         if let Some(film) =
@@ -118,11 +116,11 @@ impl Films {
         let known = self.own.verdict().is_some();
         // The verdict comes first; then the run with the least time so far, so that a quick one
         // does not wait for a slow one.
-        let alone = !known && self.own.wall() < ALONE;
+        let alone = !known && self.own.wall < ALONE;
         let others = [&mut self.reference, &mut self.other, &mut self.pinned];
         let others = others.into_iter().flatten().filter(|_| !alone);
         let films = std::iter::once(&mut self.own).chain(others);
-        if let Some(film) = films.filter(|film| !film.is_done()).min_by_key(|film| film.wall()) {
+        if let Some(film) = films.filter(|film| !film.is_done()).min_by_key(|film| film.wall) {
             film.compute();
             if !known {
                 self.answers.note(&order.scene, self.own.verdict());
@@ -148,8 +146,8 @@ impl Films {
     /// Returns the results so far.
     pub fn results(&self, order: &Order) -> Results {
         let own = &self.own;
-        let result = |film: &Option<Film>| film.as_ref().and_then(Film::result).cloned();
-        let page = |film: &Option<Film>| film.as_ref().and_then(|film| film.page().record());
+        let result = |film: &Option<Film>| film.as_ref().and_then(|film| film.result.clone());
+        let page = |film: &Option<Film>| film.as_ref().and_then(|film| film.page.done.clone());
         Results {
             full_run: Some(own.state()),
             verdict: own.verdict(),
@@ -157,13 +155,13 @@ impl Films {
             sensitive: self.sensitive.unwrap_or_default(),
             reference: result(&self.reference),
             comparison: result(&self.other),
-            page: own.page().record(),
+            page: own.page.done.clone(),
             comparison_page: page(&self.other),
             pinned_page: page(&self.pinned),
             pace: Pace {
                 step_s: own.step_s(),
                 skipped: own.skipped(),
-                run_s: own.result().map(|_| own.wall().as_secs_f64()),
+                run_s: own.result.as_ref().map(|_| own.wall.as_secs_f64()),
                 ..Pace::default()
             },
             found: self.studies.found(order, own),
@@ -176,7 +174,7 @@ impl Films {
 fn replanned(film: Option<Film>, plan: Option<FilmPlan>) -> Option<Film> {
     let plan = plan?;
     Some(match film {
-        Some(film) if *film.plan() == plan => film,
+        Some(film) if film.plan == plan => film,
         Some(film) => film.replanned(plan, None),
         None => Film::new(plan),
     })
@@ -293,7 +291,7 @@ mod tests {
         let mut films = Films::of(&order(&slow));
         let (quick, _) = film(400.0);
         let order = order(&quick);
-        let head = films.own.first();
+        let head = films.own.before(0.0).unwrap().clone();
         assert!(films.want(&order, &slow, &head) && films.answers.older.is_some());
         while films.own.verdict().is_none() {
             films.compute(&order);
@@ -309,8 +307,8 @@ mod tests {
         let scene = Scene::builtin("rub").unwrap().checked().unwrap();
         let order = order(&scene);
         let mut films = Films::of(&order);
-        let spent = |films: &Films| films.reference.as_ref().unwrap().wall();
-        while films.own.verdict().is_none() && films.own.wall() < ALONE {
+        let spent = |films: &Films| films.reference.as_ref().unwrap().wall;
+        while films.own.verdict().is_none() && films.own.wall < ALONE {
             films.compute(&order);
             assert!(spent(&films).is_zero());
         }

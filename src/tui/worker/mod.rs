@@ -7,5 +7,6 @@ mod playback;
 mod studies;
 mod thread;
 
+pub use background::WORKER_NAME;
 pub use playback::Playback;
-pub use thread::{WORKER_NAME, Worker};
+pub use thread::Worker;

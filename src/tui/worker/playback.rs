@@ -1,13 +1,13 @@
 //! The engine without clock or thread: it applies orders, plays the film, and makes snapshots.
 
 use std::collections::VecDeque;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::films::Films;
-use crate::tui::engine::{Limit, Move, Order, Snapshot};
+use crate::tui::engine::{Limit, Move, Order, SLICE, Snapshot};
 use crate::tui::film::{
-    Head, PER_TURN, Reached, SLICE, Turned, longest_sample, met, next_change, rate_at,
-    sample_length,
+    Head, PER_TURN, Reached, Turned, longest_sample, next_change, rate_at, sample_length,
 };
 use crate::tui::trace::{Mark, Marks};
 use crate::tui::views::id::ViewId;
@@ -90,9 +90,10 @@ impl Playback {
     /// Applies a newer order.
     pub fn apply(&mut self, order: &Order) {
         let before = std::mem::replace(&mut self.order, order.clone());
-        if self.films.want(order, &before.scene, self.head.scripted()) {
+        if self.films.want(order, &before.scene, &self.head.at) {
             if order.run == before.run {
-                self.head.follow(&self.films.own);
+                // The instant shown stays until the next move.
+                self.head.at = self.films.own.ahead.clone();
             } else {
                 self.head = Head::of(&self.films.own);
             }
@@ -152,8 +153,8 @@ impl Playback {
             let until = shown.min(film.reach());
             self.is_there = self.head.seek(film, until, &|| began.elapsed() < limit);
             self.turned = Turned::default();
-            if self.order.cursor_s.is_none() && self.head.motion().failure().is_some() {
-                self.t = self.t.min(self.head.motion().t_s());
+            if self.order.cursor_s.is_none() && self.head.at.motion.failure().is_some() {
+                self.t = self.t.min(self.head.at.motion.t_s());
             }
         }
         self.going.is_none() && self.is_there
@@ -161,7 +162,7 @@ impl Playback {
 
     /// Takes one time step, or one sample if the solver has no steps.
     fn step(&mut self) {
-        let (motion, end) = (self.head.motion(), self.films.own.plan().end_s);
+        let (motion, end) = (&self.head.at.motion, self.films.own.plan.end_s);
         let now = motion.t_s();
         // Half a step more, because round-off could leave the motion where it is.
         let until = match motion.steps() {
@@ -170,7 +171,7 @@ impl Playback {
         };
         let (began, limit) = (Instant::now(), self.time_limit);
         self.head.play(until.min(end), &|| began.elapsed() < limit);
-        self.t = self.head.motion().t_s();
+        self.t = self.head.at.motion.t_s();
         self.head.show();
     }
 
@@ -178,16 +179,17 @@ impl Playback {
     fn jump(&mut self, number: u64) {
         let (began, limit) = (Instant::now(), self.time_limit.max(JUMP_LIMIT));
         let go_on = || began.elapsed() < limit;
-        let marks = Marks::from(self.head.motion().contacts());
-        let end = self.films.own.plan().end_s;
-        let sample = longest_sample(self.head.motion());
-        let found = next_change(self.head.scripted(), sample, end, &go_on);
+        let mut marks = Marks::from(self.head.at.motion.contacts());
+        let end = self.films.own.plan.end_s;
+        let sample = longest_sample(&self.head.at.motion);
+        let found = next_change(&self.head.at, sample, end, &go_on);
         if let Some(until) = found {
             self.head.play(until, &go_on);
             self.t = until;
             self.head.show();
         }
-        self.met = (number, found.and_then(|_| met(marks, self.head.motion())));
+        marks.look(self.head.at.motion.contacts());
+        self.met = (number, marks.seen.last().filter(|_| found.is_some()).copied());
     }
 
     /// Reports that a frame was drawn: the wave may turn further.
@@ -225,8 +227,8 @@ impl Playback {
         let film = &self.films.own;
         let (began, limit) = (Instant::now(), self.time_limit);
         let go_on = || began.elapsed() < limit;
-        let target = (self.t + seconds).min(film.plan().end_s);
-        let (before, longest) = (self.t, longest_sample(self.head.motion()));
+        let target = (self.t + seconds).min(film.plan.end_s);
+        let (before, longest) = (self.t, longest_sample(&self.head.at.motion));
         let sample = if turns { longest / FINER } else { longest };
         while self.t < target {
             if turns && self.turned.must_wait(TURN) {
@@ -239,12 +241,12 @@ impl Playback {
                 break;
             }
             if !self.head.play(next, &go_on) {
-                self.t = self.head.motion().t_s().max(self.t);
+                self.t = self.head.at.motion.t_s().max(self.t);
                 break;
             }
             self.t = next;
-            let state = self.head.motion().state();
-            self.turned.follow(self.head.motion(), &state);
+            let state = self.head.at.motion.state();
+            self.turned.follow(&self.head.at.motion, &state);
         }
         if self.t > before {
             self.head.show();
@@ -255,7 +257,7 @@ impl Playback {
     /// as far as it is watched.
     fn is_starved(&self) -> bool {
         let film = &self.films.own;
-        let is_given_up = film.is_done() && film.result().is_none();
+        let is_given_up = film.is_done() && film.result.is_none();
         self.order.playing && self.limit == Limit::Solver && is_given_up
     }
 
@@ -286,7 +288,7 @@ impl Playback {
             number: self.order.number,
             run: self.order.run,
             t_s: self.t,
-            moment: Some(self.head.moment()),
+            moment: Some(Arc::clone(&self.head.moment)),
             moved: self.moved,
             met: self.met,
             results,

@@ -37,7 +37,7 @@ fn a_turning_picture_turns_an_eighth_between_two_frames_at_most() {
     order.rate = 0.1;
     let mut playback = computed(&order);
     let phase = |playback: &Playback| {
-        let motion = playback.head.motion();
+        let motion = &playback.head.at.motion;
         let (state, machine) = (motion.state(), motion.machine());
         let turned = machine.nodal_diameters * motion.rotor().angle(state.t_s);
         let [x, y] = in_blade_frame(state.u, turned);
@@ -120,7 +120,7 @@ fn the_reading_cursor_knows_changes_of_the_motion() {
     let fired = order.film.fired(2e-3);
     refilmed(&mut playback, &mut order, fired);
     playback.play(3e-3);
-    let now = playback.head.motion().state();
+    let now = playback.head.at.motion.state();
     playback.play(1e-3);
     order.cursor_s = Some(now.t_s);
     playback.apply(&order);
@@ -171,7 +171,7 @@ fn steps_and_jumps_are_made_once_each_in_the_order_of_their_keys() {
         playback.apply(&order);
     }
     settle(&mut playback);
-    let steps = (playback.head.motion().t_s() - 5e-4) / 1e-6;
+    let steps = (playback.head.at.motion.t_s() - 5e-4) / 1e-6;
     assert!((steps - 1.0).abs() < 1e-6, "{steps}");
     assert_eq!(playback.snapshot().moved, order.moves.last());
 }

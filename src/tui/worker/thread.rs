@@ -6,11 +6,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
+use super::background::WORKER_NAME;
+use super::playback::Playback;
 use crate::tui::engine::{Engine, Order, Snapshot, Waker};
-use crate::tui::worker::Playback;
-
-/// Name of the thread, by which the panic hook recognises it.
-pub const WORKER_NAME: &str = "rubscope-worker";
 
 /// Time between two ticks while the motion plays.
 const TICK: Duration = Duration::from_millis(33);

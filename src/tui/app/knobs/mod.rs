@@ -7,57 +7,18 @@ pub mod strip;
 
 use crossterm::event::KeyEvent;
 
-use super::play::Tempo;
-use super::{App, LessonProgress, Source};
+use super::model::{App, Knobs, LessonProgress, Past};
 use crate::report::line::clean;
 use crate::report::number::rounded;
-use crate::tui::command::{Chord, Command, lookup};
-use crate::tui::film::FilmPlan;
-use crate::tui::knobs::{KNOBS, Knob, place_of};
-use crate::tui::views::id::ViewId;
+use crate::tui::command::Command;
+use crate::tui::command::chord::Chord;
+use crate::tui::command::table::lookup;
+use crate::tui::knobs::{KNOBS, Knob};
 use rubscope_solver::motion::Change;
 use rubscope_solver::scene::{CheckedScene, Scene, SceneError, SolverKind, Value};
 
-/// The selected knob, and the states that undo and redo restore.
-#[derive(Clone, Debug, Default)]
-pub struct Knobs {
-    /// Index in `KNOBS` of the selected knob.
-    pub selected: usize,
-    /// Why the last value typed or turned was refused; `None` if it was not.
-    pub refusal: Option<String>,
-    /// Whether knobs act on the running motion instead of restarting it.
-    pub live: bool,
-    /// Further presses of the same key already waiting; they are applied together.
-    pub again: usize,
-    undo: Vec<Past>,
-    redo: Vec<Past>,
-}
-
 /// Number of changes that can be undone.
 const KEPT: usize = 1000;
-
-/// A state that undo restores.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Past {
-    /// The scene with its knob values.
-    pub scene: CheckedScene,
-    /// The film of its run.
-    pub film: FilmPlan,
-    /// The scene as opened.
-    pub opened: CheckedScene,
-    /// Where it came from; `None` for the built-in default.
-    pub source: Option<Source>,
-    /// The views, the large one first.
-    pub views: Vec<ViewId>,
-    /// Settings of playback.
-    pub tempo: Tempo,
-    /// Whether knobs acted on the running motion.
-    pub live: bool,
-    /// Whether the scene also ran under the other contact law.
-    pub compare: bool,
-    /// Progress in the open lesson; `None` if none was open.
-    pub lesson: Option<LessonProgress>,
-}
 
 impl Knobs {
     /// Selects the knob at index `place` of `KNOBS`.
@@ -76,16 +37,6 @@ impl Knobs {
         self.refusal = Some(clean(&knob.refusal(error)));
     }
 
-    /// Switches live mode; returns the status message.
-    pub fn turn_live(&mut self) -> String {
-        self.live = !self.live;
-        let how = match self.live {
-            true => "live: knobs act on the running motion",
-            false => "a knob restarts the run",
-        };
-        how.into()
-    }
-
     /// Pushes a state for undo and clears redo.
     pub fn remember(&mut self, past: Past) {
         self.undo.push(past);
@@ -93,16 +44,6 @@ impl Knobs {
             self.undo.remove(0);
         }
         self.redo.clear();
-    }
-
-    /// Returns the state before `now`, or the one after it if `redo`, and records `now`. `None` if
-    /// there is no such state.
-    pub fn step_back(&mut self, redo: bool, now: Past) -> Option<Past> {
-        let Self { undo, redo: redone, .. } = self;
-        let (from, to) = if redo { (redone, undo) } else { (undo, redone) };
-        let past = from.pop()?;
-        to.push(now);
-        Some(past)
     }
 }
 
@@ -112,15 +53,6 @@ impl App {
         KNOBS.get(self.knobs.selected)
     }
 
-    /// Selects the knob of a scene key; false if the key has no knob.
-    pub fn select_path(&mut self, path: &str) -> bool {
-        let place = place_of(path);
-        if let Some(place) = place {
-            self.knobs.select(place);
-        }
-        place.is_some()
-    }
-
     /// Captures the state that undo restores.
     pub fn past(&self) -> Past {
         Past {
@@ -128,8 +60,8 @@ impl App {
             film: self.run.film.clone(),
             opened: self.files.opened.clone(),
             source: self.files.source.clone(),
-            views: self.layout.views().to_vec(),
-            tempo: self.play.tempo(),
+            views: self.layout.views.clone(),
+            tempo: self.play.tempo,
             live: self.knobs.live,
             compare: self.run.compare,
             lesson: self.lessons.progress.clone(),
@@ -188,16 +120,6 @@ impl App {
         let length = |share| rounded(0.01 * share * self.machine.clearance(), 9);
         let length = share.filter(|share| share.is_finite()).map(length);
         length.map_or_else(|| knob.parse(text), |length| Ok(Value::Real(length)))
-    }
-
-    /// Selects a knob and gives it a value as typed.
-    ///
-    /// # Errors
-    /// One line that says why the value is refused.
-    pub fn set_typed(&mut self, place: usize, text: &str) -> Result<(), String> {
-        self.knobs.select(place);
-        self.take_typed(text);
-        self.knobs.refusal.clone().map_or(Ok(()), Err)
     }
 
     /// Selects a knob. While the cursor has the arrow keys, the message says how to turn it.
@@ -275,8 +197,14 @@ impl App {
 
     /// Undoes the last change of the scene, or redoes it.
     pub fn step_back(&mut self, redo: bool) {
-        match self.knobs.step_back(redo, self.past()) {
-            Some(past) => self.come_back(past),
+        let now = self.past();
+        let Knobs { undo, redo: undone, .. } = &mut self.knobs;
+        let (from, to) = if redo { (undone, undo) } else { (undo, undone) };
+        match from.pop() {
+            Some(past) => {
+                to.push(now);
+                self.come_back(past);
+            }
             None => {
                 let word = if redo { "redo" } else { "undo" };
                 self.status = Some(format!("nothing to {word}"));
@@ -304,9 +232,10 @@ impl App {
         (self.files.opened, self.files.source) = (past.opened, past.source);
         self.lessons.progress = past.lesson;
         self.knobs.live = past.live;
-        (self.play.rate, self.play.zoom) = (past.tempo.rate, past.tempo.zoom);
-        self.play.slow_at_events = past.tempo.slow_at_events;
-        if self.layout.set_views(past.views) {
+        self.play.tempo = past.tempo;
+        let view = self.view();
+        self.layout.views = past.views;
+        if self.view() != view {
             self.keep_instant();
         }
         self.run.set_compare(past.compare);
@@ -319,21 +248,19 @@ impl App {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tui::{Marker, Theme};
-    use rubscope_solver::scene::Scene;
 
     #[test]
     fn undo_and_redo_come_back_and_a_new_change_forgets_what_was_undone() {
-        let app = App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Ascii);
-        let (past, mut knobs) = (app.past(), Knobs::default());
-        assert!(knobs.step_back(false, past.clone()).is_none());
-        let lively = Past { live: true, ..past.clone() };
-        knobs.remember(lively.clone());
-        assert_eq!(knobs.step_back(false, past.clone()), Some(lively.clone()));
-        assert_eq!(knobs.step_back(true, lively), Some(past.clone()));
-        knobs.step_back(false, past.clone());
-        knobs.remember(past.clone());
-        assert!(knobs.step_back(true, past).is_none());
+        let mut app = crate::tui::app::tests::on_screen();
+        let mut speeds = Vec::new();
+        let set = |speed: &str| Command::Set(0, speed.into());
+        let (undo, redo) = (Command::Undo, Command::Redo);
+        for command in [set("450"), undo.clone(), redo.clone(), undo, set("430"), redo] {
+            app.update(command).unwrap();
+            speeds.push(app.scene.operation.speed_rad_s);
+        }
+        assert_eq!(speeds, [450.0, 500.0, 450.0, 500.0, 430.0, 430.0]);
+        assert_eq!(app.status.as_deref(), Some("nothing to redo"));
     }
 
     #[test]

@@ -8,7 +8,7 @@ use ratatui::style::{Modifier, Style};
 use strum::VariantArray;
 
 use crate::report::line::capital;
-use crate::tui::app::{App, InputMode};
+use crate::tui::app::model::{App, InputMode};
 use crate::tui::command::Command;
 use crate::tui::knobs::{Group, KNOBS, Knob};
 use crate::tui::text::{columns, overlay, pieces, print, wrap};

@@ -7,7 +7,7 @@ use ratatui::layout::Rect;
 
 use super::panel::{draw as draw_bar, parts, style};
 use crate::report::number::rounded;
-use crate::tui::app::App;
+use crate::tui::app::model::App;
 use crate::tui::axis::number;
 use crate::tui::command::Command;
 use crate::tui::knobs::{Group, KNOBS, Knob};

@@ -4,7 +4,8 @@
 use ratatui::buffer::Buffer;
 
 use crate::report::table::Table;
-use crate::tui::app::{App, Cursor, cell_of};
+use crate::tui::app::reading::cell_of;
+use crate::tui::app::{App, Cursor};
 use crate::tui::axis::{ChartAxis, instant};
 use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;

@@ -2,7 +2,8 @@
 
 use super::plan::{MapAxis, MapChoice};
 use super::{here, value_text};
-use crate::tui::app::{App, cell_of};
+use crate::tui::app::App;
+use crate::tui::app::reading::cell_of;
 use crate::tui::knobs::{Knob, knob_of};
 use crate::tui::views::id::ViewId;
 use rubscope_solver::scene::{CheckedScene, ContactLaw};

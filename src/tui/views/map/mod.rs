@@ -63,7 +63,7 @@ impl ViewPanel for MapView {
         let (plan, [column, row]) = (app.shown_plan()?, app.map_cell()?);
         let mut scene = plan.scene_of(plan.index(column, row)).ok()?;
         let is_in = |axis: &Axis, cell: u32| {
-            (axis.place(words::present(app, axis)) - f64::from(cell)).abs() <= 0.5
+            (axis.place(picture::present(app, axis)) - f64::from(cell)).abs() <= 0.5
         };
         if is_in(&plan.x, column) && is_in(&plan.y, row) {
             let mut own = app.scene.clone().into_scene();
@@ -82,7 +82,7 @@ impl ViewPanel for MapView {
 pub fn here(app: &App, plan: &MapPlan) -> Cursor {
     let part = |axis: &Axis| {
         let count = f64::from(axis.count.max(1));
-        let place = axis.place(words::present(app, axis));
+        let place = axis.place(picture::present(app, axis));
         let place = if place.is_finite() { place.round().clamp(0.0, count - 1.0) } else { 0.0 };
         (place + 0.5) / count
     };

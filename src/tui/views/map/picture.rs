@@ -6,12 +6,11 @@ use ratatui::{buffer::Buffer, layout::Rect};
 
 use super::super::panel::ViewArea;
 use super::plan::LiveMap;
-use super::words;
-use super::words::present;
 use crate::report::map::mark;
 use crate::tui::app::App;
 use crate::tui::appearance::Appearance;
 use crate::tui::axis::ChartAxis;
+use crate::tui::knobs::{Knob, knob_of};
 use crate::tui::plot::Plot;
 use crate::tui::theme::{Role, Theme};
 use rubscope_solver::motion::Verdict;
@@ -81,7 +80,7 @@ pub fn is_inside(axis: &Axis, place: f64) -> bool {
 fn chart_axis(axis: &Axis) -> ChartAxis {
     match axis.log {
         true => {
-            let unit = Some(words::unit(&axis.path));
+            let unit = Some(unit(&axis.path));
             ChartAxis::powers(axis.from.log10(), axis.to.log10(), unit)
         }
         false if axis.path == SPEED => ChartAxis::speeds(axis.from, axis.to),
@@ -247,6 +246,20 @@ pub fn sign(look: &Appearance, verdict: Verdict) -> (char, Style) {
         (false, Some(colour)) if verdict == Verdict::Adhesive => (PULLS, Style::new().fg(colour)),
         (false, Some(colour)) => ('█', Style::new().fg(colour)),
     }
+}
+
+/// Returns the unit of a key; empty if it has none, or no knob.
+pub fn unit(path: &str) -> &'static str {
+    knob_of(path).map_or("", Knob::unit)
+}
+
+/// Returns the current value of the key on an axis, in its unit; of the speed, that at the time
+/// shown. NaN if the key has no number.
+pub fn present(app: &App, axis: &Axis) -> f64 {
+    if axis.path == SPEED {
+        return app.speed();
+    }
+    knob_of(&axis.path).and_then(|knob| knob.number(&app.scene)).unwrap_or(f64::NAN)
 }
 
 #[cfg(test)]

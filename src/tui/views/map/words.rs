@@ -2,7 +2,7 @@
 
 use ratatui::style::Style;
 
-use super::picture::{is_inside, sign};
+use super::picture::{is_inside, present, sign, unit};
 use super::plan::{CellRun, LiveMap};
 use crate::report::map::means;
 use crate::report::number::{count, from_shown, in_shown_unit, per_speed, rounded};
@@ -19,11 +19,6 @@ use rubscope_solver::study::{Axis, MapPlan};
 /// A line of text pieces with their styles.
 pub type Line = Vec<(String, Style)>;
 
-/// Returns the unit of a key; empty if it has none, or no knob.
-pub fn unit(path: &str) -> &'static str {
-    knob_of(path).map_or("", Knob::unit)
-}
-
 /// Formats a value of a key with four digits and its unit.
 pub fn value_text(path: &str, value: f64) -> String {
     let unit = unit(path);
@@ -37,15 +32,6 @@ fn named_value(axis: &Axis, value: f64) -> String {
         Some(symbol) => format!("{symbol} {}", value_text(&axis.path, value)),
         None => value_text(&axis.path, value),
     }
-}
-
-/// Returns the current value of the key on an axis, in its unit; of the speed, that at the time
-/// shown. NaN if the key has no number.
-pub fn present(app: &App, axis: &Axis) -> f64 {
-    if axis.path == SPEED {
-        return app.speed();
-    }
-    knob_of(&axis.path).and_then(|knob| knob.number(&app.scene)).unwrap_or(f64::NAN)
 }
 
 /// Returns the label of an axis with its unit; logarithmic axes have the unit on their ticks.

@@ -2,7 +2,7 @@
 
 use super::DIGITS;
 use super::live::LiveMargins;
-use crate::report::number::rounded;
+use crate::report::number::{rounded, speed_unit};
 use crate::tui::app::App;
 use crate::tui::axis::number;
 use crate::tui::knobs::{knob_of, place_of};
@@ -29,10 +29,16 @@ impl App {
 
     /// Shows the survey over all nodal diameters, or the margins of one.
     pub fn show_survey(&mut self, on: bool) {
-        let said = self.layout.turn_survey(on);
+        self.layout.survey = on;
+        let ends = if speed_unit() == "rpm" { "2000:6000" } else { "200:600" };
         self.stop_reading();
         self.walk(ViewId::Margins);
-        self.status = Some(said);
+        self.status = Some(match on {
+            true => {
+                format!("margins of all diameters; : range {ends} gives the speeds of a machine")
+            }
+            false => "margins of n_d alone".to_string(),
+        });
     }
 
     /// Sets a knob exactly to a limit and selects it.

@@ -20,11 +20,10 @@ use crate::tui::text::{first_lines, print, wrap};
 use crate::tui::theme::Role;
 use crate::tui::views::table::{Rows, spelled};
 pub use rows::DIGITS;
+use rows::LEADING;
 
 /// Columns of the cursor: the limit, and its most influential knobs.
 pub const COLUMNS: u32 = margins::STRONGEST as u32 + 1;
-/// Columns of the table before the first knob: limit, value and margin.
-pub const LEADING: usize = 3;
 /// Height from which a line describes the row under the cursor.
 const TOLD_FROM: u16 = 6;
 /// Height from which the description has two lines.

@@ -8,8 +8,10 @@ use crate::tui::app::App;
 use crate::tui::command::Command;
 use crate::tui::knobs::{KNOBS, knob_of, place_of};
 use crate::tui::theme::Role;
-use crate::tui::views::margins::LEADING;
 use rubscope_solver::study::margins::{Limit, Quantity};
+
+/// Columns of the table before the first knob: limit, value and margin.
+pub const LEADING: usize = 3;
 
 /// Significant digits of a limit.
 pub const DIGITS: usize = 5;

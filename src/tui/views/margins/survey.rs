@@ -6,6 +6,7 @@ use ratatui::layout::Rect;
 
 use crate::report::number::speed_unit;
 use crate::report::survey::{answer, notes, rows as rows_of};
+use crate::tui::app::reading::cell_of;
 use crate::tui::app::{App, Cursor};
 use crate::tui::command::Command;
 use crate::tui::text::{print, wrap};
@@ -94,7 +95,7 @@ fn own(app: &App, rows: &[&SurveyRow]) -> usize {
 pub fn cell(app: &App) -> Option<usize> {
     let cursor = app.cursor_in(crate::tui::views::ViewId::Margins)?;
     let rows = rows(app);
-    (rows > 0).then(|| rows as usize - 1 - crate::tui::app::cell_of(cursor.up, rows) as usize)
+    (rows > 0).then(|| rows as usize - 1 - cell_of(cursor.up, rows) as usize)
 }
 
 /// Returns the rows of the table.

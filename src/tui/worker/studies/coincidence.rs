@@ -1,7 +1,7 @@
 //! The coincidence curves of a scene, computed in the background: with a lining each point is a
 //! search.
 
-use super::{Given, Sent, Study};
+use super::study::{Given, Sent, Study};
 use crate::tui::views::coincidence::curves::CoincidenceCurves;
 use crate::tui::views::id::ViewId;
 use rubscope_solver::scene::Scene;
@@ -29,7 +29,7 @@ impl Study for CoincidenceStudy {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Job;
+    use super::super::study::Job;
     use super::super::tests::with_given;
     use super::*;
     use std::time::Duration;

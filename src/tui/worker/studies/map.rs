@@ -5,11 +5,11 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
+use super::study::{Given, Job, Sent, Study};
 use crate::tui::engine::FORECAST_LIMIT;
 use crate::tui::views::id::ViewId;
 use crate::tui::views::map::plan::{CellRun, LiveMap, coarse_first};
 use crate::tui::worker::background::{Background, spare_threads};
-use crate::tui::worker::studies::{Given, Job, Sent, Study};
 use rubscope_solver::motion::LAST_PART;
 use rubscope_solver::motion::{GoOn, Motion, verdict_of};
 use rubscope_solver::study::{Cell, MapPlan};

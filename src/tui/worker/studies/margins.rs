@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use super::{Given, Sent, Study};
+use super::study::{Given, Sent, Study};
 use crate::tui::views::id::ViewId;
 use crate::tui::views::margins::live::LiveMargins;
 use crate::tui::worker::background::on_spare_cores;
@@ -49,7 +49,7 @@ impl Study for MarginsStudy {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Job;
+    use super::super::study::Job;
     use super::super::tests::with_given;
     use super::*;
     use rubscope_solver::scene::Scene;

@@ -1,6 +1,6 @@
 //! Speed against error of the solvers, row by row in the background: a row can take seconds.
 
-use super::{Given, Sent, Study};
+use super::study::{Given, Sent, Study};
 use crate::tui::views::id::ViewId;
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::precision::{Effort, Measure, Precision, ways};
@@ -47,7 +47,7 @@ impl Study for PrecisionStudy {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Job;
+    use super::super::study::Job;
     use super::super::tests::with_given;
     use super::*;
     use std::time::Duration;

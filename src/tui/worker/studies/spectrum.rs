@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use super::{Given, Study};
+use super::study::{Given, Study};
 use crate::tui::views::id::ViewId;
 use crate::tui::views::spectrum::lines::Spectrum;
 

@@ -1,25 +1,29 @@
 //! Executes commands: each changes the state and returns its effect on the outside. A key is looked
 //! up in the table of commands, or is a letter of the text being typed.
 
-mod reading;
-
-use rubscope_solver::scene::keys::PULSE;
-
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-use super::app::{App, Cursor, HelpState, InputMode, PaletteState, Reading};
+use super::app::{App, Cursor, HelpState, InputMode, PaletteState, Writing};
 use crate::report::line::{self, clean};
-use crate::tui::app::layout::placed;
-use crate::tui::axis::{instant, readable};
-use crate::tui::command::{Chord, Command, Effect, Group, Purpose, lookup};
+use crate::tui::app::layout::MOST_BESIDE;
+use crate::tui::app::play::RATES;
+use crate::tui::command::chord::Chord;
+use crate::tui::command::table::{Group, lookup};
+use crate::tui::command::{Command, Effect, Purpose};
 use crate::tui::export;
 use crate::tui::field::Field;
-use crate::tui::film::other_law;
-use crate::tui::knobs::knob_of;
+use crate::tui::files::FileJob;
 use crate::tui::views::id::ViewId;
+use rubscope_solver::scene::keys::is_plain;
 
 /// Longest text that can be typed \[characters\].
 const LONGEST_TYPED: usize = 1000;
+
+/// Flips a switch; returns the message for off or on.
+fn flipped(switch: &mut bool, [off, on]: [&str; 2]) -> Option<String> {
+    *switch = !*switch;
+    Some(if *switch { on } else { off }.into())
+}
 
 impl App {
     /// Handles a key press: a command of the table, or a letter for the open text field.
@@ -63,12 +67,6 @@ impl App {
             self.status = Some(clean(&format!("{chord} has no meaning here; {way}")));
         }
         Effect::None
-    }
-
-    /// Updates what depends on the typed text: the refusal and the place in the list.
-    pub fn typed_on(&mut self) {
-        self.knobs.refusal = None;
-        self.dialogue.look_again();
     }
 
     /// Returns everything visible of the state except the status line, to detect a key without
@@ -141,7 +139,11 @@ impl App {
             Command::Suspend => return Ok(Effect::Suspend),
             Command::Redraw => return Ok(Effect::Redraw),
             Command::Mouse => {
-                self.status = Some(self.mouse.toggle());
+                let said = [
+                    "mouse off: it selects text",
+                    "mouse on: click, wheel; with Shift it selects text",
+                ];
+                self.status = flipped(&mut self.mouse.on, said);
                 return Ok(Effect::Mouse(self.mouse.on));
             }
             Command::Copy => return Ok(Effect::Copy(self.copied())),
@@ -162,8 +164,16 @@ impl App {
             Command::GoTo(t) => self.go_to_asked(t)?,
             Command::GoToEnd => self.go_to_asked(self.end_s())?,
             Command::Blade(blade) => self.go_to_blade(blade)?,
-            Command::Scene(name) => self.open_named(&name)?,
-            Command::Set(place, text) => self.set_typed(place, &text)?,
+            Command::Scene(name) => {
+                let entries = self.scene_entries();
+                let named = entries.iter().find(|entry| entry.name == name);
+                named.map_or(Ok(()), |entry| self.open_entry(entry))?;
+            }
+            Command::Set(place, text) => {
+                self.knobs.select(place);
+                self.take_typed(&text);
+                self.knobs.refusal.clone().map_or(Ok(()), Err)?;
+            }
             Command::Plain => self.turn_plain()?,
             Command::Nothing(why) => return Err(why),
             command => self.change(command),
@@ -189,8 +199,15 @@ impl App {
             Command::NextTheme => {
                 self.status = Some(self.appearance.use_theme(self.appearance.theme.next()));
             }
-            Command::SpeedUnit => self.status = Some(self.appearance.next_speeds()),
-            Command::Marker => self.status = Some(self.appearance.next_marker()),
+            Command::SpeedUnit => {
+                let look = &mut self.appearance;
+                self.status = flipped(&mut look.rpm, ["speeds in rad/s", "speeds in rpm"]);
+                look.use_units();
+            }
+            Command::Marker => {
+                self.appearance.marker = self.appearance.marker.next();
+                self.status = Some(format!("marker {}", self.appearance.marker));
+            }
             Command::Guide => self.guide(),
             Command::Lesson(place) => self.begin_lesson(place),
             Command::LessonBack => self.lesson_back(),
@@ -208,7 +225,10 @@ impl App {
             Command::Reset => self.reset(),
             Command::Undo => self.step_back(false),
             Command::Redo => self.step_back(true),
-            Command::Live => self.status = Some(self.knobs.turn_live()),
+            Command::Live => {
+                let said = ["a knob restarts the run", "live: knobs act on the running motion"];
+                self.status = flipped(&mut self.knobs.live, said);
+            }
             Command::Select(place) => self.select(place),
             Command::Unfold(place) => self.knobs.select(place),
             Command::SetPart(place, part) => self.set_part(place, part),
@@ -219,9 +239,15 @@ impl App {
     /// Executes a command of the playback, the charts or their cursor.
     fn change_run(&mut self, command: Command) {
         match command {
-            Command::Pause | Command::Step | Command::Jump => self.go_on(command),
-            Command::SlowAtEvents | Command::Slower | Command::Faster => {
-                self.status = self.play.act(command);
+            Command::Pause | Command::Step | Command::Jump => self.go_on(&command),
+            Command::SlowAtEvents => {
+                let said =
+                    ["the same pace all the time", "slower at changes of contact, faster between"];
+                self.status = flipped(&mut self.play.tempo.slow_at_events, said);
+            }
+            Command::Slower => self.play.tempo.rate = self.play.tempo.rate.saturating_sub(1),
+            Command::Faster => {
+                self.play.tempo.rate = (self.play.tempo.rate + 1).min(RATES.len() - 1);
             }
             Command::Restart => {
                 self.stop_reading();
@@ -236,9 +262,12 @@ impl App {
             Command::View(view) => self.walk(view),
             Command::NextView => self.walk(self.layout.neighbour(1)),
             Command::PreviousView => self.walk(self.layout.neighbour(-1)),
-            Command::Charts => self.layout.next_count(),
+            Command::Charts => self.layout.beside = (self.layout.beside + 1) % (MOST_BESIDE + 1),
             Command::FullScreen => self.layout.full_screen = !self.layout.full_screen,
-            Command::Autoscale => self.status = Some(self.run.autoscale()),
+            Command::Autoscale => {
+                let said = ["scales stay fixed", "scales follow the data"];
+                self.status = flipped(&mut self.run.ranges.follow, said);
+            }
             Command::Pin => self.pin(),
             Command::OtherLaw if self.is_large(ViewId::Map) => self.other_map_law(),
             Command::OtherLaw => self.compare(),
@@ -257,81 +286,34 @@ impl App {
         }
     }
 
-    /// Takes what is typed or selected in the open dialogue, or the selected answer of a lesson.
-    fn accept(&mut self) -> Result<Effect, String> {
-        match self.dialogue.mode.clone() {
-            InputMode::Palette(palette) => return self.choose_command(&palette),
-            InputMode::Naming(purpose, name) => return self.write(purpose, &name.text(), false),
-            InputMode::Lessons(place) => self.begin_lesson(place),
-            InputMode::Scenes(chosen) => {
-                let entries = self.scene_entries();
-                if let Some(entry) = entries.get(self.scene_place(&entries, chosen)) {
-                    self.open_entry(entry)?;
-                }
-            }
-            InputMode::Typing(text) => self.take_typed(&text.text()),
-            InputMode::Main => self.answer_chosen(),
-            InputMode::Help(_) | InputMode::Replacing(..) | InputMode::Leaving => {}
-        }
-        Ok(Effect::None)
-    }
-
-    /// Closes one level of what is open. On the main screen it quits, but asks where the scene is
-    /// changed and not saved.
-    fn leave(&mut self) -> Effect {
-        if self.dialogue.mode == InputMode::Leaving {
-            // A key typed before the question was drawn does not answer it.
-            return if self.dialogue.asked { Effect::Quit } else { Effect::None };
-        }
-        if self.has_open() {
-            self.close();
-        } else if self.lessons.progress.is_some() {
-            self.leave_lesson();
-        } else if self.files.is_changed(&self.scene) {
-            self.dialogue.ask(InputMode::Leaving);
-        } else {
-            return Effect::Quit;
-        }
-        Effect::None
-    }
-
-    /// Closes what is open: the search of the help, a dialogue, the cursor, or the full screen.
-    fn close(&mut self) {
-        self.knobs.refusal = None;
-        match &self.dialogue.mode {
-            InputMode::Help(help) if help.is_searched() => {
-                self.dialogue.open(InputMode::Help(HelpState::default()));
-            }
-            InputMode::Main if self.reading != Reading::default() => self.stop_reading(),
-            InputMode::Main if self.play.middle_s.is_some() => self.stop_reading(),
-            InputMode::Main if placed(self).list.is_some() => self.knobs.select(0),
-            InputMode::Main => self.layout.full_screen = false,
-            _ => self.dialogue.close(),
-        }
-    }
-
-    /// Makes a view the large one at the user's request. The map then gives the arrow keys to its
-    /// cell cursor.
-    pub fn walk(&mut self, view: ViewId) {
-        self.show(view);
-        if view == ViewId::Map && self.dialogue.is_closed() && !self.reading.on {
-            self.toggle_reading();
-        }
-    }
-
     /// Starts writing a file. If it exists and `replace` is false, the result will ask the user.
     ///
     /// # Errors
     /// One line that says why nothing is written: the name, another file being written, or no data.
-    fn write(&mut self, purpose: Purpose, name: &str, replace: bool) -> Result<Effect, String> {
-        let name = self.file_to_write(name)?;
+    pub fn write(&mut self, purpose: Purpose, name: &str, replace: bool) -> Result<Effect, String> {
+        let name = name.trim();
+        if name.is_empty() {
+            return Err("a file name is needed; Esc leaves".into());
+        }
+        if !name.chars().all(is_plain) {
+            return Err("a file name of letters that can be seen is needed".into());
+        }
+        self.dialogue.close();
+        if let Some(writing) = &self.files.writing {
+            return Err(format!("{name} not written: still writing {}", writing.name));
+        }
         let content = match purpose {
             Purpose::Save => Ok(self.scene_to_save().to_toml()),
             Purpose::Export if name.ends_with(".svg") => Ok(export::svg(self)),
             Purpose::Export => self.panel().csv(self),
         };
         let content = content.map_err(|reason| format!("nothing exported: {reason}"))?;
-        Ok(self.start_writing(purpose, &name, content, replace))
+        self.status = Some(format!("writing {name} ..."));
+        if purpose == Purpose::Save {
+            self.files.saved = Some(self.scene.clone());
+        }
+        self.files.writing = Some(Writing { name: name.into(), purpose, undisturbed: true });
+        Ok(Effect::Write(FileJob { path: self.files.directory.join(name), content, replace }))
     }
 
     /// Replaces the file of the open question. A key typed before the question was drawn does not
@@ -344,59 +326,13 @@ impl App {
             _ => Ok(Effect::None),
         }
     }
-
-    /// Fires the pulse into the playing motion; the cursor, which shows another time, goes.
-    fn fire(&mut self) {
-        self.depart();
-        let t = self.played_s();
-        if !self.run.film.has_room(t) {
-            self.status = Some("not fired: the run has too many changes; r restarts".into());
-            return;
-        }
-        self.knobs.remember(self.past());
-        self.run.show(self.run.film.fired(t));
-        let pulse = knob_of(PULSE).map(|knob| knob.text(&self.scene));
-        let at = instant(t);
-        self.status = pulse.map(|pulse| format!("pulse of {pulse} fired at {at}"));
-    }
-
-    /// Switches the comparison with the other contact law.
-    fn compare(&mut self) {
-        match other_law(&self.scene) {
-            Err(why) if !self.run.compare => {
-                let law = self.scene.solver.contact.other();
-                self.status = Some(clean(&format!("no {law} law beside this: {why}")));
-            }
-            _ => {
-                self.run.set_compare(!self.run.compare);
-                if self.run.compare {
-                    self.show(ViewId::Response);
-                }
-            }
-        }
-    }
-
-    /// Goes to a simulated time \[s\].
-    ///
-    /// # Errors
-    /// One line if the run does not include the time.
-    fn go_to_asked(&mut self, t: f64) -> Result<(), String> {
-        let end = self.end_s();
-        if !(0.0..=end).contains(&t) {
-            let [t, end] = [t, end].map(|t| readable(t, "s"));
-            return Err(format!("t = {t}: from 0 to {end}, the end of the run"));
-        }
-        self.go_to(t);
-        self.status = Some(format!("paused at {}", instant(t)));
-        Ok(())
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::tui::app::tests::on_screen;
-    use crate::tui::command::valid;
+    use crate::tui::command::table::valid;
     use crate::tui::{Marker, Theme};
     use rubscope_solver::scene::Scene;
 
