@@ -25,7 +25,7 @@ pub struct Background<T> {
 const MOST_THREADS: usize = 16;
 
 /// Returns the number of background threads; one core is left for the screen and the playback.
-pub fn spare_threads() -> usize {
+fn spare_threads() -> usize {
     let cores = available_parallelism().map_or(1, usize::from);
     cores.saturating_sub(1).clamp(1, MOST_THREADS)
 }

@@ -2,14 +2,15 @@
 //! within about a millisecond once they are no longer wanted.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
+
+use rayon::iter::{ParallelBridge, ParallelIterator};
 
 use super::study::{Given, Job, Sent, Study};
 use crate::tui::engine::FORECAST_LIMIT;
 use crate::tui::views::id::ViewId;
 use crate::tui::views::map::plan::{CellRun, LiveMap, coarse_first};
-use crate::tui::worker::background::{Background, spare_threads};
+use crate::tui::worker::background::{Background, on_spare_cores};
 use rubscope_solver::motion::LAST_PART;
 use rubscope_solver::motion::{GoOn, Motion, verdict_of};
 use rubscope_solver::study::{Cell, MapPlan};
@@ -47,12 +48,13 @@ impl Study for MapStudy {
 pub struct MapJob {
     live: Arc<LiveMap>,
     /// Indices of the cells, in order of computation.
-    order: Arc<Vec<usize>>,
+    order: Vec<usize>,
     /// Number of cells after which the whole map is covered by coarse blocks.
     first: usize,
     /// Whether each cell was computed or given up, by its index.
     tried: Vec<bool>,
-    threads: Vec<Background<Computed>>,
+    /// The threads that compute; `None` before they start, and while they are not needed.
+    threads: Option<Background<Computed>>,
 }
 
 impl Job for MapJob {
@@ -63,20 +65,18 @@ impl Job for MapJob {
     }
 
     fn work(&mut self, patience: Duration) {
-        // A thread that ended early or could not be started leaves cells uncomputed.
-        if self.threads.iter().all(Background::is_done) && !self.is_done() {
-            self.start();
+        // Threads that ended early leave cells uncomputed.
+        if self.threads.as_ref().is_none_or(Background::is_done) && !self.is_done() {
+            self.threads = Some(self.start());
         }
+        let Some(threads) = &mut self.threads else { return };
         let began = Instant::now();
         let mut found = Vec::new();
-        for thread in &mut self.threads {
-            let mut wait = patience.saturating_sub(began.elapsed());
-            while found.len() < MOST_TAKEN
-                && let Some(computed) = thread.receive(wait)
-            {
-                found.push(computed);
-                wait = Duration::ZERO;
-            }
+        while found.len() < MOST_TAKEN
+            && let Some(computed) =
+                threads.receive(if found.is_empty() { patience } else { Duration::ZERO })
+        {
+            found.push(computed);
         }
         if found.is_empty() {
             return;
@@ -103,7 +103,7 @@ impl Job for MapJob {
 
     fn pause(&mut self) {
         // This ends the threads; computed cells stay.
-        self.threads.clear();
+        self.threads = None;
     }
 }
 
@@ -117,33 +117,25 @@ impl MapJob {
             tried: vec![false; live.map.cells.len()],
             live: Arc::new(live),
             first: first.min(order.len()),
-            order: Arc::new(order),
-            threads: Vec::new(),
+            order,
+            threads: None,
         }
     }
 
-    fn start(&mut self) {
-        let left = |index: &usize| self.tried.get(*index) == Some(&false);
-        let left: Arc<Vec<usize>> = Arc::new(self.order.iter().copied().filter(left).collect());
-        let next = Arc::new(AtomicUsize::new(0));
-        let thread = |_| {
-            let (plan, left, next) =
-                (self.live.map.plan.clone(), Arc::clone(&left), Arc::clone(&next));
-            Background::start(move |to, go_on| {
-                while let Some(&index) = left.get(next.fetch_add(1, Ordering::Relaxed))
-                    && go_on()
-                {
-                    let began = Instant::now();
-                    let cell = plan.compute(index, &|| go_on() && began.elapsed() < CELL_LIMIT);
-                    // A cell that takes too long stays empty. Sending fails only if the map was
-                    // dropped.
-                    if to.send((index, cell)).is_err() {
-                        return;
-                    }
-                }
-            })
-        };
-        self.threads = (0..spare_threads()).map(thread).collect();
+    /// Starts to compute the cells that are left, on all spare cores, in the order of the map.
+    fn start(&self) -> Background<Computed> {
+        let left =
+            self.order.iter().copied().filter(|index| self.tried.get(*index) == Some(&false));
+        let (left, plan) = (left.collect::<Vec<usize>>(), self.live.map.plan.clone());
+        Background::start(move |to, go_on| {
+            let compute = |index| {
+                let began = Instant::now();
+                let cell = plan.compute(index, &|| go_on() && began.elapsed() < CELL_LIMIT);
+                // A cell that takes too long stays empty. Sending fails only if the map was dropped.
+                _ = to.send((index, cell));
+            };
+            on_spare_cores(|| left.into_iter().par_bridge().filter(|_| go_on()).for_each(compute));
+        })
     }
 }
 
