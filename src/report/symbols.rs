@@ -2,7 +2,6 @@
 //! the key table.
 
 use rubscope_solver::scene::keys;
-use rubscope_solver::study::margins::CLEARANCE;
 
 /// Ending of the description of a key that is an initial value, such as `u_c at t = 0`.
 const AT_START: &str = " at t = 0";
@@ -11,7 +10,6 @@ const AT_START: &str = " at t = 0";
 /// is returned unchanged.
 pub fn symbol(path: &str) -> String {
     match path {
-        CLEARANCE => return "g0".to_string(),
         "casing.frequency_hz" => return "f_c".to_string(),
         "bladed_disk.frequency_hz" => return "f_bd".to_string(),
         // The descriptions of these keys contain no symbol.
@@ -20,7 +18,7 @@ pub fn symbol(path: &str) -> String {
         keys::STEP => return "h".to_string(),
         _ => {}
     }
-    let Ok(key) = keys::find(path) else { return path.to_string() };
+    let Ok(key) = keys::find_varied(path) else { return path.to_string() };
     if let Some(start) = key.what.strip_suffix(AT_START) {
         return match start.strip_prefix("rate of ") {
             Some(moving) => format!("{moving}'(0)"),

@@ -115,10 +115,9 @@ impl Scene {
     /// Sets the clearance by changing the casing radius \[m\]. The scene is not checked.
     ///
     /// # Errors
-    /// The radius is out of the bounds of its key.
+    /// The clearance is out of bounds.
     pub fn set_clearance(&mut self, g0: f64) -> Result<(), SceneError> {
-        let radius = self.bladed_disk.blade_length_m + g0;
-        self.set_value(keys::find("casing.radius_m")?, Value::Real(radius))
+        self.set_value(&keys::CLEARANCE_KEY, Value::Real(g0))
     }
 }
 

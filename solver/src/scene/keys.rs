@@ -264,6 +264,14 @@ pub fn find(path: &str) -> Result<&'static Key, SceneError> {
     KEYS.iter().find(|key| key.path == path).ok_or_else(|| unknown(path))
 }
 
+/// As [`find`], for a key or the clearance, which can be changed and swept like a key.
+///
+/// # Errors
+/// As [`find`].
+pub fn find_varied(path: &str) -> Result<&'static Key, SceneError> {
+    if path == CLEARANCE { Ok(&CLEARANCE_KEY) } else { find(path) }
+}
+
 /// Returns the error for an unknown key; it lists the keys of the same table.
 pub(super) fn unknown(path: &str) -> SceneError {
     let table = path.split_once('.').map_or("", |(table, _)| table);
@@ -457,9 +465,28 @@ fn text_of(key: &Key, scene: &Scene) -> String {
     }
 }
 
-/// Name of the clearance `R_c - l_b`. It is not a key, but can be changed and swept like one; it is
-/// set by the casing radius.
+/// Path of the clearance.
 pub const CLEARANCE: &str = "clearance";
+
+/// The clearance `g0 = R_c - l_b` \[m\], negative if the blades rub at rest. No file has it: the
+/// casing radius sets it.
+pub static CLEARANCE_KEY: Key = Key {
+    handle: Some(Handle {
+        label: "clearance g0",
+        turn: Turn::Decades(1e-9),
+        does: "clearance at rest g0 = R_c - l_b; below 0, with the smooth law, all blades rub",
+    }),
+    ..key!(
+        CLEARANCE,
+        Never,
+        "m",
+        "clearance g0",
+        Allowed::Real { min: -1e3, max: 1e3, above: false },
+        Real,
+        |scene| scene.clearance(),
+        |scene, g0| scene.casing.radius_m = scene.bladed_disk.blade_length_m + g0
+    )
+};
 
 /// Builds the [`Handle`] of a key, if it has one.
 macro_rules! handle {

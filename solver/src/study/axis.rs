@@ -4,7 +4,6 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::scene::keys::CLEARANCE;
 use crate::scene::units::{RangeError, UnitError, read_ends};
 use crate::scene::{Allowed, Key, Quantity, Scene, SceneError, Value, keys};
 
@@ -96,7 +95,7 @@ impl Axis {
     /// The key is unknown or not numeric, or the range is not allowed.
     pub fn new(path: &str, from: f64, to: f64, count: u32, log: bool) -> Result<Self, AxisError> {
         let key = key_of(path)?;
-        let whole = key.is_some_and(|key| matches!(key.allowed, Allowed::Whole { .. }));
+        let whole = matches!(key.allowed, Allowed::Whole { .. });
         let [from, to] = if whole { [from.round(), to.round()] } else { [from, to] };
         let axis = Self { path: path.to_string(), from, to, count, log };
         let refused = |allowed: &str| AxisError::Range {
@@ -121,11 +120,7 @@ impl Axis {
         }
         // The second end is checked even for a single value, because it is displayed.
         for end in [from, to] {
-            match key {
-                Some(key) => key.check(&as_value(key, end))?,
-                None if end.is_finite() => {}
-                None => return Err(refused("finite ends")),
-            }
+            key.check(&as_value(key, end))?;
         }
         Ok(axis)
     }
@@ -142,7 +137,7 @@ impl Axis {
             None => (false, range.trim()),
         };
         let path = path.trim();
-        let of = key_of(path)?.map_or(Quantity::Length, Key::quantity);
+        let of = key_of(path)?.quantity();
         let (from, to, count) = parse_range(range, of).map_err(|error| match error {
             RangeError::Form => form(),
             RangeError::End(why) => {
@@ -157,7 +152,7 @@ impl Axis {
     /// are rounded.
     #[must_use]
     pub fn value(&self, index: u32) -> f64 {
-        let key = keys::find(&self.path);
+        let key = keys::find_varied(&self.path);
         if key.is_ok_and(|key| matches!(key.allowed, Allowed::Whole { .. })) {
             return self.value_between(index).round();
         }
@@ -209,24 +204,18 @@ impl Axis {
     /// # Errors
     /// The key does not allow the value.
     pub fn apply(&self, scene: &mut Scene, index: u32) -> Result<(), SceneError> {
-        if self.path == CLEARANCE {
-            return scene.set_clearance(self.value(index));
-        }
-        let key = keys::find(&self.path)?;
+        let key = keys::find_varied(&self.path)?;
         scene.set_value(key, as_value(key, self.value(index)))
     }
 }
 
-/// Returns the key of an axis, which must be numeric; `None` for the clearance.
-fn key_of(path: &str) -> Result<Option<&'static Key>, AxisError> {
-    if path == CLEARANCE {
-        return Ok(None);
-    }
-    let key = keys::find(path)?;
+/// Returns the key of an axis, which must be numeric.
+fn key_of(path: &str) -> Result<&'static Key, AxisError> {
+    let key = keys::find_varied(path)?;
     if !matches!(key.allowed, Allowed::Real { .. } | Allowed::Whole { .. }) {
         return Err(AxisError::NotNumeric { path: path.to_string() });
     }
-    Ok(Some(key))
+    Ok(key)
 }
 
 /// Converts a number to the value type of a key.

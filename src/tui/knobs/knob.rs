@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use strum::VariantArray;
 
 use super::inert::Inert;
-use super::number::{self, CLEARANCE, decades, mantissas};
+use super::number::{self, decades, mantissas};
 use super::range::{Bar, Case, KnobRange};
 use crate::report::number::{from_shown, in_shown_unit, rounded, with_typed_unit};
 use crate::tui::axis;
@@ -13,8 +13,8 @@ use crate::tui::field::Field;
 use rubscope_solver::model::Machine;
 use rubscope_solver::scene::units::UnitError;
 use rubscope_solver::scene::{
-    Adjustment, Allowed, CheckedScene, ContactLaw, Quantity, Scene, SceneError, Value, keys,
-    keys::{Key, Turn},
+    Adjustment, Allowed, CheckedScene, ContactLaw, Scene, SceneError, Value, keys,
+    keys::{CLEARANCE, Key, Turn},
 };
 
 /// The contact laws in the order of their knob: one step up from the paper's bilateral law is the
@@ -55,8 +55,10 @@ pub struct Knob {
     pub group: Group,
     /// Short name, which usually ends in the symbol.
     pub label: &'static str,
-    /// Dotted key of the scene that the knob sets.
+    /// Path of its key.
     pub path: &'static str,
+    /// Key of the scene that the knob sets.
+    pub key: &'static Key,
     /// How the knob steps through its values.
     pub turn: Turn,
     /// Effect of turning the knob, in one sentence.
@@ -74,20 +76,15 @@ pub struct Knob {
 static PAPER: LazyLock<Scene> = LazyLock::new(Scene::base);
 
 impl Knob {
-    fn key(&self) -> Option<&'static Key> {
-        keys::KEYS.iter().find(|key| key.path == self.path)
-    }
-
     /// Returns the value of the knob in a scene.
     pub fn get(&self, scene: &Scene) -> Value {
-        self.key().map_or_else(
-            || {
-                let clearance = scene.clearance();
-                // Twelve digits: a difference of two lengths is not more accurate.
-                Value::Real(format!("{clearance:.11e}").parse().unwrap_or(clearance))
-            },
-            |key| (key.get)(scene),
-        )
+        match (self.key.get)(scene) {
+            // Twelve digits: a difference of two lengths is not more accurate.
+            Value::Real(g0) if self.path == CLEARANCE => {
+                Value::Real(format!("{g0:.11e}").parse().unwrap_or(g0))
+            }
+            value => value,
+        }
     }
 
     /// Returns the scene with this value, checked. If the value needs another solver, contact law
@@ -102,19 +99,11 @@ impl Knob {
         value: Value,
     ) -> Result<(CheckedScene, Option<String>), SceneError> {
         let mut changed = scene.clone();
-        match (self.key(), value) {
-            (Some(key), value) => changed.set_value(key, value)?,
-            (None, Value::Real(g0)) if g0.is_finite() && g0 != 0.0 => {
-                changed.set_clearance(g0)?;
-            }
-            (None, value) => {
-                return Err(SceneError::refused(
-                    self.path,
-                    value,
-                    "a number above 0, or below 0 with solver.contact = \"smooth\"",
-                ));
-            }
+        if self.path == CLEARANCE && value == Value::Real(0.0) {
+            let allowed = "a number above 0, or below 0 with solver.contact = \"smooth\"";
+            return Err(SceneError::refused(self.path, value, allowed));
         }
+        changed.set_value(self.key, value)?;
         let made = changed.make_compatible(|key| key == self.path);
         let said = self.followed(&made, changed.solver.contact);
         let changed = changed.checked()?;
@@ -216,12 +205,12 @@ impl Knob {
 
     /// Returns the values that the knob accepts.
     pub fn allowed(&self) -> Allowed {
-        self.key().map_or(number::ALLOWED, |key| key.allowed)
+        self.key.allowed
     }
 
     /// Returns the SI unit of the knob; empty for words and counts.
     pub fn unit(&self) -> &'static str {
-        self.key().map_or("m", |key| key.unit).trim_matches('-')
+        self.key.unit.trim_matches('-')
     }
 
     /// Formats the value of the knob in a scene, with prefix and unit.
@@ -288,11 +277,6 @@ impl Knob {
         format!("{text} {unit}").trim_end().to_string()
     }
 
-    /// Returns the physical quantity of the knob's unit.
-    fn quantity(&self) -> Quantity {
-        Quantity::of(self.unit())
-    }
-
     /// Parses typed text: a number, with or without a unit or an SI prefix, or a word or its
     /// beginning.
     ///
@@ -303,8 +287,8 @@ impl Knob {
         let refused = |allowed: String| SceneError::refused(self.path, text, allowed);
         match self.allowed() {
             Allowed::Real { .. } => {
-                let number = with_typed_unit(text, self.quantity());
-                let read = self.quantity().read(&number);
+                let number = with_typed_unit(text, self.key.quantity());
+                let read = self.key.quantity().read(&number);
                 let finite = |x: f64| x.is_finite().then_some(x).ok_or(UnitError::NoNumber);
                 read.and_then(finite).map(Value::Real).map_err(|why| match why {
                     UnitError::NoNumber => {
@@ -423,8 +407,6 @@ mod tests {
             let wanted = usize::from(numeric || matches!(key.allowed, Allowed::OneOf(_)));
             assert_eq!(knobs, wanted, "{}", key.path);
         }
-        let no_key = KNOBS.iter().filter(|knob| knob.key().is_none()).map(|knob| knob.path);
-        assert_eq!(no_key.collect::<Vec<_>>(), [CLEARANCE]);
     }
 
     #[test]

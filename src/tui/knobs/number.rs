@@ -1,9 +1,7 @@
-//! Steps of a knob through round mantissas, and the one knob that is not a key: the clearance
-//! `g0 = R_c - l_b`, which sets the casing radius. With a lining it can become negative; then all
-//! blades rub at rest.
+//! Steps of a knob through round mantissas. With a lining, the clearance can become negative; then
+//! all blades rub at rest.
 
-use rubscope_solver::scene::keys::{Handle, Turn};
-use rubscope_solver::scene::{Allowed, ContactLaw, Scene};
+use rubscope_solver::scene::{ContactLaw, Scene};
 
 /// Mantissas of fine steps: two digits. Coarse steps use 1, 2 and 5.
 const FINE: &[f64] = &[
@@ -44,21 +42,8 @@ pub(super) fn decades(x: f64, up: bool, mantissas: &[f64], least: f64) -> f64 {
     }
 }
 
-/// Name of the clearance, which stands for a key in the knob table.
-pub(super) use rubscope_solver::scene::keys::CLEARANCE;
-
-/// Allowed clearances \[m\]. Zero is refused too, and so are negative ones without a lining.
-pub(super) const ALLOWED: Allowed = Allowed::Real { min: -1e3, max: 1e3, above: false };
-
 /// Smallest positive clearance that steps reach, without a lining \[m\].
 const LEAST: f64 = 1e-9;
-/// Label, steps and sentence of the clearance.
-pub(super) const CLEARANCE_HANDLE: Handle = Handle {
-    label: "clearance g0",
-    turn: Turn::Decades(LEAST),
-    does: "clearance at rest g0 = R_c - l_b; below 0, with the smooth law, all blades rub",
-};
-
 /// Smallest positive clearance that steps reach on a lining \[m\]; one more step down changes its
 /// sign.
 const LEAST_ON_LINING: f64 = 1e-6;
@@ -80,9 +65,10 @@ mod tests {
     use super::*;
     use crate::tui::knobs::{Knob, knob_of};
     use rubscope_solver::scene::Value;
+    use rubscope_solver::scene::keys::CLEARANCE;
 
     fn clearance() -> &'static Knob {
-        knob_of(super::CLEARANCE).unwrap()
+        knob_of(CLEARANCE).unwrap()
     }
 
     #[test]

@@ -4,18 +4,18 @@
 use super::bars;
 use super::inert::{self, Inert};
 use super::knob::{Group, Knob};
-use super::number::{CLEARANCE, CLEARANCE_HANDLE};
 use super::range::Bar;
 use Bar::{From, Of};
 use Group::{Beyond, Machine, Model, Operation, Start, Time, Tips};
-use rubscope_solver::scene::keys::{self, Handle, KEYS};
+use rubscope_solver::scene::keys::{self, CLEARANCE_KEY, Handle, Turn, find_varied};
 use std::sync::LazyLock;
 
-/// Creates the knob of a key, or that of the clearance, which is no key.
+/// Creates the knob of a key.
 fn knob(group: Group, path: &'static str) -> Knob {
-    let handle = KEYS.iter().find(|key| key.path == path).and_then(|key| key.handle);
-    let Handle { label, turn, does } = handle.unwrap_or(CLEARANCE_HANDLE);
-    Knob { group, label, path, turn, does, bar: Bar::Around, usual: 1.0, inert: |_| None }
+    let key = find_varied(path).unwrap_or(&CLEARANCE_KEY);
+    let handle = key.handle.unwrap_or(Handle { label: path, turn: Turn::Words, does: key.what });
+    let Handle { label, turn, does } = handle;
+    Knob { group, label, path, key, turn, does, bar: Bar::Around, usual: 1.0, inert: |_| None }
 }
 
 impl Knob {
@@ -47,7 +47,7 @@ pub static KNOBS: LazyLock<Vec<Knob>> = LazyLock::new(|| {
         knob(Model, keys::MODEL),
         knob(Model, keys::STEP).unless(inert::step),
         knob(Model, keys::END),
-        knob(Machine, CLEARANCE).bar(Of(bars::clearance)),
+        knob(Machine, keys::CLEARANCE).bar(Of(bars::clearance)),
         knob(Machine, keys::BLADES),
         knob(Machine, keys::CASING_STIFFNESS),
         knob(Machine, keys::CASING_MASS),

@@ -113,7 +113,7 @@ impl Parameter {
 
     /// Returns the key that the parameter changes.
     fn key(&self) -> Result<&'static Key, SceneError> {
-        keys::find(if self.path == CLEARANCE { RADIUS } else { self.path })
+        keys::find_varied(self.path)
     }
 
     /// Returns the line of a scene file that sets the parameter, and the table that contains it;
@@ -145,9 +145,6 @@ impl Parameter {
     /// Returns its value in a scene.
     #[must_use]
     pub fn of(&self, scene: &Scene) -> f64 {
-        if self.path == CLEARANCE {
-            return scene.clearance();
-        }
         if let Some(which) = self.frequency() {
             let given = scene.frequencies_in_use()[which];
             let machine = scene.machine();
@@ -211,9 +208,7 @@ impl Parameter {
             changed.set_frequency(which, value)?;
             return Ok(changed);
         }
-        let of_key =
-            if self.path == CLEARANCE { scene.bladed_disk.blade_length_m + value } else { value };
-        set(&mut changed, self.key()?, Value::Real(of_key))?;
+        set(&mut changed, self.key()?, Value::Real(value))?;
         Ok(changed)
     }
 
