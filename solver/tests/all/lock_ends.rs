@@ -211,7 +211,7 @@ fn loads_beyond_the_end_of_two_groups_are_absent() {
         for name in [LimitName::PushA, LimitName::Torque] {
             let limit = margins.limit(name).unwrap();
             assert_eq!(limit.value.is_some(), held, "{name} at {speed}");
-            let why = "two groups alone hold no stable lock on the lining at this speed";
+            let why = "no two groups hold a lock";
             assert_eq!(limit.note.as_ref().is_some_and(|note| note.contains(why)), !held);
         }
     }

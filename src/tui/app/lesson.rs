@@ -102,7 +102,7 @@ impl App {
         };
         let (number, step) = (progress.lesson, progress.step);
         if self.is_asked() {
-            self.status = Some("your guess first: ↑ ↓ choose, Enter answers".into());
+            self.status = Some("your answer first: press a, b or c".into());
         } else if step + 1 < lesson.steps.len() {
             self.begin_step(number, step + 1);
         } else {
@@ -364,7 +364,7 @@ fn head(app: &App, width: usize) -> (String, String) {
     let of = format!("{} of {}", progress.step + 1, lesson.steps.len());
     let step = format!("step {of}");
     let keys = match (app.is_asked(), progress.step + 1 == lesson.steps.len()) {
-        (true, _) => "↑↓ Enter answer",
+        (true, _) => "a b c answer",
         (false, false) => "g next",
         (false, true) => "g ends",
     };

@@ -139,10 +139,7 @@ fn why_none(here: &Evaluated<'_>, name: LimitName) -> String {
             (Some(_), _) if of_speeds && hard.is_some() => {
                 "the lining is too soft for two groups to hold a lock at any speed"
             }
-            (Some(_), _) if hard.is_some() => {
-                "two groups alone hold no stable lock on the lining at this speed; more groups \
-                 may, as its steady states show"
-            }
+            (Some(_), _) if hard.is_some() => "on this lining no two groups hold a lock; more may",
             _ if machine.is_uneven() => {
                 "no formula is known for these tips and this casing; a run computes it"
             }
@@ -213,7 +210,7 @@ mod tests {
         for (name, reason) in [
             (LimitName::OmegaLock, "at any speed"),
             (LimitName::OmegaAdhesive, "cannot pull"),
-            (LimitName::PushA, "at this speed"),
+            (LimitName::PushA, "no two groups"),
         ] {
             let limit = limits.iter().find(|limit| limit.name == name).unwrap();
             let note = limit.note.as_ref().unwrap();
