@@ -1,15 +1,16 @@
-//! The events that the drawing thread waits for, and the threads that send them: one reads the
-//! keyboard, one waits for signals.
+//! The events that the drawing thread waits for, and the thread that waits for signals.
 
 use std::sync::mpsc::Sender;
 use std::thread;
 use std::time::Duration;
 
-use crossterm::event::{Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers, MouseEvent};
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers, MouseEvent};
 
 use super::files::{FileResult, FoundScenes};
 use super::ground::Ground;
-use super::input::Input;
+
+/// Ctrl-C.
+pub const INTERRUPT: KeyEvent = KeyEvent::new(KeyCode::Char('c'), KeyModifiers::CONTROL);
 
 /// An event for the drawing thread.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,53 +44,13 @@ pub enum ScreenEvent {
 impl ScreenEvent {
     /// Returns whether the event is Ctrl-C, which quits in every dialogue.
     pub fn is_interrupt(&self) -> bool {
-        let interrupt = (KeyCode::Char('c'), KeyModifiers::CONTROL);
-        matches!(self, Self::Key(key) if (key.code, key.modifiers) == interrupt)
+        *self == Self::Key(INTERRUPT)
     }
 
     /// Returns whether the event is a key, a paste or from the mouse.
     pub fn is_input(&self) -> bool {
         matches!(self, Self::Key(_) | Self::Pasted(_) | Self::Mouse(_))
     }
-}
-
-/// Starts the thread that reads the keyboard, including the terminal's report of its background.
-///
-/// # Errors
-/// Fails if the system cannot start a thread.
-pub fn read_keys(to: Sender<ScreenEvent>) -> std::io::Result<()> {
-    let read = move || {
-        let mut input = Input::default();
-        loop {
-            let event = input.next().transpose().and_then(screen_event);
-            let ground = input.take_ground().map(ScreenEvent::Ground);
-            for event in [ground, event].into_iter().flatten() {
-                if event.is_interrupt() {
-                    // The drawing thread may be blocked in a write to the terminal; give up its
-                    // frame so that it can handle the key.
-                    super::terminal::cut_frame();
-                }
-                let last = event == ScreenEvent::InputClosed;
-                if to.send(event).is_err() || last {
-                    return;
-                }
-            }
-        }
-    };
-    thread::Builder::new().name("rubscope-input".into()).spawn(read).map(|_| ())
-}
-
-/// Converts a terminal event; `None` if the explorer ignores it.
-fn screen_event(event: std::io::Result<Event>) -> Option<ScreenEvent> {
-    Some(match event {
-        // Some terminals also report key releases. Repeats count as presses.
-        Ok(Event::Key(key)) if key.kind != KeyEventKind::Release => ScreenEvent::Key(key),
-        Ok(Event::Mouse(mouse)) => ScreenEvent::Mouse(mouse),
-        Ok(Event::Resize(..)) => ScreenEvent::Resize,
-        Ok(Event::Paste(text)) => ScreenEvent::Pasted(text),
-        Ok(_) => return None,
-        Err(_) => ScreenEvent::InputClosed,
-    })
 }
 
 /// Starts the thread that waits for signals. If the drawing thread has not ended the program within
@@ -107,8 +68,6 @@ pub fn watch_signals(to: Sender<ScreenEvent>) -> std::io::Result<()> {
             match signal {
                 SIGTSTP => {
                     job::want_stop(true);
-                    // The drawing thread may be blocked in a write to the terminal.
-                    terminal::cut_frame();
                     let _ = to.send(ScreenEvent::Suspend);
                 }
                 SIGCONT => {

@@ -14,9 +14,6 @@ pub enum Ground {
 /// Escape sequence that asks the terminal for the colour of its background.
 pub const QUESTION: &[u8] = b"\x1b]11;?\x07";
 
-/// Beginning of the terminal's report, after `ESC ]`.
-const BEGINNING: &[u8] = b"11;rgb";
-
 /// Relative luminance (0 black, 1 white) above which a background counts as light: that of the grey
 /// which looks half-way between black and white.
 const MIDDLE: f64 = 0.184;
@@ -32,10 +29,9 @@ impl Ground {
         }
     }
 
-    /// Parses a report without `ESC ]` and its end, such as `11;rgb:ffff/ffff/ffff`; `None` if it
-    /// has another form.
-    pub fn reported(report: &[u8]) -> Option<Self> {
-        let text = std::str::from_utf8(report.strip_prefix(BEGINNING)?).ok()?;
+    /// Parses the colour of a report, such as `rgb:ffff/ffff/ffff`; `None` if it has another form.
+    pub fn reported(colour: &[u8]) -> Option<Self> {
+        let text = std::str::from_utf8(colour.strip_prefix(b"rgb")?).ok()?;
         let (_, colours) = text.split_once(':')?;
         let mut parts = colours.split('/').map(|digits| {
             let most = 16_f64.powi(i32::try_from(digits.len()).ok()?) - 1.0;
@@ -70,16 +66,15 @@ mod tests {
     #[test]
     fn a_report_has_one_to_four_digits_of_each_colour() {
         for (report, ground) in [
-            ("11;rgb:ffff/ffff/ffff", Some(Ground::Light)),
-            ("11;rgb:1e1e/1e1e/1e1e", Some(Ground::Dark)),
-            ("11;rgba:f/f/d/0", Some(Ground::Light)),
-            ("11;rgb:fd/f6/e3", Some(Ground::Light)),
-            ("11;rgb:0000/0000/ffff", Some(Ground::Dark)),
-            ("11;rgb:7f/7f/7f", Some(Ground::Light)),
-            ("11;rgb:70/70/70", Some(Ground::Dark)),
-            ("11;rgb:ffff/ffff", None),
-            ("11;rgb:", None),
-            ("12;rgb:0/0/0", None),
+            ("rgb:ffff/ffff/ffff", Some(Ground::Light)),
+            ("rgb:1e1e/1e1e/1e1e", Some(Ground::Dark)),
+            ("rgba:f/f/d/0", Some(Ground::Light)),
+            ("rgb:fd/f6/e3", Some(Ground::Light)),
+            ("rgb:0000/0000/ffff", Some(Ground::Dark)),
+            ("rgb:7f/7f/7f", Some(Ground::Light)),
+            ("rgb:70/70/70", Some(Ground::Dark)),
+            ("rgb:ffff/ffff", None),
+            ("rgb:", None),
             ("", None),
         ] {
             assert_eq!(Ground::reported(report.as_bytes()), ground, "{report}");

@@ -35,6 +35,10 @@ pub trait Host {
     fn sent(&self) -> u64;
     /// Returns whether any write had to wait for the terminal.
     fn is_slow(&self) -> bool;
+    /// Returns whether the last frame was abandoned; then the whole screen must be drawn again.
+    fn is_torn(&mut self) -> bool {
+        false
+    }
     /// Switches the terminal's mouse reports on or off.
     fn mouse(&mut self, on: bool);
     /// Writes a file. `None` means that the result will arrive as an event.
@@ -100,6 +104,10 @@ impl Host for Shell {
 
     fn is_slow(&self) -> bool {
         terminal::is_slow()
+    }
+
+    fn is_torn(&mut self) -> bool {
+        terminal::take_torn()
     }
 
     fn mouse(&mut self, on: bool) {

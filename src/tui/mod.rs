@@ -125,10 +125,10 @@ pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u
     let line = options.line(&variable);
     let mut shell = host::Shell { events: sender, unseen: None, line };
     let ended = terminal::open().and_then(|mut screen| {
-        events::read_keys(shell.events.clone())?;
+        input::read_keys(shell.events.clone())?;
         if is_asked {
             // Do not wait for the answer; until it arrives the background is assumed dark.
-            terminal::ask_ground()?;
+            terminal::write(ground::QUESTION)?;
         }
         let ended = run(&mut screen, &events, &mut app, &mut worker, &mut shell, options.frame());
         // Dropping it would print an error if the terminal is gone.

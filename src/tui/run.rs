@@ -173,7 +173,8 @@ pub fn run<B: Backend>(
             let now = Instant::now();
             throttle.spend(host.sent(), due == Due::Now, host.is_slow(), now);
             drawn = Some(now);
-            due = Due::Later;
+            again = host.is_torn();
+            due = if again { Due::Now } else { Due::Later };
         }
     }
 }

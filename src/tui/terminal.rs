@@ -12,7 +12,9 @@ use crossterm::cursor::{Hide, Show};
 use crossterm::event::{DisableBracketedPaste, EnableBracketedPaste};
 use crossterm::queue;
 use crossterm::style::{Attribute, SetAttribute};
-use crossterm::terminal::{EnterAlternateScreen, LeaveAlternateScreen};
+use crossterm::terminal::{
+    EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode,
+};
 use ratatui::Terminal;
 use ratatui::backend::{Backend, ClearType, CrosstermBackend, WindowSize};
 use ratatui::buffer::Cell;
@@ -20,16 +22,13 @@ use ratatui::layout::{Position, Size};
 
 use crate::tui::encode::write_cells;
 use crate::tui::ending::ended_by;
-use crate::tui::ground::QUESTION;
 use crate::tui::tty::Tty;
 
 /// The terminal, opened on first use.
 static TTY: OnceLock<Tty> = OnceLock::new();
 /// Whether the terminal is set up, at least in part, and must be restored.
 static HELD: AtomicBool = AtomicBool::new(false);
-/// Whether the frame being written must be abandoned.
-static CUT: AtomicBool = AtomicBool::new(false);
-/// Whether a frame was abandoned in its middle, perhaps within an escape sequence.
+/// Whether a frame was abandoned, perhaps within an escape sequence.
 static TORN: AtomicBool = AtomicBool::new(false);
 /// Whether the explorer wants mouse reports of the terminal.
 static MOUSE: AtomicBool = AtomicBool::new(false);
@@ -55,6 +54,10 @@ static SLOW: AtomicBool = AtomicBool::new(false);
 /// A write that takes longer than this counts as having waited for the terminal.
 const AT_ONCE: Duration = Duration::from_millis(60);
 
+/// A frame is abandoned if the terminal accepts nothing for this long, so that keys are answered
+/// where nobody reads it.
+const STUCK: Duration = Duration::from_millis(500);
+
 /// Longest wait for the terminal to take the restoring bytes. It applies twice: before and after
 /// the pending output is discarded.
 const ROOM: Duration = Duration::from_millis(200);
@@ -63,7 +66,7 @@ const ROOM: Duration = Duration::from_millis(200);
 /// deadly signal before it stops again.
 const BACKGROUND: Duration = Duration::from_secs(1);
 
-/// Cancels an escape sequence of which the terminal has received only the beginning.
+/// Cancels an escape sequence of an abandoned frame, of which the terminal has only the beginning.
 const CANCEL: &[u8] = b"\x18\x1b\\";
 
 /// Largest numbers of columns and rows drawn: two buffers of this size take 50 MB.
@@ -87,10 +90,10 @@ fn tty() -> Result<&'static Tty, Error> {
 /// # Errors
 /// Fails if the terminal rejects the settings.
 fn enter() -> Result<(), Error> {
-    let tty = tty()?;
     // Set this first, so that a signal during the setup restores the terminal.
     let again = HELD.swap(true, SeqCst);
-    if let Err(error) = tty.make_raw(again) {
+    // While it was stopped, the shell may have changed the settings that crossterm takes for raw.
+    if let Err(error) = disable_raw_mode().and_then(|()| enable_raw_mode()) {
         HELD.store(again, SeqCst);
         return Err(error);
     }
@@ -124,7 +127,7 @@ pub fn leave() {
     let Some(tty) = TTY.get().filter(|_| HELD.load(SeqCst)) else { return };
     let front = tty.in_foreground();
     if front {
-        tty.put_back();
+        let _ = disable_raw_mode();
     }
     // In the background the settings belong to the shell, and writing may stop the process.
     if front || tty.may_write_from_background() {
@@ -143,13 +146,11 @@ pub fn leave() {
             Show,
             SetAttribute(Attribute::Reset)
         );
-        let from = if TORN.load(SeqCst) { 0 } else { CANCEL.len() };
-        if !tty.send_within(bytes.get(from..).unwrap_or(&bytes), ROOM) && front {
-            // The discarded output may have been cut within a sequence, so `CANCEL` is sent too.
+        let sent = tty.send(&bytes, ROOM, || false);
+        if sent.is_ok_and(|sent| sent < bytes.len()) && front {
             tty.drop_pending();
-            tty.send_within(&bytes, ROOM);
+            let _ = tty.send(&bytes, ROOM, || false);
         }
-        TORN.store(false, SeqCst);
     }
     HELD.store(false, SeqCst);
 }
@@ -163,7 +164,6 @@ pub fn leave() {
 pub fn regain() -> Result<(), Error> {
     while let Some(tty) = TTY.get().filter(|_| ended_by().is_none()) {
         if tty.in_foreground() {
-            CUT.store(false, SeqCst);
             return enter();
         }
         // A signal that arrives together with the continuation ends the loop here.
@@ -182,47 +182,36 @@ pub fn regain() -> Result<(), Error> {
     Ok(())
 }
 
-/// Asks the terminal for its background colour, if the report would arrive on the same terminal as
-/// the keys.
-///
-/// # Errors
-/// Fails if the terminal is closed.
-pub fn ask_ground() -> Result<(), Error> {
-    if tty()?.hears_itself() { write(QUESTION) } else { Ok(()) }
-}
-
-/// Abandons the frame being written and all that follow until the terminal is set up again; then
-/// the whole screen must be redrawn.
-pub fn cut_frame() {
-    CUT.store(true, SeqCst);
-}
-
-/// Writes a frame, or a sequence between frames, and waits for the terminal; an abandoned frame is
-/// not written to its end.
+/// Writes a frame, or a sequence between frames. It is abandoned if the terminal accepts nothing for
+/// [`STUCK`], or a signal has ended the program.
 ///
 /// # Errors
 /// Fails if the terminal is closed.
 pub fn write(bytes: &[u8]) -> Result<(), Error> {
-    let cut = || CUT.load(SeqCst) || ended_by().is_some();
     let began = Instant::now();
-    let sent = tty()?.send(bytes, cut)?;
+    let sent = tty()?.send(bytes, STUCK, || ended_by().is_some())?;
     SENT.fetch_add(sent as u64, SeqCst);
     if began.elapsed() > AT_ONCE {
         SLOW.store(true, SeqCst);
     }
-    if sent > 0 && sent < bytes.len() {
+    if sent < bytes.len() {
         TORN.store(true, SeqCst);
     }
     Ok(())
 }
 
-/// Reads typed bytes and returns their number; `None` if nothing arrived. Waits up to `wait`, or
-/// without limit if that is `None`.
+/// Returns whether a frame was abandoned since the last call; then the whole screen must be drawn
+/// again.
+pub fn take_torn() -> bool {
+    TORN.swap(false, SeqCst)
+}
+
+/// Reads typed bytes; none if nothing arrived within `wait`, which has no limit if it is `None`.
 ///
 /// # Errors
 /// Fails if the terminal is closed.
-pub fn read(bytes: &mut [u8], wait: Option<Duration>) -> Result<Option<usize>, Error> {
-    tty()?.read(bytes, wait)
+pub fn read(wait: Option<Duration>) -> Result<Vec<u8>, Error> {
+    tty()?.read(wait)
 }
 
 /// Returns the number of bytes sent to the terminal so far.

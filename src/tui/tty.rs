@@ -1,20 +1,18 @@
-//! The terminal as a device: its settings, its size, and writing to it without ever blocking in the
-//! kernel. A terminal that accepts no output (a frozen SSH client, the copy mode of `screen`, a
-//! pseudo-terminal that nobody reads) would block a thread for ever.
+//! The terminal as a device: its size, the bytes of its keyboard, and writing to it without ever
+//! blocking in the kernel. A terminal that accepts no output (a frozen SSH client, the copy mode of
+//! `screen`, a pseudo-terminal that nobody reads) would block a thread for ever.
 
 use std::fs::File;
-use std::io::{ErrorKind, Result};
+use std::io::{ErrorKind, IsTerminal, Result};
 use std::os::fd::{AsFd, OwnedFd};
-use std::os::unix::ffi::OsStringExt;
 use std::os::unix::fs::OpenOptionsExt;
-use std::path::{Path, PathBuf};
-use std::sync::RwLock;
 use std::time::{Duration, Instant};
 
+use rustix::buffer::spare_capacity;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::OFlags;
-use rustix::io::Errno;
-use rustix::termios::{self, LocalModes, OptionalActions, QueueSelector, Termios};
+use rustix::io::{Errno, retry_on_intr};
+use rustix::termios::{self, LocalModes, QueueSelector};
 
 /// While a write waits for the terminal, time after which it checks again whether to give up.
 const LOOK: Duration = Duration::from_millis(20);
@@ -23,15 +21,15 @@ const LOOK: Duration = Duration::from_millis(20);
 /// kernel reports the terminal as writable.
 const CAUTIOUS: usize = 128;
 
+/// Most bytes of one read.
+const MOST: usize = 4096;
+
 /// An open terminal: the output, and the keyboard, which may be another device.
 pub struct Tty {
     out: OwnedFd,
     keys: OwnedFd,
     /// Whether a write to `out` returns instead of blocking if the terminal accepts no output.
     returns: bool,
-    /// Settings of the terminal before the screen was set up; `None` until then. No thread holds
-    /// this lock while it writes to the terminal.
-    before: RwLock<Option<Termios>>,
 }
 
 impl Tty {
@@ -44,52 +42,24 @@ impl Tty {
             Some(file) => (file.into(), true),
             None => (std::io::stdout().as_fd().try_clone_to_owned()?, false),
         };
+        // As crossterm finds it, which switches its settings.
         let input = std::io::stdin();
-        let keys = if termios::isatty(&input) {
-            input.as_fd().try_clone_to_owned()?
-        } else {
-            match opened(Path::new("/dev/tty")) {
-                Some(file) => file.into(),
-                None => out.try_clone()?,
-            }
+        let keys = match input.is_terminal() {
+            true => input.as_fd().try_clone_to_owned()?,
+            false => File::open("/dev/tty")?.into(),
         };
-        Ok(Self { out, keys, returns, before: RwLock::new(None) })
+        Ok(Self { out, keys, returns })
     }
 
-    /// Makes the terminal send every key as it is pressed. Its present settings are stored for
-    /// [`Self::put_back`], unless they are `ours`, from an earlier call.
-    ///
-    /// # Errors
-    /// The terminal rejects the settings.
-    pub fn make_raw(&self, ours: bool) -> Result<()> {
-        let mut settings = termios::tcgetattr(&self.keys)?;
-        if let Ok(mut before) = self.before.write()
-            && !(ours && before.is_some())
-        {
-            *before = Some(settings.clone());
-        }
-        settings.make_raw();
-        Ok(termios::tcsetattr(&self.keys, OptionalActions::Now, &settings)?)
-    }
-
-    /// Restores the settings that [`Self::make_raw`] stored, without waiting for pending output.
-    pub fn put_back(&self) {
-        // Another thread holds the lock for one assignment at most, so a few attempts suffice.
-        let before = (0..1000).find_map(|_| self.before.try_read().ok());
-        if let Some(before) = before.as_ref().and_then(|before| before.as_ref()) {
-            let _ = termios::tcsetattr(&self.keys, OptionalActions::Now, before);
-        }
-    }
-
-    /// Writes bytes and returns how many were written. If the terminal accepts no output, waits
-    /// until it does or `stop` returns true.
+    /// Writes bytes and returns how many were written: all, unless the terminal accepts nothing for
+    /// `patience`, or `stop` returns true.
     ///
     /// # Errors
     /// The terminal is closed.
-    pub fn send(&self, bytes: &[u8], stop: impl Fn() -> bool) -> Result<usize> {
-        let mut sent = 0;
+    pub fn send(&self, bytes: &[u8], patience: Duration, stop: impl Fn() -> bool) -> Result<usize> {
+        let (mut sent, mut accepted) = (0, Instant::now());
         while let Some(rest) = bytes.get(sent..).filter(|rest| !rest.is_empty()) {
-            if stop() {
+            if stop() || accepted.elapsed() >= patience {
                 break;
             }
             if !self.returns && !self.has_room()? {
@@ -97,7 +67,7 @@ impl Tty {
             }
             let most = if self.returns { rest.len() } else { CAUTIOUS.min(rest.len()) };
             match rustix::io::write(&self.out, rest.get(..most).unwrap_or(rest)) {
-                Ok(count) => sent += count,
+                Ok(count) => (sent, accepted) = (sent + count, Instant::now()),
                 Err(Errno::INTR) => {}
                 Err(Errno::AGAIN) => {
                     // Another process that writes to the terminal may take the free space first:
@@ -112,50 +82,31 @@ impl Tty {
         Ok(sent)
     }
 
-    /// Writes bytes for at most `limit`; returns whether all were written.
-    pub fn send_within(&self, bytes: &[u8], limit: Duration) -> bool {
-        let began = Instant::now();
-        // At least one attempt, however short the limit is.
-        let tried = std::cell::Cell::new(false);
-        let stop = || tried.replace(true) && began.elapsed() >= limit;
-        self.send(bytes, stop).is_ok_and(|sent| sent == bytes.len())
-    }
-
     /// Waits up to [`LOOK`] until the terminal accepts output; returns whether it does.
     fn has_room(&self) -> Result<bool> {
         let wait = Timespec { tv_sec: 0, tv_nsec: i64::from(LOOK.subsec_nanos()) };
-        let mut fds = [PollFd::new(&self.out, PollFlags::OUT)];
-        match poll(&mut fds, Some(&wait)) {
+        match poll(&mut [PollFd::new(&self.out, PollFlags::OUT)], Some(&wait)) {
             Ok(ready) => Ok(ready > 0),
             Err(Errno::INTR) => Ok(false),
             Err(error) => Err(error.into()),
         }
     }
 
-    /// Reads typed bytes and returns their number; `None` if nothing arrived. Waits up to `wait`,
-    /// or without limit if that is `None`.
+    /// Reads typed bytes; none if nothing arrived within `wait`, which has no limit if it is
+    /// `None`.
     ///
     /// # Errors
     /// The terminal is closed.
-    pub fn read(&self, bytes: &mut [u8], wait: Option<Duration>) -> Result<Option<usize>> {
+    pub fn read(&self, wait: Option<Duration>) -> Result<Vec<u8>> {
         let wait = wait.and_then(|wait| Timespec::try_from(wait).ok());
-        // After an interruption nothing is lost: the next poll reports the same bytes.
-        match poll(&mut [PollFd::new(&self.keys, PollFlags::IN)], wait.as_ref()) {
-            Ok(0) | Err(Errno::INTR) => return Ok(None),
-            Ok(_) => {}
-            Err(error) => return Err(error.into()),
+        let mut bytes = Vec::with_capacity(MOST);
+        let mut keys = [PollFd::new(&self.keys, PollFlags::IN)];
+        if retry_on_intr(|| poll(&mut keys, wait.as_ref()))? > 0
+            && retry_on_intr(|| rustix::io::read(&self.keys, spare_capacity(&mut bytes)))? == 0
+        {
+            return Err(ErrorKind::UnexpectedEof.into());
         }
-        match rustix::io::read(&self.keys, bytes) {
-            Ok(0) => Err(ErrorKind::UnexpectedEof.into()),
-            Ok(count) => Ok(Some(count)),
-            Err(Errno::INTR) => Ok(None),
-            Err(Errno::AGAIN) => {
-                // On some systems `poll` reports a terminal as readable when it is not.
-                std::thread::sleep(LOOK);
-                Ok(None)
-            }
-            Err(error) => Err(error.into()),
-        }
+        Ok(bytes)
     }
 
     /// Discards the output that was written but not yet accepted by the terminal.
@@ -180,13 +131,6 @@ impl Tty {
         nix::unistd::tcgetpgrp(&self.keys).map_or(true, |front| front == nix::unistd::getpgrp())
     }
 
-    /// Returns whether keyboard and output are the same terminal, so that its reports arrive among
-    /// the keys.
-    pub fn hears_itself(&self) -> bool {
-        let device = |file: &OwnedFd| rustix::fs::fstat(file).ok().map(|state| state.st_rdev);
-        device(&self.keys).is_some_and(|keys| Some(keys) == device(&self.out))
-    }
-
     /// Returns whether a process in the background may write to the terminal (`TOSTOP` is off).
     pub fn may_write_from_background(&self) -> bool {
         termios::tcgetattr(&self.keys)
@@ -195,21 +139,11 @@ impl Tty {
 }
 
 /// Opens the terminal of standard output again, because non-blocking writes are a property of the
-/// open file, and the shell shares that of standard output. `None` if it cannot be opened.
+/// open file, and the shell shares that of standard output. `None` if it is not the controlling
+/// terminal.
 fn reopened() -> Option<File> {
-    let out = std::io::stdout();
-    let named = termios::ttyname(&out, Vec::new()).ok();
-    let named = named.map(|name| PathBuf::from(std::ffi::OsString::from_vec(name.into_bytes())));
-    // The terminal may have no name here (another root directory). It is the controlling terminal
-    // if it has a foreground process group.
-    let ours = termios::tcgetpgrp(&out).is_ok().then(|| "/dev/tty".into());
-    let ways = [named, Some("/proc/self/fd/1".into()), ours];
-    ways.into_iter().flatten().find_map(|path| opened(&path))
-}
-
-fn opened(path: &Path) -> Option<File> {
+    // Only the controlling terminal has a foreground process group.
+    termios::tcgetpgrp(std::io::stdout()).ok()?;
     let flags = (OFlags::NONBLOCK | OFlags::NOCTTY).bits();
-    let mut options = File::options();
-    options.read(true).write(true).custom_flags(flags.cast_signed());
-    options.open(path).ok().filter(|file| termios::isatty(file))
+    File::options().write(true).custom_flags(flags.cast_signed()).open("/dev/tty").ok()
 }

@@ -1,7 +1,7 @@
 //! Executes commands: each changes the state and returns its effect on the outside. A key is looked
 //! up in the table of commands, or is a letter of the text being typed.
 
-use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use crossterm::event::{KeyCode, KeyEvent};
 
 use super::app::{App, Cursor, HelpState, InputMode, PaletteState, Writing};
 use crate::report::line::{self, clean};
@@ -30,10 +30,6 @@ impl App {
     pub fn key(&mut self, event: &KeyEvent) -> Effect {
         self.files.disturb();
         self.dialogue.is_new = false;
-        if event.modifiers.contains(KeyModifiers::ALT) && event.code != KeyCode::Esc {
-            // Escape followed quickly by a key arrives as Alt with that key.
-            self.act(Command::Close);
-        }
         let chord = Chord::of(event);
         if let Some(command) = lookup(self.keyboard(), chord) {
             let before = self.dialogue.is_closed().then(|| self.seen());
@@ -334,6 +330,7 @@ mod tests {
     use crate::tui::app::tests::on_screen;
     use crate::tui::command::table::valid;
     use crate::tui::{Marker, Theme};
+    use crossterm::event::KeyModifiers;
     use rubscope_solver::scene::Scene;
 
     #[test]

@@ -67,6 +67,22 @@ fn a_signal_ends_it_while_nobody_reads_the_terminal() {
 }
 
 #[test]
+fn keys_are_answered_while_nobody_reads_the_terminal() {
+    let mut terminal = large();
+    terminal.block();
+    // The frame that shows this view finds no reader for longer than is waited for.
+    terminal.send("2");
+    std::thread::sleep(Duration::from_secs(3));
+    terminal.unblock();
+    terminal.wait_for("2 gaps");
+    terminal.wait_for("? help");
+    terminal.block();
+    terminal.send("q");
+    assert_eq!(terminal.wait(), 0);
+    terminal.assert_restored();
+}
+
+#[test]
 fn a_signal_ends_it_in_every_state_read_or_not() {
     let states = [
         ("\r12", "12_"),

@@ -21,16 +21,6 @@ fn pause_stops_time_and_a_step_is_one_step() {
 }
 
 #[test]
-fn escape_and_a_key_in_one_go_are_both_heard() {
-    let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
-    session.press("?");
-    session.app.key(&KeyEvent::new(KeyCode::Char('2'), KeyModifiers::ALT));
-    session.press("");
-    assert!(session.text().contains("2 gaps"), "{}", session.text());
-    assert_eq!(session.app.view().digit(), 2);
-}
-
-#[test]
 fn signals_and_a_lost_terminal_end_with_their_number() {
     for (event, number) in [(ScreenEvent::Signal(15), 15), (ScreenEvent::InputClosed, 1)] {
         let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
