@@ -13,7 +13,7 @@ use serde::Serialize;
 use super::margins::{LimitName, Parameter, shown_margin, speeds};
 use crate::harmonic::{SpeedRanges, lock_windows};
 use crate::model::{LockWindow, Machine};
-use crate::scene::{CheckedScene, SPEED_RANGE, Scene, SceneError, is_speed_range};
+use crate::scene::{CheckedScene, SPEED_RANGE, Scene, SceneError, is_speed_range, keys};
 
 /// Survey of a machine over all nodal diameters.
 ///
@@ -227,11 +227,10 @@ fn searched(range: Option<[f64; 2]>, scene: &Scene) -> [f64; 2] {
 
 /// Returns the scene with equal tips in a round casing.
 fn even(scene: &Scene) -> Scene {
-    let mut scene = scene.clone();
-    let disk = &mut scene.bladed_disk;
-    (disk.tips_m, disk.tip_scatter_m, disk.longest_tip_m, disk.orbit_m) = Default::default();
-    scene.casing.out_of_round_m = 0.0;
-    scene
+    let (mut even, paper) = (scene.clone(), Scene::base());
+    let uneven = scene.unevenness().into_iter().filter_map(|(path, _)| keys::find(path).ok());
+    uneven.for_each(|key| (key.set)(&mut even, (key.get)(&paper)));
+    even
 }
 
 /// Returns the intervals of these speeds in which a lock holds, from the lowest; `None` if unknown.

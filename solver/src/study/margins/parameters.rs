@@ -1,6 +1,7 @@
 //! The parameters of a scene: how each is read and changed.
 
 use std::f64::consts::TAU;
+use std::sync::LazyLock;
 
 use crate::scene::{Allowed, ContactLaw, Key, MOST_HZ, Scene, SceneError, Value, keys};
 
@@ -29,62 +30,44 @@ pub(super) fn is_length(path: &str) -> bool {
 pub struct Parameter {
     /// Path of its key, or `clearance`.
     pub path: &'static str,
+    /// Whether most machines do not have it; it is shown only if it is not zero.
+    is_seldom: bool,
 }
 
-/// All parameters, in the order of the scene file. The initial state is not included, because the
-/// touching pulse assumes a start from rest.
-pub const PARAMETERS: &[Parameter] = &{
-    const fn at(path: &'static str) -> Parameter {
-        Parameter { path }
-    }
-    [
-        at(CLEARANCE),
-        at(LENGTH),
-        at(keys::BLADE_INERTIA),
-        at(keys::BLADE_STIFFNESS),
-        at(BLADE_FREQUENCY),
-        at(keys::BLADE_COUPLING),
-        at(keys::BLADE_DAMPING),
-        at(keys::STIFFENING),
-        at(keys::RADIAL_COUPLING),
-        at(keys::TIP_SCATTER),
-        at(keys::LONGEST_TIP),
-        at(keys::ORBIT),
-        at(RADIUS),
-        at(keys::CASING_MASS),
-        at(keys::CASING_STIFFNESS),
-        at(CASING_FREQUENCY),
-        at(keys::CASING_DAMPING),
-        at(keys::TANGENTIAL_RATIO),
-        at(keys::CLEARANCE_LOSS),
-        at(keys::OUT_OF_ROUND),
-        at(keys::FRICTION),
-        at(STIFFNESS),
-        at(SMOOTHING),
-        at(keys::SPEED),
-        at(keys::SPEED_RAMP),
-        at(keys::PULSE),
-        at(keys::PULSE_TIME),
-    ]
-};
+/// Tables of a scene whose numbers are parameters. Limits of the pulse assume a start from rest, so
+/// the initial state has none.
+const TABLES: [&str; 4] = ["bladed_disk", "casing", "contact", "operation"];
+/// Real keys of these tables that no limit knows; directions are none, too.
+const UNKNOWN: [&str; 2] = [keys::MISTUNING, keys::RESTITUTION];
+/// Parameters that are zero in the paper, but shown for every machine.
+const SHOWN: [&str; 4] =
+    [keys::RADIAL_COUPLING, keys::TANGENTIAL_RATIO, keys::FRICTION, keys::SPEED_RAMP];
 
-/// Parameters that most machines do not have; they are shown only if they are not zero.
-const SELDOM: [&str; 6] = [
-    keys::STIFFENING,
-    keys::CLEARANCE_LOSS,
-    keys::TIP_SCATTER,
-    keys::LONGEST_TIP,
-    keys::ORBIT,
-    keys::OUT_OF_ROUND,
-];
+/// All parameters, in the order of the scene file: the clearance, and the real keys of the machine
+/// and its operation. The frequency of a mode follows the stiffness that it replaces.
+pub static PARAMETERS: LazyLock<Vec<Parameter>> = LazyLock::new(|| {
+    let paper = Scene::base();
+    let is_known = |key: &&Key| {
+        let table = key.path.split('.').next().unwrap_or_default();
+        let is_real = matches!(key.allowed, Allowed::Real { .. }) && key.unit != "rad";
+        is_real && TABLES.contains(&table) && !UNKNOWN.contains(&key.path)
+    };
+    let seldom = |key: &Key| (key.get)(&paper) == Value::Real(0.0) && !SHOWN.contains(&key.path);
+    let mut all = vec![Parameter { path: CLEARANCE, is_seldom: false }];
+    for key in keys::KEYS.iter().filter(is_known) {
+        all.push(Parameter { path: key.path, is_seldom: seldom(key) });
+        let frequency = FREQUENCIES.iter().find(|(_, stiffness)| *stiffness == key.path);
+        all.extend(frequency.map(|(path, _)| Parameter { path, is_seldom: false }));
+    }
+    all
+});
 
 /// Iterates over the parameters that affect a scene: those of a lining only if there is one, rarely
 /// used ones only if they are not zero, and of each mode its frequency or its stiffness, whichever
 /// the scene gives.
 pub fn acting(scene: &Scene) -> impl Iterator<Item = &'static Parameter> {
     let lined = scene.solver.contact == ContactLaw::Smooth;
-    let changes =
-        |parameter: &Parameter| !SELDOM.contains(&parameter.path) || parameter.of(scene) != 0.0;
+    let changes = |parameter: &Parameter| !parameter.is_seldom || parameter.of(scene) != 0.0;
     let given = scene.frequencies_in_use();
     let is_given = move |parameter: &Parameter| {
         let mut pairs = FREQUENCIES.iter().zip(given);
