@@ -227,7 +227,7 @@ mod tests {
         while playback.is_computing() {
             playback.compute();
         }
-        playback.play(5e-3);
+        playback.play(5e-3, false);
         app.apply_snapshot(playback.snapshot());
         let svg = svg(&app);
         assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));

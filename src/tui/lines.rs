@@ -258,8 +258,8 @@ impl Lines {
         }
         match std::mem::replace(&mut self.app.dialogue.mode, InputMode::Main) {
             InputMode::Main => return Ok(Some(true)),
-            InputMode::Scenes(_) => self.list("scene", out)?,
-            InputMode::Lessons(_) => self.list("lesson", out)?,
+            InputMode::Scenes => self.list("scene", out)?,
+            InputMode::Lessons => self.list("lesson", out)?,
             _ => {
                 self.refuse(&format!("{} needs a screen, or more words; help", found.what), out)?
             }

@@ -9,7 +9,9 @@ use ratatui::{Terminal, backend::Backend};
 
 use super::app::App;
 use super::app::layout::{LEAST_HEIGHT, LEAST_WIDTH};
-use super::command::Effect;
+use super::command::chord::Chord;
+use super::command::table::lookup;
+use super::command::{Command, Effect};
 use super::engine::{Engine, Order};
 use super::events::ScreenEvent;
 use super::files::FileResult;
@@ -136,7 +138,7 @@ pub fn run<B: Backend>(
         };
         while let Some(event) = next {
             if let ScreenEvent::Key(key) = &event
-                && app.is_turn(key)
+                && let Some(Command::Turn { .. }) = lookup(app.keyboard(), Chord::of(key))
             {
                 app.knobs.again = events.repeats(&event);
             }

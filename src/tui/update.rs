@@ -3,7 +3,7 @@
 
 use crossterm::event::{KeyCode, KeyEvent};
 
-use super::app::{App, Cursor, HelpState, InputMode, PaletteState, Writing};
+use super::app::{App, Cursor, HelpState, InputMode, Writing};
 use crate::report::line::{self, clean};
 use crate::tui::app::layout::MOST_BESIDE;
 use crate::tui::app::play::RATES;
@@ -144,11 +144,11 @@ impl App {
             }
             Command::Copy => return Ok(Effect::Copy(self.copied())),
             Command::Palette(typed) => {
-                self.dialogue.open(InputMode::Palette(PaletteState::typing(typed)));
+                self.dialogue.open(InputMode::Palette(typed.into()));
                 return Ok(self.find_scenes());
             }
             Command::Scenes => {
-                self.dialogue.open(InputMode::Scenes(None));
+                self.dialogue.open(InputMode::Scenes);
                 return Ok(self.find_scenes());
             }
             command if self.move_in_list(&command) => {}

@@ -53,7 +53,7 @@ impl Engine for Sliced {
             playback.compute();
         }
         if order.playing {
-            playback.play(1e-4);
+            playback.play(1e-4, false);
         }
         Some(playback.snapshot())
     }

@@ -80,7 +80,7 @@ impl Engine for Stepwise {
             playback.compute();
         }
         if order.playing {
-            playback.play(self.stride);
+            playback.play(self.stride, false);
         } else if !self.fresh {
             return None;
         }

@@ -98,7 +98,7 @@ fn the_copied_command_repeats_live_changes_at_their_instants() {
         session.press_each(" p");
         session.press_each("\n505\n");
         let app = &session.app;
-        let command = app.command();
+        let command = app.command_line().to_string();
         assert_eq!(command.matches(" --at ").count(), 3, "{command}");
         let run = app.full_run().unwrap();
         assert!(!command.contains('\''), "{command}");

@@ -8,11 +8,6 @@ use crate::tui::views::id::ViewId;
 use rubscope_solver::scene::{DEFAULT, Scene};
 
 impl App {
-    /// Returns the command line that repeats the run, as one string.
-    pub fn command(&self) -> String {
-        self.command_line().to_string()
-    }
-
     /// Builds `rubscope run SCENE` with an option for every key that differs from the scene, and
     /// `--at` for every live change.
     pub fn command_line(&self) -> CommandLine {

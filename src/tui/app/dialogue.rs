@@ -3,7 +3,7 @@
 
 use super::help::help_bottom;
 use super::layout::placed;
-use super::model::{App, Dialogue, HelpState, InputMode, PaletteState, Reading};
+use super::model::{App, Dialogue, HelpState, InputMode, Reading};
 use super::words;
 use crate::tui::command::table::Group;
 use crate::tui::command::{Command, Effect};
@@ -17,7 +17,7 @@ impl Dialogue {
 
     /// Opens a dialogue and resets the page of the note.
     pub fn open(&mut self, mode: InputMode) {
-        (self.mode, self.note_page) = (mode, 0);
+        (self.mode, self.place, self.note_page) = (mode, None, 0);
     }
 
     /// Opens a question, which keys can answer only after a frame has shown it.
@@ -33,9 +33,10 @@ impl Dialogue {
     /// Returns the text field that has the keyboard; `None` if no dialogue with one is open.
     pub fn typed(&mut self) -> Option<&mut Field> {
         match &mut self.mode {
-            InputMode::Typing(text) | InputMode::Naming(_, text) => Some(text),
+            InputMode::Typing(text) | InputMode::Naming(_, text) | InputMode::Palette(text) => {
+                Some(text)
+            }
             InputMode::Help(help) => Some(&mut help.filter),
-            InputMode::Palette(palette) => Some(&mut palette.typed),
             _ => None,
         }
     }
@@ -55,8 +56,8 @@ impl App {
             InputMode::Typing(_) | InputMode::Naming(..) => Group::Typing,
             InputMode::Replacing(..) => Group::Replacing,
             InputMode::Leaving => Group::Leaving,
-            InputMode::Lessons(_) => Group::Lessons,
-            InputMode::Scenes(_) => Group::SceneList,
+            InputMode::Lessons => Group::Lessons,
+            InputMode::Scenes => Group::SceneList,
         }
     }
 
@@ -64,22 +65,20 @@ impl App {
     /// edited.
     pub fn typed_on(&mut self) {
         self.knobs.refusal = None;
-        match &mut self.dialogue.mode {
-            InputMode::Help(help) => help.scroll = 0,
-            InputMode::Palette(palette) => palette.place = 0,
-            _ => {}
+        if self.dialogue.typed().is_some() {
+            self.dialogue.place = None;
         }
     }
 
     /// Takes what is typed or selected in the open dialogue, or the selected answer of a lesson.
     pub fn accept(&mut self) -> Result<Effect, String> {
         match self.dialogue.mode.clone() {
-            InputMode::Palette(palette) => return self.choose_command(&palette),
+            InputMode::Palette(typed) => return self.choose_command(&typed.text()),
             InputMode::Naming(purpose, name) => return self.write(purpose, &name.text(), false),
-            InputMode::Lessons(place) => self.begin_lesson(place),
-            InputMode::Scenes(chosen) => {
+            InputMode::Lessons => self.begin_lesson(self.dialogue.place.unwrap_or(0)),
+            InputMode::Scenes => {
                 let entries = self.scene_entries();
-                if let Some(entry) = entries.get(self.scene_place(&entries, chosen)) {
+                if let Some(entry) = entries.get(self.scene_place(&entries)) {
                     self.open_entry(entry)?;
                 }
             }
@@ -139,21 +138,19 @@ impl App {
     /// commands.
     pub fn move_in_list(&mut self, command: &Command) -> bool {
         let last = |count: usize| count.saturating_sub(1);
-        let (from, last) = match &self.dialogue.mode {
-            InputMode::Help(help) => (help.scroll, help_bottom(self, help)),
-            InputMode::Palette(palette) => {
-                (palette.place, last(words::found(self, &palette.typed.text()).len()))
-            }
-            InputMode::Lessons(place) => (*place, last(lessons::all().len())),
-            InputMode::Scenes(chosen) => {
+        let (usual, last) = match &self.dialogue.mode {
+            InputMode::Help(help) => (0, help_bottom(self, help)),
+            InputMode::Palette(typed) => (0, last(words::found(self, &typed.text()).len())),
+            InputMode::Lessons => (0, last(lessons::all().len())),
+            InputMode::Scenes => {
                 let entries = self.scene_entries();
-                (self.scene_place(&entries, *chosen), last(entries.len()))
+                (self.scene_place(&entries), last(entries.len()))
             }
             _ => return false,
         };
         // A resize can leave the place past the end; then a key up would have no visible effect at
         // first.
-        let from = from.min(last);
+        let from = self.dialogue.place.unwrap_or(usual).min(last);
         let page = usize::from(placed(self).body.height.saturating_sub(2)).max(1);
         let to = match command {
             Command::Below => from + 1,
@@ -164,15 +161,7 @@ impl App {
             Command::Last => last,
             _ => return false,
         };
-        let to = to.min(last);
-        match &mut self.dialogue.mode {
-            InputMode::Help(HelpState { scroll: place, .. })
-            | InputMode::Palette(PaletteState { place, .. })
-            | InputMode::Lessons(place) => *place = to,
-            InputMode::Scenes(place) => *place = Some(to),
-            _ => {}
-        }
-        self.dialogue.note_page = 0;
+        (self.dialogue.place, self.dialogue.note_page) = (Some(to.min(last)), 0);
         true
     }
 
@@ -197,10 +186,10 @@ mod tests {
     fn what_is_typed_is_of_the_open_dialogue_and_a_list_begins_at_its_top() {
         let mut app = on_screen();
         assert!(app.dialogue.is_closed() && app.dialogue.asked && app.dialogue.typed().is_none());
-        let palette = |place| InputMode::Palette(PaletteState { typed: "ab".into(), place });
-        app.dialogue.open(palette(3));
+        app.dialogue.open(InputMode::Palette("ab".into()));
+        app.dialogue.place = Some(3);
         app.typed_on();
-        assert_eq!(app.dialogue.mode, palette(0));
+        assert_eq!(app.dialogue.place, None);
         app.dialogue.ask(InputMode::Replacing(Purpose::Save, "a".into()));
         assert!(!app.dialogue.asked);
         app.dialogue.asked = true;

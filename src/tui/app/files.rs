@@ -82,10 +82,10 @@ impl App {
         entries
     }
 
-    /// Returns the index of the selected scene: `chosen`, or the open one.
-    pub fn scene_place(&self, entries: &[SceneEntry], chosen: Option<usize>) -> usize {
+    /// Returns the index of the selected scene: the chosen one, or the open one.
+    pub fn scene_place(&self, entries: &[SceneEntry]) -> usize {
         let open = || entries.iter().position(|entry| entry.open).unwrap_or(0);
-        chosen.unwrap_or_else(open).min(entries.len().saturating_sub(1))
+        self.dialogue.place.unwrap_or_else(open).min(entries.len().saturating_sub(1))
     }
 }
 
@@ -141,14 +141,13 @@ impl App {
 
     /// Applies the list of scenes that were read; the selection stays on the same scene.
     pub fn scenes_found(&mut self, found: FoundScenes) {
-        let chosen = match &self.dialogue.mode {
-            InputMode::Scenes(Some(place)) => self.scene_entries().get(*place).cloned(),
-            _ => None,
-        };
+        let is_listed = self.dialogue.mode == InputMode::Scenes;
+        let chosen = self.dialogue.place.filter(|_| is_listed);
+        let chosen = chosen.and_then(|place| self.scene_entries().get(place).cloned());
         self.files.found = found;
         if let Some(chosen) = chosen {
             let same = |entry: &SceneEntry| entry.name == chosen.name && entry.file == chosen.file;
-            self.dialogue.mode = InputMode::Scenes(self.scene_entries().iter().position(same));
+            self.dialogue.place = self.scene_entries().iter().position(same);
         }
     }
 
@@ -224,12 +223,12 @@ const LIST_WIDTH: u16 = 64;
 /// Widest scene name.
 const NAME_WIDTH: usize = 24;
 
-/// Draws the list of scenes; `chosen` is selected, or else the open scene.
-pub fn draw_scenes(app: &App, buffer: &mut Buffer, area: Rect, chosen: Option<usize>) {
+/// Draws the list of scenes.
+pub fn draw_scenes(app: &App, buffer: &mut Buffer, area: Rect) {
     let look = &app.appearance;
     let mark = look.ellipsis();
     let entries = app.scene_entries();
-    let place = app.scene_place(&entries, chosen);
+    let place = app.scene_place(&entries);
     let found = &app.files.found;
     let head = match (&found.missing, found.reading) {
         (_, true) => "Scenes: reading the files of this folder".to_string(),
@@ -430,7 +429,7 @@ mod tests {
         app.files.source = Some(Source { name: "other/mine.toml".into(), scene: Scene::base() });
         let entries = app.scene_entries();
         assert!(entries[0].open && entries[0].name == "other/mine.toml");
-        assert_eq!(app.scene_place(&entries, None), 0);
+        assert_eq!(app.scene_place(&entries), 0);
     }
 
     #[test]

@@ -158,7 +158,8 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, help: &HelpState) {
     let width = usize::from(area.width);
     let below = list(area);
     let (lines, count) = lines(app, below, &help.filter.text());
-    let first = help.scroll.min(lines.len().saturating_sub(usize::from(below.height)));
+    let first =
+        app.dialogue.place.unwrap_or(0).min(lines.len().saturating_sub(usize::from(below.height)));
     let last = (first + usize::from(below.height)).min(lines.len());
     let place = format!("{last}/{}", lines.len());
     let room = width.saturating_sub(place.len() + 1);

@@ -97,7 +97,8 @@ impl App {
         let Some((lesson, progress)) = self.current_lesson() else {
             let done = &self.lessons.done;
             let next = lessons::all().iter().position(|lesson| done.next(lesson).is_some());
-            self.dialogue.open(InputMode::Lessons(next.unwrap_or(0)));
+            self.dialogue.open(InputMode::Lessons);
+            self.dialogue.place = next;
             return;
         };
         let (number, step) = (progress.lesson, progress.step);
@@ -215,7 +216,8 @@ impl App {
         self.knobs.refusal = None;
         self.knobs.live = step.live;
         self.run.set_compare(step.compare && answered);
-        self.play.show_closely(step.page_s);
+        self.play.tempo.slow_at_events = true;
+        self.play.tempo.zoom = step.page_s.map_or(0, |length| self.play.zoom_for(length));
         let then = step.then_view.as_ref().filter(|_| answered);
         let view = then.or(step.view.as_ref()).and_then(|word| ViewId::from_word(word));
         if let Some(view) = view {
@@ -239,7 +241,7 @@ impl App {
 const WIDE: usize = 110;
 
 /// Draws the list of lessons with the progress in each.
-pub fn draw_list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
+pub fn draw_list(app: &App, buffer: &mut Buffer, area: Rect) {
     let look = &app.appearance;
     let width = usize::from(area.width);
     let bold = look.style(Role::Text).add_modifier(Modifier::BOLD);
@@ -265,7 +267,7 @@ pub fn draw_list(app: &App, buffer: &mut Buffer, area: Rect, place: usize) {
     };
     let lines = lessons::all().iter().enumerate().map(line);
     let below = Rect { y: area.y + 2, height: area.height.saturating_sub(2), ..area };
-    let first = draw_lines(look, buffer, below, lines, place);
+    let first = draw_lines(look, buffer, below, lines, app.dialogue.place.unwrap_or(0));
     for (row, index) in (below.y..below.bottom()).zip(first..lessons::all().len()) {
         app.note(Rect { y: row, height: 1, ..below }, Command::Lesson(index));
     }

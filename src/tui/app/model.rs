@@ -254,6 +254,9 @@ pub struct Cursor {
 pub struct Dialogue {
     /// What the keyboard acts on.
     pub mode: InputMode,
+    /// Index of the selected line of the list, or of the first line of the help; `None` until one is
+    /// chosen.
+    pub place: Option<usize>,
     /// How often the note of the selected scene was turned to its next page; after the last page
     /// follows the first.
     pub note_page: usize,
@@ -266,7 +269,7 @@ pub struct Dialogue {
 
 impl Default for Dialogue {
     fn default() -> Self {
-        Self { mode: InputMode::Main, note_page: 0, is_new: false, asked: true }
+        Self { mode: InputMode::Main, place: None, note_page: 0, is_new: false, asked: true }
     }
 }
 
@@ -279,18 +282,18 @@ pub enum InputMode {
     Typing(Field),
     /// The help, with its search.
     Help(HelpState),
-    /// The command palette: commands are searched by name.
-    Palette(PaletteState),
+    /// The command palette, with the command or search words typed so far.
+    Palette(Field),
     /// Typing a file name.
     Naming(Purpose, Field),
     /// Asking whether to replace the existing file of this name.
     Replacing(Purpose, String),
     /// Asking whether to quit with a changed scene.
     Leaving,
-    /// The list of lessons, with the index of the selected one.
-    Lessons(usize),
-    /// The list of scenes, with the index of the selected one; `None` selects the open scene.
-    Scenes(Option<usize>),
+    /// The list of lessons.
+    Lessons,
+    /// The list of scenes; before another is chosen, the open one is selected.
+    Scenes,
 }
 
 /// The open help.
@@ -301,17 +304,6 @@ pub struct HelpState {
     /// Whether every letter goes into the search; otherwise the first one may be a key of the
     /// help, such as `q`.
     pub searches: bool,
-    /// Number of lines scrolled past.
-    pub scroll: usize,
-}
-
-/// The open command palette.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct PaletteState {
-    /// The command or search words typed so far.
-    pub typed: Field,
-    /// Index of the selected entry among the matches.
-    pub place: usize,
 }
 
 /// The open scene, and the files of the directory.

@@ -2,45 +2,39 @@
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-use super::model::{App, PaletteState};
+use super::model::App;
 use super::words::{self, Found};
 use crate::tui::command::Effect;
+use crate::tui::field::Field;
 use crate::tui::list::draw_list;
 use crate::tui::text::{columns, print, shorten, wrap};
 use crate::tui::theme::Role;
 
-impl PaletteState {
-    /// Creates a palette in which `text` is typed.
-    pub fn typing(text: &str) -> Self {
-        Self { typed: text.into(), place: 0 }
-    }
-}
-
 impl App {
-    /// Executes the selected command.
+    /// Executes the command that is selected, or else typed.
     ///
     /// # Errors
     /// One line that says why nothing matches, in which case the palette stays open, or why the
     /// command is refused.
-    pub fn choose_command(&mut self, palette: &PaletteState) -> Result<Effect, String> {
-        let typed = palette.typed.text();
-        let chosen = words::found(self, &typed).into_iter().nth(palette.place);
-        let chosen = chosen.map_or_else(|| words::only(self, &typed), Ok)?;
+    pub fn choose_command(&mut self, typed: &str) -> Result<Effect, String> {
+        let place = self.dialogue.place.unwrap_or(0);
+        let chosen = words::found(self, typed).into_iter().nth(place);
+        let chosen = chosen.map_or_else(|| words::only(self, typed), Ok)?;
         self.dialogue.close();
         self.update(chosen.command)
     }
 }
 
 /// Draws the command palette.
-pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, palette: &PaletteState) {
+pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, typed: &Field) {
     let look = &app.appearance;
     let (width, mark) = (usize::from(area.width), look.ellipsis());
-    let found = words::found(app, &palette.typed.text());
-    let hint = match palette.typed.text().as_str() {
+    let found = words::found(app, &typed.text());
+    let hint = match typed.text().as_str() {
         "" => "  t 0.3 ms, speed 450, blade 7, scene rub, or any words",
         _ => "",
     };
-    let typed = palette.typed.shown(width.saturating_sub(2));
+    let typed = typed.shown(width.saturating_sub(2));
     let head = shorten(&format!(": {typed}{hint}"), width, mark);
     print(buffer, area, 0, &head, look.style(Role::Focus));
     let status = app.status.as_ref().map_or(Vec::new(), |text| wrap(&look.spell(text), width));
@@ -64,7 +58,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, palette: &PaletteState) 
         let pad = width.saturating_sub(columns(&what) + columns(&beside) + 1);
         (format!("{what}{}{beside}", " ".repeat(pad)), Role::Text)
     };
-    let place = palette.place.min(found.len().saturating_sub(1));
+    let place = app.dialogue.place.unwrap_or(0).min(found.len().saturating_sub(1));
     draw_list(look, buffer, below, found.iter().map(line), place);
 }
 
@@ -82,7 +76,7 @@ mod tests {
     }
 
     fn look_for(app: &mut App, typed: &str) {
-        app.dialogue.open(InputMode::Palette(PaletteState::typing(typed)));
+        app.dialogue.open(InputMode::Palette(typed.into()));
     }
 
     #[test]

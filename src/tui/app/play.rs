@@ -79,13 +79,6 @@ impl Play {
         self.moves.push(Move::To(begin_s));
     }
 
-    /// Slows down at changes of contact, on pages of at least `page_s` seconds; `None` sets the
-    /// usual length.
-    pub fn show_closely(&mut self, page_s: Option<f64>) {
-        self.tempo.slow_at_events = true;
-        self.tempo.zoom = page_s.map_or(0, |length| self.zoom_for(length));
-    }
-
     /// Returns whether the result of the latest jump is that of this number; it is reported once.
     pub fn is_met(&mut self, number: u64) -> bool {
         let is_new = self.jump == Some(number);
@@ -102,7 +95,7 @@ impl Play {
 
     /// Returns the largest zoom whose page is at least `length` seconds long, or the smallest zoom
     /// if no page is.
-    fn zoom_for(&self, length: f64) -> i32 {
+    pub fn zoom_for(&self, length: f64) -> i32 {
         let mut all = (-MOST_ZOOM..=MOST_ZOOM).rev();
         let long = |zoom: &i32| page_length(self.rate(), *zoom) >= length * (1.0 - 1e-9);
         all.find(long).unwrap_or(-MOST_ZOOM)

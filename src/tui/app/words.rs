@@ -350,27 +350,22 @@ fn lessons() -> impl Iterator<Item = Found> {
     })
 }
 
-/// Returns whether a command makes no sense in the list: it opens or closes the list itself.
-fn only_for_keys(command: &Command) -> bool {
-    matches!(command, Command::Palette("") | Command::Close)
-}
-
-/// Returns the list entry of a key binding.
-fn bound_entry(binding: &Binding) -> Found {
-    let key = binding.keys.first().map(ToString::to_string).unwrap_or_default();
-    let also = table::keys_text(binding);
-    Found::of("", binding.what, binding.command.clone()).beside(key).also(also)
-}
-
 fn everything(app: &App) -> impl Iterator<Item = Found> {
     let asked = table::of(Group::Question).filter(|_| app.is_asked());
-    let bound = asked.chain(table::main()).filter(|binding| !only_for_keys(&binding.command));
+    // Those that open or close the list itself make no sense in it.
+    let makes_sense =
+        |binding: &&Binding| !matches!(binding.command, Command::Palette("") | Command::Close);
+    let bound = asked.chain(table::main()).filter(makes_sense).map(|binding| {
+        let key = binding.keys.first().map(ToString::to_string).unwrap_or_default();
+        let also = table::keys_text(binding);
+        Found::of("", binding.what, binding.command.clone()).beside(key).also(also)
+    });
     let knobs = KNOBS.iter().enumerate().map(|(place, knob)| {
         Found::of("knob", format!("{}: {}", knob.label, knob.does), Command::Select(place))
             .beside(knob.text(&app.scene))
             .also(format!("{} {}", knob.path, plain(knob.label)))
     });
-    bound.map(bound_entry).chain(knobs).chain(scenes(app)).chain(lessons())
+    bound.chain(knobs).chain(scenes(app)).chain(lessons())
 }
 
 /// Rates how well an entry matches all the words: lower is better, `None` if some word is missing.

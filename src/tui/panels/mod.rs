@@ -8,7 +8,7 @@ use ratatui::widgets::{Clear, Widget};
 use ratatui::{Frame, buffer::Buffer, layout::Rect, style::Modifier};
 
 use super::app::knobs::{panel as knobs, strip};
-use super::app::layout::{LEAST_HEIGHT, LEAST_WIDTH};
+use super::app::layout::{LEAST_HEIGHT, LEAST_WIDTH, Places};
 use super::app::{App, InputMode, files, help, layout, lesson, palette};
 use super::command::Command;
 use super::field::CURSOR;
@@ -40,40 +40,12 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
     }
     let places = layout::places(area, app);
     header::draw(app, buffer, places.header);
-    if let InputMode::Help(help) = &app.dialogue.mode {
-        help::draw(app, buffer, places.body, help);
-    } else if let InputMode::Palette(palette) = &app.dialogue.mode {
-        palette::draw(app, buffer, places.body, palette);
-    } else if let InputMode::Lessons(place) = app.dialogue.mode {
-        lesson::draw_list(app, buffer, places.body, place);
-    } else if let InputMode::Scenes(place) = app.dialogue.mode {
-        files::draw_scenes(app, buffer, places.body, place);
-    } else {
-        if let Some(area) = places.lesson {
-            lesson::draw_step(app, buffer, area);
-        }
-        if places.column {
-            knobs::panel(app, buffer, places.knobs, 0);
-        } else {
-            strip::draw(app, buffer, places.knobs, places.list.is_some());
-        }
-        for (view, area) in &places.charts {
-            let at = ViewArea { area: *area, digit: view.digit(), large: *view == app.view() };
-            if !at.large {
-                app.note(*area, Command::View(*view));
-            }
-            view.panel().draw(app, buffer, at);
-        }
-        if let Some(area) = places.ends {
-            ends::draw(app, buffer, area);
-        }
-        if let Some(area) = places.list {
-            Clear.render(area, buffer);
-            knobs::panel(app, buffer, area, strip::count(app, places.knobs.width));
-        } else if !places.column {
-            let below = places.body.bottom() - places.knobs.y;
-            knobs::refusal(app, buffer, Rect { height: below, ..places.knobs }, 0);
-        }
+    match &app.dialogue.mode {
+        InputMode::Help(help) => help::draw(app, buffer, places.body, help),
+        InputMode::Palette(typed) => palette::draw(app, buffer, places.body, typed),
+        InputMode::Lessons => lesson::draw_list(app, buffer, places.body),
+        InputMode::Scenes => files::draw_scenes(app, buffer, places.body),
+        _ => main_screen(app, buffer, &places),
     }
     footer::draw(app, buffer, places.footer);
     for cell in &mut buffer.content {
@@ -86,5 +58,34 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
         let others = buffer.content.iter_mut().filter(|cell| !cell.symbol().is_ascii());
         let plain = |sign: &str| if sign.starts_with(CUT) { '>' } else { '?' };
         others.for_each(|cell| _ = cell.set_char(plain(cell.symbol())));
+    }
+}
+
+/// Draws the lesson, the knobs and the charts.
+fn main_screen(app: &App, buffer: &mut Buffer, places: &Places) {
+    if let Some(area) = places.lesson {
+        lesson::draw_step(app, buffer, area);
+    }
+    if places.column {
+        knobs::panel(app, buffer, places.knobs, 0);
+    } else {
+        strip::draw(app, buffer, places.knobs, places.list.is_some());
+    }
+    for (view, area) in &places.charts {
+        let at = ViewArea { area: *area, digit: view.digit(), large: *view == app.view() };
+        if !at.large {
+            app.note(*area, Command::View(*view));
+        }
+        view.panel().draw(app, buffer, at);
+    }
+    if let Some(area) = places.ends {
+        ends::draw(app, buffer, area);
+    }
+    if let Some(area) = places.list {
+        Clear.render(area, buffer);
+        knobs::panel(app, buffer, area, strip::count(app, places.knobs.width));
+    } else if !places.column {
+        let below = places.body.bottom() - places.knobs.y;
+        knobs::refusal(app, buffer, Rect { height: below, ..places.knobs }, 0);
     }
 }

@@ -208,18 +208,15 @@ impl Playback {
             false => rate,
         };
         let turns = self.order.shows(ViewId::Frame) || self.order.shows(ViewId::Gaps);
-        self.play_within(due * rate, turns);
+        self.play(due * rate, turns);
         let played = self.t - now;
         self.reached.add(wall.as_secs_f64(), played);
         played != 0.0
     }
 
-    /// Plays `seconds` of simulated time, or less if the solver is too slow.
-    pub fn play(&mut self, seconds: f64) {
-        self.play_within(seconds, false);
-    }
-
-    fn play_within(&mut self, seconds: f64, turns: bool) {
+    /// Plays `seconds` of simulated time, or less if the solver is too slow; if a picture `turns` with
+    /// the wave, never so far that it could not be followed.
+    pub fn play(&mut self, seconds: f64, turns: bool) {
         self.limit = Limit::None;
         if !self.arrive() || self.order.cursor_s.is_some() {
             return;

@@ -96,7 +96,7 @@ fn the_reading_cursor_has_the_state_of_a_run_that_stops_there() {
         scene.solver.end_s = 0.01;
         let mut order = order(scene.clone());
         let mut playback = computed(&order);
-        playback.play(8e-3);
+        playback.play(8e-3, false);
         // Times before and after that of the motion.
         for t in [0.0, 1.8e-3, 7.3e-3, 9.1e-3] {
             order.cursor_s = Some(t);
@@ -116,12 +116,12 @@ fn the_reading_cursor_has_the_state_of_a_run_that_stops_there() {
 fn the_reading_cursor_knows_changes_of_the_motion() {
     let mut order = order(Scene::builtin("rocking").unwrap());
     let mut playback = computed(&order);
-    playback.play(2e-3);
+    playback.play(2e-3, false);
     let fired = order.film.fired(2e-3);
     refilmed(&mut playback, &mut order, fired);
-    playback.play(3e-3);
+    playback.play(3e-3, false);
     let now = playback.head.at.motion.state();
-    playback.play(1e-3);
+    playback.play(1e-3, false);
     order.cursor_s = Some(now.t_s);
     playback.apply(&order);
     assert_eq!(playback.snapshot().moment.unwrap().state, now);
@@ -141,7 +141,7 @@ fn a_change_acts_on_both_laws_at_its_instant_and_undo_takes_it_away() {
         [own.trace, results.comparison.unwrap().trace]
     };
     let before = results(&mut playback);
-    playback.play(2e-3);
+    playback.play(2e-3, false);
     let unchanged = order.film.clone();
     let fired = unchanged.fired(2e-3);
     refilmed(&mut playback, &mut order, fired);

@@ -5,14 +5,9 @@
 pub mod panel;
 pub mod strip;
 
-use crossterm::event::KeyEvent;
-
 use super::model::{App, Knobs, LessonProgress, Past};
 use crate::report::line::clean;
 use crate::report::number::rounded;
-use crate::tui::command::Command;
-use crate::tui::command::chord::Chord;
-use crate::tui::command::table::lookup;
 use crate::tui::knobs::{KNOBS, Knob};
 use rubscope_solver::motion::Change;
 use rubscope_solver::scene::{CheckedScene, Scene, SceneError, SolverKind, Value};
@@ -70,11 +65,6 @@ impl App {
 }
 
 impl App {
-    /// Returns whether a key turns the selected knob.
-    pub fn is_turn(&self, key: &KeyEvent) -> bool {
-        matches!(lookup(self.keyboard(), Chord::of(key)), Some(Command::Turn { .. }))
-    }
-
     /// Turns the selected knob once for this press of its key and once for each further press that
     /// is waiting. It stops at the first refused value and shows the reason.
     pub fn turn(&mut self, up: bool, coarse: bool) {
@@ -248,6 +238,7 @@ impl App {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tui::command::Command;
 
     #[test]
     fn undo_and_redo_come_back_and_a_new_change_forgets_what_was_undone() {
@@ -268,7 +259,7 @@ mod tests {
         let mut app = crate::tui::app::tests::on_screen();
         app.turn_plain().unwrap();
         assert!(app.run.film.scene.solver.plain && !app.files.is_changed(&app.scene));
-        assert_eq!(app.command(), "rubscope run paper-nd3 --plain");
+        assert_eq!(app.command_line().to_string(), "rubscope run paper-nd3 --plain");
         app.turn_plain().unwrap();
         assert!(!app.run.film.scene.solver.plain);
         app.update(Command::Undo).unwrap();

@@ -17,7 +17,8 @@ use rubscope_solver::scene::Allowed;
 
 /// Draws the knobs from the index `from` on as a column.
 pub fn panel(app: &App, buffer: &mut Buffer, area: Rect, from: usize) {
-    let area = inside(area);
+    // Without the gap to the charts.
+    let area = Rect { width: area.width.saturating_sub(1), ..area };
     let look = &app.appearance;
     let lines = lines(app, area.height, from);
     for (y, line) in (area.y..area.bottom()).zip(&lines) {
@@ -41,7 +42,8 @@ pub fn panel(app: &App, buffer: &mut Buffer, area: Rect, from: usize) {
             ColumnLine::Bar(place) => {
                 app.note(row, Command::Select(place));
                 if let Some(knob) = KNOBS.get(place) {
-                    draw(app, buffer, bar_cells(row), knob);
+                    let cells = Rect { x: row.x + 2, width: row.width.saturating_sub(3), ..row };
+                    draw(app, buffer, cells, knob);
                 }
             }
         }
@@ -232,28 +234,14 @@ fn all(app: &App, open: &[Group], telling: bool, from: usize) -> Vec<ColumnLine>
         };
         for place in group.places().filter(|place| *place >= from).filter(shown) {
             lines.push(ColumnLine::Knob(place));
-            if from == 0 && place == app.knobs.selected && has_bar(app, place) {
+            let range = |knob: &Knob| knob.range(&app.scene, &app.files.opened, &app.machine);
+            let is_selected = place == app.knobs.selected;
+            if from == 0 && is_selected && KNOBS.get(place).and_then(range).is_some() {
                 lines.push(ColumnLine::Bar(place));
             }
         }
     }
     lines
-}
-
-/// Returns whether the knob at this index has a numeric range, and so a bar.
-fn has_bar(app: &App, place: usize) -> bool {
-    let (scene, opened) = (&app.scene, &app.files.opened);
-    KNOBS.get(place).is_some_and(|knob| knob.range(scene, opened, &app.machine).is_some())
-}
-
-/// Returns the area of the bar in a line of the column.
-pub fn bar_cells(area: Rect) -> Rect {
-    Rect { x: area.x + 2, width: area.width.saturating_sub(3), ..area }
-}
-
-/// Returns the area of the knobs without the gap to the charts.
-pub fn inside(area: Rect) -> Rect {
-    Rect { width: area.width.saturating_sub(1), ..area }
 }
 
 /// Draws the bar of the selected knob into `cells`; its end marks are outside. Knobs without a
