@@ -1,103 +1,142 @@
-//! Shared parts of figures: drawing scale, text and colours.
-
-use plotters::coord::Shift;
-use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
+//! Elements of a figure: texts, lines and markers, and the colours of the series.
 
 use rubscope_solver::motion::Verdict;
 use rubscope_solver::scene::keys::is_plain;
 use rubscope_solver::study::figures::Style;
 
-/// Ratio of drawing units to displayed pixels. The backend rounds to whole units, which would make
-/// smooth lines jagged at a scale of 1.
-pub const FINE: u32 = 4;
+use super::escaped;
+
+/// A place from the upper left corner of a panel or figure \[px\].
+pub type Place = [f64; 2];
+
 /// Font size of all text except titles \[px\].
-pub const TEXT: i32 = 15;
+pub const TEXT: f64 = 12.0;
 /// Average width of a character relative to the font size: an upper estimate, for wide fonts.
-const LETTER: f64 = 0.47;
+const LETTER: f64 = 0.59;
 
 /// Colours that colour-blind readers can distinguish (hues of Okabe and Ito); their lightness
-/// differs too, for print in grey.
-const COLOURS: [RGBColor; 6] = [
-    RGBColor(0, 96, 165),
-    RGBColor(225, 110, 10),
-    RGBColor(0, 150, 110),
-    RGBColor(205, 130, 175),
-    RGBColor(240, 175, 20),
-    RGBColor(50, 50, 50),
-];
+/// differs too, for print in grey. Red, green and blue.
+const COLOURS: [[u8; 3]; 6] =
+    [[0, 96, 165], [225, 110, 10], [0, 150, 110], [205, 130, 175], [240, 175, 20], [50, 50, 50]];
 
-pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-pub type Drawn<T> = Result<T, Box<dyn std::error::Error>>;
-
-/// Converts displayed pixels to drawing units.
-pub fn px(length: i32) -> i32 {
-    length * FINE as i32
+/// Returns how many characters of text fit into `width` \[px\].
+pub fn letters_in(width: f64) -> usize {
+    (width / (LETTER * TEXT)) as usize
 }
 
-pub fn font(size: i32) -> (&'static str, i32) {
-    ("sans-serif", px(size))
+/// Estimates the width of a text \[px\].
+pub fn width_of(text: &str) -> f64 {
+    (LETTER * TEXT * text.chars().count() as f64).ceil()
 }
 
-/// Draws a text with its upper left corner at `(x, y)` \[px\].
-pub fn write_at(area: &Area, text: &str, (x, y): (i32, i32), size: i32) -> Drawn<()> {
+/// Returns a text that begins at `at`, on its base line; `more` are further attributes, such as the
+/// anchor that puts its middle or its end there.
+pub fn text(words: &str, [x, y]: Place, more: &str) -> String {
     // Scene text is checked, but library callers may pass any text.
-    let text: String = text.chars().filter(|c| is_plain(*c)).collect();
-    let style = font(size).into_text_style(area).pos(Pos::new(HPos::Left, VPos::Top));
-    Ok(area.draw_text(&text, &style, (px(x), px(y)))?)
+    let plain: String = words.chars().filter(|c| is_plain(*c)).collect();
+    let words = with_subscripts(&escaped(&signed(&plain)));
+    format!("<text x=\"{x:.1}\" y=\"{y:.1}\" {more}>{words}</text>\n")
 }
 
-/// Returns how many characters of font size `size` \[px\] fit into `width` \[px\].
-pub fn letters_in(width: u32, size: i32) -> usize {
-    (f64::from(width) / (LETTER * f64::from(size))) as usize
+/// Replaces the hyphen of negative numbers by a minus sign.
+fn signed(text: &str) -> String {
+    let mut before = ' ';
+    let mut letters = text.chars().peekable();
+    let mut out = String::new();
+    while let Some(c) = letters.next() {
+        let number = letters.peek().is_some_and(char::is_ascii_digit);
+        out.push(if c == '-' && number && !before.is_alphanumeric() { '−' } else { c });
+        before = c;
+    }
+    out
 }
 
-/// Estimates the width of a text at the usual size \[px\].
-pub fn width_of(text: &str) -> u32 {
-    (LETTER * f64::from(TEXT) * text.chars().count() as f64).ceil() as u32
+/// Turns what follows an underscore into a subscript: `u_c`, `n_d`.
+fn with_subscripts(text: &str) -> String {
+    let mut parts = text.split('_');
+    let start = parts.next().unwrap_or_default().to_string();
+    parts.fold(start, |start, part| {
+        let end = part.find(|c: char| !c.is_alphanumeric()).unwrap_or(part.len());
+        let (low, rest) = part.split_at(end);
+        let low = format!("<tspan dy=\"3\" font-size=\"75%\">{low}</tspan>");
+        format!("{start}{low}<tspan dy=\"-3\">{rest}</tspan>")
+    })
+}
+
+/// Returns a line through these points; `more` are further attributes, such as the dashes.
+pub fn line(points: &[Place], colour: &str, width: f64, more: &str) -> String {
+    let points: Vec<String> = points.iter().map(|[x, y]| format!("{x:.1},{y:.1}")).collect();
+    let points = points.join(" ");
+    format!(
+        "<polyline points=\"{points}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" \
+         {more}/>\n"
+    )
+}
+
+/// Returns a rectangle between two opposite corners.
+pub fn rectangle([a, b]: [Place; 2], colour: &str, more: &str) -> String {
+    let [[x, across], [y, down]] = [0, 1].map(|axis| {
+        let (low, high) = (a[axis].min(b[axis]), a[axis].max(b[axis]));
+        [low, high - low]
+    });
+    format!(
+        "<rect x=\"{x:.2}\" y=\"{y:.2}\" width=\"{across:.2}\" height=\"{down:.2}\" \
+         fill=\"{colour}\" {more}/>\n"
+    )
+}
+
+/// Returns a circle with this fill and colour of its line.
+pub fn circle([x, y]: Place, radius: f64, fill: &str, ink: &str) -> String {
+    format!(
+        "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius}\" fill=\"{fill}\" stroke=\"{ink}\"/>\n"
+    )
 }
 
 /// Returns the strokes of marker `number`, relative to its centre; a disc has none. The markers are
 /// open shapes, so that several at one point stay visible, and there is one more than colours.
-pub fn strokes(number: usize, radius: i32) -> Vec<Vec<(i32, i32)>> {
-    let r = px(radius);
-    let (low, wide) = (r / 2, r * 7 / 8);
+pub fn strokes(number: usize, r: f64) -> Vec<Vec<Place>> {
+    let (low, wide) = (0.5 * r, 0.875 * r);
     match number % 7 {
         0 => vec![],
-        1 => vec![vec![(-r, -r), (r, -r), (r, r), (-r, r), (-r, -r)]],
-        2 => vec![vec![(-r, -r), (r, r)], vec![(-r, r), (r, -r)]],
-        3 => vec![vec![(0, -r), (wide, low), (-wide, low), (0, -r)]],
-        4 => vec![vec![(0, -r), (r, 0), (0, r), (-r, 0), (0, -r)]],
-        5 => vec![vec![(-r, 0), (r, 0)], vec![(0, -r), (0, r)]],
-        _ => vec![vec![(0, r), (wide, -low), (-wide, -low), (0, r)]],
+        1 => vec![vec![[-r, -r], [r, -r], [r, r], [-r, r], [-r, -r]]],
+        2 => vec![vec![[-r, -r], [r, r]], vec![[-r, r], [r, -r]]],
+        3 => vec![vec![[0.0, -r], [wide, low], [-wide, low], [0.0, -r]]],
+        4 => vec![vec![[0.0, -r], [r, 0.0], [0.0, r], [-r, 0.0], [0.0, -r]]],
+        5 => vec![vec![[-r, 0.0], [r, 0.0]], vec![[0.0, -r], [0.0, r]]],
+        _ => vec![vec![[0.0, r], [wide, -low], [-wide, -low], [0.0, r]]],
     }
 }
 
-pub fn colour(style: Style) -> RGBColor {
+/// Returns the colour of a style as SVG writes it.
+pub fn colour(style: Style) -> String {
     let index = match style {
-        Style::Faint => return RGBColor(130, 130, 130),
+        Style::Faint => return written([130, 130, 130]),
         Style::Line(n) | Style::Dashed(n) | Style::Dotted(n) | Style::Bars(n) => n,
         Style::Discs(n, _) | Style::Rings(n, _) => n,
-        Style::Cells(verdict) => return colour_of(verdict),
-        Style::Dots => return RGBColor(60, 60, 60),
-        Style::Edge => return BLACK,
+        Style::Cells(verdict) => return written(colour_of(verdict)),
+        Style::Dots => return written([60, 60, 60]),
+        Style::Edge => return written([0, 0, 0]),
     };
-    *COLOURS.get(index % COLOURS.len()).unwrap_or(&BLACK)
+    written(COLOURS[index % COLOURS.len()])
+}
+
+fn written([red, green, blue]: [u8; 3]) -> String {
+    format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
 /// Returns the colour of a verdict. The colours differ in lightness, for colour-blind readers and
 /// print in grey.
-fn colour_of(verdict: Verdict) -> RGBColor {
+fn colour_of(verdict: Verdict) -> [u8; 3] {
     match verdict {
-        Verdict::Decay => RGBColor(240, 240, 240),
-        Verdict::Bounce => RGBColor(190, 210, 235),
-        Verdict::Slip => RGBColor(235, 165, 40),
-        Verdict::Whirl => RGBColor(80, 175, 120),
-        Verdict::Forced => RGBColor(62, 10, 0),
-        Verdict::Divergent => RGBColor(105, 50, 130),
-        Verdict::Locked => RGBColor(25, 50, 110),
-        Verdict::Adhesive => RGBColor(200, 65, 80),
-        Verdict::Failed => RGBColor(0, 0, 0),
+        Verdict::Decay => [240, 240, 240],
+        Verdict::Bounce => [190, 210, 235],
+        Verdict::Slip => [235, 165, 40],
+        Verdict::Whirl => [80, 175, 120],
+        Verdict::Forced => [62, 10, 0],
+        Verdict::Divergent => [105, 50, 130],
+        Verdict::Locked => [25, 50, 110],
+        Verdict::Adhesive => [200, 65, 80],
+        Verdict::Failed => [0, 0, 0],
     }
 }
 
@@ -105,11 +144,10 @@ fn colour_of(verdict: Verdict) -> RGBColor {
 mod tests {
     use super::*;
 
-    fn grey(RGBColor(red, green, blue): RGBColor) -> f64 {
-        0.299 * f64::from(red) + 0.587 * f64::from(green) + 0.114 * f64::from(blue)
-    }
-
-    fn assert_apart(colours: impl Iterator<Item = RGBColor>, least: f64) {
+    fn assert_apart(colours: impl Iterator<Item = [u8; 3]>, least: f64) {
+        let grey = |[red, green, blue]: [u8; 3]| {
+            0.299 * f64::from(red) + 0.587 * f64::from(green) + 0.114 * f64::from(blue)
+        };
         let mut greys: Vec<f64> = colours.map(grey).collect();
         greys.sort_by(f64::total_cmp);
         assert!(greys.windows(2).all(|pair| pair[1] - pair[0] >= least), "{greys:?}");
@@ -123,7 +161,7 @@ mod tests {
 
     #[test]
     fn marks_differ_in_shape() {
-        let mut all: Vec<_> = (0..7).map(|number| strokes(number, 4)).collect();
+        let mut all: Vec<_> = (0..7).map(|number| format!("{:?}", strokes(number, 4.0))).collect();
         all.sort();
         all.dedup();
         assert_eq!(all.len(), 7);
