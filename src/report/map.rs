@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use super::number::{per_speed, rounded, short, speed_unit};
 use super::summary::OF_WHAT;
 use super::symbols::greek;
-use super::table::Table;
+use super::table::{Table, TableCell};
 use super::{CommandLine, Sheet};
 use rubscope_solver::motion::Verdict;
 use rubscope_solver::scene::{Key, keys};
@@ -67,28 +67,35 @@ pub fn leaf(axis: &Axis) -> &str {
 
 /// Returns the names of the x and the y axis in files: the last parts of their keys, or the full
 /// keys if the last parts are equal.
-pub(super) fn names(plan: &MapPlan) -> [&str; 2] {
+fn names(plan: &MapPlan) -> [&str; 2] {
     let MapPlan { x, y, .. } = plan;
     if leaf(x) == leaf(y) { [&x.path, &y.path] } else { [leaf(x), leaf(y)] }
 }
 
 /// Returns the table for files, one row per cell.
 pub fn table(map: &Map) -> Table<'_> {
+    Table::new(columns(&map.plan).map(String::from), map.plan.len(), |index| row(map, index))
+}
+
+/// Returns the names of the columns of [`row`].
+pub(super) fn columns(plan: &MapPlan) -> [&str; 5] {
+    let [x, y] = names(plan);
+    [x, y, "verdict", "sensitive", "depends_on_step"]
+}
+
+/// Returns the cells of the table for the map cell `index`.
+pub(super) fn row(map: &Map, index: usize) -> Vec<TableCell> {
     let (x, y) = (&map.plan.x, &map.plan.y);
-    let [first, second] = names(&map.plan).map(String::from);
-    let headings = [first, second, "verdict".into(), "sensitive".into(), "depends_on_step".into()];
-    Table::new(headings, map.plan.len(), move |index| {
-        let (row, column) = (index as u32 / x.count, index as u32 % x.count);
-        let cell = map.at(column, row);
-        vec![
-            // A plain number: `to_string` never uses a power of ten.
-            x.value(column).to_string().into(),
-            y.value(row).to_string().into(),
-            cell.map(|cell| cell.verdict.to_string()).into(),
-            cell.map(|cell| cell.sensitive).into(),
-            cell.map(|cell| cell.depends_on_step).into(),
-        ]
-    })
+    let (row, column) = (index as u32 / x.count, index as u32 % x.count);
+    let cell = map.at(column, row);
+    vec![
+        // A plain number: `to_string` never uses a power of ten.
+        x.value(column).to_string().into(),
+        y.value(row).to_string().into(),
+        cell.map(|cell| cell.verdict.to_string()).into(),
+        cell.map(|cell| cell.sensitive).into(),
+        cell.map(|cell| cell.depends_on_step).into(),
+    ]
 }
 
 /// Returns the factor from the SI unit of an axis to the unit shown: 1 except for speeds in rpm.

@@ -9,7 +9,8 @@ use std::io::{BufRead, BufReader, Read, Write};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::{map::names, table::Table};
+use super::map::{self, row};
+use super::table::Table;
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::{Axis, AxisError, Cell, Map, MapPlan};
 
@@ -74,28 +75,19 @@ pub fn write(map: &Map, out: &mut dyn Write) -> std::io::Result<()> {
     let (scene, sensitivity) = (scene.to_toml(), *sensitivity);
     let origin = Origin { scene, x: x.clone(), y: y.clone(), sensitivity };
     writeln!(out, "{START}{}", serde_json::to_string(&origin)?)?;
-    let computed = map.cells.iter().enumerate().filter_map(|(index, cell)| Some((index, (*cell)?)));
-    let computed: Vec<(usize, Cell)> = computed.collect();
-    let headings = columns(&map.plan).map(String::from);
-    let table = Table::new(headings, computed.len(), |place| {
-        let (index, cell) = computed[place];
-        let (row, column) = (index / x.count as usize, index % x.count as usize);
-        vec![
-            (index as u64).into(),
-            x.value(column as u32).to_string().into(),
-            y.value(row as u32).to_string().into(),
-            cell.verdict.as_ref().into(),
-            cell.sensitive.into(),
-            cell.depends_on_step.into(),
-        ]
+    let is_computed = |index: &usize| map.cells[*index].is_some();
+    let computed: Vec<usize> = (0..map.cells.len()).filter(is_computed).collect();
+    let table = Table::new(columns(&map.plan).map(String::from), computed.len(), |place| {
+        let index = computed[place];
+        std::iter::once((index as u64).into()).chain(row(map, index)).collect()
     });
     table.write_csv(out)
 }
 
 /// Returns the names of the columns of a share.
 fn columns(plan: &MapPlan) -> [&str; 6] {
-    let [x, y] = names(plan);
-    ["cell", x, y, "verdict", "sensitive", "depends_on_step"]
+    let [x, y, verdict, sensitive, depends_on_step] = map::columns(plan);
+    ["cell", x, y, verdict, sensitive, depends_on_step]
 }
 
 /// Reads named shares of one map and joins them.

@@ -5,7 +5,7 @@ use crate::report::number::{count, micro, rounded, scaled, short, with_unit};
 use crate::report::table::{Heading, Table, TableCell};
 use rubscope_solver::scene::{ContactLaw, keys};
 use rubscope_solver::study::margins::{
-    ChangedVerdict, LimitName, Margins, Robustness, VerdictChange, parameter,
+    ChangedVerdict, Limit, LimitName, Margins, Robustness, VerdictChange, parameter,
 };
 
 /// Significant digits shown of a value, as many as the values that the search tries have.
@@ -67,13 +67,18 @@ pub fn sentence(found: &Robustness, margins: &Margins, wide: bool) -> String {
     format!("{}.{foot}", parts.join("; "))
 }
 
-/// Names the smallest lobes of the casing that end the lock, in micrometres and as a part of the
-/// clearance; `None` if no number of lobes is known to.
-fn out_of_round(margins: &Margins) -> Option<String> {
+/// Returns the limit of roundness with the smallest lobes of the casing that end the lock, their
+/// height \[m\] and their number; `None` if no number of lobes is known to.
+pub fn smallest_lobes(margins: &Margins) -> Option<(&Limit, f64, u32)> {
     let heights = margins.limits.iter().filter(|limit| limit.name == LimitName::Roundness);
-    let each = heights.filter_map(|limit| Some((limit.value?, limit.lobes?, limit.present?)));
-    let (height, lobes, now) = each.min_by(|(a, ..), (b, ..)| a.total_cmp(b))?;
-    let now = short(rounded(1e6 * now, 2));
+    let each = heights.filter_map(|limit| Some((limit, limit.value?, limit.lobes?)));
+    each.min_by(|(_, a, _), (_, b, _)| a.total_cmp(b))
+}
+
+/// Names the smallest lobes that end the lock, in micrometres and as a part of the clearance.
+fn out_of_round(margins: &Margins) -> Option<String> {
+    let (limit, height, lobes) = smallest_lobes(margins)?;
+    let now = short(rounded(1e6 * limit.present?, 2));
     let [height, part] = um_and_part(height, margins);
     let lobes = count(u64::from(lobes), "lobe");
     Some(format!(
@@ -82,17 +87,18 @@ fn out_of_round(margins: &Margins) -> Option<String> {
     ))
 }
 
-/// Says from which deviation of the tips on the worst ones take a push from the lock or, where the
-/// run is not `held`, the best ones let pushes hold one; `None` if that is not known.
-fn tips(margins: &Margins, held: bool) -> Option<String> {
+/// Returns the deviation of the tips \[m\] from which on the worst ones take a push from the lock
+/// or, where the run is not `held`, the best ones let pushes hold one; `None` if that is not known.
+pub fn tip_deviation(margins: &Margins, held: bool) -> Option<f64> {
     let scene = &margins.scene;
     let deviation = scene.machine().tip_deviation(scene.operation.speed_rad_s)?;
-    let does = match (held, deviation > 0.0) {
-        (true, true) => "may end it too",
-        (false, false) => "may let pushes hold a lock",
-        _ => return None,
-    };
-    let [deviation, part] = um_and_part(deviation.abs(), margins);
+    (held == (deviation > 0.0)).then_some(deviation.abs())
+}
+
+/// Says what the tips do from that deviation on.
+fn tips(margins: &Margins, held: bool) -> Option<String> {
+    let [deviation, part] = um_and_part(tip_deviation(margins, held)?, margins);
+    let does = if held { "may end it too" } else { "may let pushes hold a lock" };
     Some(format!("tips off by {deviation} {}m ({part} % of the clearance) {does}", micro()))
 }
 

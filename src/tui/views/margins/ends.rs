@@ -4,6 +4,7 @@
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
+use crate::report::margins::robust::{smallest_lobes, tip_deviation};
 use crate::report::margins::words::from_here;
 use crate::report::number::{count, rounded};
 use crate::report::table::{Heading, Table, TableCell};
@@ -17,7 +18,7 @@ use crate::tui::views::ViewId;
 use crate::tui::views::panel::{ViewArea, not_yet, title};
 use rubscope_solver::motion::Verdict;
 use rubscope_solver::scene::keys::{OUT_OF_ROUND, SPEED};
-use rubscope_solver::study::margins::{ChangedVerdict, LimitName, Margins, VerdictChange};
+use rubscope_solver::study::margins::{ChangedVerdict, Margins, VerdictChange};
 
 /// Significant digits of a value.
 const DIGITS: usize = 3;
@@ -95,20 +96,15 @@ fn changed(row: &VerdictChange, locked: bool) -> Option<Row> {
 
 /// Returns the smallest lobes that end the lock of a round casing; `None` if none are known to.
 fn lobes(margins: &Margins) -> Option<Row> {
-    let heights = margins.limits.iter().filter(|limit| limit.name == LimitName::Roundness);
-    let each = heights.filter_map(|limit| Some((limit.value?, limit.lobes?)));
-    let (height, lobes) = each.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
+    let (_, height, lobes) = smallest_lobes(margins)?;
     let now = format!("now 0, {}", count(lobes.into(), "lobe"));
     Some(imperfection("out of round", height, now, margins))
 }
 
-/// Returns the deviation of equal tips from which on the worst of them take a push from the lock or,
-/// without one, the best of them can let pushes hold one; `None` if that is not known.
+/// Returns the deviation of equal tips that ends a lock or, without one, lets pushes hold one.
 fn tips(margins: &Margins, locked: bool) -> Option<Row> {
-    let scene = &margins.scene;
-    let deviation = scene.machine().tip_deviation(scene.operation.speed_rad_s)?;
-    let row = || imperfection("tips off by", deviation.abs(), "now 0".into(), margins);
-    (locked == (deviation > 0.0)).then(row)
+    let deviation = tip_deviation(margins, locked)?;
+    Some(imperfection("tips off by", deviation, "now 0".into(), margins))
 }
 
 /// Returns the row of a length \[m\] by which a machine is imperfect.
