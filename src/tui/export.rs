@@ -1,4 +1,4 @@
-//! The screen as a picture (SVG).
+//! The screen as a picture (SVG): the export of the wheel, and the pictures of the pages.
 
 use ratatui::{
     buffer::{Buffer, Cell},
@@ -270,6 +270,6 @@ mod tests {
     #[test]
     fn no_data_is_said_and_not_written() {
         let app = App::new(Scene::base().checked().unwrap(), Theme::Dark, Marker::Braille);
-        assert_eq!(app.panel().csv(&app).unwrap_err(), "there is no data yet");
+        assert_eq!(app.panel().file(&app, "csv").unwrap_err(), "there is no data yet");
     }
 }

@@ -191,11 +191,9 @@ impl Lines {
         }
         if let Some(view) = self.printed_view {
             self.app.status = None;
-            let lines = view.panel().lines(&self.app, usize::from(WIDTH)).unwrap_or_default();
-            return lines
-                .iter()
-                .try_for_each(|line| writeln!(out, "{}", self.spelled(&clean(line))))
-                .map(|()| true);
+            let lines = view.panel().text(&self.app);
+            let mut lines = lines.lines().map(|line| self.spelled(&clean(line)));
+            return lines.try_for_each(|line| writeln!(out, "{line}")).map(|()| true);
         }
         for line in self.changed(&before) {
             writeln!(out, "{}", self.spelled(&clean(&line)))?;
@@ -429,7 +427,7 @@ mod tests {
     fn margins_survey_and_the_lock_answer_with_their_rows() {
         let text = answers(b"margins\n");
         assert!(
-            text.lines().any(|line| line.starts_with("Ω_lock") && line.contains("411.9")),
+            text.lines().any(|line| line.starts_with("omega_lock") && line.contains("411.9")),
             "{text}"
         );
         // The margins of the run itself come before the limits.

@@ -300,8 +300,12 @@ impl App {
         }
         let content = match purpose {
             Purpose::Save => Ok(self.scene_to_save().to_toml()),
-            Purpose::Export if name.ends_with(".svg") => Ok(export::svg(self)),
-            Purpose::Export => self.panel().csv(self),
+            // No figure has the wheel.
+            Purpose::Export if name.ends_with(".svg") && self.is_large(ViewId::Frame) => {
+                Ok(export::svg(self))
+            }
+            Purpose::Export if name.ends_with(".svg") => self.panel().file(self, "svg"),
+            Purpose::Export => self.panel().file(self, "csv"),
         };
         let content = content.map_err(|reason| format!("nothing exported: {reason}"))?;
         self.status = Some(format!("writing {name} ..."));

@@ -138,7 +138,7 @@ fn any_two_knobs_are_on_the_axes_and_in_the_file() {
     assert_eq!(plan.x.path, "casing.damping_ratio");
     assert_eq!((plan.x.from, plan.x.to), (0.0, 0.2));
     assert_eq!(plan.y.path, "clearance");
-    let file = session.app.panel().csv(&session.app).unwrap();
+    let file = session.app.panel().file(&session.app, "csv").unwrap();
     let first = file.lines().next().unwrap();
     assert!(first.starts_with("damping_ratio,"), "{first}");
     assert_eq!(file.lines().count(), 1 + plan.len());

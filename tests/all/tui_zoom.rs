@@ -179,7 +179,7 @@ fn the_gap_of_a_blade_at_an_instant_is_read_in_every_chart() {
     let said = session.app.status.clone().unwrap();
     assert!(said.starts_with("blade 7: gap ") && said.ends_with(" at 300.000 µs"), "{said}");
     // The file names the instant, and has its gaps.
-    let file = session.app.panel().csv(&session.app).unwrap();
+    let file = session.app.panel().file(&session.app, "csv").unwrap();
     let row = format!("0.0003,7,{}", motion.blade_gaps()[6]);
     assert!(file.starts_with("t_s,blade,gap_m\n") && file.contains(&row), "{row}\n{file}");
     // The arrows go back to the knobs, and the instant stays.

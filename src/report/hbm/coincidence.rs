@@ -37,14 +37,23 @@ fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicErro
     };
     sheet.fact("coincidences_rad_s", markers);
     sheet.fact("shifted_coincidence_rad_s", shifted);
-    sheet.table("points", title, Table::of(points, CURVE));
-    sheet.chart("amplitude of the blades [rad]", &[["blade_amplitude_rad", "wave that lasts"]]);
-    sheet.chart("growth of rest [1/s]", &[["growth_1_s", "growth"]]);
+    add_points(points, title, sheet);
     Ok(())
 }
 
+/// Adds the table of the growth from rest and of the lasting wave, and both as charts.
+pub fn add_points<'a>(
+    points: impl AsRef<[CoincidencePoint]> + 'a,
+    title: impl Into<String>,
+    sheet: &mut Sheet<'a>,
+) {
+    sheet.table("points", title, Table::of(points, CURVE));
+    sheet.chart("amplitude of the blades [rad]", &[["blade_amplitude_rad", "wave that lasts"]]);
+    sheet.chart("growth of rest [1/s]", &[["growth_1_s", "growth"]]);
+}
+
 /// Columns of the growth from rest and of the lasting wave, one row per rotor speed.
-pub const CURVE: &[Column<'_, CoincidencePoint>] = &[
+const CURVE: &[Column<'_, CoincidencePoint>] = &[
     ("speed_rad_s", |point| point.speed_rad_s.into()),
     ("growth_1_s", |point| point.growth_1_s.into()),
     ("blade_amplitude_rad", |point| point.blade_amplitude_rad.into()),

@@ -36,9 +36,14 @@ fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicErro
     sheet.fact("missing_rad_s", sweep.missing);
     sheet.fact("blades_a", &blades[0]);
     sheet.fact("blades_b", &blades[1]);
-    sheet.table("points", "", Table::of(sweep.points, POINTS).shown(7));
-    sheet.chart("multiplier [N]", &[["multiplier_a_n", "a"], ["multiplier_b_n", "b"]]);
+    add_points(sweep.points, sheet);
     Ok(())
+}
+
+/// Adds the table of the locked motion, and its multipliers as a chart.
+pub fn add_points<'a>(points: impl AsRef<[LockedPoint]> + 'a, sheet: &mut Sheet<'a>) {
+    sheet.table("points", "", Table::of(points, POINTS).shown(7));
+    sheet.chart("multiplier [N]", &[["multiplier_a_n", "a"], ["multiplier_b_n", "b"]]);
 }
 
 /// Names the blades that hold the wave, and the equations.
@@ -59,7 +64,7 @@ fn held(sweep: &Sweep, blades: &[Vec<u32>; 2]) -> String {
 }
 
 /// Columns of the locked motion; text has the first ones.
-pub const POINTS: &[Column<'_, LockedPoint>] = &[
+const POINTS: &[Column<'_, LockedPoint>] = &[
     ("speed_rad_s", |point| point.speed_rad_s.into()),
     ("multiplier_a_n", |point| point.multipliers_n[0].into()),
     ("multiplier_b_n", |point| point.multipliers_n[1].into()),

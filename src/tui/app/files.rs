@@ -1,6 +1,5 @@
-//! Files: the open scene, the list of scenes that can be opened, writing the scene, the data of the
-//! large chart or the screen, and the command line that repeats the run. No file is replaced without
-//! asking.
+//! Files: the open scene, the list of scenes that can be opened, and writing the scene or the large
+//! chart. No file is replaced without asking.
 
 use std::path::{Component, Path, PathBuf};
 

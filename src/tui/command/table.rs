@@ -180,7 +180,7 @@ const BEFORE_VIEWS: &[Binding] = &[
     bind!(Views: [letter('X')], Command::Palette("across "), "choose the knob of the map's columns"),
     bind!(Views: [letter('Y')], Command::Palette("up "), "choose the knob of the map's rows"),
     bind!(Files: [letter('s')], Command::Ask(Purpose::Save), "save the scene"),
-    bind!(Files: [letter('e')], Command::Ask(Purpose::Export), "export the large chart (.csv) or the screen (.svg)"),
+    bind!(Files: [letter('e')], Command::Ask(Purpose::Export), "export the large chart (.csv) or its figure (.svg)"),
     bind!(Files: [letter('y')], Command::Copy, "copy the command line of the large view (OSC 52)"),
     bind!(Views: [letter('D')], Command::Survey, "survey: margins of all nodal diameters, or of n_d alone"),
     bind!(Views: [letter('v')], Command::Charts, "one, two, three or four charts"),

@@ -1,11 +1,11 @@
 //! The trait of a view, and what views share: the title row with its legend, the labels of marked
-//! speeds and levels, and CSV export.
+//! speeds and levels, and the files of a view.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Modifier, Style};
 
-use crate::report::table::Table;
+use crate::report::Sheet;
 use crate::tui::app::layout::LEAST_ROWS;
 use crate::tui::app::{App, Cursor, Parts};
 use crate::tui::appearance::Appearance;
@@ -22,24 +22,27 @@ pub trait ViewPanel: Sync {
     /// Draws the view.
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea);
 
-    /// Returns the view's data as a table; `None` before there are any.
-    fn table<'a>(&self, app: &'a App) -> Option<Table<'a>>;
+    /// Returns the view's data as a sheet; `None` before there are any.
+    fn sheet<'a>(&self, app: &'a App) -> Option<Sheet<'a>>;
 
-    /// Exports the view's data as CSV.
+    /// Exports the view's data as a figure (`svg`) or a table (`csv`).
     ///
     /// # Errors
     /// Says why there is nothing to export.
-    fn csv(&self, app: &App) -> Result<String, String> {
-        let table = self.table(app).filter(|table| !table.is_empty());
+    fn file(&self, app: &App, ending: &str) -> Result<String, String> {
+        let has_rows = |sheet: &Sheet| sheet.file().is_some_and(|table| !table.is_empty());
+        let sheet = self.sheet(app).filter(has_rows);
         let mut bytes = Vec::new();
-        let written = table.ok_or("there is no data yet")?.write_csv(&mut bytes);
+        let written = sheet.ok_or("there is no data yet")?.write_file(ending, &mut bytes);
         written.map_err(|error| error.to_string())?;
         String::from_utf8(bytes).map_err(|error| error.to_string())
     }
 
-    /// Returns the content as lines for `--lines`; `None` if only a picture can show it.
-    fn lines(&self, _: &App, _: usize) -> Option<Vec<String>> {
-        None
+    /// Returns the text for `--lines`: that of the sheet.
+    fn text(&self, app: &App) -> String {
+        let mut bytes = Vec::new();
+        let written = self.sheet(app).map(|sheet| sheet.write_text(false, &mut bytes));
+        written.map_or(String::new(), |_| String::from_utf8_lossy(&bytes).into_owned())
     }
 
     /// Returns how many cells the chart has across and up, if its cursor moves from cell to cell;

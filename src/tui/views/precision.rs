@@ -4,9 +4,9 @@
 use ratatui::{buffer::Buffer, layout::Rect};
 
 use super::panel::{ViewArea, ViewPanel, not_yet, title};
+use crate::report::Sheet;
 use crate::report::number::count;
-use crate::report::precision::{decades, letter, place, reference_words, series, table};
-use crate::report::table::Table;
+use crate::report::precision::{decades, letter, place, reference_words, series, sheet};
 use crate::tui::app::App;
 use crate::tui::axis::{ChartAxis, readable};
 use crate::tui::plot::Plot;
@@ -87,8 +87,8 @@ impl ViewPanel for PrecisionView {
         }
     }
 
-    fn table<'a>(&self, app: &'a App) -> Option<Table<'a>> {
-        Some(table(app.results().found.precision.as_ref()?))
+    fn sheet<'a>(&self, app: &'a App) -> Option<Sheet<'a>> {
+        Some(sheet(app.results().found.precision.as_ref()?, app.view_command()))
     }
 }
 

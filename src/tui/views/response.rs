@@ -4,6 +4,7 @@
 use ratatui::{buffer::Buffer, layout::Rect};
 
 use super::panel::{ViewArea, ViewPanel, dots, entry, lines_above, name_level, read_before, title};
+use crate::report::Sheet;
 use crate::report::line::clean;
 use crate::report::table::{Table, TableCell};
 use crate::tui::app::{App, Cursor};
@@ -19,6 +20,7 @@ use crate::tui::theme::Role;
 use crate::tui::trace::Happening;
 use rubscope_solver::motion::ActiveSet;
 use rubscope_solver::scene::ModelSize;
+use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
 
 /// Largest number of changes of contact per page that are considered for labels.
 const MOST_NAMES: usize = 500;
@@ -56,34 +58,60 @@ impl ViewPanel for ResponseView {
         Cursor { across: app.part_of_page(), up: 0.5 }
     }
 
-    /// Returns the minimum and maximum of every channel in each bin of the page, up to the current
-    /// time.
-    fn table<'a>(&self, app: &'a App) -> Option<Table<'a>> {
-        let channels = [
-            (Channel::UC, "u_c_m"),
-            (Channel::US, "u_s_m"),
-            (Channel::AlphaC, "alpha_c_rad"),
-            (Channel::AlphaS, "alpha_s_rad"),
-            (Channel::Gap, "smallest_gap_m"),
-            (Channel::Push, "push_n"),
-            (Channel::X, "z_real_m"),
-            (Channel::Y, "z_imaginary_m"),
-        ];
-        let of_channels = channels
-            .iter()
-            .flat_map(|(_, name)| [format!("{name}_least"), format!("{name}_greatest")]);
-        let times = ["from_s", "to_s"].map(String::from).into_iter();
-        let headings: Vec<_> = times.chain(of_channels).chain(["contact".into()]).collect();
+    /// Returns the page up to the current time.
+    fn sheet<'a>(&self, app: &'a App) -> Option<Sheet<'a>> {
         let bins = app.past_and_future(app.record()).0;
-        Some(Table::new(headings, bins.len(), move |place| {
-            let bin = &bins[place];
-            let spans =
-                channels.iter().flat_map(|(channel, _)| <[f64; 2]>::from(bin.span(*channel)));
-            let contact = u64::from(bin.contact.is_some());
-            let numbers = [bin.from, bin.to].into_iter().chain(spans).map(TableCell::from);
-            numbers.chain([contact.into()]).collect()
-        }))
+        let mut sheet = Sheet::new("run", 1, app.view_command(), &app.scene);
+        sheet.filed(None, table(bins));
+        sheet.picture(move || figure(app, bins));
+        Some(sheet)
     }
+}
+
+/// Returns the minimum and maximum of every channel in each bin.
+fn table(bins: &[Bin]) -> Table<'_> {
+    let channels = [
+        (Channel::UC, "u_c_m"),
+        (Channel::US, "u_s_m"),
+        (Channel::AlphaC, "alpha_c_rad"),
+        (Channel::AlphaS, "alpha_s_rad"),
+        (Channel::Gap, "smallest_gap_m"),
+        (Channel::Push, "push_n"),
+        (Channel::X, "z_real_m"),
+        (Channel::Y, "z_imaginary_m"),
+    ];
+    let of_channels =
+        channels.iter().flat_map(|(_, name)| [format!("{name}_least"), format!("{name}_greatest")]);
+    let times = ["from_s", "to_s"].map(String::from).into_iter();
+    let headings: Vec<_> = times.chain(of_channels).chain(["contact".into()]).collect();
+    Table::new(headings, bins.len(), move |place| {
+        let bin = &bins[place];
+        let spans = channels.iter().flat_map(|(channel, _)| <[f64; 2]>::from(bin.span(*channel)));
+        let contact = u64::from(bin.contact.is_some());
+        let numbers = [bin.from, bin.to].into_iter().chain(spans).map(TableCell::from);
+        numbers.chain([contact.into()]).collect()
+    })
+}
+
+/// Draws the bins: each is a line from its minimum to its maximum.
+fn figure(app: &App, bins: &[Bin]) -> Figure {
+    let series = |(number, (label, channel)): (usize, &(&str, Channel))| {
+        let ends = |bin: &Bin| {
+            let (least, greatest) = bin.span(*channel);
+            [(bin.from, least), (bin.to, greatest)]
+        };
+        Series::new(*label, Style::Line(number), bins.iter().flat_map(ends))
+    };
+    let panel = |label: &'static str, channels: &[(&str, Channel)]| {
+        let series = channels.iter().enumerate().map(series).collect();
+        Panel::new("", Quantity::TIME, Quantity::new("", label, 1.0), series)
+    };
+    let panels = vec![
+        panel("casing [m]", &[("u_c", Channel::UC), ("u_s", Channel::US)]),
+        panel("blades [rad]", &[("α_c", Channel::AlphaC), ("α_s", Channel::AlphaS)]),
+        panel("smallest gap [m]", &[("gap", Channel::Gap)]),
+    ];
+    Figure::new(app.scene.title.clone(), "", panels)
 }
 
 /// Returns whether blades bend; in the rigid model their coordinates are only round-off.

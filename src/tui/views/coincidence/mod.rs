@@ -7,9 +7,9 @@ pub mod curves;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use crate::report::hbm::coincidence::CURVE;
+use crate::report::Sheet;
+use crate::report::hbm::coincidence::add_points;
 use crate::report::number::{frequency_unit, per_frequency, per_speed, speed_unit};
-use crate::report::table::Table;
 use crate::tui::app::{App, Cursor};
 use crate::tui::axis::{ChartAxis, readable};
 use crate::tui::plot::Plot;
@@ -55,9 +55,11 @@ impl ViewPanel for CoincidenceView {
         Cursor { across: across.clamp(0.0, 1.0), up: 0.5 }
     }
 
-    fn table<'a>(&self, app: &'a App) -> Option<Table<'a>> {
+    fn sheet<'a>(&self, app: &'a App) -> Option<Sheet<'a>> {
         let curves = app.results().found.coincidence.as_deref()?.as_ref()?;
-        Some(Table::of(&curves.points, CURVE))
+        let mut sheet = Sheet::new("hbm", 3, app.view_command(), &app.scene);
+        add_points(&curves.points, "", &mut sheet);
+        Some(sheet)
     }
 }
 

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use crate::report::table::Table;
+use crate::report::Sheet;
 use crate::tui::app::{App, Cursor};
 use crate::tui::axis::{ChartAxis, instant, readable};
 use crate::tui::film::{in_blade_frame, rim_point};
@@ -38,9 +38,9 @@ impl ViewPanel for FrameView {
         }
     }
 
-    /// Returns the table of the response view, which includes the trail (`z`).
-    fn table<'a>(&self, app: &'a App) -> Option<Table<'a>> {
-        ResponseView.table(app)
+    /// Returns the sheet of the response view, which includes the trail (`z`).
+    fn sheet<'a>(&self, app: &'a App) -> Option<Sheet<'a>> {
+        ResponseView.sheet(app)
     }
 }
 

@@ -3,6 +3,7 @@
 
 use ratatui::buffer::Buffer;
 
+use crate::report::Sheet;
 use crate::report::table::Table;
 use crate::tui::app::reading::cell_of;
 use crate::tui::app::{App, Cursor};
@@ -12,6 +13,7 @@ use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
 use crate::tui::views::ViewId;
 use crate::tui::views::panel::{ViewArea, ViewPanel, name_level, read_before, title};
+use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
 
 /// The view of the gap of every blade.
 pub struct GapsView;
@@ -79,11 +81,25 @@ impl ViewPanel for GapsView {
         Cursor { across: 0.0, up: 1.0 }
     }
 
-    fn table<'a>(&self, app: &'a App) -> Option<Table<'a>> {
+    fn sheet<'a>(&self, app: &'a App) -> Option<Sheet<'a>> {
         let now = app.shown_now()?;
-        Some(Table::new(["t_s", "blade", "gap_m"], now.gaps.len(), move |place| {
-            vec![now.state.t_s.into(), (place as u64 + 1).into(), now.gaps[place].into()]
-        }))
+        let mut sheet = Sheet::new("run", 1, app.view_command(), &app.scene);
+        let headings = ["t_s", "blade", "gap_m"];
+        sheet.filed(
+            None,
+            Table::new(headings, now.gaps.len(), move |place| {
+                vec![now.state.t_s.into(), (place as u64 + 1).into(), now.gaps[place].into()]
+            }),
+        );
+        sheet.picture(move || {
+            let gaps = (1..).map(f64::from).zip(now.gaps.iter().copied());
+            let (x, y) =
+                (Quantity::new("blade", "blade", 1.0), Quantity::new("gap_m", "gap [m]", 1.0));
+            let panel = Panel::new("", x, y, vec![Series::new("gap", Style::Discs(0, 4), gaps)]);
+            let note = format!("at {}", instant(now.state.t_s));
+            Figure::new(app.scene.title.clone(), note, vec![panel])
+        });
+        Some(sheet)
     }
 }
 

@@ -7,16 +7,16 @@ pub mod curves;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Rect};
 
-use crate::report::hbm::locked::POINTS;
+use crate::report::Sheet;
+use crate::report::hbm::locked::add_points;
 use crate::report::number::speed_unit;
-use crate::report::table::Table;
 use crate::tui::app::layout::LEAST_ROWS;
 use crate::tui::app::reading::STEP;
 use crate::tui::app::{App, Cursor};
 use crate::tui::axis::{ChartAxis, readable};
 use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
-use crate::tui::text::{print, whole_parts, wrap};
+use crate::tui::text::{print, whole_parts};
 use crate::tui::theme::Role;
 use crate::tui::views::locked::curves::LockedCurves;
 use crate::tui::views::panel::{
@@ -65,13 +65,15 @@ impl ViewPanel for LockedView {
         Cursor { across: (app.speed().abs() / fastest).clamp(0.0, 1.0), up: 0.5 }
     }
 
-    fn lines(&self, app: &App, width: usize) -> Option<Vec<String>> {
-        Some(wrap(&reading(app, app.speed().abs()), width))
+    fn text(&self, app: &App) -> String {
+        reading(app, app.speed().abs())
     }
 
-    fn table<'a>(&self, app: &'a App) -> Option<Table<'a>> {
+    fn sheet<'a>(&self, app: &'a App) -> Option<Sheet<'a>> {
         let damped = app.results().found.locked.as_ref()?.damped.as_ref()?;
-        Some(Table::of(&damped.points, POINTS))
+        let mut sheet = Sheet::new("hbm", 3, app.view_command(), &app.scene);
+        add_points(&damped.points, &mut sheet);
+        Some(sheet)
     }
 }
 

@@ -12,8 +12,9 @@ use ratatui::{buffer::Buffer, layout::Rect};
 pub use words::value_text;
 
 use super::panel::{ViewArea, ViewPanel, not_yet, title};
-use crate::report::map::table;
-use crate::report::table::Table;
+use crate::report::Sheet;
+use crate::report::map::sheet;
+use crate::report::table::WIDTH;
 use crate::tui::app::{App, Cursor};
 use crate::tui::command::Command;
 use crate::tui::text::{pieces, print};
@@ -73,8 +74,8 @@ impl ViewPanel for MapView {
         Some(Command::OpenRun(Box::new(scene)))
     }
 
-    fn table<'a>(&self, app: &'a App) -> Option<Table<'a>> {
-        Some(table(&app.results().found.map.as_ref()?.map))
+    fn sheet<'a>(&self, app: &'a App) -> Option<Sheet<'a>> {
+        Some(sheet(&app.results().found.map.as_ref()?.map, WIDTH))
     }
 }
 

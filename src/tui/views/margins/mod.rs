@@ -11,9 +11,8 @@ mod survey;
 use ratatui::{buffer::Buffer, layout::Rect};
 
 use super::panel::{ViewArea, ViewPanel, not_yet, title};
-use crate::report::margins;
-use crate::report::survey::rows as report_rows;
-use crate::report::table::Table;
+use crate::report::survey::sheet;
+use crate::report::{Sheet, margins};
 use crate::tui::app::{App, Cursor};
 use crate::tui::command::Command;
 use crate::tui::text::{first_lines, print, wrap};
@@ -107,29 +106,12 @@ impl ViewPanel for MarginsView {
         Some(rows::opening(live.margins.limits.get(row)?, column, app))
     }
 
-    fn table<'a>(&self, app: &'a App) -> Option<Table<'a>> {
+    fn sheet<'a>(&self, app: &'a App) -> Option<Sheet<'a>> {
         let (live, _) = app.margins()?;
         Some(match &live.survey {
-            Some(survey) if app.layout.survey => crate::report::survey::table(survey),
-            _ => margins::table(&live.margins),
+            Some(found) if app.layout.survey => sheet(found, false, app.view_command()),
+            _ => margins::sheet(&live.margins, app.view_command()),
         })
-    }
-
-    fn lines(&self, app: &App, width: usize) -> Option<Vec<String>> {
-        let (live, _) = app.margins()?;
-        let table = match &live.survey {
-            Some(survey) if app.layout.survey => {
-                report_rows(survey, &survey.rows.iter().collect::<Vec<_>>())
-            }
-            _ => margins::titled(&live.margins, |name| name.titles()[1].to_string()),
-        };
-        let told = |table: &Table| table.lines(width, 1).into_iter().map(|cells| cells.join(" "));
-        let asked = margins::robust::asked(&live.margins).filter(|_| !app.layout.survey);
-        let head = asked.flat_map(|found| {
-            let sentence = margins::robust::sentence(found, &live.margins, true);
-            std::iter::once(sentence).chain(told(&margins::robust::table(found, " at ")))
-        });
-        Some(head.chain(told(&table)).map(|line| line.trim_end().to_string()).collect())
     }
 }
 
@@ -159,9 +141,9 @@ mod tests {
         let (live, _) = app.margins().unwrap();
         let mut bytes = Vec::new();
         margins::table(&live.margins).write_csv(&mut bytes).unwrap();
-        assert_eq!(MarginsView.csv(&app).unwrap().into_bytes(), bytes);
+        assert_eq!(MarginsView.file(&app, "csv").unwrap().into_bytes(), bytes);
         app.run.latest.results.found.margins = None;
-        assert_eq!(MarginsView.csv(&app), Err("there is no data yet".into()));
+        assert_eq!(MarginsView.file(&app, "csv"), Err("there is no data yet".into()));
     }
 
     fn text(app: &App) -> String {

@@ -5,6 +5,7 @@ pub mod lines;
 
 use ratatui::buffer::Buffer;
 
+use crate::report::Sheet;
 use crate::report::number::{frequency_unit, per_frequency, speed_unit};
 use crate::report::table::{Table, TableCell};
 use crate::tui::app::App;
@@ -17,6 +18,7 @@ use crate::tui::views::panel::{
     ViewArea, ViewPanel, entry, name_level, name_speeds, not_yet, read_before, title,
 };
 use crate::tui::views::spectrum::lines::Spectrum;
+use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
 
 /// Ends of the amplitude axis, as powers of ten of a metre.
 const DECADES: (f64, f64) = (-10.0, -3.0);
@@ -33,14 +35,18 @@ impl ViewPanel for SpectrumView {
         }
     }
 
-    fn table<'a>(&self, app: &'a App) -> Option<Table<'a>> {
+    fn sheet<'a>(&self, app: &'a App) -> Option<Sheet<'a>> {
         let spectrum = app.results().found.spectrum.as_deref()?;
         let names = ["frequency_rad_s", "u_c_m", "u_s_m"];
-        Some(Table::new(names, spectrum.cosine.len(), |place| {
+        let table = Table::new(names, spectrum.cosine.len(), |place| {
             let frequency = place as f64 * spectrum.resolution;
             let [cosine, sine] = [&spectrum.cosine, &spectrum.sine].map(|part| part[place]);
             [frequency, cosine, sine].map(TableCell::from).into()
-        }))
+        });
+        let mut sheet = Sheet::new("run", 1, app.view_command(), &app.scene);
+        sheet.filed(None, table);
+        sheet.picture(move || figure(app, spectrum));
+        Some(sheet)
     }
 }
 
@@ -57,11 +63,34 @@ fn lines(app: &App, speed: f64) -> [(f64, &'static str); 4] {
     ]
 }
 
+/// Returns the spectrum as a figure, over the range of the chart.
+fn figure(app: &App, spectrum: &Spectrum) -> Figure {
+    let (least, highest) = (10_f64.powf(DECADES.0), highest(app));
+    let series = |(number, (label, amplitudes)): (usize, (&str, &Vec<f64>))| {
+        let points = amplitudes.iter().enumerate();
+        let points = points.map(|(k, size)| (k as f64 * spectrum.resolution, size.max(least)));
+        Series::new(label, Style::Line(number), points.take_while(|(w, _)| *w <= highest))
+    };
+    let series =
+        [("u_c", &spectrum.cosine), ("u_s", &spectrum.sine)].into_iter().enumerate().map(series);
+    let x = Quantity {
+        label: format!("frequency [{}]", frequency_unit()).into(),
+        ..Quantity::new("frequency_rad_s", "", per_frequency(1.0))
+    };
+    let panel = Panel::new("", x, Quantity::log("u_m", "amplitude [m]"), series.collect());
+    Figure::new(app.scene.title.clone(), "whole run, Hann window", vec![panel])
+}
+
+/// Returns the end of the frequency axis \[rad/s\].
+fn highest(app: &App) -> f64 {
+    let most = (app.machine.nu(app.speed().abs()) + app.machine.omega_bd).max(app.machine.omega_c);
+    round_out(0.0, 1.3 * most, 5).1
+}
+
 fn amplitudes(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let quiet = look.style(Role::Quiet);
-    let most = (app.machine.nu(app.speed().abs()) + app.machine.omega_bd).max(app.machine.omega_c);
-    let x = ChartAxis::frequencies(0.0, round_out(0.0, 1.3 * most, 5).1);
+    let x = ChartAxis::frequencies(0.0, highest(app));
     let cursor = app.cursor_in(ViewId::Spectrum).map(|at| x.at(at.across));
     let spectrum = app.results().found.spectrum.as_ref();
     let mut legend = vec![(format!("m by {}", frequency_unit()), quiet)];
