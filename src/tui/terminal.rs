@@ -183,7 +183,7 @@ pub fn regain() -> Result<(), Error> {
 }
 
 /// Writes a frame, or a sequence between frames. It is abandoned if the terminal accepts nothing for
-/// [`STUCK`], or a signal has ended the program.
+/// `STUCK`, or a signal has ended the program.
 ///
 /// # Errors
 /// Fails if the terminal is closed.
