@@ -89,7 +89,8 @@ fn a_scene_is_opened_with_its_charts_and_undo_brings_the_former_back() {
     let rocking = BUILTIN.iter().position(|scene| scene.name == "rocking").unwrap();
     session.press(&format!("o{}\n", "j".repeat(rocking)));
     assert_eq!(session.app.view().word(), Scene::builtin("rocking").unwrap().view.charts[0]);
-    assert!(session.app.command_line().to_string().starts_with("rubscope run rocking"), "{}", session.app.command_line().to_string());
+    let command = session.app.command_line().to_string();
+    assert!(command.starts_with("rubscope run rocking"), "{command}");
 }
 
 #[test]
