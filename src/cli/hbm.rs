@@ -91,6 +91,7 @@ impl HbmCommand {
         self.output.ending()?;
         let RequestedView(view) = self.view;
         let resolved = self.options.resolve(Swept { speed: true, pulse: false })?;
+        self.options.ask_speed(&resolved.scene);
         let scene: &Scene = &resolved.scene;
         let speeds = match resolved.speeds {
             Some(range) => range.values(),

@@ -40,6 +40,7 @@ impl MarginsCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
         self.output.ending()?;
         let scene = self.options.scene()?;
+        self.options.ask_speed(&scene);
         self.options.note_assumed(&scene);
         let target = match (&self.target(), &self.by) {
             (Some(target), Some(by)) => {

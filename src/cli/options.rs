@@ -122,6 +122,13 @@ impl SceneOptions {
         Ok(self.resolve(Swept::default())?.scene)
     }
 
+    /// Notes that a single speed without a unit looks like one in rpm.
+    pub(super) fn ask_speed(&self, scene: &Scene) {
+        if let Some(text) = self.speed().filter(|text| !text.contains(':')) {
+            ask_unit("--speed", &text, [scene.operation.speed_rad_s; 2], scene);
+        }
+    }
+
     /// Notes each damping ratio that is a default: neither the scene file nor an option sets it.
     pub(super) fn note_assumed(&self, scene: &Scene) {
         let file = self.name().filter(|name| name.contains(['.', '/']));
@@ -327,7 +334,14 @@ mod tests {
         let mut scene = Scene::base();
         scene.solver.kind = SolverKind::Event;
         scene.solver.contact = ContactLaw::Bilateral;
-        assert_eq!(scene.make_compatible(|key| key == "solver.contact").len(), 1);
-        assert_eq!(scene.solver.kind, SolverKind::Explicit);
+        let oval = Scene { solver: Scene::base().as_reference().solver, ..Scene::base() };
+        let mut oval = Scene { casing: scene.casing.clone(), ..oval };
+        (oval.casing.lobes, oval.casing.out_of_round_m) = (3, 1e-6);
+        for (scene, asked) in [(scene, "solver.contact"), (oval, "casing.out_of_round_m")] {
+            let (mut left, mut made) = (scene.clone(), scene);
+            assert_eq!(left.make_compatible(|key| key == "solver.step_s"), []);
+            assert_eq!(made.make_compatible(|key| key == asked).len(), 1);
+            assert_eq!(made.solver.kind, SolverKind::Explicit);
+        }
     }
 }

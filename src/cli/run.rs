@@ -45,6 +45,7 @@ pub struct RunCommand {
 impl RunCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
         let mut scene = self.options.scene()?;
+        self.options.ask_speed(&scene);
         if self.plain {
             if scene.solver.kind != SolverKind::Explicit {
                 let reason = "--plain: of --solver explicit only; the event solver has no steps";

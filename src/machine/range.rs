@@ -23,5 +23,9 @@ pub fn range_doubt(scene: &Scene, range: [f64; 2]) -> Option<String> {
     } else {
         return None;
     };
-    Some(format!("{from}:{to} is in rad/s and {why}. Was it rpm? Then write {from}rpm:{to}rpm."))
+    let (typed, in_rpm) = match from == to {
+        true => (from.to_string(), format!("{from}rpm")),
+        false => (format!("{from}:{to}"), format!("{from}rpm:{to}rpm")),
+    };
+    Some(format!("{typed} is in rad/s and {why}. Was it rpm? Then write {in_rpm}."))
 }

@@ -56,6 +56,8 @@ pub struct Facts {
     pub still: bool,
     /// Result of the sensitivity check.
     pub certainty: Certainty,
+    /// Whether two groups of blades hit the casing in one step.
+    pub in_one_step: bool,
     /// Growth rate of a deviation from the lock at the end \[1/s\]; `None` if the run does not end
     /// in a lock, the lock is stable or on a lining, the speed changes, or the model is rigid.
     pub growth: Option<f64>,
@@ -159,6 +161,7 @@ impl Facts {
             seen: None,
             still: false,
             certainty: Certainty::default(),
+            in_one_step: false,
             growth: may_grow.then(|| lock_growth(machine, speed)).flatten(),
             round: locked.then(|| roundness_needed(machine, speed)).flatten(),
             tips: locked.then(|| machine.tip_deviation(speed)).flatten().filter(|tips| *tips > 0.0),
@@ -185,6 +188,7 @@ impl Facts {
                 ends_otherwise: outcome.ends_otherwise == Some(true),
                 depends_on_step: outcome.depends_on_step,
             },
+            in_one_step: report.impacts_in_one_step_at_s.is_some(),
             ..Self::at(outcome.verdict, end, contacts)
         }
     }
@@ -382,6 +386,10 @@ impl Facts {
             let ends = self.certainty.ends_otherwise;
             let does = if ends { "changes the verdict" } else { "gives other impacts" };
             notes.push([format!("A tiny change {does}."), "Sensitive.".into()]);
+        }
+        if self.in_one_step {
+            let hit = "Two groups of blades hit in one step".to_string();
+            notes.push([format!("{hit}: their order decides what follows."), hit + "."]);
         }
         if let Some(round) = self.round.filter(|_| notes.is_empty()) {
             let um = |length: f64| format!("{} um", short(rounded(1e6 * length, 2)));

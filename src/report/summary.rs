@@ -147,6 +147,13 @@ fn doubts(report: &RunReport) -> Vec<String> {
     {
         doubts.push("To audit this run, take each of its steps: rubscope run --plain.".into());
     }
+    if let Some(t_s) = report.impacts_in_one_step_at_s {
+        doubts.push(format!(
+            "Two groups of blades hit the casing in one step, at {}: which comes first decides what \
+             follows. Ask --solver event.",
+            time(t_s)
+        ));
+    }
     doubts
 }
 
@@ -292,12 +299,13 @@ fn impacts(report: &RunReport) -> String {
     let (least, series) = match report.impacts_accumulate_at_s {
         Some(t_s) => {
             let at = time(rounded(t_s, 6));
-            (
-                "At least ",
-                format!(
-                    " They accumulate at {at}: infinitely many end there, of which this many were counted."
+            let told = match report.series_of_impacts {
+                0 | 1 => format!("They accumulate at {at}: infinitely many end there"),
+                series => format!(
+                    "They accumulate {series} times, first at {at}: infinitely many end each time"
                 ),
-            )
+            };
+            ("At least ", format!(" {told}, of which this many were counted."))
         }
         None => ("", String::new()),
     };

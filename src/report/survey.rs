@@ -302,7 +302,8 @@ pub fn rows(survey: &Survey, shown: &[&SurveyRow]) -> Table<'static> {
     let [from, to] = ends(survey).map(shown_speed);
     let of_bar = format!("{from:<0$}{to}", BAR.saturating_sub(to.len()));
     // Whirl has its own column, because both in one would be wider than a small screen.
-    let whirls = shown.iter().any(|row| !row.whirls_in_range.is_empty());
+    let moves = |row: &&SurveyRow| !(row.whirls_in_range.is_empty() && row.growth_spans.is_empty());
+    let whirls = shown.iter().any(moves);
     let heads = ["n_d", "verdict"].into_iter().chain(whirls.then_some("whirl"));
     let heads = heads.chain([of_bar.as_str(), "casing", "disk"]);
     let heads = heads.chain(limits.iter().map(|limit| limit.1));

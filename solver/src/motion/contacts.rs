@@ -140,6 +140,8 @@ pub struct ContactLog {
     pub impact_count: u64,
     /// First instant at which the event solver saw impacts accumulate; `None` if it did not \[s\].
     pub accumulated: Option<f64>,
+    /// Number of such instants.
+    pub series: u64,
 }
 
 impl ContactLog {
@@ -179,6 +181,12 @@ impl ContactLog {
         if self.impacts.len() < IMPACTS_KEPT {
             self.impacts.push(Impact { t_s: t, side });
         }
+    }
+
+    /// Records that impacts accumulate.
+    pub fn accumulate(&mut self, t: f64) {
+        self.accumulated.get_or_insert(t);
+        self.series += 1;
     }
 
     /// Records a step with a pull.

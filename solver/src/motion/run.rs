@@ -13,7 +13,7 @@ use super::sensitivity::sign;
 use super::wave::WaveTracker;
 use super::{
     ActiveSet, Basis, Checks, Contact, ContactLog, EnergyAccount, Failure, FailureReason, GoOn,
-    Hold, Motion, Outcome, Proof, State, Verdict, to_the_end,
+    Hold, Impact, Motion, Outcome, Proof, State, Verdict, to_the_end,
 };
 use crate::model::LARGEST_BLADE_ANGLE;
 use crate::model::Machine;
@@ -122,6 +122,13 @@ pub struct RunReport {
     /// First time at which infinitely many impacts accumulate; `None` if they never do \[s\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub impacts_accumulate_at_s: Option<f64>,
+    /// How often the event solver saw impacts accumulate.
+    #[serde(skip)]
+    pub series_of_impacts: u64,
+    /// First time at which two groups of blades hit the casing in one step, so that it is not known
+    /// which one came first; `None` if none did, with a lining, and under the law that pulls \[s\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub impacts_in_one_step_at_s: Option<f64>,
     /// State at the end.
     pub r#final: FinalState,
     /// Largest errors of the run.
@@ -480,6 +487,8 @@ pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) 
             .collect(),
         impact_count: log.impact_count,
         impacts_accumulate_at_s: accumulation(scene, log, machine),
+        series_of_impacts: log.series,
+        impacts_in_one_step_at_s: in_one_step(scene, log, machine),
         r#final: FinalState {
             t_s: state.t_s,
             u_c_m: state.u[0],
@@ -517,6 +526,19 @@ fn accumulation(scene: &CheckedScene, log: &ContactLog, machine: &Machine) -> Op
     let rigid = scene.solver.contact == ContactLaw::Unilateral && log.impact_count > 0;
     let rests = [before, side, corner].into_iter().flatten().filter(lasts);
     rests.map(|(from, _)| from).chain(log.accumulated).reduce(f64::min).filter(|_| rigid)
+}
+
+/// Returns the first time at which two sides were hit in one step of rigid contact that only pushes
+/// \[s\]. One after the other, they would leave the casing with another velocity. Impacts of the
+/// last casing period before they accumulate do not count: no step tells them apart.
+fn in_one_step(scene: &CheckedScene, log: &ContactLog, machine: &Machine) -> Option<f64> {
+    let solver = &scene.solver;
+    let pushes = solver.contact == ContactLaw::Unilateral && solver.kind == SolverKind::Explicit;
+    let (rest, period) = (accumulation(scene, log, machine), TAU / machine.omega_c);
+    let apart = |hit: &Impact| rest.is_none_or(|rest| hit.t_s + period < rest);
+    let together = |pair: &&[Impact]| pair[0].t_s == pair[1].t_s && apart(&pair[0]);
+    let first = log.impacts.windows(2).filter(|_| pushes).find(together)?;
+    first.first().map(|hit| hit.t_s)
 }
 
 /// Returns the longest hold of a corner that ended during the run, and the rotor speed when it

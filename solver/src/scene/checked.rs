@@ -130,24 +130,32 @@ impl Scene {
         if solver.kind != SolverKind::Event {
             return made;
         }
+        if !asked(KIND) {
+            if let Err(SceneError::Refused { key, .. }) = self.checked()
+                && asked(&key)
+            {
+                let mut by_steps = self.clone();
+                by_steps.solver.kind = SolverKind::Explicit;
+                if by_steps.checked().is_ok() {
+                    *self = by_steps;
+                    let why = "cannot do what the options ask";
+                    made.push(Adjustment { key: KIND, from: "event", to: "explicit", why });
+                }
+            }
+            return made;
+        }
         let law = solver.contact.lacks_events().map(|_| solver.contact.into());
         let why = "the event solver does not know";
         let full = solver.model == ModelSize::Full;
-        if asked(KIND) {
-            if let Some(from) = law
-                && !asked(CONTACT)
-            {
-                made.push(Adjustment { key: CONTACT, from, to: "unilateral", why });
-                solver.contact = ContactLaw::Unilateral;
-            }
-            if full && !asked(MODEL) {
-                made.push(Adjustment { key: MODEL, from: "full", to: "modal", why });
-                solver.model = ModelSize::Modal;
-            }
-        } else if (asked(CONTACT) && law.is_some()) || (asked(MODEL) && full) {
-            let why = "cannot do what the options ask";
-            made.push(Adjustment { key: KIND, from: "event", to: "explicit", why });
-            solver.kind = SolverKind::Explicit;
+        if let Some(from) = law
+            && !asked(CONTACT)
+        {
+            made.push(Adjustment { key: CONTACT, from, to: "unilateral", why });
+            solver.contact = ContactLaw::Unilateral;
+        }
+        if full && !asked(MODEL) {
+            made.push(Adjustment { key: MODEL, from: "full", to: "modal", why });
+            solver.model = ModelSize::Modal;
         }
         made
     }

@@ -240,6 +240,11 @@ pub fn frequency_at_rest(
     if is_known && rest > 0.0 {
         return Ok((rest, stiffening));
     }
+    if let Some(b) = stiffening.filter(|b| *b > 0.0 && !is_known && rest > 0.0) {
+        let why = "for these frequencies and speeds; one of the two may have another unit";
+        let allowed = format!("{} {why}", key.allowed);
+        return Err(SceneError::refused(format!("{name}: B"), rounded(b, 4), allowed));
+    }
     let given =
         speeds.iter().map(|(hertz, speed)| format!("{hertz} Hz at {} rad/s", rounded(*speed, 9)));
     let allowed = "two of them or more, the higher ones at the higher speeds, or one with its \

@@ -274,17 +274,19 @@ fn within<'a>(asked: [f64; 2], of: impl Fn(f64) -> &'a [LockWindow]) -> Vec<[f64
 }
 
 /// Returns the speeds in this interval at which whirl begins: the slower ends of its spans or, if no
-/// span is known in a direction, the coincidence that the tips feel.
+/// span is known in a direction, the coincidence that the tips feel, unless rubbing grows there.
 fn whirls(
     machine: &Machine,
     limits: &[SurveyLimit],
-    spans: &[[f64; 2]],
+    [spans, growths]: [&[[f64; 2]]; 2],
     asked: [f64; 2],
 ) -> Vec<f64> {
     let of_sense = |sense: f64| {
         let onset =
             |limit: &SurveyLimit| limit.name == LimitName::WhirlOnset && limit.value * sense >= 0.0;
-        let felt = machine.coincidence_felt_at(sense).filter(|_| !limits.iter().any(onset));
+        let grows = |at: f64| growths.iter().any(|[from, to]| (*from..=*to).contains(&at));
+        let felt = machine.coincidence_felt_at(sense);
+        let felt = felt.filter(|at| !limits.iter().any(onset) && !grows(*at));
         let own = spans.iter().filter(move |[from, to]| sense * (from + to) > 0.0);
         let slower = own.map(move |[from, to]| if sense > 0.0 { *from } else { *to });
         slower.chain(felt).collect::<Vec<_>>()
@@ -332,7 +334,7 @@ fn row(
         omega_bd_rad_s: machine.omega_bd,
         guessed: scene.modes_note().is_some(),
         locks_in_range: locks(&scene, &machine, asked, ranges),
-        whirls_in_range: whirls(&machine, &limits, &whirl_spans, asked),
+        whirls_in_range: whirls(&machine, &limits, [&whirl_spans, &growth_spans], asked),
         whirl_spans,
         growth_spans,
         limits,

@@ -126,7 +126,7 @@ impl Events {
         let t = self.run.clock.start();
         if ends {
             // The impacts of a series have become slower than round-off of rest.
-            self.run.log.accumulated.get_or_insert(t);
+            self.run.log.accumulate(t);
         }
         self.opened.retain(|gap| met.iter().all(|touch| touch.row != gap.row));
         for gap in &mut self.opened {

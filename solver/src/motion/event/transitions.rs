@@ -136,7 +136,7 @@ impl Events {
             }
             Ending::Lock => {
                 let t = self.run.clock.start();
-                self.run.log.accumulated.get_or_insert(t);
+                self.run.log.accumulate(t);
                 let rows = self.held.rows.clone();
                 self.settle(point, &rows);
             }

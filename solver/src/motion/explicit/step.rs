@@ -34,6 +34,10 @@ pub(super) const LONG_STEP: f64 = 0.25;
 /// an artefact of the step.
 const MOST_LONG_STEPS: u32 = 2000;
 
+/// Cosine of the angle between two sides from which on they count as turned onto each other; it is
+/// -1 at rest. Larger: a step that penetrates between them is blamed instead.
+const SIDES_TOGETHER: f64 = -0.5;
+
 impl Explicit {
     /// Takes one step.
     pub(super) fn take_step(&mut self) -> Result<(), FailureReason> {
@@ -102,8 +106,7 @@ impl Explicit {
         }
         self.record.deepest_predicted = self.record.deepest_predicted.max(deepest);
         if deepest > tips.clearance {
-            let (depth_m, clearance_m) = (deepest, tips.clearance);
-            return Err(FailureReason::Penetration { depth_m, clearance_m });
+            return Err(self.too_deep(deepest, z, tips));
         }
         // Equalities are those of the tips that penetrate. Where contact only pushes, a push may
         // close another gap, by as much as is asked of it.
@@ -123,6 +126,17 @@ impl Explicit {
         self.keep_rows();
         self.look_at_swing();
         self.check_length()
+    }
+
+    /// Returns why a tip is deeper than the clearance: of a polygon of two sides, which lie opposite
+    /// each other at rest, blade angles may have turned the one toward the other.
+    fn too_deep(&mut self, depth_m: f64, z: Plane, tips: &TipLaw) -> FailureReason {
+        let (rows, clearance_m) = (self.tips_of_rows.rows.len(), tips.clearance);
+        let [a, b] = [0, 1].map(|index| self.row(index.min(rows - 1), z).normal);
+        if rows == 2 && (a * b.conj()).re > SIDES_TOGETHER {
+            return FailureReason::TwoSides { angle_rad: self.disk.bound() };
+        }
+        FailureReason::Penetration { depth_m, clearance_m }
     }
 
     /// Step 2: makes rows of the tips whose gaps may be below `reach`, Eq. (14). Returns how far the
