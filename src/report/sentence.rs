@@ -4,7 +4,7 @@
 use std::fmt;
 
 use super::line::capital;
-use super::number::{grouped, rounded, short, time, with_unit};
+use super::number::{grouped, micro, rounded, short, time, with_unit};
 use rubscope_solver::harmonic::{lock_growth, roundness_needed};
 use rubscope_solver::model::Machine;
 use rubscope_solver::motion::{Certainty, Failure, FailureReason, RunReport, Seen, Verdict};
@@ -392,7 +392,7 @@ impl Facts {
             notes.push([format!("{hit}: their order decides what follows."), hit + "."]);
         }
         if let Some(round) = self.round.filter(|_| notes.is_empty()) {
-            let um = |length: f64| format!("{} um", short(rounded(1e6 * length, 2)));
+            let um = |length: f64| format!("{} {}m", short(rounded(1e6 * length, 2)), micro());
             let part = |length: f64| short(rounded(100.0 * length / self.clearance_m, 2));
             let (height, height_part) = (um(round), part(round));
             let mut needed = [

@@ -1,7 +1,6 @@
 //! The config file, in which the explorer remembers settings between sessions. It is written only
 //! if they changed. Without a config directory, nothing is remembered.
 
-use std::io::ErrorKind::NotADirectory;
 use std::io::Write;
 use std::os::unix::fs::DirBuilderExt;
 use std::path::{Path, PathBuf};
@@ -208,9 +207,7 @@ impl Memory {
                 let changed = self.changed(config.clone(), ended);
                 let is_new = changed != config;
                 let written = if is_new { changed.write(&path) } else { Ok(()) };
-                // A user may put a file in place of the directory to prevent writing.
-                let told = written.err().filter(|error| error.kind() != NotADirectory);
-                told.map_or(Ok(()), |error| Err(error.to_string()))
+                written.map_err(|error| error.to_string())
             });
             let failed =
                 |why| format!("nothing is remembered: cannot write {}: {why}", path.display());

@@ -294,6 +294,13 @@ impl App {
         if !name.chars().all(is_plain) {
             return Err("a file name of letters that can be seen is needed".into());
         }
+        let ends = |ending: &str| name.to_lowercase().ends_with(ending);
+        if purpose == Purpose::Save && !ends(".toml") {
+            return self.write(purpose, &format!("{name}.toml"), replace);
+        }
+        if purpose == Purpose::Export && !ends(".csv") && !ends(".svg") {
+            return Err(format!("{name}: allowed is a name that ends in .csv or .svg"));
+        }
         self.dialogue.close();
         if let Some(writing) = &self.files.writing {
             return Err(format!("{name} not written: still writing {}", writing.name));
@@ -301,10 +308,10 @@ impl App {
         let content = match purpose {
             Purpose::Save => Ok(self.scene_to_save().to_toml()),
             // No figure has the wheel.
-            Purpose::Export if name.ends_with(".svg") && self.is_large(ViewId::Frame) => {
+            Purpose::Export if ends(".svg") && self.is_large(ViewId::Frame) => {
                 Ok(export::svg(self))
             }
-            Purpose::Export if name.ends_with(".svg") => self.panel().file(self, "svg"),
+            Purpose::Export if ends(".svg") => self.panel().file(self, "svg"),
             Purpose::Export => self.panel().file(self, "csv"),
         };
         let content = content.map_err(|reason| format!("nothing exported: {reason}"))?;

@@ -138,12 +138,15 @@ fn a_pipe_a_device_or_a_folder_is_refused_as_a_file_and_the_screen_lives() {
     let folder = tempfile::tempdir().unwrap();
     let pipe = folder.path().join("pipe.toml");
     assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    std::os::unix::fs::symlink("/dev/tty", folder.path().join("tty.toml")).unwrap();
+    std::fs::create_dir(folder.path().join("folder.toml")).unwrap();
     let mut terminal = Start::explorer(&SHORT).folder(folder.path()).open();
     terminal.wait_for(" LOCKED ");
     for (name, reason) in [
         ("pipe.toml", "cannot write pipe.toml: it is a pipe or a device, not a file"),
-        ("/dev/tty", "cannot write /dev/tty: it is a pipe or a device, not a file"),
-        (".", "cannot write .: it is a directory"),
+        ("tty.toml", "cannot write tty.toml: it is a pipe or a device, not a file"),
+        // A name without an ending gets that of a scene.
+        ("folder", "cannot write folder.toml: it is a directory"),
     ] {
         terminal.send("s");
         terminal.wait_for("save the scene as: scene.toml_");

@@ -59,13 +59,9 @@ pub fn coupling(scene: &Scene) -> Option<&'static str> {
     rigid(scene).or(alike.then_some("with n_d = 0 all blades move alike"))
 }
 
-pub fn torque(scene: &Scene) -> Option<&'static str> {
-    rigid(scene).or(is_event(scene).then_some("the event solver takes no torque"))
-}
-
 pub fn order(scene: &Scene) -> Option<&'static str> {
     let none = (scene.excitation.amplitude_nm == 0.0).then_some("the EO torque is 0");
-    torque(scene).or(none)
+    rigid(scene).or(none)
 }
 
 #[cfg(test)]

@@ -81,7 +81,7 @@ pub static KNOBS: LazyLock<Vec<Knob>> = LazyLock::new(|| {
         knob(Start, keys::INITIAL_U_S).bar(Of(bars::position)),
         knob(Start, keys::INITIAL_V_C).bar(Of(bars::velocity)),
         knob(Start, keys::INITIAL_V_S).bar(Of(bars::velocity)),
-        knob(Start, keys::EXCITATION).unless(inert::torque),
+        knob(Start, keys::EXCITATION).unless(inert::rigid),
         knob(Start, keys::ENGINE_ORDER).bar(Of(bars::order)).unless(inert::order),
     ]
 });
