@@ -191,17 +191,3 @@ fn on_rigid_casing(machine: &Machine, speed: f64) -> CoincidencePoint {
         bounded: !joined_grow(machine, speed),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::Scene;
-
-    #[test]
-    fn without_nodal_diameters_there_is_no_wave() {
-        let mut scene = Scene::base();
-        scene.set("operation.nodal_diameters", "0").unwrap();
-        let message = Campbell::of(&scene.machine(), &[], 500.0).unwrap_err().to_string();
-        assert!(message.starts_with("operation.nodal_diameters = 0: allowed is 1 or more"));
-    }
-}

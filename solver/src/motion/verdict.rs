@@ -268,54 +268,28 @@ const FALLEN: f64 = 0.98;
 mod tests {
     use super::*;
 
-    fn judged(build: impl Fn(&mut ContactLog)) -> Verdict {
-        let mut log = ContactLog::default();
-        build(&mut log);
-        judge(&log, 0.1, 0.01)
-    }
-
     #[test]
     fn the_five_ways_to_last() {
-        assert_eq!(judged(|_| {}), Verdict::Decay);
-        assert_eq!(judged(|log| log.touch(0.01, ActiveSet::Corner(15, 16))), Verdict::Locked);
-        assert_eq!(
-            judged(|log| {
-                log.touch(0.01, ActiveSet::Corner(15, 16));
-                log.tensile(0.0999);
-            }),
-            Verdict::Adhesive
-        );
-        assert_eq!(
-            judged(|log| {
-                log.touch(0.01, ActiveSet::Corner(15, 16));
-                log.tensile(0.0899);
-            }),
-            Verdict::Locked
-        );
-        for last in [ActiveSet::Side(2), ActiveSet::Corner(2, 3)] {
+        use ActiveSet::{Corner, Nothing, Side};
+        // Touches of a run of 0.1 s with a window of 0.01 s, and the last pull.
+        type Case<'a> = (&'a [(f64, ActiveSet)], Option<f64>, Verdict);
+        let cases: [Case<'_>; 8] = [
+            (&[], None, Verdict::Decay),
+            (&[(0.01, Corner(15, 16))], None, Verdict::Locked),
+            (&[(0.01, Corner(15, 16))], Some(0.0999), Verdict::Adhesive),
+            (&[(0.01, Corner(15, 16))], Some(0.0899), Verdict::Locked),
+            (&[(0.01, Side(3)), (0.095, Side(2))], None, Verdict::Slip),
             // A corner that is held during half of the window is not a lock.
-            assert_eq!(
-                judged(|log| {
-                    log.touch(0.01, ActiveSet::Side(3));
-                    log.touch(0.095, last);
-                }),
-                Verdict::Slip
-            );
+            (&[(0.01, Side(3)), (0.095, Corner(2, 3))], None, Verdict::Slip),
+            (&[(0.091, Side(3)), (0.095, Nothing)], None, Verdict::Bounce),
+            (&[(0.02, Side(3)), (0.03, Nothing)], None, Verdict::Decay),
+        ];
+        for (touches, pull, verdict) in cases {
+            let mut log = ContactLog::default();
+            touches.iter().for_each(|(t, sides)| log.touch(*t, *sides));
+            pull.into_iter().for_each(|t| log.tensile(t));
+            assert_eq!(judge(&log, 0.1, 0.01), verdict, "{touches:?} {pull:?}");
         }
-        assert_eq!(
-            judged(|log| {
-                log.touch(0.091, ActiveSet::Side(3));
-                log.touch(0.095, ActiveSet::Nothing);
-            }),
-            Verdict::Bounce
-        );
-        assert_eq!(
-            judged(|log| {
-                log.touch(0.02, ActiveSet::Side(3));
-                log.touch(0.03, ActiveSet::Nothing);
-            }),
-            Verdict::Decay
-        );
     }
 }
 

@@ -274,23 +274,6 @@ mod tests {
     }
 
     #[test]
-    fn blades_that_move_take_an_excitation() {
-        for (model, said) in [
-            (ModelSize::Rigid, Some("allowed is 0 with solver.model = \"rigid\"")),
-            (ModelSize::Modal, None),
-            (ModelSize::Full, None),
-        ] {
-            let mut scene = Scene::base();
-            (scene.solver.model, scene.excitation.amplitude_nm) = (model, 0.3);
-            let refused = check(&scene).err().map(|error| error.to_string());
-            assert_eq!(refused.is_some(), said.is_some(), "{model}");
-            let (refused, said) = (refused.unwrap_or_default(), said.unwrap_or_default());
-            assert!(refused.contains(said), "{refused}");
-            assert!(refused.is_empty() || refused.starts_with("excitation.amplitude_nm = 0.3"));
-        }
-    }
-
-    #[test]
     fn a_bound_as_it_is_printed_is_accepted() {
         let mut refusals = [0; 3];
         for model in [ModelSize::Rigid, ModelSize::Modal, ModelSize::Full] {

@@ -203,18 +203,4 @@ mod tests {
         let (apart, noted) = speeds(0.02);
         assert!(apart.abs() > 1e-3 && noted, "{apart}");
     }
-
-    #[test]
-    fn what_a_soft_lining_does_not_hold_has_its_own_reason() {
-        let limits = limits_of(1e8, 1e-6);
-        for (name, reason) in [
-            (LimitName::OmegaLock, "at any speed"),
-            (LimitName::OmegaAdhesive, "cannot pull"),
-            (LimitName::PushA, "no two groups"),
-        ] {
-            let limit = limits.iter().find(|limit| limit.name == name).unwrap();
-            let note = limit.note.as_ref().unwrap();
-            assert!(limit.value.is_none() && note.contains(reason), "{name}: {note}");
-        }
-    }
 }
