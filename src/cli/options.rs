@@ -284,52 +284,6 @@ mod tests {
     }
 
     #[test]
-    fn inclined_tips_take_the_law_that_only_pushes_unless_another_was_asked_for() {
-        let slope = "bladed_disk.radial_coupling=0.1";
-        let scene = options(&[slope]).scene().unwrap();
-        assert_eq!(scene.solver.contact, ContactLaw::Unilateral);
-        let refused = options(&["solver.contact=bilateral", slope]).scene().unwrap_err();
-        let start = "bladed_disk.radial_coupling = 0.1: allowed is 0 with solver.contact";
-        assert!(refused.to_string().starts_with(start), "{refused}");
-    }
-
-    fn options(set: &[&str]) -> SceneOptions {
-        SceneOptions { set: set.iter().map(ToString::to_string).collect(), ..Default::default() }
-    }
-
-    #[test]
-    fn a_range_is_taken_only_where_the_command_sweeps_it() {
-        let options = SceneOptions { speed: Some("100:500:5".into()), ..Default::default() };
-        let swept = Swept { speed: true, pulse: false };
-        let resolved = options.resolve(swept).unwrap();
-        assert_eq!(resolved.speeds.unwrap().count, 5);
-        assert_eq!(resolved.scene.operation.speed_rad_s, 100.0);
-        let one = SceneOptions { speed: Some("-430".into()), ..Default::default() };
-        let one = one.resolve(swept).unwrap().speeds;
-        assert_eq!(one, Some(Range { from: -430.0, to: -430.0, count: 1 }));
-        let refused = options.scene().unwrap_err().to_string();
-        assert!(refused.starts_with("operation.speed_rad_s = 100:500:5: allowed is a number"));
-    }
-
-    #[test]
-    fn the_far_end_of_a_range_is_checked_too() {
-        let swept = Swept { speed: true, pulse: false };
-        let options = SceneOptions { speed: Some("0:2e6:3".into()), ..Default::default() };
-        let refused = options.resolve(swept).unwrap_err().to_string();
-        assert!(refused.starts_with("operation.speed_rad_s = 2e6"), "{refused}");
-    }
-
-    #[test]
-    fn the_contact_law_follows_the_solver_unless_both_are_asked_for() {
-        let scene = options(&["solver.kind=event"]).scene().unwrap();
-        assert_eq!(scene.solver.contact, ContactLaw::Unilateral);
-        let both = options(&["solver.kind=event", "solver.contact=bilateral"]);
-        assert!(
-            both.scene().unwrap_err().to_string().starts_with("solver.contact = \"bilateral\"")
-        );
-    }
-
-    #[test]
     fn the_solver_follows_what_only_the_explicit_one_can_do() {
         let mut scene = Scene::base();
         scene.solver.kind = SolverKind::Event;

@@ -142,13 +142,4 @@ mod tests {
              --set operation.speed_rad_s=-430.0 --at 0.05:pulse --gaps"
         );
     }
-
-    #[test]
-    fn every_built_in_scene_is_named_by_itself() {
-        for builtin in BUILTIN {
-            let scene = Scene::builtin(builtin.name).unwrap();
-            let line = CommandLine::new("map", &scene).to_string();
-            assert_eq!(line, format!("rubscope map {}", builtin.name));
-        }
-    }
 }

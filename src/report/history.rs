@@ -84,11 +84,11 @@ impl History {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+mod tests {
     use super::*;
     use rubscope_solver::motion::State;
 
-    pub(in crate::report) fn sample(t_s: f64) -> Sample {
+    fn sample(t_s: f64) -> Sample {
         Sample {
             state: State { t_s, u: [0.1, -2.5e-300], ..State::default() },
             rotor_angle_rad: 500.0 * t_s,
@@ -96,19 +96,6 @@ pub(super) mod tests {
             mean_forces: vec![(15, -100.0), (16, 40.0)],
             gaps: vec![2e-4, 1e-4, 3e-4],
         }
-    }
-
-    #[test]
-    fn a_sample_fills_every_column() {
-        let mut history = History::new(3);
-        history.push(&sample(0.25));
-        let table = history.table();
-        assert_eq!(table.len(), 1);
-        assert_eq!(table.numbers("gap_min_m"), [1e-4]);
-        assert_eq!(table.numbers("gap_3_m"), [3e-4]);
-        assert_eq!(table.numbers("multiplier_sum_n"), [-60.0]);
-        assert_eq!(table.numbers("multiplier_max_n"), [40.0]);
-        assert!(history.names.iter().all(|name| table.numbers(name)[0].is_finite()));
     }
 
     #[test]

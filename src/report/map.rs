@@ -293,13 +293,4 @@ mod tests {
         let kinds: Vec<_> = drawn[..3].iter().map(|it| std::mem::discriminant(&it.style)).collect();
         assert!(kinds[0] != kinds[1] && kinds[1] != kinds[2] && kinds[2] != kinds[0]);
     }
-
-    #[test]
-    fn the_ends_of_a_narrow_map_stay_apart() {
-        let axis = |path: &str, to: f64| Axis::new(path, 300.0, to, 3, false).unwrap();
-        let (x, y) = (axis(keys::SPEED, 430.5), axis(keys::PULSE, 1e4));
-        let map = Map::empty(MapPlan { scene: Scene::base(), x, y, sensitivity: false });
-        let text = text(&map, 80);
-        assert!(text.contains(&"              300 430.5".to_string()), "{text:?}");
-    }
 }

@@ -373,36 +373,6 @@ fn listed(blades: &[u32]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rubscope_solver::motion::{Verdict, simulate};
-    use rubscope_solver::scene::Scene;
-
-    fn report(settings: &[(&str, &str)]) -> RunReport {
-        let mut scene = Scene::base();
-        for (key, text) in [("solver.step_s", "1e-6"), ("solver.end_s", "2e-3")] {
-            scene.set(key, text).unwrap();
-        }
-        for (key, text) in settings {
-            scene.set(key, text).unwrap();
-        }
-        simulate(&scene.checked().unwrap())
-    }
-
-    fn text_of(report: &RunReport) -> String {
-        let wall = Wall { run_s: 0.25, certainty_s: report.outcome.sensitive.map(|_| 0.67) };
-        lines(report, wall).join("\n")
-    }
-
-    #[test]
-    fn every_verdict_is_told_by_the_sentences_of_the_headline() {
-        let mut report = report(&[]);
-        for verdict in Verdict::ALL {
-            report.outcome.verdict = verdict;
-            let told = Facts::of(&report).sentence(usize::MAX);
-            let text = text_of(&report);
-            let lines = format!("Verdict: {verdict}. {}\n", told.what);
-            assert!(text.contains(&lines) && text.contains(&told.history.unwrap_or_default()));
-        }
-    }
 
     #[test]
     fn blades_push_or_pull_in_groups() {
@@ -414,39 +384,5 @@ mod tests {
         assert_eq!(listed(&[1, 3, 5, 7]), "1, 3, 5 and 7");
         assert_eq!(listed(&[1, 3, 5, 7, 9]), "1, 3, 5 and 2 more");
         assert_eq!(touch(&[6, 17], 3.0), "Blades 6 and 17 together pull with 3 N at the end.");
-    }
-
-    #[test]
-    fn sensitive_and_pulling_runs_say_so() {
-        let mut report = report(&[]);
-        assert!(!text_of(&report).contains("Sensitive"));
-        report.outcome.sensitive = Some(true);
-        report.solver.contact = ContactLaw::Bilateral;
-        report.checks.tensile_steps = 2;
-        let text = text_of(&report);
-        assert!(
-            text.contains("Sensitive to ") && text.contains("pulling multiplier: 2."),
-            "{text}"
-        );
-    }
-
-    #[test]
-    fn run_and_certainty_have_a_time_each() {
-        let mut report = report(&[]);
-        assert!(text_of(&report).contains("; run 250 ms ("), "{}", text_of(&report));
-        assert!(text_of(&report).ends_with("a step taken), certainty 670 ms."));
-        report.outcome.sensitive = None;
-        assert!(text_of(&report).ends_with("a step taken)."));
-    }
-
-    #[test]
-    fn a_run_without_touch_and_without_critical_speed_reads_well() {
-        let report = report(&[("operation.pulse_n", "0"), ("operation.nodal_diameters", "0")]);
-        let text = text_of(&report);
-        assert!(
-            text.contains("Nothing moves and no blade touches") && text.contains("No impact."),
-            "{text}"
-        );
-        assert!(!text.contains("Omega_c") && !text.contains("not a number"), "{text}");
     }
 }

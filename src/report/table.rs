@@ -369,22 +369,6 @@ impl Serialize for Table<'_> {
 mod tests {
     use super::*;
 
-    fn table() -> Table<'static> {
-        let rows = [(1.0 / 3.0).into(), "locked, a".into()];
-        let rows = vec![rows.into(), vec![f64::NAN.into(), TableCell::Empty]];
-        Table::with_rows(["speed_rad_s", "state"], rows)
-    }
-
-    #[test]
-    fn csv_keeps_every_digit_and_leaves_no_figure_empty() {
-        let mut out = Vec::new();
-        table().write_csv(&mut out).unwrap();
-        let text = String::from_utf8(out).unwrap();
-        assert_eq!(text, "speed_rad_s,state\n0.3333333333333333,\"locked, a\"\n,\n");
-        let json = r#"[{"speed_rad_s":0.3333333333333333,"state":"locked, a"},{"speed_rad_s":null,"state":null}]"#;
-        assert_eq!(serde_json::to_string(&table()).unwrap(), json);
-    }
-
     #[test]
     fn people_and_files_have_columns_of_their_own() {
         let headings = [
@@ -393,23 +377,18 @@ mod tests {
             Heading::shown(""),
         ];
         let first = vec![1.234.into(), 5.0.into(), "wrong".into()];
-        let second = vec![TableCell::Told(2000.0, "2 kN".into()), 6.0.into(), TableCell::Empty];
+        let none = TableCell::Number(f64::NAN);
+        let second = vec![TableCell::Told(2000.0, "2 kN".into()), none, TableCell::Empty];
         let mut table = Table::with_rows(headings, vec![first, second]);
         table.note("one note");
         let (mut csv, mut lines) = (Vec::new(), Vec::new());
         table.write_csv(&mut csv).unwrap();
         table.write_text(&mut lines).unwrap();
-        assert_eq!(String::from_utf8(csv).unwrap(), "value_n,exact\n1.234,5\n2000,6\n");
+        assert_eq!(String::from_utf8(csv).unwrap(), "value_n,exact\n1.234,5\n2000,\n");
+        let json = r#"[{"value_n":1.234,"exact":5.0},{"value_n":2000.0,"exact":null}]"#;
+        assert_eq!(serde_json::to_string(&table).unwrap(), json);
         let text = "value\n  1.2  wrong\n 2 kN  -\none note\n";
         assert_eq!(String::from_utf8(lines).unwrap(), text);
         assert_eq!(table.lines(7, 2)[1], ["  1.2"]);
-    }
-
-    #[test]
-    fn text_is_aligned() {
-        let mut out = Vec::new();
-        table().write_text(&mut out).unwrap();
-        let text = String::from_utf8(out).unwrap();
-        assert_eq!(text, "speed_rad_s  state\n   0.333333  locked, a\n          -  -\n");
     }
 }

@@ -1,8 +1,7 @@
 //! Sentences of every verdict, history and width.
 
 use super::*;
-use rubscope_solver::motion::{Sampling, Script, run_to_end};
-use rubscope_solver::scene::{BUILTIN, Scene};
+use rubscope_solver::scene::Scene;
 
 const WIDTHS: std::ops::RangeInclusive<usize> = 40..=200;
 
@@ -152,30 +151,6 @@ fn every_verdict_law_failure_and_history_has_whole_sentences_at_every_width() {
     }
 }
 
-#[test]
-fn every_built_in_scene_ends_in_a_whole_sentence() {
-    for scene in BUILTIN {
-        let scene = Scene::builtin(scene.name).unwrap().checked().unwrap();
-        let report = run_to_end(&scene, &Script::default(), Sampling::default(), &mut |_| {});
-        let facts = Facts::of(&report);
-        assert_eq!(facts.verdict, report.outcome.verdict);
-        assert_reads_well(&facts);
-    }
-}
-
-#[test]
-fn a_run_that_pulls_is_called_sensitive_too_where_it_is() {
-    let both = Facts { certainty: ENDS, ..pulled(Verdict::Locked, Some(Verdict::Decay)) };
-    let history = |width| both.sentence(width).history.unwrap();
-    assert_eq!(
-        history(200),
-        "Contact that only pushes would not catch it: decay. A tiny change changes the verdict."
-    );
-    assert_eq!(history(80), "Pushes only: decay. Sensitive.");
-    // The first alone, where there is no room for two.
-    assert_eq!(history(60), "Pushes only: decay.");
-}
-
 /// A line of the picture is one run's facts, at the width of a terminal.
 #[test]
 fn a_run_says_its_own_facts() {
@@ -188,8 +163,12 @@ fn a_run_says_its_own_facts() {
     let failed = Facts { failure: Some(failure()), ..facts(Verdict::Failed) };
     let round = Facts { round: Some(2.439_28e-7), ..locked.clone() };
     let mut told = Vec::new();
-    for width in [40, 79, 120] {
-        told.push(pulled(Locked, Some(Decay)).sentence(width).to_string());
+    let sure = Certainty::default();
+    for (width, certainty) in
+        [(40, sure), (79, sure), (120, sure), (60, ENDS), (80, ENDS), (200, ENDS)]
+    {
+        let facts = Facts { certainty, ..pulled(Locked, Some(Decay)) };
+        told.push(facts.sentence(width).to_string());
     }
     for facts in [
         locked.clone(),

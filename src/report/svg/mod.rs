@@ -163,23 +163,4 @@ mod tests {
         assert_eq!(rims(&[whirl, Style::Line(2)]), 1);
         assert!(text("at -5 N, so-called", [0.0; 2], "").contains(">at −5 N, so-called<"));
     }
-
-    #[test]
-    fn a_picture_says_where_it_comes_from() {
-        let svg = drawn(vec![], false);
-        let told = svg.split_once("<desc>").unwrap().1.split_once("</desc>").unwrap().0;
-        let (version, commit) = (env!("CARGO_PKG_VERSION"), env!("RUBSCOPE_COMMIT"));
-        let begins = format!("rubscope {version} {commit}\nrubscope figures ");
-        assert!(told.starts_with(&begins), "{told}");
-        assert!(told.contains("title = \"a &lt; b\"") && told.contains("[operation]"));
-    }
-
-    #[test]
-    fn nothing_and_constants_can_be_drawn() {
-        for points in [vec![], vec![(1.0, 0.0)], vec![(1.0, 5.0), (1.0, 5.0)]] {
-            for log in [false, true] {
-                assert!(!drawn(points.clone(), log).contains("NaN"));
-            }
-        }
-    }
 }
