@@ -335,32 +335,6 @@ fn needs_screen(command: &Command) -> bool {
 mod tests {
     use super::*;
 
-    fn answers(input: &[u8]) -> String {
-        let mut scene = Scene::base();
-        (scene.solver.step_s, scene.solver.end_s) = (1e-6, 5e-3);
-        let mut out = Vec::new();
-        let options = ExploreOptions { marker: Some(Marker::Braille), ..ExploreOptions::default() };
-        let mut input = input;
-        lines(scene.checked().unwrap(), &options, &mut input, &mut out, false).unwrap();
-        String::from_utf8(out).unwrap()
-    }
-
-    #[test]
-    fn each_line_is_answered_by_both_lines_of_the_screen_and_what_changed() {
-        let text = answers("speed 450\nt 0.3 ms\nundo\n".as_bytes());
-        assert_eq!(text.lines().count(), 3 + 3 * 3, "{text}");
-        assert_eq!(text.matches("NOW").count(), 4, "{text}");
-        for changed in [
-            "changed: speed Ω 500 rad/s -> 450 rad/s",
-            "done: paused at 300",
-            "changed: speed Ω 450 rad/s -> 500 rad/s",
-        ] {
-            assert!(text.contains(changed), "{text}");
-        }
-        // The same commands give the same answers.
-        assert_eq!(answers("speed 450\nt 0.3 ms\nundo\n".as_bytes()), text);
-    }
-
     #[test]
     fn a_name_of_a_file_that_a_terminal_would_obey_is_not_printed() {
         let folder = tempfile::tempdir().unwrap();
@@ -382,79 +356,5 @@ mod tests {
         }
         assert!(folder.path().join("ok.toml").exists());
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 4);
-    }
-
-    #[test]
-    fn an_instant_is_gone_to_after_a_blade_was_read() {
-        let text = answers(b"blade 7\nt 0.3 ms\nrestart\n");
-        assert!(text.contains("done: paused at 300") && text.contains("done: restarted"), "{text}");
-    }
-
-    #[test]
-    fn bad_input_is_one_line_and_the_next_line_is_answered() {
-        let longer = "x".repeat(1001);
-        let mut told = String::new();
-        for bad in [
-            "speed fast".as_bytes(),
-            b"bla\x1b[31mde",
-            b"\xff\xfe",
-            longer.as_bytes(),
-            b"type a value",
-            b"blades 0",
-            b"t 1",
-            b"export map.csv",
-            b"43kN",
-            b"start u_c 1",
-            b"run end",
-            b"answer b",
-            b"view map",
-            b"theme light",
-            b"pause",
-            b"undo",
-            b"law",
-        ] {
-            let input = [bad, b"\n# a remark\n\nspeed\n"].concat();
-            let text = answers(&input);
-            assert!(text.lines().last().unwrap().starts_with("speed Ω is 500 rad/s"), "{text}");
-            assert!(!text.contains('\u{1b}'), "{text}");
-            let said = text.lines().skip(3).find(|line| line.starts_with(char::is_lowercase));
-            told += &format!("{}\n", said.unwrap());
-        }
-        insta::assert_snapshot!(told);
-    }
-
-    #[test]
-    fn margins_survey_and_the_lock_answer_with_their_rows() {
-        let text = answers(b"margins\n");
-        assert!(
-            text.lines().any(|line| line.starts_with("omega_lock") && line.contains("411.9")),
-            "{text}"
-        );
-        // The margins of the run itself come before the limits.
-        assert!(text.contains("500 rad/s, pushes only: decay; "), "{text}");
-        let text = answers(b"survey\nspeed\n");
-        assert!(
-            text.lines().filter(|line| line.trim_start().starts_with(char::is_numeric)).count() > 5,
-            "{text}"
-        );
-        let text = answers(b"speed 450\nview 3\n");
-        assert!(text.contains("at 450.0 rad/s: λ_a -"), "{text}");
-        assert!(!text.contains("screen shows"), "{text}");
-    }
-
-    #[test]
-    fn a_lesson_asks_and_takes_the_answer() {
-        let text = answers(b"lesson lock\nanswer c\ng\nG\nquit\nspeed 450\n");
-        assert!(text.contains("[a]") && text.contains("Lesson 2 of 15"), "{text}");
-        assert!(text.contains("Your answer c is right: in a corner of two walls."), "{text}");
-        assert!(!text.contains("450"), "{text}");
-    }
-
-    #[test]
-    fn the_help_and_lists_are_in_words() {
-        let text = answers(b"help\nhelp omega_lock\nhelp qqq\nscenes\nlesson\n");
-        for words in ["speed 450, pulse 20k", "411.9 rad/s", "matches: qqq", "scene rub: "] {
-            assert!(text.contains(words), "{words}: {text}");
-        }
     }
 }

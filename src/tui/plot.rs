@@ -539,21 +539,6 @@ mod tests {
         }
     }
 
-    #[test]
-    fn axes_that_are_no_ranges_are_refused() {
-        let mut buffer = Buffer::empty(Rect::new(0, 0, 40, 12));
-        let area = *buffer.area();
-        let good = ChartAxis::plain(0.0, 1.0);
-        for bad in [
-            ChartAxis::plain(1.0, 0.0),
-            ChartAxis::plain(f64::NAN, 1.0),
-            ChartAxis::plain(2.0, 2.0),
-        ] {
-            assert!(Plot::new(&mut buffer, area, bad, good, &look()).is_none());
-            assert!(Plot::new(&mut buffer, area, good, bad, &look()).is_none());
-        }
-    }
-
     proptest! {
         #[test]
         fn ticks_and_signs_are_in_the_cell_of_the_data(

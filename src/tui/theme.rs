@@ -165,19 +165,6 @@ mod tests {
         Role::Trouble,
     ];
 
-    #[test]
-    fn no_theme_uses_colours_the_user_did_not_choose() {
-        for theme in Theme::ALL {
-            for role in ROLES {
-                let colour = theme.style(role).fg.unwrap();
-                assert!(
-                    !matches!(colour, Color::Rgb(..) | Color::Indexed(_)),
-                    "{theme:?} {role:?}"
-                );
-            }
-        }
-    }
-
     /// The sixteen colours as common terminals draw them: xterm, Linux console and VGA, Windows
     /// (Campbell), GNOME.
     const PALETTES: [[u32; 16]; 4] = [

@@ -254,13 +254,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_first_page_is_twenty_milliseconds_at_five_a_second() {
-        assert_eq!(RATES[FIRST_RATE], 5e-3);
-        assert_eq!(page_length(5e-3, 0), 0.02);
-        assert_eq!((RATES[0], RATES[RATES.len() - 1]), (1e-5, 1.0));
-    }
-
-    #[test]
     fn a_restart_resumes_unless_the_user_had_paused_and_needs_no_answer_to_a_jump() {
         let mut play = Play::of(&Scene::base());
         (play.playing, play.stopped_by_end) = (false, true);
@@ -292,15 +285,5 @@ mod tests {
         // While paused, the requested rate is shown.
         app.play.playing = false;
         assert_eq!(app.rate_text(), "200x slower");
-    }
-
-    #[test]
-    fn pages_grow_with_the_rate_and_shrink_with_the_zoom() {
-        for pair in RATES.windows(2) {
-            assert!(page_length(pair[1], 0) > page_length(pair[0], 0));
-        }
-        for zoom in -MOST_ZOOM..MOST_ZOOM {
-            assert!(page_length(5e-3, zoom + 1) < page_length(5e-3, zoom));
-        }
     }
 }

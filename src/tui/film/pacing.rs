@@ -120,7 +120,6 @@ mod tests {
     use super::*;
     use crate::tui::trace::Happening;
     use rubscope_solver::motion::ActiveSet;
-    use rubscope_solver::scene::Scene;
 
     fn marks(times: &[f64]) -> Vec<Mark> {
         let what = Happening::Contact(ActiveSet::Nothing, ActiveSet::Side(1));
@@ -136,23 +135,6 @@ mod tests {
         assert_eq!(at(1e-3 + 1e-9), 1e-4);
         assert!(at(0.7e-3) < at(0.4e-3) && at(1.3e-3) < at(1.6e-3));
         assert_eq!(rate_at(0.0, 5e-3, &[]), 15e-3);
-    }
-
-    #[test]
-    fn the_lock_of_the_first_scene_takes_time_to_happen() {
-        let mut motion = Motion::new(&Scene::builtin("paper-nd3").unwrap().checked().unwrap());
-        let mut collected = crate::tui::trace::Marks::from(motion.contacts());
-        while motion.t_s() < 1e-4 {
-            let next = motion.t_s() + 2.5e-7;
-            motion.advance(next).unwrap();
-            collected.look(motion.contacts());
-        }
-        let (mut now, mut frames) = (0.0, 0);
-        while now < 4e-5 {
-            now += rate_at(now, 5e-3, &collected.seen) * 0.1;
-            frames += 1;
-        }
-        assert!((4..40).contains(&frames), "{frames} frames");
     }
 
     #[test]

@@ -323,21 +323,6 @@ mod tests {
     }
 
     #[test]
-    fn the_steps_of_a_film_are_those_that_were_computed_for_it() {
-        let plan = FilmPlan { end_s: 1e-4, ..plan("paper-nd3") };
-        assert_eq!(Film::new(plan.clone()).step_s(), None);
-        let first = Film::new(plan.clone()).computed();
-        let before = first.ahead.motion.steps_taken().unwrap();
-        let longer = FilmPlan { from_s: 1e-4, end_s: 1e-2 + 1e-4, ..plan };
-        let film = first.replanned(longer, None).computed();
-        let [taken, skipped] = film.steps().unwrap();
-        assert_eq!(taken + skipped, 100_000);
-        assert_eq!(taken + before, film.ahead.motion.steps_taken().unwrap());
-        assert_eq!(film.skipped(), Some(skipped as f64 / 1e5));
-        assert_eq!(film.step_s(), Some(film.wall.as_secs_f64() / taken as f64));
-    }
-
-    #[test]
     fn a_verdict_that_is_proved_is_known_before_the_end_and_is_that_of_the_end() {
         for (name, key, value) in
             [("paper-nd3", "operation.pulse_n", "75e3"), ("rub", "operation.speed_rad_s", "400")]

@@ -59,34 +59,3 @@ pub(super) fn turned(x: f64, up: bool, coarse: bool, scene: &Scene) -> f64 {
         false => next,
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::tui::knobs::{Knob, knob_of};
-    use rubscope_solver::scene::Value;
-    use rubscope_solver::scene::keys::CLEARANCE;
-
-    fn clearance() -> &'static Knob {
-        knob_of(CLEARANCE).unwrap()
-    }
-
-    #[test]
-    fn a_rigid_casing_refuses_what_is_not_above_zero_in_one_line() {
-        let scene = Scene::base();
-        for x in [0.0, -2e-5] {
-            let refused = clearance().set(&scene, Value::Real(x)).unwrap_err().to_string();
-            assert_eq!(refused.lines().count(), 1);
-            assert!(refused.contains("above"), "{refused}");
-        }
-        let down = clearance().turned(&Value::Real(1e-9), false, true, &scene);
-        assert_eq!(down, Value::Real(0.0));
-        // A preloaded lining cannot become rigid contact.
-        let mut pressed = scene;
-        pressed.solver.contact = rubscope_solver::scene::ContactLaw::Smooth;
-        pressed.casing.radius_m = pressed.bladed_disk.blade_length_m - 2e-5;
-        let law = knob_of("solver.contact").unwrap();
-        let refused = law.set(&pressed, Value::Text("unilateral".into())).unwrap_err().to_string();
-        assert!(refused.starts_with("casing.radius_m"), "{refused}");
-    }
-}

@@ -209,17 +209,6 @@ mod tests {
     }
 
     #[test]
-    fn the_speed_shows_where_a_lock_ends() {
-        let mut scene = Scene::builtin("paper-nd3").unwrap();
-        scene.bladed_disk.radial_coupling = 0.3;
-        let bar = range("operation.speed_rad_s", &scene).unwrap();
-        let at = |mark: &str| bar.marks.iter().find(|(name, _)| *name == mark).map(|mark| mark.1);
-        assert!((bar.at(at("the end of the lock").unwrap()) - 566.259).abs() < 1e-2);
-        // Inclined tips also drive the coincidence.
-        assert!(at("the coincidence").is_some());
-    }
-
-    #[test]
     fn a_click_in_a_bar_gives_a_round_value() {
         let of = |path: &str, x| knob_of(path).unwrap().near(x);
         assert_eq!(of("operation.speed_rad_s", 431.7), Some(Value::Real(430.0)));

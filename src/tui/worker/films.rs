@@ -317,17 +317,4 @@ mod tests {
         }
         assert!(!spent(&films).is_zero());
     }
-
-    #[test]
-    fn the_run_that_was_begun_first_goes_on() {
-        let mut answers = Answers::default();
-        for speed in [398.0, 399.0, 400.0] {
-            let (scene, waits) = film(speed);
-            answers.turned_on(&scene, waits);
-        }
-        while answers.older.is_some() {
-            answers.look();
-        }
-        assert_eq!(answers.latest.unwrap().scene.operation.speed_rad_s, 398.0);
-    }
 }

@@ -181,26 +181,6 @@ mod tests {
     }
 
     #[test]
-    fn a_knob_turned_twenty_times_computes_the_last_value() {
-        let mut worker = Worker::spawn(Arc::new(|| {})).unwrap();
-        for turn in 0..20 {
-            worker.order(&order(400.0 + f64::from(turn), u64::from(turn as u32)));
-        }
-        // The limit is generous, because only the arrival of the last order is tested.
-        for _ in 0..60_000 {
-            if let Some(snapshot) = worker.take()
-                && snapshot.number == 19
-                && matches!(snapshot.results.full_run, Some(FullRunState::Done(_)))
-            {
-                assert_eq!(snapshot.moment.unwrap().speed, 419.0);
-                return;
-            }
-            std::thread::sleep(Duration::from_millis(2));
-        }
-        panic!("the last order never arrived");
-    }
-
-    #[test]
     fn an_order_does_not_wait_for_a_forecast_of_minutes() {
         let mut worker = Worker::spawn(Arc::new(|| {})).unwrap();
         let mut endless = Scene::builtin("undamped").unwrap().as_reference();

@@ -193,8 +193,7 @@ fn run_of(plan: MapPlan, cell: [u32; 2], go_on: GoOn<'_>) -> Option<CellRun> {
 mod tests {
     use super::*;
     use crate::tui::views::map::plan::MapChoice;
-    use crate::tui::worker::studies::tests::with_given;
-    use rubscope_solver::motion::Verdict;
+
     use rubscope_solver::scene::Scene;
 
     #[test]
@@ -218,22 +217,5 @@ mod tests {
             coarse.work(Duration::from_millis(5));
         }
         assert!(coarse.found().is_some() && !coarse.live.is_complete());
-    }
-
-    #[test]
-    fn the_run_of_a_cell_says_what_holds_it() {
-        let scene = Scene::builtin("paper-nd3").unwrap();
-        // The cell at 500 rad/s and 1 MN.
-        let mut job = with_given(&scene, ViewId::Map, |given| {
-            CellStudy::begin(&(given.plan.clone().unwrap(), [50, 30]), given)
-        });
-        while !job.is_done() {
-            job.work(Duration::from_millis(5));
-        }
-        let run = job.found().unwrap();
-        assert_eq!(run.verdict, Verdict::Locked);
-        let blades: Vec<_> = run.contacts.iter().map(|(blades, _)| blades.clone()).collect();
-        assert_eq!(blades, [[19], [12]]);
-        assert!(run.since.unwrap() < 1e-4 && run.contacts.iter().all(|(_, force)| *force < 0.0));
     }
 }

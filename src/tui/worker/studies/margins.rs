@@ -46,28 +46,3 @@ impl Study for MarginsStudy {
         })
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::super::study::Job;
-    use super::super::tests::with_given;
-    use super::*;
-    use rubscope_solver::scene::Scene;
-    use std::time::Duration;
-
-    #[test]
-    fn the_margins_come_first_then_the_survey_and_last_what_runs_say() {
-        let scene = Scene::builtin("paper-nd3").unwrap().checked().unwrap();
-        let start = |given: &Given| MarginsStudy::begin(&(scene.clone(), None), given);
-        let mut job = with_given(&scene, ViewId::Margins, start);
-        while !job.is_done() {
-            job.work(Duration::from_millis(20));
-        }
-        let live = job.found().unwrap();
-        assert_eq!(live.margins.limits, Margins::of(&scene).limits);
-        assert!(live.survey.is_some());
-        let told =
-            [&live.margins.robust, &live.margins.pushes_only].map(|law| law.clone().unwrap());
-        assert!(told.iter().all(|law| law.changes.len() == law.rows), "{told:?}");
-    }
-}

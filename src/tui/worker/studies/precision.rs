@@ -44,25 +44,3 @@ impl Study for PrecisionStudy {
         Some(found.rows.len() as f64 / all as f64)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::super::study::Job;
-    use super::super::tests::with_given;
-    use super::*;
-    use std::time::Duration;
-
-    #[test]
-    fn rows_come_in_the_order_of_the_ways_and_nothing_waits_for_them() {
-        let mut scene = Scene::base();
-        scene.solver.end_s = 1e-3;
-        let start = |given: &Given| PrecisionStudy::begin(&scene, given);
-        let mut job = with_given(&scene, ViewId::Precision, start);
-        assert!(!job.is_done());
-        while !job.is_done() {
-            job.work(Duration::from_millis(50));
-        }
-        let rows: Vec<_> = job.found().unwrap().rows.iter().map(|row| row.way).collect();
-        assert_eq!(rows, ways(&scene, Effort::QUICK));
-    }
-}
