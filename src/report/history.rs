@@ -99,14 +99,6 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_number_never_gets_in() {
-        let mut history = History::new(0);
-        history.push(&sample(f64::NAN));
-        history.push(&Sample { rotor_angle_rad: f64::INFINITY, ..sample(0.1) });
-        assert!(history.table().is_empty());
-    }
-
-    #[test]
     fn every_number_reads_back_as_itself() {
         let mut history = History::new(3);
         history.push(&sample(0.1 + 0.2));

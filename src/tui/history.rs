@@ -237,12 +237,4 @@ mod tests {
             assert!(span.0.is_finite() && span.1.is_finite());
         }
     }
-
-    #[test]
-    fn reading_at_an_instant() {
-        let bins = ramp(5);
-        assert_eq!(bin_at(&bins, 2.5).unwrap().low[0], 2.0);
-        assert!(bin_at(&bins, 7.0).is_none());
-        assert!(bin_at(&bins, -1.0).is_none());
-    }
 }

@@ -142,36 +142,6 @@ fn at_steps(number: u32, pulse: &str, every: usize) -> Vec<(Option<f64>, Vec<u32
     (0..50).into_par_iter().step_by(every).map(run).collect()
 }
 
-/// The angles of the blades over the last tenth of the run, as a part of the
-/// largest of the whole run.
-fn swing(panel: &Panel) -> f64 {
-    let range = |points: &[(f64, f64)]| {
-        let values = points.iter().map(|point| point.1);
-        values.clone().fold(f64::MIN, f64::max) - values.fold(f64::MAX, f64::min)
-    };
-    let of = |last: bool| {
-        let points = panel
-            .series
-            .iter()
-            .map(|series| range(if last { &series.points[1800..] } else { &series.points }));
-        points.fold(0.0, f64::max)
-    };
-    of(true) / of(false)
-}
-
-#[test]
-fn the_disk_of_figure_6_is_static_with_the_damping_taken_literally() {
-    let figure = drawn(6);
-    // With the printed one it is not: the note of the scene says how far it swings.
-    let told = figure.caption.iter().find_map(|line| line.split("it still swings by ").nth(1));
-    let told: f64 = told.unwrap().split(' ').next().unwrap().parse().unwrap();
-    assert!((told - 19.0).abs() <= 1.0, "{told}");
-    assert_eq!(figure.panels.len(), 3);
-    assert!(swing(&figure.panels[1]) > 0.1, "{}", swing(&figure.panels[1]));
-    assert!(swing(&figure.panels[2]) < 0.01, "{}", swing(&figure.panels[2]));
-    assert!(figure.panels[2].title.ends_with("ζ_bd = 0.192"));
-}
-
 /// With the damping of Table 1 no pulse locks as late as the paper says.
 #[test]
 fn with_the_damping_of_table_1_every_lock_is_early() {
@@ -238,7 +208,8 @@ fn figure_7_locks_earlier_than_the_paper_at_most_steps_and_when_it_does_depends_
 
 #[test]
 fn figure_8_has_a_verdict_for_every_cell() {
-    let figure = which(8).draw(&with(8, &[("solver.end_s", "2e-5")])).unwrap();
+    let figure =
+        which(8).draw(&with(8, &[("solver.end_s", "1e-6"), ("solver.step_s", "1e-6")])).unwrap();
     let cells = |panel: &Panel| -> usize {
         let all = panel.series.iter().filter(|series| series.name != "threshold");
         all.map(|series| series.points.len()).sum()

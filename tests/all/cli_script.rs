@@ -1,5 +1,5 @@
 //! Changes of a running motion from the command line: which keys act, and the same effect as
-//! the calls on the motion. Refusals are in `tests/transcripts/refusals.txt`.
+//! the calls on the motion. Refusals are in `tests/transcripts`.
 
 use rubscope::cli::script::{RequestedChange, RequestedScript, parse};
 use rubscope_solver::motion::{self};

@@ -1,9 +1,8 @@
 //! Margins: sensitivities against closed forms and against a whole search, and targets.
 
-use rubscope_solver::motion::to_the_end;
 use rubscope_solver::scene::{CheckedScene, ContactLaw, ModelSize, Scene};
 use rubscope_solver::study::margins::{
-    CLEARANCE, Limit, LimitName, Margins, Target, grazing_pulse, parameter,
+    CLEARANCE, Limit, LimitName, Margins, grazing_pulse, parameter,
 };
 const MASS: &str = "casing.modal_mass_kg";
 const STIFFNESS: &str = "casing.modal_stiffness_n_per_m";
@@ -143,37 +142,4 @@ fn sensitivities_of_the_touching_pulse_are_those_of_the_whole_search() {
         }
     }
     assert!(compared > 100, "{compared}");
-}
-
-#[test]
-fn targets_of_every_kind() {
-    let scene = Scene::base().checked().unwrap();
-    let solve =
-        |text: &str, by: &str| Target::parse(text, by).unwrap().solve(&scene, &to_the_end).unwrap();
-    for (text, by) in [
-        ("omega_c=300", MASS),
-        ("coincidence=400", "bladed_disk.stiffness_nm_per_rad"),
-        ("touching_pulse=5000", CLEARANCE),
-        ("touching_pulse=5000", LENGTH),
-        ("push_b=0", SPEED),
-        ("torque=0.01", "casing.radius_m"),
-    ] {
-        let found = solve(text, by);
-        let parameter = parameter(by).unwrap();
-        let there = parameter.set(&scene, found.to.unwrap()).unwrap().checked().unwrap();
-        let size = of(&scene, found.name).value.unwrap().abs();
-        let error = of(&there, found.name).value.unwrap() - found.wanted;
-        assert!(error.abs() < 1e-8 * size.max(found.wanted.abs()), "{text} by {by}: {error}");
-    }
-    // None: damping does not lower it, and a clearance does not move it.
-    for (text, by) in [("omega_lock=200", DAMPING), ("omega_lock=450", CLEARANCE)] {
-        let found = solve(text, by);
-        assert_eq!((found.to, found.reached), (None, None), "{text} by {by}");
-        assert!(found.tried[0] < found.from && found.tried[1] > found.from);
-    }
-    // From zero upward.
-    let undamped = Scene::builtin("undamped").unwrap().checked().unwrap();
-    let target = Target::parse("omega_lock=300", DAMPING).unwrap();
-    let found = target.solve(&undamped, &to_the_end).unwrap();
-    close(found.reached, 300.0, 1e-12, "from zero");
 }

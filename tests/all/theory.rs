@@ -227,33 +227,3 @@ fn formulas_survive_markdown() {
     assert!(blocks > 25);
     assert!(!page.contains("\\operatorname"), "GitHub refuses it");
 }
-
-#[test]
-fn sections_cited_in_the_source_exist() {
-    let page = page();
-    let mut cited = HashMap::new();
-    // A package by itself has not the folder of the other.
-    let mut folders = vec![root().join("src"), root().join("solver/src")];
-    folders.retain(|folder| folder.is_dir());
-    let both = folders.len() == 2;
-    while let Some(folder) = folders.pop() {
-        for entry in std::fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                folders.push(path);
-                continue;
-            }
-            let source = std::fs::read_to_string(&path).unwrap();
-            for citation in source.split("docs/theory.md, section ").skip(1) {
-                let number: String = citation.chars().take_while(char::is_ascii_digit).collect();
-                assert!(page.contains(&format!("\n## {number} ")), "{}: {number}", path.display());
-                *cited.entry(number).or_insert(0) += 1;
-            }
-            assert!(!source.contains("docs/theory.md section"), "{}", path.display());
-        }
-    }
-    for section in 1..=9 {
-        let named = cited.contains_key(&section.to_string());
-        assert!(named || !both, "no file cites section {section}");
-    }
-}

@@ -15,7 +15,10 @@ use crate::cli_support::hearing;
 /// Numbers may differ by this part between processors; other words may not.
 const WITHIN: f64 = 1e-5;
 
-files! { "transcripts": files hbm lines machine map margins notes precision program refusals run survey }
+files! {
+    "transcripts": files hbm lines machine map margins modes notes precision program refusals refusals_keys
+    refusals_maps refusals_runs run survey
+}
 
 /// A command and the lines below it.
 pub struct Shown {

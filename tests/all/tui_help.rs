@@ -66,32 +66,6 @@ fn every_sign_of_the_pictures_is_found_by_typing_it() {
 }
 
 #[test]
-fn the_help_scrolls_to_its_end_and_back_without_a_dead_key() {
-    for size in [(40, 12), (120, 40)] {
-        let mut session = open(size, Marker::Braille);
-        session.press("?");
-        let top = session.text();
-        session.press(&"⇟".repeat(120));
-        session.press(&"↓".repeat(20));
-        let end = session.text();
-        let read = |text: &str| {
-            text.lines().nth(2).unwrap().split_whitespace().last().unwrap().to_string()
-        };
-        let place = read(&end);
-        let (last, all) = place.split_once('/').unwrap();
-        assert_eq!(last, all, "{end}");
-        assert!(end.contains("close the list"), "{end}");
-        session.press("↑");
-        assert_ne!(session.text(), end);
-        session.press(&"⇞".repeat(120));
-        assert_eq!(
-            session.text().lines().skip(2).collect::<Vec<_>>(),
-            top.lines().skip(2).collect::<Vec<_>>()
-        );
-    }
-}
-
-#[test]
 fn every_prompt_edits_as_a_shell_does_and_shows_its_cursor() {
     let ctrl = |session: &mut Session, letter| {
         let key = KeyEvent::new(KeyCode::Char(letter), KeyModifiers::CONTROL);

@@ -74,17 +74,6 @@ fn the_run_to_come_is_on_the_chart_before_it_is_played() {
 }
 
 #[test]
-fn a_lesson_slows_down_at_changes_and_gives_the_pace_back() {
-    let mut session = open(scene("rocking"), 1e-3);
-    session.press_each("z");
-    assert!(!session.app.play.tempo.slow_at_events);
-    session.press_each("g\n");
-    assert!(session.app.play.tempo.slow_at_events);
-    session.press_each("G");
-    assert!(!session.app.play.tempo.slow_at_events && session.app.lessons.progress.is_none());
-}
-
-#[test]
 fn the_copied_command_repeats_live_changes_at_their_instants() {
     for name in ["rocking", "paper-nd3"] {
         let mut scene = scene(name);
@@ -111,22 +100,4 @@ fn the_copied_command_repeats_live_changes_at_their_instants() {
         // The same instants, but for the step in which a change comes.
         assert!((end[0] - last).abs() < 1e-9, "{name}: {} {last}", end[0]);
     }
-}
-
-#[test]
-fn another_scene_has_scales_of_its_own() {
-    // Two parallel sides and no corner: the wave leaves the casing far.
-    let changes = [
-        ("operation.nodal_diameters", "11"),
-        ("operation.speed_rad_s", "100"),
-        ("operation.pulse_n", "20000"),
-        ("solver.model", "rigid"),
-        ("solver.end_s", "0.012"),
-    ];
-    let half = crate::scene("paper-nd3", &changes).as_reference();
-    let mut session = open(half, 1e-3);
-    let before = session.app.run.ranges.casing;
-    session.press_each(":paper-nd3\n");
-    let after = session.app.run.ranges.casing;
-    assert!(before.high > 1e-3 && after.high < 3e-4, "{before:?} {after:?}");
 }

@@ -1,7 +1,6 @@
 //! The page of time at every zoom: what is drawn is the range of the run in its time, and
 //! contact is marked where contact was.
 
-use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use proptest::prelude::*;
 use rubscope::tui::history::{Bin, Channel, columns, contacts};
 use rubscope::tui::{App, Marker, Theme};
@@ -154,16 +153,6 @@ fn a_zoom_on_the_first_impact_shows_the_flight_before_it() {
 }
 
 #[test]
-fn a_turned_knob_forgets_the_page_of_the_run_before() {
-    let mut session = open("rocking");
-    session.press_each("  ");
-    assert!(!session.app.record().is_empty());
-    let key = KeyEvent::new(KeyCode::Char('l'), KeyModifiers::NONE);
-    let _ = session.app.key(&key);
-    assert!(session.app.record().is_empty());
-}
-
-#[test]
 fn the_gap_of_a_blade_at_an_instant_is_read_in_every_chart() {
     let mut session = open("rocking");
     session.press_each(":t 0.3 ms\n");
@@ -232,28 +221,6 @@ fn the_end_of_the_run_and_any_instant_are_one_command_away() {
 }
 
 #[test]
-fn the_coincidence_begins_where_its_waves_are_and_its_lesson_shows_them_grow() {
-    let scene = Scene::builtin("coincidence").unwrap();
-    let mut session = Session::with_stride((120, 40), 1e-4, scene, Theme::Mono, Marker::Braille);
-    session.press_each("");
-    let swing = |bins: &[Bin]| {
-        let most = |bin: &Bin| bin.span(Channel::AlphaC).1.abs();
-        bins.iter().map(most).fold(0.0, f64::max)
-    };
-    assert!(session.app.now() >= 2.4 && swing(session.app.record()) > 0.98 * 182e-6);
-    let place =
-        rubscope::tui::lessons::all().iter().position(|lesson| lesson.name == "coincidence");
-    session.app.begin_lesson(place.unwrap());
-    session.press_each("\ng↓\n");
-    let app = &session.app;
-    let (past, future) = app.past_and_future(app.record());
-    assert!(app.view().word() == "response" && app.page() == (0.0, 3.0) && app.now() >= 2.4);
-    // The growth of two seconds, and what is to come.
-    let tenth = past.len() / 10;
-    assert!(swing(&past[..tenth]) < 0.05 * swing(past) && !future.is_empty());
-}
-
-#[test]
 fn zoom_keeps_the_cursor_in_the_middle_and_stays_inside_the_run() {
     let mut session = open("rocking");
     session.engine.stride = 1e-12;
@@ -304,22 +271,4 @@ fn steps_and_jumps_go_on_from_the_cursor() {
     session.press_each(":t 9 ms\np");
     let said = session.app.status.clone().unwrap();
     assert!(said.contains(" fired at 9.00") && session.app.reading.at_s.is_none(), "{said}");
-}
-
-#[test]
-fn a_run_that_nobody_watches_to_its_end_opens_with_all_of_it() {
-    for name in ["coincidence", "oval", "rub", "paper-nd3"] {
-        let scene = Scene::builtin(name).unwrap();
-        let (end, long) = (scene.solver.end_s, scene.solver.end_s > 0.6);
-        let mut app = App::new(scene.clone().checked().unwrap(), Theme::Mono, Marker::Braille);
-        for _ in 0..2 {
-            assert_eq!(app.page(), (0.0, if long { end } else { 0.02 }), "{name}");
-            app.open_scene("rub".into(), Scene::builtin("rub").unwrap().checked().unwrap());
-            assert_eq!(app.page(), (0.0, 0.02));
-            // Also where it is opened in the explorer, and where that is undone.
-            app.open_scene(name.into(), scene.clone().checked().unwrap());
-        }
-        app.act(rubscope::tui::command::Command::Undo);
-        assert_eq!(app.page(), (0.0, 0.02));
-    }
 }

@@ -430,10 +430,4 @@ mod tests {
         assert!(entries[0].open && entries[0].name == "other/mine.toml");
         assert_eq!(app.scene_place(&entries), 0);
     }
-
-    #[test]
-    fn a_path_may_begin_with_a_dot() {
-        assert!(same_path(Path::new("./a.toml"), Path::new("a.toml")));
-        assert!(!same_path(Path::new("b/a.toml"), Path::new("a.toml")));
-    }
 }

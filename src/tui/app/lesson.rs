@@ -419,7 +419,6 @@ mod tests {
     use super::*;
     use crate::tui::app::tests::on_screen;
     use crate::tui::command::Command;
-    use crate::tui::lessons::Condition;
 
     #[test]
     fn a_step_that_is_too_long_begins_at_the_start_of_a_sentence() {
@@ -445,23 +444,5 @@ mod tests {
         }
         assert_eq!(app.lesson_step().unwrap().1.answer, Some(1));
         assert_eq!(app.selected().map(|knob| knob.path), knob);
-    }
-
-    #[test]
-    fn a_condition_of_a_task_is_that_of_the_screen() {
-        let app = on_screen();
-        let speed = || "operation.speed_rad_s".to_string();
-        for (condition, met) in [
-            (Condition::View("response".into()), app.is_large(ViewId::Response)),
-            (Condition::Compare(false), true),
-            (Condition::Above(speed(), 499.0), true),
-            (Condition::Above(speed(), 500.0), false),
-            (Condition::Below(speed(), 501.0), true),
-            (Condition::Is("solver.contact".into(), "bilateral".into()), true),
-            (Condition::Is("solver.contact".into(), "smooth".into()), false),
-            (Condition::Verdict("locked".into()), false),
-        ] {
-            assert_eq!(app.meets(&condition), met, "{condition:?}");
-        }
     }
 }

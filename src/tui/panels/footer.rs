@@ -200,13 +200,6 @@ mod tests {
     use ratatui::style::Style;
     use rubscope_solver::scene::Scene;
 
-    fn line(app: &App, width: u16) -> String {
-        let area = Rect::new(0, 0, width, 1);
-        let mut buffer = Buffer::empty(area);
-        draw(app, &mut buffer, area);
-        buffer.content.iter().map(|cell| cell.symbol()).collect()
-    }
-
     fn app() -> App {
         App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Braille)
     }
@@ -226,17 +219,5 @@ mod tests {
             shown,
             [&words.iter().map(String::as_str).collect::<Vec<_>>()[..], &["?", "q"]].concat()
         );
-    }
-
-    #[test]
-    fn a_new_user_reads_what_to_try_until_the_first_key() {
-        let mut app = app();
-        app.dialogue.is_new = true;
-        for width in [40, 80] {
-            assert!(line(&app, width).starts_with(TRY), "{}", line(&app, width));
-        }
-        let code = crossterm::event::KeyCode::Char(' ');
-        app.key(&crossterm::event::KeyEvent::new(code, crossterm::event::KeyModifiers::NONE));
-        assert!(line(&app, 80).contains("knob"), "{}", line(&app, 80));
     }
 }

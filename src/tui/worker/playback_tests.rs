@@ -113,21 +113,6 @@ fn the_reading_cursor_has_the_state_of_a_run_that_stops_there() {
 }
 
 #[test]
-fn the_reading_cursor_knows_changes_of_the_motion() {
-    let mut order = order(Scene::builtin("rocking").unwrap());
-    let mut playback = computed(&order);
-    playback.play(2e-3, false);
-    let fired = order.film.fired(2e-3);
-    refilmed(&mut playback, &mut order, fired);
-    playback.play(3e-3, false);
-    let now = playback.head.at.motion.state();
-    playback.play(1e-3, false);
-    order.cursor_s = Some(now.t_s);
-    playback.apply(&order);
-    assert_eq!(playback.snapshot().moment.unwrap().state, now);
-}
-
-#[test]
 fn a_change_acts_on_both_laws_at_its_instant_and_undo_takes_it_away() {
     let mut scene = Scene::base();
     (scene.solver.step_s, scene.solver.end_s) = (1e-6, 3e-3);
@@ -174,16 +159,4 @@ fn steps_and_jumps_are_made_once_each_in_the_order_of_their_keys() {
     let steps = (playback.head.at.motion.t_s() - 5e-4) / 1e-6;
     assert!((steps - 1.0).abs() < 1e-6, "{steps}");
     assert_eq!(playback.snapshot().moved, order.moves.last());
-}
-
-#[test]
-fn the_rate_reached_is_forgotten_where_another_is_asked_for() {
-    let mut order = short();
-    let mut playback = computed(&order);
-    playback.reached.add(1.0, 5e-3);
-    playback.apply(&order);
-    assert_eq!(playback.reached.rate(), Some(5e-3));
-    order.rate *= 2.0;
-    playback.apply(&order);
-    assert_eq!(playback.reached.rate(), None);
 }

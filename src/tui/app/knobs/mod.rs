@@ -237,7 +237,6 @@ impl App {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::tui::command::Command;
 
     #[test]
@@ -268,16 +267,5 @@ mod tests {
         let event = event.with(&[("solver.contact", "unilateral"), ("solver.kind", "event")]);
         app.set_scene(event.unwrap(), false);
         assert!(app.turn_plain().unwrap_err().contains("has no steps"));
-    }
-
-    #[test]
-    fn the_knobs_go_round_and_another_one_has_no_refusal() {
-        let mut knobs = Knobs::default();
-        knobs.refuse(&KNOBS[1], &Scene::base().set("operation.pulse_n", "x").unwrap_err());
-        assert!(knobs.refusal.is_some());
-        knobs.walk(true);
-        assert_eq!((knobs.selected, knobs.refusal.clone()), (KNOBS.len() - 1, None));
-        knobs.walk(false);
-        assert_eq!(knobs.selected, 0);
     }
 }

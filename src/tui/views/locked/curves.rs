@@ -133,7 +133,6 @@ pub fn speed_range(scene: &Scene) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rubscope_solver::scene::ModelSize;
 
     #[test]
     fn the_curves_reach_beyond_every_threshold_and_meet_the_closed_form() {
@@ -150,27 +149,6 @@ mod tests {
         let undamped = LockedCurves::of(&scene.with(&[("casing.damping_ratio", "0")]).unwrap());
         let names: Vec<&str> = undamped.marks.iter().map(|(_, name)| *name).collect();
         assert_eq!(names, ["Ω_c = Ω_lock", "coincidence"]);
-    }
-
-    #[test]
-    fn a_lock_of_tips_that_move_outward_ends_and_a_whirl_can_last_beside_it() {
-        let mut scene = Scene::base();
-        assert!(LockedCurves::of(&scene).whirl.is_empty());
-        scene.bladed_disk.radial_coupling = 0.3;
-        let curves = LockedCurves::of(&scene);
-        let mark = |name| curves.marks.iter().find(|(_, known)| *known == name).unwrap().0;
-        // The values of docs/theory.md, section 13.
-        assert!((mark("Ω_lock") - 472.117).abs() < 1e-3, "{:?}", curves.marks);
-        assert!((mark("lock ends") - 566.259).abs() < 1e-3, "{:?}", curves.marks);
-        assert!(curves.fastest > 566.259);
-        // The fold at which the whirl begins, within one step of the speeds.
-        let step = curves.fastest / f64::from(POINTS - 1);
-        let first = curves.whirl.first().unwrap().0;
-        assert!((414.3 - 0.1..414.3 + step + 0.1).contains(&first), "{first}");
-        assert!(curves.whirl.iter().all(|(_, push)| *push < 0.0));
-        // Rigid blades cannot drive the whirl.
-        scene.solver.model = ModelSize::Rigid;
-        assert!(LockedCurves::of(&scene).whirl.is_empty());
     }
 
     #[test]

@@ -296,21 +296,6 @@ mod tests {
     }
 
     #[test]
-    fn the_map_has_the_solver_of_its_scene_and_another_law_the_one_that_knows_it() {
-        let mut scene = Scene::builtin("paper-nd3").unwrap();
-        let mut choice = MapChoice::default();
-        assert_eq!(choice.plan(&scene).unwrap().scene.solver, scene.solver);
-        choice.law = Some(ContactLaw::Unilateral);
-        let solver = choice.plan(&scene).unwrap().scene.solver;
-        assert_eq!((solver.kind, solver.contact), (SolverKind::Explicit, ContactLaw::Unilateral));
-        scene = scene.as_reference();
-        assert_eq!(choice.plan(&scene).unwrap().scene.solver.kind, SolverKind::Event);
-        choice.law = Some(ContactLaw::Bilateral);
-        let solver = choice.plan(&scene).unwrap().scene.solver;
-        assert_eq!((solver.kind, solver.contact), (SolverKind::Explicit, ContactLaw::Bilateral));
-    }
-
-    #[test]
     fn every_numeric_knob_can_be_on_either_axis_of_a_scene_that_takes_it() {
         let (mut drawn, mut refused) = (0, 0);
         for builtin in rubscope_solver::scene::BUILTIN {
