@@ -8,7 +8,6 @@ const MASS: &str = "casing.modal_mass_kg";
 const STIFFNESS: &str = "casing.modal_stiffness_n_per_m";
 const DAMPING: &str = "casing.damping_ratio";
 const SPEED: &str = "operation.speed_rad_s";
-const LENGTH: &str = "operation.pulse_s";
 
 /// A scene of another machine than the paper's, at rest.
 fn random_scene(random: &mut fastrand::Rng) -> CheckedScene {
