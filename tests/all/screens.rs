@@ -25,7 +25,7 @@ use rubscope_solver::scene::{Scene, keys};
 
 use crate::tui_support::{Session, scene};
 
-files! { "screens": help knobs odd time views }
+files! { "screens": headers help knobs maps margins odd odd_laws odd_speeds odd_starts time views }
 
 fn size(text: &str) -> (u16, u16) {
     let (width, height) = text.split_once('x').unwrap();
