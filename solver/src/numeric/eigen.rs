@@ -22,15 +22,12 @@ pub(crate) fn eigenvalues(mut matrix: DMatrix<f64>) -> Option<Vec<Complex<f64>>>
 /// Returns the eigenvalues of a matrix of 1 x 1 and 2 x 2 blocks on the diagonal and zeros below.
 fn of_blocks(matrix: &DMatrix<f64>) -> Vec<Complex<f64>> {
     let mut values: Vec<_> = matrix.diagonal().iter().map(|x| Complex::new(*x, 0.0)).collect();
-    for row in 1..values.len() {
-        let below = matrix[(row, row - 1)];
-        if below != 0.0 {
-            // Of nearly equal real ones the square is positive; nalgebra takes every pair as complex.
-            let half = 0.5 * (values[row - 1] - values[row]);
-            let root = (half * half + below * matrix[(row - 1, row)]).sqrt();
-            let mean = values[row] + half;
-            (values[row - 1], values[row]) = (mean + root, mean - root);
-        }
+    for row in (1..values.len()).filter(|row| matrix[(*row, row - 1)] != 0.0) {
+        // Of nearly equal real ones the square is positive; nalgebra takes every pair as complex.
+        let half = 0.5 * (values[row - 1] - values[row]);
+        let root = (half * half + matrix[(row, row - 1)] * matrix[(row - 1, row)]).sqrt();
+        let mean = values[row] + half;
+        (values[row - 1], values[row]) = (mean + root, mean - root);
     }
     values
 }
