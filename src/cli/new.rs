@@ -299,7 +299,9 @@ impl Asking {
         match (given, usual) {
             (Some(given), _) => return read(given),
             (None, Some(usual)) if !self.answers => return read(usual),
-            (None, None) if !self.answers => return Err(missing("; nobody is there to ask")),
+            (None, None) if !self.answers => {
+                return Err(missing("; without a terminal no question is asked"));
+            }
             _ => {}
         }
         let hint = usual.map_or(String::new(), |usual| format!(" (Enter: {usual})"));

@@ -48,7 +48,7 @@ impl RunCommand {
         self.options.ask_speed(&scene);
         if self.plain {
             if scene.solver.kind != SolverKind::Explicit {
-                let reason = "--plain: of --solver explicit only; the event solver has no steps";
+                let reason = "--plain: only for --solver explicit; the event solver has no steps";
                 return Err(Refusal::because(reason).into());
             }
             scene = scene.by_every_step();
@@ -78,7 +78,7 @@ impl RunCommand {
         let mut report = run_to_end(&scene, &acts, sampling, &mut sink);
         let mut wall = Wall { run_s: started.elapsed().as_secs_f64(), certainty_s: None };
         if !self.no_sensitivity {
-            sign::doing("changed runs find out which digits hold");
+            sign::doing("extra runs determine which digits are reliable");
             let started = Instant::now();
             report.ask_changed_runs(&acts, &to_the_end);
             report.ask_events(&acts, &to_the_end);

@@ -1,4 +1,4 @@
-//! The first line of a table of modes: which column has which value, and in which unit.
+//! The first line of a table of modes: the value and the unit of each column.
 
 use csv::StringRecord;
 use rubscope_solver::scene::units::UnitError;
@@ -162,7 +162,7 @@ fn missing(meaning: &Meaning, names: &StringRecord, line: &str) -> TableError {
     TableError::Missing { line: line.into(), name: meaning.name, understood, nearest }
 }
 
-/// What a column name says: the value, the place of the name among the names of this value, and the
+/// Content of a column name: the value, the rank of the name among the names of this value, and the
 /// unit.
 struct Read {
     name: &'static str,

@@ -11,55 +11,56 @@ use super::range::TIP_SPEED;
 
 use rubscope_solver::numeric::rounding::rounded;
 
-/// Largest clearance as a part of the radius. Blade tips run within some tenths of a per
-/// cent; larger: millimetres given as metres pass.
+/// Largest plausible clearance, relative to the radius; blade tips run within some tenths of a per
+/// cent. With a larger one, millimetres given as metres would not be noticed.
 const CLEARANCE: f64 = 0.01;
 
-/// Smallest clearance \[m\]: below it surfaces are not round. Larger: machines of a
-/// laboratory are doubted.
+/// Smallest plausible clearance \[m\]: surfaces are not rounder. With a larger one, laboratory machines
+/// would be questioned.
 const GAP: f64 = 1e-6;
 
-/// Frequencies of first modes, from and to \[Hz\].
+/// Plausible frequencies of first modes, from and to \[Hz\].
 const FREQUENCY: [f64; 2] = [1.0, 2e4];
 
-/// Largest damping ratio. Structures of metal have thousandths to hundredths; larger: per
-/// cent given as parts pass.
+/// Largest plausible damping ratio; metal structures have thousandths to hundredths. With a larger one,
+/// per cent given as a fraction would not be noticed.
 const DAMPING: f64 = 0.3;
 
-/// Radius of a casing, from and to \[m\]: from turbochargers to steam turbines. Larger: a
-/// radius in millimetres passes.
+/// Plausible radius of a casing, from and to \[m\]: from turbochargers to steam turbines.
 const RADIUS: [f64; 2] = [0.02, 8.0];
 
-/// Modal mass of casing or disk over the cube of the radius, from and to \[kg/m^3\]. The
-/// paper's casing has 16, its disk 73, a whole disk of steel some 6000, a ring of sheet 2;
-/// wider by a factor of a thousand: grams and tonnes pass.
+/// Plausible modal mass of casing or disk divided by the cube of the radius, from and to \[kg/m^3\].
+/// The paper's casing has 16, its disk 73, a solid steel disk about 6000, a sheet-metal ring 2. Grams
+/// or tonnes given as kilograms are off by a factor of a thousand.
 const DENSITY: [f64; 2] = [1.0, 6000.0];
 
-/// How far two modes of a structure may lie apart, in frequency and in modal mass: by this
-/// factor, times the ratio of their diameters to this power. Rings go with the square to
-/// third power of few diameters. Larger: a decimal point that is off by one place passes.
+/// Factor and exponent `p` of the largest plausible ratio of the frequencies or modal masses of two
+/// modes: factor times the ratio of their nodal diameters to the power `p`. Frequencies of rings rise
+/// with the second to third power. With larger values, a misplaced decimal point would not be noticed.
 const COURSE: [f64; 2] = [3.0, 3.0];
 
-/// Largest factor by which frequencies fall from few diameters to many. Those of shells fall by less
-/// before they rise; larger: a point between thousands that is read as a decimal point passes.
+/// Largest plausible factor by which frequencies fall with more nodal diameters; those of shells fall
+/// by less before they rise. With a larger one, a thousands separator that was read as a decimal point
+/// would not be noticed.
 const FALL: f64 = 30.0;
 
-/// Largest ratio of the frequencies of casing and disk, either way. Their waves are of the same
-/// size; larger: a mistake by a factor of a thousand passes.
+/// Largest plausible ratio of the frequencies of casing and disk, either way. With a much larger one,
+/// an error by a factor of a thousand would not be noticed.
 const APART: f64 = 100.0;
 
-/// Centrifugal stiffening `B` of first modes of blades, from and to; 0 is none. Theory gives some 1
-/// to 5. Wider: speeds in rad/s or Hz given as rpm, or the other way round, pass.
+/// Plausible centrifugal stiffening `B` of first blade modes, from and to; 0 means none. Theory gives
+/// about 1 to 5. In a wider range, speeds given in a wrong unit would not be noticed.
 const STIFFENING: [f64; 2] = [0.1, 20.0];
 
 /// Modal masses to which FE programs scale mode shapes: 1 kg, g or t \[kg\].
 const SCALED_MASSES: [f64; 3] = [1.0, 1e-3, 1e3];
 
-/// Largest pulse \[N\]. Larger: kilonewtons given as newtons twice pass.
+/// Largest plausible pulse \[N\].
 const FORCE: f64 = 1e7;
 
-/// Largest push on one blade tip in the lock \[N\], that of some square centimetres of metal
-/// at their strength. Larger: a stiffness or a clearance that is off by a factor of ten passes.
+/// Largest plausible contact force on one blade tip in the lock \[N\], about the strength of a few
+/// square centimetres of metal. With a larger one, a stiffness or a clearance that is off by a factor
+/// of ten would not be noticed.
 const PUSH: f64 = 2e4;
 
 /// A structure, casing or disk, and the keys of its values.

@@ -1,6 +1,6 @@
-//! The decimal mark of a table: comma or point. It follows from the numbers that have only one
-//! reading. A number such as `1.300`, one thousand three hundred or 1.3, is asked about if no other
-//! number of the table shows the mark, or if they show the other one.
+//! The decimal mark of a table: comma or point. It follows from the numbers that can be read in one way
+//! only. A number such as `1.300`, which may be 1300 or 1.3, leads to a question if no other number of
+//! the table shows the mark, or if others show the other mark.
 
 use super::error::TableError;
 

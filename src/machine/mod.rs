@@ -1,5 +1,5 @@
-//! One's own machine: the table of a modal analysis, the scene file made of it, and questions about
-//! values that look like a slip of a unit.
+//! The user's own machine: the table of a modal analysis, the scene file built from it, and questions
+//! about values that look like a unit error.
 
 mod build;
 mod cells;

@@ -1,11 +1,11 @@
-//! Asks whether a range of speeds is in the unit that was meant.
+//! Checks whether a range of speeds without a unit was probably meant in rpm.
 
 use std::f64::consts::TAU;
 
 use rubscope_solver::scene::Scene;
 
-/// Largest speed of blade tips \[m/s\]. Metal tips of engines reach some 500. Larger: turns
-/// a minute given as radians a second pass for small machines.
+/// Largest plausible speed of blade tips \[m/s\]; metal tips reach about 500. With a larger one, rpm
+/// given as rad/s would not be noticed for small machines.
 pub(super) const TIP_SPEED: f64 = 800.0;
 
 /// Asks whether a range of speeds that was given without a unit \[rad/s\] was meant in rpm: blade

@@ -26,8 +26,8 @@ pub struct ModeTable {
 /// A mode with its measured frequencies, each with its rotor speed \[Hz, rad/s\].
 type Measured = (Family, Vec<(f64, f64)>);
 
-/// Largest difference between frequencies and masses of the two modes of a pair, as a part. FE
-/// meshes split them by less; modes of other families differ by more.
+/// Largest relative difference between the frequencies or masses of the two modes of a pair. FE meshes
+/// split them by less; modes of different families differ by more.
 const PAIR: f64 = 1e-3;
 
 /// Reads the modes of a table: a line of names, then a line for each mode.
@@ -185,7 +185,7 @@ fn numbers(records: &[(u64, StringRecord)], columns: &Columns) -> Vec<Number> {
     records.iter().flat_map(of_record).collect()
 }
 
-/// What a line adds to the modes.
+/// Effect of a line of the table on the list of modes.
 enum Added {
     /// A mode or one more speed of a known one, with a note for each value that is not used.
     Mode(Vec<String>),

@@ -32,16 +32,16 @@ pub fn sheet(scene: &CheckedScene, command: CommandLine) -> Sheet<'static> {
 }
 
 /// Closing paragraph if no value looks like a unit error: the list of what was checked.
-const CHECKED: &str = "Checked: radius, clearance, tip speed, pulse and the push of a tip by their \
-    size; frequency, modal mass and damping ratio of every mode, and their course over the \
-    diameters. Nothing looks like a slip of a unit or a decimal point.";
+const CHECKED: &str = "Checked: radius, clearance, tip speed, pulse and the push of a tip; frequency, \
+    modal mass and damping ratio of every mode, and how they vary with the nodal diameters. No value \
+    looks like a unit error or a misplaced decimal point.";
 
 /// Lists the likely unit errors, each in a sentence; there are no lines without one.
 pub fn doubt_lines(doubts: &[String]) -> Vec<String> {
     let mut lines = match doubts.len() {
         0 => Vec::new(),
-        1 => vec!["This looks like a slip:".to_string()],
-        _ => vec!["These look like a slip:".to_string()],
+        1 => vec!["This value looks wrong:".to_string()],
+        _ => vec!["These values look wrong:".to_string()],
     };
     for doubt in doubts {
         let wrapped = wrapped(doubt, WIDTH - 2).into_iter().enumerate();
@@ -144,12 +144,12 @@ fn unknown(scene: &CheckedScene) -> Option<String> {
     match known(&scene.casing.modes) {
         0 => Some(format!(
             "One mode of the casing is given; for other nodal diameters than {} nothing is \
-             known, and the same is taken.",
+             known, and the same mode is used.",
             scene.operation.nodal_diameters
         )),
         some if some < all => Some(format!(
             "Modes of the casing are known for {some} of {all} nodal diameters; for the \
-             others its common values are taken."
+             others its common values are used."
         )),
         _ => None,
     }

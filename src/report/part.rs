@@ -160,7 +160,7 @@ fn plan(first: &str) -> Result<MapPlan, String> {
 fn parse_row(record: &csv::StringRecord, plan: &MapPlan) -> Option<(usize, Cell)> {
     let index = record.get(0)?.parse().ok().filter(|index| *index < plan.len())?;
     let (row, column) = (index / plan.x.count as usize, index % plan.x.count as usize);
-    // Another machine may round the values of a logarithmic axis otherwise.
+    // Another machine may round the values of a logarithmic axis differently.
     let is_at = |text: &str, value: f64| {
         text.parse().is_ok_and(|given: f64| (given - value).abs() <= 1e-12 * value.abs())
     };

@@ -121,8 +121,8 @@ pub fn sheet(report: &Precision, command: CommandLine) -> Sheet<'_> {
     sheet.line(goodness(reference));
     if report.scene.has_slope_or_friction() && reference.method == Method::Events {
         sheet.line(
-            "It is linearised: blade angles inside the phase of the gap are left out, which the \
-             explicit solver keeps; errors do not fall below that.",
+            "The reference is linearised: it neglects blade angles in the phases of the gaps, which \
+             the explicit solver includes. Errors do not fall below that difference.",
         );
     }
     if reference.sensitive {

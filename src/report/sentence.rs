@@ -1,5 +1,5 @@
-//! What the motion of a run is, in one sentence of plain words, and how it came there in a
-//! second one. Every sentence has a long and a short form.
+//! The headline of a run: one sentence on the motion at its end, and a second one on how the motion
+//! got there. Every sentence has a long and a short form.
 
 use std::fmt;
 
@@ -50,7 +50,7 @@ pub struct Facts {
     /// Verdict of the event solver, whose contact only pushes; `None` if it was not requested or
     /// is not known yet.
     pub other: Option<Verdict>,
-    /// What was seen at the end, where the verdict is judged and not proved.
+    /// What was observed over the last part of the run; `None` if the verdict is proved.
     pub seen: Option<Seen>,
     /// Whether casing and blades have not moved at all.
     pub still: bool,
@@ -96,8 +96,8 @@ impl fmt::Display for Sentence {
 }
 
 impl Sentence {
-    /// Returns the sentence on the motion at the end as it stands alone: it begins with the verdict
-    /// where another step changes that.
+    /// Returns the sentence on the motion at the end for use without the word. If another step changes
+    /// the verdict, it begins with the verdict.
     pub fn state(&self) -> String {
         self.at_this_step().map_or(self.what.clone(), |line| capital(&line))
     }
@@ -113,9 +113,8 @@ impl Sentence {
         Some(format!("{} {}{rest}", self.word.to_lowercase(), uncapital(AT_THIS_STEP)))
     }
 
-    /// Creates the word with the long form of a sentence, or with the short one if the long one is
-    /// wider than `width` columns; and with the first of `notes` that fits behind one of them. If
-    /// none fits, there is no history.
+    /// Combines the word with the long form of a sentence or, if that is wider than `width` columns,
+    /// the short one, and with the first of `notes` that still fits. If none fits, there is no history.
     pub fn of(word: &str, forms: Forms, notes: &[String], width: usize) -> Self {
         let sentence = |what: &String, history: Option<&String>| Self {
             word: word.to_string(),
@@ -258,7 +257,7 @@ impl Facts {
         }
     }
 
-    /// Says for how long the motion has been so, where that is all that is known.
+    /// Adds the observed time span to a sentence if the verdict is judged and not proved.
     fn lately(&self, [long, short]: [&str; 2]) -> Forms {
         let long = match self.seen {
             Some(seen) => format!("In the last {} {}", time(seen.span_s), uncapital(long)),
@@ -447,7 +446,7 @@ fn touches(count: u64) -> String {
     format!("{} touch{}", grouped(count), if count == 1 { "" } else { "es" })
 }
 
-/// Returns a sentence to stand behind other words.
+/// Returns a sentence with a small first letter, to follow other words.
 fn uncapital(sentence: &str) -> String {
     let mut letters = sentence.chars();
     letters.next().map_or(String::new(), |first| first.to_lowercase().chain(letters).collect())

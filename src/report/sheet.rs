@@ -101,8 +101,7 @@ impl<'a> Sheet<'a> {
         self.parts.push(Part::List(name.into(), count, Box::new(entry)));
     }
 
-    /// Adds a table that is shown and, under its name, is part of the JSON report. Without a name
-    /// that has it in another form.
+    /// Adds a table that is shown and, if it has a name, is part of the JSON report.
     pub fn table(
         &mut self,
         name: impl Into<Option<&'static str>>,
@@ -271,7 +270,7 @@ impl Serialize for Json<'_> {
     }
 }
 
-/// A list of so many entries, each made when it is written.
+/// A list of a number of entries, each created when it is written.
 struct Entries<'a>(usize, &'a dyn Fn(usize) -> Value);
 
 impl Serialize for Entries<'_> {

@@ -101,9 +101,9 @@ pub fn notes(survey: &Survey, shown: &[&SurveyRow]) -> Vec<String> {
     tuned.chain(scattered).chain(shaft).chain(growth(survey, shown)).collect()
 }
 
-/// Says which nodal diameters can lock: somewhere in the range or, without a range, at the scene's
-/// speed. Those with modes of their own are counted; those whose modes are guessed, and those of which
-/// it is not known, are named apart. `all` includes nodal diameters without modes of their own.
+/// Lists the nodal diameters that can lock: somewhere in the range or, without a range, at the scene's
+/// speed. Nodal diameters with guessed modes, and those for which it is unknown, are listed separately.
+/// `all` includes nodal diameters without modes of their own.
 pub fn answer(survey: &Survey, all: bool) -> String {
     let now = survey.scene.operation.speed_rad_s;
     let at = match survey.range_rad_s {
@@ -141,12 +141,12 @@ pub fn answer(survey: &Survey, all: bool) -> String {
         told += &format!("; of {} it is not known", waves(&unknown));
     }
     if !unknown.is_empty() {
-        told += ": no formula has these tips or this shape, a run at a speed tells";
+        told += ": no formula is known for these tips or this casing; run a speed to see";
     }
     told + "."
 }
 
-/// Names waves by their nodal diameters; many only by their number.
+/// Names waves by their nodal diameters; more than [`LISTED`] by their number only.
 fn waves(diameters: &[u32]) -> String {
     let all: Vec<String> = diameters.iter().map(u32::to_string).collect();
     match all.as_slice() {
@@ -167,8 +167,8 @@ fn shown_speed(omega: f64) -> String {
     short(if shown.abs() < 1e3 { rounded(shown, 4) } else { shown.round() })
 }
 
-/// Says at which speeds of the range the waves of a row can lock; and, as a second text that may be
-/// empty, at which they whirl and where rubbing grows without bound.
+/// Returns two texts for a row: the speeds of the range at which its wave can lock, and those at which
+/// it whirls or rubbing grows without bound (may be empty).
 fn verdict(survey: &Survey, row: &SurveyRow) -> [String; 2] {
     let ([least, most], unit) = (survey.speeds(), speed_unit());
     let span = |[from, to]: &[f64; 2]| match (*from <= least, *to >= most) {
@@ -179,7 +179,7 @@ fn verdict(survey: &Survey, row: &SurveyRow) -> [String; 2] {
         (false, false) => format!("{} to {} {unit}", shown_speed(*from), shown_speed(*to)),
     };
     let locks = match &row.locks_in_range {
-        None => "not known: a run tells".to_string(),
+        None => "unknown: see a run".to_string(),
         Some(locks) if locks.is_empty() => "no lock".to_string(),
         Some(locks) => {
             format!("can lock: {}", locks.iter().map(span).collect::<Vec<_>>().join(", "))
@@ -200,8 +200,8 @@ fn slower(&[from, to]: &[f64; 2]) -> [f64; 2] {
     if from + to < 0.0 { [to, from] } else { [from, to] }
 }
 
-/// Says until where a large rub of the rows whirls and from where on it grows without bound, in a
-/// sentence for all rows that do so at the same speeds.
+/// Returns the speeds at which a large rub whirls or grows without bound, one sentence for all rows
+/// with the same speeds.
 fn growth(survey: &Survey, shown: &[&SurveyRow]) -> Vec<String> {
     let [slowest, fastest] = slower(&survey.speeds());
     let parts = |spans: &[[f64; 2]], does: &str| {
@@ -272,8 +272,8 @@ pub fn of_scatter(scene: &Scene, scattered: &Scattered) -> String {
         false => "equal tips in a round casing, which lock last",
     };
     format!(
-        "The limits are those of {of}. Tips that differ by 1 % of the clearance lock from {mean} \
-         on instead of {equal}, the mean of {} rotors.",
+        "The limits are for {of}. Tips that differ by 1 % of the clearance lock from {mean} \
+         instead of {equal} (mean of {} rotors).",
         scattered.rotors
     )
 }

@@ -202,9 +202,9 @@ pub struct FullRun {
     /// Rotor speed at which the contact at the end began \[rad/s\], and whether the rotor was
     /// accelerating then; `None` at constant speed.
     pub caught: Option<(f64, bool)>,
-    /// What was seen at the end, where the verdict is judged and not proved.
+    /// What was observed over the last part of the run; `None` if the verdict is proved.
     pub seen: Option<Seen>,
-    /// Whether the casing is where it was without any motion.
+    /// Whether the casing has not moved.
     pub still: bool,
     /// Verdict of the run.
     pub verdict: Verdict,

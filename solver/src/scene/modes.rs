@@ -410,7 +410,7 @@ impl Scene {
                 let plural = if diameters == 1 { "" } else { "s" };
                 format!(
                     "no mode of the {name} with {diameters} nodal diameter{plural} is known \
-                     (known: {}): the {name}'s common values are taken",
+                     (known: {}): the {name}'s common values are used",
                     listed(&known)
                 )
             })

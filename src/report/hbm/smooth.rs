@@ -65,7 +65,7 @@ fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicErro
         let title = pressed_title(&lining, shifted, &hopf);
         sheet.filed(Some("hopf"), Table::of(hopf, HOPF));
         sheet.table("points", title, Table::of(rests, RESTS));
-        sheet.chart("growth of rest [1/s]", &[["growth_1_s", "growth"]]);
+        sheet.chart("growth from rest [1/s]", &[["growth_1_s", "growth"]]);
         return Ok(());
     }
     let mut title = "Steady states in the frame of the blades.".to_string();
@@ -88,7 +88,7 @@ fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicErro
 
 fn pressed_title(lining: &Lining<'_>, shifted: Option<f64>, hopf: &[HopfPoint]) -> String {
     let mut title = format!(
-        "Rest with all blades pressed in by {} m, together {} N/m.",
+        "At rest every blade is {} m deep in the lining; together they press with {} N/m.",
         short(lining.preload_m()),
         short(lining.stiffness_at_rest())
     );
@@ -101,12 +101,12 @@ fn pressed_title(lining: &Lining<'_>, shifted: Option<f64>, hopf: &[HopfPoint]) 
     };
     let changes: Vec<String> = hopf.iter().map(change).collect();
     match changes.is_empty() {
-        true => title + " Between these speeds nothing begins or ends to grow.",
+        true => title + " Between these speeds no wave begins or ceases to grow.",
         false => title + &format!(" A wave {}.", changes.join(", ")),
     }
 }
 
-/// Columns of the speeds at which a wave about rest begins or ends to grow.
+/// Columns of the speeds at which a wave about rest begins or ceases to grow.
 const HOPF: &[Column<'_, HopfPoint>] = &[
     ("speed_rad_s", |point| point.speed_rad_s.into()),
     ("s_rad_s", |point| point.s_rad_s.into()),

@@ -35,7 +35,7 @@ fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicErro
         spans => {
             let each = spans.iter().map(|span| match (span.from, span.to) {
                 (0.0, None) => "lasts at every speed".to_string(),
-                (0.0, Some(to)) => format!("lasts from rest on, up to {}", speed(to)),
+                (0.0, Some(to)) => format!("lasts from standstill to {}", speed(to)),
                 (from, None) => format!("begins at {}", speed(from)),
                 (from, Some(to)) => format!("begins at {} and ends at {}", speed(from), speed(to)),
             });
@@ -51,7 +51,7 @@ fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicErro
         None => "; no lock holds at any speed".to_string(),
     };
     if !flutter.is_empty() {
-        title += &format!("; blades and casing as one flutter {}", listed(flutter));
+        title += &format!("; blades and casing in lasting contact flutter {}", listed(flutter));
     }
     title.push('.');
     if rows.iter().any(|row| row.state == Rubbing::None) {
@@ -69,9 +69,9 @@ fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicErro
     Ok(())
 }
 
-/// What a state `none` leaves open.
-const FEW_SIDES: &str = " With few sides or little damping a rub may whirl or grow where this limit \
-    of many blades has none: a run tells.";
+/// Explanation of the state `none`.
+const FEW_SIDES: &str = " With few sides or little damping a rub may whirl or grow at speeds where \
+    this limit of many blades has none; a run shows it.";
 
 /// Describes a range of rotor speeds, which may have no upper end.
 fn between(range: LockWindow) -> String {

@@ -20,8 +20,8 @@ pub fn asked(margins: &Margins) -> impl Iterator<Item = &Robustness> {
     margins.robust.iter().chain(&margins.pushes_only)
 }
 
-/// States the verdict of the run, where there is room (`wide`) the lobes of the casing and the tips
-/// that end its lock, and the nearest change of a quantity that was found to alter it.
+/// States the verdict of the run, with room (`wide`) the casing lobes and the tip deviation that end
+/// its lock, and the nearest change of a quantity that was found to alter the verdict.
 pub fn sentence(found: &Robustness, margins: &Margins, wide: bool) -> String {
     let scene = &margins.scene;
     let law = match found.contact {
@@ -68,14 +68,14 @@ pub fn sentence(found: &Robustness, margins: &Margins, wide: bool) -> String {
 }
 
 /// Returns the limit of roundness with the smallest lobes of the casing that end the lock, their
-/// height \[m\] and their number; `None` if no number of lobes is known to.
+/// height \[m\] and their number; `None` if no number of lobes is known to end it.
 pub fn smallest_lobes(margins: &Margins) -> Option<(&Limit, f64, u32)> {
     let heights = margins.limits.iter().filter(|limit| limit.name == LimitName::Roundness);
     let each = heights.filter_map(|limit| Some((limit, limit.value?, limit.lobes?)));
     each.min_by(|(_, a, _), (_, b, _)| a.total_cmp(b))
 }
 
-/// Names the smallest lobes that end the lock, in micrometres and as a part of the clearance.
+/// States the smallest lobes that end the lock, in micrometres and as a part of the clearance.
 fn out_of_round(margins: &Margins) -> Option<String> {
     let (limit, height, lobes) = smallest_lobes(margins)?;
     let now = short(rounded(1e6 * limit.present?, 2));
@@ -87,15 +87,15 @@ fn out_of_round(margins: &Margins) -> Option<String> {
     ))
 }
 
-/// Returns the deviation of the tips \[m\] from which on the worst ones take a push from the lock
-/// or, where the run is not `held`, the best ones let pushes hold one; `None` if that is not known.
+/// Returns the tip deviation \[m\] beyond which the worst tips take a push from the lock or, if the run
+/// is not `held`, the best tips let pushes hold one; `None` if it is not known.
 pub fn tip_deviation(margins: &Margins, held: bool) -> Option<f64> {
     let scene = &margins.scene;
     let deviation = scene.machine().tip_deviation(scene.operation.speed_rad_s)?;
     (held == (deviation > 0.0)).then_some(deviation.abs())
 }
 
-/// Says what the tips do from that deviation on.
+/// States the tip deviation and its effect.
 fn tips(margins: &Margins, held: bool) -> Option<String> {
     let [deviation, part] = um_and_part(tip_deviation(margins, held)?, margins);
     let does = if held { "may end it too" } else { "may let pushes hold a lock" };

@@ -7,7 +7,7 @@ use crate::report::table::TableCell;
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::margins::{Found, LimitName, MOST_TIMES, Margins, Quantity, parameter};
 
-/// Change from which on the ratio of both values is shown (here `10 x`) instead of per cent.
+/// Relative change above which the ratio of both values is shown (`10 x`) instead of per cent.
 const FACTORS: f64 = 9.0;
 
 /// Formats the value of a limit, in SI units, with `digits` significant digits and its unit.

@@ -35,8 +35,8 @@ const VIEWS: [(ViewId, &str); CHARTS.len()] = [
     (ViewId::Map, "map of the verdict over two knobs"),
     (ViewId::Spectrum, "spectrum and Campbell lines"),
     (ViewId::Precision, "speed against error"),
-    (ViewId::Margins, "margins: is it robust, how far is every limit, what moves it"),
-    (ViewId::Coincidence, "coincidence: how large a wave becomes"),
+    (ViewId::Margins, "margins: how robust the run is, how far every limit is, what moves it"),
+    (ViewId::Coincidence, "coincidence: how large a wave grows"),
 ];
 
 impl ViewId {

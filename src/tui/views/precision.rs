@@ -36,7 +36,7 @@ impl ViewPanel for PrecisionView {
         let Some(report) = &app.results().found.precision else {
             return not_yet(app, buffer, inside);
         };
-        let words = inside;
+        let caption = inside;
         let (note, role) = note(report);
         for line in wrap(&note, usize::from(inside.width)) {
             print(buffer, inside, 0, &line, look.style(role));
@@ -81,9 +81,9 @@ impl ViewPanel for PrecisionView {
             plot.point(*x, *y, sign, look.style(role));
         }
         if let Some(reading) = reading {
-            let blank = " ".repeat(usize::from(words.width));
-            print(buffer, words, 0, &blank, quiet);
-            print(buffer, words, 0, &look.spell(&reading), look.style(Role::Focus));
+            let blank = " ".repeat(usize::from(caption.width));
+            (0..inside.y - caption.y).for_each(|row| print(buffer, caption, row, &blank, quiet));
+            print(buffer, caption, 0, &look.spell(&reading), look.style(Role::Focus));
         }
     }
 
@@ -92,7 +92,7 @@ impl ViewPanel for PrecisionView {
     }
 }
 
-/// Describes the reference and how many runs end otherwise, with the role of the text.
+/// Describes the reference and the number of runs with another verdict, with the role of the text.
 fn note(report: &Precision) -> (String, Role) {
     if report.reference.sensitive {
         let text = "sensitive scene: end states mean nothing, compare verdicts";
@@ -102,13 +102,13 @@ fn note(report: &Precision) -> (String, Role) {
     let wrong = report.rows.iter().filter(|row| row.is_wrong()).count();
     let words = reference_words(&report.reference);
     let law = report.reference.way.contact;
-    let mut note = format!("reference ({law} law) {words}; {wrong} of its {same_law} differ");
+    let mut note = format!("reference ({law} law): {words}; {wrong} of {same_law} runs differ");
     if wrong > 0 {
-        note += "; ! has another verdict";
+        note += ", marked !";
     }
     let ends_otherwise = |row: &&Row| row.other_law && row.verdict_right == Some(false);
     if let Some(row) = report.rows.iter().find(ends_otherwise) {
-        note += &format!("; none for the {} law, which gives another verdict", row.way.contact);
+        note += &format!("; the {} law gives another verdict: no error", row.way.contact);
     }
     (note, Role::Quiet)
 }

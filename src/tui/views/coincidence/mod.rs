@@ -163,9 +163,9 @@ fn sentence(app: &App, curves: &CoincidenceCurves) -> String {
             "rigid blades have no coincidence: choose another model".to_string()
         }
         None if app.machine.has_other_diameters() => {
-            "the disk has other diameters than the casing: no one wave goes round".into()
+            "disk and casing have different nodal diameters: no common wave".into()
         }
-        Some(ends) if app.is_pressed() => format!("rest grows into this wave: {}", between(ends)),
+        Some(ends) if app.is_pressed() => format!("this wave grows from rest: {}", between(ends)),
         Some((from, to))
             if curves.points.last().is_some_and(|last| last.speed_rad_s.abs() <= to) =>
         {
@@ -186,7 +186,7 @@ fn reading(app: &App, speed: f64) -> String {
     let speed = speed.copysign(app.speed());
     let at = format!("at {}: ", readable(speed, "rad/s"));
     let Some(point) = points(&app.scene, &[speed]).first().copied() else {
-        return at + "no one wave goes round";
+        return at + "no common wave";
     };
     let named = [
         ("|a|", point.blade_amplitude_rad, "rad"),

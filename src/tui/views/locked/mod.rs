@@ -124,11 +124,11 @@ fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let Some(curves) = curves else { return };
     let Some(damped) = &curves.damped else {
         let text = if app.is_pressed() {
-            "all blades rub at rest: nothing locks; view 9 has what grows"
+            "all blades rub at rest: nothing locks; view 9 shows what grows"
         } else if app.machine.has_other_diameters() {
             "the disk has other diameters than the casing: no pair of blades locks"
         } else if uneven {
-            "a lock of these tips is not known here: runs have it"
+            "no lock speed is known for these tips; a run shows a lock"
         } else {
             "no corner between two blade groups: this wave never locks"
         };
@@ -293,8 +293,8 @@ pub fn reading(app: &App, speed: f64) -> String {
     let on_lining = || lock_windows(&app.machine, speed).iter().any(|lock| lock.has(speed.abs()));
     let can_last = if lining { on_lining() } else { point.admissible && point.stable };
     let holds = match (a > 0.0 || b > 0.0, point.admissible, point.stable) {
-        _ if lining && can_last => "of a rigid casing; on the lining a lock can last",
-        _ if lining => "of a rigid casing; the lining holds no lock here",
+        _ if lining && can_last => "for a rigid casing; on the lining a lock can last",
+        _ if lining => "for a rigid casing; the lining holds no lock here",
         (true, ..) if !app.machine.contact_can_pull() => "one pulls: no lock",
         (true, ..) => "one pulls: only an adhesive lock",
         (_, true, true) => "both push: a lock can last",

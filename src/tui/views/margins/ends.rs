@@ -1,6 +1,6 @@
-//! What ends the lock of the run: for each quantity the nearest value at which a run was found to
-//! end otherwise, and the smallest lobes of the casing. Where nothing is locked, what would lock.
-//! View 8 has the whole of it.
+//! What ends the lock of the run: for each quantity the nearest value at which a run has another
+//! verdict, and the smallest lobes of the casing; without a lock, what would lock. View 8 shows
+//! everything.
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
@@ -23,12 +23,12 @@ use rubscope_solver::study::margins::{ChangedVerdict, Margins, VerdictChange};
 /// Significant digits of a value.
 const DIGITS: usize = 3;
 
-/// Where to go from here: keys and what they show.
+/// Keys of further views, and what they show.
 const NEXT: &str = "4 wheel  5 map  g lessons";
 
-/// What is changed, to which value, and the change from the scene or, where it has none, `now 0`.
-/// In front of it the magnitude of the change for the order of the rows: a part of the present
-/// value, of a length a part of the clearance.
+/// Magnitude of a change, by which the rows are sorted (relative to the present value; for a length
+/// relative to the clearance), and the cells: the quantity, its new value, and the relative change or,
+/// if the present value is zero, `now 0`.
 type Row = (f64, [String; 3]);
 
 /// Draws the panel.
@@ -40,7 +40,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     let old = known.as_ref().is_some_and(|(_, old)| *old);
     let locked = app.verdict() == Some(Verdict::Locked);
     let name = if locked { "what ends this lock" } else { "what would lock" };
-    let legend = old.then(|| ("of the knobs before".to_string(), look.style(Role::Focus)));
+    let legend = old.then(|| ("for the knobs before".to_string(), look.style(Role::Focus)));
     let inside = title(app, buffer, at, name, legend.as_slice());
     let Some(margins) = known.map(|(live, _)| &live.margins) else {
         return not_yet(app, buffer, inside);
@@ -81,39 +81,36 @@ fn rows(margins: &Margins, locked: bool) -> Vec<Row> {
 /// `None` if none was found.
 fn changed(row: &VerdictChange, locked: bool) -> Option<Row> {
     let part = |found: ChangedVerdict| (found.value - row.present) / row.present.abs();
-    let both = [("down to", row.below), ("up to", row.above)];
-    let both = both.into_iter().filter_map(|(way, found)| Some((way, found?)));
-    let ends = both.filter(|(_, found)| (found.verdict == Verdict::Locked) != locked);
-    let (way, found) = ends.min_by(|a, b| part(a.1).abs().total_cmp(&part(b.1).abs()))?;
+    let both = [row.below, row.above].into_iter().flatten();
+    let ends = both.filter(|found| (found.verdict == Verdict::Locked) != locked);
+    let found = ends.min_by(|a, b| part(*a).abs().total_cmp(&part(*b).abs()))?;
     let knob = knob_of(row.path)?;
-    // Symbols as in the strip of knobs, except where the word is shorter than what one must know.
+    // Symbols as in the strip of knobs, except where a word is easier to understand.
     let name = if [SPEED, OUT_OF_ROUND].contains(&row.path) { row.name } else { knob.symbol() };
     let doubt = if found.sensitive { "?" } else { "" };
     let value = number(rounded(found.value, DIGITS), knob.unit());
     let here = if row.present == 0.0 { "now 0".into() } else { from_here(part(found)) };
-    Some((part(found).abs(), [format!("{name} {way}"), format!("{value}{doubt}"), here]))
+    Some((part(found).abs(), [format!("{name} to"), format!("{value}{doubt}"), here]))
 }
 
 /// Returns the smallest lobes that end the lock of a round casing; `None` if none are known to.
 fn lobes(margins: &Margins) -> Option<Row> {
     let (_, height, lobes) = smallest_lobes(margins)?;
-    let now = format!("now 0, {}", count(lobes.into(), "lobe"));
-    Some(imperfection("out of round", height, now, margins))
+    Some(imperfection(&format!("{} of", count(lobes.into(), "lobe")), height, margins))
 }
 
-/// Returns the deviation of equal tips that ends a lock or, without one, lets pushes hold one.
+/// Returns the tip deviation that ends a lock or, without a lock, lets pushes hold one.
 fn tips(margins: &Margins, locked: bool) -> Option<Row> {
-    let deviation = tip_deviation(margins, locked)?;
-    Some(imperfection("tips off by", deviation, "now 0".into(), margins))
+    Some(imperfection("tips by ±", tip_deviation(margins, locked)?, margins))
 }
 
 /// Returns the row of a length \[m\] by which a machine is imperfect.
-fn imperfection(what: &str, length: f64, now: String, margins: &Margins) -> Row {
-    let cells = [what.to_string(), number(rounded(length, 2), "m"), now];
+fn imperfection(what: &str, length: f64, margins: &Margins) -> Row {
+    let cells = [what.to_string(), number(rounded(length, 2), "m"), "now 0".into()];
     (length / margins.scene.clearance(), cells)
 }
 
-/// Says why there is no row.
+/// Explains why there is no row.
 fn nothing(app: &App, locked: bool) -> String {
     let exists = match app.lock_window().map(|window| rounded(window.from, DIGITS)) {
         _ if locked => return "No value that was tried changes the verdict.".into(),

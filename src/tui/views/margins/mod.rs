@@ -100,7 +100,7 @@ impl ViewPanel for MarginsView {
         }
         let ((live, old), [column, row]) = (app.margins()?, app.margins_cell()?);
         if old {
-            let reason = "these margins are of the knobs before; new ones are under way";
+            let reason = "these margins are for the knobs before; new ones are being computed";
             return Some(Command::Nothing(reason.into()));
         }
         Some(rows::opening(live.margins.limits.get(row)?, column, app))
@@ -160,12 +160,12 @@ mod tests {
     fn margins_of_other_knobs_are_marked_and_nothing_jumps_there() {
         let mut app = app();
         app.reading.cursor = Some(MarginsView.here(&app));
-        assert!(!text(&app).contains("of the knobs before"));
+        assert!(!text(&app).contains("for the knobs before"));
         assert!(matches!(app.opening(), Some(Command::JumpTo { .. })));
         let mut other = app.scene.clone().into_scene();
         other.casing.damping_ratio = 0.1;
         app.set_scene(other.checked().unwrap(), false);
-        assert!(text(&app).contains("of the knobs before"), "{}", text(&app));
+        assert!(text(&app).contains("for the knobs before"), "{}", text(&app));
         assert!(matches!(app.opening(), Some(Command::Nothing(_))));
     }
 }

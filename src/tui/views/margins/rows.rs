@@ -85,7 +85,7 @@ pub fn title(app: &App, width: u16) -> Vec<(String, Style)> {
     let look = &app.appearance;
     let mut line = Vec::new();
     if app.margins().is_some_and(|(_, old)| old) {
-        let text = if width < 50 { "old" } else { "of the knobs before" };
+        let text = if width < 50 { "old" } else { "for the knobs before" };
         line.push((text.to_string(), look.style(Role::Focus)));
     }
     line.push((format!("{} nearest", look.either("●", "*")), look.style(Role::Focus)));

@@ -29,7 +29,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea, cell: Option<usize>) {
     let mut legend = vec![(format!("speeds in {}, modes in Hz", speed_unit()), quiet)];
     legend.push(("can lock now".to_string(), look.style(Role::Trouble)));
     if found.is_some_and(|(_, old)| old) {
-        legend.insert(0, ("of the knobs before".to_string(), look.style(Role::Focus)));
+        legend.insert(0, ("for the knobs before".to_string(), look.style(Role::Focus)));
     }
     let inside = title(app, buffer, at, "all diameters", &legend);
     match found {
