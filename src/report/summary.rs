@@ -301,9 +301,7 @@ fn impacts(report: &RunReport) -> String {
             let at = time(rounded(t_s, 6));
             let told = match report.series_of_impacts {
                 0 | 1 => format!("They accumulate at {at}: infinitely many end there"),
-                series => format!(
-                    "They accumulate {series} times, first at {at}: infinitely many end each time"
-                ),
+                series => format!("They accumulate {series} times from {at} on: each without end"),
             };
             ("At least ", format!(" {told}, of which this many were counted."))
         }

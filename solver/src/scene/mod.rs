@@ -10,6 +10,7 @@ mod beyond;
 mod builtin;
 mod check;
 mod checked;
+mod differences;
 mod error;
 mod file;
 mod handle;
