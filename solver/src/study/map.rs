@@ -9,6 +9,7 @@ use rayon::prelude::*;
 
 use super::Axis;
 use crate::motion::{Certainty, GoOn, Verdict, run_to_verdict, run_with_certainty};
+use crate::scene::keys::{CASING_RADIUS, CLEARANCE};
 use crate::scene::{CheckedScene, Scene, SceneError};
 
 /// Largest number of cells, about 4000 x 4000, which take days to compute.
@@ -66,8 +67,10 @@ impl MapPlan {
     pub fn scene_of(&self, index: usize) -> Result<CheckedScene, SceneError> {
         let mut scene = self.scene.clone();
         let columns = self.x.count as usize;
-        self.x.apply(&mut scene, (index % columns) as u32)?;
-        self.y.apply(&mut scene, (index / columns) as u32)?;
+        let mut axes = [(&self.x, index % columns), (&self.y, index / columns)];
+        // The clearance is beyond the blade length of the cell.
+        axes.sort_by_key(|(axis, _)| axis.path == CLEARANCE);
+        axes.iter().try_for_each(|(axis, place)| axis.apply(&mut scene, *place as u32))?;
         scene.checked()
     }
 
@@ -91,6 +94,15 @@ impl MapPlan {
             let allowed = "two different keys; columns (x) are the speed and rows (y) the \
                            pulse by default";
             return Err(SceneError::refused("map", both, allowed));
+        }
+        let paths = [self.x.path.as_str(), self.y.path.as_str()];
+        if [CLEARANCE, CASING_RADIUS].iter().all(|path| paths.contains(path)) {
+            let both = paths.join(" and ");
+            return Err(SceneError::refused(
+                "map",
+                both,
+                "one of them: the radius sets the clearance",
+            ));
         }
         let (columns, cells) = (self.x.count as usize, self.len());
         for corner in [0, columns - 1, cells - columns, cells - 1] {
