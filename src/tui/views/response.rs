@@ -93,14 +93,18 @@ fn table(bins: &[Bin]) -> Table<'_> {
     })
 }
 
-/// Draws the bins: each is a line from its minimum to its maximum.
+/// Draws the bins: each is a line between its minimum and its maximum, up or down as the bins
+/// around it go.
 fn figure(app: &App, bins: &[Bin]) -> Figure {
     let series = |(number, (label, channel)): (usize, &(&str, Channel))| {
-        let ends = |bin: &Bin| {
+        let ends = |(place, bin): (usize, &Bin)| {
             let (least, greatest) = bin.span(*channel);
-            [(bin.from, least), (bin.to, greatest)]
+            let near = |at: usize| bins.get(at).unwrap_or(bin).middle(*channel);
+            let falls = near(place + 1) < near(place.saturating_sub(1));
+            let [first, last] = if falls { [greatest, least] } else { [least, greatest] };
+            [(bin.from, first), (bin.to, last)]
         };
-        Series::new(*label, Style::Line(number), bins.iter().flat_map(ends))
+        Series::new(*label, Style::Line(number), bins.iter().enumerate().flat_map(ends))
     };
     let panel = |label: &'static str, channels: &[(&str, Channel)]| {
         let series = channels.iter().enumerate().map(series).collect();
