@@ -22,6 +22,9 @@ const ESCAPE: u8 = 0x1b;
 /// text that comes over a slow line acts as keys.
 const LOST: Duration = Duration::from_secs(2);
 
+/// Time for the rest of a sequence that a full buffer has cut.
+const REST: Duration = Duration::from_millis(5);
+
 /// Starts the thread that reads the keyboard, including the terminal's report of its background.
 ///
 /// # Errors
@@ -59,10 +62,12 @@ impl Input {
             if let Some(event) = self.heard.events.pop_front() {
                 return Ok(event);
             }
-            match terminal::read(self.last.map(|_| LOST))? {
-                bytes if bytes.is_empty() => self.lose(),
-                bytes => self.take(&bytes),
+            let mut bytes = terminal::read(self.last.map(|_| LOST))?;
+            if bytes.len() > 1 && bytes.ends_with(&[ESCAPE]) {
+                // The buffer of the system was full: the rest of the sequence follows.
+                bytes.extend(terminal::read(Some(REST))?);
             }
+            if bytes.is_empty() { self.lose() } else { self.take(&bytes) }
         }
     }
 
