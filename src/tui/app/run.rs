@@ -5,7 +5,7 @@ use super::model::{App, Baseline, Ranges, Run};
 use super::play::begin_s;
 use crate::report::line::clean;
 use crate::tui::axis::{AutoRange, instant, readable};
-use crate::tui::engine::{Moment, Order, PageRecord, Results, Sensitive, Snapshot};
+use crate::tui::engine::{Moment, Move, Order, PageRecord, Results, Sensitive, Snapshot};
 use crate::tui::film::{FilmPlan, other_law};
 use crate::tui::history::{Bin, Channel, wider};
 use crate::tui::knobs::{KNOBS, Knob, knob_of};
@@ -165,11 +165,15 @@ impl App {
         }
     }
 
-    /// Shows another film of the same run, which goes on at the time played to with the values of
-    /// `scene`.
+    /// Shows another film of the same run, which goes on at the time played to, at most at its end,
+    /// with the values of `scene`.
     pub fn show_film(&mut self, film: FilmPlan, scene: CheckedScene) {
         self.use_scene(scene);
+        let end = film.end_s;
         self.run.show(film);
+        if self.played_s() > end {
+            self.play.moves.push(Move::To(end));
+        }
     }
 
     fn use_scene(&mut self, scene: CheckedScene) {

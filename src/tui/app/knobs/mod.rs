@@ -202,9 +202,8 @@ impl App {
         }
     }
 
-    /// Restores a state. If only live changes differ, the motion goes on without those that are
-    /// undone; other knobs count as turned again, and another scene or lesson step restarts the
-    /// run.
+    /// Restores a state with its film. If only live changes differ, the motion goes on without those
+    /// that are undone; another scene of the film or another lesson step restarts the run.
     pub fn come_back(&mut self, past: Past) {
         self.knobs.refusal = None;
         let step = |lesson: Option<&LessonProgress>| {
@@ -213,10 +212,10 @@ impl App {
         let same_step = step(past.lesson.as_ref()) == step(self.lessons.progress.as_ref());
         let same_file = past.source.as_ref() == self.files.source.as_ref();
         if past.opened == self.files.opened && same_file && same_step {
-            match past.film.scene == self.run.film.scene {
-                true => self.show_film(past.film, past.scene),
-                false => self.set_turned_scene(past.scene),
+            if past.film.scene != self.run.film.scene {
+                self.set_scene(past.scene.clone(), false);
             }
+            self.show_film(past.film, past.scene);
             return;
         }
         (self.files.opened, self.files.source) = (past.opened, past.source);
