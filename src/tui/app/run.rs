@@ -171,6 +171,7 @@ impl App {
         self.use_scene(scene);
         let end = film.end_s;
         self.run.show(film);
+        self.reading.at_s = self.reading.at_s.map(|t| t.min(end));
         if self.played_s() > end {
             self.play.moves.push(Move::To(end));
         }
