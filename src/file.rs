@@ -20,6 +20,12 @@ pub enum Written {
     Replaced,
 }
 
+/// Returns the ending of a file's name in lower case, if it is one of `endings`.
+pub fn ending(path: &Path, endings: &[&'static str]) -> Option<&'static str> {
+    let given = path.extension()?;
+    endings.iter().find(|known| given.eq_ignore_ascii_case(known)).copied()
+}
+
 /// Writes a file with what `write` writes, completely or not at all. A file at `path` is replaced:
 /// its mode stays, and links to it are followed. A device or a pipe is written to directly.
 ///

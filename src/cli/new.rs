@@ -82,8 +82,7 @@ pub struct NewCommand {
 impl NewCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
         let (shown, path) = (&self.file, Path::new(&self.file));
-        let is_toml = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml"));
-        if !is_toml {
+        if file::ending(path, &["toml"]).is_none() {
             return Err(Refusal::of("FILE", shown, "a name that ends in .toml").into());
         }
         if !shown.chars().all(keys::is_plain) {

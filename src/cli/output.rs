@@ -54,8 +54,7 @@ impl OutputOptions {
     /// Returns the ending of the file, which must be one of `endings`; `None` without a file.
     fn known_ending(&self, endings: &[&'static str]) -> Result<Option<&'static str>, Refusal> {
         let Some(path) = &self.out else { return Ok(None) };
-        let given = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
-        let Some(known) = endings.iter().find(|known| known.eq_ignore_ascii_case(given)) else {
+        let Some(known) = file::ending(path, endings) else {
             let names = endings.iter().map(|known| format!(".{known}")).collect::<Vec<_>>();
             let listed = match names.split_last() {
                 Some((last, others)) if !others.is_empty() => {

@@ -132,7 +132,7 @@ impl FoundScenes {
             }
         };
         let names = entries.flatten().take(MOST_NAMES).map(|entry| entry.file_name());
-        let is_toml = |name: &String| name.len() > 5 && name.to_lowercase().ends_with(".toml");
+        let is_toml = |name: &String| file::ending(Path::new(name), &["toml"]).is_some();
         // Names that are not UTF-8 cannot be displayed or typed.
         let mut names: Vec<String> =
             names.filter_map(|name| name.into_string().ok()).filter(is_toml).collect();

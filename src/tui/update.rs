@@ -1,9 +1,12 @@
 //! Executes commands: each changes the state and returns its effect on the outside. A key is looked
 //! up in the table of commands, or is a letter of the text being typed.
 
+use std::path::Path;
+
 use crossterm::event::{KeyCode, KeyEvent};
 
 use super::app::{App, Cursor, HelpState, InputMode, Writing};
+use crate::file;
 use crate::report::line::{self, clean};
 use crate::tui::app::layout::MOST_BESIDE;
 use crate::tui::app::play::RATES;
@@ -294,11 +297,12 @@ impl App {
         if !name.chars().all(is_plain) {
             return Err("a file name of letters that can be seen is needed".into());
         }
-        let ends = |ending: &str| name.to_lowercase().ends_with(ending);
-        if purpose == Purpose::Save && !ends(".toml") {
+        let path = Path::new(name);
+        if purpose == Purpose::Save && file::ending(path, &["toml"]).is_none() {
             return self.write(purpose, &format!("{name}.toml"), replace);
         }
-        if purpose == Purpose::Export && !ends(".csv") && !ends(".svg") {
+        let figure = file::ending(path, &["csv", "svg"]);
+        if purpose == Purpose::Export && figure.is_none() {
             return Err(format!("{name}: allowed is a name that ends in .csv or .svg"));
         }
         self.dialogue.close();
@@ -308,11 +312,10 @@ impl App {
         let content = match purpose {
             Purpose::Save => Ok(self.scene_to_save().to_toml()),
             // No figure has the wheel.
-            Purpose::Export if ends(".svg") && self.is_large(ViewId::Frame) => {
+            Purpose::Export if figure == Some("svg") && self.is_large(ViewId::Frame) => {
                 Ok(export::svg(self))
             }
-            Purpose::Export if ends(".svg") => self.panel().file(self, "svg"),
-            Purpose::Export => self.panel().file(self, "csv"),
+            Purpose::Export => self.panel().file(self, figure.unwrap_or("csv")),
         };
         let content = content.map_err(|reason| format!("nothing exported: {reason}"))?;
         self.status = Some(format!("writing {name} ..."));
