@@ -467,6 +467,7 @@ pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) 
         amplitude_m: state.amplitude(),
         wave_speed_rad_s,
     };
+    let accumulated = accumulation(scene, log, machine);
     RunReport {
         scene: scene.clone(),
         solver: SolverReport {
@@ -486,9 +487,9 @@ pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) 
             .map(|hit| ImpactReport { t_s: hit.t_s, blades: machine.first_of_side(hit.side) })
             .collect(),
         impact_count: log.impact_count,
-        impacts_accumulate_at_s: accumulation(scene, log, machine),
+        impacts_accumulate_at_s: accumulated,
         series_of_impacts: log.series,
-        impacts_in_one_step_at_s: in_one_step(scene, log, machine),
+        impacts_in_one_step_at_s: in_one_step(scene, log, accumulated, TAU / machine.omega_c),
         r#final: FinalState {
             t_s: state.t_s,
             u_c_m: state.u[0],
@@ -530,11 +531,15 @@ fn accumulation(scene: &CheckedScene, log: &ContactLog, machine: &Machine) -> Op
 
 /// Returns the first time at which two sides were hit in one step of rigid contact that only pushes
 /// \[s\]. One after the other, they would leave the casing with another velocity. Impacts of the
-/// last casing period before they accumulate do not count: no step tells them apart.
-fn in_one_step(scene: &CheckedScene, log: &ContactLog, machine: &Machine) -> Option<f64> {
+/// last casing `period` before they come to `rest` do not count: no step tells them apart.
+fn in_one_step(
+    scene: &CheckedScene,
+    log: &ContactLog,
+    rest: Option<f64>,
+    period: f64,
+) -> Option<f64> {
     let solver = &scene.solver;
     let pushes = solver.contact == ContactLaw::Unilateral && solver.kind == SolverKind::Explicit;
-    let (rest, period) = (accumulation(scene, log, machine), TAU / machine.omega_c);
     let apart = |hit: &Impact| rest.is_none_or(|rest| hit.t_s + period < rest);
     let together = |pair: &&[Impact]| pair[0].t_s == pair[1].t_s && apart(&pair[0]);
     let first = log.impacts.windows(2).filter(|_| pushes).find(together)?;
