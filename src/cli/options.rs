@@ -285,11 +285,9 @@ mod tests {
 
     #[test]
     fn the_solver_follows_what_only_the_explicit_one_can_do() {
-        let mut scene = Scene::base();
-        scene.solver.kind = SolverKind::Event;
+        let mut scene = Scene::base().as_reference();
         scene.solver.contact = ContactLaw::Bilateral;
-        let oval = Scene { solver: Scene::base().as_reference().solver, ..Scene::base() };
-        let mut oval = Scene { casing: scene.casing.clone(), ..oval };
+        let mut oval = Scene::base().as_reference();
         (oval.casing.lobes, oval.casing.out_of_round_m) = (3, 1e-6);
         for (scene, asked) in [(scene, "solver.contact"), (oval, "casing.out_of_round_m")] {
             let (mut left, mut made) = (scene.clone(), scene);
