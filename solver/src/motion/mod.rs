@@ -5,8 +5,8 @@
 //! nothing is global.
 //!
 //! Order in which to read: `solver` (the common interface), `drive` and `contacts` (shared types),
-//! one kind of solver (`explicit` or `event`), then `run` with `script`, `wave`, `verdict` and
-//! `sensitivity`: a whole run, its verdict, and whether a tiny change alters the verdict.
+//! one kind of solver (`explicit` or `event`), then `run` with `script`, `wave`, `verdict`,
+//! `report` and `sensitivity`: a whole run, its verdict, and whether a tiny change alters it.
 
 mod contacts;
 mod drive;
@@ -15,6 +15,7 @@ mod explicit;
 mod failure;
 mod point;
 mod propagator;
+mod report;
 mod run;
 mod script;
 mod sensitivity;
@@ -28,11 +29,11 @@ pub(crate) use event::EVENT;
 pub use event::Events;
 pub use failure::{Failure, FailureReason};
 pub use propagator::FreeFlight;
-pub use run::{
-    FinalState, ImpactReport, LAST_PART, RunReport, Sample, Sampling, Seen, SolverReport,
-    VerdictReached, caught_at, judge_end, lock_that_broke, run_to_end, run_to_verdict, simulate,
-    verdict_of,
+pub use report::{
+    FinalState, ImpactReport, LAST_PART, RunReport, Seen, SolverReport, VerdictReached, caught_at,
+    judge_end, lock_that_broke, verdict_of,
 };
+pub use run::{Sample, Sampling, run_to_end, run_to_verdict, simulate};
 pub use script::{Change, Script, Scripted};
 pub use sensitivity::{Certainty, Spread, certainty, run_with_certainty};
 pub use solver::{GoOn, Motion, Solver, to_the_end};

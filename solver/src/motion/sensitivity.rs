@@ -13,7 +13,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::run::{VerdictReached, report, run_motion_to_verdict, run_to_verdict};
+use super::report::{VerdictReached, report};
+use super::run::{run_motion_to_verdict, run_to_verdict};
 use super::script::{Change, Script};
 use super::wave::WaveTracker;
 use super::{Contact, GoOn, Motion, RunReport, Verdict};
