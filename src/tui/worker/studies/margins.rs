@@ -32,17 +32,19 @@ impl Study for MarginsStudy {
     fn begin((scene, range): &Self::Key, _: &Given) -> Self::Job {
         let (theirs, range) = (scene.clone(), *range);
         Sent::by(move |to, go_on| {
-            let mut live = LiveMargins { margins: Margins::of(&theirs), survey: None };
-            let _ = to.send(live.clone());
-            live.survey = Survey::of(&theirs, range, None).ok().map(Arc::new);
-            let _ = to.send(live.clone());
-            let LiveMargins { mut margins, survey } = live;
-            on_spare_cores(|| {
-                margins.ask_runs(go_on, &mut |margins| {
-                    let (margins, survey) = (margins.clone(), survey.clone());
-                    let _ = to.send(LiveMargins { margins, survey });
-                })
-            });
+            let mut margins = Margins::of(&theirs);
+            let send = |margins: &Margins, survey: &Option<Arc<Survey>>| {
+                let _ = to.send(LiveMargins { margins: margins.clone(), survey: survey.clone() });
+            };
+            send(&margins, &None);
+            // The survey and the runs are for a knob that rests.
+            std::thread::sleep(std::time::Duration::from_millis(200));
+            if !go_on() {
+                return;
+            }
+            let survey = Survey::of(&theirs, range, None).ok().map(Arc::new);
+            send(&margins, &survey);
+            on_spare_cores(|| margins.ask_runs(go_on, &mut |margins| send(margins, &survey)));
         })
     }
 }
