@@ -216,6 +216,12 @@ impl LiveMap {
             .find_map(|&block| self.map.at(centre(column, block, x), centre(row, block, y)))
     }
 
+    /// Returns whether the coarsest blocks cover the whole map.
+    pub fn is_covered(&self) -> bool {
+        let blocks = |count: u32| count.div_ceil(BLOCKS[0]) as usize;
+        self.tried >= blocks(self.map.plan.x.count) * blocks(self.map.plan.y.count)
+    }
+
     /// Returns whether all cells were attempted.
     pub fn is_complete(&self) -> bool {
         self.tried >= self.map.cells.len()
@@ -228,13 +234,11 @@ fn centre(cell: u32, block: u32, count: u32) -> u32 {
     (cell - cell % block + block / 2).min(count.saturating_sub(1))
 }
 
-/// Returns all cells in order of computation, and how many of them cover the whole map with the
-/// coarsest blocks.
-pub fn coarse_first(plan: &MapPlan) -> (Vec<usize>, usize) {
+/// Returns all cells in order of computation: those of the coarsest blocks first.
+pub fn coarse_first(plan: &MapPlan) -> Vec<usize> {
     let (x, y) = (plan.x.count, plan.y.count);
     let mut taken = vec![false; plan.len()];
     let mut order = Vec::with_capacity(plan.len());
-    let mut first = 0;
     for block in BLOCKS {
         let side = block as usize;
         for row in (0..y).step_by(side) {
@@ -246,11 +250,8 @@ pub fn coarse_first(plan: &MapPlan) -> (Vec<usize>, usize) {
                 }
             }
         }
-        if first == 0 {
-            first = order.len();
-        }
     }
-    (order, first)
+    order
 }
 
 /// The run of one map cell.
@@ -344,14 +345,21 @@ mod tests {
         let mut plan = MapChoice::default().plan(&Scene::base()).unwrap();
         for (x, y) in [(81, 41), (11, 41), (1, 1), (8, 3)] {
             (plan.x.count, plan.y.count) = (x, y);
-            let (mut order, first) = coarse_first(&plan);
+            let mut order = coarse_first(&plan);
             let mut live = LiveMap::of(plan.clone());
             let cell = Some(Cell::of(Verdict::Decay));
-            order.iter().take(first).for_each(|&index| live.map.cells.set(index, cell));
-            live.tried = first;
-            // The coarsest blocks cover the whole map.
-            assert!((0..x).all(|column| (0..y).all(|row| live.shown(column, row) == cell)));
-            assert!(first <= (x as usize).div_ceil(8) * (y as usize).div_ceil(8));
+            let cover = |live: &LiveMap| {
+                (0..x).all(|column| (0..y).all(|row| live.shown(column, row) == cell))
+            };
+            for &index in &order {
+                if live.is_covered() {
+                    break;
+                }
+                assert!(!cover(&live), "{x} {y} {}", live.tried);
+                live.map.cells.set(index, cell);
+                live.tried += 1;
+            }
+            assert!(cover(&live));
             order.sort_unstable();
             assert!(order.into_iter().eq(0..plan.len()), "{x} {y}");
         }

@@ -1,27 +1,25 @@
 //! The map, and the run of the cell under its cursor. Both run in background threads that stop
 //! within about a millisecond once they are no longer wanted.
 
-use std::sync::Arc;
+use std::sync::Mutex;
+use std::sync::mpsc::Sender;
 use std::time::{Duration, Instant};
 
 use rayon::iter::{ParallelBridge, ParallelIterator};
 
-use super::study::{Given, Job, Sent, Study};
+use super::study::{Given, Job, Study};
 use crate::tui::engine::FORECAST_LIMIT;
 use crate::tui::views::id::ViewId;
 use crate::tui::views::map::plan::{CellRun, LiveMap, coarse_first};
-use crate::tui::worker::background::{Background, on_spare_cores};
+use crate::tui::worker::background::on_spare_cores;
 use rubscope_solver::motion::LAST_PART;
 use rubscope_solver::motion::{GoOn, Motion, verdict_of};
-use rubscope_solver::study::{Cell, MapPlan};
+use rubscope_solver::study::MapPlan;
 
 /// Longest wall-clock time of one cell; a typical one takes a hundredth of it.
 const CELL_LIMIT: Duration = Duration::from_secs(1);
-/// Largest number of cells collected per slice.
-const MOST_TAKEN: usize = 4096;
-
-/// Index and result of a cell; `None` if its run took too long or was stopped.
-type Computed = (usize, Option<Cell>);
+/// Wall-clock time between two states of the map that are sent.
+const EVERY: Duration = Duration::from_millis(20);
 
 /// Computes the map of a plan.
 #[derive(Debug)]
@@ -30,112 +28,54 @@ pub struct MapStudy;
 impl Study for MapStudy {
     type Key = MapPlan;
     type Found = LiveMap;
-    type Job = MapJob;
     const VIEW: ViewId = ViewId::Map;
-    const BESIDE: bool = true;
+    const SLOW: bool = true;
 
     fn key(given: &Given) -> Option<MapPlan> {
         given.plan.clone()
     }
 
-    fn begin(plan: &MapPlan, given: &Given) -> MapJob {
-        MapJob::new(plan, given.most_cells.unwrap_or(usize::MAX))
+    /// Goes on with the cells of an earlier map of the plan.
+    fn begin(plan: &MapPlan, given: &Given, before: Option<&LiveMap>) -> Job<LiveMap> {
+        let same = before.filter(|live| live.map.plan == *plan).cloned();
+        let live = same.unwrap_or_else(|| LiveMap::of(plan.clone()));
+        let most = given.most_cells.unwrap_or(usize::MAX);
+        Job::by(move |to, go_on| on_spare_cores(|| compute(live, most, to, go_on)))
+    }
+
+    /// A map replaces the previous one once it covers it.
+    fn replaces(live: &LiveMap) -> bool {
+        live.is_covered()
     }
 }
 
-/// A map in progress.
-#[derive(Debug)]
-pub struct MapJob {
-    live: Arc<LiveMap>,
-    /// Indices of the cells, in order of computation.
-    order: Vec<usize>,
-    /// Number of cells after which the whole map is covered by coarse blocks.
-    first: usize,
-    /// Whether each cell was computed or given up, by its index.
-    tried: Vec<bool>,
-    /// The threads that compute; `None` before they start, and while they are not needed.
-    threads: Option<Background<Computed>>,
-}
-
-impl Job for MapJob {
-    type Found = LiveMap;
-
-    fn is_done(&self) -> bool {
-        self.live.tried >= self.order.len()
-    }
-
-    fn work(&mut self, patience: Duration) {
-        // Threads that ended early leave cells uncomputed.
-        if self.threads.as_ref().is_none_or(Background::is_done) && !self.is_done() {
-            self.threads = Some(self.start());
+/// Computes the cells that are left, in the order of the map; `most` is the largest number of cells
+/// of the map, for tests.
+fn compute(mut live: LiveMap, most: usize, to: &Sender<LiveMap>, go_on: GoOn<'_>) {
+    let plan = live.map.plan.clone();
+    let mut left = coarse_first(&plan);
+    left.truncate(most.max(1));
+    left.retain(|index| live.map.cells[*index].is_none());
+    live.tried = live.map.cells.iter().flatten().count();
+    let (began, wall_s) = (Instant::now(), live.map.wall_s);
+    let live = Mutex::new((live, Instant::now()));
+    left.into_iter().par_bridge().filter(|_| go_on()).for_each(|index| {
+        let since = Instant::now();
+        let cell = plan.compute(index, &|| go_on() && since.elapsed() < CELL_LIMIT);
+        let Ok(mut live) = live.lock() else { return };
+        let (live, sent) = &mut *live;
+        // A cell that takes too long stays empty.
+        live.map.cells.set(index, cell);
+        live.map.runs += u64::from(cell.is_some());
+        live.map.wall_s = wall_s + began.elapsed().as_secs_f64();
+        live.tried += 1;
+        if sent.elapsed() > EVERY {
+            *sent = Instant::now();
+            _ = to.send(live.clone());
         }
-        let Some(threads) = &mut self.threads else { return };
-        let began = Instant::now();
-        let mut found = Vec::new();
-        while found.len() < MOST_TAKEN
-            && let Some(computed) =
-                threads.receive(if found.is_empty() { patience } else { Duration::ZERO })
-        {
-            found.push(computed);
-        }
-        if found.is_empty() {
-            return;
-        }
-        let live = Arc::make_mut(&mut self.live);
-        for (index, cell) in found {
-            live.map.cells.set(index, cell);
-            live.map.runs += u64::from(cell.is_some());
-            if let Some(tried) = self.tried.get_mut(index).filter(|tried| !**tried) {
-                *tried = true;
-                live.tried += 1;
-            }
-        }
-        live.map.wall_s += began.elapsed().as_secs_f64();
-    }
-
-    fn found(&self) -> Option<&Arc<LiveMap>> {
-        Some(&self.live).filter(|live| live.tried >= self.first)
-    }
-
-    fn first(&self) -> Option<&Arc<LiveMap>> {
-        Some(&self.live)
-    }
-
-    fn pause(&mut self) {
-        // This ends the threads; computed cells stay.
-        self.threads = None;
-    }
-}
-
-impl MapJob {
-    /// Creates the map of `plan`; at most the `most` coarsest cells are computed.
-    fn new(plan: &MapPlan, most: usize) -> Self {
-        let (mut order, first) = coarse_first(plan);
-        order.truncate(most.max(1));
-        let live = LiveMap::of(plan.clone());
-        Self {
-            tried: vec![false; live.map.cells.len()],
-            live: Arc::new(live),
-            first: first.min(order.len()),
-            order,
-            threads: None,
-        }
-    }
-
-    /// Starts to compute the cells that are left, on all spare cores, in the order of the map.
-    fn start(&self) -> Background<Computed> {
-        let left =
-            self.order.iter().copied().filter(|index| self.tried.get(*index) == Some(&false));
-        let (left, plan) = (left.collect::<Vec<usize>>(), self.live.map.plan.clone());
-        Background::start(move |to, go_on| {
-            let compute = |index| {
-                let began = Instant::now();
-                let cell = plan.compute(index, &|| go_on() && began.elapsed() < CELL_LIMIT);
-                // A cell that takes too long stays empty. Sending fails only if the map was dropped.
-                _ = to.send((index, cell));
-            };
-            on_spare_cores(|| left.into_iter().par_bridge().filter(|_| go_on()).for_each(compute));
-        })
+    });
+    if let Ok((live, _)) = live.into_inner() {
+        _ = to.send(live);
     }
 }
 
@@ -146,18 +86,16 @@ pub struct CellStudy;
 impl Study for CellStudy {
     type Key = (MapPlan, [u32; 2]);
     type Found = CellRun;
-    type Job = Sent<CellRun>;
     const VIEW: ViewId = ViewId::Map;
-    const BESIDE: bool = true;
-    const ENDS: bool = true;
+    const SLOW: bool = true;
 
     fn key(given: &Given) -> Option<Self::Key> {
         given.plan.clone().zip(given.order.cell)
     }
 
-    fn begin((plan, cell): &Self::Key, _: &Given) -> Self::Job {
+    fn begin((plan, cell): &Self::Key, _: &Given, _: Option<&CellRun>) -> Job<CellRun> {
         let (plan, cell) = (plan.clone(), *cell);
-        Sent::by(move |to, go_on| {
+        Job::by(move |to, go_on| {
             let began = Instant::now();
             let go_on = || go_on() && began.elapsed() < FORECAST_LIMIT;
             if let Some(run) = run_of(plan, cell, &go_on) {
@@ -191,6 +129,9 @@ fn run_of(plan: MapPlan, cell: [u32; 2], go_on: GoOn<'_>) -> Option<CellRun> {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
+    use super::super::tests::with_given;
     use super::*;
     use crate::tui::views::map::plan::MapChoice;
 
@@ -202,20 +143,19 @@ mod tests {
         scene.solver.end_s = 5e-3;
         let mut plan = MapChoice::default().plan(&scene).unwrap();
         (plan.x.count, plan.y.count) = (7, 5);
-        let mut job = MapJob::new(&plan, usize::MAX);
-        while !job.is_done() {
-            job.work(Duration::from_millis(5));
-            job.pause();
+        let mut live: Option<Arc<LiveMap>> = None;
+        while !live.as_ref().is_some_and(|live| live.is_complete()) {
+            let begin = |given: &Given| MapStudy::begin(&plan, given, live.as_deref());
+            let mut job = with_given(&scene, ViewId::Map, begin);
+            while !job.is_done() && job.found.is_none() {
+                job.work(Duration::from_millis(5));
+            }
+            live = job.found;
         }
-        assert_eq!(job.live.tried, 35);
+        let map = &live.unwrap().map;
+        assert_eq!(map.runs, 35);
         for index in 0..plan.len() {
-            assert_eq!(job.live.map.cells[index], plan.compute(index, &|| true), "{index}");
+            assert_eq!(map.cells[index], plan.compute(index, &|| true), "{index}");
         }
-        // A test can limit a map to its coarsest cells.
-        let mut coarse = MapJob::new(&plan, 1);
-        while !coarse.is_done() {
-            coarse.work(Duration::from_millis(5));
-        }
-        assert!(coarse.found().is_some() && !coarse.live.is_complete());
     }
 }

@@ -1,21 +1,30 @@
-//! Studies for the views: curves, spectrum, map, margins, comparison of solvers. Each has a file
-//! here and a row in the table below. It is computed in slices, only while a view needs it, and its
-//! result is kept while its inputs stay the same.
+//! Studies for the views: curves, spectrum, map, margins, comparison of solvers. Each is a type here
+//! (the map has a file of its own) and a row in the table below. It is computed in slices, only while
+//! a view needs it, and its result is kept while its inputs stay the same.
 
-mod coincidence;
-mod locked;
 mod map;
-mod margins;
-mod precision;
-mod spectrum;
 mod study;
 
+use std::sync::Arc;
 use std::time::Duration;
 
-use study::{Given, StudySlot, Work};
+use study::{Given, Job, Study, StudySlot, Work};
 
 use crate::tui::engine::{Found, Order, SLICE, Working};
 use crate::tui::film::Film;
+use crate::tui::views::coincidence::curves::CoincidenceCurves;
+use crate::tui::views::id::ViewId;
+use crate::tui::views::locked::curves::LockedCurves;
+use crate::tui::views::margins::live::LiveMargins;
+use crate::tui::views::spectrum::lines::Spectrum;
+use crate::tui::worker::background::on_spare_cores;
+use rubscope_solver::scene::{CheckedScene, Scene};
+use rubscope_solver::study::margins::Margins;
+use rubscope_solver::study::precision::{Effort, Measure, Precision, ways};
+use rubscope_solver::study::survey::Survey;
+
+/// Wall-clock time for which a knob rests before the survey and the runs of the margins begin.
+const REST: Duration = Duration::from_millis(200);
 
 macro_rules! studies {
     ($($name:ident: $study:ty,)*) => {
@@ -46,13 +55,13 @@ macro_rules! studies {
 }
 
 studies! {
-    locked: locked::LockedStudy,
-    spectrum: spectrum::SpectrumStudy,
-    coincidence: coincidence::CoincidenceStudy,
-    margins: margins::MarginsStudy,
+    locked: LockedStudy,
+    spectrum: SpectrumStudy,
+    coincidence: CoincidenceStudy,
+    margins: MarginsStudy,
     cell: map::CellStudy,
     map: map::MapStudy,
-    precision: precision::PrecisionStudy,
+    precision: PrecisionStudy,
 }
 
 impl Studies {
@@ -83,8 +92,8 @@ impl Studies {
     pub fn compute(&mut self, order: &Order, run: &Film) {
         let given = &self.given(order, run);
         let mut due: Vec<_> = self.all_mut().filter(|study| !study.is_done(given)).collect();
-        match due.first().is_some_and(|first| first.is_beside()) {
-            true => due.retain(|study| study.is_beside()),
+        match due.first().is_some_and(|first| first.is_slow()) {
+            true => due.retain(|study| study.is_slow()),
             false => due.truncate(1),
         }
         // Wait for results of only one of them.
@@ -94,13 +103,148 @@ impl Studies {
     }
 }
 
+/// The curves of view 3. They are closed forms, so they are computed at once, and several views use
+/// them, so they are always computed.
+#[derive(Debug)]
+struct LockedStudy;
+
+impl Study for LockedStudy {
+    type Key = Scene;
+    type Found = LockedCurves;
+    const VIEW: ViewId = ViewId::Locked;
+
+    fn key(given: &Given) -> Option<Scene> {
+        Some(given.order.scene.clone().into_scene())
+    }
+
+    fn begin(scene: &Scene, _: &Given, _: Option<&Self::Found>) -> Job<Self::Found> {
+        Job::done(LockedCurves::of(scene))
+    }
+}
+
+/// The spectrum of the casing's motion in the full run. Studies run after it, so its samples are
+/// complete unless it was given up.
+#[derive(Debug)]
+struct SpectrumStudy;
+
+impl Study for SpectrumStudy {
+    /// Number of the film.
+    type Key = u64;
+    type Found = Spectrum;
+    const VIEW: ViewId = ViewId::Spectrum;
+    const STAYS: bool = false;
+
+    fn key(given: &Given) -> Option<u64> {
+        given.order.shows(Self::VIEW).then_some(given.order.number)
+    }
+
+    fn begin(_: &u64, given: &Given, _: Option<&Self::Found>) -> Job<Self::Found> {
+        let length = given.order.scene.solver.end_s;
+        Job::done(Spectrum::of(&given.run.signal(), length))
+    }
+}
+
+/// The coincidence curves; with a lining each point is a search. `None` if the wave has no
+/// coincidence.
+#[derive(Debug)]
+struct CoincidenceStudy;
+
+impl Study for CoincidenceStudy {
+    type Key = Scene;
+    type Found = Option<CoincidenceCurves>;
+    const VIEW: ViewId = ViewId::Coincidence;
+
+    fn key(given: &Given) -> Option<Scene> {
+        given.order.shows(Self::VIEW).then(|| CoincidenceCurves::key(&given.order.scene))
+    }
+
+    fn begin(_: &Scene, given: &Given, _: Option<&Self::Found>) -> Job<Self::Found> {
+        let scene = given.order.scene.clone();
+        Job::by(move |to, _| _ = to.send(CoincidenceCurves::of(&scene)))
+    }
+}
+
+/// The margins of a scene: first for its own nodal diameters, then the survey over all of them, then
+/// the nearest changes of the verdict, which take many runs.
+#[derive(Debug)]
+struct MarginsStudy;
+
+impl Study for MarginsStudy {
+    /// The scene, and the speed range of the survey \[rad/s\]; `None` covers all speeds.
+    type Key = (CheckedScene, Option<[f64; 2]>);
+    type Found = LiveMargins;
+    const VIEW: ViewId = ViewId::Margins;
+    const SLOW: bool = true;
+
+    fn key(given: &Given) -> Option<Self::Key> {
+        let order = given.order;
+        order.shows(Self::VIEW).then(|| (order.scene.clone(), order.range))
+    }
+
+    fn begin((scene, range): &Self::Key, _: &Given, _: Option<&Self::Found>) -> Job<Self::Found> {
+        let (scene, range) = (scene.clone(), *range);
+        Job::by(move |to, go_on| {
+            let mut margins = Margins::of(&scene);
+            let send = |margins: &Margins, survey: &Option<Arc<Survey>>| {
+                _ = to.send(LiveMargins { margins: margins.clone(), survey: survey.clone() });
+            };
+            send(&margins, &None);
+            std::thread::sleep(REST);
+            if !go_on() {
+                return;
+            }
+            let survey = Survey::of(&scene, range, None).ok().map(Arc::new);
+            send(&margins, &survey);
+            on_spare_cores(|| margins.ask_runs(go_on, &mut |margins| send(margins, &survey)));
+        })
+    }
+}
+
+/// Speed against error of the solvers, row by row: a row can take seconds.
+#[derive(Debug)]
+struct PrecisionStudy;
+
+impl Study for PrecisionStudy {
+    type Key = Scene;
+    type Found = Precision;
+    const VIEW: ViewId = ViewId::Precision;
+
+    fn key(given: &Given) -> Option<Scene> {
+        given.order.shows(Self::VIEW).then(|| given.order.scene.clone().into_scene())
+    }
+
+    fn begin(scene: &Scene, _: &Given, _: Option<&Self::Found>) -> Job<Self::Found> {
+        let scene = scene.clone();
+        Job::by(move |to, go_on| {
+            let Ok(Some(measure)) = Measure::new(&scene, Effort::QUICK, go_on) else { return };
+            let reference = measure.reference().clone();
+            let ways = ways(&scene, Effort::QUICK);
+            let mut report = Precision { scene, reference, rows: Vec::new() };
+            _ = to.send(report.clone());
+            for way in ways {
+                let row = measure.row(way, Effort::QUICK, go_on);
+                if !go_on() {
+                    return;
+                }
+                if let Ok(Some(row)) = row {
+                    report.rows.push(row);
+                    _ = to.send(report.clone());
+                }
+            }
+        })
+    }
+
+    fn part(found: &Precision) -> Option<f64> {
+        let all = ways(&found.scene, Effort::QUICK).len().max(1);
+        Some(found.rows.len() as f64 / all as f64)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::tui::film::FilmPlan;
-    use crate::tui::views::id::ViewId;
     use crate::tui::{App, Marker, Theme};
-    use rubscope_solver::scene::Scene;
 
     /// Calls `with` with the inputs of a study that does not use the run.
     pub(super) fn with_given<T>(scene: &Scene, view: ViewId, with: impl Fn(&Given) -> T) -> T {
@@ -112,9 +256,35 @@ mod tests {
     }
 
     #[test]
+    fn the_coincidence_does_not_depend_on_the_pulse_or_on_a_speed_inside_its_range() {
+        let mut scene = Scene::base();
+        scene.bladed_disk.radial_coupling = 0.3;
+        let view = ViewId::Coincidence;
+        let key =
+            |scene: &Scene| with_given(scene, view, |given| CoincidenceStudy::key(given).unwrap());
+        let own = key(&scene);
+        let begin = |given: &Given| CoincidenceStudy::begin(&own, given, None);
+        let mut job = with_given(&scene, view, begin);
+        while !job.is_done() {
+            job.work(Duration::from_millis(20));
+        }
+        let curves = CoincidenceCurves::of(&scene);
+        assert!(curves.is_some() && **job.found.as_ref().unwrap() == curves);
+        scene.operation.pulse_n = 1e5;
+        scene.operation.speed_rad_s = 300.0;
+        assert!(key(&scene) == own);
+        let moved = CoincidenceCurves::of(&scene).unwrap();
+        assert_eq!(Some(moved.markers), curves.map(|curves| curves.markers));
+        scene.operation.speed_rad_s = -300.0;
+        assert!(key(&scene) != own);
+        scene.operation.speed_rad_s = 300.0;
+        scene.bladed_disk.radial_coupling = 0.5;
+        assert!(key(&scene) != own);
+    }
+
+    #[test]
     fn a_search_ends_with_its_view_and_what_was_known_stays() {
-        let scene = Scene::base().checked().unwrap();
-        let app = App::new(scene, Theme::Mono, Marker::Ascii);
+        let app = App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Ascii);
         let mut order = Order { open: vec![ViewId::Margins], ..app.order() };
         let mut studies = Studies::default();
         let run = &Film::new(FilmPlan::new(&order.scene));

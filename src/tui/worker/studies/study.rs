@@ -1,5 +1,4 @@
-//! A study: the computation of what a view shows, in slices or in a thread of its own, with its
-//! inputs and its latest result.
+//! A study: the computation of what a view shows, with its inputs and its latest result.
 
 use std::fmt;
 use std::sync::Arc;
@@ -34,23 +33,25 @@ pub trait Study {
     /// Inputs; the result is kept while they are equal.
     type Key: fmt::Debug + PartialEq;
     /// The result, as the view draws it.
-    type Found: fmt::Debug;
-    /// The job that computes it.
-    type Job: Job<Found = Self::Found>;
+    type Found: Clone + fmt::Debug + Send + Sync + 'static;
     /// The view that shows it.
     const VIEW: ViewId;
     /// Whether the previous result stays on the screen until a new one arrives.
     const STAYS: bool = true;
-    /// Whether it is slow enough to run side by side with other slow studies.
-    const BESIDE: bool = false;
-    /// Whether it is dropped, not paused, when it is no longer needed, to free the processor.
-    const ENDS: bool = false;
+    /// Whether it is slow: it runs side by side with other slow studies, and is dropped when it is
+    /// no longer needed, to free the processor.
+    const SLOW: bool = false;
 
     /// Returns the current inputs; `None` if no view needs the study.
     fn key(given: &Given) -> Option<Self::Key>;
 
-    /// Starts the job.
-    fn begin(key: &Self::Key, given: &Given) -> Self::Job;
+    /// Starts the job; `before` is the latest result, of these inputs or earlier ones.
+    fn begin(key: &Self::Key, given: &Given, before: Option<&Self::Found>) -> Job<Self::Found>;
+
+    /// Returns whether a result may replace the previous one before it is complete.
+    fn replaces(_: &Self::Found) -> bool {
+        true
+    }
 
     /// Returns the finished fraction, 0 to 1; `None` if the study cannot tell.
     fn part(_: &Self::Found) -> Option<f64> {
@@ -58,73 +59,41 @@ pub trait Study {
     }
 }
 
-/// The computation of a result, in slices.
-pub trait Job: fmt::Debug {
-    /// The result; it may be partial while the job is not done.
-    type Found;
+/// The computation of a result, at once or in a background thread; the latest value that the thread
+/// sends is the result. Dropping it ends the thread.
+#[derive(Debug)]
+pub struct Job<T> {
+    coming: Option<Background<T>>,
+    pub(super) found: Option<Arc<T>>,
+}
 
-    /// Returns whether the job is complete.
-    fn is_done(&self) -> bool;
-
-    /// Does a slice of the work, or collects results of its threads; waits up to `patience`.
-    fn work(&mut self, patience: Duration);
-
-    /// Returns the result; `None` until it may replace the previous one.
-    fn found(&self) -> Option<&Arc<Self::Found>>;
-
-    /// Returns a partial result to show if there is no previous one; `None` if the job has none.
-    fn first(&self) -> Option<&Arc<Self::Found>> {
-        None
+impl<T: Send + 'static> Job<T> {
+    /// Creates the job of a result that is known.
+    pub fn done(found: T) -> Self {
+        Self { coming: None, found: Some(Arc::new(found)) }
     }
 
-    /// Frees the processor while the result is not needed.
-    fn pause(&mut self) {}
-}
-
-/// A job in a background thread; the latest value it sends is the result. Dropping it ends the
-/// thread.
-#[derive(Debug)]
-pub struct Sent<T> {
-    coming: Background<T>,
-    found: Option<Arc<T>>,
-}
-
-impl<T: Send + 'static> Sent<T> {
     /// Starts the thread. Sending fails only if the job was dropped.
     pub fn by(work: impl FnOnce(&Sender<T>, GoOn<'_>) + Send + 'static) -> Self {
-        Self { coming: Background::start(work), found: None }
-    }
-}
-
-impl<T: fmt::Debug + Send + 'static> Job for Sent<T> {
-    type Found = T;
-
-    fn is_done(&self) -> bool {
-        self.coming.is_done()
+        Self { coming: Some(Background::start(work)), found: None }
     }
 
-    fn work(&mut self, patience: Duration) {
-        let latest = self.coming.receive(patience).map(Arc::new);
-        self.found = latest.or(self.found.take());
+    /// Returns whether no more results will come.
+    pub fn is_done(&self) -> bool {
+        self.coming.as_ref().is_none_or(Background::is_done)
     }
 
-    fn found(&self) -> Option<&Arc<T>> {
-        self.found.as_ref()
-    }
-}
-
-/// A result that is computed at once.
-impl<T: fmt::Debug> Job for Arc<T> {
-    type Found = T;
-
-    fn is_done(&self) -> bool {
-        true
+    /// Returns the result if it may replace the previous one: it `may`, or no other comes.
+    fn replaces(&self, may: fn(&T) -> bool) -> Option<&Arc<T>> {
+        self.found.as_ref().filter(|found| self.is_done() || may(found))
     }
 
-    fn work(&mut self, _: Duration) {}
-
-    fn found(&self) -> Option<&Self> {
-        Some(self)
+    /// Collects the results of the thread; waits for one up to `patience`.
+    pub fn work(&mut self, mut patience: Duration) {
+        while let Some(found) = self.coming.as_mut().and_then(|coming| coming.receive(patience)) {
+            self.found = Some(Arc::new(found));
+            patience = Duration::ZERO;
+        }
     }
 }
 
@@ -132,7 +101,7 @@ impl<T: fmt::Debug> Job for Arc<T> {
 #[derive(Debug)]
 pub struct StudySlot<S: Study> {
     /// The inputs and their job; `None` before the first, and after one that was dropped.
-    pub(super) study: Option<(S::Key, S::Job)>,
+    pub(super) study: Option<(S::Key, Job<S::Found>)>,
     /// The result for earlier inputs; `None` if there is none.
     before: Option<Arc<S::Found>>,
     /// When the current job began; `None` before the first.
@@ -146,34 +115,35 @@ impl<S: Study> Default for StudySlot<S> {
 }
 
 impl<S: Study> StudySlot<S> {
-    fn replace(&mut self, study: Option<(S::Key, S::Job)>) {
-        let old = std::mem::replace(&mut self.study, study);
-        let found = old.as_ref().and_then(|(_, old)| old.found()).filter(|_| S::STAYS).cloned();
+    /// Ends the job; its result stays if it may.
+    fn end(&mut self) {
+        let ended = self.study.take().filter(|_| S::STAYS);
+        let found = ended.and_then(|(_, job)| job.replaces(S::replaces).cloned());
         self.before = found.or(self.before.take());
     }
 
-    fn of(&self, key: &S::Key) -> Option<&S::Job> {
-        self.study.as_ref().filter(|(of, _)| of == key).map(|(_, study)| study)
+    fn of(&self, key: &S::Key) -> Option<&Job<S::Found>> {
+        self.study.as_ref().filter(|(of, _)| of == key).map(|(_, job)| job)
     }
 
     /// Returns the result to show; `None` until there is one.
     pub fn shown(&self, given: &Given) -> Option<Arc<S::Found>> {
-        let study = match S::STAYS {
-            true => self.study.as_ref().map(|(_, study)| study),
+        let job = match S::STAYS {
+            true => self.study.as_ref().map(|(_, job)| job),
             false => self.of(&S::key(given)?),
         };
-        let found = study.and_then(Job::found).or(self.before.as_ref());
-        found.or_else(|| study?.first()).cloned()
+        let found = job.and_then(|job| job.replaces(S::replaces)).or(self.before.as_ref());
+        found.or_else(|| job?.found.as_ref()).cloned()
     }
 }
 
 /// A study of any type, as a trait object.
 pub trait Work {
-    /// Returns whether it is slow enough to run side by side with others.
-    fn is_beside(&self) -> bool;
+    /// Returns whether it is slow, see [`Study::SLOW`].
+    fn is_slow(&self) -> bool;
     /// Returns whether nothing is left to compute.
     fn is_done(&self, given: &Given) -> bool;
-    /// Does a slice of the work; waits up to `patience` for the results of threads.
+    /// Starts the job, and collects its results; waits up to `patience` for one.
     fn work(&mut self, given: &Given, patience: Duration);
     /// Stops the job if no view needs it.
     fn stop_unwanted(&mut self, given: &Given);
@@ -182,8 +152,8 @@ pub trait Work {
 }
 
 impl<S: Study> Work for StudySlot<S> {
-    fn is_beside(&self) -> bool {
-        S::BESIDE
+    fn is_slow(&self) -> bool {
+        S::SLOW
     }
 
     fn is_done(&self, given: &Given) -> bool {
@@ -193,27 +163,27 @@ impl<S: Study> Work for StudySlot<S> {
     fn work(&mut self, given: &Given, patience: Duration) {
         let Some(key) = S::key(given) else { return };
         if self.of(&key).is_none() {
-            let study = S::begin(&key, given);
-            self.replace(Some((key, study)));
+            self.end();
+            let job = S::begin(&key, given, self.before.as_deref());
+            self.study = Some((key, job));
             self.since = Some(Instant::now());
         }
-        if let Some((_, study)) = &mut self.study {
-            study.work(patience);
+        if let Some((_, job)) = &mut self.study {
+            job.work(patience);
         }
     }
 
     fn stop_unwanted(&mut self, given: &Given) {
-        let wanted = S::key(given).is_some_and(|key| self.of(&key).is_some());
-        match &mut self.study {
-            Some((_, study)) if !wanted && S::ENDS && !study.is_done() => self.replace(None),
-            Some((_, study)) if !wanted => study.pause(),
-            _ => {}
+        let is_wanted = S::key(given).is_some_and(|key| self.of(&key).is_some());
+        if S::SLOW && !is_wanted && self.study.as_ref().is_some_and(|(_, job)| !job.is_done()) {
+            self.end();
         }
     }
 
     fn working(&self, given: &Given) -> Option<Working> {
         let wall = self.since.filter(|_| !self.is_done(given))?.elapsed();
-        let part = self.study.as_ref().and_then(|(_, study)| S::part(study.found()?));
+        let found = self.study.as_ref().and_then(|(_, job)| job.found.as_ref());
+        let part = found.and_then(|found| S::part(found));
         (wall > LONG).then_some(Working { view: S::VIEW, part, seconds: wall.as_secs() })
     }
 }
