@@ -115,10 +115,10 @@ fn figures_4_to_6_lock_on_the_blades_of_the_paper() {
         &figure,
         "at each of 50 steps from 0.01 to 1 µs it locks from 75 to 81 ms, at some 30 of them"
     ));
-    let all = at_steps(4, "43400", 2);
+    let all = at_steps(4, "43400", 5);
     assert!(all.iter().all(|(t, _)| t.is_some_and(|t| (0.075..0.081).contains(&t))), "{all:?}");
     let of_paper = all.iter().filter(|(_, held)| *held == [6, 21]).count();
-    assert!((11..20).contains(&of_paper), "{of_paper}");
+    assert!((4..9).contains(&of_paper), "{of_paper}");
     // 40 kN, as the caption says.
     assert!(says(&figure, "40 kN locks at 84 to 90 ms on other blades"));
     for (time, held) in at_steps(4, "40000", 5) {

@@ -28,6 +28,10 @@ fn opened(keys: &str, seen: &str) -> Terminal {
 
 fn ends(mut terminal: Terminal, what: &str) {
     terminal.send("\u{3}");
+    ended(terminal, what);
+}
+
+fn ended(mut terminal: Terminal, what: &str) {
     assert_eq!(terminal.wait(), 0, "{what}");
     terminal.assert_restored();
 }
@@ -49,12 +53,18 @@ fn one_ctrl_c_is_heard_after_a_burst_of_any_size_in_every_mode() {
 fn one_ctrl_c_is_heard_after_a_sequence_without_an_end_in_every_mode() {
     let long = format!("\u{1b}[200~{}", "abc".repeat(20_000));
     let begun = [&long, "\u{1b}[200~abc", "\u{1b}[<0;1", "\u{1b}]11;rgb:", "\u{1b}O"];
+    // Each waits for the end of its sequence before it gives it up: all wait at once.
+    let mut waiting = Vec::new();
     for (place, (keys, seen)) in MODES.into_iter().enumerate() {
         for begun in if place == 0 { &begun[..] } else { &begun[1..2] } {
             let mut terminal = opened(keys, seen);
             terminal.send(begun);
-            ends(terminal, &format!("{keys:?} {begun:.20?}"));
+            terminal.send("\u{3}");
+            waiting.push((terminal, format!("{keys:?} {begun:.20?}")));
         }
+    }
+    for (terminal, what) in waiting {
+        ended(terminal, &what);
     }
 }
 

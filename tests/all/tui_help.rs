@@ -58,10 +58,15 @@ fn every_sign_of_the_pictures_is_found_by_typing_it() {
     // A curve has any pattern of dots.
     signs.retain(|sign| !sign.is_ascii() && !('\u{2801}'..='\u{28ff}').contains(sign));
     assert!(signs.len() > 30, "{signs:?}");
+    let mut session = open((80, 24), Marker::Braille);
+    session.press("?");
     for sign in signs.into_iter().chain(['*']) {
-        let mut session = open((80, 24), Marker::Braille);
-        session.press(&format!("?{sign}"));
-        assert!(!session.text().contains("no match"), "{sign}");
+        // `press` takes an arrow as the key of the arrow.
+        let key = KeyEvent::new(KeyCode::Char(sign), KeyModifiers::NONE);
+        session.send([ScreenEvent::Key(key)].into_iter());
+        let text = session.text();
+        assert!(text.contains(&format!("find: {sign}")) && !text.contains("no match"), "{text}");
+        session.press("\u{8}");
     }
 }
 
