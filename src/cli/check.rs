@@ -4,9 +4,8 @@ use std::io::Write;
 
 use clap::Args;
 
-use super::Done;
 use super::options::SceneOptions;
-use super::status::{self, Status};
+use super::status::{self, Done, Status};
 use crate::report::{CommandLine, check as report};
 
 /// Summarise a scene in words: derived values, missing data, likely unit errors.

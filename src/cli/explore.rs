@@ -4,14 +4,13 @@
 use std::io::{IsTerminal, Write};
 use std::str::FromStr;
 
+use clap::Args;
 use clap::builder::TypedValueParser;
-use clap::{Args, CommandFactory};
 use strum::VariantNames;
 
 use super::options::{SceneOptions, read_scene};
-use super::status::{self, Refusal, Status};
-use super::words::Words;
-use super::{Cli, Done, misspelt};
+use super::status::{self, Done, Refusal, Status};
+use super::words::{Words, misspelt};
 use crate::tui;
 use rubscope_solver::scene::{DEFAULT, SceneError};
 
@@ -77,10 +76,10 @@ impl ExploreCommand {
         self.lines || tui::is_dumb_terminal()
     }
 
-    pub(super) fn run(&self, out: &mut dyn Write) -> Done {
-        self.refuse_command()?;
+    pub(super) fn run(&self, cli: &clap::Command, out: &mut dyn Write) -> Done {
+        self.refuse_command(cli)?;
         let name = self.options.name().unwrap_or(DEFAULT);
-        let read = read_scene(name).map_err(|error| match misspelt(name) {
+        let read = read_scene(name).map_err(|error| match misspelt(name, cli) {
             Some(refusal) if matches!(error, SceneError::UnknownScene { .. }) => refusal.into(),
             _ => anyhow::Error::from(error),
         })?;
@@ -112,9 +111,9 @@ impl ExploreCommand {
     }
 
     /// Refuses a command name that follows an option: clap has read it as the name of a scene.
-    fn refuse_command(&self) -> Result<(), Refusal> {
+    fn refuse_command(&self, cli: &clap::Command) -> Result<(), Refusal> {
         let name = self.options.name().unwrap_or_default();
-        if Cli::command().get_subcommands().any(|command| command.get_name() == name) {
+        if cli.get_subcommands().any(|command| command.get_name() == name) {
             let right = format!("options come after the command: rubscope {name} [OPTIONS]");
             return Err(Refusal::because(right));
         }

@@ -2,13 +2,13 @@
 //! data as CSV.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::Context;
 use clap::Args;
 
-use super::status::{self, Refusal, Status, say};
-use super::{Done, output, sign};
+use super::status::{self, Done, Refusal, Status, say};
+use super::{output, sign};
 use crate::file::Written;
 use crate::report::{CommandLine, Provenance, figure::table, svg};
 use rubscope_solver::scene::Scene;
@@ -85,12 +85,16 @@ impl FiguresCommand {
             Written::Replaced => replaced.push(name),
         };
         let name = format!("{stem}.svg");
-        let written = write(&self.out.join(&name), out, |out| svg::write(figure, &origin, out))?;
+        let written = output::replace_or_print(&self.out.join(&name), out, &|out| {
+            svg::write(figure, &origin, out)
+        })?;
         note(name, written);
         for (panel, letter) in figure.panels.iter().zip('a'..='z') {
             let letter = if figure.panels.len() > 1 { letter.to_string() } else { String::new() };
             let name = format!("{stem}{letter}.csv");
-            let written = write(&self.out.join(&name), out, |out| table(panel).write_csv(out))?;
+            let written = output::replace_or_print(&self.out.join(&name), out, &|out| {
+                table(panel).write_csv(out)
+            })?;
             note(name, written);
         }
         status::say_noted();
@@ -103,13 +107,4 @@ impl FiguresCommand {
         }
         Ok(())
     }
-}
-
-/// Writes a file, completely or not at all. If that fails, its content goes to standard output.
-fn write(
-    path: &Path,
-    out: &mut dyn Write,
-    content: impl Fn(&mut dyn Write) -> std::io::Result<()>,
-) -> anyhow::Result<Written> {
-    output::replace_or_print(path, out, &content)
 }

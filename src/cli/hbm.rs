@@ -5,10 +5,9 @@ use std::io::Write;
 use clap::{Arg, ArgAction, ArgGroup, ArgMatches, Args, Command, FromArgMatches};
 use strum::VariantNames;
 
-use super::Done;
 use super::options::{SceneOptions, Swept};
 use super::output::OutputOptions;
-use super::status::{self, Refusal, Status};
+use super::status::{self, Done, Refusal, Status};
 use super::words::Words;
 use crate::report::CommandLine;
 use crate::report::hbm::{LOCKED, Request, VIEWS, View};

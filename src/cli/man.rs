@@ -3,12 +3,11 @@
 
 use std::io::Write;
 
-use clap::{Args, CommandFactory};
+use clap::Args;
 use clap_complete::Shell;
 use clap_mangen::roff::{Roff, bold, roman};
 
-use super::status::{Refusal, Status};
-use super::{Cli, Done};
+use super::status::{Done, Refusal, Status};
 use crate::tui::command::table::{self, keys_text};
 use rubscope_solver::scene::BUILTIN;
 
@@ -23,8 +22,8 @@ pub struct ManCommand {
 }
 
 impl ManCommand {
-    pub(super) fn run(&self, out: &mut dyn Write) -> Done {
-        let mut whole = Cli::command().version(env!("CARGO_PKG_VERSION"));
+    pub(super) fn run(&self, cli: clap::Command, out: &mut dyn Write) -> Done {
+        let mut whole = cli.version(env!("CARGO_PKG_VERSION"));
         whole.build();
         let command = self.command.iter().try_fold(whole, |of, name| page_of(&of, name))?;
         let page = clap_mangen::Man::new(command)
@@ -169,10 +168,10 @@ pub struct CompletionsCommand {
 }
 
 impl CompletionsCommand {
-    pub(super) fn run(&self, out: &mut dyn Write) -> Done {
+    pub(super) fn run(&self, mut cli: clap::Command, out: &mut dyn Write) -> Done {
         // Into memory first, because clap_complete panics when it cannot write.
         let mut text = Vec::new();
-        clap_complete::generate(self.shell, &mut Cli::command(), "rubscope", &mut text);
+        clap_complete::generate(self.shell, &mut cli, "rubscope", &mut text);
         out.write_all(&text)?;
         Ok(Status::Done)
     }

@@ -6,8 +6,8 @@ use clap::Args;
 
 use super::options::SceneOptions;
 use super::output::OutputOptions;
-use super::status::{self, Refusal, Status};
-use super::{Done, sign};
+use super::sign;
+use super::status::{self, Done, Refusal, Status};
 use crate::report::number::with_typed_unit;
 use crate::report::{CommandLine, margins as report};
 use rubscope_solver::motion::to_the_end;

@@ -27,15 +27,12 @@ use std::ffi::OsString;
 use std::io::{BufWriter, Write};
 
 use clap::{CommandFactory, Parser, Subcommand};
-use rubscope_solver::scene::{BUILTIN, nearest};
 
-use status::{Refusal, Status};
+use status::Done;
+use words::misspelt;
 
 /// Version and commit of the program (`build.rs`), for `--version`.
 const VERSION: &str = env!("RUBSCOPE_VERSION");
-
-/// Result of a command: its exit status, or the error that prevented it.
-pub type Done = anyhow::Result<Status>;
 
 /// See a flexible bladed disk rub against its flexible casing.
 ///
@@ -76,7 +73,7 @@ pub fn main(args: impl IntoIterator<Item = OsString>) -> u8 {
         Err(error) => {
             // An unknown first word is read as a scene, so that the rest of the line is refused.
             let first = arguments.get(1).and_then(|word| word.to_str()).unwrap_or_default();
-            let refusal = misspelt(first).filter(|_| error.use_stderr());
+            let refusal = misspelt(first, &Cli::command()).filter(|_| error.use_stderr());
             return match refusal {
                 Some(refusal) => status::exit(Err(refusal.into())),
                 None => status::usage(&error, &arguments),
@@ -94,26 +91,6 @@ pub fn main(args: impl IntoIterator<Item = OsString>) -> u8 {
     status::exit(done)
 }
 
-/// Returns the refusal of a word that is most like the name of a command; `None` for a command, a
-/// scene, a path, an option, and a word that is like no command.
-fn misspelt(word: &str) -> Option<Refusal> {
-    let cli = Cli::command();
-    let commands = || cli.get_subcommands().map(clap::Command::get_name);
-    let scenes = || BUILTIN.iter().map(|scene| scene.name);
-    let is_other = word.starts_with('-') || word.contains(['.', '/']);
-    if is_other || commands().chain(scenes()).any(|known| known == word) {
-        return None;
-    }
-    let meant = nearest(word, commands().chain(scenes()))?;
-    let is_command = commands().any(|command| command == meant);
-    is_command.then(|| {
-        Refusal::because(format!(
-            "unknown command {word} (did you mean {meant}?); see rubscope --help, or rubscope \
-             scenes for the names of scenes"
-        ))
-    })
-}
-
 fn dispatch(cli: Cli, out: &mut dyn Write) -> Done {
     // The spinner would wipe the questions of `new`; the others end at once.
     let unseen = |command: &Command| {
@@ -126,7 +103,7 @@ fn dispatch(cli: Cli, out: &mut dyn Write) -> Done {
         sign::begin();
     }
     match cli.command {
-        None => cli.explore.run(out),
+        None => cli.explore.run(&Cli::command(), out),
         Some(Command::Run(command)) => command.run(out),
         Some(Command::Hbm(command)) => command.run(out),
         Some(Command::Map(command)) => command.run(out),
@@ -137,7 +114,7 @@ fn dispatch(cli: Cli, out: &mut dyn Write) -> Done {
         Some(Command::Precision(command)) => command.run(out),
         Some(Command::Figures(command)) => command.run(out),
         Some(Command::Scenes(command)) => command.run(out),
-        Some(Command::Completions(command)) => command.run(out),
-        Some(Command::Man(command)) => command.run(out),
+        Some(Command::Completions(command)) => command.run(Cli::command(), out),
+        Some(Command::Man(command)) => command.run(Cli::command(), out),
     }
 }

@@ -7,8 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use clap::Args;
 
-use super::Done;
-use super::status::{Refusal, Status, note, say, say_noted};
+use super::status::{Done, Refusal, Status, note, say, say_noted};
 use crate::file;
 use crate::machine::{Family, ModalData, doubts, read_modes};
 use crate::report::CommandLine;

@@ -6,8 +6,8 @@ use clap::Args;
 
 use super::options::SceneOptions;
 use super::output::OutputOptions;
-use super::status::{self, Refusal, Status, say};
-use super::{Done, sign};
+use super::sign;
+use super::status::{self, Done, Refusal, Status, say};
 use crate::report::{CommandLine, precision as report};
 use rubscope_solver::motion::to_the_end;
 use rubscope_solver::study::precision::{Effort, Measure, Method, ways};

@@ -4,8 +4,7 @@ use std::io::Write;
 
 use clap::Args;
 
-use super::Done;
-use super::status::Status;
+use super::status::{Done, Status};
 use super::words::Words;
 use rubscope_solver::scene::{BUILTIN, Scene};
 

@@ -12,6 +12,9 @@ use super::sign;
 use crate::report::line::clean;
 use rubscope_solver::scene::SceneError;
 
+/// Result of a command: its exit status, or the error that prevented it.
+pub type Done = anyhow::Result<Status>;
+
 /// How a command ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
@@ -45,7 +48,7 @@ const BROKEN_PIPE: u8 = 13;
 
 /// Prints the notes held back and the error of a command, if any; returns the exit status. If the
 /// input was refused, the notes are dropped.
-pub fn exit(done: super::Done) -> u8 {
+pub fn exit(done: Done) -> u8 {
     if done.is_ok() {
         say_noted();
     }

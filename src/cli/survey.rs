@@ -4,10 +4,9 @@ use std::io::Write;
 
 use clap::Args;
 
-use super::Done;
 use super::options::{SceneOptions, ask_unit};
 use super::output::OutputOptions;
-use super::status::{self, Refusal, Status};
+use super::status::{self, Done, Refusal, Status};
 use crate::report::number::with_typed_unit;
 use crate::report::{CommandLine, survey as report};
 use rubscope_solver::scene::Quantity;

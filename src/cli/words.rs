@@ -1,5 +1,5 @@
 //! Words for shell completion, for options and arguments whose values are checked later, by the
-//! scene or the command.
+//! scene or the command; and the command that a misspelt word means.
 
 use std::ffi::OsStr;
 
@@ -7,7 +7,8 @@ use clap::builder::{PossibleValue, StringValueParser, TypedValueParser};
 use clap::{Arg, Command, Error};
 use strum::VariantNames;
 
-use rubscope_solver::scene::BUILTIN;
+use super::status::Refusal;
+use rubscope_solver::scene::{BUILTIN, nearest};
 
 /// Parser of an argument that accepts any text. The words are only what shell completion offers.
 #[derive(Clone, Debug)]
@@ -40,4 +41,23 @@ impl TypedValueParser for Words {
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
         Some(Box::new(self.0.iter().copied().map(PossibleValue::new)))
     }
+}
+
+/// Returns the refusal of a word that is most like the name of a command of `cli`; `None` for a
+/// command, a scene, a path, an option, and a word that is like no command.
+pub fn misspelt(word: &str, cli: &Command) -> Option<Refusal> {
+    let commands = || cli.get_subcommands().map(Command::get_name);
+    let scenes = || BUILTIN.iter().map(|scene| scene.name);
+    let is_other = word.starts_with('-') || word.contains(['.', '/']);
+    if is_other || commands().chain(scenes()).any(|known| known == word) {
+        return None;
+    }
+    let meant = nearest(word, commands().chain(scenes()))?;
+    let is_command = commands().any(|command| command == meant);
+    is_command.then(|| {
+        Refusal::because(format!(
+            "unknown command {word} (did you mean {meant}?); see rubscope --help, or rubscope \
+             scenes for the names of scenes"
+        ))
+    })
 }
