@@ -10,6 +10,7 @@ use clap::Args;
 use super::status::{Refusal, say};
 use crate::file::{self, Written};
 use crate::report::Sheet;
+use crate::report::line::listed;
 use crate::report::table::Table;
 
 /// Endings of the files that a result can be written to.
@@ -56,15 +57,9 @@ impl OutputOptions {
         let Some(path) = &self.out else { return Ok(None) };
         let Some(known) = file::ending(path, endings) else {
             let names = endings.iter().map(|known| format!(".{known}")).collect::<Vec<_>>();
-            let listed = match names.split_last() {
-                Some((last, others)) if !others.is_empty() => {
-                    format!("{} or {last}", others.join(", "))
-                }
-                _ => names.concat(),
-            };
             let is_bare = names.iter().any(|name| path.ends_with(name));
             let before = if is_bare { ", after a name" } else { "" };
-            let allowed = format!("a file name ending in {listed}{before}");
+            let allowed = format!("a file name ending in {}{before}", listed(&names, "or"));
             return Err(Refusal::of("--out", path.display(), allowed));
         };
         Ok(Some(known))

@@ -27,6 +27,32 @@ pub fn capital(text: &str) -> String {
     text
 }
 
+/// Joins items to a list, `last` before the last one: `1`, `1 and 2`, `1, 2 and 3`.
+pub fn listed(items: &[impl ToString], last: &str) -> String {
+    let items: Vec<String> = items.iter().map(ToString::to_string).collect();
+    match items.split_last() {
+        Some((end, start)) if !start.is_empty() => format!("{} {last} {end}", start.join(", ")),
+        _ => items.concat(),
+    }
+}
+
+/// Names up to four blades, or the first three and the count of the others: `blade 6`,
+/// `blades 6 and 17`, `blades 1, 3, 5 and 8 more`.
+pub fn blades(numbers: &[u32]) -> String {
+    let mut numbers = numbers.to_vec();
+    numbers.sort_unstable();
+    let mut names: Vec<String> = numbers.iter().map(u32::to_string).collect();
+    if names.len() > 4 {
+        names.truncate(3);
+        names.push(format!("{} more", numbers.len() - 3));
+    }
+    match numbers.len() {
+        0 => "some blades".to_string(),
+        1 => format!("blade {}", names.concat()),
+        _ => format!("blades {}", listed(&names, "and")),
+    }
+}
+
 /// Replaces a character that is not plain text, such as a control character, by a space.
 pub fn harmless(c: char) -> char {
     if is_plain(c) { c } else { ' ' }
@@ -95,6 +121,13 @@ mod tests {
         assert!(long.starts_with("key = xxx") && long.ends_with("xxx: allowed is 1"));
         assert!(long.contains(" ... ") && long.chars().count() < 1700);
     }
+
+    #[test]
+    fn a_few_blades_are_named_and_many_are_counted() {
+        let told = [&[][..], &[6], &[17, 6], &[1, 3, 5, 7, 9]].map(blades).join(", ");
+        assert_eq!(told, "some blades, blade 6, blades 6 and 17, blades 1, 3, 5 and 2 more");
+    }
+
     #[test]
     fn lines_are_no_longer_than_asked() {
         assert_eq!(wrapped("one two  three", 7), ["one two", "three"]);

@@ -97,6 +97,18 @@ pub fn speed(omega: f64) -> String {
     with_unit(omega, 6, RAD_S)
 }
 
+/// Describes a range of speeds \[rad/s\] with this many significant digits; an end that is `None` is
+/// open.
+pub fn span(from: Option<f64>, to: Option<f64>, digits: usize) -> String {
+    let told = |omega| scaled(omega, omega, digits, RAD_S);
+    match (from.map(told), to.map(told)) {
+        (None, None) => "at every speed".to_string(),
+        (None, Some(to)) => format!("up to {}", to.join(" ")),
+        (Some(from), None) => format!("from {}", from.join(" ")),
+        (Some([from, _]), Some(to)) => format!("from {from} to {}", to.join(" ")),
+    }
+}
+
 /// Formats a speed that is already in the shown unit: one decimal, or three below 10.
 pub fn in_tenths(speed: f64) -> String {
     let decimals = if speed.abs() < 10.0 { 3 } else { 1 };
@@ -168,14 +180,8 @@ pub fn count(n: u64, noun: &str) -> String {
 /// Formats a whole number with commas between thousands.
 pub fn grouped(n: u64) -> String {
     let digits = n.to_string();
-    let mut grouped = String::new();
-    for (index, digit) in digits.chars().enumerate() {
-        if index > 0 && (digits.len() - index).is_multiple_of(3) {
-            grouped.push(',');
-        }
-        grouped.push(digit);
-    }
-    grouped
+    let groups = digits.as_bytes().rchunks(3).rev().map(String::from_utf8_lossy);
+    groups.collect::<Vec<_>>().join(",")
 }
 
 /// Removes trailing zeros after a decimal point.

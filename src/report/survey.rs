@@ -4,14 +4,15 @@
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
+use super::line::listed;
 use super::margins::words;
-use super::number::{count, per_speed, rounded, short, speed, speed_unit};
-use super::table::{Heading, Table, TableCell};
+use super::number::{count, per_speed, rounded, short, span, speed, speed_unit, with_unit};
+use super::table::{Column, Heading, Table, TableCell};
 use super::{CommandLine, Sheet};
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
 use rubscope_solver::study::margins::LimitName;
-use rubscope_solver::study::survey::{Scattered, Survey, SurveyRow};
+use rubscope_solver::study::survey::{Scattered, Survey, SurveyLimit, SurveyRow};
 
 /// Largest number of rows of the text, one per nodal diameter, and largest width of the table
 /// \[characters\].
@@ -40,27 +41,29 @@ fn present<'a>(
     LIMITS.iter().filter(move |(name, _)| rows.iter().any(|row| has(row, *name)))
 }
 
+/// Nodal diameters and one of their limits; `None` if they have none.
+type LimitRow<'a> = (&'a SurveyRow, Option<&'a SurveyLimit>);
+
 /// Returns the table for files: one row per limit, and one for nodal diameters without any.
-pub fn table(survey: &Survey) -> Table<'static> {
-    let names = "nodal_diameters,omega_c_rad_s,omega_bd_rad_s,name,value_rad_s,margin,in_range,by";
-    let mut rows: Vec<Vec<TableCell>> = Vec::new();
+fn table(survey: &Survey) -> Table<'_> {
+    let columns: Vec<Column<'_, LimitRow<'_>>> = vec![
+        ("nodal_diameters", |row| row.0.nodal_diameters.into()),
+        ("omega_c_rad_s", |row| row.0.omega_c_rad_s.into()),
+        ("omega_bd_rad_s", |row| row.0.omega_bd_rad_s.into()),
+        ("name", |row| row.1.map(|limit| limit.name.as_ref()).into()),
+        ("value_rad_s", |row| row.1.map(|limit| limit.value).into()),
+        ("margin", |row| words::margin_cell(row.1.and_then(|limit| limit.margin))),
+        ("in_range", |row| row.1.and_then(|limit| limit.in_range).into()),
+        ("by", |row| row.1.and_then(|limit| limit.by).into()),
+    ];
+    let mut rows: Vec<LimitRow<'_>> = Vec::new();
     for row in &survey.rows {
-        let own = [row.nodal_diameters.into(), row.omega_c_rad_s.into(), row.omega_bd_rad_s.into()];
+        rows.extend(row.limits.iter().map(|limit| (row, Some(limit))));
         if row.limits.is_empty() {
-            rows.push(own.iter().cloned().chain(vec![TableCell::Empty; 5]).collect());
-        }
-        for limit in &row.limits {
-            let of_limit = [
-                limit.name.to_string().into(),
-                limit.value.into(),
-                words::margin_cell(limit.margin),
-                limit.in_range.into(),
-                limit.by.into(),
-            ];
-            rows.push(own.iter().cloned().chain(of_limit).collect());
+            rows.push((row, None));
         }
     }
-    Table::with_rows(names.split(','), rows)
+    Table::of(rows, columns)
 }
 
 /// Returns the sheet of the survey; with `all`, its text and picture have nodal diameters without
@@ -120,110 +123,80 @@ pub fn answer(survey: &Survey, all: bool) -> String {
         let rows = rows.iter().filter(|row| is(row));
         rows.map(|row| row.nodal_diameters).collect::<Vec<_>>()
     };
-    let known = |row: &SurveyRow| row.locks_in_range.is_some();
     let own = of(&|row| locks(row) && !row.guessed);
     let guessed = of(&|row| locks(row) && row.guessed);
-    let unknown = of(&|row| !known(row));
-    let every = unknown.len() == rows.len();
+    let unknown = of(&|row| row.locks_in_range.is_none());
     let mut told = match own.as_slice() {
-        [] if every => format!("{at} it is not known whether a wave can lock"),
-        [] if unknown.is_empty() && guessed.is_empty() => format!("{at} no wave can lock"),
-        [] if unknown.is_empty() => {
-            format!("{at} no wave with modes of its own can lock")
-        }
-        [] => format!("{at} no wave is known that can lock"),
+        [] if !unknown.is_empty() => format!("{at} no wave is known that can lock"),
+        [] if guessed.is_empty() => format!("{at} no wave can lock"),
+        [] => format!("{at} no wave with modes of its own can lock"),
         own => format!("{at} {} can lock", waves(own)),
     };
     if !guessed.is_empty() {
         told += &format!("; with guessed modes {} could, too", waves(&guessed));
     }
-    if !every && !unknown.is_empty() {
-        told += &format!("; of {} it is not known", waves(&unknown));
-    }
     if !unknown.is_empty() {
-        told += ": no formula is known for these tips or this casing; run a speed to see";
+        told += &format!(
+            "; it is not known for {}: no formula is known for these tips or this casing; run a \
+             speed to see",
+            waves(&unknown)
+        );
     }
     told + "."
 }
 
 /// Names waves by their nodal diameters; more than [`LISTED`] by their number only.
 fn waves(diameters: &[u32]) -> String {
-    let all: Vec<String> = diameters.iter().map(u32::to_string).collect();
-    match all.as_slice() {
-        [one] if one == "1" => "waves of 1 nodal diameter".to_string(),
-        [one] => format!("waves of {one} nodal diameters"),
-        [.., last] if all.len() > LISTED => {
-            format!("waves of {} different nodal diameters, up to {last},", all.len())
+    match diameters {
+        [1] => "waves of 1 nodal diameter".to_string(),
+        [.., last] if diameters.len() > LISTED => {
+            format!("waves of {} different nodal diameters, up to {last},", diameters.len())
         }
-        [first @ .., last] => format!("waves of {} and {last} nodal diameters", first.join(", ")),
-        [] => String::new(),
+        _ => format!("waves of {} nodal diameters", listed(diameters, "and")),
     }
 }
 
-/// Formats a speed \[rad/s\] in the shown unit, without naming it: with four digits, or as a whole
-/// number from 1000 on.
-fn shown_speed(omega: f64) -> String {
-    let shown = per_speed(omega);
-    short(if shown.abs() < 1e3 { rounded(shown, 4) } else { shown.round() })
+/// Returns the ends of an interval that lie inside the speeds of the survey, and those speeds in
+/// words.
+fn within(survey: &Survey, &[from, to]: &[f64; 2]) -> ([Option<f64>; 2], String) {
+    let [least, most] = survey.speeds();
+    let ends = [Some(from).filter(|from| *from > least), Some(to).filter(|to| *to < most)];
+    (ends, span(ends[0], ends[1], 4))
 }
 
 /// Returns two texts for a row: the speeds of the range at which its wave can lock, and those at which
 /// it whirls or rubbing grows without bound (may be empty).
 fn verdict(survey: &Survey, row: &SurveyRow) -> [String; 2] {
-    let ([least, most], unit) = (survey.speeds(), speed_unit());
-    let span = |[from, to]: &[f64; 2]| match (*from <= least, *to >= most) {
-        (true, true) if survey.range_rad_s.is_none() => "at every speed".to_string(),
-        (true, true) => "whole range".to_string(),
-        (true, false) => format!("up to {} {unit}", shown_speed(*to)),
-        (false, true) => format!("from {} {unit}", shown_speed(*from)),
-        (false, false) => format!("{} to {} {unit}", shown_speed(*from), shown_speed(*to)),
-    };
     let locks = match &row.locks_in_range {
         None => "unknown: see a run".to_string(),
         Some(locks) if locks.is_empty() => "no lock".to_string(),
         Some(locks) => {
-            format!("can lock: {}", locks.iter().map(span).collect::<Vec<_>>().join(", "))
+            let each = locks.iter().map(|lock| match within(survey, lock) {
+                ([None, None], _) if survey.range_rad_s.is_some() => "whole range".to_string(),
+                (_, speeds) => speeds,
+            });
+            format!("can lock: {}", each.collect::<Vec<_>>().join(", "))
         }
     };
     let onset = row.limits.iter().any(|limit| limit.name == LimitName::WhirlOnset);
     let from = if onset { "from " } else { "" };
     let whirls = row.whirls_in_range.iter().copied();
     let whirl = whirls.min_by(|a, b| a.abs().total_cmp(&b.abs()));
-    let whirl = whirl.map(|omega| format!("{from}{} {unit}", shown_speed(omega)));
+    let whirl = whirl.map(|omega| format!("{from}{}", with_unit(omega, 4, "rad/s")));
     let grows = if row.growth_spans.is_empty() { "" } else { "grows" };
-    let whirls = whirl.unwrap_or_else(|| grows.to_string());
-    [locks, whirls]
-}
-
-/// Returns the ends of a span of speeds \[rad/s\], the slower one first.
-fn slower(&[from, to]: &[f64; 2]) -> [f64; 2] {
-    if from + to < 0.0 { [to, from] } else { [from, to] }
+    [locks, whirl.unwrap_or_else(|| grows.to_string())]
 }
 
 /// Returns the speeds at which a large rub whirls or grows without bound, one sentence for all rows
 /// with the same speeds.
 fn growth(survey: &Survey, shown: &[&SurveyRow]) -> Vec<String> {
-    let [slowest, fastest] = slower(&survey.speeds());
-    let parts = |spans: &[[f64; 2]], does: &str| {
-        let part = |span: &[f64; 2]| {
-            let [begin, end] = slower(span);
-            let [from, to] = [begin, end].map(speed);
-            let when = match (begin == slowest, end == fastest) {
-                (true, true) => "at every speed".to_string(),
-                (true, false) => format!("until {to}"),
-                (false, true) => format!("from {from} on"),
-                (false, false) => format!("from {from} to {to}"),
-            };
-            (begin.abs(), format!("{when} it {does}"))
-        };
-        spans.iter().map(part).collect::<Vec<_>>()
-    };
     let mut told: Vec<(Vec<u32>, String)> = Vec::new();
     for row in shown.iter().filter(|row| !row.growth_spans.is_empty()) {
-        let mut all = parts(&row.whirl_spans, "whirls");
-        all.extend(parts(&row.growth_spans, "grows without bound"));
-        all.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let all = all.into_iter().map(|part| part.1).collect::<Vec<_>>().join(", ");
+        let all = [(&row.whirl_spans, "whirls"), (&row.growth_spans, "grows without bound")];
+        let each = all.iter().flat_map(|(spans, does)| {
+            spans.iter().map(move |span| format!("{does} {}", within(survey, span).1))
+        });
+        let all = each.collect::<Vec<_>>().join(", ");
         match told.iter_mut().find(|(_, other)| *other == all) {
             Some((diameters, _)) => diameters.push(row.nodal_diameters),
             None => told.push((vec![row.nodal_diameters], all)),
@@ -231,7 +204,7 @@ fn growth(survey: &Survey, shown: &[&SurveyRow]) -> Vec<String> {
     }
     let sentence = |(mut diameters, all): (Vec<u32>, String)| {
         diameters.sort_unstable();
-        format!("A large rub in {}: {all}.", waves(&diameters).trim_end_matches(','))
+        format!("A large rub in {} {all}.", waves(&diameters))
     };
     told.into_iter().take(LISTED).map(sentence).collect()
 }
@@ -266,7 +239,7 @@ fn bar(survey: &Survey, row: &SurveyRow) -> String {
 /// Explains how tips that differ by 1 % of the clearance move the lock speed.
 pub fn of_scatter(scene: &Scene, scattered: &Scattered) -> String {
     let speeds = [scattered.mean_rad_s, scattered.equal_rad_s];
-    let [mean, equal] = speeds.map(|omega| format!("{} {}", shown_speed(omega), speed_unit()));
+    let [mean, equal] = speeds.map(|omega| with_unit(omega, 4, "rad/s"));
     let of = match scene.is_uneven() {
         true => "the tips and the casing of the scene. Equal tips in a round casing lock last",
         false => "equal tips in a round casing, which lock last",
@@ -299,7 +272,7 @@ fn at_speed(survey: &Survey) -> String {
 /// the sense of rotation of the survey.
 pub fn rows(survey: &Survey, shown: &[&SurveyRow]) -> Table<'static> {
     let limits: Vec<_> = present(shown).collect();
-    let [from, to] = ends(survey).map(shown_speed);
+    let [from, to] = ends(survey).map(|end| short(rounded(per_speed(end), 4)));
     let of_bar = format!("{from:<0$}{to}", BAR.saturating_sub(to.len()));
     // Whirl has its own column, because both in one would be wider than a small screen.
     let moves = |row: &&SurveyRow| !(row.whirls_in_range.is_empty() && row.growth_spans.is_empty());

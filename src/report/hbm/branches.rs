@@ -1,6 +1,6 @@
 //! The view `--branches`: every equilibrium, its stability, and the speeds where branches change.
 
-use super::{Request, View, ViewContact};
+use super::view::{Request, View, ViewContact};
 use crate::report::Sheet;
 use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{

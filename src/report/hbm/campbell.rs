@@ -1,6 +1,6 @@
 //! The view `--campbell`: frequencies against speed, engine orders, and the coincidences (30).
 
-use super::{Request, View, ViewContact};
+use super::view::{Request, View, ViewContact};
 use crate::report::Sheet;
 use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{Campbell, Coincidence, HarmonicError, Line};

@@ -1,7 +1,7 @@
 //! The view `--coincidence`: growth from rest near the coincidences, and the wave that lasts,
 //! against speed.
 
-use super::{Request, View, ViewContact};
+use super::view::{Request, View, ViewContact};
 use crate::report::Sheet;
 use crate::report::number::{per_speed, short, speed, speed_unit};
 use crate::report::table::{Column, Table};

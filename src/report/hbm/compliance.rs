@@ -3,7 +3,7 @@
 
 use nalgebra::Complex;
 
-use super::{Request, View, ViewContact};
+use super::view::{Request, View, ViewContact};
 use crate::report::Sheet;
 use crate::report::number::speed;
 use crate::report::table::{Column, Table, TableCell};

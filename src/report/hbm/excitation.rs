@@ -1,6 +1,6 @@
 //! The view `--excitation`: response of the damped lock to the engine order of the scene.
 
-use super::{Request, View, ViewContact};
+use super::view::{Request, View, ViewContact};
 use crate::report::Sheet;
 use crate::report::number::short;
 use crate::report::table::{Column, Table};

@@ -1,7 +1,7 @@
 //! The view `--forced`: the wave that an out-of-round casing drives while all blades rub its
 //! lining.
 
-use super::{Request, View, ViewContact};
+use super::view::{Request, View, ViewContact};
 use crate::report::Sheet;
 use crate::report::number::count;
 use crate::report::table::{Column, Table};

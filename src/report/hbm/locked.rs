@@ -1,6 +1,6 @@
 //! The locked motion, which is shown without the option of a view.
 
-use super::{Request, View, ViewContact};
+use super::view::{Request, View, ViewContact};
 use crate::report::Sheet;
 use crate::report::number::speed;
 use crate::report::table::{Column, Table};

@@ -1,6 +1,6 @@
 //! The view `--slip`: lasting slip, and the speeds at which it exists.
 
-use super::{Request, View, ViewContact};
+use super::view::{Request, View, ViewContact};
 use crate::report::Sheet;
 use crate::report::number::speed;
 use crate::report::table::{Column, Table, TableCell};
@@ -39,11 +39,9 @@ fn heading(points: &[SlipPoint], limits: &[SlipLimit]) -> String {
         })
         .collect();
     let found = points.iter().filter(|point| point.exists()).count();
-    match (changes.is_empty(), found) {
-        (false, _) => format!("Slip {}.", changes.join(", ")),
-        (true, 0) => "There is no slip at any of these speeds.".to_string(),
-        (true, all) if all == points.len() => "Slip exists at all of these speeds.".to_string(),
-        (true, _) => "Slip exists at some of these speeds.".to_string(),
+    match changes.is_empty() {
+        true => format!("Slip exists at {found} of {} speeds.", points.len()),
+        false => format!("Slip {}.", changes.join(", ")),
     }
 }
 

@@ -1,9 +1,9 @@
 //! The view `--smooth`: steady states of blades on a lining. With a preload, these are rest and the
 //! waves that grow from it; with a clearance, locks, whirl, and the linings that hold a lock.
 
-use super::{Request, View, ViewContact, speeds_of};
+use super::view::{Request, View, ViewContact, speeds_of};
 use crate::report::Sheet;
-use crate::report::number::{short, speed, speed_unit};
+use crate::report::number::{short, speed};
 use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{
     Cycle, HarmonicError, HopfPoint, Lining, LiningState, Rest, growth_threshold,
@@ -72,7 +72,7 @@ fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicErro
     if let Some(least) = least {
         let held = window.map_or_else(
             || "holds it at no speed".to_string(),
-            |window| format!("holds it from {} {}", speeds_of(window), speed_unit()),
+            |window| format!("holds it {}", speeds_of(window)),
         );
         title += &format!(
             " Without smoothing a lock of two groups needs a lining of at least {} N/m (at {}); one \

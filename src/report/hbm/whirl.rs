@@ -1,9 +1,9 @@
 //! The view `--whirl`: whirl of inclined tips in the limit of many blades, its onset, and the speed
 //! at which a lock begins to flutter.
 
-use super::{Request, View, ViewContact, speeds_of};
+use super::view::{Request, View, ViewContact, speeds_of};
 use crate::report::Sheet;
-use crate::report::number::{speed, speed_unit};
+use crate::report::line::listed;
 use crate::report::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{
     HarmonicError, RoundWhirl, RoundWhirlLoads, Rubbing, SpeedRanges, undamped_flutter_speed,
@@ -27,31 +27,22 @@ fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicErro
     let ranges = SpeedRanges::new(machine, toward);
     let (whirls, flutter) = (ranges.whirls(), ranges.flutters());
     let window = ranges.locks().first().copied();
-    let listed = |spans: &[LockWindow]| {
-        spans.iter().map(|span| between(*span)).collect::<Vec<_>>().join(" and ")
+    let each = |spans: &[LockWindow]| {
+        listed(&spans.iter().copied().map(speeds_of).collect::<Vec<_>>(), "and")
     };
     let mut title = match whirls {
         [] => "Nothing whirls on a rim of many blades".to_string(),
-        spans => {
-            let each = spans.iter().map(|span| match (span.from, span.to) {
-                (0.0, None) => "lasts at every speed".to_string(),
-                (0.0, Some(to)) => format!("lasts from standstill to {}", speed(to)),
-                (from, None) => format!("begins at {}", speed(from)),
-                (from, Some(to)) => format!("begins at {} and ends at {}", speed(from), speed(to)),
-            });
-            format!("On a rim of many blades whirl {}", each.collect::<Vec<_>>().join("; "))
-        }
+        spans => format!("On a rim of many blades whirl lasts {}", each(spans)),
     };
-    let growth = ranges.growths();
-    if !growth.is_empty() {
-        title += &format!("; a rub grows without bound {}", listed(growth));
+    if !ranges.growths().is_empty() {
+        title += &format!("; a rub grows without bound {}", each(ranges.growths()));
     }
     title += &match window {
-        Some(window) => format!("; a lock holds from {} {}", speeds_of(window), speed_unit()),
+        Some(window) => format!("; a lock holds {}", speeds_of(window)),
         None => "; no lock holds at any speed".to_string(),
     };
     if !flutter.is_empty() {
-        title += &format!("; blades and casing in lasting contact flutter {}", listed(flutter));
+        title += &format!("; blades and casing in lasting contact flutter {}", each(flutter));
     }
     title.push('.');
     if rows.iter().any(|row| row.state == Rubbing::None) {
@@ -72,16 +63,6 @@ fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicErro
 /// Explanation of the state `none`.
 const FEW_SIDES: &str = " With few sides or little damping a rub may whirl or grow at speeds where \
     this limit of many blades has none; a run shows it.";
-
-/// Describes a range of rotor speeds, which may have no upper end.
-fn between(range: LockWindow) -> String {
-    match (range.from, range.to) {
-        (0.0, None) => "at every speed".to_string(),
-        (0.0, Some(to)) => format!("up to {}", speed(to)),
-        (from, None) => format!("above {}", speed(from)),
-        (from, Some(to)) => format!("from {} to {}", speed(from), speed(to)),
-    }
-}
 
 /// A rotor speed \[rad/s\], what a large rub becomes there, and the whirl that attracts with its
 /// loads, if one does.

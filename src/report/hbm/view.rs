@@ -1,0 +1,210 @@
+//! A view of the steady states, and what all views begin with: the machine, its limits, and the
+//! assumptions behind the numbers.
+
+use crate::report::line::capital;
+use crate::report::number::{count, short, span, speed};
+use crate::report::{CommandLine, Sheet};
+use rubscope_solver::harmonic::{Corner, Form, HarmonicError, Locked, lock_window};
+use rubscope_solver::model::{LockWindow, Machine};
+use rubscope_solver::scene::{ModelSize, Scene, keys};
+
+/// A view of the steady states of a scene.
+#[derive(Debug)]
+pub struct View {
+    /// Name of the option, without dashes; empty for the default view.
+    pub option: &'static str,
+    /// Help of the option.
+    pub help: &'static str,
+    /// Whether the view always includes damping, so that `--undamped` is refused.
+    pub always_damped: bool,
+    /// Whether the view is at a single speed, by default that of the scene.
+    pub one_speed: bool,
+    /// Contact of the view.
+    pub contact: ViewContact,
+    /// Adds the facts, sentences and tables of the view to the sheet. The table for files comes
+    /// last; in JSON it is `points`.
+    pub fill: fn(&Request<'_>, &mut Sheet<'_>) -> Result<(), HarmonicError>,
+}
+
+/// Contact law of a view.
+#[derive(Debug)]
+pub enum ViewContact {
+    /// The contact law of the scene.
+    OfScene,
+    /// Rigid contact, and a corner in which it can lock. If there is no lock for a reason that the
+    /// function accepts, the view is computed nevertheless; otherwise it is refused.
+    Rigid(fn(&HarmonicError) -> bool),
+}
+
+/// Input of a view.
+#[derive(Debug)]
+pub struct Request<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Rotor speeds, at least one; negative turns the other way \[rad/s\].
+    pub speeds: &'a [f64],
+    /// Form of the lock's equations.
+    pub form: Form,
+    /// Whether the equations include the damping of the scene.
+    pub damped: bool,
+    /// Numbers of the two blades that hold the wave; `None` for the default corner
+    /// ([`Corner::paper`]).
+    pub pair: Option<[u32; 2]>,
+    /// Machine of the scene; without its lining if the view uses rigid contact.
+    pub machine: Machine,
+}
+
+impl<'a> Request<'a> {
+    /// Computes the sheet of a view; `command` reproduces it.
+    ///
+    /// # Errors
+    /// The scene has a key, named in the error, that the view cannot handle; or the view cannot be
+    /// computed.
+    pub fn sheet(
+        mut self,
+        view: &View,
+        command: CommandLine,
+    ) -> Result<Sheet<'static>, HarmonicError> {
+        self.knows_tips(view)?;
+        if let ViewContact::Rigid(tolerates) = view.contact {
+            let machine = self.scene.machine().with_lining(None);
+            // The rigid model ignores the bending of the blades under load.
+            self.machine = if self.is_rigid() { machine.with_stiff_blades() } else { machine };
+            if let Err(error) = self.lock()
+                && !tolerates(&error)
+            {
+                return Err(error);
+            }
+        }
+        let mut sheet = Sheet::new("hbm", 3, command, self.scene);
+        self.tell(self.damped || view.always_damped, &mut sheet);
+        (view.fill)(&self, &mut sheet)?;
+        Ok(sheet)
+    }
+
+    /// Returns the solver of the lock of rigid contact.
+    pub(super) fn lock(&self) -> Result<Locked, HarmonicError> {
+        let Self { form, damped, pair, speeds, .. } = *self;
+        if self.scene.clearance() <= 0.0 {
+            // The limit of rigid contact needs a clearance.
+            let allowed = format!(
+                "above bladed_disk.blade_length_m = {} here: hbm --smooth has the steady states of \
+                 a preloaded lining",
+                self.scene.bladed_disk.blade_length_m
+            );
+            let radius = self.scene.casing.radius_m;
+            return Err(HarmonicError::refused(keys::CASING_RADIUS, radius, allowed));
+        }
+        let corner = Corner::of(&self.machine, speeds.last().copied().unwrap_or(1.0), pair)?;
+        Locked::new(&self.machine, corner, form, damped)
+    }
+
+    /// Returns whether the model of the scene has rigid blades.
+    pub(super) fn is_rigid(&self) -> bool {
+        self.scene.solver.model == ModelSize::Rigid
+    }
+
+    /// Returns the speed of largest magnitude, with its sign, which determines the sense of
+    /// rotation \[rad/s\].
+    pub(super) fn fastest(&self) -> f64 {
+        let further = |a: &f64, b: &f64| a.abs().total_cmp(&b.abs());
+        self.speeds.iter().copied().max_by(further).unwrap_or(self.scene.operation.speed_rad_s)
+    }
+
+    /// Returns the lowest and the highest of the speeds, by their signed values \[rad/s\].
+    pub(super) fn span(&self) -> [f64; 2] {
+        let least = self.speeds.iter().copied().fold(f64::INFINITY, f64::min);
+        [least, self.speeds.iter().copied().fold(f64::NEG_INFINITY, f64::max)]
+    }
+
+    /// Refuses unequal tips and an out-of-round casing if the view is not derived for them.
+    fn knows_tips(&self, view: &View) -> Result<(), HarmonicError> {
+        let tips = ["", "branches", "campbell"].contains(&view.option);
+        let tips = tips || !self.machine.has_unequal_tips();
+        let round = ["forced", "coincidence", "campbell", "compliance"].contains(&view.option);
+        let is_refused = |(key, length): &(&str, f64)| match *key {
+            keys::OUT_OF_ROUND => !round && *length != 0.0,
+            _ => !tips && *length != 0.0,
+        };
+        let Some((key, length)) = self.scene.unevenness().into_iter().find(is_refused) else {
+            return Ok(());
+        };
+        let option =
+            if view.option.is_empty() { "hbm".into() } else { format!("--{}", view.option) };
+        let allowed = format!("none with {option}, which is not derived for it");
+        Err(HarmonicError::refused(key, format!("{length:e}"), allowed))
+    }
+
+    /// Adds the machine and its limits, as facts and as sentences. `damped` tells whether the view
+    /// includes damping.
+    fn tell(&self, damped: bool, sheet: &mut Sheet) {
+        let Self { scene, machine, .. } = self;
+        let (speed, notes) = (self.fastest(), notes(scene, machine));
+        let window = lock_window(machine, speed);
+        sheet.fact("form", self.form);
+        sheet.fact("damped", self.damped);
+        if !notes.is_empty() {
+            sheet.fact("notes", &notes);
+        }
+        sheet.fact("omega_c_rad_s", machine.critical_speed());
+        sheet.fact("omega_lock_rad_s", window.map(|window| window.from));
+        sheet.fact("lock_ends_rad_s", window.and_then(|window| window.to));
+        sheet.fact("omega_adhesive_rad_s", machine.adhesive_speed());
+        sheet.fact("coincidence_rad_s", machine.dangerous_speed_toward(speed));
+        sheet.fact("casing_frequency_rad_s", machine.omega_c);
+        sheet.fact("blade_frequency_rad_s", machine.omega_bd);
+        sheet.fact("clearance_m", machine.clearance());
+        sheet.fact("locked_amplitude_m", machine.locked_amplitude());
+        if !scene.title.is_empty() {
+            sheet.line(&scene.title);
+        }
+        if let Some(note) = scene.modes_note() {
+            sheet.line(format!("{}.", capital(&note)));
+        }
+        let polygon = &machine.polygon;
+        sheet.line(format!(
+            "{} blades, {}: {} phase groups of {}, clearance {} m.",
+            polygon.blades,
+            count(u64::from(polygon.nodal_diameters), "nodal diameter"),
+            polygon.sides,
+            count(u64::from(polygon.blades_per_side), "blade"),
+            short(machine.clearance())
+        ));
+        self.limits(damped).into_iter().for_each(|limits| sheet.line(limits));
+        notes.iter().for_each(|note| sheet.line(format!("These numbers are {note}.")));
+    }
+
+    /// Names the critical speed, the lock and the dangerous coincidence; `None` without a critical
+    /// speed.
+    fn limits(&self, damped: bool) -> Option<String> {
+        let (machine, toward) = (&self.machine, self.fastest());
+        let critical = machine.critical_speed()?;
+        let lock_of = |machine: &Machine| lock_window(machine, toward).map(speeds_of);
+        let zeta = short(machine.casing_damping_ratio);
+        // On a lining, groups of more blades may lock at other speeds.
+        let groups = if machine.lining.is_some() { " of two groups" } else { "" };
+        let lock = lock_of(machine).map(|lock| match damped {
+            true => format!(", lock{groups} {lock} (zeta_c = {zeta})"),
+            false => {
+                let without = lock_of(&machine.clone().undamped()).unwrap_or_default();
+                format!(", lock{groups} {without} without damping, {lock} with zeta_c = {zeta}")
+            }
+        });
+        let dangerous = machine.dangerous_speed_toward(toward);
+        let dangerous = dangerous.map(|at| format!(", dangerous coincidence {}", speed(at)));
+        let rest = [lock, dangerous].into_iter().flatten().collect::<String>();
+        Some(format!("Critical speed {}{rest}.", speed(critical)))
+    }
+}
+
+/// Returns remarks on effects of the scene that the view ignores.
+fn notes(scene: &Scene, machine: &Machine) -> Vec<String> {
+    let hard = scene.lining().filter(|_| machine.lining.is_none());
+    let hard = hard.map(|_| "of rigid contact; --smooth has the lining of the scene".to_string());
+    hard.into_iter().chain(scene.tuned_note()).collect()
+}
+
+/// Describes a window of rotor speeds, such as those of a lock.
+pub(super) fn speeds_of(window: LockWindow) -> String {
+    span(Some(window.from).filter(|from| *from > 0.0), window.to, 6)
+}
