@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use super::line::capital;
+use super::line::{blades, capital};
 use super::number::{grouped, micro, rounded, short, time, with_unit};
 use rubscope_solver::harmonic::{lock_growth, roundness_needed};
 use rubscope_solver::model::Machine;
@@ -12,13 +12,8 @@ use rubscope_solver::scene::{ContactLaw, ModelSize, Scene};
 
 /// Separators: after the verdict, and between the two sentences.
 const APART: [&str; 2] = ["  ", " "];
-/// Beginning of the sentence on a verdict that half the time step changes.
-const AT_THIS_STEP: &str = "At this step only";
 /// A sentence in its long and its short form.
 type Forms = [String; 2];
-
-/// Largest number of blades that are named one by one; more are counted.
-const NAMED: usize = 4;
 
 /// Facts of a run from which its sentences are made. Blades are numbered from 1.
 #[derive(Clone, Debug, PartialEq)]
@@ -96,23 +91,6 @@ impl fmt::Display for Sentence {
 }
 
 impl Sentence {
-    /// Returns the sentence on the motion at the end for use without the word. If another step changes
-    /// the verdict, it begins with the verdict.
-    pub fn state(&self) -> String {
-        self.at_this_step().map_or(self.what.clone(), |line| capital(&line))
-    }
-
-    /// Returns the verdict and the sentence on the motion as one line.
-    pub fn verdict_line(&self) -> String {
-        let usual = || format!("{}. {}", self.word.to_lowercase(), self.what);
-        self.at_this_step().unwrap_or_else(usual)
-    }
-
-    fn at_this_step(&self) -> Option<String> {
-        let rest = self.what.strip_prefix(AT_THIS_STEP)?;
-        Some(format!("{} {}{rest}", self.word.to_lowercase(), uncapital(AT_THIS_STEP)))
-    }
-
     /// Combines the word with the long form of a sentence or, if that is wider than `width` columns,
     /// the short one, and with the first of `notes` that still fits. If none fits, there is no history.
     pub fn of(word: &str, forms: Forms, notes: &[String], width: usize) -> Self {
@@ -202,41 +180,32 @@ impl Facts {
         let mut texts: Vec<String> = [0, 1].map(|form| all(form).join(between)).into();
         texts.extend(notes.first().map(|first| first[1].clone()));
         texts.retain(|text| !text.is_empty());
-        let mut forms = self.forms();
-        if self.certainty.depends_on_step == Some(true) {
-            let long = format!("{AT_THIS_STEP}: {}", uncapital(&forms[0]));
-            forms = [long, format!("{AT_THIS_STEP}.")];
-        }
-        Sentence { wrong, ..Sentence::of(&word, forms, &texts, width) }
+        Sentence { wrong, ..Sentence::of(&word, self.forms(), &texts, width) }
     }
 
     /// Describes the motion at the end of the run.
     fn forms(&self) -> Forms {
-        if let (Some(speed), Some(after)) = (self.broken, self.after_a_lock()) {
-            let at = rad_s(speed);
-            return [format!("The lock breaks at {at}; then {after}."), "The lock breaks.".into()];
-        }
         match self.verdict {
             Verdict::Locked => self.held(),
             Verdict::Adhesive => self.pulled(),
             Verdict::Slip if self.clearance_m < 0.0 => self.lately([
-                "All blades press the lining, and the wave slips along them.",
+                "all blades press the lining, and the wave slips along them.",
                 "The wave slips.",
             ]),
             Verdict::Slip => self.lately([
-                "A blade always touches, and the wave slips along the blades.",
+                "a blade always touches, and the wave slips along the blades.",
                 "The wave slips along the blades.",
             ]),
             Verdict::Whirl => self.lately([
-                "The contact runs from blade to blade and keeps them swinging.",
+                "the contact runs from blade to blade and keeps them swinging.",
                 "The contact swings the blades.",
             ]),
             Verdict::Forced if self.clearance_m < 0.0 => self.lately([
-                "All blades press the lining, and the longer ones drag the wave.",
+                "all blades press the lining, and the longer ones drag the wave.",
                 "Longer blades drag the wave.",
             ]),
             Verdict::Forced => self.lately([
-                "One blade or group presses without a break and drags the wave.",
+                "one blade or group presses without a break and drags the wave.",
                 "One blade drags it.",
             ]),
             Verdict::Bounce if self.touches == 0 => {
@@ -257,25 +226,13 @@ impl Facts {
         }
     }
 
-    /// Adds the observed time span to a sentence if the verdict is judged and not proved.
+    /// Begins the long form with the observed time span if the verdict is judged and not proved.
     fn lately(&self, [long, short]: [&str; 2]) -> Forms {
         let long = match self.seen {
-            Some(seen) => format!("In the last {} {}", time(seen.span_s), uncapital(long)),
-            None => long.into(),
+            Some(seen) => format!("In the last {} {long}", time(seen.span_s)),
+            None => capital(long),
         };
         [long, short.into()]
-    }
-
-    /// Describes the motion after a lock broke; `None` if it locked again, diverged or failed.
-    fn after_a_lock(&self) -> Option<&'static str> {
-        match self.verdict {
-            Verdict::Decay => Some(self.rest()),
-            Verdict::Bounce => Some("blades and casing bounce"),
-            Verdict::Slip => Some("the wave slips along"),
-            Verdict::Whirl => Some("the contact runs round"),
-            Verdict::Forced => Some("one blade drags the wave"),
-            _ => None,
-        }
     }
 
     /// Describes the motion of the casing after the last contact.
@@ -293,8 +250,13 @@ impl Facts {
             2 => ["hold", "both push"],
             _ => ["hold", "all push"],
         };
-        let [who, few] = [named(&self.blades), counted(&self.blades)];
-        let long = format!("{who} {hold} the casing's wave; {push}.");
+        let few = match self.blades.as_slice() {
+            [] => "Some blades".into(),
+            [only] => format!("Blade {only}"),
+            [a, b] => format!("{} + {}", a.min(b), a.max(b)),
+            several => format!("{} blades", several.len()),
+        };
+        let long = format!("{} {hold} the casing's wave; {push}.", blades(&self.blades));
         self.lately([&long, &format!("{few} {hold} it; {push}.")])
     }
 
@@ -319,7 +281,7 @@ impl Facts {
         let touched = self.seen.is_some_and(|seen| seen.without_contact_s < seen.span_s);
         if self.clearance_m < 0.0 || (self.law == ContactLaw::Smooth && touched) {
             return self.lately([
-                "The wave dies away; the blades rub the lining as at rest.",
+                "the wave dies away; the blades rub the lining as at rest.",
                 "The wave dies away.",
             ]);
         }
@@ -365,15 +327,22 @@ impl Facts {
     fn notes(&self) -> (Vec<Forms>, bool) {
         let mut notes: Vec<Forms> = self.growth.map(grows).into_iter().collect();
         let sensitive = self.certainty.sensitive;
-        if let Some(other) = self.other.filter(|other| *other != self.verdict)
+        if self.certainty.depends_on_step == Some(true) {
+            notes.push(plain(["Another step changes the verdict.", "Another step changes it."]));
+        } else if let Some(other) = self.other.filter(|other| *other != self.verdict)
             && !self.pulled
             && !sensitive
             && notes.is_empty()
-            && self.certainty.depends_on_step != Some(true)
         {
-            notes.push(self.differs(other));
+            let fails = other == Verdict::Failed;
+            let does = if fails { "fails".into() } else { format!("says {other}") };
+            let told = format!("The exact solver {does}.");
+            notes.push([told.clone(), told]);
         }
-        let wrong = !notes.is_empty() || self.certainty.depends_on_step == Some(true);
+        let wrong = !notes.is_empty();
+        if let Some(speed) = self.broken.map(rad_s).filter(|_| !self.verdict.is_held()) {
+            notes.push([format!("A lock broke at {speed}."), format!("Lock broke at {speed}.")]);
+        }
         if self.pulled && self.verdict != Verdict::Adhesive && self.other != Some(self.verdict) {
             notes.push(self.pushes_only());
         }
@@ -420,14 +389,6 @@ impl Facts {
             ],
         }
     }
-
-    /// Says that the event solver gives another verdict than the time steps.
-    fn differs(&self, other: Verdict) -> Forms {
-        let fails = other == Verdict::Failed;
-        let does = if fails { "fails".into() } else { format!("says {other}") };
-        let told = format!("The exact solver {does}.");
-        [told.clone(), told]
-    }
 }
 
 /// Says that a lock is unstable: a deviation grows at this rate \[1/s\].
@@ -446,38 +407,9 @@ fn touches(count: u64) -> String {
     format!("{} touch{}", grouped(count), if count == 1 { "" } else { "es" })
 }
 
-/// Returns a sentence with a small first letter, to follow other words.
-fn uncapital(sentence: &str) -> String {
-    let mut letters = sentence.chars();
-    letters.next().map_or(String::new(), |first| first.to_lowercase().chain(letters).collect())
-}
-
 /// Creates the long and the short form from constant text.
 fn plain(forms: [&str; 2]) -> Forms {
     forms.map(String::from)
-}
-
-/// Names up to [`NAMED`] blades in order, as in `Blades 12 and 19`; counts more, as [`counted`].
-fn named(blades: &[u32]) -> String {
-    let mut blades = blades.to_vec();
-    blades.sort_unstable();
-    match blades.as_slice() {
-        [head @ .., last] if (2..=NAMED).contains(&blades.len()) => {
-            let head: Vec<String> = head.iter().map(ToString::to_string).collect();
-            format!("Blades {} and {last}", head.join(", "))
-        }
-        _ => counted(&blades),
-    }
-}
-
-/// Names one or two blades, as in `Blade 7` or `12 + 19`, and counts more: `5 blades`.
-fn counted(blades: &[u32]) -> String {
-    match blades {
-        [] => "Some blades".into(),
-        [only] => format!("Blade {only}"),
-        [a, b] => format!("{} + {}", a.min(b), a.max(b)),
-        several => format!("{} blades", several.len()),
-    }
 }
 
 /// Explains why a run failed.

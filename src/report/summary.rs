@@ -3,9 +3,9 @@
 
 use serde_json::{Value, json};
 
-use super::line::capital;
+use super::line::{blades, capital};
 use super::number::Digits;
-use super::number::{count, grouped, per_speed, rounded, short, speed, time};
+use super::number::{count, grouped, rounded, short, speed, time};
 use super::sentence::Facts;
 use super::{CommandLine, History, Sheet, Wall};
 use rubscope_solver::harmonic::lock_window;
@@ -35,7 +35,20 @@ pub fn sheet<'a>(
     command: CommandLine,
 ) -> Sheet<'a> {
     let mut sheet = Sheet::new("run", 1, command, &report.scene);
-    sheet.facts(&fields(report, wall));
+    let headline = Facts::of(report);
+    let told = headline.sentence(usize::MAX);
+    let mut fields = json!(report);
+    fields["solver"]["wall_s"] = json!(wall.run_s);
+    fields["solver"]["certainty_s"] = json!(wall.certainty_s);
+    fields["outcome"]["state"] = json!(told.what);
+    fields["outcome"]["history"] = json!(told.history);
+    if let Some(growth) = headline.growth {
+        fields["outcome"]["growth_1_s"] = json!(growth);
+    }
+    sheet.facts(&fields);
+    if let Some(note) = report.scene.share_note() {
+        sheet.fact("notes", [note]);
+    }
     lines(report, wall).into_iter().for_each(|line| sheet.line(line));
     if let Some((text, json)) = changes {
         sheet.line(format!("Changed during the run: {text}."));
@@ -49,25 +62,6 @@ pub fn sheet<'a>(
         &[["multiplier_min_n", "smallest"], ["multiplier_max_n", "largest"]],
     );
     sheet
-}
-
-/// Returns the fields of the JSON report: those of the run, its wall times and the two sentences of
-/// the headline.
-fn fields(report: &RunReport, wall: Wall) -> Value {
-    let mut value = json!(report);
-    value["solver"]["wall_s"] = json!(wall.run_s);
-    value["solver"]["certainty_s"] = json!(wall.certainty_s);
-    let facts = Facts::of(report);
-    let told = facts.sentence(usize::MAX);
-    value["outcome"]["state"] = json!(told.state());
-    value["outcome"]["history"] = json!(told.history);
-    if let Some(growth) = facts.growth {
-        value["outcome"]["growth_1_s"] = json!(growth);
-    }
-    if let Some(note) = report.scene.share_note() {
-        value["notes"] = json!([note]);
-    }
-    value
 }
 
 /// Returns the summary as text, one fact a line.
@@ -86,10 +80,19 @@ pub fn lines(report: &RunReport, wall: Wall) -> Vec<String> {
     }
     lines.push(String::new());
     let told = Facts::of(report).sentence(usize::MAX);
-    lines.push(format!("Verdict: {}", told.verdict_line()));
+    lines.push(format!("Verdict: {}. {}", report.outcome.verdict, told.what));
     lines.extend(told.history);
     lines.extend(report.outcome.message.as_ref().map(|message| format!("Reason: {message}.")));
-    lines.extend(doubts(report));
+    let outcome = &report.outcome;
+    let doubtful = outcome.sensitive == Some(true)
+        || outcome.depends_on_step == Some(true)
+        || outcome.by_events.is_some();
+    if doubtful && report.solver.steps_skipped.is_some_and(|skipped| skipped > 0) {
+        lines.push("To audit this run, take each of its steps: rubscope run --plain.".into());
+    }
+    if let Some(t_s) = report.impacts_in_one_step_at_s {
+        lines.push(format!("They hit at {}; ask --solver event which comes first.", time(t_s)));
+    }
     lines.push(String::new());
     lines.extend(motion(report, &machine));
     lines.push(String::new());
@@ -131,47 +134,18 @@ fn how(report: &RunReport) -> String {
     )
 }
 
-/// Lists the measured reasons to doubt the verdict, one line each.
-fn doubts(report: &RunReport) -> Vec<String> {
-    let outcome = &report.outcome;
-    let mut doubts = Vec::new();
-    if outcome.sensitive == Some(true) {
-        let ends = outcome.ends_otherwise == Some(true);
-        let so = if ends { "do not rely on this outcome" } else { "the verdict stays" };
-        doubts.push(format!("Sensitive to a change of 1e-9 {OF_WHAT}: {so}."));
-    }
-    // The event solver has no steps, and a run with `--plain` has skipped none.
-    let doubtful = outcome.depends_on_step == Some(true) || outcome.by_events.is_some();
-    if (doubtful || !doubts.is_empty())
-        && report.solver.steps_skipped.is_some_and(|skipped| skipped > 0)
-    {
-        doubts.push("To audit this run, take each of its steps: rubscope run --plain.".into());
-    }
-    if let Some(t_s) = report.impacts_in_one_step_at_s {
-        doubts.push(format!(
-            "Two groups of blades hit the casing in one step, at {}: which comes first decides what \
-             follows. Ask --solver event.",
-            time(t_s)
-        ));
-    }
-    doubts
-}
-
 /// Describes the evidence for the verdict: a proof, or the interval of the run that was judged.
 fn basis(basis: Basis) -> String {
     match basis {
-        Basis::Proved { by, since_s } => {
+        Basis::Proved { by: Proof::NoContact, since_s } => {
             let since = time(since_s);
-            let why = match by {
-                Proof::NoContact => format!("no blade has touched since {since}, and none can"),
-                Proof::HeldCorner => {
-                    format!(
-                        "the forces of the blades that hold the wave since {since} cannot change their sign"
-                    )
-                }
-            };
-            format!("The verdict is proved: {why}.")
+            format!("The verdict is proved: no blade has touched since {since}, and none can.")
         }
+        Basis::Proved { by: Proof::HeldCorner, since_s } => format!(
+            "The verdict is proved: the forces of the blades that hold the wave since {} cannot \
+             change their sign.",
+            time(since_s)
+        ),
         Basis::Judged { from_s, to_s } => {
             format!("The verdict is judged by the motion from {} to {}.", time(from_s), time(to_s))
         }
@@ -187,12 +161,16 @@ fn motion(report: &RunReport, machine: &Machine) -> Vec<String> {
         lines.push(format!("Held by the same blades since {since}."));
     }
     let moved = |group: usize| *spread?.multipliers_n.get(group)?;
-    if outcome.contacts.len() > CONTACTS_TOLD {
-        lines.push(many_touch(&outcome.contacts, &moved, &digits));
-    } else {
-        let each = outcome.contacts.iter().enumerate();
-        lines.extend(each.map(|(group, contact)| touch(contact, moved(group), &digits)));
+    let contacts = outcome.contacts.iter().cloned().enumerate();
+    let mut contacts: Vec<(Contact, Option<f64>)> =
+        contacts.map(|(group, contact)| (contact, moved(group))).collect();
+    if contacts.len() > CONTACTS_TOLD {
+        let multiplier_n = contacts.iter().map(|(contact, _)| contact.multiplier_n).sum();
+        let moved = contacts.iter().map(|(_, moved)| *moved).sum();
+        let blades = contacts.into_iter().flat_map(|(contact, _)| contact.blades).collect();
+        contacts = vec![(Contact { blades, multiplier_n }, moved)];
     }
+    lines.extend(contacts.iter().map(|(contact, moved)| touch(contact, *moved, &digits)));
     let (length, moved) = (outcome.amplitude_m, spread.and_then(|spread| spread.amplitude_m));
     let g0 = machine.clearance().abs();
     let part = digits.shown(length / g0, moved.map(|moved| moved / g0), short);
@@ -224,35 +202,17 @@ fn room(machine: &Machine) -> &'static str {
     if machine.clearance() < 0.0 { "interference" } else { "clearance" }
 }
 
-/// Summarises the contacts on a lining, where many blades touch at once.
-fn many_touch(
-    contacts: &[Contact],
-    moved: &dyn Fn(usize) -> Option<f64>,
-    digits: &Digits,
-) -> String {
-    let force = |contact: &Contact| contact.multiplier_n.abs();
-    let sum: f64 = contacts.iter().map(force).sum();
-    let all: Option<f64> = (0..contacts.len()).map(moved).sum();
-    let most = contacts.iter().enumerate().max_by(|(_, a), (_, b)| force(a).total_cmp(&force(b)));
-    let most = most.map_or(String::new(), |(group, most)| {
-        let noun = if most.blades.len() == 1 { "blade" } else { "blades" };
-        let force = digits.shown(force(most), moved(group), short);
-        format!(", {noun} {} most, with {force} N", listed(&most.blades))
-    });
-    let blades: usize = contacts.iter().map(|contact| contact.blades.len()).sum();
-    let (sum, push) = (digits.shown(sum, all, short), if blades == 1 { "pushes" } else { "push" });
-    format!("{} {push} with {sum} N at the end{most}.", count(blades as u64, "blade"))
-}
-
+/// Describes the force of a group of blades; `moved` is the deviation of the force in changed runs.
 fn touch(contact: &Contact, moved: Option<f64>, digits: &Digits) -> String {
-    let (who, verb) = match contact.blades.as_slice() {
-        [blade] => (format!("Blade {blade}"), ["pushes", "pulls"]),
-        several => (format!("Blades {} together", listed(several)), ["push", "pull"]),
+    let together = if contact.blades.len() > 1 { " together" } else { "" };
+    let verb = match (contact.multiplier_n > 0.0, contact.blades.len()) {
+        (false, 1) => "pushes",
+        (false, _) => "push",
+        (true, 1) => "pulls",
+        (true, _) => "pull",
     };
-    let [push, pull] = verb;
-    let verb = if contact.multiplier_n > 0.0 { pull } else { push };
     let force = digits.shown(contact.multiplier_n.abs(), moved, short);
-    format!("{who} {verb} with {force} N at the end.")
+    format!("{}{together} {verb} with {force} N at the end.", capital(&blades(&contact.blades)))
 }
 
 /// Compares the rotor speed at the end of the run with the critical speed and the lock speed, where
@@ -261,22 +221,16 @@ fn speeds(report: &RunReport, machine: &Machine) -> String {
     let now = report.end_speed_rad_s;
     let lock = lock_window(machine, now);
     let at_end = if now == report.scene.operation.speed_rad_s { "" } else { " at the end" };
-    let mut parts = vec![format!("Rotor speed{at_end}: {}", speed(now))];
     let part_of = |name: &str, threshold: f64| {
-        format!("{} of {name} ({}", short(now.abs() / threshold), speed(threshold))
+        format!("{} of {name} ({})", short(now.abs() / threshold), speed(threshold))
     };
-    parts.extend(machine.critical_speed().map(|critical| part_of("Omega_c", critical) + ")"));
+    let mut parts = vec![format!("Rotor speed{at_end}: {}", speed(now))];
+    parts.extend(machine.critical_speed().map(|critical| part_of("Omega_c", critical)));
     if let Some(lock) = lock.filter(|lock| lock.from > 0.0) {
         // On a lining, groups of more blades may lock at other speeds.
         let groups = if machine.lining.is_some() { " of two groups" } else { "" };
-        let ends = match lock.to {
-            Some(to) => {
-                format!(", where locks{groups} begin; they end at {}", short(per_speed(to)))
-            }
-            None if machine.lining.is_some() => format!(", where locks{groups} begin"),
-            None => String::new(),
-        };
-        parts.push(part_of("Omega_lock", lock.from) + &ends + ")");
+        parts.push(part_of(&format!("Omega_lock{groups}"), lock.from));
+        parts.extend(lock.to.map(|to| format!("locks{groups} end at {}", speed(to))));
     }
     format!("{}.", parts.join(", "))
 }
@@ -285,30 +239,19 @@ fn impacts(report: &RunReport) -> String {
     if report.impact_count == 0 {
         return "No impact.".to_string();
     }
-    let listed: Vec<String> = report
-        .impacts
-        .iter()
-        .take(IMPACTS_TOLD)
-        .map(|hit| {
-            let noun = if hit.blades.len() == 1 { "blade" } else { "blades" };
-            format!("{noun} {} at {}", listed(&hit.blades), time(hit.t_s))
-        })
-        .collect();
-    let all = u64::try_from(listed.len()).is_ok_and(|listed| listed == report.impact_count);
-    let start = if all { "" } else { "the first ones " };
+    let told = report.impacts.iter().take(IMPACTS_TOLD);
+    let told: Vec<String> =
+        told.map(|hit| format!("{} at {}", blades(&hit.blades), time(hit.t_s))).collect();
+    let start = if told.len() as u64 == report.impact_count { "" } else { "the first ones " };
     let (least, series) = match report.impacts_accumulate_at_s {
         Some(t_s) => {
-            let at = time(rounded(t_s, 6));
-            let told = match report.series_of_impacts {
-                0 | 1 => format!("They accumulate at {at}: infinitely many end there"),
-                series => format!("They accumulate {series} times from {at} on: each without end"),
-            };
-            ("At least ", format!(" {told}, of which this many were counted."))
+            let from = time(rounded(t_s, 6));
+            ("At least ", format!(" From {from} on they accumulate: infinitely many."))
         }
         None => ("", String::new()),
     };
     let counted = count(report.impact_count, "impact");
-    format!("{least}{counted}: {start}{}.{series}", listed.join("; "))
+    format!("{least}{counted}: {start}{}.{series}", told.join("; "))
 }
 
 fn checks(report: &RunReport, machine: &Machine) -> Vec<String> {
@@ -352,22 +295,6 @@ fn cost(report: &RunReport, wall: Wall) -> String {
     format!("Cost: {what}run {}{each}{certainty}.", time(wall.run_s))
 }
 
-/// Lists up to four blade numbers, or the first three and the count of the others: "6", "6 and 17",
-/// "1, 2 and 3", "1, 3, 5 and 8 more".
-fn listed(blades: &[u32]) -> String {
-    let names = |blades: &[u32]| -> String {
-        blades.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
-    };
-    match blades {
-        [] => String::new(),
-        [only] => only.to_string(),
-        [a, b, c, _, rest @ ..] if !rest.is_empty() => {
-            format!("{} and {} more", names(&[*a, *b, *c]), rest.len() + 1)
-        }
-        [head @ .., last] => format!("{} and {last}", names(head)),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -375,12 +302,9 @@ mod tests {
     #[test]
     fn blades_push_or_pull_in_groups() {
         let touch = |blades: &[u32], multiplier_n| {
-            let contact = Contact { blades: blades.to_vec(), multiplier_n };
-            super::touch(&contact, None, &Digits::default())
+            super::touch(&Contact { blades: blades.into(), multiplier_n }, None, &Digits::default())
         };
         assert_eq!(touch(&[6], -244.416), "Blade 6 pushes with 244.416 N at the end.");
-        assert_eq!(listed(&[1, 3, 5, 7]), "1, 3, 5 and 7");
-        assert_eq!(listed(&[1, 3, 5, 7, 9]), "1, 3, 5 and 2 more");
         assert_eq!(touch(&[6, 17], 3.0), "Blades 6 and 17 together pull with 3 N at the end.");
     }
 }

@@ -140,8 +140,6 @@ pub struct ContactLog {
     pub impact_count: u64,
     /// First instant at which the event solver saw impacts accumulate; `None` if it did not \[s\].
     pub accumulated: Option<f64>,
-    /// Number of such instants.
-    pub series: u64,
 }
 
 impl ContactLog {
@@ -186,7 +184,6 @@ impl ContactLog {
     /// Records that impacts accumulate.
     pub fn accumulate(&mut self, t: f64) {
         self.accumulated.get_or_insert(t);
-        self.series += 1;
     }
 
     /// Records a step with a pull.

@@ -85,9 +85,6 @@ pub struct RunReport {
     /// First time at which infinitely many impacts accumulate; `None` if they never do \[s\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub impacts_accumulate_at_s: Option<f64>,
-    /// How often the event solver saw impacts accumulate.
-    #[serde(skip)]
-    pub series_of_impacts: u64,
     /// First time at which two groups of blades hit the casing in one step, so that it is not known
     /// which one came first; `None` if none did, with a lining, and under the law that pulls \[s\].
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -326,7 +323,6 @@ pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) 
             .collect(),
         impact_count: log.impact_count,
         impacts_accumulate_at_s: accumulated,
-        series_of_impacts: log.series,
         impacts_in_one_step_at_s: in_one_step(scene, motion, accumulated),
         r#final: FinalState {
             t_s: state.t_s,
